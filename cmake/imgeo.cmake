@@ -1,0 +1,44 @@
+# What every target of the project shares: warnings, sanitizers, and one way to
+# declare a folder of sources with the tests that stand beside them.
+
+find_package(Threads REQUIRED)
+
+add_library(imgeo_options INTERFACE)
+target_compile_options(imgeo_options INTERFACE
+  -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor)
+target_include_directories(imgeo_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
+# Byte sizes and pictures must not depend on the machine that encodes: no fused
+# multiply-add behind our back.
+target_compile_options(imgeo_options INTERFACE -ffp-contract=off)
+if(IMGEO_SANITIZE)
+  target_compile_options(imgeo_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(imgeo_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(IMGEO_THREAD_SANITIZE)
+  target_compile_options(imgeo_options INTERFACE -fsanitize=thread)
+  target_link_options(imgeo_options INTERFACE -fsanitize=thread)
+endif()
+
+# imgeo_folder(NAME USES targets...): every .cpp of this folder becomes the
+# library imgeo_NAME, every *_test.cpp part of the test program NAME_test.
+function(imgeo_folder name)
+  cmake_parse_arguments(ARG "" "" "USES;TEST_USES" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  set(tests ${sources})
+  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$|/main\\.cpp$")
+  list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+  if(sources)
+    add_library(imgeo_${name} STATIC ${sources})
+    target_link_libraries(imgeo_${name} PUBLIC imgeo_options ${ARG_USES})
+  else()
+    add_library(imgeo_${name} INTERFACE)
+    target_link_libraries(imgeo_${name} INTERFACE imgeo_options ${ARG_USES})
+  endif()
+  if(tests AND BUILD_TESTING)
+    find_package(GTest REQUIRED)
+    add_executable(${name}_test ${tests})
+    target_link_libraries(${name}_test PRIVATE imgeo_${name} ${ARG_TEST_USES} GTest::gtest GTest::gtest_main)
+    add_test(NAME ${name} COMMAND ${name}_test --gtest_brief=1)
+    set_tests_properties(${name} PROPERTIES ENVIRONMENT "IMGEO_SHARED=${PROJECT_SOURCE_DIR}/../shared")
+  endif()
+endfunction()

@@ -1,0 +1,75 @@
+#include "base/file.h"
+
+#include "base/error.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fmt/format.h>
+#include <memory>
+#include <sys/stat.h>
+#include <xxhash.h>
+
+namespace imgeo {
+
+namespace {
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+[[noreturn]] void failWithErrno(const std::filesystem::path& path, const char* doing) {
+  throw Error(ErrorKind::io, path.string(), fmt::format("cannot {}: {}", doing, std::strerror(errno)));
+}
+
+} // namespace
+
+Bytes readFile(const std::filesystem::path& path) {
+  const bool isStdin = path == "-";
+  File opened(isStdin ? nullptr : std::fopen(path.c_str(), "rb"));
+  std::FILE* file = isStdin ? stdin : opened.get();
+  if (!file) failWithErrno(path, "open");
+  struct stat status {};
+  if (fstat(fileno(file), &status) != 0) failWithErrno(path, "read");
+  if (S_ISDIR(status.st_mode)) throw Error(ErrorKind::io, path.string(), "is a directory, not a file");
+
+  Bytes bytes(S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0);
+  std::size_t used = 0;
+  // A regular file is read in one call and one more that finds its end; a pipe
+  // grows the buffer as it goes.
+  for (;;) {
+    if (used == bytes.size()) {
+      std::uint8_t more[1];
+      if (std::fread(more, 1, 1, file) == 0) break;
+      bytes.resize(std::max<std::size_t>(bytes.size() * 2, std::size_t{1} << 16));
+      bytes[used++] = more[0];
+    }
+    const std::size_t got = std::fread(bytes.data() + used, 1, bytes.size() - used, file);
+    if (got == 0) break;
+    used += got;
+  }
+  if (std::ferror(file)) failWithErrno(path, "read");
+  bytes.resize(used);
+  return bytes;
+}
+
+void writeFile(const std::filesystem::path& path, ByteSpan bytes) {
+  File file(std::fopen(path.c_str(), "wb"));
+  if (!file) failWithErrno(path, "write");
+  const bool wrote = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+  if (!wrote || std::fclose(file.release()) != 0) {
+    const int reason = errno;
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+    errno = reason;
+    failWithErrno(path, "write");
+  }
+}
+
+std::string contentName(ByteSpan bytes) {
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+  return fmt::format("{:016x}", hash.high64);
+}
+
+} // namespace imgeo

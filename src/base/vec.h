@@ -1,0 +1,71 @@
+#pragma once
+// Small vectors and axis-aligned boxes: plain data, no operators beyond those used.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace imgeo {
+
+template <typename T> struct Vec2 {
+  T x{}, y{};
+  friend bool operator==(const Vec2&, const Vec2&) = default;
+};
+
+template <typename T> struct Vec3 {
+  T x{}, y{}, z{};
+
+  T& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+  const T& operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+
+  friend bool operator==(const Vec3&, const Vec3&) = default;
+  friend Vec3 operator+(Vec3 a, Vec3 b) { return {T(a.x + b.x), T(a.y + b.y), T(a.z + b.z)}; }
+  friend Vec3 operator-(Vec3 a, Vec3 b) { return {T(a.x - b.x), T(a.y - b.y), T(a.z - b.z)}; }
+  friend Vec3 operator*(Vec3 a, T s) { return {T(a.x * s), T(a.y * s), T(a.z * s)}; }
+  Vec3& operator+=(Vec3 b) { return *this = *this + b; }
+
+  template <typename U> explicit operator Vec3<U>() const {
+    return {static_cast<U>(x), static_cast<U>(y), static_cast<U>(z)};
+  }
+};
+
+using Vec2f = Vec2<float>;
+using Vec3f = Vec3<float>;
+using Vec3d = Vec3<double>;
+using Vec3u = Vec3<std::uint32_t>;
+
+template <typename T> T dot(Vec3<T> a, Vec3<T> b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+template <typename T> Vec3<T> cross(Vec3<T> a, Vec3<T> b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <typename T> T length(Vec3<T> a) { return std::sqrt(dot(a, a)); }
+
+/// A colour of 8 bits a channel, as files store it (sRGB where they say nothing).
+struct Rgba8 {
+  std::uint8_t r = 0, g = 0, b = 0, a = 255;
+  friend bool operator==(const Rgba8&, const Rgba8&) = default;
+};
+
+/// An axis-aligned box; empty until something is added.
+struct Box3d {
+  Vec3d min{+std::numeric_limits<double>::infinity(), +std::numeric_limits<double>::infinity(),
+            +std::numeric_limits<double>::infinity()};
+  Vec3d max{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+            -std::numeric_limits<double>::infinity()};
+
+  bool empty() const { return !(min.x <= max.x); }
+  void add(Vec3d p) {
+    for (int axis = 0; axis < 3; ++axis) {
+      min[axis] = std::min(min[axis], p[axis]);
+      max[axis] = std::max(max[axis], p[axis]);
+    }
+  }
+  Vec3d center() const { return (min + max) * 0.5; }
+  Vec3d size() const { return empty() ? Vec3d{} : max - min; }
+  double longestEdge() const { return std::max({size().x, size().y, size().z}); }
+  friend bool operator==(const Box3d&, const Box3d&) = default;
+};
+
+} // namespace imgeo

@@ -1,0 +1,52 @@
+#pragma once
+// One patch <-> the files that hold it. The two containers have the same two
+// functions each; these pick by Container.
+
+#include "base/bytes.h"
+#include "containers/geometry.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+struct EncodeOptions {
+  Container container = Container::sig;
+  std::uint32_t normalBits = 8; ///< SIG: 8. BG: 8, 16 or 32 (Float32)
+  int effort = 5;               ///< 0 fastest .. 9 smallest
+};
+
+/// A file as it will lie in the site, unnamed yet.
+struct EncodedFile {
+  Role role = Role::coord;
+  std::string extension; ///< ".png", ".bin"
+  Bytes bytes;
+};
+
+/// Files of one patch and the description whose references name files by their
+/// place in `files`: reference.url is the decimal index, replaced by the caller
+/// once files have names.
+struct EncodedPatch {
+  PatchDescription description;
+  std::vector<EncodedFile> files;
+};
+
+/// The geometry node's own fields for a mesh about to be encoded (no patches yet).
+GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& options);
+
+/// Encodes a patch by the node's fields. Deterministic. `patch` has at most
+/// 65,535 vertices (SIG) and no NaN.
+EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry,
+                         const EncodeOptions& options);
+
+/// Gives the bytes of a url; throws Error{io} where there are none.
+using FetchFile = std::function<Bytes(const std::string& url)>;
+
+/// Decodes a patch. Safe for untrusted bytes: sizes and indices are checked
+/// against the description, and limits (containers/limits.h) bound every
+/// allocation. Throws Error naming the url. Normals come back unit length.
+IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescription& geometry,
+                         const FetchFile& fetch);
+
+} // namespace imgeo

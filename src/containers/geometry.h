@@ -1,0 +1,79 @@
+#pragma once
+// What a document says of one geometry: its lattice, its patches, and where
+// each patch's data lies. Writers of containers produce it, documents carry it,
+// readers of containers consume it. docs/formats/nodes.md is its text form.
+
+#include "prepare/lattice.h"
+#include "prepare/primitives.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+enum class Container : std::uint8_t { sig, bg };
+
+/// What a file holds; also its row in `info`.
+enum class Role : std::uint8_t { index, coord, normal, texCoord, color };
+
+/// "index", "coord", ...: the names the documents use.
+const char* nameOf(Role role);
+
+/// The element type of a BG attribute, as X3DOM names them ("Uint16" ...).
+enum class ElementType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32 };
+const char* nameOf(ElementType type);
+std::uint32_t byteSizeOf(ElementType type);
+
+/// Where an attribute's data begins. Images: `first` is the first texel. Typed
+/// arrays: `first` is a byte offset and `stride` the bytes from one element to
+/// the next (0: tightly packed).
+struct Reference {
+  std::string url; ///< relative to the document
+  std::uint32_t first = 0;
+  std::uint32_t stride = 0;
+  friend bool operator==(const Reference&, const Reference&) = default;
+};
+
+struct PatchDescription {
+  Box3d box;                         ///< tight, for culling and priority
+  std::uint32_t vertexCount = 0;     ///< records in coord, normal, ...
+  std::vector<Draw> draws;
+  std::optional<Reference> index;    ///< absent: records are drawn in order
+  std::vector<Reference> coord;      ///< SIG: byte planes, most significant first. BG: one
+  std::optional<Reference> normal, texCoord, color;
+  friend bool operator==(const PatchDescription&, const PatchDescription&) = default;
+};
+
+/// The fields of one ImageGeometry or BinaryGeometry node.
+struct GeometryDescription {
+  Container container = Container::sig;
+  Lattice lattice;                   ///< `position` and `size` follow from it: see decodeBox
+  Box3d box;                         ///< tight box of all patches
+  Vec2f texCoordMin{0, 0}, texCoordSize{1, 1}; ///< texture coordinates are stored relative to this box
+  std::uint32_t colorComponents = 3;
+  ElementType indexType = ElementType::uint16, coordType = ElementType::uint16,
+              normalType = ElementType::int8, texCoordType = ElementType::uint16,
+              colorType = ElementType::uint8; ///< BG only
+  std::vector<PatchDescription> patches;
+};
+
+/// Bytes a coordinate takes in a container: 1, 2, 3 or 4 byte planes (SIG), 1, 2
+/// or 4 bytes (BG).
+std::uint32_t coordBytes(Container container, std::uint32_t bits);
+
+/// Quantised coordinates are stored shifted left to fill their bytes (bits 12
+/// in two bytes: q << 4), so that the first byte always holds the eight most
+/// significant bits.
+std::uint32_t coordShift(Container container, std::uint32_t bits);
+
+/// The box over which X3DOM spreads 0 .. 256^bytes - 1: `position` is its centre,
+/// `size` its extent, the same for every patch of a mesh. For bits that fill
+/// their bytes its edge is the source's longest edge.
+Box3d decodeBox(Container container, const Lattice& lattice);
+
+/// The lattice of a node read back from a document; inverse of decodeBox.
+Lattice latticeFromDecodeBox(Container container, Vec3d position, Vec3d size, std::uint32_t bits);
+
+} // namespace imgeo

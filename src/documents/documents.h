@@ -1,0 +1,40 @@
+#pragma once
+// documents: a Scene and the names of written files -> HTML and X3D text, and back.
+
+#include "containers/geometry.h"
+#include "scene/scene.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace imgeo {
+
+/// A scene whose meshes have been written into containers.
+struct SceneDocument {
+  std::string title;
+  std::vector<Shape> shapes;                   ///< Shape::mesh indexes `geometries`
+  std::vector<GeometryDescription> geometries; ///< one per mesh
+  std::vector<Viewpoint> viewpoints;
+  std::vector<DirectionalLight> lights;
+  bool headlight = true;
+};
+
+struct PageOptions {
+  std::string runtimeUrl;    ///< the ES module, relative
+  std::string stylesheetUrl; ///< relative
+};
+
+/// `scene.x3d`: the scene as XML, readable by a person.
+std::string writeX3d(const SceneDocument& document);
+
+/// `index.html`: the same <X3D> element in an HTML page, with the runtime as one
+/// module and preload hints for the first geometry files. Needs nothing beyond
+/// `default-src 'self'`.
+std::string writeHtml(const SceneDocument& document, const PageOptions& options);
+
+/// Reads the <X3D> element of either text back. Safe for untrusted text. Throws
+/// Error{malformed, unsupported, limit} naming `name` and the place.
+SceneDocument readScene(std::string_view text, const std::string& name);
+
+} // namespace imgeo
