@@ -60,8 +60,8 @@ void writeFile(const std::filesystem::path& path, ByteSpan bytes) {
   const bool wrote = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
   if (!wrote || std::fclose(file.release()) != 0) {
     const int reason = errno;
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
+    std::error_code ignored; // a device or a pipe is not ours to remove
+    if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
     errno = reason;
     failWithErrno(path, "write");
   }

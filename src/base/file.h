@@ -12,8 +12,8 @@ namespace imgeo {
 /// Throws Error{io} naming the path and the system's reason.
 Bytes readFile(const std::filesystem::path& path);
 
-/// Writes a whole new file, or replaces one. Throws Error{io}; a file that could
-/// not be written whole is removed.
+/// Writes a whole new file, or replaces one. Throws Error{io}; a regular
+/// file that could not be written whole is removed.
 void writeFile(const std::filesystem::path& path, ByteSpan bytes);
 
 /// The first 16 hexadecimal digits of the content's 128-bit xxHash (XXH3): names

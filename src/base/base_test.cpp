@@ -1,0 +1,120 @@
+#include "base/bytes.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/parallel.h"
+#include "base/vec.h"
+
+#include <atomic>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <stdexcept>
+#include <string>
+#include <unistd.h>
+
+namespace imgeo {
+namespace {
+
+class TemporaryDirectory {
+public:
+  TemporaryDirectory() {
+    std::string name = (std::filesystem::temp_directory_path() / "imgeo-base-XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
+  const std::filesystem::path& path() const { return path_; }
+
+private:
+  std::filesystem::path path_;
+};
+
+TEST(Error, SaysWhereAndWhat) {
+  const Error error(ErrorKind::malformed, "a.ply:3", "two words expected");
+  EXPECT_STREQ(error.what(), "a.ply:3: two words expected");
+  EXPECT_STREQ(Error(ErrorKind::usage, "", "no input").what(), "no input");
+}
+
+TEST(Error, HasTheDocumentedExitCodes) {
+  EXPECT_EQ(exitCode(ErrorKind::usage), 1);
+  EXPECT_EQ(exitCode(ErrorKind::io), 2);
+  for (const ErrorKind kind :
+       {ErrorKind::truncated, ErrorKind::malformed, ErrorKind::unsupported, ErrorKind::limit})
+    EXPECT_EQ(exitCode(kind), 3);
+}
+
+TEST(File, ComesBackAsItWasWritten) {
+  const TemporaryDirectory directory;
+  for (const std::size_t size : {0u, 1u, 65536u, 200001u}) {
+    Bytes bytes(size);
+    for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::uint8_t>(i * 31 >> 3);
+    writeFile(directory.path() / "file", bytes);
+    EXPECT_EQ(readFile(directory.path() / "file"), bytes);
+  }
+}
+
+TEST(File, NamesThePathAndTheReasonItCannotBeRead) {
+  const TemporaryDirectory directory;
+  const auto missing = directory.path() / "missing.ply";
+  try {
+    readFile(missing);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::io);
+    EXPECT_EQ(error.place(), missing.string());
+    EXPECT_NE(error.message().find("No such file"), std::string::npos);
+  }
+  EXPECT_THROW(readFile(directory.path()), Error);
+}
+
+TEST(File, LeavesNothingWhereItCannotWrite) {
+  const TemporaryDirectory directory;
+  EXPECT_THROW(writeFile(directory.path() / "no-such-folder" / "file", {}), Error);
+  if (std::filesystem::exists("/dev/full")) {
+    EXPECT_THROW(writeFile("/dev/full", Bytes(100000)), Error);
+    EXPECT_TRUE(std::filesystem::exists("/dev/full"));
+  }
+}
+
+TEST(ContentName, IsSixteenHexDigitsThatChangeWithTheContent) {
+  Bytes bytes(1000, 7);
+  const std::string before = contentName(bytes);
+  EXPECT_EQ(before.size(), 16u);
+  EXPECT_EQ(before.find_first_not_of("0123456789abcdef"), std::string::npos);
+  EXPECT_EQ(contentName(bytes), before);
+  bytes[500] ^= 1;
+  EXPECT_NE(contentName(bytes), before);
+}
+
+TEST(ParallelFor, VisitsEveryIndexOnce) {
+  std::vector<std::atomic<int>> visits(10007);
+  parallelFor(visits.size(), [&](std::size_t i) { ++visits[i]; });
+  for (const auto& count : visits) EXPECT_EQ(count, 1);
+}
+
+TEST(ParallelFor, PassesOnWhatABodyThrows) {
+  EXPECT_THROW(parallelFor(100, [](std::size_t i) {
+                 if (i == 50) throw std::runtime_error("fifty");
+               }),
+               std::runtime_error);
+}
+
+TEST(Bytes, KeepTheirByteOrder) {
+  Bytes bytes;
+  appendLittle<std::uint32_t>(bytes, 0x01020304u);
+  appendBig<std::uint16_t>(bytes, 0x0506u);
+  EXPECT_EQ(bytes, (Bytes{4, 3, 2, 1, 5, 6}));
+  EXPECT_EQ(loadLittle<std::uint32_t>(bytes.data()), 0x01020304u);
+  EXPECT_EQ(loadBig<std::uint16_t>(bytes.data() + 4), 0x0506u);
+}
+
+TEST(Box, GrowsByWhatIsAdded) {
+  Box3d box;
+  EXPECT_TRUE(box.empty());
+  EXPECT_EQ(box.size(), Vec3d{});
+  box.add({1, 2, 3});
+  box.add({-1, 5, 3});
+  EXPECT_EQ(box.center(), (Vec3d{0, 3.5, 3}));
+  EXPECT_EQ(box.longestEdge(), 3);
+}
+
+} // namespace
+} // namespace imgeo
