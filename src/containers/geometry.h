@@ -38,8 +38,9 @@ struct Reference {
 
 struct PatchDescription {
   Box3d box;                         ///< tight, for culling and priority
-  std::uint32_t vertexCount = 0;     ///< records in coord, normal, ...
+  std::uint32_t vertexCount = 0;     ///< records in coord, normal, ...; 0: the largest index + 1
   std::vector<Draw> draws;
+  Vec2<std::uint32_t> implicitMeshSize{256, 256}; ///< SIG: columns and rows that running numbers count through
   std::optional<Reference> index;    ///< absent: records are drawn in order
   std::vector<Reference> coord;      ///< SIG: byte planes, most significant first. BG: one
   std::optional<Reference> normal, texCoord, color;
@@ -57,6 +58,7 @@ struct GeometryDescription {
               normalType = ElementType::int8, texCoordType = ElementType::uint16,
               colorType = ElementType::uint8; ///< BG only
   std::vector<PatchDescription> patches;
+  friend bool operator==(const GeometryDescription&, const GeometryDescription&) = default;
 };
 
 /// Bytes a coordinate takes in a container: 1, 2, 3 or 4 byte planes (SIG), 1, 2

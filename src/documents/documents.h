@@ -33,6 +33,9 @@ std::string writeX3d(const SceneDocument& document);
 /// `default-src 'self'`.
 std::string writeHtml(const SceneDocument& document, const PageOptions& options);
 
+/// The text of the page's stylesheet: the scene fills the window.
+std::string_view pageStylesheet();
+
 /// Reads the <X3D> element of either text back. Safe for untrusted text. Throws
 /// Error{malformed, unsupported, limit} naming `name` and the place.
 SceneDocument readScene(std::string_view text, const std::string& name);
