@@ -1,0 +1,70 @@
+#include "containers/png/filters.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace imgeo {
+
+namespace {
+
+/// Paeth's predictor: the neighbour nearest to left + up - upLeft, ties in that order.
+std::uint8_t paeth(int left, int up, int upLeft) {
+  const int toLeft = std::abs(up - upLeft), toUp = std::abs(left - upLeft), toUpLeft = std::abs(left + up - 2 * upLeft);
+  if (toLeft <= toUp && toLeft <= toUpLeft) return static_cast<std::uint8_t>(left);
+  return static_cast<std::uint8_t>(toUp <= toUpLeft ? up : upLeft);
+}
+
+/// Filters one row into `out`. `above` is the row before, or null at the top.
+void filterRow(Filter filter, const std::uint8_t* row, const std::uint8_t* above, std::size_t rowBytes,
+               std::size_t pixelBytes, std::uint8_t* out) {
+  const auto each = [&](auto predict) {
+    for (std::size_t i = 0; i < rowBytes; ++i) {
+      const int left = i < pixelBytes ? 0 : row[i - pixelBytes];
+      const int up = above ? above[i] : 0;
+      const int upLeft = above && i >= pixelBytes ? above[i - pixelBytes] : 0;
+      out[i] = static_cast<std::uint8_t>(row[i] - predict(left, up, upLeft));
+    }
+  };
+  switch (filter) {
+  case Filter::sub: return each([](int left, int, int) { return left; });
+  case Filter::up: return each([](int, int up, int) { return up; });
+  case Filter::average: return each([](int left, int up, int) { return (left + up) / 2; });
+  case Filter::paeth: return each([](int left, int up, int upLeft) { return int{paeth(left, up, upLeft)}; });
+  default: std::copy_n(row, rowBytes, out);
+  }
+}
+
+std::uint64_t sumOfDifferences(const std::uint8_t* row, std::size_t rowBytes) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < rowBytes; ++i) sum += row[i] < 128 ? row[i] : 256u - row[i];
+  return sum;
+}
+
+} // namespace
+
+Bytes filterRows(const Image& image, Filter filter) {
+  const std::size_t rowBytes = std::size_t{image.width} * image.channels;
+  Bytes filtered(image.height * (rowBytes + 1)), trial(rowBytes);
+  for (std::size_t y = 0; y < image.height; ++y) {
+    const std::uint8_t* row = image.pixels.data() + y * rowBytes;
+    const std::uint8_t* above = y > 0 ? row - rowBytes : nullptr;
+    std::uint8_t* out = filtered.data() + y * (rowBytes + 1);
+    if (filter != Filter::adaptive) {
+      out[0] = static_cast<std::uint8_t>(filter);
+      filterRow(filter, row, above, rowBytes, image.channels, out + 1);
+      continue;
+    }
+    std::uint64_t smallest = UINT64_MAX;
+    for (const Filter candidate : {Filter::none, Filter::sub, Filter::up, Filter::average, Filter::paeth}) {
+      filterRow(candidate, row, above, rowBytes, image.channels, trial.data());
+      const std::uint64_t sum = sumOfDifferences(trial.data(), rowBytes);
+      if (sum >= smallest) continue;
+      smallest = sum;
+      out[0] = static_cast<std::uint8_t>(candidate);
+      std::copy(trial.begin(), trial.end(), out + 1);
+    }
+  }
+  return filtered;
+}
+
+} // namespace imgeo
