@@ -1,0 +1,22 @@
+#pragma once
+// SIG classic: a patch as images that a GPU reads by texel (Behr et al. 2012,
+// "Using images and explicit binary container for efficient and incremental
+// delivery of declarative 3D scenes on the web", section 4; fields as X3DOM
+// 1.7.2 reads them). Coordinates are byte planes, most significant first, so
+// that the first image alone shows the shape. Byte by byte in
+// docs/formats/sig-classic.md.
+
+#include "containers/container.h"
+
+namespace imgeo {
+
+/// One image for the indices (where there are any), one for each byte of a
+/// coordinate, one each for normals, texture coordinates and colours.
+/// Throws Error{limit} for more indices than an image of maxImageEdge² holds.
+EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort);
+
+/// Safe for untrusted bytes; see decodePatch.
+IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescription& geometry,
+                           const FetchFile& fetch);
+
+} // namespace imgeo

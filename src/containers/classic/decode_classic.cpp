@@ -1,0 +1,137 @@
+#include "containers/classic/classic.h"
+
+#include "base/error.h"
+#include "containers/classic/layout.h"
+#include "containers/png/png.h"
+#include "containers/stored.h"
+
+namespace imgeo {
+
+namespace {
+
+/// The texels of an image, counted through its first `columns` columns from the
+/// reference's first texel on.
+class Texels {
+public:
+  Texels(const Reference& reference, const FetchFile& fetch, std::uint32_t columns, std::uint32_t fewestChannels)
+      : image_(decodePng(fetch(reference.url), reference.url)), columns_(columns), first_(reference.first),
+        place_(reference.url) {
+    if (columns == 0 || columns > image_.width)
+      throw Error(ErrorKind::malformed, place_,
+                  "the image is " + std::to_string(image_.width) + " texels wide and cannot hold " +
+                      std::to_string(columns) + " columns");
+    if (image_.channels < fewestChannels)
+      throw Error(ErrorKind::malformed, place_,
+                  "the image has " + std::to_string(image_.channels) + " channels where " +
+                      std::to_string(fewestChannels) + " are needed");
+  }
+
+  const Image& image() const { return image_; }
+
+  /// To be called before texels 0 .. count - 1 are read.
+  void require(std::uint64_t count) const {
+    if (first_ + count > columns_ * image_.height)
+      throw Error(ErrorKind::malformed, place_,
+                  "the image of " + std::to_string(image_.width) + " x " + std::to_string(image_.height) +
+                      " texels ends before its patch does");
+  }
+
+  const std::uint8_t* operator[](std::uint64_t n) const {
+    const std::uint64_t texel = first_ + n;
+    return &image_.pixels[(texel / columns_ * image_.width + texel % columns_) * image_.channels];
+  }
+
+private:
+  Image image_;
+  std::uint64_t columns_, first_;
+  std::string place_;
+};
+
+std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, const FetchFile& fetch, const Image& records,
+                                         const std::string& recordsPlace) {
+  if (records.width != recordColumns || records.height > recordColumns || !std::has_single_bit(records.height))
+    throw Error(ErrorKind::malformed, recordsPlace,
+                "a coordinate image that is indexed is 256 wide and a power of two, at most 256, high");
+  const std::uint32_t rowStep = recordColumns / records.height;
+  const std::uint64_t count = drawnCount(patch.draws);
+  const Texels texels(*patch.index, fetch, patch.implicitMeshSize.x, 3);
+  texels.require(count);
+  std::vector<std::uint32_t> indices(count);
+  for (std::uint64_t n = 0; n < count; ++n) {
+    const std::uint32_t column = texels[n][0], row = texels[n][1];
+    if (row % rowStep != 0) throw Error(ErrorKind::malformed, patch.index->url, "an index lies between two rows");
+    indices[n] = row / rowStep * recordColumns + column;
+  }
+  return indices;
+}
+
+void addPlane(std::vector<Vec3u>& stored, const Texels& texels) {
+  for (std::size_t n = 0; n < stored.size(); ++n)
+    for (int axis = 0; axis < 3; ++axis) stored[n][axis] = stored[n][axis] << 8 | texels[n][axis];
+}
+
+Vec3f normalOf(const std::uint8_t* texel) {
+  return unitNormal(Vec3d{texel[0] / 127.5 - 1, texel[1] / 127.5 - 1, texel[2] / 127.5 - 1});
+}
+
+Vec2f texCoordOf(const std::uint8_t* texel, const GeometryDescription& geometry) {
+  const auto word = [](std::uint8_t high, std::uint8_t low) { return static_cast<std::uint16_t>(high << 8 | low); };
+  return {loadTexCoord(word(texel[0], texel[2]), geometry.texCoordMin.x, geometry.texCoordSize.x),
+          loadTexCoord(word(texel[1], texel[3]), geometry.texCoordMin.y, geometry.texCoordSize.y)};
+}
+
+} // namespace
+
+IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescription& geometry,
+                           const FetchFile& fetch) {
+  const std::uint32_t bits = geometry.lattice.bits, shift = coordShift(Container::sig, bits);
+  if (patch.coord.size() != coordBytes(Container::sig, bits))
+    throw Error(ErrorKind::malformed, "",
+                std::to_string(bits) + "-bit coordinates need " + std::to_string(coordBytes(Container::sig, bits)) +
+                    " images and have " + std::to_string(patch.coord.size()));
+
+  // What an index means follows from the height of the record images, and how
+  // many records there are may only follow from the indices.
+  const std::uint32_t columns = patch.index ? recordColumns : patch.implicitMeshSize.x;
+  const std::string& place = patch.coord[0].url;
+  const Texels first(patch.coord[0], fetch, columns, 3);
+  IndexedPatch decoded;
+  decoded.draws = patch.draws;
+  decoded.colorComponents = geometry.colorComponents;
+  if (patch.index) decoded.indices = decodeIndices(patch, fetch, first.image(), place);
+  const std::uint32_t count = recordCountOf(patch, decoded.indices, patch.index ? patch.index->url : place);
+  first.require(count);
+
+  const auto fetchRecords = [&](const Reference& reference, std::uint32_t fewestChannels) {
+    Texels texels(reference, fetch, columns, fewestChannels);
+    texels.require(count);
+    if (texels.image().width != first.image().width || texels.image().height != first.image().height)
+      throw Error(ErrorKind::malformed, reference.url, "the images of a patch differ in size");
+    return texels;
+  };
+  decoded.positions.resize(count);
+  addPlane(decoded.positions, first);
+  for (std::size_t plane = 1; plane < patch.coord.size(); ++plane)
+    addPlane(decoded.positions, fetchRecords(patch.coord[plane], 3));
+  for (Vec3u& position : decoded.positions)
+    for (int axis = 0; axis < 3; ++axis) position[axis] = loadCoord(position[axis], shift, place);
+  checkInsideBox(decoded.positions, geometry.lattice, patch.box, place);
+
+  if (patch.normal) {
+    const Texels texels = fetchRecords(*patch.normal, 3);
+    for (std::uint32_t n = 0; n < count; ++n) decoded.normals.push_back(normalOf(texels[n]));
+  }
+  if (patch.texCoord) {
+    const Texels texels = fetchRecords(*patch.texCoord, 4);
+    for (std::uint32_t n = 0; n < count; ++n) decoded.texCoords.push_back(texCoordOf(texels[n], geometry));
+  }
+  if (patch.color) {
+    const bool alpha = geometry.colorComponents == 4;
+    const Texels texels = fetchRecords(*patch.color, alpha ? 4 : 3);
+    for (std::uint32_t n = 0; n < count; ++n)
+      decoded.colors.push_back({texels[n][0], texels[n][1], texels[n][2], alpha ? texels[n][3] : std::uint8_t{255}});
+  }
+  return decoded;
+}
+
+} // namespace imgeo

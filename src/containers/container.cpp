@@ -1,0 +1,65 @@
+#include "containers/container.h"
+
+#include "containers/bg/bg.h"
+#include "containers/classic/classic.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace imgeo {
+
+namespace {
+
+/// The box of all texture coordinates, as its least corner and its extent.
+void spreadTexCoords(GeometryDescription& geometry, const PatchedMesh& mesh) {
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  Vec2f min{infinite, infinite}, max{-infinite, -infinite};
+  for (const Patch& patch : mesh.patches)
+    for (const Vec2f& texCoord : patch.texCoords) {
+      min = {std::min(min.x, texCoord.x), std::min(min.y, texCoord.y)};
+      max = {std::max(max.x, texCoord.x), std::max(max.y, texCoord.y)};
+    }
+  if (!(min.x <= max.x)) return;
+  geometry.texCoordMin = min;
+  geometry.texCoordSize = {max.x - min.x, max.y - min.y};
+}
+
+ElementType unsignedType(std::uint32_t bytes) {
+  return bytes == 1 ? ElementType::uint8 : bytes == 2 ? ElementType::uint16 : ElementType::uint32;
+}
+
+} // namespace
+
+GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& options) {
+  GeometryDescription geometry;
+  geometry.container = options.container;
+  geometry.lattice = mesh.lattice;
+  geometry.box = mesh.box;
+  spreadTexCoords(geometry, mesh);
+  for (const Patch& patch : mesh.patches)
+    geometry.colorComponents = std::max(geometry.colorComponents, patch.colorComponents);
+  if (options.container == Container::bg) {
+    assert(options.normalBits == 8 || options.normalBits == 16 || options.normalBits == 32);
+    geometry.coordType = unsignedType(coordBytes(Container::bg, mesh.lattice.bits));
+    geometry.normalType = options.normalBits == 8    ? ElementType::int8
+                          : options.normalBits == 16 ? ElementType::int16
+                                                     : ElementType::float32;
+  } else {
+    assert(options.normalBits == 8);
+  }
+  return geometry;
+}
+
+EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry,
+                         const EncodeOptions& options) {
+  return geometry.container == Container::sig ? encodeClassic(patch, geometry, options.effort)
+                                              : encodeBg(patch, geometry);
+}
+
+IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescription& geometry,
+                         const FetchFile& fetch) {
+  return geometry.container == Container::sig ? decodeClassic(patch, geometry, fetch)
+                                              : decodeBg(patch, geometry, fetch);
+}
+
+} // namespace imgeo

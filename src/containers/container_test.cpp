@@ -1,0 +1,237 @@
+#include "containers/container.h"
+
+#include "containers/testing.h"
+
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using testing::filesOf;
+using testing::onePatch;
+using testing::Random;
+using testing::randomMesh;
+using testing::verticesOf;
+
+struct Encoded {
+  IndexedPatch source;
+  GeometryDescription geometry;
+  EncodedPatch patch;
+  IndexedPatch decoded() const { return decodePatch(patch.description, geometry, filesOf(patch)); }
+};
+
+Encoded encode(const Mesh& mesh, Primitive primitive, bool indexed, std::uint32_t bits, const EncodeOptions& options) {
+  const PatchedMesh patched = onePatch(mesh, bits);
+  Encoded encoded{verticesOf(patched.patches[0], primitive, indexed), describe(patched, options), {}};
+  encoded.patch = encodePatch(encoded.source, encoded.geometry, options);
+  return encoded;
+}
+
+double angleBetween(Vec3f a, Vec3f b) {
+  return std::atan2(length(cross(Vec3d(a), Vec3d(b))), dot(Vec3d(a), Vec3d(b)));
+}
+
+/// Everything integer comes back exactly, texture coordinates within half of
+/// their step, normals within the angle of half a step an axis.
+void expectEqualWithinSteps(const Encoded& encoded, double normalStep) {
+  const IndexedPatch& source = encoded.source;
+  const IndexedPatch decoded = encoded.decoded();
+  EXPECT_EQ(decoded.positions, source.positions);
+  EXPECT_EQ(decoded.colors, source.colors);
+  EXPECT_EQ(decoded.indices, source.indices);
+  EXPECT_EQ(decoded.draws, source.draws);
+  ASSERT_EQ(decoded.normals.size(), source.normals.size());
+  for (std::size_t i = 0; i < source.normals.size(); ++i) {
+    EXPECT_LE(angleBetween(decoded.normals[i], source.normals[i]), std::sqrt(3.0) / 2 * normalStep + 1e-6);
+    EXPECT_NEAR(length(Vec3d(decoded.normals[i])), 1, 1e-6);
+  }
+  ASSERT_EQ(decoded.texCoords.size(), source.texCoords.size());
+  const Vec2f size = encoded.geometry.texCoordSize;
+  for (std::size_t i = 0; i < source.texCoords.size(); ++i) {
+    EXPECT_NEAR(decoded.texCoords[i].x, source.texCoords[i].x, size.x * 0.5001 / 65535 + 1e-6);
+    EXPECT_NEAR(decoded.texCoords[i].y, source.texCoords[i].y, size.y * 0.5001 / 65535 + 1e-6);
+  }
+}
+
+constexpr std::uint32_t everyPrecision[] = {8, 10, 12, 16, 20, 24, 32};
+
+TEST(Containers, GiveBackEveryMeshAtEveryPrecision) {
+  Random random(1);
+  for (const std::uint32_t bits : everyPrecision)
+    for (std::uint32_t seed = 0; seed < 24; ++seed) {
+      const Mesh mesh = randomMesh(seed + 100 * bits);
+      const bool indexed = !random.once(4);
+      for (const Container container : {Container::sig, Container::bg})
+        for (const std::uint32_t normalBits : {8u, 16u, 32u}) {
+          if (container == Container::sig && normalBits != 8) continue;
+          SCOPED_TRACE(std::to_string(bits) + " bits, mesh " + std::to_string(seed) + ", normals of " +
+                       std::to_string(normalBits));
+          const Primitive primitive = static_cast<Primitive>(random.below(4));
+          const Encoded encoded = encode(mesh, primitive, indexed, bits, {container, normalBits, 1});
+          const double normalStep = container == Container::sig ? 1 / 127.5
+                                    : normalBits == 32          ? 0
+                                                                : 1.0 / ((1 << (normalBits - 1)) - 1);
+          expectEqualWithinSteps(encoded, normalStep);
+        }
+    }
+}
+
+TEST(Containers, GiveBackAPatchOfEverySizeAroundARow) {
+  for (const Container container : {Container::sig, Container::bg})
+    for (const std::uint32_t count : {1u, 2u, 255u, 256u, 257u, 511u, 512u, 513u, 65535u})
+      for (const bool indexed : {false, true})
+        expectEqualWithinSteps(encode(testing::pointCloud(count, count), Primitive::points, indexed, 16, {container, 8, 0}), 0);
+}
+
+TEST(Containers, GiveBackSeveralDraws) {
+  for (const Container container : {Container::sig, Container::bg}) {
+    const PatchedMesh patched = onePatch(testing::grid(9), 12);
+    const EncodeOptions options{container};
+    Encoded encoded{verticesOf(patched.patches[0], Primitive::triangles, true), describe(patched, options), {}};
+    const auto count = static_cast<std::uint32_t>(encoded.source.indices.size());
+    encoded.source.draws = {{Primitive::triangles, 30}, {Primitive::triangleStrip, 50}, {Primitive::points, count - 80}};
+    encoded.patch = encodePatch(encoded.source, encoded.geometry, options);
+    expectEqualWithinSteps(encoded, 0);
+  }
+}
+
+TEST(Containers, FindTheNumberOfVerticesInTheIndicesWhereItIsNotStated) {
+  for (const Container container : {Container::sig, Container::bg}) {
+    Encoded encoded = encode(testing::torus(5, 7), Primitive::triangles, true, 16, {container});
+    encoded.patch.description.vertexCount = 0;
+    EXPECT_EQ(encoded.decoded().positions, encoded.source.positions);
+  }
+}
+
+TEST(Containers, EncodeTheSameBytesEveryTime) {
+  for (const Container container : {Container::sig, Container::bg}) {
+    const Encoded a = encode(randomMesh(7), Primitive::triangles, true, 16, {container});
+    const Encoded b = encode(randomMesh(7), Primitive::triangles, true, 16, {container});
+    ASSERT_EQ(a.patch.files.size(), b.patch.files.size());
+    for (std::size_t i = 0; i < a.patch.files.size(); ++i) EXPECT_EQ(a.patch.files[i].bytes, b.patch.files[i].bytes);
+  }
+}
+
+TEST(Containers, RefuseAFileWhoseEndIsMissing) {
+  Mesh mesh = testing::torus(4, 4);
+  mesh.colors.resize(mesh.wedgeCount());
+  for (const Container container : {Container::sig, Container::bg}) {
+    Encoded encoded = encode(mesh, Primitive::triangles, true, 16, {container});
+    for (EncodedFile& file : encoded.patch.files) {
+      const Bytes whole = file.bytes;
+      for (std::size_t length = 0; length < whole.size(); ++length) {
+        file.bytes.assign(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
+        EXPECT_THROW(encoded.decoded(), Error) << nameOf(file.role) << ", " << length << " of " << whole.size();
+      }
+      file.bytes = whole;
+    }
+    EXPECT_NO_THROW(encoded.decoded());
+  }
+}
+
+TEST(Containers, NoticeSwappedPlanes) {
+  for (const std::uint32_t bits : {12u, 16u, 20u, 24u, 32u}) {
+    Encoded encoded = encode(testing::torus(16, 8), Primitive::triangles, true, bits, {Container::sig});
+    std::swap(encoded.patch.description.coord[0], encoded.patch.description.coord[1]);
+    EXPECT_THROW(encoded.decoded(), Error) << bits << " bits";
+  }
+}
+
+/// The kind of Error that decoding throws, which must name one of the urls.
+ErrorKind kindOfDecoding(const Encoded& encoded) {
+  try {
+    encoded.decoded();
+  } catch (const Error& error) {
+    return error.kind();
+  }
+  ADD_FAILURE() << "was decoded";
+  return ErrorKind::usage;
+}
+
+class HostilePatch : public ::testing::TestWithParam<Container> {
+protected:
+  Encoded encoded = encode(testing::torus(9, 9), Primitive::triangles, true, 16, {GetParam()});
+  PatchDescription& patch = encoded.patch.description;
+};
+
+TEST_P(HostilePatch, WithAMissingFileIsAnInputError) {
+  patch.normal->url = "missing";
+  EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::io);
+}
+
+TEST_P(HostilePatch, WithFewerVerticesThanItsIndicesNameIsMalformed) {
+  patch.vertexCount -= 1;
+  EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
+}
+
+TEST_P(HostilePatch, WithMoreVerticesThanItsFilesHoldIsRefused) {
+  for (const std::uint32_t count : {257u, 65536u, 0xffffffffu}) {
+    patch.vertexCount = count;
+    EXPECT_THROW(encoded.decoded(), Error) << count;
+  }
+}
+
+TEST_P(HostilePatch, WithMoreIndicesThanItsFileHoldsIsRefused) {
+  for (const std::uint32_t count : {1024u * 1024u, 0xffffffffu}) {
+    patch.draws.assign(3, {Primitive::triangles, count});
+    EXPECT_THROW(encoded.decoded(), Error) << count;
+  }
+}
+
+TEST_P(HostilePatch, WithoutDrawsIsMalformed) {
+  patch.draws.clear();
+  EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
+  patch.index.reset();
+  EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
+}
+
+TEST_P(HostilePatch, WithoutCoordinatesIsMalformed) {
+  patch.coord.clear();
+  EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
+}
+
+TEST_P(HostilePatch, ThatBeginsBehindItsFilesIsRefused) {
+  for (const std::uint32_t first : {1024u * 64u, 0xffffffffu}) {
+    patch.coord[0].first = first;
+    EXPECT_THROW(encoded.decoded(), Error) << first;
+  }
+}
+
+TEST_P(HostilePatch, WhoseFilesAreTakenForOneAnotherIsRefused) {
+  std::swap(patch.coord[0], *patch.index);
+  EXPECT_THROW(encoded.decoded(), Error);
+}
+
+TEST_P(HostilePatch, OutsideOfItsStatedBoxIsMalformed) {
+  patch.box.max.x -= 0.1;
+  EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEach, HostilePatch, ::testing::Values(Container::sig, Container::bg),
+                         [](const auto& parameter) { return parameter.param == Container::sig ? "Sig" : "Bg"; });
+
+TEST(DecodeBox, HoldsTheLatticeAtEveryPrecision) {
+  for (const Container container : {Container::sig, Container::bg})
+    for (std::uint32_t bits = 8; bits <= 32; ++bits) {
+      const Lattice lattice{{-3, 1, 700}, 0.37, bits};
+      const Box3d box = decodeBox(container, lattice);
+      const double cells = std::pow(256.0, coordBytes(container, bits)) - 1;
+      const double stored = std::ldexp(lattice.maximum(), static_cast<int>(coordShift(container, bits)));
+      EXPECT_NEAR(box.min.x + box.size().x * stored / cells, lattice.point({lattice.maximum(), 0, 0}).x, 1e-9 * box.size().x);
+      const Lattice back = latticeFromDecodeBox(container, box.center(), box.size(), bits);
+      EXPECT_NEAR(back.step, lattice.step, 1e-13 * box.size().x);
+      EXPECT_NEAR(back.origin.z, lattice.origin.z, 1e-13 * box.size().x + 1e-11);
+    }
+}
+
+TEST(DecodeBox, HasTheSourcesEdgeWhereBitsFillTheirBytes) {
+  const Lattice lattice{{0, 0, 0}, 2.0 / 65535, 16};
+  EXPECT_DOUBLE_EQ(decodeBox(Container::sig, lattice).size().x, 2);
+  EXPECT_EQ(coordBytes(Container::sig, 24), 3u);
+  EXPECT_EQ(coordBytes(Container::bg, 24), 4u);
+  EXPECT_EQ(coordShift(Container::bg, 24), 8u);
+  EXPECT_EQ(coordShift(Container::sig, 12), 4u);
+}
+
+} // namespace
+} // namespace imgeo

@@ -1,0 +1,90 @@
+#include "containers/stored.h"
+
+#include "base/error.h"
+#include "base/narrow.h"
+#include "containers/limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace imgeo {
+
+std::uint32_t loadCoord(std::uint32_t stored, std::uint32_t shift, const std::string& place) {
+  const std::uint32_t q = stored >> shift;
+  if (q << shift != stored)
+    throw Error(ErrorKind::malformed, place, "a coordinate has more bits than the node's positionBits");
+  return q;
+}
+
+std::uint16_t storeTexCoord(float value, float min, float size) {
+  if (!(size > 0)) return 0;
+  const double share = (double{value} - min) / size;
+  return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0, 1.0) * 65535));
+}
+
+float loadTexCoord(std::uint16_t stored, float min, float size) {
+  return static_cast<float>(min + double{size} * stored / 65535);
+}
+
+Vec3f unitNormal(Vec3d stored) {
+  const double norm = length(stored);
+  return norm > 0 && std::isfinite(norm) ? Vec3f(stored * (1 / norm)) : Vec3f{0, 0, 1};
+}
+
+std::uint64_t drawnCount(std::span<const Draw> draws) {
+  std::uint64_t count = 0;
+  for (const Draw& draw : draws) count += draw.count;
+  return count;
+}
+
+Box3d boxOf(std::span<const Vec3u> positions, const Lattice& lattice) {
+  Box3d box;
+  for (const Vec3u& q : positions) box.add(lattice.point(q));
+  return box;
+}
+
+PatchDescription describePatch(const IndexedPatch& patch, const GeometryDescription& geometry) {
+  assert(patch.vertexCount() > 0 && patch.vertexCount() <= maxIndexedVertices);
+  assert(drawnCount(patch.draws) == (patch.indices.empty() ? patch.vertexCount() : patch.indices.size()));
+  PatchDescription description;
+  description.box = boxOf(patch.positions, geometry.lattice);
+  description.vertexCount = narrow<std::uint32_t>(patch.vertexCount());
+  description.draws = patch.draws;
+  return description;
+}
+
+std::uint32_t recordCountOf(const PatchDescription& patch, std::span<const std::uint32_t> indices,
+                            const std::string& place) {
+  if (indices.empty()) {
+    const std::uint64_t drawn = drawnCount(patch.draws);
+    if (patch.index || drawn == 0) throw Error(ErrorKind::malformed, place, "the patch draws nothing");
+    if (patch.vertexCount != 0 && drawn > patch.vertexCount)
+      throw Error(ErrorKind::malformed, place, "more vertices are drawn than the patch has");
+    if (drawn > UINT32_MAX) throw Error(ErrorKind::limit, place, "the patch has too many vertices");
+    return patch.vertexCount != 0 ? patch.vertexCount : static_cast<std::uint32_t>(drawn);
+  }
+  const std::uint32_t largest = *std::ranges::max_element(indices);
+  if (patch.vertexCount == 0) return largest + 1;
+  if (largest >= patch.vertexCount)
+    throw Error(ErrorKind::malformed, place,
+                "index " + std::to_string(largest) + " is beyond the " + std::to_string(patch.vertexCount) +
+                    " vertices of its patch");
+  return patch.vertexCount;
+}
+
+void checkInsideBox(std::span<const Vec3u> positions, const Lattice& lattice, const Box3d& box,
+                    const std::string& place) {
+  if (box.empty()) return;
+  const Box3d decoded = boxOf(positions, lattice);
+  for (int axis = 0; axis < 3; ++axis)
+    if (decoded.min[axis] < box.min[axis] - lattice.step / 2 || decoded.max[axis] > box.max[axis] + lattice.step / 2)
+      throw Error(ErrorKind::malformed, place, "vertices lie outside of the box that their patch states");
+}
+
+Reference addFile(EncodedPatch& encoded, EncodedFile file) {
+  encoded.files.push_back(std::move(file));
+  return {std::to_string(encoded.files.size() - 1), 0, 0};
+}
+
+} // namespace imgeo
