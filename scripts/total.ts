@@ -1,0 +1,53 @@
+// Adds up the reports that scripts/test collected and prints "N passed, N failed".
+// A C++ program that left no GoogleTest report (a fuzz replay, or a crash) counts
+// as one test with ctest's verdict.
+import { existsSync, readFileSync, readdirSync } from "node:fs";
+import { basename, dirname, join } from "node:path";
+
+const directory = process.argv[2];
+if (directory === undefined) throw new Error("usage: total.ts DIRECTORY");
+
+let passed = 0;
+let failed = 0;
+let skipped = 0;
+
+const number = (text: string, pattern: RegExp): number => Number(pattern.exec(text)?.[1] ?? 0);
+const count = (text: string, pattern: RegExp): number => [...text.matchAll(pattern)].length;
+
+/** node --test writes its own totals as comments. */
+function addNodeReport(text: string): void {
+  passed += number(text, /<!-- pass (\d+) -->/);
+  failed += number(text, /<!-- fail (\d+) -->/) + number(text, /<!-- cancelled (\d+) -->/);
+  skipped += number(text, /<!-- skipped (\d+) -->/);
+}
+
+/** Adds the cases of one program; says whether it reported a failure. */
+function addGoogleTestReport(text: string): boolean {
+  const cases = count(text, /<testcase /g);
+  const failures = number(text, /<testsuites [^>]*failures="(\d+)"/) + number(text, /<testsuites [^>]*errors="(\d+)"/);
+  const skips = count(text, /result="skipped"/g);
+  passed += cases - failures - skips;
+  failed += failures;
+  skipped += skips;
+  return failures > 0;
+}
+
+function addCtestReport(file: string): void {
+  const text = readFileSync(file, "utf8");
+  for (const [, name, status] of text.matchAll(/<testcase name="([^"]*)"[^>]*status="([^"]*)"/g)) {
+    const report = join(dirname(file), `${name}_test.xml`);
+    const isRun = existsSync(report);
+    const isFailureCounted = isRun && addGoogleTestReport(readFileSync(report, "utf8"));
+    if (status === "run") passed += isRun ? 0 : 1;
+    else if (!isFailureCounted) failed += 1;
+  }
+}
+
+for (const name of readdirSync(directory, { recursive: true, encoding: "utf8" })) {
+  const file = join(directory, name);
+  if (basename(name) === "ctest.junit") addCtestReport(file);
+  if (name.endsWith(".node")) addNodeReport(readFileSync(file, "utf8"));
+}
+
+console.log(`imgeo: ${passed} passed, ${failed} failed${skipped > 0 ? `, ${skipped} skipped` : ""}`);
+if (passed === 0 || failed > 0) process.exitCode = 1;

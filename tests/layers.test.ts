@@ -1,0 +1,179 @@
+// Who may use whom: docs/layers.txt against every #include of src/ and every
+// import of web/src/. Unit tests keep to the same rules as the code beside them;
+// only node's own modules and the shared test data of tests/ are theirs alone.
+import assert from "node:assert/strict";
+import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join, normalize } from "node:path";
+import { test } from "node:test";
+
+type Layers = Map<string, Set<string>>;
+
+const root = join(import.meta.dirname, "..");
+
+/** "folder: names it may use" a line; `#` starts a comment. */
+function readLayers(text: string): Layers {
+  const layers: Layers = new Map();
+  for (const line of text.split("\n")) {
+    if (line.startsWith("#") || line.trim() === "") continue;
+    const [folder, uses] = line.split(":");
+    assert.ok(folder !== undefined && uses !== undefined, `docs/layers.txt: no folder in "${line}"`);
+    layers.set(folder, new Set(uses.split(/\s+/).filter((name) => name !== "")));
+  }
+  return layers;
+}
+
+/** The row of the table that a file (or an imported path) belongs to. */
+function layerOf(layers: Layers, path: string): string | undefined {
+  return [...layers.keys()].find((folder) => path.startsWith(`${folder}/`));
+}
+
+interface Use {
+  line: number;
+  /** A path from the repository's root, or the name of a package. */
+  target: string;
+}
+
+function usesOfCpp(text: string): Use[] {
+  const uses: Use[] = [];
+  for (const [index, line] of text.split("\n").entries()) {
+    const included = /^\s*#\s*include\s*"([^"]+)"/.exec(line)?.[1];
+    if (included !== undefined) uses.push({ line: index + 1, target: `src/${included}` });
+  }
+  return uses;
+}
+
+function usesOfTypeScript(path: string, text: string): Use[] {
+  const uses: Use[] = [];
+  const pattern = /(?:^\s*(?:import|export)\b[^;"'`]*?(?:\bfrom\s*)?|\bimport\s*\(\s*|\bnew\s+URL\s*\(\s*)["'`]([^"'`]+)["'`]/gm;
+  for (const match of text.matchAll(pattern)) {
+    const name = match[1] ?? "";
+    // The line of the name itself: an import may span several.
+    const line = text.slice(0, match.index + match[0].length).split("\n").length;
+    if (name.startsWith(".")) uses.push({ line, target: normalize(join(dirname(path), name)) });
+    else if (/^[@a-z]/.test(name) && !match[0].includes("URL")) uses.push({ line, target: name });
+  }
+  return uses;
+}
+
+/** One sentence per rule that is broken, starting with file:line. */
+function checkFile(layers: Layers, path: string, text: string): string[] {
+  const layer = layerOf(layers, path);
+  if (layer === undefined) return [`${path}:1: its folder is not in docs/layers.txt`];
+  const isCpp = /\.(h|cpp)$/.test(path);
+  const isTest = /\.test\.ts$/.test(path);
+  const findings: string[] = [];
+  for (const { line, target } of isCpp ? usesOfCpp(text) : usesOfTypeScript(path, text)) {
+    const used = layerOf(layers, target) ?? packageOf(target);
+    if (used === layer || layers.get(layer)?.has(used)) continue;
+    if (isTest && /^(node:|tests\/)/.test(target)) continue;
+    findings.push(`${path}:${line}: ${layer} may not use ${used}`);
+  }
+  return findings;
+}
+
+/** "three/addons/x.js" belongs to the package three; a path that is no layer stays itself. */
+function packageOf(target: string): string {
+  if (/^(src|web|tests|node_modules)\//.test(target)) return target;
+  return target.split("/").slice(0, target.startsWith("@") ? 2 : 1).join("/");
+}
+
+/** Every source file below `tree`, as paths from its root. */
+function sourceFiles(tree: string): string[] {
+  return ["src", "web/src"].flatMap((folder) =>
+    readdirSync(join(tree, folder), { recursive: true, encoding: "utf8" })
+      .filter((name) => /\.(h|cpp|ts)$/.test(name))
+      .map((name) => `${folder}/${name}`),
+  );
+}
+
+function checkTree(tree: string): string[] {
+  const layers = readLayers(readFileSync(join(tree, "docs/layers.txt"), "utf8"));
+  return sourceFiles(tree).flatMap((path) => checkFile(layers, path, readFileSync(join(tree, path), "utf8")));
+}
+
+/** The table must be a ladder: what a folder uses stands above it. */
+function checkOrder(layers: Layers): string[] {
+  const above = new Set<string>();
+  const findings: string[] = [];
+  for (const [folder, uses] of layers) {
+    for (const used of uses) {
+      if (used.includes("/") && !above.has(used)) findings.push(`${folder} uses ${used}, which does not stand above it`);
+    }
+    above.add(folder);
+  }
+  return findings;
+}
+
+function withTree(files: Record<string, string>, body: (tree: string) => void): void {
+  const tree = mkdtempSync(join(tmpdir(), "layers-"));
+  try {
+    for (const [path, text] of Object.entries(files)) {
+      mkdirSync(dirname(join(tree, path)), { recursive: true });
+      writeFileSync(join(tree, path), text);
+    }
+    body(tree);
+  } finally {
+    rmSync(tree, { recursive: true });
+  }
+}
+
+const smallTable = "# who may use whom\nsrc/base:\nsrc/scene: src/base\nweb/src/decode:\nweb/src/render: web/src/decode three\n";
+
+test("every include and import keeps to docs/layers.txt", () => {
+  assert.ok(sourceFiles(root).length > 10, "the sources were not found");
+  assert.deepEqual(checkTree(root), []);
+});
+
+test("docs/layers.txt has no cycle: a folder uses only those above it", () => {
+  assert.deepEqual(checkOrder(readLayers(readFileSync(join(root, "docs/layers.txt"), "utf8"))), []);
+});
+
+test("docs/layers.txt has a row for every folder of src and web/src", () => {
+  const layers = readLayers(readFileSync(join(root, "docs/layers.txt"), "utf8"));
+  const folders = ["src", "web/src"].flatMap((folder) =>
+    readdirSync(join(root, folder), { withFileTypes: true })
+      .filter((entry) => entry.isDirectory())
+      .map((entry) => `${folder}/${entry.name}`),
+  );
+  assert.deepEqual(folders.filter((folder) => !layers.has(folder)), []);
+});
+
+test("the check finds what breaks the rules, and names its line", () => {
+  const tree = {
+    "docs/layers.txt": smallTable,
+    "src/base/a.h": '#pragma once\n#include "scene/b.h"\n',
+    "src/scene/b.h": '#include "base/a.h"\n#include <vector>\n',
+    "src/stray/c.cpp": "\n",
+    "web/src/decode/png.ts": 'import {\n  Scene,\n} from "three";\nimport { x } from "../render/x.ts";\n',
+    "web/src/decode/lazy.ts": 'const late = await import("../render/x.ts");\nexport * from "../render/x.ts";\nimport "three/addons/a.js";\n',
+    "web/src/decode/file.ts": 'import { open } from "node:fs";\nimport { y } from "../../../tests/y.ts";\n',
+    "web/src/render/x.ts": 'import type { Texture } from "three";\nimport { png } from "../decode/png.ts";\n',
+  };
+  withTree(tree, (path) => {
+    assert.deepEqual(checkTree(path).sort(), [
+      "src/base/a.h:2: src/base may not use src/scene",
+      "src/stray/c.cpp:1: its folder is not in docs/layers.txt",
+      "web/src/decode/file.ts:1: web/src/decode may not use node:fs",
+      "web/src/decode/file.ts:2: web/src/decode may not use tests/y.ts",
+      "web/src/decode/lazy.ts:1: web/src/decode may not use web/src/render",
+      "web/src/decode/lazy.ts:2: web/src/decode may not use web/src/render",
+      "web/src/decode/lazy.ts:3: web/src/decode may not use three",
+      "web/src/decode/png.ts:3: web/src/decode may not use three",
+      "web/src/decode/png.ts:4: web/src/decode may not use web/src/render",
+    ]);
+  });
+});
+
+test("a tree that keeps to the rules passes, node's modules in its tests too", () => {
+  const tree = {
+    "docs/layers.txt": smallTable,
+    "src/scene/b.cpp": '#include "scene/b.h"\n#include "base/a.h"\n',
+    "web/src/render/x.test.ts": 'import { test } from "node:test";\nimport { png } from "../decode/png.ts";\n',
+  };
+  withTree(tree, (path) => { assert.deepEqual(checkTree(path), []); });
+});
+
+test("a table with a cycle is found", () => {
+  assert.deepEqual(checkOrder(readLayers("src/a: src/b\nsrc/b: src/a\n")), ["src/a uses src/b, which does not stand above it"]);
+});
