@@ -90,6 +90,17 @@ TEST(ParallelFor, VisitsEveryIndexOnce) {
   for (const auto& count : visits) EXPECT_EQ(count, 1);
 }
 
+TEST(ParallelForBlocks, VisitsEveryIndexOnce) {
+  for (const std::size_t count : {0, 1, 4095, 4096, 4097, 100000}) {
+    std::vector<std::atomic<int>> visits(count);
+    parallelForBlocks(count, [&](std::size_t begin, std::size_t end) {
+      ASSERT_LT(begin, end);
+      for (std::size_t i = begin; i < end; ++i) ++visits[i];
+    });
+    for (const auto& visitCount : visits) EXPECT_EQ(visitCount, 1);
+  }
+}
+
 TEST(ParallelFor, PassesOnWhatABodyThrows) {
   EXPECT_THROW(parallelFor(100, [](std::size_t i) {
                  if (i == 50) throw std::runtime_error("fifty");
