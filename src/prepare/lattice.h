@@ -13,13 +13,11 @@ namespace imgeo {
 /// Lattice point q stands for origin + q * step, on all three axes alike.
 /// Quantised coordinates are 0 .. 2^bits - 1.
 struct Lattice {
-  Vec3d origin;             ///< the source box's minimum
-  double step = 1;          ///< longest edge / (2^bits - 1); 1 for a box without extent
-  std::uint32_t bits = 16;  ///< 8..32
+  Vec3d origin;            ///< the source box's minimum
+  double step = 1;         ///< longest edge / (2^bits - 1); 1 for a box without extent
+  std::uint32_t bits = 16; ///< 8..32
 
-  std::uint32_t maximum() const {
-    return static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1);
-  }
+  std::uint32_t maximum() const { return static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1); }
   Vec3d point(Vec3u q) const { return origin + Vec3d(q) * step; }
   friend bool operator==(const Lattice&, const Lattice&) = default;
 };

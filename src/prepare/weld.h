@@ -6,7 +6,7 @@
 namespace imgeo {
 
 struct WeldReport {
-  std::size_t mergedPositions = 0;       ///< positions whose bits another position already had
+  std::size_t mergedPositions = 0; ///< positions whose bits another position already had
   std::size_t mergedWedges = 0;
   std::size_t unreferencedPositions = 0; ///< dropped: no element uses them
   std::size_t degenerateElements = 0;    ///< kept: two corners at one position

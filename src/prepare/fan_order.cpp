@@ -1,0 +1,143 @@
+#include "prepare/fan_order.h"
+
+#include "prepare/incidence.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace imgeo {
+
+namespace {
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// Opposite a vertex, a triangle has the link edge from -> to.
+struct LinkEdge {
+  std::uint32_t corner = 0; ///< the vertex's own corner of the triangle
+  std::uint32_t from = 0, to = 0;
+  std::uint32_t nextFrom = none; ///< the next edge that leaves `from`
+  bool used = false;
+};
+
+class FanWalk {
+public:
+  FanWalk(std::span<const std::uint32_t> cornerVertices, std::size_t vertexCount)
+      : vertexOf_(cornerVertices),
+        incidence_(incidenceOf(cornerVertices.size(), vertexCount,
+                               [&](std::size_t corner) { return cornerVertices[corner]; })),
+        emitted_(cornerVertices.size() / 3), numbers_(vertexCount, none), firstFrom_(vertexCount, none),
+        entered_(vertexCount) {
+    queue_.reserve(vertexCount);
+    result_.reserve(cornerVertices.size());
+  }
+
+  std::vector<std::uint32_t> run() && {
+    std::size_t processed = 0;
+    for (std::uint32_t seed = 0; seed < numbers_.size(); ++seed) {
+      if (numbers_[seed] == none)
+        discover(seed);
+      while (processed < queue_.size())
+        processVertex(queue_[processed++]);
+    }
+    return std::move(result_);
+  }
+
+private:
+  void discover(std::uint32_t vertex) {
+    if (numbers_[vertex] != none)
+      return;
+    numbers_[vertex] = static_cast<std::uint32_t>(queue_.size());
+    queue_.push_back(vertex);
+  }
+
+  void processVertex(std::uint32_t vertex) {
+    collectLink(vertex);
+    orderStarts();
+    for (const std::uint32_t start : starts_)
+      for (std::uint32_t edge = start; edge != none; edge = followingEdge(edge)) {
+        if (link_[edge].used)
+          break;
+        emit(link_[edge]);
+      }
+    for (const LinkEdge& edge : link_) {
+      firstFrom_[edge.from] = none;
+      entered_[edge.to] = false;
+    }
+  }
+
+  void collectLink(std::uint32_t vertex) {
+    link_.clear();
+    for (const std::uint32_t corner : incidence_.of(vertex)) {
+      const std::uint32_t triangle = corner / 3;
+      if (emitted_[triangle])
+        continue;
+      emitted_[triangle] = true;
+      const std::uint32_t first = 3 * triangle;
+      LinkEdge edge;
+      edge.corner = corner;
+      edge.from = vertexOf_[first + (corner + 1) % 3];
+      edge.to = vertexOf_[first + (corner + 2) % 3];
+      link_.push_back(edge);
+    }
+    // Chained from the back, so that edges leave a vertex in the order of the input.
+    for (std::size_t i = link_.size(); i-- > 0;) {
+      link_[i].nextFrom = firstFrom_[link_[i].from];
+      firstFrom_[link_[i].from] = static_cast<std::uint32_t>(i);
+      entered_[link_[i].to] = true;
+    }
+  }
+
+  /// Where to begin paths: at the open ends of the link, then anywhere (closed
+  /// rings); of each, nearest to the vertices numbered last, whose indices are
+  /// then likely to come again.
+  void orderStarts() {
+    starts_.resize(link_.size());
+    for (std::uint32_t i = 0; i < starts_.size(); ++i)
+      starts_[i] = i;
+    const auto key = [&](std::uint32_t edge) {
+      const std::uint32_t vertex = link_[edge].from;
+      const std::uint64_t recency = numbers_[vertex] == none ? 0 : std::uint64_t{numbers_[vertex]} + 1;
+      return std::uint64_t{!entered_[vertex]} << 33 | recency;
+    };
+    std::stable_sort(starts_.begin(), starts_.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return key(a) > key(b); });
+  }
+
+  std::uint32_t followingEdge(std::uint32_t edge) {
+    std::uint32_t& next = firstFrom_[link_[edge].to];
+    while (next != none && link_[next].used)
+      next = link_[next].nextFrom;
+    return next;
+  }
+
+  void emit(LinkEdge& edge) {
+    edge.used = true;
+    discover(edge.from);
+    discover(edge.to);
+    const std::uint32_t first = edge.corner - edge.corner % 3;
+    result_.push_back(edge.corner);
+    result_.push_back(first + (edge.corner + 1) % 3);
+    result_.push_back(first + (edge.corner + 2) % 3);
+  }
+
+  std::span<const std::uint32_t> vertexOf_;
+  Incidence incidence_;
+  std::vector<bool> emitted_;            ///< by triangle
+  std::vector<std::uint32_t> numbers_;   ///< by vertex; none: not discovered
+  std::vector<std::uint32_t> queue_;     ///< vertices by number
+  std::vector<std::uint32_t> firstFrom_; ///< by vertex: first link edge that leaves it; none between vertices
+  std::vector<bool> entered_;            ///< by vertex: a link edge ends there; false between vertices
+  std::vector<LinkEdge> link_;
+  std::vector<std::uint32_t> starts_;
+  std::vector<std::uint32_t> result_;
+};
+
+} // namespace
+
+std::vector<std::uint32_t> fanOrder(std::span<const std::uint32_t> cornerVertices, std::size_t vertexCount) {
+  assert(cornerVertices.size() % 3 == 0);
+  return FanWalk(cornerVertices, vertexCount).run();
+}
+
+} // namespace imgeo

@@ -1,0 +1,232 @@
+#include "prepare/patches.h"
+
+#include "base/narrow.h"
+#include "base/parallel.h"
+#include "prepare/index_table.h"
+
+#include <numeric>
+#include <span>
+
+namespace imgeo {
+
+namespace {
+
+using Elements = std::span<std::uint32_t>; ///< a node of the tree: a range of one permutation
+
+/// What the cut needs to know of every element.
+struct ElementTable {
+  const Mesh& mesh;
+  std::vector<Vec3f> centroids;
+  /// A wedge's weight of `one` is shared by the elements that touch it, so that
+  /// the elements of a node weigh what its wedges are, borders apart. Whole
+  /// numbers: sums do not depend on their order.
+  std::vector<std::uint32_t> weights;
+  static constexpr std::uint32_t one = 1 << 20;
+
+  explicit ElementTable(const Mesh& source)
+      : mesh(source), centroids(source.elementCount()), weights(source.elementCount()) {
+    std::vector<std::uint32_t> valences(mesh.wedgeCount(), 0);
+    for (const std::uint32_t wedge : mesh.corners)
+      ++valences[wedge];
+    const std::uint32_t count = cornersPerElement(mesh.topology);
+    parallelForBlocks(mesh.elementCount(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t element = begin; element < end; ++element) {
+        Vec3d sum;
+        for (std::size_t corner = element * count; corner < (element + 1) * count; ++corner) {
+          sum += Vec3d(mesh.cornerPosition(corner));
+          weights[element] += std::max(1u, one / valences[mesh.corners[corner]]);
+        }
+        centroids[element] = Vec3f(sum * (1.0 / count));
+      }
+    });
+  }
+};
+
+std::size_t countWedges(const Mesh& mesh, Elements elements) {
+  const std::uint32_t count = cornersPerElement(mesh.topology);
+  std::vector<bool> seen(mesh.wedgeCount());
+  std::size_t wedges = 0;
+  for (const std::uint32_t element : elements)
+    for (std::size_t corner = std::size_t{element} * count; corner < (std::size_t{element} + 1) * count;
+         ++corner) {
+      wedges += !seen[mesh.corners[corner]];
+      seen[mesh.corners[corner]] = true;
+    }
+  return wedges;
+}
+
+int longestAxis(const ElementTable& table, Elements elements) {
+  Box3d box;
+  for (const std::uint32_t element : elements)
+    box.add(Vec3d(table.centroids[element]));
+  const Vec3d size = box.size();
+  return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+}
+
+std::uint64_t weightOf(const ElementTable& table, Elements elements) {
+  return std::accumulate(elements.begin(), elements.end(), std::uint64_t{0},
+                         [&](std::uint64_t sum, std::uint32_t e) { return sum + table.weights[e]; });
+}
+
+/// Orders the elements along `axis` just as far as is needed to cut off the
+/// first `share` of their weight; returns how many those are, at least one and
+/// not all. A quickselect by weight: linear time.
+std::size_t cutOff(const ElementTable& table, Elements elements, int axis, double share) {
+  const auto before = [&](std::uint32_t a, std::uint32_t b) {
+    const float at = table.centroids[a][axis], bt = table.centroids[b][axis];
+    return at != bt ? at < bt : a < b;
+  };
+  double wanted = share * static_cast<double>(weightOf(table, elements));
+  std::size_t begin = 0, end = elements.size();
+  while (end - begin > 1) {
+    const Elements range = elements.subspan(begin, end - begin);
+    const std::size_t middle = range.size() / 2;
+    std::nth_element(range.begin(), range.begin() + static_cast<std::ptrdiff_t>(middle), range.end(), before);
+    const double lower = static_cast<double>(weightOf(table, range.first(middle)));
+    if (lower <= wanted) {
+      wanted -= lower;
+      begin += middle;
+    } else {
+      end = begin + middle;
+    }
+  }
+  return std::clamp<std::size_t>(begin, 1, elements.size() - 1);
+}
+
+/// Cuts a node in two, or leaves it whole where it fits.
+std::vector<Elements> cutOnce(const ElementTable& table, Elements elements, std::size_t maxWedges) {
+  const auto ceilDivide = [](std::size_t a, std::size_t b) { return (a + b - 1) / b; };
+  const std::size_t cornerCount = elements.size() * cornersPerElement(table.mesh.topology);
+  const std::size_t wanted = std::max(ceilDivide(countWedges(table.mesh, elements), maxWedges),
+                                      ceilDivide(cornerCount, maxPatchCorners));
+  if (wanted <= 1)
+    return {elements};
+  // Not always in half: three patches' worth is cut at a third, so that
+  // patches end up well filled.
+  const double share = static_cast<double>(wanted / 2) / static_cast<double>(wanted);
+  const std::size_t cut = cutOff(table, elements, longestAxis(table, elements), share);
+  return {elements.first(cut), elements.subspan(cut)};
+}
+
+/// The leaves of the KD tree, in its order. Nodes of one depth are cut in parallel.
+std::vector<Elements> cutTree(const ElementTable& table, Elements all, std::size_t maxWedges) {
+  std::vector<Elements> nodes{all};
+  std::vector<bool> fits{false};
+  while (std::ranges::find(fits, false) != fits.end()) {
+    std::vector<std::vector<Elements>> parts(nodes.size());
+    parallelFor(nodes.size(), [&](std::size_t i) {
+      parts[i] = fits[i] ? std::vector{nodes[i]} : cutOnce(table, nodes[i], maxWedges);
+    });
+    nodes.clear();
+    fits.clear();
+    for (const std::vector<Elements>& part : parts)
+      for (const Elements elements : part) {
+        nodes.push_back(elements);
+        fits.push_back(part.size() == 1);
+      }
+  }
+  return nodes;
+}
+
+/// Numbers values in the order in which they come.
+class Compactor {
+public:
+  explicit Compactor(std::size_t capacity) : table_(capacity) { kept.reserve(capacity); }
+
+  std::uint32_t numberOf(std::uint32_t value) {
+    const auto next = static_cast<std::uint32_t>(kept.size());
+    const std::uint32_t number =
+        table_.findOrInsert(mixHash(0, value), next, [&](std::uint32_t i) { return kept[i] == value; });
+    if (number == next)
+      kept.push_back(value);
+    return number;
+  }
+
+  std::vector<std::uint32_t> kept;
+
+private:
+  IndexTable table_;
+};
+
+template <typename T>
+std::vector<T> gather(const std::vector<T>& values, const std::vector<std::uint32_t>& from) {
+  std::vector<T> result;
+  if (values.empty())
+    return result;
+  result.reserve(from.size());
+  for (const std::uint32_t i : from)
+    result.push_back(values[i]);
+  return result;
+}
+
+Patch makePatch(const Mesh& mesh, const std::vector<Vec3u>& lattice, Elements elements,
+                std::size_t maxWedges) {
+  // In the source's order, whatever order the cut left behind.
+  std::sort(elements.begin(), elements.end());
+  const std::uint32_t count = cornersPerElement(mesh.topology);
+  const std::size_t capacity = std::min(maxWedges, elements.size() * count);
+
+  Patch patch;
+  patch.topology = mesh.topology;
+  patch.colorComponents = mesh.colorComponents;
+  patch.corners.reserve(elements.size() * count);
+  Compactor wedges(capacity), positions(capacity);
+  for (const std::uint32_t element : elements)
+    for (std::size_t corner = std::size_t{element} * count; corner < (std::size_t{element} + 1) * count;
+         ++corner)
+      patch.corners.push_back(wedges.numberOf(mesh.corners[corner]));
+  patch.wedgePositions.reserve(wedges.kept.size());
+  for (const std::uint32_t wedge : wedges.kept)
+    patch.wedgePositions.push_back(positions.numberOf(mesh.wedgePositions[wedge]));
+  patch.positions = gather(lattice, positions.kept);
+  patch.normals = gather(mesh.normals, wedges.kept);
+  patch.texCoords = gather(mesh.texCoords, wedges.kept);
+  patch.colors = gather(mesh.colors, wedges.kept);
+  return patch;
+}
+
+} // namespace
+
+Box3d boxOf(const Patch& patch, const Lattice& lattice) {
+  Box3d box;
+  if (patch.positions.empty())
+    return box;
+  Vec3u low = patch.positions[0], high = low;
+  for (const Vec3u& position : patch.positions)
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], position[axis]);
+      high[axis] = std::max(high[axis], position[axis]);
+    }
+  box.add(lattice.point(low));
+  box.add(lattice.point(high));
+  return box;
+}
+
+PatchedMesh cutIntoPatches(const Mesh& mesh, const Lattice& lattice, std::uint32_t maxWedges) {
+  assert(maxWedges >= 3);
+  PatchedMesh result;
+  result.lattice = lattice;
+  const std::vector<Vec3u> positions = quantise(mesh.positions, lattice);
+
+  std::vector<std::uint32_t> permutation(mesh.elementCount());
+  std::iota(permutation.begin(), permutation.end(), 0u);
+  std::vector<Elements> leaves;
+  if (mesh.wedgeCount() <= maxWedges && mesh.corners.size() <= maxPatchCorners) {
+    if (!permutation.empty())
+      leaves = {permutation};
+  } else {
+    leaves = cutTree(ElementTable(mesh), permutation, maxWedges);
+  }
+
+  result.patches.resize(leaves.size());
+  parallelFor(leaves.size(),
+              [&](std::size_t i) { result.patches[i] = makePatch(mesh, positions, leaves[i], maxWedges); });
+  for (const Patch& patch : result.patches) {
+    const Box3d box = boxOf(patch, lattice);
+    result.box.add(box.min);
+    result.box.add(box.max);
+  }
+  return result;
+}
+
+} // namespace imgeo

@@ -1,0 +1,216 @@
+#include "prepare/primitives.h"
+
+#include "prepare/weld.h"
+#include "scene/testing.h"
+
+#include <array>
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+/// A triangle as the values of its corners, turned so that the least comes first.
+using Corner = std::array<double, 12>;
+using Triangle = std::array<Corner, 3>;
+
+template <typename Piece> Corner cornerOf(const Piece& piece, std::uint32_t wedge, Vec3u position) {
+  Corner c{double(position.x), double(position.y), double(position.z)};
+  if (!piece.normals.empty())
+    c[3] = piece.normals[wedge].x, c[4] = piece.normals[wedge].y, c[5] = piece.normals[wedge].z;
+  if (!piece.texCoords.empty())
+    c[6] = piece.texCoords[wedge].x, c[7] = piece.texCoords[wedge].y;
+  if (!piece.colors.empty())
+    c[8] = piece.colors[wedge].r, c[9] = piece.colors[wedge].g, c[10] = piece.colors[wedge].b,
+    c[11] = piece.colors[wedge].a;
+  return c;
+}
+
+Triangle turned(Triangle t) {
+  return std::min({t, Triangle{t[1], t[2], t[0]}, Triangle{t[2], t[0], t[1]}});
+}
+
+enum class Degenerate { kept, dropped };
+
+std::vector<Triangle> trianglesIn(const Patch& patch, Degenerate degenerate) {
+  std::vector<Triangle> result;
+  for (std::size_t i = 0; i < patch.corners.size(); i += 3) {
+    const std::uint32_t* w = &patch.corners[i];
+    if (degenerate == Degenerate::dropped && (w[0] == w[1] || w[1] == w[2] || w[2] == w[0]))
+      continue;
+    Triangle t;
+    for (std::size_t j = 0; j < 3; ++j)
+      t[j] = cornerOf(patch, w[j], patch.positions[patch.wedgePositions[w[j]]]);
+    result.push_back(turned(t));
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<Triangle> trianglesIn(const IndexedPatch& patch) {
+  std::vector<Triangle> result;
+  for (const Vec3u& drawn : trianglesOf(patch)) {
+    Triangle t;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::uint32_t vertex = drawn[static_cast<int>(j)];
+      t[j] = cornerOf(patch, vertex, patch.positions[vertex]);
+    }
+    result.push_back(turned(t));
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+Patch patchOf(Mesh mesh) {
+  weld(mesh);
+  return cutIntoPatches(mesh, latticeFor(boxOf(mesh), 20), 65535).patches.at(0);
+}
+
+/// Triangles of any kind between `vertices` vertices: hardly a manifold edge among them.
+Patch tangle(std::uint32_t triangles, std::uint32_t vertices, std::uint32_t seed) {
+  testing::Random random(seed);
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < vertices; ++i)
+    mesh.positions.push_back(random.point());
+  testing::addPlainWedges(mesh);
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    const std::uint32_t a = random.below(vertices), b = random.below(vertices), c = random.below(vertices);
+    testing::addTriangle(mesh, a, b, c);
+  }
+  return patchOf(mesh);
+}
+
+/// A vertex all around which lie `count` triangles.
+Patch wheel(std::uint32_t count) {
+  Mesh mesh;
+  mesh.positions.push_back({0, 0, 1});
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    mesh.positions.push_back(Vec3f(Vec3d{std::cos(angle), std::sin(angle), 0}));
+    testing::addTriangle(mesh, 0, 1 + i, 1 + (i + 1) % count);
+  }
+  testing::addPlainWedges(mesh);
+  return cutIntoPatches(mesh, latticeFor(boxOf(mesh), 24), 65535).patches.at(0);
+}
+
+std::vector<Patch> everyKindOfPatch() {
+  std::vector<Patch> patches;
+  for (std::uint32_t seed = 0; seed < 300; ++seed) {
+    const Mesh mesh = testing::randomMesh(seed);
+    if (mesh.topology == Topology::triangles)
+      patches.push_back(patchOf(mesh));
+  }
+  for (std::uint32_t seed = 0; seed < 200; ++seed)
+    patches.push_back(tangle(1 + seed, 2 + seed % 40, seed));
+  patches.push_back(wheel(5000));
+  patches.push_back(patchOf(testing::sphere(60, 60)));
+  return patches;
+}
+
+void expectWhole(const IndexedPatch& result) {
+  std::size_t drawn = 0;
+  for (const Draw& draw : result.draws)
+    drawn += draw.count;
+  ASSERT_EQ(drawn, result.indices.empty() ? result.vertexCount() : result.indices.size());
+  for (const std::uint32_t index : result.indices)
+    ASSERT_LT(index, result.vertexCount());
+  for (const std::size_t size : {result.normals.size(), result.texCoords.size(), result.colors.size()})
+    ASSERT_TRUE(size == 0 || size == result.vertexCount());
+}
+
+void expectNumberedByFirstUse(const IndexedPatch& result) {
+  std::uint32_t used = 0;
+  for (const std::uint32_t index : result.indices) {
+    ASSERT_LE(index, used);
+    used = std::max(used, index + 1);
+  }
+  ASSERT_EQ(used, result.vertexCount());
+}
+
+TEST(Triangles, AreThePatchsTriangles) {
+  for (const Patch& patch : everyKindOfPatch()) {
+    const IndexedPatch result = asTriangles(patch);
+    expectWhole(result);
+    expectNumberedByFirstUse(result);
+    EXPECT_EQ(result.vertexCount(), patch.wedgeCount());
+    EXPECT_EQ(result.indices.size(), patch.corners.size()); // degenerate ones are kept
+    EXPECT_TRUE(trianglesIn(result) == trianglesIn(patch, Degenerate::dropped));
+  }
+}
+
+TEST(Triangles, ComeInFansOfTheirFirstVertex) {
+  const IndexedPatch result = asTriangles(patchOf(testing::sphere(20, 30)));
+  for (std::size_t i = 3; i < result.indices.size(); i += 3)
+    EXPECT_LE(result.indices[i - 3], result.indices[i]);
+}
+
+TEST(Strips, DrawThePatchsTriangles) {
+  for (const Patch& patch : everyKindOfPatch()) {
+    const IndexedPatch result = asStrips(patch);
+    expectWhole(result);
+    expectNumberedByFirstUse(result);
+    EXPECT_TRUE(trianglesIn(result) == trianglesIn(patch, Degenerate::dropped));
+    EXPECT_LE(result.draws.size(), 1u);
+  }
+}
+
+TEST(Strips, TakeFewerIndicesThanTriangles) {
+  for (const Patch& patch : {patchOf(testing::grid(50)), patchOf(testing::sphere(50, 50))}) {
+    const double perTriangle =
+        static_cast<double>(asStrips(patch).indices.size()) / static_cast<double>(patch.elementCount());
+    EXPECT_LT(perTriangle, 1.2);
+  }
+}
+
+TEST(Points, AreEveryWedgeOnce) {
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    const Patch patch = patchOf(testing::randomMesh(seed));
+    const IndexedPatch result = asPoints(patch);
+    expectWhole(result);
+    EXPECT_TRUE(result.indices.empty());
+    std::vector<Corner> expected, found;
+    for (std::uint32_t i = 0; i < patch.wedgeCount(); ++i) {
+      expected.push_back(cornerOf(patch, i, patch.positions[patch.wedgePositions[i]]));
+      found.push_back(cornerOf(result, i, result.positions[i]));
+    }
+    std::sort(expected.begin(), expected.end());
+    std::sort(found.begin(), found.end());
+    EXPECT_TRUE(found == expected) << seed;
+  }
+}
+
+TEST(Points, ComeInMortonOrder) {
+  Patch patch;
+  patch.topology = Topology::points;
+  testing::Random random(1);
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    patch.positions.push_back(
+        {random.bits() >> random.below(32), random.bits(), random.bits() >> random.below(32)});
+    patch.wedgePositions.push_back(i);
+    patch.corners.push_back(i);
+  }
+  const auto code = [](Vec3u p) {
+    std::array<std::uint32_t, 3> words{}; // 96 interleaved bits, the highest first; x above y above z
+    for (std::uint32_t i = 0; i < 96; ++i) {
+      const std::uint32_t bit = p[static_cast<int>(i % 3)] >> (31 - i / 3) & 1;
+      words[i / 32] |= bit << (31 - i % 32);
+    }
+    return words;
+  };
+  const IndexedPatch result = asPoints(patch);
+  for (std::size_t i = 1; i < result.vertexCount(); ++i)
+    EXPECT_LE(code(result.positions[i - 1]), code(result.positions[i]));
+}
+
+TEST(TrianglesOf, MirrorEverySecondTriangleOfAStripAndBeginAnewWithEachDraw) {
+  IndexedPatch patch;
+  patch.positions.resize(6);
+  patch.draws = {{Primitive::triangleStrip, 5}, {Primitive::triangles, 3}, {Primitive::triangleStrip, 3}};
+  patch.indices = {0, 1, 2, 3, 3, 5, 4, 3, 2, 1, 0};
+  EXPECT_EQ(trianglesOf(patch), (std::vector<Vec3u>{{0, 1, 2}, {2, 1, 3}, {5, 4, 3}, {2, 1, 0}}));
+  patch.indices.clear();
+  patch.draws = {{Primitive::triangles, 6}};
+  EXPECT_EQ(trianglesOf(patch), (std::vector<Vec3u>{{0, 1, 2}, {3, 4, 5}}));
+}
+
+} // namespace
+} // namespace imgeo

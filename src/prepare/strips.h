@@ -1,0 +1,15 @@
+#pragma once
+// Triangle strips: paths through the dual graph, stitched into one strip.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace imgeo {
+
+/// One triangle strip over `corners` (vertices, three a
+/// triangle) that draws every non-degenerate triangle as often as it is there,
+/// in its orientation, and else only degenerate ones.
+std::vector<std::uint32_t> stitchedStrip(std::span<const std::uint32_t> corners);
+
+} // namespace imgeo

@@ -1,0 +1,169 @@
+#include "prepare/weld.h"
+
+#include "prepare/index_table.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace imgeo {
+
+namespace {
+
+/// The bits by which values are compared: -0 is 0, and a NaN equals itself.
+std::uint32_t keyOf(float value) {
+  return std::bit_cast<std::uint32_t>(value + 0.0f);
+}
+std::uint64_t keyOf(Vec2f v) {
+  return std::uint64_t{keyOf(v.x)} << 32 | keyOf(v.y);
+}
+std::uint32_t keyOf(Rgba8 c) {
+  return std::bit_cast<std::uint32_t>(c);
+}
+
+bool same(const Vec3f& a, const Vec3f& b) {
+  return keyOf(a.x) == keyOf(b.x) && keyOf(a.y) == keyOf(b.y) && keyOf(a.z) == keyOf(b.z);
+}
+std::uint64_t hashOf(std::uint64_t seed, const Vec3f& v) {
+  return mixHash(mixHash(seed, keyOf(Vec2f{v.x, v.y})), keyOf(v.z));
+}
+
+/// Gives each index of the corners' array a new number, in the order of first use.
+struct Renumbering {
+  std::vector<std::uint32_t> newOf; ///< old -> new; IndexTable::none where unused
+  std::vector<std::uint32_t> kept;  ///< new -> the first old one
+  std::size_t merged = 0;
+
+  explicit Renumbering(std::size_t oldCount) : newOf(oldCount, IndexTable::none) {}
+
+  template <typename Equals>
+  std::uint32_t number(std::uint32_t old, IndexTable& table, std::uint64_t hash, Equals equals) {
+    const auto next = static_cast<std::uint32_t>(kept.size());
+    const std::uint32_t found =
+        table.findOrInsert(hash, next, [&](std::uint32_t i) { return equals(kept[i]); });
+    if (found == next)
+      kept.push_back(old);
+    else
+      ++merged;
+    return newOf[old] = found;
+  }
+
+  template <typename T> void apply(std::vector<T>& values) const {
+    if (values.empty())
+      return;
+    std::vector<T> result(kept.size());
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      result[i] = values[kept[i]];
+    values = std::move(result);
+  }
+};
+
+Renumbering weldPositions(Mesh& mesh) {
+  Renumbering numbers(mesh.positions.size());
+  IndexTable table(mesh.positions.size());
+  for (const std::uint32_t wedge : mesh.corners) {
+    const std::uint32_t old = mesh.wedgePositions[wedge];
+    if (numbers.newOf[old] != IndexTable::none)
+      continue;
+    const Vec3f& position = mesh.positions[old];
+    numbers.number(old, table, hashOf(0, position),
+                   [&](std::uint32_t other) { return same(mesh.positions[other], position); });
+  }
+  return numbers;
+}
+
+/// `mesh.wedgePositions` of wedges in use must name welded positions.
+Renumbering weldWedges(const Mesh& mesh) {
+  Renumbering numbers(mesh.wedgeCount());
+  IndexTable table(mesh.wedgeCount());
+  const auto hash = [&](std::uint32_t w) {
+    std::uint64_t result = mixHash(0, mesh.wedgePositions[w]);
+    if (!mesh.normals.empty())
+      result = hashOf(result, mesh.normals[w]);
+    if (!mesh.texCoords.empty())
+      result = mixHash(result, keyOf(mesh.texCoords[w]));
+    if (!mesh.colors.empty())
+      result = mixHash(result, keyOf(mesh.colors[w]));
+    return result;
+  };
+  const auto equal = [&](std::uint32_t a, std::uint32_t b) {
+    return mesh.wedgePositions[a] == mesh.wedgePositions[b] &&
+           (mesh.normals.empty() || same(mesh.normals[a], mesh.normals[b])) &&
+           (mesh.texCoords.empty() || keyOf(mesh.texCoords[a]) == keyOf(mesh.texCoords[b])) &&
+           (mesh.colors.empty() || keyOf(mesh.colors[a]) == keyOf(mesh.colors[b]));
+  };
+  for (const std::uint32_t old : mesh.corners)
+    if (numbers.newOf[old] == IndexTable::none)
+      numbers.number(old, table, hash(old), [&](std::uint32_t other) { return equal(old, other); });
+  return numbers;
+}
+
+/// An element's corners turned so that the smallest sequence comes first.
+Vec3u turned(const Mesh& mesh, std::size_t element) {
+  const std::uint32_t count = cornersPerElement(mesh.topology);
+  const auto from = [&](std::size_t first) {
+    Vec3u result{0, 0, 0};
+    for (std::uint32_t i = 0; i < count; ++i)
+      result[static_cast<int>(i)] = mesh.corners[element * count + (first + i) % count];
+    return result;
+  };
+  const auto before = [](Vec3u a, Vec3u b) {
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+  };
+  Vec3u best = from(0);
+  for (std::uint32_t first = 1; first < count; ++first)
+    best = std::min(best, from(first), before);
+  return best;
+}
+
+std::size_t countDuplicates(const Mesh& mesh) {
+  std::size_t duplicates = 0;
+  IndexTable table(mesh.elementCount());
+  for (std::uint32_t element = 0; element < mesh.elementCount(); ++element) {
+    const Vec3u key = turned(mesh, element);
+    const std::uint64_t hash = mixHash(mixHash(key.z, std::uint64_t{key.x} << 32 | key.y), 0);
+    if (table.findOrInsert(hash, element, [&](std::uint32_t e) { return turned(mesh, e) == key; }) != element)
+      ++duplicates;
+  }
+  return duplicates;
+}
+
+std::size_t countDegenerates(const Mesh& mesh) {
+  const std::uint32_t count = cornersPerElement(mesh.topology);
+  std::size_t degenerates = 0;
+  for (std::size_t first = 0; first < mesh.corners.size(); first += count) {
+    const auto at = [&](std::size_t i) { return mesh.wedgePositions[mesh.corners[first + i % count]]; };
+    for (std::size_t i = 0; i < count && count > 1; ++i)
+      if (at(i) == at(i + 1)) {
+        ++degenerates;
+        break;
+      }
+  }
+  return degenerates;
+}
+
+} // namespace
+
+WeldReport weld(Mesh& mesh) {
+  WeldReport report;
+  const Renumbering positions = weldPositions(mesh);
+  report.mergedPositions = positions.merged;
+  report.unreferencedPositions = mesh.positions.size() - positions.kept.size() - positions.merged;
+  positions.apply(mesh.positions);
+  for (std::uint32_t& position : mesh.wedgePositions)
+    position = positions.newOf[position];
+
+  const Renumbering wedges = weldWedges(mesh);
+  report.mergedWedges = wedges.merged;
+  wedges.apply(mesh.wedgePositions);
+  wedges.apply(mesh.normals);
+  wedges.apply(mesh.texCoords);
+  wedges.apply(mesh.colors);
+  for (std::uint32_t& wedge : mesh.corners)
+    wedge = wedges.newOf[wedge];
+
+  report.degenerateElements = countDegenerates(mesh);
+  report.duplicateElements = countDuplicates(mesh);
+  return report;
+}
+
+} // namespace imgeo

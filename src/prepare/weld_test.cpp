@@ -1,0 +1,118 @@
+#include "prepare/weld.h"
+
+#include "scene/testing.h"
+
+#include <gtest/gtest.h>
+#include <set>
+#include <tuple>
+
+namespace imgeo {
+namespace {
+
+using testing::randomMesh;
+
+/// A corner's whole value, by which the welded mesh must still equal its source.
+auto valueOf(const Mesh& mesh, std::size_t corner) {
+  const std::uint32_t wedge = mesh.corners[corner];
+  const Vec3f p = mesh.cornerPosition(corner) + Vec3f{}; // -0 becomes 0
+  const Vec3f n = (mesh.normals.empty() ? Vec3f{} : mesh.normals[wedge]) + Vec3f{};
+  const Vec2f t = mesh.texCoords.empty() ? Vec2f{} : mesh.texCoords[wedge];
+  const Rgba8 c = mesh.colors.empty() ? Rgba8{} : mesh.colors[wedge];
+  return std::tuple(p.x, p.y, p.z, n.x, n.y, n.z, t.x + 0.0f, t.y + 0.0f, c.r, c.g, c.b, c.a);
+}
+
+std::vector<decltype(valueOf(Mesh{}, 0))> valuesOf(const Mesh& mesh) {
+  std::vector<decltype(valueOf(mesh, 0))> values;
+  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner)
+    values.push_back(valueOf(mesh, corner));
+  return values;
+}
+
+TEST(Weld, ChangesNoCorner) {
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    Mesh mesh = randomMesh(seed);
+    const auto before = valuesOf(mesh);
+    weld(mesh);
+    ASSERT_TRUE(isConsistent(mesh)) << seed;
+    EXPECT_TRUE(valuesOf(mesh) == before) << seed;
+  }
+}
+
+TEST(Weld, LeavesNoTwoPositionsOrWedgesAlikeAndNoneUnused) {
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    Mesh mesh = randomMesh(seed);
+    const WeldReport report = weld(mesh);
+    std::set<std::tuple<float, float, float>> positions;
+    for (const Vec3f& p : mesh.positions)
+      positions.insert({p.x, p.y, p.z});
+    EXPECT_EQ(positions.size(), mesh.positions.size()) << seed;
+    const auto values = valuesOf(mesh);
+    EXPECT_EQ(std::set(values.begin(), values.end()).size(), mesh.wedgeCount()) << seed;
+    EXPECT_EQ(report.mergedPositions + report.unreferencedPositions + mesh.positions.size(),
+              randomMesh(seed).positions.size());
+  }
+}
+
+TEST(Weld, KeepsTheOrderOfFirstUse) {
+  for (std::uint32_t seed = 0; seed < 50; ++seed) {
+    Mesh mesh = randomMesh(seed);
+    weld(mesh);
+    std::uint32_t wedges = 0, positions = 0;
+    for (const std::uint32_t wedge : mesh.corners) {
+      ASSERT_LE(wedge, wedges);
+      wedges = std::max(wedges, wedge + 1);
+      ASSERT_LE(mesh.wedgePositions[wedge], positions);
+      positions = std::max(positions, mesh.wedgePositions[wedge] + 1);
+    }
+  }
+}
+
+TEST(Weld, DoesNothingTheSecondTime) {
+  for (std::uint32_t seed = 0; seed < 100; ++seed) {
+    Mesh mesh = randomMesh(seed);
+    const WeldReport first = weld(mesh);
+    const Mesh once = mesh;
+    const WeldReport second = weld(mesh);
+    EXPECT_EQ(mesh.positions, once.positions);
+    EXPECT_EQ(mesh.wedgePositions, once.wedgePositions);
+    EXPECT_EQ(mesh.corners, once.corners);
+    EXPECT_EQ(mesh.normals, once.normals);
+    EXPECT_EQ(second.mergedPositions + second.mergedWedges + second.unreferencedPositions, 0u);
+    EXPECT_EQ(second.degenerateElements, first.degenerateElements);
+    EXPECT_EQ(second.duplicateElements, first.duplicateElements);
+  }
+}
+
+TEST(Weld, MergesEqualBitsOnly) {
+  Mesh mesh;
+  const float next = std::nextafter(1.0f, 2.0f);
+  mesh.positions = {{1, 0, 0}, {1, -0.0f, 0}, {next, 0, 0}, {0, 1, 0}, {7, 7, 7}};
+  testing::addPlainWedges(mesh);
+  testing::addTriangle(mesh, 0, 2, 3);
+  testing::addTriangle(mesh, 3, 1, 2); // the same again, turned, through the merged position
+  testing::addTriangle(mesh, 0, 1, 2); // degenerate
+  const WeldReport report = weld(mesh);
+  EXPECT_EQ(mesh.positions, (std::vector<Vec3f>{{1, 0, 0}, {next, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh.corners, (std::vector<std::uint32_t>{0, 1, 2, 2, 0, 1, 0, 0, 1}));
+  EXPECT_EQ(report.mergedPositions, 1u);
+  EXPECT_EQ(report.mergedWedges, 1u);
+  EXPECT_EQ(report.unreferencedPositions, 1u);
+  EXPECT_EQ(report.degenerateElements, 1u);
+  EXPECT_EQ(report.duplicateElements, 1u);
+}
+
+TEST(Weld, KeepsTheWedgesOfACreaseAtOnePosition) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, 1}};
+  mesh.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {1, 0, 0}};
+  testing::addPlainWedges(mesh);
+  testing::addTriangle(mesh, 0, 1, 2);
+  testing::addTriangle(mesh, 3, 2, 4);
+  weld(mesh);
+  EXPECT_EQ(mesh.positions.size(), 4u);
+  EXPECT_EQ(mesh.wedgeCount(), 5u);
+  EXPECT_EQ(mesh.wedgePositions[3], 0u);
+}
+
+} // namespace
+} // namespace imgeo
