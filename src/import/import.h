@@ -12,8 +12,8 @@
 namespace imgeo {
 
 struct Imported {
-  Scene scene;                       ///< one shape per object of the source; normals only where the file has them
-  std::string format;                ///< "PLY", "OBJ", "STL": for reports
+  Scene scene;        ///< one shape per object of the source; normals only where the file has them
+  std::string format; ///< "PLY", "OBJ", "STL": for reports
   std::vector<std::string> warnings; ///< one sentence per kind of thing not carried over
 };
 

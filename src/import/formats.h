@@ -1,0 +1,30 @@
+#pragma once
+// The readers behind import.h, one file per format. All take the unpacked bytes
+// and the name that stands for them in messages, and keep import.h's promises.
+
+#include "import/import.h"
+
+#include <string_view>
+
+namespace imgeo {
+
+Imported readPly(ByteSpan bytes, const std::string& name);
+Imported readObj(ByteSpan bytes, const std::string& name);
+Imported readStl(ByteSpan bytes, const std::string& name);
+
+/// True where the bytes can only be this format.
+bool looksLikePly(ByteSpan bytes);
+bool looksLikeStl(ByteSpan bytes);
+/// True where the first line that says anything begins with a keyword of OBJ.
+bool looksLikeObj(ByteSpan bytes);
+
+/// "bunny" for "models/bunny.ply.gz".
+std::string stemOf(const std::string& name);
+
+/// "bunny.ply, byte 1042"
+std::string bytePlace(const std::string& name, std::size_t byte);
+
+/// Adds a mesh and the shape that shows it.
+void addShape(Scene& scene, Mesh mesh, std::string shapeName);
+
+} // namespace imgeo

@@ -1,0 +1,104 @@
+#include "import/import.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "import/formats.h"
+#include "import/gzip.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/format.h>
+#include <map>
+#include <utility>
+
+namespace imgeo {
+
+namespace {
+
+using Reader = Imported (*)(ByteSpan, const std::string&);
+
+std::string lowerCase(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// "bunny.ply" for "models/bunny.ply.gz".
+std::filesystem::path withoutGz(const std::string& name) {
+  const std::filesystem::path file = std::filesystem::path(name).filename();
+  return lowerCase(file.extension()) == ".gz" ? file.stem() : file;
+}
+
+Reader readerFor(ByteSpan bytes, const std::string& name) {
+  if (looksLikePly(bytes))
+    return readPly;
+  if (looksLikeStl(bytes))
+    return readStl;
+  if (looksLikeObj(bytes))
+    return readObj;
+  const std::string extension = lowerCase(withoutGz(name).extension());
+  if (extension == ".ply")
+    return readPly;
+  if (extension == ".stl")
+    return readStl;
+  if (extension == ".obj")
+    return readObj;
+  throw Error(ErrorKind::unsupported, name, "is in no format that imgeo reads, which are PLY, OBJ and STL");
+}
+
+/// Names of shapes become DEFs, which must differ: "wheel", "wheel-2", ...
+void makeNamesUnique(std::vector<Shape>& shapes) {
+  std::map<std::string, std::size_t> next; // name -> the number to try for its next holder
+  for (Shape& shape : shapes) {
+    if (shape.name.empty())
+      continue;
+    const std::string wanted = shape.name;
+    while (!next.try_emplace(shape.name, 2).second)
+      shape.name = fmt::format("{}-{}", wanted, next[wanted]++);
+  }
+}
+
+} // namespace
+
+std::string stemOf(const std::string& name) {
+  return withoutGz(name).stem();
+}
+
+std::string bytePlace(const std::string& name, std::size_t byte) {
+  return fmt::format("{}, byte {}", name, byte);
+}
+
+void addShape(Scene& scene, Mesh mesh, std::string shapeName) {
+  Shape shape;
+  shape.name = std::move(shapeName);
+  shape.mesh = scene.meshes.size();
+  scene.meshes.push_back(std::move(mesh));
+  scene.shapes.push_back(std::move(shape));
+}
+
+Imported importBytes(ByteSpan bytes, const std::string& name) {
+  Bytes unpacked;
+  if (isGzip(bytes)) {
+    unpacked = gunzip(bytes, name);
+    bytes = unpacked;
+  }
+  if (bytes.empty())
+    throw Error(ErrorKind::truncated, name, "the file is empty");
+  if (asText(bytes).starts_with("\xef\xbb\xbf"))
+    bytes = bytes.subspan(3); // byte order mark
+
+  Imported imported = readerFor(bytes, name)(bytes, name);
+  const bool hasElements =
+      std::ranges::any_of(imported.scene.meshes, [](const Mesh& mesh) { return !mesh.corners.empty(); });
+  if (!hasElements)
+    throw Error(ErrorKind::malformed, name, "the file has no triangles and no points");
+  makeNamesUnique(imported.scene.shapes);
+  imported.scene.title = stemOf(name);
+  return imported;
+}
+
+Imported importFile(const std::filesystem::path& path) {
+  return importBytes(readFile(path), path.string());
+}
+
+} // namespace imgeo

@@ -1,0 +1,236 @@
+// Wavefront OBJ ("Object Files", Advanced Visualizer manual, appendix B1):
+// polygons with texture coordinates and normals, and the vertex colours that
+// scanners append to their vertices.
+#include "base/error.h"
+#include "import/formats.h"
+#include "import/obj_object.h"
+#include "import/text_scanner.h"
+#include "import/triangulate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <set>
+
+namespace imgeo {
+
+namespace {
+
+/// Bounds corners and vertices to 32 bits: each takes at least two bytes.
+constexpr std::uint64_t kMaxObjBytes = std::uint64_t{8} << 30;
+constexpr std::size_t kMaxNamedKeywords = 8;
+
+class ObjReader {
+public:
+  ObjReader(ByteSpan bytes, const std::string& name) : scanner_(bytes, name), fileName_(name) {}
+
+  Imported read() {
+    for (; !scanner_.atEnd(); scanner_.skipLine()) {
+      scanner_.skipBlanks();
+      readLine(scanner_.word());
+    }
+    std::erase_if(content_.objects, [](const ObjObject& object) { return object.corners.empty(); });
+    Imported imported;
+    imported.format = "OBJ";
+    if (content_.objects.empty())
+      addPoints(imported.scene);
+    else
+      addObjects(imported);
+    addWarnings(imported);
+    return imported;
+  }
+
+private:
+  void readLine(std::string_view keyword) {
+    if (keyword.empty() || keyword.front() == '#')
+      return;
+    if (keyword == "v")
+      readVertex();
+    else if (keyword == "vt")
+      readTexCoord();
+    else if (keyword == "vn")
+      readNormal();
+    else if (keyword == "f")
+      readFace();
+    else if (keyword == "o")
+      content_.objects.push_back({std::string(scanner_.restOfLine()), {}});
+    else if (keyword == "l")
+      ++lines_;
+    else if (keyword == "p")
+      ++points_;
+    else if (keyword == "usemtl" || keyword == "mtllib")
+      hasMaterials_ = true;
+    else if (keyword != "g" && keyword != "s" && others_.size() < kMaxNamedKeywords)
+      others_.insert(asPrintable(keyword));
+  }
+
+  /// The numbers up to the end of the line, at most as many as `out` has room for.
+  std::size_t readNumbers(std::span<float> out, std::size_t atLeast) {
+    std::size_t count = 0;
+    for (scanner_.skipBlanks(); count < out.size(); scanner_.skipBlanks()) {
+      if (count >= atLeast && scanner_.atLineEnd())
+        break;
+      out[count++] = scanner_.float32("a number");
+      if (!std::isfinite(out[count - 1]))
+        scanner_.fail(ErrorKind::malformed, "a value is not a number or beyond single precision");
+    }
+    return count;
+  }
+
+  /// "v x y z", "v x y z w", "v x y z r g b", and both with "a" or "w" more.
+  void readVertex() {
+    std::array<float, 7> n{};
+    const std::size_t count = readNumbers(n, 3);
+    content_.positions.push_back({n[0], n[1], n[2]});
+    if (count < 6) {
+      if (!content_.colors.empty())
+        content_.colors.push_back({255, 255, 255, 255});
+      return;
+    }
+    const auto channel = [](float c) {
+      return static_cast<std::uint8_t>(std::lround(std::clamp(c, 0.0f, 1.0f) * 255));
+    };
+    content_.colors.resize(content_.positions.size() - 1, {255, 255, 255, 255});
+    content_.colors.push_back({channel(n[3]), channel(n[4]), channel(n[5]), 255});
+  }
+
+  void readTexCoord() {
+    std::array<float, 3> n{};
+    readNumbers(n, 1);
+    content_.texCoords.push_back({n[0], n[1]});
+  }
+
+  void readNormal() {
+    std::array<float, 3> n{};
+    readNumbers(n, 3);
+    content_.normals.push_back({n[0], n[1], n[2]});
+  }
+
+  /// Counted from 1, or from the end where negative; only what stands before.
+  std::uint32_t readIndex(std::size_t count, const char* what) {
+    const std::int64_t number = scanner_.integer("an index");
+    const std::int64_t all = static_cast<std::int64_t>(count);
+    if (number == 0 || number > all || number < -all)
+      scanner_.fail(ErrorKind::malformed,
+                    fmt::format("{} {} is named, but {} stand before this line", what, number, count));
+    return static_cast<std::uint32_t>(number > 0 ? number - 1 : all + number);
+  }
+
+  /// "v", "v/vt", "v//vn" or "v/vt/vn".
+  ObjCorner readCorner() {
+    ObjCorner corner;
+    corner.position = readIndex(content_.positions.size(), "vertex");
+    if (scanner_.skipChar('/')) {
+      if (!scanner_.skipChar('/')) {
+        corner.texCoord = readIndex(content_.texCoords.size(), "texture coordinate");
+        if (scanner_.skipChar('/'))
+          corner.normal = readIndex(content_.normals.size(), "normal");
+      } else {
+        corner.normal = readIndex(content_.normals.size(), "normal");
+      }
+    }
+    if (!scanner_.atWordEnd())
+      scanner_.fail(ErrorKind::malformed, "a corner has the form v, v/vt, v//vn or v/vt/vn");
+    return corner;
+  }
+
+  void readFace() {
+    polygon_.clear();
+    for (scanner_.skipBlanks(); !scanner_.atLineEnd(); scanner_.skipBlanks())
+      polygon_.push_back(readCorner());
+    std::vector<ObjCorner>& object = content_.objects.back().corners;
+    if (polygon_.size() < 3) {
+      ++facesTooSmall_;
+    } else if (polygon_.size() == 3) {
+      object.insert(object.end(), polygon_.begin(), polygon_.end());
+    } else {
+      ring_.clear(), local_.clear();
+      for (const ObjCorner& corner : polygon_)
+        ring_.push_back(content_.positions[corner.position]);
+      fans_ += !triangulate(ring_, local_);
+      for (const std::uint32_t place : local_)
+        object.push_back(polygon_[place]);
+    }
+  }
+
+  void addObjects(Imported& imported) {
+    ObjMeshBuilder builder(content_);
+    for (const ObjObject& object : content_.objects) {
+      Mesh mesh = builder.build(object);
+      if (mesh.name.empty())
+        mesh.name = stemOf(fileName_);
+      addShape(imported.scene, std::move(mesh), object.name);
+    }
+    if (builder.partlyNormals > 0)
+      imported.warnings.push_back(
+          fmt::format("The normals of {} objects were left out, because some of their corners have none.",
+                      builder.partlyNormals));
+    if (builder.unusableNormals > 0)
+      imported.warnings.push_back(fmt::format(
+          "{} normals have no direction; (0, 0, 1) stands in their place.", builder.unusableNormals));
+  }
+
+  /// A file without faces is a point cloud.
+  void addPoints(Scene& scene) {
+    Mesh mesh;
+    mesh.name = stemOf(fileName_);
+    mesh.topology = Topology::points;
+    for (std::uint32_t i = 0; i < content_.positions.size(); ++i)
+      mesh.corners.push_back(i);
+    mesh.wedgePositions = mesh.corners;
+    mesh.positions = std::move(content_.positions);
+    mesh.colors = std::move(content_.colors);
+    addShape(scene, std::move(mesh), "");
+  }
+
+  void addWarnings(Imported& imported) const {
+    const auto warn = [&](std::string sentence) { imported.warnings.push_back(std::move(sentence)); };
+    if (hasMaterials_)
+      warn("The materials of the OBJ file (mtllib, usemtl) are not carried over.");
+    if (lines_ + points_ > 0 && !content_.objects.empty())
+      warn(fmt::format("{} statements of lines and {} of points in the OBJ file are not carried over.",
+                       lines_, points_));
+    if (facesTooSmall_ > 0)
+      warn(fmt::format("{} faces with fewer than three corners were left out.", facesTooSmall_));
+    if (fans_ > 0)
+      warn(fmt::format("{} concave polygons of more than {} corners were cut as fans and may overlap.", fans_,
+                       kMaxEarClippedCorners));
+    if (!others_.empty())
+      warn(fmt::format("Statements of the OBJ file that were not read: {}.", fmt::join(others_, ", ")));
+  }
+
+  TextScanner scanner_;
+  const std::string& fileName_;
+  ObjContent content_{{}, {}, {}, {}, {ObjObject{}}}; ///< before the first "o": an object without a name
+  std::vector<ObjCorner> polygon_;
+  std::vector<Vec3f> ring_;
+  std::vector<std::uint32_t> local_;
+  bool hasMaterials_ = false;
+  std::size_t lines_ = 0, points_ = 0, facesTooSmall_ = 0, fans_ = 0;
+  std::set<std::string> others_; ///< some of the keywords that were passed over
+};
+
+} // namespace
+
+bool looksLikeObj(ByteSpan bytes) {
+  constexpr std::string_view keywords[] = {"v", "vt", "vn", "vp", "f",      "o",
+                                           "g", "s",  "l",  "p",  "mtllib", "usemtl"};
+  const std::string name;
+  for (TextScanner scanner(bytes, name); !scanner.atEnd(); scanner.skipLine()) {
+    scanner.skipBlanks();
+    const std::string_view word = scanner.word();
+    if (!word.empty() && word.front() != '#')
+      return std::ranges::find(keywords, word) != std::end(keywords);
+  }
+  return false;
+}
+
+Imported readObj(ByteSpan bytes, const std::string& name) {
+  if (bytes.size() > kMaxObjBytes)
+    throw Error(ErrorKind::limit, name, "OBJ files are read up to 8 GiB; binary PLY has no such limit");
+  return ObjReader(bytes, name).read();
+}
+
+} // namespace imgeo

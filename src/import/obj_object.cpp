@@ -1,0 +1,77 @@
+#include "import/obj_object.h"
+
+#include "import/unit_normal.h"
+
+#include <algorithm>
+
+namespace imgeo {
+
+namespace {
+constexpr std::uint32_t kNone = ObjCorner::kNone;
+}
+
+ObjMeshBuilder::ObjMeshBuilder(const ObjContent& content)
+    : content_(content), localPosition_(content.positions.size(), kNone) {}
+
+Mesh ObjMeshBuilder::build(const ObjObject& object) {
+  Mesh mesh;
+  mesh.name = object.name;
+  hasTexCoords_ = std::ranges::any_of(object.corners, [](const ObjCorner& c) { return c.texCoord != kNone; });
+  const auto normals =
+      std::ranges::count_if(object.corners, [](const ObjCorner& c) { return c.normal != kNone; });
+  hasNormals_ = static_cast<std::size_t>(normals) == object.corners.size();
+  partlyNormals += normals > 0 && !hasNormals_;
+  firstWedge_.clear(), nextWedge_.clear(), wedgeKeys_.clear();
+
+  if (content_.objects.size() == 1)
+    addAllPositions(mesh);
+  mesh.corners.reserve(object.corners.size());
+  for (const ObjCorner& corner : object.corners)
+    mesh.corners.push_back(wedge(mesh, corner));
+  for (const ObjCorner& corner : object.corners)
+    localPosition_[corner.position] = kNone;
+  return mesh;
+}
+
+/// Also the wedges, where they are nothing but positions.
+void ObjMeshBuilder::addAllPositions(Mesh& mesh) {
+  mesh.positions = content_.positions;
+  firstWedge_.assign(mesh.positions.size(), kNone);
+  for (std::uint32_t i = 0; i < localPosition_.size(); ++i)
+    localPosition_[i] = i;
+  if (hasTexCoords_ || hasNormals_)
+    return;
+  for (std::uint32_t i = 0; i < localPosition_.size(); ++i)
+    wedge(mesh, {i, kNone, kNone});
+}
+
+std::uint32_t ObjMeshBuilder::wedge(Mesh& mesh, const ObjCorner& corner) {
+  std::uint32_t& local = localPosition_[corner.position];
+  if (local == kNone) {
+    local = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.push_back(content_.positions[corner.position]);
+    firstWedge_.push_back(kNone);
+  }
+  const std::uint32_t texCoord = hasTexCoords_ ? corner.texCoord : kNone;
+  const std::uint32_t normal = hasNormals_ ? corner.normal : kNone;
+  for (std::uint32_t w = firstWedge_[local]; w != kNone; w = nextWedge_[w])
+    if (wedgeKeys_[w].texCoord == texCoord && wedgeKeys_[w].normal == normal)
+      return w;
+
+  const auto added = static_cast<std::uint32_t>(mesh.wedgeCount());
+  mesh.wedgePositions.push_back(local);
+  nextWedge_.push_back(firstWedge_[local]);
+  firstWedge_[local] = added;
+  wedgeKeys_.push_back({local, texCoord, normal});
+  if (hasTexCoords_)
+    mesh.texCoords.push_back(texCoord == kNone ? Vec2f{} : content_.texCoords[texCoord]);
+  if (hasNormals_) {
+    mesh.normals.push_back(content_.normals[normal]);
+    unusableNormals += !makeUnit(mesh.normals.back());
+  }
+  if (!content_.colors.empty())
+    mesh.colors.push_back(content_.colors[corner.position]);
+  return added;
+}
+
+} // namespace imgeo

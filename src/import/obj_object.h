@@ -1,0 +1,56 @@
+#pragma once
+// The objects of an OBJ file, whose vertices are numbered through the whole
+// file, and the mesh of each.
+
+#include "scene/mesh.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+struct ObjCorner {
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  std::uint32_t position = 0, texCoord = kNone, normal = kNone;
+};
+
+struct ObjObject {
+  std::string name;
+  std::vector<ObjCorner> corners; ///< three a triangle
+};
+
+struct ObjContent {
+  std::vector<Vec3f> positions, normals; ///< normals as the file has them
+  std::vector<Vec2f> texCoords;
+  std::vector<Rgba8> colors; ///< per position, or empty
+  std::vector<ObjObject> objects;
+};
+
+/// Makes meshes of objects one after the other.
+class ObjMeshBuilder {
+public:
+  explicit ObjMeshBuilder(const ObjContent& content);
+
+  /// Each combination of position, texture coordinate and normal becomes a wedge.
+  /// A file's only object keeps all positions in the file's order; of several,
+  /// each takes those that it names, in the order of their first use. Normals are
+  /// kept where every corner has one, texture coordinates where any has.
+  Mesh build(const ObjObject& object);
+
+  std::size_t unusableNormals = 0; ///< without direction: (0, 0, 1) in their place
+  std::size_t partlyNormals = 0;   ///< objects whose normals were left out: some corners have none
+
+private:
+  void addAllPositions(Mesh& mesh);
+  std::uint32_t wedge(Mesh& mesh, const ObjCorner& corner);
+
+  const ObjContent& content_;
+  std::vector<std::uint32_t> localPosition_; ///< by the file's; kNone: not in this mesh
+  bool hasTexCoords_ = false, hasNormals_ = false;
+  std::vector<std::uint32_t> firstWedge_, nextWedge_; ///< the wedges of each local position, as a list
+  std::vector<ObjCorner> wedgeKeys_;
+};
+
+} // namespace imgeo

@@ -1,0 +1,52 @@
+#pragma once
+// The header of a PLY file (Turk, "The PLY Polygon File Format", 1994).
+
+#include "base/bytes.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+std::size_t byteSizeOf(PlyType type);
+inline bool isInteger(PlyType type) {
+  return type < PlyType::float32;
+}
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::float32;
+  std::optional<PlyType> countType; ///< of a list; absent: a scalar
+
+  bool isList() const { return countType.has_value(); }
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0; ///< as promised; not yet checked against the bytes
+  std::vector<PlyProperty> properties;
+
+  const PlyProperty* find(std::string_view property) const;
+};
+
+enum class PlyEncoding : std::uint8_t { ascii, littleEndian, bigEndian };
+
+struct PlyHeader {
+  PlyEncoding encoding = PlyEncoding::ascii;
+  std::vector<PlyElement> elements; ///< in the file's order
+  std::size_t bodyOffset = 0;       ///< of the first byte behind the header
+};
+
+/// Reads the header; comments and obj_info are passed over, lines may end with
+/// CR LF. Safe for untrusted bytes. Throws Error (truncated, malformed,
+/// unsupported) naming `name` and the line.
+PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name);
+
+/// The fewest bytes a record of this element can take.
+std::size_t smallestRecord(const PlyElement& element, PlyEncoding encoding);
+
+} // namespace imgeo
