@@ -1,0 +1,131 @@
+// Measures between two pictures, and the pictures that explain a failure.
+
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { encodePng, type Picture } from "./png.ts";
+import { outputDirectory } from "./paths.ts";
+
+export interface Difference {
+  /** Mean absolute difference, 0..255, over all pixels and their three colour channels. */
+  mean: number;
+  /** Share of pixels, 0..1, that have a channel off by more than 16. */
+  offShare: number;
+  /** Largest difference of a channel, 0..255. */
+  largest: number;
+}
+
+export function difference(a: Picture, b: Picture): Difference {
+  if (a.width !== b.width || a.height !== b.height) {
+    throw new Error(`pictures of ${a.width}x${a.height} and ${b.width}x${b.height} pixels cannot be compared`);
+  }
+  const pixels = a.width * a.height;
+  let sum = 0;
+  let off = 0;
+  let largest = 0;
+  for (let pixel = 0; pixel < pixels; ++pixel) {
+    const most = channelDifferences(a, b, pixel);
+    sum += most.sum;
+    off += most.largest > 16 ? 1 : 0;
+    largest = Math.max(largest, most.largest);
+  }
+  return { mean: sum / (3 * pixels), offShare: off / pixels, largest };
+}
+
+function channelDifferences(a: Picture, b: Picture, pixel: number): { sum: number; largest: number } {
+  let sum = 0;
+  let largest = 0;
+  for (let channel = 0; channel < 3; ++channel) {
+    const delta = Math.abs(a.data[pixel * a.channels + channel]! - b.data[pixel * b.channels + channel]!);
+    sum += delta;
+    largest = Math.max(largest, delta);
+  }
+  return { sum, largest };
+}
+
+export interface Bounds {
+  mean: number;
+  offShare?: number;
+}
+
+/** The issue's bounds against plain buffers that hold the quantised mesh. */
+export const boundsOfQuantised: Bounds = { mean: 0.01 };
+/** The issue's bounds against plain buffers that hold the float input. */
+export const boundsOfInput: Bounds = { mean: 0.05, offShare: 0.0001 };
+
+export function isWithin(difference: Difference, bounds: Bounds): boolean {
+  return difference.mean <= bounds.mean && difference.offShare <= (bounds.offShare ?? 1);
+}
+
+/** Throws unless the pictures agree within the bounds; then leaves NAME.actual.png,
+ *  NAME.expected.png and NAME.difference.png (times 8) in build/browser-test/. */
+export function assertSamePicture(name: string, actual: Picture, expected: Picture, bounds: Bounds): Difference {
+  const found = difference(actual, expected);
+  if (isWithin(found, bounds)) return found;
+  savePicture(`${name}.actual`, actual);
+  savePicture(`${name}.expected`, expected);
+  savePicture(`${name}.difference`, differencePicture(actual, expected));
+  throw new Error(
+    `${name}: mean difference ${found.mean.toFixed(4)} (bound ${bounds.mean}), ` +
+      `${(found.offShare * 100).toFixed(4)} % of pixels off by more than 16` +
+      (bounds.offShare === undefined ? "" : ` (bound ${bounds.offShare * 100} %)`) +
+      `; see ${join(outputDirectory, name)}.*.png`,
+  );
+}
+
+export function savePicture(name: string, picture: Picture): void {
+  mkdirSync(outputDirectory, { recursive: true });
+  writeFileSync(join(outputDirectory, `${name}.png`), encodePng(picture));
+}
+
+function differencePicture(a: Picture, b: Picture): Picture {
+  const { width, height } = a;
+  const data = new Uint8Array(3 * width * height);
+  for (let pixel = 0; pixel < width * height; ++pixel) {
+    for (let channel = 0; channel < 3; ++channel) {
+      const delta = Math.abs(a.data[pixel * a.channels + channel]! - b.data[pixel * b.channels + channel]!);
+      data[3 * pixel + channel] = Math.min(255, 8 * delta);
+    }
+  }
+  return { width, height, channels: 3, data };
+}
+
+/** One where a picture differs from the blank one by more than 8, zero elsewhere. */
+export function silhouette(picture: Picture, blank: Picture): Uint8Array {
+  const mask = new Uint8Array(picture.width * picture.height);
+  for (let pixel = 0; pixel < mask.length; ++pixel) mask[pixel] = channelDifferences(picture, blank, pixel).largest > 8 ? 1 : 0;
+  return mask;
+}
+
+/** Pixels of two silhouettes that are in one only, as a share of the first. */
+export function silhouetteDifference(a: Uint8Array, b: Uint8Array): number {
+  let covered = 0;
+  let different = 0;
+  for (let pixel = 0; pixel < a.length; ++pixel) {
+    covered += a[pixel]!;
+    different += a[pixel] === b[pixel] ? 0 : 1;
+  }
+  return different / covered;
+}
+
+/** Pixels outside the silhouette that the border of the picture does not reach. */
+export function holesIn(mask: Uint8Array, width: number): number {
+  const height = mask.length / width;
+  const reached = Uint8Array.from(mask);
+  const open: number[] = [];
+  const visit = (x: number, y: number): void => {
+    if (x < 0 || y < 0 || x >= width || y >= height || reached[y * width + x] === 1) return;
+    reached[y * width + x] = 1;
+    open.push(y * width + x);
+  };
+  for (let x = 0; x < width; ++x) [0, height - 1].forEach((y) => { visit(x, y); });
+  for (let y = 0; y < height; ++y) [0, width - 1].forEach((x) => { visit(x, y); });
+  for (let pixel = open.pop(); pixel !== undefined; pixel = open.pop()) {
+    const x = pixel % width;
+    const y = (pixel - x) / width;
+    visit(x - 1, y);
+    visit(x + 1, y);
+    visit(x, y - 1);
+    visit(x, y + 1);
+  }
+  return reached.reduce((holes, seen) => holes + (1 - seen), 0);
+}

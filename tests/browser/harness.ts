@@ -1,0 +1,146 @@
+// One Chromium for the whole run, and pages in it that watch themselves.
+
+import assert from "node:assert/strict";
+import { after } from "node:test";
+import { chromium as playwright, type Browser, type Page } from "playwright-core";
+import { observe, type Observed, type ObservedEvent } from "./observe.ts";
+import { chromium } from "./paths.ts";
+import { decodePng, type Picture } from "./png.ts";
+import { startServer, type TestServer } from "./server.ts";
+
+const flags = [
+  "--no-sandbox --disable-quic --no-first-run --disable-background-networking --disable-component-update",
+  "--disable-sync --disable-extensions --mute-audio --hide-scrollbars --use-gl=angle --use-angle=swiftshader",
+  "--enable-unsafe-swiftshader --ignore-gpu-blocklist --force-device-scale-factor=1 --force-color-profile=srgb",
+].flatMap((line) => line.split(" "));
+
+let launched: Promise<Browser> | undefined;
+
+/** The browser of this run; started at first use, closed after the last test. */
+export async function browser(): Promise<Browser> {
+  launched ??= playwright.launch({ executablePath: chromium, headless: true, args: flags });
+  return await launched;
+}
+
+after(async () => (await launched)?.close());
+
+export const pictureSize = { width: 640, height: 480 };
+
+export interface PageOptions {
+  /** Path of the page; "" is the site's index.html. */
+  path?: string;
+  size?: { width: number; height: number };
+  deviceScaleFactor?: number;
+  hasTouch?: boolean;
+  /** Runs in the page before its scripts; self-contained. */
+  before?: () => void;
+  /** Sets up the server (rules, bodies) before the page asks for anything. */
+  server?: (server: TestServer) => void;
+  /** Messages that this page may write to the console; every other error fails the test. */
+  expectedErrors?: RegExp;
+}
+
+/** A page that has begun to load. */
+export interface View {
+  page: Page;
+  server: TestServer;
+  /** Console errors, uncaught exceptions and violations of the content policy. */
+  errors: string[];
+  /** Requests to anywhere but the test's server. */
+  foreignRequests: string[];
+  /** Resolves when the promise of that name on the element does; throws after 20 s. */
+  promise: (name: "firstImage" | "complete", selector?: string) => Promise<void>;
+  observed: () => Promise<Observed>;
+  events: (type: string, target?: string) => Promise<ObservedEvent[]>;
+  /** Waits until the page has stopped drawing, then takes what is seen. */
+  picture: () => Promise<Picture>;
+}
+
+/** Opens a page of `directory`, calls `use`, closes everything, and asserts that
+ *  nothing went wrong that was not expected. */
+export async function withPage(
+  directory: string,
+  options: PageOptions,
+  use: (view: View) => Promise<void>,
+): Promise<void> {
+  const server = await startServer(directory);
+  options.server?.(server);
+  const { size = pictureSize, deviceScaleFactor = 1, hasTouch = false } = options;
+  const context = await (await browser()).newContext({ viewport: size, deviceScaleFactor, hasTouch });
+  try {
+    await context.addInitScript(observe);
+    if (options.before) await context.addInitScript(options.before);
+    const page = await context.newPage();
+    const view = watch(page, server);
+    await page.goto(server.origin + (options.path ?? ""), { waitUntil: "commit" });
+    await use(view);
+    assert.deepEqual(view.errors.filter((message) => options.expectedErrors?.test(message) !== true), []);
+    assert.deepEqual(view.foreignRequests, []);
+  } finally {
+    await context.close();
+    await server.close();
+  }
+}
+
+function watch(page: Page, server: TestServer): View {
+  const errors: string[] = [];
+  const foreignRequests: string[] = [];
+  page.on("console", (message) => {
+    if (message.type() === "error") errors.push(message.text());
+  });
+  page.on("pageerror", (error) => errors.push(String(error)));
+  page.on("request", (request) => {
+    if (!request.url().startsWith(server.origin)) foreignRequests.push(request.url());
+  });
+  const observed = (): Promise<Observed> => page.evaluate(() => window.observed);
+  return {
+    page,
+    server,
+    errors,
+    foreignRequests,
+    observed,
+    async promise(name, selector = "x3d") {
+      const isKept = await page.evaluate(awaitPromise, { name, selector, timeoutMs: 20_000 });
+      if (!isKept) throw new Error(`${name} of ${selector} did not come within 20 s; console: ${errors.join("; ")}`);
+    },
+    async events(type, target) {
+      const { events } = await observed();
+      return events.filter((event) => event.type === type && (target === undefined || event.target === target));
+    },
+    async picture() {
+      await settle(page);
+      return decodePng(await page.screenshot());
+    },
+  };
+}
+
+/** In the page: whether the element's promise resolves in time. The runtime may still have to load. */
+async function awaitPromise({ name, selector, timeoutMs }: { name: string; selector: string; timeoutMs: number }): Promise<boolean> {
+  const pause = (ms: number): Promise<boolean> => new Promise((resolve) => setTimeout(() => { resolve(false); }, ms));
+  const end = performance.now() + timeoutMs;
+  for (; performance.now() < end; await pause(10)) {
+    const promise = (document.querySelector(selector) as unknown as Record<string, Promise<unknown> | undefined> | null)?.[name];
+    if (promise) return Promise.race([promise.then(() => true), pause(end - performance.now())]);
+  }
+  return false;
+}
+
+/** Waits until four frames in a row have drawn nothing. */
+export async function settle(page: Page): Promise<void> {
+  await page.evaluate(async () => {
+    const frame = (): Promise<number> => new Promise(requestAnimationFrame);
+    const end = performance.now() + 20_000;
+    for (let still = 0, draws = -1; still < 4 && performance.now() < end; await frame()) {
+      still = window.observed.draws === draws ? still + 1 : 0;
+      draws = window.observed.draws;
+    }
+  });
+}
+
+/** Waits for a condition of the test's own side; throws, naming it, after 20 s. */
+export async function until(what: string, condition: () => boolean | Promise<boolean>): Promise<void> {
+  for (const end = Date.now() + 20_000; Date.now() < end; await new Promise((resolve) => setTimeout(resolve, 20))) {
+    if (await condition()) return;
+  }
+  throw new Error(`waited 20 s in vain: ${what}`);
+}

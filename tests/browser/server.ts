@@ -1,0 +1,125 @@
+// An HTTP server that misbehaves on request: it serves directories and single
+// bodies, keeps a record of every request, and fails, holds, delays, truncates
+// or replaces what matches a rule. Everything goes out under
+// `Content-Security-Policy: default-src 'self'`, so that every test that loads
+// a page proves that the page needs nothing more.
+
+import { readFile } from "node:fs/promises";
+import { createServer, type IncomingMessage, type ServerResponse } from "node:http";
+import type { AddressInfo } from "node:net";
+import { extname, join, normalize } from "node:path";
+
+export interface RequestRecord {
+  /** Decoded path, without the query. */
+  path: string;
+  /** 200 and so on; 0 until answered, and for good where the client went away first. */
+  status: number;
+  state: "waiting" | "answered" | "aborted";
+}
+
+/** What happens to a request whose path matches. The parts combine. */
+export interface Behaviour {
+  /** Answers with this status and an empty body. */
+  status?: number;
+  /** Closes the connection without an answer. */
+  drop?: boolean;
+  /** Waits until this resolves. */
+  hold?: Promise<unknown>;
+  delayMs?: number;
+  /** Sends only so many bytes of the body, as if the file ended there. */
+  truncateTo?: number;
+  /** Changes the body. */
+  replace?: (body: Buffer) => Buffer | string;
+}
+
+export interface TestServer {
+  /** "http://127.0.0.1:PORT/" */
+  origin: string;
+  /** Every request in order of arrival. */
+  requests: RequestRecord[];
+  /** Serves `body` under "/name". */
+  put(path: string, body: Buffer | string): void;
+  /** The latest rule that matches a path wins. Returns what takes the rule back. */
+  when(matches: RegExp | ((path: string) => boolean), behaviour: Behaviour): () => void;
+  /** The records of the paths that match. */
+  requestsOf(matches: RegExp): RequestRecord[];
+  close(): Promise<void>;
+}
+
+const mediaTypes: Record<string, string> = {
+  ".html": "text/html; charset=utf-8",
+  ".js": "text/javascript; charset=utf-8",
+  ".css": "text/css; charset=utf-8",
+  ".x3d": "model/x3d+xml",
+  ".png": "image/png",
+  ".json": "application/json",
+};
+
+/** Serves `directory` as "/" on a free port of 127.0.0.1. */
+export async function startServer(directory: string): Promise<TestServer> {
+  const requests: RequestRecord[] = [];
+  const bodies = new Map<string, Buffer>();
+  const rules: { matches: (path: string) => boolean; behaviour: Behaviour }[] = [];
+
+  async function answer(request: IncomingMessage, response: ServerResponse): Promise<void> {
+    const path = decodeURIComponent(new URL(request.url ?? "/", "http://localhost").pathname);
+    if (path === "/favicon.ico") {
+      // Chromium asks for it by itself: not the page's doing.
+      response.writeHead(204).end();
+      return;
+    }
+    const record: RequestRecord = { path, status: 0, state: "waiting" };
+    requests.push(record);
+    response.on("close", () => {
+      if (!response.writableFinished) record.state = "aborted";
+    });
+    const behaviour = rules.findLast((rule) => rule.matches(path))?.behaviour ?? {};
+    await behaviour.hold;
+    if (behaviour.delayMs !== undefined) await new Promise((resolve) => setTimeout(resolve, behaviour.delayMs));
+    if (record.state === "aborted") return;
+    if (behaviour.drop) {
+      request.socket.destroy();
+      return;
+    }
+    const body = behaviour.status === undefined ? await bodyOf(path, behaviour) : undefined;
+    record.status = behaviour.status ?? (body ? 200 : 404);
+    response.on("finish", () => (record.state = "answered"));
+    response.writeHead(record.status, {
+      "Content-Type": mediaTypes[extname(path) || ".html"] ?? "application/octet-stream",
+      "Content-Security-Policy": "default-src 'self'",
+      "Cache-Control": "no-cache",
+    });
+    response.end(body);
+  }
+
+  async function bodyOf(path: string, behaviour: Behaviour): Promise<Buffer | undefined> {
+    const file = join(directory, normalize(path.endsWith("/") ? `${path}index.html` : path));
+    const whole = bodies.get(path) ?? (await readFile(file).catch(() => undefined));
+    const changed = whole && behaviour.replace ? Buffer.from(behaviour.replace(whole)) : whole;
+    return changed?.subarray(0, behaviour.truncateTo ?? changed.length);
+  }
+
+  const server = createServer((request, response) => void answer(request, response));
+  await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
+  return {
+    origin: `http://127.0.0.1:${(server.address() as AddressInfo).port}/`,
+    requests,
+    put: (path, body) => void bodies.set(path, Buffer.from(body)),
+    when(matches, behaviour) {
+      const rule = { matches: matches instanceof RegExp ? (path: string) => matches.test(path) : matches, behaviour };
+      rules.push(rule);
+      return () => void rules.splice(rules.indexOf(rule), 1);
+    },
+    requestsOf: (matches) => requests.filter((record) => matches.test(record.path)),
+    async close() {
+      server.closeAllConnections();
+      await new Promise((resolve) => server.close(resolve));
+    },
+  };
+}
+
+/** A promise for `hold`, with the function that lets go. */
+export function gate(): { closed: Promise<void>; open: () => void } {
+  const { promise, resolve } = Promise.withResolvers<void>();
+  return { closed: promise, open: resolve };
+}

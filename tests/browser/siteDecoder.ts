@@ -1,0 +1,170 @@
+// The test's own decoder: a site's document and container files -> plain float
+// buffers of the quantised mesh. Written from docs/formats/nodes.md alone and
+// sharing nothing with the product, so that both can only agree by being right.
+
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { decodePng } from "./png.ts";
+
+/** An element's name and attributes, lower case, and its place in the text. */
+export interface Tag {
+  name: string;
+  attributes: Record<string, string>;
+}
+
+/** Every start tag of a document of ours, in order. */
+export function tagsOf(text: string): Tag[] {
+  return [...text.matchAll(/<([A-Za-z][\w-]*)((?:\s+[\w:-]+(?:=(?:"[^"]*"|'[^']*'))?)*)\s*\/?>/g)].map((tag) => ({
+    name: tag[1]!.toLowerCase(),
+    attributes: Object.fromEntries(
+      [...tag[2]!.matchAll(/([\w:-]+)=(?:"([^"]*)"|'([^']*)')/g)].map((a) => [
+        a[1]!.toLowerCase(),
+        (a[2] ?? a[3] ?? "").replaceAll("&quot;", '"').replaceAll("&apos;", "'").replaceAll("&#39;", "'"),
+      ]),
+    ),
+  }));
+}
+
+export function numbersOf(text: string | undefined, fallback: number[]): number[] {
+  const numbers = text?.trim().split(/[\s,]+/).map(Number);
+  return numbers ?? fallback;
+}
+
+function stringsOf(text: string | undefined): string[] {
+  if (text === undefined || text.trim() === "") return [];
+  const quoted = [...text.matchAll(/"([^"]*)"/g)].map((match) => match[1]!);
+  return quoted.length ? quoted : text.trim().split(/\s+/);
+}
+
+/** What one patch draws, as plain buffers. */
+export interface PlainPatch {
+  positions: Float32Array;
+  normals?: Float32Array;
+  /** 0..1, three a vertex. */
+  colors?: Float32Array;
+  /** Triangles in their drawn orientation; strips are taken apart. */
+  triangles: Uint32Array;
+  /** Vertices drawn as points. */
+  points: Uint32Array;
+}
+
+type Attributes = Record<string, string>;
+interface Records {
+  /** Component of a record, as stored. */
+  at(record: number, component: number): number;
+}
+
+/** All patches of the only geometry of the site. */
+export function decodeSite(directory: string): PlainPatch[] {
+  const tags = tagsOf(readFileSync(join(directory, "index.html"), "utf8"));
+  const node = tags.find(({ name }) => name === "imagegeometry" || name === "binarygeometry");
+  if (!node) throw new Error(`${directory} has no geometry node`);
+  const patches = tags.filter(({ name }) => name === "geometrypatch");
+  const decode = node.name === "imagegeometry" ? decodeSig : decodeBg;
+  return (patches.length ? patches : [node]).map((patch) => decode(node.attributes, patch.attributes, directory));
+}
+
+/** The URLs of a patch's coordinate images, most significant byte first, without fragments. */
+export function coordUrlsOf(directory: string): string[][] {
+  const tags = tagsOf(readFileSync(join(directory, "index.html"), "utf8"));
+  return tags
+    .filter(({ name, attributes }) => /^(geometrypatch|imagegeometry|binarygeometry)$/.test(name) && attributes.coord)
+    .map(({ attributes }) => stringsOf(attributes.coord).map((url) => url.split("#")[0]!));
+}
+
+function decodeSig(node: Attributes, patch: Attributes, directory: string): PlainPatch {
+  const image = (url: string): Records & { height: number; width: number } => {
+    const [path, first] = url.split("#");
+    const { data, channels, width, height } = decodePng(readFileSync(join(directory, path!)));
+    return { width, height, at: (record, component) => data[(record + Number(first ?? 0)) * channels + component]! };
+  };
+  const planes = stringsOf(patch.coord).map(image);
+  const height = planes[0]!.height;
+  const recordCount = Number(patch.recordcount);
+  const index = patch.index ? image(patch.index) : undefined;
+  const coordinate: Records = { at: (r, axis) => planes.reduce((value, plane) => 256 * value + plane.at(r, axis), 0) };
+  const normal = patch.normal ? image(patch.normal) : undefined;
+  const color = patch.color ? image(patch.color) : undefined;
+  const indexWidth = numbersOf(patch.implicitmeshsize ?? node.implicitmeshsize, [256])[0]!;
+  const drawn = (n: number): number => {
+    if (!index) return n;
+    const texel = (n % indexWidth) + Math.floor(n / indexWidth) * index.width;
+    return index.at(texel, 0) + 256 * ((index.at(texel, 1) * height) / 256);
+  };
+  return {
+    positions: spread(node, coordinate, recordCount, 256 ** planes.length - 1),
+    ...(normal && { normals: table(recordCount, (r, axis) => (2 * normal.at(r, axis)) / 255 - 1) }),
+    ...(color && { colors: table(recordCount, (r, axis) => color.at(r, axis) / 255) }),
+    ...elementsOf(patch, drawn),
+  };
+}
+
+const readers: Record<string, [bytes: number, largest: number, read: (bytes: Buffer, at: number) => number]> = {
+  Int8: [1, 127, (bytes, at) => bytes.readInt8(at)],
+  Uint8: [1, 255, (bytes, at) => bytes.readUInt8(at)],
+  Int16: [2, 32767, (bytes, at) => bytes.readInt16LE(at)],
+  Uint16: [2, 65535, (bytes, at) => bytes.readUInt16LE(at)],
+  Uint32: [4, 4294967295, (bytes, at) => bytes.readUInt32LE(at)],
+  Float32: [4, 1, (bytes, at) => bytes.readFloatLE(at)],
+};
+
+function decodeBg(node: Attributes, patch: Attributes, directory: string): PlainPatch {
+  const array = (url: string, type: string, components: number): Records => {
+    const [path, place] = url.split("#");
+    const bytes = readFileSync(join(directory, path!));
+    const [size, , read] = readers[type]!;
+    const [offset, stride] = (place ?? "0+0").split("+").map(Number);
+    const step = stride === 0 ? size * components : stride!;
+    return { at: (record, component) => read(bytes, offset! + record * step + component * size) };
+  };
+  const attribute = (name: string, fallback: string): (Records & { largest: number }) | undefined => {
+    const type = node[`${name}type`] ?? fallback;
+    const url = patch[name];
+    return url ? { ...array(url, type, 3), largest: readers[type]![1] } : undefined;
+  };
+  const recordCount = Number(patch.recordcount);
+  const coordinate = attribute("coord", "Float32")!;
+  const normal = attribute("normal", "Float32");
+  const color = attribute("color", "Float32");
+  const index = patch.index ? array(patch.index, node.indextype ?? "Uint16", 1) : undefined;
+  const asFloats = (records: Records & { largest: number }): Float32Array =>
+    table(recordCount, (r, axis) => records.at(r, axis) / records.largest);
+  return {
+    positions:
+      coordinate.largest === 1 ? asFloats(coordinate) : spread(node, coordinate, recordCount, coordinate.largest),
+    ...(normal && { normals: asFloats(normal) }),
+    ...(color && { colors: asFloats(color) }),
+    ...elementsOf(patch, (n) => (index ? index.at(n, 0) : n)),
+  };
+}
+
+function table(records: number, value: (record: number, axis: number) => number): Float32Array {
+  return Float32Array.from({ length: 3 * records }, (_, i) => value(Math.floor(i / 3), i % 3));
+}
+
+/** Stored integers 0..largest spread over the decode box. */
+function spread(node: Attributes, stored: Records, records: number, largest: number): Float32Array {
+  const center = numbersOf(node.position, [0, 0, 0]);
+  const size = numbersOf(node.size, [1, 1, 1]);
+  return table(records, (r, axis) => center[axis]! + size[axis]! * (stored.at(r, axis) / largest - 0.5));
+}
+
+function elementsOf(patch: Attributes, drawn: (n: number) => number): { triangles: Uint32Array; points: Uint32Array } {
+  const triangles: number[] = [];
+  const points: number[] = [];
+  const counts = numbersOf(patch.vertexcount, []);
+  let first = 0;
+  stringsOf(patch.primtype).forEach((primitive, draw) => {
+    const vertices = Array.from({ length: counts[draw]! }, (_, i) => drawn(first + i));
+    first += counts[draw]!;
+    if (primitive === "POINTS") points.push(...vertices);
+    else if (primitive === "TRIANGLES") for (const vertex of vertices) triangles.push(vertex);
+    else if (primitive === "TRIANGLESTRIP") {
+      for (let i = 2; i < vertices.length; ++i) {
+        const [a, b, c] = [vertices[i - 2]!, vertices[i - 1]!, vertices[i]!];
+        if (a !== b && b !== c && c !== a) triangles.push(...(i % 2 === 0 ? [a, b, c] : [b, a, c]));
+      }
+    } else throw new Error(`the test decoder does not know ${primitive}`);
+  });
+  return { triangles: Uint32Array.from(triangles), points: Uint32Array.from(points) };
+}

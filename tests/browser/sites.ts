@@ -1,0 +1,51 @@
+// Meshes written as files and converted into sites by the tool under test.
+
+import { execFileSync } from "node:child_process";
+import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { basename, join } from "node:path";
+import { pointSpiral, sphere, trefoil, withColors, withoutNormals, writePly, type PlainMesh } from "./meshes.ts";
+import { converter, outputDirectory } from "./paths.ts";
+
+const generators = {
+  trefoil: () => trefoil(),
+  "trefoil-colors": () => withColors(trefoil()),
+  "trefoil-plain": () => withoutNormals(trefoil()),
+  sphere: () => sphere(),
+  points: () => pointSpiral(),
+} satisfies Record<string, () => PlainMesh>;
+
+export type GeneratedMesh = keyof typeof generators;
+
+/** The PLY file of a generated mesh. */
+export function meshFile(name: GeneratedMesh): string {
+  const path = join(outputDirectory, `${name}.ply`);
+  mkdirSync(outputDirectory, { recursive: true });
+  writeFileSync(path, writePly(generators[name]()));
+  return path;
+}
+
+const converted = new Map<string, string>();
+
+/** The directory of the site that `imgeo convert INPUT OPTIONS` makes, once a run for each set of arguments. */
+export function siteOf(input: string, ...options: string[]): string {
+  const name = [basename(input).replace(/\..*/, ""), ...options].join("").replaceAll(/[^\w]+/g, "-");
+  const known = converted.get(name);
+  if (known !== undefined) return known;
+  if (!existsSync(converter)) throw new Error(`${converter} is missing: run 'make build' first`);
+  const directory = join(outputDirectory, "sites", name);
+  rmSync(directory, { recursive: true, force: true });
+  mkdirSync(join(outputDirectory, "sites"), { recursive: true });
+  execFileSync(converter, ["convert", input, "-o", directory, ...options], { stdio: ["ignore", "ignore", "inherit"] });
+  const bundle = process.env.IMGEO_RUNTIME;
+  if (bundle !== undefined) copyFileSync(bundle, join(directory, "imgeo.js"));
+  converted.set(name, directory);
+  return directory;
+}
+
+export function siteOfGenerated(name: GeneratedMesh, ...options: string[]): string {
+  return siteOf(meshFile(name), ...options);
+}
+
+export function pageOf(site: string): string {
+  return readFileSync(join(site, "index.html"), "utf8");
+}
