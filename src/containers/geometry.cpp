@@ -41,13 +41,17 @@ double stepsAcross(Container container, std::uint32_t bits) {
 
 } // namespace
 
+double decodeEdge(Container container, const Lattice& lattice) {
+  return lattice.step * stepsAcross(container, lattice.bits);
+}
+
 Box3d decodeBox(Container container, const Lattice& lattice) {
-  const double edge = lattice.step * stepsAcross(container, lattice.bits);
+  const double edge = decodeEdge(container, lattice);
   return {lattice.origin, lattice.origin + Vec3d{edge, edge, edge}};
 }
 
-Lattice latticeFromDecodeBox(Container container, Vec3d position, Vec3d size, std::uint32_t bits) {
-  return {position - size * 0.5, size.x / stepsAcross(container, bits), bits};
+Lattice latticeFromDecodeBox(Container container, Vec3d center, double edge, std::uint32_t bits) {
+  return {center - Vec3d{edge, edge, edge} * 0.5, edge / stepsAcross(container, bits), bits};
 }
 
 } // namespace imgeo

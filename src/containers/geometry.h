@@ -70,12 +70,16 @@ std::uint32_t coordBytes(Container container, std::uint32_t bits);
 /// significant bits.
 std::uint32_t coordShift(Container container, std::uint32_t bits);
 
+/// Edge of the decode box: lattice steps that 0 .. 256^bytes - 1 stand for, times the step.
+double decodeEdge(Container container, const Lattice& lattice);
+
 /// The box over which X3DOM spreads 0 .. 256^bytes - 1: `position` is its centre,
 /// `size` its extent, the same for every patch of a mesh. For bits that fill
 /// their bytes its edge is the source's longest edge.
 Box3d decodeBox(Container container, const Lattice& lattice);
 
-/// The lattice of a node read back from a document; inverse of decodeBox.
-Lattice latticeFromDecodeBox(Container container, Vec3d position, Vec3d size, std::uint32_t bits);
+/// The lattice of a node read back from a document; inverse of decodeBox
+/// but for roundings of the last bits.
+Lattice latticeFromDecodeBox(Container container, Vec3d center, double edge, std::uint32_t bits);
 
 } // namespace imgeo
