@@ -1,0 +1,54 @@
+#pragma once
+// Elements as text that HTML and XML read alike and people can read.
+
+#include "base/vec.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace imgeo {
+
+struct Attribute {
+  std::string name, value; ///< the value as it is meant, not escaped
+};
+
+/// An element's name and attributes. Groups stand on a line each where all of
+/// them together are too long for one.
+struct Element {
+  std::string name;
+  std::vector<std::vector<Attribute>> groups;
+};
+
+/// Collects the text of nested elements, two spaces a level.
+class ElementWriter {
+public:
+  explicit ElementWriter(std::size_t level) : level_(level) {}
+
+  void open(const Element& element);
+  void close(const Element& element);
+  void leaf(const Element& element); ///< opened and closed: HTML knows no self-closing elements here
+
+  const std::string& text() const { return text_; }
+
+private:
+  void startTag(const Element& element);
+
+  std::size_t level_;
+  std::string text_;
+};
+
+/// The shortest decimal text that reads back as the same number.
+std::string number(double value);
+std::string number(float value);
+template <typename T> std::string numbers(Vec2<T> v) {
+  return number(v.x) + " " + number(v.y);
+}
+template <typename T> std::string numbers(Vec3<T> v) {
+  return number(v.x) + " " + number(v.y) + " " + number(v.z);
+}
+
+/// An X3D MFString: each string in double quotes, backslash before quotes and backslashes.
+std::string strings(const std::vector<std::string>& values);
+
+} // namespace imgeo
