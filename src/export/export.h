@@ -1,0 +1,45 @@
+#pragma once
+// export: Scene -> the bytes of a mesh file that other programs read. One file
+// per format; this header is all that other folders see.
+
+#include "base/bytes.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace imgeo {
+
+enum class MeshFormat : std::uint8_t { ply, obj, glb };
+
+/// "PLY", "OBJ", "GLB".
+const char* nameOf(MeshFormat format);
+
+/// The format that a file name's ending stands for, whatever its case.
+std::optional<MeshFormat> meshFormatOf(const std::filesystem::path& file);
+
+/// Writes a scene with at least one shape, whose meshes are consistent.
+/// Coordinates are written so that they read back as the same floats.
+/// Deterministic. Throws Error{limit} for more than the format can count.
+Bytes exportScene(const Scene& scene, MeshFormat format);
+
+/// PLY, binary little-endian: all shapes as one mesh, since PLY knows no objects.
+/// Each wedge is a vertex with x y z, nx ny nz, s t, red green blue (alpha);
+/// triangles are `face`, lines `edge` elements; the corners of points need none.
+/// Where only some shapes have an attribute, the others get (0, 0, 0) as
+/// normals, (0, 0) as texture coordinates, and their diffuse colour.
+Bytes writePly(const Scene& scene);
+
+/// Wavefront OBJ: an `o` for each shape; a position is a `v`, a wedge a `vt`
+/// and a `vn`. Colours follow the coordinates of `v`, as MeshLab writes and
+/// most programs read them; a position whose wedges differ in colour is written
+/// once a colour. Alpha and materials are left out.
+Bytes writeObj(const Scene& scene);
+
+/// Binary glTF 2.0: a node, a mesh and a material for each shape; each wedge is
+/// a vertex with POSITION, NORMAL, TEXCOORD_0 (v measured down, as glTF has
+/// it), COLOR_0 (linear, 16 bits a channel). Materials are rough dielectrics
+/// of the shape's diffuse and emissive colour.
+Bytes writeGlb(const Scene& scene);
+
+} // namespace imgeo

@@ -1,0 +1,254 @@
+#include "export/export.h"
+
+#include "import/import.h"
+#include "scene/testing.h"
+
+#include <assimp/Importer.hpp>
+#include <assimp/scene.h>
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using testing::randomMesh;
+
+/// Everything that a corner sees, whatever wedges and positions it shares.
+struct Corner {
+  Vec3f position, normal;
+  Vec2f texCoord;
+  Rgba8 color{255, 255, 255, 255}; ///< what readers give objects beside coloured ones
+};
+
+std::vector<Corner> cornersOf(const Mesh& mesh) {
+  std::vector<Corner> corners;
+  for (const std::uint32_t wedge : mesh.corners) {
+    Corner corner;
+    corner.position = mesh.positions[mesh.wedgePositions[wedge]];
+    if (!mesh.normals.empty())
+      corner.normal = mesh.normals[wedge];
+    if (!mesh.texCoords.empty())
+      corner.texCoord = mesh.texCoords[wedge];
+    if (!mesh.colors.empty())
+      corner.color = mesh.colors[wedge];
+    corners.push_back(corner);
+  }
+  return corners;
+}
+
+std::vector<Corner> cornersOf(const Scene& scene) {
+  std::vector<Corner> corners;
+  for (const Shape& shape : scene.shapes)
+    for (const Corner& corner : cornersOf(scene.meshes[shape.mesh]))
+      corners.push_back(corner);
+  return corners;
+}
+
+/// Floats are written to come back exactly; readers may make normals unit length again.
+void expectEqual(const std::vector<Corner>& read, const std::vector<Corner>& written) {
+  ASSERT_EQ(read.size(), written.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    EXPECT_EQ(read[i].position, written[i].position);
+    EXPECT_EQ(read[i].texCoord, written[i].texCoord);
+    EXPECT_EQ(read[i].color, written[i].color);
+    EXPECT_LE(length(read[i].normal - written[i].normal), 1e-6f);
+  }
+}
+
+Scene sceneOf(std::vector<Mesh> meshes) {
+  Scene scene;
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    scene.shapes.push_back({"part" + std::to_string(i), i, {}});
+  scene.meshes = std::move(meshes);
+  return scene;
+}
+
+void writeLines(Mesh& mesh) {
+  mesh.topology = Topology::lines;
+  mesh.corners.resize(mesh.corners.size() / 2 * 2);
+}
+
+TEST(Export, TellsTheFormatFromTheFilesName) {
+  EXPECT_EQ(meshFormatOf("a/b.ply"), MeshFormat::ply);
+  EXPECT_EQ(meshFormatOf("b.obj.GLB"), MeshFormat::glb);
+  EXPECT_EQ(meshFormatOf("b.Obj"), MeshFormat::obj);
+  EXPECT_EQ(meshFormatOf("ply"), std::nullopt);
+  EXPECT_EQ(meshFormatOf("b.stl"), std::nullopt);
+}
+
+TEST(Export, WritesTheSameBytesEveryTime) {
+  for (const MeshFormat format : {MeshFormat::ply, MeshFormat::obj, MeshFormat::glb})
+    EXPECT_EQ(exportScene(sceneOf({randomMesh(3), randomMesh(4)}), format),
+              exportScene(sceneOf({randomMesh(3), randomMesh(4)}), format));
+}
+
+TEST(ExportedPly, IsReadBackByOurImport) {
+  for (std::uint32_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Mesh mesh = randomMesh(seed);
+    const Imported read = importBytes(exportScene(sceneOf({mesh}), MeshFormat::ply), "a.ply");
+    ASSERT_EQ(read.scene.meshes.size(), 1u);
+    EXPECT_EQ(read.scene.meshes[0].topology, mesh.topology);
+    EXPECT_EQ(read.scene.meshes[0].normals.empty(), mesh.normals.empty());
+    EXPECT_EQ(read.scene.meshes[0].texCoords.empty(), mesh.texCoords.empty());
+    EXPECT_EQ(read.scene.meshes[0].colors.empty(), mesh.colors.empty());
+    if (mesh.topology == Topology::points) {
+      // All vertices are points to PLY, in the order of wedges, used or not.
+      mesh.corners.clear();
+      for (std::uint32_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
+        mesh.corners.push_back(wedge);
+    }
+    expectEqual(cornersOf(read.scene), cornersOf(mesh));
+  }
+}
+
+TEST(ExportedPly, HoldsAllShapesAndWhatOnlySomeHave) {
+  Mesh plain = testing::grid(3), colored = testing::sphere(4, 5);
+  colored.colors.assign(colored.wedgeCount(), {1, 2, 3, 255});
+  Scene scene = sceneOf({plain, colored});
+  scene.shapes[0].material.diffuseColor = {1, 0, 0.2f};
+  const Imported read = importBytes(writePly(scene), "a.ply");
+  ASSERT_EQ(read.scene.meshes.size(), 1u);
+  const std::vector<Corner> corners = cornersOf(read.scene);
+  ASSERT_EQ(corners.size(), plain.corners.size() + colored.corners.size());
+  EXPECT_EQ(corners.front().color, (Rgba8{255, 0, 51, 255}));
+  EXPECT_EQ(corners.back().color, (Rgba8{1, 2, 3, 255}));
+  EXPECT_EQ(corners.back().position, cornersOf(colored).back().position);
+}
+
+TEST(ExportedPly, HasLinesAsEdges) {
+  Mesh mesh = testing::grid(1);
+  writeLines(mesh);
+  const Bytes ply = writePly(sceneOf({mesh}));
+  const std::string_view text = asText(ply);
+  EXPECT_NE(text.find("element vertex 4\n"), text.npos);
+  EXPECT_NE(text.find("element edge 3\nproperty int vertex1\nproperty int vertex2\nend_header\n"), text.npos);
+  EXPECT_EQ(text.find("element face"), text.npos);
+  std::vector<std::uint32_t> corners;
+  for (std::size_t at = ply.size() - 24; at < ply.size(); at += 4)
+    corners.push_back(loadLittle<std::uint32_t>(&ply[at]));
+  EXPECT_EQ(corners, mesh.corners);
+}
+
+TEST(ExportedObj, IsReadBackByOurImport) {
+  for (std::uint32_t seed = 0; seed < 60; ++seed) {
+    Mesh mesh = randomMesh(seed), other = randomMesh(seed + 1000);
+    if (mesh.topology != Topology::triangles || other.topology != Topology::triangles)
+      continue;
+    SCOPED_TRACE(seed);
+    for (Mesh* each : {&mesh, &other}) // what OBJ leaves out
+      for (Rgba8& color : each->colors)
+        color.a = 255;
+    const Scene scene = sceneOf({mesh, other});
+    const Imported read = importBytes(exportScene(scene, MeshFormat::obj), "a.obj");
+    ASSERT_EQ(read.scene.shapes.size(), 2u);
+    EXPECT_EQ(read.scene.shapes[0].name, "part0");
+    EXPECT_EQ(read.scene.shapes[1].name, "part1");
+    expectEqual(cornersOf(read.scene), cornersOf(scene));
+  }
+}
+
+TEST(ExportedObj, HasLinesAndPoints) {
+  Mesh lines{"", Topology::lines, {{0, 0, 0}, {1, 0, 0}}, {0, 1}, {}, {{0, 0}, {1, 0.5f}}, {}, 3, {0, 1}};
+  Mesh points{"", Topology::points, {{7, 8, 9}}, {0}, {}, {}, {{255, 0, 51, 255}}, 3, {0}};
+  Scene scene = sceneOf({lines, points});
+  scene.shapes[1].name = "two\nlines";
+  EXPECT_EQ(asText(writeObj(scene)), "o part0\nv 0 0 0\nv 1 0 0\nvt 0 0\nvt 1 0.5\nl 1/1 2/2\n"
+                                     "o two lines\nv 7 8 9 1 0 0.2\np 3\n");
+}
+
+/// What Assimp, someone else's reader of glTF, finds in a GLB; null where it refuses it.
+const aiScene* readGlb(Assimp::Importer& importer, const Bytes& glb) {
+  return importer.ReadFileFromMemory(glb.data(), glb.size(), 0, "glb");
+}
+
+std::vector<Corner> cornersOf(const aiMesh& mesh, unsigned perElement) {
+  std::vector<Corner> corners;
+  for (unsigned face = 0; face < mesh.mNumFaces; ++face) {
+    EXPECT_EQ(mesh.mFaces[face].mNumIndices, perElement);
+    for (unsigned i = 0; i < mesh.mFaces[face].mNumIndices; ++i) {
+      const unsigned vertex = mesh.mFaces[face].mIndices[i];
+      const aiVector3D& p = mesh.mVertices[vertex];
+      Corner corner;
+      corner.position = {p.x, p.y, p.z};
+      if (mesh.HasNormals())
+        corner.normal = {mesh.mNormals[vertex].x, mesh.mNormals[vertex].y, mesh.mNormals[vertex].z};
+      if (mesh.HasTextureCoords(0)) {
+        const aiVector3D& t = mesh.mTextureCoords[0][vertex];
+        corner.texCoord = {t.x, t.y};
+      }
+      if (mesh.HasVertexColors(0)) {
+        const auto byte = [](double linear) {
+          const double srgb =
+              linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+          return static_cast<std::uint8_t>(std::lround(srgb * 255));
+        };
+        const aiColor4D& c = mesh.mColors[0][vertex];
+        corner.color = {byte(c.r), byte(c.g), byte(c.b), static_cast<std::uint8_t>(std::lround(c.a * 255))};
+      }
+      corners.push_back(corner);
+    }
+  }
+  return corners;
+}
+
+TEST(ExportedGlb, IsReadByAssimp) {
+  for (std::uint32_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Mesh first = randomMesh(seed), second = randomMesh(seed + 1000);
+    if (seed % 10 == 0)
+      writeLines(second);
+    const Scene scene = sceneOf({first, second});
+    Assimp::Importer importer;
+    const aiScene* read = readGlb(importer, exportScene(scene, MeshFormat::glb));
+    ASSERT_NE(read, nullptr) << importer.GetErrorString();
+    ASSERT_EQ(read->mNumMeshes, 2u);
+    for (unsigned i = 0; i < 2; ++i) {
+      const Mesh& written = scene.meshes[i];
+      EXPECT_STREQ(read->mMeshes[i]->mName.C_Str(), scene.shapes[i].name.c_str());
+      std::vector<Corner> corners = cornersOf(*read->mMeshes[i], cornersPerElement(written.topology));
+      const std::vector<Corner> expected = cornersOf(written);
+      ASSERT_EQ(corners.size(), expected.size());
+      for (std::size_t c = 0; c < corners.size(); ++c) { // 1 - v twice costs a rounding
+        EXPECT_NEAR(corners[c].texCoord.y, expected[c].texCoord.y, 2e-7);
+        corners[c].texCoord = expected[c].texCoord;
+      }
+      expectEqual(corners, expected);
+    }
+  }
+}
+
+TEST(ExportedGlb, CarriesTheMaterial) {
+  Scene scene = sceneOf({testing::grid(2)});
+  scene.shapes[0].material.diffuseColor = {1, 0, 0.5f};
+  scene.shapes[0].material.transparency = 0.25f;
+  Assimp::Importer importer;
+  const aiScene* read = readGlb(importer, writeGlb(scene));
+  ASSERT_NE(read, nullptr) << importer.GetErrorString();
+  aiColor4D color;
+  ASSERT_EQ(read->mMaterials[read->mMeshes[0]->mMaterialIndex]->Get(AI_MATKEY_COLOR_DIFFUSE, color),
+            aiReturn_SUCCESS);
+  EXPECT_NEAR(color.r, 1, 1e-6);
+  EXPECT_NEAR(color.g, 0, 1e-6);
+  EXPECT_NEAR(color.b, 0.2140, 1e-4); // 0.5 in sRGB
+  EXPECT_NEAR(color.a, 0.75, 1e-6);
+}
+
+TEST(ExportedGlb, HoldsMoreVerticesThanSixteenBitsCount) {
+  const Mesh mesh = testing::grid(300);
+  ASSERT_GT(mesh.wedgeCount(), 65536u);
+  Assimp::Importer importer;
+  const aiScene* read = readGlb(importer, writeGlb(sceneOf({mesh})));
+  ASSERT_NE(read, nullptr) << importer.GetErrorString();
+  expectEqual(cornersOf(*read->mMeshes[0], 3), cornersOf(mesh));
+}
+
+TEST(ExportedGlb, IsMadeOfWholeWordsAsItsHeaderSays) {
+  const Bytes glb = writeGlb(sceneOf({testing::torus(3, 3)}));
+  EXPECT_EQ(loadLittle<std::uint32_t>(&glb[8]), glb.size());
+  const std::uint32_t json = loadLittle<std::uint32_t>(&glb[12]);
+  EXPECT_EQ(json % 4, 0u);
+  EXPECT_EQ(20 + json + 8 + loadLittle<std::uint32_t>(&glb[20 + json]), glb.size());
+}
+
+} // namespace
+} // namespace imgeo

@@ -1,0 +1,103 @@
+// Wavefront OBJ (Wavefront Technologies, Advanced Visualizer manual, appendix B1).
+
+#include "export/export.h"
+
+#include <bit>
+#include <fmt/format.h>
+#include <iterator>
+#include <map>
+
+namespace imgeo {
+
+namespace {
+
+using Text = fmt::memory_buffer;
+
+template <typename... Values>
+void print(Text& out, fmt::format_string<Values...> format, Values&&... values) {
+  fmt::format_to(std::back_inserter(out), format, std::forward<Values>(values)...);
+}
+
+/// A shape's `v` lines, counted from 0, and which of them each wedge uses.
+struct PositionLines {
+  std::uint64_t count = 0;
+  std::vector<std::uint64_t> ofWedge;
+};
+
+PositionLines printPositions(Text& out, const Mesh& mesh) {
+  PositionLines written{mesh.positions.size(), {mesh.wedgePositions.begin(), mesh.wedgePositions.end()}};
+  if (mesh.colors.empty()) {
+    for (const Vec3f& p : mesh.positions)
+      print(out, "v {} {} {}\n", p.x, p.y, p.z);
+    return written;
+  }
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> lines;
+  for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
+    const Rgba8 color = mesh.colors[wedge];
+    const auto channels = std::uint32_t{color.r} << 16 | std::uint32_t{color.g} << 8 | color.b;
+    const auto [line, isNew] = lines.try_emplace({mesh.wedgePositions[wedge], channels}, lines.size());
+    written.ofWedge[wedge] = line->second;
+    if (!isNew)
+      continue;
+    const Vec3f& p = mesh.positions[mesh.wedgePositions[wedge]];
+    print(out, "v {} {} {} {:.6g} {:.6g} {:.6g}\n", p.x, p.y, p.z, color.r / 255.0, color.g / 255.0,
+          color.b / 255.0);
+  }
+  written.count = lines.size();
+  return written;
+}
+
+/// How many lines of a kind stand before a shape's own.
+struct LinesBefore {
+  std::uint64_t positions = 0, texCoords = 0, normals = 0;
+};
+
+void printElements(Text& out, const Mesh& mesh, const PositionLines& positions, LinesBefore before) {
+  const std::uint32_t perElement = cornersPerElement(mesh.topology);
+  const bool texCoords = !mesh.texCoords.empty() && mesh.topology != Topology::points;
+  const bool normals = !mesh.normals.empty() && mesh.topology == Topology::triangles;
+  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
+    const std::uint32_t wedge = mesh.corners[corner];
+    if (corner % perElement == 0)
+      out.push_back("plf"[perElement - 1]);
+    print(out, " {}", before.positions + positions.ofWedge[wedge] + 1);
+    if (texCoords)
+      print(out, "/{}", before.texCoords + wedge + 1);
+    if (normals)
+      print(out, "{}{}", texCoords ? "/" : "//", before.normals + wedge + 1);
+    if (corner % perElement == perElement - 1)
+      out.push_back('\n');
+  }
+}
+
+/// A name without what would end its line.
+std::string oneLine(std::string name) {
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ')
+      c = ' ';
+  return name;
+}
+
+} // namespace
+
+Bytes writeObj(const Scene& scene) {
+  Text out;
+  LinesBefore before;
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+    const Shape& shape = scene.shapes[i];
+    const Mesh& mesh = scene.meshes[shape.mesh];
+    print(out, "o {}\n", shape.name.empty() ? fmt::format("shape{}", i + 1) : oneLine(shape.name));
+    const PositionLines positions = printPositions(out, mesh);
+    for (const Vec2f& t : mesh.texCoords)
+      print(out, "vt {} {}\n", t.x, t.y);
+    for (const Vec3f& n : mesh.normals)
+      print(out, "vn {} {} {}\n", n.x, n.y, n.z);
+    printElements(out, mesh, positions, before);
+    before.positions += positions.count;
+    before.texCoords += mesh.texCoords.size();
+    before.normals += mesh.normals.size();
+  }
+  return Bytes(out.begin(), out.end());
+}
+
+} // namespace imgeo
