@@ -1,0 +1,42 @@
+#pragma once
+// What holds for every input of an importer: an Error with a message, or a scene
+// that keeps import.h's promises. Anything else ends the process.
+
+#include "base/error.h"
+#include "import/import.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+namespace imgeo::fuzz {
+
+inline void require(bool condition) {
+  if (!condition)
+    std::abort();
+}
+
+inline bool isFinite(Vec3f p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+inline int importOrRefuse(ByteSpan bytes, const std::string& name) {
+  try {
+    const Imported imported = importBytes(bytes, name);
+    require(!imported.scene.shapes.empty());
+    for (const Shape& shape : imported.scene.shapes)
+      require(shape.mesh < imported.scene.meshes.size());
+    for (const Mesh& mesh : imported.scene.meshes) {
+      require(isConsistent(mesh));
+      for (const Vec3f& position : mesh.positions)
+        require(isFinite(position));
+      for (const Vec3f& normal : mesh.normals)
+        require(std::abs(length(Vec3d(normal)) - 1) < 1e-5);
+    }
+  } catch (const Error& error) {
+    require(!error.message().empty() && error.place().starts_with(name));
+  }
+  return 0;
+}
+
+} // namespace imgeo::fuzz

@@ -1,0 +1,81 @@
+#pragma once
+// Inputs made from a corpus by small damage; the same sequence on every machine.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <random>
+#include <string_view>
+#include <vector>
+
+namespace imgeo::fuzz {
+
+using Input = std::vector<std::uint8_t>;
+
+class Mutator {
+public:
+  /// `corpus` is not empty and outlives the mutator.
+  explicit Mutator(const std::vector<Input>& corpus) : corpus_(corpus) {}
+
+  Input next() {
+    Input input = corpus_[below(corpus_.size())];
+    for (std::size_t damage = 1 + below(4); damage > 0; --damage)
+      mutate(input);
+    return input;
+  }
+
+private:
+  std::size_t below(std::size_t bound) { return bound == 0 ? 0 : engine_() % bound; }
+  static auto at(Input& input, std::size_t place) {
+    return input.begin() + static_cast<std::ptrdiff_t>(place);
+  }
+
+  void mutate(Input& input) {
+    const std::size_t place = below(input.size() + 1),
+                      length = below(std::min<std::size_t>(input.size() - place, 64) + 1);
+    switch (below(8)) {
+    case 0: // one bit
+      if (place < input.size())
+        input[place] ^= static_cast<std::uint8_t>(1u << below(8));
+      break;
+    case 1: // a byte at the edge of its range
+      if (place < input.size())
+        input[place] = std::array<std::uint8_t, 5>{0, 1, 0x7f, 0x80, 0xff}[below(5)];
+      break;
+    case 2: // cut short
+      input.resize(place);
+      break;
+    case 3: // a piece lost
+      input.erase(at(input, place), at(input, place + length));
+      break;
+    case 4: { // a piece doubled
+      const Input piece(at(input, place), at(input, place + length));
+      input.insert(at(input, below(input.size() + 1)), piece.begin(), piece.end());
+      break;
+    }
+    case 5: { // the end of another seed
+      const Input& other = corpus_[below(corpus_.size())];
+      input.resize(place);
+      input.insert(input.end(), other.begin() + static_cast<std::ptrdiff_t>(below(other.size() + 1)),
+                   other.end());
+      break;
+    }
+    case 6: // four bytes that make a count or a size absurd
+      for (std::size_t i = place; i < std::min(input.size(), place + 4); ++i)
+        input[i] = static_cast<std::uint8_t>(engine_());
+      break;
+    case 7: { // a number that text readers stumble over
+      static constexpr std::array<std::string_view, 8> numbers{
+          "-1", "4294967296", "nan", "1e999", "99999999999999999999", " ", "\n", "0"};
+      const std::string_view number = numbers[below(numbers.size())];
+      input.insert(at(input, place), number.begin(), number.end());
+      break;
+    }
+    }
+  }
+
+  const std::vector<Input>& corpus_;
+  std::mt19937 engine_{20120804};
+};
+
+} // namespace imgeo::fuzz
