@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "base/testing.h"
 #include "base/vec.h"
 
 #include <atomic>
@@ -9,23 +10,11 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 #include <string>
-#include <unistd.h>
 
 namespace imgeo {
 namespace {
 
-class TemporaryDirectory {
-public:
-  TemporaryDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "imgeo-base-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
-  const std::filesystem::path& path() const { return path_; }
-
-private:
-  std::filesystem::path path_;
-};
+using testing::TemporaryDirectory;
 
 TEST(Error, SaysWhereAndWhat) {
   const Error error(ErrorKind::malformed, "a.ply:3", "two words expected");

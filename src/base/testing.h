@@ -1,0 +1,33 @@
+#pragma once
+// For tests alone: a place for files that goes away with the test.
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+namespace imgeo::testing {
+
+/// A new empty directory, removed with all it holds at the end of its scope.
+class TemporaryDirectory {
+public:
+  TemporaryDirectory() {
+    std::string name = (std::filesystem::temp_directory_path() / "imgeo-test-XXXXXX").string();
+    if (!mkdtemp(name.data()))
+      throw std::system_error(errno, std::generic_category(), name);
+    path_ = std::filesystem::canonical(name);
+  }
+  ~TemporaryDirectory() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+private:
+  std::filesystem::path path_;
+};
+
+} // namespace imgeo::testing
