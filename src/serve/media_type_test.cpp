@@ -1,0 +1,45 @@
+#include "serve/media_type.h"
+
+#include "base/file.h"
+
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+TEST(MediaType, TheExtensionDecidesWithoutRegardToCase) {
+  EXPECT_EQ(mediaTypeOf("index.html").name, "text/html; charset=utf-8");
+  EXPECT_EQ(mediaTypeOf("imgeo.0123.JS").name, "text/javascript; charset=utf-8");
+  EXPECT_EQ(mediaTypeOf("scene.x3d").name, "model/x3d+xml");
+  EXPECT_EQ(mediaTypeOf("a.b.png").name, "image/png");
+}
+
+TEST(MediaType, UnknownNamesAreBytes) {
+  for (const char* name : {"", "README", "a.unknown", "html", "a.", "."})
+    EXPECT_EQ(mediaTypeOf(name).name, "application/octet-stream") << name;
+}
+
+TEST(MediaType, OnlyTextIsWorthCompressing) {
+  EXPECT_TRUE(mediaTypeOf("a.html").isCompressible);
+  EXPECT_TRUE(mediaTypeOf("a.x3d").isCompressible);
+  EXPECT_FALSE(mediaTypeOf("a.png").isCompressible);
+  EXPECT_FALSE(mediaTypeOf("a.bin").isCompressible);
+}
+
+TEST(MediaType, AFileNamedByItsContentIsRecognised) {
+  const std::string hash = contentName(asBytes("content"));
+  EXPECT_TRUE(isContentNamed(hash + ".png"));
+  EXPECT_TRUE(isContentNamed("coord-0-" + hash + ".bin"));
+  EXPECT_TRUE(isContentNamed("imgeo." + hash + ".js"));
+}
+
+TEST(MediaType, OtherNamesMayChangeTheirContent) {
+  const std::string hash = contentName(asBytes("content"));
+  for (const std::string& name :
+       {std::string("index.html"), hash + "-old.png", "a" + hash + ".png", hash.substr(1) + ".png",
+        std::string("0123456789ABCDEF.png"), std::string()})
+    EXPECT_FALSE(isContentNamed(name)) << name;
+}
+
+} // namespace
+} // namespace imgeo

@@ -1,0 +1,26 @@
+#pragma once
+// The Range header of a request for one part of a file (RFC 9110, section 14).
+
+#include <cstdint>
+#include <string_view>
+
+namespace imgeo {
+
+struct ByteRange {
+  enum class Kind {
+    whole,         ///< no range, one we need not honour, or nonsense: send everything
+    part,          ///< `count` bytes from `first`
+    unsatisfiable, ///< well-formed, but the file has no such byte
+  };
+  Kind kind = Kind::whole;
+  std::uint64_t first = 0, count = 0; ///< for whole: 0 and the file's size
+
+  friend bool operator==(const ByteRange&, const ByteRange&) = default;
+};
+
+/// Reads "bytes=0-99", "bytes=100-" or "bytes=-100" against a file of `size` bytes.
+/// Several ranges at once are answered with the whole file, as the RFC allows.
+/// Safe for untrusted bytes.
+ByteRange parseRange(std::string_view header, std::uint64_t size);
+
+} // namespace imgeo

@@ -1,0 +1,172 @@
+#include "serve/respond.h"
+
+#include "serve/media_type.h"
+#include "serve/range_header.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace imgeo {
+
+namespace {
+
+// Below, a compressed file is hardly smaller; above, compressing would keep a
+// thread for too long.
+constexpr std::uint64_t leastEncodedBytes = 256, mostEncodedBytes = 16u << 20;
+
+constexpr std::string_view contentPolicy = "default-src 'self'";
+
+/// The fields that 200 and 304 share (RFC 9110, section 15.4.5).
+void addCacheFields(Response& response, std::string_view fileName, const std::string& tag, bool varies) {
+  response.fields.emplace_back("ETag", tag);
+  response.fields.emplace_back("Cache-Control",
+                               isContentNamed(fileName) ? "public, max-age=31536000, immutable" : "no-cache");
+  if (varies)
+    response.fields.emplace_back("Vary", "Accept-Encoding");
+}
+
+void addContentFields(Response& response, const MediaType& type, std::uint64_t bytes) {
+  response.fields.emplace_back("Content-Type", type.name);
+  response.fields.emplace_back("Content-Length", std::to_string(bytes));
+  response.fields.emplace_back("X-Content-Type-Options", "nosniff");
+  response.fields.emplace_back("Content-Security-Policy", contentPolicy);
+}
+
+Response redirectTo(const std::string& location) {
+  Response response = refuse(301, "This is a directory.");
+  response.fields.emplace_back("Location", location);
+  return response;
+}
+
+Bytes readAll(const OpenFile& file) {
+  Bytes bytes(file.size());
+  bytes.resize(file.readAt(0, bytes));
+  return bytes;
+}
+
+/// The whole file, compressed.
+void sendEncoded(Response& response, const Site& site, const OpenFile& file, const std::string& tag,
+                 const MediaType& type, ContentCoding coding) {
+  response.content = site.codings.get(tag, [&] { return encodeContent(coding, readAll(file)); });
+  addContentFields(response, type, response.content->size());
+  response.fields.emplace_back("Content-Encoding", codingName(coding));
+}
+
+/// The file's own bytes, or the part of them that `range` asks for.
+void sendPlain(Response& response, std::shared_ptr<const OpenFile> file, const MediaType& type,
+               ByteRange range) {
+  response.fileFirst = range.first;
+  response.fileCount = range.count;
+  response.fields.emplace_back("Accept-Ranges", "bytes");
+  if (range.kind == ByteRange::Kind::part) {
+    response.status = 206;
+    response.fields.emplace_back("Content-Range", fmt::format("bytes {}-{}/{}", range.first,
+                                                              range.first + range.count - 1, file->size()));
+  }
+  addContentFields(response, type, range.count);
+  response.file = std::move(file);
+}
+
+Response respondWithFile(const Site& site, const RequestHead& request, std::string_view fileName,
+                         std::shared_ptr<const OpenFile> file) {
+  const MediaType type = mediaTypeOf(fileName);
+  const bool varies =
+      type.isCompressible && file->size() >= leastEncodedBytes && file->size() <= mostEncodedBytes;
+  // Ranges count the bytes of the file as it is, so a request for one gets no coding.
+  const ContentCoding coding =
+      varies && request.range.empty() ? chooseCoding(request.acceptEncoding) : ContentCoding::identity;
+  const std::string suffix = coding == ContentCoding::identity ? "" : fmt::format("-{}", codingName(coding));
+  const std::string tag = fmt::format("\"{}{}\"", file->version(), suffix);
+
+  Response response;
+  addCacheFields(response, fileName, tag, varies);
+  if (matchesAnyTag(request.ifNoneMatch, tag)) {
+    response.status = 304;
+    return response;
+  }
+  if (coding != ContentCoding::identity) {
+    sendEncoded(response, site, *file, tag, type, coding);
+    return response;
+  }
+  // If-Range with another tag, or with a date, which we never sent: the whole file.
+  const bool hasRange = request.method == "GET" && !request.range.empty() &&
+                        (request.ifRange.empty() || request.ifRange == tag);
+  const ByteRange range = parseRange(hasRange ? request.range : "", file->size());
+  if (range.kind == ByteRange::Kind::unsatisfiable) {
+    Response refusal = refuse(416, "The file ends before the range begins.");
+    refusal.fields.emplace_back("Content-Range", fmt::format("bytes */{}", file->size()));
+    return refusal;
+  }
+  sendPlain(response, std::move(file), type, range);
+  return response;
+}
+
+Response respondToGet(const Site& site, const RequestHead& request) {
+  const std::optional<RequestPath> path = parseRequestTarget(request.target);
+  if (!path)
+    return refuse(400, "The path is malformed.");
+  auto found = openBelow(site.root, *path);
+  if (const Absence* absence = std::get_if<Absence>(&found)) {
+    if (*absence == Absence::notFound)
+      return refuse(404, "There is no such file.");
+    // Made from the decoded names: a target such as "//host" must not become a link to another host.
+    return redirectTo(formatRequestPath({path->names, true}));
+  }
+  const std::string_view fileName = path->isDirectory ? "index.html" : std::string_view(path->names.back());
+  return respondWithFile(site, request, fileName,
+                         std::get<std::shared_ptr<const OpenFile>>(std::move(found)));
+}
+
+} // namespace
+
+std::string_view Response::field(std::string_view name) const {
+  const auto found =
+      std::find_if(fields.begin(), fields.end(), [&](const auto& field) { return field.first == name; });
+  return found == fields.end() ? std::string_view() : std::string_view(found->second);
+}
+
+Response refuse(unsigned status, std::string_view sentence) {
+  Response response;
+  response.status = status;
+  const std::string text = fmt::format("{}\n", sentence);
+  response.content = std::make_shared<const Bytes>(text.begin(), text.end());
+  response.fields.emplace_back("Cache-Control", "no-cache");
+  addContentFields(response, mediaTypeOf("refusal.txt"), response.content->size());
+  return response;
+}
+
+bool matchesAnyTag(std::string_view ifNoneMatch, std::string_view tag) {
+  while (!ifNoneMatch.empty()) {
+    const std::size_t first = ifNoneMatch.find_first_not_of(" \t,");
+    if (first == std::string_view::npos)
+      return false;
+    ifNoneMatch.remove_prefix(first);
+    if (ifNoneMatch.front() == '*')
+      return true;
+    if (ifNoneMatch.starts_with("W/"))
+      ifNoneMatch.remove_prefix(2);
+    // No tag of ours holds a comma, so one that does may be cut anywhere.
+    const std::size_t end = std::min(ifNoneMatch.find_first_of(", \t"), ifNoneMatch.size());
+    if (ifNoneMatch.substr(0, end) == tag)
+      return true;
+    ifNoneMatch.remove_prefix(end);
+  }
+  return false;
+}
+
+Response respond(const Site& site, const RequestHead& request) {
+  const bool isHead = request.method == "HEAD";
+  if (!isHead && request.method != "GET") {
+    Response response = refuse(405, "Only GET and HEAD are answered here.");
+    response.fields.emplace_back("Allow", "GET, HEAD");
+    return response;
+  }
+  Response response = respondToGet(site, request);
+  if (isHead) {
+    response.content.reset();
+    response.file.reset();
+  }
+  return response;
+}
+
+} // namespace imgeo
