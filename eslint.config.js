@@ -1,0 +1,28 @@
+// The rules of the TypeScript sources. Types are checked by tsc; this holds the
+// habits that types cannot.
+import tseslint from "typescript-eslint";
+
+// eslint asks for a default export here and nowhere else.
+export default tseslint.config(
+  { ignores: ["**/dist/", "build*/", "node_modules/"] },
+  {
+    files: ["**/*.ts"],
+    extends: [tseslint.configs.strictTypeChecked, tseslint.configs.stylisticTypeChecked],
+    languageOptions: { parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname } },
+    rules: {
+      eqeqeq: "error",
+      "no-eval": "error",
+      "no-implied-eval": "off",
+      "@typescript-eslint/no-implied-eval": "error",
+      "no-restricted-syntax": [
+        "error",
+        { selector: "ExportDefaultDeclaration", message: "Name what you export." },
+        { selector: "TSEnumDeclaration", message: "Use a union of string literals." },
+      ],
+      "@typescript-eslint/consistent-type-imports": "error",
+      "@typescript-eslint/restrict-template-expressions": ["error", { allowNumber: true }],
+      // Without it a promise that a test runner or an event handler owns needs noise.
+      "@typescript-eslint/no-floating-promises": ["error", { allowForKnownSafeCalls: ["test", "describe", "it"] }],
+    },
+  },
+);
