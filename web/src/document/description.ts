@@ -1,0 +1,118 @@
+// A scene as plain data: what the document says, with every default filled in.
+// The names are those of src/scene/scene.h and src/containers/geometry.h.
+
+import type { SceneElement } from "./element.ts";
+import type { Rotation, Vec2, Vec3 } from "./fieldTypes.ts";
+import type { nodeFields, Values, Warning } from "./nodes.ts";
+
+export interface Box3 {
+  readonly min: Vec3;
+  readonly max: Vec3;
+}
+
+export type Primitive = "points" | "lines" | "triangles" | "triangleStrip";
+
+/** `count` indices (records, where there is no index) drawn as one kind of primitive, following the previous draw's. */
+export interface Draw {
+  readonly primitive: Primitive;
+  readonly count: number;
+}
+
+/** Where an attribute's data begins: images count `first` in texels, typed arrays in bytes. */
+export interface Reference {
+  readonly url: string;
+  readonly first: number;
+  /** Bytes from one element to the next; 0: tightly packed. Typed arrays only. */
+  readonly stride: number;
+}
+
+export interface PatchDescription {
+  /** Tight, for culling and priority; undefined where the document has none. */
+  readonly box: Box3 | undefined;
+  /** Records in coord, normal, …; 0: as many as there are. */
+  readonly vertexCount: number;
+  readonly draws: readonly Draw[];
+  /** Running number n is texel (n mod implicitWidth, n div implicitWidth). Images only. */
+  readonly implicitWidth: number;
+  /** Absent: records are drawn in order. */
+  readonly index: Reference | undefined;
+  /** Images: byte planes, most significant first. Typed arrays: one. */
+  readonly coord: readonly Reference[];
+  readonly normal: Reference | undefined;
+  readonly texCoord: Reference | undefined;
+  readonly color: Reference | undefined;
+}
+
+export const elementTypes = ["Int8", "Uint8", "Int16", "Uint16", "Int32", "Uint32", "Float32"] as const;
+export type ElementType = (typeof elementTypes)[number];
+
+export interface GeometryDescription {
+  readonly container: "sig" | "bg";
+  /** Centre and extent of the box over which stored integers are spread. */
+  readonly position: Vec3;
+  readonly size: Vec3;
+  /** Bits that carry the lattice, left-justified in the stored bytes; 0: all of them. */
+  readonly positionBits: number;
+  /** False: both sides are seen. */
+  readonly solid: boolean;
+  readonly texCoordMin: Vec2;
+  readonly texCoordSize: Vec2;
+  readonly colorComponents: 3 | 4;
+  /** Typed arrays only. */
+  readonly indexType: ElementType;
+  readonly coordType: ElementType;
+  readonly normalType: ElementType;
+  readonly texCoordType: ElementType;
+  readonly colorType: ElementType;
+  readonly patches: readonly PatchDescription[];
+}
+
+export type MaterialDescription = Values<typeof nodeFields.Material>;
+export type ViewpointDescription = Values<typeof nodeFields.Viewpoint>;
+export type LightDescription = Values<typeof nodeFields.DirectionalLight>;
+export type TransformDescription = Values<typeof nodeFields.Transform>;
+
+export interface ShapeDescription {
+  readonly kind: "shape";
+  /** Who this is: two readings of a document speak of one shape when their elements are the same. */
+  readonly element: SceneElement;
+  readonly visible: boolean;
+  /** Tight, in the shape's own coordinates; undefined where neither the shape nor its geometry has one. */
+  readonly box: Box3 | undefined;
+  readonly material: MaterialDescription;
+  /** Undefined where the shape has no geometry that we can show. */
+  readonly geometry: GeometryDescription | undefined;
+}
+
+export interface GroupDescription {
+  readonly kind: "group";
+  readonly visible: boolean;
+  /** Undefined for a plain Group. */
+  readonly transform: TransformDescription | undefined;
+  readonly children: readonly NodeDescription[];
+}
+
+export interface LightNodeDescription {
+  readonly kind: "light";
+  readonly light: LightDescription;
+}
+
+export type NodeDescription = GroupDescription | ShapeDescription | LightNodeDescription;
+
+export interface SceneDescription {
+  readonly root: GroupDescription;
+  /** The first in the document, which X3D binds at the start; undefined: the scene is framed. */
+  readonly viewpoint: ViewpointDescription | undefined;
+  readonly headlight: boolean;
+  /** Undefined: nothing behind the scene, the page shows through. */
+  readonly skyColor: Vec3 | undefined;
+  readonly warnings: readonly Warning[];
+}
+
+/** Every shape below a node, in document order. */
+export function shapesOf(node: NodeDescription): ShapeDescription[] {
+  if (node.kind === "shape") return [node];
+  return node.kind === "group" ? node.children.flatMap(shapesOf) : [];
+}
+
+export type { Rotation, Vec2, Vec3, Warning };

@@ -1,0 +1,31 @@
+// The little that reading a scene needs of an element, so that a live DOM, a
+// parsed XML file and a test's own tree serve alike.
+
+export interface SceneElement {
+  /** The tag's name, in any case. */
+  readonly localName: string;
+  readonly children: ArrayLike<SceneElement>;
+  getAttribute(name: string): string | null;
+  getAttributeNames(): string[];
+}
+
+/** The tag's name as the node table writes it: names are matched without regard to case. */
+export function lowerNameOf(element: SceneElement): string {
+  return element.localName.toLowerCase();
+}
+
+/**
+ * An attribute by name without regard to case; undefined where it is absent.
+ * HTML lower-cases attributes when it parses them, XML keeps what was written.
+ */
+export function attributeOf(element: SceneElement, name: string): string | undefined {
+  const exact = element.getAttribute(name);
+  if (exact !== null) return exact;
+  const wanted = name.toLowerCase();
+  const found = element.getAttributeNames().find((candidate) => candidate.toLowerCase() === wanted);
+  return found === undefined ? undefined : (element.getAttribute(found) ?? undefined);
+}
+
+export function childrenOf(element: SceneElement): SceneElement[] {
+  return Array.from(element.children);
+}

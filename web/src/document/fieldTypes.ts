@@ -1,0 +1,111 @@
+// X3D's field types in their text form (ISO/IEC 19776-1): values are separated
+// by white space or commas. Each type says how to read a text; undefined means
+// that the text is not of that type.
+
+export type Vec2 = readonly [number, number];
+export type Vec3 = readonly [number, number, number];
+/** Axis and angle in radians. */
+export type Rotation = readonly [number, number, number, number];
+
+export interface FieldType<Value> {
+  readonly name: string;
+  parse(text: string): Value | undefined;
+}
+
+/** One field of a node: its type and the value it has where the document is silent. */
+export interface Field<Value> {
+  readonly type: FieldType<Value>;
+  readonly defaultValue: Value;
+}
+
+const separators = /[\s,]+/;
+
+function numbersIn(text: string): number[] | undefined {
+  const words = text.split(separators).filter((word) => word !== "");
+  const numbers = words.map(Number);
+  return numbers.every(Number.isFinite) ? numbers : undefined;
+}
+
+function tuple<Value>(name: string, length: number): FieldType<Value> {
+  return {
+    name,
+    parse(text) {
+      const numbers = numbersIn(text);
+      return numbers?.length === length ? (numbers as Value) : undefined;
+    },
+  };
+}
+
+const sfBool: FieldType<boolean> = {
+  name: "SFBool",
+  parse(text) {
+    const word = text.trim().toLowerCase();
+    return word === "true" ? true : word === "false" ? false : undefined;
+  },
+};
+
+const sfFloat: FieldType<number> = {
+  name: "SFFloat",
+  parse(text) {
+    const numbers = numbersIn(text);
+    return numbers?.length === 1 ? numbers[0] : undefined;
+  },
+};
+
+const sfInt32: FieldType<number> = {
+  name: "SFInt32",
+  parse(text) {
+    const value = sfFloat.parse(text);
+    return Number.isInteger(value) ? value : undefined;
+  },
+};
+
+const mfInt32: FieldType<readonly number[]> = {
+  name: "MFInt32",
+  parse(text) {
+    const numbers = numbersIn(text);
+    return numbers?.every(Number.isInteger) === true ? numbers : undefined;
+  },
+};
+
+const sfString: FieldType<string> = { name: "SFString", parse: (text) => text };
+
+/** Quoted strings ("a" "b"); a text without quotes is taken word by word, as people write one URL. */
+const mfString: FieldType<readonly string[]> = {
+  name: "MFString",
+  parse(text) {
+    if (!text.includes('"')) return text.split(separators).filter((word) => word !== "");
+    const strings: string[] = [];
+    const rest = text.replace(/"((?:[^"\\]|\\.)*)"/g, (_, quoted: string) => {
+      strings.push(quoted.replace(/\\(.)/g, "$1"));
+      return "";
+    });
+    return rest.replace(separators, "") === "" ? strings : undefined;
+  },
+};
+
+/** Colours; only the first is of use to us, so that is what is kept. */
+const firstColor: FieldType<Vec3> = {
+  name: "MFColor",
+  parse(text) {
+    const numbers = numbersIn(text);
+    if (numbers === undefined || numbers.length < 3 || numbers.length % 3 !== 0) return undefined;
+    return numbers.slice(0, 3) as unknown as Vec3;
+  },
+};
+
+function maker<Value>(type: FieldType<Value>): (defaultValue: Value) => Field<Value> {
+  return (defaultValue) => ({ type, defaultValue });
+}
+
+export const SFBool = maker(sfBool);
+export const SFFloat = maker(sfFloat);
+export const SFInt32 = maker(sfInt32);
+export const SFString = maker(sfString);
+export const SFVec2f = maker(tuple<Vec2>("SFVec2f", 2));
+export const SFVec3f = maker(tuple<Vec3>("SFVec3f", 3));
+export const SFColor = maker(tuple<Vec3>("SFColor", 3));
+export const SFRotation = maker(tuple<Rotation>("SFRotation", 4));
+export const MFInt32 = maker(mfInt32);
+export const MFString = maker(mfString);
+export const MFColor = maker(firstColor);

@@ -1,0 +1,145 @@
+// ImageGeometry and BinaryGeometry -> GeometryDescription. A node with
+// GeometryPatch children takes draws and references from them alone; without,
+// it is its own only patch, and its ImageTexture children (X3DOM's form) may
+// give the references.
+
+import type {
+  Box3, Draw, ElementType, GeometryDescription, PatchDescription, Primitive, Reference, Warning,
+} from "./description.ts";
+import { elementTypes } from "./description.ts";
+import type { SceneElement } from "./element.ts";
+import { childrenOf, lowerNameOf } from "./element.ts";
+import type { Vec3 } from "./fieldTypes.ts";
+import type { Values } from "./nodes.ts";
+import { nodeFields, readFields } from "./nodes.ts";
+
+type PatchValues = Values<typeof nodeFields.GeometryPatch>;
+type Container = GeometryDescription["container"];
+
+export function readImageGeometry(element: SceneElement, warnings: Warning[]): GeometryDescription {
+  const values = readFields(element, nodeFields.ImageGeometry, warnings);
+  return {
+    ...commonOf(values),
+    container: "sig",
+    colorComponents: values.numColorComponents === 4 ? 4 : 3,
+    // The bytes of an image are its only element type.
+    indexType: "Uint8", coordType: "Uint8", normalType: "Uint8", texCoordType: "Uint8", colorType: "Uint8",
+    patches: readPatches(element, "sig", warnings),
+  };
+}
+
+export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): GeometryDescription {
+  const values = readFields(element, nodeFields.BinaryGeometry, warnings);
+  const typeOf = (field: "indexType" | "coordType" | "normalType" | "texCoordType" | "colorType"): ElementType => {
+    const found = elementTypes.find((type) => type.toLowerCase() === values[field].trim().toLowerCase());
+    if (found === undefined) warnings.push({ element, message: `${field}="${values[field]}" is no element type` });
+    return found ?? (nodeFields.BinaryGeometry[field].defaultValue as ElementType);
+  };
+  return {
+    ...commonOf(values),
+    container: "bg",
+    colorComponents: values.rgbaColors ? 4 : 3,
+    indexType: typeOf("indexType"),
+    coordType: typeOf("coordType"),
+    normalType: typeOf("normalType"),
+    texCoordType: typeOf("texCoordType"),
+    colorType: typeOf("colorType"),
+    patches: readPatches(element, "bg", warnings),
+  };
+}
+
+function commonOf(values: Omit<Values<typeof nodeFields.ImageGeometry>, "numColorComponents">) {
+  const { position, size, positionBits, solid, texCoordMin, texCoordSize } = values;
+  return { position, size, positionBits, solid, texCoordMin, texCoordSize };
+}
+
+/** The box of `bboxCenter` and `bboxSize`; X3D's size -1 -1 -1 says that there is none. */
+export function boxOf(values: { bboxCenter: Vec3; bboxSize: Vec3 }): Box3 | undefined {
+  if (values.bboxSize.some((edge) => edge < 0)) return undefined;
+  return boxAround(values.bboxCenter, values.bboxSize);
+}
+
+export function boxAround(center: Vec3, size: Vec3): Box3 {
+  return {
+    min: [center[0] - size[0] / 2, center[1] - size[1] / 2, center[2] - size[2] / 2],
+    max: [center[0] + size[0] / 2, center[1] + size[1] / 2, center[2] + size[2] / 2],
+  };
+}
+
+function readPatches(element: SceneElement, container: Container, warnings: Warning[]): PatchDescription[] {
+  const patchElements = childrenOf(element).filter((child) => lowerNameOf(child) === "geometrypatch");
+  if (patchElements.length === 0) {
+    return [patchOf(element, { ...readFields(element, nodeFields.GeometryPatch, warnings),
+                               ...texturesOf(element, warnings) }, container, warnings)];
+  }
+  return patchElements.map((child) =>
+    patchOf(child, readFields(child, nodeFields.GeometryPatch, warnings), container, warnings));
+}
+
+/** References given by ImageTexture children; `coord` children count in document order. */
+function texturesOf(element: SceneElement, warnings: Warning[]): Partial<PatchValues> {
+  const coord: string[] = [];
+  const single: { index?: string; normal?: string; texCoord?: string; color?: string } = {};
+  for (const child of childrenOf(element)) {
+    if (lowerNameOf(child) !== "imagetexture") continue;
+    const { containerField, url } = readFields(child, nodeFields.ImageTexture, warnings);
+    const first = url[0];
+    if (first === undefined) continue;
+    // X3DOM matches these values by their exact case.
+    if (containerField === "coord") coord.push(first);
+    else if (containerField === "index" || containerField === "normal" || containerField === "texCoord" ||
+             containerField === "color") single[containerField] = first;
+    else warnings.push({ element: child, message: `containerField="${containerField}" names no part of a geometry` });
+  }
+  return coord.length > 0 ? { ...single, coord } : single;
+}
+
+function patchOf(element: SceneElement, values: PatchValues, container: Container,
+                 warnings: Warning[]): PatchDescription {
+  const reference = (text: string) => (text === "" ? undefined : referenceOf(text, container));
+  const coord = container === "sig" ? values.coord : values.coord.slice(0, 1);
+  return {
+    box: boxOf(values),
+    vertexCount: Math.max(0, values.recordCount),
+    draws: drawsOf(element, values, warnings),
+    implicitWidth: Math.max(1, Math.floor(values.implicitMeshSize[0])),
+    index: reference(values.index),
+    coord: coord.map((url) => referenceOf(url, container)),
+    normal: reference(values.normal),
+    texCoord: reference(values.texCoord),
+    color: reference(values.color),
+  };
+}
+
+const primitives: Readonly<Record<string, Primitive>> = {
+  POINTS: "points", LINES: "lines", TRIANGLES: "triangles", TRIANGLESTRIP: "triangleStrip",
+};
+
+function drawsOf(element: SceneElement, values: PatchValues, warnings: Warning[]): Draw[] {
+  return values.vertexCount.map((count, place) => {
+    const name = values.primType[place] ?? "TRIANGLES";
+    const primitive = primitives[name.toUpperCase()];
+    if (primitive === undefined) warnings.push({ element, message: `primType "${name}" is not drawn as such but as TRIANGLES` });
+    if (count < 0) warnings.push({ element, message: `vertexCount ${count} is negative; nothing is drawn` });
+    return { primitive: primitive ?? "triangles", count: Math.max(0, count) };
+  });
+}
+
+/**
+ * A URL with its fragment: `#N` for images, `#O+S` for typed arrays. X3DOM's
+ * "file.bin+S" names a file that is really called so, with stride S.
+ */
+export function referenceOf(text: string, container: Container): Reference {
+  const url = text.trim();
+  const hash = url.lastIndexOf("#");
+  if (hash < 0) {
+    const stride = container === "bg" ? /\+(\d+)$/.exec(url)?.[1] : undefined;
+    return { url, first: 0, stride: Number(stride ?? 0) };
+  }
+  const [first, stride] = url.slice(hash + 1).split("+");
+  return { url: url.slice(0, hash), first: countIn(first), stride: countIn(stride) };
+}
+
+function countIn(text: string | undefined): number {
+  return text !== undefined && /^\d+$/.test(text) ? Number(text) : 0;
+}

@@ -1,0 +1,117 @@
+// Every node and field that the runtime reads, with types and defaults: the
+// table of docs/formats/nodes.md. Nothing else in the runtime knows a field's
+// name or default.
+
+import type { SceneElement } from "./element.ts";
+import { attributeOf } from "./element.ts";
+import type { Field } from "./fieldTypes.ts";
+import {
+  MFColor, MFInt32, MFString, SFBool, SFColor, SFFloat, SFInt32, SFRotation, SFString, SFVec2f, SFVec3f,
+} from "./fieldTypes.ts";
+
+const boundedObject = {
+  bboxCenter: SFVec3f([0, 0, 0]),
+  bboxSize: SFVec3f([-1, -1, -1]),
+};
+
+const patchFields = {
+  primType: MFString(["TRIANGLES"]),
+  vertexCount: MFInt32([0]),
+  implicitMeshSize: SFVec2f([256, 256]),
+  index: SFString(""),
+  coord: MFString([]),
+  normal: SFString(""),
+  texCoord: SFString(""),
+  color: SFString(""),
+};
+
+const geometryFields = {
+  ...patchFields,
+  solid: SFBool(true),
+  position: SFVec3f([0, 0, 0]),
+  size: SFVec3f([1, 1, 1]),
+  /** 0: all bits of the stored bytes carry the lattice. */
+  positionBits: SFInt32(0),
+  texCoordMin: SFVec2f([0, 0]),
+  texCoordSize: SFVec2f([1, 1]),
+};
+
+export const nodeFields = {
+  NavigationInfo: { headlight: SFBool(true) },
+  Background: { skyColor: MFColor([0, 0, 0]) },
+  Viewpoint: {
+    description: SFString(""),
+    position: SFVec3f([0, 0, 10]),
+    orientation: SFRotation([0, 0, 1, 0]),
+    fieldOfView: SFFloat(0.7854),
+    centerOfRotation: SFVec3f([0, 0, 0]),
+  },
+  DirectionalLight: {
+    on: SFBool(true),
+    direction: SFVec3f([0, 0, -1]),
+    color: SFColor([1, 1, 1]),
+    intensity: SFFloat(1),
+    ambientIntensity: SFFloat(0),
+  },
+  Group: { visible: SFBool(true) },
+  Transform: {
+    visible: SFBool(true),
+    translation: SFVec3f([0, 0, 0]),
+    rotation: SFRotation([0, 0, 1, 0]),
+    scale: SFVec3f([1, 1, 1]),
+    center: SFVec3f([0, 0, 0]),
+    scaleOrientation: SFRotation([0, 0, 1, 0]),
+  },
+  Shape: { ...boundedObject, visible: SFBool(true) },
+  Material: {
+    diffuseColor: SFColor([0.8, 0.8, 0.8]),
+    specularColor: SFColor([0, 0, 0]),
+    emissiveColor: SFColor([0, 0, 0]),
+    ambientIntensity: SFFloat(0.2),
+    shininess: SFFloat(0.2),
+    transparency: SFFloat(0),
+  },
+  ImageGeometry: { ...geometryFields, numColorComponents: SFInt32(3) },
+  BinaryGeometry: {
+    ...geometryFields,
+    rgbaColors: SFBool(false),
+    indexType: SFString("Uint16"),
+    coordType: SFString("Float32"),
+    normalType: SFString("Float32"),
+    texCoordType: SFString("Float32"),
+    colorType: SFString("Float32"),
+  },
+  GeometryPatch: { ...boundedObject, ...patchFields, recordCount: SFInt32(0) },
+  ImageTexture: { containerField: SFString(""), url: MFString([]) },
+} as const;
+
+/** A node's values by field name. */
+export type Values<Fields> = {
+  readonly [Name in keyof Fields]: Fields[Name] extends Field<infer Value> ? Value : never;
+};
+
+/** Something in the document that could not be taken as written; the default stood in. */
+export interface Warning {
+  readonly element: SceneElement;
+  readonly message: string;
+}
+
+/** The node's values: what the element says, the default where it is silent or says something malformed. */
+export function readFields<Fields extends Record<string, Field<unknown>>>(
+  element: SceneElement, fields: Fields, warnings: Warning[],
+): Values<Fields> {
+  const values: Record<string, unknown> = {};
+  for (const [name, field] of Object.entries(fields)) {
+    const text = attributeOf(element, name);
+    const value = text === undefined ? field.defaultValue : field.type.parse(text);
+    if (value === undefined) {
+      warnings.push({ element, message: `${name}="${shortened(text ?? "")}" is no ${field.type.name}; its default is used` });
+    }
+    values[name] = value ?? field.defaultValue;
+  }
+  return values as Values<Fields>;
+}
+
+function shortened(text: string): string {
+  return text.length > 40 ? `${text.slice(0, 40)}…` : text;
+}

@@ -1,0 +1,140 @@
+// An <X3D> element -> SceneDescription. Unknown nodes are passed over with their
+// children, as a browser passes over unknown tags; what they hold still counts.
+
+import type {
+  Box3, GroupDescription, NodeDescription, SceneDescription, ShapeDescription, ViewpointDescription,
+} from "./description.ts";
+import type { SceneElement } from "./element.ts";
+import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
+import type { Vec3 } from "./fieldTypes.ts";
+import { boxAround, boxOf, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
+import type { Warning } from "./nodes.ts";
+import { nodeFields, readFields } from "./nodes.ts";
+
+/** What is collected on the way through the tree. */
+interface Reading {
+  readonly defined: ReadonlyMap<string, SceneElement>;
+  /** Elements whose USE is being followed, so that a circle of them ends. */
+  readonly following: Set<SceneElement>;
+  readonly warnings: Warning[];
+  viewpoint: ViewpointDescription | undefined;
+  headlight: boolean;
+  skyColor: Vec3 | undefined;
+}
+
+export function readScene(x3d: SceneElement): SceneDescription {
+  const reading: Reading = {
+    defined: definedIn(x3d), following: new Set(), warnings: [],
+    viewpoint: undefined, headlight: nodeFields.NavigationInfo.headlight.defaultValue, skyColor: undefined,
+  };
+  const root: GroupDescription = {
+    kind: "group", visible: true, transform: undefined, children: readChildren(x3d, reading),
+  };
+  const { viewpoint, headlight, skyColor, warnings } = reading;
+  return { root, viewpoint, headlight, skyColor, warnings };
+}
+
+function definedIn(element: SceneElement, defined = new Map<string, SceneElement>()): Map<string, SceneElement> {
+  const name = attributeOf(element, "DEF");
+  if (name !== undefined && !defined.has(name)) defined.set(name, element);
+  for (const child of childrenOf(element)) definedIn(child, defined);
+  return defined;
+}
+
+function readChildren(element: SceneElement, reading: Reading): NodeDescription[] {
+  return childrenOf(element).flatMap((child) => readNode(child, reading));
+}
+
+function readNode(element: SceneElement, reading: Reading): NodeDescription[] {
+  return withUse(element, reading, [], (node) => {
+    const { warnings } = reading;
+    switch (lowerNameOf(node)) {
+      case "shape":
+        return [readShape(element, node, reading)];
+      case "group": {
+        const { visible } = readFields(node, nodeFields.Group, warnings);
+        return [{ kind: "group", visible, transform: undefined, children: readChildren(node, reading) }];
+      }
+      case "transform": {
+        const transform = readFields(node, nodeFields.Transform, warnings);
+        return [{ kind: "group", visible: transform.visible, transform, children: readChildren(node, reading) }];
+      }
+      case "directionallight":
+        return [{ kind: "light", light: readFields(node, nodeFields.DirectionalLight, warnings) }];
+      case "viewpoint":
+        reading.viewpoint ??= readFields(node, nodeFields.Viewpoint, warnings);
+        return [];
+      case "navigationinfo":
+        reading.headlight = readFields(node, nodeFields.NavigationInfo, warnings).headlight;
+        return [];
+      case "background":
+        reading.skyColor ??= readFields(node, nodeFields.Background, warnings).skyColor;
+        return [];
+      default:
+        return readChildren(node, reading);
+    }
+  });
+}
+
+/** Reads `element`, or what its USE names; `nothing` where that leads nowhere or in a circle. */
+function withUse<Result>(element: SceneElement, reading: Reading, nothing: Result,
+                         read: (node: SceneElement) => Result): Result {
+  const name = attributeOf(element, "USE");
+  if (name === undefined) return read(element);
+  const node = reading.defined.get(name);
+  if (node === undefined || reading.following.has(node)) {
+    reading.warnings.push({ element, message: `USE="${name}" names ${node ? "itself" : "no DEF of this scene"}` });
+    return nothing;
+  }
+  reading.following.add(node);
+  try {
+    return read(node);
+  } finally {
+    reading.following.delete(node);
+  }
+}
+
+/** `element` is the shape's identity, `node` what describes it: the same but for USE. */
+function readShape(element: SceneElement, node: SceneElement, reading: Reading): ShapeDescription {
+  const values = readFields(node, nodeFields.Shape, reading.warnings);
+  const parts = childrenOf(node);
+  const geometry = first(parts, reading, (part) => {
+    switch (lowerNameOf(part)) {
+      case "imagegeometry": return readImageGeometry(part, reading.warnings);
+      case "binarygeometry": return readBinaryGeometry(part, reading.warnings);
+      default: return undefined;
+    }
+  });
+  const material = first(parts, reading, (part) =>
+    lowerNameOf(part) !== "appearance" ? undefined
+      : first(childrenOf(part), reading, (child) =>
+          lowerNameOf(child) === "material" ? readFields(child, nodeFields.Material, reading.warnings) : undefined));
+  return {
+    kind: "shape", element, visible: values.visible, geometry,
+    box: boxOf(values) ?? (geometry && boxOfGeometry(geometry)),
+    material: material ?? readFields(withoutAttributes, nodeFields.Material, reading.warnings),
+  };
+}
+
+const withoutAttributes: SceneElement = {
+  localName: "", children: [], getAttribute: () => null, getAttributeNames: () => [],
+};
+
+function first<Result>(elements: SceneElement[], reading: Reading,
+                       read: (element: SceneElement) => Result | undefined): Result | undefined {
+  for (const element of elements) {
+    const result = withUse(element, reading, undefined, read);
+    if (result !== undefined) return result;
+  }
+  return undefined;
+}
+
+/** The union of the patches' boxes; the decode box, which holds them all, where one of them has none. */
+function boxOfGeometry(geometry: NonNullable<ShapeDescription["geometry"]>): Box3 {
+  const boxes = geometry.patches.map((patch) => patch.box);
+  const known = boxes.filter((box) => box !== undefined);
+  if (known.length === 0 || known.length < boxes.length) return boxAround(geometry.position, geometry.size);
+  const along = (pick: (box: Box3) => Vec3, choose: (...values: number[]) => number): Vec3 =>
+    [0, 1, 2].map((axis) => choose(...known.map((box) => pick(box)[axis] ?? 0))) as unknown as Vec3;
+  return { min: along((box) => box.min, Math.min), max: along((box) => box.max, Math.max) };
+}
