@@ -1,0 +1,111 @@
+// Typed arrays out of container bytes (BG). Counts and offsets come from the
+// document, so they are checked against the bytes before anything is viewed.
+
+import { DecodeError } from "./decodeError.ts";
+import type { ElementArray, IndexArray, VertexArray } from "./stage.ts";
+
+const arrayTypes = {
+  Int8: Int8Array, Uint8: Uint8Array, Int16: Int16Array, Uint16: Uint16Array,
+  Int32: Int32Array, Uint32: Uint32Array, Float32: Float32Array,
+} as const;
+
+export type ElementType = keyof typeof arrayTypes;
+
+export function byteSizeOf(type: ElementType): number {
+  return arrayTypes[type].BYTES_PER_ELEMENT;
+}
+
+/** Where an attribute lies in a file. */
+export interface ElementRange {
+  readonly type: ElementType;
+  readonly byteOffset: number;
+  /** Bytes from one group to the next; 0: tightly packed. */
+  readonly byteStride: number;
+  readonly components: 1 | 3 | 4;
+  /** 0: as many as the bytes hold. */
+  readonly count: number;
+}
+
+/** How many groups of `range` lie in so many bytes. */
+export function countIn(byteLength: number, range: ElementRange): number {
+  const { group, stride } = sizesOf(range);
+  const available = byteLength - range.byteOffset;
+  return available < group ? 0 : Math.floor((available - group) / stride) + 1;
+}
+
+/**
+ * The attribute as an array of its elements, in whole groups of its stride. Coordinates
+ * of 32-bit integers become floats, which is what shaders compute with. Throws
+ * DecodeError where the bytes do not hold it. Safe for untrusted bytes.
+ */
+export function vertexArrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange): VertexArray {
+  const stride = sizesOf(range).stride / byteSizeOf(range.type);
+  const stored = wholeGroups(arrayOf(bytes, range), stride);
+  return {
+    array: stored instanceof Int32Array || stored instanceof Uint32Array ? new Float32Array(stored) : stored,
+    components: range.components === 4 ? 4 : 3,
+    stride,
+  };
+}
+
+/** The last group may end without its padding; buffers want it. */
+function wholeGroups(array: ElementArray, stride: number): ElementArray {
+  const length = Math.ceil(array.length / stride) * stride;
+  if (array.length === length) return array;
+  const whole = new (array.constructor as new (length: number) => ElementArray)(length);
+  whole.set(array);
+  return whole;
+}
+
+/** Indices, each below `vertexCount`. Throws DecodeError. Safe for untrusted bytes. */
+export function indexArrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange, vertexCount: number): IndexArray {
+  const indices = arrayOf(bytes, range);
+  if (!(indices instanceof Uint8Array || indices instanceof Uint16Array || indices instanceof Uint32Array)) {
+    throw new DecodeError("unsupported", `holds indices as ${range.type}; unsigned integers are needed`);
+  }
+  let largest = -1;
+  for (const index of indices) if (index > largest) largest = index;
+  if (largest >= vertexCount) throw new DecodeError("malformed", `holds index ${largest} where there are ${vertexCount} vertices`);
+  return indices;
+}
+
+function sizesOf(range: ElementRange): { size: number; group: number; stride: number } {
+  const size = byteSizeOf(range.type);
+  const group = size * range.components;
+  return { size, group, stride: range.byteStride === 0 ? group : range.byteStride };
+}
+
+function arrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange): ElementArray {
+  const { size, group, stride } = sizesOf(range);
+  if (stride % size !== 0 || stride < group) {
+    throw new DecodeError("malformed", `has a stride of ${stride} bytes for ${range.components} ${range.type}`);
+  }
+  const fit = countIn(bytes.byteLength, range);
+  const count = range.count === 0 ? fit : range.count;
+  if (count > fit) throw new DecodeError("truncated", `holds ${fit} of ${count} ${range.components === 1 ? "indices" : "vertices"}`);
+  if (count === 0) return new arrayTypes[range.type](0);
+  const byteLength = (count - 1) * stride + group;
+  const byteOffset = bytes.byteOffset + range.byteOffset;
+  // A view must begin at a multiple of its element; elsewhere the bytes are copied.
+  return byteOffset % size === 0 ? new arrayTypes[range.type](bytes.buffer, byteOffset, byteLength / size)
+    : new arrayTypes[range.type](bytes.buffer.slice(byteOffset, byteOffset + byteLength));
+}
+
+/**
+ * A triangle strip as separate triangles with the strip's orientation: buffers
+ * of three.js are drawn as triangles only. Degenerate joins are left out.
+ */
+export function trianglesFromStrip(strip: IndexArray): IndexArray {
+  const triangles = new (strip.constructor as new (length: number) => IndexArray)(Math.max(0, strip.length - 2) * 3);
+  let written = 0;
+  for (let n = 0; n + 2 < strip.length; ++n) {
+    const a = strip[n + (n & 1)] ?? 0;
+    const b = strip[n + 1 - (n & 1)] ?? 0;
+    const c = strip[n + 2] ?? 0;
+    if (a === b || b === c || c === a) continue;
+    triangles[written++] = a;
+    triangles[written++] = b;
+    triangles[written++] = c;
+  }
+  return triangles.slice(0, written);
+}

@@ -1,0 +1,39 @@
+import { DecodeError } from "./decodeError.ts";
+import { checkPng } from "./png.ts";
+
+/** An image that a texture can be made of; an ImageBitmap in browsers. */
+export interface DecodedImage {
+  readonly width: number;
+  readonly height: number;
+  /** Gives its memory back. */
+  close(): void;
+}
+
+/** Decodes a PNG to exactly its stored bytes; rejects where that fails. */
+export type ImageDecoder = (png: Uint8Array<ArrayBuffer>) => Promise<DecodedImage>;
+
+/**
+ * Checks and decodes. What comes back has the size that the header claims.
+ * Rejects with DecodeError; the image is then closed.
+ */
+export async function decodeImage(png: Uint8Array<ArrayBuffer>, decoder: ImageDecoder): Promise<DecodedImage> {
+  const header = checkPng(png);
+  let image: DecodedImage;
+  try {
+    image = await decoder(png);
+  } catch {
+    throw new DecodeError("malformed", "is a PNG that does not decode");
+  }
+  if (image.width === header.width && image.height === header.height) return image;
+  image.close();
+  throw new DecodeError("malformed", `decoded to ${image.width} x ${image.height} texels, not ${header.width} x ${header.height}`);
+}
+
+/** The browser's decoder, told to leave every byte alone. */
+export async function decodeWithBrowser(png: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
+  return createImageBitmap(new Blob([png], { type: "image/png" }), {
+    premultiplyAlpha: "none",
+    colorSpaceConversion: "none",
+    imageOrientation: "from-image",
+  });
+}

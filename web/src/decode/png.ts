@@ -1,0 +1,65 @@
+// What we ask of a PNG before a browser decodes it (PNG specification, W3C 2003,
+// sections 5 and 11). A browser shows a palette, a 16-bit or a half image as best
+// it can; in an image of vertex data each of these would be a silent wrong shape.
+
+import { DecodeError } from "./decodeError.ts";
+
+export interface PngHeader {
+  readonly width: number;
+  readonly height: number;
+}
+
+/** The texture size that every WebGL2 has. */
+export const largestImageEdge = 2048;
+
+const signature = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
+const headerLength = 13;
+const chunkOverhead = 12; // length, type, CRC
+
+/**
+ * Checks that the bytes are one whole PNG of 8-bit RGB or RGBA, not interlaced,
+ * and gives its size. Safe for untrusted bytes. Throws DecodeError.
+ */
+export function checkPng(bytes: Uint8Array): PngHeader {
+  if (!signature.every((byte, place) => bytes[place] === byte)) {
+    throw new DecodeError(bytes.length < signature.length ? "truncated" : "malformed", "is no PNG image");
+  }
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const types = chunkTypes(view);
+  if (types[0] !== "IHDR" || view.getUint32(signature.length) !== headerLength) {
+    throw new DecodeError("malformed", "does not begin with a PNG header");
+  }
+  if (!types.includes("IDAT")) throw new DecodeError("malformed", "holds no image data");
+  return readHeader(view, signature.length + 8);
+}
+
+function readHeader(view: DataView, offset: number): PngHeader {
+  const width = view.getUint32(offset);
+  const height = view.getUint32(offset + 4);
+  const [bitDepth, colorType, compression, filter, interlace] =
+    [8, 9, 10, 11, 12].map((place) => view.getUint8(offset + place));
+  if (width < 1 || height < 1 || width > largestImageEdge || height > largestImageEdge) {
+    throw new DecodeError("limit", `is ${width} x ${height} texels large; 1 to ${largestImageEdge} are allowed`);
+  }
+  if (bitDepth !== 8 || (colorType !== 2 && colorType !== 6)) {
+    throw new DecodeError("unsupported", `has ${String(bitDepth)} bits a channel and PNG colour type ${String(colorType)}, not 8-bit RGB or RGBA`);
+  }
+  if (interlace !== 0) throw new DecodeError("unsupported", "is interlaced");
+  if (compression !== 0 || filter !== 0) throw new DecodeError("malformed", "has an unknown compression or filter method");
+  return { width, height };
+}
+
+/** The chunks' types in order; throws unless they end with IEND exactly where the bytes end. */
+function chunkTypes(view: DataView): string[] {
+  const types: string[] = [];
+  let offset = signature.length;
+  while (types.at(-1) !== "IEND") {
+    if (view.byteLength - offset < chunkOverhead) throw new DecodeError("truncated", "ends before its last chunk");
+    const length = view.getUint32(offset);
+    if (length > view.byteLength - offset - chunkOverhead) throw new DecodeError("truncated", "ends inside a chunk");
+    types.push(String.fromCharCode(...[4, 5, 6, 7].map((place) => view.getUint8(offset + place))));
+    offset += length + chunkOverhead;
+  }
+  if (offset !== view.byteLength) throw new DecodeError("malformed", "goes on after its end");
+  return types;
+}

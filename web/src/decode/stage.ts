@@ -1,0 +1,72 @@
+// A stage: what one patch can show now. Every container ends here, and the
+// renderer knows nothing of how a stage came about; it only ever replaces a
+// patch's stage by a newer one.
+
+import type { DecodedImage } from "./image.ts";
+
+/** Running numbers first .. first + count - 1 drawn as one kind of primitive. */
+export interface DrawRange {
+  readonly primitive: "points" | "lines" | "triangles" | "triangleStrip";
+  readonly first: number;
+  readonly count: number;
+}
+
+/**
+ * How far a patch is, as events name it: vertices alone, a surface shaded by its
+ * own slope, one shaded by its normals, and all there is.
+ */
+export type StageName = "points" | "surface" | "shaded" | "full";
+export const stageNames: readonly StageName[] = ["points", "surface", "shaded", "full"];
+
+interface StageHead {
+  readonly name: StageName;
+  readonly draws: readonly DrawRange[];
+}
+
+/** Texels of an image from the number `first` on, row by row. */
+export interface TexelRange {
+  readonly image: DecodedImage;
+  readonly first: number;
+}
+
+/** Vertices that the shader fetches from images (classic SIG). */
+export interface TextureStage extends StageHead {
+  readonly kind: "textures";
+  /** Absent: running numbers are record numbers. */
+  readonly index: TexelRange | undefined;
+  /** Running number n is texel (n mod implicitWidth, n div implicitWidth). */
+  readonly implicitWidth: number;
+  /** The byte planes that are here, most significant first. */
+  readonly coord: readonly TexelRange[];
+  /** The byte planes that there will be. */
+  readonly coordPlanes: number;
+  /** Added to every coordinate in place of the bytes that are not here. */
+  readonly middleOfMissing: number;
+  readonly normal: TexelRange | undefined;
+  readonly color: TexelRange | undefined;
+  readonly colorComponents: 3 | 4;
+}
+
+export type ElementArray = Int8Array<ArrayBuffer> | Uint8Array<ArrayBuffer> | Int16Array<ArrayBuffer>
+  | Uint16Array<ArrayBuffer> | Int32Array<ArrayBuffer> | Uint32Array<ArrayBuffer> | Float32Array<ArrayBuffer>;
+
+/** One group of `stride` elements a vertex, of which the first `components` count. */
+export interface VertexArray {
+  readonly array: ElementArray;
+  readonly components: 3 | 4;
+  /** In elements. */
+  readonly stride: number;
+}
+
+export type IndexArray = Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer> | Uint32Array<ArrayBuffer>;
+
+/** Vertices in buffers (BG). Coordinates are integers as stored, the rest is spread over its range. */
+export interface BufferStage extends StageHead {
+  readonly kind: "buffers";
+  readonly index: IndexArray | undefined;
+  readonly coord: VertexArray;
+  readonly normal: VertexArray | undefined;
+  readonly color: VertexArray | undefined;
+}
+
+export type Stage = TextureStage | BufferStage;
