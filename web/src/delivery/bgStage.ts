@@ -1,0 +1,85 @@
+// BG: typed arrays of index, coordinates, normals and colours.
+
+import { DecodeError } from "../decode/decodeError.ts";
+import type { ElementRange } from "../decode/elements.ts";
+import { countIn, indexArrayOf, trianglesFromStrip, vertexArrayOf } from "../decode/elements.ts";
+import type { BufferStage, DrawRange, IndexArray, VertexArray } from "../decode/stage.ts";
+import type { GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
+import type { Part } from "./parts.ts";
+import type { StageBuilder } from "./stageBuilder.ts";
+import { drawRangesOf, stageNameOf } from "./stageBuilder.ts";
+
+export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
+  const here: { index?: IndexArray; coord?: VertexArray; normal?: VertexArray; color?: VertexArray } = {};
+  let drawn: { index: IndexArray; draws: readonly DrawRange[] } | undefined;
+  let vertexCount = patch.vertexCount;
+
+  return {
+    accept(part, content) {
+      if (content.kind !== "bytes") throw new DecodeError("malformed", "is no typed array");
+      const range = rangeOf(geometry, patch, part.role, part.reference);
+      if (part.role === "index") {
+        // A document that does not tell the number of vertices leaves this to WebGL's own bounds.
+        here.index = indexArrayOf(content.bytes, range, patch.vertexCount || 2 ** 32);
+        drawn = withoutStrips(here.index, drawRangesFor(patch, here.index.length));
+        return;
+      }
+      here[part.role] = vertexArrayOf(content.bytes, range);
+      if (part.role === "coord") vertexCount ||= countIn(content.bytes.byteLength, range);
+    },
+
+    stage(): BufferStage | undefined {
+      const { coord, normal, color } = here;
+      if (coord === undefined) return undefined;
+      const name = stageNameOf(patch, { index: here.index, normal, color, coord: [coord] });
+      const unindexed = () => name === "points" ? [{ primitive: "points", first: 0, count: vertexCount } as const]
+        : drawRangesFor(patch, vertexCount);
+      // Strips without an index get one, since buffers are drawn as separate triangles.
+      const shown = drawn ?? withoutStrips(undefined, unindexed());
+      return { kind: "buffers", name, index: shown.index, draws: shown.draws, coord, normal, color };
+    },
+  };
+}
+
+/** X3DOM's rule: a vertexCount of 0 means all there are. */
+function drawRangesFor(patch: PatchDescription, available: number): readonly DrawRange[] {
+  const draws = drawRangesOf(patch);
+  const only = draws.length === 1 ? draws[0] : undefined;
+  if (only?.count === 0) return [{ ...only, count: available }];
+  const wanted = draws.reduce((sum, draw) => sum + draw.count, 0);
+  if (wanted > available) throw new DecodeError("truncated", `holds ${available} of ${wanted} indices`);
+  return draws;
+}
+
+/** The same draws with every strip turned into triangles behind an index of their own. */
+function withoutStrips<Index extends IndexArray | undefined>(
+  index: Index, draws: readonly DrawRange[],
+): { index: Index | IndexArray; draws: readonly DrawRange[] } {
+  if (!draws.some((draw) => draw.primitive === "triangleStrip")) return { index, draws };
+  const parts: IndexArray[] = [];
+  let first = 0;
+  const separate = draws.map((draw): DrawRange => {
+    const numbers = index?.subarray(draw.first, draw.first + draw.count)
+      ?? Uint32Array.from({ length: draw.count }, (_, n) => draw.first + n);
+    const isStrip = draw.primitive === "triangleStrip";
+    const part = (isStrip ? trianglesFromStrip(numbers) : numbers);
+    parts.push(part);
+    const range = { primitive: isStrip ? "triangles" as const : draw.primitive, first, count: part.length };
+    first += part.length;
+    return range;
+  });
+  const joined = new Uint32Array(first);
+  separate.forEach((draw, place) => { joined.set(parts[place] ?? [], draw.first); });
+  return { index: joined, draws: separate };
+}
+
+function rangeOf(geometry: GeometryDescription, patch: PatchDescription, role: Part["role"],
+                 reference: Reference): ElementRange {
+  return {
+    type: geometry[`${role}Type`],
+    byteOffset: reference.first,
+    byteStride: reference.stride,
+    components: role === "index" ? 1 : role === "color" ? geometry.colorComponents : 3,
+    count: role === "index" ? patch.draws.reduce((sum, draw) => sum + draw.count, 0) : patch.vertexCount,
+  };
+}

@@ -1,0 +1,21 @@
+import { DecodeError } from "../decode/decodeError.ts";
+import { RequestError } from "../scheduler/download.ts";
+
+/** A file that did not come or is not what it should be; told to people as it stands. */
+export class DeliveryError extends Error {
+  override readonly name = "DeliveryError";
+  readonly kind: RequestError["kind"] | DecodeError["kind"];
+  readonly url: string;
+
+  constructor(kind: DeliveryError["kind"], url: string, reason: string) {
+    super(`${url}: ${reason}`);
+    this.kind = kind;
+    this.url = url;
+  }
+}
+
+export function asDeliveryError(error: unknown, url: string): DeliveryError {
+  if (error instanceof DeliveryError) return error;
+  if (error instanceof RequestError || error instanceof DecodeError) return new DeliveryError(error.kind, url, error.message);
+  return new DeliveryError("malformed", url, error instanceof Error ? error.message : String(error));
+}

@@ -1,0 +1,70 @@
+// Classic SIG: images of index, coordinate bytes, normals and colours, handed on
+// as they are; the shader fetches vertices from them.
+
+import { DecodeError } from "../decode/decodeError.ts";
+import type { DecodedImage } from "../decode/image.ts";
+import type { TexelRange, TextureStage } from "../decode/stage.ts";
+import type { GeometryDescription, PatchDescription } from "../document/description.ts";
+import { middleOfMissing } from "../document/storedFrame.ts";
+import type { StageBuilder } from "./stageBuilder.ts";
+import { drawRangesOf, stageNameOf } from "./stageBuilder.ts";
+
+export function sigBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
+  const planes: (TexelRange | undefined)[] = [];
+  const here: { index?: TexelRange; normal?: TexelRange; color?: TexelRange } = {};
+  const corners = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
+
+  return {
+    accept(part, content) {
+      if (content.kind !== "image") throw new DecodeError("malformed", "is no image");
+      const range = { image: content.image, first: part.reference.first };
+      if (part.role === "index") {
+        checkHolds(range, corners, patch.implicitWidth);
+        here.index = range;
+        return;
+      }
+      if (patch.index !== undefined) checkHolds(range, patch.vertexCount, content.image.width);
+      else checkHolds(range, corners, patch.implicitWidth);
+      if (part.role === "coord") planes[part.plane] = range;
+      else here[part.role] = range;
+    },
+
+    stage(): TextureStage | undefined {
+      // A plane is of use only when all above it are here.
+      const missing = Array.from({ length: patch.coord.length }, (_, plane) => planes[plane]).indexOf(undefined);
+      const coord = planes.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
+      const first = coord[0];
+      if (first === undefined) return undefined;
+      const name = stageNameOf(patch, { index: here.index, normal: here.normal, color: here.color, coord });
+      const points = { primitive: "points", first: 0, count: patch.vertexCount || texelsOf(first.image) - first.first } as const;
+      return {
+        kind: "textures",
+        name,
+        draws: name === "points" ? [points] : drawRangesOf(patch),
+        index: here.index,
+        implicitWidth: name === "points" ? first.image.width : patch.implicitWidth,
+        coord,
+        coordPlanes: patch.coord.length,
+        middleOfMissing: middleOfMissing(geometry, patch.coord.length, coord.length),
+        normal: here.normal,
+        color: here.color,
+        colorComponents: geometry.colorComponents,
+      };
+    },
+  };
+}
+
+function texelsOf(image: DecodedImage): number {
+  return image.width * image.height;
+}
+
+/** Running numbers 0 .. count - 1, in rows of `implicitWidth`, must be texels of the image. */
+function checkHolds({ image, first }: TexelRange, count: number, implicitWidth: number): void {
+  if (count === 0) return;
+  const last = count - 1;
+  const lastTexel = first + Math.floor(last / implicitWidth) * image.width + Math.min(last, implicitWidth - 1);
+  if (implicitWidth > image.width || lastTexel >= texelsOf(image)) {
+    throw new DecodeError("malformed",
+      `has ${image.width} x ${image.height} texels; ${count} in rows of ${implicitWidth} from texel ${first} on do not fit`);
+  }
+}

@@ -1,0 +1,40 @@
+// From the files of a patch to its stages. A builder takes a patch's parts in
+// whatever order they come, checks each against the document, and says what can
+// be shown with those that are here. A part that never comes is merely absent.
+
+import type { DrawRange, Stage, StageName } from "../decode/stage.ts";
+import type { PatchDescription } from "../document/description.ts";
+import type { Part } from "./parts.ts";
+import type { Content } from "./resources.ts";
+
+export interface StageBuilder {
+  /** Throws DecodeError where the content does not hold what the document says. */
+  accept(part: Part, content: Content): void;
+  /** Undefined while nothing can be shown. */
+  stage(): Stage | undefined;
+}
+
+/** The patch's draws with the running number that each begins at. */
+export function drawRangesOf(patch: PatchDescription): DrawRange[] {
+  let first = 0;
+  return patch.draws.map(({ primitive, count }) => {
+    const range = { primitive, first, count };
+    first += count;
+    return range;
+  });
+}
+
+/** What is here of a patch, for its stage's name. */
+export interface Inventory {
+  readonly index: unknown;
+  readonly coord: readonly unknown[];
+  readonly normal: unknown;
+  readonly color: unknown;
+}
+
+export function stageNameOf(patch: PatchDescription, here: Inventory): StageName {
+  const lacks = (part: "index" | "normal" | "color") => patch[part] !== undefined && here[part] === undefined;
+  if (lacks("index")) return "points";
+  if (lacks("normal")) return "surface";
+  return lacks("color") || here.coord.length < patch.coord.length ? "shaded" : "full";
+}
