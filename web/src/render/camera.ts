@@ -1,0 +1,100 @@
+// The camera as a pose: pure functions from one pose to the next, in double
+// precision. Turning is about the pose's own `up`, so a statue keeps standing.
+
+import type { Box3, PerspectiveCamera} from "three";
+import { MathUtils, Matrix4, Quaternion, Sphere, Vector3 } from "three";
+import type { ViewpointDescription } from "../document/description.ts";
+
+export interface Pose {
+  readonly position: Vector3;
+  readonly orientation: Quaternion;
+  /** What turning turns around and zooming comes near. */
+  readonly center: Vector3;
+  readonly up: Vector3;
+  /** Radians, along the shorter side of the view. */
+  readonly fieldOfView: number;
+}
+
+export function poseOfViewpoint(viewpoint: ViewpointDescription): Pose {
+  const [x, y, z, angle] = viewpoint.orientation;
+  const orientation = new Quaternion().setFromAxisAngle(new Vector3(x, y, z).normalize(), angle);
+  return {
+    position: new Vector3(...viewpoint.position),
+    orientation,
+    center: new Vector3(...viewpoint.centerOfRotation),
+    up: new Vector3(0, 1, 0).applyQuaternion(orientation),
+    fieldOfView: MathUtils.clamp(viewpoint.fieldOfView, 0.01, 3.1),
+  };
+}
+
+const defaultFieldOfView = 0.7854;
+
+/** Sees the whole sphere from slightly above and beside, where the document has no Viewpoint. */
+export function poseFraming(sphere: Sphere): Pose {
+  return poseShowingAll({
+    position: sphere.center.clone().add(new Vector3(0.35, 0.25, 1)),
+    orientation: lookRotation(new Vector3(-0.35, -0.25, -1), new Vector3(0, 1, 0)),
+    center: sphere.center.clone(), up: new Vector3(0, 1, 0), fieldOfView: defaultFieldOfView,
+  }, sphere);
+}
+
+/** The same direction of view, so far away that the whole sphere is seen. */
+export function poseShowingAll(pose: Pose, sphere: Sphere): Pose {
+  const distance = Math.max(sphere.radius, 1e-9) / Math.sin(pose.fieldOfView / 2);
+  const center = sphere.center.clone();
+  return { ...pose, center, position: center.clone().addScaledVector(forwardOf(pose), -distance) };
+}
+
+/** Turns by angles in radians: to the right around `up`, and over the top; never past a pole. */
+export function turned(pose: Pose, right: number, over: number): Pose {
+  const sideways = new Vector3(1, 0, 0).applyQuaternion(pose.orientation);
+  const towards = forwardOf(pose).angleTo(pose.up); // 0: looks along up, pi: straight down
+  const nearestToPole = 0.02;
+  const pitch = MathUtils.clamp(over, nearestToPole - (Math.PI - towards), towards - nearestToPole) || 0;
+  const turn = new Quaternion().setFromAxisAngle(pose.up, -right)
+    .multiply(new Quaternion().setFromAxisAngle(sideways, -pitch));
+  return {
+    ...pose,
+    position: pose.position.clone().sub(pose.center).applyQuaternion(turn).add(pose.center),
+    orientation: turn.multiply(pose.orientation).normalize(),
+  };
+}
+
+/** Multiplies the distance to the centre. */
+export function zoomed(pose: Pose, factor: number): Pose {
+  return { ...pose, position: pose.position.clone().sub(pose.center).multiplyScalar(factor).add(pose.center) };
+}
+
+/** Shifts what is seen by shares of the view's shorter side, as seen at the centre. */
+export function panned(pose: Pose, right: number, up: number): Pose {
+  const extent = 2 * Math.tan(pose.fieldOfView / 2) * pose.position.distanceTo(pose.center);
+  const shift = new Vector3(-right * extent, -up * extent, 0).applyQuaternion(pose.orientation);
+  return { ...pose, position: pose.position.clone().add(shift), center: pose.center.clone().add(shift) };
+}
+
+/** Sets the camera up for a view of `aspect` (width / height) onto a scene inside `sphere`. */
+export function applyPose(camera: PerspectiveCamera, pose: Pose, aspect: number, sphere: Sphere): void {
+  camera.position.copy(pose.position);
+  camera.quaternion.copy(pose.orientation);
+  const half = Math.tan(pose.fieldOfView / 2);
+  camera.fov = MathUtils.radToDeg(2 * Math.atan(aspect >= 1 ? half : half / aspect));
+  camera.aspect = aspect;
+  // Depth is spent on the scene alone; from inside, a ten-thousandth of the depth is near enough.
+  const distance = pose.position.distanceTo(sphere.center);
+  const radius = Math.max(sphere.radius * 1.01, 1e-9);
+  camera.far = distance + radius;
+  camera.near = Math.max(distance - radius, camera.far * 1e-4);
+  camera.updateProjectionMatrix();
+}
+
+export function sphereAround(box: Box3): Sphere {
+  return box.isEmpty() ? new Sphere(new Vector3(), 1) : box.getBoundingSphere(new Sphere());
+}
+
+function forwardOf(pose: Pose): Vector3 {
+  return new Vector3(0, 0, -1).applyQuaternion(pose.orientation);
+}
+
+function lookRotation(forward: Vector3, up: Vector3): Quaternion {
+  return new Quaternion().setFromRotationMatrix(new Matrix4().lookAt(new Vector3(), forward, up));
+}

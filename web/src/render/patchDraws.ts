@@ -1,0 +1,145 @@
+// A stage -> three.js objects, one per draw.
+
+import type { Object3D } from "three";
+import {
+  BufferAttribute, BufferGeometry, InterleavedBuffer, InterleavedBufferAttribute, LineSegments, Matrix4, Mesh, Points,
+  Sphere, Vector3,
+} from "three";
+import type { DecodedImage } from "../decode/image.ts";
+import type { BufferStage, DrawRange, Stage, TextureStage, VertexArray } from "../decode/stage.ts";
+import type { GeometryDescription, MaterialDescription, PatchDescription } from "../document/description.ts";
+import { boxAround } from "../document/geometry.ts";
+import { middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
+import type { PatchMaterial, Shading } from "./materials.ts";
+import { applyMaterial, makeMaterial } from "./materials.ts";
+import type { TexturePool } from "./textures.ts";
+import type { ImageVertexUniforms } from "./vertexChunk.ts";
+
+export interface PatchDraws {
+  readonly objects: readonly Object3D[];
+  applyMaterial(description: MaterialDescription): void;
+  dispose(): void;
+}
+
+export interface PatchSetting {
+  readonly textures: TexturePool;
+  readonly pointSize: { value: number };
+  readonly geometry: GeometryDescription;
+  readonly patch: PatchDescription;
+  readonly material: MaterialDescription;
+}
+
+export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
+  const { geometry, patch, pointSize } = setting;
+  const hasColors = stage.color !== undefined;
+  const bounds = storedBoundsOf(geometry, patch);
+  const matrix = latticeMatrixOf(geometry, patch);
+  const images = stage.kind === "textures" ? imagesOf(stage) : [];
+  const base = stage.kind === "textures" ? imageUniformsOf(stage, setting.textures) : undefined;
+  const draws = stage.draws.filter((draw) => draw.count > 0).map((draw) => {
+    const material = makeMaterial({
+      shading: shadingOf(stage, draw), hasColors, solid: geometry.solid, pointSize,
+      images: base && { ...base, firstNumber: { value: draw.first }, isStrip: { value: draw.primitive === "triangleStrip" } },
+    }, setting.material);
+    const shape = stage.kind === "textures" ? emptyGeometryOf(draw) : bufferGeometryOf(stage, draw);
+    shape.boundingSphere = bounds;
+    return { material, shape, object: objectOf(draw, shape, material, matrix) };
+  });
+  return {
+    objects: draws.map((draw) => draw.object),
+    applyMaterial(description) {
+      for (const { material } of draws) applyMaterial(material, description, hasColors);
+    },
+    dispose() {
+      for (const { material, shape, object } of draws) {
+        object.removeFromParent();
+        shape.dispose();
+        material.dispose();
+      }
+      for (const image of images) setting.textures.release(image);
+    },
+  };
+}
+
+function shadingOf(stage: Stage, draw: DrawRange): Shading {
+  const isSurface = draw.primitive === "triangles" || draw.primitive === "triangleStrip";
+  // Points of a cloud with normals are lit; those that stand for a surface to come are not.
+  if (stage.name === "points" || (!isSurface && stage.normal === undefined)) return "unlit";
+  return stage.normal === undefined ? "flat" : "smooth";
+}
+
+function objectOf(draw: DrawRange, shape: BufferGeometry, material: PatchMaterial, matrix: Matrix4): Object3D {
+  const object = draw.primitive === "points" ? new Points(shape, material)
+    : draw.primitive === "lines" ? new LineSegments(shape, material) : new Mesh(shape, material);
+  object.matrixAutoUpdate = false;
+  object.matrix.copy(matrix);
+  return object;
+}
+
+/** No buffers at all: the shader finds its vertices by their number. */
+function emptyGeometryOf({ primitive, count }: DrawRange): BufferGeometry {
+  const shape = new BufferGeometry();
+  shape.setDrawRange(0, primitive === "triangleStrip" ? Math.max(0, count - 2) * 3 : count);
+  return shape;
+}
+
+function bufferGeometryOf(stage: BufferStage, draw: DrawRange): BufferGeometry {
+  const shape = new BufferGeometry();
+  shape.setAttribute("position", attributeOf(stage.coord, false));
+  if (stage.normal !== undefined) shape.setAttribute("normal", attributeOf(stage.normal, true));
+  if (stage.color !== undefined) shape.setAttribute("color", attributeOf(stage.color, true));
+  if (stage.index !== undefined) shape.setIndex(new BufferAttribute(stage.index, 1));
+  shape.setDrawRange(draw.first, draw.count);
+  return shape;
+}
+
+function attributeOf({ array, components, stride }: VertexArray, isSpread: boolean): InterleavedBufferAttribute {
+  const normalized = isSpread && !(array instanceof Float32Array);
+  return new InterleavedBufferAttribute(new InterleavedBuffer(array, stride), components, 0, normalized);
+}
+
+/** Places the lattice: stored integers -> the shape's coordinates. */
+function latticeMatrixOf(geometry: GeometryDescription, patch: PatchDescription): Matrix4 {
+  const { origin, step } = storedFrameOf(geometry, patch);
+  return new Matrix4().makeScale(...step).setPosition(...origin);
+}
+
+/** The patch's bounding sphere among stored integers, wide enough for its coarsest stage. */
+function storedBoundsOf(geometry: GeometryDescription, patch: PatchDescription): Sphere {
+  const { origin, step } = storedFrameOf(geometry, patch);
+  const box = patch.box ?? boxAround(geometry.position, geometry.size);
+  const stored = (point: readonly [number, number, number]) => new Vector3(
+    (point[0] - origin[0]) / step[0], (point[1] - origin[1]) / step[1], (point[2] - origin[2]) / step[2]);
+  const min = stored(box.min);
+  const max = stored(box.max);
+  const slack = geometry.container === "sig" ? middleOfMissing(geometry, patch.coord.length, 1) * Math.sqrt(3) : 0;
+  return new Sphere(min.clone().add(max).multiplyScalar(0.5), min.distanceTo(max) / 2 + slack);
+}
+
+function imagesOf(stage: TextureStage): DecodedImage[] {
+  return [stage.index, ...stage.coord, stage.normal, stage.color].flatMap((range) => (range ? [range.image] : []));
+}
+
+function imageUniformsOf(stage: TextureStage, textures: TexturePool): ImageVertexUniforms {
+  const { index, coord, normal, color } = stage;
+  const texture = (range: { image: DecodedImage } | undefined) => ({ value: range ? textures.acquire(range.image) : null });
+  const first = (range: { first: number } | undefined) => range?.first ?? 0;
+  return {
+    indexImage: texture(index),
+    coordImage0: texture(coord[0]),
+    coordImage1: texture(coord[1]),
+    coordImage2: texture(coord[2]),
+    coordImage3: texture(coord[3]),
+    normalImage: texture(normal),
+    colorImage: texture(color),
+    firstTexels: { value: [first(index), first(normal), first(color)] },
+    coordFirstTexels: { value: [first(coord[0]), first(coord[1]), first(coord[2]), first(coord[3])] },
+    coordPlanes: { value: stage.coordPlanes },
+    middleOfMissing: { value: stage.middleOfMissing },
+    hasIndex: { value: index !== undefined },
+    implicitWidth: { value: stage.implicitWidth },
+    firstNumber: { value: 0 },
+    isStrip: { value: false },
+    colorHasAlpha: { value: stage.colorComponents === 4 },
+  };
+}

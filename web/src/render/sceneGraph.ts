@@ -1,0 +1,85 @@
+// SceneDescription -> three.js groups and lights. Groups own nothing on the GPU,
+// so they are made anew whenever the document changes; shapes are kept by their
+// element and hung into the new tree.
+
+import { AmbientLight, Box3, Color, DirectionalLight, Group, Matrix4, Quaternion, Vector3 } from "three";
+import type {
+  LightDescription, NodeDescription, Rotation, SceneDescription, ShapeDescription, TransformDescription,
+} from "../document/description.ts";
+import { setColor } from "./materials.ts";
+
+export interface BuiltGraph {
+  readonly root: Group;
+  /** Of all shapes' boxes, in the scene's coordinates. */
+  readonly box: Box3;
+}
+
+export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescription) => Group): BuiltGraph {
+  const box = new Box3();
+  const root = new Group();
+  const ambient = new Color(0, 0, 0);
+  hang(scene.root, root, new Matrix4());
+  const ambientLight = new AmbientLight();
+  ambientLight.color.copy(ambient);
+  root.add(ambientLight);
+  return { root, box };
+
+  function hang(node: NodeDescription, parent: Group, worldFromParent: Matrix4): void {
+    switch (node.kind) {
+      case "light":
+        if (node.light.on) hangLight(node.light, parent, ambient);
+        return;
+      case "shape": {
+        const group = groupOf(node);
+        group.visible = node.visible;
+        parent.add(group);
+        if (node.box) {
+          box.union(new Box3(new Vector3(...node.box.min), new Vector3(...node.box.max)).applyMatrix4(worldFromParent));
+        }
+        return;
+      }
+      case "group": {
+        const group = new Group();
+        group.visible = node.visible;
+        group.matrixAutoUpdate = false;
+        if (node.transform) group.matrix.copy(matrixOf(node.transform));
+        parent.add(group);
+        const worldFromGroup = worldFromParent.clone().multiply(group.matrix);
+        for (const child of node.children) hang(child, group, worldFromGroup);
+      }
+    }
+  }
+}
+
+function hangLight(description: LightDescription, parent: Group, ambient: Color): void {
+  const light = new DirectionalLight();
+  setColor(light.color, description.color);
+  light.intensity = description.intensity;
+  // three's light shines from its position to its target.
+  light.position.set(0, 0, 0);
+  light.target.position.set(...description.direction);
+  parent.add(light, light.target);
+  ambient.add(light.color.clone().multiplyScalar(description.ambientIntensity));
+}
+
+/** X3D Transform: T C R SR S -SR -C (ISO/IEC 19775-1, 10.4.4). */
+export function matrixOf(transform: TransformDescription): Matrix4 {
+  const { translation, center, rotation, scaleOrientation, scale } = transform;
+  const turn = rotationOf(rotation);
+  const axes = rotationOf(scaleOrientation);
+  const move = (vector: readonly [number, number, number], sign: number) =>
+    new Matrix4().makeTranslation(vector[0] * sign, vector[1] * sign, vector[2] * sign);
+  return move(translation, 1)
+    .multiply(move(center, 1))
+    .multiply(turn)
+    .multiply(axes)
+    .multiply(new Matrix4().makeScale(...scale))
+    .multiply(axes.clone().invert())
+    .multiply(move(center, -1));
+}
+
+function rotationOf([x, y, z, angle]: Rotation): Matrix4 {
+  const axis = new Vector3(x, y, z);
+  if (axis.lengthSq() === 0) return new Matrix4();
+  return new Matrix4().makeRotationFromQuaternion(new Quaternion().setFromAxisAngle(axis.normalize(), angle));
+}

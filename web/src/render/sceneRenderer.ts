@@ -1,0 +1,185 @@
+// Draws a described scene into a canvas, and only when something changed.
+
+import {
+  Box3, Color, DirectionalLight, Group, LinearSRGBColorSpace, NoToneMapping, PerspectiveCamera, Scene, WebGLRenderer,
+} from "three";
+import type { Stage } from "../decode/stage.ts";
+import type { GeometryDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
+import { shapesOf } from "../document/description.ts";
+import type { SceneElement } from "../document/element.ts";
+import type { Pose } from "./camera.ts";
+import { applyPose, panned, poseFraming, poseOfViewpoint, poseShowingAll, sphereAround, turned, zoomed } from "./camera.ts";
+import { setColor } from "./materials.ts";
+import { buildGraph } from "./sceneGraph.ts";
+import { ShapeObject } from "./shapeObject.ts";
+import { TexturePool } from "./textures.ts";
+
+/** What has been drawn and what the GPU holds. */
+export interface RenderStatistics {
+  readonly frames: number;
+  readonly textures: number;
+  readonly geometries: number;
+  readonly programs: number;
+}
+
+const pointSizeInCssPixels = 2;
+
+/** The canvas' WebGL2 context; null where the browser has none to give. */
+export function contextOf(canvas: HTMLCanvasElement): WebGL2RenderingContext | null {
+  return canvas.getContext("webgl2", { alpha: true, antialias: true, powerPreference: "high-performance" });
+}
+
+export class SceneRenderer {
+  readonly #renderer: WebGLRenderer;
+  readonly #scene = new Scene();
+  readonly #camera = new PerspectiveCamera();
+  readonly #headlight = new DirectionalLight();
+  readonly #textures = new TexturePool();
+  readonly #pointSize = { value: pointSizeInCssPixels };
+  readonly #shapes = new Map<SceneElement, ShapeObject>();
+  readonly #onFrame: () => void;
+  #root = new Group();
+  #sphere = sphereAround(new Box3());
+  /** Where `reset` leads: the Viewpoint's pose, or one that frames the scene. */
+  #home = poseFraming(this.#sphere);
+  #pose = this.#home;
+  #viewpointKey: string | undefined;
+  #aspect = 1;
+  #hasArea = false;
+  #frames = 0;
+  #frameRequest = 0;
+
+  /** `onFrame` is called after each frame that has been drawn. */
+  constructor(canvas: HTMLCanvasElement, context: WebGL2RenderingContext, onFrame: () => void) {
+    this.#onFrame = onFrame;
+    this.#renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
+    // The numbers of the document are the numbers of the screen: see materials.ts.
+    this.#renderer.outputColorSpace = LinearSRGBColorSpace;
+    this.#renderer.toneMapping = NoToneMapping;
+    this.#renderer.setClearColor(new Color(0, 0, 0), 0);
+    // The headlight stands in the camera's own frame and shines along its -z.
+    this.#headlight.position.set(0, 0, 0);
+    this.#headlight.target.position.set(0, 0, -1);
+    this.#camera.add(this.#headlight, this.#headlight.target);
+    this.#scene.add(this.#camera, this.#root);
+    canvas.addEventListener("webglcontextrestored", () => { this.requestFrame(); });
+  }
+
+  get statistics(): RenderStatistics {
+    const { memory, programs } = this.#renderer.info;
+    return { frames: this.#frames, textures: memory.textures, geometries: memory.geometries, programs: programs?.length ?? 0 };
+  }
+
+  /** Shows this scene from now on. Shapes that are gone give back what they hold on the GPU. */
+  setScene(description: SceneDescription): void {
+    const shapes = new Map(shapesOf(description.root).map((shape) => [shape.element, shape]));
+    for (const [element, object] of this.#shapes) {
+      if (shapes.has(element)) continue;
+      object.dispose();
+      this.#shapes.delete(element);
+    }
+    const { root, box } = buildGraph(description, (shape) => this.#objectOf(shape).group);
+    for (const [element, shape] of shapes) this.#shapes.get(element)?.setMaterial(shape.material);
+    this.#root.removeFromParent();
+    this.#root = root;
+    this.#scene.add(root);
+    this.#headlight.visible = description.headlight;
+    const { skyColor } = description;
+    const clear = new Color();
+    setColor(clear, skyColor ?? [0, 0, 0]);
+    this.#renderer.setClearColor(clear, skyColor ? 1 : 0);
+    this.#sphere = sphereAround(box);
+    this.#followViewpoint(description);
+    this.requestFrame();
+  }
+
+  /** Replaces what a patch of a shape of the current scene shows. */
+  setStage(element: SceneElement, geometry: GeometryDescription, patch: number, stage: Stage): void {
+    this.#shapes.get(element)?.setStage(geometry, patch, stage);
+    this.requestFrame();
+  }
+
+  /** Takes away what a shape shows, for when its geometry has become another. */
+  clearShape(element: SceneElement): void {
+    this.#shapes.get(element)?.clear();
+    this.requestFrame();
+  }
+
+  /** In device pixels, with the number of them in a CSS pixel. */
+  resize(width: number, height: number, pixelRatio: number): void {
+    this.#hasArea = width > 0 && height > 0;
+    if (!this.#hasArea) return;
+    this.#aspect = width / height;
+    this.#pointSize.value = pointSizeInCssPixels * pixelRatio;
+    this.#renderer.setSize(width, height, false);
+    // Setting the size has cleared the canvas: draw before the browser shows it.
+    this.#drawNow();
+  }
+
+  /** Radians to the right and over the top. */
+  turn(right: number, over: number): void {
+    this.#moveTo(turned(this.#pose, right, over));
+  }
+
+  /** Multiplies the distance to the centre of rotation. */
+  zoom(factor: number): void {
+    this.#moveTo(zoomed(this.#pose, factor));
+  }
+
+  /** Shares of the view's shorter side by which the scene follows the hand. */
+  pan(right: number, up: number): void {
+    this.#moveTo(panned(this.#pose, right, up));
+  }
+
+  reset(): void {
+    this.#moveTo(this.#home);
+  }
+
+  showAll(): void {
+    this.#moveTo(poseShowingAll(this.#pose, this.#sphere));
+  }
+
+  requestFrame(): void {
+    if (this.#frameRequest === 0) this.#frameRequest = requestAnimationFrame(() => { this.#drawNow(); });
+  }
+
+  /** Frees the GPU; nothing may be called after. */
+  dispose(): void {
+    cancelAnimationFrame(this.#frameRequest);
+    for (const object of this.#shapes.values()) object.dispose();
+    this.#shapes.clear();
+    this.#renderer.dispose();
+    this.#renderer.forceContextLoss();
+  }
+
+  #drawNow(): void {
+    cancelAnimationFrame(this.#frameRequest);
+    this.#frameRequest = 0;
+    if (!this.#hasArea) return;
+    applyPose(this.#camera, this.#pose, this.#aspect, this.#sphere);
+    this.#renderer.render(this.#scene, this.#camera);
+    this.#frames += 1;
+    this.#onFrame();
+  }
+
+  #moveTo(pose: Pose): void {
+    this.#pose = pose;
+    this.requestFrame();
+  }
+
+  #objectOf(shape: ShapeDescription): ShapeObject {
+    const object = this.#shapes.get(shape.element) ?? new ShapeObject(this.#textures, this.#pointSize, shape);
+    this.#shapes.set(shape.element, object);
+    return object;
+  }
+
+  /** A Viewpoint that is new or has changed takes the camera with it; without one the scene stays framed until somebody moves. */
+  #followViewpoint({ viewpoint }: SceneDescription): void {
+    const key = viewpoint ? JSON.stringify(viewpoint) : "";
+    const wasAtHome = this.#pose === this.#home;
+    if (viewpoint === undefined) this.#home = poseFraming(this.#sphere);
+    else if (key !== this.#viewpointKey) this.#home = poseOfViewpoint(viewpoint);
+    if (key !== this.#viewpointKey || (viewpoint === undefined && wasAtHome)) this.#pose = this.#home;
+    this.#viewpointKey = key;
+  }
+}

@@ -1,0 +1,152 @@
+// The one place where a vertex is read. `readVertex` has two bodies: from images
+// by number (classic SIG, paper section 5.1) and from buffers (BG). Every
+// material of every pass - colour, depth, picking - takes it in through
+// `readVerticesIn`, so no pass can disagree with another about the shape.
+//
+// Image bytes are put together as integers and only then become floats: with up
+// to 24 bits every lattice point is exact. The matrix of the drawn object places
+// the lattice. It is the same for all patches of a mesh, on purpose: vertices
+// that patches share then go through the same arithmetic, and no crack opens.
+
+import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "three";
+
+/** What the image body reads, as uniforms. Textures that have not come are null and read as 0. */
+export interface ImageVertexUniforms extends Record<string, IUniform> {
+  indexImage: IUniform<Texture | null>;
+  coordImage0: IUniform<Texture | null>;
+  coordImage1: IUniform<Texture | null>;
+  coordImage2: IUniform<Texture | null>;
+  coordImage3: IUniform<Texture | null>;
+  normalImage: IUniform<Texture | null>;
+  colorImage: IUniform<Texture | null>;
+  /** First texels: index, normal, colour. */
+  firstTexels: IUniform<[number, number, number]>;
+  coordFirstTexels: IUniform<[number, number, number, number]>;
+  coordPlanes: IUniform<number>;
+  middleOfMissing: IUniform<number>;
+  hasIndex: IUniform<boolean>;
+  implicitWidth: IUniform<number>;
+  /** The running number that the draw begins at, and whether it is a strip. */
+  firstNumber: IUniform<number>;
+  isStrip: IUniform<boolean>;
+  colorHasAlpha: IUniform<boolean>;
+}
+
+/** Coordinate images that a patch can have: 32 bits. */
+export const mostCoordPlanes = 4;
+
+/** Defined in materials that read images, and in those that read normals from them. */
+export const imageVerticesDefine = "IMAGE_VERTICES";
+export const imageNormalsDefine = "IMAGE_NORMALS";
+
+// three.js shades flat whatever has no buffer of normals.
+const ownNormalsChunk = /* glsl */ `
+#ifdef ${imageNormalsDefine}
+#undef FLAT_SHADED
+#endif
+`;
+
+const readVertexChunk = /* glsl */ `
+struct Vertex {
+  vec3 position;
+  vec3 normal;
+  vec4 color;
+};
+
+#ifdef ${imageVerticesDefine}
+
+uniform sampler2D indexImage, coordImage0, coordImage1, coordImage2, coordImage3, normalImage, colorImage;
+uniform ivec3 firstTexels;
+uniform ivec4 coordFirstTexels;
+uniform int coordPlanes;
+uniform float middleOfMissing;
+uniform bool hasIndex;
+uniform int implicitWidth;
+uniform int firstNumber;
+uniform bool isStrip;
+uniform bool colorHasAlpha;
+
+// Strips are drawn as separate triangles, three.js knows no others: triangle t
+// is t, t + 1, t + 2, its first two exchanged where t is odd.
+int runningNumber() {
+  if (!isStrip) return firstNumber + gl_VertexID;
+  int triangle = gl_VertexID / 3;
+  int corner = gl_VertexID % 3;
+  return firstNumber + triangle + (corner == 2 ? 2 : corner ^ (triangle & 1));
+}
+
+// Texel number n, counted row by row, from texel number "first" on.
+vec4 texelOf(sampler2D image, int first, int n) {
+  int width = textureSize(image, 0).x;
+  return texelFetch(image, ivec2((first + n) % width, (first + n) / width), 0);
+}
+
+// Numbers stand in rows of implicitWidth, which may be less than the image's width.
+int texelNumber(sampler2D image, int n) {
+  return (n / implicitWidth) * textureSize(image, 0).x + n % implicitWidth;
+}
+
+uvec3 bytesOf(vec4 texel) {
+  return uvec3(texel.rgb * 255.0 + 0.5);
+}
+
+// An index texel holds column and row of a record in units of 1/256 of the
+// coordinate image (docs/formats/nodes.md, "Stored values").
+int recordNumber() {
+  if (!hasIndex) return texelNumber(coordImage0, runningNumber());
+  int n = texelNumber(indexImage, runningNumber());
+  ivec2 place = ivec2(bytesOf(texelOf(indexImage, firstTexels.x, n)).rg);
+  ivec2 size = textureSize(coordImage0, 0);
+  ivec2 texel = (place * size + 128) >> 8;
+  return texel.y * size.x + texel.x;
+}
+
+Vertex readVertex() {
+  int n = recordNumber();
+  uvec3 stored = bytesOf(texelOf(coordImage0, coordFirstTexels.x, n));
+  if (coordPlanes > 1) stored = (stored << 8) | bytesOf(texelOf(coordImage1, coordFirstTexels.y, n));
+  if (coordPlanes > 2) stored = (stored << 8) | bytesOf(texelOf(coordImage2, coordFirstTexels.z, n));
+  if (coordPlanes > 3) stored = (stored << 8) | bytesOf(texelOf(coordImage3, coordFirstTexels.w, n));
+  vec4 color = texelOf(colorImage, firstTexels.z, n);
+  if (!colorHasAlpha) color.a = 1.0;
+  return Vertex(vec3(stored) + middleOfMissing, texelOf(normalImage, firstTexels.y, n).rgb * 2.0 - 1.0, color);
+}
+
+#else
+
+Vertex readVertex() {
+  #if defined(USE_COLOR_ALPHA)
+    vec4 vertexColor = color;
+  #elif defined(USE_COLOR)
+    vec4 vertexColor = vec4(color, 1.0);
+  #else
+    vec4 vertexColor = vec4(1.0);
+  #endif
+  return Vertex(position, normal, vertexColor);
+}
+
+#endif
+`;
+
+const colorChunk = /* glsl */ `
+#if defined(USE_COLOR) || defined(USE_COLOR_ALPHA)
+  vColor = vertex.color;
+#endif
+`;
+
+/** Makes a built-in material's shaders read their vertices here, for use in `onBeforeCompile`. */
+export function readVerticesIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
+  shader.fragmentShader = ownNormalsChunk + shader.fragmentShader;
+  shader.vertexShader = ownNormalsChunk + replaceEach(shader.vertexShader, [
+    ["#include <common>", `#include <common>\nuniform float pointSize;\n${readVertexChunk}`],
+    ["void main() {", "void main() {\n  Vertex vertex = readVertex();\n  gl_PointSize = pointSize;"],
+    ["#include <color_vertex>", colorChunk],
+    ["#include <beginnormal_vertex>", "vec3 objectNormal = vertex.normal;"],
+    ["#include <begin_vertex>", "vec3 transformed = vertex.position;"],
+  ]);
+}
+
+/** Not every pass has every chunk; `begin_vertex` they all have. */
+export function replaceEach(source: string, replacements: readonly (readonly [string, string])[]): string {
+  return replacements.reduce((text, [chunk, replacement]) => text.replace(chunk, () => replacement), source);
+}
