@@ -1,0 +1,101 @@
+// Mouse, touch and keyboard -> movements of the camera. No inertia: the picture
+// stands still when the hand does, which also is what `prefers-reduced-motion`
+// asks for.
+
+export interface Movable {
+  turn(right: number, over: number): void;
+  zoom(factor: number): void;
+  pan(right: number, up: number): void;
+  reset(): void;
+  showAll(): void;
+}
+
+const radiansPerView = Math.PI;
+const keyTurn = Math.PI / 36;
+const keyPan = 0.05;
+const keyZoom = 1.1;
+
+/** Listens until `signal` aborts. */
+export function listenForMovement(canvas: HTMLCanvasElement, movable: Movable, signal: AbortSignal): void {
+  listenToPointers(canvas, movable, signal);
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1);
+    movable.zoom(Math.exp(clamp(pixels, 200) / 500));
+  }, { passive: false, signal });
+  canvas.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const act = keyAction(event, movable);
+    if (act === undefined) return; // Tab and all else stay the browser's
+    event.preventDefault();
+    act();
+  }, { signal });
+  // The right button pans.
+  canvas.addEventListener("contextmenu", (event) => { event.preventDefault(); }, { signal });
+}
+
+function keyAction(event: KeyboardEvent, movable: Movable): (() => void) | undefined {
+  const step = (right: number, up: number) => event.shiftKey
+    ? () => { movable.pan(right * keyPan, up * keyPan); }
+    : () => { movable.turn(right * keyTurn, up * -keyTurn); };
+  switch (event.key) {
+    case "ArrowLeft": return step(-1, 0);
+    case "ArrowRight": return step(1, 0);
+    case "ArrowUp": return step(0, 1);
+    case "ArrowDown": return step(0, -1);
+    case "+": case "=": case "PageUp": return () => { movable.zoom(1 / keyZoom); };
+    case "-": case "_": case "PageDown": return () => { movable.zoom(keyZoom); };
+    case "r": case "R": return () => { movable.reset(); };
+    case "a": case "A": return () => { movable.showAll(); };
+    default: return undefined;
+  }
+}
+
+interface Point {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** One pointer turns (with Shift or another button it pans), two pan by their middle and zoom by their distance. */
+function listenToPointers(canvas: HTMLCanvasElement, movable: Movable, signal: AbortSignal): void {
+  const down = new Map<number, Point>();
+
+  const lift = (event: PointerEvent) => { down.delete(event.pointerId); };
+  canvas.addEventListener("pointerup", lift, { signal });
+  canvas.addEventListener("pointercancel", lift, { signal });
+  canvas.addEventListener("pointerdown", (event) => {
+    if (down.size === 2) return;
+    down.set(event.pointerId, pointOf(event));
+    canvas.setPointerCapture(event.pointerId);
+  }, { signal });
+  canvas.addEventListener("pointermove", (event) => {
+    const from = down.get(event.pointerId);
+    if (from === undefined) return;
+    const to = pointOf(event);
+    const other = Array.from(down).find(([id]) => id !== event.pointerId)?.[1];
+    down.set(event.pointerId, to);
+    const shorter = Math.min(canvas.clientWidth, canvas.clientHeight) || 1;
+    const right = (to.x - from.x) / shorter;
+    const below = (to.y - from.y) / shorter;
+    if (other !== undefined) {
+      movable.pan(right / 2, -below / 2);
+      movable.zoom(Math.max(distance(from, other), 1) / Math.max(distance(to, other), 1));
+    } else if (event.shiftKey || (event.buttons & 6) !== 0) {
+      movable.pan(right, -below);
+    } else {
+      movable.turn(right * radiansPerView, below * radiansPerView);
+    }
+  }, { signal });
+}
+
+function pointOf(event: PointerEvent): Point {
+  return { x: event.clientX, y: event.clientY };
+}
+
+function distance(a: Point, b: Point): number {
+  return Math.hypot(a.x - b.x, a.y - b.y);
+}
+
+function clamp(value: number, largest: number): number {
+  return Math.max(-largest, Math.min(largest, value));
+}

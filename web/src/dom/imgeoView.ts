@@ -1,0 +1,79 @@
+// <imgeo-view>: the picture inside an <x3d>. <x3d> itself is no custom element
+// and can have no shadow root, so the runtime puts this one into it.
+
+import { contextOf } from "../render/sceneRenderer.ts";
+import { listenForMovement } from "./controls.ts";
+import { makeFace } from "./face.ts";
+import { Loading } from "./loading.ts";
+import type { ViewStatistics } from "./viewer.ts";
+import { Viewer } from "./viewer.ts";
+
+export const viewTag = "imgeo-view";
+
+const noWebGl = "This page shows a 3D scene, for which the browser needs WebGL 2. It is missing or switched off here.";
+
+export class ImgeoView extends HTMLElement {
+  #viewer: Viewer | undefined;
+  #listeners = new AbortController();
+
+  /** What has been drawn, requested, and is held on the GPU; undefined without a picture. */
+  get statistics(): ViewStatistics | undefined {
+    return this.#viewer?.statistics;
+  }
+
+  connectedCallback(): void {
+    const x3d = this.parentElement;
+    if (this.#viewer !== undefined || x3d === null) return;
+    const root = this.shadowRoot ?? this.attachShadow({ mode: "open" });
+    root.replaceChildren();
+    const face = makeFace(root, x3d.getAttribute("aria-label") ?? x3d.getAttribute("title") ?? labelOf(x3d));
+    const context = contextOf(face.canvas);
+    if (context === null) {
+      face.showMessage(noWebGl);
+      const loading = new Loading(x3d);
+      const error = new Error(noWebGl);
+      loading.fail({ type: "webgl", url: "", element: x3d, message: noWebGl }, error);
+      console.error(`imgeo: ${noWebGl}`);
+      loading.abandon(error);
+      return;
+    }
+    this.#listeners = new AbortController();
+    const viewer = new Viewer(x3d, face.canvas, context, (share) => { face.showProgress(share); });
+    this.#viewer = viewer;
+    listenForMovement(face.canvas, viewer.renderer, this.#listeners.signal);
+    watchSize(face.canvas, this.#listeners.signal, (width, height, ratio) => { viewer.renderer.resize(width, height, ratio); });
+  }
+
+  disconnectedCallback(): void {
+    // An element that is only being moved is connected again before this runs.
+    queueMicrotask(() => {
+      if (this.isConnected) return;
+      this.#listeners.abort();
+      this.#viewer?.dispose();
+      this.#viewer = undefined;
+    });
+  }
+}
+
+function labelOf(x3d: Element): string {
+  return x3d.querySelector("viewpoint")?.getAttribute("description") ?? "3D scene";
+}
+
+/** Tells the canvas' size in device pixels, now and whenever it or the pixel ratio changes. */
+function watchSize(canvas: HTMLCanvasElement, signal: AbortSignal,
+                   onSize: (width: number, height: number, ratio: number) => void): void {
+  const observer = new ResizeObserver((entries) => {
+    for (const { contentRect, devicePixelContentBoxSize } of entries) {
+      // Not every browser tells device pixels; rounding is the next best.
+      const exact = (devicePixelContentBoxSize as readonly ResizeObserverSize[] | undefined)?.[0];
+      onSize(exact?.inlineSize ?? Math.round(contentRect.width * devicePixelRatio),
+             exact?.blockSize ?? Math.round(contentRect.height * devicePixelRatio), devicePixelRatio);
+    }
+  });
+  try {
+    observer.observe(canvas, { box: "device-pixel-content-box" });
+  } catch {
+    observer.observe(canvas);
+  }
+  signal.addEventListener("abort", () => { observer.disconnect(); });
+}

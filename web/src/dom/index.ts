@@ -1,0 +1,23 @@
+// The runtime: puts a view into every <x3d> of the page, now and later.
+
+import { stylePage } from "./face.ts";
+import { ImgeoView, viewTag } from "./imgeoView.ts";
+
+export { ImgeoView };
+export type { ErrorDetail, Loadable, ProgressDetail } from "./loading.ts";
+export type { ViewStatistics } from "./viewer.ts";
+
+function fillAll(): void {
+  for (const x3d of document.querySelectorAll("x3d")) {
+    const hasView = Array.from(x3d.children).some((child) => child.localName === viewTag);
+    if (!hasView) x3d.append(document.createElement(viewTag));
+  }
+}
+
+if (customElements.get(viewTag) === undefined) {
+  customElements.define(viewTag, ImgeoView);
+  stylePage(document);
+  fillAll();
+  // Also brings a view back where a page has replaced all of an <x3d>'s content.
+  new MutationObserver(fillAll).observe(document, { subtree: true, childList: true });
+}

@@ -1,0 +1,137 @@
+// What a page learns about loading: events and promises on <x3d> and on each
+// <shape>. Events do not bubble. Those that speak of a picture (first-image,
+// refine, load) are sent after the frame that shows it.
+
+import type { StageName } from "../decode/stage.ts";
+import { stageNames } from "../decode/stage.ts";
+import type { Progress } from "../delivery/progress.ts";
+import { noProgress } from "../delivery/progress.ts";
+
+export interface ProgressDetail extends Progress {
+  /** What is on the screen. */
+  readonly stage: StageName | "none";
+}
+
+export interface ErrorDetail {
+  /** "http", "network", "timeout", "truncated", "malformed", "unsupported", "limit" or "webgl". */
+  readonly type: string;
+  /** The file as the document names it; "" where none is concerned. */
+  readonly url: string;
+  readonly element: Element;
+  readonly message: string;
+}
+
+/** Properties that the runtime gives to <x3d> and to each <shape>. */
+export interface Loadable {
+  /** Resolves when something of it is on the screen. */
+  readonly firstImage: Promise<undefined>;
+  /**
+   * Resolves when all that can be shown is on the screen. A shape's rejects where
+   * a file of it failed; the scene's resolves even then, after the error events.
+   */
+  readonly complete: Promise<undefined>;
+}
+
+/** The loading of one element, from its start to `load`. */
+export class Loading {
+  readonly #element: Element;
+  readonly #firstImage = Promise.withResolvers<undefined>();
+  readonly #complete = Promise.withResolvers<undefined>();
+  #progress: Progress = noProgress;
+  /** What the next frame will show, and what the last one has. */
+  #stage: StageName | "none" = "none";
+  #shownStage: StageName | "none" = "none";
+  #outcome: "loading" | "settled" | "ended" = "loading";
+  #error: Error | undefined;
+
+  /** Puts fresh promises on the element. */
+  constructor(element: Element) {
+    this.#element = element;
+    for (const [name, { promise }] of [["firstImage", this.#firstImage], ["complete", this.#complete]] as const) {
+      // Nobody has to listen; a rejection must not show up as an unhandled one.
+      promise.catch(() => undefined);
+      Object.defineProperty(element, name, { value: promise, configurable: true, enumerable: true });
+    }
+  }
+
+  get progress(): Progress {
+    return this.#progress;
+  }
+
+  get isEnded(): boolean {
+    return this.#outcome === "ended";
+  }
+
+  get stage(): StageName | "none" {
+    return this.#stage;
+  }
+
+  /** Stages only ever rise. */
+  reach(stage: StageName | "none"): void {
+    if (rankOf(stage) > rankOf(this.#stage)) this.#stage = stage;
+  }
+
+  moveOn(progress: Progress): void {
+    const { totalProgress, loadedBytes } = this.#progress;
+    if (progress.totalProgress === totalProgress && progress.loadedBytes === loadedBytes) return;
+    this.#progress = progress;
+    const detail: ProgressDetail = { ...progress, stage: this.#shownStage };
+    this.#send("progress", detail);
+  }
+
+  fail(detail: ErrorDetail, error: Error): void {
+    this.#error ??= error;
+    this.#send("error", detail);
+  }
+
+  /** Nothing more will come. */
+  settle(): void {
+    if (this.#outcome === "loading") this.#outcome = "settled";
+  }
+
+  /** A frame with everything reached so far is on the screen. */
+  onFrame(isScene: boolean): void {
+    if (this.#outcome === "ended") return;
+    if (this.#stage !== this.#shownStage) {
+      const isFirst = this.#shownStage === "none";
+      this.#shownStage = this.#stage;
+      if (isFirst) {
+        this.#firstImage.resolve(undefined);
+        this.#send("first-image", { stage: this.#stage });
+      } else {
+        this.#send("refine", { stage: this.#stage });
+      }
+    }
+    if (this.#outcome !== "settled") return;
+    this.#outcome = "ended";
+    if (this.#error === undefined || isScene) {
+      this.#firstImage.resolve(undefined); // an empty scene has shown all it has
+      this.#complete.resolve(undefined);
+      this.#send("load", {});
+    } else {
+      this.#firstImage.reject(this.#error);
+      this.#complete.reject(this.#error);
+    }
+  }
+
+  /** The element is gone or begins anew. */
+  abandon(reason: Error = new DOMException("The element was removed or its geometry replaced.", "AbortError")): void {
+    if (this.#outcome === "ended") return;
+    this.#outcome = "ended";
+    this.#firstImage.reject(reason);
+    this.#complete.reject(reason);
+  }
+
+  #send(name: string, detail: object): void {
+    this.#element.dispatchEvent(new CustomEvent(name, { detail, bubbles: false }));
+  }
+}
+
+function rankOf(stage: StageName | "none"): number {
+  return stage === "none" ? -1 : stageNames.indexOf(stage);
+}
+
+/** The least of some stages: a scene is as far as its last shape. */
+export function leastStage(stages: readonly (StageName | "none")[]): StageName | "none" {
+  return stages.reduce((least, stage) => (rankOf(stage) < rankOf(least) ? stage : least), stages[0] ?? "none");
+}
