@@ -34,6 +34,5 @@ export async function decodeWithBrowser(png: Uint8Array<ArrayBuffer>): Promise<I
   return createImageBitmap(new Blob([png], { type: "image/png" }), {
     premultiplyAlpha: "none",
     colorSpaceConversion: "none",
-    imageOrientation: "from-image",
   });
 }
