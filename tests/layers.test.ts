@@ -45,7 +45,12 @@ function usesOfCpp(text: string): Use[] {
 
 function usesOfTypeScript(path: string, text: string): Use[] {
   const uses: Use[] = [];
-  const pattern = /(?:^\s*(?:import|export)\b[^;"'`]*?(?:\bfrom\s*)?|\bimport\s*\(\s*|\bnew\s+URL\s*\(\s*)["'`]([^"'`]+)["'`]/gm;
+  const pattern = new RegExp(
+    String.raw`(?:^\s*import\s+(?:[^;"'\x60]*?\bfrom\s*)?` + // import … from "x", import "x"
+      String.raw`|^\s*export\s+(?:type\s+)?(?:\{[^}]*\}|\*(?:\s+as\s+\w+)?)\s*from\s*` +
+      String.raw`|\bimport\s*\(\s*|\bnew\s+URL\s*\(\s*)["'\x60]([^"'\x60]+)["'\x60]`,
+    "gm",
+  );
   for (const match of text.matchAll(pattern)) {
     const name = match[1] ?? "";
     // The line of the name itself: an import may span several.
@@ -168,6 +173,7 @@ test("the check finds what breaks the rules, and names its line", () => {
 test("a tree that keeps to the rules passes, node's modules in its tests too", () => {
   const tree = {
     "docs/layers.txt": smallTable,
+    "web/src/decode/stage.ts": 'export type Name = "three" | "node:fs";\nexport const tag = "three";\n',
     "src/scene/b.cpp": '#include "scene/b.h"\n#include "base/a.h"\n',
     "web/src/render/x.test.ts": 'import { test } from "node:test";\nimport { png } from "../decode/png.ts";\n',
   };
