@@ -1,5 +1,6 @@
 #include "containers/geometry.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -39,7 +40,22 @@ double stepsAcross(Container container, std::uint32_t bits) {
                     -static_cast<int>(coordShift(container, bits)));
 }
 
+/// The lattice that has its `steps`-th point at the far end of a box.
+Lattice latticeOver(Vec3d origin, Vec3d size, double steps, std::uint32_t bits) {
+  const double longest = std::max({size.x, size.y, size.z});
+  return {origin, longest / steps, bits, {size.x / longest, size.y / longest, size.z / longest}};
+}
+
 } // namespace
+
+bool isUnsigned(ElementType type) {
+  return type == ElementType::uint8 || type == ElementType::uint16 || type == ElementType::uint32;
+}
+
+double maximumOf(ElementType type) {
+  constexpr double maxima[] = {127, 255, 32767, 65535, 2147483647, 4294967295, 1};
+  return maxima[static_cast<std::size_t>(type)];
+}
 
 double decodeEdge(Container container, const Lattice& lattice) {
   return lattice.step * stepsAcross(container, lattice.bits);
@@ -50,8 +66,20 @@ Box3d decodeBox(Container container, const Lattice& lattice) {
   return {lattice.origin, lattice.origin + Vec3d{edge, edge, edge}};
 }
 
-Lattice latticeFromDecodeBox(Container container, Vec3d center, double edge, std::uint32_t bits) {
-  return {center - Vec3d{edge, edge, edge} * 0.5, edge / stepsAcross(container, bits), bits};
+Lattice latticeFromDecodeBox(Container container, Vec3d center, Vec3d size, std::uint32_t bits) {
+  return latticeOver(center - size * 0.5, size, stepsAcross(container, bits), bits);
+}
+
+Lattice latticeFromTypedBox(ElementType type, Vec3d center, Vec3d size) {
+  if (type == ElementType::float32) {
+    const double longest = std::max({size.x, size.y, size.z});
+    const Vec3d reach{longest, longest, longest};
+    return latticeOver(center - reach, reach * 2, UINT32_MAX, 32);
+  }
+  assert(!isUnsigned(type));
+  const std::uint32_t bits = 8 * byteSizeOf(type);
+  const double maximum = maximumOf(type);
+  return latticeOver(center - size * ((maximum + 1) / maximum), size, maximum, bits);
 }
 
 } // namespace imgeo

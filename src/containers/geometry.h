@@ -57,6 +57,7 @@ struct GeometryDescription {
   ElementType indexType = ElementType::uint16, coordType = ElementType::uint16,
               normalType = ElementType::int8, texCoordType = ElementType::uint16,
               colorType = ElementType::uint8; ///< BG only
+  bool sphericalNormals = false; ///< BG: the normal is a coordinate record's fourth element
   std::vector<PatchDescription> patches;
   friend bool operator==(const GeometryDescription&, const GeometryDescription&) = default;
 };
@@ -79,7 +80,18 @@ double decodeEdge(Container container, const Lattice& lattice);
 Box3d decodeBox(Container container, const Lattice& lattice);
 
 /// The lattice of a node read back from a document; inverse of decodeBox
-/// but for roundings of the last bits.
-Lattice latticeFromDecodeBox(Container container, Vec3d center, double edge, std::uint32_t bits);
+/// but for roundings of the last bits. Not all of `size` is zero.
+Lattice latticeFromDecodeBox(Container container, Vec3d center, Vec3d size, std::uint32_t bits);
+
+/// The lattice of BG coordinates of a type that imgeo does not write. Signed
+/// integers v stand for centre + size * v / maximum (aopt uses half of them):
+/// q is v + 2^(bits - 1). Float32 coordinates lie on no lattice; they are put on
+/// one of 32 bits over a cube of twice the longest edge, which moves them less
+/// than single precision does far from the origin.
+Lattice latticeFromTypedBox(ElementType type, Vec3d center, Vec3d size);
+
+bool isUnsigned(ElementType type);
+/// The integer that stands for 1: 127, 255, 32767, 65535 ...; 1 for Float32.
+double maximumOf(ElementType type);
 
 } // namespace imgeo

@@ -69,6 +69,7 @@ GeometryDescription randomGeometry(Random& random) {
     geometry.coordType = bytes == 1 ? ElementType::uint8 : bytes == 2 ? ElementType::uint16 : ElementType::uint32;
     geometry.normalType = static_cast<ElementType>(random.below(7));
     geometry.indexType = static_cast<ElementType>(random.below(7));
+    geometry.sphericalNormals = random.once(2);
   }
   for (std::uint32_t patches = 1 + random.below(4); patches > 0; --patches)
     geometry.patches.push_back(randomPatch(random, geometry.container, geometry.container == Container::sig ? bytes : 1));
@@ -317,12 +318,71 @@ TEST(ReadScene, SaysOnWhichLineAFieldIsWrong) {
     EXPECT_EQ(kindOfReading(shape(fields), "s.x3d:3"), ErrorKind::malformed) << fields;
 }
 
+GeometryDescription readBinaryGeometry(const std::string& fields) {
+  const SceneDocument document = readScene("<X3D><Scene><Shape><BinaryGeometry " + fields + "/></Shape></Scene></X3D>", "x");
+  return document.geometries.at(0);
+}
+
+TEST(ReadScene, FindsTheStrideOfAUrlAsX3domDoes) {
+  const auto referenceOf = [](const std::string& url) {
+    return readBinaryGeometry("coordType='Int16' coord='" + url + "'").patches[0].coord[0];
+  };
+  EXPECT_EQ(referenceOf("a.bin"), (Reference{"a.bin", 0, 0}));
+  EXPECT_EQ(referenceOf("a.bin+8"), (Reference{"a.bin+8", 0, 8}));
+  EXPECT_EQ(referenceOf("a.bin?+8"), (Reference{"a.bin", 0, 8}));
+  EXPECT_EQ(referenceOf("a.bin#16+24"), (Reference{"a.bin", 16, 24}));
+  EXPECT_EQ(referenceOf("c++/a.bin"), (Reference{"c++/a.bin", 0, 0}));
+  EXPECT_EQ(referenceOf("+8"), (Reference{"+8", 0, 8}));
+}
+
+TEST(ReadScene, PutsSignedCoordinatesAroundTheCentreOfABoxOfAnyShape) {
+  const Lattice lattice = readBinaryGeometry("coordType='Int16' position='1 2 3' size='4 2 0' coord='a'").lattice;
+  EXPECT_EQ(lattice.bits, 16u);
+  const Vec3d middle = lattice.point({32768, 32768, 32768}), corner = lattice.point({32768 + 32767, 32768 - 32767, 0});
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(middle[axis], (Vec3d{1, 2, 3}[axis]), 1e-12);
+    EXPECT_NEAR(corner[axis], (Vec3d{5, 0, 3}[axis]), 1e-12);
+  }
+}
+
+TEST(ReadScene, TakesX3domsDefaultsForABinaryGeometry) {
+  const GeometryDescription geometry = readBinaryGeometry("coord='a' index='i' normalAsSphericalCoordinates='true'");
+  EXPECT_EQ(geometry.coordType, ElementType::float32);
+  EXPECT_EQ(geometry.indexType, ElementType::uint16);
+  EXPECT_TRUE(geometry.sphericalNormals);
+  EXPECT_EQ(geometry.patches[0].draws, (std::vector<Draw>{{Primitive::triangles, 0}}));
+}
+
+TEST(ReadScene, JoinsAGroupOfShapesThatShareTheirAppearance) {
+  const auto shape = [](const std::string& appearance, const std::string& coord) {
+    return "<Shape bboxSize='1 1 1'><Appearance " + appearance + "><Material diffuseColor='1 0 0'/></Appearance>"
+           "<BinaryGeometry size='2 2 2' coordType='Uint16' coord='" + coord + "'/></Shape>";
+  };
+  const auto scene = [](const std::string& shapes) {
+    return readScene("<X3D><Scene><Group DEF='statue' bboxSize='3 3 3'>" + shapes + "</Group></Scene></X3D>", "x");
+  };
+  const SceneDocument joined = scene(shape("DEF='A'", "a") + shape("USE='A'", "b"));
+  ASSERT_EQ(joined.shapes.size(), 1u);
+  EXPECT_EQ(joined.shapes[0].name, "statue");
+  EXPECT_EQ(joined.shapes[0].material.diffuseColor, (Vec3f{1, 0, 0}));
+  ASSERT_EQ(joined.geometries.at(0).patches.size(), 2u);
+  EXPECT_EQ(joined.geometries[0].patches[1].coord[0].url, "b");
+  EXPECT_EQ(joined.geometries[0].patches[1].box.size(), (Vec3d{1, 1, 1}));
+  EXPECT_EQ(joined.geometries[0].box.size(), (Vec3d{3, 3, 3}));
+
+  EXPECT_EQ(scene(shape("DEF='A'", "a") + shape("DEF='B'", "b")).shapes.size(), 2u);
+  EXPECT_EQ(scene(shape("", "a") + shape("", "b")).shapes.size(), 2u);
+  const std::string otherBox = "<Shape><Appearance USE='A'/><BinaryGeometry size='3 3 3' coordType='Uint16' coord='b'/></Shape>";
+  EXPECT_EQ(scene(shape("DEF='A'", "a") + otherBox).shapes.size(), 2u);
+  EXPECT_EQ(kindOfReading("<X3D><Scene>" + shape("USE='A'", "a") + "</Scene></X3D>"), ErrorKind::malformed);
+}
+
 TEST(ReadScene, RefusesGeometryThatNoLatticeStandsFor) {
   const auto geometry = [](const std::string& fields, const std::string& coord) {
     return "<X3D><Scene><Shape><ImageGeometry " + fields + " coord='" + coord + "'/></Shape></Scene></X3D>";
   };
-  EXPECT_EQ(kindOfReading(geometry("size='1 2 1'", "a")), ErrorKind::unsupported);
-  EXPECT_EQ(kindOfReading(geometry("size='0 0 0'", "a")), ErrorKind::unsupported);
+  EXPECT_EQ(kindOfReading(geometry("size='1 -2 1'", "a")), ErrorKind::malformed);
+  EXPECT_EQ(kindOfReading(geometry("size='0 0 0'", "a")), ErrorKind::malformed);
   EXPECT_EQ(kindOfReading(geometry("positionBits='16'", "a")), ErrorKind::malformed);
   EXPECT_EQ(kindOfReading(geometry("positionBits='7'", "a")), ErrorKind::malformed);
   EXPECT_EQ(kindOfReading(geometry("", "\"a\" \"b\" \"c\" \"d\" \"e\"")), ErrorKind::unsupported);

@@ -24,9 +24,20 @@ bool parseWhole(std::string_view text, std::uint32_t& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// url, url#N, url#O+S
+/// The ending "+S" of a url: X3DOM's stride, part of the file's name unless a '?'
+/// separates them. Any other '+' means nothing.
+Reference stridedReference(const std::string& url) {
+  Reference reference{url, 0, 0};
+  const std::size_t plus = url.rfind('+');
+  if (plus == std::string::npos || !parseWhole(std::string_view(url).substr(plus + 1), reference.stride)) return {url, 0, 0};
+  if (plus > 0 && url[plus - 1] == '?') reference.url.resize(plus - 1);
+  return reference;
+}
+
+/// SIG: url, url#N. BG: url, url+S, url?+S, url#O+S.
 Reference referenceOf(const Fields& fields, const std::string& url, Container container) {
   const std::size_t hash = url.rfind('#');
+  if (hash == std::string::npos && container == Container::bg) return stridedReference(url);
   Reference reference{url.substr(0, hash), 0, 0};
   if (reference.url.empty()) fields.fail(ErrorKind::malformed, "a reference has no url");
   if (reference.url.find('#') != std::string::npos) fields.fail(ErrorKind::malformed, "a reference has two fragments");
@@ -43,7 +54,8 @@ Reference referenceOf(const Fields& fields, const std::string& url, Container co
 std::vector<Draw> drawsOf(const Fields& fields) {
   static constexpr std::array<const char*, 4> names{"POINTS", "LINES", "TRIANGLES", "TRIANGLESTRIP"};
   const std::vector<std::string> types = fields.strings("primType");
-  const std::vector<std::uint32_t> counts = fields.integers("vertexCount");
+  std::vector<std::uint32_t> counts = fields.integers("vertexCount");
+  if (counts.empty()) counts = {0}; // all of the indices, in X3DOM
   if (!types.empty() && types.size() != counts.size())
     fields.fail(ErrorKind::malformed, "primType and vertexCount differ in their number of draws");
   std::vector<Draw> draws;
@@ -125,9 +137,12 @@ Lattice latticeOf(const Fields& fields, const GeometryDescription& geometry) {
   if (bits < 8 || bits > 32 || coordBytes(geometry.container, bits) != bytes)
     fields.fail(ErrorKind::malformed, "positionBits is no precision of coordinates of " + std::to_string(bytes) + " bytes");
   const Vec3d position = fields.vec3("position", Vec3d{0, 0, 0}), size = fields.vec3("size", Vec3d{1, 1, 1});
-  if (!(size.x > 0) || std::abs(size.y - size.x) > 1e-9 * size.x || std::abs(size.z - size.x) > 1e-9 * size.x)
-    fields.fail(ErrorKind::unsupported, "size is not a cube: one lattice step on all axes is all we read");
-  return latticeFromDecodeBox(geometry.container, position, size.x, bits);
+  if (!(std::min({size.x, size.y, size.z}) >= 0 && std::max({size.x, size.y, size.z}) > 0))
+    fields.fail(ErrorKind::malformed, "size is the extent of no box");
+  if (geometry.container == Container::sig || isUnsigned(geometry.coordType))
+    return latticeFromDecodeBox(geometry.container, position, size, bits);
+  if (bits != 8 * bytes) fields.fail(ErrorKind::malformed, "positionBits is only for unsigned coordinates");
+  return latticeFromTypedBox(geometry.coordType, position, size);
 }
 
 } // namespace
@@ -145,6 +160,9 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
     geometry.texCoordType = elementTypeOf(fields, "texCoordType", ElementType::float32);
     geometry.colorType = elementTypeOf(fields, "colorType", ElementType::float32);
     geometry.colorComponents = fields.boolean("rgbaColors", false) ? 4 : 3;
+    geometry.sphericalNormals = fields.boolean("normalAsSphericalCoordinates", false);
+    if (fields.boolean("compressed", false)) fields.fail(ErrorKind::unsupported, "compressed containers are not read");
+    if (!fields.boolean("normalPerVertex", true)) fields.fail(ErrorKind::unsupported, "normals for faces are not read");
   } else {
     geometry.colorComponents = fields.integer("numColorComponents", 3);
     if (geometry.colorComponents != 3 && geometry.colorComponents != 4)

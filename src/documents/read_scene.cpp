@@ -4,12 +4,21 @@
 #include "documents/find_x3d.h"
 #include "documents/read_geometry.h"
 
+#include <map>
+
 namespace imgeo {
 
 namespace {
 
 constexpr std::size_t maxDocumentBytes = 64u << 20; // some hundred thousand patches
 constexpr std::size_t maxDepth = 64;
+
+/// The first child element of a name; a null node where there is none.
+pugi::xml_node childNamed(const pugi::xml_node& parent, const char* name) {
+  for (const pugi::xml_node& child : parent.children())
+    if (sameName(child.name(), name)) return child;
+  return {};
+}
 
 class SceneReader {
 public:
@@ -38,7 +47,7 @@ private:
     for (const pugi::xml_node& node : parent.children()) {
       const Fields fields(source_, node);
       const auto is = [&](const char* name) { return sameName(node.name(), name); };
-      if (is("Group")) readChildren(node, depth + 1);
+      if (is("Group")) readGroup(fields, depth + 1);
       else if (is("Shape")) readShape(fields);
       else if (is("Viewpoint")) readViewpoint(fields);
       else if (is("DirectionalLight")) readLight(fields);
@@ -47,6 +56,42 @@ private:
       else if (node.first_child().type() == pugi::node_element)
         fail(node, ErrorKind::unsupported, "shapes inside of this element cannot be read back");
     }
+  }
+
+  /// A Group that stands for one Shape (see x3dom_element.h) becomes that Shape again.
+  void readGroup(const Fields& fields, std::size_t depth) {
+    const std::size_t first = document_.shapes.size();
+    readChildren(fields.node(), depth);
+    const std::string name = fields.text("DEF");
+    if (!sharesAppearance(fields.node())) return;
+    for (std::size_t i = first + 1; i < document_.shapes.size(); ++i)
+      if (!sameButForPatches(document_.geometries[i], document_.geometries[first])) return;
+    GeometryDescription& geometry = document_.geometries[first];
+    for (std::size_t i = first + 1; i < document_.geometries.size(); ++i)
+      for (PatchDescription& patch : document_.geometries[i].patches) geometry.patches.push_back(std::move(patch));
+    geometry.box = fields.box();
+    document_.shapes[first].name = name;
+    document_.shapes.resize(first + 1);
+    document_.geometries.resize(first + 1);
+  }
+
+  /// Whether a Group holds Shapes alone, all of them with the first's Appearance.
+  bool sharesAppearance(const pugi::xml_node& group) const {
+    std::string first;
+    for (const pugi::xml_node& shape : group.children()) {
+      if (shape.type() != pugi::node_element) continue;
+      const Fields appearance(source_, childNamed(shape, "Appearance"));
+      const std::string name = appearance.text(first.empty() ? "DEF" : "USE");
+      if (!sameName(shape.name(), "Shape") || name.empty() || (!first.empty() && name != first)) return false;
+      first = name;
+    }
+    return !first.empty();
+  }
+
+  static bool sameButForPatches(GeometryDescription a, const GeometryDescription& b) {
+    a.patches = b.patches;
+    a.box = b.box;
+    return a == b;
   }
 
   void readViewpoint(const Fields& fields) {
@@ -80,31 +125,48 @@ private:
     material.transparency = fields.real("transparency", material.transparency);
   }
 
+  void readAppearance(const Fields& fields, Material& material) {
+    if (const std::string use = fields.text("USE"); !use.empty()) {
+      const auto defined = materials_.find(use);
+      if (defined == materials_.end()) fields.fail(ErrorKind::malformed, "USE names no Appearance that stands before");
+      material = defined->second;
+      return;
+    }
+    for (const pugi::xml_node& node : fields.node().children())
+      if (sameName(node.name(), "Material")) readMaterial(Fields(source_, node), material);
+    if (const std::string def = fields.text("DEF"); !def.empty()) materials_[def] = material;
+  }
+
   void readShape(const Fields& fields) {
     Shape shape;
     shape.name = fields.text("DEF");
     shape.mesh = document_.geometries.size();
+    bool patchless = false; // the geometry node itself is its only patch
     for (const pugi::xml_node& child : fields.node().children()) {
       if (child.type() != pugi::node_element) continue;
       if (sameName(child.name(), "Appearance")) {
-        for (const pugi::xml_node& node : child.children())
-          if (sameName(node.name(), "Material")) readMaterial(Fields(source_, node), shape.material);
+        readAppearance(Fields(source_, child), shape.material);
       } else if (sameName(child.name(), "ImageGeometry")) {
         document_.geometries.push_back(readGeometry(source_, child, Container::sig));
+        patchless = !childNamed(child, "GeometryPatch");
       } else if (sameName(child.name(), "BinaryGeometry")) {
         document_.geometries.push_back(readGeometry(source_, child, Container::bg));
+        patchless = !childNamed(child, "GeometryPatch");
       } else {
         fail(child, ErrorKind::unsupported, "a Shape's geometry is neither ImageGeometry nor BinaryGeometry");
       }
     }
     if (document_.geometries.size() != shape.mesh + 1)
       fail(fields.node(), ErrorKind::malformed, "a Shape has no geometry, or more than one");
-    document_.geometries.back().box = fields.box();
+    GeometryDescription& geometry = document_.geometries.back();
+    geometry.box = fields.box();
+    if (patchless) geometry.patches[0].box = geometry.box;
     document_.shapes.push_back(std::move(shape));
   }
 
   const DocumentText& source_;
   SceneDocument document_;
+  std::map<std::string, Material> materials_; ///< by the DEF of their Appearance
 };
 
 /// pugixml leaves references that it does not know as text; we refuse them.

@@ -80,6 +80,7 @@ Element geometryElement(const GeometryDescription& geometry) {
               {"normalType", nameOf(geometry.normalType)},
               {"texCoordType", nameOf(geometry.texCoordType)},
               {"colorType", nameOf(geometry.colorType)}};
+  if (geometry.sphericalNormals) stored.push_back({"normalAsSphericalCoordinates", "true"});
   addUnless(stored, "texCoordMin", geometry.texCoordMin, Vec2f{0, 0}, numbers(geometry.texCoordMin));
   addUnless(stored, "texCoordSize", geometry.texCoordSize, Vec2f{1, 1}, numbers(geometry.texCoordSize));
   if (geometry.colorComponents == 4)

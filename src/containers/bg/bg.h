@@ -11,9 +11,10 @@ namespace imgeo {
 /// texture coordinates and colours, of the node's element types.
 EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geometry);
 
-/// Safe for untrusted bytes; see decodePatch. Throws Error{unsupported} for
-/// element types that hold no lattice coordinates (Float32, signed) and for
-/// signed indices.
+/// Reads what encodeBg writes and every layout of X3DOM's BinaryGeometry: all
+/// element types, interleaved records, spherical normals. Safe for untrusted
+/// bytes; see decodePatch. Throws Error{unsupported} for signed indices,
+/// unsigned normals, and spherical normals of other than 16 bits.
 IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch);
 
 } // namespace imgeo

@@ -1,7 +1,12 @@
 #include "containers/bg/bg.h"
 
 #include "base/error.h"
+#include "base/narrow.h"
 #include "containers/stored.h"
+#include "containers/unit_vectors.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace imgeo {
 
@@ -12,8 +17,8 @@ class Records {
 public:
   Records(const Reference& reference, const FetchFile& fetch, ElementType type, std::uint32_t components)
       : bytes_(fetch(reference.url)), place_(reference.url), type_(type), first_(reference.first),
-        stride_(reference.stride != 0 ? reference.stride : components * byteSizeOf(type)) {
-    if (stride_ < components * byteSizeOf(type))
+        recordBytes_(components * byteSizeOf(type)), stride_(reference.stride != 0 ? reference.stride : recordBytes_) {
+    if (stride_ < recordBytes_)
       throw Error(ErrorKind::malformed, place_,
                   "a stride of " + std::to_string(stride_) + " bytes is less than a record of " +
                       std::to_string(components) + " " + nameOf(type));
@@ -21,10 +26,18 @@ public:
 
   /// To be called before records 0 .. count - 1 are read.
   void require(std::uint64_t count) const {
-    if (first_ > bytes_.size() || (bytes_.size() - first_) / stride_ < count)
+    // Interleaved records begin before this attribute's part of them; all are whole.
+    const std::uint64_t end = std::max(first_ - first_ % stride_ + count * stride_,
+                                       count == 0 ? first_ : first_ + (count - 1) * stride_ + recordBytes_);
+    if (end > bytes_.size())
       throw Error(ErrorKind::truncated, place_,
                   std::to_string(bytes_.size()) + " bytes are too few for " + std::to_string(count) +
                       " records of " + std::to_string(stride_) + " bytes from byte " + std::to_string(first_));
+  }
+
+  /// How many records follow one another to the end of the file.
+  std::uint64_t available() const {
+    return first_ + recordBytes_ > bytes_.size() ? 0 : (bytes_.size() - first_ - recordBytes_) / stride_ + 1;
   }
 
   std::uint32_t unsignedAt(std::uint64_t record, std::uint32_t component) const {
@@ -36,14 +49,15 @@ public:
     }
   }
 
+  /// An element as shaders see it: integers as shares of their type's maximum.
   double realAt(std::uint64_t record, std::uint32_t component) const {
     const std::uint8_t* at = this->at(record, component);
     switch (type_) {
-    case ElementType::int8: return static_cast<std::int8_t>(*at);
-    case ElementType::int16: return loadLittle<std::int16_t>(at);
-    case ElementType::int32: return loadLittle<std::int32_t>(at);
+    case ElementType::int8: return static_cast<std::int8_t>(*at) / maximumOf(type_);
+    case ElementType::int16: return loadLittle<std::int16_t>(at) / maximumOf(type_);
+    case ElementType::int32: return loadLittle<std::int32_t>(at) / maximumOf(type_);
     case ElementType::float32: return loadLittle<float>(at);
-    default: return unsignedAt(record, component);
+    default: return unsignedAt(record, component) / maximumOf(type_);
     }
   }
 
@@ -55,44 +69,89 @@ private:
   Bytes bytes_;
   std::string place_;
   ElementType type_;
-  std::uint64_t first_, stride_;
+  std::uint64_t first_, recordBytes_, stride_;
 };
-
-bool isUnsigned(ElementType type) {
-  return type == ElementType::uint8 || type == ElementType::uint16 || type == ElementType::uint32;
-}
 
 void requireType(bool supported, const std::string& place, const char* attribute, ElementType type) {
   if (!supported)
     throw Error(ErrorKind::unsupported, place, std::string(attribute) + " of type " + nameOf(type));
 }
 
+/// A count of 0 in the only draw stands for all indices of the file.
 std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, ElementType type, const FetchFile& fetch) {
   requireType(isUnsigned(type), patch.index->url, "indices", type);
-  const std::uint64_t count = drawnCount(patch.draws);
   const Records records(*patch.index, fetch, type, 1);
+  const bool all = patch.draws.size() == 1 && patch.draws[0].count == 0;
+  const std::uint64_t count = all ? records.available() : drawnCount(patch.draws);
   records.require(count);
   std::vector<std::uint32_t> indices(count);
   for (std::uint64_t n = 0; n < count; ++n) indices[n] = records.unsignedAt(n, 0);
   return indices;
 }
 
-} // namespace
+/// Lattice coordinates as they are stored; signed ones in offset binary.
+std::vector<Vec3u> decodeIntegers(const Records& records, std::uint32_t count, const GeometryDescription& geometry,
+                                  const std::string& place) {
+  const std::uint32_t signBit = isUnsigned(geometry.coordType) ? 0 : 1u << (8 * byteSizeOf(geometry.coordType) - 1);
+  const std::uint32_t shift = coordShift(Container::bg, geometry.lattice.bits);
+  std::vector<Vec3u> positions(count);
+  for (std::uint32_t n = 0; n < count; ++n)
+    for (int axis = 0; axis < 3; ++axis)
+      if (geometry.lattice.stretch[axis] > 0) // on a flat axis all numbers mean the same
+        positions[n][axis] = loadCoord(records.unsignedAt(n, static_cast<std::uint32_t>(axis)) ^ signBit, shift, place);
+  return positions;
+}
 
-IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch) {
+std::vector<Vec3u> decodeFloats(const Records& records, std::uint32_t count, const Lattice& lattice,
+                                const std::string& place) {
+  std::vector<Vec3u> positions(count);
+  for (std::uint32_t n = 0; n < count; ++n)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double value = records.realAt(n, static_cast<std::uint32_t>(axis));
+      const double steps = std::round((value - lattice.origin[axis]) / lattice.step);
+      if (!(steps >= 0 && steps <= lattice.maximum()))
+        throw Error(ErrorKind::malformed, place, "vertices lie far outside of the box that the node states");
+      positions[n][axis] = static_cast<std::uint32_t>(steps);
+    }
+  return positions;
+}
+
+/// T and P of the high and the low byte of a record's fourth element.
+std::vector<Vec3f> decodeSphericalNormals(const Records& records, std::uint32_t count) {
+  std::vector<Vec3f> normals(count);
+  for (std::uint32_t n = 0; n < count; ++n) {
+    const std::uint32_t word = records.unsignedAt(n, 3);
+    normals[n] = unitFromSpherical({word >> 8, word & 255}, 8);
+  }
+  return normals;
+}
+
+void checkTypes(const PatchDescription& patch, const GeometryDescription& geometry) {
   if (patch.coord.size() != 1)
     throw Error(ErrorKind::malformed, "", "a BinaryGeometry patch has one file of coordinates");
   const std::string& place = patch.coord[0].url;
-  requireType(isUnsigned(geometry.coordType), place, "coordinates", geometry.coordType);
   if (byteSizeOf(geometry.coordType) != coordBytes(Container::bg, geometry.lattice.bits))
     throw Error(ErrorKind::malformed, place,
                 std::string(nameOf(geometry.coordType)) + " is no type for coordinates of " +
                     std::to_string(geometry.lattice.bits) + " bits");
+  if (geometry.sphericalNormals)
+    requireType(byteSizeOf(geometry.coordType) == 2, place, "coordinates with spherical normals", geometry.coordType);
+  if (patch.normal)
+    requireType(!isUnsigned(geometry.normalType), patch.normal->url, "normals", geometry.normalType);
+}
 
+} // namespace
+
+IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch) {
+  checkTypes(patch, geometry);
+  const std::string& place = patch.coord[0].url;
   IndexedPatch decoded;
   decoded.draws = patch.draws;
   decoded.colorComponents = geometry.colorComponents;
-  if (patch.index) decoded.indices = decodeIndices(patch, geometry.indexType, fetch);
+  if (patch.index) {
+    decoded.indices = decodeIndices(patch, geometry.indexType, fetch);
+    if (decoded.draws.size() == 1) decoded.draws[0].count = narrow<std::uint32_t>(decoded.indices.size());
+  }
   const std::uint32_t count = recordCountOf(patch, decoded.indices, patch.index ? patch.index->url : place);
   const auto fetchRecords = [&](const Reference& reference, ElementType type, std::uint32_t components) {
     Records records(reference, fetch, type, components);
@@ -100,35 +159,32 @@ IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& 
     return records;
   };
 
-  const Records coords = fetchRecords(patch.coord[0], geometry.coordType, 3);
-  const std::uint32_t shift = coordShift(Container::bg, geometry.lattice.bits);
-  decoded.positions.resize(count);
-  for (std::uint32_t n = 0; n < count; ++n)
-    for (std::uint32_t axis = 0; axis < 3; ++axis)
-      decoded.positions[n][static_cast<int>(axis)] = loadCoord(coords.unsignedAt(n, axis), shift, place);
+  const Records coords = fetchRecords(patch.coord[0], geometry.coordType, geometry.sphericalNormals ? 4 : 3);
+  decoded.positions = geometry.coordType == ElementType::float32
+                          ? decodeFloats(coords, count, geometry.lattice, place)
+                          : decodeIntegers(coords, count, geometry, place);
   checkInsideBox(decoded.positions, geometry.lattice, patch.box, place);
 
-  if (patch.normal) {
-    const ElementType type = geometry.normalType;
-    requireType(!isUnsigned(type), patch.normal->url, "normals", type);
-    const Records records = fetchRecords(*patch.normal, type, 3);
+  if (geometry.sphericalNormals) {
+    decoded.normals = decodeSphericalNormals(coords, count);
+  } else if (patch.normal) {
+    const Records records = fetchRecords(*patch.normal, geometry.normalType, 3);
     for (std::uint32_t n = 0; n < count; ++n)
       decoded.normals.push_back(unitNormal({records.realAt(n, 0), records.realAt(n, 1), records.realAt(n, 2)}));
   }
   if (patch.texCoord) {
-    requireType(geometry.texCoordType == ElementType::uint16, patch.texCoord->url, "texture coordinates", geometry.texCoordType);
     const Records records = fetchRecords(*patch.texCoord, geometry.texCoordType, 2);
-    const auto load = [&](std::uint32_t n, std::uint32_t axis, float min, float size) {
-      return loadTexCoord(static_cast<std::uint16_t>(records.unsignedAt(n, axis)), min, size);
-    };
+    const Vec2f min = geometry.texCoordMin, size = geometry.texCoordSize;
     for (std::uint32_t n = 0; n < count; ++n)
-      decoded.texCoords.push_back({load(n, 0, geometry.texCoordMin.x, geometry.texCoordSize.x),
-                                   load(n, 1, geometry.texCoordMin.y, geometry.texCoordSize.y)});
+      decoded.texCoords.push_back({static_cast<float>(min.x + size.x * records.realAt(n, 0)),
+                                   static_cast<float>(min.y + size.y * records.realAt(n, 1))});
   }
   if (patch.color) {
-    requireType(geometry.colorType == ElementType::uint8, patch.color->url, "colours", geometry.colorType);
     const Records records = fetchRecords(*patch.color, geometry.colorType, geometry.colorComponents);
-    const auto byte = [&](std::uint32_t n, std::uint32_t c) { return static_cast<std::uint8_t>(records.unsignedAt(n, c)); };
+    const auto byte = [&](std::uint32_t n, std::uint32_t component) {
+      const double share = records.realAt(n, component);
+      return static_cast<std::uint8_t>(std::lround(255 * (share >= 0 ? std::min(share, 1.0) : 0)));
+    };
     for (std::uint32_t n = 0; n < count; ++n)
       decoded.colors.push_back({byte(n, 0), byte(n, 1), byte(n, 2), geometry.colorComponents == 4 ? byte(n, 3) : std::uint8_t{255}});
   }

@@ -15,7 +15,8 @@ namespace imgeo {
 /// Throws Error{limit} for more indices than an image of maxImageEdge² holds.
 EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort);
 
-/// Safe for untrusted bytes; see decodePatch.
+/// Reads what encodeClassic writes and X3DOM's ImageGeometry with record images of
+/// any size. Safe for untrusted bytes; see decodePatch.
 IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescription& geometry,
                            const FetchFile& fetch);
 

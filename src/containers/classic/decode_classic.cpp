@@ -9,14 +9,14 @@ namespace imgeo {
 
 namespace {
 
-/// The texels of an image, counted through its first `columns` columns from the
-/// reference's first texel on.
+/// The texels of an image, counted through its first `columns` columns (0: all
+/// of them) from the reference's first texel on.
 class Texels {
 public:
   Texels(const Reference& reference, const FetchFile& fetch, std::uint32_t columns, std::uint32_t fewestChannels)
-      : image_(decodePng(fetch(reference.url), reference.url)), columns_(columns), first_(reference.first),
-        place_(reference.url) {
-    if (columns == 0 || columns > image_.width)
+      : image_(decodePng(fetch(reference.url), reference.url)), columns_(columns != 0 ? columns : image_.width),
+        first_(reference.first), place_(reference.url) {
+    if (columns > image_.width)
       throw Error(ErrorKind::malformed, place_,
                   "the image is " + std::to_string(image_.width) + " texels wide and cannot hold " +
                       std::to_string(columns) + " columns");
@@ -47,20 +47,31 @@ private:
   std::string place_;
 };
 
+constexpr std::uint32_t noTexel = UINT32_MAX;
+
+/// The column (or row) of `edge` that each byte of an index texel names: X3DOM
+/// counts in 1/256 of the image, so texel t is byte round(t * 256 / edge).
+std::vector<std::uint32_t> texelsByByte(std::uint32_t edge) {
+  std::vector<std::uint32_t> texels(256, noTexel);
+  for (std::uint32_t t = 0; t < edge; ++t) texels[(t * 512 + edge) / (2 * edge)] = t;
+  return texels;
+}
+
 std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, const FetchFile& fetch, const Image& records,
                                          const std::string& recordsPlace) {
-  if (records.width != recordColumns || records.height > recordColumns || !std::has_single_bit(records.height))
+  if (records.width > recordColumns || records.height > recordColumns)
     throw Error(ErrorKind::malformed, recordsPlace,
-                "a coordinate image that is indexed is 256 wide and a power of two, at most 256, high");
-  const std::uint32_t rowStep = recordColumns / records.height;
+                "a coordinate image that is indexed is at most 256 texels wide and 256 high");
+  const std::vector<std::uint32_t> columnOf = texelsByByte(records.width), rowOf = texelsByByte(records.height);
   const std::uint64_t count = drawnCount(patch.draws);
   const Texels texels(*patch.index, fetch, patch.implicitMeshSize.x, 3);
   texels.require(count);
   std::vector<std::uint32_t> indices(count);
   for (std::uint64_t n = 0; n < count; ++n) {
-    const std::uint32_t column = texels[n][0], row = texels[n][1];
-    if (row % rowStep != 0) throw Error(ErrorKind::malformed, patch.index->url, "an index lies between two rows");
-    indices[n] = row / rowStep * recordColumns + column;
+    const std::uint32_t column = columnOf[texels[n][0]], row = rowOf[texels[n][1]];
+    if (column == noTexel || row == noTexel)
+      throw Error(ErrorKind::malformed, patch.index->url, "an index lies between two records");
+    indices[n] = row * records.width + column;
   }
   return indices;
 }
@@ -92,7 +103,7 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
 
   // What an index means follows from the height of the record images, and how
   // many records there are may only follow from the indices.
-  const std::uint32_t columns = patch.index ? recordColumns : patch.implicitMeshSize.x;
+  const std::uint32_t columns = patch.index ? 0 : patch.implicitMeshSize.x;
   const std::string& place = patch.coord[0].url;
   const Texels first(patch.coord[0], fetch, columns, 3);
   IndexedPatch decoded;
