@@ -1,0 +1,241 @@
+// The paper's Figure 10 and section 7.1, measured: what JPEG and lossy WebP do to
+// coordinate images. Each model is prepared as `imgeo convert` does it; its
+// coordinate images go through a lossy codec and back; the geometry that
+// remains is compared with the exact one.
+//
+//   build/bench/lossy MODEL... [--write DIRECTORY]
+//
+// --write puts a PLY of each distorted mesh there, for `imgeo convert` and a look.
+
+#include "base/error.h"
+#include "base/file.h"
+#include "containers/container.h"
+#include "containers/png/png.h"
+#include "export/export.h"
+#include "import/import.h"
+#include "prepare/normals.h"
+#include "prepare/weld.h"
+
+#include <cmath>
+#include <csetjmp>
+#include <cstdio>
+#include <fmt/format.h>
+#include <jpeglib.h>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+#include <webp/decode.h>
+#include <webp/encode.h>
+
+namespace imgeo {
+namespace {
+
+struct Coded {
+  std::size_t bytes = 0;
+  Image image; ///< as it comes back
+};
+
+Coded throughJpeg(const Image& image, int quality) {
+  jpeg_error_mgr errors;
+  jpeg_compress_struct compress{};
+  compress.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&compress);
+  unsigned char* buffer = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&compress, &buffer, &size);
+  compress.image_width = image.width;
+  compress.image_height = image.height;
+  compress.input_components = 3;
+  compress.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&compress);
+  jpeg_set_quality(&compress, quality, TRUE);
+  // Full chroma: x, y and z deserve the same.
+  compress.comp_info[0].h_samp_factor = compress.comp_info[0].v_samp_factor = 1;
+  jpeg_start_compress(&compress, TRUE);
+  while (compress.next_scanline < compress.image_height) {
+    auto* row = const_cast<JSAMPLE*>(&image.pixels[std::size_t{compress.next_scanline} * image.width * 3]);
+    jpeg_write_scanlines(&compress, &row, 1);
+  }
+  jpeg_finish_compress(&compress);
+  jpeg_destroy_compress(&compress);
+
+  Coded coded{size, image};
+  jpeg_decompress_struct decompress{};
+  decompress.err = &errors;
+  jpeg_create_decompress(&decompress);
+  jpeg_mem_src(&decompress, buffer, size);
+  jpeg_read_header(&decompress, TRUE);
+  decompress.out_color_space = JCS_RGB;
+  jpeg_start_decompress(&decompress);
+  while (decompress.output_scanline < decompress.output_height) {
+    JSAMPLE* row = &coded.image.pixels[std::size_t{decompress.output_scanline} * image.width * 3];
+    jpeg_read_scanlines(&decompress, &row, 1);
+  }
+  jpeg_finish_decompress(&decompress);
+  jpeg_destroy_decompress(&decompress);
+  std::free(buffer);
+  return coded;
+}
+
+Coded throughWebp(const Image& image, int quality) {
+  std::uint8_t* buffer = nullptr;
+  const int stride = static_cast<int>(image.width) * 3;
+  const std::size_t size =
+      WebPEncodeRGB(image.pixels.data(), static_cast<int>(image.width), static_cast<int>(image.height), stride,
+                    static_cast<float>(quality), &buffer);
+  Coded coded{size, image};
+  WebPDecodeRGBInto(buffer, size, coded.image.pixels.data(), coded.image.pixels.size(), stride);
+  WebPFree(buffer);
+  return coded;
+}
+
+struct Variant {
+  const char* codec; ///< "PNG" (lossless), "JPEG" or "WebP"
+  int quality;
+  bool highToo; ///< the first byte plane goes through the codec as well, not only the second
+};
+
+struct Outcome {
+  std::size_t coordBytes = 0;
+  double squaredError = 0, largestError = 0; ///< in the mesh's units
+  std::size_t vertices = 0, beyondFirstByte = 0; ///< moved by more than the first byte's step
+
+  void add(double error, const Lattice& lattice) {
+    squaredError += error * error;
+    largestError = std::max(largestError, error);
+    beyondFirstByte += error > 256 * lattice.step;
+    ++vertices;
+  }
+};
+
+Coded recode(const Bytes& png, std::size_t plane, const Variant& variant) {
+  const Image image = decodePng(png, "coordinate image");
+  const bool lossy = variant.quality > 0 && (plane > 0 || variant.highToo);
+  if (!lossy)
+    return {png.size(), image};
+  return variant.codec[0] == 'J' ? throughJpeg(image, variant.quality) : throughWebp(image, variant.quality);
+}
+
+/// Sends one patch's coordinate images through the codec; leaves the distorted
+/// positions in `patch` and adds to `outcome`.
+void distort(IndexedPatch& patch, const GeometryDescription& geometry, const EncodeOptions& options,
+             const Variant& variant, Outcome& outcome) {
+  const EncodedPatch encoded = encodePatch(patch, geometry, options);
+  std::vector<Vec3u> stored(patch.vertexCount());
+  for (std::size_t plane = 0; plane < encoded.description.coord.size(); ++plane) {
+    const std::size_t file = std::stoul(encoded.description.coord[plane].url);
+    const Coded coded = recode(encoded.files[file].bytes, plane, variant);
+    outcome.coordBytes += coded.bytes;
+    for (std::size_t i = 0; i < stored.size(); ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        stored[i][axis] = stored[i][axis] << 8 | coded.image.pixels[i * 3 + static_cast<std::size_t>(axis)];
+  }
+  for (std::size_t i = 0; i < stored.size(); ++i)
+    outcome.add(length(Vec3d(stored[i]) - Vec3d(patch.positions[i])) * geometry.lattice.step, geometry.lattice);
+  patch.positions = std::move(stored);
+}
+
+void writeMesh(const std::vector<IndexedPatch>& patches, const Lattice& lattice, const std::string& path) {
+  Scene scene;
+  Mesh mesh;
+  for (const IndexedPatch& patch : patches) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const Vec3u& position : patch.positions) {
+      mesh.wedgePositions.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+      mesh.positions.push_back(Vec3f(lattice.point(position)));
+    }
+    for (const std::uint32_t index : patch.indices)
+      mesh.corners.push_back(first + index);
+  }
+  scene.meshes.push_back(std::move(mesh));
+  scene.shapes.push_back({"distorted", 0, {}});
+  writeFile(path, exportScene(scene, MeshFormat::ply));
+}
+
+void printRow(const std::string& name, const Outcome& outcome, std::size_t losslessBytes, double diagonal) {
+  const auto count = static_cast<double>(outcome.vertices);
+  fmt::print("| {} | {} | {:.2f} | {:.4f} | {:.3f} | {:.1f} % |\n", name, outcome.coordBytes,
+             static_cast<double>(outcome.coordBytes) / static_cast<double>(losslessBytes),
+             100 * std::sqrt(outcome.squaredError / count) / diagonal, 100 * outcome.largestError / diagonal,
+             100 * static_cast<double>(outcome.beyondFirstByte) / count);
+}
+
+/// The honest alternative to a lossy codec: fewer bits, lossless.
+Outcome withFewerBits(const Mesh& mesh, const Lattice& full, std::uint32_t bits, EncodeOptions options) {
+  const Lattice lattice = latticeFor(boxOf(mesh), bits);
+  const PatchedMesh patched = cutIntoPatches(mesh, lattice, 65535);
+  const GeometryDescription geometry = describe(patched, options);
+  Outcome outcome;
+  for (const Patch& patch : patched.patches) {
+    const EncodedPatch encoded = encodePatch(asTriangles(patch), geometry, options);
+    for (const Reference& plane : encoded.description.coord)
+      outcome.coordBytes += encoded.files[std::stoul(plane.url)].bytes.size();
+  }
+  const std::vector<Vec3u> coarse = quantise(mesh.positions, lattice), fine = quantise(mesh.positions, full);
+  for (std::size_t i = 0; i < fine.size(); ++i)
+    outcome.add(length(lattice.point(coarse[i]) - full.point(fine[i])), full);
+  return outcome;
+}
+
+void measure(const std::filesystem::path& model, const std::string& directory) {
+  Mesh mesh = importFile(model).scene.meshes.at(0);
+  weld(mesh);
+  const PatchedMesh patched = cutIntoPatches(mesh, latticeFor(boxOf(mesh), 16), 65535);
+  const EncodeOptions options{.container = Container::sig, .normalBits = 8, .effort = 9};
+  const GeometryDescription geometry = describe(patched, options);
+  const double diagonal = length(boxOf(mesh).size());
+  std::vector<IndexedPatch> exact;
+  for (const Patch& patch : patched.patches)
+    exact.push_back(asTriangles(patch));
+
+  fmt::print("\n{}: {} triangles\n\n", model.filename().string(), mesh.elementCount());
+  fmt::print("| coordinate images | bytes | of lossless | RMS error, % of diagonal | largest | vertices off by "
+             "more than 8-bit precision |\n|---|---|---|---|---|---|\n");
+  std::size_t losslessBytes = 0;
+  const auto run = [&](const Variant& variant, const std::string& name, const std::string& file) {
+    std::vector<IndexedPatch> patches = exact;
+    Outcome outcome;
+    for (IndexedPatch& patch : patches)
+      distort(patch, geometry, options, variant, outcome);
+    if (losslessBytes == 0)
+      losslessBytes = outcome.coordBytes;
+    printRow(name, outcome, losslessBytes, diagonal);
+    if (!directory.empty())
+      writeMesh(patches, geometry.lattice, fmt::format("{}/{}-{}.ply", directory, model.stem().string(), file));
+  };
+  run({"PNG", 0, false}, "PNG, 16 bits, lossless", "lossless");
+  for (const std::uint32_t bits : {14u, 12u, 10u})
+    printRow(fmt::format("PNG, {} bits, lossless", bits),
+             withFewerBits(mesh, geometry.lattice, bits, options), losslessBytes, diagonal);
+  for (const bool highToo : {false, true})
+    for (const char* codec : {"JPEG", "WebP"})
+      for (const int quality : {100, 95, 80, 50})
+        run({codec, quality, highToo},
+            fmt::format("{} {}, {}", codec, quality, highToo ? "both bytes" : "second byte only"),
+            fmt::format("{}{}{}", codec, quality, highToo ? "-both" : ""));
+}
+
+} // namespace
+} // namespace imgeo
+
+int main(int argc, char** argv) {
+  std::vector<std::string> models;
+  std::string directory;
+  for (int i = 1; i < argc; ++i) {
+    if (std::string_view(argv[i]) == "--write" && i + 1 < argc)
+      directory = argv[++i];
+    else
+      models.emplace_back(argv[i]);
+  }
+  try {
+    if (models.empty())
+      throw imgeo::Error(imgeo::ErrorKind::usage, "", "usage: lossy MODEL... [--write DIRECTORY]");
+    for (const std::string& model : models)
+      imgeo::measure(model, directory);
+  } catch (const imgeo::Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return imgeo::exitCode(error.kind());
+  }
+  return 0;
+}
