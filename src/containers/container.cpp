@@ -19,7 +19,8 @@ void spreadTexCoords(GeometryDescription& geometry, const PatchedMesh& mesh) {
       min = {std::min(min.x, texCoord.x), std::min(min.y, texCoord.y)};
       max = {std::max(max.x, texCoord.x), std::max(max.y, texCoord.y)};
     }
-  if (!(min.x <= max.x)) return;
+  if (!(min.x <= max.x))
+    return;
   geometry.texCoordMin = min;
   geometry.texCoordSize = {max.x - min.x, max.y - min.y};
 }

@@ -37,12 +37,13 @@ struct Reference {
 };
 
 struct PatchDescription {
-  Box3d box;                         ///< tight, for culling and priority
-  std::uint32_t vertexCount = 0;     ///< records in coord, normal, ...; 0: the largest index + 1
+  Box3d box;                     ///< tight, for culling and priority
+  std::uint32_t vertexCount = 0; ///< records in coord, normal, ...; 0: the largest index + 1
   std::vector<Draw> draws;
-  Vec2<std::uint32_t> implicitMeshSize{256, 256}; ///< SIG: columns and rows that running numbers count through
-  std::optional<Reference> index;    ///< absent: records are drawn in order
-  std::vector<Reference> coord;      ///< SIG: byte planes, most significant first. BG: one
+  Vec2<std::uint32_t> implicitMeshSize{256,
+                                       256}; ///< SIG: columns and rows that running numbers count through
+  std::optional<Reference> index;            ///< absent: records are drawn in order
+  std::vector<Reference> coord;              ///< SIG: byte planes, most significant first. BG: one
   std::optional<Reference> normal, texCoord, color;
   friend bool operator==(const PatchDescription&, const PatchDescription&) = default;
 };
@@ -50,8 +51,8 @@ struct PatchDescription {
 /// The fields of one ImageGeometry or BinaryGeometry node.
 struct GeometryDescription {
   Container container = Container::sig;
-  Lattice lattice;                   ///< `position` and `size` follow from it: see decodeBox
-  Box3d box;                         ///< tight box of all patches
+  Lattice lattice;                             ///< `position` and `size` follow from it: see decodeBox
+  Box3d box;                                   ///< tight box of all patches
   Vec2f texCoordMin{0, 0}, texCoordSize{1, 1}; ///< texture coordinates are stored relative to this box
   std::uint32_t colorComponents = 3;
   ElementType indexType = ElementType::uint16, coordType = ElementType::uint16,

@@ -6,7 +6,10 @@
 
 namespace imgeo {
 
-/// Every WebGL2 device of the last ten years holds a texture of this edge.
+/// The edge of a texture that every WebGL2 device holds: our writers stay within it.
+inline constexpr std::uint32_t guaranteedImageEdge = 2048;
+
+/// What WebGL2 devices of the last ten years hold: our readers take no more.
 inline constexpr std::uint32_t maxImageEdge = 4096;
 
 /// Deflate's best: 258 bytes out of two bits (a length and a distance code of one bit each).

@@ -18,7 +18,8 @@ std::uint32_t loadCoord(std::uint32_t stored, std::uint32_t shift, const std::st
 }
 
 std::uint16_t storeTexCoord(float value, float min, float size) {
-  if (!(size > 0)) return 0;
+  if (!(size > 0))
+    return 0;
   const double share = (double{value} - min) / size;
   return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0, 1.0) * 65535));
 }
@@ -34,13 +35,15 @@ Vec3f unitNormal(Vec3d stored) {
 
 std::uint64_t drawnCount(std::span<const Draw> draws) {
   std::uint64_t count = 0;
-  for (const Draw& draw : draws) count += draw.count;
+  for (const Draw& draw : draws)
+    count += draw.count;
   return count;
 }
 
 Box3d boxOf(std::span<const Vec3u> positions, const Lattice& lattice) {
   Box3d box;
-  for (const Vec3u& q : positions) box.add(lattice.point(q));
+  for (const Vec3u& q : positions)
+    box.add(lattice.point(q));
   return box;
 }
 
@@ -58,14 +61,17 @@ std::uint32_t recordCountOf(const PatchDescription& patch, std::span<const std::
                             const std::string& place) {
   if (indices.empty()) {
     const std::uint64_t drawn = drawnCount(patch.draws);
-    if (patch.index || drawn == 0) throw Error(ErrorKind::malformed, place, "the patch draws nothing");
+    if (patch.index || drawn == 0)
+      throw Error(ErrorKind::malformed, place, "the patch draws nothing");
     if (patch.vertexCount != 0 && drawn > patch.vertexCount)
       throw Error(ErrorKind::malformed, place, "more vertices are drawn than the patch has");
-    if (drawn > UINT32_MAX) throw Error(ErrorKind::limit, place, "the patch has too many vertices");
+    if (drawn > UINT32_MAX)
+      throw Error(ErrorKind::limit, place, "the patch has too many vertices");
     return patch.vertexCount != 0 ? patch.vertexCount : static_cast<std::uint32_t>(drawn);
   }
   const std::uint32_t largest = *std::ranges::max_element(indices);
-  if (patch.vertexCount == 0) return largest + 1;
+  if (patch.vertexCount == 0)
+    return largest + 1;
   if (largest >= patch.vertexCount)
     throw Error(ErrorKind::malformed, place,
                 "index " + std::to_string(largest) + " is beyond the " + std::to_string(patch.vertexCount) +
@@ -75,10 +81,12 @@ std::uint32_t recordCountOf(const PatchDescription& patch, std::span<const std::
 
 void checkInsideBox(std::span<const Vec3u> positions, const Lattice& lattice, const Box3d& box,
                     const std::string& place) {
-  if (box.empty()) return;
+  if (box.empty())
+    return;
   const Box3d decoded = boxOf(positions, lattice);
   for (int axis = 0; axis < 3; ++axis)
-    if (decoded.min[axis] < box.min[axis] - lattice.step / 2 || decoded.max[axis] > box.max[axis] + lattice.step / 2)
+    if (decoded.min[axis] < box.min[axis] - lattice.step / 2 ||
+        decoded.max[axis] > box.max[axis] + lattice.step / 2)
       throw Error(ErrorKind::malformed, place, "vertices lie outside of the box that their patch states");
 }
 

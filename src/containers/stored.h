@@ -11,7 +11,9 @@ namespace imgeo {
 
 /// Lattice coordinate -> stored integer, and back. Throws Error{malformed} with
 /// `place` for a stored integer that is no lattice point.
-inline std::uint32_t storeCoord(std::uint32_t q, std::uint32_t shift) { return q << shift; }
+inline std::uint32_t storeCoord(std::uint32_t q, std::uint32_t shift) {
+  return q << shift;
+}
 std::uint32_t loadCoord(std::uint32_t stored, std::uint32_t shift, const std::string& place);
 
 /// Texture coordinate -> 16 bits over the box that begins at `min`, and back.

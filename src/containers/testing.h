@@ -17,9 +17,10 @@ inline PatchedMesh onePatch(const Mesh& mesh, std::uint32_t bits) {
   const Box3d box = boxOf(mesh);
   patched.lattice.origin = box.min;
   patched.lattice.bits = bits;
-  if (box.longestEdge() > 0) patched.lattice.step = box.longestEdge() / patched.lattice.maximum();
-  Patch patch{mesh.topology, {}, mesh.wedgePositions, mesh.normals, mesh.texCoords, mesh.colors,
-              mesh.colorComponents, mesh.corners};
+  if (box.longestEdge() > 0)
+    patched.lattice.step = box.longestEdge() / patched.lattice.maximum();
+  Patch patch{mesh.topology,  {},          mesh.wedgePositions,  mesh.normals,
+              mesh.texCoords, mesh.colors, mesh.colorComponents, mesh.corners};
   for (const Vec3f& position : mesh.positions) {
     const Vec3d steps = (Vec3d(position) - box.min) * (1 / patched.lattice.step);
     const auto nearest = [](double value) { return static_cast<std::uint32_t>(std::llround(value)); };
@@ -33,12 +34,14 @@ inline PatchedMesh onePatch(const Mesh& mesh, std::uint32_t bits) {
 /// A patch's wedges as vertices, drawn by its corners (`indexed`) or in order, as `primitive`.
 inline IndexedPatch verticesOf(const Patch& patch, Primitive primitive, bool indexed) {
   IndexedPatch vertices;
-  for (const std::uint32_t position : patch.wedgePositions) vertices.positions.push_back(patch.positions[position]);
+  for (const std::uint32_t position : patch.wedgePositions)
+    vertices.positions.push_back(patch.positions[position]);
   vertices.normals = patch.normals;
   vertices.texCoords = patch.texCoords;
   vertices.colors = patch.colors;
   vertices.colorComponents = patch.colorComponents;
-  if (indexed) vertices.indices = patch.corners;
+  if (indexed)
+    vertices.indices = patch.corners;
   const std::size_t count = indexed ? vertices.indices.size() : vertices.positions.size();
   vertices.draws = {{primitive, static_cast<std::uint32_t>(count)}};
   return vertices;
@@ -48,8 +51,10 @@ inline IndexedPatch verticesOf(const Patch& patch, Primitive primitive, bool ind
 inline FetchFile filesOf(const EncodedPatch& encoded) {
   return [&encoded](const std::string& url) {
     std::size_t i = encoded.files.size();
-    if (!url.empty() && url.size() < 6 && url.find_first_not_of("0123456789") == std::string::npos) i = std::stoul(url);
-    if (i >= encoded.files.size()) throw Error(ErrorKind::io, url, "no such file");
+    if (!url.empty() && url.size() < 6 && url.find_first_not_of("0123456789") == std::string::npos)
+      i = std::stoul(url);
+    if (i >= encoded.files.size())
+      throw Error(ErrorKind::io, url, "no such file");
     return encoded.files[i].bytes;
   };
 }

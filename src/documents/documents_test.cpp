@@ -12,11 +12,13 @@ using testing::Random;
 
 /// Text with everything in it that markup could stumble over.
 std::string randomText(Random& random) {
-  static const char* pieces[] = {"a",  "\"",  "'",    "<",        ">",       "&",  "&amp;", "</script>", "-->", "]]>",
-                                 "\n", "\t",  "\r\n", "<X3D>",    "</X3D>",  "é",  "像",    "𝄞",         " ",   "  ",
-                                 "\\", "\\\"", "#",   "\xc2\x85", "&#60;x&", "=",  "/>",    "<!--",      "%",   "0"};
+  static const char* pieces[] = {"a",       "\"",  "'",  "<",    ">",    "&",     "&amp;",  "</script>",
+                                 "-->",     "]]>", "\n", "\t",   "\r\n", "<X3D>", "</X3D>", "é",
+                                 "像",      "𝄞",   " ",  "  ",   "\\",   "\\\"",  "#",      "\xc2\x85",
+                                 "&#60;x&", "=",   "/>", "<!--", "%",    "0"};
   std::string text = "t"; // leading white space is kept too, but nobody needs it
-  for (std::uint32_t count = random.below(8); count > 0; --count) text += pieces[random.below(std::size(pieces))];
+  for (std::uint32_t count = random.below(8); count > 0; --count)
+    text += pieces[random.below(std::size(pieces))];
   return text;
 }
 
@@ -28,16 +30,20 @@ Vec3f randomColor(Random& random) {
 }
 Box3d randomBox(Random& random) {
   Box3d box;
-  if (random.once(5)) return box;
+  if (random.once(5))
+    return box;
   box.add(randomVector(random));
   box.add(randomVector(random));
   return box;
 }
 
 Reference randomReference(Random& random, Container container) {
-  Reference reference{"f" + std::to_string(random.below(1000)) + (random.once(3) ? "\" &'<x>.png" : ".bin"), 0, 0};
-  if (random.once(2)) reference.first = random.bits();
-  if (container == Container::bg && random.once(2)) reference.stride = 1 + random.below(64);
+  Reference reference{"f" + std::to_string(random.below(1000)) + (random.once(3) ? "\" &'<x>.png" : ".bin"),
+                      0, 0};
+  if (random.once(2))
+    reference.first = random.bits();
+  if (container == Container::bg && random.once(2))
+    reference.stride = 1 + random.below(64);
   return reference;
 }
 
@@ -47,12 +53,18 @@ PatchDescription randomPatch(Random& random, Container container, std::size_t pl
   patch.vertexCount = random.bits();
   for (std::uint32_t draws = 1 + random.below(3); draws > 0; --draws)
     patch.draws.push_back({static_cast<Primitive>(random.below(4)), random.bits()});
-  if (container == Container::sig) patch.implicitMeshSize = {1 + random.below(4096), 1 + random.below(4096)};
-  if (random.once(2)) patch.index = randomReference(random, container);
-  for (std::size_t plane = 0; plane < planes; ++plane) patch.coord.push_back(randomReference(random, container));
-  if (random.once(2)) patch.normal = randomReference(random, container);
-  if (random.once(2)) patch.texCoord = randomReference(random, container);
-  if (random.once(2)) patch.color = randomReference(random, container);
+  if (container == Container::sig)
+    patch.implicitMeshSize = {1 + random.below(4096), 1 + random.below(4096)};
+  if (random.once(2))
+    patch.index = randomReference(random, container);
+  for (std::size_t plane = 0; plane < planes; ++plane)
+    patch.coord.push_back(randomReference(random, container));
+  if (random.once(2))
+    patch.normal = randomReference(random, container);
+  if (random.once(2))
+    patch.texCoord = randomReference(random, container);
+  if (random.once(2))
+    patch.color = randomReference(random, container);
   return patch;
 }
 
@@ -61,39 +73,51 @@ GeometryDescription randomGeometry(Random& random) {
   geometry.container = random.once(2) ? Container::sig : Container::bg;
   geometry.lattice = {randomVector(random), length(randomVector(random)) + 1e-6, 8 + random.below(25)};
   geometry.box = randomBox(random);
-  if (random.once(2)) geometry.texCoordMin = {random.between(-5, 5), random.between(-5, 5)};
-  if (random.once(2)) geometry.texCoordSize = {random.between(0, 5), 0};
+  if (random.once(2))
+    geometry.texCoordMin = {random.between(-5, 5), random.between(-5, 5)};
+  if (random.once(2))
+    geometry.texCoordSize = {random.between(0, 5), 0};
   geometry.colorComponents = 3 + random.below(2);
   const std::uint32_t bytes = coordBytes(geometry.container, geometry.lattice.bits);
   if (geometry.container == Container::bg) {
-    geometry.coordType = bytes == 1 ? ElementType::uint8 : bytes == 2 ? ElementType::uint16 : ElementType::uint32;
+    geometry.coordType = bytes == 1   ? ElementType::uint8
+                         : bytes == 2 ? ElementType::uint16
+                                      : ElementType::uint32;
     geometry.normalType = static_cast<ElementType>(random.below(7));
     geometry.indexType = static_cast<ElementType>(random.below(7));
     geometry.sphericalNormals = random.once(2);
   }
   for (std::uint32_t patches = 1 + random.below(4); patches > 0; --patches)
-    geometry.patches.push_back(randomPatch(random, geometry.container, geometry.container == Container::sig ? bytes : 1));
+    geometry.patches.push_back(
+        randomPatch(random, geometry.container, geometry.container == Container::sig ? bytes : 1));
   return geometry;
 }
 
 SceneDocument randomDocument(std::uint32_t seed) {
   Random random(seed);
   SceneDocument document;
-  if (!random.once(4)) document.title = randomText(random);
+  if (!random.once(4))
+    document.title = randomText(random);
   for (std::uint32_t shapes = random.below(4); shapes > 0; --shapes) {
     Shape shape;
-    if (!random.once(3)) shape.name = "Größe_" + std::to_string(shapes) + ".a-b";
+    if (!random.once(3))
+      shape.name = "Größe_" + std::to_string(shapes) + ".a-b";
     shape.mesh = document.geometries.size();
-    if (random.once(2)) shape.material.diffuseColor = randomColor(random);
-    if (random.once(2)) shape.material.specularColor = randomColor(random);
-    if (random.once(2)) shape.material.shininess = random.between(0, 1);
-    if (random.once(2)) shape.material.transparency = random.between(0, 1);
+    if (random.once(2))
+      shape.material.diffuseColor = randomColor(random);
+    if (random.once(2))
+      shape.material.specularColor = randomColor(random);
+    if (random.once(2))
+      shape.material.shininess = random.between(0, 1);
+    if (random.once(2))
+      shape.material.transparency = random.between(0, 1);
     document.shapes.push_back(shape);
     document.geometries.push_back(randomGeometry(random));
   }
   for (std::uint32_t views = random.below(3); views > 0; --views)
-    document.viewpoints.push_back({random.once(2) ? "" : randomText(random), randomVector(random), randomVector(random),
-                                   random.between(-3, 3), random.between(0.1f, 3), randomVector(random)});
+    document.viewpoints.push_back({random.once(2) ? "" : randomText(random), randomVector(random),
+                                   randomVector(random), random.between(-3, 3), random.between(0.1f, 3),
+                                   randomVector(random)});
   for (std::uint32_t lights = random.below(3); lights > 0; --lights)
     document.lights.push_back({randomVector(random), randomColor(random), random.between(0, 1)});
   document.headlight = random.once(2);
@@ -103,7 +127,8 @@ SceneDocument randomDocument(std::uint32_t seed) {
 /// Boxes are written as centre and size, which costs a rounding or two.
 void expectNear(const Box3d& a, const Box3d& b) {
   EXPECT_EQ(a.empty(), b.empty());
-  if (a.empty() || b.empty()) return;
+  if (a.empty() || b.empty())
+    return;
   for (int axis = 0; axis < 3; ++axis) {
     const double ulps = 8e-16 * std::max(std::abs(b.min[axis]), std::abs(b.max[axis]));
     EXPECT_NEAR(a.min[axis], b.min[axis], ulps);
@@ -115,8 +140,10 @@ void expectEqual(const GeometryDescription& read, GeometryDescription written) {
   expectNear(read.box, written.box);
   EXPECT_EQ(read.lattice.bits, written.lattice.bits);
   const double reach = length(written.lattice.origin) + written.lattice.step * written.lattice.maximum();
-  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(read.lattice.origin[axis], written.lattice.origin[axis], 1e-15 * reach);
-  EXPECT_NEAR(read.lattice.step * read.lattice.maximum(), written.lattice.step * written.lattice.maximum(), 1e-15 * reach);
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(read.lattice.origin[axis], written.lattice.origin[axis], 1e-15 * reach);
+  EXPECT_NEAR(read.lattice.step * read.lattice.maximum(), written.lattice.step * written.lattice.maximum(),
+              1e-15 * reach);
   ASSERT_EQ(read.patches.size(), written.patches.size());
   for (std::size_t i = 0; i < read.patches.size(); ++i) {
     expectNear(read.patches[i].box, written.patches[i].box);
@@ -172,11 +199,16 @@ TEST(Documents, AreReadWithoutRegardToCase) {
     bool inTag = false;
     char quote = 0;
     for (char& c : x3d) {
-      if (quote != 0) quote = c == quote ? char{0} : quote;
-      else if (inTag && (c == '"' || c == '\'')) quote = c;
-      else if (c == '<') inTag = true;
-      else if (c == '>') inTag = false;
-      else if (inTag && c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+      if (quote != 0)
+        quote = c == quote ? char{0} : quote;
+      else if (inTag && (c == '"' || c == '\''))
+        quote = c;
+      else if (c == '<')
+        inTag = true;
+      else if (c == '>')
+        inTag = false;
+      else if (inTag && c >= 'A' && c <= 'Z')
+        c = static_cast<char>(c + 32);
     }
   };
   lowerNames(text);
@@ -189,7 +221,8 @@ TEST(Documents, HoldTheSameElementInBothForms) {
   const auto withoutIndents = [](std::string_view text) {
     std::string out;
     for (std::size_t i = 0; i < text.size(); ++i)
-      if (text[i] != ' ' || (i > 0 && text[i - 1] != '\n' && text[i - 1] != ' ')) out += text[i];
+      if (text[i] != ' ' || (i > 0 && text[i - 1] != '\n' && text[i - 1] != ' '))
+        out += text[i];
     return out.substr(out.find("<X3D"), out.rfind("</X3D>") - out.find("<X3D"));
   };
   EXPECT_EQ(withoutIndents(writeX3d(document)), withoutIndents(writeHtml(document, page)));
@@ -199,7 +232,8 @@ SceneDocument documentNamed(const std::string& name) {
   SceneDocument document;
   document.title = name;
   GeometryDescription geometry;
-  geometry.patches = {{{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", 0, 0}, {"b.png", 0, 0}}, {}, {}, {}}};
+  geometry.patches = {
+      {{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", 0, 0}, {"b.png", 0, 0}}, {}, {}, {}}};
   document.geometries = {geometry, geometry};
   document.shapes = {{name, 0, {}}, {name, 1, {}}};
   document.viewpoints = {{name, {}, {0, 0, 1}, 0, 0.8, {}}};
@@ -207,8 +241,8 @@ SceneDocument documentNamed(const std::string& name) {
 }
 
 TEST(Documents, DoNotRunWhatANameSays) {
-  for (const std::string name : {"\"><script>alert(1)</script>", "' onload='alert(1)", "</title><script>", "--><script>",
-                                 "</noscript><script>", "a\0b<script>"}) {
+  for (const std::string name : {"\"><script>alert(1)</script>", "' onload='alert(1)", "</title><script>",
+                                 "--><script>", "</noscript><script>", "a\0b<script>"}) {
     const std::string html = writeHtml(documentNamed(name), page);
     EXPECT_EQ(html.find("<script"), html.rfind("<script")) << html;
     EXPECT_EQ(readScene(html, "x").title, name);
@@ -225,7 +259,8 @@ TEST(Documents, GiveShapesValidUniqueNames) {
 }
 
 TEST(Documents, AreValidUtf8WhateverTheirNamesAre) {
-  const SceneDocument read = readScene(writeHtml(documentNamed("a\xc3(\xed\xa0\x80\x01z\xf0\x9f"), page), "x");
+  const SceneDocument read =
+      readScene(writeHtml(documentNamed("a\xc3(\xed\xa0\x80\x01z\xf0\x9f"), page), "x");
   const std::string r = "\xef\xbf\xbd";
   EXPECT_EQ(read.title, "a" + r + "(" + r + r + r + r + "z" + r + r);
 }
@@ -236,7 +271,8 @@ TEST(Html, HintsAtTheFirstPlanesThenAtTheIndices) {
   document.geometries[1].patches[0].coord[0].url = "c.png";
   const std::string html = writeHtml(document, page);
   std::string hints;
-  const std::string hint = "<link rel=\"preload\" as=\"fetch\" crossorigin=\"anonymous\" fetchpriority=\"high\" href=\"";
+  const std::string hint =
+      "<link rel=\"preload\" as=\"fetch\" crossorigin=\"anonymous\" fetchpriority=\"high\" href=\"";
   for (std::size_t at = html.find(hint); at != std::string::npos; at = html.find(hint, at + 1))
     hints += html.substr(at + hint.size(), 5) + " ";
   EXPECT_EQ(hints, "a.png c.png i.png ");
@@ -250,7 +286,9 @@ TEST(Html, HintsAtNoMoreThanSixteenFiles) {
   }
   const std::string html = writeHtml(document, page);
   std::size_t hints = 0;
-  for (std::size_t at = html.find("as=\"fetch\""); at != std::string::npos; at = html.find("as=\"fetch\"", at + 1)) ++hints;
+  for (std::size_t at = html.find("as=\"fetch\""); at != std::string::npos;
+       at = html.find("as=\"fetch\"", at + 1))
+    ++hints;
   EXPECT_EQ(hints, 16u);
 }
 
@@ -281,7 +319,8 @@ TEST(ReadScene, TakesImageTexturesForImages) {
       <imagetexture containerField='coord' url='"high.png"'><textureproperties></textureproperties></imagetexture>
       <imagetexture containerField='coord' url='low.png'></imagetexture>
       <imagetexture containerField='normal' url='n.png'></imagetexture>
-    </imagegeometry></shape></scene></x3d></body></html>)", "x");
+    </imagegeometry></shape></scene></x3d></body></html>)",
+                                           "x");
   ASSERT_EQ(document.geometries.size(), 1u);
   PatchDescription patch;
   patch.draws = {{Primitive::triangleStrip, 9}};
@@ -295,26 +334,33 @@ TEST(ReadScene, TakesImageTexturesForImages) {
 }
 
 TEST(ReadScene, FindsTheElementPastWhatOnlyLooksLikeIt) {
-  const SceneDocument document = readScene("<!DOCTYPE html><!-- <X3D> --><script>'<X3D>'</script><title><x3d></title>"
-                                           "<p title='<X3D>'></p><X3D><Scene><WorldInfo title='here'/></Scene></X3D>", "x");
+  const SceneDocument document =
+      readScene("<!DOCTYPE html><!-- <X3D> --><script>'<X3D>'</script><title><x3d></title>"
+                "<p title='<X3D>'></p><X3D><Scene><WorldInfo title='here'/></Scene></X3D>",
+                "x");
   EXPECT_EQ(document.title, "here");
 }
 
 TEST(ReadScene, RefusesDocumentTypesAndEntities) {
-  EXPECT_EQ(kindOfReading("<!DOCTYPE X3D [<!ENTITY a 'aaaaaaaa'>]><X3D><Scene/></X3D>", "s.x3d:1"), ErrorKind::unsupported);
-  EXPECT_EQ(kindOfReading("<!DOCTYPE X3D SYSTEM 'file:///etc/passwd'><X3D><Scene/></X3D>"), ErrorKind::unsupported);
-  EXPECT_EQ(kindOfReading("<X3D>\n<Scene><WorldInfo title='&a;'/></Scene></X3D>", "s.x3d:2"), ErrorKind::malformed);
+  EXPECT_EQ(kindOfReading("<!DOCTYPE X3D [<!ENTITY a 'aaaaaaaa'>]><X3D><Scene/></X3D>", "s.x3d:1"),
+            ErrorKind::unsupported);
+  EXPECT_EQ(kindOfReading("<!DOCTYPE X3D SYSTEM 'file:///etc/passwd'><X3D><Scene/></X3D>"),
+            ErrorKind::unsupported);
+  EXPECT_EQ(kindOfReading("<X3D>\n<Scene><WorldInfo title='&a;'/></Scene></X3D>", "s.x3d:2"),
+            ErrorKind::malformed);
   EXPECT_EQ(kindOfReading("<X3D><!ENTITY a 'b'><Scene/></X3D>"), ErrorKind::malformed);
 }
 
 TEST(ReadScene, SaysOnWhichLineAFieldIsWrong) {
   const std::string before = "<X3D><Scene>\n<Shape>\n";
   const auto shape = [&](const std::string& fields) {
-    return before + "<ImageGeometry><GeometryPatch coord='a' " + fields + "></GeometryPatch></ImageGeometry></Shape></Scene></X3D>";
+    return before + "<ImageGeometry><GeometryPatch coord='a' " + fields +
+           "></GeometryPatch></ImageGeometry></Shape></Scene></X3D>";
   };
-  for (const std::string fields : {"vertexCount='-1'", "vertexCount='4294967296'", "vertexCount='3 3' primType='POINTS'",
-                                   "index='a#b'", "index='#5'", "index='a#1+4'", "recordCount='1 2'", "bboxSize='1 nan 1'",
-                                   "bboxSize='1 1'", "implicitMeshSize='0 1'", "implicitMeshSize='1e9 1'"})
+  for (const std::string fields :
+       {"vertexCount='-1'", "vertexCount='4294967296'", "vertexCount='3 3' primType='POINTS'", "index='a#b'",
+        "index='#5'", "index='a#1+4'", "recordCount='1 2'", "bboxSize='1 nan 1'", "bboxSize='1 1'",
+        "implicitMeshSize='0 1'", "implicitMeshSize='1e9 1'"})
     EXPECT_EQ(kindOfReading(shape(fields), "s.x3d:3"), ErrorKind::malformed) << fields;
 }
 
@@ -389,13 +435,16 @@ TEST(ReadScene, RefusesGeometryThatNoLatticeStandsFor) {
   EXPECT_EQ(kindOfReading(geometry("primType='TRIANGLEFAN' vertexCount='3'", "a")), ErrorKind::unsupported);
   EXPECT_EQ(kindOfReading(geometry("", "")), ErrorKind::malformed);
   EXPECT_EQ(kindOfReading("<X3D><Scene><Shape><Box/></Shape></Scene></X3D>"), ErrorKind::unsupported);
-  EXPECT_EQ(kindOfReading("<X3D><Scene><Transform><Shape/></Transform></Scene></X3D>"), ErrorKind::unsupported);
+  EXPECT_EQ(kindOfReading("<X3D><Scene><Transform><Shape/></Transform></Scene></X3D>"),
+            ErrorKind::unsupported);
 }
 
 TEST(ReadScene, RefusesADepthThatNobodyWrites) {
   std::string text = "<X3D><Scene>";
-  for (int i = 0; i < 100000; ++i) text += "<Group>";
-  for (int i = 0; i < 100000; ++i) text += "</Group>";
+  for (int i = 0; i < 100000; ++i)
+    text += "<Group>";
+  for (int i = 0; i < 100000; ++i)
+    text += "</Group>";
   EXPECT_EQ(kindOfReading(text + "</Scene></X3D>"), ErrorKind::limit);
 }
 

@@ -16,17 +16,22 @@ void ElementWriter::startTag(const Element& element) {
   std::size_t length = 2 * level_ + element.name.size() + 2;
   std::vector<std::string> lines;
   for (const auto& group : element.groups) {
-    if (group.empty()) continue;
+    if (group.empty())
+      continue;
     std::string line;
     for (const Attribute& attribute : group)
-      line += (line.empty() ? "" : " ") + attribute.name + "=" + quoteAttribute(attribute.value);
+      line.append(line.empty() ? "" : " ")
+          .append(attribute.name)
+          .append("=")
+          .append(quoteAttribute(attribute.value));
     length += 1 + line.size();
     lines.push_back(std::move(line));
   }
   text_.append(2 * level_, ' ');
   text_ += "<" + element.name;
   const std::string separator = length <= lineLength ? " " : "\n" + std::string(2 * level_ + 4, ' ');
-  for (std::size_t i = 0; i < lines.size(); ++i) text_ += (i == 0 ? " " : separator) + lines[i];
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    text_ += (i == 0 ? " " : separator) + lines[i];
   text_ += ">";
 }
 
@@ -59,7 +64,8 @@ std::string strings(const std::vector<std::string>& values) {
   for (const std::string& value : values) {
     text += text.empty() ? "\"" : " \"";
     for (const char c : value) {
-      if (c == '"' || c == '\\') text += '\\';
+      if (c == '"' || c == '\\')
+        text += '\\';
       text += c;
     }
     text += '"';

@@ -20,25 +20,30 @@ std::string_view nextWord(std::string_view& text) {
 }
 
 template <typename T> std::optional<T> parseNumber(std::string_view word) {
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-')
+    word.remove_prefix(1);
   T value{};
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  if (error != std::errc{} || end != word.data() + word.size())
+    return std::nullopt;
   if constexpr (std::is_floating_point_v<T>)
-    if (!std::isfinite(value)) return std::nullopt;
+    if (!std::isfinite(value))
+      return std::nullopt;
   return value;
 }
 
 } // namespace
 
-void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind, const std::string& message) {
+void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind,
+          const std::string& message) {
   const auto at = source.begin + static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
   throw Error(kind, placeOf(source.text, source.name, at), message);
 }
 
 std::string Fields::text(const char* name) const {
   for (const pugi::xml_attribute& attribute : node_.attributes())
-    if (sameName(attribute.name(), name)) return attribute.value();
+    if (sameName(attribute.name(), name))
+      return attribute.value();
   return {};
 }
 
@@ -48,7 +53,8 @@ template <typename T> std::vector<T> Fields::parse(const char* name) const {
   std::vector<T> numbers;
   for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) {
     const std::optional<T> number = parseNumber<T>(word);
-    if (!number) fail(ErrorKind::malformed, std::string(name) + " holds a word that is no number of its kind");
+    if (!number)
+      fail(ErrorKind::malformed, std::string(name) + " holds a word that is no number of its kind");
     numbers.push_back(*number);
   }
   return numbers;
@@ -57,16 +63,19 @@ template <typename T> std::vector<T> Fields::parse(const char* name) const {
 template <typename T> std::vector<T> Fields::parse(const char* name, std::size_t count) const {
   std::vector<T> numbers = parse<T>(name);
   if (!numbers.empty() && numbers.size() != count)
-    fail(ErrorKind::malformed, std::string(name) + " has " + std::to_string(numbers.size()) + " numbers and needs " +
-                                   std::to_string(count));
+    fail(ErrorKind::malformed, std::string(name) + " has " + std::to_string(numbers.size()) +
+                                   " numbers and needs " + std::to_string(count));
   return numbers;
 }
 
 bool Fields::boolean(const char* name, bool fallback) const {
   const std::string value = text(name);
-  if (value.empty()) return fallback;
-  if (sameName(value, "true")) return true;
-  if (sameName(value, "false")) return false;
+  if (value.empty())
+    return fallback;
+  if (sameName(value, "true"))
+    return true;
+  if (sameName(value, "false"))
+    return false;
   fail(ErrorKind::malformed, std::string(name) + " is neither true nor false");
 }
 
@@ -104,25 +113,32 @@ std::uint32_t Fields::integer(const char* name, std::uint32_t fallback) const {
 std::vector<std::string> Fields::strings(const char* name) const {
   const std::string value = text(name);
   const std::size_t first = value.find_first_not_of(separators);
-  if (first == std::string::npos) return {};
-  if (value[first] != '"') return {value.substr(first, value.find_last_not_of(separators) + 1 - first)};
+  if (first == std::string::npos)
+    return {};
+  if (value[first] != '"')
+    return {value.substr(first, value.find_last_not_of(separators) + 1 - first)};
   std::vector<std::string> strings;
   for (std::size_t at = first; at < value.size(); ++at) {
-    if (separators.find(value[at]) != std::string_view::npos) continue;
-    if (value[at] != '"') fail(ErrorKind::malformed, std::string(name) + " has text between its strings");
+    if (separators.find(value[at]) != std::string_view::npos)
+      continue;
+    if (value[at] != '"')
+      fail(ErrorKind::malformed, std::string(name) + " has text between its strings");
     std::string& string = strings.emplace_back();
     for (++at; at < value.size() && value[at] != '"'; ++at) {
-      if (value[at] == '\\' && at + 1 < value.size()) ++at;
+      if (value[at] == '\\' && at + 1 < value.size())
+        ++at;
       string += value[at];
     }
-    if (at >= value.size()) fail(ErrorKind::malformed, std::string(name) + " has a string without an end");
+    if (at >= value.size())
+      fail(ErrorKind::malformed, std::string(name) + " has a string without an end");
   }
   return strings;
 }
 
 Box3d Fields::box() const {
   const Vec3d center = vec3("bboxCenter", Vec3d{0, 0, 0}), size = vec3("bboxSize", Vec3d{-1, -1, -1});
-  if (size.x < 0 || size.y < 0 || size.z < 0) return {};
+  if (size.x < 0 || size.y < 0 || size.z < 0)
+    return {};
   return {center - size * 0.5, center + size * 0.5};
 }
 

@@ -20,7 +20,8 @@ struct DocumentText {
   std::size_t begin = 0; ///< of the element
 };
 
-[[noreturn]] void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind, const std::string& message);
+[[noreturn]] void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind,
+                       const std::string& message);
 
 /// One element whose attributes are read by name, without regard to case. An
 /// absent or empty field gives the fallback.
@@ -29,7 +30,9 @@ public:
   Fields(const DocumentText& source, pugi::xml_node node) : source_(source), node_(node) {}
 
   const pugi::xml_node& node() const { return node_; }
-  [[noreturn]] void fail(ErrorKind kind, const std::string& message) const { imgeo::fail(source_, node_, kind, message); }
+  [[noreturn]] void fail(ErrorKind kind, const std::string& message) const {
+    imgeo::fail(source_, node_, kind, message);
+  }
 
   std::string text(const char* name) const; ///< "" where it is absent
   bool boolean(const char* name, bool fallback) const;

@@ -36,13 +36,15 @@ public:
       const std::string_view tag = tagName(rest);
       if (begin == std::string_view::npos && sameName(tag, "x3d")) {
         begin = at;
-        if (text_[behind - 2] == '/') return {begin, behind};
+        if (text_[behind - 2] == '/')
+          return {begin, behind};
       } else if (begin != std::string_view::npos && sameName(tag, "/x3d")) {
         return {begin, behind};
       }
       at = begin == std::string_view::npos ? behindRawText(tag, behind) : behind;
     }
-    if (begin == std::string_view::npos) throw Error(ErrorKind::malformed, name_, "there is no <X3D> element");
+    if (begin == std::string_view::npos)
+      throw Error(ErrorKind::malformed, name_, "there is no <X3D> element");
     throw Error(ErrorKind::malformed, placeOf(text_, name_, begin), "the <X3D> element has no end");
   }
 
@@ -53,23 +55,32 @@ private:
 
   std::size_t behind(std::string_view end, std::size_t at, const char* message) const {
     const std::size_t found = text_.find(end, at);
-    if (found == std::string_view::npos) fail(ErrorKind::malformed, at, message);
+    if (found == std::string_view::npos)
+      fail(ErrorKind::malformed, at, message);
     return found + end.size();
   }
 
   /// Past a comment, CDATA section, instruction or document type; `at` for a tag.
   std::size_t behindDeclaration(std::size_t at, std::string_view rest) const {
-    if (rest.starts_with("<!--")) return behind("-->", at + 4, "a comment has no end");
-    if (rest.starts_with("<![CDATA[")) return behind("]]>", at, "a CDATA section has no end");
-    if (rest.starts_with("<?")) return behind(">", at, "an instruction has no end");
-    if (!rest.starts_with("<!")) return at;
+    if (rest.starts_with("<!--"))
+      return behind("-->", at + 4, "a comment has no end");
+    if (rest.starts_with("<![CDATA["))
+      return behind("]]>", at, "a CDATA section has no end");
+    if (rest.starts_with("<?"))
+      return behind(">", at, "an instruction has no end");
+    if (!rest.starts_with("<!"))
+      return at;
     const std::size_t end = behind(">", at, "a declaration has no end");
     std::string_view type = rest.substr(2, end - at - 3);
-    if (!startsWith(type, "doctype")) fail(ErrorKind::malformed, at, "a declaration of unknown kind");
+    if (!startsWith(type, "doctype"))
+      fail(ErrorKind::malformed, at, "a declaration of unknown kind");
     type.remove_prefix(7);
-    while (!type.empty() && isSpace(type.front())) type.remove_prefix(1);
-    while (!type.empty() && isSpace(type.back())) type.remove_suffix(1);
-    if (!sameName(type, "html")) fail(ErrorKind::unsupported, at, "document types other than html are not read");
+    while (!type.empty() && isSpace(type.front()))
+      type.remove_prefix(1);
+    while (!type.empty() && isSpace(type.back()))
+      type.remove_suffix(1);
+    if (!sameName(type, "html"))
+      fail(ErrorKind::unsupported, at, "document types other than html are not read");
     return end;
   }
 
@@ -77,9 +88,12 @@ private:
     char quote = 0;
     for (std::size_t i = at + 1; i < text_.size(); ++i) {
       const char c = text_[i];
-      if (quote != 0) quote = c == quote ? char{0} : quote;
-      else if (c == '"' || c == '\'') quote = c;
-      else if (c == '>') return i + 1;
+      if (quote != 0)
+        quote = c == quote ? char{0} : quote;
+      else if (c == '"' || c == '\'')
+        quote = c;
+      else if (c == '>')
+        return i + 1;
     }
     fail(ErrorKind::malformed, at, "a tag has no end");
   }
@@ -87,18 +101,22 @@ private:
   /// The name after '<', with the slash of an end tag.
   static std::string_view tagName(std::string_view tag) {
     std::size_t end = 1;
-    if (end < tag.size() && tag[end] == '/') ++end;
-    while (end < tag.size() && !isSpace(tag[end]) && tag[end] != '>' && tag[end] != '/') ++end;
+    if (end < tag.size() && tag[end] == '/')
+      ++end;
+    while (end < tag.size() && !isSpace(tag[end]) && tag[end] != '>' && tag[end] != '/')
+      ++end;
     return tag.substr(1, end - 1);
   }
 
   /// Past the content of an HTML element in which tags mean nothing.
   std::size_t behindRawText(std::string_view tag, std::size_t at) const {
     for (const std::string_view raw : {"script", "style", "title", "textarea"}) {
-      if (!sameName(tag, raw)) continue;
+      if (!sameName(tag, raw))
+        continue;
       const std::string end = "</" + std::string(raw);
       for (std::size_t i = text_.find("</", at); i != std::string_view::npos; i = text_.find("</", i + 2))
-        if (startsWith(text_.substr(i), end)) return i;
+        if (startsWith(text_.substr(i), end))
+          return i;
       fail(ErrorKind::malformed, at, "a script, style or title has no end");
     }
     return at;

@@ -12,10 +12,13 @@ namespace {
 
 ElementType elementTypeOf(const Fields& fields, const char* name, ElementType fallback) {
   const std::string text = fields.text(name);
-  if (text.empty()) return fallback;
-  for (const ElementType type : {ElementType::int8, ElementType::uint8, ElementType::int16, ElementType::uint16,
-                                 ElementType::int32, ElementType::uint32, ElementType::float32})
-    if (sameName(text, nameOf(type))) return type;
+  if (text.empty())
+    return fallback;
+  for (const ElementType type :
+       {ElementType::int8, ElementType::uint8, ElementType::int16, ElementType::uint16, ElementType::int32,
+        ElementType::uint32, ElementType::float32})
+    if (sameName(text, nameOf(type)))
+      return type;
   fields.fail(ErrorKind::unsupported, std::string(name) + " is no element type we know");
 }
 
@@ -39,15 +42,20 @@ Reference referenceOf(const Fields& fields, const std::string& url, Container co
   const std::size_t hash = url.rfind('#');
   if (hash == std::string::npos && container == Container::bg) return stridedReference(url);
   Reference reference{url.substr(0, hash), 0, 0};
-  if (reference.url.empty()) fields.fail(ErrorKind::malformed, "a reference has no url");
-  if (reference.url.find('#') != std::string::npos) fields.fail(ErrorKind::malformed, "a reference has two fragments");
-  if (hash == std::string::npos) return reference;
+  if (reference.url.empty())
+    fields.fail(ErrorKind::malformed, "a reference has no url");
+  if (reference.url.find('#') != std::string::npos)
+    fields.fail(ErrorKind::malformed, "a reference has two fragments");
+  if (hash == std::string::npos)
+    return reference;
   const std::string_view fragment = std::string_view(url).substr(hash + 1);
   const std::size_t plus = container == Container::bg ? fragment.find('+') : std::string_view::npos;
   bool good = parseWhole(fragment.substr(0, plus), reference.first) &&
               (container == Container::sig) == (plus == std::string_view::npos);
-  if (plus != std::string_view::npos) good = good && parseWhole(fragment.substr(plus + 1), reference.stride);
-  if (!good) fields.fail(ErrorKind::malformed, "a reference's fragment states no place in its file");
+  if (plus != std::string_view::npos)
+    good = good && parseWhole(fragment.substr(plus + 1), reference.stride);
+  if (!good)
+    fields.fail(ErrorKind::malformed, "a reference's fragment states no place in its file");
   return reference;
 }
 
@@ -62,8 +70,10 @@ std::vector<Draw> drawsOf(const Fields& fields) {
   for (std::size_t i = 0; i < counts.size(); ++i) {
     Draw draw{Primitive::triangles, counts[i]};
     if (!types.empty()) {
-      const auto found = std::ranges::find_if(names, [&](const char* name) { return sameName(name, types[i]); });
-      if (found == names.end()) fields.fail(ErrorKind::unsupported, "primType is none of those we read");
+      const auto found =
+          std::ranges::find_if(names, [&](const char* name) { return sameName(name, types[i]); });
+      if (found == names.end())
+        fields.fail(ErrorKind::unsupported, "primType is none of those we read");
       draw.primitive = static_cast<Primitive>(found - names.begin());
     }
     draws.push_back(draw);
@@ -75,15 +85,23 @@ std::vector<Draw> drawsOf(const Fields& fields) {
 void readTexture(const DocumentText& source, const pugi::xml_node& node, PatchDescription& patch) {
   const Fields fields(source, node);
   const std::vector<std::string> urls = fields.strings("url");
-  if (urls.empty()) fields.fail(ErrorKind::malformed, "an ImageTexture has no url");
+  if (urls.empty())
+    fields.fail(ErrorKind::malformed, "an ImageTexture has no url");
   const Reference reference = referenceOf(fields, urls[0], Container::sig);
   const std::string role = fields.text("containerField");
-  if (sameName(role, "coord")) patch.coord.push_back(reference);
-  else if (sameName(role, "normal")) patch.normal = reference;
-  else if (sameName(role, "texCoord")) patch.texCoord = reference;
-  else if (sameName(role, "color")) patch.color = reference;
-  else if (sameName(role, "index")) patch.index = reference;
-  else fields.fail(ErrorKind::malformed, "an ImageTexture in an ImageGeometry has no containerField that we know");
+  if (sameName(role, "coord"))
+    patch.coord.push_back(reference);
+  else if (sameName(role, "normal"))
+    patch.normal = reference;
+  else if (sameName(role, "texCoord"))
+    patch.texCoord = reference;
+  else if (sameName(role, "color"))
+    patch.color = reference;
+  else if (sameName(role, "index"))
+    patch.index = reference;
+  else
+    fields.fail(ErrorKind::malformed,
+                "an ImageTexture in an ImageGeometry has no containerField that we know");
 }
 
 PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& node, Container container,
@@ -95,17 +113,21 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
   patch.draws = drawsOf(fields);
   patch.implicitMeshSize = implicitMeshSize;
   const auto read = [&](const char* name, std::optional<Reference>& reference) {
-    if (const std::string url = fields.text(name); !url.empty()) reference = referenceOf(fields, url, container);
+    if (const std::string url = fields.text(name); !url.empty())
+      reference = referenceOf(fields, url, container);
   };
   read("index", patch.index);
   read("normal", patch.normal);
   read("texCoord", patch.texCoord);
   read("color", patch.color);
-  for (const std::string& url : fields.strings("coord")) patch.coord.push_back(referenceOf(fields, url, container));
+  for (const std::string& url : fields.strings("coord"))
+    patch.coord.push_back(referenceOf(fields, url, container));
   if (container == Container::sig)
     for (const pugi::xml_node& child : node.children())
-      if (sameName(child.name(), "ImageTexture")) readTexture(source, child, patch);
-  if (patch.coord.empty()) fields.fail(ErrorKind::malformed, "there are no coordinates");
+      if (sameName(child.name(), "ImageTexture"))
+        readTexture(source, child, patch);
+  if (patch.coord.empty())
+    fields.fail(ErrorKind::malformed, "there are no coordinates");
   if (container == Container::bg && patch.coord.size() != 1)
     fields.fail(ErrorKind::malformed, "a BinaryGeometry has one file of coordinates");
   return patch;
@@ -113,14 +135,16 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
 
 Vec2<std::uint32_t> implicitMeshSizeOf(const Fields& fields, Vec2<std::uint32_t> fallback) {
   const std::vector<double> size = fields.reals("implicitMeshSize", 2);
-  if (size.empty()) return fallback;
+  if (size.empty())
+    return fallback;
   const auto whole = [&](double value) {
     if (value < 0 || value > 65536 || value != std::floor(value))
       fields.fail(ErrorKind::malformed, "implicitMeshSize is no size of an image");
     return static_cast<std::uint32_t>(value);
   };
   const std::uint32_t x = whole(size[0]), y = whole(size[1]);
-  if (x == 0) fields.fail(ErrorKind::malformed, "implicitMeshSize has no columns");
+  if (x == 0)
+    fields.fail(ErrorKind::malformed, "implicitMeshSize has no columns");
   return {x, y == 0 ? x : y};
 }
 
@@ -128,14 +152,17 @@ Lattice latticeOf(const Fields& fields, const GeometryDescription& geometry) {
   std::uint32_t bytes = byteSizeOf(geometry.coordType);
   if (geometry.container == Container::sig) {
     const std::size_t planes = geometry.patches[0].coord.size();
-    if (planes > 4) fields.fail(ErrorKind::unsupported, "coordinates of more than four bytes");
+    if (planes > 4)
+      fields.fail(ErrorKind::unsupported, "coordinates of more than four bytes");
     for (const PatchDescription& patch : geometry.patches)
-      if (patch.coord.size() != planes) fields.fail(ErrorKind::malformed, "patches differ in their coordinate images");
+      if (patch.coord.size() != planes)
+        fields.fail(ErrorKind::malformed, "patches differ in their coordinate images");
     bytes = static_cast<std::uint32_t>(planes);
   }
   const std::uint32_t bits = fields.integer("positionBits", 8 * bytes);
   if (bits < 8 || bits > 32 || coordBytes(geometry.container, bits) != bytes)
-    fields.fail(ErrorKind::malformed, "positionBits is no precision of coordinates of " + std::to_string(bytes) + " bytes");
+    fields.fail(ErrorKind::malformed,
+                "positionBits is no precision of coordinates of " + std::to_string(bytes) + " bytes");
   const Vec3d position = fields.vec3("position", Vec3d{0, 0, 0}), size = fields.vec3("size", Vec3d{1, 1, 1});
   if (!(std::min({size.x, size.y, size.z}) >= 0 && std::max({size.x, size.y, size.z}) > 0))
     fields.fail(ErrorKind::malformed, "size is the extent of no box");
@@ -147,7 +174,8 @@ Lattice latticeOf(const Fields& fields, const GeometryDescription& geometry) {
 
 } // namespace
 
-GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node, Container container) {
+GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node,
+                                 Container container) {
   const Fields fields(source, node);
   GeometryDescription geometry;
   geometry.container = container;
@@ -171,8 +199,10 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   const Vec2<std::uint32_t> implicitMeshSize = implicitMeshSizeOf(fields, {256, 256});
   for (const pugi::xml_node& child : node.children())
     if (sameName(child.name(), "GeometryPatch"))
-      geometry.patches.push_back(readPatch(source, child, container, implicitMeshSizeOf(Fields(source, child), implicitMeshSize)));
-  if (geometry.patches.empty()) geometry.patches.push_back(readPatch(source, node, container, implicitMeshSize));
+      geometry.patches.push_back(
+          readPatch(source, child, container, implicitMeshSizeOf(Fields(source, child), implicitMeshSize)));
+  if (geometry.patches.empty())
+    geometry.patches.push_back(readPatch(source, node, container, implicitMeshSize));
   geometry.lattice = latticeOf(fields, geometry);
   return geometry;
 }

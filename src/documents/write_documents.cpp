@@ -17,17 +17,21 @@ constexpr std::size_t maxPreloads = 16;
 std::vector<std::string> firstRequests(const SceneDocument& document) {
   std::vector<std::string> urls;
   const auto add = [&](const Reference& reference) {
-    if (urls.size() < maxPreloads && std::ranges::find(urls, reference.url) == urls.end()) urls.push_back(reference.url);
+    if (urls.size() < maxPreloads && std::ranges::find(urls, reference.url) == urls.end())
+      urls.push_back(reference.url);
   };
   const auto forEachPatch = [&](auto visit) {
     for (const Shape& shape : document.shapes)
-      for (const PatchDescription& patch : document.geometries.at(shape.mesh).patches) visit(patch);
+      for (const PatchDescription& patch : document.geometries.at(shape.mesh).patches)
+        visit(patch);
   };
   forEachPatch([&](const PatchDescription& patch) {
-    if (!patch.coord.empty()) add(patch.coord[0]);
+    if (!patch.coord.empty())
+      add(patch.coord[0]);
   });
   forEachPatch([&](const PatchDescription& patch) {
-    if (patch.index) add(*patch.index);
+    if (patch.index)
+      add(*patch.index);
   });
   return urls;
 }
@@ -51,7 +55,8 @@ std::string writeHtml(const SceneDocument& document, const PageOptions& options)
   for (const std::string& url : firstRequests(document))
     html += "    <link rel=\"preload\" as=\"fetch\" crossorigin=\"anonymous\" fetchpriority=\"high\" href=" +
             quoteAttribute(url) + ">\n";
-  html += "    <script type=\"module\" src=" + quoteAttribute(options.runtimeUrl) + "></script>\n"
+  html += "    <script type=\"module\" src=" + quoteAttribute(options.runtimeUrl) +
+          "></script>\n"
           "  </head>\n"
           "  <body>\n"
           "    <noscript>This page shows a 3D model and needs JavaScript to draw it.</noscript>\n";

@@ -11,26 +11,30 @@ namespace {
 
 using Attributes = std::vector<Attribute>;
 
-template <typename T> void addUnless(Attributes& attributes, const char* name, const T& value, const T& absent,
-                                     std::string text) {
-  if (!(value == absent)) attributes.push_back({name, std::move(text)});
+template <typename T>
+void addUnless(Attributes& attributes, const char* name, const T& value, const T& absent, std::string text) {
+  if (!(value == absent))
+    attributes.push_back({name, std::move(text)});
 }
 
 Attributes boxAttributes(const Box3d& box) {
-  if (box.empty()) return {};
+  if (box.empty())
+    return {};
   return {{"bboxCenter", numbers(box.center())}, {"bboxSize", numbers(box.size())}};
 }
 
 std::string primTypes(const std::vector<Draw>& draws) {
   static const char* names[] = {"POINTS", "LINES", "TRIANGLES", "TRIANGLESTRIP"};
   std::vector<std::string> types;
-  for (const Draw& draw : draws) types.push_back(names[static_cast<std::size_t>(draw.primitive)]);
+  for (const Draw& draw : draws)
+    types.push_back(names[static_cast<std::size_t>(draw.primitive)]);
   return strings(types);
 }
 
 std::string counts(const std::vector<Draw>& draws) {
   std::string text;
-  for (const Draw& draw : draws) text += (text.empty() ? "" : " ") + std::to_string(draw.count);
+  for (const Draw& draw : draws)
+    text.append(text.empty() ? "" : " ").append(std::to_string(draw.count));
   return text;
 }
 
@@ -38,7 +42,8 @@ std::string url(const Reference& reference, Container container) {
   assert(reference.url.find('#') == std::string::npos);
   if (container == Container::bg && (reference.first != 0 || reference.stride != 0))
     return reference.url + "#" + std::to_string(reference.first) + "+" + std::to_string(reference.stride);
-  if (reference.first != 0) return reference.url + "#" + std::to_string(reference.first);
+  if (reference.first != 0)
+    return reference.url + "#" + std::to_string(reference.first);
   return reference.url;
 }
 
@@ -51,12 +56,14 @@ Element patchElement(const PatchDescription& patch, Container container) {
                                              std::to_string(patch.implicitMeshSize.y)});
   Attributes references;
   const auto add = [&](const char* name, const std::optional<Reference>& reference) {
-    if (reference) references.push_back({name, url(*reference, container)});
+    if (reference)
+      references.push_back({name, url(*reference, container)});
   };
   add("index", patch.index);
   if (container == Container::sig) {
     std::vector<std::string> planes;
-    for (const Reference& plane : patch.coord) planes.push_back(url(plane, container));
+    for (const Reference& plane : patch.coord)
+      planes.push_back(url(plane, container));
     references.push_back({"coord", strings(planes)});
   } else if (!patch.coord.empty()) {
     references.push_back({"coord", url(patch.coord[0], container)});
@@ -97,39 +104,47 @@ Element materialElement(const Material& material) {
   };
   add("specularColor", material.specularColor, standard.specularColor, numbers(material.specularColor));
   add("emissiveColor", material.emissiveColor, standard.emissiveColor, numbers(material.emissiveColor));
-  add("ambientIntensity", material.ambientIntensity, standard.ambientIntensity, number(material.ambientIntensity));
+  add("ambientIntensity", material.ambientIntensity, standard.ambientIntensity,
+      number(material.ambientIntensity));
   add("shininess", material.shininess, standard.shininess, number(material.shininess));
   add("transparency", material.transparency, standard.transparency, number(material.transparency));
   return {"Material", {attributes}};
 }
 
-void writeShape(ElementWriter& writer, const Shape& shape, const std::string& def, const GeometryDescription& geometry) {
+void writeShape(ElementWriter& writer, const Shape& shape, const std::string& def,
+                const GeometryDescription& geometry) {
   Element element{"Shape", {{}, boxAttributes(geometry.box)}};
-  if (!def.empty()) element.groups[0].push_back({"DEF", def});
+  if (!def.empty())
+    element.groups[0].push_back({"DEF", def});
   const Element appearance{"Appearance", {}}, node = geometryElement(geometry);
   writer.open(element);
   writer.open(appearance);
   writer.leaf(materialElement(shape.material));
   writer.close(appearance);
   writer.open(node);
-  for (const PatchDescription& patch : geometry.patches) writer.leaf(patchElement(patch, geometry.container));
+  for (const PatchDescription& patch : geometry.patches)
+    writer.leaf(patchElement(patch, geometry.container));
   writer.close(node);
   writer.close(element);
 }
 
 Element viewpointElement(const Viewpoint& viewpoint) {
   Attributes description;
-  if (!viewpoint.description.empty()) description.push_back({"description", viewpoint.description});
+  if (!viewpoint.description.empty())
+    description.push_back({"description", viewpoint.description});
   return {"Viewpoint",
           {description,
            {{"position", numbers(viewpoint.position)},
             {"orientation", numbers(viewpoint.orientationAxis) + " " + number(viewpoint.orientationAngle)}},
-           {{"fieldOfView", number(viewpoint.fieldOfView)}, {"centerOfRotation", numbers(viewpoint.centerOfRotation)}}}};
+           {{"fieldOfView", number(viewpoint.fieldOfView)},
+            {"centerOfRotation", numbers(viewpoint.centerOfRotation)}}}};
 }
 
 Element lightElement(const DirectionalLight& light) {
   return {"DirectionalLight",
-          {{{"direction", numbers(light.direction)}, {"color", numbers(light.color)}, {"intensity", number(light.intensity)}}}};
+          {{{"direction", numbers(light.direction)},
+            {"color", numbers(light.color)},
+            {"intensity", number(light.intensity)}}}};
 }
 
 } // namespace
@@ -139,11 +154,14 @@ std::string x3dElement(const SceneDocument& document, std::size_t level) {
   const Element x3d{"X3D", {{{"profile", "Interchange"}, {"version", "4.0"}}}}, scene{"Scene", {}};
   writer.open(x3d);
   writer.open(scene);
-  if (!document.title.empty()) writer.leaf({"WorldInfo", {{{"title", document.title}}}});
+  if (!document.title.empty())
+    writer.leaf({"WorldInfo", {{{"title", document.title}}}});
   writer.leaf({"NavigationInfo", {{{"headlight", document.headlight ? "true" : "false"}}}});
   writer.leaf({"Background", {{{"skyColor", "0.93 0.94 0.95"}}}});
-  for (const Viewpoint& viewpoint : document.viewpoints) writer.leaf(viewpointElement(viewpoint));
-  for (const DirectionalLight& light : document.lights) writer.leaf(lightElement(light));
+  for (const Viewpoint& viewpoint : document.viewpoints)
+    writer.leaf(viewpointElement(viewpoint));
+  for (const DirectionalLight& light : document.lights)
+    writer.leaf(lightElement(light));
   const std::vector<std::string> defs = defNames(document.shapes);
   for (std::size_t i = 0; i < document.shapes.size(); ++i)
     writeShape(writer, document.shapes[i], defs[i], document.geometries.at(document.shapes[i].mesh));

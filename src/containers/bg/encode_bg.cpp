@@ -12,16 +12,20 @@ namespace {
 
 void appendUnsigned(Bytes& out, ElementType type, std::uint32_t value) {
   switch (byteSizeOf(type)) {
-  case 1: return out.push_back(narrow<std::uint8_t>(value));
-  case 2: return appendLittle(out, narrow<std::uint16_t>(value));
-  default: return appendLittle(out, value);
+  case 1:
+    return out.push_back(narrow<std::uint8_t>(value));
+  case 2:
+    return appendLittle(out, narrow<std::uint16_t>(value));
+  default:
+    return appendLittle(out, value);
   }
 }
 
 Bytes indexArray(const IndexedPatch& patch, ElementType type) {
   Bytes out;
   out.reserve(patch.indices.size() * byteSizeOf(type));
-  for (const std::uint32_t index : patch.indices) appendUnsigned(out, type, index);
+  for (const std::uint32_t index : patch.indices)
+    appendUnsigned(out, type, index);
   return out;
 }
 
@@ -31,8 +35,10 @@ Bytes coordArray(const IndexedPatch& patch, ElementType type, std::uint32_t shif
   Bytes out;
   out.reserve(patch.vertexCount() * 4 * byteSizeOf(type));
   for (const Vec3u& position : patch.positions) {
-    for (int axis = 0; axis < 3; ++axis) appendUnsigned(out, type, storeCoord(position[axis], shift));
-    if (byteSizeOf(type) < 4) appendUnsigned(out, type, 0);
+    for (int axis = 0; axis < 3; ++axis)
+      appendUnsigned(out, type, storeCoord(position[axis], shift));
+    if (byteSizeOf(type) < 4)
+      appendUnsigned(out, type, 0);
   }
   return out;
 }
@@ -45,13 +51,16 @@ Bytes normalArray(const IndexedPatch& patch, ElementType type) {
   };
   for (const Vec3f& normal : patch.normals) {
     if (type == ElementType::float32) {
-      for (int axis = 0; axis < 3; ++axis) appendLittle(out, normal[axis]);
+      for (int axis = 0; axis < 3; ++axis)
+        appendLittle(out, normal[axis]);
     } else if (type == ElementType::int16) {
-      for (int axis = 0; axis < 3; ++axis) appendLittle(out, static_cast<std::int16_t>(stored(normal[axis], 32767)));
+      for (int axis = 0; axis < 3; ++axis)
+        appendLittle(out, static_cast<std::int16_t>(stored(normal[axis], 32767)));
       appendLittle(out, std::int16_t{0});
     } else {
       assert(type == ElementType::int8);
-      for (int axis = 0; axis < 3; ++axis) out.push_back(static_cast<std::uint8_t>(stored(normal[axis], 127)));
+      for (int axis = 0; axis < 3; ++axis)
+        out.push_back(static_cast<std::uint8_t>(stored(normal[axis], 127)));
       out.push_back(0);
     }
   }
@@ -71,7 +80,8 @@ Bytes texCoordArray(const IndexedPatch& patch, const GeometryDescription& geomet
 Bytes colorArray(const IndexedPatch& patch) {
   Bytes out;
   out.reserve(patch.vertexCount() * 4);
-  for (const Rgba8& color : patch.colors) out.insert(out.end(), {color.r, color.g, color.b, color.a});
+  for (const Rgba8& color : patch.colors)
+    out.insert(out.end(), {color.r, color.g, color.b, color.a});
   return out;
 }
 
@@ -88,12 +98,16 @@ EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geom
   };
   // A stride is stated only where it is more than the components take.
   const auto padded = [](ElementType type) { return byteSizeOf(type) < 4 ? 4 * byteSizeOf(type) : 0; };
-  if (!patch.indices.empty()) description.index = add(Role::index, indexArray(patch, geometry.indexType), 0);
+  if (!patch.indices.empty())
+    description.index = add(Role::index, indexArray(patch, geometry.indexType), 0);
   const std::uint32_t shift = coordShift(Container::bg, geometry.lattice.bits);
-  description.coord = {add(Role::coord, coordArray(patch, geometry.coordType, shift), padded(geometry.coordType))};
+  description.coord = {
+      add(Role::coord, coordArray(patch, geometry.coordType, shift), padded(geometry.coordType))};
   if (!patch.normals.empty())
-    description.normal = add(Role::normal, normalArray(patch, geometry.normalType), padded(geometry.normalType));
-  if (!patch.texCoords.empty()) description.texCoord = add(Role::texCoord, texCoordArray(patch, geometry), 0);
+    description.normal =
+        add(Role::normal, normalArray(patch, geometry.normalType), padded(geometry.normalType));
+  if (!patch.texCoords.empty())
+    description.texCoord = add(Role::texCoord, texCoordArray(patch, geometry), 0);
   if (!patch.colors.empty())
     description.color = add(Role::color, colorArray(patch), geometry.colorComponents == 4 ? 0 : 4);
   return encoded;

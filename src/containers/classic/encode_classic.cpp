@@ -23,12 +23,15 @@ struct RoleImage {
 /// An image of `columns` times `rows` texels; texel(n, out) writes texel n of
 /// the first `count`, the rest repeat the last.
 template <typename Texel>
-Image imageOf(std::uint32_t columns, std::uint32_t rows, std::uint32_t channels, std::size_t count, Texel texel) {
+Image imageOf(std::uint32_t columns, std::uint32_t rows, std::uint32_t channels, std::size_t count,
+              Texel texel) {
   Image image{columns, rows, channels, Bytes(std::size_t{columns} * rows * channels)};
   std::uint8_t* out = image.pixels.data();
   for (std::size_t n = 0; n < std::size_t{columns} * rows; ++n, out += channels) {
-    if (n < count) texel(n, out);
-    else std::copy_n(out - channels, channels, out);
+    if (n < count)
+      texel(n, out);
+    else
+      std::copy_n(out - channels, channels, out);
   }
   return image;
 }
@@ -36,12 +39,15 @@ Image imageOf(std::uint32_t columns, std::uint32_t rows, std::uint32_t channels,
 /// The texel count of a patch's running numbers: the index image, or the part
 /// of the record images in use.
 Vec2<std::uint32_t> implicitMeshSizeOf(const IndexedPatch& patch) {
-  if (patch.indices.empty()) return {recordColumns, rowsFor(patch.vertexCount(), recordColumns)};
+  if (patch.indices.empty())
+    return {recordColumns, rowsFor(patch.vertexCount(), recordColumns)};
   std::uint32_t columns = indexColumns;
-  while (columns < maxImageEdge && rowsFor(patch.indices.size(), columns) > maxImageEdge) columns *= 2;
-  if (rowsFor(patch.indices.size(), columns) > maxImageEdge)
-    throw Error(ErrorKind::limit, "", "a patch of " + std::to_string(patch.indices.size()) +
-                                          " indices does not fit into an index image; use smaller patches");
+  if (rowsFor(patch.indices.size(), columns) > guaranteedImageEdge)
+    columns = guaranteedImageEdge;
+  if (rowsFor(patch.indices.size(), columns) > guaranteedImageEdge)
+    throw Error(ErrorKind::limit, "",
+                "a patch of " + std::to_string(patch.indices.size()) +
+                    " indices does not fit into an index image; use smaller patches");
   return {columns, rowsFor(patch.indices.size(), columns)};
 }
 
@@ -74,8 +80,10 @@ Image normalImage(const IndexedPatch& patch, std::uint32_t rows) {
 
 Image texCoordImage(const IndexedPatch& patch, const GeometryDescription& geometry, std::uint32_t rows) {
   return imageOf(recordColumns, rows, 4, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
-    const std::uint16_t u = storeTexCoord(patch.texCoords[n].x, geometry.texCoordMin.x, geometry.texCoordSize.x);
-    const std::uint16_t v = storeTexCoord(patch.texCoords[n].y, geometry.texCoordMin.y, geometry.texCoordSize.y);
+    const std::uint16_t u =
+        storeTexCoord(patch.texCoords[n].x, geometry.texCoordMin.x, geometry.texCoordSize.x);
+    const std::uint16_t v =
+        storeTexCoord(patch.texCoords[n].y, geometry.texCoordMin.y, geometry.texCoordSize.y);
     out[0] = static_cast<std::uint8_t>(u >> 8);
     out[1] = static_cast<std::uint8_t>(v >> 8);
     out[2] = static_cast<std::uint8_t>(u);
@@ -100,23 +108,37 @@ EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription&
   const std::uint32_t shift = coordShift(Container::sig, geometry.lattice.bits);
 
   std::vector<RoleImage> images;
-  if (!patch.indices.empty()) images.push_back({Role::index, indexImage(patch, encoded.description.implicitMeshSize)});
+  if (!patch.indices.empty())
+    images.push_back({Role::index, indexImage(patch, encoded.description.implicitMeshSize)});
   for (std::uint32_t plane = coordBytes(Container::sig, geometry.lattice.bits); plane-- > 0;)
     images.push_back({Role::coord, coordImage(patch, rows, shift, plane)});
-  if (!patch.normals.empty()) images.push_back({Role::normal, normalImage(patch, rows)});
-  if (!patch.texCoords.empty()) images.push_back({Role::texCoord, texCoordImage(patch, geometry, rows)});
-  if (!patch.colors.empty()) images.push_back({Role::color, colorImage(patch, geometry.colorComponents, rows)});
+  if (!patch.normals.empty())
+    images.push_back({Role::normal, normalImage(patch, rows)});
+  if (!patch.texCoords.empty())
+    images.push_back({Role::texCoord, texCoordImage(patch, geometry, rows)});
+  if (!patch.colors.empty())
+    images.push_back({Role::color, colorImage(patch, geometry.colorComponents, rows)});
 
   std::vector<Bytes> pngs(images.size());
   parallelFor(images.size(), [&](std::size_t i) { pngs[i] = encodePng(images[i].image, effort); });
   for (std::size_t i = 0; i < images.size(); ++i) {
     const Reference reference = addFile(encoded, {images[i].role, ".png", std::move(pngs[i])});
     switch (images[i].role) {
-    case Role::index: encoded.description.index = reference; break;
-    case Role::coord: encoded.description.coord.push_back(reference); break;
-    case Role::normal: encoded.description.normal = reference; break;
-    case Role::texCoord: encoded.description.texCoord = reference; break;
-    case Role::color: encoded.description.color = reference; break;
+    case Role::index:
+      encoded.description.index = reference;
+      break;
+    case Role::coord:
+      encoded.description.coord.push_back(reference);
+      break;
+    case Role::normal:
+      encoded.description.normal = reference;
+      break;
+    case Role::texCoord:
+      encoded.description.texCoord = reference;
+      break;
+    case Role::color:
+      encoded.description.color = reference;
+      break;
     }
   }
   return encoded;

@@ -10,7 +10,7 @@ namespace imgeo {
 /// texel names the column by one byte and the row by another.
 inline constexpr std::uint32_t recordColumns = 256;
 
-/// Width of index images, until their rows exceed maxImageEdge.
+/// Width of index images, until they would be more than guaranteedImageEdge high.
 inline constexpr std::uint32_t indexColumns = 1024;
 
 inline constexpr std::uint32_t rowsFor(std::uint64_t count, std::uint32_t columns) {

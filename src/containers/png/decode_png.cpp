@@ -31,16 +31,20 @@ int readSource(spng_ctx*, void* user, void* out, std::size_t size) {
 
 ErrorKind kindOf(int spngError) {
   switch (spngError) {
-  case SPNG_IO_EOF: return ErrorKind::truncated;
+  case SPNG_IO_EOF:
+    return ErrorKind::truncated;
   case SPNG_EUSER_WIDTH:
   case SPNG_EUSER_HEIGHT:
-  case SPNG_ECHUNK_LIMITS: return ErrorKind::limit;
-  default: return ErrorKind::malformed;
+  case SPNG_ECHUNK_LIMITS:
+    return ErrorKind::limit;
+  default:
+    return ErrorKind::malformed;
   }
 }
 
 void check(int spngError, const std::string& place) {
-  if (spngError == SPNG_EMEM) throw std::bad_alloc();
+  if (spngError == SPNG_EMEM)
+    throw std::bad_alloc();
   if (spngError != SPNG_OK)
     throw Error(kindOf(spngError), place, std::string("not a readable PNG: ") + spng_strerror(spngError));
 }
@@ -49,10 +53,14 @@ std::uint32_t channelsOf(const spng_ihdr& header, const std::string& place) {
   if (header.bit_depth != 8 || header.interlace_method != SPNG_INTERLACE_NONE)
     throw Error(ErrorKind::unsupported, place, "data images have 8 bits a channel and are not interlaced");
   switch (header.color_type) {
-  case SPNG_COLOR_TYPE_GRAYSCALE: return 1;
-  case SPNG_COLOR_TYPE_TRUECOLOR: return 3;
-  case SPNG_COLOR_TYPE_TRUECOLOR_ALPHA: return 4;
-  default: throw Error(ErrorKind::unsupported, place, "data images are gray, RGB or RGBA");
+  case SPNG_COLOR_TYPE_GRAYSCALE:
+    return 1;
+  case SPNG_COLOR_TYPE_TRUECOLOR:
+    return 3;
+  case SPNG_COLOR_TYPE_TRUECOLOR_ALPHA:
+    return 4;
+  default:
+    throw Error(ErrorKind::unsupported, place, "data images are gray, RGB or RGBA");
   }
 }
 
@@ -60,7 +68,8 @@ std::uint32_t channelsOf(const spng_ihdr& header, const std::string& place) {
 
 Image decodePng(ByteSpan bytes, const std::string& place) {
   const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> context(spng_ctx_new(0), &spng_ctx_free);
-  if (!context) throw std::bad_alloc();
+  if (!context)
+    throw std::bad_alloc();
   Source source{bytes};
   check(spng_set_png_stream(context.get(), readSource, &source), place);
   check(spng_set_image_limits(context.get(), maxImageEdge, maxImageEdge), place);
@@ -77,8 +86,10 @@ Image decodePng(ByteSpan bytes, const std::string& place) {
   image.pixels.resize(rowBytes * image.height);
   check(spng_decode_image(context.get(), image.pixels.data(), image.pixels.size(), SPNG_FMT_RAW, 0), place);
   check(spng_decode_chunks(context.get()), place); // reads on to IEND
-  if (source.ended) throw Error(ErrorKind::truncated, place, "the PNG's last bytes are missing");
-  if (source.at != bytes.size()) throw Error(ErrorKind::malformed, place, "bytes follow the end of the PNG");
+  if (source.ended)
+    throw Error(ErrorKind::truncated, place, "the PNG's last bytes are missing");
+  if (source.at != bytes.size())
+    throw Error(ErrorKind::malformed, place, "bytes follow the end of the PNG");
   return image;
 }
 

@@ -5,7 +5,6 @@
 #include "base/narrow.h"
 
 #include <cassert>
-#include <initializer_list>
 #include <libdeflate.h>
 #include <memory>
 #include <new>
@@ -19,7 +18,8 @@ using Compressor = std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_f
 
 Compressor compressorOf(int level) {
   Compressor compressor(libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
-  if (!compressor) throw std::bad_alloc();
+  if (!compressor)
+    throw std::bad_alloc();
   return compressor;
 }
 
@@ -31,39 +31,42 @@ Bytes deflate(ByteSpan bytes, libdeflate_compressor* compressor) {
 }
 
 struct Effort {
-  int level;                        ///< libdeflate's, 0..12, for the file
-  int probeLevel;                   ///< for choosing among the filters
-  std::initializer_list<Filter> filters;
+  int level, levelOfLarge; ///< libdeflate's, 0 .. 12; time grows with size, so large images may get less
+  int probeLevel;          ///< for choosing among the filters
+  std::span<const Filter> filters;
 };
 
-/// Measured in docs/decisions/png-effort.md.
+/// Records of a patch fill no more than this; what is larger holds indices.
+constexpr std::size_t largeImageBytes = 256 * 256 * 4;
+
+/// Measured in docs/decisions/png-effort.md. Neighbours in the images of a mesh
+/// stand side by side, hardly ever above one another: sub nearly always wins.
 Effort effortOf(int effort) {
   assert(effort >= 0 && effort <= 9);
+  static constexpr Filter all[] = {Filter::sub,      Filter::none, Filter::paeth,
+                                   Filter::adaptive, Filter::up,   Filter::average};
+  static constexpr std::span<const Filter> filters(all);
   static const Effort ladder[] = {
-      {1, 1, {Filter::none}},
-      {1, 1, {Filter::none, Filter::sub}},
-      {4, 1, {Filter::none, Filter::sub}},
-      {6, 1, {Filter::none, Filter::sub, Filter::up}},
-      {7, 1, {Filter::none, Filter::sub, Filter::up, Filter::paeth}},
-      {8, 1, {Filter::none, Filter::sub, Filter::up, Filter::paeth, Filter::adaptive}},
-      {9, 1, {Filter::none, Filter::sub, Filter::up, Filter::paeth, Filter::adaptive}},
-      {10, 4, {Filter::none, Filter::sub, Filter::up, Filter::paeth, Filter::adaptive}},
-      {12, 6, {Filter::none, Filter::sub, Filter::up, Filter::paeth, Filter::adaptive}},
-      {12, 12, {Filter::none, Filter::sub, Filter::up, Filter::paeth, Filter::adaptive}},
+      {1, 1, 1, filters.first(1)},   {1, 1, 1, filters.first(2)},   {4, 4, 1, filters.first(2)},
+      {6, 6, 1, filters.first(3)},   {7, 7, 1, filters.first(4)},   {10, 7, 1, filters.first(4)},
+      {10, 10, 1, filters.first(4)}, {11, 11, 1, filters.first(4)}, {12, 12, 1, filters.first(4)},
+      {12, 12, 12, filters},
   };
   return ladder[effort];
 }
 
 /// The filtered rows that deflate smallest at the probe level; the first of equals.
 Bytes smallestRows(const Image& image, const Effort& effort) {
-  if (effort.filters.size() == 1) return filterRows(image, *effort.filters.begin());
+  if (effort.filters.size() == 1)
+    return filterRows(image, effort.filters[0]);
   const Compressor probe = compressorOf(effort.probeLevel);
   Bytes best;
   std::size_t bestSize = SIZE_MAX;
   for (const Filter filter : effort.filters) {
     Bytes rows = filterRows(image, filter);
     const std::size_t size = deflate(rows, probe.get()).size();
-    if (size >= bestSize) continue;
+    if (size >= bestSize)
+      continue;
     bestSize = size;
     best = std::move(rows);
   }
@@ -92,7 +95,8 @@ Bytes encodePng(const Image& image, int effort) {
   header.insert(header.end(), {8, colorType, 0, 0, 0}); // depth; deflate, adaptive filters, not interlaced
 
   const Effort search = effortOf(effort);
-  const Bytes data = deflate(smallestRows(image, search), compressorOf(search.level).get());
+  const int level = image.pixels.size() > largeImageBytes ? search.levelOfLarge : search.level;
+  const Bytes data = deflate(smallestRows(image, search), compressorOf(level).get());
   Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   png.reserve(png.size() + 3 * 12 + header.size() + data.size());
   appendChunk(png, "IHDR", header);

@@ -9,8 +9,10 @@ namespace {
 
 /// Paeth's predictor: the neighbour nearest to left + up - upLeft, ties in that order.
 std::uint8_t paeth(int left, int up, int upLeft) {
-  const int toLeft = std::abs(up - upLeft), toUp = std::abs(left - upLeft), toUpLeft = std::abs(left + up - 2 * upLeft);
-  if (toLeft <= toUp && toLeft <= toUpLeft) return static_cast<std::uint8_t>(left);
+  const int toLeft = std::abs(up - upLeft), toUp = std::abs(left - upLeft),
+            toUpLeft = std::abs(left + up - 2 * upLeft);
+  if (toLeft <= toUp && toLeft <= toUpLeft)
+    return static_cast<std::uint8_t>(left);
   return static_cast<std::uint8_t>(toUp <= toUpLeft ? up : upLeft);
 }
 
@@ -26,17 +28,23 @@ void filterRow(Filter filter, const std::uint8_t* row, const std::uint8_t* above
     }
   };
   switch (filter) {
-  case Filter::sub: return each([](int left, int, int) { return left; });
-  case Filter::up: return each([](int, int up, int) { return up; });
-  case Filter::average: return each([](int left, int up, int) { return (left + up) / 2; });
-  case Filter::paeth: return each([](int left, int up, int upLeft) { return int{paeth(left, up, upLeft)}; });
-  default: std::copy_n(row, rowBytes, out);
+  case Filter::sub:
+    return each([](int left, int, int) { return left; });
+  case Filter::up:
+    return each([](int, int up, int) { return up; });
+  case Filter::average:
+    return each([](int left, int up, int) { return (left + up) / 2; });
+  case Filter::paeth:
+    return each([](int left, int up, int upLeft) { return int{paeth(left, up, upLeft)}; });
+  default:
+    std::copy_n(row, rowBytes, out);
   }
 }
 
 std::uint64_t sumOfDifferences(const std::uint8_t* row, std::size_t rowBytes) {
   std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < rowBytes; ++i) sum += row[i] < 128 ? row[i] : 256u - row[i];
+  for (std::size_t i = 0; i < rowBytes; ++i)
+    sum += row[i] < 128 ? row[i] : 256u - row[i];
   return sum;
 }
 
@@ -58,7 +66,8 @@ Bytes filterRows(const Image& image, Filter filter) {
     for (const Filter candidate : {Filter::none, Filter::sub, Filter::up, Filter::average, Filter::paeth}) {
       filterRow(candidate, row, above, rowBytes, image.channels, trial.data());
       const std::uint64_t sum = sumOfDifferences(trial.data(), rowBytes);
-      if (sum >= smallest) continue;
+      if (sum >= smallest)
+        continue;
       smallest = sum;
       out[0] = static_cast<std::uint8_t>(candidate);
       std::copy(trial.begin(), trial.end(), out + 1);

@@ -11,7 +11,9 @@ namespace {
 
 /// Noise over a smooth ramp: every filter has rows where it wins.
 Image randomImage(std::mt19937& random, std::uint32_t channels) {
-  const auto upTo = [&](std::uint32_t count) { return std::uniform_int_distribution<std::uint32_t>(1, count)(random); };
+  const auto upTo = [&](std::uint32_t count) {
+    return std::uniform_int_distribution<std::uint32_t>(1, count)(random);
+  };
   Image image{upTo(40), upTo(40), channels, {}};
   const std::uint32_t noise = upTo(255);
   for (std::uint32_t y = 0; y < image.height; ++y)
@@ -26,7 +28,8 @@ TEST(Png, ComesBackExactlyAtEveryEffort) {
     for (int effort = 0; effort <= 9; ++effort)
       for (int round = 0; round < 5; ++round) {
         const Image image = randomImage(random, channels);
-        EXPECT_EQ(decodePng(encodePng(image, effort), "x.png"), image) << channels << " channels, effort " << effort;
+        EXPECT_EQ(decodePng(encodePng(image, effort), "x.png"), image)
+            << channels << " channels, effort " << effort;
       }
 }
 
@@ -42,7 +45,8 @@ TEST(Png, HoldsThreeChunksOnly) {
 TEST(Png, IsNotLargerWithMoreEffortThanWithNone) {
   std::mt19937 random(3);
   Image image{256, 64, 3, {}};
-  for (std::uint32_t i = 0; i < 256 * 64 * 3; ++i) image.pixels.push_back(static_cast<std::uint8_t>(i / 7 + random() % 4));
+  for (std::uint32_t i = 0; i < 256 * 64 * 3; ++i)
+    image.pixels.push_back(static_cast<std::uint8_t>(i / 7 + random() % 4));
   EXPECT_LE(encodePng(image, 9).size(), encodePng(image, 5).size());
   EXPECT_LT(encodePng(image, 5).size(), encodePng(image, 0).size());
 }
@@ -51,7 +55,8 @@ TEST(Png, IsRefusedWhenAnyOfItsEndIsMissing) {
   std::mt19937 random(4);
   const Bytes png = encodePng(randomImage(random, 4), 5);
   for (std::size_t length = 0; length < png.size(); ++length)
-    EXPECT_THROW(decodePng(ByteSpan(png).first(length), "x.png"), Error) << length << " of " << png.size() << " bytes";
+    EXPECT_THROW(decodePng(ByteSpan(png).first(length), "x.png"), Error)
+        << length << " of " << png.size() << " bytes";
 }
 
 TEST(Png, IsRefusedWhenAnyByteIsAltered) {
@@ -83,7 +88,8 @@ Bytes headerOnly(std::uint32_t width, std::uint32_t height, std::uint8_t depth, 
   std::uint32_t crc = 0xffffffff; // CRC-32 as PNG defines it, over type and data
   for (std::size_t i = 12; i < 29; ++i) {
     crc ^= png[i];
-    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0u);
+    for (int bit = 0; bit < 8; ++bit)
+      crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0u);
   }
   Bytes sum;
   appendBig(sum, ~crc);
