@@ -6,6 +6,8 @@
 #include "import/obj_object.h"
 #include "import/text_scanner.h"
 #include "import/triangulate.h"
+#include "import/unit_normal.h"
+#include "import/warnings.h"
 
 #include <algorithm>
 #include <array>
@@ -38,7 +40,7 @@ public:
       addPoints(imported.scene);
     else
       addObjects(imported);
-    addWarnings(imported);
+    addWarnings(imported.warnings);
     return imported;
   }
 
@@ -73,32 +75,42 @@ private:
       if (count >= atLeast && scanner_.atLineEnd())
         break;
       out[count++] = scanner_.float32("a number");
-      if (!std::isfinite(out[count - 1]))
-        scanner_.fail(ErrorKind::malformed, "a value is not a number or beyond single precision");
     }
     return count;
   }
 
-  /// "v x y z", "v x y z w", "v x y z r g b", and both with "a" or "w" more.
+  void checkFinite(std::span<const float> values, const char* what) const {
+    if (!std::ranges::all_of(values, [](float value) { return std::isfinite(value); }))
+      scanner_.fail(ErrorKind::malformed, fmt::format("{} is not a number or beyond single precision", what));
+  }
+
+  /// "v x y z", "v x y z w" or "v x y z r g b"; an alpha behind b is left out.
   void readVertex() {
     std::array<float, 7> n{};
     const std::size_t count = readNumbers(n, 3);
+    checkFinite(std::span(n).first(3), "a coordinate");
     content_.positions.push_back({n[0], n[1], n[2]});
-    if (count < 6) {
-      if (!content_.colors.empty())
-        content_.colors.push_back({255, 255, 255, 255});
-      return;
+    constexpr Rgba8 white{255, 255, 255, 255};
+    if (count >= 6) {
+      content_.colors.resize(content_.positions.size() - 1, white); // of vertices before that had none
+      content_.colors.push_back({channel(n[3]), channel(n[4]), channel(n[5]), 255});
+    } else if (!content_.colors.empty()) {
+      content_.colors.push_back(white);
     }
-    const auto channel = [](float c) {
-      return static_cast<std::uint8_t>(std::lround(std::clamp(c, 0.0f, 1.0f) * 255));
-    };
-    content_.colors.resize(content_.positions.size() - 1, {255, 255, 255, 255});
-    content_.colors.push_back({channel(n[3]), channel(n[4]), channel(n[5]), 255});
+  }
+
+  std::uint8_t channel(float value) {
+    const float scaled = value * 255;
+    if (scaled >= 0 && scaled < 255.5f)
+      return static_cast<std::uint8_t>(std::lround(scaled));
+    ++colorsClamped_;
+    return scaled > 0 ? 255 : 0; // what is not a number becomes 0
   }
 
   void readTexCoord() {
     std::array<float, 3> n{};
     readNumbers(n, 1);
+    checkFinite(n, "a texture coordinate");
     content_.texCoords.push_back({n[0], n[1]});
   }
 
@@ -106,6 +118,7 @@ private:
     std::array<float, 3> n{};
     readNumbers(n, 3);
     content_.normals.push_back({n[0], n[1], n[2]});
+    unusableNormals_ += !makeUnit(content_.normals.back());
   }
 
   /// Counted from 1, or from the end where negative; only what stands before.
@@ -164,12 +177,8 @@ private:
       addShape(imported.scene, std::move(mesh), object.name);
     }
     if (builder.partlyNormals > 0)
-      imported.warnings.push_back(
-          fmt::format("The normals of {} objects were left out, because some of their corners have none.",
-                      builder.partlyNormals));
-    if (builder.unusableNormals > 0)
-      imported.warnings.push_back(fmt::format(
-          "{} normals have no direction; (0, 0, 1) stands in their place.", builder.unusableNormals));
+      imported.warnings.push_back(fmt::format("The normals of {} left out: some corners have none.",
+                                              counted(builder.partlyNormals, "object were", "objects were")));
   }
 
   /// A file without faces is a point cloud.
@@ -185,20 +194,19 @@ private:
     addShape(scene, std::move(mesh), "");
   }
 
-  void addWarnings(Imported& imported) const {
-    const auto warn = [&](std::string sentence) { imported.warnings.push_back(std::move(sentence)); };
+  void addWarnings(std::vector<std::string>& warnings) const {
     if (hasMaterials_)
-      warn("The materials of the OBJ file (mtllib, usemtl) are not carried over.");
+      warnings.emplace_back("The materials of the OBJ file (mtllib, usemtl) are not carried over.");
     if (lines_ + points_ > 0 && !content_.objects.empty())
-      warn(fmt::format("{} statements of lines and {} of points in the OBJ file are not carried over.",
-                       lines_, points_));
-    if (facesTooSmall_ > 0)
-      warn(fmt::format("{} faces with fewer than three corners were left out.", facesTooSmall_));
-    if (fans_ > 0)
-      warn(fmt::format("{} concave polygons of more than {} corners were cut as fans and may overlap.", fans_,
-                       kMaxEarClippedCorners));
+      warnings.push_back(fmt::format("Not carried over from the OBJ file: {} of lines and {} of points.",
+                                     counted(lines_, "statement", "statements"), points_));
     if (!others_.empty())
-      warn(fmt::format("Statements of the OBJ file that were not read: {}.", fmt::join(others_, ", ")));
+      warnings.push_back(
+          fmt::format("Statements of the OBJ file that imgeo does not read: {}.", fmt::join(others_, ", ")));
+    warnOfColors(warnings, colorsClamped_);
+    warnOfNormals(warnings, unusableNormals_);
+    warnOfSmallFaces(warnings, facesTooSmall_);
+    warnOfFans(warnings, fans_);
   }
 
   TextScanner scanner_;
@@ -208,7 +216,8 @@ private:
   std::vector<Vec3f> ring_;
   std::vector<std::uint32_t> local_;
   bool hasMaterials_ = false;
-  std::size_t lines_ = 0, points_ = 0, facesTooSmall_ = 0, fans_ = 0;
+  std::size_t lines_ = 0, points_ = 0, facesTooSmall_ = 0, fans_ = 0, colorsClamped_ = 0,
+              unusableNormals_ = 0;
   std::set<std::string> others_; ///< some of the keywords that were passed over
 };
 

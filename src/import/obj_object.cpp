@@ -1,7 +1,5 @@
 #include "import/obj_object.h"
 
-#include "import/unit_normal.h"
-
 #include <algorithm>
 
 namespace imgeo {
@@ -65,10 +63,8 @@ std::uint32_t ObjMeshBuilder::wedge(Mesh& mesh, const ObjCorner& corner) {
   wedgeKeys_.push_back({local, texCoord, normal});
   if (hasTexCoords_)
     mesh.texCoords.push_back(texCoord == kNone ? Vec2f{} : content_.texCoords[texCoord]);
-  if (hasNormals_) {
+  if (hasNormals_)
     mesh.normals.push_back(content_.normals[normal]);
-    unusableNormals += !makeUnit(mesh.normals.back());
-  }
   if (!content_.colors.empty())
     mesh.colors.push_back(content_.colors[corner.position]);
   return added;

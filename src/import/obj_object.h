@@ -22,7 +22,8 @@ struct ObjObject {
 };
 
 struct ObjContent {
-  std::vector<Vec3f> positions, normals; ///< normals as the file has them
+  std::vector<Vec3f> positions; ///< finite
+  std::vector<Vec3f> normals;   ///< unit length
   std::vector<Vec2f> texCoords;
   std::vector<Rgba8> colors; ///< per position, or empty
   std::vector<ObjObject> objects;
@@ -39,8 +40,7 @@ public:
   /// kept where every corner has one, texture coordinates where any has.
   Mesh build(const ObjObject& object);
 
-  std::size_t unusableNormals = 0; ///< without direction: (0, 0, 1) in their place
-  std::size_t partlyNormals = 0;   ///< objects whose normals were left out: some corners have none
+  std::size_t partlyNormals = 0; ///< objects whose normals were left out: some corners have none
 
 private:
   void addAllPositions(Mesh& mesh);

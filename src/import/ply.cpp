@@ -5,6 +5,7 @@
 #include "import/ply_content.h"
 #include "import/triangulate.h"
 #include "import/unit_normal.h"
+#include "import/warnings.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -56,7 +57,8 @@ Mesh meshOf(PlyContent& content, std::size_t& fans) {
   mesh.colors = std::move(content.colors);
   mesh.colorComponents = content.hasAlpha ? 4 : 3;
 
-  const bool isCloud = !content.hasFaces || (content.indices.empty() && content.facesTooSmall == 0);
+  // Exporters of point clouds often write an empty `face` element too.
+  const bool isCloud = content.indices.empty() && content.facesTooSmall == 0;
   mesh.topology = isCloud ? Topology::points : Topology::triangles;
   const bool perCorner = !isCloud && !content.cornerTexCoords.empty();
   if (!content.sizes.empty()) {
@@ -90,6 +92,22 @@ Mesh meshOf(PlyContent& content, std::size_t& fans) {
   return mesh;
 }
 
+/// What was left out or changed; `content` has given its vectors away, not its counts.
+void addWarnings(std::vector<std::string>& warnings, const PlyContent& content, const Box3d& box) {
+  if (!content.ignored.empty())
+    warnings.push_back(
+        fmt::format("Not carried over from the PLY file: {}.", fmt::join(content.ignored, ", ")));
+  if (content.trailingBytes > 0)
+    warnings.push_back(fmt::format("{} behind the last element of the PLY file, which imgeo ignored.",
+                                   counted(content.trailingBytes, "byte stands", "bytes stand")));
+  warnOfColors(warnings, content.colorsClamped);
+  warnOfSmallFaces(warnings, content.facesTooSmall);
+  if (content.largestRounding > box.longestEdge() / 131072) // half a step of 16 bits
+    warnings.push_back(
+        fmt::format("Coordinates far from the origin were rounded to single precision, by up to {:.2g}.",
+                    content.largestRounding));
+}
+
 } // namespace
 
 bool looksLikePly(ByteSpan bytes) {
@@ -100,33 +118,18 @@ bool looksLikePly(ByteSpan bytes) {
 Imported readPly(ByteSpan bytes, const std::string& name) {
   const PlyHeader header = readPlyHeader(bytes, name);
   PlyContent content = readPlyContent(bytes, header, name);
-  if (!content.hasVertices)
-    throw Error(ErrorKind::malformed, name, "the header has no element 'vertex'");
   if (content.indices.size() > std::numeric_limits<std::uint32_t>::max())
     throw Error(ErrorKind::limit, name, "the polygons have more corners than 32-bit indices can name");
 
   Imported imported;
   imported.format = "PLY";
-  const auto warn = [&](std::string sentence) { imported.warnings.push_back(std::move(sentence)); };
-  if (!content.ignored.empty())
-    warn(fmt::format("Not carried over from the PLY file: {}.", fmt::join(content.ignored, ", ")));
-  if (content.facesTooSmall > 0)
-    warn(fmt::format("{} faces with fewer than three corners were left out.", content.facesTooSmall));
-  std::size_t unusable = 0;
+  std::size_t unusableNormals = 0, fans = 0;
   for (Vec3f& normal : content.normals)
-    unusable += !makeUnit(normal);
-  if (unusable > 0)
-    warn(fmt::format("{} normals have no direction; (0, 0, 1) stands in their place.", unusable));
-
-  std::size_t fans = 0;
-  const double largestRounding = content.largestRounding;
+    unusableNormals += !makeUnit(normal);
   Mesh mesh = meshOf(content, fans);
-  if (fans > 0)
-    warn(fmt::format("{} concave polygons of more than {} corners were cut as fans and may overlap.", fans,
-                     kMaxEarClippedCorners));
-  if (largestRounding > boxOf(mesh).longestEdge() / 131072) // half a step of 16 bits
-    warn(fmt::format("Coordinates far from the origin were rounded to single precision, by up to {:.2g}.",
-                     largestRounding));
+  addWarnings(imported.warnings, content, boxOf(mesh));
+  warnOfNormals(imported.warnings, unusableNormals);
+  warnOfFans(imported.warnings, fans);
   mesh.name = stemOf(name);
   addShape(imported.scene, std::move(mesh), "");
   return imported;

@@ -10,19 +10,23 @@
 namespace imgeo {
 
 struct PlyContent {
-  bool hasVertices = false, hasFaces = false; ///< the header names the element
-  std::vector<Vec3f> positions;               ///< finite
-  std::vector<Vec3f> normals;                 ///< per vertex, as the file has them; or empty
-  std::vector<Vec2f> texCoords;               ///< per vertex, or empty
-  std::vector<Rgba8> colors;                  ///< per vertex, or empty
-  bool hasAlpha = false;                      ///< some alpha is below 255
+  std::vector<Vec3f> positions; ///< finite
+  std::vector<Vec3f> normals;   ///< per vertex, as the file has them; or empty
+  std::vector<Vec2f> texCoords; ///< per vertex, finite; or empty
+  std::vector<Rgba8> colors;    ///< per vertex, or empty
+  bool hasAlpha = false;        ///< some alpha is below 255
 
   std::vector<std::uint32_t> indices; ///< of all polygons, one after the other; all are vertices
   std::vector<std::uint32_t> sizes;   ///< corners of each polygon; empty while all are triangles
-  std::vector<Vec2f> cornerTexCoords; ///< per index, or empty
-  std::vector<std::string> ignored;   ///< "quality of vertex", "edge": in the file's order
-  std::uint64_t facesTooSmall = 0;    ///< left out: fewer than three corners
-  double largestRounding = 0;         ///< of coordinates that were double
+  std::vector<Vec2f> cornerTexCoords; ///< per index, finite; or empty
+
+  std::vector<std::string> ignored; ///< "'quality' of 'vertex'", "element 'edge'": in the file's order
+  std::uint64_t facesTooSmall = 0;  ///< left out: fewer than three corners
+  std::uint64_t colorsClamped = 0;  ///< channels outside their type's range
+  std::uint64_t trailingBytes = 0;  ///< behind the last element
+  double largestRounding = 0;       ///< of coordinates that were double
+
+  void noteIgnored(const PlyElement& element, const PlyProperty& property);
 };
 
 /// Reads all elements behind `header`. Safe for untrusted bytes; throws Error

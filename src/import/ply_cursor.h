@@ -8,6 +8,7 @@
 #include "import/text_scanner.h"
 
 #include <fmt/format.h>
+#include <span>
 
 namespace imgeo {
 
@@ -26,9 +27,11 @@ class AsciiPlyCursor {
 public:
   AsciiPlyCursor(ByteSpan bytes, const std::string& name, std::size_t from) : scanner_(bytes, name, from) {}
 
-  static constexpr std::size_t kSmallestValue = 2; // a digit and what separates it
-  /// The last value of a file needs nothing that separates it.
-  std::size_t bytesLeft() const { return scanner_.bytesLeft() + 1; }
+  /// In bytes: a digit and what separates it.
+  static std::size_t smallestSize(PlyType) { return 2; }
+  /// The last value of a file needs nothing behind it.
+  static constexpr std::size_t kSparedAtEnd = 1;
+  std::size_t bytesLeft() const { return scanner_.bytesLeft(); }
 
   void beginRecord(const PlyRecord& record) { record_ = record; }
   void endRecord() {
@@ -57,6 +60,10 @@ public:
     for (std::size_t i = 0; i < count; ++i)
       scalar(type);
   }
+  std::size_t trailingBytes() {
+    scanner_.skipSpace();
+    return scanner_.bytesLeft();
+  }
   [[noreturn]] void fail(ErrorKind kind, const std::string& message) const { scanner_.fail(kind, message); }
 
 private:
@@ -69,7 +76,8 @@ public:
   BinaryPlyCursor(ByteSpan bytes, const std::string& name, std::size_t from)
       : bytes_(bytes), at_(from), name_(name) {}
 
-  static constexpr std::size_t kSmallestValue = 1;
+  static std::size_t smallestSize(PlyType type) { return byteSizeOf(type); }
+  static constexpr std::size_t kSparedAtEnd = 0;
   std::size_t bytesLeft() const { return bytes_.size() - at_; }
 
   void beginRecord(const PlyRecord& record) { record_ = record; }
@@ -105,6 +113,7 @@ public:
       failTruncated();
     at_ += count * byteSizeOf(type);
   }
+  std::size_t trailingBytes() const { return bytesLeft(); }
   [[noreturn]] void fail(ErrorKind kind, const std::string& message) const {
     throw Error(kind, bytePlace(name_, at_), message);
   }

@@ -81,9 +81,9 @@ PlyEncoding readEncoding(TextScanner& line) {
 
 void addElement(PlyHeader& header, TextScanner& line) {
   PlyElement element = readElement(line);
-  for (const PlyElement& other : header.elements)
-    if (other.name == element.name)
-      line.fail(ErrorKind::malformed, fmt::format("the header has two elements '{}'", element.name));
+  if (header.find(element.name))
+    line.fail(ErrorKind::malformed,
+              fmt::format("the header has two elements '{}'", asPrintable(element.name)));
   header.elements.push_back(std::move(element));
 }
 
@@ -107,6 +107,11 @@ std::size_t byteSizeOf(PlyType type) {
 const PlyProperty* PlyElement::find(std::string_view property) const {
   const auto found = std::ranges::find(properties, property, &PlyProperty::name);
   return found == properties.end() ? nullptr : &*found;
+}
+
+const PlyElement* PlyHeader::find(std::string_view element) const {
+  const auto found = std::ranges::find(elements, element, &PlyElement::name);
+  return found == elements.end() ? nullptr : &*found;
 }
 
 PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name) {
@@ -147,13 +152,6 @@ PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name) {
     scanner.fail(ErrorKind::malformed, "the header has no line 'format'");
   header.bodyOffset = scanner.byteOffset();
   return header;
-}
-
-std::size_t smallestRecord(const PlyElement& element, PlyEncoding encoding) {
-  std::size_t bytes = 0;
-  for (const PlyProperty& property : element.properties) // in text: one digit and what separates it
-    bytes += encoding == PlyEncoding::ascii ? 2 : byteSizeOf(property.countType.value_or(property.type));
-  return bytes;
 }
 
 } // namespace imgeo

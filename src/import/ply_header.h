@@ -39,14 +39,13 @@ struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::ascii;
   std::vector<PlyElement> elements; ///< in the file's order
   std::size_t bodyOffset = 0;       ///< of the first byte behind the header
+
+  const PlyElement* find(std::string_view element) const;
 };
 
 /// Reads the header; comments and obj_info are passed over, lines may end with
 /// CR LF. Safe for untrusted bytes. Throws Error (truncated, malformed,
 /// unsupported) naming `name` and the line.
 PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name);
-
-/// The fewest bytes a record of this element can take.
-std::size_t smallestRecord(const PlyElement& element, PlyEncoding encoding);
 
 } // namespace imgeo

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "import/formats.h"
 #include "import/text_scanner.h"
+#include "import/warnings.h"
 
 #include <algorithm>
 #include <cctype>
@@ -87,8 +88,8 @@ Imported readBinary(ByteSpan bytes, const std::string& name) {
     imported.warnings.emplace_back(
         "Facet colours of the STL file (its attribute bytes) are not carried over.");
   if (const std::size_t rest = bytes.size() - kPrefixBytes - kFacetBytes * count; rest > 0)
-    imported.warnings.push_back(
-        fmt::format("{} bytes behind the last facet of the STL file were ignored.", rest));
+    imported.warnings.push_back(fmt::format("{} behind the last facet of the STL file, which imgeo ignored.",
+                                            counted(rest, "byte stands", "bytes stand")));
   addShape(imported.scene, std::move(mesh), "");
   return imported;
 }

@@ -10,12 +10,20 @@ namespace imgeo {
 
 namespace {
 
-/// The value of a decimal whose exponent no double has.
+/// The value of a decimal that no double comes near: zero or infinite.
 double beyondDouble(std::string_view word) {
-  const bool tiny =
-      word.find("e-") != word.npos || word.find("E-") != word.npos || word.find_first_of("eE") == word.npos;
-  const double magnitude = tiny ? 0 : std::numeric_limits<double>::infinity();
-  return word.front() == '-' ? -magnitude : magnitude;
+  const bool isNegative = word.front() == '-';
+  const std::string_view digits = word.substr(isNegative || word.front() == '+');
+  const std::size_t exponent = digits.find_first_of("eE");
+  const bool isTiny = exponent == digits.npos ? digits.front() == '0' || digits.front() == '.'
+                                              : digits.substr(exponent + 1).starts_with('-');
+  const double magnitude = isTiny ? 0 : std::numeric_limits<double>::infinity();
+  return isNegative ? -magnitude : magnitude;
+}
+
+/// std::from_chars knows no plus.
+const char* behindPlus(const char* at, const char* end) {
+  return end - at > 1 && at[0] == '+' && at[1] != '-' ? at + 1 : at;
 }
 
 } // namespace
@@ -72,7 +80,7 @@ std::string_view TextScanner::restOfLine() {
 }
 
 std::int64_t TextScanner::integer(const char* what) {
-  const char* from = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
+  const char* from = behindPlus(at_, end_);
   std::int64_t value = 0;
   const auto [to, error] = std::from_chars(from, end_, value);
   if (error != std::errc())
@@ -82,7 +90,7 @@ std::int64_t TextScanner::integer(const char* what) {
 }
 
 template <typename T> T TextScanner::number(const char* what) {
-  const char* from = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
+  const char* from = behindPlus(at_, end_);
   T value = 0;
   auto [to, error] = std::from_chars(from, end_, value);
   if (error == std::errc::result_out_of_range) {

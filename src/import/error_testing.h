@@ -1,0 +1,36 @@
+#pragma once
+// What a reader says of bytes that it refuses, for tests.
+
+#include "base/error.h"
+#include "import/import.h"
+
+#include <gtest/gtest.h>
+
+namespace imgeo::testing {
+
+/// The Error with which `bytes` are refused; a test failure where they are read.
+inline Error errorOf(ByteSpan bytes, const std::string& name) {
+  try {
+    importBytes(bytes, name);
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << name << " was read";
+  return {ErrorKind::usage, "", ""};
+}
+inline Error errorOf(std::string_view text, const std::string& name) {
+  return errorOf(asBytes(text), name);
+}
+
+/// The only mesh of what is read.
+inline Mesh onlyMesh(ByteSpan bytes, const std::string& name) {
+  const Imported imported = importBytes(bytes, name);
+  EXPECT_EQ(imported.scene.meshes.size(), 1u);
+  EXPECT_TRUE(isConsistent(imported.scene.meshes.at(0)));
+  return imported.scene.meshes.at(0);
+}
+inline Mesh onlyMesh(std::string_view text, const std::string& name) {
+  return onlyMesh(asBytes(text), name);
+}
+
+} // namespace imgeo::testing

@@ -1,0 +1,63 @@
+#include "import/import.h"
+
+#include "import/error_testing.h"
+
+#include <filesystem>
+
+namespace imgeo::testing {
+namespace {
+
+const std::string kPly = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                         "property float z\nend_header\n0 0 0\n";
+const std::string kObj = "# made by hand\n\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const std::string kStl = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                         "endloop\nendfacet\nendsolid a\n";
+
+TEST(Import, TellsTheFormatFromTheContentWhateverTheName) {
+  for (const char* name : {"a.ply", "a.obj", "a.stl", "a", "a.gz", "-"}) {
+    EXPECT_EQ(importBytes(asBytes(kPly), name).format, "PLY");
+    EXPECT_EQ(importBytes(asBytes(kObj), name).format, "OBJ");
+    EXPECT_EQ(importBytes(asBytes(kStl), name).format, "STL");
+  }
+}
+
+TEST(Import, TellsTheFormatFromTheNameWhereTheContentDoesNot) {
+  EXPECT_NE(errorOf("no such thing", "a.PLY").message().find("'ply'"), std::string::npos);
+  EXPECT_NE(errorOf("no such thing", "a.stl").message().find("STL"), std::string::npos);
+  EXPECT_EQ(importBytes(asBytes("parm u 0\nv 0 0 0\n"), "a.obj.gz").format, "OBJ");
+}
+
+TEST(Import, NamesTheFormatsItReadsWhereItKnowsNone) {
+  const Error error = errorOf("glTF....", "a.glb");
+  EXPECT_EQ(error.kind(), ErrorKind::unsupported);
+  EXPECT_EQ(error.place(), "a.glb");
+  EXPECT_NE(error.message().find("PLY, OBJ and STL"), std::string::npos);
+}
+
+TEST(Import, RefusesAnEmptyFile) {
+  EXPECT_EQ(errorOf("", "a.ply").kind(), ErrorKind::truncated);
+}
+
+TEST(Import, PassesOverAByteOrderMark) {
+  EXPECT_EQ(importBytes(asBytes("\xef\xbb\xbf" + kObj), "a.obj").format, "OBJ");
+}
+
+TEST(Import, NamesTheSceneAfterTheFile) {
+  for (const char* name : {"models/bunny.ply", "bunny.ply.gz", "bunny"}) {
+    const Scene scene = importBytes(asBytes(kPly), name).scene;
+    EXPECT_EQ(scene.title, "bunny");
+    EXPECT_EQ(scene.meshes.at(0).name, "bunny");
+  }
+}
+
+TEST(Import, SaysThatAFileIsMissing) {
+  try {
+    importFile("no/such/file.ply");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::io);
+  }
+}
+
+} // namespace
+} // namespace imgeo::testing

@@ -1,0 +1,38 @@
+#include "import/warnings.h"
+
+#include "import/triangulate.h"
+
+#include <fmt/format.h>
+
+namespace imgeo {
+
+std::string counted(std::uint64_t count, const std::string& singular, const std::string& plural) {
+  return fmt::format("{} {}", count, count == 1 ? singular : plural);
+}
+
+void warnOfSmallFaces(std::vector<std::string>& warnings, std::uint64_t faces) {
+  if (faces > 0)
+    warnings.push_back(
+        fmt::format("{} left out: fewer than three corners.", counted(faces, "face was", "faces were")));
+}
+
+void warnOfFans(std::vector<std::string>& warnings, std::uint64_t polygons) {
+  if (polygons > 0)
+    warnings.push_back(
+        fmt::format("{} cut as a fan, which may overlap itself: concave, with more than {} corners.",
+                    counted(polygons, "polygon was", "polygons were"), kMaxEarClippedCorners));
+}
+
+void warnOfNormals(std::vector<std::string>& warnings, std::uint64_t normals) {
+  if (normals > 0)
+    warnings.push_back(fmt::format("{} replaced by (0, 0, 1): without direction.",
+                                   counted(normals, "normal was", "normals were")));
+}
+
+void warnOfColors(std::vector<std::string>& warnings, std::uint64_t values) {
+  if (values > 0)
+    warnings.push_back(fmt::format("{} outside the range of the type and clamped to it.",
+                                   counted(values, "colour value was", "colour values were")));
+}
+
+} // namespace imgeo

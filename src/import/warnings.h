@@ -1,0 +1,19 @@
+#pragma once
+// Sentences that several importers say.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+/// "1 face", "2 faces"
+std::string counted(std::uint64_t count, const std::string& singular, const std::string& plural);
+
+// Each adds its sentence where the count is not zero.
+void warnOfSmallFaces(std::vector<std::string>& warnings, std::uint64_t faces);
+void warnOfFans(std::vector<std::string>& warnings, std::uint64_t polygons);
+void warnOfNormals(std::vector<std::string>& warnings, std::uint64_t normals);
+void warnOfColors(std::vector<std::string>& warnings, std::uint64_t values);
+
+} // namespace imgeo
