@@ -84,7 +84,8 @@ function arrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange): ElementAr
   const count = range.count === 0 ? fit : range.count;
   if (count > fit) throw new DecodeError("truncated", `holds ${fit} of ${count} ${range.components === 1 ? "indices" : "vertices"}`);
   if (count === 0) return new arrayTypes[range.type](0);
-  const byteLength = (count - 1) * stride + group;
+  // With the last group's padding, where the file has it.
+  const byteLength = Math.min(count * stride, Math.floor((bytes.byteLength - range.byteOffset) / size) * size);
   const byteOffset = bytes.byteOffset + range.byteOffset;
   // A view must begin at a multiple of its element; elsewhere the bytes are copied.
   return byteOffset % size === 0 ? new arrayTypes[range.type](bytes.buffer, byteOffset, byteLength / size)

@@ -1,0 +1,176 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { DecodeError } from "./decodeError.ts";
+import type { ElementRange } from "./elements.ts";
+import { byteSizeOf, countIn, indexArrayOf, trianglesFromStrip, vertexArrayOf } from "./elements.ts";
+import { decodeImage } from "./image.ts";
+import { checkPng, largestImageEdge } from "./png.ts";
+import { chunkOf, joined, pngOf } from "./png.testing.ts";
+
+function refused(kind: DecodeError["kind"]): (error: unknown) => boolean {
+  return (error) => error instanceof DecodeError && error.kind === kind;
+}
+
+describe("a PNG", () => {
+  test("of 8-bit RGB or RGBA tells its size", () => {
+    assert.deepEqual(checkPng(pngOf({ width: 256, height: 3 })), { width: 256, height: 3 });
+    assert.deepEqual(checkPng(pngOf({ width: 1, height: 1, colorType: 6 })), { width: 1, height: 1 });
+  });
+
+  test("may lie anywhere in a larger buffer", () => {
+    const png = pngOf({ width: 5, height: 7 });
+    assert.deepEqual(checkPng(joined([new Uint8Array(3), png]).subarray(3)), { width: 5, height: 7 });
+  });
+
+  test("with further chunks is taken", () => {
+    assert.deepEqual(checkPng(pngOf({ width: 2, height: 2, extra: [chunkOf("tEXt", new Uint8Array(9))] })), { width: 2, height: 2 });
+  });
+
+  for (const [what, png] of Object.entries({
+    "grey": pngOf({ width: 2, height: 2, colorType: 0 }),
+    "a palette": pngOf({ width: 2, height: 2, colorType: 3 }),
+    "grey with alpha": pngOf({ width: 2, height: 2, colorType: 4 }),
+    "16 bits a channel": pngOf({ width: 2, height: 2, bitDepth: 16 }),
+    "interlacing": pngOf({ width: 2, height: 2, interlace: 1 }),
+  })) {
+    test(`with ${what} is refused as unsupported`, () => { assert.throws(() => checkPng(png), refused("unsupported")); });
+  }
+
+  for (const [width, height] of [[0, 1], [1, 0], [largestImageEdge + 1, 1], [1, 2 ** 31]] as const) {
+    test(`of ${width} x ${height} texels is beyond the limit`, () => {
+      assert.throws(() => checkPng(pngOf({ width, height: Math.min(height, 2 ** 31) })), refused("limit"));
+    });
+  }
+
+  test("is refused at every proper prefix and with anything behind it", () => {
+    const png = pngOf({ width: 16, height: 4 });
+    for (let length = 0; length < png.length; ++length) {
+      assert.throws(() => checkPng(png.subarray(0, length)), DecodeError, `prefix of ${length} bytes`);
+    }
+    assert.throws(() => checkPng(joined([png, new Uint8Array(1)])), refused("malformed"));
+  });
+
+  test("with any byte changed is refused or keeps within the limits", () => {
+    const png = pngOf({ width: 16, height: 4 });
+    for (let place = 0; place < png.length; ++place) {
+      for (const bits of [1, 0x80, 0xff]) {
+        const changed = png.slice();
+        changed[place] = (changed[place] ?? 0) ^ bits;
+        try {
+          const { width, height } = checkPng(changed);
+          assert.ok(width >= 1 && height >= 1 && width <= largestImageEdge && height <= largestImageEdge);
+        } catch (error) {
+          assert.ok(error instanceof DecodeError, String(error));
+        }
+      }
+    }
+  });
+
+  test("another format under its name is refused", () => {
+    assert.throws(() => checkPng(new TextEncoder().encode("<!DOCTYPE html><title>404</title>")), refused("malformed"));
+    assert.throws(() => checkPng(Uint8Array.from([0xff, 0xd8, 0xff, 0xe0, 0, 16, 0x4a, 0x46, 0x49, 0x46])), refused("malformed"));
+  });
+});
+
+describe("an image", () => {
+  const png = pngOf({ width: 4, height: 2 });
+
+  test("that decodes to another size than it claims is refused and closed", async () => {
+    let closed = 0;
+    const liar = { width: 2, height: 4, close: () => { closed += 1; } };
+    await assert.rejects(decodeImage(png, () => Promise.resolve(liar)), refused("malformed"));
+    assert.equal(closed, 1);
+  });
+
+  test("that the browser cannot decode is malformed", async () => {
+    await assert.rejects(decodeImage(png, () => Promise.reject(new DOMException("no", "InvalidStateError"))), refused("malformed"));
+  });
+
+  test("is not given to the browser when its header is refused", async () => {
+    let asked = 0;
+    await assert.rejects(decodeImage(pngOf({ width: 4, height: 2, colorType: 3 }), () => {
+      asked += 1;
+      return Promise.reject(new Error("asked"));
+    }), refused("unsupported"));
+    assert.equal(asked, 0);
+  });
+});
+
+describe("a typed array", () => {
+  const bytes = Uint8Array.from({ length: 40 }, (_, place) => place);
+  const range = (changes: Partial<ElementRange>): ElementRange =>
+    ({ type: "Uint16", byteOffset: 0, byteStride: 0, components: 3, count: 0, ...changes });
+
+  test("is viewed where its elements are aligned and copied where they are not", () => {
+    const aligned = vertexArrayOf(bytes, range({ byteOffset: 4, byteStride: 8, count: 2 }));
+    assert.equal(aligned.stride, 4);
+    assert.deepEqual(Array.from(aligned.array.slice(0, 3)), [0x0504, 0x0706, 0x0908]);
+    assert.equal(aligned.array.buffer, bytes.buffer);
+    const odd = vertexArrayOf(bytes, range({ byteOffset: 5, count: 1 }));
+    assert.deepEqual(Array.from(odd.array), [0x0605, 0x0807, 0x0a09]);
+  });
+
+  test("whose last group lacks its padding is completed", () => {
+    const { array, stride } = vertexArrayOf(bytes.slice(0, 14), range({ byteStride: 8 }));
+    assert.equal(stride, 4);
+    assert.equal(array.length, 8);
+    assert.deepEqual(Array.from(array.slice(4)), [0x0908, 0x0b0a, 0x0d0c, 0]);
+  });
+
+  test("counts what the bytes hold when the document does not say", () => {
+    assert.equal(countIn(40, range({})), 6);
+    assert.equal(countIn(40, range({ byteStride: 8 })), 5);
+    assert.equal(countIn(38, range({ byteStride: 8 })), 5);
+    assert.equal(countIn(37, range({ byteStride: 8 })), 4);
+    assert.equal(countIn(5, range({})), 0);
+    assert.equal(countIn(40, range({ byteOffset: 100 })), 0);
+  });
+
+  test("is refused whenever the bytes end before the last vertex", () => {
+    for (const type of ["Int8", "Uint16", "Float32"] as const) {
+      for (const byteStride of [0, 16]) {
+        for (const byteOffset of [0, 3, 8, 1000, 2 ** 40]) {
+          const groups = range({ type, byteStride, byteOffset });
+          const fit = countIn(bytes.length, groups);
+          for (const count of [fit + 1, 2 ** 32, 2 ** 52]) {
+            assert.throws(() => vertexArrayOf(bytes, { ...groups, count }), refused("truncated"));
+          }
+          if (fit > 0) assert.equal(vertexArrayOf(bytes, { ...groups, count: fit }).array.length % Math.max(3, byteStride / byteSizeOf(type)), 0);
+        }
+      }
+    }
+  });
+
+  test("is refused with a stride that splits elements or is less than a group", () => {
+    for (const byteStride of [7, 4, 1]) assert.throws(() => vertexArrayOf(bytes, range({ byteStride, count: 1 })), refused("malformed"));
+  });
+
+  test("of 32-bit integers becomes floats", () => {
+    const { array } = vertexArrayOf(new Uint8Array(Uint32Array.from([1, 2 ** 32 - 1, 7]).buffer), range({ type: "Uint32" }));
+    assert.ok(array instanceof Float32Array);
+    assert.deepEqual(Array.from(array), [1, 2 ** 32, 7]);
+  });
+});
+
+describe("indices", () => {
+  const bytes = new Uint8Array(Uint16Array.from([0, 1, 2, 2, 1, 3]).buffer);
+  const range: ElementRange = { type: "Uint16", byteOffset: 0, byteStride: 0, components: 1, count: 0 };
+
+  test("name vertices that exist", () => {
+    assert.deepEqual(Array.from(indexArrayOf(bytes, range, 4)), [0, 1, 2, 2, 1, 3]);
+    assert.throws(() => indexArrayOf(bytes, range, 3), refused("malformed"));
+  });
+
+  test("are unsigned integers", () => {
+    for (const type of ["Int8", "Int16", "Int32", "Float32"] as const) {
+      assert.throws(() => indexArrayOf(bytes, { ...range, type }, 4), refused("unsupported"));
+    }
+  });
+
+  test("of a strip become the triangles it draws, each in its orientation", () => {
+    const strip = Uint16Array.from([0, 1, 2, 3, 3, 4, 4, 5, 6]);
+    assert.deepEqual(Array.from(trianglesFromStrip(strip)), [0, 1, 2, 2, 1, 3, 4, 5, 6]);
+    assert.equal(trianglesFromStrip(Uint16Array.from([0, 1])).length, 0);
+    assert.equal(trianglesFromStrip(new Uint16Array()).length, 0);
+  });
+});

@@ -1,0 +1,44 @@
+// PNG files for tests that must not trust the code under test.
+
+import { crc32, deflateSync } from "node:zlib";
+
+export interface TestPng {
+  readonly width: number;
+  readonly height: number;
+  readonly bitDepth?: number;
+  readonly colorType?: number;
+  readonly interlace?: number;
+  /** Chunks between the header and the data. */
+  readonly extra?: readonly Uint8Array<ArrayBuffer>[];
+}
+
+const channels: Readonly<Record<number, number>> = { 0: 1, 2: 3, 3: 1, 4: 2, 6: 4 };
+
+export function chunkOf(type: string, data: Uint8Array): Uint8Array<ArrayBuffer> {
+  const chunk = Buffer.alloc(data.length + 12);
+  chunk.writeUInt32BE(data.length, 0);
+  chunk.write(type, 4, "latin1");
+  chunk.set(data, 8);
+  chunk.writeUInt32BE(crc32(chunk.subarray(4, data.length + 8)), data.length + 8);
+  return new Uint8Array(chunk);
+}
+
+/** An image of zeros. */
+export function pngOf({ width, height, bitDepth = 8, colorType = 2, interlace = 0, extra = [] }: TestPng): Uint8Array<ArrayBuffer> {
+  const header = Buffer.alloc(13);
+  header.writeUInt32BE(width, 0);
+  header.writeUInt32BE(height, 4);
+  header.set([bitDepth, colorType, 0, 0, interlace], 8);
+  const rowLength = 1 + Math.ceil((width * (channels[colorType] ?? 3) * bitDepth) / 8);
+  const isHuge = width * height > 2 ** 22;
+  return joined([
+    Uint8Array.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]),
+    chunkOf("IHDR", header), ...extra,
+    chunkOf("IDAT", deflateSync(new Uint8Array(isHuge ? 16 : rowLength * height))),
+    chunkOf("IEND", new Uint8Array()),
+  ]);
+}
+
+export function joined(parts: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
+  return new Uint8Array(Buffer.concat(parts));
+}

@@ -1,0 +1,337 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import type { DecodedImage } from "../decode/image.ts";
+import { checkPng } from "../decode/png.ts";
+import { pngOf } from "../decode/png.testing.ts";
+import type { Stage } from "../decode/stage.ts";
+import { elementsOf } from "../document/elements.testing.ts";
+import type { GeometryDescription } from "../document/description.ts";
+import { shapesOf } from "../document/description.ts";
+import { readScene } from "../document/readScene.ts";
+import { Scheduler } from "../scheduler/scheduler.ts";
+import type { Delivery } from "./deliver.ts";
+import { deliver } from "./deliver.ts";
+import type { DeliveryError } from "./deliveryError.ts";
+import { noProgress, progressOf } from "./progress.ts";
+import { ResourcePool } from "./resources.ts";
+
+type Answer = Uint8Array<ArrayBuffer> | number | Promise<Uint8Array<ArrayBuffer>>;
+
+/** A site in memory: its files, what was asked for in order, and what was delivered. */
+function siteOf(files: Record<string, Answer>, slots = 6) {
+  const asked: string[] = [];
+  const aborted: string[] = [];
+  const images = { open: 0 };
+  const scheduler = new Scheduler(slots);
+  const answer = async (url: string, signal: AbortSignal): Promise<Response> => {
+    const name = url.replace("https://site/", "");
+    asked.push(name);
+    signal.addEventListener("abort", () => aborted.push(name));
+    const file = files[name] ?? 404;
+    if (typeof file === "number") return new Response("no", { status: file });
+    const bytes = await Promise.race([file, new Promise<never>((_, reject) => {
+      signal.addEventListener("abort", () => { reject(signal.reason as Error); });
+    })]);
+    return new Response(bytes, { headers: { "content-length": String(bytes.length) } });
+  };
+  const pool = new ResourcePool({
+    scheduler,
+    decodeImage: (png): Promise<DecodedImage> => {
+      images.open += 1;
+      return Promise.resolve({ ...checkPng(png), close: () => { images.open -= 1; } });
+    },
+    download: { fetch: (url, init) => answer(url as string, init?.signal ?? new AbortController().signal), silenceMs: 1000, retries: 0, backoffMs: 1 },
+    resolve: (url) => new URL(url, "https://site/").href,
+    onTransfer: () => undefined,
+  });
+  return { asked, aborted, images, scheduler, pool };
+}
+
+interface Recording {
+  readonly stages: { patch: number; stage: Stage }[];
+  readonly errors: DeliveryError[];
+  readonly delivery: Delivery;
+  readonly settled: Promise<void>;
+}
+
+function record(geometry: GeometryDescription, pool: ResourcePool): Recording {
+  const stages: Recording["stages"] = [];
+  const errors: DeliveryError[] = [];
+  let resolve: () => void = () => undefined;
+  const settled = new Promise<void>((done) => { resolve = done; });
+  const delivery = deliver(geometry, pool, {
+    onStage: (patch, stage) => stages.push({ patch, stage }),
+    onError: (error) => errors.push(error),
+    onSettled: () => { resolve(); },
+  });
+  return { stages, errors, delivery, settled };
+}
+
+function geometryOf(markup: string): GeometryDescription {
+  const geometry = shapesOf(readScene(elementsOf(`<X3D><Shape>${markup}</Shape></X3D>`)).root)[0]?.geometry;
+  assert.ok(geometry);
+  return geometry;
+}
+
+const sigPatch = (n: number) => `<GeometryPatch recordCount="500" vertexCount="600" implicitMeshSize="256 4"
+  index="i${n}.png" coord='"a${n}.png" "b${n}.png"' normal="n${n}.png"/>`;
+const sigGeometry = (patches: number) => geometryOf(
+  `<ImageGeometry>${Array.from({ length: patches }, (_, n) => sigPatch(n)).join("")}</ImageGeometry>`);
+const records = pngOf({ width: 256, height: 2 });
+const indices = pngOf({ width: 256, height: 4 });
+
+function sigFiles(patches: number): Record<string, Answer> {
+  const files: Record<string, Answer> = {};
+  for (let n = 0; n < patches; ++n) {
+    Object.assign(files, { [`a${n}.png`]: records, [`b${n}.png`]: records, [`n${n}.png`]: records, [`i${n}.png`]: indices });
+  }
+  return files;
+}
+
+/** A promise and the function that fulfils it. */
+function held(bytes: Uint8Array<ArrayBuffer>) {
+  let release: () => void = () => undefined;
+  const promise = new Promise<Uint8Array<ArrayBuffer>>((resolve) => { release = () => { resolve(bytes); }; });
+  return { promise, release };
+}
+
+const soon = () => new Promise((resolve) => setTimeout(resolve, 5));
+
+describe("the order of requests", () => {
+  test("is the first coordinate byte of all patches, index, normals, further bytes", async () => {
+    const site = siteOf(sigFiles(3), 1);
+    await record(sigGeometry(3), site.pool).settled;
+    assert.deepEqual(site.asked, ["a0", "a1", "a2", "i0", "i1", "i2", "n0", "n1", "n2", "b0", "b1", "b2"].map((name) => `${name}.png`));
+  });
+
+  test("holds across shapes that begin together", async () => {
+    const site = siteOf(sigFiles(2), 1);
+    const [first, second] = [0, 1].map((n) => record(geometryOf(`<ImageGeometry>${sigPatch(n)}</ImageGeometry>`), site.pool));
+    await Promise.all([first?.settled, second?.settled]);
+    assert.deepEqual(site.asked.slice(0, 2), ["a0.png", "a1.png"]);
+  });
+
+  test("asks once for a file that several patches and shapes use", async () => {
+    const site = siteOf(sigFiles(1));
+    const twice = geometryOf(`<ImageGeometry>${sigPatch(0)}${sigPatch(0)}</ImageGeometry>`);
+    const all = [record(twice, site.pool), record(sigGeometry(1), site.pool)];
+    await Promise.all(all.map(({ settled }) => settled));
+    assert.equal(site.asked.length, 4);
+    assert.deepEqual(all.map(({ stages }) => stages.at(-1)?.stage.name), ["full", "full"]);
+  });
+});
+
+describe("the stages of a patch of images", () => {
+  test("are points, a surface, a shaded surface, and all", async () => {
+    const site = siteOf(sigFiles(1), 1);
+    const { stages, settled } = record(sigGeometry(1), site.pool);
+    await settled;
+    assert.deepEqual(stages.map(({ stage }) => stage.name), ["points", "surface", "shaded", "full"]);
+    const [points, surface, shaded, full] = stages.map(({ stage }) => stage);
+    assert.ok(points?.kind === "textures" && surface?.kind === "textures" && shaded?.kind === "textures" && full?.kind === "textures");
+    assert.deepEqual(points.draws, [{ primitive: "points", first: 0, count: 500 }]);
+    assert.deepEqual(surface.draws, [{ primitive: "triangles", first: 0, count: 600 }]);
+    assert.equal(surface.normal, undefined);
+    assert.ok(shaded.normal);
+    assert.deepEqual([shaded.coord.length, shaded.middleOfMissing], [1, 127.5]);
+    assert.deepEqual([full.coord.length, full.middleOfMissing], [2, 0]);
+  });
+
+  test("use what came when files come in another order", async () => {
+    const first = held(records);
+    const site = siteOf({ ...sigFiles(1), "a0.png": first.promise });
+    const { stages, settled } = record(sigGeometry(1), site.pool);
+    await soon();
+    assert.equal(stages.length, 0); // without the first byte nothing can be shown
+    first.release();
+    await settled;
+    assert.deepEqual(stages.map(({ stage }) => stage.name), ["full"]);
+  });
+
+  test("never use a byte plane whose higher plane is missing", async () => {
+    const site = siteOf({ "0.png": records, "2.png": records });
+    const { stages, errors, settled } = record(geometryOf(
+      `<ImageGeometry recordCount="500" vertexCount="500" implicitMeshSize="256 2" coord='"0.png" "1.png" "2.png"'/>`), site.pool);
+    await settled;
+    assert.equal(errors.length, 1);
+    const last = stages.at(-1)?.stage;
+    assert.ok(last?.kind === "textures");
+    assert.equal(last.coord.length, 1);
+    assert.equal(last.middleOfMissing, (2 ** 16 - 1) / 2);
+  });
+
+  for (const [missing, name] of [["i0.png", "points"], ["n0.png", "surface"], ["b0.png", "shaded"], ["a0.png", undefined]] as const) {
+    for (const status of [404, 500]) {
+      test(`end with ${name ?? "nothing"} and one error when ${missing} answers ${status}`, async () => {
+        const site = siteOf({ ...sigFiles(2), [missing]: status });
+        const { stages, errors, settled } = record(sigGeometry(2), site.pool);
+        await settled;
+        assert.equal(stages.filter(({ patch }) => patch === 0).at(-1)?.stage.name, name);
+        assert.equal(stages.filter(({ patch }) => patch === 1).at(-1)?.stage.name, "full");
+        assert.deepEqual(errors.map(({ url, kind }) => [url, kind]), [[missing, "http"]]);
+        assert.match(errors[0]?.message ?? "", new RegExp(`^${missing}: .*${status}`));
+        assert.equal(site.scheduler.running, 0);
+      });
+    }
+  }
+});
+
+describe("an image that lies", () => {
+  const lies: Record<string, Uint8Array<ArrayBuffer>> = {
+    "is too small for the records": pngOf({ width: 256, height: 1 }),
+    "has 16 bits": pngOf({ width: 256, height: 2, bitDepth: 16 }),
+    "is cut short": records.slice(0, -1),
+    "is a web page": new TextEncoder().encode("<!DOCTYPE html>"),
+  };
+  for (const [what, bytes] of Object.entries(lies)) {
+    test(`and ${what} is an error, and the rest lives`, async () => {
+      const site = siteOf({ ...sigFiles(1), "b0.png": bytes });
+      const { stages, errors, settled } = record(sigGeometry(1), site.pool);
+      await settled;
+      assert.deepEqual(errors.map(({ url }) => url), ["b0.png"]);
+      assert.notEqual(errors[0]?.kind, "http");
+      assert.equal(stages.at(-1)?.stage.name, "shaded");
+    });
+  }
+
+  test("about the index is an error: rows narrower or fewer than the draws need", async () => {
+    for (const size of [{ width: 128, height: 8 }, { width: 256, height: 2 }]) {
+      const site = siteOf({ ...sigFiles(1), "i0.png": pngOf(size) });
+      const { stages, errors, settled } = record(sigGeometry(1), site.pool);
+      await settled;
+      assert.deepEqual(errors.map(({ url, kind }) => [url, kind]), [["i0.png", "malformed"]]);
+      assert.equal(stages.at(-1)?.stage.name, "points");
+    }
+  });
+
+  test("about where a patch begins is an error", async () => {
+    const site = siteOf(sigFiles(1));
+    const { errors, settled } = record(geometryOf(`<ImageGeometry><GeometryPatch recordCount="500" vertexCount="600"
+      implicitMeshSize="256 4" index="i0.png" coord='"a0.png#13"'/></ImageGeometry>`), site.pool);
+    await settled;
+    assert.deepEqual(errors.map(({ url }) => url), ["a0.png"]);
+  });
+});
+
+describe("typed arrays", () => {
+  const geometry = (fields: string) => geometryOf(`<BinaryGeometry coordType="Uint16" normalType="Int8" ${fields}/>`);
+  const coord = new Uint8Array(new Uint16Array(5 * 4).buffer);
+  const normal = new Uint8Array(5 * 4);
+  const index = new Uint8Array(Uint16Array.from([0, 1, 2, 3, 4, 2]).buffer);
+
+  test("become stages of buffers in the same order", async () => {
+    const site = siteOf({ "c.bin": coord, "n.bin": normal, "i.bin": index }, 1);
+    const { stages, errors, settled } = record(geometry('recordCount="5" vertexCount="6" coord="c.bin#0+8" normal="n.bin#0+4" index="i.bin"'), site.pool);
+    await settled;
+    assert.deepEqual(errors, []);
+    assert.deepEqual(stages.map(({ stage }) => stage.name), ["points", "surface", "full"]);
+    const full = stages.at(-1)?.stage;
+    assert.ok(full?.kind === "buffers");
+    assert.deepEqual(full.draws, [{ primitive: "triangles", first: 0, count: 6 }]);
+    assert.deepEqual([full.coord.components, full.coord.stride, full.normal?.stride], [3, 4, 4]);
+  });
+
+  test("draw strips as the triangles they stand for, after what stands before them", async () => {
+    const site = siteOf({ "c.bin": coord, "i.bin": new Uint8Array(Uint16Array.from([0, 1, 2, 0, 1, 2, 3, 3, 4]).buffer) });
+    const { stages, settled } = record(geometry(
+      `recordCount="5" primType='"TRIANGLES" "TRIANGLESTRIP"' vertexCount="3 6" coord="c.bin#0+8" index="i.bin"`), site.pool);
+    await settled;
+    const full = stages.at(-1)?.stage;
+    assert.ok(full?.kind === "buffers");
+    assert.deepEqual(full.draws, [{ primitive: "triangles", first: 0, count: 3 }, { primitive: "triangles", first: 3, count: 6 }]);
+    assert.deepEqual(Array.from(full.index ?? []), [0, 1, 2, 0, 1, 2, 2, 1, 3]);
+  });
+
+  test("take all indices where vertexCount is 0, as X3DOM does", async () => {
+    const site = siteOf({ "c.bin": coord, "i.bin": index });
+    const { stages, settled } = record(geometry('coord="c.bin#0+8" index="i.bin"'), site.pool);
+    await settled;
+    assert.deepEqual(stages.at(-1)?.stage.draws, [{ primitive: "triangles", first: 0, count: 6 }]);
+  });
+
+  for (const [what, files, url] of [
+    ["coordinates that end early", { "c.bin": coord.slice(0, 30) }, "c.bin"],
+    ["indices that end early", { "i.bin": index.slice(0, 10) }, "i.bin"],
+    ["an index beyond the vertices", { "i.bin": new Uint8Array(Uint16Array.from([0, 1, 2, 3, 4, 5]).buffer) }, "i.bin"],
+  ] as const) {
+    test(`with ${what} are an error`, async () => {
+      const site = siteOf({ "c.bin": coord, "i.bin": index, ...files });
+      const { errors, settled } = record(geometry('recordCount="5" vertexCount="6" coord="c.bin#0+8" index="i.bin"'), site.pool);
+      await settled;
+      assert.deepEqual(errors.map((error) => error.url), [url]);
+    });
+  }
+});
+
+describe("a cancelled delivery", () => {
+  test("aborts its requests, says nothing more, and closes its images", async () => {
+    const late = held(records);
+    const site = siteOf({ ...sigFiles(1), "b0.png": late.promise });
+    const { stages, errors, delivery } = record(sigGeometry(1), site.pool);
+    await soon();
+    assert.equal(site.images.open, 3);
+    const before = stages.length;
+    delivery.cancel();
+    late.release();
+    await soon();
+    assert.equal(stages.length, before);
+    assert.deepEqual(errors, []);
+    assert.ok(site.aborted.includes("b0.png"));
+    assert.equal(site.images.open, 0);
+    assert.deepEqual([site.scheduler.running, site.scheduler.waiting, site.pool.transfers().length], [0, 0, 0]);
+  });
+
+  test("before anything was sent sends nothing", async () => {
+    const site = siteOf(sigFiles(1));
+    record(sigGeometry(1), site.pool).delivery.cancel();
+    await soon();
+    assert.deepEqual(site.asked, []);
+  });
+
+  test("leaves files alone that another one uses", async () => {
+    const site = siteOf(sigFiles(1));
+    const gone = record(sigGeometry(1), site.pool);
+    const stays = record(sigGeometry(1), site.pool);
+    gone.delivery.cancel();
+    gone.delivery.cancel(); // a second time does nothing
+    await stays.settled;
+    assert.equal(stays.stages.at(-1)?.stage.name, "full");
+    assert.deepEqual(gone.stages, []);
+    assert.equal(site.images.open, 4);
+  });
+});
+
+describe("progress", () => {
+  const transfer = (loadedBytes: number, totalBytes: number, isSettled = false) => ({ loadedBytes, totalBytes, isSettled });
+
+  test("is the share of bytes", () => {
+    assert.deepEqual(progressOf([transfer(10, 40), transfer(10, 40)], noProgress), { totalProgress: 0.25, loadedBytes: 20, totalBytes: 80 });
+  });
+
+  test("does not fall when a server tells a larger size than was expected", () => {
+    const before = progressOf([transfer(10, 20)], noProgress);
+    assert.equal(progressOf([transfer(10, 100)], before).totalProgress, 0.5);
+  });
+
+  test("is 1 when everything is settled, whatever came, and not before", () => {
+    assert.ok(progressOf([transfer(40, 40), transfer(0, 0)], noProgress).totalProgress < 1);
+    assert.equal(progressOf([transfer(40, 40, true), transfer(0, 0, true)], noProgress).totalProgress, 1);
+    assert.equal(progressOf([], noProgress).totalProgress, 1);
+  });
+
+  test("of a delivery rises to 1 and ends with the bytes that came", async () => {
+    const site = siteOf({ ...sigFiles(2), "n1.png": 404 }, 2);
+    const { delivery, settled } = record(sigGeometry(2), site.pool);
+    let progress = progressOf(delivery.transfers, noProgress);
+    const seen = [progress.totalProgress];
+    const timer = setInterval(() => {
+      progress = progressOf(delivery.transfers, progress);
+      seen.push(progress.totalProgress);
+    }, 0);
+    await settled;
+    clearInterval(timer);
+    progress = progressOf(delivery.transfers, progress);
+    assert.deepEqual(seen, seen.toSorted((a, b) => a - b));
+    assert.deepEqual(progress, { totalProgress: 1, loadedBytes: 5 * records.length + 2 * indices.length, totalBytes: 5 * records.length + 2 * indices.length });
+  });
+});

@@ -1,0 +1,208 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import type { GeometryDescription, SceneDescription, ShapeDescription } from "./description.ts";
+import { shapesOf } from "./description.ts";
+import { elementsOf } from "./elements.testing.ts";
+import { referenceOf } from "./geometry.ts";
+import { nodeFields } from "./nodes.ts";
+import { readScene } from "./readScene.ts";
+import { middleOfMissing, storedFrameOf } from "./storedFrame.ts";
+
+function sceneOf(markup: string): SceneDescription {
+  return readScene(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`));
+}
+
+function onlyShape(markup: string): ShapeDescription {
+  const shapes = shapesOf(sceneOf(markup).root);
+  assert.equal(shapes.length, 1);
+  const shape = shapes[0];
+  assert.ok(shape);
+  return shape;
+}
+
+function geometryOf(markup: string): GeometryDescription {
+  const { geometry } = onlyShape(`<Shape>${markup}</Shape>`);
+  assert.ok(geometry);
+  return geometry;
+}
+
+const patches = `
+  <ImageGeometry position="1 2 3" size="2 2 2" positionBits="12" solid="false" index="unused.png">
+    <GeometryPatch bboxCenter="1 2 3" bboxSize="2 1 1" recordCount="300" primType='"TRIANGLES" "TRIANGLESTRIP"'
+      vertexCount="900 12" implicitMeshSize="512 2" index="i.png#1024" coord='"a.png" "b.png#512"' normal="n.png"/>
+    <GeometryPatch bboxCenter="1 2 3" bboxSize="1 2 1" recordCount="4" primType="POINTS" vertexCount="4" coord="c.png"/>
+  </ImageGeometry>`;
+
+describe("a field", () => {
+  test("is found without regard to case, as HTML and XML write it", () => {
+    for (const markup of ['<Viewpoint fieldOfView="0.5"/>', '<viewpoint fieldofview="0.5"/>', '<VIEWPOINT FIELDOFVIEW="0.5"/>']) {
+      assert.equal(sceneOf(markup).viewpoint?.fieldOfView, 0.5);
+    }
+  });
+
+  test("may separate its numbers by commas or white space", () => {
+    assert.deepEqual(sceneOf('<Viewpoint position=" 1,2 ,\n 3 "/>').viewpoint?.position, [1, 2, 3]);
+  });
+
+  for (const text of ["1 2", "1 2 3 4", "1 2 x", "1 2 Infinity", "1 2 NaN", ""]) {
+    test(`that reads "${text}" where three numbers belong takes its default, with a warning`, () => {
+      const scene = sceneOf(`<Viewpoint position="${text}"/>`);
+      assert.deepEqual(scene.viewpoint?.position, nodeFields.Viewpoint.position.defaultValue);
+      assert.equal(scene.warnings.length, 1);
+      assert.match(scene.warnings[0]?.message ?? "", /position=.*SFVec3f/);
+    });
+  }
+
+  test("of strings may be quoted or bare, and keeps escaped quotes", () => {
+    const parse = (text: string) => nodeFields.GeometryPatch.coord.type.parse(text);
+    assert.deepEqual(parse('"a b.png" "c\\"d"'), ["a b.png", 'c"d']);
+    assert.deepEqual(parse("a.png b.png"), ["a.png", "b.png"]);
+    assert.deepEqual(parse(""), []);
+    assert.equal(parse('"a" b'), undefined);
+  });
+});
+
+describe("a scene", () => {
+  test("without anything is empty, with a headlight and no background", () => {
+    const scene = sceneOf("");
+    assert.deepEqual(shapesOf(scene.root), []);
+    assert.equal(scene.headlight, true);
+    assert.equal(scene.viewpoint, undefined);
+    assert.equal(scene.skyColor, undefined);
+  });
+
+  test("takes the first viewpoint and the first background", () => {
+    const scene = sceneOf('<Viewpoint description="a"/><Viewpoint description="b"/><Background skyColor="1 0 0 0 1 0"/>');
+    assert.equal(scene.viewpoint?.description, "a");
+    assert.deepEqual(scene.skyColor, [1, 0, 0]);
+  });
+
+  test("keeps shapes in document order below unknown nodes, groups and transforms", () => {
+    const scene = sceneOf(`<Shape DEF="a"/><Unknown><Shape DEF="b"/></Unknown>
+      <Transform translation="1 0 0"><Group><Shape DEF="c"/></Group></Transform>`);
+    assert.deepEqual(shapesOf(scene.root).map((shape) => shape.element.getAttribute("DEF")), ["a", "b", "c"]);
+  });
+
+  test("follows USE for shapes, materials and geometries, and tells shapes apart by who uses them", () => {
+    const scene = sceneOf(`
+      <Shape DEF="s"><Appearance DEF="a"><Material diffuseColor="1 0 0"/></Appearance>${patches}</Shape>
+      <Shape USE="s"/><Shape><Appearance USE="a"/></Shape>`);
+    const shapes = shapesOf(scene.root);
+    assert.deepEqual(shapes.map((shape) => shape.material.diffuseColor), [[1, 0, 0], [1, 0, 0], [1, 0, 0]]);
+    assert.deepEqual(shapes[1]?.geometry, shapes[0]?.geometry);
+    assert.equal(new Set(shapes.map((shape) => shape.element)).size, 3);
+  });
+
+  test("ends where USE leads in a circle or nowhere, with a warning", () => {
+    const scene = sceneOf('<Group DEF="g"><Group USE="h"/></Group><Group DEF="h"><Group USE="g"/></Group><Shape USE="none"/>');
+    assert.deepEqual(shapesOf(scene.root), []);
+    assert.ok(scene.warnings.some(({ message }) => message.includes("itself")));
+    assert.ok(scene.warnings.some(({ message }) => message.includes("no DEF")));
+  });
+});
+
+describe("a geometry", () => {
+  test("with patches takes draws and references from them alone", () => {
+    const geometry = geometryOf(patches);
+    const [first, second] = geometry.patches;
+    assert.equal(geometry.patches.length, 2);
+    assert.equal(geometry.container, "sig");
+    assert.equal(geometry.solid, false);
+    assert.deepEqual(first?.draws, [{ primitive: "triangles", count: 900 }, { primitive: "triangleStrip", count: 12 }]);
+    assert.deepEqual(first.index, { url: "i.png", first: 1024, stride: 0 });
+    assert.deepEqual(first.coord, [{ url: "a.png", first: 0, stride: 0 }, { url: "b.png", first: 512, stride: 0 }]);
+    assert.equal(first.implicitWidth, 512);
+    assert.deepEqual(first.box, { min: [0, 1.5, 2.5], max: [2, 2.5, 3.5] });
+    assert.equal(second?.index, undefined);
+    assert.equal(second?.vertexCount, 4);
+  });
+
+  test("in X3DOM's form takes its images from ImageTexture children, byte planes in document order", () => {
+    const [patch, ...others] = geometryOf(`
+      <ImageGeometry vertexCount="6" implicitMeshSize="300 0">
+        <ImageTexture containerField="coord" url="high.png"/><ImageTexture containerField="index" url='"i.png"'/>
+        <ImageTexture containerField="coord" url="low.png"/><ImageTexture containerField="normal" url="n.png"/>
+      </ImageGeometry>`).patches;
+    assert.deepEqual(others, []);
+    assert.deepEqual(patch?.coord.map((plane) => plane.url), ["high.png", "low.png"]);
+    assert.equal(patch.index?.url, "i.png");
+    assert.equal(patch.normal?.url, "n.png");
+    assert.equal(patch.box, undefined);
+  });
+
+  test("of typed arrays reads types, offsets and strides, and X3DOM's stride in a file's name", () => {
+    const { patches: [patch], ...geometry } = geometryOf(`
+      <BinaryGeometry coordType="uint16" normalType="Int8" indexType="Uint32" rgbaColors="true" vertexCount="3"
+        coord="c.bin#12+8" normal="n.bin+4" index="i.bin"/>`);
+    assert.equal(geometry.coordType, "Uint16");
+    assert.equal(geometry.indexType, "Uint32");
+    assert.equal(geometry.colorComponents, 4);
+    assert.deepEqual(patch?.coord, [{ url: "c.bin", first: 12, stride: 8 }]);
+    assert.deepEqual(patch.normal, { url: "n.bin+4", first: 0, stride: 4 });
+  });
+
+  test("with an unknown primitive draws triangles, with an element type unknown the default, and says so", () => {
+    const scene = sceneOf('<Shape><BinaryGeometry coordType="Float64" primType="QUADS" vertexCount="3 -1"/></Shape>');
+    const geometry = shapesOf(scene.root)[0]?.geometry;
+    assert.equal(geometry?.coordType, "Float32");
+    assert.deepEqual(geometry.patches[0]?.draws, [{ primitive: "triangles", count: 3 }, { primitive: "triangles", count: 0 }]);
+    assert.equal(scene.warnings.length, 3);
+  });
+
+  test("gives its shape the union of the patches' boxes where the shape has none", () => {
+    assert.deepEqual(onlyShape(`<Shape>${patches}</Shape>`).box, { min: [0, 1, 2.5], max: [2, 3, 3.5] });
+    assert.deepEqual(onlyShape(`<Shape bboxCenter="0 0 0" bboxSize="2 2 2">${patches}</Shape>`).box, { min: [-1, -1, -1], max: [1, 1, 1] });
+    assert.deepEqual(onlyShape('<Shape><ImageGeometry position="1 1 1" size="2 2 2"/></Shape>').box, { min: [0, 0, 0], max: [2, 2, 2] });
+  });
+
+  test("reads references of both containers", () => {
+    assert.deepEqual(referenceOf("a/b.png#70", "sig"), { url: "a/b.png", first: 70, stride: 0 });
+    assert.deepEqual(referenceOf("a+4.png", "sig"), { url: "a+4.png", first: 0, stride: 0 });
+    assert.deepEqual(referenceOf("a.bin#0+0", "bg"), { url: "a.bin", first: 0, stride: 0 });
+    assert.deepEqual(referenceOf("a.bin#-1+x", "bg"), { url: "a.bin", first: 0, stride: 0 });
+  });
+});
+
+describe("stored integers", () => {
+  const planesOf = (count: number, bits = 8 * count) => geometryOf(`
+    <ImageGeometry position="10 0 0" size="4 4 4" positionBits="${bits}" vertexCount="3"
+      coord='${Array.from({ length: count }, (_, plane) => `"${plane}.png"`).join(" ")}'/>`);
+  const placed = (geometry: GeometryDescription, stored: number) => {
+    const patch = geometry.patches[0];
+    assert.ok(patch);
+    const { origin, step } = storedFrameOf(geometry, patch);
+    return origin[0] + stored * step[0];
+  };
+
+  for (const count of [1, 2, 3, 4]) {
+    test(`of ${count} bytes spread over the whole decode box`, () => {
+      assert.equal(placed(planesOf(count), 0), 8);
+      assert.ok(Math.abs(placed(planesOf(count), 256 ** count - 1) - 12) < 1e-12);
+    });
+  }
+
+  test("of typed arrays follow X3DOM: unsigned from the corner, signed around the centre, floats as they are", () => {
+    const typed = (type: string) => geometryOf(`<BinaryGeometry position="10 0 0" size="4 4 4" coordType="${type}" vertexCount="3"/>`);
+    assert.equal(placed(typed("Uint16"), 65535), 12);
+    assert.equal(placed(typed("Int16"), 0), 10);
+    assert.ok(Math.abs(placed(typed("Int16"), -16383) - 8) < 1e-3);
+    assert.equal(placed(typed("Float32"), 7.5), 7.5);
+  });
+
+  test("keep a step along a flat side of the box, so that the matrix can be inverted", () => {
+    const flat = geometryOf('<ImageGeometry size="4 4 0" vertexCount="3" coord="a.png"/>');
+    const patch = flat.patches[0];
+    assert.ok(patch && storedFrameOf(flat, patch).step.every((step) => step > 0));
+  });
+
+  test("whose low bytes have not come stand in the middle of what these may hold", () => {
+    for (const [planes, bits] of [[2, 16], [2, 12], [2, 9], [3, 24], [3, 17], [4, 32], [1, 8]] as const) {
+      for (let present = 1; present <= planes; ++present) {
+        // The values that the missing bytes can take, given that the lowest bits are 0.
+        const low = 0;
+        const high = 2 ** (8 * (planes - present)) - 2 ** Math.min(8 * planes - bits, 8 * (planes - present));
+        assert.equal(middleOfMissing(planesOf(planes, bits), planes, present), present === planes ? 0 : (low + high) / 2);
+      }
+    }
+  });
+});
