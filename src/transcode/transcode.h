@@ -43,12 +43,14 @@ struct ConvertReport {
   bool normalsComputed = false;
   Lattice lattice;                   ///< of the first mesh: step states the precision
   std::vector<RoleBytes> roles;
+  double bytesPerTriangle = 0;       ///< as SiteInfo has it
   std::vector<std::string> warnings;
   double importSeconds = 0, prepareSeconds = 0, encodeSeconds = 0, totalSeconds = 0;
   std::uint64_t peakMemoryBytes = 0;
 };
 
-/// Called from any thread, serialised, with the share of the work done, 0..1, and what is being done.
+/// Called from any thread, one call at a time, with the share of the work done, 0..1,
+/// and what is being done ("reading"). What it throws ends the conversion.
 using Progress = std::function<void(double share, const std::string& doing)>;
 
 /// Converts `input` into the site `directory`. The site is built beside its
@@ -59,7 +61,7 @@ ConvertReport convert(const std::filesystem::path& input, const std::filesystem:
 
 struct SiteFile {
   std::string path; ///< relative to the site
-  std::string role; ///< "document", "runtime", or a geometry role
+  std::string role; ///< "document" (the page), "runtime", a geometry role, "scene", "style" or "marker"
   std::uint64_t bytes = 0;
 };
 
@@ -70,8 +72,36 @@ struct SiteInfo {
   std::vector<SiteFile> files;
 };
 
-/// Reads a site (its directory, its index.html or its scene.x3d) without decoding it.
+/// Reads a site (its directory, its index.html or a scene.x3d) without decoding
+/// it. The document is index.html where there is one: what a browser fetches
+/// is document, runtime, style and containers; `scene` is the same scene for
+/// other readers. Safe for untrusted bytes; throws Error, also for files that
+/// are missing.
 SiteInfo inspect(const std::filesystem::path& site);
+
+/// What import finds in a file that could be converted.
+struct SourceInfo {
+  std::string format;
+  std::uint64_t bytes = 0;
+  std::size_t shapes = 0, triangles = 0, points = 0, vertices = 0;
+  bool normals = false, texCoords = false, colors = false; ///< in any of its meshes
+  Box3d box;
+  std::vector<std::string> warnings;
+};
+
+SourceInfo inspectSource(const std::filesystem::path& file);
+
+/// One geometry file of a site.
+struct GeometryFileInfo {
+  std::string kind;                     ///< "PNG image", "typed array"
+  std::uint64_t bytes = 0;
+  std::uint32_t width = 0, height = 0, channels = 0; ///< 0: no image
+  bool namedByContent = false;          ///< the content is what the name says
+};
+
+/// Reads a .png file whole, as the readers of containers do, or any other file's
+/// bytes. Safe for untrusted bytes.
+GeometryFileInfo inspectGeometryFile(const std::filesystem::path& file);
 
 struct VerifyReport {
   bool equal = false;               ///< all of the below within their bounds

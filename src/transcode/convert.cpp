@@ -1,0 +1,199 @@
+// The order of the steps: import, prepare, encode, document, exchange.
+
+#include "base/error.h"
+#include "base/file.h"
+#include "transcode/encode_mesh.h"
+#include "transcode/marker.h"
+#include "transcode/peak_memory.h"
+#include "transcode/preparation.h"
+#include "transcode/runtime.h"
+#include "transcode/site.h"
+#include "transcode/transcode.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <mutex>
+
+namespace imgeo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* generator = "imgeo " IMGEO_VERSION;
+
+/// A warm light stone: shape shows by shading, and nothing of it is clipped
+/// where both lights meet.
+constexpr Material stone{.diffuseColor{0.78f, 0.76f, 0.72f}, .specularColor{0.14f, 0.14f, 0.13f}, .shininess = 0.25f};
+
+/// From above and to the left of the viewer, warmer than the headlight, so that
+/// carving casts light and shade across the view.
+constexpr DirectionalLight keyLight{{-0.45, -0.8, -0.4}, {1.0f, 0.96f, 0.9f}, 0.45f};
+
+class Stopwatch {
+public:
+  /// Since it was made, or since the last call.
+  double lapSeconds() {
+    const Clock::time_point now = Clock::now();
+    return std::chrono::duration<double>(now - std::exchange(lap_, now)).count();
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point lap_ = Clock::now();
+};
+
+void requireHonourable(const ConvertOptions& options) {
+  const auto refuse = [](const char* option, const std::string& why) {
+    throw Error(ErrorKind::usage, option, why);
+  };
+  const bool isSig = options.container == Container::sig;
+  if (options.positionBits < 8 || options.positionBits > 32)
+    refuse("--position-bits", fmt::format("{} is not within 8..32", options.positionBits));
+  if (isSig && options.normalBits != 8)
+    refuse("--normal-bits", fmt::format("sig stores normals in 8 bits, not {}; bg also in 16 or 32", options.normalBits));
+  if (options.normalBits != 8 && options.normalBits != 16 && options.normalBits != 32)
+    refuse("--normal-bits", fmt::format("bg stores normals in 8, 16 or 32 bits, not {}", options.normalBits));
+  if (options.patchVertices < 256 || options.patchVertices > 65535)
+    refuse("--patch-vertices", fmt::format("{} is not within 256..65535", options.patchVertices));
+  if (options.effort < 0 || options.effort > 9)
+    refuse("--effort", fmt::format("{} is not within 0..9", options.effort));
+}
+
+/// The exchange would remove the input with the directory it lies in.
+void requireOutside(const fs::path& input, const fs::path& directory) {
+  std::error_code none;
+  const fs::path file = fs::weakly_canonical(input, none), target = fs::weakly_canonical(directory, none);
+  if (std::mismatch(target.begin(), target.end(), file.begin(), file.end()).first == target.end())
+    throw Error(ErrorKind::usage, input.string(), "lies inside the directory that is to be replaced");
+}
+
+/// The name of the input without its endings, "statue" for "scans/statue.ply.gz".
+std::string titleFrom(const fs::path& input) {
+  if (input == "-") return "Untitled";
+  fs::path name = input.filename();
+  if (name.extension() == ".gz") name = name.stem();
+  return name.stem();
+}
+
+/// Encodes every shape's mesh; two shapes of one mesh share its files.
+SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, GeometryFiles& files,
+                          ConvertReport& report, const ElementsDone& done) {
+  SceneDocument document;
+  document.title = options.title.empty() ? scene.title : options.title;
+  constexpr std::size_t notEncoded = ~std::size_t{0};
+  std::vector<std::size_t> geometryOf(scene.meshes.size(), notEncoded);
+  Box3d whole;
+  for (Shape& shape : scene.shapes) {
+    std::size_t& geometry = geometryOf[shape.mesh];
+    if (geometry == notEncoded) {
+      EncodedMesh encoded = encodeMesh(std::move(scene.meshes[shape.mesh]), options, files, done);
+      report.triangles += encoded.triangles;
+      report.points += encoded.points;
+      report.vertices += encoded.vertices;
+      report.patches += encoded.geometry.patches.size();
+      geometry = document.geometries.size();
+      document.geometries.push_back(std::move(encoded.geometry));
+    }
+    whole.add(document.geometries[geometry].box.min);
+    whole.add(document.geometries[geometry].box.max);
+    if (shape.material == Material{}) shape.material = stone;
+    shape.mesh = geometry;
+    document.shapes.push_back(std::move(shape));
+  }
+  report.lattice = document.geometries.front().lattice;
+  document.viewpoints = std::move(scene.viewpoints);
+  if (document.viewpoints.empty()) document.viewpoints.push_back(viewpointFor(whole));
+  document.lights = std::move(scene.lights);
+  if (document.lights.empty()) document.lights.push_back(keyLight);
+  document.headlight = scene.headlight;
+  return document;
+}
+
+/// Everything of a site but its geometry files.
+void writePage(const SceneDocument& document, const Marker& marker, const fs::path& site) {
+  const std::string_view runtime = runtimeModule();
+  const std::string runtimeUrl = fmt::format("{}/imgeo-{}.js", runtimeFolder, contentName(asBytes(runtime)));
+  fs::create_directory(site / runtimeFolder);
+  writeFile(site / runtimeUrl, asBytes(runtime));
+  writeFile(site / stylesheetName, asBytes(pageStylesheet()));
+  writeFile(site / sceneName, asBytes(writeX3d(document)));
+  writeFile(site / pageName, asBytes(writeHtml(document, {runtimeUrl, stylesheetName})));
+  writeFile(site / markerName, asBytes(writeMarker(marker)));
+}
+
+/// Bytes by role, in the order in which `inspect` lists the roles.
+std::vector<RoleBytes> sumByRole(const std::vector<SiteFile>& files) {
+  std::vector<RoleBytes> roles;
+  for (const SiteFile& file : files) {
+    auto role = std::ranges::find(roles, file.role, &RoleBytes::role);
+    if (role == roles.end()) role = roles.insert(role, {file.role, 0, 0});
+    role->bytes += file.bytes;
+    ++role->files;
+  }
+  return roles;
+}
+
+} // namespace
+
+ConvertReport convert(const fs::path& input, const fs::path& directory, const ConvertOptions& options,
+                      const Progress& progress) {
+  requireHonourable(options);
+  if (input != "-") requireOutside(input, directory);
+  StagedSite site(directory, options.force);
+
+  ConvertReport report;
+  Stopwatch total, step;
+  const auto tell = [&](double share, const std::string& doing) {
+    if (progress) progress(share, doing);
+  };
+
+  tell(0, "reading");
+  Imported imported = importInput(input, report.sourceBytes);
+  report.format = imported.format;
+  report.warnings = std::move(imported.warnings);
+  if (imported.scene.title.empty()) imported.scene.title = titleFrom(input);
+  report.importSeconds = step.lapSeconds();
+
+  tell(0.2, "preparing");
+  PreparationReport prepared =
+      prepareScene(imported.scene, options.normalWeighting, placeOf(input));
+  report.weld = prepared.weld;
+  report.normalsComputed = prepared.normalsComputed;
+  std::ranges::move(prepared.warnings, std::back_inserter(report.warnings));
+  report.prepareSeconds = step.lapSeconds();
+
+  tell(0.3, "writing");
+  std::size_t elementCount = 0, elementsDone = 0;
+  for (const Mesh& mesh : imported.scene.meshes) elementCount += mesh.elementCount();
+  std::mutex doneMutex;
+  GeometryFiles files(site.path());
+  const SceneDocument document =
+      encodeScene(std::move(imported.scene), options, files, report, [&](std::size_t count) {
+        const std::lock_guard lock(doneMutex);
+        elementsDone += count;
+        tell(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
+      });
+  const Marker marker{generator,
+                      input == "-" ? "" : input.filename().string(),
+                      options.container,
+                      options.primitives,
+                      report.normalsComputed,
+                      options.normalWeighting,
+                      report.triangles,
+                      report.points};
+  writePage(document, marker, site.path());
+  const SiteInfo written = inspect(site.path());
+  report.roles = sumByRole(written.files);
+  report.bytesPerTriangle = written.bytesPerTriangle;
+  report.encodeSeconds = step.lapSeconds();
+
+  tell(1, "publishing");
+  site.publish();
+  report.totalSeconds = total.lapSeconds();
+  report.peakMemoryBytes = peakMemoryBytes();
+  return report;
+}
+
+} // namespace imgeo

@@ -1,0 +1,55 @@
+#pragma once
+// A mesh as the multiset of its elements on a lattice: the form in which an
+// input and what a site holds of it can be compared, whatever order, patches or
+// strips they came in.
+
+#include "containers/geometry.h"
+#include "scene/mesh.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace imgeo {
+
+struct ElementList {
+  std::vector<Vec3u> positions; ///< per vertex, on the lattice
+  std::vector<Vec3f> normals;   ///< per vertex, or empty
+  std::vector<Vec2f> texCoords; ///< per vertex, or empty
+  std::vector<Rgba8> colors;    ///< per vertex, or empty; alpha 255 where it does not count
+  std::uint32_t cornerCount = 3; ///< of an element: 3 triangles, 1 points
+  std::vector<std::array<std::uint32_t, 3>> elements; ///< vertices; points use the first corner
+  std::vector<std::uint32_t> copies; ///< how often an element may be drawn; empty: once
+
+  std::size_t vertexCount() const { return positions.size(); }
+};
+
+/// The triangles of a prepared mesh that have three different wedges, or its
+/// wedges as points, where patches may each draw their copy of a border wedge.
+/// `positions` are the mesh's own, quantised.
+ElementList elementsOf(const Mesh& mesh, const std::vector<Vec3u>& positions, bool asPoints);
+
+/// The elements that decoded patches draw, joined.
+ElementList elementsOf(const std::vector<IndexedPatch>& patches, bool asPoints);
+
+/// What two lists may differ by, where they are the same elements.
+struct AttributeBounds {
+  double normalDegrees = 0;
+  Vec2<double> texCoord;
+};
+
+struct ElementDifference {
+  std::size_t missing = 0; ///< elements of the input that the site lacks
+  std::size_t extra = 0;   ///< elements of the site that the input lacks
+  double normalDegrees = 0;      ///< largest between an element's corners and the best element at its place
+  Vec2<double> texCoord;         ///< likewise, an axis
+  std::size_t colorsDiffering = 0; ///< elements for which no element at the place has the same colours
+};
+
+/// Pairs the elements whose corners lie on the same lattice points in the same
+/// cyclic order, and measures how far the attributes of pairs are apart. Where
+/// several elements coincide on the lattice, each is measured against the one of
+/// the other list that fits best, in both directions.
+ElementDifference compare(const ElementList& input, const ElementList& site, const AttributeBounds& bounds);
+
+} // namespace imgeo

@@ -1,0 +1,86 @@
+// What a site holds and how many bytes each part takes, without decoding it.
+
+#include "base/error.h"
+#include "base/file.h"
+#include "transcode/marker.h"
+#include "transcode/site.h"
+#include "transcode/site_reader.h"
+#include "transcode/transcode.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace imgeo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::uint64_t sizeOf(const fs::path& file) {
+  std::error_code reason;
+  const std::uintmax_t bytes = fs::file_size(file, reason);
+  if (reason) throw Error(ErrorKind::io, file.string(), "is named by the document but " + reason.message());
+  return bytes;
+}
+
+void count(const PatchDescription& patch, SiteInfo& info) {
+  for (const Draw& draw : patch.draws) {
+    if (draw.primitive == Primitive::triangles) info.triangles += draw.count / 3;
+    if (draw.primitive == Primitive::triangleStrip) info.triangles += std::max(draw.count, 2u) - 2;
+    if (draw.primitive == Primitive::points) info.points += draw.count;
+  }
+  info.vertices += patch.vertexCount;
+}
+
+/// The bytes of the geometry nodes in a document's text, tags and all.
+std::uint64_t geometryNodeBytes(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::uint64_t bytes = 0;
+  for (const std::string node : {"imagegeometry", "binarygeometry"})
+    for (std::size_t begin = text.find("<" + node); begin != text.npos; begin = text.find("<" + node, begin)) {
+      const std::string endTag = "</" + node + ">";
+      const std::size_t endsAt = text.find(endTag, begin);
+      const std::size_t end = endsAt == text.npos ? text.find('>', begin) : endsAt + endTag.size();
+      bytes += std::min(end, text.size()) - begin;
+      begin = std::min(end, text.size());
+    }
+  return bytes;
+}
+
+} // namespace
+
+SiteInfo inspect(const fs::path& site) {
+  const OpenedDocument document = openDocument(site);
+  SiteInfo info;
+  const auto add = [&](const std::string& url, const char* role) {
+    info.files.push_back({url, role, sizeOf(fileOf(document, url))});
+    return info.files.back().bytes;
+  };
+  info.documentBytes = add(document.name, "document");
+  for (const std::string& url : document.name == sceneName ? std::vector<std::string>{} : pageFilesOf(document.text)) {
+    const bool isModule = url.ends_with(".js");
+    const std::uint64_t bytes = add(url, isModule ? "runtime" : "style");
+    if (isModule) info.runtimeBytes += bytes;
+  }
+  for (const NamedFile& file : geometryFilesOf(document.scene))
+    info.containerBytes += add(file.url, nameOf(file.role));
+
+  for (const GeometryDescription& geometry : document.scene.geometries) {
+    info.patches += geometry.patches.size();
+    for (const PatchDescription& patch : geometry.patches) count(patch, info);
+  }
+  std::error_code none;
+  if (document.name == pageName && fs::exists(document.root / sceneName, none)) add(sceneName, "scene");
+  if (fs::exists(document.root / markerName, none)) {
+    add(markerName, "marker");
+    // A strip's joins count as vertices in the document, not as triangles here.
+    const Marker marker = readMarker(asText(readFile(document.root / markerName)), (document.root / markerName).string());
+    if (marker.primitives == Primitives::strips) info.triangles = marker.triangles;
+  }
+  if (info.triangles > 0)
+    info.bytesPerTriangle = static_cast<double>(info.containerBytes + geometryNodeBytes(document.text)) /
+                            static_cast<double>(info.triangles);
+  return info;
+}
+
+} // namespace imgeo

@@ -1,0 +1,44 @@
+// What single files hold: a mesh to convert, a geometry file of a site.
+
+#include "base/file.h"
+#include "containers/png/png.h"
+#include "transcode/preparation.h"
+#include "transcode/transcode.h"
+
+namespace imgeo {
+
+SourceInfo inspectSource(const std::filesystem::path& file) {
+  SourceInfo info;
+  const Imported imported = importInput(file, info.bytes);
+  info.format = imported.format;
+  info.warnings = imported.warnings;
+  info.shapes = imported.scene.shapes.size();
+  for (const Mesh& mesh : imported.scene.meshes) {
+    if (mesh.topology == Topology::triangles) info.triangles += mesh.elementCount();
+    if (mesh.topology == Topology::points) info.points += mesh.elementCount();
+    info.vertices += mesh.wedgeCount();
+    info.normals |= !mesh.normals.empty();
+    info.texCoords |= !mesh.texCoords.empty();
+    info.colors |= !mesh.colors.empty();
+    for (const Vec3f& position : mesh.positions) info.box.add(Vec3d(position));
+  }
+  return info;
+}
+
+GeometryFileInfo inspectGeometryFile(const std::filesystem::path& file) {
+  GeometryFileInfo info;
+  const Bytes bytes = readFile(file);
+  info.bytes = bytes.size();
+  info.namedByContent = file.stem() == contentName(bytes);
+  info.kind = "typed array";
+  if (file.extension() == ".png") {
+    const Image image = decodePng(bytes, file.string());
+    info.kind = "PNG image";
+    info.width = image.width;
+    info.height = image.height;
+    info.channels = image.channels;
+  }
+  return info;
+}
+
+} // namespace imgeo

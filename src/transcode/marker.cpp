@@ -1,0 +1,66 @@
+#include "transcode/marker.h"
+
+#include "base/error.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+namespace imgeo {
+
+namespace {
+
+constexpr std::array containers{Container::sig, Container::bg};
+constexpr std::array primitiveKinds{Primitives::triangles, Primitives::strips, Primitives::points};
+constexpr std::array weightings{NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform};
+
+template <typename Value, std::size_t count>
+Value valueNamed(const std::array<Value, count>& values, const std::string& name, const std::string& place) {
+  for (const Value value : values)
+    if (nameOf(value) == name) return value;
+  throw Error(ErrorKind::malformed, place, "says \"" + name + "\", which is nothing we know");
+}
+
+} // namespace
+
+const char* nameOf(Container container) { return container == Container::sig ? "sig" : "bg"; }
+
+const char* nameOf(Primitives primitives) {
+  return primitives == Primitives::triangles ? "triangles" : primitives == Primitives::strips ? "strips" : "points";
+}
+
+const char* nameOf(NormalWeighting weighting) {
+  return weighting == NormalWeighting::area ? "area" : weighting == NormalWeighting::angle ? "angle" : "uniform";
+}
+
+std::string writeMarker(const Marker& marker) {
+  nlohmann::ordered_json json;
+  json["generator"] = marker.generator;
+  json["source"] = marker.source;
+  json["container"] = nameOf(marker.container);
+  json["primitives"] = nameOf(marker.primitives);
+  json["normals"] = marker.normalsComputed ? nameOf(marker.normalWeighting) : "source";
+  json["triangles"] = marker.triangles;
+  json["points"] = marker.points;
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+Marker readMarker(std::string_view text, const std::string& name) {
+  try {
+    const nlohmann::json json = nlohmann::json::parse(text);
+    Marker marker;
+    marker.generator = json.at("generator");
+    marker.source = json.at("source");
+    marker.container = valueNamed(containers, json.at("container"), name);
+    marker.primitives = valueNamed(primitiveKinds, json.at("primitives"), name);
+    const std::string normals = json.at("normals");
+    marker.normalsComputed = normals != "source";
+    if (marker.normalsComputed) marker.normalWeighting = valueNamed(weightings, normals, name);
+    marker.triangles = json.at("triangles");
+    marker.points = json.at("points");
+    return marker;
+  } catch (const nlohmann::json::exception&) {
+    throw Error(ErrorKind::malformed, name, "is not the marker of a site");
+  }
+}
+
+} // namespace imgeo

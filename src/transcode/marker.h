@@ -1,0 +1,32 @@
+#pragma once
+// `imgeo.json`: marks a directory as one of our sites and says what of its making
+// cannot be read from the document.
+
+#include "prepare/normals.h"
+#include "transcode/transcode.h"
+
+#include <string>
+#include <string_view>
+
+namespace imgeo {
+
+struct Marker {
+  std::string generator; ///< "imgeo 0.1.0"
+  std::string source;    ///< the input's file name
+  Container container = Container::sig;
+  Primitives primitives = Primitives::triangles;
+  bool normalsComputed = false;
+  NormalWeighting normalWeighting = NormalWeighting::area; ///< where normals were computed
+  std::size_t triangles = 0, points = 0; ///< as drawn; a strip's length does not tell
+};
+
+std::string writeMarker(const Marker& marker);
+
+/// Safe for untrusted text. Throws Error{malformed} naming `name`.
+Marker readMarker(std::string_view text, const std::string& name);
+
+const char* nameOf(Container container);           ///< "sig", "bg"
+const char* nameOf(Primitives primitives);         ///< "triangles", "strips", "points"
+const char* nameOf(NormalWeighting weighting);     ///< "area", "angle", "uniform"
+
+} // namespace imgeo

@@ -1,0 +1,69 @@
+#include "transcode/preparation.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/parallel.h"
+
+#include <fmt/format.h>
+
+namespace imgeo {
+
+namespace {
+
+struct MeshReport {
+  WeldReport weld;
+  bool normalsComputed = false;
+};
+
+MeshReport prepareMesh(Mesh& mesh, NormalWeighting weighting) {
+  MeshReport report{weld(mesh), false};
+  if (mesh.topology == Topology::triangles && mesh.normals.empty() && mesh.elementCount() > 0) {
+    computeNormals(mesh, weighting);
+    report.normalsComputed = true;
+  }
+  return report;
+}
+
+void addTo(WeldReport& sum, const WeldReport& one) {
+  sum.mergedPositions += one.mergedPositions;
+  sum.mergedWedges += one.mergedWedges;
+  sum.unreferencedPositions += one.unreferencedPositions;
+  sum.degenerateElements += one.degenerateElements;
+  sum.duplicateElements += one.duplicateElements;
+}
+
+} // namespace
+
+std::string placeOf(const std::filesystem::path& input) { return input == "-" ? "standard input" : input.string(); }
+
+Imported importInput(const std::filesystem::path& input, std::uint64_t& bytes) {
+  if (input == "-") {
+    const Bytes read = readFile(input);
+    bytes = read.size();
+    return importBytes(read, placeOf(input));
+  }
+  Imported imported = importFile(input);
+  std::error_code none;
+  bytes = std::filesystem::file_size(input, none);
+  return imported;
+}
+
+PreparationReport prepareScene(Scene& scene, NormalWeighting weighting, const std::string& place) {
+  std::vector<MeshReport> reports(scene.meshes.size());
+  parallelFor(scene.meshes.size(), [&](std::size_t i) { reports[i] = prepareMesh(scene.meshes[i], weighting); });
+
+  PreparationReport sum;
+  for (const MeshReport& report : reports) {
+    addTo(sum.weld, report.weld);
+    sum.normalsComputed |= report.normalsComputed;
+  }
+  const std::size_t shapesBefore = scene.shapes.size();
+  std::erase_if(scene.shapes, [&](const Shape& shape) { return scene.meshes[shape.mesh].elementCount() == 0; });
+  if (scene.shapes.empty())
+    throw Error(ErrorKind::malformed, place, "holds no triangles and no points, so there is nothing to show");
+  if (const std::size_t dropped = shapesBefore - scene.shapes.size())
+    sum.warnings.push_back(fmt::format("left out shapes without triangles or points: {}", dropped));
+  return sum;
+}
+
+} // namespace imgeo

@@ -1,0 +1,34 @@
+#pragma once
+// The steps between import and the lattice, which `verify` must repeat exactly
+// as `convert` took them.
+
+#include "import/import.h"
+#include "prepare/normals.h"
+#include "prepare/weld.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+/// Imports a file, or standard input for "-", and says how long it is.
+Imported importInput(const std::filesystem::path& input, std::uint64_t& bytes);
+
+/// The input in messages.
+std::string placeOf(const std::filesystem::path& input);
+
+struct PreparationReport {
+  WeldReport weld;              ///< summed over the meshes
+  bool normalsComputed = false; ///< for at least one mesh
+  std::vector<std::string> warnings;
+};
+
+/// Welds every mesh, drops what no element uses, gives normals to triangle meshes
+/// that bring none, and drops shapes in which nothing is left to see. Throws
+/// Error{malformed} naming `place` where that leaves an empty scene.
+PreparationReport prepareScene(Scene& scene, NormalWeighting weighting, const std::string& place);
+
+} // namespace imgeo

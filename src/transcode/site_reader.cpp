@@ -1,0 +1,68 @@
+#include "transcode/site_reader.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "transcode/site.h"
+
+#include <algorithm>
+#include <set>
+
+namespace imgeo {
+
+namespace fs = std::filesystem;
+
+OpenedDocument openDocument(const fs::path& site) {
+  fs::path file = site;
+  std::error_code none;
+  if (fs::is_directory(site, none)) {
+    file = site / pageName;
+    if (!fs::exists(file, none) && fs::exists(site / sceneName, none)) file = site / sceneName;
+    if (!fs::exists(file, none))
+      throw Error(ErrorKind::io, site.string(), "is no site: it holds neither index.html nor scene.x3d");
+  }
+  OpenedDocument document{file.parent_path(), file.filename(), std::string(asText(readFile(file))), {}};
+  document.scene = readScene(document.text, file.string());
+  return document;
+}
+
+std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene) {
+  std::vector<NamedFile> files;
+  std::set<std::string> seen;
+  const auto add = [&](const Reference& reference, Role role) {
+    if (seen.insert(reference.url).second) files.push_back({reference.url, role});
+  };
+  for (const GeometryDescription& geometry : scene.geometries)
+    for (const PatchDescription& patch : geometry.patches) {
+      if (patch.index) add(*patch.index, Role::index);
+      for (const Reference& plane : patch.coord) add(plane, Role::coord);
+      if (patch.normal) add(*patch.normal, Role::normal);
+      if (patch.texCoord) add(*patch.texCoord, Role::texCoord);
+      if (patch.color) add(*patch.color, Role::color);
+    }
+  return files;
+}
+
+std::vector<std::string> pageFilesOf(std::string_view html) {
+  // Read as text: the values of src and href attributes that end in .js and .css.
+  std::vector<std::string> urls;
+  for (const std::string_view attribute : {"src=\"", "href=\""})
+    for (std::size_t at = html.find(attribute); at != html.npos; at = html.find(attribute, at)) {
+      at += attribute.size();
+      const std::string_view url = html.substr(at, html.find('"', at) - at);
+      const bool wanted = url.ends_with(".js") || url.ends_with(".css");
+      const bool ours = url.find(':') == url.npos && !url.starts_with("//");
+      if (wanted && ours && std::ranges::find(urls, url) == urls.end()) urls.emplace_back(url);
+    }
+  return urls;
+}
+
+fs::path fileOf(const OpenedDocument& document, const std::string& url) {
+  const fs::path path = fs::path(url).lexically_normal();
+  const bool leaves = path.empty() || path.is_absolute() || *path.begin() == ".." || url.find(':') != url.npos;
+  if (leaves)
+    throw Error(ErrorKind::unsupported, (document.root / document.name).string(),
+                "refers to \"" + url + "\", which is not a file of the site");
+  return document.root / path;
+}
+
+} // namespace imgeo

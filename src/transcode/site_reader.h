@@ -1,0 +1,43 @@
+#pragma once
+// A finished site -> its document and the files that this names. Safe for
+// untrusted bytes; all throw Error.
+
+#include "documents/documents.h"
+#include "transcode/transcode.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace imgeo {
+
+/// A document and the folder its urls are relative to.
+struct OpenedDocument {
+  std::filesystem::path root;
+  std::string name; ///< of the document inside `root`
+  std::string text;
+  SceneDocument scene;
+};
+
+/// Opens a site's directory (its index.html, or else its scene.x3d) or a document.
+OpenedDocument openDocument(const std::filesystem::path& site);
+
+/// A file that a document names, and what it calls it.
+struct NamedFile {
+  std::string url;
+  Role role = Role::coord;
+};
+
+/// Every geometry file of a scene once, in the order of first mention.
+std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene);
+
+/// The urls of the runtime module and the stylesheet that a page names; those of
+/// other hosts and absent ones are left out.
+std::vector<std::string> pageFilesOf(std::string_view html);
+
+/// The file of a relative url; Error{unsupported} for a url that leaves the
+/// document's folder.
+std::filesystem::path fileOf(const OpenedDocument& document, const std::string& url);
+
+} // namespace imgeo

@@ -1,0 +1,224 @@
+// Reads a site back and compares it with the file that it was made from.
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/parallel.h"
+#include "prepare/patches.h"
+#include "transcode/element_list.h"
+#include "transcode/marker.h"
+#include "transcode/preparation.h"
+#include "transcode/site.h"
+#include "transcode/site_reader.h"
+#include "transcode/transcode.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <numbers>
+
+namespace imgeo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Reports one sentence for each thing that is wrong.
+class Findings {
+public:
+  explicit Findings(VerifyReport& report) : report_(report) {}
+  template <typename... Arguments> void add(fmt::format_string<Arguments...> sentence, Arguments&&... arguments) {
+    report_.findings.push_back(fmt::format(sentence, std::forward<Arguments>(arguments)...));
+  }
+
+private:
+  VerifyReport& report_;
+};
+
+/// A normal rounded to components of step `unit` moves by at most half the
+/// diagonal of a cell; seen from the origin that is the angle whose sine it is.
+double roundingAngleDegrees(double unit) {
+  return std::asin(std::sqrt(3.0) * unit / 2) * (180 / std::numbers::pi);
+}
+
+double normalBoundDegrees(const GeometryDescription& geometry) {
+  if (geometry.container == Container::sig) return roundingAngleDegrees(1 / 127.5);
+  switch (geometry.normalType) {
+  case ElementType::int8: return roundingAngleDegrees(1.0 / 127);
+  case ElementType::int16: return roundingAngleDegrees(1.0 / 32767);
+  default: return 1e-5; // stored as they are; what is left is single precision
+  }
+}
+
+/// Half a step of 1/65535 of the box, and what single precision adds.
+Vec2<double> texCoordBound(const GeometryDescription& geometry) {
+  const auto bound = [](double low, double size) {
+    const double largest = std::max(std::abs(low), std::abs(low + size));
+    return size / 65535 / 2 + 4 * largest * std::numeric_limits<float>::epsilon() + 1e-30;
+  };
+  return {bound(geometry.texCoordMin.x, geometry.texCoordSize.x), bound(geometry.texCoordMin.y, geometry.texCoordSize.y)};
+}
+
+/// Every file that the page names is there and holds what its name says.
+bool checkFiles(const OpenedDocument& document, Findings& findings) {
+  bool whole = true;
+  std::vector<std::string> urls = pageFilesOf(document.text);
+  for (const NamedFile& file : geometryFilesOf(document.scene)) urls.push_back(file.url);
+  for (const std::string& url : urls) {
+    const fs::path file = fileOf(document, url);
+    std::error_code none;
+    if (!fs::is_regular_file(file, none)) {
+      findings.add("{} is named by the document but is not there.", url);
+      whole = false;
+      continue;
+    }
+    if (file.extension() == ".css") continue;
+    const std::string stem = file.stem(), content = contentName(readFile(file));
+    if (!stem.ends_with(content)) findings.add("{} does not hold what its name says (its content is {}).", url, content);
+  }
+  return whole;
+}
+
+/// The page and scene.x3d say the same.
+void checkDocuments(const OpenedDocument& page, Findings& findings) {
+  if (page.name == sceneName) return;
+  const OpenedDocument scene = openDocument(page.root / sceneName);
+  if (writeX3d(scene.scene) != writeX3d(page.scene)) findings.add("{} and {} differ.", pageName, sceneName);
+}
+
+std::vector<IndexedPatch> decodePatches(const OpenedDocument& document, const GeometryDescription& geometry) {
+  std::vector<IndexedPatch> patches(geometry.patches.size());
+  parallelFor(patches.size(), [&](std::size_t i) {
+    patches[i] = decodePatch(geometry.patches[i], geometry,
+                             [&](const std::string& url) { return readFile(fileOf(document, url)); });
+  });
+  return patches;
+}
+
+/// Every patch lies in the box that the document gives it.
+void checkBoxes(const std::vector<IndexedPatch>& patches, const GeometryDescription& geometry, Findings& findings) {
+  const double slack = geometry.lattice.step / 2 + 1e-6 * geometry.box.longestEdge();
+  const auto agree = [&](const Box3d& a, const Box3d& b) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(std::abs(a.min[axis] - b.min[axis]) <= slack && std::abs(a.max[axis] - b.max[axis]) <= slack)) return false;
+    return true;
+  };
+  Box3d whole;
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    Box3d box;
+    for (const Vec3u q : patches[i].positions) box.add(geometry.lattice.point(q));
+    wrong += !agree(box, geometry.patches[i].box);
+    whole.add(box.min);
+    whole.add(box.max);
+  }
+  if (wrong > 0) findings.add("{} of {} patches have a box that does not fit their vertices.", wrong, patches.size());
+  if (!agree(whole, geometry.box)) findings.add("The box of the geometry does not fit its vertices.");
+}
+
+/// The largest distance an axis between where the input has a vertex and where
+/// the site's document puts the lattice point that stands for it.
+double positionError(const Mesh& mesh, const std::vector<Vec3u>& quantised, const Lattice& lattice) {
+  double error = 0;
+  for (std::size_t i = 0; i < quantised.size(); ++i) {
+    const Vec3d off = lattice.point(quantised[i]) - Vec3d(mesh.positions[i]);
+    error = std::max({error, std::abs(off.x), std::abs(off.y), std::abs(off.z)});
+  }
+  return error;
+}
+
+/// Rounding in double precision, which counts where the step is near it: far from
+/// the origin, with 32 bits.
+double positionTolerance(const Mesh& mesh, const Lattice& lattice) {
+  const Box3d box = boxOf(mesh);
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis) largest = std::max({largest, std::abs(box.min[axis]), std::abs(box.max[axis])});
+  return 1e-6 * lattice.step + 8 * largest * std::numeric_limits<double>::epsilon();
+}
+
+void checkAttributesPresent(const Mesh& mesh, const std::vector<IndexedPatch>& patches, Findings& findings) {
+  const auto check = [&](const char* what, bool inInput, auto member) {
+    for (const IndexedPatch& patch : patches)
+      if ((patch.*member).empty() == inInput && patch.vertexCount() > 0)
+        return findings.add("The {} {} {}.", inInput ? "input has" : "site has", what,
+                            inInput ? "that the site lacks" : "that the input lacks");
+  };
+  check("normals", !mesh.normals.empty(), &IndexedPatch::normals);
+  check("texture coordinates", !mesh.texCoords.empty(), &IndexedPatch::texCoords);
+  check("colours", !mesh.colors.empty(), &IndexedPatch::colors);
+}
+
+void count(const ElementDifference& difference, const ElementList& input, const ElementList& site, bool asPoints,
+           VerifyReport& report) {
+  (asPoints ? report.inputPoints : report.inputTriangles) += input.elements.size();
+  (asPoints ? report.sitePoints : report.siteTriangles) += site.elements.size();
+  (asPoints ? report.missingPoints : report.missingTriangles) += difference.missing;
+  (asPoints ? report.extraPoints : report.extraTriangles) += difference.extra;
+}
+
+void compareShape(const OpenedDocument& document, const GeometryDescription& geometry, const Mesh& mesh,
+                  Primitives primitives, VerifyReport& report, Findings& findings) {
+  const std::vector<IndexedPatch> patches = decodePatches(document, geometry);
+  checkBoxes(patches, geometry, findings);
+  checkAttributesPresent(mesh, patches, findings);
+
+  const Lattice expected = latticeFor(boxOf(mesh), geometry.lattice.bits);
+  const std::vector<Vec3u> quantised = quantise(mesh.positions, expected);
+  const double error = positionError(mesh, quantised, geometry.lattice), bound = expected.step / 2;
+  if (error * report.positionBound >= report.positionError * bound) report.positionError = error, report.positionBound = bound;
+  if (error > bound + positionTolerance(mesh, expected))
+    findings.add("Positions are off by up to {:.6g}, more than half a step of the lattice, {:.6g}.", error, bound);
+
+  const bool asPoints = mesh.topology == Topology::points || primitives == Primitives::points;
+  const ElementList input = elementsOf(mesh, quantised, asPoints), site = elementsOf(patches, asPoints);
+  const AttributeBounds bounds{normalBoundDegrees(geometry), texCoordBound(geometry)};
+  const ElementDifference difference = compare(input, site, bounds);
+  count(difference, input, site, asPoints, report);
+  const char* elements = asPoints ? "points" : "triangles";
+  if (difference.missing > 0) findings.add("{} {} of the input are missing from the site.", difference.missing, elements);
+  if (difference.extra > 0) findings.add("{} {} of the site are not in the input.", difference.extra, elements);
+
+  // The decoder's single precision adds to a normal's bound what its own rounding may turn it by.
+  constexpr double normalTolerance = 2e-5;
+  if (!mesh.normals.empty()) report.normalBoundDegrees = std::max(report.normalBoundDegrees, bounds.normalDegrees);
+  report.normalErrorDegrees = std::max(report.normalErrorDegrees, difference.normalDegrees);
+  if (difference.normalDegrees > bounds.normalDegrees + normalTolerance)
+    findings.add("Normals are off by up to {:.4g} degrees, more than their rounding, {:.4g}.", difference.normalDegrees, bounds.normalDegrees);
+  if (difference.texCoord.x > bounds.texCoord.x || difference.texCoord.y > bounds.texCoord.y)
+    findings.add("Texture coordinates are off by up to {:.4g} and {:.4g}, more than their rounding, {:.4g} and {:.4g}.",
+                 difference.texCoord.x, difference.texCoord.y, bounds.texCoord.x, bounds.texCoord.y);
+  if (difference.colorsDiffering > 0) findings.add("{} {} have other colours.", difference.colorsDiffering, elements);
+}
+
+} // namespace
+
+VerifyReport verify(const fs::path& site, const fs::path& input) {
+  VerifyReport report;
+  Findings findings(report);
+  const OpenedDocument document = openDocument(site);
+  const fs::path markerFile = document.root / markerName;
+  const Marker marker = readMarker(asText(readFile(markerFile)), markerFile.string());
+  std::uint64_t inputBytes = 0;
+  Imported imported = importInput(input, inputBytes);
+  prepareScene(imported.scene, marker.normalWeighting, placeOf(input));
+
+  // What our readers refuse is here a result, not the end: the one place below
+  // main, handlers and fuzz targets that catches an Error.
+  try {
+    checkDocuments(document, findings);
+    const bool whole = checkFiles(document, findings);
+    const std::vector<Shape>& shapes = imported.scene.shapes;
+    if (document.scene.shapes.size() != shapes.size())
+      findings.add("The site has {} shapes, the input {}.", document.scene.shapes.size(), shapes.size());
+    else if (whole)
+      for (std::size_t i = 0; i < shapes.size(); ++i)
+        compareShape(document, document.scene.geometries.at(document.scene.shapes[i].mesh),
+                     imported.scene.meshes[shapes[i].mesh], marker.primitives, report, findings);
+  } catch (const Error& error) {
+    findings.add("{}.", error.what());
+  }
+  report.equal = report.findings.empty();
+  return report;
+}
+
+} // namespace imgeo
