@@ -1,0 +1,32 @@
+#pragma once
+// The words of a command line -> the values of the flag table.
+
+#include "cli/flags.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace imgeo::cli {
+
+/// A command and the values of its flags: given ones and fallbacks.
+struct Arguments {
+  const Command* command = nullptr; ///< nullptr: `imgeo` alone with --help or --version
+  std::map<std::string, std::string> values;
+  std::map<std::string, bool> switches;
+
+  const std::string& text(const std::string& name) const { return values.at(name); }
+  std::int64_t integer(const std::string& name) const { return std::stoll(values.at(name)); }
+  bool has(const std::string& name) const { return switches.at(name); }
+};
+
+/// Replaces the short names of a command's flags by their long ones: "-vp 14",
+/// "-vp=14", "-vp14" and "-oDIR" become "--position-bits 14" and so on. Words
+/// after "--" stay as they are.
+std::vector<std::string> expandAliases(const Command& command, std::vector<std::string> words);
+
+/// Parses `words` (without the program's name). Throws Error{usage}.
+Arguments parseArguments(std::vector<std::string> words);
+
+} // namespace imgeo::cli

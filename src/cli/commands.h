@@ -1,0 +1,16 @@
+#pragma once
+// The subcommands. Each prints its result on standard output and returns the
+// process's exit code; faults leave as exceptions, which main reports.
+
+#include "cli/arguments.h"
+
+namespace imgeo::cli {
+
+int runConvert(const Arguments& arguments);
+int runInfo(const Arguments& arguments);
+int runVerify(const Arguments& arguments);
+int runServe(const Arguments& arguments);
+int runCompletion(const Arguments& arguments);
+int runManual(const Arguments& arguments);
+
+} // namespace imgeo::cli

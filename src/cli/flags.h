@@ -1,0 +1,52 @@
+#pragma once
+// The one table of commands and flags. The parser, the help texts, the shell
+// completions and the manual page are all made from it.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace imgeo::cli {
+
+/// What the value of a flag is; completions and checks follow from it.
+enum class Value : std::uint8_t { none, text, file, directory, integer, choice };
+
+struct Flag {
+  std::string name;                 ///< "position-bits"; of a positional argument "input"
+  std::vector<std::string> aliases{}; ///< short names: "-vp", "-qp"
+  Value value = Value::none;
+  std::string valueName{};          ///< "N", "DIR"
+  std::string help{};               ///< begins in lower case, no full stop
+  std::string fallback{};           ///< the value where the flag is not given
+  std::vector<std::string> choices{}; ///< Value::choice
+  std::int64_t least = 0, most = 0; ///< Value::integer
+  bool positional = false;          ///< may be given without its name
+  bool required = false;
+
+  bool takesValue() const { return value != Value::none; }
+};
+
+struct Command {
+  std::string name;
+  std::string usage;   ///< what follows "imgeo NAME"
+  std::string summary; ///< one line for the list of commands
+  std::string text;    ///< paragraphs of the command's help
+  std::vector<Flag> flags;
+  std::vector<std::string> examples;
+};
+
+/// Every command. `--help` and `-h` are the last flag of each.
+std::span<const Command> commands();
+
+/// nullptr where there is none of this name.
+const Command* findCommand(const std::string& name);
+
+/// Exit codes and what they mean, for help and manual.
+struct ExitCode {
+  int code;
+  std::string meaning;
+};
+std::span<const ExitCode> exitCodes();
+
+} // namespace imgeo::cli

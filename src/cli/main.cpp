@@ -1,0 +1,65 @@
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/help.h"
+#include "cli/interruption.h"
+
+#include <cstdio>
+#include <exception>
+#include <fmt/format.h>
+#include <new>
+#include <system_error>
+
+namespace imgeo::cli {
+
+namespace {
+
+int run(const Arguments& arguments) {
+  if (!arguments.command) {
+    fmt::print("{}", arguments.has("help") ? overview() : "imgeo " IMGEO_VERSION "\n");
+    return 0;
+  }
+  if (arguments.has("help")) {
+    fmt::print("{}", helpOf(*arguments.command));
+    return 0;
+  }
+  const std::string& name = arguments.command->name;
+  if (name == "convert") return runConvert(arguments);
+  if (name == "info") return runInfo(arguments);
+  if (name == "verify") return runVerify(arguments);
+  if (name == "serve") return runServe(arguments);
+  if (name == "completion") return runCompletion(arguments);
+  return runManual(arguments);
+}
+
+int report(int code, const std::string& message) {
+  fmt::print(stderr, "imgeo: {}\n", message);
+  return code;
+}
+
+/// Every fault ends here: one sentence and the documented exit code.
+int runAndReport(int count, char** words) {
+  try {
+    const int code = run(parseArguments({words + 1, words + count}));
+    if (std::fflush(stdout) != 0) return report(exitCode(ErrorKind::io), "standard output cannot be written");
+    return code;
+  } catch (const Interrupted& interrupted) {
+    report(0, "interrupted; nothing has changed");
+    endBy(interrupted);
+  } catch (const Error& error) {
+    return report(exitCode(error.kind()), error.what());
+  } catch (const std::bad_alloc&) {
+    return report(exitCode(ErrorKind::limit), "there is not enough memory for this");
+  } catch (const std::system_error& error) {
+    return report(exitCode(ErrorKind::io), error.what());
+  } catch (const std::exception& error) {
+    return report(4, fmt::format("internal error: {}", error.what()));
+  } catch (...) {
+    return report(4, "internal error");
+  }
+}
+
+} // namespace
+
+} // namespace imgeo::cli
+
+int main(int count, char** words) { return imgeo::cli::runAndReport(count, words); }
