@@ -51,6 +51,19 @@ IndexedPatch drawWedges(const Patch& patch, Primitive primitive, std::vector<std
   return result;
 }
 
+/// The corners' wedges, triangles in fan order. The fans are those of positions,
+/// not of wedges: an order that crosses creases and seams keeps neighbours in
+/// space together (docs/decisions/vertex-order.md).
+std::vector<std::uint32_t> inFanOrder(const Patch& patch) {
+  std::vector<std::uint32_t> cornerPositions = patch.corners;
+  for (std::uint32_t& corner : cornerPositions)
+    corner = patch.wedgePositions[corner];
+  std::vector<std::uint32_t> wedges = fanOrder(cornerPositions, patch.positions.size());
+  for (std::uint32_t& corner : wedges)
+    corner = patch.corners[corner];
+  return wedges;
+}
+
 /// Chan, "Closest-point problems simplified on the RAM", 2002: the axis whose
 /// coordinates differ in the highest bit decides the Morton order.
 bool beforeInMortonOrder(Vec3u a, Vec3u b) {
@@ -66,15 +79,12 @@ bool beforeInMortonOrder(Vec3u a, Vec3u b) {
 
 IndexedPatch asTriangles(const Patch& patch) {
   assert(patch.topology == Topology::triangles);
-  std::vector<std::uint32_t> wedges = fanOrder(patch.corners, patch.wedgeCount());
-  for (std::uint32_t& corner : wedges)
-    corner = patch.corners[corner];
-  return drawWedges(patch, Primitive::triangles, std::move(wedges));
+  return drawWedges(patch, Primitive::triangles, inFanOrder(patch));
 }
 
 IndexedPatch asStrips(const Patch& patch) {
   assert(patch.topology == Topology::triangles);
-  return drawWedges(patch, Primitive::triangleStrip, stitchedStrip(patch.corners));
+  return drawWedges(patch, Primitive::triangleStrip, stitchedStrip(inFanOrder(patch), patch.wedgeCount()));
 }
 
 IndexedPatch asPoints(const Patch& patch) {

@@ -101,7 +101,7 @@ std::vector<Patch> everyKindOfPatch() {
   }
   for (std::uint32_t seed = 0; seed < 200; ++seed)
     patches.push_back(tangle(1 + seed, 2 + seed % 40, seed));
-  patches.push_back(wheel(5000));
+  patches.push_back(wheel(60000));
   patches.push_back(patchOf(testing::sphere(60, 60)));
   return patches;
 }

@@ -7,9 +7,10 @@
 
 namespace imgeo {
 
-/// One triangle strip over `corners` (vertices, three a
+/// One triangle strip over `corners` (three vertices below `vertexCount` a
 /// triangle) that draws every non-degenerate triangle as often as it is there,
-/// in its orientation, and else only degenerate ones.
-std::vector<std::uint32_t> stitchedStrip(std::span<const std::uint32_t> corners);
+/// in its orientation, and else only degenerate ones. Neighbours in `corners`
+/// come near each other in the strip.
+std::vector<std::uint32_t> stitchedStrip(std::span<const std::uint32_t> corners, std::size_t vertexCount);
 
 } // namespace imgeo
