@@ -8,9 +8,7 @@
 #include "prepare/dual_graph.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
-#include <utility>
 
 namespace imgeo {
 
@@ -61,56 +59,63 @@ template <std::size_t capacity> struct SmallSet {
 ///    their tips: paths that share a tip are joined by one repeated index, where
 ///    others need three. A tip is the corner opposite a path's first or last link.
 /// Costs are counted twice over, to keep a link's two halves whole.
+///
+/// In here, side s of triangle t is 4t + s: this is the inner loop of stripping.
 class Links {
 public:
   Links(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> across,
         std::size_t vertexCount)
-      : corners_(corners), across_(across), linked_(corners.size() / 3),
-        pathEndAt_(corners.size() / 3, noSide), oddTips_(vertexCount) {
-    for (std::uint32_t triangle = 0; triangle < linked_.size(); ++triangle)
-      if (!isDegenerate(triangle))
-        updatePathEnds({{triangle}, 1});
+      : triangles_(corners.size() / 3), oddTips_(vertexCount) {
+    for (std::uint32_t triangle = 0; triangle < triangles_.size(); ++triangle) {
+      Triangle& made = triangles_[triangle];
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        const std::uint32_t opposite = across[3 * triangle + i];
+        made.across[i] = opposite == noSide ? noSide : 4 * (opposite / 3) + opposite % 3;
+        made.tips[i] = corners[3 * triangle + (i + 2) % 3];
+      }
+      if (made.tips[0] == made.tips[1] || made.tips[1] == made.tips[2] || made.tips[2] == made.tips[0])
+        continue;
+      updatePathEnds({{triangle}, 1});
+    }
   }
 
   /// One random change, kept if it is not dearer or, now and then, if it is:
-  /// where `odds` (per unit of cost, 32-bit probabilities) let it pass.
+  /// where `odds` (by cost, 32-bit probabilities) let it pass.
   void step(Random& random, std::span<const std::uint64_t> odds) {
     const Change change = propose(random);
     if (change.sides.size == 0)
       return;
-    std::int64_t cost = -costOf(change.triangles);
-    toggle(change);
-    cost += costOf(change.triangles) + std::exchange(tipCost_, 0);
-    const bool kept = cost <= 0 || (cost < static_cast<std::int64_t>(odds.size()) &&
-                                    random.bits() < odds[static_cast<std::size_t>(cost)]);
-    if (kept) {
+    int cost = -costOf(change.triangles);
+    cost += toggle(change);
+    cost += costOf(change.triangles);
+    if (cost <= 0 ||
+        (cost < static_cast<int>(odds.size()) && random.bits() < odds[static_cast<std::size_t>(cost)]))
       updatePathEnds(change.triangles);
-    } else {
+    else
       toggle(change);
-      tipCost_ = 0;
-    }
   }
 
-  std::span<const std::uint32_t> across() const { return across_; }
-  std::size_t triangleCount() const { return linked_.size(); }
-  int degree(std::uint32_t triangle) const { return std::popcount(linked_[triangle]); }
-  bool isLinked(std::uint32_t side) const { return linked_[side / 3] >> side % 3 & 1; }
-
-  bool isDegenerate(std::uint32_t triangle) const {
-    const std::uint32_t* c = &corners_[3 * std::size_t{triangle}];
-    return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
+  std::size_t triangleCount() const { return triangles_.size(); }
+  int degree(std::uint32_t triangle) const {
+    constexpr std::array<std::uint8_t, 8> bitCounts{0, 1, 1, 2, 1, 2, 2, 3};
+    return bitCounts[triangles_[triangle].linked];
+  }
+  bool isLinked(std::uint32_t triangle, std::uint32_t i) const {
+    return triangles_[triangle].linked >> i & 1;
   }
 
   /// Whether both triangles at a linked side have another link and the turns
   /// before and after it go the same way.
-  bool isSwap(std::uint32_t side) const {
-    const std::uint32_t opposite = across_[side];
-    if (degree(side / 3) < 2 || degree(opposite / 3) < 2)
-      return false;
-    return isLinked(sideAfter(side)) != isLinked(sideAfter(opposite));
-  }
+  bool isSwap(std::uint32_t triangle, std::uint32_t i) const { return isSwap(4 * triangle + i); }
 
 private:
+  struct Triangle {
+    std::array<std::uint32_t, 3> across{}; ///< by side
+    std::array<std::uint32_t, 3> tips{};   ///< by side: the corner opposite
+    std::uint32_t pathEndAt = noSide;      ///< its place in pathEnds_, if it is there
+    std::uint8_t linked = 0;               ///< a bit for each side
+  };
+
   /// Sides to link or unlink, and the triangles on both hands of them.
   struct Change {
     SmallSet<3> sides;
@@ -120,77 +125,98 @@ private:
       if (sides.has(opposite))
         return;
       sides.add(side);
-      triangles.add(side / 3);
-      triangles.add(opposite / 3);
+      triangles.add(side / 4);
+      triangles.add(opposite / 4);
     }
   };
+
+  static std::uint32_t after(std::uint32_t side) { return side % 4 == 2 ? side - 2 : side + 1; }
+  static std::uint32_t before(std::uint32_t side) { return side % 4 == 0 ? side + 2 : side - 1; }
+  std::uint32_t across(std::uint32_t side) const { return triangles_[side / 4].across[side % 4]; }
+  bool isLinked(std::uint32_t side) const { return isLinked(side / 4, side % 4); }
+  bool isSwap(std::uint32_t side) const {
+    const std::uint32_t opposite = across(side);
+    if (degree(side / 4) < 2 || degree(opposite / 4) < 2)
+      return false;
+    return isLinked(after(side)) != isLinked(after(opposite));
+  }
 
   Change propose(Random& random) {
     Change change;
     const std::uint32_t bits = random.bits();
     // Half of the time an end of a path moves on, else anything may happen.
     const bool anywhere = bits & 1 || pathEnds_.empty();
-    const std::uint32_t side = anywhere ? random.below(across_.size())
-                                        : 3 * pathEnds_[random.below(pathEnds_.size())] + (bits >> 8) % 3;
-    if (across_[side] == noSide)
+    const std::uint32_t triangle =
+        anywhere ? random.below(triangles_.size()) : pathEnds_[random.below(pathEnds_.size())];
+    const std::uint32_t side = 4 * triangle + (bits >> 8) % 3;
+    const std::uint32_t opposite = across(side);
+    if (opposite == noSide)
       return change;
     if (isLinked(side)) {
       if (anywhere && isSwap(side))
-        change.add(side, across_[side]);
+        change.add(side, opposite);
       return change;
     }
-    change.add(side, across_[side]);
+    change.add(side, opposite);
     // A triangle that has two links gives up one of them.
-    const auto release = [&](std::uint32_t gained, bool after) {
-      if (degree(gained / 3) < 2)
+    const auto release = [&](std::uint32_t gained, bool theOneAfter) {
+      if (degree(gained / 4) < 2)
         return;
-      const std::uint32_t lost = after ? sideAfter(gained) : sideBefore(gained);
-      change.add(lost, across_[lost]);
+      const std::uint32_t lost = theOneAfter ? after(gained) : before(gained);
+      change.add(lost, across(lost));
     };
     release(side, bits & 2);
-    release(across_[side], bits & 4);
+    release(opposite, bits & 4);
     return change;
   }
 
-  std::int64_t costOf(const SmallSet<4>& triangles) const {
-    std::int64_t cost = 0;
+  int costOf(const SmallSet<4>& triangles) const {
+    int cost = 0;
     for (const std::uint32_t triangle : triangles) {
-      cost += 2 * (2 - degree(triangle));
-      for (std::uint32_t side = 3 * triangle; side < 3 * triangle + 3; ++side)
+      if (degree(triangle) < 2) {
+        cost += 2 * (2 - degree(triangle));
+        continue;
+      }
+      for (std::uint32_t side = 4 * triangle; side < 4 * triangle + 3; ++side)
         if (isLinked(side) && isSwap(side))
-          cost += triangles.has(across_[side] / 3) ? 1 : 2;
+          cost += triangles.has(across(side) / 4) ? 1 : 2;
     }
     return cost;
   }
 
-  void toggle(const Change& change) {
+  /// Links and unlinks; returns what the tips then cost more.
+  int toggle(const Change& change) {
+    int cost = 0;
     for (const std::uint32_t triangle : change.triangles)
-      toggleTip(triangle);
+      cost += toggleTip(triangle);
     for (const std::uint32_t side : change.sides)
-      for (const std::uint32_t half : {side, across_[side]})
-        linked_[half / 3] = static_cast<std::uint8_t>(linked_[half / 3] ^ 1u << half % 3);
+      for (const std::uint32_t half : {side, across(side)}) {
+        std::uint8_t& linked = triangles_[half / 4].linked;
+        linked = static_cast<std::uint8_t>(linked ^ 1u << half % 4);
+      }
     for (const std::uint32_t triangle : change.triangles)
-      toggleTip(triangle);
+      cost += toggleTip(triangle);
+    return cost;
   }
 
-  void toggleTip(std::uint32_t triangle) {
+  int toggleTip(std::uint32_t triangle) {
     if (degree(triangle) != 1)
-      return;
-    const auto side = 3 * triangle + static_cast<std::uint32_t>(std::countr_zero(linked_[triangle]));
-    const std::uint32_t tip = corners_[sideBefore(side)];
+      return 0;
+    const Triangle& end = triangles_[triangle];
+    const std::uint32_t tip = end.tips[end.linked / 2]; // bits 1, 2, 4 are sides 0, 1, 2
     oddTips_[tip] = !oddTips_[tip];
-    tipCost_ += oddTips_[tip] ? 2 : -2;
+    return oddTips_[tip] ? 2 : -2;
   }
 
   void updatePathEnds(const SmallSet<4>& triangles) {
     for (const std::uint32_t triangle : triangles) {
       const bool isEnd = degree(triangle) < 2;
-      std::uint32_t& at = pathEndAt_[triangle];
+      std::uint32_t& at = triangles_[triangle].pathEndAt;
       if (isEnd && at == noSide) {
         at = static_cast<std::uint32_t>(pathEnds_.size());
         pathEnds_.push_back(triangle);
       } else if (!isEnd && at != noSide) {
-        pathEndAt_[pathEnds_.back()] = at;
+        triangles_[pathEnds_.back()].pathEndAt = at;
         pathEnds_[at] = pathEnds_.back();
         pathEnds_.pop_back();
         at = noSide;
@@ -198,12 +224,9 @@ private:
     }
   }
 
-  std::span<const std::uint32_t> corners_, across_;
-  std::vector<std::uint8_t> linked_;     ///< by triangle: a bit for each linked side
-  std::vector<std::uint32_t> pathEnds_;  ///< triangles with fewer than two links
-  std::vector<std::uint32_t> pathEndAt_; ///< by triangle: its place in pathEnds_, or noSide
-  std::vector<std::uint8_t> oddTips_;    ///< by vertex: an odd number of tips lie there
-  std::int64_t tipCost_ = 0;             ///< of the changes to oddTips_ since it was last read
+  std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> pathEnds_; ///< triangles with fewer than two links
+  std::vector<std::uint8_t> oddTips_;   ///< by vertex: an odd number of tips lie there
 };
 
 /// Cools from where paths form freely to where hardly anything dearer passes.
@@ -223,62 +246,70 @@ void anneal(Links& links) {
   }
 }
 
-/// The linked side of a triangle that is not `entered`, or else noSide.
-std::uint32_t otherLink(const Links& links, std::uint32_t triangle, std::uint32_t entered) {
-  for (std::uint32_t side = 3 * triangle; side < 3 * triangle + 3; ++side)
-    if (side != entered && links.isLinked(side))
-      return side;
-  return noSide;
-}
-
-/// Where to cut a ring: behind a swap, if it has one.
-std::uint32_t cutOf(const Links& links, std::uint32_t triangle) {
-  const std::uint32_t start = otherLink(links, triangle, noSide);
-  std::uint32_t side = start;
-  do {
-    if (links.isSwap(side))
-      break;
-    const std::uint32_t entered = links.across()[side];
-    side = otherLink(links, entered / 3, entered);
-  } while (side != start);
-  return links.across()[side];
-}
-
+/// Reads the paths off the links, rings cut open.
 class PathReader {
 public:
-  explicit PathReader(const Links& links) : links_(links), read_(links.triangleCount()) {}
+  PathReader(const Links& links, std::span<const std::uint32_t> corners,
+             std::span<const std::uint32_t> across)
+      : links_(links), corners_(corners), across_(across), read_(links.triangleCount()) {}
 
   StripPaths run() && {
     for (std::uint32_t triangle = 0; triangle < read_.size(); ++triangle)
-      if (links_.degree(triangle) < 2 && !links_.isDegenerate(triangle))
+      if (links_.degree(triangle) < 2 && !isDegenerate(triangle))
         read(triangle, noSide);
     for (std::uint32_t triangle = 0; triangle < read_.size(); ++triangle)
       if (links_.degree(triangle) == 2 && !read_[triangle]) {
-        const std::uint32_t cut = cutOf(links_, triangle);
+        const std::uint32_t cut = cutOf(triangle);
         read(cut / 3, cut);
       }
     return std::move(paths_);
   }
 
 private:
+  bool isDegenerate(std::uint32_t triangle) const {
+    const std::uint32_t* c = &corners_[3 * std::size_t{triangle}];
+    return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
+  }
+
+  /// The linked side of a triangle that is not `entered`, or else noSide.
+  std::uint32_t otherLink(std::uint32_t triangle, std::uint32_t entered) const {
+    for (std::uint32_t i = 0; i < 3; ++i)
+      if (3 * triangle + i != entered && links_.isLinked(triangle, i))
+        return 3 * triangle + i;
+    return noSide;
+  }
+
+  /// The side behind which to cut the ring of a triangle: a swap, if it has one.
+  std::uint32_t cutOf(std::uint32_t triangle) const {
+    const std::uint32_t start = otherLink(triangle, noSide);
+    std::uint32_t side = start;
+    do {
+      if (links_.isSwap(side / 3, side % 3))
+        break;
+      const std::uint32_t entered = across_[side];
+      side = otherLink(entered / 3, entered);
+    } while (side != start);
+    return across_[side];
+  }
+
   /// The path from `triangle` away from its side `entered`.
   void read(std::uint32_t triangle, std::uint32_t entered) {
     if (read_[triangle])
       return;
     for (;;) {
       read_[triangle] = true;
-      const std::uint32_t left = otherLink(links_, triangle, entered);
-      const bool isLast = left == noSide || read_[links_.across()[left] / 3];
+      const std::uint32_t left = otherLink(triangle, entered);
       paths_.sides.push_back(left != noSide ? left : entered != noSide ? sideAfter(entered) : 3 * triangle);
-      if (isLast)
+      if (left == noSide || read_[across_[left] / 3])
         break;
-      entered = links_.across()[left];
+      entered = across_[left];
       triangle = entered / 3;
     }
     paths_.ends.push_back(static_cast<std::uint32_t>(paths_.sides.size()));
   }
 
   const Links& links_;
+  std::span<const std::uint32_t> corners_, across_;
   std::vector<bool> read_;
   StripPaths paths_;
 };
@@ -289,7 +320,7 @@ StripPaths findStripPaths(std::span<const std::uint32_t> corners, std::span<cons
                           std::size_t vertexCount) {
   Links links(corners, across, vertexCount);
   anneal(links);
-  return PathReader(links).run();
+  return PathReader(links, corners, across).run();
 }
 
 } // namespace imgeo
