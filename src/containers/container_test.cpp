@@ -178,6 +178,15 @@ TEST_P(HostilePatch, WithMoreIndicesThanItsFileHoldsIsRefused) {
   }
 }
 
+TEST_P(HostilePatch, WhoseSizeOverflowsSixtyFourBitsIsRefused) {
+  patch.draws.assign(1u << 20, {Primitive::triangles, 0xffffffff});
+  patch.index->stride = 0xfffff001;
+  EXPECT_THROW(encoded.decoded(), Error);
+  patch.draws.assign(1u << 20, {Primitive::triangles, 1u << 12}); // 2^32 records of 2^32 bytes
+  patch.index->stride = 0x80000000;
+  EXPECT_THROW(encoded.decoded(), Error);
+}
+
 TEST_P(HostilePatch, WithoutDrawsIsMalformed) {
   patch.draws.clear();
   EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);

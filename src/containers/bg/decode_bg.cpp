@@ -26,10 +26,10 @@ public:
 
   /// To be called before records 0 .. count - 1 are read.
   void require(std::uint64_t count) const {
-    // Interleaved records begin before this attribute's part of them; all are whole.
-    const std::uint64_t end = std::max(first_ - first_ % stride_ + count * stride_,
-                                       count == 0 ? first_ : first_ + (count - 1) * stride_ + recordBytes_);
-    if (end > bytes_.size())
+    // Interleaved records begin before this attribute's part of them; all are
+    // whole. Nothing is multiplied that the document states: it might not fit.
+    const std::uint64_t begin = first_ - first_ % stride_;
+    if (begin > bytes_.size() || (bytes_.size() - begin) / stride_ < count || available() < count)
       throw Error(ErrorKind::truncated, place_,
                   std::to_string(bytes_.size()) + " bytes are too few for " + std::to_string(count) +
                       " records of " + std::to_string(stride_) + " bytes from byte " + std::to_string(first_));
