@@ -40,10 +40,9 @@ struct PatchDescription {
   Box3d box;                     ///< tight, for culling and priority
   std::uint32_t vertexCount = 0; ///< records in coord, normal, ...; 0: the largest index + 1
   std::vector<Draw> draws;
-  Vec2<std::uint32_t> implicitMeshSize{256,
-                                       256}; ///< SIG: columns and rows that running numbers count through
-  std::optional<Reference> index;            ///< absent: records are drawn in order
-  std::vector<Reference> coord;              ///< SIG: byte planes, most significant first. BG: one
+  Vec2<std::uint32_t> implicitMeshSize{256, 256}; ///< SIG: columns and rows that indices fill
+  std::optional<Reference> index;                 ///< absent: records are drawn in order
+  std::vector<Reference> coord;                   ///< SIG: byte planes, most significant first. BG: one
   std::optional<Reference> normal, texCoord, color;
   friend bool operator==(const PatchDescription&, const PatchDescription&) = default;
 };

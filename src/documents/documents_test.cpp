@@ -359,7 +359,7 @@ TEST(ReadScene, SaysOnWhichLineAFieldIsWrong) {
   };
   for (const std::string fields :
        {"vertexCount='-1'", "vertexCount='4294967296'", "vertexCount='3 3' primType='POINTS'", "index='a#b'",
-        "index='#5'", "index='a#1+4'", "recordCount='1 2'", "bboxSize='1 nan 1'", "bboxSize='1 1'",
+        "index='#5'", "index='a#1+4'", "recordCount='1 2'", "bboxSize='1 nan 1'", "bboxSize='1 1e39 1'", "bboxSize='1 1'",
         "implicitMeshSize='0 1'", "implicitMeshSize='1e9 1'"})
     EXPECT_EQ(kindOfReading(shape(fields), "s.x3d:3"), ErrorKind::malformed) << fields;
 }

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace imgeo {
 
@@ -26,8 +27,8 @@ template <typename T> std::optional<T> parseNumber(std::string_view word) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc{} || end != word.data() + word.size())
     return std::nullopt;
-  if constexpr (std::is_floating_point_v<T>)
-    if (!std::isfinite(value))
+  if constexpr (std::is_floating_point_v<T>) // X3D's numbers are single, so sums of ours never overflow
+    if (!(std::abs(value) <= std::numeric_limits<float>::max()))
       return std::nullopt;
   return value;
 }

@@ -1,0 +1,27 @@
+#include "containers/png/png.h"
+
+#include "patch_input.h"
+
+/// Images are made of raw pixels: behind check sums no mutation would get further
+/// than the PNG reader, which has a target of its own.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace imgeo;
+  fuzz::InputReader input({data, size});
+  GeometryDescription geometry;
+  geometry.container = Container::sig;
+  geometry.lattice.bits = 8 + input.bits(8) % 25;
+  geometry.colorComponents = 3 + input.bits(8) % 2;
+  const PatchDescription patch = fuzz::readDescription(input, input.bits(8) % 5);
+
+  std::map<std::string, Bytes> files;
+  for (std::size_t i = 0; i < 9; ++i) {
+    const std::uint32_t shape = input.bits(8);
+    const std::uint32_t width = shape & 1 ? 256 : 1 + input.bits(8), height = 1u << (shape / 8 % 4);
+    const std::uint32_t channels = shape & 2 ? 4 : shape & 4 ? 1 : 3;
+    Image image{width, height, channels, Bytes(std::size_t{width} * height * channels)};
+    std::ranges::copy(input.take(std::min<std::size_t>(image.pixels.size(), 1 + input.bits(16))),
+                      image.pixels.begin());
+    files[std::to_string(i)] = encodePng(image, 0);
+  }
+  return fuzz::decodeOrRefuse(patch, geometry, files);
+}

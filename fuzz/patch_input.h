@@ -1,0 +1,107 @@
+#pragma once
+// A patch's description and files made of fuzz input, and what holds for
+// whatever a container reader makes of them. Anything else ends the process.
+
+#include "base/error.h"
+#include "containers/container.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+namespace imgeo::fuzz {
+
+inline void require(bool condition) {
+  if (!condition)
+    std::abort();
+}
+
+/// Takes values off the front of the input; zeros behind its end.
+class InputReader {
+public:
+  explicit InputReader(ByteSpan bytes) : bytes_(bytes) {}
+
+  std::uint32_t bits(std::uint32_t count) {
+    std::uint32_t value = 0;
+    for (const std::uint8_t byte : take(count / 8))
+      value = value << 8 | byte;
+    return value;
+  }
+  ByteSpan take(std::size_t count) {
+    const ByteSpan taken = bytes_.first(std::min(count, bytes_.size()));
+    bytes_ = bytes_.subspan(taken.size());
+    return taken;
+  }
+  ByteSpan rest() { return take(bytes_.size()); }
+
+private:
+  ByteSpan bytes_;
+};
+
+/// A patch of at most three draws whose files are called "0", "1" ...: index,
+/// `coords` files of coordinates, normal, texCoord, color, each but coordinates
+/// absent where a bit of the input says so.
+inline PatchDescription readDescription(InputReader& input, std::size_t coords) {
+  PatchDescription patch;
+  const std::uint32_t present = input.bits(8);
+  patch.vertexCount = present & 16 ? input.bits(32) : input.bits(16);
+  for (std::uint32_t draws = 1 + present / 32 % 3; draws > 0; --draws)
+    patch.draws.push_back(
+        {static_cast<Primitive>(input.bits(8) % 4), present & 16 ? input.bits(32) : input.bits(8)});
+  patch.implicitMeshSize = {input.bits(8), 1};
+  std::size_t file = 0;
+  const auto reference = [&] {
+    const std::uint32_t place = input.bits(8);
+    Reference made{std::to_string(file++), place & 15, place / 16};
+    if (place == 255)
+      made.first = input.bits(32), made.stride = input.bits(32);
+    return made;
+  };
+  if (present & 1)
+    patch.index = reference();
+  for (std::size_t i = 0; i < coords; ++i)
+    patch.coord.push_back(reference());
+  if (present & 2)
+    patch.normal = reference();
+  if (present & 4)
+    patch.texCoord = reference();
+  if (present & 8)
+    patch.color = reference();
+  return patch;
+}
+
+/// An Error with a message, or a patch in which everything fits together.
+inline int decodeOrRefuse(const PatchDescription& patch, const GeometryDescription& geometry,
+                          const std::map<std::string, Bytes>& files) {
+  const FetchFile fetch = [&](const std::string& url) {
+    const auto found = files.find(url);
+    if (found == files.end())
+      throw Error(ErrorKind::io, url, "no such file");
+    return found->second;
+  };
+  try {
+    const IndexedPatch decoded = decodePatch(patch, geometry, fetch);
+    const std::size_t count = decoded.vertexCount();
+    require(count > 0 && decoded.indices.empty() == !patch.index);
+    std::uint64_t drawn = 0;
+    for (const Draw& draw : decoded.draws)
+      drawn += draw.count;
+    require(patch.index ? drawn == decoded.indices.size() : drawn <= count);
+    for (const std::uint32_t index : decoded.indices)
+      require(index < count);
+    for (const Vec3u& position : decoded.positions)
+      require(std::max({position.x, position.y, position.z}) <= geometry.lattice.maximum());
+    require(decoded.normals.size() == count || decoded.normals.empty());
+    for (const Vec3f& normal : decoded.normals)
+      require(std::abs(length(Vec3d(normal)) - 1) < 1e-5);
+    require(decoded.texCoords.size() == count || decoded.texCoords.empty());
+    require(decoded.colors.size() == count || decoded.colors.empty());
+  } catch (const Error& error) {
+    require(!error.message().empty());
+  }
+  return 0;
+}
+
+} // namespace imgeo::fuzz

@@ -1,0 +1,78 @@
+// Documents of format version 1, as they were first written: the reader must
+// read them for ever. IMGEO_REWRITE_GOLDEN=1 writes them anew.
+#include "base/file.h"
+#include "documents/documents.h"
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+const std::filesystem::path golden = std::filesystem::path(__FILE__).parent_path() / "golden";
+
+SceneDocument goldenDocument() {
+  GeometryDescription sig;
+  sig.lattice = {{-1.5, 0, 0.25}, 3.0 / 65535, 16};
+  sig.box = {{-1.5, 0, 0.25}, {1.5, 2, 1.25}};
+  PatchDescription patch;
+  patch.box = {{-1.5, 0, 0.25}, {0, 2, 1.25}};
+  patch.vertexCount = 65535;
+  patch.draws = {{Primitive::triangles, 391140}};
+  patch.implicitMeshSize = {1024, 382};
+  patch.index = Reference{"3f786850e387550f.png", 0, 0};
+  patch.coord = {{"89e6c98d92887913.png", 0, 0}, {"2b66fd261ee5c6cf.png", 0, 0}};
+  patch.normal = Reference{"da4b9237bacccdf1.png", 0, 0};
+  sig.patches = {patch, patch};
+  sig.patches[1].box.min.x = 0;
+  sig.patches[1].box.max.x = 1.5;
+  sig.patches[1].normal->first = 4096;
+
+  GeometryDescription bg;
+  bg.container = Container::bg;
+  bg.lattice = {{0, 0, 0}, 0.001, 12};
+  bg.box = {{0, 0, 0}, {1, 1, 0}};
+  bg.texCoordSize = {2, 1};
+  bg.colorComponents = 4;
+  PatchDescription strip;
+  strip.box = bg.box;
+  strip.vertexCount = 12;
+  strip.draws = {{Primitive::triangleStrip, 10}, {Primitive::points, 3}};
+  strip.index = Reference{"1b6453892473a467.bin", 0, 0};
+  strip.coord = {{"c1dfd96eea8cc2b6.bin", 0, 8}};
+  strip.texCoord = Reference{"902ba3cda1883801.bin", 16, 24};
+  strip.color = Reference{"fe5dbbcea5ce7e29.bin", 0, 0};
+  bg.patches = {strip};
+
+  SceneDocument document;
+  document.title = "Statue & base";
+  document.shapes = {{"statue", 0, {}}, {"", 1, {}}};
+  document.shapes[1].material = {{1, 0.5f, 0}, {0.1f, 0.1f, 0.1f}, {0, 0, 0.2f}, 0.3f, 0.4f, 0.5f};
+  document.geometries = {sig, bg};
+  document.viewpoints = {{"Start", {0, 1, 5.5}, {0, 1, 0}, 0.25, 0.7854, {0, 1, 0.75}}};
+  document.lights = {{{0, -1, -1}, {1, 1, 0.9f}, 0.8f}};
+  return document;
+}
+
+std::string goldenText(const std::string& name, const std::string& now) {
+  if (std::getenv("IMGEO_REWRITE_GOLDEN") != nullptr)
+    writeFile(golden / name, asBytes(now));
+  return std::string(asText(readFile(golden / name)));
+}
+
+TEST(GoldenDocuments, AreStillWrittenAndRead) {
+  const SceneDocument document = goldenDocument();
+  const std::string x3d = writeX3d(document), html = writeHtml(document, {"imgeo.js", "imgeo.css"});
+  EXPECT_EQ(x3d, goldenText("document-1.x3d", x3d));
+  EXPECT_EQ(html, goldenText("document-1.html", html));
+  for (const std::string name : {"document-1.x3d", "document-1.html"}) {
+    const SceneDocument read = readScene(asText(readFile(golden / name)), name);
+    ASSERT_EQ(read.geometries.size(), 2u);
+    EXPECT_EQ(read.title, document.title);
+    EXPECT_EQ(read.geometries[0].patches[1].coord, document.geometries[0].patches[1].coord);
+    EXPECT_EQ(read.geometries[1].patches, document.geometries[1].patches);
+  }
+}
+
+} // namespace
+} // namespace imgeo
