@@ -1,6 +1,7 @@
 // Who may use whom: docs/layers.txt against every #include of src/ and every
 // import of web/src/. Unit tests keep to the same rules as the code beside them;
-// only node's own modules and the shared test data of tests/ are theirs alone.
+// only node's own modules, the shared test data of tests/ and what a row
+// "tests of FOLDER" lists are theirs alone.
 import assert from "node:assert/strict";
 import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -66,11 +67,12 @@ function checkFile(layers: Layers, path: string, text: string): string[] {
   const layer = layerOf(layers, path);
   if (layer === undefined) return [`${path}:1: its folder is not in docs/layers.txt`];
   const isCpp = /\.(h|cpp)$/.test(path);
-  const isTest = /\.test\.ts$/.test(path);
+  const isTest = /(\.test(ing)?\.ts|_test\.cpp|\/testing\.h)$/.test(path);
+  const allowed = [layers.get(layer), isTest ? layers.get(`tests of ${layer}`) : undefined];
   const findings: string[] = [];
   for (const { line, target } of isCpp ? usesOfCpp(text) : usesOfTypeScript(path, text)) {
     const used = layerOf(layers, target) ?? packageOf(target);
-    if (used === layer || layers.get(layer)?.has(used)) continue;
+    if (used === layer || allowed.some((names) => names?.has(used))) continue;
     if (isTest && /^(node:|tests\/)/.test(target)) continue;
     findings.push(`${path}:${line}: ${layer} may not use ${used}`);
   }
@@ -123,7 +125,7 @@ function withTree(files: Record<string, string>, body: (tree: string) => void): 
   }
 }
 
-const smallTable = "# who may use whom\nsrc/base:\nsrc/scene: src/base\nweb/src/decode:\nweb/src/render: web/src/decode three\n";
+const smallTable = "# who may use whom\nsrc/base:\nsrc/image: src/base\nsrc/scene: src/base\ntests of src/scene: src/image\nweb/src/decode:\nweb/src/render: web/src/decode three\n";
 
 test("every include and import keeps to docs/layers.txt", () => {
   assert.ok(sourceFiles(root).length > 10, "the sources were not found");
@@ -148,7 +150,8 @@ test("the check finds what breaks the rules, and names its line", () => {
   const tree = {
     "docs/layers.txt": smallTable,
     "src/base/a.h": '#pragma once\n#include "scene/b.h"\n',
-    "src/scene/b.h": '#include "base/a.h"\n#include <vector>\n',
+    "src/scene/b.h": '#include "base/a.h"\n#include <vector>\n#include "image/i.h"\n',
+    "src/image/i_test.cpp": '#include "image/i.h"\n#include "scene/b.h"\n',
     "src/stray/c.cpp": "\n",
     "web/src/decode/png.ts": 'import {\n  Scene,\n} from "three";\nimport { x } from "../render/x.ts";\n',
     "web/src/decode/lazy.ts": 'const late = await import("../render/x.ts");\nexport * from "../render/x.ts";\nimport "three/addons/a.js";\n',
@@ -158,6 +161,8 @@ test("the check finds what breaks the rules, and names its line", () => {
   withTree(tree, (path) => {
     assert.deepEqual(checkTree(path).sort(), [
       "src/base/a.h:2: src/base may not use src/scene",
+      "src/image/i_test.cpp:2: src/image may not use src/scene",
+      "src/scene/b.h:3: src/scene may not use src/image",
       "src/stray/c.cpp:1: its folder is not in docs/layers.txt",
       "web/src/decode/file.ts:1: web/src/decode may not use node:fs",
       "web/src/decode/file.ts:2: web/src/decode may not use tests/y.ts",
@@ -175,6 +180,7 @@ test("a tree that keeps to the rules passes, node's modules in its tests too", (
     "docs/layers.txt": smallTable,
     "web/src/decode/stage.ts": 'export type Name = "three" | "node:fs";\nexport const tag = "three";\n',
     "src/scene/b.cpp": '#include "scene/b.h"\n#include "base/a.h"\n',
+    "src/scene/b_test.cpp": '#include "scene/b.h"\n#include "image/i.h"\n',
     "web/src/render/x.test.ts": 'import { test } from "node:test";\nimport { png } from "../decode/png.ts";\n',
   };
   withTree(tree, (path) => { assert.deepEqual(checkTree(path), []); });
