@@ -36,6 +36,8 @@ Reader readerFor(ByteSpan bytes, const std::string& name) {
     return readStl;
   if (looksLikeObj(bytes))
     return readObj;
+  if (asText(bytes).starts_with("\xff\xfe") || asText(bytes).starts_with("\xfe\xff"))
+    throw Error(ErrorKind::unsupported, name, "is text in UTF-16; imgeo reads ASCII and UTF-8");
   const std::string extension = lowerCase(withoutGz(name).extension());
   if (extension == ".ply")
     return readPly;

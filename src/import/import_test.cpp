@@ -42,6 +42,11 @@ TEST(Import, PassesOverAByteOrderMark) {
   EXPECT_EQ(importBytes(asBytes("\xef\xbb\xbf" + kObj), "a.obj").format, "OBJ");
 }
 
+TEST(Import, SaysThatItDoesNotReadUtf16) {
+  EXPECT_NE(errorOf(std::string_view("\xff\xfev\0 \0", 6), "a.obj").message().find("UTF-16"),
+            std::string::npos);
+}
+
 TEST(Import, NamesTheSceneAfterTheFile) {
   for (const char* name : {"models/bunny.ply", "bunny.ply.gz", "bunny"}) {
     const Scene scene = importBytes(asBytes(kPly), name).scene;

@@ -197,9 +197,12 @@ private:
   void addWarnings(std::vector<std::string>& warnings) const {
     if (hasMaterials_)
       warnings.emplace_back("The materials of the OBJ file (mtllib, usemtl) are not carried over.");
-    if (lines_ + points_ > 0 && !content_.objects.empty())
-      warnings.push_back(fmt::format("Not carried over from the OBJ file: {} of lines and {} of points.",
-                                     counted(lines_, "statement", "statements"), points_));
+    if (lines_ > 0)
+      warnings.push_back(fmt::format("Lines of the OBJ file are not carried over ({}).",
+                                     counted(lines_, "statement", "statements")));
+    if (points_ > 0 && !content_.objects.empty())
+      warnings.push_back(fmt::format("Points of the OBJ file, which has faces, are not carried over ({}).",
+                                     counted(points_, "statement", "statements")));
     if (!others_.empty())
       warnings.push_back(
           fmt::format("Statements of the OBJ file that imgeo does not read: {}.", fmt::join(others_, ", ")));

@@ -112,12 +112,13 @@ TEST(Obj, SaysWhatIsNotCarriedOver) {
     return importBytes(asBytes(text), "m.obj").warnings;
   };
   EXPECT_TRUE(warningsOf("# a comment\n" + kSquare + "s 1\ng top\nf 1 2 3 4\n").empty());
-  EXPECT_EQ(
-      warningsOf(kSquare + "mtllib a.mtl\nusemtl red\nl 1 2\nf 1 2\nf 1 2 3\nparm u 0\n"),
-      (std::vector<std::string>{"The materials of the OBJ file (mtllib, usemtl) are not carried over.",
-                                "Not carried over from the OBJ file: 1 statement of lines and 0 of points.",
-                                "Statements of the OBJ file that imgeo does not read: parm.",
-                                "1 face was left out: fewer than three corners."}));
+  EXPECT_EQ(warningsOf(kSquare + "mtllib a.mtl\nusemtl red\nl 1 2\np 1\np 2\nf 1 2\nf 1 2 3\nparm u 0\n"),
+            (std::vector<std::string>{
+                "The materials of the OBJ file (mtllib, usemtl) are not carried over.",
+                "Lines of the OBJ file are not carried over (1 statement).",
+                "Points of the OBJ file, which has faces, are not carried over (2 statements).",
+                "Statements of the OBJ file that imgeo does not read: parm.",
+                "1 face was left out: fewer than three corners."}));
   EXPECT_EQ(warningsOf(kSquare + "vn 0 0 0\nf 1//1 2//1 3//1\n").at(0),
             "1 normal was replaced by (0, 0, 1): without direction.");
   EXPECT_EQ(warningsOf(kSquare + "vn 0 0 1\nf 1//1 2//1 3\n").at(0),

@@ -47,10 +47,7 @@ public:
       return scanner_.float32("a number");
     if (type == PlyType::float64)
       return scanner_.float64("a number");
-    const std::int64_t value = scanner_.integer("an integer");
-    if (!scanner_.atWordEnd())
-      fail(ErrorKind::malformed, "an integer has more than digits");
-    return static_cast<double>(value);
+    return static_cast<double>(scanner_.integerWord("an integer"));
   }
   void values(PlyType type, std::span<double> out) {
     for (double& value : out)

@@ -57,7 +57,7 @@ PlyElement readElement(TextScanner& line) {
   PlyElement element;
   element.name = nextWord(line);
   line.skipBlanks();
-  const std::int64_t count = line.integer("a number of elements");
+  const std::int64_t count = line.integerWord("a number of elements");
   if (element.name.empty() || count < 0)
     line.fail(ErrorKind::malformed, "the header has an element without a name or with a negative count");
   element.count = static_cast<std::uint64_t>(count);

@@ -260,6 +260,8 @@ TEST(Ply, RefusesWithOneSentenceAndAPlace) {
        "vertex -1 is named"},
       {"a list too long", vertex + face, "0 0 0\n300 0 0\n", ErrorKind::truncated, "m.ply:12",
        "promises 300"},
+      {"a fractional index", vertex + face, "0 0 0\n3 0 0.5 0\n", ErrorKind::malformed, "m.ply:12",
+       "not '0.5'"},
       {"a negative list", vertex + face, "0 0 0\n-3 0 0 0\n", ErrorKind::malformed, "m.ply:12", "negative"},
       {"fractional indices", vertex + "element face 1\nproperty list uchar float vertex_indices\n",
        "0 0 0\n3 0 0 0\n", ErrorKind::malformed, "m.ply:11", "fractions"},

@@ -89,6 +89,15 @@ std::int64_t TextScanner::integer(const char* what) {
   return value;
 }
 
+std::int64_t TextScanner::integerWord(const char* what) {
+  const char* from = at_;
+  const std::int64_t value = integer(what);
+  if (atWordEnd())
+    return value;
+  at_ = from;
+  failNumber(what);
+}
+
 template <typename T> T TextScanner::number(const char* what) {
   const char* from = behindPlus(at_, end_);
   T value = 0;

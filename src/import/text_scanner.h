@@ -55,6 +55,8 @@ public:
   /// The decimal integer here, which ends where its digits end; `what` names it
   /// where there is none.
   std::int64_t integer(const char* what);
+  /// The same where the word must end with it.
+  std::int64_t integerWord(const char* what);
   /// The number here as the nearest float; the word must end with it. "nan" and
   /// "inf" are numbers; what is too large becomes infinite, too small, zero.
   float float32(const char* what);
