@@ -33,13 +33,15 @@ std::string faultOf(const Flag& flag, const std::string& value) {
       return flag.least == flag.most ? fmt::format("{} cannot be honoured, only {}", number, flag.least)
                                      : fmt::format("{} is not within {}..{}", number, flag.least, flag.most);
   }
-  if (value.empty()) return "is empty";
+  if (value.empty())
+    return "is empty";
   return "";
 }
 
 std::size_t editDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t j = 0; j <= b.size(); ++j)
+    row[j] = j;
   for (std::size_t i = 0; i < a.size(); ++i) {
     std::size_t diagonal = std::exchange(row[0], i + 1);
     for (std::size_t j = 0; j < b.size(); ++j)
@@ -50,8 +52,10 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 
 /// ", did you mean NAME?" for the nearest of `names`, if any is near.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
-  const auto nearest = std::ranges::min_element(names, {}, [&](const std::string& name) { return editDistance(word, name); });
-  if (nearest == names.end() || editDistance(word, *nearest) > 1 + nearest->size() / 4) return "";
+  const auto nearest =
+      std::ranges::min_element(names, {}, [&](const std::string& name) { return editDistance(word, name); });
+  if (nearest == names.end() || editDistance(word, *nearest) > 1 + nearest->size() / 4)
+    return "";
   return fmt::format(", did you mean {}?", *nearest);
 }
 
@@ -59,8 +63,10 @@ std::string messageOf(const CLI::ParseError& error, const CLI::App& app, const C
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
     const std::string word = app.remaining().empty() ? "" : app.remaining().front();
     std::vector<std::string> names;
-    for (const Flag& flag : command.flags) names.push_back("--" + flag.name);
-    if (word.starts_with("-")) return fmt::format("there is no option {}{}", word.substr(0, word.find('=')), suggestion(word, names));
+    for (const Flag& flag : command.flags)
+      names.push_back("--" + flag.name);
+    if (word.starts_with("-"))
+      return fmt::format("there is no option {}{}", word.substr(0, word.find('=')), suggestion(word, names));
     return fmt::format("one argument too many: \"{}\"", word);
   }
   return error.what();
@@ -77,8 +83,9 @@ Arguments parseCommand(const Command& command, std::vector<std::string> words) {
       continue;
     }
     // A positional argument with a short name may be given by its long one too.
-    const std::string names =
-        flag.positional ? (flag.aliases.empty() ? flag.name : flag.name + ",--" + flag.name) : "--" + flag.name;
+    const std::string names = flag.positional
+                                  ? (flag.aliases.empty() ? flag.name : flag.name + ",--" + flag.name)
+                                  : "--" + flag.name;
     arguments.values[flag.name] = flag.fallback;
     app.add_option(names, arguments.values[flag.name])->check([&flag](const std::string& value) {
       return faultOf(flag, value);
@@ -88,28 +95,36 @@ Arguments parseCommand(const Command& command, std::vector<std::string> words) {
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
-    if (arguments.has("help")) return arguments;
+    if (arguments.has("help"))
+      return arguments;
     refuse(&command, messageOf(error, app, command));
   }
-  if (arguments.has("help")) return arguments;
+  if (arguments.has("help"))
+    return arguments;
   for (const Flag& flag : command.flags)
     if (flag.required && arguments.values[flag.name].empty())
-      refuse(&command, fmt::format("{} is missing: imgeo {} {}",
-                                   flag.positional ? flag.valueName : fmt::format("--{} {}", flag.name, flag.valueName),
-                                   command.name, command.usage));
+      refuse(&command,
+             fmt::format("{} is missing: imgeo {} {}",
+                         flag.positional ? flag.valueName : fmt::format("--{} {}", flag.name, flag.valueName),
+                         command.name, command.usage));
   return arguments;
 }
 
 /// The long form of one word, where it is a short name of the flag.
 std::optional<std::vector<std::string>> expand(const Flag& flag, const std::string& word) {
   for (const std::string& alias : flag.aliases) {
-    if (!word.starts_with(alias)) continue;
+    if (!word.starts_with(alias))
+      continue;
     const std::string rest = word.substr(alias.size());
-    if (rest.empty()) return std::vector{"--" + flag.name};
-    if (!flag.takesValue()) continue;
-    if (rest.starts_with("=")) return std::vector{"--" + flag.name + rest};
+    if (rest.empty())
+      return std::vector{"--" + flag.name};
+    if (!flag.takesValue())
+      continue;
+    if (rest.starts_with("="))
+      return std::vector{"--" + flag.name + rest};
     const bool isNumber = std::ranges::all_of(rest, [](char c) { return c >= '0' && c <= '9'; });
-    if (flag.value == Value::integer ? isNumber : alias.size() == 2) return std::vector{"--" + flag.name + "=" + rest};
+    if (flag.value == Value::integer ? isNumber : alias.size() == 2)
+      return std::vector{"--" + flag.name + "=" + rest};
   }
   return std::nullopt;
 }
@@ -124,7 +139,8 @@ std::vector<std::string> expandAliases(const Command& command, std::vector<std::
     const bool isShort = !literal && word.size() >= 2 && word[0] == '-' && word[1] != '-';
     std::optional<std::vector<std::string>> replacement;
     for (const Flag& flag : command.flags)
-      if (isShort && !replacement) replacement = expand(flag, word);
+      if (isShort && !replacement)
+        replacement = expand(flag, word);
     if (replacement)
       expanded.insert(expanded.end(), replacement->begin(), replacement->end());
     else
@@ -134,16 +150,21 @@ std::vector<std::string> expandAliases(const Command& command, std::vector<std::
 }
 
 Arguments parseArguments(std::vector<std::string> words) {
-  if (words.empty()) refuse(nullptr, "no command is given");
+  if (words.empty())
+    refuse(nullptr, "no command is given");
   const std::string first = words.front();
   words.erase(words.begin());
-  if (first == "--help" || first == "-h" || (first == "help" && words.empty())) return {nullptr, {}, {{"help", true}, {"version", false}}};
-  if (first == "--version") return {nullptr, {}, {{"help", false}, {"version", true}}};
-  if (first == "help") return parseArguments({words.front(), "--help"});
+  if (first == "--help" || first == "-h" || (first == "help" && words.empty()))
+    return {nullptr, {}, {{"help", true}, {"version", false}}};
+  if (first == "--version")
+    return {nullptr, {}, {{"help", false}, {"version", true}}};
+  if (first == "help")
+    return parseArguments({words.front(), "--help"});
   const Command* command = findCommand(first);
   if (!command) {
     std::vector<std::string> names;
-    for (const Command& known : commands()) names.push_back(known.name);
+    for (const Command& known : commands())
+      names.push_back(known.name);
     refuse(nullptr, fmt::format("there is no command \"{}\"{}", first, suggestion(first, names)));
   }
   return parseCommand(*command, std::move(words));

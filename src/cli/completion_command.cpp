@@ -11,42 +11,55 @@ namespace {
 
 std::vector<std::string> commandNames() {
   std::vector<std::string> names;
-  for (const Command& command : commands()) names.push_back(command.name);
+  for (const Command& command : commands())
+    names.push_back(command.name);
   return names;
 }
 
 /// Every spelling of a flag; of a positional argument none.
 std::vector<std::string> spellings(const Flag& flag) {
   std::vector<std::string> all = flag.aliases;
-  if (!flag.positional) all.push_back("--" + flag.name);
+  if (!flag.positional)
+    all.push_back("--" + flag.name);
   return all;
 }
 
 std::string bashScript() {
-  std::string script = "_imgeo() {\n  local word=\"${COMP_WORDS[COMP_CWORD]}\" before=\"${COMP_WORDS[COMP_CWORD-1]}\"\n"
-                       "  COMPREPLY=()\n  if [[ $COMP_CWORD -eq 1 ]]; then\n"
-                       "    COMPREPLY=($(compgen -W \"" + fmt::format("{}", fmt::join(commandNames(), " ")) + " --help --version\" -- \"$word\"))\n"
-                       "    return\n  fi\n  case \"${COMP_WORDS[1]} $before\" in\n";
+  std::string script =
+      "_imgeo() {\n  local word=\"${COMP_WORDS[COMP_CWORD]}\" before=\"${COMP_WORDS[COMP_CWORD-1]}\"\n"
+      "  COMPREPLY=()\n  if [[ $COMP_CWORD -eq 1 ]]; then\n"
+      "    COMPREPLY=($(compgen -W \"" +
+      fmt::format("{}", fmt::join(commandNames(), " ")) +
+      " --help --version\" -- \"$word\"))\n"
+      "    return\n  fi\n  case \"${COMP_WORDS[1]} $before\" in\n";
   for (const Command& command : commands())
     for (const Flag& flag : command.flags) {
-      if (!flag.takesValue() || spellings(flag).empty()) continue;
+      if (!flag.takesValue() || spellings(flag).empty())
+        continue;
       std::vector<std::string> patterns;
-      for (const std::string& name : spellings(flag)) patterns.push_back(fmt::format("\"{} {}\"", command.name, name));
-      const std::string action = flag.value == Value::choice      ? fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$word\"))", fmt::join(flag.choices, " "))
-                                 : flag.value == Value::directory ? "COMPREPLY=($(compgen -d -- \"$word\"))"
-                                 : flag.value == Value::file      ? "COMPREPLY=($(compgen -f -- \"$word\"))"
-                                                                  : "COMPREPLY=()";
+      for (const std::string& name : spellings(flag))
+        patterns.push_back(fmt::format("\"{} {}\"", command.name, name));
+      const std::string action =
+          flag.value == Value::choice
+              ? fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$word\"))", fmt::join(flag.choices, " "))
+          : flag.value == Value::directory ? "COMPREPLY=($(compgen -d -- \"$word\"))"
+          : flag.value == Value::file      ? "COMPREPLY=($(compgen -f -- \"$word\"))"
+                                           : "COMPREPLY=()";
       script += fmt::format("    {}) {}; return ;;\n", fmt::join(patterns, "|"), action);
     }
   script += "  esac\n  case \"${COMP_WORDS[1]}\" in\n";
   for (const Command& command : commands()) {
     std::vector<std::string> names, words;
     for (const Flag& flag : command.flags) {
-      if (!flag.positional) names.push_back("--" + flag.name);
-      if (flag.positional) words.insert(words.end(), flag.choices.begin(), flag.choices.end());
+      if (!flag.positional)
+        names.push_back("--" + flag.name);
+      if (flag.positional)
+        words.insert(words.end(), flag.choices.begin(), flag.choices.end());
     }
-    script += fmt::format("    {}) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W \"{}\" -- \"$word\")); else COMPREPLY=($(compgen {} -- \"$word\")); fi ;;\n",
-                          command.name, fmt::join(names, " "), words.empty() ? "-f" : fmt::format("-W \"{}\"", fmt::join(words, " ")));
+    script += fmt::format("    {}) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W \"{}\" -- \"$word\")); "
+                          "else COMPREPLY=($(compgen {} -- \"$word\")); fi ;;\n",
+                          command.name, fmt::join(names, " "),
+                          words.empty() ? "-f" : fmt::format("-W \"{}\"", fmt::join(words, " ")));
   }
   return script + "  esac\n}\ncomplete -o filenames -F _imgeo imgeo\n";
 }
@@ -55,7 +68,8 @@ std::string bashScript() {
 std::string zshText(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
-    if (c == '[' || c == ']' || c == ':') escaped += '\\';
+    if (c == '[' || c == ']' || c == ':')
+      escaped += '\\';
     escaped += c == '\'' ? std::string("'\\''") : std::string(1, c);
   }
   return escaped;
@@ -63,17 +77,23 @@ std::string zshText(const std::string& text) {
 
 std::string zshValue(const Flag& flag) {
   switch (flag.value) {
-  case Value::none: return "";
-  case Value::choice: return fmt::format(":{}:({})", flag.name, fmt::join(flag.choices, " "));
-  case Value::file: return fmt::format(":{}:_files", flag.name);
-  case Value::directory: return fmt::format(":{}:_files -/", flag.name);
-  default: return fmt::format(":{}: ", flag.name);
+  case Value::none:
+    return "";
+  case Value::choice:
+    return fmt::format(":{}:({})", flag.name, fmt::join(flag.choices, " "));
+  case Value::file:
+    return fmt::format(":{}:_files", flag.name);
+  case Value::directory:
+    return fmt::format(":{}:_files -/", flag.name);
+  default:
+    return fmt::format(":{}: ", flag.name);
   }
 }
 
 std::string zshScript() {
   std::string script = "#compdef imgeo\n\n_imgeo() {\n  local -a commands=(\n";
-  for (const Command& command : commands()) script += fmt::format("    '{}:{}'\n", command.name, zshText(command.summary));
+  for (const Command& command : commands())
+    script += fmt::format("    '{}:{}'\n", command.name, zshText(command.summary));
   script += "  )\n  if (( CURRENT == 2 )); then\n    _describe command commands\n    return\n  fi\n"
             "  local command=$words[2]\n  shift words\n  (( CURRENT-- ))\n  case $command in\n";
   for (const Command& command : commands()) {
@@ -82,7 +102,8 @@ std::string zshScript() {
       for (const std::string& name : spellings(flag))
         script += fmt::format(" \\\n      '{}[{}]{}'", name, zshText(flag.help), zshValue(flag));
     for (const Flag& flag : command.flags)
-      if (flag.positional) script += fmt::format(" \\\n      '{}'", zshValue(flag));
+      if (flag.positional)
+        script += fmt::format(" \\\n      '{}'", zshValue(flag));
     script += " ;;\n";
   }
   return script + "  esac\n}\n\n_imgeo \"$@\"\n";
@@ -91,7 +112,8 @@ std::string zshScript() {
 std::string fishText(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
-    if (c == '\'' || c == '\\') escaped += '\\';
+    if (c == '\'' || c == '\\')
+      escaped += '\\';
     escaped += c;
   }
   return escaped;
@@ -100,20 +122,28 @@ std::string fishText(const std::string& text) {
 std::string fishScript() {
   std::string script;
   for (const Command& command : commands())
-    script += fmt::format("complete -c imgeo -n __fish_use_subcommand -f -a {} -d '{}'\n", command.name, fishText(command.summary));
+    script += fmt::format("complete -c imgeo -n __fish_use_subcommand -f -a {} -d '{}'\n", command.name,
+                          fishText(command.summary));
   for (const Command& command : commands()) {
-    const std::string here = fmt::format("complete -c imgeo -n '__fish_seen_subcommand_from {}'", command.name);
+    const std::string here =
+        fmt::format("complete -c imgeo -n '__fish_seen_subcommand_from {}'", command.name);
     for (const Flag& flag : command.flags) {
       if (flag.positional) {
-        if (!flag.choices.empty()) script += fmt::format("{} -f -a '{}'\n", here, fmt::join(flag.choices, " "));
+        if (!flag.choices.empty())
+          script += fmt::format("{} -f -a '{}'\n", here, fmt::join(flag.choices, " "));
         continue;
       }
       script += fmt::format("{} -l {}", here, flag.name);
-      for (const std::string& alias : flag.aliases) script += fmt::format(" -{} {}", alias.size() == 2 ? "s" : "o", alias.substr(1));
-      if (flag.value == Value::choice) script += fmt::format(" -x -a '{}'", fmt::join(flag.choices, " "));
-      if (flag.value == Value::text || flag.value == Value::integer) script += " -x";
-      if (flag.value == Value::file) script += " -r -F";
-      if (flag.value == Value::directory) script += " -x -a '(__fish_complete_directories)'";
+      for (const std::string& alias : flag.aliases)
+        script += fmt::format(" -{} {}", alias.size() == 2 ? "s" : "o", alias.substr(1));
+      if (flag.value == Value::choice)
+        script += fmt::format(" -x -a '{}'", fmt::join(flag.choices, " "));
+      if (flag.value == Value::text || flag.value == Value::integer)
+        script += " -x";
+      if (flag.value == Value::file)
+        script += " -r -F";
+      if (flag.value == Value::directory)
+        script += " -x -a '(__fish_complete_directories)'";
       script += fmt::format(" -d '{}'\n", fishText(flag.help));
     }
   }

@@ -15,18 +15,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The value at a choice's place in the flag table.
-template <typename Value> Value chosen(const Arguments& arguments, const std::string& name, std::initializer_list<Value> values) {
+template <typename Value>
+Value chosen(const Arguments& arguments, const std::string& name, std::initializer_list<Value> values) {
   for (const Flag& flag : arguments.command->flags)
     if (flag.name == name)
       for (std::size_t i = 0; i < values.size(); ++i)
-        if (flag.choices[i] == arguments.text(name)) return values.begin()[i];
+        if (flag.choices[i] == arguments.text(name))
+          return values.begin()[i];
   return *values.begin();
 }
 
 ConvertOptions optionsFrom(const Arguments& arguments) {
   ConvertOptions options;
   options.container = chosen(arguments, "container", {Container::sig, Container::bg});
-  options.primitives = chosen(arguments, "primitives", {Primitives::triangles, Primitives::strips, Primitives::points});
+  options.primitives =
+      chosen(arguments, "primitives", {Primitives::triangles, Primitives::strips, Primitives::points});
   options.normalWeighting = chosen(arguments, "normal-weighting",
                                    {NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform});
   options.positionBits = static_cast<std::uint32_t>(arguments.integer("position-bits"));
@@ -49,7 +52,8 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
   json["output"] = arguments.text("output");
   json["format"] = report.format;
   json["sourceBytes"] = report.sourceBytes;
-  for (const char* name : {"container", "profile", "target", "primitives"}) json[name] = arguments.text(name);
+  for (const char* name : {"container", "profile", "target", "primitives"})
+    json[name] = arguments.text(name);
   json["positionBits"] = arguments.integer("position-bits");
   json["normalBits"] = arguments.integer("normal-bits");
   json["patchVertices"] = arguments.integer("patch-vertices");
@@ -79,37 +83,56 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
   return json;
 }
 
-std::string textOf(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string textOf(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
-void printLine(const std::string& label, const std::string& text) { fmt::print("{} {}\n", bold(fmt::format("{:10}", label)), text); }
+void printLine(const std::string& label, const std::string& text) {
+  fmt::print("{} {}\n", bold(fmt::format("{:10}", label)), text);
+}
 
 void printChoices(const Arguments& arguments, const ConvertReport& report) {
   const bool isSig = arguments.text("container") == "sig";
-  const std::string elements = report.triangles > 0 || report.points == 0 ? grouped(report.triangles) + " triangles"
-                                                                          : grouped(report.points) + " points";
-  printLine("source", fmt::format("{}, {}: {} from {} vertices", report.format, byteSize(report.sourceBytes), elements, grouped(report.vertices)));
-  printLine("container", fmt::format("{}, profile {}, target {}, {}", isSig ? "sig (PNG images)" : "bg (typed arrays)", arguments.text("profile"),
-                                     arguments.text("target"), report.triangles == 0 ? "points" : arguments.text("primitives")));
-  printLine("positions", fmt::format("{} bits: step {:.4g}, so off by at most {:.4g} an axis, in units of the source",
-                                     report.lattice.bits, report.lattice.step, report.lattice.step / 2));
-  printLine("normals", fmt::format("{} bits, {}", arguments.integer("normal-bits"),
-                                   report.normalsComputed ? "computed: triangles count by " + std::string(arguments.text("normal-weighting") == "area" ? "their area" : arguments.text("normal-weighting") == "angle" ? "their angle" : "one each")
-                                                          : "the source's, where it has any"));
-  printLine("patches", fmt::format("{} of at most {} vertices", report.patches, grouped(static_cast<std::uint64_t>(arguments.integer("patch-vertices")))));
+  const std::string elements = report.triangles > 0 || report.points == 0
+                                   ? grouped(report.triangles) + " triangles"
+                                   : grouped(report.points) + " points";
+  printLine("source", fmt::format("{}, {}: {} from {} vertices", report.format, byteSize(report.sourceBytes),
+                                  elements, grouped(report.vertices)));
+  printLine("container",
+            fmt::format("{}, profile {}, target {}, {}", isSig ? "sig (PNG images)" : "bg (typed arrays)",
+                        arguments.text("profile"), arguments.text("target"),
+                        report.triangles == 0 ? "points" : arguments.text("primitives")));
+  printLine("positions",
+            fmt::format("{} bits: step {:.4g}, so off by at most {:.4g} an axis, in units of the source",
+                        report.lattice.bits, report.lattice.step, report.lattice.step / 2));
+  printLine("normals",
+            fmt::format("{} bits, {}", arguments.integer("normal-bits"),
+                        report.normalsComputed
+                            ? "computed: triangles count by " +
+                                  std::string(arguments.text("normal-weighting") == "area"    ? "their area"
+                                              : arguments.text("normal-weighting") == "angle" ? "their angle"
+                                                                                              : "one each")
+                            : "the source's, where it has any"));
+  printLine("patches", fmt::format("{} of at most {} vertices", report.patches,
+                                   grouped(static_cast<std::uint64_t>(arguments.integer("patch-vertices")))));
   const WeldReport& weld = report.weld;
-  printLine("welding", fmt::format("merged {} positions and {} wedges, dropped {} unreferenced positions", grouped(weld.mergedPositions),
-                                   grouped(weld.mergedWedges), grouped(weld.unreferencedPositions)));
+  printLine("welding", fmt::format("merged {} positions and {} wedges, dropped {} unreferenced positions",
+                                   grouped(weld.mergedPositions), grouped(weld.mergedWedges),
+                                   grouped(weld.unreferencedPositions)));
   if (weld.degenerateElements + weld.duplicateElements > 0)
-    printLine("", fmt::format("kept {} degenerate and {} repeated elements", grouped(weld.degenerateElements), grouped(weld.duplicateElements)));
+    printLine("", fmt::format("kept {} degenerate and {} repeated elements", grouped(weld.degenerateElements),
+                              grouped(weld.duplicateElements)));
 }
 
 void printBytes(const ConvertReport& report) {
-  fmt::print("\n{}\n", bold(fmt::format("{:10} {:>7} {:>14} {:>16}", "role", "files", "bytes", "bytes/triangle")));
+  fmt::print("\n{}\n",
+             bold(fmt::format("{:10} {:>7} {:>14} {:>16}", "role", "files", "bytes", "bytes/triangle")));
   RoleBytes sum{"together", 0, 0};
   const auto print = [&](const RoleBytes& role) {
     const bool counts = report.triangles > 0;
     const double each = counts ? static_cast<double>(role.bytes) / static_cast<double>(report.triangles) : 0;
-    fmt::print("{:10} {:>7} {:>14} {:>16}\n", role.role, role.files, grouped(role.bytes), counts ? fmt::format("{:.3f}", each) : "");
+    fmt::print("{:10} {:>7} {:>14} {:>16}\n", role.role, role.files, grouped(role.bytes),
+               counts ? fmt::format("{:.3f}", each) : "");
   };
   for (const RoleBytes& role : report.roles) {
     print(role);
@@ -117,12 +140,15 @@ void printBytes(const ConvertReport& report) {
     sum.files += role.files;
   }
   print(sum);
-  if (report.triangles > 0) fmt::print("\nGeometry takes {:.3f} bytes a triangle, its nodes in the document included.\n", report.bytesPerTriangle);
+  if (report.triangles > 0)
+    fmt::print("\nGeometry takes {:.3f} bytes a triangle, its nodes in the document included.\n",
+               report.bytesPerTriangle);
 }
 
 void printFiles(const std::filesystem::path& site) {
   fmt::print("\n");
-  for (const SiteFile& file : inspect(site).files) fmt::print("{:10} {:>14}  {}\n", file.role, grouped(file.bytes), file.path);
+  for (const SiteFile& file : inspect(site).files)
+    fmt::print("{:10} {:>14}  {}\n", file.role, grouped(file.bytes), file.path);
 }
 
 } // namespace
@@ -134,23 +160,28 @@ int runConvert(const Arguments& arguments) {
   ConvertReport report;
   {
     ProgressBar bar;
-    report = convert(arguments.text("input"), output, optionsFrom(arguments), [&](double share, const std::string& doing) {
-      throwIfInterrupted();
-      bar.show(share, doing);
-    });
+    report = convert(arguments.text("input"), output, optionsFrom(arguments),
+                     [&](double share, const std::string& doing) {
+                       throwIfInterrupted();
+                       bar.show(share, doing);
+                     });
   }
-  for (const std::string& warning : report.warnings) fmt::print(stderr, "imgeo: warning: {}\n", warning);
+  for (const std::string& warning : report.warnings)
+    fmt::print(stderr, "imgeo: warning: {}\n", warning);
   const Json json = jsonOf(arguments, report);
-  if (!arguments.text("report").empty()) writeFile(arguments.text("report"), asBytes(textOf(json)));
+  if (!arguments.text("report").empty())
+    writeFile(arguments.text("report"), asBytes(textOf(json)));
   if (arguments.has("json")) {
     fmt::print("{}", textOf(json));
     return 0;
   }
   printChoices(arguments, report);
   printBytes(report);
-  if (arguments.has("verbose")) printFiles(output);
-  fmt::print("It took {:.2f} s (import {:.2f}, prepare {:.2f}, encode {:.2f}) and at most {} of memory.\n", report.totalSeconds,
-             report.importSeconds, report.prepareSeconds, report.encodeSeconds, byteSize(report.peakMemoryBytes));
+  if (arguments.has("verbose"))
+    printFiles(output);
+  fmt::print("It took {:.2f} s (import {:.2f}, prepare {:.2f}, encode {:.2f}) and at most {} of memory.\n",
+             report.totalSeconds, report.importSeconds, report.prepareSeconds, report.encodeSeconds,
+             byteSize(report.peakMemoryBytes));
   fmt::print("\nTo look at it: imgeo serve {}\n", output);
   return 0;
 }

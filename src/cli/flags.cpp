@@ -6,15 +6,25 @@ namespace imgeo::cli {
 
 namespace {
 
-Flag helpFlag() { return {.name = "help", .aliases = {"-h"}, .help = "print this help"}; }
-Flag jsonFlag(const std::string& what) { return {.name = "json", .help = "print " + what + " as JSON"}; }
+Flag helpFlag() {
+  return {.name = "help", .aliases = {"-h"}, .help = "print this help"};
+}
+Flag jsonFlag(const std::string& what) {
+  return {.name = "json", .help = "print " + what + " as JSON"};
+}
 
 Flag positional(const std::string& name, const std::string& valueName, Value value, const std::string& help) {
-  return {.name = name, .value = value, .valueName = valueName, .help = help, .positional = true, .required = true};
+  return {.name = name,
+          .value = value,
+          .valueName = valueName,
+          .help = help,
+          .positional = true,
+          .required = true};
 }
 
 Flag choice(const std::string& name, std::vector<std::string> choices, const std::string& help) {
-  return {.name = name, .value = Value::choice, .help = help, .fallback = choices.front(), .choices = choices};
+  return {
+      .name = name, .value = Value::choice, .help = help, .fallback = choices.front(), .choices = choices};
 }
 
 Flag integer(const std::string& name, std::vector<std::string> aliases, std::int64_t least, std::int64_t most,
@@ -33,69 +43,106 @@ Command convertCommand() {
   Flag input = positional("input", "INPUT", Value::file,
                           "PLY, OBJ or STL file, gzipped or not; \"-\" reads standard input");
   input.aliases = {"-i"};
-  Flag output{.name = "output", .aliases = {"-o"}, .value = Value::directory, .valueName = "DIR",
-              .help = "the site's directory; an older site there is replaced in one step", .required = true};
-  Flag report{.name = "report", .aliases = {"-r"}, .value = Value::file, .valueName = "FILE",
+  Flag output{.name = "output",
+              .aliases = {"-o"},
+              .value = Value::directory,
+              .valueName = "DIR",
+              .help = "the site's directory; an older site there is replaced in one step",
+              .required = true};
+  Flag report{.name = "report",
+              .aliases = {"-r"},
+              .value = Value::file,
+              .valueName = "FILE",
               .help = "write a report of what was chosen and measured, as JSON"};
   return {
       .name = "convert",
       .usage = "INPUT -o DIR [options]",
       .summary = "turn a mesh into a page that shows it progressively",
-      .text = "Writes a static site: index.html, the scene as X3D, the runtime, and the mesh's vertex data in files "
-              "named by their content. The directory takes its place in one step; killed at any moment, it is the old "
+      .text = "Writes a static site: index.html, the scene as X3D, the runtime, and the mesh's vertex data "
+              "in files "
+              "named by their content. The directory takes its place in one step; killed at any moment, it "
+              "is the old "
               "site or the new one.",
-      .flags = {input, output,
+      .flags = {input,
+                output,
                 choice("container", {"sig", "bg"}, "sig: PNG images that the GPU decodes; bg: typed arrays"),
                 choice("profile", {"classic"}, "classic: the layout that X3DOM 1.7 reads as well"),
                 choice("target", {"web"}, "web: a page with its own runtime"),
-                choice("primitives", {"triangles", "strips", "points"}, "how patches are drawn; a point cloud is always points"),
-                integer("position-bits", {"-vp", "-qp"}, 8, 32, "16", "bits of a coordinate, 8..32, on one lattice over the whole mesh"),
-                integer("normal-bits", {"-vn", "-qn"}, 8, 32, "8", "bits of a normal's component; sig: 8; bg: 8, 16 or 32"),
-                integer("texcoord-bits", {"-vt", "-qt"}, 16, 16, "16", "bits of a texture coordinate; classic has 16"),
+                choice("primitives", {"triangles", "strips", "points"},
+                       "how patches are drawn; a point cloud is always points"),
+                integer("position-bits", {"-vp", "-qp"}, 8, 32, "16",
+                        "bits of a coordinate, 8..32, on one lattice over the whole mesh"),
+                integer("normal-bits", {"-vn", "-qn"}, 8, 32, "8",
+                        "bits of a normal's component; sig: 8; bg: 8, 16 or 32"),
+                integer("texcoord-bits", {"-vt", "-qt"}, 16, 16, "16",
+                        "bits of a texture coordinate; classic has 16"),
                 integer("color-bits", {"-vc"}, 8, 8, "8", "bits of a colour's component; classic has 8"),
-                integer("patch-vertices", {}, 256, 65535, "65535", "the most vertices in one patch, 256..65535"),
-                choice("normal-weighting", {"area", "angle", "uniform"}, "how triangles count in normals that the source lacks"),
-                {.name = "title", .value = Value::text, .valueName = "TEXT", .help = "the page's title; otherwise the input's name"},
+                integer("patch-vertices", {}, 256, 65535, "65535",
+                        "the most vertices in one patch, 256..65535"),
+                choice("normal-weighting", {"area", "angle", "uniform"},
+                       "how triangles count in normals that the source lacks"),
+                {.name = "title",
+                 .value = Value::text,
+                 .valueName = "TEXT",
+                 .help = "the page's title; otherwise the input's name"},
                 integer("effort", {}, 0, 9, "5", "how hard to compress: 0 fastest, 9 smallest"),
-                integer("threads", {}, 0, 1024, "0", "how many threads to use; 0: all. The site is the same with any number"),
-                {.name = "force", .help = "replace DIR with everything in it, even if it is not a site of ours"},
-                report, jsonFlag("the report"),
-                {.name = "verbose", .aliases = {"-v"}, .help = "list every file that was written"}, helpFlag()},
-      .examples = {"imgeo convert statue.ply -o site", "imgeo convert statue.ply.gz -o site --container bg --normal-bits 16",
-                   "imgeo convert cloud.ply -o site -vp 20 --title \"The cave\"", "curl -s https://example.org/part.stl | imgeo convert - -o site",
+                integer("threads", {}, 0, 1024, "0",
+                        "how many threads to use; 0: all. The site is the same with any number"),
+                {.name = "force",
+                 .help = "replace DIR with everything in it, even if it is not a site of ours"},
+                report,
+                jsonFlag("the report"),
+                {.name = "verbose", .aliases = {"-v"}, .help = "list every file that was written"},
+                helpFlag()},
+      .examples = {"imgeo convert statue.ply -o site",
+                   "imgeo convert statue.ply.gz -o site --container bg --normal-bits 16",
+                   "imgeo convert cloud.ply -o site -vp 20 --title \"The cave\"",
+                   "curl -s https://example.org/part.stl | imgeo convert - -o site",
                    "imgeo convert statue.ply -o site --json | jq .bytesPerTriangle"}};
 }
 
 Command infoCommand() {
-  return {.name = "info",
-          .usage = "PATH [--json]",
-          .summary = "say what a site or a mesh file holds, and where its bytes are",
-          .text = "PATH is a site's directory, its index.html or scene.x3d, a file of vertex data, or a mesh to convert.",
-          .flags = {positional("path", "PATH", Value::file, "a site or a file"), jsonFlag("it"), helpFlag()},
-          .examples = {"imgeo info site", "imgeo info site --json | jq .documentBytes", "imgeo info statue.ply"}};
+  return {
+      .name = "info",
+      .usage = "PATH [--json]",
+      .summary = "say what a site or a mesh file holds, and where its bytes are",
+      .text = "PATH is a site's directory, its index.html or scene.x3d, a file of vertex data, or a mesh to "
+              "convert.",
+      .flags = {positional("path", "PATH", Value::file, "a site or a file"), jsonFlag("it"), helpFlag()},
+      .examples = {"imgeo info site", "imgeo info site --json | jq .documentBytes", "imgeo info statue.ply"}};
 }
 
 Command verifyCommand() {
-  return {.name = "verify",
-          .usage = "DIR INPUT [--json]",
-          .summary = "read a site back and prove that it equals its input",
-          .text = "Compares every triangle or point of the site with the input, welded as convert does it: the same "
-                  "elements in the same orientation, positions within half a step of the lattice, normals within the "
-                  "rounding of their bits. Checks that every file is there and holds what its name says. Exits with 0 "
-                  "only if all of that is so, with 3 if not.",
-          .flags = {positional("site", "DIR", Value::directory, "the site"),
-                    positional("input", "INPUT", Value::file, "the file it was converted from"), jsonFlag("the result"), helpFlag()},
-          .examples = {"imgeo verify site statue.ply", "imgeo verify site statue.ply --json | jq .normalErrorDegrees"}};
+  return {
+      .name = "verify",
+      .usage = "DIR INPUT [--json]",
+      .summary = "read a site back and prove that it equals its input",
+      .text =
+          "Compares every triangle or point of the site with the input, welded as convert does it: the same "
+          "elements in the same orientation, positions within half a step of the lattice, normals within the "
+          "rounding of their bits. Checks that every file is there and holds what its name says. Exits with "
+          "0 "
+          "only if all of that is so, with 3 if not.",
+      .flags = {positional("site", "DIR", Value::directory, "the site"),
+                positional("input", "INPUT", Value::file, "the file it was converted from"),
+                jsonFlag("the result"), helpFlag()},
+      .examples = {"imgeo verify site statue.ply",
+                   "imgeo verify site statue.ply --json | jq .normalErrorDegrees"}};
 }
 
 Command serveCommand() {
-  Flag host{.name = "host", .value = Value::text, .valueName = "A", .help = "the address to listen on; 0.0.0.0 for every network", .fallback = "127.0.0.1"};
+  Flag host{.name = "host",
+            .value = Value::text,
+            .valueName = "A",
+            .help = "the address to listen on; 0.0.0.0 for every network",
+            .fallback = "127.0.0.1"};
   return {.name = "serve",
           .usage = "DIR [--port N] [--host A]",
           .summary = "serve a directory over HTTP until Ctrl-C",
           .text = "Prints the address when it listens.",
           .flags = {positional("site", "DIR", Value::directory, "the directory to serve"),
-                    integer("port", {}, 0, 65535, "8080", "the port to listen on; 0: any that is free"), host, helpFlag()},
+                    integer("port", {}, 0, 65535, "8080", "the port to listen on; 0: any that is free"), host,
+                    helpFlag()},
           .examples = {"imgeo serve site", "imgeo serve site --port 0 --host 0.0.0.0"}};
 }
 
@@ -113,7 +160,11 @@ Command completionCommand() {
 }
 
 Command manualCommand() {
-  return {.name = "manual", .usage = "", .summary = "print the manual page", .text = "", .flags = {helpFlag()},
+  return {.name = "manual",
+          .usage = "",
+          .summary = "print the manual page",
+          .text = "",
+          .flags = {helpFlag()},
           .examples = {"imgeo manual > imgeo.1 && man ./imgeo.1"}};
 }
 
@@ -131,11 +182,12 @@ const Command* findCommand(const std::string& name) {
 }
 
 std::span<const ExitCode> exitCodes() {
-  static const std::vector<ExitCode> all{{0, "done; for verify: equal"},
-                                         {1, "wrong usage: an option that cannot be honoured, a directory that is not ours"},
-                                         {2, "a file could not be read or written, an address not be had"},
-                                         {3, "bad input: truncated, malformed, unsupported or too large; for verify: not equal"},
-                                         {4, "an internal fault"}};
+  static const std::vector<ExitCode> all{
+      {0, "done; for verify: equal"},
+      {1, "wrong usage: an option that cannot be honoured, a directory that is not ours"},
+      {2, "a file could not be read or written, an address not be had"},
+      {3, "bad input: truncated, malformed, unsupported or too large; for verify: not equal"},
+      {4, "an internal fault"}};
   return all;
 }
 

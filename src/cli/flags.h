@@ -13,15 +13,15 @@ namespace imgeo::cli {
 enum class Value : std::uint8_t { none, text, file, directory, integer, choice };
 
 struct Flag {
-  std::string name;                 ///< "position-bits"; of a positional argument "input"
+  std::string name;                   ///< "position-bits"; of a positional argument "input"
   std::vector<std::string> aliases{}; ///< short names: "-vp", "-qp"
   Value value = Value::none;
-  std::string valueName{};          ///< "N", "DIR"
-  std::string help{};               ///< begins in lower case, no full stop
-  std::string fallback{};           ///< the value where the flag is not given
+  std::string valueName{};            ///< "N", "DIR"
+  std::string help{};                 ///< begins in lower case, no full stop
+  std::string fallback{};             ///< the value where the flag is not given
   std::vector<std::string> choices{}; ///< Value::choice
-  std::int64_t least = 0, most = 0; ///< Value::integer
-  bool positional = false;          ///< may be given without its name
+  std::int64_t least = 0, most = 0;   ///< Value::integer
+  bool positional = false;            ///< may be given without its name
   bool required = false;
 
   bool takesValue() const { return value != Value::none; }

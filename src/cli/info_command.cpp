@@ -14,12 +14,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void printJson(const Json& json) { fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace)); }
+void printJson(const Json& json) {
+  fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+}
 
 Json jsonOf(const SiteInfo& info) {
-  Json json{{"triangles", info.triangles},           {"vertices", info.vertices},
-            {"patches", info.patches},               {"documentBytes", info.documentBytes},
-            {"containerBytes", info.containerBytes}, {"runtimeBytes", info.runtimeBytes},
+  Json json{{"triangles", info.triangles},
+            {"vertices", info.vertices},
+            {"patches", info.patches},
+            {"documentBytes", info.documentBytes},
+            {"containerBytes", info.containerBytes},
+            {"runtimeBytes", info.runtimeBytes},
             {"bytesPerTriangle", info.bytesPerTriangle}};
   json["files"] = Json::array();
   for (const SiteFile& file : info.files)
@@ -27,7 +32,9 @@ Json jsonOf(const SiteInfo& info) {
   return json;
 }
 
-bool isFetched(const std::string& role) { return role != "scene" && role != "marker"; }
+bool isFetched(const std::string& role) {
+  return role != "scene" && role != "marker";
+}
 
 void printSite(const SiteInfo& info) {
   fmt::print("{}, {} vertices, {} {}\n\n",
@@ -41,50 +48,68 @@ void printSite(const SiteInfo& info) {
   std::map<std::string, Sum> sums;
   std::uint64_t fetched = 0;
   for (const SiteFile& file : info.files) {
-    if (!sums.contains(file.role)) roles.push_back(file.role);
+    if (!sums.contains(file.role))
+      roles.push_back(file.role);
     sums[file.role].files += 1;
     sums[file.role].bytes += file.bytes;
-    if (isFetched(file.role)) fetched += file.bytes;
+    if (isFetched(file.role))
+      fetched += file.bytes;
   }
-  const auto share = [&](std::uint64_t bytes) { return fmt::format("{:.2f} %", 100.0 * static_cast<double>(bytes) / static_cast<double>(fetched)); };
+  const auto share = [&](std::uint64_t bytes) {
+    return fmt::format("{:.2f} %", 100.0 * static_cast<double>(bytes) / static_cast<double>(fetched));
+  };
   fmt::print("{}\n", bold(fmt::format("{:10} {:>7} {:>14} {:>9}", "role", "files", "bytes", "share")));
   for (const std::string& role : roles)
-    fmt::print("{:10} {:>7} {:>14} {:>9}\n", role, sums[role].files, grouped(sums[role].bytes), isFetched(role) ? share(sums[role].bytes) : "");
+    fmt::print("{:10} {:>7} {:>14} {:>9}\n", role, sums[role].files, grouped(sums[role].bytes),
+               isFetched(role) ? share(sums[role].bytes) : "");
   fmt::print("{:10} {:>7} {:>14}\n\n", "fetched", "", grouped(fetched));
   fmt::print("The document is {} of what a browser fetches.\n", share(info.documentBytes));
-  if (info.triangles > 0) fmt::print("Geometry takes {:.3f} bytes a triangle, its nodes in the document included.\n", info.bytesPerTriangle);
+  if (info.triangles > 0)
+    fmt::print("Geometry takes {:.3f} bytes a triangle, its nodes in the document included.\n",
+               info.bytesPerTriangle);
 }
 
 Json jsonOf(const SourceInfo& info) {
   const auto vector = [](Vec3d v) { return Json{v.x, v.y, v.z}; };
-  return {{"format", info.format},       {"bytes", info.bytes},         {"shapes", info.shapes},
-          {"triangles", info.triangles}, {"points", info.points},       {"vertices", info.vertices},
-          {"normals", info.normals},     {"texCoords", info.texCoords}, {"colors", info.colors},
-          {"boxMin", vector(info.box.min)}, {"boxMax", vector(info.box.max)}, {"warnings", info.warnings}};
+  return {{"format", info.format},          {"bytes", info.bytes},
+          {"shapes", info.shapes},          {"triangles", info.triangles},
+          {"points", info.points},          {"vertices", info.vertices},
+          {"normals", info.normals},        {"texCoords", info.texCoords},
+          {"colors", info.colors},          {"boxMin", vector(info.box.min)},
+          {"boxMax", vector(info.box.max)}, {"warnings", info.warnings}};
 }
 
 void printSource(const SourceInfo& info) {
   const auto has = [](bool there, const char* name) { return fmt::format("{}{}", there ? "" : "no ", name); };
-  fmt::print("{}, {}: {} triangles, {} points, {} vertices in {} {}\n", info.format, byteSize(info.bytes), grouped(info.triangles),
-             grouped(info.points), grouped(info.vertices), info.shapes, info.shapes == 1 ? "shape" : "shapes");
-  fmt::print("{}, {}, {}\n", has(info.normals, "normals"), has(info.texCoords, "texture coordinates"), has(info.colors, "colours"));
+  fmt::print("{}, {}: {} triangles, {} points, {} vertices in {} {}\n", info.format, byteSize(info.bytes),
+             grouped(info.triangles), grouped(info.points), grouped(info.vertices), info.shapes,
+             info.shapes == 1 ? "shape" : "shapes");
+  fmt::print("{}, {}, {}\n", has(info.normals, "normals"), has(info.texCoords, "texture coordinates"),
+             has(info.colors, "colours"));
   if (!info.box.empty())
-    fmt::print("box {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n", info.box.min.x, info.box.min.y, info.box.min.z, info.box.max.x, info.box.max.y, info.box.max.z);
-  for (const std::string& warning : info.warnings) fmt::print(stderr, "imgeo: warning: {}\n", warning);
+    fmt::print("box {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n", info.box.min.x, info.box.min.y,
+               info.box.min.z, info.box.max.x, info.box.max.y, info.box.max.z);
+  for (const std::string& warning : info.warnings)
+    fmt::print(stderr, "imgeo: warning: {}\n", warning);
 }
 
 Json jsonOf(const GeometryFileInfo& info) {
   Json json{{"kind", info.kind}, {"bytes", info.bytes}, {"namedByContent", info.namedByContent}};
-  if (info.channels > 0) json.update({{"width", info.width}, {"height", info.height}, {"channels", info.channels}});
+  if (info.channels > 0)
+    json.update({{"width", info.width}, {"height", info.height}, {"channels", info.channels}});
   return json;
 }
 
 void printGeometryFile(const GeometryFileInfo& info) {
-  const std::string size = info.channels > 0 ? fmt::format(", {} x {} pixels of {} channels", info.width, info.height, info.channels) : "";
-  fmt::print("{}{}, {} bytes; its name {} its content\n", info.kind, size, grouped(info.bytes), info.namedByContent ? "says" : "does not say");
+  const std::string size = info.channels > 0 ? fmt::format(", {} x {} pixels of {} channels", info.width,
+                                                           info.height, info.channels)
+                                             : "";
+  fmt::print("{}{}, {} bytes; its name {} its content\n", info.kind, size, grouped(info.bytes),
+             info.namedByContent ? "says" : "does not say");
 }
 
-template <typename Info> int print(const Arguments& arguments, const Info& info, void (*asText)(const Info&)) {
+template <typename Info>
+int print(const Arguments& arguments, const Info& info, void (*asText)(const Info&)) {
   if (arguments.has("json"))
     printJson(jsonOf(info));
   else
@@ -100,7 +125,8 @@ int runInfo(const Arguments& arguments) {
   const std::string extension = path.extension();
   if (std::filesystem::is_directory(path, none) || extension == ".html" || extension == ".x3d")
     return print(arguments, inspect(path), printSite);
-  if (extension == ".png" || extension == ".bin") return print(arguments, inspectGeometryFile(path), printGeometryFile);
+  if (extension == ".png" || extension == ".bin")
+    return print(arguments, inspectGeometryFile(path), printGeometryFile);
   return print(arguments, inspectSource(path), printSource);
 }
 

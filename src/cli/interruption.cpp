@@ -11,7 +11,9 @@ namespace {
 std::atomic<int> notedSignal{0};
 static_assert(std::atomic<int>::is_always_lock_free, "signal handlers may touch nothing else");
 
-void note(int signal) { notedSignal = signal; }
+void note(int signal) {
+  notedSignal = signal;
+}
 
 } // namespace
 
@@ -22,12 +24,14 @@ void noteInterruptions() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr); // nohup stays nohup
+    if (before.sa_handler != SIG_IGN)
+      sigaction(signal, &action, nullptr); // nohup stays nohup
   }
 }
 
 void throwIfInterrupted() {
-  if (const int signal = notedSignal) throw Interrupted{signal};
+  if (const int signal = notedSignal)
+    throw Interrupted{signal};
 }
 
 void endBy(Interrupted interrupted) {

@@ -23,11 +23,16 @@ int run(const Arguments& arguments) {
     return 0;
   }
   const std::string& name = arguments.command->name;
-  if (name == "convert") return runConvert(arguments);
-  if (name == "info") return runInfo(arguments);
-  if (name == "verify") return runVerify(arguments);
-  if (name == "serve") return runServe(arguments);
-  if (name == "completion") return runCompletion(arguments);
+  if (name == "convert")
+    return runConvert(arguments);
+  if (name == "info")
+    return runInfo(arguments);
+  if (name == "verify")
+    return runVerify(arguments);
+  if (name == "serve")
+    return runServe(arguments);
+  if (name == "completion")
+    return runCompletion(arguments);
   return runManual(arguments);
 }
 
@@ -40,7 +45,8 @@ int report(int code, const std::string& message) {
 int runAndReport(int count, char** words) {
   try {
     const int code = run(parseArguments({words + 1, words + count}));
-    if (std::fflush(stdout) != 0) return report(exitCode(ErrorKind::io), "standard output cannot be written");
+    if (std::fflush(stdout) != 0)
+      return report(exitCode(ErrorKind::io), "standard output cannot be written");
     return code;
   } catch (const Interrupted& interrupted) {
     report(0, "interrupted; nothing has changed");
@@ -62,4 +68,6 @@ int runAndReport(int count, char** words) {
 
 } // namespace imgeo::cli
 
-int main(int count, char** words) { return imgeo::cli::runAndReport(count, words); }
+int main(int count, char** words) {
+  return imgeo::cli::runAndReport(count, words);
+}

@@ -27,7 +27,8 @@ std::string bold(const std::string& text) {
 
 std::string grouped(std::uint64_t number) {
   std::string digits = std::to_string(number);
-  for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, ",");
+  for (std::size_t at = digits.size(); at > 3; at -= 3)
+    digits.insert(at - 3, ",");
   return digits;
 }
 
@@ -35,24 +36,30 @@ std::string byteSize(std::uint64_t bytes) {
   constexpr std::array units{"B", "kB", "MB", "GB", "TB"};
   double size = static_cast<double>(bytes);
   std::size_t unit = 0;
-  for (; size >= 999.5 && unit + 1 < units.size(); ++unit) size /= 1000;
+  for (; size >= 999.5 && unit + 1 < units.size(); ++unit)
+    size /= 1000;
   return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.3g} {}", size, units[unit]);
 }
 
 ProgressBar::ProgressBar() : isTerminal_(isTerminal(stderr)) {}
 
 ProgressBar::~ProgressBar() {
-  if (!shown_.empty()) fmt::print(stderr, "\r\x1b[K");
+  if (!shown_.empty())
+    fmt::print(stderr, "\r\x1b[K");
 }
 
 void ProgressBar::show(double share, const std::string& doing) {
-  if (!isTerminal_) return;
+  if (!isTerminal_)
+    return;
   const auto now = std::chrono::steady_clock::now();
-  if (now - last_ < std::chrono::milliseconds(40)) return;
+  if (now - last_ < std::chrono::milliseconds(40))
+    return;
   constexpr std::size_t width = 30;
   const auto full = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * width);
-  const std::string line = fmt::format("[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", width - full, share * 100, doing);
-  if (line == shown_) return;
+  const std::string line =
+      fmt::format("[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", width - full, share * 100, doing);
+  if (line == shown_)
+    return;
   fmt::print(stderr, "\r{}\x1b[K", line);
   std::fflush(stderr);
   shown_ = line;

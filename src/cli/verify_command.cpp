@@ -29,21 +29,25 @@ void printJson(const VerifyReport& report) {
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-void printElements(const char* kind, std::size_t input, std::size_t site, std::size_t missing, std::size_t extra) {
-  if (input + site == 0) return;
+void printElements(const char* kind, std::size_t input, std::size_t site, std::size_t missing,
+                   std::size_t extra) {
+  if (input + site == 0)
+    return;
   fmt::print("{} {} in the input, {} in the site: {} missing, {} extra\n", bold(fmt::format("{:10}", kind)),
              grouped(input), grouped(site), grouped(missing), grouped(extra));
 }
 
 void printText(const VerifyReport& report) {
-  printElements("triangles", report.inputTriangles, report.siteTriangles, report.missingTriangles, report.extraTriangles);
+  printElements("triangles", report.inputTriangles, report.siteTriangles, report.missingTriangles,
+                report.extraTriangles);
   printElements("points", report.inputPoints, report.sitePoints, report.missingPoints, report.extraPoints);
-  fmt::print("{} off by at most {:.6g} an axis; half a step is {:.6g}\n", bold(fmt::format("{:10}", "positions")),
-             report.positionError, report.positionBound);
+  fmt::print("{} off by at most {:.6g} an axis; half a step is {:.6g}\n",
+             bold(fmt::format("{:10}", "positions")), report.positionError, report.positionBound);
   if (report.normalBoundDegrees > 0)
-    fmt::print("{} off by at most {:.4g} degrees; their rounding allows {:.4g}\n", bold(fmt::format("{:10}", "normals")),
-               report.normalErrorDegrees, report.normalBoundDegrees);
-  for (const std::string& finding : report.findings) fmt::print("{}\n", finding);
+    fmt::print("{} off by at most {:.4g} degrees; their rounding allows {:.4g}\n",
+               bold(fmt::format("{:10}", "normals")), report.normalErrorDegrees, report.normalBoundDegrees);
+  for (const std::string& finding : report.findings)
+    fmt::print("{}\n", finding);
   fmt::print("{}\n", report.equal ? "The site equals its input." : "The site does not equal its input.");
 }
 

@@ -22,8 +22,8 @@ bool less(const Vec3u& a, const Vec3u& b) {
 }
 
 bool less(const Place& a, const Place& b) {
-  return std::ranges::lexicographical_compare(
-      a.points, b.points, [](const Vec3u& p, const Vec3u& q) { return less(p, q); });
+  return std::ranges::lexicographical_compare(a.points, b.points,
+                                              [](const Vec3u& p, const Vec3u& q) { return less(p, q); });
 }
 
 /// Turns every element into its least rotation and sorts them by place.
@@ -35,8 +35,10 @@ std::vector<Place> placesOf(ElementList& list) {
     int turns = 0;
     for (int turn = 0; turn < 3; ++turn) {
       Place place{{}, i};
-      for (std::size_t c = 0; c < 3; ++c) place.points[c] = list.positions[corners[(c + std::size_t(turn)) % 3]];
-      if (turn == 0 || less(place, least)) least = place, turns = turn;
+      for (std::size_t c = 0; c < 3; ++c)
+        place.points[c] = list.positions[corners[(c + std::size_t(turn)) % 3]];
+      if (turn == 0 || less(place, least))
+        least = place, turns = turn;
     }
     std::ranges::rotate(corners, corners.begin() + turns);
     places[i] = least;
@@ -75,9 +77,12 @@ public:
       note(nearest(inputs.front().element, sorted(site_, sites, 1), site_, input_, turns), worst);
       return;
     }
-    const std::vector<Candidate> siteOrder = sorted(site_, sites, turns), inputOrder = sorted(input_, inputs, turns);
-    for (const Place& place : inputs) note(nearest(place.element, siteOrder, site_, input_, 1), worst);
-    for (const Place& place : sites) note(nearest(place.element, inputOrder, input_, site_, 1), worst);
+    const std::vector<Candidate> siteOrder = sorted(site_, sites, turns),
+                                 inputOrder = sorted(input_, inputs, turns);
+    for (const Place& place : inputs)
+      note(nearest(place.element, siteOrder, site_, input_, 1), worst);
+    for (const Place& place : sites)
+      note(nearest(place.element, inputOrder, input_, site_, 1), worst);
   }
 
 private:
@@ -91,13 +96,17 @@ private:
 
   double key(const ElementList& list, std::uint32_t element, std::uint32_t turn) const {
     const std::uint32_t vertex = list.elements[element][turn % 3];
-    if (normals_) return list.normals[vertex].x * (180 / std::numbers::pi) / bounds_.normalDegrees;
-    if (texCoords_) return list.texCoords[vertex].x / bounds_.texCoord.x;
-    if (colors_) return list.colors[vertex].r;
+    if (normals_)
+      return list.normals[vertex].x * (180 / std::numbers::pi) / bounds_.normalDegrees;
+    if (texCoords_)
+      return list.texCoords[vertex].x / bounds_.texCoord.x;
+    if (colors_)
+      return list.colors[vertex].r;
     return 0;
   }
 
-  std::vector<Candidate> sorted(const ElementList& list, std::span<const Place> places, std::size_t turns) const {
+  std::vector<Candidate> sorted(const ElementList& list, std::span<const Place> places,
+                                std::size_t turns) const {
     std::vector<Candidate> candidates;
     for (const Place& place : places)
       for (std::uint32_t turn = 0; turn < turns; ++turn)
@@ -116,14 +125,18 @@ private:
     for (std::uint32_t ownTurn = 0; ownTurn < ownTurns; ++ownTurn) {
       const double here = key(own, element, ownTurn);
       const auto tryOne = [&](const Candidate& candidate) {
-        if (std::abs(candidate.key - here) > bestCost) return false;
+        if (std::abs(candidate.key - here) > bestCost)
+          return false;
         const Distance distance = between(own, element, ownTurn, others, candidate.element, candidate.turn);
-        if (const double c = cost(distance); c < bestCost) bestCost = c, best = distance;
+        if (const double c = cost(distance); c < bestCost)
+          bestCost = c, best = distance;
         return bestCost > 0;
       };
       const auto middle = std::ranges::lower_bound(candidates, here, {}, &Candidate::key);
-      for (auto up = middle; up != candidates.end() && tryOne(*up);) ++up;
-      for (auto down = middle; down != candidates.begin() && tryOne(*(down - 1));) --down;
+      for (auto up = middle; up != candidates.end() && tryOne(*up);)
+        ++up;
+      for (auto down = middle; down != candidates.begin() && tryOne(*(down - 1));)
+        --down;
     }
     return best;
   }
@@ -134,13 +147,15 @@ private:
     for (std::uint32_t corner = 0; corner < a.cornerCount; ++corner) {
       const std::uint32_t va = a.elements[elementA][(corner + turnA) % 3];
       const std::uint32_t vb = b.elements[elementB][(corner + turnB) % 3];
-      if (normals_) distance.normalDegrees = std::max(distance.normalDegrees, angleDegrees(a.normals[va], b.normals[vb]));
+      if (normals_)
+        distance.normalDegrees = std::max(distance.normalDegrees, angleDegrees(a.normals[va], b.normals[vb]));
       if (texCoords_) {
         const Vec2<double> ta{a.texCoords[va].x, a.texCoords[va].y}, tb{b.texCoords[vb].x, b.texCoords[vb].y};
         distance.texCoord.x = std::max(distance.texCoord.x, std::abs(ta.x - tb.x));
         distance.texCoord.y = std::max(distance.texCoord.y, std::abs(ta.y - tb.y));
       }
-      if (colors_) distance.colorsDiffer |= a.colors[va] != b.colors[vb];
+      if (colors_)
+        distance.colorsDiffer |= a.colors[va] != b.colors[vb];
     }
     return distance;
   }
@@ -149,9 +164,11 @@ private:
   /// outweighs what their keys may be apart.
   double cost(const Distance& distance) const {
     double cost = distance.colorsDiffer ? 256 : 0;
-    if (normals_) cost = std::max(cost, distance.normalDegrees / bounds_.normalDegrees);
+    if (normals_)
+      cost = std::max(cost, distance.normalDegrees / bounds_.normalDegrees);
     if (texCoords_)
-      cost = std::max({cost, distance.texCoord.x / bounds_.texCoord.x, distance.texCoord.y / bounds_.texCoord.y});
+      cost = std::max(
+          {cost, distance.texCoord.x / bounds_.texCoord.x, distance.texCoord.y / bounds_.texCoord.y});
     return cost;
   }
 
@@ -171,13 +188,15 @@ private:
 /// The elements of `places` at the place of `places[begin]`.
 std::span<const Place> samePlace(const std::vector<Place>& places, std::size_t begin) {
   std::size_t end = begin + 1;
-  while (end < places.size() && places[end].points == places[begin].points) ++end;
+  while (end < places.size() && places[end].points == places[begin].points)
+    ++end;
   return std::span(places).subspan(begin, end - begin);
 }
 
 } // namespace
 
-ElementDifference compare(const ElementList& inputAsGiven, const ElementList& siteAsGiven, const AttributeBounds& bounds) {
+ElementDifference compare(const ElementList& inputAsGiven, const ElementList& siteAsGiven,
+                          const AttributeBounds& bounds) {
   ElementList input = inputAsGiven, site = siteAsGiven;
   const std::vector<Place> inputs = placesOf(input), sites = placesOf(site);
   const Matcher matcher(input, site, bounds);
@@ -191,11 +210,13 @@ ElementDifference compare(const ElementList& inputAsGiven, const ElementList& si
     std::size_t allowed = here.size();
     if (!input.copies.empty()) {
       allowed = 0;
-      for (const Place& place : here) allowed += input.copies[place.element];
+      for (const Place& place : here)
+        allowed += input.copies[place.element];
     }
     difference.missing += here.size() - std::min(here.size(), there.size());
     difference.extra += there.size() - std::min(allowed, there.size());
-    if (!here.empty() && !there.empty()) matcher.match(here, there, difference);
+    if (!here.empty() && !there.empty())
+      matcher.match(here, there, difference);
     i += here.size();
     s += there.size();
   }

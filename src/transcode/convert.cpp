@@ -25,7 +25,8 @@ constexpr const char* generator = "imgeo " IMGEO_VERSION;
 
 /// A warm light stone: shape shows by shading, and nothing of it is clipped
 /// where both lights meet.
-constexpr Material stone{.diffuseColor{0.78f, 0.76f, 0.72f}, .specularColor{0.14f, 0.14f, 0.13f}, .shininess = 0.25f};
+constexpr Material stone{
+    .diffuseColor{0.78f, 0.76f, 0.72f}, .specularColor{0.14f, 0.14f, 0.13f}, .shininess = 0.25f};
 
 /// From above and to the left of the viewer, warmer than the headlight, so that
 /// carving casts light and shade across the view.
@@ -52,7 +53,8 @@ void requireHonourable(const ConvertOptions& options) {
   if (options.positionBits < 8 || options.positionBits > 32)
     refuse("--position-bits", fmt::format("{} is not within 8..32", options.positionBits));
   if (isSig && options.normalBits != 8)
-    refuse("--normal-bits", fmt::format("sig stores normals in 8 bits, not {}; bg also in 16 or 32", options.normalBits));
+    refuse("--normal-bits",
+           fmt::format("sig stores normals in 8 bits, not {}; bg also in 16 or 32", options.normalBits));
   if (options.normalBits != 8 && options.normalBits != 16 && options.normalBits != 32)
     refuse("--normal-bits", fmt::format("bg stores normals in 8, 16 or 32 bits, not {}", options.normalBits));
   if (options.patchVertices < 256 || options.patchVertices > 65535)
@@ -71,9 +73,11 @@ void requireOutside(const fs::path& input, const fs::path& directory) {
 
 /// The name of the input without its endings, "statue" for "scans/statue.ply.gz".
 std::string titleFrom(const fs::path& input) {
-  if (input == "-") return "Untitled";
+  if (input == "-")
+    return "Untitled";
   fs::path name = input.filename();
-  if (name.extension() == ".gz") name = name.stem();
+  if (name.extension() == ".gz")
+    name = name.stem();
   return name.stem();
 }
 
@@ -98,15 +102,18 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, Geometry
     }
     whole.add(document.geometries[geometry].box.min);
     whole.add(document.geometries[geometry].box.max);
-    if (shape.material == Material{}) shape.material = stone;
+    if (shape.material == Material{})
+      shape.material = stone;
     shape.mesh = geometry;
     document.shapes.push_back(std::move(shape));
   }
   report.lattice = document.geometries.front().lattice;
   document.viewpoints = std::move(scene.viewpoints);
-  if (document.viewpoints.empty()) document.viewpoints.push_back(viewpointFor(whole));
+  if (document.viewpoints.empty())
+    document.viewpoints.push_back(viewpointFor(whole));
   document.lights = std::move(scene.lights);
-  if (document.lights.empty()) document.lights.push_back(keyLight);
+  if (document.lights.empty())
+    document.lights.push_back(keyLight);
   document.headlight = scene.headlight;
   return document;
 }
@@ -128,7 +135,8 @@ std::vector<RoleBytes> sumByRole(const std::vector<SiteFile>& files) {
   std::vector<RoleBytes> roles;
   for (const SiteFile& file : files) {
     auto role = std::ranges::find(roles, file.role, &RoleBytes::role);
-    if (role == roles.end()) role = roles.insert(role, {file.role, 0, 0});
+    if (role == roles.end())
+      role = roles.insert(role, {file.role, 0, 0});
     role->bytes += file.bytes;
     ++role->files;
   }
@@ -140,25 +148,27 @@ std::vector<RoleBytes> sumByRole(const std::vector<SiteFile>& files) {
 ConvertReport convert(const fs::path& input, const fs::path& directory, const ConvertOptions& options,
                       const Progress& progress) {
   requireHonourable(options);
-  if (input != "-") requireOutside(input, directory);
+  if (input != "-")
+    requireOutside(input, directory);
   StagedSite site(directory, options.force);
 
   ConvertReport report;
   Stopwatch total, step;
   const auto tell = [&](double share, const std::string& doing) {
-    if (progress) progress(share, doing);
+    if (progress)
+      progress(share, doing);
   };
 
   tell(0, "reading");
   Imported imported = importInput(input, report.sourceBytes);
   report.format = imported.format;
   report.warnings = std::move(imported.warnings);
-  if (imported.scene.title.empty()) imported.scene.title = titleFrom(input);
+  if (imported.scene.title.empty())
+    imported.scene.title = titleFrom(input);
   report.importSeconds = step.lapSeconds();
 
   tell(0.2, "preparing");
-  PreparationReport prepared =
-      prepareScene(imported.scene, options.normalWeighting, placeOf(input));
+  PreparationReport prepared = prepareScene(imported.scene, options.normalWeighting, placeOf(input));
   report.weld = prepared.weld;
   report.normalsComputed = prepared.normalsComputed;
   std::ranges::move(prepared.warnings, std::back_inserter(report.warnings));
@@ -166,7 +176,8 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
 
   tell(0.3, "writing");
   std::size_t elementCount = 0, elementsDone = 0;
-  for (const Mesh& mesh : imported.scene.meshes) elementCount += mesh.elementCount();
+  for (const Mesh& mesh : imported.scene.meshes)
+    elementCount += mesh.elementCount();
   std::mutex doneMutex;
   GeometryFiles files(site.path());
   const SceneDocument document =

@@ -13,13 +13,13 @@
 namespace imgeo {
 
 struct ElementList {
-  std::vector<Vec3u> positions; ///< per vertex, on the lattice
-  std::vector<Vec3f> normals;   ///< per vertex, or empty
-  std::vector<Vec2f> texCoords; ///< per vertex, or empty
-  std::vector<Rgba8> colors;    ///< per vertex, or empty; alpha 255 where it does not count
+  std::vector<Vec3u> positions;  ///< per vertex, on the lattice
+  std::vector<Vec3f> normals;    ///< per vertex, or empty
+  std::vector<Vec2f> texCoords;  ///< per vertex, or empty
+  std::vector<Rgba8> colors;     ///< per vertex, or empty; alpha 255 where it does not count
   std::uint32_t cornerCount = 3; ///< of an element: 3 triangles, 1 points
   std::vector<std::array<std::uint32_t, 3>> elements; ///< vertices; points use the first corner
-  std::vector<std::uint32_t> copies; ///< how often an element may be drawn; empty: once
+  std::vector<std::uint32_t> copies;                  ///< how often an element may be drawn; empty: once
 
   std::size_t vertexCount() const { return positions.size(); }
 };
@@ -39,10 +39,10 @@ struct AttributeBounds {
 };
 
 struct ElementDifference {
-  std::size_t missing = 0; ///< elements of the input that the site lacks
-  std::size_t extra = 0;   ///< elements of the site that the input lacks
-  double normalDegrees = 0;      ///< largest between an element's corners and the best element at its place
-  Vec2<double> texCoord;         ///< likewise, an axis
+  std::size_t missing = 0;         ///< elements of the input that the site lacks
+  std::size_t extra = 0;           ///< elements of the site that the input lacks
+  double normalDegrees = 0;        ///< largest between an element's corners and the best element at its place
+  Vec2<double> texCoord;           ///< likewise, an axis
   std::size_t colorsDiffering = 0; ///< elements for which no element at the place has the same colours
 };
 

@@ -14,11 +14,15 @@ namespace imgeo {
 namespace {
 
 IndexedPatch primitivesOf(const Patch& patch, Primitives primitives) {
-  if (patch.topology == Topology::points) return asPoints(patch);
+  if (patch.topology == Topology::points)
+    return asPoints(patch);
   switch (primitives) {
-  case Primitives::triangles: return asTriangles(patch);
-  case Primitives::strips: return asStrips(patch);
-  case Primitives::points: return asPoints(patch);
+  case Primitives::triangles:
+    return asTriangles(patch);
+  case Primitives::strips:
+    return asStrips(patch);
+  case Primitives::points:
+    return asPoints(patch);
   }
   return {};
 }
@@ -30,16 +34,20 @@ void nameReferences(PatchDescription& patch, const std::vector<std::string>& url
     std::from_chars(reference.url.data(), reference.url.data() + reference.url.size(), file);
     reference.url = urls.at(file);
   };
-  for (Reference& plane : patch.coord) name(plane);
+  for (Reference& plane : patch.coord)
+    name(plane);
   for (std::optional<Reference>* reference : {&patch.index, &patch.normal, &patch.texCoord, &patch.color})
-    if (*reference) name(**reference);
+    if (*reference)
+      name(**reference);
 }
 
 std::size_t trianglesDrawn(const IndexedPatch& patch) {
   std::size_t drawn = 0;
   for (const Draw& draw : patch.draws) {
-    if (draw.primitive == Primitive::triangles) drawn += draw.count / 3;
-    if (draw.primitive == Primitive::triangleStrip) return trianglesOf(patch).size(); // joins draw nothing
+    if (draw.primitive == Primitive::triangles)
+      drawn += draw.count / 3;
+    if (draw.primitive == Primitive::triangleStrip)
+      return trianglesOf(patch).size(); // joins draw nothing
   }
   return drawn;
 }
@@ -50,14 +58,17 @@ std::string GeometryFiles::write(const EncodedFile& file) {
   std::string url = std::string(geometryFolder) + "/" + contentName(file.bytes) + file.extension;
   {
     const std::lock_guard lock(mutex_);
-    if (bytes_.empty()) std::filesystem::create_directories(site_ / geometryFolder);
-    if (!bytes_.emplace(url, file.bytes.size()).second) return url;
+    if (bytes_.empty())
+      std::filesystem::create_directories(site_ / geometryFolder);
+    if (!bytes_.emplace(url, file.bytes.size()).second)
+      return url;
   }
   writeFile(site_ / url, file.bytes);
   return url;
 }
 
-EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& files, const ElementsDone& done) {
+EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& files,
+                       const ElementsDone& done) {
   PatchedMesh patched =
       cutIntoPatches(mesh, latticeFor(boxOf(mesh), options.positionBits), options.patchVertices);
   mesh = {};
@@ -72,14 +83,16 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& 
     const IndexedPatch indexed = primitivesOf(patch, options.primitives);
     EncodedPatch encoded = encodePatch(indexed, result.geometry, encoding);
     std::vector<std::string> urls;
-    for (const EncodedFile& file : encoded.files) urls.push_back(files.write(file));
+    for (const EncodedFile& file : encoded.files)
+      urls.push_back(files.write(file));
     nameReferences(encoded.description, urls);
     descriptions[i] = std::move(encoded.description);
     triangles[i] = trianglesDrawn(indexed);
     points[i] = indexed.draws.front().primitive == Primitive::points ? indexed.vertexCount() : 0;
     done(patch.elementCount());
   });
-  for (const PatchDescription& patch : descriptions) result.vertices += patch.vertexCount;
+  for (const PatchDescription& patch : descriptions)
+    result.vertices += patch.vertexCount;
   result.triangles = std::accumulate(triangles.begin(), triangles.end(), std::size_t{0});
   result.points = std::accumulate(points.begin(), points.end(), std::size_t{0});
   result.geometry.patches = std::move(descriptions);

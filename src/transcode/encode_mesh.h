@@ -43,6 +43,7 @@ using ElementsDone = std::function<void(std::size_t count)>;
 /// Cuts a mesh into patches and writes them, several at a time; a patch's memory
 /// is given back when its files are written, so that the peak is the patches
 /// and not their encodings. `mesh` is used up. Deterministic.
-EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& files, const ElementsDone& done);
+EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& files,
+                       const ElementsDone& done);
 
 } // namespace imgeo

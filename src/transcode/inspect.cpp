@@ -19,25 +19,31 @@ namespace {
 std::uint64_t sizeOf(const fs::path& file) {
   std::error_code reason;
   const std::uintmax_t bytes = fs::file_size(file, reason);
-  if (reason) throw Error(ErrorKind::io, file.string(), "is named by the document but " + reason.message());
+  if (reason)
+    throw Error(ErrorKind::io, file.string(), "is named by the document but " + reason.message());
   return bytes;
 }
 
 void count(const PatchDescription& patch, SiteInfo& info) {
   for (const Draw& draw : patch.draws) {
-    if (draw.primitive == Primitive::triangles) info.triangles += draw.count / 3;
-    if (draw.primitive == Primitive::triangleStrip) info.triangles += std::max(draw.count, 2u) - 2;
-    if (draw.primitive == Primitive::points) info.points += draw.count;
+    if (draw.primitive == Primitive::triangles)
+      info.triangles += draw.count / 3;
+    if (draw.primitive == Primitive::triangleStrip)
+      info.triangles += std::max(draw.count, 2u) - 2;
+    if (draw.primitive == Primitive::points)
+      info.points += draw.count;
   }
   info.vertices += patch.vertexCount;
 }
 
 /// The bytes of the geometry nodes in a document's text, tags and all.
 std::uint64_t geometryNodeBytes(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   std::uint64_t bytes = 0;
   for (const std::string node : {"imagegeometry", "binarygeometry"})
-    for (std::size_t begin = text.find("<" + node); begin != text.npos; begin = text.find("<" + node, begin)) {
+    for (std::size_t begin = text.find("<" + node); begin != text.npos;
+         begin = text.find("<" + node, begin)) {
       const std::string endTag = "</" + node + ">";
       const std::size_t endsAt = text.find(endTag, begin);
       const std::size_t end = endsAt == text.npos ? text.find('>', begin) : endsAt + endTag.size();
@@ -57,25 +63,31 @@ SiteInfo inspect(const fs::path& site) {
     return info.files.back().bytes;
   };
   info.documentBytes = add(document.name, "document");
-  for (const std::string& url : document.name == sceneName ? std::vector<std::string>{} : pageFilesOf(document.text)) {
+  for (const std::string& url :
+       document.name == sceneName ? std::vector<std::string>{} : pageFilesOf(document.text)) {
     const bool isModule = url.ends_with(".js");
     const std::uint64_t bytes = add(url, isModule ? "runtime" : "style");
-    if (isModule) info.runtimeBytes += bytes;
+    if (isModule)
+      info.runtimeBytes += bytes;
   }
   for (const NamedFile& file : geometryFilesOf(document.scene))
     info.containerBytes += add(file.url, nameOf(file.role));
 
   for (const GeometryDescription& geometry : document.scene.geometries) {
     info.patches += geometry.patches.size();
-    for (const PatchDescription& patch : geometry.patches) count(patch, info);
+    for (const PatchDescription& patch : geometry.patches)
+      count(patch, info);
   }
   std::error_code none;
-  if (document.name == pageName && fs::exists(document.root / sceneName, none)) add(sceneName, "scene");
+  if (document.name == pageName && fs::exists(document.root / sceneName, none))
+    add(sceneName, "scene");
   if (fs::exists(document.root / markerName, none)) {
     add(markerName, "marker");
     // A strip's joins count as vertices in the document, not as triangles here.
-    const Marker marker = readMarker(asText(readFile(document.root / markerName)), (document.root / markerName).string());
-    if (marker.primitives == Primitives::strips) info.triangles = marker.triangles;
+    const Marker marker =
+        readMarker(asText(readFile(document.root / markerName)), (document.root / markerName).string());
+    if (marker.primitives == Primitives::strips)
+      info.triangles = marker.triangles;
   }
   if (info.triangles > 0)
     info.bytesPerTriangle = static_cast<double>(info.containerBytes + geometryNodeBytes(document.text)) /

@@ -16,20 +16,27 @@ constexpr std::array weightings{NormalWeighting::area, NormalWeighting::angle, N
 template <typename Value, std::size_t count>
 Value valueNamed(const std::array<Value, count>& values, const std::string& name, const std::string& place) {
   for (const Value value : values)
-    if (nameOf(value) == name) return value;
+    if (nameOf(value) == name)
+      return value;
   throw Error(ErrorKind::malformed, place, "says \"" + name + "\", which is nothing we know");
 }
 
 } // namespace
 
-const char* nameOf(Container container) { return container == Container::sig ? "sig" : "bg"; }
+const char* nameOf(Container container) {
+  return container == Container::sig ? "sig" : "bg";
+}
 
 const char* nameOf(Primitives primitives) {
-  return primitives == Primitives::triangles ? "triangles" : primitives == Primitives::strips ? "strips" : "points";
+  return primitives == Primitives::triangles ? "triangles"
+         : primitives == Primitives::strips  ? "strips"
+                                             : "points";
 }
 
 const char* nameOf(NormalWeighting weighting) {
-  return weighting == NormalWeighting::area ? "area" : weighting == NormalWeighting::angle ? "angle" : "uniform";
+  return weighting == NormalWeighting::area    ? "area"
+         : weighting == NormalWeighting::angle ? "angle"
+                                               : "uniform";
 }
 
 std::string writeMarker(const Marker& marker) {
@@ -54,7 +61,8 @@ Marker readMarker(std::string_view text, const std::string& name) {
     marker.primitives = valueNamed(primitiveKinds, json.at("primitives"), name);
     const std::string normals = json.at("normals");
     marker.normalsComputed = normals != "source";
-    if (marker.normalsComputed) marker.normalWeighting = valueNamed(weightings, normals, name);
+    if (marker.normalsComputed)
+      marker.normalWeighting = valueNamed(weightings, normals, name);
     marker.triangles = json.at("triangles");
     marker.points = json.at("points");
     return marker;

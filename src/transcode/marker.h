@@ -17,7 +17,7 @@ struct Marker {
   Primitives primitives = Primitives::triangles;
   bool normalsComputed = false;
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where normals were computed
-  std::size_t triangles = 0, points = 0; ///< as drawn; a strip's length does not tell
+  std::size_t triangles = 0, points = 0;                   ///< as drawn; a strip's length does not tell
 };
 
 std::string writeMarker(const Marker& marker);
@@ -25,8 +25,8 @@ std::string writeMarker(const Marker& marker);
 /// Safe for untrusted text. Throws Error{malformed} naming `name`.
 Marker readMarker(std::string_view text, const std::string& name);
 
-const char* nameOf(Container container);           ///< "sig", "bg"
-const char* nameOf(Primitives primitives);         ///< "triangles", "strips", "points"
-const char* nameOf(NormalWeighting weighting);     ///< "area", "angle", "uniform"
+const char* nameOf(Container container);       ///< "sig", "bg"
+const char* nameOf(Primitives primitives);     ///< "triangles", "strips", "points"
+const char* nameOf(NormalWeighting weighting); ///< "area", "angle", "uniform"
 
 } // namespace imgeo

@@ -9,7 +9,8 @@ std::uint64_t peakMemoryBytes() {
   // Not getrusage: its figure survives exec, and so may be that of a larger parent.
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmHWM:")) return std::stoull(line.substr(6)) * 1024;
+    if (line.starts_with("VmHWM:"))
+      return std::stoull(line.substr(6)) * 1024;
   return 0;
 }
 

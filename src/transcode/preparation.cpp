@@ -34,7 +34,9 @@ void addTo(WeldReport& sum, const WeldReport& one) {
 
 } // namespace
 
-std::string placeOf(const std::filesystem::path& input) { return input == "-" ? "standard input" : input.string(); }
+std::string placeOf(const std::filesystem::path& input) {
+  return input == "-" ? "standard input" : input.string();
+}
 
 Imported importInput(const std::filesystem::path& input, std::uint64_t& bytes) {
   if (input == "-") {
@@ -50,7 +52,8 @@ Imported importInput(const std::filesystem::path& input, std::uint64_t& bytes) {
 
 PreparationReport prepareScene(Scene& scene, NormalWeighting weighting, const std::string& place) {
   std::vector<MeshReport> reports(scene.meshes.size());
-  parallelFor(scene.meshes.size(), [&](std::size_t i) { reports[i] = prepareMesh(scene.meshes[i], weighting); });
+  parallelFor(scene.meshes.size(),
+              [&](std::size_t i) { reports[i] = prepareMesh(scene.meshes[i], weighting); });
 
   PreparationReport sum;
   for (const MeshReport& report : reports) {
@@ -58,7 +61,8 @@ PreparationReport prepareScene(Scene& scene, NormalWeighting weighting, const st
     sum.normalsComputed |= report.normalsComputed;
   }
   const std::size_t shapesBefore = scene.shapes.size();
-  std::erase_if(scene.shapes, [&](const Shape& shape) { return scene.meshes[shape.mesh].elementCount() == 0; });
+  std::erase_if(scene.shapes,
+                [&](const Shape& shape) { return scene.meshes[shape.mesh].elementCount() == 0; });
   if (scene.shapes.empty())
     throw Error(ErrorKind::malformed, place, "holds no triangles and no points, so there is nothing to show");
   if (const std::size_t dropped = shapesBefore - scene.shapes.size())

@@ -8,6 +8,8 @@ extern const char imgeoRuntimeEnd[];
 
 namespace imgeo {
 
-std::string_view runtimeModule() { return {imgeoRuntimeBegin, imgeoRuntimeEnd}; }
+std::string_view runtimeModule() {
+  return {imgeoRuntimeBegin, imgeoRuntimeEnd};
+}
 
 } // namespace imgeo

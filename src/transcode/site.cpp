@@ -37,11 +37,15 @@ bool isSite(const fs::path& directory) {
 void requireReplaceable(const fs::path& target, bool force) {
   std::error_code none;
   const fs::file_status status = fs::status(target, none);
-  if (!fs::exists(status)) return;
-  if (!fs::is_directory(status)) throw Error(ErrorKind::io, target.string(), "exists and is not a directory");
-  if (force || isSite(target)) return;
+  if (!fs::exists(status))
+    return;
+  if (!fs::is_directory(status))
+    throw Error(ErrorKind::io, target.string(), "exists and is not a directory");
+  if (force || isSite(target))
+    return;
   const bool empty = fs::is_empty(target, none);
-  if (none) fail(target, "read", none.value());
+  if (none)
+    fail(target, "read", none.value());
   if (!empty)
     throw Error(ErrorKind::usage, target.string(),
                 "is not empty and not a site of ours; --force replaces it with everything in it");
@@ -54,7 +58,8 @@ bool holdsWorkingDirectory(const fs::path& target) {
 }
 
 bool isMountPoint(const fs::path& directory) {
-  struct stat own {}, above {};
+  struct stat own {
+  }, above{};
   return stat(directory.c_str(), &own) == 0 && stat((directory / "..").c_str(), &above) == 0 &&
          (own.st_dev != above.st_dev || own.st_ino == above.st_ino);
 }
@@ -63,8 +68,10 @@ bool isMountPoint(const fs::path& directory) {
 /// holds it or it has gone. Killing a process unlocks what it held.
 int lockDirectory(const fs::path& directory, int operation) {
   const int descriptor = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
-  if (descriptor < 0) return -1;
-  struct stat held {}, named {};
+  if (descriptor < 0)
+    return -1;
+  struct stat held {
+  }, named{};
   if (flock(descriptor, operation) == 0 && fstat(descriptor, &held) == 0 &&
       stat(directory.c_str(), &named) == 0 && held.st_ino == named.st_ino)
     return descriptor;
@@ -76,9 +83,11 @@ void removeAbandoned(const fs::path& folder, const std::string& prefix) {
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
     const std::string name = entry.path().filename();
-    if (!name.starts_with(prefix) || name.size() != prefix.size() + 6) continue;
+    if (!name.starts_with(prefix) || name.size() != prefix.size() + 6)
+      continue;
     const int lock = lockDirectory(entry.path(), LOCK_EX | LOCK_NB);
-    if (lock < 0) continue;
+    if (lock < 0)
+      continue;
     fs::remove_all(entry.path(), none);
     close(lock);
   }
@@ -89,7 +98,8 @@ std::string randomSuffix() {
   std::random_device random;
   std::uniform_int_distribution<std::size_t> pick(0, sizeof letters - 2);
   std::string suffix(6, ' ');
-  for (char& letter : suffix) letter = letters[pick(random)];
+  for (char& letter : suffix)
+    letter = letters[pick(random)];
   return suffix;
 }
 
@@ -98,7 +108,8 @@ std::string randomSuffix() {
 std::vector<fs::path> filesInOrderOfNeed(const fs::path& staging) {
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(staging))
-    if (!entry.is_directory()) files.push_back(fs::relative(entry.path(), staging));
+    if (!entry.is_directory())
+      files.push_back(fs::relative(entry.path(), staging));
   const auto rank = [](const fs::path& file) {
     return file == pageName ? 3 : file == markerName ? 2 : file.has_parent_path() ? 0 : 1;
   };
@@ -117,14 +128,18 @@ int renameBySystem(const fs::path& from, const fs::path& to, unsigned flags) {
 StagedSite::StagedSite(const fs::path& target, bool force) : force_(force) {
   std::error_code unknown;
   target_ = fs::weakly_canonical(fs::absolute(target), unknown);
-  if (unknown) fail(target, "write", unknown.value());
-  if (!target_.has_filename()) target_ = target_.parent_path();
+  if (unknown)
+    fail(target, "write", unknown.value());
+  if (!target_.has_filename())
+    target_ = target_.parent_path();
   requireReplaceable(target_, force);
   const bool exists = fs::is_directory(target_, unknown);
   const fs::path above = target_.parent_path();
-  inPlace_ = exists && (holdsWorkingDirectory(target_) || isMountPoint(target_) || access(above.c_str(), W_OK) != 0);
+  inPlace_ =
+      exists && (holdsWorkingDirectory(target_) || isMountPoint(target_) || access(above.c_str(), W_OK) != 0);
   try {
-    if (!exists) makeFoldersAbove();
+    if (!exists)
+      makeFoldersAbove();
     if (inPlace_)
       create(target_, ".imgeo-");
     else
@@ -135,7 +150,9 @@ StagedSite::StagedSite(const fs::path& target, bool force) : force_(force) {
   }
 }
 
-StagedSite::~StagedSite() { discard(); }
+StagedSite::~StagedSite() {
+  discard();
+}
 
 void StagedSite::makeFoldersAbove() {
   std::vector<fs::path> missing;
@@ -143,7 +160,8 @@ void StagedSite::makeFoldersAbove() {
   for (fs::path folder = target_.parent_path(); !fs::exists(folder, none); folder = folder.parent_path())
     missing.push_back(folder);
   for (auto folder = missing.rbegin(); folder != missing.rend(); ++folder) {
-    if (mkdir(folder->c_str(), 0777) != 0 && errno != EEXIST) fail(*folder, "make the directory", errno);
+    if (mkdir(folder->c_str(), 0777) != 0 && errno != EEXIST)
+      fail(*folder, "make the directory", errno);
     foldersMade_.push_back(*folder);
   }
 }
@@ -153,7 +171,8 @@ void StagedSite::create(const fs::path& folder, const std::string& prefix) {
   while (lock_ < 0) {
     staging_ = folder / (prefix + randomSuffix());
     if (mkdir(staging_.c_str(), 0777) != 0) {
-      if (errno == EEXIST) continue;
+      if (errno == EEXIST)
+        continue;
       const int reason = errno;
       staging_.clear();
       fail(target_, "write", reason);
@@ -162,15 +181,18 @@ void StagedSite::create(const fs::path& folder, const std::string& prefix) {
     // gone once we hold the lock, and we make another.
     lock_ = lockDirectory(staging_, LOCK_EX);
     std::error_code none;
-    if (lock_ < 0 && fs::exists(staging_, none)) break; // a file system without locks
+    if (lock_ < 0 && fs::exists(staging_, none))
+      break; // a file system without locks
   }
 }
 
 void StagedSite::publish(const Rename& rename) {
   std::error_code none;
   struct stat old {};
-  if (stat(target_.c_str(), &old) == 0) fs::permissions(staging_, fs::perms(old.st_mode & 07777), none);
-  if (inPlace_ || !exchange(rename)) publishInPlace(rename);
+  if (stat(target_.c_str(), &old) == 0)
+    fs::permissions(staging_, fs::perms(old.st_mode & 07777), none);
+  if (inPlace_ || !exchange(rename))
+    publishInPlace(rename);
   published_ = true;
 }
 
@@ -179,19 +201,25 @@ bool StagedSite::exchange(const Rename& rename) {
   // Another run may add or remove the target between our two attempts.
   for (int attempt = 0; attempt < 100; ++attempt) {
     int reason = rename(staging_, target_, renameNoReplace);
-    if (reason == 0) return true;
+    if (reason == 0)
+      return true;
     if (reason == EEXIST) {
       requireReplaceable(target_, force_);
       reason = rename(staging_, target_, renameExchange);
-      if (reason == 0) return true;
+      if (reason == 0)
+        return true;
     }
-    if (reason == EINVAL || reason == ENOSYS || reason == ENOTSUP) break;
-    if (reason != EEXIST && reason != ENOENT) fail(target_, "put the new site in place", reason);
+    if (reason == EINVAL || reason == ENOSYS || reason == ENOTSUP)
+      break;
+    if (reason != EEXIST && reason != ENOENT)
+      fail(target_, "put the new site in place", reason);
   }
   std::error_code none;
-  if (fs::exists(target_, none)) return false;
+  if (fs::exists(target_, none))
+    return false;
   const int reason = rename(staging_, target_, 0);
-  if (reason != 0) fail(target_, "put the new site in place", reason);
+  if (reason != 0)
+    fail(target_, "put the new site in place", reason);
   return true;
 }
 
@@ -201,9 +229,11 @@ void StagedSite::publishInPlace(const Rename& rename) {
   for (const fs::path& file : files) {
     std::error_code reason;
     fs::create_directories((target_ / file).parent_path(), reason);
-    if (reason) fail((target_ / file).parent_path(), "make the directory", reason.value());
+    if (reason)
+      fail((target_ / file).parent_path(), "make the directory", reason.value());
     const int failure = rename(staging_ / file, target_ / file, 0);
-    if (failure != 0) fail(target_ / file, "put the new file in place", failure);
+    if (failure != 0)
+      fail(target_ / file, "put the new file in place", failure);
     kept.insert(file);
   }
   std::error_code none;
@@ -212,7 +242,8 @@ void StagedSite::publishInPlace(const Rename& rename) {
     for (const fs::directory_entry& entry : fs::directory_iterator(target_ / folder, none))
       if (!entry.is_directory(none) && !kept.contains(fs::path(folder) / entry.path().filename()))
         stale.push_back(entry.path());
-    for (const fs::path& file : stale) fs::remove(file, none);
+    for (const fs::path& file : stale)
+      fs::remove(file, none);
   }
 }
 
@@ -220,11 +251,14 @@ void StagedSite::publishInPlace(const Rename& rename) {
 /// after an exchange.
 void StagedSite::discard() noexcept {
   std::error_code none;
-  if (!staging_.empty()) fs::remove_all(staging_, none);
-  if (lock_ >= 0) close(lock_);
+  if (!staging_.empty())
+    fs::remove_all(staging_, none);
+  if (lock_ >= 0)
+    close(lock_);
   lock_ = -1;
   if (!published_)
-    for (auto folder = foldersMade_.rbegin(); folder != foldersMade_.rend(); ++folder) rmdir(folder->c_str());
+    for (auto folder = foldersMade_.rbegin(); folder != foldersMade_.rend(); ++folder)
+      rmdir(folder->c_str());
 }
 
 } // namespace imgeo

@@ -16,7 +16,8 @@ OpenedDocument openDocument(const fs::path& site) {
   std::error_code none;
   if (fs::is_directory(site, none)) {
     file = site / pageName;
-    if (!fs::exists(file, none) && fs::exists(site / sceneName, none)) file = site / sceneName;
+    if (!fs::exists(file, none) && fs::exists(site / sceneName, none))
+      file = site / sceneName;
     if (!fs::exists(file, none))
       throw Error(ErrorKind::io, site.string(), "is no site: it holds neither index.html nor scene.x3d");
   }
@@ -29,15 +30,21 @@ std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene) {
   std::vector<NamedFile> files;
   std::set<std::string> seen;
   const auto add = [&](const Reference& reference, Role role) {
-    if (seen.insert(reference.url).second) files.push_back({reference.url, role});
+    if (seen.insert(reference.url).second)
+      files.push_back({reference.url, role});
   };
   for (const GeometryDescription& geometry : scene.geometries)
     for (const PatchDescription& patch : geometry.patches) {
-      if (patch.index) add(*patch.index, Role::index);
-      for (const Reference& plane : patch.coord) add(plane, Role::coord);
-      if (patch.normal) add(*patch.normal, Role::normal);
-      if (patch.texCoord) add(*patch.texCoord, Role::texCoord);
-      if (patch.color) add(*patch.color, Role::color);
+      if (patch.index)
+        add(*patch.index, Role::index);
+      for (const Reference& plane : patch.coord)
+        add(plane, Role::coord);
+      if (patch.normal)
+        add(*patch.normal, Role::normal);
+      if (patch.texCoord)
+        add(*patch.texCoord, Role::texCoord);
+      if (patch.color)
+        add(*patch.color, Role::color);
     }
   return files;
 }
@@ -51,14 +58,16 @@ std::vector<std::string> pageFilesOf(std::string_view html) {
       const std::string_view url = html.substr(at, html.find('"', at) - at);
       const bool wanted = url.ends_with(".js") || url.ends_with(".css");
       const bool ours = url.find(':') == url.npos && !url.starts_with("//");
-      if (wanted && ours && std::ranges::find(urls, url) == urls.end()) urls.emplace_back(url);
+      if (wanted && ours && std::ranges::find(urls, url) == urls.end())
+        urls.emplace_back(url);
     }
   return urls;
 }
 
 fs::path fileOf(const OpenedDocument& document, const std::string& url) {
   const fs::path path = fs::path(url).lexically_normal();
-  const bool leaves = path.empty() || path.is_absolute() || *path.begin() == ".." || url.find(':') != url.npos;
+  const bool leaves =
+      path.empty() || path.is_absolute() || *path.begin() == ".." || url.find(':') != url.npos;
   if (leaves)
     throw Error(ErrorKind::unsupported, (document.root / document.name).string(),
                 "refers to \"" + url + "\", which is not a file of the site");

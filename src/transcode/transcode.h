@@ -18,14 +18,14 @@ enum class Primitives { triangles, strips, points };
 
 struct ConvertOptions {
   Container container = Container::sig;
-  Primitives primitives = Primitives::triangles; ///< point clouds are always points
-  std::uint32_t positionBits = 16;               ///< 8..32
-  std::uint32_t normalBits = 8;                  ///< see EncodeOptions
+  Primitives primitives = Primitives::triangles;           ///< point clouds are always points
+  std::uint32_t positionBits = 16;                         ///< 8..32
+  std::uint32_t normalBits = 8;                            ///< see EncodeOptions
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where the source has no normals
-  std::uint32_t patchVertices = 65535;           ///< 256..65,535
-  int effort = 5;                                ///< 0 fastest .. 9 smallest
-  std::string title;                             ///< empty: the source's name
-  bool force = false;                            ///< replace a directory that is not one of our sites
+  std::uint32_t patchVertices = 65535;                     ///< 256..65,535
+  int effort = 5;                                          ///< 0 fastest .. 9 smallest
+  std::string title;                                       ///< empty: the source's name
+  bool force = false; ///< replace a directory that is not one of our sites
 };
 
 /// Bytes of one kind of file.
@@ -36,14 +36,14 @@ struct RoleBytes {
 };
 
 struct ConvertReport {
-  std::string format;                ///< of the source
+  std::string format; ///< of the source
   std::uint64_t sourceBytes = 0;
   std::size_t triangles = 0, vertices = 0, points = 0, patches = 0;
   WeldReport weld;
   bool normalsComputed = false;
-  Lattice lattice;                   ///< of the first mesh: step states the precision
+  Lattice lattice; ///< of the first mesh: step states the precision
   std::vector<RoleBytes> roles;
-  double bytesPerTriangle = 0;       ///< as SiteInfo has it
+  double bytesPerTriangle = 0; ///< as SiteInfo has it
   std::vector<std::string> warnings;
   double importSeconds = 0, prepareSeconds = 0, encodeSeconds = 0, totalSeconds = 0;
   std::uint64_t peakMemoryBytes = 0;
@@ -53,9 +53,13 @@ struct ConvertReport {
 /// and what is being done ("reading"). What it throws ends the conversion.
 using Progress = std::function<void(double share, const std::string& doing)>;
 
-/// Converts `input` into the site `directory`. The site is built beside its
-/// target and takes its place in one step; killed at any moment, the target is
-/// the old site or the new one. Throws Error; the target is then untouched.
+/// Converts `input` ("-": standard input) into the site `directory`. The site is
+/// built beside its target and takes its place in one step; killed at any
+/// moment, the target is the old site or the new one. The same input and options
+/// give the same bytes, whatever the number of threads.
+/// Throws Error{usage} for options that the container cannot honour and for a
+/// target that must not be replaced, other Errors for the input and the file
+/// system, and what `progress` throws; the target is then untouched.
 ConvertReport convert(const std::filesystem::path& input, const std::filesystem::path& directory,
                       const ConvertOptions& options, const Progress& progress = {});
 
@@ -93,10 +97,10 @@ SourceInfo inspectSource(const std::filesystem::path& file);
 
 /// One geometry file of a site.
 struct GeometryFileInfo {
-  std::string kind;                     ///< "PNG image", "typed array"
+  std::string kind; ///< "PNG image", "typed array"
   std::uint64_t bytes = 0;
   std::uint32_t width = 0, height = 0, channels = 0; ///< 0: no image
-  bool namedByContent = false;          ///< the content is what the name says
+  bool namedByContent = false;                       ///< the content is what the name says
 };
 
 /// Reads a .png file whole, as the readers of containers do, or any other file's
@@ -104,10 +108,10 @@ struct GeometryFileInfo {
 GeometryFileInfo inspectGeometryFile(const std::filesystem::path& file);
 
 struct VerifyReport {
-  bool equal = false;               ///< all of the below within their bounds
+  bool equal = false; ///< all of the below within their bounds
   std::size_t inputTriangles = 0, siteTriangles = 0, missingTriangles = 0, extraTriangles = 0;
   std::size_t inputPoints = 0, sitePoints = 0, missingPoints = 0, extraPoints = 0;
-  double positionError = 0, positionBound = 0;  ///< largest error per axis and step / 2, in the mesh's units
+  double positionError = 0, positionBound = 0; ///< largest error per axis and step / 2, in the mesh's units
   double normalErrorDegrees = 0, normalBoundDegrees = 0;
   std::vector<std::string> findings; ///< one sentence per bound that is broken
 };

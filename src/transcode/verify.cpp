@@ -27,7 +27,8 @@ namespace {
 class Findings {
 public:
   explicit Findings(VerifyReport& report) : report_(report) {}
-  template <typename... Arguments> void add(fmt::format_string<Arguments...> sentence, Arguments&&... arguments) {
+  template <typename... Arguments>
+  void add(fmt::format_string<Arguments...> sentence, Arguments&&... arguments) {
     report_.findings.push_back(fmt::format(sentence, std::forward<Arguments>(arguments)...));
   }
 
@@ -42,11 +43,15 @@ double roundingAngleDegrees(double unit) {
 }
 
 double normalBoundDegrees(const GeometryDescription& geometry) {
-  if (geometry.container == Container::sig) return roundingAngleDegrees(1 / 127.5);
+  if (geometry.container == Container::sig)
+    return roundingAngleDegrees(1 / 127.5);
   switch (geometry.normalType) {
-  case ElementType::int8: return roundingAngleDegrees(1.0 / 127);
-  case ElementType::int16: return roundingAngleDegrees(1.0 / 32767);
-  default: return 1e-5; // stored as they are; what is left is single precision
+  case ElementType::int8:
+    return roundingAngleDegrees(1.0 / 127);
+  case ElementType::int16:
+    return roundingAngleDegrees(1.0 / 32767);
+  default:
+    return 1e-5; // stored as they are; what is left is single precision
   }
 }
 
@@ -56,14 +61,16 @@ Vec2<double> texCoordBound(const GeometryDescription& geometry) {
     const double largest = std::max(std::abs(low), std::abs(low + size));
     return size / 65535 / 2 + 4 * largest * std::numeric_limits<float>::epsilon() + 1e-30;
   };
-  return {bound(geometry.texCoordMin.x, geometry.texCoordSize.x), bound(geometry.texCoordMin.y, geometry.texCoordSize.y)};
+  return {bound(geometry.texCoordMin.x, geometry.texCoordSize.x),
+          bound(geometry.texCoordMin.y, geometry.texCoordSize.y)};
 }
 
 /// Every file that the page names is there and holds what its name says.
 bool checkFiles(const OpenedDocument& document, Findings& findings) {
   bool whole = true;
   std::vector<std::string> urls = pageFilesOf(document.text);
-  for (const NamedFile& file : geometryFilesOf(document.scene)) urls.push_back(file.url);
+  for (const NamedFile& file : geometryFilesOf(document.scene))
+    urls.push_back(file.url);
   for (const std::string& url : urls) {
     const fs::path file = fileOf(document, url);
     std::error_code none;
@@ -72,18 +79,22 @@ bool checkFiles(const OpenedDocument& document, Findings& findings) {
       whole = false;
       continue;
     }
-    if (file.extension() == ".css") continue;
+    if (file.extension() == ".css")
+      continue;
     const std::string stem = file.stem(), content = contentName(readFile(file));
-    if (!stem.ends_with(content)) findings.add("{} does not hold what its name says (its content is {}).", url, content);
+    if (!stem.ends_with(content))
+      findings.add("{} does not hold what its name says (its content is {}).", url, content);
   }
   return whole;
 }
 
 /// The page and scene.x3d say the same.
 void checkDocuments(const OpenedDocument& page, Findings& findings) {
-  if (page.name == sceneName) return;
+  if (page.name == sceneName)
+    return;
   const OpenedDocument scene = openDocument(page.root / sceneName);
-  if (writeX3d(scene.scene) != writeX3d(page.scene)) findings.add("{} and {} differ.", pageName, sceneName);
+  if (writeX3d(scene.scene) != writeX3d(page.scene))
+    findings.add("{} and {} differ.", pageName, sceneName);
 }
 
 std::vector<IndexedPatch> decodePatches(const OpenedDocument& document, const GeometryDescription& geometry) {
@@ -96,24 +107,29 @@ std::vector<IndexedPatch> decodePatches(const OpenedDocument& document, const Ge
 }
 
 /// Every patch lies in the box that the document gives it.
-void checkBoxes(const std::vector<IndexedPatch>& patches, const GeometryDescription& geometry, Findings& findings) {
+void checkBoxes(const std::vector<IndexedPatch>& patches, const GeometryDescription& geometry,
+                Findings& findings) {
   const double slack = geometry.lattice.step / 2 + 1e-6 * geometry.box.longestEdge();
   const auto agree = [&](const Box3d& a, const Box3d& b) {
     for (int axis = 0; axis < 3; ++axis)
-      if (!(std::abs(a.min[axis] - b.min[axis]) <= slack && std::abs(a.max[axis] - b.max[axis]) <= slack)) return false;
+      if (!(std::abs(a.min[axis] - b.min[axis]) <= slack && std::abs(a.max[axis] - b.max[axis]) <= slack))
+        return false;
     return true;
   };
   Box3d whole;
   std::size_t wrong = 0;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     Box3d box;
-    for (const Vec3u q : patches[i].positions) box.add(geometry.lattice.point(q));
+    for (const Vec3u q : patches[i].positions)
+      box.add(geometry.lattice.point(q));
     wrong += !agree(box, geometry.patches[i].box);
     whole.add(box.min);
     whole.add(box.max);
   }
-  if (wrong > 0) findings.add("{} of {} patches have a box that does not fit their vertices.", wrong, patches.size());
-  if (!agree(whole, geometry.box)) findings.add("The box of the geometry does not fit its vertices.");
+  if (wrong > 0)
+    findings.add("{} of {} patches have a box that does not fit their vertices.", wrong, patches.size());
+  if (!agree(whole, geometry.box))
+    findings.add("The box of the geometry does not fit its vertices.");
 }
 
 /// The largest distance an axis between where the input has a vertex and where
@@ -132,7 +148,8 @@ double positionError(const Mesh& mesh, const std::vector<Vec3u>& quantised, cons
 double positionTolerance(const Mesh& mesh, const Lattice& lattice) {
   const Box3d box = boxOf(mesh);
   double largest = 0;
-  for (int axis = 0; axis < 3; ++axis) largest = std::max({largest, std::abs(box.min[axis]), std::abs(box.max[axis])});
+  for (int axis = 0; axis < 3; ++axis)
+    largest = std::max({largest, std::abs(box.min[axis]), std::abs(box.max[axis])});
   return 1e-6 * lattice.step + 8 * largest * std::numeric_limits<double>::epsilon();
 }
 
@@ -148,8 +165,8 @@ void checkAttributesPresent(const Mesh& mesh, const std::vector<IndexedPatch>& p
   check("colours", !mesh.colors.empty(), &IndexedPatch::colors);
 }
 
-void count(const ElementDifference& difference, const ElementList& input, const ElementList& site, bool asPoints,
-           VerifyReport& report) {
+void count(const ElementDifference& difference, const ElementList& input, const ElementList& site,
+           bool asPoints, VerifyReport& report) {
   (asPoints ? report.inputPoints : report.inputTriangles) += input.elements.size();
   (asPoints ? report.sitePoints : report.siteTriangles) += site.elements.size();
   (asPoints ? report.missingPoints : report.missingTriangles) += difference.missing;
@@ -165,9 +182,11 @@ void compareShape(const OpenedDocument& document, const GeometryDescription& geo
   const Lattice expected = latticeFor(boxOf(mesh), geometry.lattice.bits);
   const std::vector<Vec3u> quantised = quantise(mesh.positions, expected);
   const double error = positionError(mesh, quantised, geometry.lattice), bound = expected.step / 2;
-  if (error * report.positionBound >= report.positionError * bound) report.positionError = error, report.positionBound = bound;
+  if (error * report.positionBound >= report.positionError * bound)
+    report.positionError = error, report.positionBound = bound;
   if (error > bound + positionTolerance(mesh, expected))
-    findings.add("Positions are off by up to {:.6g}, more than half a step of the lattice, {:.6g}.", error, bound);
+    findings.add("Positions are off by up to {:.6g}, more than half a step of the lattice, {:.6g}.", error,
+                 bound);
 
   const bool asPoints = mesh.topology == Topology::points || primitives == Primitives::points;
   const ElementList input = elementsOf(mesh, quantised, asPoints), site = elementsOf(patches, asPoints);
@@ -175,19 +194,25 @@ void compareShape(const OpenedDocument& document, const GeometryDescription& geo
   const ElementDifference difference = compare(input, site, bounds);
   count(difference, input, site, asPoints, report);
   const char* elements = asPoints ? "points" : "triangles";
-  if (difference.missing > 0) findings.add("{} {} of the input are missing from the site.", difference.missing, elements);
-  if (difference.extra > 0) findings.add("{} {} of the site are not in the input.", difference.extra, elements);
+  if (difference.missing > 0)
+    findings.add("{} {} of the input are missing from the site.", difference.missing, elements);
+  if (difference.extra > 0)
+    findings.add("{} {} of the site are not in the input.", difference.extra, elements);
 
   // The decoder's single precision adds to a normal's bound what its own rounding may turn it by.
   constexpr double normalTolerance = 2e-5;
-  if (!mesh.normals.empty()) report.normalBoundDegrees = std::max(report.normalBoundDegrees, bounds.normalDegrees);
+  if (!mesh.normals.empty())
+    report.normalBoundDegrees = std::max(report.normalBoundDegrees, bounds.normalDegrees);
   report.normalErrorDegrees = std::max(report.normalErrorDegrees, difference.normalDegrees);
   if (difference.normalDegrees > bounds.normalDegrees + normalTolerance)
-    findings.add("Normals are off by up to {:.4g} degrees, more than their rounding, {:.4g}.", difference.normalDegrees, bounds.normalDegrees);
+    findings.add("Normals are off by up to {:.4g} degrees, more than their rounding, {:.4g}.",
+                 difference.normalDegrees, bounds.normalDegrees);
   if (difference.texCoord.x > bounds.texCoord.x || difference.texCoord.y > bounds.texCoord.y)
-    findings.add("Texture coordinates are off by up to {:.4g} and {:.4g}, more than their rounding, {:.4g} and {:.4g}.",
+    findings.add("Texture coordinates are off by up to {:.4g} and {:.4g}, more than their rounding, {:.4g} "
+                 "and {:.4g}.",
                  difference.texCoord.x, difference.texCoord.y, bounds.texCoord.x, bounds.texCoord.y);
-  if (difference.colorsDiffering > 0) findings.add("{} {} have other colours.", difference.colorsDiffering, elements);
+  if (difference.colorsDiffering > 0)
+    findings.add("{} {} have other colours.", difference.colorsDiffering, elements);
 }
 
 } // namespace

@@ -1,0 +1,120 @@
+#include "base/parallel.h"
+#include "scene/testing.h"
+#include "transcode/testing.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using testing::TemporaryDirectory;
+
+VerifyReport expectRoundTrip(const Mesh& mesh, const ConvertOptions& options, const std::string& what) {
+  const TemporaryDirectory directory;
+  testing::writeMesh(directory / "input.ply", mesh);
+  const ConvertReport converted = convert(directory / "input.ply", directory / "site", options);
+  const VerifyReport verified = verify(directory / "site", directory / "input.ply");
+  EXPECT_TRUE(verified.equal) << what << ": " << fmt::format("{}", fmt::join(verified.findings, " "));
+  EXPECT_LE(verified.positionError, verified.positionBound * 1.001 + 1e-12) << what;
+
+  const SiteInfo info = inspect(directory / "site");
+  EXPECT_EQ(info.triangles, converted.triangles) << what;
+  EXPECT_EQ(info.points, converted.points) << what;
+  EXPECT_EQ(info.vertices, converted.vertices) << what;
+  EXPECT_EQ(info.patches, converted.patches) << what;
+  EXPECT_EQ(testing::namesIn(directory.path()), (std::vector<std::string>{"input.ply", "site"})) << what;
+  return verified;
+}
+
+TEST(RoundTrip, EveryContainerPrimitiveAndPrecisionGivesBackEveryMesh) {
+  std::uint32_t seed = 1;
+  for (const Container container : {Container::sig, Container::bg})
+    for (const Primitives primitives : {Primitives::triangles, Primitives::strips, Primitives::points})
+      for (const std::uint32_t bits : {8u, 12u, 16u, 24u, 32u})
+        for (int mesh = 0; mesh < 6; ++mesh, ++seed) {
+          ConvertOptions options;
+          options.container = container;
+          options.primitives = primitives;
+          options.positionBits = bits;
+          options.normalBits = container == Container::sig ? 8 : std::array{8u, 16u, 32u}[seed % 3];
+          options.patchVertices = seed % 2 ? 256 : 65535;
+          options.effort = static_cast<int>(seed % 4);
+          const VerifyReport verified =
+              expectRoundTrip(testing::randomMesh(seed), options,
+                              fmt::format("seed {} container {} primitives {} bits {} patches of {}", seed,
+                                          int(container), int(primitives), bits, options.patchVertices));
+          EXPECT_GT(verified.inputTriangles + verified.inputPoints, 0u) << seed;
+          if (HasFailure())
+            return;
+        }
+}
+
+TEST(RoundTrip, EveryNormalWeightingIsTheOneThatVerifyRepeats) {
+  for (const NormalWeighting weighting :
+       {NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform}) {
+    ConvertOptions options;
+    options.normalWeighting = weighting;
+    expectRoundTrip(testing::nonManifold(), options, fmt::format("weighting {}", int(weighting)));
+  }
+}
+
+TEST(RoundTrip, AMeshWithoutExtentIsStillAMesh) {
+  for (const Container container : {Container::sig, Container::bg}) {
+    Mesh flat = testing::grid(3);
+    for (Vec3f& position : flat.positions)
+      position.y = 7;
+    Mesh point = testing::pointCloud(1, 3);
+    Mesh collapsed = testing::grid(1);
+    for (Vec3f& position : collapsed.positions)
+      position = {1e6f, -1e6f, 3};
+    ConvertOptions options;
+    options.container = container;
+    expectRoundTrip(flat, options, "flat");
+    expectRoundTrip(point, options, "one point");
+    expectRoundTrip(collapsed, options, "all in one place");
+  }
+}
+
+TEST(RoundTrip, SitesAreTheSameWhateverTheThreads) {
+  const TemporaryDirectory directory;
+  testing::writeMesh(directory / "input.ply", testing::torus(120, 60));
+  ConvertOptions options;
+  options.patchVertices = 500;
+  convert(directory / "input.ply", directory / "all", options);
+  for (const std::size_t threads : {1u, 2u, 3u}) {
+    limitThreads(threads);
+    convert(directory / "input.ply", directory / "few", options);
+    limitThreads(0);
+    EXPECT_EQ(testing::contentsOf(directory / "all"), testing::contentsOf(directory / "few")) << threads;
+  }
+}
+
+TEST(RoundTrip, WhatProgressThrowsLeavesTheOldSite) {
+  const TemporaryDirectory directory;
+  testing::writeMesh(directory / "input.ply", testing::sphere(40, 40));
+  ConvertOptions options;
+  options.patchVertices = 256;
+  convert(directory / "input.ply", directory / "site", options);
+  const auto before = testing::contentsOf(directory / "site");
+  options.container = Container::bg;
+  struct Enough {};
+  double last = -1;
+  const auto stopAt = [&](double share) {
+    return [&, share](double done, const std::string&) {
+      last = done;
+      if (done >= share)
+        throw Enough{};
+    };
+  };
+  for (const double share : {0.0, 0.2, 0.5, 0.9, 1.0}) {
+    EXPECT_THROW(convert(directory / "input.ply", directory / "site", options, stopAt(share)), Enough);
+    EXPECT_GE(last, share);
+    EXPECT_EQ(testing::contentsOf(directory / "site"), before);
+    EXPECT_EQ(testing::namesIn(directory.path()), (std::vector<std::string>{"input.ply", "site"}));
+  }
+}
+
+} // namespace
+} // namespace imgeo

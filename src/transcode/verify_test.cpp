@@ -1,0 +1,240 @@
+// Damage that a check of the files' names alone would not see: every damaged
+// file is renamed to what it holds and the document follows.
+
+#include "base/error.h"
+#include "containers/png/png.h"
+#include "documents/documents.h"
+#include "scene/testing.h"
+#include "transcode/testing.h"
+
+#include <functional>
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using testing::TemporaryDirectory;
+
+/// A sphere in several patches, which tests then damage.
+class DamagedSite {
+public:
+  explicit DamagedSite(Container container = Container::sig, const Mesh& mesh = testing::sphere(30, 30)) {
+    testing::writeMesh(directory_ / "input.ply", mesh);
+    ConvertOptions options;
+    options.container = container;
+    options.patchVertices = 300;
+    convert(directory_ / "input.ply", site(), options);
+    opened_ = openDocument(site());
+  }
+
+  std::filesystem::path site() const { return directory_ / "site"; }
+  SceneDocument& scene() { return opened_.scene; }
+  GeometryDescription& geometry() { return opened_.scene.geometries.at(0); }
+
+  /// Writes both documents anew.
+  void write() {
+    const std::vector<std::string> urls = pageFilesOf(opened_.text);
+    const bool moduleFirst = urls.at(0).ends_with(".js");
+    writeFile(site() / pageName, asBytes(writeHtml(opened_.scene, {urls.at(moduleFirst ? 0 : 1),
+                                                                   urls.at(moduleFirst ? 1 : 0)})));
+    writeFile(site() / sceneName, asBytes(writeX3d(opened_.scene)));
+  }
+
+  /// Changes a file and gives it the name of what it then holds.
+  void change(Reference& reference, const std::function<void(Bytes&)>& damage) {
+    Bytes bytes = readFile(site() / reference.url);
+    damage(bytes);
+    reference.url =
+        "geometry/" + contentName(bytes) + std::filesystem::path(reference.url).extension().string();
+    writeFile(site() / reference.url, bytes);
+    write();
+  }
+
+  void changeImage(Reference& reference, const std::function<void(Image&)>& damage) {
+    change(reference, [&](Bytes& bytes) {
+      Image image = decodePng(bytes, reference.url);
+      damage(image);
+      bytes = encodePng(image, 1);
+    });
+  }
+
+  /// Makes room for damaged coordinates, which the readers would refuse.
+  void widenBoxes() {
+    for (PatchDescription& patch : geometry().patches)
+      patch.box = decodeBox(geometry().container, geometry().lattice);
+    geometry().box = geometry().patches[0].box;
+  }
+
+  VerifyReport verified() const { return verify(site(), directory_ / "input.ply"); }
+
+private:
+  TemporaryDirectory directory_;
+  OpenedDocument opened_;
+};
+
+/// Some finding says `words`, and the whole is not equal.
+void expectFinding(const DamagedSite& site, const std::string& words) {
+  const VerifyReport report = site.verified();
+  EXPECT_FALSE(report.equal);
+  const bool said =
+      std::ranges::any_of(report.findings, [&](const std::string& f) { return f.find(words) != f.npos; });
+  EXPECT_TRUE(said) << words
+                    << "; said instead: " << (report.findings.empty() ? "nothing" : report.findings.front());
+}
+
+TEST(Verify, FindsNothingInAWholeSite) {
+  DamagedSite site;
+  ASSERT_GT(site.geometry().patches.size(), 2u);
+  EXPECT_TRUE(site.verified().equal);
+  site.write(); // what the damages below rest on
+  EXPECT_TRUE(site.verified().equal);
+}
+
+TEST(Verify, SeesABytePlaneFlipped) {
+  for (const std::size_t plane : {0u, 1u}) {
+    DamagedSite site;
+    site.widenBoxes();
+    site.changeImage(site.geometry().patches[1].coord[plane], [](Image& image) {
+      for (std::uint8_t& byte : image.pixels)
+        byte = static_cast<std::uint8_t>(255 - byte);
+    });
+    expectFinding(site, "triangles of the input are missing");
+  }
+}
+
+TEST(Verify, SeesOneLowBitOfOneVertex) {
+  DamagedSite site;
+  site.widenBoxes();
+  site.changeImage(site.geometry().patches[0].coord[1], [](Image& image) { image.pixels[0] ^= 1; });
+  expectFinding(site, "triangles of the input are missing");
+}
+
+TEST(Verify, SeesOneIndexOff) {
+  DamagedSite site;
+  site.changeImage(*site.geometry().patches[0].index, [](Image& image) { image.pixels[0] ^= 2; });
+  expectFinding(site, "missing from the site");
+}
+
+TEST(Verify, SeesBytePlanesSwapped) {
+  DamagedSite site;
+  site.widenBoxes();
+  std::swap(site.geometry().patches[0].coord[0], site.geometry().patches[0].coord[1]);
+  site.write();
+  expectFinding(site, "missing");
+}
+
+TEST(Verify, SeesTwoFilesSwapped) {
+  DamagedSite site;
+  const auto path = [&](std::size_t patch) {
+    return site.site() / site.geometry().patches[patch].coord[0].url;
+  };
+  std::filesystem::rename(path(0), site.site() / "aside");
+  std::filesystem::rename(path(1), path(0));
+  std::filesystem::rename(site.site() / "aside", path(1));
+  expectFinding(site, "does not hold what its name says");
+}
+
+TEST(Verify, SeesAPatchTakenAwayOrPutInTwice) {
+  DamagedSite site;
+  const PatchDescription last = site.geometry().patches.back();
+  site.geometry().patches.pop_back();
+  site.write();
+  expectFinding(site, "missing from the site");
+  site.geometry().patches.push_back(last);
+  site.geometry().patches.push_back(last);
+  site.write();
+  expectFinding(site, "not in the input");
+}
+
+TEST(Verify, SeesTheDecodeBoxChanged) {
+  DamagedSite moved, stretched;
+  moved.geometry().lattice.origin.x += 2 * moved.geometry().lattice.step;
+  moved.widenBoxes();
+  moved.write();
+  expectFinding(moved, "Positions are off");
+  stretched.geometry().lattice.step *= 1.001;
+  stretched.widenBoxes();
+  stretched.write();
+  expectFinding(stretched, "Positions are off");
+}
+
+TEST(Verify, SeesABoxThatDoesNotFitItsPatch) {
+  DamagedSite site;
+  site.geometry().patches[0].box.max.x += 0.1;
+  site.write();
+  expectFinding(site, "1 of");
+}
+
+TEST(Verify, SeesNormalsTurned) {
+  for (const Container container : {Container::sig, Container::bg}) {
+    DamagedSite site(container);
+    Reference& normal = *site.geometry().patches[0].normal;
+    if (container == Container::sig)
+      site.changeImage(
+          normal, [](Image& image) { image.pixels[0] = static_cast<std::uint8_t>(image.pixels[0] ^ 4); });
+    else
+      site.change(normal, [](Bytes& bytes) { bytes[0] = static_cast<std::uint8_t>(bytes[0] ^ 4); });
+    expectFinding(site, "Normals are off");
+  }
+}
+
+TEST(Verify, SeesNormalsLeftOut) {
+  DamagedSite site;
+  for (PatchDescription& patch : site.geometry().patches)
+    patch.normal.reset();
+  site.write();
+  expectFinding(site, "normals that the site lacks");
+}
+
+TEST(Verify, SeesOtherColoursAndTextureCoordinates) {
+  Mesh mesh = testing::torus(20, 20);
+  for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
+    mesh.colors.push_back({static_cast<std::uint8_t>(wedge), 7, 9, 255});
+  DamagedSite colored(Container::sig, mesh), mapped(Container::sig, mesh);
+  EXPECT_TRUE(colored.verified().equal);
+  colored.changeImage(*colored.geometry().patches[0].color, [](Image& image) { image.pixels[0] ^= 1; });
+  expectFinding(colored, "other colours");
+  mapped.changeImage(*mapped.geometry().patches[0].texCoord, [](Image& image) { image.pixels[2] ^= 4; });
+  expectFinding(mapped, "Texture coordinates are off");
+}
+
+TEST(Verify, SeesTrianglesDrawnAsPoints) {
+  DamagedSite site;
+  for (PatchDescription& patch : site.geometry().patches)
+    for (Draw& draw : patch.draws)
+      draw.primitive = Primitive::points;
+  site.write();
+  EXPECT_FALSE(site.verified().equal);
+}
+
+TEST(Verify, SeesDocumentsThatDiffer) {
+  DamagedSite site;
+  site.scene().shapes[0].material.shininess = 0.9f;
+  writeFile(site.site() / sceneName, asBytes(writeX3d(site.scene())));
+  expectFinding(site, "index.html and scene.x3d differ");
+}
+
+TEST(Verify, SeesFilesThatAreGoneOrCutShort) {
+  DamagedSite gone, cut;
+  std::filesystem::remove(gone.site() / *pageFilesOf(asText(readFile(gone.site() / pageName))).begin());
+  expectFinding(gone, "is not there");
+  cut.change(*cut.geometry().patches[0].index, [](Bytes& bytes) { bytes.resize(bytes.size() / 2); });
+  EXPECT_FALSE(cut.verified().equal);
+}
+
+TEST(Verify, SeesAnotherRuntime) {
+  DamagedSite site;
+  const auto name = testing::namesIn(site.site() / runtimeFolder).front();
+  writeFile(site.site() / runtimeFolder / name, asBytes("alert(1)"));
+  expectFinding(site, "does not hold what its name says");
+}
+
+TEST(Verify, ReadsNoFileOutsideTheSite) {
+  DamagedSite site;
+  site.geometry().patches[0].index->url = "../input.ply";
+  site.write();
+  expectFinding(site, "is not a file of the site");
+}
+
+} // namespace
+} // namespace imgeo
