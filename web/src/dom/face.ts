@@ -15,13 +15,11 @@ const viewStyle = sheetOf(`
   canvas { display: block; width: 100%; height: 100%; touch-action: none; outline: none; cursor: grab; }
   canvas:active { cursor: grabbing; }
   canvas:focus-visible { box-shadow: inset 0 0 0 2px Highlight; outline: 2px solid Highlight; outline-offset: -2px; }
-  .bar { position: absolute; inset: 0 0 auto 0; height: 3px; pointer-events: none; opacity: 1; }
+  .bar { position: absolute; inset: 0 0 auto 0; height: 3px; pointer-events: none; }
   .bar > div { height: 100%; background: #3b82f6; transform-origin: 0 0; transform: scaleX(0); }
-  .bar.done { opacity: 0; transition: opacity 0.4s 0.2s; }
-  .message { position: absolute; inset: 0; display: grid; place-content: center; padding: 1em; text-align: center;
-             font: 1rem/1.5 system-ui, sans-serif; }
+  .message { position: absolute; inset: 0; display: grid; place-content: center; margin: 0; padding: 1em;
+             text-align: center; font: 1rem/1.5 system-ui, sans-serif; background: Canvas; color: CanvasText; }
   [hidden] { display: none; }
-  @media (prefers-reduced-motion: reduce) { .bar.done { transition: none; } }
 `);
 
 /** A default that any rule of the page outweighs: <x3d> is an unknown inline element otherwise. */
@@ -61,7 +59,7 @@ export function makeFace(root: ShadowRoot, label: string): Face {
     showProgress(share) {
       fill.style.transform = `scaleX(${share})`;
       bar.setAttribute("aria-valuenow", String(Math.round(share * 100)));
-      bar.classList.toggle("done", share >= 1);
+      bar.hidden = share >= 1;
     },
     showMessage(text) {
       canvas.hidden = true;

@@ -64,10 +64,10 @@ function watchSize(canvas: HTMLCanvasElement, signal: AbortSignal,
                    onSize: (width: number, height: number, ratio: number) => void): void {
   const observer = new ResizeObserver((entries) => {
     for (const { contentRect, devicePixelContentBoxSize } of entries) {
-      // Not every browser tells device pixels; rounding is the next best.
+      // Not every browser tells device pixels.
       const exact = (devicePixelContentBoxSize as readonly ResizeObserverSize[] | undefined)?.[0];
-      onSize(exact?.inlineSize ?? Math.round(contentRect.width * devicePixelRatio),
-             exact?.blockSize ?? Math.round(contentRect.height * devicePixelRatio), devicePixelRatio);
+      onSize(devicePixels(contentRect.width, exact?.inlineSize),
+             devicePixels(contentRect.height, exact?.blockSize), devicePixelRatio);
     }
   });
   try {
@@ -76,4 +76,10 @@ function watchSize(canvas: HTMLCanvasElement, signal: AbortSignal,
     observer.observe(canvas);
   }
   signal.addEventListener("abort", () => { observer.disconnect(); });
+}
+
+/** What the browser says it is, unless that is more than a rounding away: an emulated pixel ratio is not in it. */
+function devicePixels(cssPixels: number, exact: number | undefined): number {
+  const product = cssPixels * devicePixelRatio;
+  return exact !== undefined && Math.abs(exact - product) <= 1 ? exact : Math.round(product);
 }
