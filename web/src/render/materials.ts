@@ -7,7 +7,7 @@
 // (three.js by default lights in linear space and divides by pi; hence a chunk
 // of our own, and `outputColorSpace` linear in the renderer.)
 
-import type { Color } from "three";
+import type { Color, Vector2 } from "three";
 import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshPhongMaterial } from "three";
 import type { MaterialDescription, Vec3 } from "../document/description.ts";
 import type { ImageVertexUniforms } from "./vertexChunk.ts";
@@ -43,8 +43,35 @@ void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 norma
 
 const materialFromUniforms = "X3dMaterial material = X3dMaterial(diffuseColor.rgb, specular, shininess);";
 
-/** Unlit for points and lines, flat where there are no normals (yet). */
-export type Shading = "unlit" | "flat" | "smooth";
+// Points that stand for a surface to come cannot be lit yet; they are darker the
+// farther they are, so that they show a shape and not just its outline.
+const farnessDefine = "SHADE_BY_FARNESS";
+const farnessVertex = /* glsl */ `
+#ifdef ${farnessDefine}
+  vFarness = clamp((-mvPosition.z - depthRange.x) / (depthRange.y - depthRange.x), 0.0, 1.0);
+#endif
+`;
+const farnessFragment = /* glsl */ `
+#ifdef ${farnessDefine}
+  diffuseColor.rgb *= 1.0 - 0.75 * smoothstep(0.15, 0.85, vFarness);
+#endif
+`;
+const farnessDeclarations = /* glsl */ `
+#ifdef ${farnessDefine}
+  uniform vec2 depthRange;
+  varying float vFarness;
+#endif
+`;
+
+/** Unlit for points and lines, by distance for points that stand in for a surface, flat where there are no normals (yet). */
+export type Shading = "unlit" | "distance" | "flat" | "smooth";
+
+/** Uniforms that everything in a scene shares. */
+export interface SceneUniforms {
+  readonly pointSize: { value: number };
+  /** Distances along the view between which the scene lies. */
+  readonly depthRange: { value: Vector2 };
+}
 
 export interface MaterialRequest {
   readonly shading: Shading;
@@ -53,27 +80,30 @@ export interface MaterialRequest {
   readonly solid: boolean;
   /** Absent for vertices from buffers. */
   readonly images: ImageVertexUniforms | undefined;
-  /** Shared by everything in the scene. */
-  readonly pointSize: { value: number };
+  readonly shared: SceneUniforms;
 }
 
 export type PatchMaterial = (MeshPhongMaterial | MeshBasicMaterial) & { userData: { ambientIntensity?: { value: number } } };
 
 export function makeMaterial(request: MaterialRequest, description: MaterialDescription): PatchMaterial {
-  const { shading, hasColors, solid, images, pointSize } = request;
+  const { shading, hasColors, solid, images, shared } = request;
   const ambientIntensity = { value: 0 };
-  const material: PatchMaterial = shading === "unlit" ? new MeshBasicMaterial()
+  const material: PatchMaterial = shading === "unlit" || shading === "distance" ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
   material.side = solid ? FrontSide : DoubleSide;
   material.vertexColors = hasColors;
-  if (images !== undefined) {
-    material.defines = { [imageVerticesDefine]: "", ...(shading === "smooth" ? { [imageNormalsDefine]: "" } : {}) };
-  }
+  material.defines = {
+    ...(images && { [imageVerticesDefine]: "" }),
+    ...(images && shading === "smooth" && { [imageNormalsDefine]: "" }),
+    ...(shading === "distance" && { [farnessDefine]: "" }),
+  };
   material.userData.ambientIntensity = ambientIntensity;
   material.onBeforeCompile = (shader) => {
-    Object.assign(shader.uniforms, images, { pointSize, ambientIntensity });
+    Object.assign(shader.uniforms, images, shared, { ambientIntensity });
     readVerticesIn(shader);
-    shader.fragmentShader = replaceEach(shader.fragmentShader, [
+    shader.vertexShader = farnessDeclarations + replaceEach(shader.vertexShader, [["#include <fog_vertex>", farnessVertex]]);
+    shader.fragmentShader = farnessDeclarations + replaceEach(shader.fragmentShader, [
+      ["#include <color_fragment>", `#include <color_fragment>\n${farnessFragment}`],
       ["#include <lights_phong_pars_fragment>", x3dLighting],
       ["#include <lights_phong_fragment>", materialFromUniforms],
     ]);

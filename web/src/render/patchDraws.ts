@@ -10,7 +10,7 @@ import type { BufferStage, DrawRange, Stage, TextureStage, VertexArray } from ".
 import type { GeometryDescription, MaterialDescription, PatchDescription } from "../document/description.ts";
 import { boxAround } from "../document/geometry.ts";
 import { middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
-import type { PatchMaterial, Shading } from "./materials.ts";
+import type { PatchMaterial, SceneUniforms, Shading } from "./materials.ts";
 import { applyMaterial, makeMaterial } from "./materials.ts";
 import type { TexturePool } from "./textures.ts";
 import type { ImageVertexUniforms } from "./vertexChunk.ts";
@@ -23,14 +23,14 @@ export interface PatchDraws {
 
 export interface PatchSetting {
   readonly textures: TexturePool;
-  readonly pointSize: { value: number };
+  readonly shared: SceneUniforms;
   readonly geometry: GeometryDescription;
   readonly patch: PatchDescription;
   readonly material: MaterialDescription;
 }
 
 export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
-  const { geometry, patch, pointSize } = setting;
+  const { geometry, patch, shared } = setting;
   const hasColors = stage.color !== undefined;
   const bounds = storedBoundsOf(geometry, patch);
   const matrix = latticeMatrixOf(geometry, patch);
@@ -38,7 +38,7 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
   const base = stage.kind === "textures" ? imageUniformsOf(stage, setting.textures) : undefined;
   const draws = stage.draws.filter((draw) => draw.count > 0).map((draw) => {
     const material = makeMaterial({
-      shading: shadingOf(stage, draw), hasColors, solid: geometry.solid, pointSize,
+      shading: shadingOf(stage, draw), hasColors, solid: geometry.solid, shared,
       images: base && { ...base, firstNumber: { value: draw.first }, isStrip: { value: draw.primitive === "triangleStrip" } },
     }, setting.material);
     const shape = stage.kind === "textures" ? emptyGeometryOf(draw) : bufferGeometryOf(stage, draw);
@@ -63,8 +63,8 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
 
 function shadingOf(stage: Stage, draw: DrawRange): Shading {
   const isSurface = draw.primitive === "triangles" || draw.primitive === "triangleStrip";
-  // Points of a cloud with normals are lit; those that stand for a surface to come are not.
-  if (stage.name === "points" || (!isSurface && stage.normal === undefined)) return "unlit";
+  if (stage.name === "points") return "distance";
+  if (!isSurface && stage.normal === undefined) return "unlit"; // a cloud with normals is lit
   return stage.normal === undefined ? "flat" : "smooth";
 }
 

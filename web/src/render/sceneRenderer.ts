@@ -1,7 +1,8 @@
 // Draws a described scene into a canvas, and only when something changed.
 
 import {
-  Box3, Color, DirectionalLight, Group, LinearSRGBColorSpace, NoToneMapping, PerspectiveCamera, Scene, WebGLRenderer,
+  Box3, Color, DirectionalLight, Group, LinearSRGBColorSpace, NoToneMapping, PerspectiveCamera, Scene, Vector2,
+  WebGLRenderer,
 } from "three";
 import type { Stage } from "../decode/stage.ts";
 import type { GeometryDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
@@ -9,6 +10,7 @@ import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { Pose } from "./camera.ts";
 import { applyPose, panned, poseFraming, poseOfViewpoint, poseShowingAll, sphereAround, turned, zoomed } from "./camera.ts";
+import type { SceneUniforms } from "./materials.ts";
 import { setColor } from "./materials.ts";
 import { buildGraph } from "./sceneGraph.ts";
 import { ShapeObject } from "./shapeObject.ts";
@@ -35,7 +37,7 @@ export class SceneRenderer {
   readonly #camera = new PerspectiveCamera();
   readonly #headlight = new DirectionalLight();
   readonly #textures = new TexturePool();
-  readonly #pointSize = { value: pointSizeInCssPixels };
+  readonly #shared: SceneUniforms = { pointSize: { value: pointSizeInCssPixels }, depthRange: { value: new Vector2() } };
   readonly #shapes = new Map<SceneElement, ShapeObject>();
   readonly #onFrame: () => void;
   #root = new Group();
@@ -110,7 +112,7 @@ export class SceneRenderer {
     this.#hasArea = width > 0 && height > 0;
     if (!this.#hasArea) return;
     this.#aspect = width / height;
-    this.#pointSize.value = pointSizeInCssPixels * pixelRatio;
+    this.#shared.pointSize.value = pointSizeInCssPixels * pixelRatio;
     this.#renderer.setSize(width, height, false);
     // Setting the size has cleared the canvas: draw before the browser shows it.
     this.#drawNow();
@@ -157,6 +159,7 @@ export class SceneRenderer {
     this.#frameRequest = 0;
     if (!this.#hasArea) return;
     applyPose(this.#camera, this.#pose, this.#aspect, this.#sphere);
+    this.#shared.depthRange.value.set(this.#camera.near, this.#camera.far);
     this.#renderer.render(this.#scene, this.#camera);
     this.#frames += 1;
     this.#onFrame();
@@ -168,7 +171,7 @@ export class SceneRenderer {
   }
 
   #objectOf(shape: ShapeDescription): ShapeObject {
-    const object = this.#shapes.get(shape.element) ?? new ShapeObject(this.#textures, this.#pointSize, shape);
+    const object = this.#shapes.get(shape.element) ?? new ShapeObject(this.#textures, this.#shared, shape);
     this.#shapes.set(shape.element, object);
     return object;
   }

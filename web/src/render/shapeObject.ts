@@ -3,6 +3,7 @@
 import { Group } from "three";
 import type { Stage } from "../decode/stage.ts";
 import type { GeometryDescription, MaterialDescription, ShapeDescription } from "../document/description.ts";
+import type { SceneUniforms } from "./materials.ts";
 import type { PatchDraws } from "./patchDraws.ts";
 import { drawStage } from "./patchDraws.ts";
 import type { TexturePool } from "./textures.ts";
@@ -10,13 +11,13 @@ import type { TexturePool } from "./textures.ts";
 export class ShapeObject {
   readonly group = new Group();
   readonly #textures: TexturePool;
-  readonly #pointSize: { value: number };
+  readonly #shared: SceneUniforms;
   readonly #patches = new Map<number, PatchDraws>();
   #material: MaterialDescription;
 
-  constructor(textures: TexturePool, pointSize: { value: number }, shape: ShapeDescription) {
+  constructor(textures: TexturePool, shared: SceneUniforms, shape: ShapeDescription) {
     this.#textures = textures;
-    this.#pointSize = pointSize;
+    this.#shared = shared;
     this.#material = shape.material;
     this.group.matrixAutoUpdate = false;
   }
@@ -32,7 +33,7 @@ export class ShapeObject {
     if (patch === undefined) throw new RangeError(`no patch ${place}`);
     const before = this.#patches.get(place);
     const draws = drawStage(stage, {
-      textures: this.#textures, pointSize: this.#pointSize, geometry, patch, material: this.#material,
+      textures: this.#textures, shared: this.#shared, geometry, patch, material: this.#material,
     });
     this.#patches.set(place, draws);
     this.group.add(...draws.objects);
