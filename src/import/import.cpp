@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace imgeo {
 

@@ -1,6 +1,18 @@
 #pragma once
 // import: the bytes of a file -> Scene. One file per format; this header is all
 // that other folders see.
+//
+// PLY: ASCII and binary of both byte orders, every scalar type; vertices with
+// x y z, and where they are there nx ny nz, s t (u v, texture_u texture_v), red
+// green blue alpha (diffuse_red ...); `face` with vertex_indices (vertex_index)
+// and texcoord; `tristrips`. Without faces: a point cloud.
+// OBJ: v (with colours), vt, vn, f; each `o` is a shape, groups are not. Without
+// faces: a point cloud.
+// STL: binary and ASCII; each ASCII solid is a shape, each corner has a position
+// of its own (weld joins them), facet normals are left to the winding.
+// Polygons are cut into triangles. Normals are brought to unit length; (0, 0, 1)
+// stands for those without a direction. Everything else is named in a warning.
+// Limits: 2^32 - 1 vertices and corners; OBJ files of 8 GiB; gzipped files, see gzip.h.
 
 #include "base/bytes.h"
 #include "scene/scene.h"

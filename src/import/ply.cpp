@@ -10,6 +10,8 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
+#include <vector>
 
 namespace imgeo {
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <vector>
 
 namespace imgeo {
 

@@ -5,6 +5,7 @@
 #include "import/ply_cursor.h"
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 namespace imgeo {

@@ -2,6 +2,8 @@
 #include "import/ply_testing.h"
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace imgeo::testing {
 namespace {

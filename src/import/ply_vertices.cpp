@@ -1,6 +1,9 @@
 #include "import/ply_vertices.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
 
 namespace imgeo {
 

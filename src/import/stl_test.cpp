@@ -3,6 +3,8 @@
 #include "scene/testing.h"
 
 #include <fmt/format.h>
+#include <limits>
+#include <vector>
 
 namespace imgeo::testing {
 namespace {

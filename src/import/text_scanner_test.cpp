@@ -5,6 +5,7 @@
 #include <bit>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace imgeo::testing {
 namespace {

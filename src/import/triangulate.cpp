@@ -4,6 +4,10 @@
 #include "import/triangulate.h"
 
 #include <cassert>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace imgeo {
 

@@ -2,7 +2,9 @@
 
 #include "scene/testing.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <vector>
 
 namespace imgeo::testing {
 namespace {

@@ -3,6 +3,8 @@
 
 #include "base/vec.h"
 
+#include <cmath>
+
 namespace imgeo {
 
 /// Brings a normal to unit length and keeps its bits where it is within 1e-6 of
