@@ -40,20 +40,18 @@ IndexedPatch asInSource(const Patch& patch) {
   return result;
 }
 
-/// The triangles by the lattice points of their corners, turned and sorted.
-std::vector<std::array<Vec3u, 3>> drawnTriangles(const IndexedPatch& patch) {
-  const auto before = [](const Vec3u& a, const Vec3u& b) {
-    return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
-  };
-  std::vector<std::array<Vec3u, 3>> triangles;
+/// The triangles by the lattice points of their corners, turned so that the
+/// least sequence comes first (two corners may share a point), and sorted.
+std::vector<std::array<std::uint32_t, 9>> drawnTriangles(const IndexedPatch& patch) {
+  std::vector<std::array<std::uint32_t, 9>> triangles;
   for (const Vec3u& t : trianglesOf(patch)) {
-    std::array corners{patch.positions[t.x], patch.positions[t.y], patch.positions[t.z]};
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), before), corners.end());
-    triangles.push_back(corners);
+    const Vec3u a = patch.positions[t.x], b = patch.positions[t.y], c = patch.positions[t.z];
+    const auto from = [](Vec3u p, Vec3u q, Vec3u r) {
+      return std::array{p.x, p.y, p.z, q.x, q.y, q.z, r.x, r.y, r.z};
+    };
+    triangles.push_back(std::min({from(a, b, c), from(b, c, a), from(c, a, b)}));
   }
-  std::sort(triangles.begin(), triangles.end(), [&](const auto& a, const auto& b) {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), before);
-  });
+  std::sort(triangles.begin(), triangles.end());
   return triangles;
 }
 
