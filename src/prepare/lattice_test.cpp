@@ -1,6 +1,5 @@
 #include "prepare/lattice.h"
 
-#include "base/parallel.h"
 #include "scene/testing.h"
 
 #include <gtest/gtest.h>

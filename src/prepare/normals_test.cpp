@@ -1,7 +1,6 @@
 #include "prepare/normals.h"
 
 #include "base/parallel.h"
-#include "prepare/weld.h"
 #include "scene/testing.h"
 
 #include <gtest/gtest.h>

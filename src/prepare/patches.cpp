@@ -1,6 +1,5 @@
 #include "prepare/patches.h"
 
-#include "base/narrow.h"
 #include "base/parallel.h"
 #include "prepare/index_table.h"
 

@@ -1,12 +1,9 @@
 #include "prepare/patches.h"
 
 #include "base/parallel.h"
-#include "prepare/weld.h"
 #include "scene/testing.h"
 
-#include <array>
 #include <gtest/gtest.h>
-#include <map>
 #include <set>
 #include <tuple>
 

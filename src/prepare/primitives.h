@@ -32,13 +32,14 @@ struct IndexedPatch {
 };
 
 /// Indexed triangles in fan order (breadth-first conquest: vertices are numbered
-/// when discovered, triangles grouped into the fans of their lowest vertex).
-/// Images of it are 10 % smaller than of strips, at no cost to decode: see
-/// docs/decisions/. The triangles and their orientation are the patch's.
+/// when discovered, triangles grouped into the fans of their first vertex).
+/// Images of it are a sixth smaller than those of strips, at no cost to decode:
+/// docs/decisions/vertex-order.md. The triangles and their orientation are the patch's.
 IndexedPatch asTriangles(const Patch& patch);
 
-/// One stitched triangle strip (degenerate joins, even parity kept). Draws
-/// exactly the patch's non-degenerate triangles with their orientation.
+/// One stitched triangle strip of 1.15 to 1.2 indices a triangle on scans. Draws
+/// exactly the patch's non-degenerate triangles with their orientation. Takes some
+/// twenty microseconds a triangle.
 IndexedPatch asStrips(const Patch& patch);
 
 /// Every wedge as a point, in Morton order, without indices; for point clouds
