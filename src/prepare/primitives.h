@@ -37,7 +37,7 @@ struct IndexedPatch {
 /// docs/decisions/vertex-order.md. The triangles and their orientation are the patch's.
 IndexedPatch asTriangles(const Patch& patch);
 
-/// One stitched triangle strip of 1.15 to 1.2 indices a triangle on scans. Draws
+/// One stitched triangle strip, 1.15 to 1.32 indices a triangle on scans. Draws
 /// exactly the patch's non-degenerate triangles with their orientation. Takes some
 /// twenty microseconds a triangle.
 IndexedPatch asStrips(const Patch& patch);
