@@ -11,7 +11,7 @@
 namespace imgeo {
 namespace {
 
-const std::filesystem::path golden = std::filesystem::path(__FILE__).parent_path() / "golden";
+const std::filesystem::path golden = IMGEO_GOLDEN;
 
 /// A small torus whose every attribute has something in each channel.
 PatchedMesh goldenMesh() {

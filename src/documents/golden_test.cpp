@@ -9,7 +9,7 @@
 namespace imgeo {
 namespace {
 
-const std::filesystem::path golden = std::filesystem::path(__FILE__).parent_path() / "golden";
+const std::filesystem::path golden = IMGEO_GOLDEN;
 
 SceneDocument goldenDocument() {
   GeometryDescription sig;
