@@ -20,7 +20,8 @@ struct Encoded {
   IndexedPatch decoded() const { return decodePatch(patch.description, geometry, filesOf(patch)); }
 };
 
-Encoded encode(const Mesh& mesh, Primitive primitive, bool indexed, std::uint32_t bits, const EncodeOptions& options) {
+Encoded encode(const Mesh& mesh, Primitive primitive, bool indexed, std::uint32_t bits,
+               const EncodeOptions& options) {
   const PatchedMesh patched = onePatch(mesh, bits);
   Encoded encoded{verticesOf(patched.patches[0], primitive, indexed), describe(patched, options), {}};
   encoded.patch = encodePatch(encoded.source, encoded.geometry, options);
@@ -63,7 +64,8 @@ TEST(Containers, GiveBackEveryMeshAtEveryPrecision) {
       const bool indexed = !random.once(4);
       for (const Container container : {Container::sig, Container::bg})
         for (const std::uint32_t normalBits : {8u, 16u, 32u}) {
-          if (container == Container::sig && normalBits != 8) continue;
+          if (container == Container::sig && normalBits != 8)
+            continue;
           SCOPED_TRACE(std::to_string(bits) + " bits, mesh " + std::to_string(seed) + ", normals of " +
                        std::to_string(normalBits));
           const Primitive primitive = static_cast<Primitive>(random.below(4));
@@ -80,16 +82,19 @@ TEST(Containers, GiveBackAPatchOfEverySizeAroundARow) {
   for (const Container container : {Container::sig, Container::bg})
     for (const std::uint32_t count : {1u, 2u, 255u, 256u, 257u, 511u, 512u, 513u, 65535u})
       for (const bool indexed : {false, true})
-        expectEqualWithinSteps(encode(testing::pointCloud(count, count), Primitive::points, indexed, 16, {container, 8, 0}), 0);
+        expectEqualWithinSteps(
+            encode(testing::pointCloud(count, count), Primitive::points, indexed, 16, {container, 8, 0}), 0);
 }
 
 TEST(Containers, GiveBackSeveralDraws) {
   for (const Container container : {Container::sig, Container::bg}) {
     const PatchedMesh patched = onePatch(testing::grid(9), 12);
     const EncodeOptions options{container};
-    Encoded encoded{verticesOf(patched.patches[0], Primitive::triangles, true), describe(patched, options), {}};
+    Encoded encoded{
+        verticesOf(patched.patches[0], Primitive::triangles, true), describe(patched, options), {}};
     const auto count = static_cast<std::uint32_t>(encoded.source.indices.size());
-    encoded.source.draws = {{Primitive::triangles, 30}, {Primitive::triangleStrip, 50}, {Primitive::points, count - 80}};
+    encoded.source.draws = {
+        {Primitive::triangles, 30}, {Primitive::triangleStrip, 50}, {Primitive::points, count - 80}};
     encoded.patch = encodePatch(encoded.source, encoded.geometry, options);
     expectEqualWithinSteps(encoded, 0);
   }
@@ -108,7 +113,8 @@ TEST(Containers, EncodeTheSameBytesEveryTime) {
     const Encoded a = encode(randomMesh(7), Primitive::triangles, true, 16, {container});
     const Encoded b = encode(randomMesh(7), Primitive::triangles, true, 16, {container});
     ASSERT_EQ(a.patch.files.size(), b.patch.files.size());
-    for (std::size_t i = 0; i < a.patch.files.size(); ++i) EXPECT_EQ(a.patch.files[i].bytes, b.patch.files[i].bytes);
+    for (std::size_t i = 0; i < a.patch.files.size(); ++i)
+      EXPECT_EQ(a.patch.files[i].bytes, b.patch.files[i].bytes);
   }
 }
 
@@ -121,7 +127,8 @@ TEST(Containers, RefuseAFileWhoseEndIsMissing) {
       const Bytes whole = file.bytes;
       for (std::size_t length = 0; length < whole.size(); ++length) {
         file.bytes.assign(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
-        EXPECT_THROW(encoded.decoded(), Error) << nameOf(file.role) << ", " << length << " of " << whole.size();
+        EXPECT_THROW(encoded.decoded(), Error)
+            << nameOf(file.role) << ", " << length << " of " << whole.size();
       }
       file.bytes = whole;
     }
@@ -217,7 +224,9 @@ TEST_P(HostilePatch, OutsideOfItsStatedBoxIsMalformed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEach, HostilePatch, ::testing::Values(Container::sig, Container::bg),
-                         [](const auto& parameter) { return parameter.param == Container::sig ? "Sig" : "Bg"; });
+                         [](const auto& parameter) {
+                           return parameter.param == Container::sig ? "Sig" : "Bg";
+                         });
 
 TEST(DecodeBox, HoldsTheLatticeAtEveryPrecision) {
   for (const Container container : {Container::sig, Container::bg})
@@ -226,7 +235,8 @@ TEST(DecodeBox, HoldsTheLatticeAtEveryPrecision) {
       const Box3d box = decodeBox(container, lattice);
       const double cells = std::pow(256.0, coordBytes(container, bits)) - 1;
       const double stored = std::ldexp(lattice.maximum(), static_cast<int>(coordShift(container, bits)));
-      EXPECT_NEAR(box.min.x + box.size().x * stored / cells, lattice.point({lattice.maximum(), 0, 0}).x, 1e-9 * box.size().x);
+      EXPECT_NEAR(box.min.x + box.size().x * stored / cells, lattice.point({lattice.maximum(), 0, 0}).x,
+                  1e-9 * box.size().x);
       const Lattice back = latticeFromDecodeBox(container, box.center(), box.size(), bits);
       EXPECT_NEAR(back.step, lattice.step, 1e-13 * box.size().x);
       EXPECT_NEAR(back.origin.z, lattice.origin.z, 1e-13 * box.size().x + 1e-11);

@@ -82,4 +82,18 @@ Lattice latticeFromTypedBox(ElementType type, Vec3d center, Vec3d size) {
   return latticeOver(center - size * ((maximum + 1) / maximum), size, maximum, bits);
 }
 
+DecodeFields decodeFields(const GeometryDescription& geometry) {
+  const Lattice& lattice = geometry.lattice;
+  const bool typed = geometry.container == Container::bg && !isUnsigned(geometry.coordType);
+  if (typed && geometry.coordType == ElementType::float32) {
+    const double half = lattice.step * UINT32_MAX / 2;
+    const Vec3d size{half, half, half};
+    return {lattice.origin + size, size};
+  }
+  const double maximum = maximumOf(geometry.coordType);
+  const double edge = typed ? lattice.step * maximum : decodeEdge(geometry.container, lattice);
+  const Vec3d size = lattice.stretch * edge;
+  return {lattice.origin + size * (typed ? (maximum + 1) / maximum : 0.5), size};
+}
+
 } // namespace imgeo

@@ -57,7 +57,7 @@ struct GeometryDescription {
   ElementType indexType = ElementType::uint16, coordType = ElementType::uint16,
               normalType = ElementType::int8, texCoordType = ElementType::uint16,
               colorType = ElementType::uint8; ///< BG only
-  bool sphericalNormals = false; ///< BG: the normal is a coordinate record's fourth element
+  bool sphericalNormals = false;              ///< BG: the normal is a coordinate record's fourth element
   std::vector<PatchDescription> patches;
   friend bool operator==(const GeometryDescription&, const GeometryDescription&) = default;
 };
@@ -89,6 +89,14 @@ Lattice latticeFromDecodeBox(Container container, Vec3d center, Vec3d size, std:
 /// one of 32 bits over a cube of twice the longest edge, which moves them less
 /// than single precision does far from the origin.
 Lattice latticeFromTypedBox(ElementType type, Vec3d center, Vec3d size);
+
+/// The node's `position` and `size` from which the lattice is read back: the
+/// inverse of the two above but for roundings, and for Float32 but for `size`
+/// being a cube.
+struct DecodeFields {
+  Vec3d position, size;
+};
+DecodeFields decodeFields(const GeometryDescription& geometry);
 
 bool isUnsigned(ElementType type);
 /// The integer that stands for 1: 127, 255, 32767, 65535 ...; 1 for Float32.

@@ -9,7 +9,9 @@ namespace {
 
 using std::numbers::pi;
 
-double signNotZero(double value) { return value < 0 ? -1.0 : 1.0; }
+double signNotZero(double value) {
+  return value < 0 ? -1.0 : 1.0;
+}
 
 Vec3d normalised(Vec3d v) {
   const double norm = length(v);
@@ -20,7 +22,8 @@ Vec3d normalised(Vec3d v) {
 Vec2<double> unfold(Vec3d v) {
   const double sum = std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
   const double x = v.x / sum, y = v.y / sum;
-  if (v.z >= 0) return {x, y};
+  if (v.z >= 0)
+    return {x, y};
   return {(1 - std::abs(y)) * signNotZero(x), (1 - std::abs(x)) * signNotZero(y)};
 }
 

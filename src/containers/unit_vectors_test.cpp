@@ -36,8 +36,8 @@ TEST(Octahedral, KeepsEveryDirectionWithinItsBound) {
 }
 
 TEST(Octahedral, KeepsTheAxesExactly) {
-  for (const Vec3f axis : {Vec3f{1, 0, 0}, Vec3f{-1, 0, 0}, Vec3f{0, 1, 0}, Vec3f{0, -1, 0}, Vec3f{0, 0, 1},
-                           Vec3f{0, 0, -1}})
+  for (const Vec3f axis :
+       {Vec3f{1, 0, 0}, Vec3f{-1, 0, 0}, Vec3f{0, 1, 0}, Vec3f{0, -1, 0}, Vec3f{0, 0, 1}, Vec3f{0, 0, -1}})
     EXPECT_EQ(angleBetween(unitFromOctahedral(octahedralFromUnit(axis, 8), 8), axis), 0);
 }
 
@@ -58,7 +58,8 @@ TEST(Octahedral, TakesTheNearestOfAllCodesInTheCell) {
     for (int dx = -1; dx <= 1; ++dx)
       for (int dy = -1; dy <= 1; ++dy) {
         const auto x = static_cast<std::int64_t>(code.x) + dx, y = static_cast<std::int64_t>(code.y) + dy;
-        if (x < 0 || y < 0 || x > 254 || y > 254) continue;
+        if (x < 0 || y < 0 || x > 254 || y > 254)
+          continue;
         const Vec3f other = unitFromOctahedral({std::uint32_t(x), std::uint32_t(y)}, 8);
         EXPECT_LE(error, angleBetween(v, other) + 2e-3);
       }

@@ -359,13 +359,14 @@ TEST(ReadScene, SaysOnWhichLineAFieldIsWrong) {
   };
   for (const std::string fields :
        {"vertexCount='-1'", "vertexCount='4294967296'", "vertexCount='3 3' primType='POINTS'", "index='a#b'",
-        "index='#5'", "index='a#1+4'", "recordCount='1 2'", "bboxSize='1 nan 1'", "bboxSize='1 1e39 1'", "bboxSize='1 1'",
-        "implicitMeshSize='0 1'", "implicitMeshSize='1e9 1'"})
+        "index='#5'", "index='a#1+4'", "recordCount='1 2'", "bboxSize='1 nan 1'", "bboxSize='1 1e39 1'",
+        "bboxSize='1 1'", "implicitMeshSize='0 1'", "implicitMeshSize='1e9 1'"})
     EXPECT_EQ(kindOfReading(shape(fields), "s.x3d:3"), ErrorKind::malformed) << fields;
 }
 
 GeometryDescription readBinaryGeometry(const std::string& fields) {
-  const SceneDocument document = readScene("<X3D><Scene><Shape><BinaryGeometry " + fields + "/></Shape></Scene></X3D>", "x");
+  const SceneDocument document =
+      readScene("<X3D><Scene><Shape><BinaryGeometry " + fields + "/></Shape></Scene></X3D>", "x");
   return document.geometries.at(0);
 }
 
@@ -382,17 +383,36 @@ TEST(ReadScene, FindsTheStrideOfAUrlAsX3domDoes) {
 }
 
 TEST(ReadScene, PutsSignedCoordinatesAroundTheCentreOfABoxOfAnyShape) {
-  const Lattice lattice = readBinaryGeometry("coordType='Int16' position='1 2 3' size='4 2 0' coord='a'").lattice;
+  const Lattice lattice =
+      readBinaryGeometry("coordType='Int16' position='1 2 3' size='4 2 0' coord='a'").lattice;
   EXPECT_EQ(lattice.bits, 16u);
-  const Vec3d middle = lattice.point({32768, 32768, 32768}), corner = lattice.point({32768 + 32767, 32768 - 32767, 0});
+  const Vec3d middle = lattice.point({32768, 32768, 32768}),
+              corner = lattice.point({32768 + 32767, 32768 - 32767, 0});
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(middle[axis], (Vec3d{1, 2, 3}[axis]), 1e-12);
     EXPECT_NEAR(corner[axis], (Vec3d{5, 0, 3}[axis]), 1e-12);
   }
 }
 
+TEST(Documents, KeepTheLatticeOfForeignGeometry) {
+  for (const std::string type : {"Int8", "Int16", "Uint8", "Uint16", "Uint32", "Float32"})
+    for (const std::string size : {"4 2 0", "1 1 1", "1e-3 5 100"}) {
+      const SceneDocument document =
+          readScene("<X3D><Scene><Shape><BinaryGeometry coordType='" + type + "' position='1 2 3' size='" +
+                        size + "' coord='a'/></Shape></Scene></X3D>",
+                    "x");
+      const Lattice before = document.geometries.at(0).lattice;
+      const Lattice after = readScene(writeX3d(document), "x").geometries.at(0).lattice;
+      const std::uint32_t most = before.maximum();
+      const Vec3u corners[] = {{0, 0, 0}, {most, most, most}, {most / 2, most / 3, 1}};
+      for (const Vec3u& q : corners)
+        EXPECT_LE(length(after.point(q) - before.point(q)), 1e-12) << type << ", " << size;
+    }
+}
+
 TEST(ReadScene, TakesX3domsDefaultsForABinaryGeometry) {
-  const GeometryDescription geometry = readBinaryGeometry("coord='a' index='i' normalAsSphericalCoordinates='true'");
+  const GeometryDescription geometry =
+      readBinaryGeometry("coord='a' index='i' normalAsSphericalCoordinates='true'");
   EXPECT_EQ(geometry.coordType, ElementType::float32);
   EXPECT_EQ(geometry.indexType, ElementType::uint16);
   EXPECT_TRUE(geometry.sphericalNormals);
@@ -401,11 +421,14 @@ TEST(ReadScene, TakesX3domsDefaultsForABinaryGeometry) {
 
 TEST(ReadScene, JoinsAGroupOfShapesThatShareTheirAppearance) {
   const auto shape = [](const std::string& appearance, const std::string& coord) {
-    return "<Shape bboxSize='1 1 1'><Appearance " + appearance + "><Material diffuseColor='1 0 0'/></Appearance>"
-           "<BinaryGeometry size='2 2 2' coordType='Uint16' coord='" + coord + "'/></Shape>";
+    return "<Shape bboxSize='1 1 1'><Appearance " + appearance +
+           "><Material diffuseColor='1 0 0'/></Appearance>"
+           "<BinaryGeometry size='2 2 2' coordType='Uint16' coord='" +
+           coord + "'/></Shape>";
   };
   const auto scene = [](const std::string& shapes) {
-    return readScene("<X3D><Scene><Group DEF='statue' bboxSize='3 3 3'>" + shapes + "</Group></Scene></X3D>", "x");
+    return readScene("<X3D><Scene><Group DEF='statue' bboxSize='3 3 3'>" + shapes + "</Group></Scene></X3D>",
+                     "x");
   };
   const SceneDocument joined = scene(shape("DEF='A'", "a") + shape("USE='A'", "b"));
   ASSERT_EQ(joined.shapes.size(), 1u);
@@ -418,7 +441,8 @@ TEST(ReadScene, JoinsAGroupOfShapesThatShareTheirAppearance) {
 
   EXPECT_EQ(scene(shape("DEF='A'", "a") + shape("DEF='B'", "b")).shapes.size(), 2u);
   EXPECT_EQ(scene(shape("", "a") + shape("", "b")).shapes.size(), 2u);
-  const std::string otherBox = "<Shape><Appearance USE='A'/><BinaryGeometry size='3 3 3' coordType='Uint16' coord='b'/></Shape>";
+  const std::string otherBox =
+      "<Shape><Appearance USE='A'/><BinaryGeometry size='3 3 3' coordType='Uint16' coord='b'/></Shape>";
   EXPECT_EQ(scene(shape("DEF='A'", "a") + otherBox).shapes.size(), 2u);
   EXPECT_EQ(kindOfReading("<X3D><Scene>" + shape("USE='A'", "a") + "</Scene></X3D>"), ErrorKind::malformed);
 }

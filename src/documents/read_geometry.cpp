@@ -32,15 +32,18 @@ bool parseWhole(std::string_view text, std::uint32_t& value) {
 Reference stridedReference(const std::string& url) {
   Reference reference{url, 0, 0};
   const std::size_t plus = url.rfind('+');
-  if (plus == std::string::npos || !parseWhole(std::string_view(url).substr(plus + 1), reference.stride)) return {url, 0, 0};
-  if (plus > 0 && url[plus - 1] == '?') reference.url.resize(plus - 1);
+  if (plus == std::string::npos || !parseWhole(std::string_view(url).substr(plus + 1), reference.stride))
+    return {url, 0, 0};
+  if (plus > 0 && url[plus - 1] == '?')
+    reference.url.resize(plus - 1);
   return reference;
 }
 
 /// SIG: url, url#N. BG: url, url+S, url?+S, url#O+S.
 Reference referenceOf(const Fields& fields, const std::string& url, Container container) {
   const std::size_t hash = url.rfind('#');
-  if (hash == std::string::npos && container == Container::bg) return stridedReference(url);
+  if (hash == std::string::npos && container == Container::bg)
+    return stridedReference(url);
   Reference reference{url.substr(0, hash), 0, 0};
   if (reference.url.empty())
     fields.fail(ErrorKind::malformed, "a reference has no url");
@@ -63,7 +66,8 @@ std::vector<Draw> drawsOf(const Fields& fields) {
   static constexpr std::array<const char*, 4> names{"POINTS", "LINES", "TRIANGLES", "TRIANGLESTRIP"};
   const std::vector<std::string> types = fields.strings("primType");
   std::vector<std::uint32_t> counts = fields.integers("vertexCount");
-  if (counts.empty()) counts = {0}; // all of the indices, in X3DOM
+  if (counts.empty())
+    counts = {0}; // all of the indices, in X3DOM
   if (!types.empty() && types.size() != counts.size())
     fields.fail(ErrorKind::malformed, "primType and vertexCount differ in their number of draws");
   std::vector<Draw> draws;
@@ -168,7 +172,8 @@ Lattice latticeOf(const Fields& fields, const GeometryDescription& geometry) {
     fields.fail(ErrorKind::malformed, "size is the extent of no box");
   if (geometry.container == Container::sig || isUnsigned(geometry.coordType))
     return latticeFromDecodeBox(geometry.container, position, size, bits);
-  if (bits != 8 * bytes) fields.fail(ErrorKind::malformed, "positionBits is only for unsigned coordinates");
+  if (bits != 8 * bytes)
+    fields.fail(ErrorKind::malformed, "positionBits is only for unsigned coordinates");
   return latticeFromTypedBox(geometry.coordType, position, size);
 }
 
@@ -189,8 +194,10 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
     geometry.colorType = elementTypeOf(fields, "colorType", ElementType::float32);
     geometry.colorComponents = fields.boolean("rgbaColors", false) ? 4 : 3;
     geometry.sphericalNormals = fields.boolean("normalAsSphericalCoordinates", false);
-    if (fields.boolean("compressed", false)) fields.fail(ErrorKind::unsupported, "compressed containers are not read");
-    if (!fields.boolean("normalPerVertex", true)) fields.fail(ErrorKind::unsupported, "normals for faces are not read");
+    if (fields.boolean("compressed", false))
+      fields.fail(ErrorKind::unsupported, "compressed containers are not read");
+    if (!fields.boolean("normalPerVertex", true))
+      fields.fail(ErrorKind::unsupported, "normals for faces are not read");
   } else {
     geometry.colorComponents = fields.integer("numColorComponents", 3);
     if (geometry.colorComponents != 3 && geometry.colorComponents != 4)

@@ -75,10 +75,9 @@ Element patchElement(const PatchDescription& patch, Container container) {
 }
 
 Element geometryElement(const GeometryDescription& geometry) {
-  const double edge = decodeEdge(geometry.container, geometry.lattice);
-  const Vec3d size{edge, edge, edge};
-  const Attributes box{{"position", numbers(geometry.lattice.origin + size * 0.5)},
-                       {"size", numbers(size)},
+  const DecodeFields decode = decodeFields(geometry);
+  const Attributes box{{"position", numbers(decode.position)},
+                       {"size", numbers(decode.size)},
                        {"positionBits", std::to_string(geometry.lattice.bits)}};
   Attributes stored;
   if (geometry.container == Container::bg)
@@ -87,7 +86,8 @@ Element geometryElement(const GeometryDescription& geometry) {
               {"normalType", nameOf(geometry.normalType)},
               {"texCoordType", nameOf(geometry.texCoordType)},
               {"colorType", nameOf(geometry.colorType)}};
-  if (geometry.sphericalNormals) stored.push_back({"normalAsSphericalCoordinates", "true"});
+  if (geometry.sphericalNormals)
+    stored.push_back({"normalAsSphericalCoordinates", "true"});
   addUnless(stored, "texCoordMin", geometry.texCoordMin, Vec2f{0, 0}, numbers(geometry.texCoordMin));
   addUnless(stored, "texCoordSize", geometry.texCoordSize, Vec2f{1, 1}, numbers(geometry.texCoordSize));
   if (geometry.colorComponents == 4)

@@ -15,6 +15,7 @@ EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geom
 /// element types, interleaved records, spherical normals. Safe for untrusted
 /// bytes; see decodePatch. Throws Error{unsupported} for signed indices,
 /// unsigned normals, and spherical normals of other than 16 bits.
-IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch);
+IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry,
+                      const FetchFile& fetch);
 
 } // namespace imgeo

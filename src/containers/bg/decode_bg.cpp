@@ -17,7 +17,8 @@ class Records {
 public:
   Records(const Reference& reference, const FetchFile& fetch, ElementType type, std::uint32_t components)
       : bytes_(fetch(reference.url)), place_(reference.url), type_(type), first_(reference.first),
-        recordBytes_(components * byteSizeOf(type)), stride_(reference.stride != 0 ? reference.stride : recordBytes_) {
+        recordBytes_(components * byteSizeOf(type)),
+        stride_(reference.stride != 0 ? reference.stride : recordBytes_) {
     if (stride_ < recordBytes_)
       throw Error(ErrorKind::malformed, place_,
                   "a stride of " + std::to_string(stride_) + " bytes is less than a record of " +
@@ -32,7 +33,8 @@ public:
     if (begin > bytes_.size() || (bytes_.size() - begin) / stride_ < count || available() < count)
       throw Error(ErrorKind::truncated, place_,
                   std::to_string(bytes_.size()) + " bytes are too few for " + std::to_string(count) +
-                      " records of " + std::to_string(stride_) + " bytes from byte " + std::to_string(first_));
+                      " records of " + std::to_string(stride_) + " bytes from byte " +
+                      std::to_string(first_));
   }
 
   /// How many records follow one another to the end of the file.
@@ -43,9 +45,12 @@ public:
   std::uint32_t unsignedAt(std::uint64_t record, std::uint32_t component) const {
     const std::uint8_t* at = this->at(record, component);
     switch (byteSizeOf(type_)) {
-    case 1: return *at;
-    case 2: return loadLittle<std::uint16_t>(at);
-    default: return loadLittle<std::uint32_t>(at);
+    case 1:
+      return *at;
+    case 2:
+      return loadLittle<std::uint16_t>(at);
+    default:
+      return loadLittle<std::uint32_t>(at);
     }
   }
 
@@ -53,11 +58,16 @@ public:
   double realAt(std::uint64_t record, std::uint32_t component) const {
     const std::uint8_t* at = this->at(record, component);
     switch (type_) {
-    case ElementType::int8: return static_cast<std::int8_t>(*at) / maximumOf(type_);
-    case ElementType::int16: return loadLittle<std::int16_t>(at) / maximumOf(type_);
-    case ElementType::int32: return loadLittle<std::int32_t>(at) / maximumOf(type_);
-    case ElementType::float32: return loadLittle<float>(at);
-    default: return unsignedAt(record, component) / maximumOf(type_);
+    case ElementType::int8:
+      return static_cast<std::int8_t>(*at) / maximumOf(type_);
+    case ElementType::int16:
+      return loadLittle<std::int16_t>(at) / maximumOf(type_);
+    case ElementType::int32:
+      return loadLittle<std::int32_t>(at) / maximumOf(type_);
+    case ElementType::float32:
+      return loadLittle<float>(at);
+    default:
+      return unsignedAt(record, component) / maximumOf(type_);
     }
   }
 
@@ -78,27 +88,31 @@ void requireType(bool supported, const std::string& place, const char* attribute
 }
 
 /// A count of 0 in the only draw stands for all indices of the file.
-std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, ElementType type, const FetchFile& fetch) {
+std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, ElementType type,
+                                         const FetchFile& fetch) {
   requireType(isUnsigned(type), patch.index->url, "indices", type);
   const Records records(*patch.index, fetch, type, 1);
   const bool all = patch.draws.size() == 1 && patch.draws[0].count == 0;
   const std::uint64_t count = all ? records.available() : drawnCount(patch.draws);
   records.require(count);
   std::vector<std::uint32_t> indices(count);
-  for (std::uint64_t n = 0; n < count; ++n) indices[n] = records.unsignedAt(n, 0);
+  for (std::uint64_t n = 0; n < count; ++n)
+    indices[n] = records.unsignedAt(n, 0);
   return indices;
 }
 
 /// Lattice coordinates as they are stored; signed ones in offset binary.
-std::vector<Vec3u> decodeIntegers(const Records& records, std::uint32_t count, const GeometryDescription& geometry,
-                                  const std::string& place) {
-  const std::uint32_t signBit = isUnsigned(geometry.coordType) ? 0 : 1u << (8 * byteSizeOf(geometry.coordType) - 1);
+std::vector<Vec3u> decodeIntegers(const Records& records, std::uint32_t count,
+                                  const GeometryDescription& geometry, const std::string& place) {
+  const std::uint32_t signBit =
+      isUnsigned(geometry.coordType) ? 0 : 1u << (8 * byteSizeOf(geometry.coordType) - 1);
   const std::uint32_t shift = coordShift(Container::bg, geometry.lattice.bits);
   std::vector<Vec3u> positions(count);
   for (std::uint32_t n = 0; n < count; ++n)
     for (int axis = 0; axis < 3; ++axis)
       if (geometry.lattice.stretch[axis] > 0) // on a flat axis all numbers mean the same
-        positions[n][axis] = loadCoord(records.unsignedAt(n, static_cast<std::uint32_t>(axis)) ^ signBit, shift, place);
+        positions[n][axis] =
+            loadCoord(records.unsignedAt(n, static_cast<std::uint32_t>(axis)) ^ signBit, shift, place);
   return positions;
 }
 
@@ -135,14 +149,16 @@ void checkTypes(const PatchDescription& patch, const GeometryDescription& geomet
                 std::string(nameOf(geometry.coordType)) + " is no type for coordinates of " +
                     std::to_string(geometry.lattice.bits) + " bits");
   if (geometry.sphericalNormals)
-    requireType(byteSizeOf(geometry.coordType) == 2, place, "coordinates with spherical normals", geometry.coordType);
+    requireType(byteSizeOf(geometry.coordType) == 2, place, "coordinates with spherical normals",
+                geometry.coordType);
   if (patch.normal)
     requireType(!isUnsigned(geometry.normalType), patch.normal->url, "normals", geometry.normalType);
 }
 
 } // namespace
 
-IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch) {
+IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry,
+                      const FetchFile& fetch) {
   checkTypes(patch, geometry);
   const std::string& place = patch.coord[0].url;
   IndexedPatch decoded;
@@ -150,7 +166,8 @@ IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& 
   decoded.colorComponents = geometry.colorComponents;
   if (patch.index) {
     decoded.indices = decodeIndices(patch, geometry.indexType, fetch);
-    if (decoded.draws.size() == 1) decoded.draws[0].count = narrow<std::uint32_t>(decoded.indices.size());
+    if (decoded.draws.size() == 1)
+      decoded.draws[0].count = narrow<std::uint32_t>(decoded.indices.size());
   }
   const std::uint32_t count = recordCountOf(patch, decoded.indices, patch.index ? patch.index->url : place);
   const auto fetchRecords = [&](const Reference& reference, ElementType type, std::uint32_t components) {
@@ -170,7 +187,8 @@ IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& 
   } else if (patch.normal) {
     const Records records = fetchRecords(*patch.normal, geometry.normalType, 3);
     for (std::uint32_t n = 0; n < count; ++n)
-      decoded.normals.push_back(unitNormal({records.realAt(n, 0), records.realAt(n, 1), records.realAt(n, 2)}));
+      decoded.normals.push_back(
+          unitNormal({records.realAt(n, 0), records.realAt(n, 1), records.realAt(n, 2)}));
   }
   if (patch.texCoord) {
     const Records records = fetchRecords(*patch.texCoord, geometry.texCoordType, 2);
@@ -186,7 +204,8 @@ IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& 
       return static_cast<std::uint8_t>(std::lround(255 * (share >= 0 ? std::min(share, 1.0) : 0)));
     };
     for (std::uint32_t n = 0; n < count; ++n)
-      decoded.colors.push_back({byte(n, 0), byte(n, 1), byte(n, 2), geometry.colorComponents == 4 ? byte(n, 3) : std::uint8_t{255}});
+      decoded.colors.push_back({byte(n, 0), byte(n, 1), byte(n, 2),
+                                geometry.colorComponents == 4 ? byte(n, 3) : std::uint8_t{255}});
   }
   return decoded;
 }

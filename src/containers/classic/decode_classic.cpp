@@ -13,9 +13,10 @@ namespace {
 /// of them) from the reference's first texel on.
 class Texels {
 public:
-  Texels(const Reference& reference, const FetchFile& fetch, std::uint32_t columns, std::uint32_t fewestChannels)
-      : image_(decodePng(fetch(reference.url), reference.url)), columns_(columns != 0 ? columns : image_.width),
-        first_(reference.first), place_(reference.url) {
+  Texels(const Reference& reference, const FetchFile& fetch, std::uint32_t columns,
+         std::uint32_t fewestChannels)
+      : image_(decodePng(fetch(reference.url), reference.url)),
+        columns_(columns != 0 ? columns : image_.width), first_(reference.first), place_(reference.url) {
     if (columns > image_.width)
       throw Error(ErrorKind::malformed, place_,
                   "the image is " + std::to_string(image_.width) + " texels wide and cannot hold " +
@@ -53,16 +54,18 @@ constexpr std::uint32_t noTexel = UINT32_MAX;
 /// counts in 1/256 of the image, so texel t is byte round(t * 256 / edge).
 std::vector<std::uint32_t> texelsByByte(std::uint32_t edge) {
   std::vector<std::uint32_t> texels(256, noTexel);
-  for (std::uint32_t t = 0; t < edge; ++t) texels[(t * 512 + edge) / (2 * edge)] = t;
+  for (std::uint32_t t = 0; t < edge; ++t)
+    texels[(t * 512 + edge) / (2 * edge)] = t;
   return texels;
 }
 
-std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, const FetchFile& fetch, const Image& records,
-                                         const std::string& recordsPlace) {
+std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, const FetchFile& fetch,
+                                         const Image& records, const std::string& recordsPlace) {
   if (records.width > recordColumns || records.height > recordColumns)
     throw Error(ErrorKind::malformed, recordsPlace,
                 "a coordinate image that is indexed is at most 256 texels wide and 256 high");
-  const std::vector<std::uint32_t> columnOf = texelsByByte(records.width), rowOf = texelsByByte(records.height);
+  const std::vector<std::uint32_t> columnOf = texelsByByte(records.width),
+                                   rowOf = texelsByByte(records.height);
   const std::uint64_t count = drawnCount(patch.draws);
   const Texels texels(*patch.index, fetch, patch.implicitMeshSize.x, 3);
   texels.require(count);
@@ -78,7 +81,8 @@ std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, const Fe
 
 void addPlane(std::vector<Vec3u>& stored, const Texels& texels) {
   for (std::size_t n = 0; n < stored.size(); ++n)
-    for (int axis = 0; axis < 3; ++axis) stored[n][axis] = stored[n][axis] << 8 | texels[n][axis];
+    for (int axis = 0; axis < 3; ++axis)
+      stored[n][axis] = stored[n][axis] << 8 | texels[n][axis];
 }
 
 Vec3f normalOf(const std::uint8_t* texel) {
@@ -86,7 +90,9 @@ Vec3f normalOf(const std::uint8_t* texel) {
 }
 
 Vec2f texCoordOf(const std::uint8_t* texel, const GeometryDescription& geometry) {
-  const auto word = [](std::uint8_t high, std::uint8_t low) { return static_cast<std::uint16_t>(high << 8 | low); };
+  const auto word = [](std::uint8_t high, std::uint8_t low) {
+    return static_cast<std::uint16_t>(high << 8 | low);
+  };
   return {loadTexCoord(word(texel[0], texel[2]), geometry.texCoordMin.x, geometry.texCoordSize.x),
           loadTexCoord(word(texel[1], texel[3]), geometry.texCoordMin.y, geometry.texCoordSize.y)};
 }
@@ -98,8 +104,9 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
   const std::uint32_t bits = geometry.lattice.bits, shift = coordShift(Container::sig, bits);
   if (patch.coord.size() != coordBytes(Container::sig, bits))
     throw Error(ErrorKind::malformed, "",
-                std::to_string(bits) + "-bit coordinates need " + std::to_string(coordBytes(Container::sig, bits)) +
-                    " images and have " + std::to_string(patch.coord.size()));
+                std::to_string(bits) + "-bit coordinates need " +
+                    std::to_string(coordBytes(Container::sig, bits)) + " images and have " +
+                    std::to_string(patch.coord.size()));
 
   // What an index means follows from the height of the record images, and how
   // many records there are may only follow from the indices.
@@ -109,7 +116,8 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
   IndexedPatch decoded;
   decoded.draws = patch.draws;
   decoded.colorComponents = geometry.colorComponents;
-  if (patch.index) decoded.indices = decodeIndices(patch, fetch, first.image(), place);
+  if (patch.index)
+    decoded.indices = decodeIndices(patch, fetch, first.image(), place);
   const std::uint32_t count = recordCountOf(patch, decoded.indices, patch.index ? patch.index->url : place);
   first.require(count);
 
@@ -125,22 +133,26 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
   for (std::size_t plane = 1; plane < patch.coord.size(); ++plane)
     addPlane(decoded.positions, fetchRecords(patch.coord[plane], 3));
   for (Vec3u& position : decoded.positions)
-    for (int axis = 0; axis < 3; ++axis) position[axis] = loadCoord(position[axis], shift, place);
+    for (int axis = 0; axis < 3; ++axis)
+      position[axis] = loadCoord(position[axis], shift, place);
   checkInsideBox(decoded.positions, geometry.lattice, patch.box, place);
 
   if (patch.normal) {
     const Texels texels = fetchRecords(*patch.normal, 3);
-    for (std::uint32_t n = 0; n < count; ++n) decoded.normals.push_back(normalOf(texels[n]));
+    for (std::uint32_t n = 0; n < count; ++n)
+      decoded.normals.push_back(normalOf(texels[n]));
   }
   if (patch.texCoord) {
     const Texels texels = fetchRecords(*patch.texCoord, 4);
-    for (std::uint32_t n = 0; n < count; ++n) decoded.texCoords.push_back(texCoordOf(texels[n], geometry));
+    for (std::uint32_t n = 0; n < count; ++n)
+      decoded.texCoords.push_back(texCoordOf(texels[n], geometry));
   }
   if (patch.color) {
     const bool alpha = geometry.colorComponents == 4;
     const Texels texels = fetchRecords(*patch.color, alpha ? 4 : 3);
     for (std::uint32_t n = 0; n < count; ++n)
-      decoded.colors.push_back({texels[n][0], texels[n][1], texels[n][2], alpha ? texels[n][3] : std::uint8_t{255}});
+      decoded.colors.push_back(
+          {texels[n][0], texels[n][1], texels[n][2], alpha ? texels[n][3] : std::uint8_t{255}});
   }
   return decoded;
 }
