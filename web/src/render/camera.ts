@@ -48,9 +48,9 @@ export function poseShowingAll(pose: Pose, sphere: Sphere): Pose {
 /** Turns by angles in radians: to the right around `up`, and over the top; never past a pole. */
 export function turned(pose: Pose, right: number, over: number): Pose {
   const sideways = new Vector3(1, 0, 0).applyQuaternion(pose.orientation);
-  const towards = forwardOf(pose).angleTo(pose.up); // 0: looks along up, pi: straight down
+  const towards = forwardOf(pose).angleTo(pose.up); // 0: looks along up; pi: straight down, from over the top
   const nearestToPole = 0.02;
-  const pitch = MathUtils.clamp(over, nearestToPole - (Math.PI - towards), towards - nearestToPole) || 0;
+  const pitch = MathUtils.clamp(over, nearestToPole - towards, Math.PI - nearestToPole - towards);
   const turn = new Quaternion().setFromAxisAngle(pose.up, -right)
     .multiply(new Quaternion().setFromAxisAngle(sideways, -pitch));
   return {
@@ -60,9 +60,13 @@ export function turned(pose: Pose, right: number, over: number): Pose {
   };
 }
 
-/** Multiplies the distance to the centre. */
-export function zoomed(pose: Pose, factor: number): Pose {
-  return { ...pose, position: pose.position.clone().sub(pose.center).multiplyScalar(factor).add(pose.center) };
+/** Multiplies the distance to the centre, between a thousandth of the scene's radius and a thousand of them. */
+export function zoomed(pose: Pose, factor: number, sphere: Sphere): Pose {
+  const distance = pose.position.distanceTo(pose.center);
+  const least = Math.min(distance, sphere.radius / 1000);
+  const most = Math.max(distance, sphere.radius * 1000);
+  const wanted = MathUtils.clamp(distance * factor, least, most);
+  return { ...pose, position: pose.center.clone().addScaledVector(pose.position.clone().sub(pose.center), wanted / (distance || 1)) };
 }
 
 /** Shifts what is seen by shares of the view's shorter side, as seen at the centre. */

@@ -125,7 +125,7 @@ export class SceneRenderer {
 
   /** Multiplies the distance to the centre of rotation. */
   zoom(factor: number): void {
-    this.#moveTo(zoomed(this.#pose, factor));
+    this.#moveTo(zoomed(this.#pose, factor, this.#sphere));
   }
 
   /** Shares of the view's shorter side by which the scene follows the hand. */
