@@ -2,23 +2,17 @@
 
 import assert from "node:assert/strict";
 import { after } from "node:test";
-import { chromium as playwright, type Browser, type Page } from "playwright-core";
+import type { Browser, Page } from "playwright-core";
+import { launchChromium } from "./chromium.ts";
 import { observe, type Observed, type ObservedEvent } from "./observe.ts";
-import { chromium } from "./paths.ts";
 import { decodePng, type Picture } from "./png.ts";
 import { startServer, type TestServer } from "./server.ts";
-
-const flags = [
-  "--no-sandbox --disable-quic --no-first-run --disable-background-networking --disable-component-update",
-  "--disable-sync --disable-extensions --mute-audio --hide-scrollbars --use-gl=angle --use-angle=swiftshader",
-  "--enable-unsafe-swiftshader --ignore-gpu-blocklist --force-device-scale-factor=1 --force-color-profile=srgb",
-].flatMap((line) => line.split(" "));
 
 let launched: Promise<Browser> | undefined;
 
 /** The browser of this run; started at first use, closed after the last test. */
 export async function browser(): Promise<Browser> {
-  launched ??= playwright.launch({ executablePath: chromium, headless: true, args: flags });
+  launched ??= launchChromium();
   return await launched;
 }
 
@@ -66,7 +60,9 @@ export async function withPage(
   const server = await startServer(directory);
   options.server?.(server);
   const { size = pictureSize, deviceScaleFactor = 1, hasTouch = false } = options;
-  const context = await (await browser()).newContext({ viewport: size, deviceScaleFactor, hasTouch });
+  // Less motion: the bar does not fade while pictures are taken.
+  const shown = { viewport: size, deviceScaleFactor, hasTouch, reducedMotion: "reduce" as const };
+  const context = await (await browser()).newContext(shown);
   try {
     await context.addInitScript(observe);
     if (options.before) await context.addInitScript(options.before);

@@ -10,4 +10,3 @@ export const converter = process.env.IMGEO ?? join(repository, "build/imgeo");
 export const outputDirectory = join(repository, "build/browser-test");
 /** Models that are no part of the repository; tests that use them skip where they are missing. */
 export const modelDirectory = join(process.env.IMGEO_SHARED ?? join(repository, "../shared"), "models");
-export const chromium = process.env.CHROMIUM ?? "/usr/bin/chromium";

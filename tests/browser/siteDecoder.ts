@@ -54,25 +54,38 @@ interface Records {
   at(record: number, component: number): number;
 }
 
-/** All patches of the only geometry of the site. */
-export function decodeSite(directory: string): PlainPatch[] {
+/** All patches of the only geometry of the site; of images, from so many byte planes. */
+export function decodeSite(directory: string, planes = Infinity): PlainPatch[] {
   const tags = tagsOf(readFileSync(join(directory, "index.html"), "utf8"));
   const node = tags.find(({ name }) => name === "imagegeometry" || name === "binarygeometry");
   if (!node) throw new Error(`${directory} has no geometry node`);
   const patches = tags.filter(({ name }) => name === "geometrypatch");
-  const decode = node.name === "imagegeometry" ? decodeSig : decodeBg;
-  return (patches.length ? patches : [node]).map((patch) => decode(node.attributes, patch.attributes, directory));
+  return (patches.length ? patches : [node]).map((patch) =>
+    node.name === "imagegeometry"
+      ? decodeSig(node.attributes, patch.attributes, directory, planes)
+      : decodeBg(node.attributes, patch.attributes, directory),
+  );
 }
 
-/** The URLs of a patch's coordinate images, most significant byte first, without fragments. */
-export function coordUrlsOf(directory: string): string[][] {
-  const tags = tagsOf(readFileSync(join(directory, "index.html"), "utf8"));
-  return tags
-    .filter(({ name, attributes }) => /^(geometrypatch|imagegeometry|binarygeometry)$/.test(name) && attributes.coord)
-    .map(({ attributes }) => stringsOf(attributes.coord).map((url) => url.split("#")[0]!));
+/** The URLs, without fragments, of every container file of a document, each with its place in the order of
+ *  delivery: 0 first coordinate byte, 1 index, 2 normals, 3 colours and texture coordinates, 4 and up further bytes. */
+export function ranksOfFiles(html: string): Map<string, number> {
+  const ranks = new Map<string, number>();
+  for (const { name, attributes } of tagsOf(html)) {
+    if (!/^(geometrypatch|imagegeometry|binarygeometry)$/.test(name)) continue;
+    const note = (text: string | undefined, rank: (place: number) => number): void => {
+      stringsOf(text).forEach((url, place) => ranks.set(url.split("#")[0]!, rank(place)));
+    };
+    note(attributes.coord, (place) => (place === 0 ? 0 : 3 + place));
+    note(attributes.index, () => 1);
+    note(attributes.normal, () => 2);
+    note(attributes.color, () => 3);
+    note(attributes.texcoord, () => 3);
+  }
+  return ranks;
 }
 
-function decodeSig(node: Attributes, patch: Attributes, directory: string): PlainPatch {
+function decodeSig(node: Attributes, patch: Attributes, directory: string, planesHere: number): PlainPatch {
   const image = (url: string): Records & { height: number; width: number } => {
     const [path, first] = url.split("#");
     const { data, channels, width, height } = decodePng(readFileSync(join(directory, path!)));
@@ -82,7 +95,12 @@ function decodeSig(node: Attributes, patch: Attributes, directory: string): Plai
   const height = planes[0]!.height;
   const recordCount = Number(patch.recordcount);
   const index = patch.index ? image(patch.index) : undefined;
-  const coordinate: Records = { at: (r, axis) => planes.reduce((value, plane) => 256 * value + plane.at(r, axis), 0) };
+  // The middle of what the bytes that are not here may hold stands for them.
+  const byteOf = (plane: Records, place: number, r: number, axis: number): number =>
+    place < planesHere ? plane.at(r, axis) : 127.5;
+  const coordinate: Records = {
+    at: (r, axis) => planes.reduce((value, plane, place) => 256 * value + byteOf(plane, place, r, axis), 0),
+  };
   const normal = patch.normal ? image(patch.normal) : undefined;
   const color = patch.color ? image(patch.color) : undefined;
   const indexWidth = numbersOf(patch.implicitmeshsize ?? node.implicitmeshsize, [256])[0]!;

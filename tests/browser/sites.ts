@@ -1,7 +1,7 @@
 // Meshes written as files and converted into sites by the tool under test.
 
 import { execFileSync } from "node:child_process";
-import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { pointSpiral, sphere, trefoil, withColors, withoutNormals, writePly, type PlainMesh } from "./meshes.ts";
 import { converter, outputDirectory } from "./paths.ts";
@@ -36,8 +36,6 @@ export function siteOf(input: string, ...options: string[]): string {
   rmSync(directory, { recursive: true, force: true });
   mkdirSync(join(outputDirectory, "sites"), { recursive: true });
   execFileSync(converter, ["convert", input, "-o", directory, ...options], { stdio: ["ignore", "ignore", "inherit"] });
-  const bundle = process.env.IMGEO_RUNTIME;
-  if (bundle !== undefined) copyFileSync(bundle, join(directory, "imgeo.js"));
   converted.set(name, directory);
   return directory;
 }

@@ -1,0 +1,152 @@
+// The document is the scene: what changes in it shows, and looks exactly as if
+// the page had been written so from the start.
+
+import assert from "node:assert/strict";
+import { cpSync } from "node:fs";
+import { join } from "node:path";
+import { describe, test } from "node:test";
+import { assertSamePicture, difference } from "./compare.ts";
+import { settle, until, withPage, type View } from "./harness.ts";
+import { outputDirectory } from "./paths.ts";
+import type { Picture } from "./png.ts";
+import { gate } from "./server.ts";
+import { ranksOfFiles } from "./siteDecoder.ts";
+import { pageOf, siteOfGenerated } from "./sites.ts";
+
+/** A site of a trefoil inside a Transform, with the files of a sphere in other/. */
+function twoMeshSite(): string {
+  const directory = join(outputDirectory, "sites", "changes");
+  cpSync(siteOfGenerated("trefoil"), directory, { recursive: true });
+  cpSync(siteOfGenerated("sphere"), join(directory, "other"), { recursive: true });
+  return directory;
+}
+
+const inTransform = (html: string): string =>
+  html.replace(/<Shape[\s\S]*<\/Shape>/i, (shape) => `<Transform id="place">${shape}</Transform>`);
+
+/** The sphere's Shape, its files in other/. */
+function sphereShape(): string {
+  const html = pageOf(siteOfGenerated("sphere"));
+  const shape = /<Shape[\s\S]*<\/Shape>/i.exec(html)?.[0].replace(/<Shape/i, `<Shape id="sphere"`);
+  assert.ok(shape);
+  return [...ranksOfFiles(html).keys()].reduce((text, url) => text.replaceAll(url, `other/${url}`), shape);
+}
+
+/** The scene as it stands in the page now, as text, without what the runtime put there. */
+async function sceneText(view: View): Promise<string> {
+  return view.page.evaluate(() => {
+    const copy = document.querySelector("x3d")!.cloneNode(true) as Element;
+    copy.querySelector("imgeo-view")?.remove();
+    return copy.outerHTML;
+  });
+}
+
+async function freshPicture(site: string, scene: string): Promise<Picture> {
+  let seen: Picture | undefined;
+  const replace = (html: Buffer): string => html.toString().replace(/<X3D[\s\S]*<\/X3D>/i, () => scene);
+  await withPage(site, { server: (server) => server.when(/^\/$/, { replace }) }, async (view) => {
+    await view.promise("complete");
+    seen = await view.picture();
+  });
+  assert.ok(seen);
+  return seen;
+}
+
+/** Self-contained: each runs in the page. */
+const changes: Record<string, () => void> = {
+  "a material's colour": () => { document.querySelector("material")!.setAttribute("diffuseColor", "0.9 0.2 0.1"); },
+  "a material's own light": () => { document.querySelector("material")!.setAttribute("emissiveColor", "0 0.3 0"); },
+  "a material's gloss": () => {
+    document.querySelector("material")!.setAttribute("specularColor", "0.7 0.7 0.7");
+    document.querySelector("material")!.setAttribute("shininess", "0.05");
+  },
+  "a material's transparency": () => { document.querySelector("material")!.setAttribute("transparency", "0.5"); },
+  "a transform's translation": () => { document.querySelector("transform")!.setAttribute("translation", "0.8 0.4 0"); },
+  "a transform's rotation": () => { document.querySelector("transform")!.setAttribute("rotation", "0 1 0.2 0.9"); },
+  "a transform's scale": () => { document.querySelector("transform")!.setAttribute("scale", "0.6 0.9 0.7"); },
+  "a viewpoint": () => {
+    document.querySelector("viewpoint")!.setAttribute("orientation", "0 0 1 0.4");
+    document.querySelector("viewpoint")!.setAttribute("fieldOfView", "1.1");
+  },
+  "the sky": () => { document.querySelector("background")!.setAttribute("skyColor", "0.1 0.2 0.4"); },
+  "a light": () => {
+    const light = document.createElement("DirectionalLight");
+    light.setAttribute("direction", "-1 -1 0");
+    light.setAttribute("color", "1 0.5 0");
+    document.querySelector("scene")!.append(light);
+  },
+  "a shape that is hidden": () => { document.querySelector("shape")!.setAttribute("visible", "false"); },
+};
+
+describe("a change in the document shows", () => {
+  for (const [name, change] of Object.entries(changes)) {
+    test(name, async () => {
+      const site = twoMeshSite();
+      const replace = (html: Buffer): string => inTransform(html.toString());
+      await withPage(site, { server: (server) => server.when(/^\/$/, { replace }) }, async (view) => {
+        await view.promise("complete");
+        const before = await view.picture();
+        await view.page.evaluate(change);
+        const after = await view.picture();
+        assert.ok(difference(before, after).mean > 0.5, "nothing has changed");
+        const fresh = await freshPicture(site, await sceneText(view));
+        assertSamePicture(`changed ${name}`, after, fresh, { mean: 0.001 });
+      });
+    });
+  }
+
+  test("a shape that is added, and one that is removed", async () => {
+    const site = twoMeshSite();
+    await withPage(site, {}, async (view) => {
+      await view.promise("complete");
+      const alone = await view.picture();
+      const { live: before } = await view.observed();
+      await addShape(view, sphereShape());
+      await view.promise("complete", "#sphere");
+      const both = await view.picture();
+      const { live: during } = await view.observed();
+      assert.ok(difference(alone, both).mean > 0.5, "the sphere is not seen");
+      assert.ok(during.textures > before.textures);
+      assertSamePicture("added shape", both, await freshPicture(site, await sceneText(view)), { mean: 0.001 });
+
+      await view.page.evaluate(() => { document.querySelector("#sphere")!.remove(); });
+      assertSamePicture("removed shape", await view.picture(), alone, { mean: 0 });
+      const { live: after } = await view.observed();
+      assert.deepEqual({ ...after, programs: 0 }, { ...before, programs: 0 });
+    });
+  });
+
+  test("a shape that leaves takes its requests with it", async () => {
+    const site = twoMeshSite();
+    const { closed } = gate();
+    await withPage(site, { server: (server) => server.when(/^\/other\//, { hold: closed }) }, async (view) => {
+      await view.promise("complete");
+      await addShape(view, sphereShape());
+      await until("the sphere's files are asked for", () => view.server.requestsOf(/^\/other\//).length > 0);
+      await view.page.evaluate(() => { document.querySelector("#sphere")!.remove(); });
+      await until("the requests are aborted", () => view.server.requestsOf(/^\/other\//).every(({ state }) => state === "aborted"));
+      await settle(view.page);
+      const asked = view.server.requestsOf(/^\/other\//).length;
+      await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 300)));
+      assert.equal(view.server.requestsOf(/^\/other\//).length, asked);
+      assert.deepEqual(await view.events("error"), []);
+    });
+  });
+
+  test("a scene that leaves the page gives everything back", async () => {
+    await withPage(siteOfGenerated("trefoil"), {}, async (view) => {
+      await view.promise("complete");
+      const isReleased = await view.page.evaluate(async () => {
+        const context = document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.getContext("webgl2")!;
+        document.querySelector("x3d")!.remove();
+        await new Promise((resolve) => setTimeout(resolve, 100));
+        return context.isContextLost();
+      });
+      assert.ok(isReleased, "the WebGL context is still held");
+    });
+  });
+});
+
+async function addShape(view: View, shape: string): Promise<void> {
+  await view.page.evaluate((text) => { document.querySelector("scene")!.insertAdjacentHTML("beforeend", text); }, shape);
+}

@@ -1,0 +1,130 @@
+// Files that are missing, cut short or nonsense: the page stays alive, says what
+// is wrong, and shows all the rest.
+
+import assert from "node:assert/strict";
+import { cpSync } from "node:fs";
+import { join } from "node:path";
+import { describe, test } from "node:test";
+import { assertSamePicture, difference } from "./compare.ts";
+import { until, withPage, type View } from "./harness.ts";
+import { outputDirectory } from "./paths.ts";
+import type { Picture } from "./png.ts";
+import type { Behaviour } from "./server.ts";
+import { ranksOfFiles } from "./siteDecoder.ts";
+import { pageOf, siteOfGenerated } from "./sites.ts";
+
+/** A site of two shapes, #good and #bad; the files of #bad lie in bad/. */
+function twoShapeSite(): string {
+  const directory = join(outputDirectory, "sites", "faults");
+  cpSync(siteOfGenerated("trefoil"), directory, { recursive: true });
+  cpSync(siteOfGenerated("sphere"), join(directory, "bad"), { recursive: true });
+  return directory;
+}
+
+function shapeOf(html: string, id: string, prefix: string): string {
+  const shape = /<Shape[\s\S]*<\/Shape>/i.exec(html)?.[0].replace(/<Shape/i, `<Shape id="${id}"`);
+  assert.ok(shape);
+  return [...ranksOfFiles(html).keys()].reduce((text, url) => text.replaceAll(url, prefix + url), shape);
+}
+
+function twoShapes(html: Buffer): string {
+  const good = shapeOf(html.toString(), "good", "");
+  const bad = shapeOf(pageOf(siteOfGenerated("sphere")), "bad", "bad/");
+  return html.toString().replace(/<Shape[\s\S]*<\/Shape>/i, () => `${bad}\n${good}`);
+}
+
+function badFile(rank: number): string {
+  const [url] = [...ranksOfFiles(pageOf(siteOfGenerated("sphere")))].find(([, other]) => other === rank) ?? [];
+  assert.ok(url);
+  return `/bad/${url}`;
+}
+
+async function withFault(rank: number, behaviour: Behaviour, use: (view: View, url: string) => Promise<void>): Promise<void> {
+  const path = badFile(rank);
+  const options = {
+    server: (server: View["server"]): void => {
+      server.when(/^\/$/, { replace: twoShapes });
+      server.when((asked) => asked === path, behaviour);
+    },
+    expectedErrors: /Failed to load resource|imgeo/,
+  };
+  await withPage(twoShapeSite(), options, async (view) => {
+    await view.promise("complete", "#good");
+    await until("an error is reported", async () => (await view.events("error", "x3d")).length > 0);
+    await use(view, view.server.origin + path.slice(1));
+  });
+}
+
+async function assertReported(view: View, url: string): Promise<void> {
+  const errors = await view.events("error");
+  assert.deepEqual(errors.map(({ target }) => target).sort(), ["shape#bad", "x3d"]);
+  for (const { detail } of errors) {
+    assert.equal(typeof detail.type, "string");
+    assert.ok(url.endsWith(String(detail.url).replace(/^\.?\//, "")), `${String(detail.url)} is not ${url}`);
+    assert.equal(detail.element, "shape");
+  }
+  assert.equal((await view.events("load", "shape#good")).length, 1);
+  assert.deepEqual(await view.events("load", "shape#bad"), []);
+}
+
+async function goodAlone(): Promise<Picture> {
+  let seen: Picture | undefined;
+  await withPage(siteOfGenerated("trefoil"), {}, async (view) => {
+    await view.promise("complete");
+    seen = await view.picture();
+  });
+  assert.ok(seen);
+  return seen;
+}
+
+describe("a file that does not come", () => {
+  test("leaves the other shape whole where nothing can be shown without it", async () => {
+    await withFault(0, { status: 404 }, async (view, url) => {
+      await assertReported(view, url);
+      assertSamePicture("without the bad shape", await view.picture(), await goodAlone(), { mean: 0 });
+    });
+  });
+
+  test("leaves the shape as sharp as its other files make it", async () => {
+    await withFault(4, { status: 404 }, async (view, url) => {
+      await assertReported(view, url);
+      assert.ok(difference(await view.picture(), await goodAlone()).mean > 1, "the coarse shape is not seen");
+    });
+  });
+
+  test("is asked for again where trying again can help", async () => {
+    await withFault(2, { status: 503 }, async (view, url) => {
+      await assertReported(view, url);
+      assert.ok(view.server.requests.filter(({ path }) => url.endsWith(path)).length > 1);
+    });
+  });
+
+  test("leaves the page alive: it still follows the document and the keyboard", async () => {
+    await withFault(1, { status: 404 }, async (view) => {
+      const before = await view.picture();
+      await view.page.evaluate(() => { document.querySelector("#good material")!.setAttribute("diffuseColor", "1 0 0"); });
+      const red = await view.picture();
+      assert.ok(difference(before, red).mean > 0.5, "the document is not followed");
+      await view.page.keyboard.press("Tab");
+      await view.page.keyboard.press("+");
+      assert.ok(difference(red, await view.picture()).mean > 0.5, "the keyboard is not followed");
+    });
+  });
+});
+
+describe("a file that is broken is reported", () => {
+  const broken: Record<string, Behaviour> = {
+    "a truncated image": { truncateTo: 200 },
+    "an empty image": { truncateTo: 0 },
+    "no image at all": { replace: () => "<!doctype html><p>Not found</p>" },
+    "an image with flipped bits": { replace: (body) => Buffer.from(body.map((byte, i) => (i > 100 && i % 50 === 0 ? byte ^ 255 : byte))) },
+  };
+  for (const [name, behaviour] of Object.entries(broken)) {
+    test(name, async () => {
+      await withFault(0, behaviour, async (view, url) => {
+        await assertReported(view, url);
+        assertSamePicture(`broken ${name}`, await view.picture(), await goodAlone(), { mean: 0 });
+      });
+    });
+  }
+});

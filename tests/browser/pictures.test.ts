@@ -1,0 +1,142 @@
+// The page shows exactly the mesh: against plain buffers that hold what the
+// container files say, and against plain buffers that hold the input.
+
+import assert from "node:assert/strict";
+import { existsSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { describe, test } from "node:test";
+import { assertSamePicture, boundsOfInput, boundsOfQuantised, difference, isWithin } from "./compare.ts";
+import { withPage, type PageOptions } from "./harness.ts";
+import { readObj, readPly } from "./meshes.ts";
+import { modelDirectory } from "./paths.ts";
+import { decodePng, encodePng, type Picture } from "./png.ts";
+import { lookOf, patchOfInput, referencePicture } from "./reference.ts";
+import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
+import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
+
+/** The site's page when everything has come. */
+async function finalPicture(site: string, options: PageOptions = {}): Promise<Picture> {
+  let seen: Picture | undefined;
+  await withPage(site, options, async ({ promise, picture }) => {
+    await promise("complete");
+    seen = await picture();
+  });
+  assert.ok(seen);
+  return seen;
+}
+
+const cases: { mesh: GeneratedMesh; options: string[] }[] = [
+  ...["sig", "bg"].flatMap((container) =>
+    ["triangles", "strips"].flatMap((primitives) => [
+      { mesh: "trefoil" as const, options: ["--container", container, "--primitives", primitives] },
+      { mesh: "trefoil-colors" as const, options: ["--container", container, "--primitives", primitives, "--patch-vertices", "1000"] },
+    ]),
+  ),
+  { mesh: "trefoil-plain", options: ["--position-bits", "12"] },
+  { mesh: "trefoil-plain", options: ["--position-bits", "24"] },
+  { mesh: "trefoil-plain", options: ["--container", "bg", "--normal-bits", "16"] },
+  { mesh: "points", options: [] },
+  { mesh: "points", options: ["--container", "bg"] },
+  { mesh: "trefoil-colors", options: ["--primitives", "points"] },
+];
+
+describe("the final picture is that of plain buffers with the quantised mesh", () => {
+  for (const { mesh, options } of cases) {
+    test([mesh, ...options].join(" "), async () => {
+      const site = siteOfGenerated(mesh, ...options);
+      const expected = await referencePicture(pageOf(site), decodeSite(site));
+      assertSamePicture(`quantised ${mesh} ${options.join("")}`, await finalPicture(site), expected, boundsOfQuantised);
+    });
+  }
+});
+
+describe("the final picture is that of plain buffers with the input", () => {
+  for (const mesh of ["trefoil", "trefoil-colors", "trefoil-plain"] as const) {
+    for (const container of ["sig", "bg"]) {
+      test(`${mesh} --container ${container}`, async () => {
+        const site = siteOfGenerated(mesh, "--container", container);
+        const input = patchOfInput(readPly(readFileSync(meshFile(mesh))));
+        const expected = await referencePicture(pageOf(site), [input]);
+        assertSamePicture(`input ${mesh} ${container}`, await finalPicture(site), expected, boundsOfInput);
+      });
+    }
+  }
+
+  const bunny = join(modelDirectory, "stanford-bunny.obj");
+  for (const container of ["sig", "bg"]) {
+    test(`bunny --container ${container}`, { skip: existsSync(bunny) ? false : `${bunny} is not here` }, async () => {
+      const site = siteOf(bunny, "--container", container);
+      const expected = await referencePicture(pageOf(site), [patchOfInput(readObj(readFileSync(bunny, "utf8")))]);
+      assertSamePicture(`input bunny ${container}`, await finalPicture(site), expected, boundsOfInput);
+    });
+  }
+});
+
+describe("a wrong mesh is seen", () => {
+  async function assertDiffers(site: string, options: PageOptions): Promise<void> {
+    const right = await referencePicture(pageOf(site), decodeSite(site));
+    const found = difference(await finalPicture(site, options), right);
+    assert.ok(!isWithin(found, boundsOfQuantised), `mean ${found.mean} passes the bound of the quantised mesh`);
+    assert.ok(!isWithin(found, boundsOfInput), `mean ${found.mean}, ${found.offShare} pass the bounds of the input`);
+  }
+
+  test("byte planes swapped", async () => {
+    const site = siteOfGenerated("trefoil");
+    const [high, low] = [fileOfRank(site, 0), fileOfRank(site, 4)];
+    const swapped = (html: Buffer): string =>
+      html.toString().replaceAll(/coord=.*/gi, (coord) => coord.replace(high, "\n").replace(low, high).replace("\n", low));
+    await assertDiffers(site, { server: (server) => server.when(/^\/$/, { replace: swapped }) });
+  });
+
+  for (const container of ["sig", "bg"] as const) {
+    test(`one index off, ${container}`, async () => {
+      const site = siteOfGenerated("trefoil", "--container", container);
+      const index = `/${fileOfRank(site, 1)}`;
+      const corner = mostVisibleCorner(site);
+      const replace = container === "sig" ? otherIndexInImage(corner) : otherIndexInArray(corner);
+      await assertDiffers(site, { server: (server) => server.when((path) => path === index, { replace }) });
+    });
+  }
+
+  function fileOfRank(site: string, wanted: number): string {
+    const [url] = [...ranksOfFiles(pageOf(site))].find(([, rank]) => rank === wanted) ?? [];
+    assert.ok(url);
+    return url;
+  }
+
+  /** How far off the index is: four rows of a coordinate image. */
+  const offBy = 1024;
+
+  /** The corner that spans the largest triangle towards the camera when its index is off. */
+  function mostVisibleCorner(site: string): number {
+    const { positions, triangles } = decodeSite(site)[0]!;
+    const eye = lookOf(pageOf(site)).viewpoint.position;
+    const spanned = (corner: number): number => {
+      const vertices = [...triangles.subarray(corner - (corner % 3), corner - (corner % 3) + 3)];
+      vertices[corner % 3]! ^= offBy;
+      const [a, b, c] = vertices.map((vertex) => [0, 1, 2].map((axis) => positions[3 * vertex + axis]! - eye[axis]!));
+      if (Math.max(...vertices) * 3 >= positions.length) return 0;
+      // The volume under the triangle seen from the eye is negative for one that faces it.
+      const volume = [0, 1, 2].reduce((sum, axis) => {
+        const [y, z] = [(axis + 1) % 3, (axis + 2) % 3];
+        return sum + a![axis]! * (b![y]! * c![z]! - b![z]! * c![y]!);
+      }, 0);
+      return -volume;
+    };
+    const areas = Array.from(triangles, (_, corner) => spanned(corner));
+    return areas.indexOf(Math.max(...areas));
+  }
+
+  const otherIndexInImage = (corner: number) => (bytes: Buffer): Buffer => {
+    const image = decodePng(bytes);
+    // Green is the row in units of 1/256 of the coordinate image, which is 16 rows high: 2,560 vertices.
+    image.data[corner * image.channels + 1]! ^= (offBy / 256) * 16;
+    return encodePng(image);
+  };
+
+  const otherIndexInArray = (corner: number) => (bytes: Buffer): Buffer => {
+    const changed = Buffer.from(bytes);
+    changed.writeUInt16LE(changed.readUInt16LE(2 * corner) ^ offBy, 2 * corner);
+    return changed;
+  };
+});

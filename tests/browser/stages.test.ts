@@ -1,0 +1,200 @@
+// What is seen while files are still on their way, and in which order they are
+// asked for.
+
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { assertSamePicture, boundsOfQuantised, difference, holesIn, silhouette, silhouetteDifference } from "./compare.ts";
+import { pictureSize, until, withPage, type View } from "./harness.ts";
+import { decodePng, encodePng, type Picture } from "./png.ts";
+import { referencePicture } from "./reference.ts";
+import { gate, type TestServer } from "./server.ts";
+import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
+import { pageOf, siteOfGenerated } from "./sites.ts";
+
+/** Holds the files of these ranks until the gate opens. */
+function holding(site: string, ranks: (rank: number) => boolean, hold: Promise<unknown>): (server: TestServer) => void {
+  const held = pathsOf(site, ranks);
+  return (server) => server.when((path) => held.includes(path), { hold });
+}
+
+function pathsOf(site: string, ranks: (rank: number) => boolean): string[] {
+  return [...ranksOfFiles(pageOf(site))].filter(([, rank]) => ranks(rank)).map(([url]) => `/${url}`);
+}
+
+async function answered(view: View, paths: string[]): Promise<void> {
+  const states = (): (string | undefined)[] =>
+    paths.map((path) => view.server.requests.find((request) => request.path === path)?.state);
+  await until("every file that is not held is answered", () => states().every((state) => state === "answered"));
+}
+
+describe("the first coordinate byte", () => {
+  const site = (): string => siteOfGenerated("trefoil-colors", "--patch-vertices", "1000");
+
+  async function blankPicture(): Promise<Picture> {
+    let blank: Picture | undefined;
+    const { closed } = gate();
+    await withPage(site(), { server: holding(site(), () => true, closed) }, async (view) => {
+      await until("the view has drawn", async () => (await view.observed()).draws > 0);
+      blank = await view.picture();
+      assert.deepEqual(await view.events("first-image"), []);
+    });
+    assert.ok(blank);
+    return blank;
+  }
+
+  test("shows the whole shape before the rest has come, and the rest sharpens it", async () => {
+    const blank = await blankPicture();
+    const { closed, open } = gate();
+    await withPage(site(), { server: holding(site(), (rank) => rank > 3, closed) }, async (view) => {
+      await view.promise("firstImage");
+      await answered(view, pathsOf(site(), (rank) => rank <= 3));
+      const coarse = await view.picture();
+      assert.equal((await view.events("first-image", "x3d")).length, 1);
+      assert.equal((await view.events("first-image", "shape")).length, 1);
+      assert.deepEqual(await view.events("load"), []);
+      const planes = await referencePicture(pageOf(site()), decodeSite(site(), 1));
+      assertSamePicture("coarse", withoutBar(coarse), withoutBar(planes), boundsOfQuantised);
+
+      open();
+      await view.promise("complete");
+      const final = await view.picture();
+      assert.equal((await view.events("load", "x3d")).length, 1);
+      assert.ok(difference(blank, coarse).mean > 1, "the coarse stage is not drawn");
+      assert.ok(difference(coarse, final).mean > 0.02, "the last bytes change nothing");
+      const shapes = [coarse, final].map((picture) => silhouette(withoutBar(picture), withoutBar(blank)));
+      const apart = silhouetteDifference(shapes[0]!, shapes[1]!);
+      assert.ok(apart < 0.03, `silhouettes differ in ${(apart * 100).toFixed(1)} % of the pixels`);
+    });
+  });
+
+  test("shows points while the index is missing, a surface while the normals are", async () => {
+    const blank = await blankPicture();
+    const { closed: noIndex, open: sendIndex } = gate();
+    const { closed: noNormal } = gate();
+    const server = (server: TestServer): void => {
+      holding(site(), (rank) => rank === 1, noIndex)(server);
+      holding(site(), (rank) => rank > 1, noNormal)(server);
+    };
+    await withPage(site(), { server }, async (view) => {
+      await view.promise("firstImage");
+      const points = silhouette(withoutBar(await view.picture()), withoutBar(blank));
+      sendIndex();
+      await answered(view, pathsOf(site(), (rank) => rank === 1));
+      const surface = silhouette(withoutBar(await view.picture()), withoutBar(blank));
+      const covered = (mask: Uint8Array): number => mask.reduce((sum, pixel) => sum + pixel, 0);
+      assert.ok(covered(points) > 500, `${covered(points)} pixels of points`);
+      assert.ok(covered(surface) > 1.2 * covered(points), `${covered(points)} pixels of points, ${covered(surface)} of surface`);
+    });
+  });
+});
+
+/** The bar lies over the topmost rows while files are on their way. */
+function withoutBar({ width, height, channels, data }: Picture): Picture {
+  const rows = 8;
+  return { width, height: height - rows, channels, data: data.subarray(rows * width * channels) };
+}
+
+describe("borders between patches are watertight", () => {
+  /** White light from the surface itself, black behind it: any gap is dark. */
+  const glowing = (html: string): string =>
+    html
+      .replace(/<Material[^>]*>/i, `<Material diffuseColor="0 0 0" emissiveColor="1 1 1">`)
+      .replace(/skyColor="[^"]*"/i, `skyColor="0 0 0"`);
+  const fromInside = (html: string): string =>
+    glowing(html)
+      .replace(/<Viewpoint[^>]*>/i, `<Viewpoint position="0 0 0" orientation="0.6 0.8 0 0.7" fieldOfView="1.8">`)
+      .replace(/<ImageGeometry/i, `<ImageGeometry solid="false"`);
+
+  const site = (): string => siteOfGenerated("sphere", "--patch-vertices", "1000");
+
+  function litPixels({ width, height, channels, data }: Picture): Uint8Array {
+    return new Uint8Array(width * height).map((_, i) => (data[i * channels]! > 250 ? 1 : 0));
+  }
+
+  function assertClosed(mask: Uint8Array): void {
+    const covered = mask.reduce((sum, pixel) => sum + pixel, 0) / mask.length;
+    assert.ok(covered > 0.1, `the sphere covers ${covered} of the picture`);
+    assert.equal(holesIn(mask, pictureSize.width), 0);
+  }
+
+  for (const { from, change } of [{ from: "outside", change: glowing }, { from: "inside", change: fromInside }]) {
+    test(`seen from ${from}, coarse and final`, async () => {
+      assert.ok(decodeSite(site()).length > 8);
+      const { closed, open } = gate();
+      const server = (server: TestServer): void => {
+        holding(site(), (rank) => rank > 3, closed)(server);
+        server.when(/^\/$/, { replace: (html) => change(html.toString()) });
+      };
+      await withPage(site(), { server }, async (view) => {
+        await answered(view, pathsOf(site(), (rank) => rank <= 3));
+        const coarse = litPixels(withoutBar(await view.picture()));
+        open();
+        await view.promise("complete");
+        for (const mask of [coarse, litPixels(withoutBar(await view.picture()))]) {
+          assertClosed(mask);
+          if (from === "inside") assert.ok(mask.every((pixel) => pixel === 1), "the background shines through");
+        }
+      });
+    });
+  }
+
+  test("and a patch that lies a fraction of a coarse step off is seen", async () => {
+    const [path] = pathsOf(site(), (rank) => rank > 3);
+    const flattened = (png: Buffer): Buffer => {
+      const image = decodePng(png);
+      return encodePng({ ...image, data: image.data.fill(0) });
+    };
+    const server = (server: TestServer): void => {
+      server.when((asked) => asked === path, { replace: flattened });
+      server.when(/^\/$/, { replace: (html) => fromInside(html.toString()) });
+    };
+    await withPage(site(), { server }, async (view) => {
+      await view.promise("complete");
+      assert.ok(litPixels(await view.picture()).some((pixel) => pixel === 0), "no gap is seen");
+    });
+  });
+});
+
+describe("files are asked for", () => {
+  const site = (): string => siteOfGenerated("trefoil", "--patch-vertices", "300");
+
+  test("once each, first coordinate bytes first, then index, normals and the rest", async () => {
+    await withPage(site(), {}, async (view) => {
+      await view.promise("complete");
+      const ranks = ranksOfFiles(pageOf(site()));
+      const asked = view.server.requests.map(({ path }) => path.slice(1)).filter((path) => ranks.has(path));
+      assert.deepEqual([...asked].sort(), [...ranks.keys()].sort());
+      // Requests that leave together over several connections may arrive in any order.
+      const connections = 6;
+      const order = asked.map((path) => ranks.get(path)!);
+      order.forEach((rank, place) => {
+        const late = order.findIndex((other, later) => later >= place + connections && other < rank);
+        assert.equal(late, -1, `rank ${rank} was asked for well before rank ${order[late]}: ${order.join(" ")}`);
+      });
+    });
+  });
+
+  test("while the runtime is still on its way", async () => {
+    const { closed, open } = gate();
+    await withPage(site(), { server: (server) => server.when(/\.js$/, { hold: closed }) }, async (view) => {
+      const first = pathsOf(site(), (rank) => rank === 0);
+      await until("the first coordinate bytes are there before the runtime", () =>
+        first.every((path) => view.server.requests.some((request) => request.path === path && request.state === "answered")),
+      );
+      open();
+      await view.promise("complete");
+      for (const path of first) {
+        assert.equal(view.server.requests.filter((request) => request.path === path).length, 1, `${path} is asked for twice`);
+      }
+    });
+  });
+
+  test("from nowhere but the page's own host, and nothing but the page's own parts", async () => {
+    await withPage(site(), {}, async (view) => {
+      await view.promise("complete");
+      const others = view.server.requests.map(({ path }) => path).filter((path) => !ranksOfFiles(pageOf(site())).has(path.slice(1)));
+      assert.ok(others.length <= 3, `page, runtime, stylesheet: ${others.join(" ")}`);
+      assert.ok(view.server.requests.every(({ status }) => status === 200));
+    });
+  });
+});

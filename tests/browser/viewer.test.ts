@@ -1,0 +1,195 @@
+// What a person does with the view, and what a page can rely on: turning,
+// zooming, resizing, events, promises, and standing still when nothing changes.
+
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { assertSamePicture, boundsOfQuantised, difference } from "./compare.ts";
+import { pictureSize, settle, until, withPage, type PageOptions, type View } from "./harness.ts";
+import { referencePicture } from "./reference.ts";
+import { decodeSite } from "./siteDecoder.ts";
+import { pageOf, siteOfGenerated } from "./sites.ts";
+
+const site = (): string => siteOfGenerated("trefoil-colors");
+
+async function withCompletePage(options: PageOptions, use: (view: View) => Promise<void>): Promise<void> {
+  await withPage(site(), options, async (view) => {
+    await view.promise("complete");
+    await use(view);
+  });
+}
+
+const center = { x: pictureSize.width / 2, y: pictureSize.height / 2 };
+
+const gestures: Record<string, (view: View) => Promise<void>> = {
+  "the arrow keys with Shift": async ({ page }) => {
+    for (let i = 0; i < 3; ++i) await page.keyboard.press("Shift+ArrowRight");
+  },
+  "the arrow keys": async ({ page }) => {
+    for (const key of ["ArrowLeft", "ArrowLeft", "ArrowUp"]) await page.keyboard.press(key);
+  },
+  "the plus key": async ({ page }) => page.keyboard.press("+"),
+  "the minus key": async ({ page }) => page.keyboard.press("-"),
+  "dragging the mouse": async ({ page }) => {
+    await page.mouse.move(center.x, center.y);
+    await page.mouse.down();
+    await page.mouse.move(center.x + 90, center.y + 40, { steps: 5 });
+    await page.mouse.up();
+  },
+  "dragging with the right button": async ({ page }) => {
+    await page.mouse.move(center.x, center.y);
+    await page.mouse.down({ button: "right" });
+    await page.mouse.move(center.x + 60, center.y - 30, { steps: 5 });
+    await page.mouse.up({ button: "right" });
+  },
+  "turning the wheel": async ({ page }) => {
+    await page.mouse.move(center.x, center.y);
+    await page.mouse.wheel(0, 240);
+  },
+};
+
+describe("the view moves, and R brings it back", () => {
+  for (const [name, gesture] of Object.entries(gestures)) {
+    test(name, async () => {
+      await withCompletePage({}, async (view) => {
+        await focusView(view);
+        const before = await view.picture();
+        await gesture(view);
+        const after = await view.picture();
+        assert.ok(difference(before, after).mean > 1, `moved by ${difference(before, after).mean}`);
+        await view.page.keyboard.press("r");
+        assertSamePicture(`reset after ${name}`, await view.picture(), before, { mean: 0.001 });
+      });
+    });
+  }
+
+  test("two fingers that part bring the scene nearer, and one finger turns it", async () => {
+    await withCompletePage({ hasTouch: true }, async (view) => {
+      const before = await view.picture();
+      await touch(view, [[[-40, 0], [40, 0]], [[-60, 0], [60, 0]], [[-90, 0], [90, 0]]]);
+      const nearer = await view.picture();
+      assert.ok(covered(nearer) > 1.3 * covered(before), "two fingers do not zoom in");
+      await touch(view, [[[0, 0]], [[40, 10]], [[90, 20]]]);
+      assert.ok(difference(nearer, await view.picture()).mean > 1, "one finger does not turn");
+    });
+  });
+});
+
+async function focusView({ page }: View): Promise<void> {
+  await page.keyboard.press("Tab");
+  const focused = await page.evaluate(() => document.activeElement?.localName);
+  assert.equal(focused, "imgeo-view");
+}
+
+/** Fingers at places relative to the centre, one list of fingers for each moment. */
+async function touch({ page }: View, moments: [number, number][][]): Promise<void> {
+  const session = await page.context().newCDPSession(page);
+  const points = (fingers: [number, number][]): { x: number; y: number; id: number }[] =>
+    fingers.map(([x, y], id) => ({ x: center.x + x, y: center.y + y, id }));
+  for (const [moment, fingers] of moments.entries()) {
+    const type = moment === 0 ? "touchStart" : "touchMove";
+    await session.send("Input.dispatchTouchEvent", { type, touchPoints: points(fingers) });
+  }
+  await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+}
+
+/** Pixels that are not like the top left corner. */
+function covered({ data, channels }: { data: Uint8Array; channels: number }): number {
+  let count = 0;
+  for (let at = 0; at < data.length; at += channels) {
+    count += [0, 1, 2].some((channel) => Math.abs(data[at + channel]! - data[channel]!) > 8) ? 1 : 0;
+  }
+  return count;
+}
+
+describe("the picture fits its place", () => {
+  test("after the window has changed its size", async () => {
+    const size = { width: 420, height: 600 };
+    await withCompletePage({}, async (view) => {
+      await view.page.setViewportSize(size);
+      await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 100)));
+      const expected = await referencePicture(pageOf(site()), decodeSite(site()), size);
+      assertSamePicture("resized", await view.picture(), expected, boundsOfQuantised);
+    });
+  });
+
+  test("with two device pixels to a pixel", async () => {
+    const size = { width: 320, height: 240 };
+    await withCompletePage({ size, deviceScaleFactor: 2 }, async (view) => {
+      const picture = await view.picture();
+      assert.deepEqual([picture.width, picture.height], [640, 480]);
+      const expected = await referencePicture(pageOf(site()), decodeSite(site()), size, 2);
+      assertSamePicture("double resolution", picture, expected, boundsOfQuantised);
+    });
+  });
+});
+
+test("nothing is drawn while nothing changes", async () => {
+  await withCompletePage({}, async (view) => {
+    await settle(view.page);
+    const { draws } = await view.observed();
+    await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 1000)));
+    assert.equal((await view.observed()).draws, draws);
+    await focusView(view);
+    await view.page.keyboard.press("ArrowLeft");
+    await until("a key makes it draw", async () => (await view.observed()).draws > draws);
+  });
+});
+
+describe("events", () => {
+  test("tell how far the scene and each shape are, in order, and do not bubble", async () => {
+    await withCompletePage({}, async (view) => {
+      await settle(view.page);
+      const { events, bubbled } = await view.observed();
+      assert.deepEqual(bubbled, []);
+      assert.ok(events.every(({ bubbles }) => !bubbles));
+      for (const target of ["x3d", "shape"]) {
+        const own = events.filter((event) => event.target === target);
+        const types = own.map(({ type }) => type).filter((type) => type !== "progress");
+        assert.equal(types[0], "first-image");
+        assert.equal(types.at(-1), "load");
+        assert.ok(types.includes("refine"));
+        assert.equal(types.filter((type) => type === "load" || type === "first-image").length, 2);
+        assertProgress(own.filter(({ type }) => type === "progress").map(({ detail }) => detail));
+      }
+    });
+  });
+
+  function assertProgress(details: Record<string, unknown>[]): void {
+    const shares = details.map(({ totalProgress }) => Number(totalProgress));
+    assert.ok(shares.length > 1);
+    assert.equal(shares.at(-1), 1);
+    shares.forEach((share, place) => {
+      assert.ok(share >= (shares[place - 1] ?? 0) && share <= 1, `progress ${shares.join(" ")}`);
+    });
+    for (const { loadedBytes, totalBytes, stage } of details) {
+      assert.ok(Number(loadedBytes) >= 0 && Number(totalBytes) > 0, `${String(loadedBytes)} of ${String(totalBytes)}`);
+      assert.equal(typeof stage, "string");
+    }
+  }
+
+  test("the promises of the scene and of its shapes are kept", async () => {
+    await withPage(site(), {}, async (view) => {
+      for (const selector of ["x3d", "shape"]) {
+        await view.promise("firstImage", selector);
+        await view.promise("complete", selector);
+      }
+      assert.equal((await view.events("load", "x3d")).length, 1);
+    });
+  });
+});
+
+test("a browser without WebGL2 says so in words", async () => {
+  const before = (): void => {
+    HTMLCanvasElement.prototype.getContext = () => null;
+    OffscreenCanvas.prototype.getContext = () => null;
+  };
+  await withPage(site(), { before, expectedErrors: /WebGL/ }, async (view) => {
+    await until("the message is there", async () => /WebGL ?2/.test(await shownText(view)));
+    assert.ok((await view.picture()).data.some((byte, i, data) => byte !== data[i % 3]), "nothing is seen");
+  });
+});
+
+/** The text of the view, in its shadow root. */
+async function shownText({ page }: View): Promise<string> {
+  return page.evaluate(() => document.querySelector("imgeo-view")?.shadowRoot?.textContent ?? "");
+}
