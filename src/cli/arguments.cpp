@@ -69,7 +69,12 @@ std::string messageOf(const CLI::ParseError& error, const CLI::App& app, const C
       return fmt::format("there is no option {}{}", word.substr(0, word.find('=')), suggestion(word, names));
     return fmt::format("one argument too many: \"{}\"", word);
   }
-  return error.what();
+  const std::string message = error.what();
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
+    const bool tooMany = message.find("At Most") != message.npos;
+    return message.substr(0, message.find(':')) + (tooMany ? " is given more than once" : " lacks its value");
+  }
+  return message;
 }
 
 Arguments parseCommand(const Command& command, std::vector<std::string> words) {

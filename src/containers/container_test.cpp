@@ -155,18 +155,6 @@ ErrorKind kindOfDecoding(const Encoded& encoded) {
   return ErrorKind::usage;
 }
 
-TEST(Bg, RefusesAnIndexThatNoVertexCountExceeds) {
-  GeometryDescription geometry;
-  geometry.container = Container::bg;
-  geometry.indexType = ElementType::uint32;
-  EncodedPatch patch;
-  patch.description.draws = {{Primitive::points, 1}};
-  patch.description.index = Reference{"0", 0, 0};
-  patch.description.coord = {{"0", 0, 0}};
-  patch.files = {{Role::index, ".bin", Bytes(64, 0xff)}};
-  EXPECT_THROW(decodePatch(patch.description, geometry, filesOf(patch)), Error);
-}
-
 class HostilePatch : public ::testing::TestWithParam<Container> {
 protected:
   Encoded encoded = encode(testing::torus(9, 9), Primitive::triangles, true, 16, {GetParam()});

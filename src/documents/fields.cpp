@@ -1,7 +1,6 @@
 #include "documents/fields.h"
 
 #include "documents/find_x3d.h"
-#include "documents/text.h"
 
 #include <charconv>
 #include <cmath>
@@ -45,7 +44,7 @@ void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind
 std::string Fields::text(const char* name) const {
   for (const pugi::xml_attribute& attribute : node_.attributes())
     if (sameName(attribute.name(), name))
-      return validText(attribute.value());
+      return attribute.value();
   return {};
 }
 

@@ -1,0 +1,202 @@
+#include "run.h"
+
+#include <csignal>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace imgeo {
+namespace {
+
+using namespace testing;
+using Json = nlohmann::json;
+
+class Convert : public ::testing::Test {
+protected:
+  void SetUp() override { write(input_, gridPly(20)); }
+
+  TemporaryDirectory directory_;
+  std::string input_ = directory_ / "statue.ply", site_ = directory_ / "site";
+};
+
+TEST_F(Convert, SaysWhatItChose) {
+  const Outcome outcome = run({"convert", input_, "-o", site_});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "") << "silent where standard error is no terminal";
+  for (const char* words :
+       {"sig (PNG images)", "profile classic", "target web", "16 bits: step", "8 bits, computed",
+        "800 triangles", "1 of at most 65,535 vertices", "coord", "bytes a triangle", "memory"})
+    EXPECT_NE(outcome.out.find(words), std::string::npos) << words << " is not in:\n" << outcome.out;
+  EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos) << "colours are for terminals";
+  EXPECT_EQ(namesIn(site_), (std::vector<std::string>{"geometry", "imgeo.css", "imgeo.json", "index.html",
+                                                      "runtime", "scene.x3d"}));
+}
+
+TEST_F(Convert, WritesTheSameReportToAFileAndAsJson) {
+  const Outcome outcome =
+      run({"convert", "-i", input_, "-o", site_, "-r", directory_ / "report.json", "--json", "-vp", "12"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, textOf(directory_ / "report.json"));
+  const Json report = Json::parse(outcome.out);
+  EXPECT_EQ(report["triangles"], 800);
+  EXPECT_EQ(report["vertices"], 441);
+  EXPECT_EQ(report["positionBits"], 12);
+  EXPECT_EQ(report["normals"], "area");
+  EXPECT_DOUBLE_EQ(report["step"], 20.0 / 4095);
+  const Json info = Json::parse(run({"info", site_, "--json"}).out);
+  EXPECT_EQ(info["bytesPerTriangle"], report["bytesPerTriangle"]);
+}
+
+TEST_F(Convert, TakesEveryShortName) {
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{"-vp", "14"},
+                                             {"-qp=14"},
+                                             {"-vp14"},
+                                             {"--position-bits=14"},
+                                             {"-vn", "8", "-vp", "14"},
+                                             {"-qn", "8", "-qp", "14"},
+                                             {"-vt", "16", "-qp", "14"},
+                                             {"-qt", "16", "-qp", "14"},
+                                             {"-vc", "8", "-qp", "14"},
+                                             {"-v", "-qp", "14"}}) {
+    std::vector<std::string> line{"convert", input_, "-o" + site_, "-r=" + directory_ / "report.json"};
+    line.insert(line.end(), options.begin(), options.end());
+    const Outcome outcome = run(line);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(Json::parse(textOf(directory_ / "report.json"))["positionBits"], 14) << options.front();
+  }
+  EXPECT_EQ(run({"convert", "-h"}).out, run({"convert", "--help"}).out);
+}
+
+TEST_F(Convert, ReadsStandardInput) {
+  ASSERT_EQ(run({"convert", input_, "-o", site_, "--title", "T"}).code, 0);
+  ASSERT_EQ(run({"convert", "-", "-o", directory_ / "piped", "--title", "T"}, input_).code, 0);
+  EXPECT_EQ(textOf(site_ + "/index.html"), textOf(directory_ / "piped/index.html"));
+  EXPECT_EQ(run({"verify", directory_ / "piped", "-"}, input_).code, 0);
+}
+
+TEST_F(Convert, WritesTheSameBytesWithAnyNumberOfThreads) {
+  const std::vector<std::string> options{"--patch-vertices", "256"};
+  for (const std::string threads : {"1", "2"})
+    ASSERT_EQ(
+        run({"convert", input_, "-o", directory_ / threads, "--patch-vertices", "256", "--threads", threads})
+            .code,
+        0);
+  EXPECT_EQ(textOf(directory_ / "1/index.html"), textOf(directory_ / "2/index.html"));
+  EXPECT_EQ(namesIn(directory_ / "1/geometry"), namesIn(directory_ / "2/geometry"));
+}
+
+TEST_F(Convert, TakesTheTitle) {
+  ASSERT_EQ(run({"convert", input_, "-o", site_}).code, 0);
+  EXPECT_NE(textOf(site_ + "/index.html").find("<title>statue</title>"), std::string::npos);
+  ASSERT_EQ(run({"convert", input_, "-o", site_, "--title", "<Tom & \"Jerry\">"}).code, 0);
+  EXPECT_NE(textOf(site_ + "/index.html").find("<title>&lt;Tom &amp; "), std::string::npos);
+}
+
+TEST_F(Convert, KilledAtAnyMomentLeavesTheOldSiteOrTheNew) {
+  write(input_, gridPly(120));
+  const std::string other = directory_ / "other.ply";
+  write(other, gridPly(90));
+  ASSERT_EQ(run({"convert", input_, "-o", site_}).code, 0);
+  const std::string oldPage = textOf(site_ + "/index.html");
+  ASSERT_EQ(run({"convert", other, "-o", directory_ / "whole"}).code, 0);
+  const std::string newPage = textOf(directory_ / "whole/index.html");
+  ASSERT_NE(oldPage, newPage);
+
+  int killed = 0;
+  unsigned delayUs = 0;
+  bool finished = false;
+  for (int round = 0; !finished && round < 60; ++round) {
+    ASSERT_EQ(run({"convert", input_, "-o", site_}).code, 0);
+    const pid_t child = start({"convert", other, "-o", site_}, "/dev/null", "/dev/null");
+    usleep(delayUs);
+    kill(child, SIGKILL);
+    finished = wait(child) == 0;
+    killed += !finished;
+    delayUs = delayUs * 5 / 4 + 500;
+
+    const std::string page = textOf(site_ + "/index.html");
+    const bool isNew = page == newPage;
+    ASSERT_TRUE(isNew || page == oldPage);
+    ASSERT_EQ(run({"verify", site_, isNew ? other : input_}).code, 0) << "after " << delayUs << " us";
+  }
+  EXPECT_GT(killed, 5) << "hardly ever killed, so hardly tested";
+  ASSERT_EQ(run({"convert", other, "-o", site_}).code, 0);
+  EXPECT_EQ(namesIn(directory_.path()),
+            (std::vector<std::string>{"other.ply", "site", "statue.ply", "whole"}));
+}
+
+TEST_F(Convert, InterruptedRemovesWhatItHasBegun) {
+  write(input_, gridPly(400));
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t child =
+        start({"convert", input_, "-o", site_, "--effort", "9"}, "/dev/null", directory_ / "err");
+    const auto staged = [&] {
+      for (const std::string& name : namesIn(directory_.path()))
+        if (name.starts_with(".site.imgeo-"))
+          return true;
+      return false;
+    };
+    for (int waited = 0; !staged() && waited < 5000; ++waited)
+      usleep(1000);
+    kill(child, signal);
+    EXPECT_EQ(wait(child), 128 + signal);
+    EXPECT_EQ(namesIn(directory_.path()), (std::vector<std::string>{"err", "statue.ply"}));
+  }
+}
+
+TEST_F(Convert, InfoHasTheseKeysAndTheyAddUp) {
+  ASSERT_EQ(run({"convert", input_, "-o", site_, "--patch-vertices", "256"}).code, 0);
+  const Outcome outcome = run({"info", site_, "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json info = Json::parse(outcome.out);
+  for (const char* key : {"triangles", "vertices", "patches", "documentBytes", "containerBytes",
+                          "runtimeBytes", "bytesPerTriangle", "files"})
+    EXPECT_TRUE(info.contains(key)) << key;
+  EXPECT_EQ(info["triangles"], 800);
+  EXPECT_GT(info["patches"], 1);
+  std::size_t document = 0, containers = 0, runtime = 0;
+  for (const Json& file : info["files"]) {
+    EXPECT_EQ(file["bytes"], std::filesystem::file_size(site_ + "/" + file["path"].get<std::string>()));
+    const std::string role = file["role"];
+    (role == "document"  ? document
+     : role == "runtime" ? runtime
+                         : containers) +=
+        role == "scene" || role == "style" || role == "marker" ? 0 : file["bytes"].get<std::size_t>();
+  }
+  EXPECT_EQ(info["documentBytes"], document);
+  EXPECT_EQ(info["containerBytes"], containers);
+  EXPECT_EQ(info["runtimeBytes"], runtime);
+  EXPECT_GE(info["bytesPerTriangle"].get<double>() * 800, static_cast<double>(containers));
+
+  for (const std::string path : {"/index.html", "/scene.x3d"})
+    EXPECT_EQ(Json::parse(run({"info", site_ + path, "--json"}).out)["containerBytes"], containers) << path;
+  const std::string image = site_ + "/geometry/" + namesIn(site_ + "/geometry").front();
+  EXPECT_EQ(Json::parse(run({"info", image, "--json"}).out)["namedByContent"], true);
+  EXPECT_EQ(Json::parse(run({"info", input_, "--json"}).out)["triangles"], 800);
+}
+
+TEST_F(Convert, VerifyExitsWithThreeAndSentencesWhereTheSiteIsAnother) {
+  ASSERT_EQ(run({"convert", input_, "-o", site_}).code, 0);
+  EXPECT_EQ(run({"verify", site_, input_}).code, 0);
+  write(directory_ / "other.ply", gridPly(19));
+  const Outcome outcome = run({"verify", site_, directory_ / "other.ply", "--json"});
+  EXPECT_EQ(outcome.code, 3);
+  const Json report = Json::parse(outcome.out);
+  EXPECT_EQ(report["equal"], false);
+  EXPECT_GT(report["missingTriangles"], 0);
+  EXPECT_FALSE(report["findings"].empty());
+}
+
+TEST_F(Convert, ServePrintsTheAddressAndStopsOnCtrlC) {
+  ASSERT_EQ(run({"convert", input_, "-o", site_}).code, 0);
+  const pid_t child = start({"serve", site_, "--port", "0"}, directory_ / "out", directory_ / "err");
+  for (int waited = 0; textOf(directory_ / "out").empty() && waited < 5000; ++waited)
+    usleep(1000);
+  EXPECT_NE(textOf(directory_ / "out").find("http://127.0.0.1:"), std::string::npos)
+      << textOf(directory_ / "err");
+  kill(child, SIGINT);
+  EXPECT_EQ(wait(child), 0) << textOf(directory_ / "err");
+}
+
+} // namespace
+} // namespace imgeo

@@ -1,0 +1,153 @@
+// Whatever is wrong: one clear sentence on standard error, the documented exit
+// code, and nothing left behind.
+
+#include "run.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using namespace testing;
+
+class Faults : public ::testing::Test {
+protected:
+  /// Runs `convert` on a file of this text and expects it to fail as stated.
+  void expectRefusal(const std::string& name, const std::string& text, int code, const std::string& words,
+                     const std::vector<std::string>& options = {}) {
+    const std::string input = directory_ / name;
+    write(input, text);
+    std::vector<std::string> line{"convert", input, "-o", directory_ / "deep/site"};
+    line.insert(line.end(), options.begin(), options.end());
+    expectSentence(run(line), code, words);
+    EXPECT_EQ(namesIn(directory_.path()), std::vector<std::string>{name}) << "something was left behind";
+    std::filesystem::remove(input);
+  }
+
+  static void expectSentence(const Outcome& outcome, int code, const std::string& words) {
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(outcome.err.starts_with("imgeo: ")) << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos)
+        << "expected: " << words << "\nsaid: " << outcome.err;
+  }
+
+  TemporaryDirectory directory_;
+};
+
+std::string header(const std::string& format, const std::string& vertices, const std::string& faces) {
+  return "ply\nformat " + format + " 1.0\nelement vertex " + vertices +
+         "\nproperty float x\nproperty float y\nproperty float z\nelement face " + faces +
+         "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+TEST_F(Faults, ATruncatedPly) {
+  const std::string whole = gridPly(10);
+  expectRefusal("cut.ply", whole.substr(0, whole.size() / 2), 3, "cut.ply");
+  expectRefusal("cut.ply", header("binary_little_endian", "100", "10") + std::string(50, 'x'), 3, "cut.ply");
+}
+
+TEST_F(Faults, APlyThatPromisesFourBillionFaces) {
+  expectRefusal("liar.ply", header("ascii", "3", "4294967295") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 3,
+                "liar.ply");
+  expectRefusal("liar.ply", header("binary_little_endian", "0", "4294967295"), 3, "liar.ply");
+}
+
+TEST_F(Faults, CoordinatesThatAreNoNumbers) {
+  for (const char* bad : {"nan", "inf", "-inf"})
+    expectRefusal("bad.ply", header("ascii", "3", "1") + "0 0 0\n1 " + bad + " 0\n0 1 0\n3 0 1 2\n", 3,
+                  "bad.ply:11");
+}
+
+TEST_F(Faults, AMeshWithNothingInIt) {
+  expectRefusal("empty.ply", header("ascii", "0", "0"), 3, "empty.ply");
+  expectRefusal("empty.ply", "", 3, "empty.ply");
+  expectRefusal("empty.obj", "# nothing\n", 3, "empty.obj");
+}
+
+TEST_F(Faults, AnUnknownFormat) {
+  expectRefusal("statue.max", "what is this", 3, "statue.max");
+  expectRefusal("photo.png", "\x89PNG\r\n\x1a\n", 3, "photo.png");
+}
+
+TEST_F(Faults, AnInputThatIsNotThereOrIsADirectory) {
+  expectSentence(run({"convert", directory_ / "missing.ply", "-o", directory_ / "site"}), 2, "No such file");
+  expectSentence(run({"convert", "/tmp", "-o", directory_ / "site"}), 2, "is a directory");
+  expectSentence(run({"verify", directory_ / "site", directory_ / "missing.ply"}), 2, "site");
+  EXPECT_TRUE(std::filesystem::is_empty(directory_.path()));
+}
+
+TEST_F(Faults, ATargetThatCannotBeWritten) {
+  write(directory_ / "mesh.ply", gridPly(3));
+  expectSentence(run({"convert", directory_ / "mesh.ply", "-o", directory_ / "mesh.ply/site"}), 2,
+                 "mesh.ply");
+  expectSentence(run({"convert", directory_ / "mesh.ply", "-o", "/proc/site"}), 2, "/proc");
+  expectSentence(run({"convert", directory_ / "mesh.ply", "-o", "/dev/null"}), 2, "/dev/null");
+  EXPECT_EQ(namesIn(directory_.path()), std::vector<std::string>{"mesh.ply"});
+}
+
+TEST_F(Faults, ADirectoryThatIsNotASite) {
+  std::filesystem::create_directory(directory_ / "photos");
+  write(directory_ / "photos/cat.jpg", "cat");
+  write(directory_ / "mesh.ply", gridPly(3));
+  expectSentence(run({"convert", directory_ / "mesh.ply", "-o", directory_ / "photos"}), 1, "--force");
+  EXPECT_EQ(namesIn(directory_ / "photos"), std::vector<std::string>{"cat.jpg"});
+  EXPECT_EQ(namesIn(directory_.path()), (std::vector<std::string>{"mesh.ply", "photos"}));
+
+  EXPECT_EQ(run({"convert", directory_ / "mesh.ply", "-o", directory_ / "photos", "--force"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "photos/cat.jpg"));
+}
+
+TEST_F(Faults, AnInputInsideTheDirectoryThatIsReplaced) {
+  std::filesystem::create_directory(directory_ / "scans");
+  write(directory_ / "scans/mesh.ply", gridPly(3));
+  expectSentence(run({"convert", directory_ / "scans/mesh.ply", "-o", directory_ / "scans", "--force"}), 1,
+                 "inside");
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "scans/mesh.ply"));
+}
+
+TEST_F(Faults, OptionsThatCannotBeHonoured) {
+  const auto refuse = [&](const std::string& words, const std::vector<std::string>& options) {
+    expectRefusal("mesh.ply", gridPly(3), 1, words, options);
+  };
+  refuse("--normal-bits", {"--container", "sig", "--normal-bits", "16"});
+  refuse("--normal-bits", {"--container", "bg", "-vn", "12"});
+  refuse("--position-bits", {"-vp", "7"});
+  refuse("--position-bits", {"-qp", "33"});
+  refuse("--position-bits", {"--position-bits", "abc"});
+  refuse("--position-bits", {"--position-bits", "16.5"});
+  refuse("--texcoord-bits", {"-vt", "12"});
+  refuse("--color-bits", {"-vc", "5"});
+  refuse("--profile", {"--profile", "compact"});
+  refuse("--target", {"--target", "x3dom"});
+  refuse("--primitives", {"--primitives", "fans"});
+  refuse("--patch-vertices", {"--patch-vertices", "65536"});
+  refuse("--effort", {"--effort", "10"});
+  refuse("did you mean --container?", {"--contaner", "bg"});
+  refuse("too many", {"another.ply"});
+  refuse("--container is given more than once", {"--container", "bg", "--container", "sig"});
+}
+
+TEST_F(Faults, CommandsThatAreIncomplete) {
+  expectSentence(run({}), 1, "no command");
+  expectSentence(run({"convrt"}), 1, "did you mean convert?");
+  expectSentence(run({"convert", "mesh.ply"}), 1, "--output DIR is missing");
+  expectSentence(run({"convert", "-o", "site"}), 1, "INPUT is missing");
+  expectSentence(run({"convert", "mesh.ply", "-o"}), 1, "--output lacks its value");
+  expectSentence(run({"verify", "site"}), 1, "INPUT is missing");
+  expectSentence(run({"completion", "tcsh"}), 1, "tcsh");
+}
+
+TEST_F(Faults, AFullDevice) {
+  if (!std::filesystem::exists("/dev/full"))
+    GTEST_SKIP();
+  write(directory_ / "mesh.ply", gridPly(3));
+  const pid_t child = start({"info", directory_ / "mesh.ply"}, "/dev/full", directory_ / "err");
+  EXPECT_EQ(wait(child), 2);
+  EXPECT_NE(textOf(directory_ / "err").find("standard output"), std::string::npos);
+}
+
+} // namespace
+} // namespace imgeo

@@ -1,0 +1,37 @@
+_imgeo() {
+  local word="${COMP_WORDS[COMP_CWORD]}" before="${COMP_WORDS[COMP_CWORD-1]}"
+  COMPREPLY=()
+  if [[ $COMP_CWORD -eq 1 ]]; then
+    COMPREPLY=($(compgen -W "convert info verify serve completion manual --help --version" -- "$word"))
+    return
+  fi
+  case "${COMP_WORDS[1]} $before" in
+    "convert -i") COMPREPLY=($(compgen -f -- "$word")); return ;;
+    "convert -o"|"convert --output") COMPREPLY=($(compgen -d -- "$word")); return ;;
+    "convert --container") COMPREPLY=($(compgen -W "sig bg" -- "$word")); return ;;
+    "convert --profile") COMPREPLY=($(compgen -W "classic" -- "$word")); return ;;
+    "convert --target") COMPREPLY=($(compgen -W "web" -- "$word")); return ;;
+    "convert --primitives") COMPREPLY=($(compgen -W "triangles strips points" -- "$word")); return ;;
+    "convert -vp"|"convert -qp"|"convert --position-bits") COMPREPLY=(); return ;;
+    "convert -vn"|"convert -qn"|"convert --normal-bits") COMPREPLY=(); return ;;
+    "convert -vt"|"convert -qt"|"convert --texcoord-bits") COMPREPLY=(); return ;;
+    "convert -vc"|"convert --color-bits") COMPREPLY=(); return ;;
+    "convert --patch-vertices") COMPREPLY=(); return ;;
+    "convert --normal-weighting") COMPREPLY=($(compgen -W "area angle uniform" -- "$word")); return ;;
+    "convert --title") COMPREPLY=(); return ;;
+    "convert --effort") COMPREPLY=(); return ;;
+    "convert --threads") COMPREPLY=(); return ;;
+    "convert -r"|"convert --report") COMPREPLY=($(compgen -f -- "$word")); return ;;
+    "serve --port") COMPREPLY=(); return ;;
+    "serve --host") COMPREPLY=(); return ;;
+  esac
+  case "${COMP_WORDS[1]}" in
+    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --container --profile --target --primitives --position-bits --normal-bits --texcoord-bits --color-bits --patch-vertices --normal-weighting --title --effort --threads --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    serve) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--port --host --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    completion) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--help" -- "$word")); else COMPREPLY=($(compgen -W "bash zsh fish" -- "$word")); fi ;;
+    manual) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+  esac
+}
+complete -o filenames -F _imgeo imgeo

@@ -1,0 +1,80 @@
+#compdef imgeo
+
+_imgeo() {
+  local -a commands=(
+    'convert:turn a mesh into a page that shows it progressively'
+    'info:say what a site or a mesh file holds, and where its bytes are'
+    'verify:read a site back and prove that it equals its input'
+    'serve:serve a directory over HTTP until Ctrl-C'
+    'completion:print a completion script for bash, zsh or fish'
+    'manual:print the manual page'
+  )
+  if (( CURRENT == 2 )); then
+    _describe command commands
+    return
+  fi
+  local command=$words[2]
+  shift words
+  (( CURRENT-- ))
+  case $command in
+    convert) _arguments \
+      '-i[PLY, OBJ or STL file, gzipped or not; "-" reads standard input]:input:_files' \
+      '-o[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
+      '--output[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
+      '--container[sig\: PNG images that the GPU decodes; bg\: typed arrays]:container:(sig bg)' \
+      '--profile[classic\: the layout that X3DOM 1.7 reads as well]:profile:(classic)' \
+      '--target[web\: a page with its own runtime]:target:(web)' \
+      '--primitives[how patches are drawn; a point cloud is always points]:primitives:(triangles strips points)' \
+      '-vp[bits of a coordinate, 8..32, on one lattice over the whole mesh]:position-bits: ' \
+      '-qp[bits of a coordinate, 8..32, on one lattice over the whole mesh]:position-bits: ' \
+      '--position-bits[bits of a coordinate, 8..32, on one lattice over the whole mesh]:position-bits: ' \
+      '-vn[bits of a normal'\''s component; sig\: 8; bg\: 8, 16 or 32]:normal-bits: ' \
+      '-qn[bits of a normal'\''s component; sig\: 8; bg\: 8, 16 or 32]:normal-bits: ' \
+      '--normal-bits[bits of a normal'\''s component; sig\: 8; bg\: 8, 16 or 32]:normal-bits: ' \
+      '-vt[bits of a texture coordinate; classic has 16]:texcoord-bits: ' \
+      '-qt[bits of a texture coordinate; classic has 16]:texcoord-bits: ' \
+      '--texcoord-bits[bits of a texture coordinate; classic has 16]:texcoord-bits: ' \
+      '-vc[bits of a colour'\''s component; classic has 8]:color-bits: ' \
+      '--color-bits[bits of a colour'\''s component; classic has 8]:color-bits: ' \
+      '--patch-vertices[the most vertices in one patch, 256..65535]:patch-vertices: ' \
+      '--normal-weighting[how triangles count in normals that the source lacks]:normal-weighting:(area angle uniform)' \
+      '--title[the page'\''s title; otherwise the input'\''s name]:title: ' \
+      '--effort[how hard to compress\: 0 fastest, 9 smallest]:effort: ' \
+      '--threads[how many threads to use; 0\: all. The site is the same with any number]:threads: ' \
+      '--force[replace DIR with everything in it, even if it is not a site of ours]' \
+      '-r[write a report of what was chosen and measured, as JSON]:report:_files' \
+      '--report[write a report of what was chosen and measured, as JSON]:report:_files' \
+      '--json[print the report as JSON]' \
+      '-v[list every file that was written]' \
+      '--verbose[list every file that was written]' \
+      '-h[print this help]' \
+      '--help[print this help]' \
+      ':input:_files' ;;
+    info) _arguments \
+      '--json[print it as JSON]' \
+      '-h[print this help]' \
+      '--help[print this help]' \
+      ':path:_files' ;;
+    verify) _arguments \
+      '--json[print the result as JSON]' \
+      '-h[print this help]' \
+      '--help[print this help]' \
+      ':site:_files -/' \
+      ':input:_files' ;;
+    serve) _arguments \
+      '--port[the port to listen on; 0\: any that is free]:port: ' \
+      '--host[the address to listen on; 0.0.0.0 for every network]:host: ' \
+      '-h[print this help]' \
+      '--help[print this help]' \
+      ':site:_files -/' ;;
+    completion) _arguments \
+      '-h[print this help]' \
+      '--help[print this help]' \
+      ':shell:(bash zsh fish)' ;;
+    manual) _arguments \
+      '-h[print this help]' \
+      '--help[print this help]' ;;
+  esac
+}
+
+_imgeo "$@"

@@ -1,0 +1,110 @@
+#pragma once
+// Runs the built tool as a user's shell would.
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+namespace imgeo::testing {
+
+/// A directory that goes with the test, everything in it included.
+class TemporaryDirectory {
+public:
+  TemporaryDirectory() {
+    std::string name = (std::filesystem::temp_directory_path() / "imgeo-cli-XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  const std::filesystem::path& path() const { return path_; }
+
+private:
+  std::filesystem::path path_;
+};
+
+inline std::string textOf(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+inline void write(const std::string& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+inline std::vector<std::string> namesIn(const std::filesystem::path& directory) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(directory))
+    names.push_back(entry.path().filename());
+  std::ranges::sort(names);
+  return names;
+}
+
+/// A square of 2 n^2 triangles, slightly waved, as ASCII PLY without normals.
+inline std::string gridPly(int n) {
+  std::ostringstream ply;
+  ply << "ply\nformat ascii 1.0\nelement vertex " << (n + 1) * (n + 1)
+      << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << 2 * n * n
+      << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x <= n; ++x)
+      ply << x << ' ' << y << ' ' << (x * y % 7) * 0.25 << '\n';
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      const int a = y * (n + 1) + x, b = a + 1, c = a + n + 1, d = c + 1;
+      ply << "3 " << a << ' ' << b << ' ' << d << "\n3 " << a << ' ' << d << ' ' << c << '\n';
+    }
+  return ply.str();
+}
+
+struct Outcome {
+  int code = -1; ///< exit code; 128 + signal where one ended it
+  std::string out, err;
+};
+
+/// Starts the tool with its output in the files `out` and `err`, and `input` as
+/// standard input. Returns its process id.
+inline pid_t start(const std::vector<std::string>& words, const std::string& out, const std::string& err,
+                   const std::string& input = "/dev/null") {
+  const pid_t child = fork();
+  if (child != 0)
+    return child;
+  dup2(open(input.c_str(), O_RDONLY), 0);
+  dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
+  dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
+  std::vector<char*> arguments{const_cast<char*>("imgeo")};
+  for (const std::string& word : words)
+    arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  execv(IMGEO_TOOL, arguments.data());
+  _exit(127);
+}
+
+/// Waits for a process; 128 + signal where one ended it.
+inline int wait(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+inline Outcome run(const std::vector<std::string>& words, const std::string& input = "/dev/null") {
+  const TemporaryDirectory directory;
+  Outcome outcome;
+  outcome.code = wait(start(words, directory / "out", directory / "err", input));
+  outcome.out = textOf(directory / "out");
+  outcome.err = textOf(directory / "err");
+  return outcome;
+}
+
+} // namespace imgeo::testing
