@@ -9,6 +9,7 @@ namespace imgeo::cli {
 int runConvert(const Arguments& arguments);
 int runInfo(const Arguments& arguments);
 int runVerify(const Arguments& arguments);
+int runExport(const Arguments& arguments);
 int runServe(const Arguments& arguments);
 int runCompletion(const Arguments& arguments);
 int runManual(const Arguments& arguments);

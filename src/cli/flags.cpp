@@ -130,6 +130,19 @@ Command verifyCommand() {
                    "imgeo verify site statue.ply --json | jq .normalErrorDegrees"}};
 }
 
+Command exportCommand() {
+  Flag output{.name = "output", .aliases = {"-o"}, .value = Value::file, .valueName = "FILE",
+              .help = "the file to write; .ply, .obj or .glb says what", .required = true};
+  return {.name = "export",
+          .usage = "DIR -o FILE",
+          .summary = "write the mesh that a site holds as PLY, OBJ or GLB",
+          .text = "Reads a site back, joins the patches of each mesh and writes all shapes into one file. Reads sites "
+                  "that aopt wrote for X3DOM, too.",
+          .flags = {positional("site", "DIR", Value::directory, "the site, its index.html or a .x3d file"), output,
+                    jsonFlag("what was written"), helpFlag()},
+          .examples = {"imgeo export site -o statue.ply", "imgeo export old/statue.x3d -o statue.glb"}};
+}
+
 Command serveCommand() {
   Flag host{.name = "host",
             .value = Value::text,
@@ -171,8 +184,9 @@ Command manualCommand() {
 } // namespace
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all{convertCommand(), infoCommand(),       verifyCommand(),
-                                        serveCommand(),   completionCommand(), manualCommand()};
+  static const std::vector<Command> all{convertCommand(), infoCommand(),  verifyCommand(),
+                                        exportCommand(),  serveCommand(), completionCommand(),
+                                        manualCommand()};
   return all;
 }
 

@@ -29,6 +29,8 @@ int run(const Arguments& arguments) {
     return runInfo(arguments);
   if (name == "verify")
     return runVerify(arguments);
+  if (name == "export")
+    return runExport(arguments);
   if (name == "serve")
     return runServe(arguments);
   if (name == "completion")

@@ -120,4 +120,15 @@ struct VerifyReport {
 /// prepared as `convert` does it (weld, drop unreferenced, computed normals).
 VerifyReport verify(const std::filesystem::path& site, const std::filesystem::path& input);
 
+struct ExportReport {
+  std::string format; ///< "PLY", "OBJ", "GLB"
+  std::size_t shapes = 0, triangles = 0, points = 0, vertices = 0;
+  std::uint64_t bytes = 0; ///< of the file written
+};
+
+/// Writes what a site holds as a mesh file, in the format that its name ends in
+/// (export/export.h). Reads our sites and those of other writers of X3DOM's
+/// containers. Throws Error; {usage} for an ending that stands for no format.
+ExportReport exportSite(const std::filesystem::path& site, const std::filesystem::path& output);
+
 } // namespace imgeo

@@ -1,0 +1,77 @@
+#include "base/error.h"
+#include "base/file.h"
+#include "base/testing.h"
+#include "export/export.h"
+#include "import/import.h"
+#include "scene/testing.h"
+#include "transcode/transcode.h"
+
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using testing::TemporaryDirectory;
+
+Scene sceneOf(const Mesh& mesh) {
+  Scene scene;
+  scene.meshes = {mesh};
+  scene.shapes = {{"part", 0, {}}};
+  return scene;
+}
+
+/// Converts `mesh` and exports it again as `name`; what is written equals the site.
+void expectComesBack(const Mesh& mesh, const ConvertOptions& options, const std::string& name) {
+  const TemporaryDirectory directory;
+  const auto path = [&](const std::string& file) { return directory.path() / file; };
+  writeFile(path("in.ply"), exportScene(sceneOf(mesh), MeshFormat::ply));
+  convert(path("in.ply"), path("site"), options);
+  const ExportReport written = exportSite(path("site"), path(name));
+  const VerifyReport report = verify(path("site"), path(name));
+  EXPECT_TRUE(report.equal) << ::testing::PrintToString(report.findings);
+  const SiteInfo info = inspect(path("site"));
+  EXPECT_EQ(written.points, report.sitePoints);
+  EXPECT_EQ(report.inputTriangles, report.siteTriangles);
+  EXPECT_LE(written.vertices, info.vertices);
+}
+
+TEST(ExportSite, GivesBackEveryMeshOfEveryContainer) {
+  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    ConvertOptions options;
+    options.container = seed % 2 == 0 ? Container::sig : Container::bg;
+    options.primitives = seed % 3 == 0 ? Primitives::strips : Primitives::triangles;
+    options.positionBits = 8 + seed % 13;
+    options.effort = 0;
+    expectComesBack(testing::randomMesh(seed), options, "out.ply");
+  }
+}
+
+TEST(ExportSite, JoinsPatchesAtTheirBorders) {
+  ConvertOptions options;
+  options.patchVertices = 256;
+  options.effort = 0;
+  const Mesh mesh = testing::torus(40, 40);
+  expectComesBack(mesh, options, "out.obj");
+
+  const TemporaryDirectory directory;
+  writeFile(directory.path() / "in.ply", exportScene(sceneOf(mesh), MeshFormat::ply));
+  convert(directory.path() / "in.ply", directory.path() / "site", options);
+  ASSERT_GT(inspect(directory.path() / "site").patches, 5u);
+  exportSite(directory.path() / "site", directory.path() / "out.ply");
+  const Imported read = importFile(directory.path() / "out.ply");
+  EXPECT_EQ(read.scene.meshes.at(0).wedgeCount(), mesh.wedgeCount());
+  EXPECT_EQ(read.scene.meshes.at(0).elementCount(), mesh.elementCount());
+}
+
+TEST(ExportSite, RefusesAFormatThatItCannotWrite) {
+  try {
+    exportSite("site", "out.fbx");
+    ADD_FAILURE() << "was written";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+  }
+}
+
+} // namespace
+} // namespace imgeo

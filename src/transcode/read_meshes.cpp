@@ -1,0 +1,125 @@
+#include "transcode/read_meshes.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/narrow.h"
+#include "base/parallel.h"
+#include "containers/container.h"
+#include "prepare/weld.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace imgeo {
+
+namespace {
+
+Topology topologyOf(Primitive primitive) {
+  switch (primitive) {
+  case Primitive::points:
+    return Topology::points;
+  case Primitive::lines:
+    return Topology::lines;
+  case Primitive::triangles:
+  case Primitive::triangleStrip:
+    break;
+  }
+  return Topology::triangles;
+}
+
+/// The kind of element that all draws of a geometry have.
+Topology topologyOf(const GeometryDescription& geometry, const std::string& place) {
+  std::optional<Topology> topology;
+  for (const PatchDescription& patch : geometry.patches)
+    for (const Draw& draw : patch.draws) {
+      if (topology && *topology != topologyOf(draw.primitive))
+        throw Error(ErrorKind::unsupported, place, "a shape draws triangles, lines or points at once");
+      topology = topologyOf(draw.primitive);
+    }
+  return topology.value_or(Topology::triangles);
+}
+
+/// The corners of a patch's elements, as record numbers.
+std::vector<std::uint32_t> cornersOf(const IndexedPatch& patch, Topology topology) {
+  std::vector<std::uint32_t> corners;
+  if (topology == Topology::triangles) {
+    for (const Vec3u& triangle : trianglesOf(patch))
+      corners.insert(corners.end(), {triangle.x, triangle.y, triangle.z});
+    return corners;
+  }
+  std::uint32_t first = 0;
+  for (const Draw& draw : patch.draws) {
+    const std::uint32_t whole = draw.count - draw.count % cornersPerElement(topology);
+    for (std::uint32_t n = first; n < first + whole; ++n)
+      corners.push_back(patch.indices.empty() ? n : patch.indices[n]);
+    first += draw.count;
+  }
+  return corners;
+}
+
+/// Appends an attribute of a patch's records to that of the mesh's wedges. What
+/// an earlier or this patch lacks, `missing` stands for.
+template <typename T>
+void append(std::vector<T>& to, const std::vector<T>& from, std::size_t wedgesBefore, std::size_t records,
+            T missing) {
+  if (to.empty() && from.empty())
+    return;
+  to.resize(wedgesBefore, missing);
+  to.insert(to.end(), from.begin(), from.end());
+  to.resize(wedgesBefore + records, missing);
+}
+
+void append(Mesh& mesh, const IndexedPatch& patch, const Lattice& lattice, const std::string& place) {
+  const std::size_t before = mesh.wedgeCount(), records = patch.vertexCount();
+  if (before + records > std::numeric_limits<std::uint32_t>::max())
+    throw Error(ErrorKind::limit, place, "a shape has more vertices than 32 bits count");
+  for (const Vec3u& q : patch.positions) {
+    mesh.wedgePositions.push_back(narrow<std::uint32_t>(mesh.positions.size()));
+    mesh.positions.push_back(Vec3f(lattice.point(q)));
+  }
+  append(mesh.normals, patch.normals, before, records, {0, 0, 1});
+  append(mesh.texCoords, patch.texCoords, before, records, {0, 0});
+  append(mesh.colors, patch.colors, before, records, {255, 255, 255, 255});
+  for (const std::uint32_t corner : cornersOf(patch, mesh.topology))
+    mesh.corners.push_back(narrow<std::uint32_t>(before + corner));
+}
+
+Mesh readMesh(const OpenedDocument& document, const GeometryDescription& geometry) {
+  const std::string place = (document.root / document.name).string();
+  std::vector<IndexedPatch> patches(geometry.patches.size());
+  parallelFor(patches.size(), [&](std::size_t i) {
+    patches[i] = decodePatch(geometry.patches[i], geometry,
+                             [&](const std::string& url) { return readFile(fileOf(document, url)); });
+  });
+  Mesh mesh;
+  mesh.topology = topologyOf(geometry, place);
+  for (IndexedPatch& patch : patches)
+    append(mesh, std::exchange(patch, {}), geometry.lattice, place);
+  const bool isOpaque = std::ranges::all_of(mesh.colors, [](Rgba8 color) { return color.a == 255; });
+  mesh.colorComponents = isOpaque ? 3 : 4;
+  weld(mesh);
+  return mesh;
+}
+
+} // namespace
+
+Scene readMeshes(const OpenedDocument& document) {
+  Scene scene;
+  scene.title = document.scene.title;
+  scene.viewpoints = document.scene.viewpoints;
+  scene.lights = document.scene.lights;
+  scene.headlight = document.scene.headlight;
+  for (const Shape& shape : document.scene.shapes) {
+    Mesh mesh = readMesh(document, document.scene.geometries.at(shape.mesh));
+    if (mesh.corners.empty())
+      continue;
+    mesh.name = shape.name;
+    scene.shapes.push_back({shape.name, scene.meshes.size(), shape.material});
+    scene.meshes.push_back(std::move(mesh));
+  }
+  if (scene.shapes.empty())
+    throw Error(ErrorKind::malformed, (document.root / document.name).string(), "draws nothing");
+  return scene;
+}
+
+} // namespace imgeo
