@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { DecodeError } from "./decodeError.ts";
 import type { ElementRange } from "./elements.ts";
-import { byteSizeOf, countIn, indexArrayOf, trianglesFromStrip, vertexArrayOf } from "./elements.ts";
+import { byteSizeOf, countIn, indexArrayOf, sphericalNormalsOf, trianglesFromStrip, vertexArrayOf } from "./elements.ts";
 import { decodeImage } from "./image.ts";
 import { checkPng, largestImageEdge } from "./png.ts";
 import { chunkOf, joined, pngOf } from "./png.testing.ts";
@@ -150,6 +150,20 @@ describe("a typed array", () => {
     assert.ok(array instanceof Float32Array);
     assert.deepEqual(Array.from(array), [1, 2 ** 32, 7]);
   });
+});
+
+test("spherical normals are unit vectors as X3DOM decodes them", () => {
+  const packed = [0x0000, 0xff00, 0x8000, 0x80ff, 0x7f80];
+  const { array } = sphericalNormalsOf({ array: Uint16Array.from(packed.flatMap((w) => [1, 2, 3, w])), components: 3, stride: 4 });
+  const normals = packed.map((_, n) => Array.from(array.slice(3 * n, 3 * n + 3)));
+  for (const normal of normals) assert.ok(Math.abs(Math.hypot(...normal) - 1) < 1e-6);
+  const near = (normal: number[] | undefined, expected: number[]) =>
+    { expected.forEach((value, axis) => { assert.ok(Math.abs((normal?.[axis] ?? NaN) - value) < 0.02); }); };
+  near(normals[0], [0, 0, 1]);
+  near(normals[1], [0, 0, -1]);
+  near(normals[2], [-1, 0, 0]);
+  near(normals[3], [-1, 0, 0]);
+  near(normals[4], [1, 0, 0]);
 });
 
 describe("indices", () => {

@@ -93,6 +93,23 @@ function arrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange): ElementAr
 }
 
 /**
+ * X3DOM's normals in the fourth element of 16-bit coordinate records: its high
+ * byte is the angle from the z axis, its low byte the one around it
+ * ("What else is read" in docs/formats/nodes.md).
+ */
+export function sphericalNormalsOf({ array, stride }: VertexArray): VertexArray {
+  const count = stride < 4 ? 0 : array.length / stride;
+  const normals = new Float32Array(count * 3);
+  for (let n = 0; n < count; ++n) {
+    const packed = (array[n * stride + 3] ?? 0) & 0xffff;
+    const theta = (Math.PI * (packed >> 8)) / 255;
+    const phi = Math.PI * ((2 * (packed & 0xff)) / 255 - 1);
+    normals.set([Math.sin(theta) * Math.cos(phi), Math.sin(theta) * Math.sin(phi), Math.cos(theta)], n * 3);
+  }
+  return { array: normals, components: 3, stride: 3 };
+}
+
+/**
  * A triangle strip as separate triangles with the strip's orientation: buffers
  * of three.js are drawn as triangles only. Degenerate joins are left out.
  */

@@ -2,7 +2,7 @@
 
 import { DecodeError } from "../decode/decodeError.ts";
 import type { ElementRange } from "../decode/elements.ts";
-import { countIn, indexArrayOf, trianglesFromStrip, vertexArrayOf } from "../decode/elements.ts";
+import { countIn, indexArrayOf, sphericalNormalsOf, trianglesFromStrip, vertexArrayOf } from "../decode/elements.ts";
 import type { BufferStage, DrawRange, IndexArray, VertexArray } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
 import type { Part } from "./parts.ts";
@@ -25,7 +25,9 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
         return;
       }
       here[part.role] = vertexArrayOf(content.bytes, range);
-      if (part.role === "coord") vertexCount ||= countIn(content.bytes.byteLength, range);
+      if (part.role !== "coord") return;
+      vertexCount ||= countIn(content.bytes.byteLength, range);
+      if (geometry.sphericalNormals && here.coord) here.normal = sphericalNormalsOf(here.coord);
     },
 
     stage(): BufferStage | undefined {

@@ -242,6 +242,14 @@ describe("typed arrays", () => {
     assert.deepEqual(Array.from(full.index ?? []), [0, 1, 2, 0, 1, 2, 2, 1, 3]);
   });
 
+  test("with spherical normals are shaded with nothing but their coordinates", async () => {
+    const site = siteOf({ "c.bin": coord });
+    const { stages, settled } = record(geometry('normalAsSphericalCoordinates="true" primType="POINTS" vertexCount="5" coord="c.bin#0+8"'), site.pool);
+    await settled;
+    const full = stages.at(-1)?.stage;
+    assert.deepEqual([full?.name, full?.kind === "buffers" && full.normal?.array.length], ["full", 15]);
+  });
+
   test("take all indices where vertexCount is 0, as X3DOM does", async () => {
     const site = siteOf({ "c.bin": coord, "i.bin": index });
     const { stages, settled } = record(geometry('coord="c.bin#0+8" index="i.bin"'), site.pool);

@@ -58,7 +58,8 @@ export interface GeometryDescription {
   readonly texCoordMin: Vec2;
   readonly texCoordSize: Vec2;
   readonly colorComponents: 3 | 4;
-  /** Typed arrays only. */
+  /** The fourth element of a coordinate record is the normal. Typed arrays only, as the types below. */
+  readonly sphericalNormals: boolean;
   readonly indexType: ElementType;
   readonly coordType: ElementType;
   readonly normalType: ElementType;

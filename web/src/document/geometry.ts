@@ -22,6 +22,7 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
     ...commonOf(values),
     container: "sig",
     colorComponents: values.numColorComponents === 4 ? 4 : 3,
+    sphericalNormals: false,
     // The bytes of an image are its only element type.
     indexType: "Uint8", coordType: "Uint8", normalType: "Uint8", texCoordType: "Uint8", colorType: "Uint8",
     patches: readPatches(element, "sig", warnings),
@@ -39,6 +40,7 @@ export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): 
     ...commonOf(values),
     container: "bg",
     colorComponents: values.rgbaColors ? 4 : 3,
+    sphericalNormals: values.normalAsSphericalCoordinates,
     indexType: typeOf("indexType"),
     coordType: typeOf("coordType"),
     normalType: typeOf("normalType"),

@@ -75,6 +75,7 @@ export const nodeFields = {
   BinaryGeometry: {
     ...geometryFields,
     rgbaColors: SFBool(false),
+    normalAsSphericalCoordinates: SFBool(false),
     indexType: SFString("Uint16"),
     coordType: SFString("Float32"),
     normalType: SFString("Float32"),

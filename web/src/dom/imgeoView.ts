@@ -30,11 +30,7 @@ export class ImgeoView extends HTMLElement {
     const context = contextOf(face.canvas);
     if (context === null) {
       face.showMessage(noWebGl);
-      const loading = new Loading(x3d);
-      const error = new Error(noWebGl);
-      loading.fail({ type: "webgl", url: "", element: x3d, message: noWebGl }, error);
-      console.error(`imgeo: ${noWebGl}`);
-      loading.abandon(error);
+      refuse(x3d);
       return;
     }
     this.#listeners = new AbortController();
@@ -52,6 +48,17 @@ export class ImgeoView extends HTMLElement {
       this.#viewer?.dispose();
       this.#viewer = undefined;
     });
+  }
+}
+
+/** Tells the page that nothing will be shown. */
+function refuse(x3d: Element): void {
+  const error = new Error(noWebGl);
+  console.error(`imgeo: ${noWebGl}`);
+  for (const element of [x3d, ...x3d.querySelectorAll("shape")]) {
+    const loading = new Loading(element);
+    loading.fail({ type: "webgl", url: "", element, message: noWebGl }, error);
+    loading.abandon(error);
   }
 }
 

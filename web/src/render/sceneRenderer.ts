@@ -58,7 +58,6 @@ export class SceneRenderer {
     // The numbers of the document are the numbers of the screen: see materials.ts.
     this.#renderer.outputColorSpace = LinearSRGBColorSpace;
     this.#renderer.toneMapping = NoToneMapping;
-    this.#renderer.setClearColor(new Color(0, 0, 0), 0);
     // The headlight stands in the camera's own frame and shines along its -z.
     this.#headlight.position.set(0, 0, 0);
     this.#headlight.target.position.set(0, 0, -1);
@@ -87,9 +86,12 @@ export class SceneRenderer {
     this.#scene.add(root);
     this.#headlight.visible = description.headlight;
     const { skyColor } = description;
-    const clear = new Color();
-    setColor(clear, skyColor ?? [0, 0, 0]);
-    this.#renderer.setClearColor(clear, skyColor ? 1 : 0);
+    // Of the scene, not the renderer's clear colour: that one is lost with the context.
+    this.#scene.background = null;
+    if (skyColor !== undefined) {
+      this.#scene.background = new Color();
+      setColor(this.#scene.background, skyColor);
+    }
     this.#sphere = sphereAround(box);
     this.#followViewpoint(description);
     this.requestFrame();
