@@ -58,6 +58,12 @@ export class Loading {
     return this.#progress;
   }
 
+  /** Nothing more will come. */
+  get isSettled(): boolean {
+    return this.#outcome !== "loading";
+  }
+
+  /** `load` has been sent, or nothing will be. */
   get isEnded(): boolean {
     return this.#outcome === "ended";
   }
@@ -84,7 +90,7 @@ export class Loading {
     this.#send("error", detail);
   }
 
-  /** Nothing more will come. */
+  /** Says that nothing more will come. */
   settle(): void {
     if (this.#outcome === "loading") this.#outcome = "settled";
   }

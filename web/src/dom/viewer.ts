@@ -57,7 +57,8 @@ export class Viewer {
       scheduler: this.#scheduler,
       decodeImage: decodeWithBrowser,
       download: defaultDownloadOptions,
-      resolve: (url) => new URL(url, document.baseURI).href,
+      // What is no URL is left for the request to fail on.
+      resolve: (url) => (URL.canParse(url, document.baseURI) ? new URL(url, document.baseURI).href : url),
       onTransfer: () => { this.#progressSoon(); },
     });
     this.#observer = new MutationObserver(() => { this.#readDocument(); });
@@ -102,7 +103,6 @@ export class Viewer {
     for (const shape of begun) this.#begin(shape, keys.get(shape.element) ?? "");
     // Last, so that files that old and new shapes share are not fetched again.
     for (const [, shape] of gone) shape.delivery?.cancel();
-    this.#settleScene();
     this.#progressSoon();
   }
 
@@ -126,7 +126,6 @@ export class Viewer {
       onError: (error) => { this.#fail(loaded, element, error); },
       onSettled: () => {
         loaded.loading.settle();
-        this.#settleScene();
         this.renderer.requestFrame(); // events wait for a frame
       },
     });
@@ -135,8 +134,9 @@ export class Viewer {
   /** A shape is as far as its last patch; with a first picture as soon as any patch shows. */
   #reach(shape: LoadedShape, geometry: GeometryDescription): void {
     shape.loading.reach(stageShown(shape.stages.slice(0, geometry.patches.length)));
-    this.#loading.reach(stageShown(Array.from(this.#shapes.values())
-      .filter(({ delivery }) => delivery !== undefined).map(({ loading }) => loading.stage)));
+    // Shapes of which nothing will come do not hold the scene back.
+    this.#loading.reach(stageShown(Array.from(this.#shapes.values(), ({ loading }) => loading)
+      .filter(({ stage, isSettled }) => stage !== "none" || !isSettled).map(({ stage }) => stage)));
   }
 
   #fail(shape: LoadedShape, element: Element, error: DeliveryError): void {
@@ -144,11 +144,6 @@ export class Viewer {
     const detail = { type: error.kind, url: error.url, element, message: error.message };
     shape.loading.fail(detail, error);
     this.#loading.fail(detail, error);
-  }
-
-  #settleScene(): void {
-    const all = Array.from(this.#shapes.values());
-    if (all.every(({ delivery }) => delivery?.transfers.every((transfer) => transfer.isSettled) ?? true)) this.#loading.settle();
   }
 
   /** Once a turn of the event loop is often enough to tell of bytes. */
@@ -169,7 +164,10 @@ export class Viewer {
 
   #onFrame(): void {
     this.#tellProgress(); // all of it before `load`
-    for (const { loading } of this.#shapes.values()) loading.onFrame(false);
+    const loadings = Array.from(this.#shapes.values(), ({ loading }) => loading);
+    // Asked for only now: until a frame has shown the end, further shapes may join.
+    if (loadings.every((loading) => loading.isSettled)) this.#loading.settle();
+    for (const loading of loadings) loading.onFrame(false);
     this.#loading.onFrame(true);
   }
 

@@ -73,9 +73,12 @@ export interface SceneUniforms {
   readonly depthRange: { value: Vector2 };
 }
 
+/** What colours the vertices bring: those with alpha blend. */
+export type VertexColors = "none" | "rgb" | "rgba";
+
 export interface MaterialRequest {
   readonly shading: Shading;
-  readonly hasColors: boolean;
+  readonly colors: VertexColors;
   /** False: both sides are seen. */
   readonly solid: boolean;
   /** Absent for vertices from buffers. */
@@ -86,12 +89,12 @@ export interface MaterialRequest {
 export type PatchMaterial = (MeshPhongMaterial | MeshBasicMaterial) & { userData: { ambientIntensity?: { value: number } } };
 
 export function makeMaterial(request: MaterialRequest, description: MaterialDescription): PatchMaterial {
-  const { shading, hasColors, solid, images, shared } = request;
+  const { shading, colors, solid, images, shared } = request;
   const ambientIntensity = { value: 0 };
   const material: PatchMaterial = shading === "unlit" || shading === "distance" ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
   material.side = solid ? FrontSide : DoubleSide;
-  material.vertexColors = hasColors;
+  material.vertexColors = colors !== "none";
   material.defines = {
     ...(images && { [imageVerticesDefine]: "" }),
     ...(images && shading === "smooth" && { [imageNormalsDefine]: "" }),
@@ -110,13 +113,14 @@ export function makeMaterial(request: MaterialRequest, description: MaterialDesc
   };
   // The text of `onBeforeCompile` is the same for all, so programs are shared as they should be.
   material.customProgramCacheKey = () => "imgeo";
-  applyMaterial(material, description, hasColors);
+  applyMaterial(material, description, colors);
   return material;
 }
 
 /** Changes a material in place; colours of vertices stand in for the diffuse colour. */
-export function applyMaterial(material: PatchMaterial, description: MaterialDescription, hasColors: boolean): void {
+export function applyMaterial(material: PatchMaterial, description: MaterialDescription, colors: VertexColors): void {
   const { diffuseColor, specularColor, emissiveColor, ambientIntensity, shininess, transparency } = description;
+  const hasColors = colors !== "none";
   if (material instanceof MeshPhongMaterial) {
     setColor(material.color, hasColors ? [1, 1, 1] : diffuseColor);
     setColor(material.specular, specularColor);
@@ -129,7 +133,7 @@ export function applyMaterial(material: PatchMaterial, description: MaterialDesc
   }
   if (material.userData.ambientIntensity) material.userData.ambientIntensity.value = ambientIntensity;
   material.opacity = 1 - transparency;
-  const isTransparent = transparency > 0;
+  const isTransparent = transparency > 0 || colors === "rgba";
   if (material.transparent !== isTransparent) {
     material.transparent = isTransparent;
     material.needsUpdate = true;

@@ -10,7 +10,7 @@ import type { BufferStage, DrawRange, Stage, TextureStage, VertexArray } from ".
 import type { GeometryDescription, MaterialDescription, PatchDescription } from "../document/description.ts";
 import { boxAround } from "../document/geometry.ts";
 import { middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
-import type { PatchMaterial, SceneUniforms, Shading } from "./materials.ts";
+import type { PatchMaterial, SceneUniforms, Shading, VertexColors } from "./materials.ts";
 import { applyMaterial, makeMaterial } from "./materials.ts";
 import type { TexturePool } from "./textures.ts";
 import type { ImageVertexUniforms } from "./vertexChunk.ts";
@@ -31,14 +31,14 @@ export interface PatchSetting {
 
 export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
   const { geometry, patch, shared } = setting;
-  const hasColors = stage.color !== undefined;
+  const colors = colorsOf(stage);
   const bounds = storedBoundsOf(geometry, patch);
   const matrix = latticeMatrixOf(geometry, patch);
   const images = stage.kind === "textures" ? imagesOf(stage) : [];
   const base = stage.kind === "textures" ? imageUniformsOf(stage, setting.textures) : undefined;
   const draws = stage.draws.filter((draw) => draw.count > 0).map((draw) => {
     const material = makeMaterial({
-      shading: shadingOf(stage, draw), hasColors, solid: geometry.solid, shared,
+      shading: shadingOf(stage, draw), colors, solid: geometry.solid, shared,
       images: base && { ...base, firstNumber: { value: draw.first }, isStrip: { value: draw.primitive === "triangleStrip" } },
     }, setting.material);
     const shape = stage.kind === "textures" ? emptyGeometryOf(draw) : bufferGeometryOf(stage, draw);
@@ -48,7 +48,7 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
   return {
     objects: draws.map((draw) => draw.object),
     applyMaterial(description) {
-      for (const { material } of draws) applyMaterial(material, description, hasColors);
+      for (const { material } of draws) applyMaterial(material, description, colors);
     },
     dispose() {
       for (const { material, shape, object } of draws) {
@@ -59,6 +59,12 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
       for (const image of images) setting.textures.release(image);
     },
   };
+}
+
+function colorsOf(stage: Stage): VertexColors {
+  if (stage.color === undefined) return "none";
+  const components = stage.kind === "textures" ? stage.colorComponents : stage.color.components;
+  return components === 4 ? "rgba" : "rgb";
 }
 
 function shadingOf(stage: Stage, draw: DrawRange): Shading {
@@ -140,6 +146,6 @@ function imageUniformsOf(stage: TextureStage, textures: TexturePool): ImageVerte
     implicitWidth: { value: stage.implicitWidth },
     firstNumber: { value: 0 },
     isStrip: { value: false },
-    colorHasAlpha: { value: stage.colorComponents === 4 },
+    colorHasAlpha: { value: colorsOf(stage) === "rgba" },
   };
 }
