@@ -30,6 +30,7 @@ ConvertOptions optionsFrom(const Arguments& arguments) {
   options.container = chosen(arguments, "container", {Container::sig, Container::bg});
   options.primitives =
       chosen(arguments, "primitives", {Primitives::triangles, Primitives::strips, Primitives::points});
+  options.indexed = arguments.text("index") == "on";
   options.normalWeighting = chosen(arguments, "normal-weighting",
                                    {NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform});
   options.positionBits = static_cast<std::uint32_t>(arguments.integer("position-bits"));
@@ -52,7 +53,7 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
   json["output"] = arguments.text("output");
   json["format"] = report.format;
   json["sourceBytes"] = report.sourceBytes;
-  for (const char* name : {"container", "profile", "target", "primitives"})
+  for (const char* name : {"container", "profile", "target", "primitives", "index"})
     json[name] = arguments.text(name);
   json["positionBits"] = arguments.integer("position-bits");
   json["normalBits"] = arguments.integer("normal-bits");
@@ -99,9 +100,10 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   printLine("source", fmt::format("{}, {}: {} from {} vertices", report.format, byteSize(report.sourceBytes),
                                   elements, grouped(report.vertices)));
   printLine("container",
-            fmt::format("{}, profile {}, target {}, {}", isSig ? "sig (PNG images)" : "bg (typed arrays)",
+            fmt::format("{}, profile {}, target {}, {}{}", isSig ? "sig (PNG images)" : "bg (typed arrays)",
                         arguments.text("profile"), arguments.text("target"),
-                        report.triangles == 0 ? "points" : arguments.text("primitives")));
+                        report.triangles == 0 ? "points" : arguments.text("primitives"),
+                        report.triangles == 0 || arguments.text("index") == "on" ? "" : " without index"));
   printLine("positions",
             fmt::format("{} bits: step {:.4g}, so off by at most {:.4g} an axis, in units of the source",
                         report.lattice.bits, report.lattice.step, report.lattice.step / 2));

@@ -70,6 +70,8 @@ Command convertCommand() {
                 choice("target", {"web"}, "web: a page with its own runtime"),
                 choice("primitives", {"triangles", "strips", "points"},
                        "how patches are drawn; a point cloud is always points"),
+                choice("index", {"on", "off"},
+                       "off: vertices are repeated wherever they are drawn instead of named by an index"),
                 integer("position-bits", {"-vp", "-qp"}, 8, 32, "16",
                         "bits of a coordinate, 8..32, on one lattice over the whole mesh"),
                 integer("normal-bits", {"-vn", "-qn"}, 8, 32, "8",

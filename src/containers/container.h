@@ -36,7 +36,7 @@ struct EncodedPatch {
 GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& options);
 
 /// Encodes a patch by the node's fields. Deterministic. `patch` has at most
-/// 65,535 vertices (SIG) and no NaN.
+/// 65,535 vertices where it has an index, and no NaN.
 EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry,
                          const EncodeOptions& options);
 

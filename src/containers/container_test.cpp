@@ -86,6 +86,27 @@ TEST(Containers, GiveBackAPatchOfEverySizeAroundARow) {
             encode(testing::pointCloud(count, count), Primitive::points, indexed, 16, {container, 8, 0}), 0);
 }
 
+TEST(Containers, GiveBackMoreVerticesThanAnIndexCouldName) {
+  for (const Container container : {Container::sig, Container::bg})
+    for (const std::uint32_t count : {65536u, 65537u, 262144u, 262145u})
+      expectEqualWithinSteps(
+          encode(testing::pointCloud(count, count), Primitive::points, false, 16, {container, 8, 0}), 0);
+}
+
+TEST(Containers, RefuseMoreVerticesThanTheLargestImageHolds) {
+  const std::uint32_t most = 2048 * 2048;
+  PatchedMesh mesh;
+  IndexedPatch patch;
+  patch.positions.resize(most + 1);
+  patch.draws = {{Primitive::points, most + 1}};
+  try {
+    encodePatch(patch, describe(mesh, {}), {});
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+  }
+}
+
 TEST(Containers, GiveBackSeveralDraws) {
   for (const Container container : {Container::sig, Container::bg}) {
     const PatchedMesh patched = onePatch(testing::grid(9), 12);

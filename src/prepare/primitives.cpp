@@ -12,23 +12,24 @@ namespace imgeo {
 
 namespace {
 
+template <typename T>
+std::vector<T> gather(const std::vector<T>& values, const std::vector<std::uint32_t>& from) {
+  std::vector<T> result;
+  if (values.empty())
+    return result;
+  result.reserve(from.size());
+  for (const std::uint32_t i : from)
+    result.push_back(values[i]);
+  return result;
+}
+
 /// Splits wedges into vertices: vertex i is wedge order[i].
 IndexedPatch verticesOf(const Patch& patch, const std::vector<std::uint32_t>& order) {
-  const auto gather = [&](const auto& values, const auto& indexOf) {
-    std::remove_cvref_t<decltype(values)> result;
-    if (values.empty())
-      return result;
-    result.reserve(order.size());
-    for (const std::uint32_t wedge : order)
-      result.push_back(values[indexOf(wedge)]);
-    return result;
-  };
-  const auto wedge = [](std::uint32_t i) { return i; };
   IndexedPatch result;
-  result.positions = gather(patch.positions, [&](std::uint32_t i) { return patch.wedgePositions[i]; });
-  result.normals = gather(patch.normals, wedge);
-  result.texCoords = gather(patch.texCoords, wedge);
-  result.colors = gather(patch.colors, wedge);
+  result.positions = gather(patch.positions, gather(patch.wedgePositions, order));
+  result.normals = gather(patch.normals, order);
+  result.texCoords = gather(patch.texCoords, order);
+  result.colors = gather(patch.colors, order);
   result.colorComponents = patch.colorComponents;
   return result;
 }
@@ -99,13 +100,29 @@ IndexedPatch asPoints(const Patch& patch) {
   return result;
 }
 
+IndexedPatch withoutIndices(const IndexedPatch& patch) {
+  if (patch.indices.empty())
+    return patch;
+  IndexedPatch result;
+  result.positions = gather(patch.positions, patch.indices);
+  result.normals = gather(patch.normals, patch.indices);
+  result.texCoords = gather(patch.texCoords, patch.indices);
+  result.colors = gather(patch.colors, patch.indices);
+  result.colorComponents = patch.colorComponents;
+  result.draws = patch.draws;
+  return result;
+}
+
 std::vector<Vec3u> trianglesOf(const IndexedPatch& patch) {
   std::vector<Vec3u> triangles;
   const auto index = [&](std::size_t i) {
     return patch.indices.empty() ? static_cast<std::uint32_t>(i) : patch.indices[i];
   };
+  const auto differ = [&](std::uint32_t a, std::uint32_t b) {
+    return patch.indices.empty() ? patch.positions[a] != patch.positions[b] : a != b;
+  };
   const auto add = [&](Vec3u t) {
-    if (t.x != t.y && t.y != t.z && t.z != t.x)
+    if (differ(t.x, t.y) && differ(t.y, t.z) && differ(t.z, t.x))
       triangles.push_back(t);
   };
   std::size_t first = 0;

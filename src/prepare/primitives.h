@@ -46,8 +46,12 @@ IndexedPatch asStrips(const Patch& patch);
 /// and for meshes shown as points.
 IndexedPatch asPoints(const Patch& patch);
 
+/// The same draws over vertices that repeat instead of being named by indices.
+IndexedPatch withoutIndices(const IndexedPatch& patch);
+
 /// The triangles that the draws of a patch produce, as vertex index triples in
-/// their drawn orientation; degenerate ones (two equal indices) left out.
+/// their drawn orientation; degenerate ones (two equal indices, or without
+/// indices two vertices at one place) left out.
 std::vector<Vec3u> trianglesOf(const IndexedPatch& patch);
 
 } // namespace imgeo

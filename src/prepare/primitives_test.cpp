@@ -153,6 +153,30 @@ TEST(Strips, DrawThePatchsTriangles) {
   }
 }
 
+/// Triangles whose corners lie at three places; seen without indices, others cannot be told from joins.
+std::vector<Triangle> withArea(std::vector<Triangle> triangles) {
+  std::erase_if(triangles, [](const Triangle& t) {
+    const auto atOnePlace = [](const Corner& a, const Corner& b) {
+      return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+    };
+    return atOnePlace(t[0], t[1]) || atOnePlace(t[1], t[2]) || atOnePlace(t[2], t[0]);
+  });
+  return triangles;
+}
+
+TEST(WithoutIndices, TheTrianglesAreTheSame) {
+  for (const Patch& patch : everyKindOfPatch()) {
+    const std::vector<Triangle> expected = withArea(trianglesIn(patch, Degenerate::dropped));
+    for (const IndexedPatch& arranged : {asTriangles(patch), asStrips(patch)}) {
+      const IndexedPatch result = withoutIndices(arranged);
+      expectWhole(result);
+      EXPECT_TRUE(result.indices.empty());
+      EXPECT_EQ(result.vertexCount(), arranged.indices.size());
+      EXPECT_TRUE(trianglesIn(result) == expected);
+    }
+  }
+}
+
 TEST(Strips, TakeFewerIndicesThanTriangles) {
   for (const Patch& patch : {patchOf(testing::grid(50)), patchOf(testing::sphere(50, 50))}) {
     const double perTriangle =
@@ -209,6 +233,9 @@ TEST(TrianglesOf, MirrorEverySecondTriangleOfAStripAndBeginAnewWithEachDraw) {
   EXPECT_EQ(trianglesOf(patch), (std::vector<Vec3u>{{0, 1, 2}, {2, 1, 3}, {5, 4, 3}, {2, 1, 0}}));
   patch.indices.clear();
   patch.draws = {{Primitive::triangles, 6}};
+  EXPECT_TRUE(trianglesOf(patch).empty()); // all in one place
+  for (std::uint32_t i = 0; i < 6; ++i)
+    patch.positions[i].x = i;
   EXPECT_EQ(trianglesOf(patch), (std::vector<Vec3u>{{0, 1, 2}, {3, 4, 5}}));
 }
 

@@ -18,8 +18,9 @@ void addPoint(ElementList& list, std::uint32_t vertex) {
 
 } // namespace
 
-ElementList elementsOf(const Mesh& mesh, const std::vector<Vec3u>& positions, bool asPoints) {
+ElementList elementsOf(const Mesh& mesh, const std::vector<Vec3u>& positions, ElementKind kind) {
   ElementList list;
+  const bool asPoints = kind == ElementKind::points;
   list.cornerCount = asPoints ? 1 : 3;
   list.normals = mesh.normals;
   list.texCoords = mesh.texCoords;
@@ -37,14 +38,19 @@ ElementList elementsOf(const Mesh& mesh, const std::vector<Vec3u>& positions, bo
   }
   for (std::size_t corner = 0; corner + 2 < mesh.corners.size(); corner += 3) {
     const std::uint32_t a = mesh.corners[corner], b = mesh.corners[corner + 1], c = mesh.corners[corner + 2];
-    if (a != b && b != c && c != a)
+    const auto differ = [&](std::uint32_t first, std::uint32_t second) {
+      return kind == ElementKind::triangles ? first != second
+                                            : list.positions[first] != list.positions[second];
+    };
+    if (differ(a, b) && differ(b, c) && differ(c, a))
       list.elements.push_back({a, b, c});
   }
   return list;
 }
 
-ElementList elementsOf(const std::vector<IndexedPatch>& patches, bool asPoints) {
+ElementList elementsOf(const std::vector<IndexedPatch>& patches, ElementKind kind) {
   ElementList list;
+  const bool asPoints = kind == ElementKind::points;
   list.cornerCount = asPoints ? 1 : 3;
   for (const IndexedPatch& patch : patches) {
     const std::uint32_t base = static_cast<std::uint32_t>(list.positions.size());

@@ -24,13 +24,20 @@ struct ElementList {
   std::size_t vertexCount() const { return positions.size(); }
 };
 
-/// The triangles of a prepared mesh that have three different wedges, or its
-/// wedges as points, where patches may each draw their copy of a border wedge.
-/// `positions` are the mesh's own, quantised.
-ElementList elementsOf(const Mesh& mesh, const std::vector<Vec3u>& positions, bool asPoints);
+/// What sites hold of a mesh.
+enum class ElementKind : std::uint8_t {
+  points,    ///< its wedges; patches may each draw their copy of a border wedge
+  triangles, ///< those of three different wedges
+  /// Those of three different lattice points: without an index two vertices at
+  /// one place cannot be told from one.
+  trianglesWithArea,
+};
+
+/// The elements of a prepared mesh; `positions` are its own, quantised.
+ElementList elementsOf(const Mesh& mesh, const std::vector<Vec3u>& positions, ElementKind kind);
 
 /// The elements that decoded patches draw, joined.
-ElementList elementsOf(const std::vector<IndexedPatch>& patches, bool asPoints);
+ElementList elementsOf(const std::vector<IndexedPatch>& patches, ElementKind kind);
 
 /// What two lists may differ by, where they are the same elements.
 struct AttributeBounds {

@@ -13,7 +13,7 @@ namespace imgeo {
 
 namespace {
 
-IndexedPatch primitivesOf(const Patch& patch, Primitives primitives) {
+IndexedPatch arrange(const Patch& patch, Primitives primitives) {
   if (patch.topology == Topology::points)
     return asPoints(patch);
   switch (primitives) {
@@ -25,6 +25,11 @@ IndexedPatch primitivesOf(const Patch& patch, Primitives primitives) {
     return asPoints(patch);
   }
   return {};
+}
+
+IndexedPatch primitivesOf(const Patch& patch, const ConvertOptions& options) {
+  IndexedPatch arranged = arrange(patch, options.primitives);
+  return options.indexed ? arranged : withoutIndices(arranged);
 }
 
 /// An encoder refers to its files by number; the document by url.
@@ -80,7 +85,7 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& 
   std::vector<std::size_t> triangles(patched.patches.size()), points(patched.patches.size());
   parallelFor(patched.patches.size(), [&](std::size_t i) {
     const Patch patch = std::exchange(patched.patches[i], {});
-    const IndexedPatch indexed = primitivesOf(patch, options.primitives);
+    const IndexedPatch indexed = primitivesOf(patch, options);
     EncodedPatch encoded = encodePatch(indexed, result.geometry, encoding);
     std::vector<std::string> urls;
     for (const EncodedFile& file : encoded.files)

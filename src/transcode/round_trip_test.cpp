@@ -37,14 +37,15 @@ TEST(RoundTrip, EveryContainerPrimitiveAndPrecisionGivesBackEveryMesh) {
           ConvertOptions options;
           options.container = container;
           options.primitives = primitives;
+          options.indexed = mesh % 2 == 0;
           options.positionBits = bits;
           options.normalBits = container == Container::sig ? 8 : std::array{8u, 16u, 32u}[seed % 3];
           options.patchVertices = seed % 2 ? 256 : 65535;
           options.effort = static_cast<int>(seed % 4);
-          const VerifyReport verified =
-              expectRoundTrip(testing::randomMesh(seed), options,
-                              fmt::format("seed {} container {} primitives {} bits {} patches of {}", seed,
-                                          int(container), int(primitives), bits, options.patchVertices));
+          const VerifyReport verified = expectRoundTrip(
+              testing::randomMesh(seed), options,
+              fmt::format("seed {} container {} primitives {} indexed {} bits {} patches of {}", seed,
+                          int(container), int(primitives), options.indexed, bits, options.patchVertices));
           EXPECT_GT(verified.inputTriangles + verified.inputPoints, 0u) << seed;
           if (HasFailure())
             return;

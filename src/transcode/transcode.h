@@ -18,7 +18,8 @@ enum class Primitives { triangles, strips, points };
 
 struct ConvertOptions {
   Container container = Container::sig;
-  Primitives primitives = Primitives::triangles;           ///< point clouds are always points
+  Primitives primitives = Primitives::triangles; ///< point clouds are always points
+  bool indexed = true; ///< false: a vertex is repeated wherever it is drawn; points never have an index
   std::uint32_t positionBits = 16;                         ///< 8..32
   std::uint32_t normalBits = 8;                            ///< see EncodeOptions
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where the source has no normals

@@ -189,7 +189,12 @@ void compareShape(const OpenedDocument& document, const GeometryDescription& geo
                  bound);
 
   const bool asPoints = mesh.topology == Topology::points || primitives == Primitives::points;
-  const ElementList input = elementsOf(mesh, quantised, asPoints), site = elementsOf(patches, asPoints);
+  const bool indexed =
+      std::ranges::none_of(patches, &std::vector<std::uint32_t>::empty, &IndexedPatch::indices);
+  const ElementKind kind = asPoints  ? ElementKind::points
+                           : indexed ? ElementKind::triangles
+                                     : ElementKind::trianglesWithArea;
+  const ElementList input = elementsOf(mesh, quantised, kind), site = elementsOf(patches, kind);
   const AttributeBounds bounds{normalBoundDegrees(geometry), texCoordBound(geometry)};
   const ElementDifference difference = compare(input, site, bounds);
   count(difference, input, site, asPoints, report);

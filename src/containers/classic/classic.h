@@ -12,7 +12,8 @@ namespace imgeo {
 
 /// One image for the indices (where there are any), one for each byte of a
 /// coordinate, one each for normals, texture coordinates and colours.
-/// Throws Error{limit} for more indices than an image of guaranteedImageEdge² holds.
+/// Throws Error{limit} for more indices, or records without an index, than an image
+/// of guaranteedImageEdge² holds.
 EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort);
 
 /// Reads what encodeClassic writes and X3DOM's ImageGeometry with record images of

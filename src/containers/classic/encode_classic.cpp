@@ -20,14 +20,13 @@ struct RoleImage {
   Image image;
 };
 
-/// An image of `columns` times `rows` texels; texel(n, out) writes texel n of
-/// the first `count`, the rest repeat the last.
+/// An image of which texel(n, out) writes texel n of the first `count`; the rest repeat the last.
 template <typename Texel>
-Image imageOf(std::uint32_t columns, std::uint32_t rows, std::uint32_t channels, std::size_t count,
-              Texel texel) {
-  Image image{columns, rows, channels, Bytes(std::size_t{columns} * rows * channels)};
+Image imageOf(ImageSize size, std::uint32_t channels, std::size_t count, Texel texel) {
+  const std::size_t texels = std::size_t{size.columns} * size.rows;
+  Image image{size.columns, size.rows, channels, Bytes(texels * channels)};
   std::uint8_t* out = image.pixels.data();
-  for (std::size_t n = 0; n < std::size_t{columns} * rows; ++n, out += channels) {
+  for (std::size_t n = 0; n < texels; ++n, out += channels) {
     if (n < count)
       texel(n, out);
     else
@@ -36,24 +35,22 @@ Image imageOf(std::uint32_t columns, std::uint32_t rows, std::uint32_t channels,
   return image;
 }
 
-/// The texel count of a patch's running numbers: the index image, or the part
+/// The texels of a patch's running numbers: those of the index image, or the part
 /// of the record images in use.
-Vec2<std::uint32_t> implicitMeshSizeOf(const IndexedPatch& patch) {
-  if (patch.indices.empty())
-    return {recordColumns, rowsFor(patch.vertexCount(), recordColumns)};
-  std::uint32_t columns = indexColumns;
-  if (rowsFor(patch.indices.size(), columns) > guaranteedImageEdge)
-    columns = guaranteedImageEdge;
-  if (rowsFor(patch.indices.size(), columns) > guaranteedImageEdge)
+ImageSize implicitMeshSizeOf(const IndexedPatch& patch, ImageSize records) {
+  const ImageSize size = patch.indices.empty()
+                             ? ImageSize{records.columns, rowsFor(patch.vertexCount(), records.columns)}
+                             : longImageSize(patch.indices.size());
+  if (size.rows > guaranteedImageEdge)
     throw Error(ErrorKind::limit, "",
-                "a patch of " + std::to_string(patch.indices.size()) +
-                    " indices does not fit into an index image; use smaller patches");
-  return {columns, rowsFor(patch.indices.size(), columns)};
+                "a patch that draws " + std::to_string(drawnCount(patch.draws)) +
+                    " vertices does not fit into an image; use smaller patches");
+  return size;
 }
 
-Image indexImage(const IndexedPatch& patch, Vec2<std::uint32_t> size) {
-  const std::uint32_t rowStep = recordColumns / recordRows(narrow<std::uint32_t>(patch.vertexCount()));
-  return imageOf(size.x, size.y, 3, patch.indices.size(), [&](std::size_t n, std::uint8_t* out) {
+Image indexImage(const IndexedPatch& patch, ImageSize size, ImageSize records) {
+  const std::uint32_t rowStep = recordColumns / records.rows;
+  return imageOf(size, 3, patch.indices.size(), [&](std::size_t n, std::uint8_t* out) {
     const std::uint32_t record = patch.indices[n];
     out[0] = static_cast<std::uint8_t>(record % recordColumns);
     out[1] = static_cast<std::uint8_t>(record / recordColumns * rowStep);
@@ -62,15 +59,15 @@ Image indexImage(const IndexedPatch& patch, Vec2<std::uint32_t> size) {
 }
 
 /// Byte `plane` of every coordinate, counted from the least significant.
-Image coordImage(const IndexedPatch& patch, std::uint32_t rows, std::uint32_t shift, std::uint32_t plane) {
-  return imageOf(recordColumns, rows, 3, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
+Image coordImage(const IndexedPatch& patch, ImageSize size, std::uint32_t shift, std::uint32_t plane) {
+  return imageOf(size, 3, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
     for (int axis = 0; axis < 3; ++axis)
       out[axis] = static_cast<std::uint8_t>(storeCoord(patch.positions[n][axis], shift) >> (8 * plane));
   });
 }
 
-Image normalImage(const IndexedPatch& patch, std::uint32_t rows) {
-  return imageOf(recordColumns, rows, 3, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
+Image normalImage(const IndexedPatch& patch, ImageSize size) {
+  return imageOf(size, 3, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
     for (int axis = 0; axis < 3; ++axis) {
       const double component = std::clamp(double{patch.normals[n][axis]}, -1.0, 1.0);
       out[axis] = static_cast<std::uint8_t>(std::lround((component + 1) * 127.5));
@@ -78,8 +75,8 @@ Image normalImage(const IndexedPatch& patch, std::uint32_t rows) {
   });
 }
 
-Image texCoordImage(const IndexedPatch& patch, const GeometryDescription& geometry, std::uint32_t rows) {
-  return imageOf(recordColumns, rows, 4, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
+Image texCoordImage(const IndexedPatch& patch, const GeometryDescription& geometry, ImageSize size) {
+  return imageOf(size, 4, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
     const std::uint16_t u =
         storeTexCoord(patch.texCoords[n].x, geometry.texCoordMin.x, geometry.texCoordSize.x);
     const std::uint16_t v =
@@ -91,8 +88,8 @@ Image texCoordImage(const IndexedPatch& patch, const GeometryDescription& geomet
   });
 }
 
-Image colorImage(const IndexedPatch& patch, std::uint32_t components, std::uint32_t rows) {
-  return imageOf(recordColumns, rows, components, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
+Image colorImage(const IndexedPatch& patch, std::uint32_t components, ImageSize size) {
+  return imageOf(size, components, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
     const Rgba8 color = patch.colors[n];
     const std::uint8_t channels[] = {color.r, color.g, color.b, color.a};
     std::copy_n(channels, components, out);
@@ -103,21 +100,22 @@ Image colorImage(const IndexedPatch& patch, std::uint32_t components, std::uint3
 
 EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort) {
   EncodedPatch encoded{describePatch(patch, geometry), {}};
-  encoded.description.implicitMeshSize = implicitMeshSizeOf(patch);
-  const std::uint32_t rows = recordRows(encoded.description.vertexCount);
+  const ImageSize records = recordImageSize(patch.vertexCount());
+  const ImageSize running = implicitMeshSizeOf(patch, records);
+  encoded.description.implicitMeshSize = {running.columns, running.rows};
   const std::uint32_t shift = coordShift(Container::sig, geometry.lattice.bits);
 
   std::vector<RoleImage> images;
   if (!patch.indices.empty())
-    images.push_back({Role::index, indexImage(patch, encoded.description.implicitMeshSize)});
+    images.push_back({Role::index, indexImage(patch, running, records)});
   for (std::uint32_t plane = coordBytes(Container::sig, geometry.lattice.bits); plane-- > 0;)
-    images.push_back({Role::coord, coordImage(patch, rows, shift, plane)});
+    images.push_back({Role::coord, coordImage(patch, records, shift, plane)});
   if (!patch.normals.empty())
-    images.push_back({Role::normal, normalImage(patch, rows)});
+    images.push_back({Role::normal, normalImage(patch, records)});
   if (!patch.texCoords.empty())
-    images.push_back({Role::texCoord, texCoordImage(patch, geometry, rows)});
+    images.push_back({Role::texCoord, texCoordImage(patch, geometry, records)});
   if (!patch.colors.empty())
-    images.push_back({Role::color, colorImage(patch, geometry.colorComponents, rows)});
+    images.push_back({Role::color, colorImage(patch, geometry.colorComponents, records)});
 
   std::vector<Bytes> pngs(images.size());
   parallelFor(images.size(), [&](std::size_t i) { pngs[i] = encodePng(images[i].image, effort); });

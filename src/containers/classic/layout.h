@@ -1,26 +1,43 @@
 #pragma once
 // How records and indices lie in the images of SIG classic.
 
+#include "containers/limits.h"
+
 #include <bit>
 #include <cstdint>
 
 namespace imgeo {
 
-/// Width of the images that hold records, and their largest height: an index
-/// texel names the column by one byte and the row by another.
+/// Width of the images that hold records, and their largest height where there
+/// is an index: its texels name the column by one byte and the row by another.
 inline constexpr std::uint32_t recordColumns = 256;
 
-/// Width of index images, until they would be more than guaranteedImageEdge high.
-inline constexpr std::uint32_t indexColumns = 1024;
+/// Width of index images, and of the images of more records than an index could
+/// name, until they would be more than guaranteedImageEdge high.
+inline constexpr std::uint32_t longColumns = 1024;
 
 inline constexpr std::uint32_t rowsFor(std::uint64_t count, std::uint32_t columns) {
   return static_cast<std::uint32_t>((count + columns - 1) / columns);
 }
 
-/// Height of the images that hold so many records: a power of two, so that
+struct ImageSize {
+  std::uint32_t columns = 0, rows = 0;
+};
+
+/// The images of something that is as long as it has to be: indices, and records without them.
+inline constexpr ImageSize longImageSize(std::uint64_t count) {
+  const std::uint32_t columns =
+      rowsFor(count, longColumns) <= guaranteedImageEdge ? longColumns : guaranteedImageEdge;
+  return {columns, rowsFor(count, columns)};
+}
+
+/// The images that hold so many records. Their height is a power of two, so that
 /// rows are whole steps of the row byte and X3DOM takes the image unscaled.
-inline constexpr std::uint32_t recordRows(std::uint32_t vertexCount) {
-  return std::bit_ceil(rowsFor(vertexCount, recordColumns));
+inline constexpr ImageSize recordImageSize(std::uint64_t recordCount) {
+  ImageSize size{recordColumns, rowsFor(recordCount, recordColumns)};
+  if (size.rows > recordColumns)
+    size = longImageSize(recordCount);
+  return {size.columns, std::bit_ceil(size.rows)};
 }
 
 } // namespace imgeo
