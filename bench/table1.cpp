@@ -1,0 +1,201 @@
+// Table 1 of the 2012 paper: what a mesh takes as four kinds of triangles in each
+// encoding, ours beside the paper's where the paper measured the same model. The
+// meshes have 16-bit positions and 8-bit normals in SIG, single precision in BG and
+// in X3D text. Every SIG patch is read back before it is counted.
+//
+//   build/bench/table1 [--effort 0..9] MODEL...
+
+#include "base/error.h"
+#include "containers/container.h"
+#include "containers/raw_size.h"
+#include "documents/element.h"
+#include "import/import.h"
+#include "prepare/normals.h"
+#include "prepare/weld.h"
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <span>
+#include <string>
+
+namespace imgeo {
+namespace {
+
+constexpr const char* kinds[] = {"raw triangles", "triangle strips", "indexed triangles", "indexed strips"};
+enum Column { x3d, x3db, bg, sigRaw, sigPng, columnCount };
+using Row = std::array<std::uint64_t, columnCount>;
+
+struct PaperTable {
+  std::size_t triangles;
+  std::array<Row, 4> rows;
+};
+constexpr PaperTable paperTables[] = {{69451,
+                                       {{{11135415, 2298303, 5000472, 1875177, 1388904},
+                                         {4638412, 1910977, 2150664, 806499, 535483},
+                                         {2977736, 1130963, 1252722, 730212, 584695},
+                                         {2269225, 937259, 1055238, 492728, 405799}}}},
+                                      {96966,
+                                       {{{16324694, 2026318, 6981552, 2618082, 2009258},
+                                         {6647483, 2742016, 3087816, 1157931, 741350},
+                                         {4399737, 1539600, 1745436, 1018161, 883318},
+                                         {3411800, 1304490, 1420958, 693683, 607876}}}}};
+
+std::string grouped(std::uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t at = digits.size(); at > 3;)
+    digits.insert(at -= 3, ",");
+  return digits;
+}
+
+/// The X3D node that holds a patch inline: its name, and the field that lays out its triangles.
+std::uint64_t textSize(const IndexedPatch& patch, const Lattice& lattice) {
+  const bool indexed = !patch.indices.empty();
+  const bool strip = patch.draws.front().primitive == Primitive::triangleStrip;
+  std::string text = fmt::format("<{}Triangle{}Set", indexed ? "Indexed" : "", strip ? "Strip" : "");
+  if (indexed) {
+    text += fmt::format(" index='{}", patch.indices.front());
+    for (const std::uint32_t index : std::span(patch.indices).subspan(1))
+      text += fmt::format(" {}", index);
+    text += strip ? " -1'" : "'";
+  } else if (strip) {
+    text += fmt::format(" stripCount='{}'", patch.vertexCount());
+  }
+  text += "><Coordinate point='";
+  for (const Vec3u& position : patch.positions)
+    text += numbers(Vec3f(lattice.point(position))) + " ";
+  text += "'></Coordinate><Normal vector='";
+  for (const Vec3f& normal : patch.normals)
+    text += numbers(normal) + " ";
+  return text.size() + std::string("'></Normal></IndexedTriangleStripSet>").size();
+}
+
+struct Measured {
+  std::size_t vertices = 0, indices = 0;
+  std::uint64_t x3d = 0, bg = 0;
+  std::array<std::uint64_t, 5> sig{}; ///< by role
+
+  std::uint64_t sigBytes() const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t bytes : sig)
+      sum += bytes;
+    return sum;
+  }
+};
+
+void add(const IndexedPatch& patch, const PatchedMesh& mesh, const EncodeOptions& options, Measured& sum) {
+  sum.vertices += patch.vertexCount();
+  sum.indices += patch.indices.size();
+  sum.x3d += textSize(patch, mesh.lattice);
+  const GeometryDescription geometry = describe(mesh, options);
+  const EncodedPatch encoded = encodePatch(patch, geometry, options);
+  const IndexedPatch decoded = decodePatch(encoded.description, geometry, [&](const std::string& url) {
+    return encoded.files.at(std::stoul(url)).bytes;
+  });
+  if (decoded.positions != patch.positions || decoded.indices != patch.indices ||
+      decoded.draws != patch.draws)
+    throw Error(ErrorKind::malformed, "", "what was written reads back as something else");
+  for (const EncodedFile& file : encoded.files)
+    sum.sig[static_cast<std::size_t>(file.role)] += file.bytes.size();
+  EncodeOptions typed = options;
+  typed.container = Container::bg;
+  for (const EncodedFile& file : encodePatch(patch, describe(mesh, typed), typed).files)
+    sum.bg += file.bytes.size();
+}
+
+std::array<Measured, 4> measure(const PatchedMesh& mesh, const EncodeOptions& options) {
+  std::array<Measured, 4> rows;
+  for (const Patch& patch : mesh.patches) {
+    const IndexedPatch triangles = asTriangles(patch), strips = asStrips(patch);
+    add(withoutIndices(triangles), mesh, options, rows[0]);
+    add(withoutIndices(strips), mesh, options, rows[1]);
+    add(triangles, mesh, options, rows[2]);
+    add(strips, mesh, options, rows[3]);
+  }
+  return rows;
+}
+
+/// Ours, and below it the paper's and the ratio.
+std::string cell(std::uint64_t ours, const PaperTable* paper, std::size_t row, Column column) {
+  if (!paper)
+    return grouped(ours);
+  const std::uint64_t theirs = paper->rows[row][column];
+  return fmt::format("**{}** / {} = {:.3f}", grouped(ours), grouped(theirs),
+                     static_cast<double>(ours) / static_cast<double>(theirs));
+}
+
+void printTable(const std::array<Measured, 4>& rows, std::size_t triangles) {
+  const PaperTable* paper = nullptr;
+  for (const PaperTable& table : paperTables)
+    if (table.triangles == triangles)
+      paper = &table;
+  fmt::print(
+      "| mesh | vertices | indices | X3D text | X3DB (the paper's) | BG | SIG raw | SIG PNG | BG of 16 and "
+      "8 bits |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const Measured& m = rows[row];
+    const RawSize raw = rawSize(m.vertices, m.indices);
+    fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", kinds[row], grouped(m.vertices),
+               grouped(m.indices), cell(m.x3d, paper, row, x3d), paper ? grouped(paper->rows[row][x3db]) : "",
+               cell(raw.bg, paper, row, bg), cell(raw.sig, paper, row, sigRaw),
+               cell(m.sigBytes(), paper, row, sigPng), grouped(m.bg));
+  }
+  fmt::print("\nSIG PNG by role, and its share:\n\n| mesh | index | coord | normal | bytes/triangle |\n"
+             "|---|--:|--:|--:|--:|\n");
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const double all = static_cast<double>(rows[row].sigBytes());
+    const auto share = [&](Role role) {
+      const std::uint64_t bytes = rows[row].sig[static_cast<std::size_t>(role)];
+      return fmt::format("{} ({:.1f} %)", grouped(bytes), 100 * static_cast<double>(bytes) / all);
+    };
+    fmt::print("| {} | {} | {} | {} | {:.3f} |\n", kinds[row], share(Role::index), share(Role::coord),
+               share(Role::normal), all / static_cast<double>(triangles));
+  }
+}
+
+int run(const std::vector<std::string>& arguments) {
+  EncodeOptions options;
+  options.effort = 9;
+  std::vector<std::string> models;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] != "--effort") {
+      models.push_back(arguments[i]);
+      continue;
+    }
+    const std::string& value = i + 1 < arguments.size() ? arguments[++i] : std::string();
+    if (value.size() != 1 || value[0] < '0' || value[0] > '9')
+      throw Error(ErrorKind::usage, "--effort", "takes a digit");
+    options.effort = value[0] - '0';
+  }
+  if (models.empty())
+    throw Error(ErrorKind::usage, "", "usage: table1 [--effort 0..9] MODEL...");
+  for (const std::string& model : models)
+    for (Mesh& mesh : importFile(model).scene.meshes) {
+      if (mesh.topology != Topology::triangles)
+        continue;
+      weld(mesh);
+      if (mesh.normals.empty())
+        computeNormals(mesh, NormalWeighting::area);
+      const PatchedMesh patched = cutIntoPatches(mesh, latticeFor(boxOf(mesh), 16), 65535);
+      fmt::print("\n## {}: {} triangles, {} vertices, {} {}\n\n",
+                 std::filesystem::path(model).filename().string(), grouped(mesh.elementCount()),
+                 grouped(mesh.wedgeCount()), patched.patches.size(),
+                 patched.patches.size() == 1 ? "patch" : "patches");
+      printTable(measure(patched, options), mesh.elementCount());
+      std::fflush(stdout);
+    }
+  return 0;
+}
+
+} // namespace
+} // namespace imgeo
+
+int main(int argc, char** argv) {
+  try {
+    return imgeo::run({argv + 1, argv + argc});
+  } catch (const imgeo::Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return imgeo::exitCode(error.kind());
+  }
+}
