@@ -12,6 +12,7 @@ _imgeo() {
     "convert --profile") COMPREPLY=($(compgen -W "classic" -- "$word")); return ;;
     "convert --target") COMPREPLY=($(compgen -W "web" -- "$word")); return ;;
     "convert --primitives") COMPREPLY=($(compgen -W "triangles strips points" -- "$word")); return ;;
+    "convert --index") COMPREPLY=($(compgen -W "on off" -- "$word")); return ;;
     "convert -vp"|"convert -qp"|"convert --position-bits") COMPREPLY=(); return ;;
     "convert -vn"|"convert -qn"|"convert --normal-bits") COMPREPLY=(); return ;;
     "convert -vt"|"convert -qt"|"convert --texcoord-bits") COMPREPLY=(); return ;;
@@ -26,7 +27,7 @@ _imgeo() {
     "serve --host") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
-    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --container --profile --target --primitives --position-bits --normal-bits --texcoord-bits --color-bits --patch-vertices --normal-weighting --title --effort --threads --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --container --profile --target --primitives --index --position-bits --normal-bits --texcoord-bits --color-bits --patch-vertices --normal-weighting --title --effort --threads --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     serve) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--port --host --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;

@@ -25,6 +25,7 @@ _imgeo() {
       '--profile[classic\: the layout that X3DOM 1.7 reads as well]:profile:(classic)' \
       '--target[web\: a page with its own runtime]:target:(web)' \
       '--primitives[how patches are drawn; a point cloud is always points]:primitives:(triangles strips points)' \
+      '--index[off\: vertices are repeated wherever they are drawn instead of named by an index]:index:(on off)' \
       '-vp[bits of a coordinate, 8..32, on one lattice over the whole mesh]:position-bits: ' \
       '-qp[bits of a coordinate, 8..32, on one lattice over the whole mesh]:position-bits: ' \
       '--position-bits[bits of a coordinate, 8..32, on one lattice over the whole mesh]:position-bits: ' \
