@@ -7,7 +7,7 @@ PORT  ?= 8080
 export MODEL PORT
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo test soak check tidy install clean
+.PHONY: help build demo test soak check tidy install bench clean
 
 help: ## say what can be made
 	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
@@ -35,6 +35,9 @@ soak: ## run what is too long for make test: sanitizers and fuzzing
 	@scripts/install --soak
 	@scripts/build
 	@scripts/soak
+
+bench: build ## measure convert, beside gltfpack; print the README's tables
+	@scripts/bench
 
 clean: ## remove everything that was built; node_modules stays
 	rm -rf build build-* web/dist
