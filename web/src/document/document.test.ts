@@ -149,6 +149,12 @@ describe("a geometry", () => {
     assert.equal(scene.warnings.length, 3);
   });
 
+  test("of more than four byte planes uses the highest four, and says so", () => {
+    const scene = sceneOf('<Shape><ImageGeometry coord="a b c d e"/></Shape>');
+    assert.deepEqual(shapesOf(scene.root)[0]?.geometry?.patches[0]?.coord.map(({ url }) => url), ["a", "b", "c", "d"]);
+    assert.match(scene.warnings[0]?.message ?? "", /4 of 5/);
+  });
+
   test("gives its shape the union of the patches' boxes where the shape has none", () => {
     assert.deepEqual(onlyShape(`<Shape>${patches}</Shape>`).box, { min: [0, 1, 2.5], max: [2, 3, 3.5] });
     assert.deepEqual(onlyShape(`<Shape bboxCenter="0 0 0" bboxSize="2 2 2">${patches}</Shape>`).box, { min: [-1, -1, -1], max: [1, 1, 1] });

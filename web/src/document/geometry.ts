@@ -13,6 +13,9 @@ import type { Vec3 } from "./fieldTypes.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
+/** Byte planes that coordinates can have: 32 bits. */
+const mostCoordPlanes = 4;
+
 type PatchValues = Values<typeof nodeFields.GeometryPatch>;
 type Container = GeometryDescription["container"];
 
@@ -99,7 +102,9 @@ function texturesOf(element: SceneElement, warnings: Warning[]): Partial<PatchVa
 function patchOf(element: SceneElement, values: PatchValues, container: Container,
                  warnings: Warning[]): PatchDescription {
   const reference = (text: string) => (text === "" ? undefined : referenceOf(text, container));
-  const coord = container === "sig" ? values.coord : values.coord.slice(0, 1);
+  const planes = container === "sig" ? mostCoordPlanes : 1;
+  if (values.coord.length > planes) warnings.push({ element, message: `only the first ${planes} of ${values.coord.length} coord are used` });
+  const coord = values.coord.slice(0, planes);
   return {
     box: boxOf(values),
     vertexCount: Math.max(0, values.recordCount),

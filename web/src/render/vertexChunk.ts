@@ -1,7 +1,7 @@
 // The one place where a vertex is read. `readVertex` has two bodies: from images
-// by number (classic SIG, paper section 5.1) and from buffers (BG). Every
-// material of every pass - colour, depth, picking - takes it in through
-// `readVerticesIn`, so no pass can disagree with another about the shape.
+// by number (classic SIG, paper section 5.1) and from buffers (BG). The material
+// of every pass takes it in through `readVerticesIn`, so no pass can disagree
+// with another about the shape.
 //
 // Image bytes are put together as integers and only then become floats: with up
 // to 24 bits every lattice point is exact. The matrix of the drawn object places
@@ -31,9 +31,6 @@ export interface ImageVertexUniforms extends Record<string, IUniform> {
   isStrip: IUniform<boolean>;
   colorHasAlpha: IUniform<boolean>;
 }
-
-/** Coordinate images that a patch can have: 32 bits. */
-export const mostCoordPlanes = 4;
 
 /** Defined in materials that read images, and in those that read normals from them. */
 export const imageVerticesDefine = "IMAGE_VERTICES";

@@ -64,7 +64,7 @@ export async function downloadAnd<Result>(
   }
 }
 
-export function isWorthRetrying(error: unknown): boolean {
+function isWorthRetrying(error: unknown): boolean {
   if (!(error instanceof RequestError)) return false;
   return error.kind === "network" || error.kind === "timeout" || error.status >= 500;
 }
