@@ -15,3 +15,17 @@ if [[ -t 2 && -z "${NO_COLOR:-}" ]]; then bold=$'\e[1m' plain=$'\e[0m'; else bol
 
 say() { echo "${bold}imgeo: $*${plain}" >&2; }
 fail() { echo "imgeo: $*" >&2; exit 1; }
+
+# step NAME COMMAND...: runs it, says how long it took, and goes on when it fails;
+# failIfAnyFailed ends the script with the names of those that did.
+failedSteps=()
+step() {
+  local name="$1" start=$SECONDS
+  shift
+  say "$name"
+  "$@" || failedSteps+=("$name")
+  say "$name: $((SECONDS - start)) s"
+}
+failIfAnyFailed() {
+  (( ${#failedSteps[@]} == 0 )) || fail "failed: $(printf '%s, ' "${failedSteps[@]}" | sed 's/, $//')"
+}
