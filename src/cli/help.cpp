@@ -18,7 +18,8 @@ std::string filled(const std::string& text, std::size_t indent) {
   std::size_t column = indent;
   for (std::string word; words >> word;) {
     if (column > indent && column + 1 + word.size() > lineWidth) {
-      lines += "\n" + std::string(indent, ' ');
+      lines += '\n';
+      lines.append(indent, ' ');
       column = indent;
     } else if (column > indent) {
       lines += ' ';
@@ -99,7 +100,7 @@ std::string helpOf(const Command& command) {
   std::string text = fmt::format("imgeo {}: {}\n\nUsage: imgeo {}{}{}\n", command.name, command.summary,
                                  command.name, command.usage.empty() ? "" : " ", command.usage);
   if (!command.text.empty())
-    text += "\n" + filled(command.text, 0) + "\n";
+    text += fmt::format("\n{}\n", filled(command.text, 0));
   if (std::ranges::any_of(command.flags, &Flag::positional))
     text += "\nArguments:\n";
   for (const Flag& flag : command.flags)

@@ -104,6 +104,11 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, Geometry
     whole.add(document.geometries[geometry].box.max);
     if (shape.material == Material{})
       shape.material = stone;
+    // X3D does not light points: it shows their own or the emissive colour.
+    const bool onlyPoints =
+        document.geometries[geometry].patches.front().draws.front().primitive == Primitive::points;
+    if (onlyPoints && shape.material.emissiveColor == Vec3f{})
+      shape.material.emissiveColor = shape.material.diffuseColor;
     shape.mesh = geometry;
     document.shapes.push_back(std::move(shape));
   }

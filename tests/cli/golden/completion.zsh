@@ -5,6 +5,7 @@ _imgeo() {
     'convert:turn a mesh into a page that shows it progressively'
     'info:say what a site or a mesh file holds, and where its bytes are'
     'verify:read a site back and prove that it equals its input'
+    'export:write the mesh that a site holds as PLY, OBJ or GLB'
     'serve:serve a directory over HTTP until Ctrl-C'
     'completion:print a completion script for bash, zsh or fish'
     'manual:print the manual page'
@@ -62,6 +63,13 @@ _imgeo() {
       '--help[print this help]' \
       ':site:_files -/' \
       ':input:_files' ;;
+    export) _arguments \
+      '-o[the file to write; .ply, .obj or .glb says what]:output:_files' \
+      '--output[the file to write; .ply, .obj or .glb says what]:output:_files' \
+      '--json[print what was written as JSON]' \
+      '-h[print this help]' \
+      '--help[print this help]' \
+      ':site:_files -/' ;;
     serve) _arguments \
       '--port[the port to listen on; 0\: any that is free]:port: ' \
       '--host[the address to listen on; 0.0.0.0 for every network]:host: ' \
