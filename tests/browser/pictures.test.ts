@@ -35,6 +35,8 @@ const cases: { mesh: GeneratedMesh; options: string[] }[] = [
   { mesh: "trefoil-plain", options: ["--position-bits", "12"] },
   { mesh: "trefoil-plain", options: ["--position-bits", "24"] },
   { mesh: "trefoil-plain", options: ["--container", "bg", "--normal-bits", "16"] },
+  { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"] },
+  { mesh: "trefoil-colors", options: ["--index", "off", "--container", "bg"] },
   { mesh: "points", options: [] },
   { mesh: "points", options: ["--container", "bg"] },
   { mesh: "trefoil-colors", options: ["--primitives", "points"] },
