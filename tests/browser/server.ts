@@ -2,7 +2,7 @@
 // bodies, keeps a record of every request, and fails, holds, delays, truncates
 // or replaces what matches a rule. Everything goes out under
 // `Content-Security-Policy: default-src 'self'`, so that every test that loads
-// a page proves that the page needs nothing more.
+// a page of ours proves that the page needs nothing more.
 
 import { readFile } from "node:fs/promises";
 import { createServer, type IncomingMessage, type ServerResponse } from "node:http";
@@ -37,6 +37,8 @@ export interface TestServer {
   origin: string;
   /** Every request in order of arrival. */
   requests: RequestRecord[];
+  /** Sent with everything; ours is the strictest, other people's pages need more. */
+  contentPolicy: string;
   /** Serves `body` under "/name". */
   put(path: string, body: Buffer | string): void;
   /** The latest rule that matches a path wins. Returns what takes the rule back. */
@@ -86,7 +88,7 @@ export async function startServer(directory: string): Promise<TestServer> {
     response.on("finish", () => (record.state = "answered"));
     response.writeHead(record.status, {
       "Content-Type": mediaTypes[extname(path) || ".html"] ?? "application/octet-stream",
-      "Content-Security-Policy": "default-src 'self'",
+      "Content-Security-Policy": testServer.contentPolicy,
       "Cache-Control": "no-cache",
     });
     response.end(body);
@@ -101,7 +103,8 @@ export async function startServer(directory: string): Promise<TestServer> {
 
   const server = createServer((request, response) => void answer(request, response));
   await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
-  return {
+  const testServer: TestServer = {
+    contentPolicy: "default-src 'self'",
     origin: `http://127.0.0.1:${(server.address() as AddressInfo).port}/`,
     requests,
     put: (path, body) => void bodies.set(path, Buffer.from(body)),
@@ -116,6 +119,7 @@ export async function startServer(directory: string): Promise<TestServer> {
       await new Promise((resolve) => server.close(resolve));
     },
   };
+  return testServer;
 }
 
 /** A promise for `hold`, with the function that lets go. */

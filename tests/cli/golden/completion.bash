@@ -10,7 +10,8 @@ _imgeo() {
     "convert -o"|"convert --output") COMPREPLY=($(compgen -d -- "$word")); return ;;
     "convert --container") COMPREPLY=($(compgen -W "sig bg" -- "$word")); return ;;
     "convert --profile") COMPREPLY=($(compgen -W "classic" -- "$word")); return ;;
-    "convert --target") COMPREPLY=($(compgen -W "web" -- "$word")); return ;;
+    "convert --target") COMPREPLY=($(compgen -W "web x3dom" -- "$word")); return ;;
+    "convert --x3dom-url") COMPREPLY=(); return ;;
     "convert --primitives") COMPREPLY=($(compgen -W "triangles strips points" -- "$word")); return ;;
     "convert --index") COMPREPLY=($(compgen -W "on off" -- "$word")); return ;;
     "convert -vp"|"convert -qp"|"convert --position-bits") COMPREPLY=(); return ;;
@@ -28,7 +29,7 @@ _imgeo() {
     "serve --host") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
-    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --container --profile --target --primitives --index --position-bits --normal-bits --texcoord-bits --color-bits --patch-vertices --normal-weighting --title --effort --threads --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --container --profile --target --x3dom-url --primitives --index --position-bits --normal-bits --texcoord-bits --color-bits --patch-vertices --normal-weighting --title --effort --threads --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;

@@ -24,7 +24,8 @@ _imgeo() {
       '--output[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--container[sig\: PNG images that the GPU decodes; bg\: typed arrays]:container:(sig bg)' \
       '--profile[classic\: the layout that X3DOM 1.7 reads as well]:profile:(classic)' \
-      '--target[web\: a page with its own runtime]:target:(web)' \
+      '--target[web\: a page with its own runtime; x3dom\: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)]:target:(web x3dom)' \
+      '--x3dom-url[target x3dom\: the folder that has x3dom.js and x3dom.css; otherwise npm'\''s by jsdelivr.net]:x3dom-url: ' \
       '--primitives[how patches are drawn; a point cloud is always points]:primitives:(triangles strips points)' \
       '--index[off\: vertices are repeated wherever they are drawn instead of named by an index]:index:(on off)' \
       '-vp[bits of a coordinate, 8..32, on one lattice over the whole mesh]:position-bits: ' \

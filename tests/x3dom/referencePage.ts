@@ -1,0 +1,26 @@
+// A page of ours with its containers replaced by the source's own numbers,
+// written out as X3DOM's plain nodes: the picture that the containers must give.
+
+import type { PlainMesh } from "../browser/meshes.ts";
+
+/** Puts an inline copy of `mesh` in the place of everything in the only source shape. */
+export function referencePage(html: string, mesh: PlainMesh): string {
+  const begin = html.search(/<(Group|Shape)\b/);
+  const group = html.indexOf("</Group>", begin);
+  const end = group > 0 ? group + "</Group>".length : html.indexOf("</Shape>", begin) + "</Shape>".length;
+  const material = /<Material[^>]*><\/Material>/.exec(html.slice(begin, end))?.[0];
+  if (begin < 0 || material === undefined) throw new Error("the page has no shape with a material");
+  const shape = `<Shape><Appearance>${material}</Appearance>${plainNode(mesh)}</Shape>`;
+  return html.slice(0, begin) + shape + html.slice(end);
+}
+
+function plainNode({ positions, normals, colors, triangles }: PlainMesh): string {
+  const coordinate = `<Coordinate point="${positions.join(" ")}"></Coordinate>`;
+  const color = colors ? `<Color color="${Array.from(colors, (byte) => byte / 255).join(" ")}"></Color>` : "";
+  if (triangles.length === 0) return `<PointSet>${coordinate}${color}</PointSet>`;
+  if (!normals) throw new Error("a reference needs the normals that convert computes");
+  // X3DOM skips words that are no numbers: vertices without triangles have such normals.
+  const vectors = normals.map((value) => (Number.isFinite(value) ? value : 0));
+  const normal = `<Normal vector="${vectors.join(" ")}"></Normal>`;
+  return `<IndexedTriangleSet index="${triangles.join(" ")}">${coordinate}${normal}${color}</IndexedTriangleSet>`;
+}

@@ -1,0 +1,87 @@
+// The two releases of X3DOM that pages are written for, as npm has them, and
+// pages of ours shown in them.
+
+import { createHash } from "node:crypto";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import type { Page } from "playwright-core";
+import { withPage, type View } from "../browser/harness.ts";
+import { repository } from "../browser/paths.ts";
+import type { Picture } from "../browser/png.ts";
+
+export type Container = "sig" | "bg";
+
+/** The last release that draws images, and the newest. */
+const folders: Record<Container, string> = { sig: "x3dom-1.7", bg: "x3dom-1.8" };
+
+export function fileOf(container: Container, name: "x3dom.js" | "x3dom.css"): Buffer {
+  return readFileSync(join(repository, "node_modules", folders[container], name));
+}
+
+/** As an integrity attribute states it. */
+export function sumOf(container: Container, name: "x3dom.js" | "x3dom.css"): string {
+  return `sha384-${createHash("sha384").update(fileOf(container, name)).digest("base64")}`;
+}
+
+/** Opens `html` as a page of a site written with `--x3dom-url x3dom/`. */
+async function withX3dom(
+  site: string,
+  container: Container,
+  html: string,
+  bodies: Record<string, string>,
+  use: (view: View) => Promise<void>,
+): Promise<void> {
+  await withPage(
+    site,
+    {
+      path: "page.html",
+      server(server) {
+        // X3DOM's stylesheet holds an image and its code makes functions of text.
+        server.contentPolicy = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
+        server.put("/page.html", html);
+        server.put("/x3dom/x3dom.js", fileOf(container, "x3dom.js"));
+        for (const [path, body] of Object.entries(bodies)) server.put(path, body);
+        server.put("/x3dom/x3dom.css", fileOf(container, "x3dom.css"));
+      },
+    },
+    use,
+  );
+}
+
+/** What X3DOM shows of a page when everything has come and it draws no more.
+ *  `bodies` are files beside the site's own. */
+export async function pictureOf(
+  site: string,
+  container: Container,
+  html: string,
+  bodies: Record<string, string> = {},
+): Promise<Picture> {
+  const pictures: Picture[] = [];
+  await withX3dom(site, container, html, bodies, async (view) => {
+    await loaded(view.page);
+    pictures.push(await view.picture());
+  });
+  const [picture] = pictures;
+  if (!picture) throw new Error("no picture was taken");
+  return picture;
+}
+
+/** X3DOM's own count of what is still to come, and its wish to draw again. */
+interface X3domElement extends Element {
+  runtime?: { canvas: { doc: { downloadCount: number; needRender: boolean } } };
+}
+
+/** Waits until every image and array has come and has been drawn; throws after 60 s. */
+async function loaded(page: Page): Promise<void> {
+  await page.waitForFunction(
+    () => {
+      const doc = document.querySelector<X3domElement>("x3d")?.runtime?.canvas.doc;
+      const isIdle = doc?.downloadCount === 0 && !doc.needRender;
+      const state = window as unknown as { idleFrames?: number };
+      state.idleFrames = isIdle ? (state.idleFrames ?? 0) + 1 : 0;
+      return state.idleFrames > 20;
+    },
+    undefined,
+    { timeout: 60_000, polling: "raf" },
+  );
+}

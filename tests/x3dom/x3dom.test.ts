@@ -1,0 +1,128 @@
+// Sites of `--target x3dom` in the releases of X3DOM that they are for, against
+// the same mesh written inline into the same page.
+
+import assert from "node:assert/strict";
+import { existsSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { describe, test } from "node:test";
+import { assertSamePicture, difference, isWithin, savePicture, type Bounds } from "../browser/compare.ts";
+import { areaWeightedNormals, readObj, readPly, type PlainMesh } from "../browser/meshes.ts";
+import { modelDirectory } from "../browser/paths.ts";
+import type { Picture } from "../browser/png.ts";
+import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "../browser/sites.ts";
+import { referencePage } from "./referencePage.ts";
+import { fileOf, pictureOf, sumOf, type Container } from "./releases.ts";
+
+const options = (container: Container): string[] => ["--target", "x3dom", "--x3dom-url", "x3dom/", "--container", container, "--effort", "0"];
+const containers: Container[] = ["sig", "bg"];
+/** The issue's bounds. */
+const bounds: Bounds = { mean: 0.05, offShare: 0.0001 };
+const patches = ["--patch-vertices", "700"];
+
+function sourceOf(name: GeneratedMesh): PlainMesh {
+  const mesh = readPly(readFileSync(meshFile(name)));
+  return mesh.normals || mesh.triangles.length === 0 ? mesh : { ...mesh, normals: areaWeightedNormals(mesh) };
+}
+
+/** The mesh with its positions on the lattice that convert lays over it. */
+function onLattice(mesh: PlainMesh, bits: number): PlainMesh {
+  const axes = [0, 1, 2].map((axis) => mesh.positions.filter((_, i) => i % 3 === axis));
+  const least = axes.map((values) => values.reduce((a, b) => Math.min(a, b)));
+  const extents = axes.map((values, axis) => values.reduce((a, b) => Math.max(a, b)) - (least[axis] ?? 0));
+  const step = Math.max(...extents) / (2 ** bits - 1);
+  const positions = mesh.positions.map((value, i) => {
+    const origin = least[i % 3] ?? 0;
+    return origin + step * Math.round((value - origin) / step);
+  });
+  return { ...mesh, positions };
+}
+
+/** Reference pictures, once a mesh and release. */
+const references = new Map<string, Picture>();
+async function referenceOf(site: string, container: Container, name: string, mesh: PlainMesh): Promise<Picture> {
+  const key = `${name} ${container}`;
+  const picture = references.get(key) ?? (await pictureOf(site, container, referencePage(pageOf(site), mesh)));
+  references.set(key, picture);
+  return picture;
+}
+
+/** A picture in which at least so much of the ground is covered by something. */
+function assertShowsSomething(picture: Picture): void {
+  const ground = { ...picture, data: Uint8Array.from(picture.data, (_, i) => picture.data[i % picture.channels] ?? 0) };
+  assert.ok(difference(picture, ground).mean > 1, "the reference is empty");
+}
+
+async function assertShows(name: string, site: string, container: Container, mesh: PlainMesh): Promise<void> {
+  const expected = await referenceOf(site, container, name, mesh);
+  assertShowsSomething(expected);
+  const actual = await pictureOf(site, container, pageOf(site));
+  const found = assertSamePicture(`x3dom-${name}-${container}`, actual, expected, bounds);
+  savePicture(`x3dom-${name}-${container}`, actual);
+  console.log(`x3dom ${name} ${container}: mean ${found.mean.toFixed(4)}, off ${(100 * found.offShare).toFixed(4)} %`);
+}
+
+for (const container of containers) {
+  describe(`A site for X3DOM in ${container === "sig" ? "images" : "arrays"}`, () => {
+    const cases: [what: string, mesh: GeneratedMesh, more: string[]][] = [
+      ["triangles", "trefoil", []],
+      ["strips", "trefoil", ["--primitives", "strips"]],
+      ["many patches", "trefoil", patches],
+      ["many patches of strips with colours", "trefoil-colors", [...patches, "--primitives", "strips"]],
+      ["computed normals", "trefoil-plain", []],
+    ];
+    if (container === "sig") cases.push(["positions of three bytes", "sphere", ["--position-bits", "20"]]);
+    for (const [what, mesh, more] of cases) {
+      test(`shows ${what} as X3DOM shows them inline`, async () => {
+        await assertShows(mesh, siteOfGenerated(mesh, ...options(container), ...more), container, sourceOf(mesh));
+      });
+    }
+
+    test("shows positions of 12 bits as X3DOM shows them inline", async () => {
+      const site = siteOfGenerated("sphere", ...options(container), "--position-bits", "12");
+      await assertShows("sphere-12", site, container, onLattice(sourceOf("sphere"), 12));
+    });
+
+    test("shows coloured points as X3DOM shows them inline", async () => {
+      // A point is one pixel: half a step of the lattice puts some of them into the next.
+      const site = siteOfGenerated("points", ...options(container));
+      await assertShows("points-16", site, container, onLattice(sourceOf("points"), 16));
+    });
+
+    test("shows the Stanford bunny as X3DOM shows it inline", { skip: !existsSync(join(modelDirectory, "stanford-bunny.obj")) }, async () => {
+      const file = join(modelDirectory, "stanford-bunny.obj");
+      const mesh = readObj(readFileSync(file, "utf8"));
+      await assertShows("bunny", siteOf(file, ...options(container)), container, { ...mesh, normals: areaWeightedNormals(mesh) });
+    });
+
+    test("is found different when a file is another's", async () => {
+      const site = siteOfGenerated("trefoil", ...options(container), ...patches);
+      const page = pageOf(site);
+      // The second and third file: two byte planes, or coordinates and normals.
+      const [, first = "", second = ""] = [...page.matchAll(/geometry\/\w+\.(?:png|bin)/g)].map(([url]) => url);
+      const swapped = page.replace(first, "?").replace(second, first).replace("?", second);
+      const actual = await pictureOf(site, container, swapped);
+      const expected = await referenceOf(site, container, "trefoil", sourceOf("trefoil"));
+      assert.ok(!isWithin(difference(actual, expected), bounds));
+    });
+
+    test("loads X3DOM as npm has it unless told otherwise", () => {
+      const page = pageOf(siteOfGenerated("sphere", "--target", "x3dom", "--container", container));
+      for (const name of ["x3dom.js", "x3dom.css"] as const) {
+        assert.match(page, new RegExp(`https://[^"]*${name.replace(".", "\\.")}"`));
+        assert.ok(page.includes(sumOf(container, name)), `${name} has another sum`);
+        assert.ok(fileOf(container, name).length > 0);
+      }
+    });
+
+    test("shows scene.x3d in another page by Inline", async () => {
+      const site = siteOfGenerated("trefoil", ...options(container), ...patches);
+      const page = pageOf(site);
+      const before = page.slice(0, page.search(/<(Group|Shape)\b/)); // viewpoint, lights and ground
+      const inline = `${before}<Inline url="shapes.x3d"></Inline></Scene></X3D></body></html>`;
+      const shapes = readFileSync(join(site, "scene.x3d"), "utf8").replaceAll(/<(Viewpoint|DirectionalLight|NavigationInfo|Background)\b[\s\S]*?<\/\1>/g, "");
+      const actual = await pictureOf(site, container, inline, { "/shapes.x3d": shapes });
+      const expected = await referenceOf(site, container, "trefoil", sourceOf("trefoil"));
+      assertSamePicture(`x3dom-inline-${container}`, actual, expected, bounds);
+    });
+  });
+}
