@@ -28,6 +28,8 @@ Value chosen(const Arguments& arguments, const std::string& name, std::initializ
 ConvertOptions optionsFrom(const Arguments& arguments) {
   ConvertOptions options;
   options.container = chosen(arguments, "container", {Container::sig, Container::bg});
+  options.target = chosen(arguments, "target", {Target::web, Target::x3dom});
+  options.x3domUrl = arguments.text("x3dom-url");
   options.primitives =
       chosen(arguments, "primitives", {Primitives::triangles, Primitives::strips, Primitives::points});
   options.indexed = arguments.text("index") == "on";
@@ -55,6 +57,8 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
   json["sourceBytes"] = report.sourceBytes;
   for (const char* name : {"container", "profile", "target", "primitives", "index"})
     json[name] = arguments.text(name);
+  if (!report.x3domUrl.empty())
+    json["x3dom"] = {{"version", report.x3domVersion}, {"url", report.x3domUrl}};
   json["positionBits"] = arguments.integer("position-bits");
   json["normalBits"] = arguments.integer("normal-bits");
   json["patchVertices"] = arguments.integer("patch-vertices");
@@ -104,6 +108,8 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
                         arguments.text("profile"), arguments.text("target"),
                         report.triangles == 0 ? "points" : arguments.text("primitives"),
                         report.triangles == 0 || arguments.text("index") == "on" ? "" : " without index"));
+  if (!report.x3domUrl.empty())
+    printLine("X3DOM", fmt::format("{}, from {}", report.x3domVersion, report.x3domUrl));
   printLine("positions",
             fmt::format("{} bits: step {:.4g}, so off by at most {:.4g} an axis, in units of the source",
                         report.lattice.bits, report.lattice.step, report.lattice.step / 2));

@@ -67,7 +67,13 @@ Command convertCommand() {
                 output,
                 choice("container", {"sig", "bg"}, "sig: PNG images that the GPU decodes; bg: typed arrays"),
                 choice("profile", {"classic"}, "classic: the layout that X3DOM 1.7 reads as well"),
-                choice("target", {"web"}, "web: a page with its own runtime"),
+                choice("target", {"web", "x3dom"},
+                       "web: a page with its own runtime; x3dom: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)"),
+                {.name = "x3dom-url",
+                 .value = Value::text,
+                 .valueName = "URL",
+                 .help = "target x3dom: the folder that has x3dom.js and x3dom.css; otherwise npm's by "
+                         "jsdelivr.net"},
                 choice("primitives", {"triangles", "strips", "points"},
                        "how patches are drawn; a point cloud is always points"),
                 choice("index", {"on", "off"},
@@ -133,15 +139,20 @@ Command verifyCommand() {
 }
 
 Command exportCommand() {
-  Flag output{.name = "output", .aliases = {"-o"}, .value = Value::file, .valueName = "FILE",
-              .help = "the file to write; .ply, .obj or .glb says what", .required = true};
+  Flag output{.name = "output",
+              .aliases = {"-o"},
+              .value = Value::file,
+              .valueName = "FILE",
+              .help = "the file to write; .ply, .obj or .glb says what",
+              .required = true};
   return {.name = "export",
           .usage = "DIR -o FILE",
           .summary = "write the mesh that a site holds as PLY, OBJ or GLB",
-          .text = "Reads a site back, joins the patches of each mesh and writes all shapes into one file. Reads sites "
+          .text = "Reads a site back, joins the patches of each mesh and writes all shapes into one file. "
+                  "Reads sites "
                   "that aopt wrote for X3DOM, too.",
-          .flags = {positional("site", "DIR", Value::directory, "the site, its index.html or a .x3d file"), output,
-                    jsonFlag("what was written"), helpFlag()},
+          .flags = {positional("site", "DIR", Value::directory, "the site, its index.html or a .x3d file"),
+                    output, jsonFlag("what was written"), helpFlag()},
           .examples = {"imgeo export site -o statue.ply", "imgeo export old/statue.x3d -o statue.glb"}};
 }
 

@@ -1,5 +1,6 @@
 #include "containers/container.h"
 
+#include "base/error.h"
 #include "containers/bg/bg.h"
 #include "containers/classic/classic.h"
 
@@ -10,8 +11,9 @@ namespace imgeo {
 
 namespace {
 
-/// The box of all texture coordinates, as its least corner and its extent.
-void spreadTexCoords(GeometryDescription& geometry, const PatchedMesh& mesh) {
+/// The box of all texture coordinates, as its least corner and its extent. X3DOM
+/// knows no such box: integers hold 0..1 there, and floats the rest.
+void spreadTexCoords(GeometryDescription& geometry, const PatchedMesh& mesh, Target target) {
   constexpr float infinite = std::numeric_limits<float>::infinity();
   Vec2f min{infinite, infinite}, max{-infinite, -infinite};
   for (const Patch& patch : mesh.patches)
@@ -21,6 +23,16 @@ void spreadTexCoords(GeometryDescription& geometry, const PatchedMesh& mesh) {
     }
   if (!(min.x <= max.x))
     return;
+  if (target == Target::x3dom) {
+    if (min.x >= 0 && min.y >= 0 && max.x <= 1 && max.y <= 1)
+      return;
+    if (geometry.container == Container::sig)
+      throw Error(ErrorKind::unsupported, "",
+                  "X3DOM's images hold texture coordinates of 0..1 alone and these go beyond; container bg "
+                  "holds them");
+    geometry.texCoordType = ElementType::float32;
+    return;
+  }
   geometry.texCoordMin = min;
   geometry.texCoordSize = {max.x - min.x, max.y - min.y};
 }
@@ -36,10 +48,14 @@ GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& optio
   geometry.container = options.container;
   geometry.lattice = mesh.lattice;
   geometry.box = mesh.box;
-  spreadTexCoords(geometry, mesh);
+  spreadTexCoords(geometry, mesh, options.target);
   for (const Patch& patch : mesh.patches)
     geometry.colorComponents = std::max(geometry.colorComponents, patch.colorComponents);
+  // X3DOM takes the number of colour components of a page's first ImageGeometry for all.
+  if (options.target == Target::x3dom && options.container == Container::sig)
+    geometry.colorComponents = 4;
   if (options.container == Container::bg) {
+    assert(options.target == Target::web || mesh.lattice.bits <= 16);
     assert(options.normalBits == 8 || options.normalBits == 16 || options.normalBits == 32);
     geometry.coordType = unsignedType(coordBytes(Container::bg, mesh.lattice.bits));
     geometry.normalType = options.normalBits == 8    ? ElementType::int8
@@ -53,7 +69,7 @@ GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& optio
 
 EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry,
                          const EncodeOptions& options) {
-  return geometry.container == Container::sig ? encodeClassic(patch, geometry, options.effort)
+  return geometry.container == Container::sig ? encodeClassic(patch, geometry, options.effort, options.target)
                                               : encodeBg(patch, geometry);
 }
 

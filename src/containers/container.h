@@ -11,10 +11,15 @@
 
 namespace imgeo {
 
+/// Who shows what is written: our runtime, or X3DOM, which reads less
+/// (docs/formats/x3dom.md).
+enum class Target : std::uint8_t { web, x3dom };
+
 struct EncodeOptions {
   Container container = Container::sig;
   std::uint32_t normalBits = 8; ///< SIG: 8. BG: 8, 16 or 32 (Float32)
   int effort = 5;               ///< 0 fastest .. 9 smallest
+  Target target = Target::web;
 };
 
 /// A file as it will lie in the site, unnamed yet.
@@ -32,7 +37,8 @@ struct EncodedPatch {
   std::vector<EncodedFile> files;
 };
 
-/// The geometry node's own fields for a mesh about to be encoded (no patches yet).
+/// The geometry node's own fields for a mesh about to be encoded (no patches
+/// yet). Throws Error{unsupported} for texture coordinates that X3DOM cannot hold.
 GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& options);
 
 /// Encodes a patch by the node's fields. Deterministic. `patch` has at most

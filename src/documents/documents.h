@@ -33,6 +33,19 @@ std::string writeX3d(const SceneDocument& document);
 /// `default-src 'self'`.
 std::string writeHtml(const SceneDocument& document, const PageOptions& options);
 
+/// Where a page finds X3DOM; the sums are "sha384-..." of the files (W3C
+/// Subresource Integrity) or empty.
+struct X3domFiles {
+  std::string scriptUrl, scriptSum;
+  std::string stylesheetUrl, stylesheetSum;
+};
+
+/// The same two documents for X3DOM (docs/formats/x3dom.md), of containers that
+/// were encoded for it.
+std::string writeX3domX3d(const SceneDocument& document);
+std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom,
+                           const std::string& stylesheetUrl);
+
 /// The text of the page's stylesheet: the scene fills the window.
 std::string_view pageStylesheet();
 

@@ -2,6 +2,7 @@
 
 #include "documents/text.h"
 #include "documents/x3d_element.h"
+#include "documents/x3dom_element.h"
 
 #include <algorithm>
 
@@ -36,34 +37,57 @@ std::vector<std::string> firstRequests(const SceneDocument& document) {
   return urls;
 }
 
+std::string link(const char* relation, const std::string& url, const std::string& more = "") {
+  return std::string("    <link rel=\"") + relation + "\"" + more + " href=" + quoteAttribute(url) + ">\n";
+}
+
+/// `head` and `x3d` are whole lines.
+std::string page(const SceneDocument& document, const std::string& head, const std::string& x3d) {
+  return "<!doctype html>\n"
+         "<html lang=\"en\">\n"
+         "  <head>\n"
+         "    <meta charset=\"utf-8\">\n"
+         "    <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+         "    <title>" +
+         escapeText(document.title.empty() ? "imgeo" : document.title) + "</title>\n" + head +
+         "  </head>\n"
+         "  <body>\n"
+         "    <noscript>This page shows a 3D model and needs JavaScript to draw it.</noscript>\n" +
+         x3d +
+         "  </body>\n"
+         "</html>\n";
+}
+
+constexpr const char* xmlDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+
 } // namespace
 
 std::string writeX3d(const SceneDocument& document) {
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + x3dElement(document, 0);
+  return xmlDeclaration + x3dElement(document, 0);
 }
 
 std::string writeHtml(const SceneDocument& document, const PageOptions& options) {
-  std::string html = "<!doctype html>\n"
-                     "<html lang=\"en\">\n"
-                     "  <head>\n"
-                     "    <meta charset=\"utf-8\">\n"
-                     "    <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                     "    <title>" +
-                     escapeText(document.title.empty() ? "imgeo" : document.title) + "</title>\n";
-  html += "    <link rel=\"stylesheet\" href=" + quoteAttribute(options.stylesheetUrl) + ">\n";
-  html += "    <link rel=\"modulepreload\" href=" + quoteAttribute(options.runtimeUrl) + ">\n";
+  std::string head = link("stylesheet", options.stylesheetUrl) + link("modulepreload", options.runtimeUrl);
   for (const std::string& url : firstRequests(document))
-    html += "    <link rel=\"preload\" as=\"fetch\" crossorigin=\"anonymous\" fetchpriority=\"high\" href=" +
-            quoteAttribute(url) + ">\n";
-  html += "    <script type=\"module\" src=" + quoteAttribute(options.runtimeUrl) +
-          "></script>\n"
-          "  </head>\n"
-          "  <body>\n"
-          "    <noscript>This page shows a 3D model and needs JavaScript to draw it.</noscript>\n";
-  html += x3dElement(document, 2);
-  html += "  </body>\n"
-          "</html>\n";
-  return html;
+    head += link("preload", url, " as=\"fetch\" crossorigin=\"anonymous\" fetchpriority=\"high\"");
+  head += "    <script type=\"module\" src=" + quoteAttribute(options.runtimeUrl) + "></script>\n";
+  return page(document, head, x3dElement(document, 2));
+}
+
+std::string writeX3domX3d(const SceneDocument& document) {
+  return xmlDeclaration + x3domElement(document, 0);
+}
+
+std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom,
+                           const std::string& stylesheetUrl) {
+  const auto checked = [](const std::string& sum) {
+    return sum.empty() ? "" : " integrity=" + quoteAttribute(sum) + " crossorigin=\"anonymous\"";
+  };
+  const std::string head = link("stylesheet", x3dom.stylesheetUrl, checked(x3dom.stylesheetSum)) +
+                           link("stylesheet", stylesheetUrl) +
+                           "    <script src=" + quoteAttribute(x3dom.scriptUrl) + checked(x3dom.scriptSum) +
+                           "></script>\n";
+  return page(document, head, x3domElement(document, 2));
 }
 
 std::string_view pageStylesheet() {
@@ -78,6 +102,7 @@ body {
 
 x3d {
   display: block;
+  border: 0;
   width: 100%;
   height: 100%;
   overflow: hidden;

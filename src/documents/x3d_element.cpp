@@ -1,6 +1,5 @@
 #include "documents/x3d_element.h"
 
-#include "documents/element.h"
 #include "documents/text.h"
 
 #include <cassert>
@@ -9,13 +8,13 @@ namespace imgeo {
 
 namespace {
 
-using Attributes = std::vector<Attribute>;
-
 template <typename T>
 void addUnless(Attributes& attributes, const char* name, const T& value, const T& absent, std::string text) {
   if (!(value == absent))
     attributes.push_back({name, std::move(text)});
 }
+
+} // namespace
 
 Attributes boxAttributes(const Box3d& box) {
   if (box.empty())
@@ -37,6 +36,23 @@ std::string counts(const std::vector<Draw>& draws) {
     text.append(text.empty() ? "" : " ").append(std::to_string(draw.count));
   return text;
 }
+
+Element materialElement(const Material& material) {
+  const Material standard;
+  Attributes attributes{{"diffuseColor", numbers(material.diffuseColor)}};
+  const auto add = [&](const char* name, const auto& value, const auto& absent, std::string text) {
+    addUnless(attributes, name, value, absent, std::move(text));
+  };
+  add("specularColor", material.specularColor, standard.specularColor, numbers(material.specularColor));
+  add("emissiveColor", material.emissiveColor, standard.emissiveColor, numbers(material.emissiveColor));
+  add("ambientIntensity", material.ambientIntensity, standard.ambientIntensity,
+      number(material.ambientIntensity));
+  add("shininess", material.shininess, standard.shininess, number(material.shininess));
+  add("transparency", material.transparency, standard.transparency, number(material.transparency));
+  return {"Material", {attributes}};
+}
+
+namespace {
 
 std::string url(const Reference& reference, Container container) {
   assert(reference.url.find('#') == std::string::npos);
@@ -96,23 +112,8 @@ Element geometryElement(const GeometryDescription& geometry) {
   return {geometry.container == Container::sig ? "ImageGeometry" : "BinaryGeometry", {box, stored}};
 }
 
-Element materialElement(const Material& material) {
-  const Material standard;
-  Attributes attributes{{"diffuseColor", numbers(material.diffuseColor)}};
-  const auto add = [&](const char* name, const auto& value, const auto& absent, std::string text) {
-    addUnless(attributes, name, value, absent, std::move(text));
-  };
-  add("specularColor", material.specularColor, standard.specularColor, numbers(material.specularColor));
-  add("emissiveColor", material.emissiveColor, standard.emissiveColor, numbers(material.emissiveColor));
-  add("ambientIntensity", material.ambientIntensity, standard.ambientIntensity,
-      number(material.ambientIntensity));
-  add("shininess", material.shininess, standard.shininess, number(material.shininess));
-  add("transparency", material.transparency, standard.transparency, number(material.transparency));
-  return {"Material", {attributes}};
-}
-
-void writeShape(ElementWriter& writer, const Shape& shape, const std::string& def,
-                const GeometryDescription& geometry) {
+void writePatchedShape(ElementWriter& writer, const Shape& shape, const std::string& def,
+                       const GeometryDescription& geometry) {
   Element element{"Shape", {{}, boxAttributes(geometry.box)}};
   if (!def.empty())
     element.groups[0].push_back({"DEF", def});
@@ -150,6 +151,10 @@ Element lightElement(const DirectionalLight& light) {
 } // namespace
 
 std::string x3dElement(const SceneDocument& document, std::size_t level) {
+  return x3dElement(document, level, writePatchedShape);
+}
+
+std::string x3dElement(const SceneDocument& document, std::size_t level, const WriteShape& writeShape) {
   ElementWriter writer(level);
   const Element x3d{"X3D", {{{"profile", "Interchange"}, {"version", "4.0"}}}}, scene{"Scene", {}};
   writer.open(x3d);

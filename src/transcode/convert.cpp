@@ -9,6 +9,7 @@
 #include "transcode/runtime.h"
 #include "transcode/site.h"
 #include "transcode/transcode.h"
+#include "transcode/x3dom_release.h"
 
 #include <algorithm>
 #include <chrono>
@@ -61,6 +62,11 @@ void requireHonourable(const ConvertOptions& options) {
     refuse("--patch-vertices", fmt::format("{} is not within 256..65535", options.patchVertices));
   if (options.effort < 0 || options.effort > 9)
     refuse("--effort", fmt::format("{} is not within 0..9", options.effort));
+  if (options.target == Target::x3dom && !isSig && options.positionBits > 16)
+    refuse("--position-bits",
+           fmt::format("X3DOM reads bg with at most 16 bits, not {}; sig holds more", options.positionBits));
+  if (options.target != Target::x3dom && !options.x3domUrl.empty())
+    refuse("--x3dom-url", "only a page for X3DOM needs X3DOM: --target x3dom");
 }
 
 /// The exchange would remove the input with the directory it lies in.
@@ -123,16 +129,20 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, Geometry
   return document;
 }
 
-/// Everything of a site but its geometry files.
-void writePage(const SceneDocument& document, const Marker& marker, const fs::path& site) {
+/// The documents of a site for X3DOM, which brings its own runtime.
+void writeX3domPage(const SceneDocument& document, const X3domRelease& release, const fs::path& site) {
+  writeFile(site / sceneName, asBytes(writeX3domX3d(document)));
+  writeFile(site / pageName, asBytes(writeX3domHtml(document, release.files, stylesheetName)));
+}
+
+/// The documents of a site with our runtime, and it.
+void writePage(const SceneDocument& document, const fs::path& site) {
   const std::string_view runtime = runtimeModule();
   const std::string runtimeUrl = fmt::format("{}/imgeo-{}.js", runtimeFolder, contentName(asBytes(runtime)));
   fs::create_directory(site / runtimeFolder);
   writeFile(site / runtimeUrl, asBytes(runtime));
-  writeFile(site / stylesheetName, asBytes(pageStylesheet()));
   writeFile(site / sceneName, asBytes(writeX3d(document)));
   writeFile(site / pageName, asBytes(writeHtml(document, {runtimeUrl, stylesheetName})));
-  writeFile(site / markerName, asBytes(writeMarker(marker)));
 }
 
 /// Bytes by role, in the order in which `inspect` lists the roles.
@@ -199,7 +209,16 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
                       options.normalWeighting,
                       report.triangles,
                       report.points};
-  writePage(document, marker, site.path());
+  writeFile(site.path() / stylesheetName, asBytes(pageStylesheet()));
+  writeFile(site.path() / markerName, asBytes(writeMarker(marker)));
+  if (options.target == Target::x3dom) {
+    const X3domRelease release = x3domReleaseFor(options.container, options.x3domUrl);
+    report.x3domVersion = release.version;
+    report.x3domUrl = release.files.scriptUrl;
+    writeX3domPage(document, release, site.path());
+  } else {
+    writePage(document, site.path());
+  }
   const SiteInfo written = inspect(site.path());
   report.roles = sumByRole(written.files);
   report.bytesPerTriangle = written.bytesPerTriangle;

@@ -78,7 +78,7 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& 
       cutIntoPatches(mesh, latticeFor(boxOf(mesh), options.positionBits), options.patchVertices);
   mesh = {};
 
-  const EncodeOptions encoding{options.container, options.normalBits, options.effort};
+  const EncodeOptions encoding{options.container, options.normalBits, options.effort, options.target};
   EncodedMesh result;
   result.geometry = describe(patched, encoding);
   std::vector<PatchDescription> descriptions(patched.patches.size());

@@ -58,7 +58,8 @@ std::vector<std::string> pageFilesOf(std::string_view html) {
       const std::string_view url = html.substr(at, html.find('"', at) - at);
       const bool wanted = url.ends_with(".js") || url.ends_with(".css");
       const bool ours = url.find(':') == url.npos && !url.starts_with("//");
-      if (wanted && ours && std::ranges::find(urls, url) == urls.end())
+      const bool foreign = url.ends_with("x3dom.js") || url.ends_with("x3dom.css");
+      if (wanted && ours && !foreign && std::ranges::find(urls, url) == urls.end())
         urls.emplace_back(url);
     }
   return urls;

@@ -33,7 +33,7 @@ struct NamedFile {
 std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene);
 
 /// The urls of the runtime module and the stylesheet that a page names; those of
-/// other hosts and absent ones are left out.
+/// other hosts, X3DOM's and absent ones are left out.
 std::vector<std::string> pageFilesOf(std::string_view html);
 
 /// The file of a relative url; Error{unsupported} for a url that leaves the

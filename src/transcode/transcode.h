@@ -18,6 +18,8 @@ enum class Primitives { triangles, strips, points };
 
 struct ConvertOptions {
   Container container = Container::sig;
+  Target target = Target::web;
+  std::string x3domUrl; ///< target x3dom: the folder of x3dom.js and x3dom.css; empty: a public copy
   Primitives primitives = Primitives::triangles; ///< point clouds are always points
   bool indexed = true; ///< false: a vertex is repeated wherever it is drawn; points never have an index
   std::uint32_t positionBits = 16;                         ///< 8..32
@@ -42,7 +44,8 @@ struct ConvertReport {
   std::size_t triangles = 0, vertices = 0, points = 0, patches = 0;
   WeldReport weld;
   bool normalsComputed = false;
-  Lattice lattice; ///< of the first mesh: step states the precision
+  Lattice lattice;                    ///< of the first mesh: step states the precision
+  std::string x3domVersion, x3domUrl; ///< target x3dom: the release that the page is for, and its script
   std::vector<RoleBytes> roles;
   double bytesPerTriangle = 0; ///< as SiteInfo has it
   std::vector<std::string> warnings;

@@ -71,6 +71,11 @@ Bytes texCoordArray(const IndexedPatch& patch, const GeometryDescription& geomet
   Bytes out;
   out.reserve(patch.vertexCount() * 4);
   for (const Vec2f& texCoord : patch.texCoords) {
+    if (geometry.texCoordType == ElementType::float32) {
+      appendLittle(out, texCoord.x);
+      appendLittle(out, texCoord.y);
+      continue;
+    }
     appendLittle(out, storeTexCoord(texCoord.x, geometry.texCoordMin.x, geometry.texCoordSize.x));
     appendLittle(out, storeTexCoord(texCoord.y, geometry.texCoordMin.y, geometry.texCoordSize.y));
   }
@@ -88,7 +93,8 @@ Bytes colorArray(const IndexedPatch& patch) {
 } // namespace
 
 EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geometry) {
-  assert(geometry.texCoordType == ElementType::uint16 && geometry.colorType == ElementType::uint8);
+  assert((geometry.texCoordType == ElementType::uint16 || geometry.texCoordType == ElementType::float32) &&
+         geometry.colorType == ElementType::uint8);
   EncodedPatch encoded{describePatch(patch, geometry), {}};
   PatchDescription& description = encoded.description;
   const auto add = [&](Role role, Bytes bytes, std::uint32_t stride) {

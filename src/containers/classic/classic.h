@@ -12,9 +12,11 @@ namespace imgeo {
 
 /// One image for the indices (where there are any), one for each byte of a
 /// coordinate, one each for normals, texture coordinates and colours.
-/// Throws Error{limit} for more indices, or records without an index, than an image
-/// of guaranteedImageEdge² holds.
-EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort);
+/// For X3DOM, which has one implicit mesh a page, all images are 256 wide. Throws
+/// Error{limit} for more indices, or records without an index, than an image of
+/// that width or of guaranteedImageEdge, and guaranteedImageEdge high, holds.
+EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort,
+                           Target target);
 
 /// Reads what encodeClassic writes and X3DOM's ImageGeometry with record images of
 /// any size. Safe for untrusted bytes; see decodePatch.

@@ -35,11 +35,19 @@ Image imageOf(ImageSize size, std::uint32_t channels, std::size_t count, Texel t
   return image;
 }
 
+ImageSize recordImageSizeOf(const IndexedPatch& patch, Target target) {
+  if (target == Target::x3dom)
+    return {recordColumns, std::bit_ceil(rowsFor(patch.vertexCount(), recordColumns))};
+  return recordImageSize(patch.vertexCount());
+}
+
 /// The texels of a patch's running numbers: those of the index image, or the part
 /// of the record images in use.
-ImageSize implicitMeshSizeOf(const IndexedPatch& patch, ImageSize records) {
+ImageSize implicitMeshSizeOf(const IndexedPatch& patch, ImageSize records, Target target) {
   const ImageSize size = patch.indices.empty()
                              ? ImageSize{records.columns, rowsFor(patch.vertexCount(), records.columns)}
+                         : target == Target::x3dom
+                             ? ImageSize{recordColumns, rowsFor(patch.indices.size(), recordColumns)}
                              : longImageSize(patch.indices.size());
   if (size.rows > guaranteedImageEdge)
     throw Error(ErrorKind::limit, "",
@@ -98,10 +106,11 @@ Image colorImage(const IndexedPatch& patch, std::uint32_t components, ImageSize 
 
 } // namespace
 
-EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort) {
+EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort,
+                           Target target) {
   EncodedPatch encoded{describePatch(patch, geometry), {}};
-  const ImageSize records = recordImageSize(patch.vertexCount());
-  const ImageSize running = implicitMeshSizeOf(patch, records);
+  const ImageSize records = recordImageSizeOf(patch, target);
+  const ImageSize running = implicitMeshSizeOf(patch, records, target);
   encoded.description.implicitMeshSize = {running.columns, running.rows};
   const std::uint32_t shift = coordShift(Container::sig, geometry.lattice.bits);
 

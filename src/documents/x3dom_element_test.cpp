@@ -1,0 +1,140 @@
+#include "documents/x3dom_element.h"
+
+#include <gtest/gtest.h>
+#include <regex>
+
+namespace imgeo {
+namespace {
+
+PatchDescription patchOf(const std::string& name, std::uint32_t rows,
+                         Primitive primitive = Primitive::triangles) {
+  PatchDescription patch;
+  patch.box = {{0, 0, 0}, {1, 2, 3}};
+  patch.vertexCount = 9;
+  patch.draws = {{primitive, 12}};
+  patch.implicitMeshSize = {256, rows};
+  patch.index = Reference{name + "i.png", 0, 0};
+  patch.coord = {{name + "c0.png", 0, 0}, {name + "c1.png", 0, 0}};
+  patch.normal = Reference{name + "n.png", 0, 0};
+  return patch;
+}
+
+/// A shape of two patches, one of a single patch, and points without normals.
+SceneDocument images() {
+  GeometryDescription two, one, points;
+  for (GeometryDescription* geometry : {&two, &one, &points}) {
+    geometry->lattice = {{1, 2, 3}, 0.25, 12};
+    geometry->colorComponents = 4;
+    geometry->box = {{0, 0, 0}, {1, 2, 3}};
+  }
+  two.patches = {patchOf("a", 7), patchOf("b", 20)};
+  one.patches = {patchOf("c", 1)};
+  points.patches = {patchOf("d", 2, Primitive::points)};
+  points.patches[0].normal.reset();
+  SceneDocument document;
+  document.geometries = {two, one, points};
+  document.shapes = {{"statue", 0, {}}, {"base", 1, {}}, {"", 2, {}}};
+  return document;
+}
+
+SceneDocument arrays() {
+  SceneDocument document = images();
+  for (GeometryDescription& geometry : document.geometries) {
+    geometry.container = Container::bg;
+    geometry.colorComponents = 3;
+    for (PatchDescription& patch : geometry.patches) {
+      patch.coord = {{patch.coord[0].url, 0, 8}};
+      patch.implicitMeshSize = {256, 256};
+      if (patch.normal)
+        patch.normal->stride = 4;
+    }
+  }
+  return document;
+}
+
+std::size_t countOf(const std::string& text, const std::string& pattern) {
+  const std::regex expression(pattern);
+  return static_cast<std::size_t>(
+      std::distance(std::sregex_iterator(text.begin(), text.end(), expression), std::sregex_iterator()));
+}
+
+/// Both forms of one document read back as the same but for what X3DOM needs changed.
+void expectReadsBackAs(const SceneDocument& written, const std::string& text) {
+  const SceneDocument read = readScene(text, "x");
+  ASSERT_EQ(read.shapes.size(), written.shapes.size());
+  for (std::size_t i = 0; i < read.shapes.size(); ++i) {
+    EXPECT_EQ(read.shapes[i].name, written.shapes[i].name);
+    GeometryDescription geometry = read.geometries.at(read.shapes[i].mesh);
+    const GeometryDescription& expected = written.geometries.at(written.shapes[i].mesh);
+    EXPECT_NEAR(geometry.lattice.step, expected.lattice.step, 1e-15);
+    EXPECT_EQ(geometry.lattice.bits, expected.lattice.bits);
+    geometry.lattice = expected.lattice;
+    geometry.normalType = expected.normalType; // not stated where there are no normals
+    geometry.texCoordType = expected.texCoordType;
+    geometry.colorType = expected.colorType;
+    for (PatchDescription& patch : geometry.patches)
+      patch.implicitMeshSize.y =
+          expected.patches.at(static_cast<std::size_t>(&patch - geometry.patches.data())).implicitMeshSize.y;
+    EXPECT_EQ(geometry, expected);
+  }
+}
+
+TEST(X3domElement, ReadsBackAsTheSameScene) {
+  expectReadsBackAs(images(), writeX3domX3d(images()));
+  expectReadsBackAs(arrays(), writeX3domX3d(arrays()));
+  expectReadsBackAs(images(),
+                    writeX3domHtml(images(), {"x3dom/x3dom.js", "", "x3dom/x3dom.css", ""}, "imgeo.css"));
+}
+
+TEST(X3domElement, HasOneImplicitMeshForThePage) {
+  const std::string text = x3domElement(images(), 0);
+  EXPECT_EQ(countOf(text, "implicitMeshSize=\"256 20\""), 4u);
+  EXPECT_EQ(countOf(text, "implicitMeshSize"), 4u);
+}
+
+TEST(X3domElement, LetsNoTexelBeFilteredOrScaled) {
+  const std::string text = x3domElement(images(), 0);
+  const std::size_t textures = countOf(text, "<ImageTexture ");
+  EXPECT_EQ(textures, 4u + 4 + 4 + 3);
+  EXPECT_EQ(
+      countOf(text, "containerField=\"(index|coord|normal)\" url='\"[a-d][a-z0-9]+.png\"' scale=\"false\">"),
+      textures);
+  EXPECT_EQ(countOf(text, "<TextureProperties USE=\"exactTexels\">"), textures - 1);
+  EXPECT_EQ(countOf(text, "<TextureProperties DEF=\"exactTexels\""), 1u);
+}
+
+TEST(X3domElement, GivesTheGroupTheNameAndItsShapesOneLook) {
+  for (const SceneDocument& document : {images(), arrays()}) {
+    const std::string text = x3domElement(document, 0);
+    EXPECT_EQ(countOf(text, "<Group DEF=\"statue\""), 1u);
+    EXPECT_EQ(countOf(text, "<Appearance DEF=\"statue-look\">"), 1u);
+    EXPECT_EQ(countOf(text, "<Appearance USE=\"statue-look\">"), 1u);
+    EXPECT_EQ(countOf(text, "<Shape DEF=\"base\""), 1u);
+    EXPECT_EQ(countOf(text, "<Material "), 3u);
+  }
+}
+
+TEST(X3domElement, TakesNoNameThatAShapeHas) {
+  SceneDocument document = images();
+  document.shapes[1].name = "statue-look";
+  document.shapes[2].name = "exactTexels";
+  const std::string text = x3domElement(document, 0);
+  EXPECT_EQ(countOf(text, "DEF=\"statue-look\""), 1u);
+  EXPECT_EQ(countOf(text, "<Appearance USE=\"statue-look2\">"), 1u);
+  EXPECT_EQ(countOf(text, "<TextureProperties DEF=\"exactTexels2\""), 1u);
+}
+
+TEST(X3domElement, IsLitOnlyWhereThereAreNormals) {
+  EXPECT_EQ(countOf(x3domElement(images(), 0), "lit=\"false\""), 1u);
+  EXPECT_EQ(countOf(x3domElement(images(), 0), "emissiveColor"), 1u);
+}
+
+TEST(X3domElement, StatesAStrideAsAQuery) {
+  const std::string text = x3domElement(arrays(), 0);
+  EXPECT_EQ(countOf(text, "coord=\"[a-d]c0.png\\?\\+8\""), 4u);
+  EXPECT_EQ(countOf(text, "normal=\"[a-d]n.png\\?\\+4\""), 3u);
+  EXPECT_EQ(countOf(text, "index=\"[a-d]i.png\""), 4u);
+}
+
+} // namespace
+} // namespace imgeo

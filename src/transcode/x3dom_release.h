@@ -1,0 +1,21 @@
+#pragma once
+// The releases of X3DOM that pages are written for, and where they find them.
+
+#include "containers/geometry.h"
+#include "documents/documents.h"
+
+#include <string>
+
+namespace imgeo {
+
+struct X3domRelease {
+  std::string version;
+  X3domFiles files;
+};
+
+/// 1.7.2 for SIG, the last release that draws images; 1.8.3 for BG. `folderUrl`
+/// holds x3dom.js and x3dom.css; where it is empty, they are npm's, as a public
+/// CDN serves them, with sums that let nothing else run.
+X3domRelease x3domReleaseFor(Container container, const std::string& folderUrl);
+
+} // namespace imgeo

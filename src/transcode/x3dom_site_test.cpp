@@ -1,0 +1,87 @@
+#include "base/error.h"
+#include "base/file.h"
+#include "base/testing.h"
+#include "export/export.h"
+#include "scene/testing.h"
+#include "transcode/transcode.h"
+
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using testing::TemporaryDirectory;
+
+void writeMesh(const Mesh& mesh, const std::filesystem::path& file) {
+  Scene scene;
+  scene.meshes = {mesh};
+  scene.shapes = {{"", 0, {}}};
+  writeFile(file, exportScene(scene, MeshFormat::ply));
+}
+
+ConvertOptions optionsFor(Container container) {
+  ConvertOptions options;
+  options.target = Target::x3dom;
+  options.container = container;
+  options.effort = 0;
+  return options;
+}
+
+TEST(X3domSite, HoldsEveryMesh) {
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const TemporaryDirectory directory;
+    Mesh mesh = testing::randomMesh(seed);
+    ConvertOptions options = optionsFor(seed % 2 == 0 ? Container::sig : Container::bg);
+    if (options.container == Container::sig)
+      for (Vec2f& texCoord : mesh.texCoords)
+        texCoord.x = std::clamp(texCoord.x, 0.0f, 1.0f);
+    options.primitives = seed % 3 == 0 ? Primitives::strips : Primitives::triangles;
+    options.positionBits = 8 + seed % 9;
+    options.patchVertices = 256;
+    writeMesh(mesh, directory.path() / "in.ply");
+    convert(directory.path() / "in.ply", directory.path() / "site", options);
+    const VerifyReport report = verify(directory.path() / "site", directory.path() / "in.ply");
+    EXPECT_TRUE(report.equal) << ::testing::PrintToString(report.findings);
+  }
+}
+
+TEST(X3domSite, HasNoRuntimeOfOurs) {
+  const TemporaryDirectory directory;
+  writeMesh(testing::torus(9, 9), directory.path() / "in.ply");
+  ConvertOptions options = optionsFor(Container::sig);
+  options.x3domUrl = "../lib";
+  const ConvertReport report = convert(directory.path() / "in.ply", directory.path() / "site", options);
+  EXPECT_EQ(report.x3domVersion, "1.7.2");
+  EXPECT_EQ(report.x3domUrl, "../lib/x3dom.js");
+  EXPECT_EQ(inspect(directory.path() / "site").runtimeBytes, 0u);
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "site" / "runtime"));
+}
+
+ErrorKind kindOfConverting(const Mesh& mesh, const ConvertOptions& options) {
+  const TemporaryDirectory directory;
+  writeMesh(mesh, directory.path() / "in.ply");
+  try {
+    convert(directory.path() / "in.ply", directory.path() / "site", options);
+  } catch (const Error& error) {
+    EXPECT_FALSE(std::filesystem::exists(directory.path() / "site"));
+    return error.kind();
+  }
+  ADD_FAILURE() << "was converted";
+  return ErrorKind::io;
+}
+
+TEST(X3domSite, RefusesWhatX3domCannotHold) {
+  ConvertOptions options = optionsFor(Container::bg);
+  options.positionBits = 17;
+  EXPECT_EQ(kindOfConverting(testing::torus(9, 9), options), ErrorKind::usage);
+  Mesh mesh = testing::torus(9, 9);
+  mesh.texCoords[0] = {1.5f, 0};
+  EXPECT_EQ(kindOfConverting(mesh, optionsFor(Container::sig)), ErrorKind::unsupported);
+  options = {};
+  options.x3domUrl = "x3dom/";
+  EXPECT_EQ(kindOfConverting(testing::torus(9, 9), options), ErrorKind::usage);
+}
+
+} // namespace
+} // namespace imgeo
