@@ -121,7 +121,9 @@ TEST_F(Faults, OptionsThatCannotBeHonoured) {
   refuse("--texcoord-bits", {"-vt", "12"});
   refuse("--color-bits", {"-vc", "5"});
   refuse("--profile", {"--profile", "compact"});
-  refuse("--target", {"--target", "x3dom"});
+  refuse("--target", {"--target", "vrml"});
+  refuse("--position-bits", {"--target", "x3dom", "--container", "bg", "-vp", "17"});
+  refuse("--x3dom-url", {"--x3dom-url", "lib/"});
   refuse("--primitives", {"--primitives", "fans"});
   refuse("--patch-vertices", {"--patch-vertices", "65536"});
   refuse("--effort", {"--effort", "10"});
