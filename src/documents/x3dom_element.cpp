@@ -97,10 +97,13 @@ private:
     const Element element{"Shape", {names, boxAttributes(patch.box)}},
         appearance{"Appearance", {look.attributes}};
     writer.open(element);
-    writer.open(appearance);
-    if (look.material)
+    if (look.material) {
+      writer.open(appearance);
       writer.leaf(materialElement(*look.material));
-    writer.close(appearance);
+      writer.close(appearance);
+    } else {
+      writer.leaf(appearance);
+    }
     if (isSig)
       writeImages(writer, geometry, patch);
     else
@@ -161,8 +164,8 @@ private:
                    {{{"DEF", sampling_},
                      {"boundaryModeS", "CLAMP_TO_EDGE"},
                      {"boundaryModeT", "CLAMP_TO_EDGE"},
-                     {"boundaryModeR", "CLAMP_TO_EDGE"},
-                     {"magnificationFilter", "NEAREST"},
+                     {"boundaryModeR", "CLAMP_TO_EDGE"}},
+                    {{"magnificationFilter", "NEAREST"},
                      {"minificationFilter", "NEAREST"},
                      {"generateMipMaps", "false"}}}});
     samplingIsDefined_ = true;
