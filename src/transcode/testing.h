@@ -2,34 +2,17 @@
 // Directories, inputs and sites for tests. Header-only and for tests alone.
 
 #include "base/file.h"
+#include "base/testing.h"
 #include "export/export.h"
 #include "transcode/site.h"
 #include "transcode/site_reader.h"
 #include "transcode/transcode.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <string>
 
 namespace imgeo::testing {
-
-/// A directory that goes with the test, everything in it included.
-class TemporaryDirectory {
-public:
-  TemporaryDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "imgeo-test-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
-private:
-  std::filesystem::path path_;
-};
 
 /// Writes a mesh as a PLY file.
 inline void writeMesh(const std::filesystem::path& file, const Mesh& mesh) {

@@ -58,7 +58,7 @@ TEST_F(Convert, TakesEveryShortName) {
                                              {"-qt", "16", "-qp", "14"},
                                              {"-vc", "8", "-qp", "14"},
                                              {"-v", "-qp", "14"}}) {
-    std::vector<std::string> line{"convert", input_, "-o" + site_, "-r=" + directory_ / "report.json"};
+    std::vector<std::string> line{"convert", input_, "-o" + site_, "-r=" + (directory_ / "report.json").string()};
     line.insert(line.end(), options.begin(), options.end());
     const Outcome outcome = run(line);
     ASSERT_EQ(outcome.code, 0) << outcome.err;

@@ -46,10 +46,10 @@ TEST(Help, BashCompletesOptionsAndChoices) {
   const TemporaryDirectory directory;
   write(directory / "imgeo.bash", run({"completion", "bash"}).out);
   const auto complete = [&](const std::string& words, int at) {
-    write(directory / "ask.bash", ". " + (directory / "imgeo.bash") + "\nCOMP_WORDS=(" + words +
+    write(directory / "ask.bash", ". " + (directory / "imgeo.bash").string() + "\nCOMP_WORDS=(" + words +
                                       ")\nCOMP_CWORD=" + std::to_string(at) +
-                                      "\n_imgeo\necho \"${COMPREPLY[@]}\" >" + (directory / "reply") + "\n");
-    EXPECT_EQ(std::system(("bash " + (directory / "ask.bash")).c_str()), 0);
+                                      "\n_imgeo\necho \"${COMPREPLY[@]}\" >" + (directory / "reply").string() + "\n");
+    EXPECT_EQ(std::system(("bash " + (directory / "ask.bash").string()).c_str()), 0);
     return textOf(directory / "reply");
   };
   EXPECT_EQ(complete("imgeo co", 1), "convert completion\n");

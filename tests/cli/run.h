@@ -1,6 +1,8 @@
 #pragma once
 // Runs the built tool as a user's shell would.
 
+#include "base/testing.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -14,23 +16,6 @@
 #include <vector>
 
 namespace imgeo::testing {
-
-/// A directory that goes with the test, everything in it included.
-class TemporaryDirectory {
-public:
-  TemporaryDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "imgeo-cli-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  const std::filesystem::path& path() const { return path_; }
-
-private:
-  std::filesystem::path path_;
-};
 
 inline std::string textOf(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
