@@ -57,7 +57,8 @@ Bytes readFile(const std::filesystem::path& path) {
 void writeFile(const std::filesystem::path& path, ByteSpan bytes) {
   File file(std::fopen(path.c_str(), "wb"));
   if (!file) failWithErrno(path, "write");
-  const bool wrote = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+  const bool wrote =
+      bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
   if (!wrote || std::fclose(file.release()) != 0) {
     const int reason = errno;
     std::error_code ignored; // a device or a pipe is not ours to remove

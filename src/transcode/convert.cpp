@@ -182,7 +182,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
     imported.scene.title = titleFrom(input);
   // Scripts find shapes by name, and the only object of a file rarely has one.
   if (imported.scene.shapes.size() == 1 && imported.scene.shapes[0].name.empty())
-    imported.scene.shapes[0].name = imported.scene.title;
+    imported.scene.shapes[0].name = options.title.empty() ? imported.scene.title : options.title;
   report.importSeconds = step.lapSeconds();
 
   tell(0.2, "preparing");
