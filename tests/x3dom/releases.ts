@@ -71,7 +71,8 @@ interface X3domElement extends Element {
   runtime?: { canvas: { doc: { downloadCount: number; needRender: boolean } } };
 }
 
-/** Waits until every image and array has come and has been drawn; throws after 60 s. */
+/** Waits until every image and array has come and has been drawn. A busy machine
+ *  may take minutes; throws after three. */
 async function loaded(page: Page): Promise<void> {
   await page.waitForFunction(
     () => {
@@ -79,9 +80,9 @@ async function loaded(page: Page): Promise<void> {
       const isIdle = doc?.downloadCount === 0 && !doc.needRender;
       const state = window as unknown as { idleFrames?: number };
       state.idleFrames = isIdle ? (state.idleFrames ?? 0) + 1 : 0;
-      return state.idleFrames > 20;
+      return state.idleFrames > 5;
     },
     undefined,
-    { timeout: 60_000, polling: "raf" },
+    { timeout: 180_000, polling: "raf" },
   );
 }
