@@ -11,7 +11,7 @@ import { outputDirectory } from "./paths.ts";
 import type { Picture } from "./png.ts";
 import { gate } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
-import { pageOf, siteOfGenerated } from "./sites.ts";
+import { pageOf, shapeIn, siteOfGenerated, withShapes } from "./sites.ts";
 
 /** A site of a trefoil inside a Transform, with the files of a sphere in other/. */
 function twoMeshSite(): string {
@@ -21,14 +21,12 @@ function twoMeshSite(): string {
   return directory;
 }
 
-const inTransform = (html: string): string =>
-  html.replace(/<Shape[\s\S]*<\/Shape>/i, (shape) => `<Transform id="place">${shape}</Transform>`);
+const inTransform = (html: string): string => withShapes(html, (shape) => `<Transform id="place">${shape}</Transform>`);
 
 /** The sphere's Shape, its files in other/. */
 function sphereShape(): string {
   const html = pageOf(siteOfGenerated("sphere"));
-  const shape = /<Shape[\s\S]*<\/Shape>/i.exec(html)?.[0].replace(/<Shape/i, `<Shape id="sphere"`);
-  assert.ok(shape);
+  const shape = shapeIn(html).replace(/<Shape/i, `<Shape id="sphere"`);
   return [...ranksOfFiles(html).keys()].reduce((text, url) => text.replaceAll(url, `other/${url}`), shape);
 }
 
@@ -76,6 +74,18 @@ const changes: Record<string, () => void> = {
     document.querySelector("scene")!.append(light);
   },
   "a shape that is hidden": () => { document.querySelector("shape")!.setAttribute("visible", "false"); },
+  "a group that is hidden in X3DOM's words": () => { document.querySelector("transform")!.setAttribute("render", "false"); },
+  "a shape below another transform": () => {
+    const other = document.createElement("Transform");
+    other.setAttribute("scale", "0.5 0.5 0.5");
+    document.querySelector("scene")!.append(other);
+    other.append(document.querySelector("shape")!);
+  },
+  "a switch around it": () => {
+    const choice = document.createElement("Switch");
+    document.querySelector("scene")!.append(choice);
+    choice.append(document.querySelector("transform")!);
+  },
 };
 
 describe("a change in the document shows", () => {
@@ -86,8 +96,10 @@ describe("a change in the document shows", () => {
       await withPage(site, { server: (server) => server.when(/^\/$/, { replace }) }, async (view) => {
         await view.promise("complete");
         const before = await view.picture();
+        const asked = view.server.requests.length;
         await view.page.evaluate(change);
         const after = await view.picture();
+        assert.equal(view.server.requests.length, asked, "files were asked for again");
         assert.ok(difference(before, after).mean > 0.5, "nothing has changed");
         const fresh = await freshPicture(site, await sceneText(view));
         assertSamePicture(`changed ${name}`, after, fresh, { mean: 0.001 });

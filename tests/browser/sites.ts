@@ -1,7 +1,7 @@
 // Meshes written as files and converted into sites by the tool under test.
 
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { pointSpiral, sphere, trefoil, withColors, withoutNormals, writePly, type PlainMesh } from "./meshes.ts";
 import { converter, outputDirectory } from "./paths.ts";
@@ -46,4 +46,25 @@ export function siteOfGenerated(name: GeneratedMesh, ...options: string[]): stri
 
 export function pageOf(site: string): string {
   return readFileSync(join(site, "index.html"), "utf8");
+}
+
+/** A copy of a site whose page is another. */
+export function variantOf(site: string, name: string, change: (page: string) => string): string {
+  const directory = `${site}-${name}`;
+  rmSync(directory, { recursive: true, force: true });
+  cpSync(site, directory, { recursive: true });
+  writeFileSync(join(directory, "index.html"), change(pageOf(site)));
+  return directory;
+}
+
+/** The text of a page's only Shape. */
+export function shapeIn(page: string): string {
+  const shape = /<Shape[\s\S]*<\/Shape>/i.exec(page)?.[0];
+  if (shape === undefined) throw new Error("the page has no Shape");
+  return shape;
+}
+
+/** The page with something else in its only Shape's place. */
+export function withShapes(page: string, change: (shape: string) => string): string {
+  return page.replace(shapeIn(page), () => change(shapeIn(page)));
 }

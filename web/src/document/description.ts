@@ -75,13 +75,16 @@ export type TransformDescription = Values<typeof nodeFields.Transform>;
 
 export interface ShapeDescription {
   readonly kind: "shape";
-  /** Who this is: two readings of a document speak of one shape when their elements are the same. */
+  /**
+   * Who this is: two readings of a document speak of one shape when their elements
+   * are the same. It stands in several places where a group around it is USEd.
+   */
   readonly element: SceneElement;
   readonly visible: boolean;
   /** Tight, in the shape's own coordinates; undefined where neither the shape nor its geometry has one. */
   readonly box: Box3 | undefined;
   readonly material: MaterialDescription;
-  /** Undefined where the shape has no geometry that we can show. */
+  /** Undefined where the shape has no geometry that we can show; the same object for shapes that USE one. */
   readonly geometry: GeometryDescription | undefined;
 }
 
@@ -110,7 +113,7 @@ export interface SceneDescription {
   readonly warnings: readonly Warning[];
 }
 
-/** Every shape below a node, in document order. */
+/** Every shape below a node, in document order, once for each place where it stands. */
 export function shapesOf(node: NodeDescription): ShapeDescription[] {
   if (node.kind === "shape") return [node];
   return node.kind === "group" ? node.children.flatMap(shapesOf) : [];

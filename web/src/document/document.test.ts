@@ -1,9 +1,10 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import type { GeometryDescription, SceneDescription, ShapeDescription } from "./description.ts";
+import type { GeometryDescription, NodeDescription, SceneDescription, ShapeDescription } from "./description.ts";
 import { shapesOf } from "./description.ts";
 import { elementsOf } from "./elements.testing.ts";
 import { referenceOf } from "./geometry.ts";
+import { GeometryMemory } from "./geometryMemory.ts";
 import { nodeFields } from "./nodes.ts";
 import { readScene } from "./readScene.ts";
 import { middleOfMissing, storedFrameOf } from "./storedFrame.ts";
@@ -24,6 +25,11 @@ function geometryOf(markup: string): GeometryDescription {
   const { geometry } = onlyShape(`<Shape>${markup}</Shape>`);
   assert.ok(geometry);
   return geometry;
+}
+
+function visibleShapes(node: NodeDescription): ShapeDescription[] {
+  if (node.kind === "light" || !node.visible) return [];
+  return node.kind === "shape" ? [node] : node.children.flatMap(visibleShapes);
 }
 
 const patches = `
@@ -89,8 +95,25 @@ describe("a scene", () => {
       <Shape USE="s"/><Shape><Appearance USE="a"/></Shape>`);
     const shapes = shapesOf(scene.root);
     assert.deepEqual(shapes.map((shape) => shape.material.diffuseColor), [[1, 0, 0], [1, 0, 0], [1, 0, 0]]);
-    assert.deepEqual(shapes[1]?.geometry, shapes[0]?.geometry);
+    assert.ok(shapes[0]?.geometry);
+    assert.equal(shapes[1]?.geometry, shapes[0].geometry); // the same object: it is delivered once
     assert.equal(new Set(shapes.map((shape) => shape.element)).size, 3);
+  });
+
+  test("has a shape once for each place where a group around it is USEd", () => {
+    const shapes = shapesOf(sceneOf(`<Group DEF="g"><Shape>${patches}</Shape></Group><Transform><Group USE="g"/></Transform>`).root);
+    assert.equal(shapes.length, 2);
+    assert.equal(shapes[0]?.element, shapes[1]?.element);
+  });
+
+  test("is seen where `visible` and X3DOM's `render` both say so, and a Switch shows one child or none", () => {
+    const seen = (markup: string) => visibleShapes(sceneOf(markup).root).map((shape) => shape.element.getAttribute("DEF"));
+    assert.deepEqual(seen('<Shape DEF="a"/><Shape DEF="b" visible="false"/><Shape DEF="c" render="false"/>'), ["a"]);
+    assert.deepEqual(seen('<Group render="false"><Shape DEF="a"/></Group><Transform visible="false"><Shape DEF="b"/></Transform>'), []);
+    for (const [choice, expected] of [["0", ["a", "b"]], ["1", ["c"]], ["-1", []], ["7", []]] as const) {
+      assert.deepEqual(seen(`<Switch whichChoice="${choice}"><Group><Shape DEF="a"/><Shape DEF="b"/></Group><Shape DEF="c"/></Switch>`), expected);
+    }
+    assert.deepEqual(seen('<Switch><Shape DEF="a"/></Switch>'), []);
   });
 
   test("ends where USE leads in a circle or nowhere, with a warning", () => {
@@ -166,6 +189,30 @@ describe("a geometry", () => {
     assert.deepEqual(referenceOf("a+4.png", "sig"), { url: "a+4.png", first: 0, stride: 0 });
     assert.deepEqual(referenceOf("a.bin#0+0", "bg"), { url: "a.bin", first: 0, stride: 0 });
     assert.deepEqual(referenceOf("a.bin#-1+x", "bg"), { url: "a.bin", first: 0, stride: 0 });
+  });
+});
+
+describe("what is read again", () => {
+  const x3d = elementsOf(`<X3D><Shape>${patches}</Shape></X3D>`);
+  const element = x3d.children[0]?.children[0];
+  assert.ok(element);
+  const geometries = new GeometryMemory();
+  const read = () => shapesOf(readScene(x3d, geometries).root)[0]?.geometry;
+  const first = read();
+
+  test("is the same object where nothing has changed, even if it might have", () => {
+    assert.ok(first);
+    assert.equal(read(), first);
+    geometries.touch(element);
+    assert.equal(read(), first);
+  });
+
+  test("is another one where something has", () => {
+    element.attributes.set("solid", "true");
+    geometries.touch(element);
+    assert.equal(read()?.solid, true);
+    assert.notEqual(read(), first);
+    assert.equal(read(), read());
   });
 });
 

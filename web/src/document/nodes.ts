@@ -9,6 +9,9 @@ import {
   MFColor, MFInt32, MFString, SFBool, SFColor, SFFloat, SFInt32, SFRotation, SFString, SFVec2f, SFVec3f,
 } from "./fieldTypes.ts";
 
+/** Whether it is seen: X3D 4's name, and X3DOM's older one. Both must say so. */
+const seenObject = { visible: SFBool(true), render: SFBool(true) };
+
 const boundedObject = {
   bboxCenter: SFVec3f([0, 0, 0]),
   bboxSize: SFVec3f([-1, -1, -1]),
@@ -53,16 +56,17 @@ export const nodeFields = {
     intensity: SFFloat(1),
     ambientIntensity: SFFloat(0),
   },
-  Group: { visible: SFBool(true) },
+  Group: seenObject,
+  Switch: { ...seenObject, whichChoice: SFInt32(-1) },
   Transform: {
-    visible: SFBool(true),
+    ...seenObject,
     translation: SFVec3f([0, 0, 0]),
     rotation: SFRotation([0, 0, 1, 0]),
     scale: SFVec3f([1, 1, 1]),
     center: SFVec3f([0, 0, 0]),
     scaleOrientation: SFRotation([0, 0, 1, 0]),
   },
-  Shape: { ...boundedObject, visible: SFBool(true) },
+  Shape: { ...boundedObject, ...seenObject },
   Material: {
     diffuseColor: SFColor([0.8, 0.8, 0.8]),
     specularColor: SFColor([0, 0, 0]),

@@ -2,17 +2,20 @@
 // children, as a browser passes over unknown tags; what they hold still counts.
 
 import type {
-  Box3, GroupDescription, NodeDescription, SceneDescription, ShapeDescription, ViewpointDescription,
+  Box3, GeometryDescription, GroupDescription, NodeDescription, SceneDescription, ShapeDescription,
+  TransformDescription, ViewpointDescription,
 } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import { boxAround, boxOf, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
+import { GeometryMemory } from "./geometryMemory.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
 /** What is collected on the way through the tree. */
 interface Reading {
+  readonly geometries: GeometryMemory;
   readonly defined: ReadonlyMap<string, SceneElement>;
   /** Elements whose USE is being followed, so that a circle of them ends. */
   readonly following: Set<SceneElement>;
@@ -22,9 +25,10 @@ interface Reading {
   skyColor: Vec3 | undefined;
 }
 
-export function readScene(x3d: SceneElement): SceneDescription {
+/** With the same `geometries` as before, geometries that have not changed are the same objects. */
+export function readScene(x3d: SceneElement, geometries = new GeometryMemory()): SceneDescription {
   const reading: Reading = {
-    defined: definedIn(x3d), following: new Set(), warnings: [],
+    geometries, defined: definedIn(x3d), following: new Set(), warnings: [],
     viewpoint: undefined, headlight: nodeFields.NavigationInfo.headlight.defaultValue, skyColor: undefined,
   };
   const root: GroupDescription = {
@@ -51,14 +55,14 @@ function readNode(element: SceneElement, reading: Reading): NodeDescription[] {
     switch (lowerNameOf(node)) {
       case "shape":
         return [readShape(element, node, reading)];
-      case "group": {
-        const { visible } = readFields(node, nodeFields.Group, warnings);
-        return [{ kind: "group", visible, transform: undefined, children: readChildren(node, reading) }];
-      }
+      case "group":
+        return [groupOf(readFields(node, nodeFields.Group, warnings), readChildren(node, reading))];
       case "transform": {
         const transform = readFields(node, nodeFields.Transform, warnings);
-        return [{ kind: "group", visible: transform.visible, transform, children: readChildren(node, reading) }];
+        return [groupOf(transform, readChildren(node, reading), transform)];
       }
+      case "switch":
+        return [readSwitch(node, reading)];
       case "directionallight":
         return [{ kind: "light", light: readFields(node, nodeFields.DirectionalLight, warnings) }];
       case "viewpoint":
@@ -74,6 +78,22 @@ function readNode(element: SceneElement, reading: Reading): NodeDescription[] {
         return readChildren(node, reading);
     }
   });
+}
+
+interface Seen {
+  readonly visible: boolean;
+  readonly render: boolean;
+}
+
+function groupOf(seen: Seen, children: NodeDescription[], transform?: TransformDescription): GroupDescription {
+  return { kind: "group", visible: seen.visible && seen.render, transform, children };
+}
+
+/** One of its children is seen, or none; the others stay in the scene, so that choosing them shows them at once. */
+function readSwitch(node: SceneElement, reading: Reading): GroupDescription {
+  const fields = readFields(node, nodeFields.Switch, reading.warnings);
+  return groupOf(fields, childrenOf(node).map((child, place) =>
+    groupOf({ visible: place === fields.whichChoice, render: true }, readNode(child, reading))));
 }
 
 /** Reads `element`, or what its USE names; `nothing` where that leads nowhere or in a circle. */
@@ -98,22 +118,26 @@ function withUse<Result>(element: SceneElement, reading: Reading, nothing: Resul
 function readShape(element: SceneElement, node: SceneElement, reading: Reading): ShapeDescription {
   const values = readFields(node, nodeFields.Shape, reading.warnings);
   const parts = childrenOf(node);
-  const geometry = first(parts, reading, (part) => {
-    switch (lowerNameOf(part)) {
-      case "imagegeometry": return readImageGeometry(part, reading.warnings);
-      case "binarygeometry": return readBinaryGeometry(part, reading.warnings);
-      default: return undefined;
-    }
-  });
+  const geometry = first(parts, reading, (part) => readGeometry(part, reading));
   const material = first(parts, reading, (part) =>
     lowerNameOf(part) !== "appearance" ? undefined
       : first(childrenOf(part), reading, (child) =>
           lowerNameOf(child) === "material" ? readFields(child, nodeFields.Material, reading.warnings) : undefined));
   return {
-    kind: "shape", element, visible: values.visible, geometry,
+    kind: "shape", element, visible: values.visible && values.render, geometry,
     box: boxOf(values) ?? (geometry && boxOfGeometry(geometry)),
     material: material ?? readFields(withoutAttributes, nodeFields.Material, reading.warnings),
   };
+}
+
+const geometryReaders: Readonly<Record<string, typeof readImageGeometry>> = {
+  imagegeometry: readImageGeometry, binarygeometry: readBinaryGeometry,
+};
+
+/** Undefined for what is no geometry. */
+function readGeometry(element: SceneElement, { geometries, warnings }: Reading): GeometryDescription | undefined {
+  const read = geometryReaders[lowerNameOf(element)];
+  return read && geometries.recall(element, () => read(element, warnings));
 }
 
 const withoutAttributes: SceneElement = {

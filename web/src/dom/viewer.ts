@@ -5,13 +5,14 @@ import { decodeWithBrowser } from "../decode/image.ts";
 import type { StageName } from "../decode/stage.ts";
 import { stageNames } from "../decode/stage.ts";
 import type { Delivery } from "../delivery/deliver.ts";
-import { deliver } from "../delivery/deliver.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import { progressOf } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resources.ts";
+import { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
 import type { GeometryDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
+import { GeometryMemory } from "../document/geometryMemory.ts";
 import { readScene } from "../document/readScene.ts";
 import type { RenderStatistics } from "../render/sceneRenderer.ts";
 import { SceneRenderer } from "../render/sceneRenderer.ts";
@@ -29,8 +30,7 @@ export interface ViewStatistics extends RenderStatistics {
 }
 
 interface LoadedShape {
-  /** Two readings with the same key show the same geometry. */
-  readonly key: string;
+  readonly geometry: GeometryDescription | undefined;
   readonly loading: Loading;
   readonly stages: (StageName | "none")[];
   delivery: Delivery | undefined;
@@ -41,6 +41,8 @@ export class Viewer {
   readonly #x3d: Element;
   readonly #scheduler = new Scheduler(slotCount);
   readonly #pool: ResourcePool;
+  readonly #deliveries: SharedDeliveries;
+  readonly #geometries = new GeometryMemory();
   readonly #shapes = new Map<SceneElement, LoadedShape>();
   readonly #observer: MutationObserver;
   readonly #onProgress: (share: number) => void;
@@ -61,7 +63,11 @@ export class Viewer {
       resolve: (url) => (URL.canParse(url, document.baseURI) ? new URL(url, document.baseURI).href : url),
       onTransfer: () => { this.#progressSoon(); },
     });
-    this.#observer = new MutationObserver(() => { this.#readDocument(); });
+    this.#deliveries = new SharedDeliveries(this.#pool);
+    this.#observer = new MutationObserver((records) => {
+      for (const { target } of records) this.#touchAround(target);
+      this.#readDocument();
+    });
     this.#observer.observe(x3d, { subtree: true, childList: true, attributes: true });
     this.#readDocument();
   }
@@ -84,13 +90,15 @@ export class Viewer {
   }
 
   #readDocument(): void {
-    const scene = readScene(this.#x3d);
+    const scene = readScene(this.#x3d, this.#geometries);
     this.#warn(scene);
     const described = new Map(shapesOf(scene.root).map((shape) => [shape.element, shape]));
-    const keys = new Map(Array.from(described, ([element, shape]) => [element, JSON.stringify(shape.geometry ?? null)]));
-    const isNew = (element: SceneElement) => this.#shapes.get(element)?.key !== keys.get(element);
-    const gone = Array.from(this.#shapes).filter(([element]) => !described.has(element) || isNew(element));
-    const begun = Array.from(described.values()).filter((shape) => isNew(shape.element));
+    const isShown = (shape: ShapeDescription | undefined) => {
+      const loaded = shape && this.#shapes.get(shape.element);
+      return loaded !== undefined && loaded.geometry === shape?.geometry;
+    };
+    const gone = Array.from(this.#shapes).filter(([element]) => !isShown(described.get(element)));
+    const begun = Array.from(described.values()).filter((shape) => !isShown(shape));
 
     // The renderer lets go of textures before the pool closes their images.
     for (const [element, shape] of gone) {
@@ -100,24 +108,31 @@ export class Viewer {
     }
     if (begun.length > 0 && this.#loading.isEnded) this.#loading = new Loading(this.#x3d);
     this.renderer.setScene(scene);
-    for (const shape of begun) this.#begin(shape, keys.get(shape.element) ?? "");
+    for (const shape of begun) this.#begin(shape);
     // Last, so that files that old and new shapes share are not fetched again.
     for (const [, shape] of gone) shape.delivery?.cancel();
     this.#progressSoon();
   }
 
-  #begin(shape: ShapeDescription, key: string): void {
+  /** The geometry that this is, or is a part of, may have changed. */
+  #touchAround(changed: Node): void {
+    for (let node: Node | null = changed; node !== null && node !== this.#x3d; node = node.parentNode) {
+      this.#geometries.touch(node as Element);
+    }
+  }
+
+  #begin(shape: ShapeDescription): void {
     const element = shape.element as Element;
     const { geometry } = shape;
     const loaded: LoadedShape = {
-      key, loading: new Loading(element), delivery: undefined, stages: geometry?.patches.map(() => "none" as const) ?? [],
+      geometry, loading: new Loading(element), delivery: undefined, stages: geometry?.patches.map(() => "none" as const) ?? [],
     };
     this.#shapes.set(element, loaded);
     if (geometry === undefined) {
       loaded.loading.settle();
       return;
     }
-    loaded.delivery = deliver(geometry, this.#pool, {
+    loaded.delivery = this.#deliveries.join(geometry, {
       onStage: (patch, stage) => {
         this.renderer.setStage(element, geometry, patch, stage);
         loaded.stages[patch] = stage.name;

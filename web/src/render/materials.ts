@@ -83,13 +83,15 @@ export interface MaterialRequest {
   readonly solid: boolean;
   /** Absent for vertices from buffers. */
   readonly images: ImageVertexUniforms | undefined;
+  /** Along each axis, in the shape's coordinates. */
+  readonly latticeStep: Vec3;
   readonly shared: SceneUniforms;
 }
 
 export type PatchMaterial = (MeshPhongMaterial | MeshBasicMaterial) & { userData: { ambientIntensity?: { value: number } } };
 
 export function makeMaterial(request: MaterialRequest, description: MaterialDescription): PatchMaterial {
-  const { shading, colors, solid, images, shared } = request;
+  const { shading, colors, solid, images, latticeStep, shared } = request;
   const ambientIntensity = { value: 0 };
   const material: PatchMaterial = shading === "unlit" || shading === "distance" ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
@@ -102,7 +104,7 @@ export function makeMaterial(request: MaterialRequest, description: MaterialDesc
   };
   material.userData.ambientIntensity = ambientIntensity;
   material.onBeforeCompile = (shader) => {
-    Object.assign(shader.uniforms, images, shared, { ambientIntensity });
+    Object.assign(shader.uniforms, images, shared, { ambientIntensity, latticeStep: { value: latticeStep } });
     readVerticesIn(shader);
     shader.vertexShader = farnessDeclarations + replaceEach(shader.vertexShader, [["#include <fog_vertex>", farnessVertex]]);
     shader.fragmentShader = farnessDeclarations + replaceEach(shader.fragmentShader, [

@@ -1,27 +1,28 @@
 // A stage -> three.js objects, one per draw.
 
-import type { Object3D } from "three";
-import {
-  BufferAttribute, BufferGeometry, InterleavedBuffer, InterleavedBufferAttribute, LineSegments, Matrix4, Mesh, Points,
-  Sphere, Vector3,
-} from "three";
+import type { BufferGeometry, Object3D } from "three";
+import { LineSegments, Matrix4, Mesh, Points, Sphere, Vector3 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
-import type { BufferStage, DrawRange, Stage, TextureStage, VertexArray } from "../decode/stage.ts";
+import type { DrawRange, Stage, TextureStage } from "../decode/stage.ts";
 import type { GeometryDescription, MaterialDescription, PatchDescription } from "../document/description.ts";
 import { boxAround } from "../document/geometry.ts";
 import { middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
 import type { PatchMaterial, SceneUniforms, Shading, VertexColors } from "./materials.ts";
 import { applyMaterial, makeMaterial } from "./materials.ts";
+import type { GeometryPool } from "./stageGeometries.ts";
 import type { TexturePool } from "./textures.ts";
 import type { ImageVertexUniforms } from "./vertexChunk.ts";
 
 export interface PatchDraws {
-  readonly objects: readonly Object3D[];
+  /** New objects, one per draw, for one more place in the scene. They own nothing on the GPU. */
+  makeObjects(): Object3D[];
   applyMaterial(description: MaterialDescription): void;
+  /** Frees what this stage alone uses; its objects must have left the scene. */
   dispose(): void;
 }
 
 export interface PatchSetting {
+  readonly geometries: GeometryPool;
   readonly textures: TexturePool;
   readonly shared: SceneUniforms;
   readonly geometry: GeometryDescription;
@@ -33,29 +34,29 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
   const { geometry, patch, shared } = setting;
   const colors = colorsOf(stage);
   const bounds = storedBoundsOf(geometry, patch);
-  const matrix = latticeMatrixOf(geometry, patch);
+  const { origin, step } = storedFrameOf(geometry, patch);
+  // Places the lattice: stored integers -> the shape's coordinates.
+  const matrix = new Matrix4().makeScale(...step).setPosition(...origin);
   const images = stage.kind === "textures" ? imagesOf(stage) : [];
   const base = stage.kind === "textures" ? imageUniformsOf(stage, setting.textures) : undefined;
-  const draws = stage.draws.filter((draw) => draw.count > 0).map((draw) => {
+  const draws = setting.geometries.acquire(stage).flatMap((shape, place) => {
+    const draw = stage.draws[place];
+    if (draw === undefined || draw.count === 0) return [];
+    shape.boundingSphere = bounds;
     const material = makeMaterial({
-      shading: shadingOf(stage, draw), colors, solid: geometry.solid, shared,
+      shading: shadingOf(stage, draw), colors, solid: geometry.solid, latticeStep: step, shared,
       images: base && { ...base, firstNumber: { value: draw.first }, isStrip: { value: draw.primitive === "triangleStrip" } },
     }, setting.material);
-    const shape = stage.kind === "textures" ? emptyGeometryOf(draw) : bufferGeometryOf(stage, draw);
-    shape.boundingSphere = bounds;
-    return { material, shape, object: objectOf(draw, shape, material, matrix) };
+    return [{ draw, shape, material }];
   });
   return {
-    objects: draws.map((draw) => draw.object),
+    makeObjects: () => draws.map(({ draw, shape, material }) => objectOf(draw, shape, material, matrix)),
     applyMaterial(description) {
       for (const { material } of draws) applyMaterial(material, description, colors);
     },
     dispose() {
-      for (const { material, shape, object } of draws) {
-        object.removeFromParent();
-        shape.dispose();
-        material.dispose();
-      }
+      for (const { material } of draws) material.dispose();
+      setting.geometries.release(stage);
       for (const image of images) setting.textures.release(image);
     },
   };
@@ -80,34 +81,6 @@ function objectOf(draw: DrawRange, shape: BufferGeometry, material: PatchMateria
   object.matrixAutoUpdate = false;
   object.matrix.copy(matrix);
   return object;
-}
-
-/** No buffers at all: the shader finds its vertices by their number. */
-function emptyGeometryOf({ primitive, count }: DrawRange): BufferGeometry {
-  const shape = new BufferGeometry();
-  shape.setDrawRange(0, primitive === "triangleStrip" ? Math.max(0, count - 2) * 3 : count);
-  return shape;
-}
-
-function bufferGeometryOf(stage: BufferStage, draw: DrawRange): BufferGeometry {
-  const shape = new BufferGeometry();
-  shape.setAttribute("position", attributeOf(stage.coord, false));
-  if (stage.normal !== undefined) shape.setAttribute("normal", attributeOf(stage.normal, true));
-  if (stage.color !== undefined) shape.setAttribute("color", attributeOf(stage.color, true));
-  if (stage.index !== undefined) shape.setIndex(new BufferAttribute(stage.index, 1));
-  shape.setDrawRange(draw.first, draw.count);
-  return shape;
-}
-
-function attributeOf({ array, components, stride }: VertexArray, isSpread: boolean): InterleavedBufferAttribute {
-  const normalized = isSpread && !(array instanceof Float32Array);
-  return new InterleavedBufferAttribute(new InterleavedBuffer(array, stride), components, 0, normalized);
-}
-
-/** Places the lattice: stored integers -> the shape's coordinates. */
-function latticeMatrixOf(geometry: GeometryDescription, patch: PatchDescription): Matrix4 {
-  const { origin, step } = storedFrameOf(geometry, patch);
-  return new Matrix4().makeScale(...step).setPosition(...origin);
 }
 
 /** The patch's bounding sphere among stored integers, wide enough for its coarsest stage. */

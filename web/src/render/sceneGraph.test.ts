@@ -1,8 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Vector3 } from "three";
+import { Group, Vector3 } from "three";
+import { elementsOf } from "../document/elements.testing.ts";
 import { nodeFields } from "../document/nodes.ts";
-import { matrixOf } from "./sceneGraph.ts";
+import { readScene } from "../document/readScene.ts";
+import { buildGraph, matrixOf } from "./sceneGraph.ts";
 
 const identity = Object.fromEntries(Object.entries(nodeFields.Transform).map(([name, field]) => [name, field.defaultValue])) as
   Parameters<typeof matrixOf>[0];
@@ -27,4 +29,12 @@ test("a Transform scales along the axes of its scaleOrientation", () => {
 
 test("a rotation without an axis turns nothing", () => {
   assert.deepEqual(placed({ rotation: [0, 0, 0, 1] }, [1, 2, 3]), [1, 2, 3]);
+});
+
+test("a scene's box is that of what is seen, where it stands", () => {
+  const box = (size: string) => `<Shape bboxCenter="0 0 0" bboxSize="${size}"/>`;
+  const scene = readScene(elementsOf(`<X3D><Transform translation="10 0 0" scale="2 1 1">${box("2 2 2")}
+    <Group visible="false">${box("100 100 100")}</Group><Switch whichChoice="1">${box("90 90 90")}${box("1 1 8")}</Switch></Transform></X3D>`));
+  const { box: { min, max } } = buildGraph(scene, () => new Group());
+  assert.deepEqual([min.toArray(), max.toArray()], [[8, -1, -4], [12, 1, 4]]);
 });

@@ -10,7 +10,7 @@ import { setColor } from "./materials.ts";
 
 export interface BuiltGraph {
   readonly root: Group;
-  /** Of all shapes' boxes, in the scene's coordinates. */
+  /** Of the boxes of all shapes that are seen, in the scene's coordinates. */
   readonly box: Box3;
 }
 
@@ -18,13 +18,13 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
   const box = new Box3();
   const root = new Group();
   const ambient = new Color(0, 0, 0);
-  hang(scene.root, root, new Matrix4());
+  hang(scene.root, root, new Matrix4(), true);
   const ambientLight = new AmbientLight();
   ambientLight.color.copy(ambient);
   root.add(ambientLight);
   return { root, box };
 
-  function hang(node: NodeDescription, parent: Group, worldFromParent: Matrix4): void {
+  function hang(node: NodeDescription, parent: Group, worldFromParent: Matrix4, isSeen: boolean): void {
     switch (node.kind) {
       case "light":
         if (node.light.on) hangLight(node.light, parent, ambient);
@@ -33,7 +33,7 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
         const group = groupOf(node);
         group.visible = node.visible;
         parent.add(group);
-        if (node.box) {
+        if (node.box && isSeen && node.visible) {
           box.union(new Box3(new Vector3(...node.box.min), new Vector3(...node.box.max)).applyMatrix4(worldFromParent));
         }
         return;
@@ -45,7 +45,7 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
         if (node.transform) group.matrix.copy(matrixOf(node.transform));
         parent.add(group);
         const worldFromGroup = worldFromParent.clone().multiply(group.matrix);
-        for (const child of node.children) hang(child, group, worldFromGroup);
+        for (const child of node.children) hang(child, group, worldFromGroup, isSeen && node.visible);
       }
     }
   }

@@ -13,7 +13,9 @@ import { applyPose, panned, poseFraming, poseOfViewpoint, poseShowingAll, sphere
 import type { SceneUniforms } from "./materials.ts";
 import { setColor } from "./materials.ts";
 import { buildGraph } from "./sceneGraph.ts";
+import type { ShapeSetting } from "./shapeObject.ts";
 import { ShapeObject } from "./shapeObject.ts";
+import { GeometryPool } from "./stageGeometries.ts";
 import { TexturePool } from "./textures.ts";
 
 /** What has been drawn and what the GPU holds. */
@@ -36,8 +38,8 @@ export class SceneRenderer {
   readonly #scene = new Scene();
   readonly #camera = new PerspectiveCamera();
   readonly #headlight = new DirectionalLight();
-  readonly #textures = new TexturePool();
   readonly #shared: SceneUniforms = { pointSize: { value: pointSizeInCssPixels }, depthRange: { value: new Vector2() } };
+  readonly #setting: ShapeSetting = { geometries: new GeometryPool(), textures: new TexturePool(), shared: this.#shared };
   readonly #shapes = new Map<SceneElement, ShapeObject>();
   readonly #onFrame: () => void;
   #root = new Group();
@@ -79,8 +81,17 @@ export class SceneRenderer {
       object.dispose();
       this.#shapes.delete(element);
     }
-    const { root, box } = buildGraph(description, (shape) => this.#objectOf(shape).group);
-    for (const [element, shape] of shapes) this.#shapes.get(element)?.setMaterial(shape.material);
+    const places = new Map<SceneElement, number>();
+    const { root, box } = buildGraph(description, (shape) => {
+      const place = places.get(shape.element) ?? 0;
+      places.set(shape.element, place + 1);
+      return this.#objectOf(shape).groupAt(place);
+    });
+    for (const [element, shape] of shapes) {
+      const object = this.#objectOf(shape);
+      object.keepPlaces(places.get(element) ?? 0);
+      object.setMaterial(shape.material);
+    }
     this.#root.removeFromParent();
     this.#root = root;
     this.#scene.add(root);
@@ -173,7 +184,7 @@ export class SceneRenderer {
   }
 
   #objectOf(shape: ShapeDescription): ShapeObject {
-    const object = this.#shapes.get(shape.element) ?? new ShapeObject(this.#textures, this.#shared, shape);
+    const object = this.#shapes.get(shape.element) ?? new ShapeObject(this.#setting, shape);
     this.#shapes.set(shape.element, object);
     return object;
   }

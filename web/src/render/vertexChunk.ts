@@ -135,10 +135,11 @@ const colorChunk = /* glsl */ `
 export function readVerticesIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
   shader.fragmentShader = ownNormalsChunk + shader.fragmentShader;
   shader.vertexShader = ownNormalsChunk + replaceEach(shader.vertexShader, [
-    ["#include <common>", `#include <common>\nuniform float pointSize;\n${readVertexChunk}`],
+    ["#include <common>", `#include <common>\nuniform float pointSize;\nuniform vec3 latticeStep;\n${readVertexChunk}`],
     ["void main() {", "void main() {\n  Vertex vertex = readVertex();\n  gl_PointSize = pointSize;"],
     ["#include <color_vertex>", colorChunk],
-    ["#include <beginnormal_vertex>", "vec3 objectNormal = vertex.normal;"],
+    // Normals are the shape's own; the normal matrix takes the lattice's steps out of them again.
+    ["#include <beginnormal_vertex>", "vec3 objectNormal = vertex.normal * latticeStep;"],
     ["#include <begin_vertex>", "vec3 transformed = vertex.position;"],
   ]);
 }

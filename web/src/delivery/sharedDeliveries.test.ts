@@ -1,0 +1,81 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { elementsOf } from "../document/elements.testing.ts";
+import { shapesOf } from "../document/description.ts";
+import { readScene } from "../document/readScene.ts";
+import { Scheduler } from "../scheduler/scheduler.ts";
+import type { DeliveryListener } from "./deliver.ts";
+import { ResourcePool } from "./resources.ts";
+import { SharedDeliveries } from "./sharedDeliveries.ts";
+
+const [geometry] = shapesOf(readScene(elementsOf(`<X3D><Shape><BinaryGeometry vertexCount="3" coord="c.bin" normal="n.bin"/></Shape></X3D>`)).root)
+  .map((shape) => shape.geometry);
+
+/** Deliveries from a server that has coordinates but no normals, and what it was asked for. */
+function deliveriesOf() {
+  assert.ok(geometry);
+  const asked: string[] = [];
+  let aborted = 0;
+  const answer = Promise.withResolvers<undefined>();
+  const fetchFile = async (url: string, signal: AbortSignal): Promise<Response> => {
+    asked.push(url);
+    signal.addEventListener("abort", () => { aborted += 1; answer.reject(signal.reason as Error); });
+    await answer.promise;
+    return url === "c.bin" ? new Response(new Uint8Array(36)) : new Response("", { status: 404 });
+  };
+  const deliveries = new SharedDeliveries(new ResourcePool({
+    scheduler: new Scheduler(6),
+    decodeImage: () => Promise.reject(new Error("no images here")),
+    download: { fetch: (url, init) => fetchFile(url as string, init?.signal ?? new AbortController().signal), silenceMs: 1000, retries: 0, backoffMs: 1 },
+    resolve: (url) => url,
+    onTransfer: () => undefined,
+  }));
+  return { geometry, deliveries, asked, aborted: () => aborted, open: () => { answer.resolve(undefined); } };
+}
+
+function logged() {
+  const log: string[] = [];
+  const settled = Promise.withResolvers<undefined>();
+  const stages: unknown[] = [];
+  const listener: DeliveryListener = {
+    onStage: (_, stage) => { log.push(stage.name); stages.push(stage); },
+    onError: (error) => { log.push(error.url); },
+    onSettled: () => { log.push("settled"); settled.resolve(undefined); },
+  };
+  return { log, stages, listener, settled: settled.promise };
+}
+
+describe("a geometry that several shapes show", () => {
+  test("is asked for once, and tells those who come late what the others know", async () => {
+    const { geometry, deliveries, asked, open } = deliveriesOf();
+    const [early, alsoEarly, late] = [logged(), logged(), logged()];
+    deliveries.join(geometry, early.listener);
+    deliveries.join(geometry, alsoEarly.listener);
+    open();
+    await Promise.all([early.settled, alsoEarly.settled]);
+    deliveries.join(geometry, late.listener);
+    assert.deepEqual(late.log, []);
+    await late.settled;
+    assert.deepEqual(late.log, ["surface", "n.bin", "settled"]);
+    for (const { log } of [early, alsoEarly]) assert.deepEqual(log.toSorted(), late.log.toSorted());
+    assert.equal(late.stages[0], early.stages[0]); // the same object: it is stored once
+    assert.deepEqual(asked, ["c.bin", "n.bin"]);
+  });
+
+  test("is given up with the last of them, who hears nothing more", async () => {
+    const { geometry, deliveries, asked, aborted } = deliveriesOf();
+    const [first, second] = [logged(), logged()];
+    const one = deliveries.join(geometry, first.listener);
+    const other = deliveries.join(geometry, second.listener);
+    await new Promise((resolve) => setTimeout(resolve));
+    assert.equal(asked.length, 2);
+    one.cancel();
+    one.cancel();
+    assert.equal(aborted(), 0);
+    other.cancel();
+    assert.equal(aborted(), 2);
+    deliveries.join(geometry, logged().listener).cancel(); // begins anew and ends before it was told anything
+    await new Promise((resolve) => setTimeout(resolve, 5));
+    assert.deepEqual([first.log, second.log], [[], []]);
+  });
+});

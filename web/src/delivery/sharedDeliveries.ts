@@ -1,0 +1,82 @@
+// One delivery for each geometry, however many shapes show it: a geometry that
+// is USEd is downloaded, decoded and stored once.
+
+import type { Stage } from "../decode/stage.ts";
+import type { GeometryDescription } from "../document/description.ts";
+import type { Delivery, DeliveryListener } from "./deliver.ts";
+import { deliver } from "./deliver.ts";
+import type { DeliveryError } from "./deliveryError.ts";
+import type { ResourcePool } from "./resources.ts";
+
+interface Shared {
+  readonly delivery: Delivery;
+  /** Those who have joined, and those of them who have been told what came before. */
+  members: number;
+  readonly listeners: Set<DeliveryListener>;
+  /** What has been told so far, for those who join late. */
+  readonly stages: Map<number, Stage>;
+  readonly errors: DeliveryError[];
+  isSettled: boolean;
+}
+
+export class SharedDeliveries {
+  readonly #pool: ResourcePool;
+  readonly #shared = new Map<GeometryDescription, Shared>();
+
+  constructor(pool: ResourcePool) {
+    this.#pool = pool;
+  }
+
+  /**
+   * The geometry's stages as they come; what has come already follows in the next
+   * microtask. Never calls the listener before it returns. The last one to cancel
+   * ends the delivery.
+   */
+  join(geometry: GeometryDescription, listener: DeliveryListener): Delivery {
+    const shared = this.#shared.get(geometry) ?? this.#start(geometry);
+    let isCancelled = false;
+    shared.members += 1;
+    queueMicrotask(() => {
+      if (isCancelled) return;
+      shared.listeners.add(listener);
+      for (const [patch, stage] of shared.stages) listener.onStage(patch, stage);
+      for (const error of shared.errors) listener.onError(error);
+      if (shared.isSettled) listener.onSettled();
+    });
+    return {
+      transfers: shared.delivery.transfers,
+      cancel: () => {
+        if (isCancelled) return;
+        isCancelled = true;
+        shared.listeners.delete(listener);
+        shared.members -= 1;
+        if (shared.members > 0) return;
+        this.#shared.delete(geometry);
+        shared.delivery.cancel();
+      },
+    };
+  }
+
+  #start(geometry: GeometryDescription): Shared {
+    const listeners = new Set<DeliveryListener>();
+    const stages = new Map<number, Stage>();
+    const errors: DeliveryError[] = [];
+    const delivery = deliver(geometry, this.#pool, {
+      onStage(patch, stage) {
+        stages.set(patch, stage);
+        for (const listener of listeners) listener.onStage(patch, stage);
+      },
+      onError(error) {
+        errors.push(error);
+        for (const listener of listeners) listener.onError(error);
+      },
+      onSettled() {
+        shared.isSettled = true;
+        for (const listener of listeners) listener.onSettled();
+      },
+    });
+    const shared: Shared = { delivery, members: 0, listeners, stages, errors, isSettled: false };
+    this.#shared.set(geometry, shared);
+    return shared;
+  }
+}

@@ -1,0 +1,26 @@
+// What has been read of geometry elements, kept from one reading of the document
+// to the next: a geometry that did not change, and one that several shapes USE,
+// is one and the same object, so that comparing geometries is comparing objects.
+
+import type { GeometryDescription } from "./description.ts";
+import type { SceneElement } from "./element.ts";
+
+export class GeometryMemory {
+  readonly #known = new WeakMap<SceneElement, GeometryDescription>();
+  #touched = new WeakSet<SceneElement>();
+
+  /** Says that the element, or something in it, may have changed. */
+  touch(element: SceneElement): void {
+    this.#touched.add(element);
+  }
+
+  /** What `read` makes of the element, which is called only where that is not known. */
+  recall(element: SceneElement, read: () => GeometryDescription): GeometryDescription {
+    const known = this.#known.get(element);
+    if (known !== undefined && !this.#touched.delete(element)) return known;
+    const fresh = read();
+    if (known !== undefined && JSON.stringify(known) === JSON.stringify(fresh)) return known;
+    this.#known.set(element, fresh);
+    return fresh;
+  }
+}

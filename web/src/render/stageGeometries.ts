@@ -1,0 +1,61 @@
+// The three.js geometries of a stage, one per draw, shared by everything that
+// shows the stage and freed with the last of it.
+
+import { BufferAttribute, BufferGeometry, InterleavedBuffer, InterleavedBufferAttribute } from "three";
+import type { DrawRange, Stage, VertexArray } from "../decode/stage.ts";
+
+interface Entry {
+  readonly geometries: readonly BufferGeometry[];
+  users: number;
+}
+
+export class GeometryPool {
+  readonly #entries = new Map<Stage, Entry>();
+
+  /** One for each draw, in order. */
+  acquire(stage: Stage): readonly BufferGeometry[] {
+    const entry = this.#entries.get(stage) ?? { geometries: geometriesOf(stage), users: 0 };
+    entry.users += 1;
+    this.#entries.set(stage, entry);
+    return entry.geometries;
+  }
+
+  release(stage: Stage): void {
+    const entry = this.#entries.get(stage);
+    if (entry === undefined) return;
+    entry.users -= 1;
+    if (entry.users > 0) return;
+    for (const geometry of entry.geometries) geometry.dispose();
+    this.#entries.delete(stage);
+  }
+}
+
+function geometriesOf(stage: Stage): BufferGeometry[] {
+  if (stage.kind === "textures") return stage.draws.map(emptyGeometryOf);
+  const { coord, normal, color, index } = stage;
+  const attributes = {
+    position: attributeOf(coord, false),
+    ...(normal && { normal: attributeOf(normal, true) }),
+    ...(color && { color: attributeOf(color, true) }),
+  };
+  const indices = index && new BufferAttribute(index, 1);
+  return stage.draws.map(({ first, count }) => {
+    const geometry = new BufferGeometry();
+    for (const [name, attribute] of Object.entries(attributes)) geometry.setAttribute(name, attribute);
+    geometry.setIndex(indices ?? null);
+    geometry.setDrawRange(first, count);
+    return geometry;
+  });
+}
+
+/** No buffers at all: the shader finds its vertices by their number. */
+function emptyGeometryOf({ primitive, count }: DrawRange): BufferGeometry {
+  const geometry = new BufferGeometry();
+  geometry.setDrawRange(0, primitive === "triangleStrip" ? Math.max(0, count - 2) * 3 : count);
+  return geometry;
+}
+
+function attributeOf({ array, components, stride }: VertexArray, isSpread: boolean): InterleavedBufferAttribute {
+  const normalized = isSpread && !(array instanceof Float32Array);
+  return new InterleavedBufferAttribute(new InterleavedBuffer(array, stride), components, 0, normalized);
+}
