@@ -1,6 +1,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "cli/commands.h"
+#include "cli/element_counts.h"
 #include "cli/interruption.h"
 #include "cli/terminal.h"
 #include "transcode/transcode.h"
@@ -66,9 +67,10 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
   json["normals"] = normalsOf(arguments, report);
   json["step"] = report.lattice.step;
   json["positionError"] = report.lattice.step / 2;
-  json["triangles"] = report.triangles;
+  json["triangles"] = report.elements.triangles;
+  json["lines"] = report.elements.lines;
+  json["points"] = report.elements.points;
   json["vertices"] = report.vertices;
-  json["points"] = report.points;
   json["patches"] = report.patches;
   json["weld"] = {{"mergedPositions", report.weld.mergedPositions},
                   {"mergedWedges", report.weld.mergedWedges},
@@ -98,16 +100,14 @@ void printLine(const std::string& label, const std::string& text) {
 
 void printChoices(const Arguments& arguments, const ConvertReport& report) {
   const bool isSig = arguments.text("container") == "sig";
-  const std::string elements = report.triangles > 0 || report.points == 0
-                                   ? grouped(report.triangles) + " triangles"
-                                   : grouped(report.points) + " points";
   printLine("source", fmt::format("{}, {}: {} from {} vertices", report.format, byteSize(report.sourceBytes),
-                                  elements, grouped(report.vertices)));
+                                  listed(report.elements), grouped(report.vertices)));
+  const bool onlyPoints = report.elements.points == report.elements.sum();
   printLine("container",
             fmt::format("{}, profile {}, target {}, {}{}", isSig ? "sig (PNG images)" : "bg (typed arrays)",
                         arguments.text("profile"), arguments.text("target"),
-                        report.triangles == 0 ? "points" : arguments.text("primitives"),
-                        report.triangles == 0 || arguments.text("index") == "on" ? "" : " without index"));
+                        onlyPoints ? "points" : arguments.text("primitives"),
+                        onlyPoints || arguments.text("index") == "on" ? "" : " without index"));
   if (!report.x3domUrl.empty())
     printLine("X3DOM", fmt::format("{}, from {}", report.x3domVersion, report.x3domUrl));
   printLine("positions",
@@ -137,8 +137,9 @@ void printBytes(const ConvertReport& report) {
              bold(fmt::format("{:10} {:>7} {:>14} {:>16}", "role", "files", "bytes", "bytes/triangle")));
   RoleBytes sum{"together", 0, 0};
   const auto print = [&](const RoleBytes& role) {
-    const bool counts = report.triangles > 0;
-    const double each = counts ? static_cast<double>(role.bytes) / static_cast<double>(report.triangles) : 0;
+    const std::size_t triangles = report.elements.triangles;
+    const bool counts = triangles > 0;
+    const double each = counts ? static_cast<double>(role.bytes) / static_cast<double>(triangles) : 0;
     fmt::print("{:10} {:>7} {:>14} {:>16}\n", role.role, role.files, grouped(role.bytes),
                counts ? fmt::format("{:.3f}", each) : "");
   };
@@ -148,7 +149,7 @@ void printBytes(const ConvertReport& report) {
     sum.files += role.files;
   }
   print(sum);
-  if (report.triangles > 0)
+  if (report.elements.triangles > 0)
     fmt::print("\nGeometry takes {:.3f} bytes a triangle, its nodes in the document included.\n",
                report.bytesPerTriangle);
 }

@@ -1,4 +1,5 @@
 #include "cli/commands.h"
+#include "cli/element_counts.h"
 #include "cli/terminal.h"
 #include "transcode/transcode.h"
 
@@ -10,20 +11,19 @@ namespace imgeo::cli {
 int runExport(const Arguments& arguments) {
   const ExportReport report = exportSite(arguments.text("site"), arguments.text("output"));
   if (arguments.has("json")) {
-    const nlohmann::ordered_json json{{"format", report.format},       {"shapes", report.shapes},
-                                      {"triangles", report.triangles}, {"points", report.points},
-                                      {"vertices", report.vertices},   {"bytes", report.bytes}};
+    const nlohmann::ordered_json json{{"format", report.format},
+                                      {"shapes", report.shapes},
+                                      {"triangles", report.elements.triangles},
+                                      {"lines", report.elements.lines},
+                                      {"points", report.elements.points},
+                                      {"vertices", report.vertices},
+                                      {"bytes", report.bytes}};
     fmt::print("{}\n", json.dump(2));
     return 0;
   }
-  std::string elements;
-  if (report.triangles > 0)
-    elements += grouped(report.triangles) + " triangles, ";
-  if (report.points > 0)
-    elements += grouped(report.points) + " points, ";
-  fmt::print("{}: {}, {}{} vertices in {} {}, {}\n", arguments.text("output"), report.format, elements,
-             grouped(report.vertices), report.shapes, report.shapes == 1 ? "shape" : "shapes",
-             byteSize(report.bytes));
+  fmt::print("{}: {}, {}, {} vertices in {} {}, {}\n", arguments.text("output"), report.format,
+             listed(report.elements), grouped(report.vertices), report.shapes,
+             report.shapes == 1 ? "shape" : "shapes", byteSize(report.bytes));
   return 0;
 }
 

@@ -75,7 +75,8 @@ Command convertCommand() {
                  .help = "target x3dom: the folder that has x3dom.js and x3dom.css; otherwise npm's by "
                          "jsdelivr.net"},
                 choice("primitives", {"triangles", "strips", "points"},
-                       "how patches are drawn; a point cloud is always points"),
+                       "how patches are drawn, those of lines as lines, line strips or points; a point cloud "
+                       "is always points"),
                 choice("index", {"on", "off"},
                        "off: vertices are repeated wherever they are drawn instead of named by an index"),
                 integer("position-bits", {"-vp", "-qp"}, 8, 32, "16",
@@ -126,7 +127,8 @@ Command verifyCommand() {
       .usage = "DIR INPUT [--json]",
       .summary = "read a site back and prove that it equals its input",
       .text =
-          "Compares every triangle or point of the site with the input, welded as convert does it: the same "
+          "Compares every triangle, line or point of the site with the input, welded as convert does it: the "
+          "same "
           "elements in the same orientation, positions within half a step of the lattice, normals within the "
           "rounding of their bits. Checks that every file is there and holds what its name says. Exits with "
           "0 "

@@ -1,4 +1,5 @@
 #include "cli/commands.h"
+#include "cli/element_counts.h"
 #include "cli/terminal.h"
 #include "transcode/transcode.h"
 
@@ -19,7 +20,9 @@ void printJson(const Json& json) {
 }
 
 Json jsonOf(const SiteInfo& info) {
-  Json json{{"triangles", info.triangles},
+  Json json{{"triangles", info.elements.triangles},
+            {"lines", info.elements.lines},
+            {"points", info.elements.points},
             {"vertices", info.vertices},
             {"patches", info.patches},
             {"documentBytes", info.documentBytes},
@@ -37,9 +40,8 @@ bool isFetched(const std::string& role) {
 }
 
 void printSite(const SiteInfo& info) {
-  fmt::print("{}, {} vertices, {} {}\n\n",
-             info.triangles == 0 ? grouped(info.points) + " points" : grouped(info.triangles) + " triangles",
-             grouped(info.vertices), info.patches, info.patches == 1 ? "patch" : "patches");
+  fmt::print("{}, {} vertices, {} {}\n\n", listed(info.elements), grouped(info.vertices), info.patches,
+             info.patches == 1 ? "patch" : "patches");
   struct Sum {
     std::size_t files = 0;
     std::uint64_t bytes = 0;
@@ -64,7 +66,7 @@ void printSite(const SiteInfo& info) {
                isFetched(role) ? share(sums[role].bytes) : "");
   fmt::print("{:10} {:>7} {:>14}\n\n", "fetched", "", grouped(fetched));
   fmt::print("The document is {} of what a browser fetches.\n", share(info.documentBytes));
-  if (info.triangles > 0)
+  if (info.elements.triangles > 0)
     fmt::print("Geometry takes {:.3f} bytes a triangle, its nodes in the document included.\n",
                info.bytesPerTriangle);
 }
@@ -72,18 +74,18 @@ void printSite(const SiteInfo& info) {
 Json jsonOf(const SourceInfo& info) {
   const auto vector = [](Vec3d v) { return Json{v.x, v.y, v.z}; };
   return {{"format", info.format},          {"bytes", info.bytes},
-          {"shapes", info.shapes},          {"triangles", info.triangles},
-          {"points", info.points},          {"vertices", info.vertices},
-          {"normals", info.normals},        {"texCoords", info.texCoords},
-          {"colors", info.colors},          {"boxMin", vector(info.box.min)},
-          {"boxMax", vector(info.box.max)}, {"warnings", info.warnings}};
+          {"shapes", info.shapes},          {"triangles", info.elements.triangles},
+          {"lines", info.elements.lines},   {"points", info.elements.points},
+          {"vertices", info.vertices},      {"normals", info.normals},
+          {"texCoords", info.texCoords},    {"colors", info.colors},
+          {"boxMin", vector(info.box.min)}, {"boxMax", vector(info.box.max)},
+          {"warnings", info.warnings}};
 }
 
 void printSource(const SourceInfo& info) {
   const auto has = [](bool there, const char* name) { return fmt::format("{}{}", there ? "" : "no ", name); };
-  fmt::print("{}, {}: {} triangles, {} points, {} vertices in {} {}\n", info.format, byteSize(info.bytes),
-             grouped(info.triangles), grouped(info.points), grouped(info.vertices), info.shapes,
-             info.shapes == 1 ? "shape" : "shapes");
+  fmt::print("{}, {}: {}, {} vertices in {} {}\n", info.format, byteSize(info.bytes), listed(info.elements),
+             grouped(info.vertices), info.shapes, info.shapes == 1 ? "shape" : "shapes");
   fmt::print("{}, {}, {}\n", has(info.normals, "normals"), has(info.texCoords, "texture coordinates"),
              has(info.colors, "colours"));
   if (!info.box.empty())

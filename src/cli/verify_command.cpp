@@ -2,6 +2,7 @@
 #include "cli/terminal.h"
 #include "transcode/transcode.h"
 
+#include <cctype>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -12,35 +13,30 @@ namespace {
 constexpr int notEqual = 3;
 
 void printJson(const VerifyReport& report) {
-  const nlohmann::ordered_json json{{"equal", report.equal},
-                                    {"inputTriangles", report.inputTriangles},
-                                    {"siteTriangles", report.siteTriangles},
-                                    {"missingTriangles", report.missingTriangles},
-                                    {"extraTriangles", report.extraTriangles},
-                                    {"inputPoints", report.inputPoints},
-                                    {"sitePoints", report.sitePoints},
-                                    {"missingPoints", report.missingPoints},
-                                    {"extraPoints", report.extraPoints},
-                                    {"positionError", report.positionError},
-                                    {"positionBound", report.positionBound},
-                                    {"normalErrorDegrees", report.normalErrorDegrees},
-                                    {"normalBoundDegrees", report.normalBoundDegrees},
-                                    {"findings", report.findings}};
+  nlohmann::ordered_json json{{"equal", report.equal}};
+  for (const Topology kind : allTopologies) {
+    std::string name = nameOf(kind);
+    name[0] = static_cast<char>(std::toupper(name[0]));
+    json["input" + name] = report.input.of(kind);
+    json["site" + name] = report.site.of(kind);
+    json["missing" + name] = report.missing.of(kind);
+    json["extra" + name] = report.extra.of(kind);
+  }
+  json["positionError"] = report.positionError;
+  json["positionBound"] = report.positionBound;
+  json["normalErrorDegrees"] = report.normalErrorDegrees;
+  json["normalBoundDegrees"] = report.normalBoundDegrees;
+  json["findings"] = report.findings;
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-void printElements(const char* kind, std::size_t input, std::size_t site, std::size_t missing,
-                   std::size_t extra) {
-  if (input + site == 0)
-    return;
-  fmt::print("{} {} in the input, {} in the site: {} missing, {} extra\n", bold(fmt::format("{:10}", kind)),
-             grouped(input), grouped(site), grouped(missing), grouped(extra));
-}
-
 void printText(const VerifyReport& report) {
-  printElements("triangles", report.inputTriangles, report.siteTriangles, report.missingTriangles,
-                report.extraTriangles);
-  printElements("points", report.inputPoints, report.sitePoints, report.missingPoints, report.extraPoints);
+  for (const Topology kind : allTopologies)
+    if (report.input.of(kind) + report.site.of(kind) > 0)
+      fmt::print("{} {} in the input, {} in the site: {} missing, {} extra\n",
+                 bold(fmt::format("{:10}", nameOf(kind))), grouped(report.input.of(kind)),
+                 grouped(report.site.of(kind)), grouped(report.missing.of(kind)),
+                 grouped(report.extra.of(kind)));
   fmt::print("{} off by at most {:.6g} an axis; half a step is {:.6g}\n",
              bold(fmt::format("{:10}", "positions")), report.positionError, report.positionBound);
   if (report.normalBoundDegrees > 0)

@@ -12,6 +12,11 @@ const char* nameOf(Role role) {
   return names[static_cast<std::size_t>(role)];
 }
 
+const char* nameOf(Primitive primitive) {
+  constexpr const char* names[] = {"POINTS", "LINES", "LINESTRIP", "TRIANGLES", "TRIANGLESTRIP"};
+  return names[static_cast<std::size_t>(primitive)];
+}
+
 const char* nameOf(ElementType type) {
   constexpr const char* names[] = {"Int8", "Uint8", "Int16", "Uint16", "Int32", "Uint32", "Float32"};
   return names[static_cast<std::size_t>(type)];

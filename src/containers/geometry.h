@@ -21,6 +21,9 @@ enum class Role : std::uint8_t { index, coord, normal, texCoord, color };
 /// "index", "coord", ...: the names the documents use.
 const char* nameOf(Role role);
 
+/// "POINTS", "TRIANGLESTRIP", ...: as X3DOM's `primType` has them.
+const char* nameOf(Primitive primitive);
+
 /// The element type of a BG attribute, as X3DOM names them ("Uint16" ...).
 enum class ElementType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32 };
 const char* nameOf(ElementType type);

@@ -2,7 +2,6 @@
 
 #include "documents/find_x3d.h"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -62,8 +61,15 @@ Reference referenceOf(const Fields& fields, const std::string& url, Container co
   return reference;
 }
 
+Primitive primitiveNamed(const Fields& fields, const std::string& name) {
+  for (const Primitive primitive : {Primitive::points, Primitive::lines, Primitive::lineStrip,
+                                    Primitive::triangles, Primitive::triangleStrip})
+    if (sameName(name, nameOf(primitive)))
+      return primitive;
+  fields.fail(ErrorKind::unsupported, "primType is none of those we read");
+}
+
 std::vector<Draw> drawsOf(const Fields& fields) {
-  static constexpr std::array<const char*, 4> names{"POINTS", "LINES", "TRIANGLES", "TRIANGLESTRIP"};
   const std::vector<std::string> types = fields.strings("primType");
   std::vector<std::uint32_t> counts = fields.integers("vertexCount");
   if (counts.empty())
@@ -71,17 +77,8 @@ std::vector<Draw> drawsOf(const Fields& fields) {
   if (!types.empty() && types.size() != counts.size())
     fields.fail(ErrorKind::malformed, "primType and vertexCount differ in their number of draws");
   std::vector<Draw> draws;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    Draw draw{Primitive::triangles, counts[i]};
-    if (!types.empty()) {
-      const auto found =
-          std::ranges::find_if(names, [&](const char* name) { return sameName(name, types[i]); });
-      if (found == names.end())
-        fields.fail(ErrorKind::unsupported, "primType is none of those we read");
-      draw.primitive = static_cast<Primitive>(found - names.begin());
-    }
-    draws.push_back(draw);
-  }
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    draws.push_back({types.empty() ? Primitive::triangles : primitiveNamed(fields, types[i]), counts[i]});
   return draws;
 }
 

@@ -23,10 +23,9 @@ Attributes boxAttributes(const Box3d& box) {
 }
 
 std::string primTypes(const std::vector<Draw>& draws) {
-  static const char* names[] = {"POINTS", "LINES", "TRIANGLES", "TRIANGLESTRIP"};
   std::vector<std::string> types;
   for (const Draw& draw : draws)
-    types.push_back(names[static_cast<std::size_t>(draw.primitive)]);
+    types.push_back(nameOf(draw.primitive));
   return strings(types);
 }
 

@@ -94,7 +94,7 @@ Imported importBytes(ByteSpan bytes, const std::string& name) {
   const bool hasElements =
       std::ranges::any_of(imported.scene.meshes, [](const Mesh& mesh) { return !mesh.corners.empty(); });
   if (!hasElements)
-    throw Error(ErrorKind::malformed, name, "the file has no triangles and no points");
+    throw Error(ErrorKind::malformed, name, "the file has no triangles, lines or points");
   makeNamesUnique(imported.scene.shapes);
   imported.scene.title = stemOf(name);
   return imported;

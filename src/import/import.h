@@ -5,9 +5,10 @@
 // PLY: ASCII and binary of both byte orders, every scalar type; vertices with
 // x y z, and where they are there nx ny nz, s t (u v, texture_u texture_v), red
 // green blue alpha (diffuse_red ...); `face` with vertex_indices (vertex_index)
-// and texcoord; `tristrips`. Without faces: a point cloud.
-// OBJ: v (with colours), vt, vn, f; each `o` is a shape, groups are not. Without
-// faces: a point cloud.
+// and texcoord; `tristrips`; `edge` with vertex1 and vertex2, a shape of lines.
+// Without any of these: a point cloud.
+// OBJ: v (with colours), vt, vn, f, l; each `o` is a shape, or two where it has
+// faces and lines; groups are none. Without faces and lines: a point cloud.
 // STL: binary and ASCII; each ASCII solid is a shape, each corner has a position
 // of its own (weld joins them), facet normals are left to the winding.
 // Polygons are cut into triangles. Normals are brought to unit length; (0, 0, 1)

@@ -35,7 +35,8 @@ public:
       scanner_.skipBlanks();
       readLine(scanner_.word());
     }
-    std::erase_if(content_.objects, [](const ObjObject& object) { return object.corners.empty(); });
+    std::erase_if(content_.objects,
+                  [](const ObjObject& object) { return object.triangles.empty() && object.lines.empty(); });
     Imported imported;
     imported.format = "OBJ";
     if (content_.objects.empty())
@@ -59,9 +60,9 @@ private:
     else if (keyword == "f")
       readFace();
     else if (keyword == "o")
-      content_.objects.push_back({std::string(scanner_.restOfLine()), {}});
+      content_.objects.push_back({std::string(scanner_.restOfLine()), {}, {}});
     else if (keyword == "l")
-      ++lines_;
+      readLineElement();
     else if (keyword == "p")
       ++points_;
     else if (keyword == "usemtl" || keyword == "mtllib")
@@ -151,11 +152,24 @@ private:
     return corner;
   }
 
-  void readFace() {
+  /// The corners of a polygon or of a line of many, which are the rest of the statement.
+  void readCorners() {
     polygon_.clear();
     for (scanner_.skipBlanks(); !scanner_.atLineEnd(); scanner_.skipBlanks())
       polygon_.push_back(readCorner());
-    std::vector<ObjCorner>& object = content_.objects.back().corners;
+  }
+
+  void readLineElement() {
+    readCorners();
+    linesTooShort_ += polygon_.size() < 2;
+    for (std::size_t i = 1; i < polygon_.size(); ++i)
+      content_.objects.back().lines.insert(content_.objects.back().lines.end(),
+                                           {polygon_[i - 1], polygon_[i]});
+  }
+
+  void readFace() {
+    readCorners();
+    std::vector<ObjCorner>& object = content_.objects.back().triangles;
     if (polygon_.size() < 3) {
       ++facesTooSmall_;
     } else if (polygon_.size() == 3) {
@@ -172,18 +186,24 @@ private:
 
   void addObjects(Imported& imported) {
     ObjMeshBuilder builder(content_);
-    for (const ObjObject& object : content_.objects) {
-      Mesh mesh = builder.build(object);
+    const auto add = [&](const ObjObject& object, Topology topology) {
+      Mesh mesh = builder.build(object, topology);
       if (mesh.name.empty())
         mesh.name = stemOf(fileName_);
       addShape(imported.scene, std::move(mesh), object.name);
+    };
+    for (const ObjObject& object : content_.objects) {
+      if (!object.triangles.empty())
+        add(object, Topology::triangles);
+      if (!object.lines.empty())
+        add(object, Topology::lines);
     }
     if (builder.partlyNormals > 0)
       imported.warnings.push_back(fmt::format("The normals of {} left out: some corners have none.",
                                               counted(builder.partlyNormals, "object were", "objects were")));
   }
 
-  /// A file without faces is a point cloud.
+  /// A file without faces and lines is a point cloud.
   void addPoints(Scene& scene) {
     Mesh mesh;
     mesh.name = stemOf(fileName_);
@@ -199,12 +219,13 @@ private:
   void addWarnings(std::vector<std::string>& warnings) const {
     if (hasMaterials_)
       warnings.emplace_back("The materials of the OBJ file (mtllib, usemtl) are not carried over.");
-    if (lines_ > 0)
-      warnings.push_back(fmt::format("Lines of the OBJ file are not carried over ({}).",
-                                     counted(lines_, "statement", "statements")));
+    if (linesTooShort_ > 0)
+      warnings.push_back(fmt::format("{} left out: fewer than two corners.",
+                                     counted(linesTooShort_, "line was", "lines were")));
     if (points_ > 0 && !content_.objects.empty())
-      warnings.push_back(fmt::format("Points of the OBJ file, which has faces, are not carried over ({}).",
-                                     counted(points_, "statement", "statements")));
+      warnings.push_back(
+          fmt::format("Points of the OBJ file, which has faces or lines, are not carried over ({}).",
+                      counted(points_, "statement", "statements")));
     if (!others_.empty())
       warnings.push_back(
           fmt::format("Statements of the OBJ file that imgeo does not read: {}.", fmt::join(others_, ", ")));
@@ -221,7 +242,7 @@ private:
   std::vector<Vec3f> ring_;
   std::vector<std::uint32_t> local_;
   bool hasMaterials_ = false;
-  std::size_t lines_ = 0, points_ = 0, facesTooSmall_ = 0, fans_ = 0, colorsClamped_ = 0,
+  std::size_t linesTooShort_ = 0, points_ = 0, facesTooSmall_ = 0, fans_ = 0, colorsClamped_ = 0,
               unusableNormals_ = 0;
   std::set<std::string> others_; ///< some of the keywords that were passed over
 };

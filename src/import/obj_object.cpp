@@ -9,24 +9,30 @@ constexpr std::uint32_t kNone = ObjCorner::kNone;
 }
 
 ObjMeshBuilder::ObjMeshBuilder(const ObjContent& content)
-    : content_(content), localPosition_(content.positions.size(), kNone) {}
+    : content_(content), localPosition_(content.positions.size(), kNone) {
+  std::size_t meshes = 0;
+  for (const ObjObject& object : content.objects)
+    meshes += !object.triangles.empty() + !object.lines.empty();
+  isOnlyMesh_ = meshes == 1;
+}
 
-Mesh ObjMeshBuilder::build(const ObjObject& object) {
+Mesh ObjMeshBuilder::build(const ObjObject& object, Topology topology) {
+  const std::vector<ObjCorner>& corners = topology == Topology::lines ? object.lines : object.triangles;
   Mesh mesh;
   mesh.name = object.name;
-  hasTexCoords_ = std::ranges::any_of(object.corners, [](const ObjCorner& c) { return c.texCoord != kNone; });
-  const auto normals =
-      std::ranges::count_if(object.corners, [](const ObjCorner& c) { return c.normal != kNone; });
-  hasNormals_ = static_cast<std::size_t>(normals) == object.corners.size();
+  mesh.topology = topology;
+  hasTexCoords_ = std::ranges::any_of(corners, [](const ObjCorner& c) { return c.texCoord != kNone; });
+  const auto normals = std::ranges::count_if(corners, [](const ObjCorner& c) { return c.normal != kNone; });
+  hasNormals_ = static_cast<std::size_t>(normals) == corners.size();
   partlyNormals += normals > 0 && !hasNormals_;
   firstWedge_.clear(), nextWedge_.clear(), wedgeKeys_.clear();
 
-  if (content_.objects.size() == 1)
+  if (isOnlyMesh_)
     addAllPositions(mesh);
-  mesh.corners.reserve(object.corners.size());
-  for (const ObjCorner& corner : object.corners)
+  mesh.corners.reserve(corners.size());
+  for (const ObjCorner& corner : corners)
     mesh.corners.push_back(wedge(mesh, corner));
-  for (const ObjCorner& corner : object.corners)
+  for (const ObjCorner& corner : corners)
     localPosition_[corner.position] = kNone;
   return mesh;
 }

@@ -18,7 +18,8 @@ struct ObjCorner {
 
 struct ObjObject {
   std::string name;
-  std::vector<ObjCorner> corners; ///< three a triangle
+  std::vector<ObjCorner> triangles; ///< three corners each
+  std::vector<ObjCorner> lines;     ///< two corners each
 };
 
 struct ObjContent {
@@ -34,11 +35,12 @@ class ObjMeshBuilder {
 public:
   explicit ObjMeshBuilder(const ObjContent& content);
 
-  /// Each combination of position, texture coordinate and normal becomes a wedge.
-  /// A file's only object keeps all positions in the file's order; of several,
-  /// each takes those that it names, in the order of their first use. Normals are
-  /// kept where every corner has one, texture coordinates where any has.
-  Mesh build(const ObjObject& object);
+  /// The triangles or the lines of an object. Each combination of position, texture
+  /// coordinate and normal becomes a wedge. A file's only mesh keeps all positions
+  /// in the file's order; of several, each takes those that it names, in the order
+  /// of their first use. Normals are kept where every corner has one, texture
+  /// coordinates where any has.
+  Mesh build(const ObjObject& object, Topology topology);
 
   std::size_t partlyNormals = 0; ///< objects whose normals were left out: some corners have none
 
@@ -48,7 +50,7 @@ private:
 
   const ObjContent& content_;
   std::vector<std::uint32_t> localPosition_; ///< by the file's; kNone: not in this mesh
-  bool hasTexCoords_ = false, hasNormals_ = false;
+  bool isOnlyMesh_ = false, hasTexCoords_ = false, hasNormals_ = false;
   std::vector<std::uint32_t> firstWedge_, nextWedge_; ///< the wedges of each local position, as a list
   std::vector<ObjCorner> wedgeKeys_;
 };

@@ -101,6 +101,31 @@ TEST(Obj, ReadsVertexColours) {
             (std::vector<Rgba8>{{255, 255, 255, 255}, {255, 128, 0, 255}, {255, 255, 255, 255}}));
 }
 
+TEST(Obj, HasLinesOfManyCornersAsAMeshOfLines) {
+  const Mesh mesh =
+      onlyMesh("v 0 0 0\nv 1 0 0\nv 2 0 0\nvt 0 0\nvt 1 0\nl 3/1 1/2 -2/2\nl 1/1 2/2\n", "m.obj");
+  EXPECT_EQ(mesh.topology, Topology::lines);
+  EXPECT_EQ(mesh.elementCount(), 3u);
+  std::vector<float> x;
+  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner)
+    x.push_back(mesh.cornerPosition(corner).x);
+  EXPECT_EQ(x, (std::vector<float>{2, 0, 0, 1, 0, 1}));
+  EXPECT_EQ(mesh.wedgeCount(), 4u); // (3, 1), (1, 2), (2, 2), (1, 1)
+}
+
+TEST(Obj, HasAShapeOfLinesBesideThatOfTheFacesOfAnObject) {
+  const Imported imported =
+      importBytes(asBytes("o roof\n" + kSquare + "f 1 2 3 4\nl 4 3\no post\nv 9 9 9\nl 1 5\n"), "m.obj");
+  ASSERT_EQ(imported.scene.shapes.size(), 3u);
+  EXPECT_EQ(imported.scene.shapes[0].name, "roof");
+  EXPECT_EQ(imported.scene.shapes[1].name, "roof-2");
+  EXPECT_EQ(imported.scene.shapes[2].name, "post");
+  EXPECT_EQ(imported.scene.meshes[0].topology, Topology::triangles);
+  EXPECT_EQ(imported.scene.meshes[1].topology, Topology::lines);
+  EXPECT_EQ(imported.scene.meshes[1].positions, (std::vector<Vec3f>{{0, 1, 0}, {1, 1, 0}}));
+  EXPECT_TRUE(imported.warnings.empty());
+}
+
 TEST(Obj, WithoutFacesIsAPointCloud) {
   const Mesh mesh = onlyMesh("v 0 0 0\nv 1 0 0\np 1\n", "m.obj");
   EXPECT_EQ(mesh.topology, Topology::points);
@@ -112,11 +137,11 @@ TEST(Obj, SaysWhatIsNotCarriedOver) {
     return importBytes(asBytes(text), "m.obj").warnings;
   };
   EXPECT_TRUE(warningsOf("# a comment\n" + kSquare + "s 1\ng top\nf 1 2 3 4\n").empty());
-  EXPECT_EQ(warningsOf(kSquare + "mtllib a.mtl\nusemtl red\nl 1 2\np 1\np 2\nf 1 2\nf 1 2 3\nparm u 0\n"),
+  EXPECT_EQ(warningsOf(kSquare + "mtllib a.mtl\nusemtl red\nl 1\np 1\np 2\nf 1 2\nf 1 2 3\nparm u 0\n"),
             (std::vector<std::string>{
                 "The materials of the OBJ file (mtllib, usemtl) are not carried over.",
-                "Lines of the OBJ file are not carried over (1 statement).",
-                "Points of the OBJ file, which has faces, are not carried over (2 statements).",
+                "1 line was left out: fewer than two corners.",
+                "Points of the OBJ file, which has faces or lines, are not carried over (2 statements).",
                 "Statements of the OBJ file that imgeo does not read: parm.",
                 "1 face was left out: fewer than three corners."}));
   EXPECT_EQ(warningsOf(kSquare + "vn 0 0 0\nf 1//1 2//1 3//1\n").at(0),
@@ -141,7 +166,7 @@ TEST(Obj, RefusesWithOneSentenceAndALine) {
       {kSquare + "f 1/ 2 3\n", "m.obj:5", "an index expected"},
       {kSquare + "f 1 2 3.5\n", "m.obj:5", "a corner has the form"},
       {kSquare + "f 1 2 99999999999999999999\n", "m.obj:5", "an index expected"},
-      {"g nothing\n", "m.obj", "no triangles and no points"},
+      {"g nothing\n", "m.obj", "no triangles, lines or points"},
   };
   for (const auto& refused : cases) {
     const Error error = errorOf(refused.text, "m.obj");

@@ -40,27 +40,55 @@ Triangles triangulateAll(const PlyContent& content) {
   return result;
 }
 
+/// What wedges have of an attribute that vertices have.
 template <typename T>
-void spread(std::vector<T>& attribute, const std::vector<std::uint32_t>& wedgeVertices) {
-  if (attribute.empty())
-    return;
+std::vector<T> spread(const std::vector<T>& attribute, const std::vector<std::uint32_t>& wedgeVertices) {
   std::vector<T> perWedge;
+  if (attribute.empty())
+    return perWedge;
   perWedge.reserve(wedgeVertices.size());
   for (const std::uint32_t vertex : wedgeVertices)
     perWedge.push_back(attribute[vertex]);
-  attribute = std::move(perWedge);
+  return perWedge;
+}
+
+/// Exporters of point clouds often write an empty `face` element too.
+bool hasFaces(const PlyContent& content) {
+  return !content.indices.empty() || content.facesTooSmall > 0;
+}
+
+/// The edges, and the vertices that they name.
+Mesh edgesOf(const PlyContent& content) {
+  constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
+  Mesh mesh;
+  mesh.topology = Topology::lines;
+  mesh.colorComponents = content.hasAlpha ? 4 : 3;
+  std::vector<std::uint32_t> wedgeOf(content.positions.size(), unseen), vertices;
+  for (const std::uint32_t vertex : content.edges) {
+    if (wedgeOf[vertex] == unseen) {
+      wedgeOf[vertex] = static_cast<std::uint32_t>(vertices.size());
+      mesh.wedgePositions.push_back(wedgeOf[vertex]);
+      vertices.push_back(vertex);
+    }
+    mesh.corners.push_back(wedgeOf[vertex]);
+  }
+  mesh.positions = spread(content.positions, vertices);
+  mesh.normals = spread(content.normals, vertices);
+  mesh.texCoords = spread(content.texCoords, vertices);
+  mesh.colors = spread(content.colors, vertices);
+  return mesh;
 }
 
 /// One wedge a vertex; with texture coordinates per corner, one wedge a corner.
-Mesh meshOf(PlyContent& content, std::size_t& fans) {
+/// The vertices move into it.
+Mesh surfaceOrCloudOf(PlyContent& content, std::size_t& fans) {
   Mesh mesh;
   mesh.normals = std::move(content.normals);
   mesh.texCoords = std::move(content.texCoords);
   mesh.colors = std::move(content.colors);
   mesh.colorComponents = content.hasAlpha ? 4 : 3;
 
-  // Exporters of point clouds often write an empty `face` element too.
-  const bool isCloud = content.indices.empty() && content.facesTooSmall == 0;
+  const bool isCloud = !hasFaces(content);
   mesh.topology = isCloud ? Topology::points : Topology::triangles;
   const bool perCorner = !isCloud && !content.cornerTexCoords.empty();
   if (!content.sizes.empty()) {
@@ -80,8 +108,8 @@ Mesh meshOf(PlyContent& content, std::size_t& fans) {
 
   if (perCorner) {
     mesh.wedgePositions = std::move(content.indices);
-    spread(mesh.normals, mesh.wedgePositions);
-    spread(mesh.colors, mesh.wedgePositions);
+    mesh.normals = spread(mesh.normals, mesh.wedgePositions);
+    mesh.colors = spread(mesh.colors, mesh.wedgePositions);
     mesh.texCoords = std::move(content.cornerTexCoords);
   } else {
     mesh.wedgePositions.resize(content.positions.size());
@@ -120,20 +148,31 @@ bool looksLikePly(ByteSpan bytes) {
 Imported readPly(ByteSpan bytes, const std::string& name) {
   const PlyHeader header = readPlyHeader(bytes, name);
   PlyContent content = readPlyContent(bytes, header, name);
-  if (content.indices.size() > std::numeric_limits<std::uint32_t>::max())
-    throw Error(ErrorKind::limit, name, "the polygons have more corners than 32-bit indices can name");
+  if (std::max(content.indices.size(), content.edges.size()) > std::numeric_limits<std::uint32_t>::max())
+    throw Error(ErrorKind::limit, name,
+                "the polygons or edges have more corners than 32-bit indices can name");
 
   Imported imported;
   imported.format = "PLY";
   std::size_t unusableNormals = 0, fans = 0;
   for (Vec3f& normal : content.normals)
     unusableNormals += !makeUnit(normal);
-  Mesh mesh = meshOf(content, fans);
-  addWarnings(imported.warnings, content, boxOf(mesh));
+  const auto add = [&](Mesh mesh, const char* shapeName) {
+    mesh.name = stemOf(name);
+    addShape(imported.scene, std::move(mesh), shapeName);
+  };
+  Box3d box;
+  for (const Vec3f& position : content.positions)
+    box.add(Vec3d(position));
+  const bool isSurface = hasFaces(content), hasEdges = !content.edges.empty();
+  Mesh edges = hasEdges ? edgesOf(content) : Mesh{};
+  if (isSurface || !hasEdges)
+    add(surfaceOrCloudOf(content, fans), "");
+  if (hasEdges)
+    add(std::move(edges), isSurface ? "edges" : "");
+  addWarnings(imported.warnings, content, box);
   warnOfNormals(imported.warnings, unusableNormals);
   warnOfFans(imported.warnings, fans);
-  mesh.name = stemOf(name);
-  addShape(imported.scene, std::move(mesh), "");
   return imported;
 }
 

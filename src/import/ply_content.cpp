@@ -5,6 +5,7 @@
 #include "import/ply_vertices.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace imgeo {
@@ -29,6 +30,34 @@ void skipElement(PlyRecords<Cursor>& records, const PlyElement& element, PlyCont
   });
 }
 
+/// Two vertices each, as Blender, MeshLab and Open3D write them.
+bool isEdge(const PlyElement& element) {
+  const auto isIndex = [&](const char* name) {
+    const PlyProperty* property = element.find(name);
+    return property && !property->isList() && isInteger(property->type);
+  };
+  return element.name == "edge" && isIndex("vertex1") && isIndex("vertex2");
+}
+
+template <typename Cursor>
+void readEdges(PlyRecords<Cursor>& records, const PlyElement& element, std::uint64_t vertexCount,
+               PlyContent& content) {
+  records.checkCount(element);
+  content.edges.reserve(2 * element.count);
+  for (const PlyProperty& property : element.properties)
+    if (property.name != "vertex1" && property.name != "vertex2")
+      content.noteIgnored(element, property);
+  records.forEach(element, [&] {
+    std::array<std::uint32_t, 2> edge{};
+    for (const PlyProperty& property : element.properties)
+      if (property.name == "vertex1" || property.name == "vertex2")
+        edge[property.name == "vertex2"] = records.vertexNumber(property.type, vertexCount);
+      else
+        records.skip(property);
+    content.edges.insert(content.edges.end(), edge.begin(), edge.end());
+  });
+}
+
 template <typename Cursor> PlyContent readContent(Cursor cursor, const PlyHeader& header) {
   PlyContent content;
   PlyRecords<Cursor> records(cursor);
@@ -47,6 +76,8 @@ template <typename Cursor> PlyContent readContent(Cursor cursor, const PlyHeader
       faces.readFaces(element);
     else if (element.name == "tristrips")
       faces.readStrips(element);
+    else if (isEdge(element))
+      readEdges(records, element, vertices->count, content);
     else
       skipElement(records, element, content);
   }

@@ -19,8 +19,9 @@ struct PlyContent {
   std::vector<std::uint32_t> indices; ///< of all polygons, one after the other; all are vertices
   std::vector<std::uint32_t> sizes;   ///< corners of each polygon; empty while all are triangles
   std::vector<Vec2f> cornerTexCoords; ///< per index, finite; or empty
+  std::vector<std::uint32_t> edges;   ///< two vertices each
 
-  std::vector<std::string> ignored; ///< "'quality' of 'vertex'", "element 'edge'": in the file's order
+  std::vector<std::string> ignored; ///< "'quality' of 'vertex'", "element 'camera'": in the file's order
   std::uint64_t facesTooSmall = 0;  ///< left out: fewer than three corners
   std::uint64_t colorsClamped = 0;  ///< channels outside their type's range
   std::uint64_t trailingBytes = 0;  ///< behind the last element

@@ -80,11 +80,7 @@ private:
     return indices->type;
   }
 
-  void checkIndex(double index) const {
-    if (!(index >= 0 && index < static_cast<double>(vertexCount_)))
-      records_.fail(ErrorKind::malformed,
-                    fmt::format("vertex {} is named, but there are only {}", index, vertexCount_));
-  }
+  void checkIndex(double index) const { records_.checkVertexNumber(index, vertexCount_); }
 
   /// The corners added: none for what is no polygon.
   std::size_t addPolygon(std::span<const double> polygon) {

@@ -44,6 +44,18 @@ public:
 
   double scalar(PlyType type) { return cursor_.scalar(type); }
 
+  /// A vertex by its number, which must be below `vertexCount`, at most 2^32.
+  std::uint32_t vertexNumber(PlyType type, std::uint64_t vertexCount) {
+    const double number = scalar(type);
+    checkVertexNumber(number, vertexCount);
+    return static_cast<std::uint32_t>(number);
+  }
+  void checkVertexNumber(double number, std::uint64_t vertexCount) const {
+    if (!(number >= 0 && number < static_cast<double>(vertexCount)))
+      fail(ErrorKind::malformed,
+           fmt::format("vertex {} is named, but there are only {}", number, vertexCount));
+  }
+
   /// The values of a list, until the next list is read.
   std::span<const double> list(const PlyProperty& property) {
     scratch_.resize(listCount(property));

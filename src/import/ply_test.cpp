@@ -10,12 +10,37 @@ namespace {
 
 const char* const kEncodings[] = {"ascii", "binary_little_endian", "binary_big_endian"};
 
+template <typename T>
+std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uint32_t>& from) {
+  std::vector<T> result;
+  for (const std::uint32_t i : from)
+    if (!values.empty())
+      result.push_back(values[i]);
+  return result;
+}
+
 /// What the writer above makes of a mesh: a position for every wedge.
 Mesh withVertexPerWedge(Mesh mesh) {
-  std::vector<Vec3f> positions;
-  for (const std::uint32_t position : mesh.wedgePositions)
-    positions.push_back(mesh.positions[position]);
-  mesh.positions = std::move(positions);
+  mesh.positions = gathered(mesh.positions, mesh.wedgePositions);
+  mesh.wedgePositions.clear();
+  addPlainWedges(mesh);
+  return mesh;
+}
+
+/// The mesh's wedges in the order of their first use, without those that are not used.
+Mesh inOrderOfUse(Mesh mesh) {
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t& corner : mesh.corners) {
+    const auto found = std::ranges::find(order, corner);
+    const auto place = static_cast<std::uint32_t>(found - order.begin());
+    if (found == order.end())
+      order.push_back(corner);
+    corner = place;
+  }
+  mesh.positions = gathered(mesh.positions, gathered(mesh.wedgePositions, order));
+  mesh.normals = gathered(mesh.normals, order);
+  mesh.texCoords = gathered(mesh.texCoords, order);
+  mesh.colors = gathered(mesh.colors, order);
   mesh.wedgePositions.clear();
   addPlainWedges(mesh);
   return mesh;
@@ -36,8 +61,33 @@ TEST(Ply, ComesBackAsItWasWrittenInEveryEncoding) {
     for (const char* encoding : kEncodings) {
       SCOPED_TRACE(fmt::format("seed {}, {}", seed, encoding));
       const Mesh mesh = withVertexPerWedge(randomMesh(seed));
-      expectEqual(onlyMesh(plyBytes(mesh, {.encoding = encoding}), "m.ply"), mesh);
+      expectEqual(onlyMesh(plyBytes(mesh, {.encoding = encoding}), "m.ply"),
+                  mesh.topology == Topology::lines ? inOrderOfUse(mesh) : mesh);
     }
+}
+
+TEST(Ply, HasItsEdgesBesideItsFacesAsAShapeOfLines) {
+  const Mesh mesh = withVertexPerWedge(torus(4, 5));
+  Bytes bytes = plyBytes(mesh, {.encoding = "binary_little_endian"});
+  const std::string before = "end_header\n", after = "element edge 2\nproperty int vertex2\nproperty uchar "
+                                                     "crease\nproperty int vertex1\nend_header\n";
+  const auto at = bytes.begin() + static_cast<std::ptrdiff_t>(asText(bytes).find(before));
+  bytes.insert(bytes.erase(at, at + static_cast<std::ptrdiff_t>(before.size())), after.begin(), after.end());
+  for (const std::uint32_t to : {7u, 9u}) {
+    appendLittle(bytes, to);
+    bytes.push_back(255);
+    appendLittle(bytes, std::uint32_t{3});
+  }
+  const Imported imported = importBytes(bytes, "m.ply");
+  ASSERT_EQ(imported.scene.shapes.size(), 2u);
+  EXPECT_EQ(imported.scene.shapes[1].name, "edges");
+  expectEqual(imported.scene.meshes[0], mesh);
+  Mesh edges = mesh;
+  edges.topology = Topology::lines;
+  edges.corners = {3, 7, 3, 9};
+  expectEqual(imported.scene.meshes[1], inOrderOfUse(edges));
+  EXPECT_EQ(imported.warnings,
+            std::vector<std::string>{"Not carried over from the PLY file: 'crease' of 'edge'."});
 }
 
 TEST(Ply, IsReadUnderEveryNameThatProgramsUse) {
@@ -186,7 +236,7 @@ TEST(Ply, PassesOverWhatItDoesNotKnowAndSaysSo) {
       "element vertex 3\nproperty list uchar int near\n" +
       kXyz + "property float quality\nelement face 1\n" + kFaces +
       "property uchar flags\nelement nothing 0\nproperty int n\nelement edge 1\nproperty int "
-      "vertex1\nproperty int vertex2\n";
+      "from\nproperty int to\n";
   for (const char* encoding : kEncodings) {
     const PlyStyle style{.encoding = encoding};
     PlyValues values(style);
@@ -283,8 +333,10 @@ TEST(Ply, RefusesWithOneSentenceAndAPlace) {
       {"an unknown keyword", "elements vertex 1\n", "", ErrorKind::malformed, "m.ply:4", "'elements'"},
       {"texture coordinates for two of three", vertex + face + "property list uchar float texcoord\n",
        "0 0 0\n3 0 0 0 4 0 0 1 1\n", ErrorKind::malformed, "m.ply:13", "3 corners"},
+      {"an edge to nowhere", vertex + "element edge 1\nproperty int vertex1\nproperty int vertex2\n",
+       "0 0 0\n0 1\n", ErrorKind::malformed, "m.ply:13", "vertex 1"},
       {"nothing to see", "element vertex 0\n" + kXyz, "", ErrorKind::malformed, "m.ply",
-       "no triangles and no points"},
+       "no triangles, lines or points"},
       {"only edges of faces", vertex + face, "0 0 0\n2 0 0\n", ErrorKind::malformed, "m.ply", "no triangles"},
   };
   for (const Refused& refused : cases) {

@@ -101,6 +101,9 @@ inline Bytes plyBytes(const Mesh& mesh, const PlyStyle& style) {
   if (mesh.topology == Topology::triangles)
     elements += fmt::format("element face {}\nproperty list {} {} {}\n", mesh.elementCount(), style.count,
                             style.index, style.listName);
+  if (mesh.topology == Topology::lines)
+    elements += fmt::format("element edge {}\n", mesh.elementCount()) + property(style.index, "vertex1") +
+                property(style.index, "vertex2");
 
   PlyValues values(style);
   values.append(plyHeader(style, elements));
@@ -126,6 +129,11 @@ inline Bytes plyBytes(const Mesh& mesh, const PlyStyle& style) {
       values.add(style.count, 3);
       for (std::size_t k = 0; k < 3; ++k)
         values.add(style.index, mesh.corners[corner + k]);
+      values.endRecord();
+    }
+  if (mesh.topology == Topology::lines)
+    for (std::size_t corner = 0; corner < mesh.corners.size(); corner += 2) {
+      values.add(style.index, mesh.corners[corner]), values.add(style.index, mesh.corners[corner + 1]);
       values.endRecord();
     }
   return values.bytes;

@@ -2,8 +2,10 @@
 
 #include "base/narrow.h"
 #include "prepare/fan_order.h"
+#include "prepare/line_trails.h"
 #include "prepare/strips.h"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 #include <numeric>
@@ -34,8 +36,8 @@ IndexedPatch verticesOf(const Patch& patch, const std::vector<std::uint32_t>& or
   return result;
 }
 
-/// One draw over a sequence of wedges; vertices are numbered by first use.
-IndexedPatch drawWedges(const Patch& patch, Primitive primitive, std::vector<std::uint32_t> wedges) {
+/// Draws over a sequence of wedges; vertices are numbered by first use.
+IndexedPatch drawWedges(const Patch& patch, std::vector<Draw> draws, std::vector<std::uint32_t> wedges) {
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> vertexOf(patch.wedgeCount(), none), order;
   order.reserve(patch.wedgeCount());
@@ -47,9 +49,15 @@ IndexedPatch drawWedges(const Patch& patch, Primitive primitive, std::vector<std
     wedge = vertexOf[wedge];
   }
   IndexedPatch result = verticesOf(patch, order);
-  result.draws = {{primitive, narrow<std::uint32_t>(wedges.size())}};
+  result.draws = std::move(draws);
   result.indices = std::move(wedges);
   return result;
+}
+
+/// All of them in one draw.
+IndexedPatch drawWedges(const Patch& patch, Primitive primitive, std::vector<std::uint32_t> wedges) {
+  const auto count = narrow<std::uint32_t>(wedges.size());
+  return drawWedges(patch, std::vector<Draw>{{primitive, count}}, std::move(wedges));
 }
 
 /// The corners' wedges, triangles in fan order. The fans are those of positions,
@@ -76,6 +84,50 @@ bool beforeInMortonOrder(Vec3u a, Vec3u b) {
   return a[deciding] < b[deciding];
 }
 
+/// Fewer lines than this are no strip of their own: a draw takes some twenty bytes
+/// of the document and a call each frame, and saves less than an index a line.
+constexpr std::size_t fewestStripLines = 64;
+
+/// Trails of at least so many lines as strips, all others as separate lines behind them.
+IndexedPatch drawTrails(const Patch& patch, std::size_t fewestInStrip) {
+  assert(patch.topology == Topology::lines);
+  const LineTrails trails = findLineTrails(patch.corners, patch.wedgeCount());
+  std::vector<Draw> draws;
+  std::vector<std::uint32_t> wedges, separate;
+  for (std::size_t i = 0; i < trails.count(); ++i) {
+    const std::span<const std::uint32_t> trail = trails.trail(i);
+    if (trail.size() > fewestInStrip) {
+      draws.push_back({Primitive::lineStrip, narrow<std::uint32_t>(trail.size())});
+      wedges.insert(wedges.end(), trail.begin(), trail.end());
+      continue;
+    }
+    for (std::size_t n = 1; n < trail.size(); ++n)
+      separate.insert(separate.end(), {trail[n - 1], trail[n]});
+  }
+  if (!separate.empty())
+    draws.push_back({Primitive::lines, narrow<std::uint32_t>(separate.size())});
+  wedges.insert(wedges.end(), separate.begin(), separate.end());
+  return drawWedges(patch, std::move(draws), std::move(wedges));
+}
+
+/// What the draws of a patch produce: calls visit(primitive, places) with the
+/// places in the sequence of drawn vertices that each draw begins and ends at.
+template <typename Visit> void visitDraws(const IndexedPatch& patch, Visit visit) {
+  std::size_t first = 0;
+  for (const Draw& draw : patch.draws) {
+    visit(draw.primitive, first, first + draw.count);
+    first += draw.count;
+  }
+}
+
+std::uint32_t vertexAt(const IndexedPatch& patch, std::size_t place) {
+  return patch.indices.empty() ? static_cast<std::uint32_t>(place) : patch.indices[place];
+}
+
+bool differ(const IndexedPatch& patch, std::uint32_t a, std::uint32_t b) {
+  return patch.indices.empty() ? patch.positions[a] != patch.positions[b] : a != b;
+}
+
 } // namespace
 
 IndexedPatch asTriangles(const Patch& patch) {
@@ -86,6 +138,14 @@ IndexedPatch asTriangles(const Patch& patch) {
 IndexedPatch asStrips(const Patch& patch) {
   assert(patch.topology == Topology::triangles);
   return drawWedges(patch, Primitive::triangleStrip, stitchedStrip(inFanOrder(patch), patch.wedgeCount()));
+}
+
+IndexedPatch asLines(const Patch& patch) {
+  return drawTrails(patch, std::numeric_limits<std::size_t>::max());
+}
+
+IndexedPatch asLineStrips(const Patch& patch) {
+  return drawTrails(patch, fewestStripLines);
 }
 
 IndexedPatch asPoints(const Patch& patch) {
@@ -113,32 +173,55 @@ IndexedPatch withoutIndices(const IndexedPatch& patch) {
   return result;
 }
 
+ElementCounts elementsOf(const Draw& draw) {
+  const auto behind = [&](std::uint32_t first) { return std::max(draw.count, first) - first; };
+  switch (draw.primitive) {
+  case Primitive::points:
+    return {.points = draw.count};
+  case Primitive::lines:
+    return {.lines = draw.count / 2};
+  case Primitive::lineStrip:
+    return {.lines = behind(1)};
+  case Primitive::triangles:
+    return {.triangles = draw.count / 3};
+  case Primitive::triangleStrip:
+    return {.triangles = behind(2)};
+  }
+  return {};
+}
+
 std::vector<Vec3u> trianglesOf(const IndexedPatch& patch) {
   std::vector<Vec3u> triangles;
-  const auto index = [&](std::size_t i) {
-    return patch.indices.empty() ? static_cast<std::uint32_t>(i) : patch.indices[i];
-  };
-  const auto differ = [&](std::uint32_t a, std::uint32_t b) {
-    return patch.indices.empty() ? patch.positions[a] != patch.positions[b] : a != b;
-  };
-  const auto add = [&](Vec3u t) {
-    if (differ(t.x, t.y) && differ(t.y, t.z) && differ(t.z, t.x))
+  const auto add = [&](std::size_t i, std::size_t j, std::size_t k) {
+    const Vec3u t{vertexAt(patch, i), vertexAt(patch, j), vertexAt(patch, k)};
+    if (differ(patch, t.x, t.y) && differ(patch, t.y, t.z) && differ(patch, t.z, t.x))
       triangles.push_back(t);
   };
-  std::size_t first = 0;
-  for (const Draw& draw : patch.draws) {
-    const std::size_t end = first + draw.count;
-    if (draw.primitive == Primitive::triangles)
+  visitDraws(patch, [&](Primitive primitive, std::size_t first, std::size_t end) {
+    if (primitive == Primitive::triangles)
       for (std::size_t i = first; i + 3 <= end; i += 3)
-        add({index(i), index(i + 1), index(i + 2)});
-    if (draw.primitive == Primitive::triangleStrip)
+        add(i, i + 1, i + 2);
+    if (primitive == Primitive::triangleStrip)
       for (std::size_t i = first; i + 3 <= end; ++i) {
         const std::size_t odd = (i - first) % 2; // every second triangle of a strip is mirrored
-        add({index(i + odd), index(i + 1 - odd), index(i + 2)});
+        add(i + odd, i + 1 - odd, i + 2);
       }
-    first = end;
-  }
+  });
   return triangles;
+}
+
+std::vector<Vec2<std::uint32_t>> linesOf(const IndexedPatch& patch) {
+  std::vector<Vec2<std::uint32_t>> lines;
+  visitDraws(patch, [&](Primitive primitive, std::size_t first, std::size_t end) {
+    if (primitive != Primitive::lines && primitive != Primitive::lineStrip)
+      return;
+    for (std::size_t i = first; i + 2 <= end; i += primitive == Primitive::lines ? 2 : 1) {
+      const Vec2<std::uint32_t> line{vertexAt(patch, i), vertexAt(patch, i + 1)};
+      if (differ(patch, line.x, line.y))
+        lines.push_back(line);
+    }
+  });
+  return lines;
 }
 
 } // namespace imgeo

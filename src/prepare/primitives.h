@@ -9,7 +9,7 @@
 
 namespace imgeo {
 
-enum class Primitive : std::uint8_t { points, lines, triangles, triangleStrip };
+enum class Primitive : std::uint8_t { points, lines, lineStrip, triangles, triangleStrip };
 
 /// `count` indices drawn as one kind of primitive, following the previous draw's.
 struct Draw {
@@ -42,6 +42,14 @@ IndexedPatch asTriangles(const Patch& patch);
 /// twenty microseconds a triangle.
 IndexedPatch asStrips(const Patch& patch);
 
+/// Indexed lines, one behind the other along trails (prepare/line_trails.h), each
+/// between the wedges it has in the patch, in either direction.
+IndexedPatch asLines(const Patch& patch);
+
+/// The same as a strip for each long trail, then the lines that are left: a draw
+/// of its own costs more than a short strip saves.
+IndexedPatch asLineStrips(const Patch& patch);
+
 /// Every wedge as a point, in Morton order, without indices; for point clouds
 /// and for meshes shown as points.
 IndexedPatch asPoints(const Patch& patch);
@@ -49,9 +57,17 @@ IndexedPatch asPoints(const Patch& patch);
 /// The same draws over vertices that repeat instead of being named by indices.
 IndexedPatch withoutIndices(const IndexedPatch& patch);
 
+/// How many elements a draw is of; those of a triangle strip with the degenerate
+/// ones that join its parts.
+ElementCounts elementsOf(const Draw& draw);
+
 /// The triangles that the draws of a patch produce, as vertex index triples in
 /// their drawn orientation; degenerate ones (two equal indices, or without
 /// indices two vertices at one place) left out.
 std::vector<Vec3u> trianglesOf(const IndexedPatch& patch);
+
+/// The lines that the draws of a patch produce, as pairs of vertex indices;
+/// degenerate ones left out likewise.
+std::vector<Vec2<std::uint32_t>> linesOf(const IndexedPatch& patch);
 
 } // namespace imgeo

@@ -185,6 +185,77 @@ TEST(Strips, TakeFewerIndicesThanTriangles) {
   }
 }
 
+using Line = std::array<Corner, 2>;
+
+Line turned(Line line) {
+  return std::min(line, Line{line[1], line[0]});
+}
+
+std::vector<Line> linesIn(const Patch& patch) {
+  std::vector<Line> result;
+  for (std::size_t i = 0; i < patch.corners.size(); i += 2) {
+    const std::uint32_t a = patch.corners[i], b = patch.corners[i + 1];
+    if (a != b)
+      result.push_back(turned(Line{cornerOf(patch, a, patch.positions[patch.wedgePositions[a]]),
+                                   cornerOf(patch, b, patch.positions[patch.wedgePositions[b]])}));
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<Line> linesIn(const IndexedPatch& patch) {
+  std::vector<Line> result;
+  for (const Vec2<std::uint32_t>& line : linesOf(patch))
+    result.push_back(turned(Line{cornerOf(patch, line.x, patch.positions[line.x]),
+                                 cornerOf(patch, line.y, patch.positions[line.y])}));
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+TEST(Lines, AreThePatchsLinesWithAndWithoutStripsAndIndices) {
+  for (std::uint32_t seed = 0; seed < 300; ++seed) {
+    Mesh mesh = testing::polylines(1 + seed % 40, seed);
+    for (std::uint32_t& corner : mesh.corners)
+      if (seed % 3 == 0 && corner % 5 == 0) { // positions of several wedges
+        mesh.wedgePositions.push_back(mesh.wedgePositions[corner]);
+        corner = static_cast<std::uint32_t>(mesh.wedgeCount() - 1);
+      }
+    if (seed % 2)
+      for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
+        mesh.texCoords.push_back({static_cast<float>(wedge), 0});
+    const Patch patch = patchOf(mesh);
+    std::vector<Line> expected = linesIn(patch), withLength = expected;
+    std::erase_if(withLength,
+                  [](const Line& line) { return std::equal(&line[0][0], &line[0][3], &line[1][0]); });
+    for (const IndexedPatch& result : {asLines(patch), asLineStrips(patch)}) {
+      expectWhole(result);
+      expectNumberedByFirstUse(result);
+      EXPECT_TRUE(linesIn(result) == expected) << seed;
+      EXPECT_TRUE(linesIn(withoutIndices(result)) == withLength) << seed;
+    }
+  }
+}
+
+TEST(LineStrips, TakeFewerIndicesThanLinesAndAreFew) {
+  Mesh mesh = testing::polylines(0, 1);
+  mesh.corners.clear(), mesh.positions.clear(), mesh.wedgePositions.clear();
+  for (std::uint32_t i = 0; i < 10000; ++i) { // one long line, and many of two vertices
+    mesh.positions.push_back({static_cast<float>(i), 0, 0});
+    if (i % 10000 > 0 && (i < 5000 || i % 2 == 1))
+      mesh.corners.insert(mesh.corners.end(), {i - 1, i});
+  }
+  testing::addPlainWedges(mesh);
+  const Patch patch = patchOf(mesh);
+  const IndexedPatch strips = asLineStrips(patch);
+  EXPECT_EQ(asLines(patch).indices.size(), 2 * patch.elementCount());
+  EXPECT_EQ(strips.indices.size(), 5000 + 5000);
+  EXPECT_EQ(strips.draws, (std::vector<Draw>{{Primitive::lineStrip, 5000}, {Primitive::lines, 5000}}));
+  std::size_t drawn = 0;
+  for (const Draw& draw : strips.draws)
+    drawn += elementsOf(draw).lines;
+  EXPECT_EQ(drawn, patch.elementCount());
+}
+
 TEST(Points, AreEveryWedgeOnce) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     const Patch patch = patchOf(testing::randomMesh(seed));

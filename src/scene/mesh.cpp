@@ -4,9 +4,22 @@
 
 namespace imgeo {
 
+const char* nameOf(Topology topology) {
+  constexpr const char* names[] = {"points", "lines", "triangles"};
+  return names[cornersPerElement(topology) - 1];
+}
+
+ElementCounts& ElementCounts::operator+=(const ElementCounts& other) {
+  triangles += other.triangles;
+  lines += other.lines;
+  points += other.points;
+  return *this;
+}
+
 Box3d boxOf(const Mesh& mesh) {
   Box3d box;
-  for (const Vec3f& position : mesh.positions) box.add(Vec3d(position));
+  for (const Vec3f& position : mesh.positions)
+    box.add(Vec3d(position));
   return box;
 }
 
@@ -14,9 +27,7 @@ bool isConsistent(const Mesh& mesh) {
   const auto emptyOrOnePerWedge = [&](const auto& attribute) {
     return attribute.empty() || attribute.size() == mesh.wedgeCount();
   };
-  const auto below = [](std::size_t bound) {
-    return [bound](std::uint32_t index) { return index < bound; };
-  };
+  const auto below = [](std::size_t bound) { return [bound](std::uint32_t index) { return index < bound; }; };
   return emptyOrOnePerWedge(mesh.normals) && emptyOrOnePerWedge(mesh.texCoords) &&
          emptyOrOnePerWedge(mesh.colors) && mesh.corners.size() % cornersPerElement(mesh.topology) == 0 &&
          std::ranges::all_of(mesh.wedgePositions, below(mesh.positions.size())) &&

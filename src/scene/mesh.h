@@ -23,8 +23,26 @@ inline constexpr std::uint32_t cornersPerElement(Topology topology) {
   return static_cast<std::uint32_t>(topology);
 }
 
+inline constexpr Topology allTopologies[] = {Topology::triangles, Topology::lines, Topology::points};
+
+/// "points", "lines", "triangles".
+const char* nameOf(Topology topology);
+
+/// How many elements there are of each kind.
+struct ElementCounts {
+  std::size_t triangles = 0, lines = 0, points = 0;
+
+  std::size_t& of(Topology topology) {
+    return topology == Topology::triangles ? triangles : topology == Topology::lines ? lines : points;
+  }
+  std::size_t of(Topology topology) const { return ElementCounts(*this).of(topology); }
+  std::size_t sum() const { return triangles + lines + points; }
+  ElementCounts& operator+=(const ElementCounts& other);
+  friend bool operator==(const ElementCounts&, const ElementCounts&) = default;
+};
+
 struct Mesh {
-  std::string name;                          ///< of the source's node or file; may be empty
+  std::string name; ///< of the source's node or file; may be empty
   Topology topology = Topology::triangles;
   std::vector<Vec3f> positions;              ///< in the source's units, finite
   std::vector<std::uint32_t> wedgePositions; ///< wedge -> position

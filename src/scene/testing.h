@@ -190,6 +190,32 @@ inline Mesh pointCloud(std::uint32_t count, std::uint32_t seed) {
   return mesh;
 }
 
+/// Lines of random length between random points, some of them closed, some that
+/// meet in a point of another, and one that goes nowhere.
+inline Mesh polylines(std::uint32_t count, std::uint32_t seed) {
+  Random random(seed);
+  Mesh mesh;
+  mesh.name = "polylines";
+  mesh.topology = Topology::lines;
+  const auto addLine = [&](std::uint32_t a, std::uint32_t b) {
+    mesh.corners.insert(mesh.corners.end(), {a, b});
+  };
+  for (std::uint32_t line = 0; line < count; ++line) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const std::uint32_t length = 1 + random.below(random.once(8) ? 200 : 12);
+    for (std::uint32_t i = 0; i <= length; ++i) {
+      mesh.positions.push_back(random.point());
+      if (i > 0)
+        addLine(first + i - 1, first + i);
+    }
+    if (random.once(3))
+      addLine(first + length, random.once(2) ? first : random.below(first + 1));
+  }
+  addLine(0, 0);
+  addPlainWedges(mesh);
+  return mesh;
+}
+
 /// Any of the above, at random size and place, with or without each attribute,
 /// with creases and seams (positions that have several wedges), degenerate and
 /// duplicate triangles. Always consistent and finite, never without elements.
@@ -197,7 +223,7 @@ inline Mesh randomMesh(std::uint32_t seed) {
   Random random(seed);
   Mesh mesh;
   // Drawn one by one: the order in which arguments are evaluated is not the standard's.
-  const std::uint32_t kind = random.below(6), i = random.below(20), j = random.below(300),
+  const std::uint32_t kind = random.below(7), i = random.below(20), j = random.below(300),
                       inner = random.bits();
   switch (kind) {
   case 0:
@@ -218,6 +244,9 @@ inline Mesh randomMesh(std::uint32_t seed) {
   case 5:
     mesh = pointCloud(1 + j, inner);
     break;
+  case 6:
+    mesh = polylines(1 + i, inner);
+    break;
   }
   const float scale = std::exp2(static_cast<float>(random.below(21)) - 10);
   const Vec3f place = random.once(2) ? Vec3f{} : random.point() * (10 * scale);
@@ -233,6 +262,8 @@ inline Mesh randomMesh(std::uint32_t seed) {
       else
         addTriangle(mesh, a, b, b); // degenerate
     }
+  }
+  if (mesh.topology != Topology::points) {
     // A crease or seam: some corners get a wedge of their own at the same position.
     if (random.once(2))
       for (std::uint32_t& corner : mesh.corners)

@@ -241,10 +241,10 @@ TEST_F(AoptSite, CanBeInspectedAndExported) {
   readBack("<BinaryGeometry " + boxFields() + " " + draws() +
            " index='i.bin' coord='c.bin' lit='false'></BinaryGeometry>");
   const SiteInfo info = inspect(directory.path());
-  EXPECT_EQ(info.triangles, mesh.elementCount());
+  EXPECT_EQ(info.elements.triangles, mesh.elementCount());
   EXPECT_EQ(info.containerBytes, index.size() + coords.size());
   const ExportReport report = exportSite(directory.path(), directory.path() / "out.ply");
-  EXPECT_EQ(report.triangles, mesh.elementCount());
+  EXPECT_EQ(report.elements.triangles, mesh.elementCount());
   EXPECT_EQ(report.vertices, mesh.positions.size()); // without attributes seams close
   EXPECT_EQ(report.bytes, std::filesystem::file_size(directory.path() / "out.ply"));
 }

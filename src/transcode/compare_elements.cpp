@@ -11,7 +11,7 @@ namespace imgeo {
 namespace {
 
 /// The lattice points of an element's corners, turned so that equal elements
-/// have equal places: the least of the three rotations.
+/// have equal places: the least of its rotations, which for a line are its directions.
 struct Place {
   std::array<Vec3u, 3> points;
   std::uint32_t element = 0;
@@ -32,15 +32,15 @@ std::vector<Place> placesOf(ElementList& list) {
   for (std::uint32_t i = 0; i < places.size(); ++i) {
     auto& corners = list.elements[i];
     Place least;
-    int turns = 0;
-    for (int turn = 0; turn < 3; ++turn) {
+    std::uint32_t turns = 0;
+    for (std::uint32_t turn = 0; turn < list.cornerCount; ++turn) {
       Place place{{}, i};
-      for (std::size_t c = 0; c < 3; ++c)
-        place.points[c] = list.positions[corners[(c + std::size_t(turn)) % 3]];
+      for (std::uint32_t c = 0; c < list.cornerCount; ++c)
+        place.points[c] = list.positions[corners[(c + turn) % list.cornerCount]];
       if (turn == 0 || less(place, least))
         least = place, turns = turn;
     }
-    std::ranges::rotate(corners, corners.begin() + turns);
+    std::rotate(corners.begin(), corners.begin() + turns, corners.begin() + list.cornerCount);
     places[i] = least;
   }
   std::ranges::sort(places, [](const Place& a, const Place& b) {
@@ -71,8 +71,8 @@ public:
 
   /// Measures the elements at one place, in both directions.
   void match(std::span<const Place> inputs, std::span<const Place> sites, ElementDifference& worst) const {
-    const bool collapsed = inputs.front().points[0] == inputs.front().points[2];
-    const std::size_t turns = input_.cornerCount == 3 && collapsed ? 3 : 1;
+    const bool collapsed = inputs.front().points[0] == inputs.front().points[input_.cornerCount - 1];
+    const std::size_t turns = collapsed ? input_.cornerCount : 1;
     if (inputs.size() == 1 && sites.size() == 1) {
       note(nearest(inputs.front().element, sorted(site_, sites, 1), site_, input_, turns), worst);
       return;
@@ -95,7 +95,7 @@ private:
   };
 
   double key(const ElementList& list, std::uint32_t element, std::uint32_t turn) const {
-    const std::uint32_t vertex = list.elements[element][turn % 3];
+    const std::uint32_t vertex = list.elements[element][turn];
     if (normals_)
       return list.normals[vertex].x * (180 / std::numbers::pi) / bounds_.normalDegrees;
     if (texCoords_)
@@ -145,8 +145,8 @@ private:
                    std::uint32_t elementB, std::uint32_t turnB) const {
     Distance distance;
     for (std::uint32_t corner = 0; corner < a.cornerCount; ++corner) {
-      const std::uint32_t va = a.elements[elementA][(corner + turnA) % 3];
-      const std::uint32_t vb = b.elements[elementB][(corner + turnB) % 3];
+      const std::uint32_t va = a.elements[elementA][(corner + turnA) % a.cornerCount];
+      const std::uint32_t vb = b.elements[elementB][(corner + turnB) % b.cornerCount];
       if (normals_)
         distance.normalDegrees = std::max(distance.normalDegrees, angleDegrees(a.normals[va], b.normals[vb]));
       if (texCoords_) {

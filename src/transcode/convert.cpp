@@ -99,8 +99,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, Geometry
     std::size_t& geometry = geometryOf[shape.mesh];
     if (geometry == notEncoded) {
       EncodedMesh encoded = encodeMesh(std::move(scene.meshes[shape.mesh]), options, files, done);
-      report.triangles += encoded.triangles;
-      report.points += encoded.points;
+      report.elements += encoded.elements;
       report.vertices += encoded.vertices;
       report.patches += encoded.geometry.patches.size();
       geometry = document.geometries.size();
@@ -110,10 +109,10 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, Geometry
     whole.add(document.geometries[geometry].box.max);
     if (shape.material == Material{})
       shape.material = stone;
-    // X3D does not light points: it shows their own or the emissive colour.
-    const bool onlyPoints =
-        document.geometries[geometry].patches.front().draws.front().primitive == Primitive::points;
-    if (onlyPoints && shape.material.emissiveColor == Vec3f{})
+    // X3D does not light points and lines: it shows their own or the emissive colour.
+    const Primitive primitive = document.geometries[geometry].patches.front().draws.front().primitive;
+    const bool isSurface = primitive == Primitive::triangles || primitive == Primitive::triangleStrip;
+    if (!isSurface && shape.material.emissiveColor == Vec3f{})
       shape.material.emissiveColor = shape.material.diffuseColor;
     shape.mesh = geometry;
     document.shapes.push_back(std::move(shape));
@@ -210,8 +209,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
                       options.primitives,
                       report.normalsComputed,
                       options.normalWeighting,
-                      report.triangles,
-                      report.points};
+                      report.elements};
   writeFile(site.path() / stylesheetName, asBytes(pageStylesheet()));
   writeFile(site.path() / markerName, asBytes(writeMarker(marker)));
   if (options.target == Target::x3dom) {

@@ -1,6 +1,7 @@
 #include "transcode/element_list.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace imgeo {
 
@@ -12,46 +13,48 @@ Rgba8 opaque(Rgba8 color, std::uint32_t components) {
   return color;
 }
 
-void addPoint(ElementList& list, std::uint32_t vertex) {
-  list.elements.push_back({vertex, vertex, vertex});
+/// Adds an element unless two of its corners are one.
+void addElement(ElementList& list, std::array<std::uint32_t, 3> corners, ElementKind kind) {
+  const auto differ = [&](std::size_t a, std::size_t b) {
+    return kind.byPlace ? list.positions[corners[a]] != list.positions[corners[b]] : corners[a] != corners[b];
+  };
+  const bool isWhole = list.cornerCount == 1 || (list.cornerCount == 2 && differ(0, 1)) ||
+                       (list.cornerCount == 3 && differ(0, 1) && differ(1, 2) && differ(2, 0));
+  if (isWhole)
+    list.elements.push_back(corners);
 }
 
 } // namespace
 
 ElementList elementsOf(const Mesh& mesh, const std::vector<Vec3u>& positions, ElementKind kind) {
   ElementList list;
-  const bool asPoints = kind == ElementKind::points;
-  list.cornerCount = asPoints ? 1 : 3;
+  list.cornerCount = cornersPerElement(kind.topology);
   list.normals = mesh.normals;
   list.texCoords = mesh.texCoords;
   for (const std::uint32_t position : mesh.wedgePositions)
     list.positions.push_back(positions[position]);
   for (const Rgba8 color : mesh.colors)
     list.colors.push_back(opaque(color, mesh.colorComponents));
-  if (asPoints) {
+  if (kind.topology == Topology::points) {
     for (std::uint32_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
-      addPoint(list, wedge);
+      addElement(list, {wedge}, kind);
     list.copies.assign(mesh.wedgeCount(), 0);
     for (const std::uint32_t wedge : mesh.corners)
       ++list.copies[wedge];
     return list;
   }
-  for (std::size_t corner = 0; corner + 2 < mesh.corners.size(); corner += 3) {
-    const std::uint32_t a = mesh.corners[corner], b = mesh.corners[corner + 1], c = mesh.corners[corner + 2];
-    const auto differ = [&](std::uint32_t first, std::uint32_t second) {
-      return kind == ElementKind::triangles ? first != second
-                                            : list.positions[first] != list.positions[second];
-    };
-    if (differ(a, b) && differ(b, c) && differ(c, a))
-      list.elements.push_back({a, b, c});
+  assert(mesh.topology == kind.topology);
+  for (std::size_t first = 0; first < mesh.corners.size(); first += list.cornerCount) {
+    std::array<std::uint32_t, 3> corners{};
+    std::copy_n(&mesh.corners[first], list.cornerCount, corners.begin());
+    addElement(list, corners, kind);
   }
   return list;
 }
 
 ElementList elementsOf(const std::vector<IndexedPatch>& patches, ElementKind kind) {
   ElementList list;
-  const bool asPoints = kind == ElementKind::points;
-  list.cornerCount = asPoints ? 1 : 3;
+  list.cornerCount = cornersPerElement(kind.topology);
   for (const IndexedPatch& patch : patches) {
     const std::uint32_t base = static_cast<std::uint32_t>(list.positions.size());
     list.positions.insert(list.positions.end(), patch.positions.begin(), patch.positions.end());
@@ -59,16 +62,20 @@ ElementList elementsOf(const std::vector<IndexedPatch>& patches, ElementKind kin
     list.texCoords.insert(list.texCoords.end(), patch.texCoords.begin(), patch.texCoords.end());
     for (const Rgba8 color : patch.colors)
       list.colors.push_back(opaque(color, patch.colorComponents));
-    if (!asPoints) {
+    if (kind.topology == Topology::triangles)
       for (const Vec3u t : trianglesOf(patch))
-        list.elements.push_back({base + t.x, base + t.y, base + t.z});
-      continue;
+        addElement(list, {base + t.x, base + t.y, base + t.z}, kind);
+    if (kind.topology == Topology::lines)
+      for (const Vec2<std::uint32_t> line : linesOf(patch))
+        addElement(list, {base + line.x, base + line.y}, kind);
+    if (kind.topology == Topology::points) {
+      std::size_t drawn = 0;
+      for (const Draw& draw : patch.draws)
+        drawn += elementsOf(draw).points;
+      for (std::size_t i = 0; i < drawn; ++i)
+        addElement(list, {base + (patch.indices.empty() ? static_cast<std::uint32_t>(i) : patch.indices[i])},
+                   kind);
     }
-    std::size_t drawn = 0;
-    for (const Draw& draw : patch.draws)
-      drawn += draw.primitive == Primitive::points ? draw.count : 0;
-    for (std::size_t i = 0; i < drawn; ++i)
-      addPoint(list, base + (patch.indices.empty() ? static_cast<std::uint32_t>(i) : patch.indices[i]));
   }
   return list;
 }

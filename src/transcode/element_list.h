@@ -17,20 +17,20 @@ struct ElementList {
   std::vector<Vec3f> normals;    ///< per vertex, or empty
   std::vector<Vec2f> texCoords;  ///< per vertex, or empty
   std::vector<Rgba8> colors;     ///< per vertex, or empty; alpha 255 where it does not count
-  std::uint32_t cornerCount = 3; ///< of an element: 3 triangles, 1 points
-  std::vector<std::array<std::uint32_t, 3>> elements; ///< vertices; points use the first corner
+  std::uint32_t cornerCount = 3; ///< of an element: 3 triangles, 2 lines, 1 points
+  std::vector<std::array<std::uint32_t, 3>> elements; ///< vertices; the corners behind cornerCount are 0
   std::vector<std::uint32_t> copies;                  ///< how often an element may be drawn; empty: once
 
   std::size_t vertexCount() const { return positions.size(); }
 };
 
-/// What sites hold of a mesh.
-enum class ElementKind : std::uint8_t {
-  points,    ///< its wedges; patches may each draw their copy of a border wedge
-  triangles, ///< those of three different wedges
-  /// Those of three different lattice points: without an index two vertices at
-  /// one place cannot be told from one.
-  trianglesWithArea,
+/// What sites hold of a mesh: points are its wedges, of which patches may each draw
+/// their copy of a border wedge; lines and triangles those of different wedges.
+struct ElementKind {
+  Topology topology = Topology::triangles;
+  /// Those of different lattice points: without an index two vertices at one place
+  /// cannot be told from one.
+  bool byPlace = false;
 };
 
 /// The elements of a prepared mesh; `positions` are its own, quantised.
@@ -54,7 +54,7 @@ struct ElementDifference {
 };
 
 /// Pairs the elements whose corners lie on the same lattice points in the same
-/// cyclic order, and measures how far the attributes of pairs are apart. Where
+/// cyclic order (so lines in either direction), and measures how far the attributes of pairs are apart. Where
 /// several elements coincide on the lattice, each is measured against the one of
 /// the other list that fits best, in both directions.
 ElementDifference compare(const ElementList& input, const ElementList& site, const AttributeBounds& bounds);

@@ -6,7 +6,6 @@
 #include "transcode/site.h"
 
 #include <charconv>
-#include <numeric>
 #include <utility>
 
 namespace imgeo {
@@ -14,17 +13,12 @@ namespace imgeo {
 namespace {
 
 IndexedPatch arrange(const Patch& patch, Primitives primitives) {
-  if (patch.topology == Topology::points)
+  if (patch.topology == Topology::points || primitives == Primitives::points)
     return asPoints(patch);
-  switch (primitives) {
-  case Primitives::triangles:
-    return asTriangles(patch);
-  case Primitives::strips:
-    return asStrips(patch);
-  case Primitives::points:
-    return asPoints(patch);
-  }
-  return {};
+  const bool asStrip = primitives == Primitives::strips;
+  if (patch.topology == Topology::lines)
+    return asStrip ? asLineStrips(patch) : asLines(patch);
+  return asStrip ? asStrips(patch) : asTriangles(patch);
 }
 
 IndexedPatch primitivesOf(const Patch& patch, const ConvertOptions& options) {
@@ -46,15 +40,17 @@ void nameReferences(PatchDescription& patch, const std::vector<std::string>& url
       name(**reference);
 }
 
-std::size_t trianglesDrawn(const IndexedPatch& patch) {
-  std::size_t drawn = 0;
+/// What a patch draws. The joins of strips draw nothing, so strips are walked.
+ElementCounts elementsDrawn(const IndexedPatch& patch) {
+  ElementCounts counts;
+  bool hasJoins = false;
   for (const Draw& draw : patch.draws) {
-    if (draw.primitive == Primitive::triangles)
-      drawn += draw.count / 3;
-    if (draw.primitive == Primitive::triangleStrip)
-      return trianglesOf(patch).size(); // joins draw nothing
+    counts += elementsOf(draw);
+    hasJoins |= draw.primitive == Primitive::triangleStrip;
   }
-  return drawn;
+  if (hasJoins)
+    counts.triangles = trianglesOf(patch).size();
+  return counts;
 }
 
 } // namespace
@@ -82,7 +78,7 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& 
   EncodedMesh result;
   result.geometry = describe(patched, encoding);
   std::vector<PatchDescription> descriptions(patched.patches.size());
-  std::vector<std::size_t> triangles(patched.patches.size()), points(patched.patches.size());
+  std::vector<ElementCounts> elements(patched.patches.size());
   parallelFor(patched.patches.size(), [&](std::size_t i) {
     const Patch patch = std::exchange(patched.patches[i], {});
     const IndexedPatch indexed = primitivesOf(patch, options);
@@ -92,14 +88,13 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& 
       urls.push_back(files.write(file));
     nameReferences(encoded.description, urls);
     descriptions[i] = std::move(encoded.description);
-    triangles[i] = trianglesDrawn(indexed);
-    points[i] = indexed.draws.front().primitive == Primitive::points ? indexed.vertexCount() : 0;
+    elements[i] = elementsDrawn(indexed);
     done(patch.elementCount());
   });
   for (const PatchDescription& patch : descriptions)
     result.vertices += patch.vertexCount;
-  result.triangles = std::accumulate(triangles.begin(), triangles.end(), std::size_t{0});
-  result.points = std::accumulate(points.begin(), points.end(), std::size_t{0});
+  for (const ElementCounts& counts : elements)
+    result.elements += counts;
   result.geometry.patches = std::move(descriptions);
   return result;
 }

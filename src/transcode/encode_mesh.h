@@ -34,7 +34,8 @@ private:
 /// What became of a mesh, counted as it is drawn.
 struct EncodedMesh {
   GeometryDescription geometry;
-  std::size_t triangles = 0, points = 0, vertices = 0;
+  ElementCounts elements;
+  std::size_t vertices = 0;
 };
 
 /// Called with how many more elements have been written.

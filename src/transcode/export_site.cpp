@@ -24,10 +24,7 @@ ExportReport exportSite(const fs::path& site, const fs::path& output) {
   for (const Shape& shape : scene.shapes) {
     const Mesh& mesh = scene.meshes[shape.mesh];
     report.vertices += mesh.wedgeCount();
-    if (mesh.topology == Topology::triangles)
-      report.triangles += mesh.elementCount();
-    if (mesh.topology == Topology::points)
-      report.points += mesh.elementCount();
+    report.elements.of(mesh.topology) += mesh.elementCount();
   }
   const Bytes bytes = exportScene(scene, *format);
   report.bytes = bytes.size();

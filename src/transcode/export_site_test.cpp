@@ -30,8 +30,8 @@ void expectComesBack(const Mesh& mesh, const ConvertOptions& options, const std:
   const VerifyReport report = verify(path("site"), path(name));
   EXPECT_TRUE(report.equal) << ::testing::PrintToString(report.findings);
   const SiteInfo info = inspect(path("site"));
-  EXPECT_EQ(written.points, report.sitePoints);
-  EXPECT_EQ(report.inputTriangles, report.siteTriangles);
+  EXPECT_EQ(written.elements.points, report.site.points);
+  EXPECT_EQ(report.input.triangles, report.site.triangles);
   EXPECT_LE(written.vertices, info.vertices);
 }
 

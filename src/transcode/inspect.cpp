@@ -25,14 +25,8 @@ std::uint64_t sizeOf(const fs::path& file) {
 }
 
 void count(const PatchDescription& patch, SiteInfo& info) {
-  for (const Draw& draw : patch.draws) {
-    if (draw.primitive == Primitive::triangles)
-      info.triangles += draw.count / 3;
-    if (draw.primitive == Primitive::triangleStrip)
-      info.triangles += std::max(draw.count, 2u) - 2;
-    if (draw.primitive == Primitive::points)
-      info.points += draw.count;
-  }
+  for (const Draw& draw : patch.draws)
+    info.elements += elementsOf(draw);
   info.vertices += patch.vertexCount;
 }
 
@@ -87,11 +81,11 @@ SiteInfo inspect(const fs::path& site) {
     const Marker marker =
         readMarker(asText(readFile(document.root / markerName)), (document.root / markerName).string());
     if (marker.primitives == Primitives::strips)
-      info.triangles = marker.triangles;
+      info.elements.triangles = marker.elements.triangles;
   }
-  if (info.triangles > 0)
+  if (info.elements.triangles > 0)
     info.bytesPerTriangle = static_cast<double>(info.containerBytes + geometryNodeBytes(document.text)) /
-                            static_cast<double>(info.triangles);
+                            static_cast<double>(info.elements.triangles);
   return info;
 }
 

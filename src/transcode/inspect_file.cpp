@@ -14,10 +14,7 @@ SourceInfo inspectSource(const std::filesystem::path& file) {
   info.warnings = imported.warnings;
   info.shapes = imported.scene.shapes.size();
   for (const Mesh& mesh : imported.scene.meshes) {
-    if (mesh.topology == Topology::triangles)
-      info.triangles += mesh.elementCount();
-    if (mesh.topology == Topology::points)
-      info.points += mesh.elementCount();
+    info.elements.of(mesh.topology) += mesh.elementCount();
     info.vertices += mesh.wedgeCount();
     info.normals |= !mesh.normals.empty();
     info.texCoords |= !mesh.texCoords.empty();

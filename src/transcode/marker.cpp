@@ -46,8 +46,9 @@ std::string writeMarker(const Marker& marker) {
   json["container"] = nameOf(marker.container);
   json["primitives"] = nameOf(marker.primitives);
   json["normals"] = marker.normalsComputed ? nameOf(marker.normalWeighting) : "source";
-  json["triangles"] = marker.triangles;
-  json["points"] = marker.points;
+  json["triangles"] = marker.elements.triangles;
+  json["lines"] = marker.elements.lines;
+  json["points"] = marker.elements.points;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -63,8 +64,7 @@ Marker readMarker(std::string_view text, const std::string& name) {
     marker.normalsComputed = normals != "source";
     if (marker.normalsComputed)
       marker.normalWeighting = valueNamed(weightings, normals, name);
-    marker.triangles = json.at("triangles");
-    marker.points = json.at("points");
+    marker.elements = {json.at("triangles"), json.value("lines", std::size_t{0}), json.at("points")};
     return marker;
   } catch (const nlohmann::json::exception&) {
     throw Error(ErrorKind::malformed, name, "is not the marker of a site");

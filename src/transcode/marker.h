@@ -17,7 +17,7 @@ struct Marker {
   Primitives primitives = Primitives::triangles;
   bool normalsComputed = false;
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where normals were computed
-  std::size_t triangles = 0, points = 0;                   ///< as drawn; a strip's length does not tell
+  ElementCounts elements;                                  ///< as drawn; a strip's length does not tell
 };
 
 std::string writeMarker(const Marker& marker);

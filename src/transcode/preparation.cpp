@@ -64,9 +64,10 @@ PreparationReport prepareScene(Scene& scene, NormalWeighting weighting, const st
   std::erase_if(scene.shapes,
                 [&](const Shape& shape) { return scene.meshes[shape.mesh].elementCount() == 0; });
   if (scene.shapes.empty())
-    throw Error(ErrorKind::malformed, place, "holds no triangles and no points, so there is nothing to show");
+    throw Error(ErrorKind::malformed, place,
+                "holds no triangles, lines or points, so there is nothing to show");
   if (const std::size_t dropped = shapesBefore - scene.shapes.size())
-    sum.warnings.push_back(fmt::format("left out shapes without triangles or points: {}", dropped));
+    sum.warnings.push_back(fmt::format("left out shapes without triangles, lines or points: {}", dropped));
   return sum;
 }
 

@@ -5,6 +5,7 @@
 #include "base/narrow.h"
 #include "base/parallel.h"
 #include "containers/container.h"
+#include "containers/stored.h"
 #include "prepare/weld.h"
 
 #include <algorithm>
@@ -19,6 +20,7 @@ Topology topologyOf(Primitive primitive) {
   case Primitive::points:
     return Topology::points;
   case Primitive::lines:
+  case Primitive::lineStrip:
     return Topology::lines;
   case Primitive::triangles:
   case Primitive::triangleStrip:
@@ -42,17 +44,18 @@ Topology topologyOf(const GeometryDescription& geometry, const std::string& plac
 /// The corners of a patch's elements, as record numbers.
 std::vector<std::uint32_t> cornersOf(const IndexedPatch& patch, Topology topology) {
   std::vector<std::uint32_t> corners;
-  if (topology == Topology::triangles) {
+  switch (topology) {
+  case Topology::triangles:
     for (const Vec3u& triangle : trianglesOf(patch))
       corners.insert(corners.end(), {triangle.x, triangle.y, triangle.z});
-    return corners;
-  }
-  std::uint32_t first = 0;
-  for (const Draw& draw : patch.draws) {
-    const std::uint32_t whole = draw.count - draw.count % cornersPerElement(topology);
-    for (std::uint32_t n = first; n < first + whole; ++n)
+    break;
+  case Topology::lines:
+    for (const Vec2<std::uint32_t>& line : linesOf(patch))
+      corners.insert(corners.end(), {line.x, line.y});
+    break;
+  case Topology::points:
+    for (std::uint32_t n = 0, count = narrow<std::uint32_t>(drawnCount(patch.draws)); n < count; ++n)
       corners.push_back(patch.indices.empty() ? n : patch.indices[n]);
-    first += draw.count;
   }
   return corners;
 }

@@ -14,6 +14,7 @@
 
 namespace imgeo {
 
+/// How elements are drawn; lines as lines, as line strips or as points.
 enum class Primitives { triangles, strips, points };
 
 struct ConvertOptions {
@@ -41,7 +42,8 @@ struct RoleBytes {
 struct ConvertReport {
   std::string format; ///< of the source
   std::uint64_t sourceBytes = 0;
-  std::size_t triangles = 0, vertices = 0, points = 0, patches = 0;
+  ElementCounts elements; ///< as they are drawn
+  std::size_t vertices = 0, patches = 0;
   WeldReport weld;
   bool normalsComputed = false;
   Lattice lattice;                    ///< of the first mesh: step states the precision
@@ -74,7 +76,8 @@ struct SiteFile {
 };
 
 struct SiteInfo {
-  std::size_t triangles = 0, vertices = 0, points = 0, patches = 0;
+  ElementCounts elements;
+  std::size_t vertices = 0, patches = 0;
   std::uint64_t documentBytes = 0, containerBytes = 0, runtimeBytes = 0;
   double bytesPerTriangle = 0; ///< containers and the document's geometry nodes; 0 without triangles
   std::vector<SiteFile> files;
@@ -91,7 +94,8 @@ SiteInfo inspect(const std::filesystem::path& site);
 struct SourceInfo {
   std::string format;
   std::uint64_t bytes = 0;
-  std::size_t shapes = 0, triangles = 0, points = 0, vertices = 0;
+  ElementCounts elements;
+  std::size_t shapes = 0, vertices = 0;
   bool normals = false, texCoords = false, colors = false; ///< in any of its meshes
   Box3d box;
   std::vector<std::string> warnings;
@@ -113,8 +117,7 @@ GeometryFileInfo inspectGeometryFile(const std::filesystem::path& file);
 
 struct VerifyReport {
   bool equal = false; ///< all of the below within their bounds
-  std::size_t inputTriangles = 0, siteTriangles = 0, missingTriangles = 0, extraTriangles = 0;
-  std::size_t inputPoints = 0, sitePoints = 0, missingPoints = 0, extraPoints = 0;
+  ElementCounts input, site, missing, extra;
   double positionError = 0, positionBound = 0; ///< largest error per axis and step / 2, in the mesh's units
   double normalErrorDegrees = 0, normalBoundDegrees = 0;
   std::vector<std::string> findings; ///< one sentence per bound that is broken
@@ -126,7 +129,8 @@ VerifyReport verify(const std::filesystem::path& site, const std::filesystem::pa
 
 struct ExportReport {
   std::string format; ///< "PLY", "OBJ", "GLB"
-  std::size_t shapes = 0, triangles = 0, points = 0, vertices = 0;
+  ElementCounts elements;
+  std::size_t shapes = 0, vertices = 0;
   std::uint64_t bytes = 0; ///< of the file written
 };
 

@@ -166,11 +166,11 @@ void checkAttributesPresent(const Mesh& mesh, const std::vector<IndexedPatch>& p
 }
 
 void count(const ElementDifference& difference, const ElementList& input, const ElementList& site,
-           bool asPoints, VerifyReport& report) {
-  (asPoints ? report.inputPoints : report.inputTriangles) += input.elements.size();
-  (asPoints ? report.sitePoints : report.siteTriangles) += site.elements.size();
-  (asPoints ? report.missingPoints : report.missingTriangles) += difference.missing;
-  (asPoints ? report.extraPoints : report.extraTriangles) += difference.extra;
+           Topology topology, VerifyReport& report) {
+  report.input.of(topology) += input.elements.size();
+  report.site.of(topology) += site.elements.size();
+  report.missing.of(topology) += difference.missing;
+  report.extra.of(topology) += difference.extra;
 }
 
 void compareShape(const OpenedDocument& document, const GeometryDescription& geometry, const Mesh& mesh,
@@ -188,17 +188,15 @@ void compareShape(const OpenedDocument& document, const GeometryDescription& geo
     findings.add("Positions are off by up to {:.6g}, more than half a step of the lattice, {:.6g}.", error,
                  bound);
 
-  const bool asPoints = mesh.topology == Topology::points || primitives == Primitives::points;
-  const bool indexed =
-      std::ranges::none_of(patches, &std::vector<std::uint32_t>::empty, &IndexedPatch::indices);
-  const ElementKind kind = asPoints  ? ElementKind::points
-                           : indexed ? ElementKind::triangles
-                                     : ElementKind::trianglesWithArea;
+  const Topology topology = primitives == Primitives::points ? Topology::points : mesh.topology;
+  const bool isWithoutIndex =
+      std::ranges::any_of(patches, &std::vector<std::uint32_t>::empty, &IndexedPatch::indices);
+  const ElementKind kind{topology, isWithoutIndex};
   const ElementList input = elementsOf(mesh, quantised, kind), site = elementsOf(patches, kind);
   const AttributeBounds bounds{normalBoundDegrees(geometry), texCoordBound(geometry)};
   const ElementDifference difference = compare(input, site, bounds);
-  count(difference, input, site, asPoints, report);
-  const char* elements = asPoints ? "points" : "triangles";
+  count(difference, input, site, topology, report);
+  const char* elements = nameOf(topology);
   if (difference.missing > 0)
     findings.add("{} {} of the input are missing from the site.", difference.missing, elements);
   if (difference.extra > 0)

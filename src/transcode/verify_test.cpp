@@ -115,6 +115,16 @@ TEST(Verify, SeesOneIndexOff) {
   expectFinding(site, "missing from the site");
 }
 
+TEST(Verify, SeesALineThatIsDrawnInThePlaceOfAnother) {
+  DamagedSite site(Container::bg, testing::polylines(60, 1));
+  EXPECT_TRUE(site.verified().equal);
+  // Two indices of two bytes a line.
+  site.change(*site.geometry().patches[0].index,
+              [](Bytes& indices) { std::copy_n(&indices[8], 4, &indices[0]); });
+  expectFinding(site, "1 lines of the input are missing");
+  expectFinding(site, "1 lines of the site are not in the input");
+}
+
 TEST(Verify, SeesBytePlanesSwapped) {
   DamagedSite site;
   site.widenBoxes();

@@ -3,13 +3,14 @@
 // the PLY and OBJ files that the reference pictures of the float input are made
 // of.
 
-/** Per vertex arrays; triangles as vertex triples, none for a point cloud. */
+/** Per vertex arrays; triangles as vertex triples, lines as pairs; a point cloud has none. */
 export interface PlainMesh {
   positions: Float32Array;
   normals?: Float32Array;
   /** Bytes, three a vertex. */
   colors?: Uint8Array;
   triangles: Uint32Array;
+  lines?: Uint32Array;
 }
 
 type Point = [number, number, number];
@@ -85,6 +86,26 @@ export function pointSpiral(count = 4000): PlainMesh {
   return withColors({ positions, triangles: new Uint32Array(0) });
 }
 
+/** Coloured lines: a long coil around a torus, and a net of short ones across its hole. */
+export function coil(turns = 40, steps = 24, spokes = 60): PlainMesh {
+  const vertices: Point[] = [];
+  const lines: number[] = [];
+  for (let i = 0; i < turns * steps; ++i) {
+    const [u, v] = [(2 * Math.PI * i) / (turns * steps), (2 * Math.PI * i) / steps];
+    const radius = 1 + 0.35 * Math.cos(v);
+    vertices.push([radius * Math.cos(u), radius * Math.sin(u), 0.35 * Math.sin(v)]);
+    lines.push(i, (i + 1) % (turns * steps));
+  }
+  for (let i = 0; i < spokes; ++i) {
+    const angle = (2 * Math.PI * i) / spokes;
+    const first = vertices.push([0.5 * Math.cos(angle), 0.5 * Math.sin(angle), 0]) - 1;
+    vertices.push([0.1 * Math.cos(angle + 1), 0.1 * Math.sin(angle + 1), 0.4]);
+    lines.push(first, first + 1);
+  }
+  const positions = Float32Array.from(vertices.flat());
+  return withColors({ positions, triangles: new Uint32Array(0), lines: Uint32Array.from(lines) });
+}
+
 /** A surface over u, v in 0..2π that closes in both; normals by central differences. */
 function closedGrid(along: number, around: number, at: (u: number, v: number) => Point): PlainMesh {
   const positions = new Float32Array(3 * along * around);
@@ -136,7 +157,7 @@ export function areaWeightedNormals({ positions, triangles }: PlainMesh): Float3
 }
 
 /** Binary little-endian PLY. */
-export function writePly({ positions, normals, colors, triangles }: PlainMesh): Buffer {
+export function writePly({ positions, normals, colors, triangles, lines = new Uint32Array(0) }: PlainMesh): Buffer {
   const count = positions.length / 3;
   const properties = [
     ...["x", "y", "z"].map((name) => `float ${name}`),
@@ -144,9 +165,10 @@ export function writePly({ positions, normals, colors, triangles }: PlainMesh): 
     ...(colors ? ["red", "green", "blue"].map((name) => `uchar ${name}`) : []),
   ].map((property) => `property ${property}\n`);
   const faces = triangles.length ? `element face ${triangles.length / 3}\nproperty list uchar int vertex_indices\n` : "";
-  const header = `ply\nformat binary_little_endian 1.0\nelement vertex ${count}\n${properties.join("")}${faces}end_header\n`;
+  const edges = lines.length ? `element edge ${lines.length / 2}\nproperty int vertex1\nproperty int vertex2\n` : "";
+  const header = `ply\nformat binary_little_endian 1.0\nelement vertex ${count}\n${properties.join("")}${faces}${edges}end_header\n`;
   const recordBytes = 12 + (normals ? 12 : 0) + (colors ? 3 : 0);
-  const body = Buffer.alloc(count * recordBytes + (triangles.length / 3) * 13);
+  const body = Buffer.alloc(count * recordBytes + (triangles.length / 3) * 13 + lines.length * 4);
   let at = 0;
   for (let i = 0; i < count; ++i) {
     for (const floats of [positions, normals]) {
@@ -158,6 +180,7 @@ export function writePly({ positions, normals, colors, triangles }: PlainMesh): 
     at = body.writeUInt8(3, at);
     triangles.subarray(t, t + 3).forEach((corner) => (at = body.writeInt32LE(corner, at)));
   }
+  lines.forEach((corner) => (at = body.writeInt32LE(corner, at)));
   return Buffer.concat([Buffer.from(header), body]);
 }
 
@@ -167,6 +190,7 @@ export function readPly(bytes: Buffer): PlainMesh {
   const header = bytes.toString("latin1", 0, headerBytes);
   const count = Number(/element vertex (\d+)/.exec(header)?.[1]);
   const faceCount = Number(/element face (\d+)/.exec(header)?.[1] ?? 0);
+  const edgeCount = Number(/element edge (\d+)/.exec(header)?.[1] ?? 0);
   const normals = header.includes("float nx") ? new Float32Array(3 * count) : undefined;
   const colors = header.includes("uchar red") ? new Uint8Array(3 * count) : undefined;
   const positions = new Float32Array(3 * count);
@@ -181,7 +205,8 @@ export function readPly(bytes: Buffer): PlainMesh {
   for (let t = 0; t < faceCount; ++t, at += 13) {
     for (let corner = 0; corner < 3; ++corner) triangles[3 * t + corner] = bytes.readInt32LE(at + 1 + 4 * corner);
   }
-  return { positions, triangles, ...(normals && { normals }), ...(colors && { colors }) };
+  const lines = Uint32Array.from({ length: 2 * edgeCount }, (_, corner) => bytes.readInt32LE(at + 4 * corner));
+  return { positions, triangles, lines, ...(normals && { normals }), ...(colors && { colors }) };
 }
 
 /** Positions and triangles of an OBJ file; anything else in it is left out. */

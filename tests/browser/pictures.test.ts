@@ -40,6 +40,11 @@ const cases: { mesh: GeneratedMesh; options: string[] }[] = [
   { mesh: "points", options: [] },
   { mesh: "points", options: ["--container", "bg"] },
   { mesh: "trefoil-colors", options: ["--primitives", "points"] },
+  ...["sig", "bg"].flatMap((container) => [
+    { mesh: "coil" as const, options: ["--container", container] },
+    { mesh: "coil" as const, options: ["--container", container, "--primitives", "strips", "--patch-vertices", "500"] },
+  ]),
+  { mesh: "coil", options: ["--primitives", "strips", "--index", "off"] },
 ];
 
 describe("the final picture is that of plain buffers with the quantised mesh", () => {

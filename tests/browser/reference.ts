@@ -20,7 +20,7 @@ export interface ReferenceScene {
   lights: { direction: Vec3; color: Vec3; intensity: number; ambientIntensity: number }[];
   material: { diffuseColor: Vec3; specularColor: Vec3; emissiveColor: Vec3; ambientIntensity: number; shininess: number };
   skyColor: Vec3;
-  patches: { positions: number[]; normals?: number[]; colors?: number[]; triangles: number[]; points: number[] }[];
+  patches: { positions: number[]; normals?: number[]; colors?: number[]; triangles: number[]; lines: number[]; points: number[] }[];
 }
 
 /** The numbers that the only shape of a document is drawn with. */
@@ -54,13 +54,16 @@ export function lookOf(html: string): Omit<ReferenceScene, "patches"> {
 }
 
 /** The float input as the reference draws it: computed normals where it has none. */
-export function patchOfInput(mesh: PlainMesh): PlainPatch {
+export function patchOfInput({ positions, normals, colors, triangles, lines = new Uint32Array(0) }: PlainMesh): PlainPatch {
+  const isCloud = triangles.length + lines.length === 0;
+  const shown = normals ?? (triangles.length ? areaWeightedNormals({ positions, triangles }) : undefined);
   return {
-    positions: mesh.positions,
-    normals: mesh.normals ?? areaWeightedNormals(mesh),
-    ...(mesh.colors && { colors: Float32Array.from(mesh.colors, (byte) => byte / 255) }),
-    triangles: mesh.triangles,
-    points: mesh.triangles.length ? new Uint32Array(0) : Uint32Array.from({ length: mesh.positions.length / 3 }, (_, i) => i),
+    positions,
+    ...(shown && { normals: shown }),
+    ...(colors && { colors: Float32Array.from(colors, (byte) => byte / 255) }),
+    triangles,
+    lines,
+    points: Uint32Array.from({ length: isCloud ? positions.length / 3 : 0 }, (_, i) => i),
   };
 }
 
@@ -117,6 +120,7 @@ function asArrays(patch: PlainPatch): ReferenceScene["patches"][number] {
     ...(patch.normals && { normals: [...patch.normals] }),
     ...(patch.colors && { colors: [...patch.colors] }),
     triangles: [...patch.triangles],
+    lines: [...patch.lines],
     points: [...patch.points],
   };
 }

@@ -3,7 +3,7 @@
 // 19775-1, 17.2.2) once more, from the standard.
 
 import {
-  BufferAttribute, BufferGeometry, Color, FrontSide, LinearSRGBColorSpace, MathUtils, Mesh, PerspectiveCamera, Points,
+  BufferAttribute, BufferGeometry, Color, FrontSide, LinearSRGBColorSpace, LineSegments, MathUtils, Mesh, PerspectiveCamera, Points,
   Scene, ShaderMaterial, Vector3, WebGLRenderer, type Object3D,
 } from "three";
 import type { ReferenceScene } from "./reference.ts";
@@ -63,8 +63,10 @@ function objectOf(patch: Patch, material: ShaderMaterial): Object3D {
   set("position", patch.positions);
   set("normal", patch.normals);
   set("color", patch.colors);
-  vertices.setIndex(patch.points.length ? patch.points : patch.triangles);
-  return patch.points.length ? new Points(vertices, material) : new Mesh(vertices, material);
+  const { points, lines, triangles } = patch;
+  vertices.setIndex(points.length ? points : lines.length ? lines : triangles);
+  if (points.length) return new Points(vertices, material);
+  return lines.length ? new LineSegments(vertices, material) : new Mesh(vertices, material);
 }
 
 const vertexShader = /* glsl */ `

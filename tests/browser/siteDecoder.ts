@@ -44,6 +44,8 @@ export interface PlainPatch {
   colors?: Float32Array;
   /** Triangles in their drawn orientation; strips are taken apart. */
   triangles: Uint32Array;
+  /** Pairs of vertices; strips are taken apart. */
+  lines: Uint32Array;
   /** Vertices drawn as points. */
   points: Uint32Array;
 }
@@ -167,8 +169,9 @@ function spread(node: Attributes, stored: Records, records: number, largest: num
   return table(records, (r, axis) => center[axis]! + size[axis]! * (stored.at(r, axis) / largest - 0.5));
 }
 
-function elementsOf(patch: Attributes, drawn: (n: number) => number): { triangles: Uint32Array; points: Uint32Array } {
+function elementsOf(patch: Attributes, drawn: (n: number) => number): Pick<PlainPatch, "triangles" | "lines" | "points"> {
   const triangles: number[] = [];
+  const lines: number[] = [];
   const points: number[] = [];
   const counts = numbersOf(patch.vertexcount, []);
   let first = 0;
@@ -176,6 +179,8 @@ function elementsOf(patch: Attributes, drawn: (n: number) => number): { triangle
     const vertices = Array.from({ length: counts[draw]! }, (_, i) => drawn(first + i));
     first += counts[draw]!;
     if (primitive === "POINTS") points.push(...vertices);
+    else if (primitive === "LINES") lines.push(...vertices);
+    else if (primitive === "LINESTRIP") vertices.slice(1).forEach((vertex, i) => lines.push(vertices[i]!, vertex));
     else if (primitive === "TRIANGLES") for (const vertex of vertices) triangles.push(vertex);
     else if (primitive === "TRIANGLESTRIP") {
       for (let i = 2; i < vertices.length; ++i) {
@@ -184,5 +189,5 @@ function elementsOf(patch: Attributes, drawn: (n: number) => number): { triangle
       }
     } else throw new Error(`the test decoder does not know ${primitive}`);
   });
-  return { triangles: Uint32Array.from(triangles), points: Uint32Array.from(points) };
+  return { triangles: Uint32Array.from(triangles), lines: Uint32Array.from(lines), points: Uint32Array.from(points) };
 }

@@ -3,7 +3,7 @@
 import { execFileSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
-import { pointSpiral, sphere, trefoil, withColors, withoutNormals, writePly, type PlainMesh } from "./meshes.ts";
+import { coil, pointSpiral, sphere, trefoil, withColors, withoutNormals, writePly, type PlainMesh } from "./meshes.ts";
 import { converter, outputDirectory } from "./paths.ts";
 
 const generators = {
@@ -12,6 +12,7 @@ const generators = {
   "trefoil-plain": () => withoutNormals(trefoil()),
   sphere: () => sphere(),
   points: () => pointSpiral(),
+  coil: () => coil(),
 } satisfies Record<string, () => PlainMesh>;
 
 export type GeneratedMesh = keyof typeof generators;

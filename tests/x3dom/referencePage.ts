@@ -14,9 +14,13 @@ export function referencePage(html: string, mesh: PlainMesh): string {
   return html.slice(0, begin) + shape + html.slice(end);
 }
 
-function plainNode({ positions, normals, colors, triangles }: PlainMesh): string {
+function plainNode({ positions, normals, colors, triangles, lines = new Uint32Array(0) }: PlainMesh): string {
   const coordinate = `<Coordinate point="${positions.join(" ")}"></Coordinate>`;
   const color = colors ? `<Color color="${Array.from(colors, (byte) => byte / 255).join(" ")}"></Color>` : "";
+  if (lines.length > 0) {
+    const index = Array.from({ length: lines.length / 2 }, (_, line) => `${lines[2 * line]} ${lines[2 * line + 1]} -1`);
+    return `<IndexedLineSet coordIndex="${index.join(" ")}">${coordinate}${color}</IndexedLineSet>`;
+  }
   if (triangles.length === 0) return `<PointSet>${coordinate}${color}</PointSet>`;
   if (!normals) throw new Error("a reference needs the normals that convert computes");
   // X3DOM skips words that are no numbers: vertices without triangles have such normals.

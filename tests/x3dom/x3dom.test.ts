@@ -88,6 +88,13 @@ for (const container of containers) {
       await assertShows("points-16", site, container, onLattice(sourceOf("points"), 16));
     });
 
+    for (const primitives of ["triangles", "strips"]) {
+      test(`shows coloured lines as ${primitives === "strips" ? "strips" : "lines"} as X3DOM shows them inline`, async () => {
+        const site = siteOfGenerated("coil", ...options(container), "--primitives", primitives);
+        await assertShows("coil-16", site, container, onLattice(sourceOf("coil"), 16));
+      });
+    }
+
     test("shows the Stanford bunny as X3DOM shows it inline", { skip: !existsSync(join(modelDirectory, "stanford-bunny.obj")) }, async () => {
       const file = join(modelDirectory, "stanford-bunny.obj");
       const mesh = readObj(readFileSync(file, "utf8"));

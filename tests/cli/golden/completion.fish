@@ -10,7 +10,7 @@ complete -c imgeo -n '__fish_seen_subcommand_from convert' -l container -x -a 's
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l profile -x -a 'classic' -d 'classic: the layout that X3DOM 1.7 reads as well'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l target -x -a 'web x3dom' -d 'web: a page with its own runtime; x3dom: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l x3dom-url -x -d 'target x3dom: the folder that has x3dom.js and x3dom.css; otherwise npm\'s by jsdelivr.net'
-complete -c imgeo -n '__fish_seen_subcommand_from convert' -l primitives -x -a 'triangles strips points' -d 'how patches are drawn; a point cloud is always points'
+complete -c imgeo -n '__fish_seen_subcommand_from convert' -l primitives -x -a 'triangles strips points' -d 'how patches are drawn, those of lines as lines, line strips or points; a point cloud is always points'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l index -x -a 'on off' -d 'off: vertices are repeated wherever they are drawn instead of named by an index'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l position-bits -o vp -o qp -x -d 'bits of a coordinate, 8..32, on one lattice over the whole mesh'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l normal-bits -o vn -o qn -x -d 'bits of a normal\'s component; sig: 8; bg: 8, 16 or 32'

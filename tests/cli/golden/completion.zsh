@@ -26,7 +26,7 @@ _imgeo() {
       '--profile[classic\: the layout that X3DOM 1.7 reads as well]:profile:(classic)' \
       '--target[web\: a page with its own runtime; x3dom\: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)]:target:(web x3dom)' \
       '--x3dom-url[target x3dom\: the folder that has x3dom.js and x3dom.css; otherwise npm'\''s by jsdelivr.net]:x3dom-url: ' \
-      '--primitives[how patches are drawn; a point cloud is always points]:primitives:(triangles strips points)' \
+      '--primitives[how patches are drawn, those of lines as lines, line strips or points; a point cloud is always points]:primitives:(triangles strips points)' \
       '--index[off\: vertices are repeated wherever they are drawn instead of named by an index]:index:(on off)' \
       '-vp[bits of a coordinate, 8..32, on one lattice over the whole mesh]:position-bits: ' \
       '-qp[bits of a coordinate, 8..32, on one lattice over the whole mesh]:position-bits: ' \

@@ -6,7 +6,7 @@ import type { DecodedImage } from "./image.ts";
 
 /** Running numbers first .. first + count - 1 drawn as one kind of primitive. */
 export interface DrawRange {
-  readonly primitive: "points" | "lines" | "triangles" | "triangleStrip";
+  readonly primitive: "points" | "lines" | "lineStrip" | "triangles" | "triangleStrip";
   readonly first: number;
   readonly count: number;
 }

@@ -10,7 +10,7 @@ export interface Box3 {
   readonly max: Vec3;
 }
 
-export type Primitive = "points" | "lines" | "triangles" | "triangleStrip";
+export type Primitive = "points" | "lines" | "lineStrip" | "triangles" | "triangleStrip";
 
 /** `count` indices (records, where there is no index) drawn as one kind of primitive, following the previous draw's. */
 export interface Draw {

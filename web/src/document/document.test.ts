@@ -36,7 +36,7 @@ const patches = `
   <ImageGeometry position="1 2 3" size="2 2 2" positionBits="12" solid="false" index="unused.png">
     <GeometryPatch bboxCenter="1 2 3" bboxSize="2 1 1" recordCount="300" primType='"TRIANGLES" "TRIANGLESTRIP"'
       vertexCount="900 12" implicitMeshSize="512 2" index="i.png#1024" coord='"a.png" "b.png#512"' normal="n.png"/>
-    <GeometryPatch bboxCenter="1 2 3" bboxSize="1 2 1" recordCount="4" primType="POINTS" vertexCount="4" coord="c.png"/>
+    <GeometryPatch bboxCenter="1 2 3" bboxSize="1 2 1" recordCount="4" primType="LINESTRIP" vertexCount="4" coord="c.png"/>
   </ImageGeometry>`;
 
 describe("a field", () => {
@@ -136,8 +136,9 @@ describe("a geometry", () => {
     assert.deepEqual(first.coord, [{ url: "a.png", first: 0, stride: 0 }, { url: "b.png", first: 512, stride: 0 }]);
     assert.equal(first.implicitWidth, 512);
     assert.deepEqual(first.box, { min: [0, 1.5, 2.5], max: [2, 2.5, 3.5] });
-    assert.equal(second?.index, undefined);
-    assert.equal(second?.vertexCount, 4);
+    assert.deepEqual(second?.draws, [{ primitive: "lineStrip", count: 4 }]);
+    assert.equal(second.index, undefined);
+    assert.equal(second.vertexCount, 4);
   });
 
   test("in X3DOM's form takes its images from ImageTexture children, byte planes in document order", () => {

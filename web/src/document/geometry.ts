@@ -119,7 +119,7 @@ function patchOf(element: SceneElement, values: PatchValues, container: Containe
 }
 
 const primitives: Readonly<Record<string, Primitive>> = {
-  POINTS: "points", LINES: "lines", TRIANGLES: "triangles", TRIANGLESTRIP: "triangleStrip",
+  POINTS: "points", LINES: "lines", LINESTRIP: "lineStrip", TRIANGLES: "triangles", TRIANGLESTRIP: "triangleStrip",
 };
 
 function drawsOf(element: SceneElement, values: PatchValues, warnings: Warning[]): Draw[] {

@@ -1,7 +1,7 @@
 // A stage -> three.js objects, one per draw.
 
 import type { BufferGeometry, Object3D } from "three";
-import { LineSegments, Matrix4, Mesh, Points, Sphere, Vector3 } from "three";
+import { Line, LineSegments, Matrix4, Mesh, Points, Sphere, Vector3 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
 import type { DrawRange, Stage, TextureStage } from "../decode/stage.ts";
 import type { GeometryDescription, MaterialDescription, PatchDescription } from "../document/description.ts";
@@ -77,7 +77,8 @@ function shadingOf(stage: Stage, draw: DrawRange): Shading {
 
 function objectOf(draw: DrawRange, shape: BufferGeometry, material: PatchMaterial, matrix: Matrix4): Object3D {
   const object = draw.primitive === "points" ? new Points(shape, material)
-    : draw.primitive === "lines" ? new LineSegments(shape, material) : new Mesh(shape, material);
+    : draw.primitive === "lines" ? new LineSegments(shape, material)
+    : draw.primitive === "lineStrip" ? new Line(shape, material) : new Mesh(shape, material);
   object.matrixAutoUpdate = false;
   object.matrix.copy(matrix);
   return object;
