@@ -30,7 +30,8 @@ function shapeOf(html: string, id: string, prefix: string): string {
 function twoShapes(html: Buffer): string {
   const good = shapeOf(html.toString(), "good", "");
   const bad = shapeOf(pageOf(siteOfGenerated("sphere")), "bad", "bad/");
-  return html.toString().replace(/<Shape[\s\S]*<\/Shape>/i, () => `${bad}\n${good}`);
+  // Large enough that its second byte is seen, and so asked for.
+  return html.toString().replace(/<Shape[\s\S]*<\/Shape>/i, () => `<Transform scale="2 2 2">${bad}</Transform>\n${good}`);
 }
 
 function badFile(rank: number): string {

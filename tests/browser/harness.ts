@@ -42,6 +42,8 @@ export interface View {
   errors: string[];
   /** Requests to anywhere but the test's server. */
   foreignRequests: string[];
+  /** Paths without their first slash in the order in which the page asked for them, which the network may change. */
+  asked: string[];
   /** Resolves when the promise of that name on the element does; throws after 20 s. */
   promise: (name: "firstImage" | "complete", selector?: string) => Promise<void>;
   observed: () => Promise<Observed>;
@@ -81,12 +83,14 @@ export async function withPage(
 function watch(page: Page, server: TestServer): View {
   const errors: string[] = [];
   const foreignRequests: string[] = [];
+  const asked: string[] = [];
   page.on("console", (message) => {
     if (message.type() === "error") errors.push(message.text());
   });
   page.on("pageerror", (error) => errors.push(String(error)));
   page.on("request", (request) => {
-    if (!request.url().startsWith(server.origin)) foreignRequests.push(request.url());
+    if (request.url().startsWith(server.origin)) asked.push(request.url().slice(server.origin.length));
+    else foreignRequests.push(request.url());
   });
   const observed = (): Promise<Observed> => page.evaluate(() => window.observed);
   return {
@@ -94,6 +98,7 @@ function watch(page: Page, server: TestServer): View {
     server,
     errors,
     foreignRequests,
+    asked,
     observed,
     async promise(name, selector = "x3d") {
       const isKept = await page.evaluate(awaitPromise, { name, selector, timeoutMs: 20_000 });

@@ -100,8 +100,10 @@ describe("borders between patches are watertight", () => {
     html
       .replace(/<Material[^>]*>/i, `<Material diffuseColor="0 0 0" emissiveColor="1 1 1">`)
       .replace(/skyColor="[^"]*"/i, `skyColor="0 0 0"`);
+  /** Held second bytes take no slot before the first ones of what is behind the camera. */
   const fromInside = (html: string): string =>
     glowing(html)
+      .replace(/<X3D/i, `<X3D chunkPriority="refinement: 0"`)
       .replace(/<Viewpoint[^>]*>/i, `<Viewpoint position="0 0 0" orientation="0.6 0.8 0 0.7" fieldOfView="1.8">`)
       .replace(/<ImageGeometry/i, `<ImageGeometry solid="false"`);
 

@@ -1,6 +1,6 @@
-// A geometry -> its stages. Leases the files of every patch, turns what comes
-// into stages, and reports what does not come; one missing file costs what it
-// holds and nothing else.
+// A geometry -> its stages. Asks for the files of its patches as it is told to,
+// turns what comes into stages, and reports what does not come; one missing file
+// costs what it holds and nothing else.
 
 import type { Stage } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
@@ -19,55 +19,127 @@ export interface DeliveryListener {
   onStage(patch: number, stage: Stage): void;
   /** Once for each file that is of no use. */
   onError(error: DeliveryError): void;
-  /** Every file has come or failed. */
+  /** Every file that was asked for has come or failed. Again after each demand that asked for more. */
   onSettled(): void;
 }
 
+/** The priority of a file that is wanted now; undefined: not now. */
+export type Demand = (place: number, part: Part) => number | undefined;
+
 export interface Delivery {
+  /** Of the files that were asked for. */
   readonly transfers: readonly Readonly<Transfer>[];
+  /** Every file that was asked for has come or failed. */
+  readonly isSettled: boolean;
+  /** There is nothing left that could be asked for. */
+  readonly isExhausted: boolean;
+  /** Asks for what is wanted, gives new priorities to what is on its way, and aborts what is no longer wanted. */
+  demand(priorityOf: Demand): void;
   /** No call to the listener follows. Stages must no longer be used. */
   cancel(): void;
 }
 
-/** Never calls the listener before it returns. */
+/** A file that a patch needs, and how far it is. */
+interface Need {
+  readonly place: number;
+  readonly part: Part;
+  readonly builder: StageBuilder;
+  /** While it is asked for, and when it is here. */
+  lease: Lease | undefined;
+  state: "absent" | "asked" | "here" | "failed";
+}
+
+/** Asks for nothing before `demand`. Never calls the listener before it returns. */
 export function deliver(geometry: GeometryDescription, pool: ResourcePool, listener: DeliveryListener): Delivery {
-  const leases: Lease[] = [];
-  const reported = new Set<string>();
-  let isCancelled = false;
+  return new GeometryDelivery(geometry, pool, listener);
+}
 
-  const onPart = (patch: number, part: Part, builder: StageBuilder, lease: Lease): Promise<void> =>
-    lease.content.then((content) => {
-      if (isCancelled) return;
-      builder.accept(part, content);
-      const stage = builder.stage();
-      if (stage !== undefined) listener.onStage(patch, stage);
-    }).catch((error: unknown) => {
-      const { url } = part.reference;
-      if (isCancelled || reported.has(url)) return;
-      reported.add(url);
-      listener.onError(asDeliveryError(error, url));
+class GeometryDelivery implements Delivery {
+  readonly #kind: "image" | "bytes";
+  readonly #pool: ResourcePool;
+  readonly #listener: DeliveryListener;
+  readonly #needs: readonly Need[];
+  readonly #reported = new Set<string>();
+  /** Undefined when leases have come or gone: there may be thousands of deliveries to ask. */
+  #transfers: readonly Readonly<Transfer>[] | undefined;
+  #isCancelled = false;
+
+  constructor(geometry: GeometryDescription, pool: ResourcePool, listener: DeliveryListener) {
+    this.#kind = geometry.container === "sig" ? "image" : "bytes";
+    this.#pool = pool;
+    this.#listener = listener;
+    this.#needs = geometry.patches.flatMap((patch: PatchDescription, place) => {
+      const builder = (geometry.container === "sig" ? sigBuilder : bgBuilder)(geometry, patch);
+      return partsOf(geometry, patch).map((part): Need => ({ place, part, builder, lease: undefined, state: "absent" }));
     });
+  }
 
-  const arrivals = geometry.patches.flatMap((patch: PatchDescription, place) => {
-    const builder = (geometry.container === "sig" ? sigBuilder : bgBuilder)(geometry, patch);
-    return partsOf(geometry, patch).map((part) => {
-      const lease = pool.lease({
-        kind: geometry.container === "sig" ? "image" : "bytes",
-        url: part.reference.url, priority: part.priority, expectedBytes: part.expectedBytes,
-      });
-      leases.push(lease);
-      return onPart(place, part, builder, lease);
-    });
-  });
-  void Promise.all(arrivals).then(() => {
-    if (!isCancelled) listener.onSettled();
-  });
+  get transfers(): readonly Readonly<Transfer>[] {
+    this.#transfers ??= Array.from(new Set(this.#needs.flatMap(({ lease }) => (lease ? [lease.transfer] : []))));
+    return this.#transfers;
+  }
 
-  return {
-    transfers: Array.from(new Set(leases.map((lease) => lease.transfer))),
-    cancel() {
-      isCancelled = true;
-      for (const lease of leases) lease.release();
-    },
-  };
+  get isSettled(): boolean {
+    return this.#needs.every(({ state }) => state !== "asked");
+  }
+
+  get isExhausted(): boolean {
+    return this.#needs.every(({ state }) => state === "here" || state === "failed");
+  }
+
+  demand(priorityOf: Demand): void {
+    for (const need of this.#needs) {
+      if (need.state === "here" || need.state === "failed") continue;
+      const priority = priorityOf(need.place, need.part);
+      if (priority === undefined) this.#giveUp(need);
+      else if (need.lease !== undefined) need.lease.setPriority(priority);
+      else this.#ask(need, priority);
+    }
+  }
+
+  cancel(): void {
+    this.#isCancelled = true;
+    for (const { lease } of this.#needs) lease?.release();
+  }
+
+  #ask(need: Need, priority: number): void {
+    const { reference, expectedBytes } = need.part;
+    const lease = this.#pool.lease({ kind: this.#kind, url: reference.url, priority, expectedBytes });
+    need.lease = lease;
+    need.state = "asked";
+    this.#transfers = undefined;
+    void this.#await(need, lease);
+  }
+
+  #giveUp(need: Need): void {
+    if (need.lease === undefined) return;
+    need.lease.release();
+    need.lease = undefined;
+    need.state = "absent";
+    this.#transfers = undefined;
+  }
+
+  async #await(need: Need, lease: Lease): Promise<void> {
+    // Given up in between, or given up and asked for again.
+    const isOver = () => this.#isCancelled || need.lease !== lease;
+    try {
+      const content = await lease.content;
+      if (isOver()) return;
+      need.builder.accept(need.part, content);
+      need.state = "here";
+      const stage = need.builder.stage();
+      if (stage !== undefined) this.#listener.onStage(need.place, stage);
+    } catch (error) {
+      if (isOver()) return;
+      need.state = "failed";
+      this.#report(need.part.reference.url, error);
+    }
+    if (this.isSettled) this.#listener.onSettled();
+  }
+
+  #report(url: string, error: unknown): void {
+    if (this.#reported.has(url)) return;
+    this.#reported.add(url);
+    this.#listener.onError(asDeliveryError(error, url));
+  }
 }

@@ -1,101 +1,9 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import type { DecodedImage } from "../decode/image.ts";
-import { checkPng } from "../decode/png.ts";
 import { pngOf } from "../decode/png.testing.ts";
-import type { Stage } from "../decode/stage.ts";
-import { elementsOf } from "../document/elements.testing.ts";
-import type { GeometryDescription } from "../document/description.ts";
-import { shapesOf } from "../document/description.ts";
-import { readScene } from "../document/readScene.ts";
-import { Scheduler } from "../scheduler/scheduler.ts";
-import type { Delivery } from "./deliver.ts";
-import { deliver } from "./deliver.ts";
-import type { DeliveryError } from "./deliveryError.ts";
+import { geometryOf, held, indices, record, records, sigFiles, sigGeometry, sigPatch, siteOf, soon } from "./delivery.testing.ts";
+import type { Transfer } from "./progress.ts";
 import { noProgress, progressOf } from "./progress.ts";
-import { ResourcePool } from "./resources.ts";
-
-type Answer = Uint8Array<ArrayBuffer> | number | Promise<Uint8Array<ArrayBuffer>>;
-
-/** A site in memory: its files, what was asked for in order, and what was delivered. */
-function siteOf(files: Record<string, Answer>, slots = 6) {
-  const asked: string[] = [];
-  const aborted: string[] = [];
-  const images = { open: 0 };
-  const scheduler = new Scheduler(slots);
-  const answer = async (url: string, signal: AbortSignal): Promise<Response> => {
-    const name = url.replace("https://site/", "");
-    asked.push(name);
-    signal.addEventListener("abort", () => aborted.push(name));
-    const file = files[name] ?? 404;
-    if (typeof file === "number") return new Response("no", { status: file });
-    const bytes = await Promise.race([file, new Promise<never>((_, reject) => {
-      signal.addEventListener("abort", () => { reject(signal.reason as Error); });
-    })]);
-    return new Response(bytes, { headers: { "content-length": String(bytes.length) } });
-  };
-  const pool = new ResourcePool({
-    scheduler,
-    decodeImage: (png): Promise<DecodedImage> => {
-      images.open += 1;
-      return Promise.resolve({ ...checkPng(png), close: () => { images.open -= 1; } });
-    },
-    download: { fetch: (url, init) => answer(url as string, init?.signal ?? new AbortController().signal), silenceMs: 1000, retries: 0, backoffMs: 1 },
-    resolve: (url) => new URL(url, "https://site/").href,
-    onTransfer: () => undefined,
-  });
-  return { asked, aborted, images, scheduler, pool };
-}
-
-interface Recording {
-  readonly stages: { patch: number; stage: Stage }[];
-  readonly errors: DeliveryError[];
-  readonly delivery: Delivery;
-  readonly settled: Promise<void>;
-}
-
-function record(geometry: GeometryDescription, pool: ResourcePool): Recording {
-  const stages: Recording["stages"] = [];
-  const errors: DeliveryError[] = [];
-  let resolve: () => void = () => undefined;
-  const settled = new Promise<void>((done) => { resolve = done; });
-  const delivery = deliver(geometry, pool, {
-    onStage: (patch, stage) => stages.push({ patch, stage }),
-    onError: (error) => errors.push(error),
-    onSettled: () => { resolve(); },
-  });
-  return { stages, errors, delivery, settled };
-}
-
-function geometryOf(markup: string): GeometryDescription {
-  const geometry = shapesOf(readScene(elementsOf(`<X3D><Shape>${markup}</Shape></X3D>`)).root)[0]?.geometry;
-  assert.ok(geometry);
-  return geometry;
-}
-
-const sigPatch = (n: number) => `<GeometryPatch recordCount="500" vertexCount="600" implicitMeshSize="256 4"
-  index="i${n}.png" coord='"a${n}.png" "b${n}.png"' normal="n${n}.png"/>`;
-const sigGeometry = (patches: number) => geometryOf(
-  `<ImageGeometry>${Array.from({ length: patches }, (_, n) => sigPatch(n)).join("")}</ImageGeometry>`);
-const records = pngOf({ width: 256, height: 2 });
-const indices = pngOf({ width: 256, height: 4 });
-
-function sigFiles(patches: number): Record<string, Answer> {
-  const files: Record<string, Answer> = {};
-  for (let n = 0; n < patches; ++n) {
-    Object.assign(files, { [`a${n}.png`]: records, [`b${n}.png`]: records, [`n${n}.png`]: records, [`i${n}.png`]: indices });
-  }
-  return files;
-}
-
-/** A promise and the function that fulfils it. */
-function held(bytes: Uint8Array<ArrayBuffer>) {
-  let release: () => void = () => undefined;
-  const promise = new Promise<Uint8Array<ArrayBuffer>>((resolve) => { release = () => { resolve(bytes); }; });
-  return { promise, release };
-}
-
-const soon = () => new Promise((resolve) => setTimeout(resolve, 5));
 
 describe("the order of requests", () => {
   test("is the first coordinate byte of all patches, index, normals, further bytes", async () => {
@@ -310,7 +218,7 @@ describe("a cancelled delivery", () => {
 });
 
 describe("progress", () => {
-  const transfer = (loadedBytes: number, totalBytes: number, isSettled = false) => ({ loadedBytes, totalBytes, isSettled });
+  const transfer = (loadedBytes: number, totalBytes: number, state: Transfer["state"] = "loading") => ({ loadedBytes, totalBytes, state });
 
   test("is the share of bytes", () => {
     assert.deepEqual(progressOf([transfer(10, 40), transfer(10, 40)], noProgress), { totalProgress: 0.25, loadedBytes: 20, totalBytes: 80 });
@@ -323,7 +231,7 @@ describe("progress", () => {
 
   test("is 1 when everything is settled, whatever came, and not before", () => {
     assert.ok(progressOf([transfer(40, 40), transfer(0, 0)], noProgress).totalProgress < 1);
-    assert.equal(progressOf([transfer(40, 40, true), transfer(0, 0, true)], noProgress).totalProgress, 1);
+    assert.equal(progressOf([transfer(40, 40, "ready"), transfer(0, 0, "failed")], noProgress).totalProgress, 1);
     assert.equal(progressOf([], noProgress).totalProgress, 1);
   });
 

@@ -1,37 +1,33 @@
-// The files that a patch needs, each with its rank in the queue.
+// The files that a patch needs.
 
 import { byteSizeOf } from "../decode/elements.ts";
 import type { GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
+import type { Chunk } from "../scheduler/priority.ts";
 
 export interface Part {
   readonly role: "index" | "coord" | "normal" | "color";
   /** Which byte plane, for `coord` of images. */
   readonly plane: number;
   readonly reference: Reference;
-  readonly priority: number;
+  /** What it is to the order of requests. */
+  readonly chunk: Chunk;
   readonly expectedBytes: number;
 }
 
-/**
- * The order of paper section 5.4 ("chunk type"), over all patches of the scene:
- * the first coordinate byte, what makes a surface of it, how it is lit and
- * coloured, then the further bytes. Texture coordinates are not asked for:
- * nothing that the document can say yet uses them.
- */
+/** Texture coordinates are not asked for: nothing that the document can say yet uses them. */
 export function partsOf(geometry: GeometryDescription, patch: PatchDescription): Part[] {
   const corners = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
   const vertices = patch.vertexCount;
-  const part = (role: Part["role"], reference: Reference | undefined, priority: number,
-                expectedBytes: number, plane = 0): Part[] =>
-    reference === undefined ? [] : [{ role, plane, reference, priority, expectedBytes }];
+  const part = (role: Part["role"], reference: Reference | undefined, expectedBytes: number, plane = 0): Part[] =>
+    reference === undefined ? []
+      : [{ role, plane, reference, expectedBytes, chunk: { type: plane > 0 ? "refinement" : role, plane } }];
   const bytesOf = (role: Part["role"]) => geometry.container === "sig" ? sigBytes[role]
     : byteSizeOf(geometry[`${role}Type`]) * { index: 1, coord: 3, normal: 3, color: geometry.colorComponents }[role];
   return [
-    ...patch.coord.flatMap((plane, place) =>
-      part("coord", plane, place === 0 ? 0 : 3 + place, vertices * bytesOf("coord"), place)),
-    ...part("index", patch.index, 1, corners * bytesOf("index")),
-    ...part("normal", patch.normal, 2, vertices * bytesOf("normal")),
-    ...part("color", patch.color, 3, vertices * bytesOf("color")),
+    ...patch.coord.flatMap((plane, place) => part("coord", plane, vertices * bytesOf("coord"), place)),
+    ...part("index", patch.index, corners * bytesOf("index")),
+    ...part("normal", patch.normal, vertices * bytesOf("normal")),
+    ...part("color", patch.color, vertices * bytesOf("color")),
   ];
 }
 

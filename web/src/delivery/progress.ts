@@ -1,10 +1,18 @@
-/** One file on its way. */
+import type { DownloadState } from "../scheduler/download.ts";
+
+/** One file on its way. Of those that are not asked for there is none. */
 export interface Transfer {
+  /** As the document writes it. */
+  readonly url: string;
+  /** `decoding`: all bytes are here. `ready` and `failed`: nothing more will follow. */
+  state: DownloadState | "decoding" | "ready" | "failed";
   loadedBytes: number;
   /** An estimate until the server says, exact once settled. */
   totalBytes: number;
-  /** Come or failed: nothing more will follow. */
-  isSettled: boolean;
+}
+
+export function isSettled({ state }: Pick<Transfer, "state">): boolean {
+  return state === "ready" || state === "failed";
 }
 
 export interface Progress {
@@ -21,14 +29,14 @@ export const noProgress: Progress = { totalProgress: 0, loadedBytes: 0, totalByt
  * estimates, so the bare quotient may fall when a server tells a larger one;
  * people are shown the largest share so far, and 1 only at the very end.
  */
-export function progressOf(transfers: readonly Readonly<Transfer>[], before: Progress): Progress {
+export function progressOf(transfers: readonly Pick<Transfer, "state" | "loadedBytes" | "totalBytes">[], before: Progress): Progress {
   let loadedBytes = 0;
   let totalBytes = 0;
   for (const transfer of transfers) {
     loadedBytes += transfer.loadedBytes;
     totalBytes += transfer.totalBytes;
   }
-  if (transfers.every((transfer) => transfer.isSettled)) return { totalProgress: 1, loadedBytes, totalBytes };
+  if (transfers.every(isSettled)) return { totalProgress: 1, loadedBytes, totalBytes };
   const share = totalBytes > 0 ? loadedBytes / totalBytes : 0;
   return { totalProgress: Math.max(before.totalProgress, Math.min(share, 0.999)), loadedBytes, totalBytes };
 }

@@ -4,8 +4,9 @@
 
 import type { DecodedImage, ImageDecoder } from "../decode/image.ts";
 import { decodeImage } from "../decode/image.ts";
+import { Backlog } from "../scheduler/backlog.ts";
 import type { DownloadOptions } from "../scheduler/download.ts";
-import { downloadAnd } from "../scheduler/download.ts";
+import { downloadInSlot } from "../scheduler/download.ts";
 import type { Scheduler } from "../scheduler/scheduler.ts";
 import type { Transfer } from "./progress.ts";
 
@@ -17,7 +18,7 @@ export interface ResourceRequest {
   readonly kind: Content["kind"];
   /** As the document writes it, without its fragment. */
   readonly url: string;
-  /** Smaller comes first. A resource that is already asked for keeps its own. */
+  /** Larger comes first. Of several leases the largest counts. */
   readonly priority: number;
   /** What the file is likely to weigh, until the server says. */
   readonly expectedBytes: number;
@@ -27,6 +28,7 @@ export interface Lease {
   readonly transfer: Readonly<Transfer>;
   /** Rejects with RequestError, DecodeError, or an AbortError after the last release. */
   readonly content: Promise<Content>;
+  setPriority(priority: number): void;
   release(): void;
 }
 
@@ -40,15 +42,12 @@ export interface DeliveryOptions {
   readonly onTransfer: () => void;
 }
 
-interface Resource {
-  readonly transfer: Transfer;
-  readonly content: Promise<Content>;
-  readonly aborter: AbortController;
-  leases: number;
-}
+/** Downloaded bytes that may wait for their decoder. */
+const mostBacklogBytes = 8 * 2 ** 20;
 
 export class ResourcePool {
   readonly #options: DeliveryOptions;
+  readonly #backlog = new Backlog(mostBacklogBytes);
   readonly #resources = new Map<string, Resource>();
 
   constructor(options: DeliveryOptions) {
@@ -61,50 +60,123 @@ export class ResourcePool {
   }
 
   lease(request: ResourceRequest): Lease {
-    const url = this.#options.resolve(request.url);
-    const key = `${request.kind} ${url}`;
-    const resource = this.#resources.get(key) ?? this.#start(key, url, request);
-    resource.leases += 1;
-    let released = false;
+    const { scheduler, resolve } = this.#options;
+    const key = `${request.kind} ${resolve(request.url)}`;
+    const resource = this.#resources.get(key) ?? this.#start(key, request);
+    const leased = { priority: request.priority };
+    resource.add(leased);
+    scheduler.reorder();
     return {
       transfer: resource.transfer,
       content: resource.content,
+      setPriority(priority) {
+        leased.priority = priority;
+        resource.reconsider();
+        scheduler.reorder();
+      },
       release: () => {
-        if (released) return;
-        released = true;
-        resource.leases -= 1;
-        if (resource.leases === 0) this.#end(key, resource);
+        if (!resource.remove(leased) || !resource.isUnused) return;
+        this.#resources.delete(key);
+        resource.end();
       },
     };
   }
 
-  #start(key: string, url: string, request: ResourceRequest): Resource {
-    const { scheduler, download, onTransfer } = this.#options;
-    const transfer: Transfer = { loadedBytes: 0, totalBytes: request.expectedBytes, isSettled: false };
-    const aborter = new AbortController();
-    const onBytes = (loadedBytes: number, totalBytes: number | undefined) => {
-      transfer.loadedBytes = loadedBytes;
-      transfer.totalBytes = Math.max(totalBytes ?? transfer.totalBytes, loadedBytes);
-      onTransfer();
-    };
-    const content = downloadAnd(scheduler, request.priority, url, aborter.signal, download, onBytes,
-      async (bytes): Promise<Content> => request.kind === "bytes" ? { kind: "bytes", bytes }
-        : { kind: "image", image: await decodeImage(bytes, this.#options.decodeImage) })
-      .finally(() => {
-        transfer.totalBytes = transfer.loadedBytes;
-        transfer.isSettled = true;
-      });
-    const resource: Resource = { transfer, content, aborter, leases: 0 };
+  #start(key: string, request: ResourceRequest): Resource {
+    const resource = new Resource(request, this.#options, this.#backlog);
     this.#resources.set(key, resource);
     return resource;
   }
+}
 
-  #end(key: string, resource: Resource): void {
-    this.#resources.delete(key);
-    resource.aborter.abort();
-    resource.content.then(
+class Resource {
+  readonly transfer: Transfer;
+  readonly content: Promise<Content>;
+  readonly #options: DeliveryOptions;
+  readonly #backlog: Backlog;
+  readonly #aborter = new AbortController();
+  readonly #leases = new Set<{ readonly priority: number }>();
+  #priority: number | undefined;
+
+  constructor(request: ResourceRequest, options: DeliveryOptions, backlog: Backlog) {
+    this.#options = options;
+    this.#backlog = backlog;
+    this.#priority = request.priority;
+    this.transfer = { url: request.url, state: "waiting", loadedBytes: 0, totalBytes: request.expectedBytes };
+    this.content = this.#fetch(request);
+  }
+
+  get priority(): number {
+    this.#priority ??= Array.from(this.#leases).reduce((most, { priority }) => Math.max(most, priority), 0);
+    return this.#priority;
+  }
+
+  get isUnused(): boolean {
+    return this.#leases.size === 0;
+  }
+
+  /** A lease has another priority. Only looked at when the scheduler asks: there may be thousands. */
+  reconsider(): void {
+    this.#priority = undefined;
+  }
+
+  add(lease: { readonly priority: number }): void {
+    this.#leases.add(lease);
+    this.reconsider();
+  }
+
+  /** False where the lease has been given back before. */
+  remove(lease: { readonly priority: number }): boolean {
+    this.reconsider();
+    return this.#leases.delete(lease);
+  }
+
+  end(): void {
+    this.#aborter.abort();
+    this.content.then(
       (content) => { if (content.kind === "image") content.image.close(); },
       () => undefined, // whoever held a lease has been told
     );
+  }
+
+  async #fetch({ kind, url }: ResourceRequest): Promise<Content> {
+    const { transfer } = this;
+    try {
+      const content = await this.#decode(kind, await this.#download(url));
+      transfer.state = "ready";
+      return content;
+    } catch (error) {
+      transfer.state = "failed";
+      throw error;
+    } finally {
+      transfer.totalBytes = transfer.loadedBytes;
+      this.#options.onTransfer();
+    }
+  }
+
+  #download(url: string): Promise<{ bytes: Uint8Array<ArrayBuffer>; leave: () => void }> {
+    const { transfer } = this;
+    const { scheduler, download, resolve, onTransfer } = this.#options;
+    const listener = {
+      onState: (state: Transfer["state"]) => { transfer.state = state; },
+      onBytes: (loadedBytes: number, totalBytes: number | undefined) => {
+        transfer.loadedBytes = loadedBytes;
+        transfer.totalBytes = Math.max(totalBytes ?? transfer.totalBytes, loadedBytes);
+        onTransfer();
+      },
+    };
+    return downloadInSlot(scheduler, this, resolve(url), this.#aborter.signal, download, listener, async (bytes, signal) => {
+      transfer.state = "decoding";
+      return { bytes, leave: await this.#backlog.enter(bytes.byteLength, signal) };
+    });
+  }
+
+  async #decode(kind: Content["kind"], { bytes, leave }: { bytes: Uint8Array<ArrayBuffer>; leave: () => void }): Promise<Content> {
+    try {
+      if (kind === "bytes") return { kind, bytes };
+      return { kind, image: await decodeImage(bytes, this.#options.decodeImage) };
+    } finally {
+      leave();
+    }
   }
 }

@@ -30,7 +30,9 @@ function deliveriesOf() {
     resolve: (url) => url,
     onTransfer: () => undefined,
   }));
-  return { geometry, deliveries, asked, aborted: () => aborted, open: () => { answer.resolve(undefined); } };
+  /** Asks for all files of all who have joined. */
+  const demand = () => { deliveries.demand(() => () => 1); };
+  return { geometry, deliveries, demand, asked, aborted: () => aborted, open: () => { answer.resolve(undefined); } };
 }
 
 function logged() {
@@ -47,10 +49,11 @@ function logged() {
 
 describe("a geometry that several shapes show", () => {
   test("is asked for once, and tells those who come late what the others know", async () => {
-    const { geometry, deliveries, asked, open } = deliveriesOf();
+    const { geometry, deliveries, demand, asked, open } = deliveriesOf();
     const [early, alsoEarly, late] = [logged(), logged(), logged()];
     deliveries.join(geometry, early.listener);
     deliveries.join(geometry, alsoEarly.listener);
+    demand();
     open();
     await Promise.all([early.settled, alsoEarly.settled]);
     deliveries.join(geometry, late.listener);
@@ -63,10 +66,11 @@ describe("a geometry that several shapes show", () => {
   });
 
   test("is given up with the last of them, who hears nothing more", async () => {
-    const { geometry, deliveries, asked, aborted } = deliveriesOf();
+    const { geometry, deliveries, demand, asked, aborted } = deliveriesOf();
     const [first, second] = [logged(), logged()];
     const one = deliveries.join(geometry, first.listener);
     const other = deliveries.join(geometry, second.listener);
+    demand();
     await new Promise((resolve) => setTimeout(resolve));
     assert.equal(asked.length, 2);
     one.cancel();
@@ -74,7 +78,9 @@ describe("a geometry that several shapes show", () => {
     assert.equal(aborted(), 0);
     other.cancel();
     assert.equal(aborted(), 2);
-    deliveries.join(geometry, logged().listener).cancel(); // begins anew and ends before it was told anything
+    const third = deliveries.join(geometry, logged().listener); // begins anew and ends before it was told anything
+    demand();
+    third.cancel();
     await new Promise((resolve) => setTimeout(resolve, 5));
     assert.deepEqual([first.log, second.log], [[], []]);
   });

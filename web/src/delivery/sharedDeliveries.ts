@@ -3,10 +3,13 @@
 
 import type { Stage } from "../decode/stage.ts";
 import type { GeometryDescription } from "../document/description.ts";
-import type { Delivery, DeliveryListener } from "./deliver.ts";
+import type { Delivery, DeliveryListener, Demand } from "./deliver.ts";
 import { deliver } from "./deliver.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import type { ResourcePool } from "./resources.ts";
+
+/** What one of those who share a delivery sees of it. */
+export type JoinedDelivery = Omit<Delivery, "demand">;
 
 interface Shared {
   readonly delivery: Delivery;
@@ -16,7 +19,6 @@ interface Shared {
   /** What has been told so far, for those who join late. */
   readonly stages: Map<number, Stage>;
   readonly errors: DeliveryError[];
-  isSettled: boolean;
 }
 
 export class SharedDeliveries {
@@ -32,8 +34,9 @@ export class SharedDeliveries {
    * microtask. Never calls the listener before it returns. The last one to cancel
    * ends the delivery.
    */
-  join(geometry: GeometryDescription, listener: DeliveryListener): Delivery {
+  join(geometry: GeometryDescription, listener: DeliveryListener): JoinedDelivery {
     const shared = this.#shared.get(geometry) ?? this.#start(geometry);
+    const { delivery } = shared;
     let isCancelled = false;
     shared.members += 1;
     queueMicrotask(() => {
@@ -41,10 +44,12 @@ export class SharedDeliveries {
       shared.listeners.add(listener);
       for (const [patch, stage] of shared.stages) listener.onStage(patch, stage);
       for (const error of shared.errors) listener.onError(error);
-      if (shared.isSettled) listener.onSettled();
+      if (delivery.isSettled) listener.onSettled();
     });
     return {
-      transfers: shared.delivery.transfers,
+      get transfers() { return delivery.transfers; },
+      get isSettled() { return delivery.isSettled; },
+      get isExhausted() { return delivery.isExhausted; },
       cancel: () => {
         if (isCancelled) return;
         isCancelled = true;
@@ -52,9 +57,16 @@ export class SharedDeliveries {
         shared.members -= 1;
         if (shared.members > 0) return;
         this.#shared.delete(geometry);
-        shared.delivery.cancel();
+        delivery.cancel();
       },
     };
+  }
+
+  /** Says what is wanted of each geometry, for all who show it. */
+  demand(demandOf: (geometry: GeometryDescription) => Demand): void {
+    for (const [geometry, { delivery }] of this.#shared) {
+      if (!delivery.isExhausted) delivery.demand(demandOf(geometry));
+    }
   }
 
   #start(geometry: GeometryDescription): Shared {
@@ -71,11 +83,10 @@ export class SharedDeliveries {
         for (const listener of listeners) listener.onError(error);
       },
       onSettled() {
-        shared.isSettled = true;
         for (const listener of listeners) listener.onSettled();
       },
     });
-    const shared: Shared = { delivery, members: 0, listeners, stages, errors, isSettled: false };
+    const shared: Shared = { delivery, members: 0, listeners, stages, errors };
     this.#shared.set(geometry, shared);
     return shared;
   }

@@ -80,7 +80,10 @@ export interface ShapeDescription {
    * are the same. It stands in several places where a group around it is USEd.
    */
   readonly element: SceneElement;
+  /** False where it or a group around it is hidden. */
   readonly visible: boolean;
+  /** What the author says of it, of its geometry and of the groups around it, multiplied. */
+  readonly priority: number;
   /** Tight, in the shape's own coordinates; undefined where neither the shape nor its geometry has one. */
   readonly box: Box3 | undefined;
   readonly material: MaterialDescription;
@@ -110,6 +113,8 @@ export interface SceneDescription {
   readonly headlight: boolean;
   /** Undefined: nothing behind the scene, the page shows through. */
   readonly skyColor: Vec3 | undefined;
+  /** Changes to the weights of what files hold, as the author writes them. */
+  readonly chunkPriority: string;
   readonly warnings: readonly Warning[];
 }
 

@@ -124,6 +124,40 @@ describe("a scene", () => {
   });
 });
 
+describe("what the author prefers", () => {
+  const shapesIn = (markup: string) => shapesOf(sceneOf(markup).root);
+
+  test("is multiplied down the tree, from groups to geometries", () => {
+    const [first, second, third] = shapesIn(`
+      <Group priority="2"><Transform priority="high"><Shape priority="0.5"><ImageGeometry priority="3"/></Shape></Transform></Group>
+      <Group priority="low"><Shape><BinaryGeometry priority="0"/></Shape></Group><Shape priority="auto"/>`);
+    assert.deepEqual([first?.priority, second?.priority, third?.priority], [2 * 4 * 0.5 * 3, 0, 1]);
+  });
+
+  test("is no part of the geometry: another priority is not another geometry", () => {
+    const [one, other] = shapesIn('<Shape><ImageGeometry priority="7"/></Shape><Shape><ImageGeometry/></Shape>');
+    assert.deepEqual(one?.geometry, other?.geometry);
+  });
+
+  for (const text of ["-1", "much", "", "1 2", "NaN"]) {
+    test(`is 1 where it reads "${text}", with a warning`, () => {
+      const scene = sceneOf(`<Shape priority="${text}"><ImageGeometry priority="${text}"/></Shape>`);
+      assert.equal(shapesOf(scene.root)[0]?.priority, 1);
+      assert.equal(scene.warnings.length, 2);
+    });
+  }
+
+  test("by what files hold stands on the scene", () => {
+    assert.equal(readScene(elementsOf('<x3d chunkpriority="normal: 2"/>')).chunkPriority, "normal: 2");
+  });
+
+  test("is worth nothing in a shape that is hidden, or stands in a group that is", () => {
+    const shapes = shapesIn(`<Group visible="false"><Transform><Shape/></Transform></Group>
+      <Transform visible="false"><Group><Shape/></Group></Transform><Shape visible="false"/><Group><Shape/></Group>`);
+    assert.deepEqual(shapes.map(({ visible }) => visible), [false, false, false, true]);
+  });
+});
+
 describe("a geometry", () => {
   test("with patches takes draws and references from them alone", () => {
     const geometry = geometryOf(patches);

@@ -68,6 +68,19 @@ const mfInt32: FieldType<readonly number[]> = {
   },
 };
 
+/** How much sooner than other things: a number of 0 or more, or one of the words of HTML's `fetchpriority`. */
+const priority: FieldType<number> = {
+  name: "priority (a number of 0 or more, high, auto or low)",
+  parse(text) {
+    const word = priorityWords[text.trim().toLowerCase()];
+    if (word !== undefined) return word;
+    const value = sfFloat.parse(text);
+    return value !== undefined && value >= 0 ? value : undefined;
+  },
+};
+
+const priorityWords: Readonly<Record<string, number>> = { high: 4, auto: 1, low: 1 / 4 };
+
 const sfString: FieldType<string> = { name: "SFString", parse: (text) => text };
 
 /** Quoted strings ("a" "b"); a text without quotes is taken word by word, as people write one URL. */
@@ -101,6 +114,7 @@ function maker<Value>(type: FieldType<Value>): (defaultValue: Value) => Field<Va
 export const SFBool = maker(sfBool);
 export const SFFloat = maker(sfFloat);
 export const SFInt32 = maker(sfInt32);
+export const Priority = maker(priority);
 export const SFString = maker(sfString);
 export const SFVec2f = maker(tuple<Vec2>("SFVec2f", 2));
 export const SFVec3f = maker(tuple<Vec3>("SFVec3f", 3));

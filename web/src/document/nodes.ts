@@ -6,11 +6,14 @@ import type { SceneElement } from "./element.ts";
 import { attributeOf } from "./element.ts";
 import type { Field } from "./fieldTypes.ts";
 import {
-  MFColor, MFInt32, MFString, SFBool, SFColor, SFFloat, SFInt32, SFRotation, SFString, SFVec2f, SFVec3f,
+  MFColor, MFInt32, MFString, Priority, SFBool, SFColor, SFFloat, SFInt32, SFRotation, SFString, SFVec2f, SFVec3f,
 } from "./fieldTypes.ts";
 
 /** Whether it is seen: X3D 4's name, and X3DOM's older one. Both must say so. */
 const seenObject = { visible: SFBool(true), render: SFBool(true) };
+
+/** What is fetched sooner; multiplied down the tree. */
+const ranked = { priority: Priority(1) };
 
 const boundedObject = {
   bboxCenter: SFVec3f([0, 0, 0]),
@@ -29,6 +32,7 @@ const patchFields = {
 };
 
 const geometryFields = {
+  ...ranked,
   ...patchFields,
   solid: SFBool(true),
   position: SFVec3f([0, 0, 0]),
@@ -40,6 +44,10 @@ const geometryFields = {
 };
 
 export const nodeFields = {
+  X3D: {
+    /** Weights of what files hold, for the order of requests. */
+    chunkPriority: SFString(""),
+  },
   NavigationInfo: { headlight: SFBool(true) },
   Background: { skyColor: MFColor([0, 0, 0]) },
   Viewpoint: {
@@ -56,9 +64,10 @@ export const nodeFields = {
     intensity: SFFloat(1),
     ambientIntensity: SFFloat(0),
   },
-  Group: seenObject,
-  Switch: { ...seenObject, whichChoice: SFInt32(-1) },
+  Group: { ...ranked, ...seenObject },
+  Switch: { ...ranked, ...seenObject, whichChoice: SFInt32(-1) },
   Transform: {
+    ...ranked,
     ...seenObject,
     translation: SFVec3f([0, 0, 0]),
     rotation: SFRotation([0, 0, 1, 0]),
@@ -66,7 +75,7 @@ export const nodeFields = {
     center: SFVec3f([0, 0, 0]),
     scaleOrientation: SFRotation([0, 0, 1, 0]),
   },
-  Shape: { ...boundedObject, ...seenObject },
+  Shape: { ...ranked, ...boundedObject, ...seenObject },
   Material: {
     diffuseColor: SFColor([0.8, 0.8, 0.8]),
     specularColor: SFColor([0, 0, 0]),

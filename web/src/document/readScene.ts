@@ -25,6 +25,12 @@ interface Reading {
   skyColor: Vec3 | undefined;
 }
 
+/** What groups hand down to what stands in them. */
+interface Inherited {
+  readonly visible: boolean;
+  readonly priority: number;
+}
+
 /** With the same `geometries` as before, geometries that have not changed are the same objects. */
 export function readScene(x3d: SceneElement, geometries = new GeometryMemory()): SceneDescription {
   const reading: Reading = {
@@ -32,10 +38,11 @@ export function readScene(x3d: SceneElement, geometries = new GeometryMemory()):
     viewpoint: undefined, headlight: nodeFields.NavigationInfo.headlight.defaultValue, skyColor: undefined,
   };
   const root: GroupDescription = {
-    kind: "group", visible: true, transform: undefined, children: readChildren(x3d, reading),
+    kind: "group", visible: true, transform: undefined, children: readChildren(x3d, reading, { visible: true, priority: 1 }),
   };
   const { viewpoint, headlight, skyColor, warnings } = reading;
-  return { root, viewpoint, headlight, skyColor, warnings };
+  const { chunkPriority } = readFields(x3d, nodeFields.X3D, warnings);
+  return { root, viewpoint, headlight, skyColor, chunkPriority, warnings };
 }
 
 function definedIn(element: SceneElement, defined = new Map<string, SceneElement>()): Map<string, SceneElement> {
@@ -45,24 +52,24 @@ function definedIn(element: SceneElement, defined = new Map<string, SceneElement
   return defined;
 }
 
-function readChildren(element: SceneElement, reading: Reading): NodeDescription[] {
-  return childrenOf(element).flatMap((child) => readNode(child, reading));
+function readChildren(element: SceneElement, reading: Reading, inherited: Inherited): NodeDescription[] {
+  return childrenOf(element).flatMap((child) => readNode(child, reading, inherited));
 }
 
-function readNode(element: SceneElement, reading: Reading): NodeDescription[] {
+function readNode(element: SceneElement, reading: Reading, inherited: Inherited): NodeDescription[] {
   return withUse(element, reading, [], (node) => {
     const { warnings } = reading;
     switch (lowerNameOf(node)) {
       case "shape":
-        return [readShape(element, node, reading)];
+        return [readShape(element, node, reading, inherited)];
       case "group":
-        return [groupOf(readFields(node, nodeFields.Group, warnings), readChildren(node, reading))];
+        return [readGroup(node, readFields(node, nodeFields.Group, warnings), reading, inherited)];
       case "transform": {
         const transform = readFields(node, nodeFields.Transform, warnings);
-        return [groupOf(transform, readChildren(node, reading), transform)];
+        return [readGroup(node, transform, reading, inherited, transform)];
       }
       case "switch":
-        return [readSwitch(node, reading)];
+        return [readSwitch(node, reading, inherited)];
       case "directionallight":
         return [{ kind: "light", light: readFields(node, nodeFields.DirectionalLight, warnings) }];
       case "viewpoint":
@@ -75,25 +82,40 @@ function readNode(element: SceneElement, reading: Reading): NodeDescription[] {
         reading.skyColor ??= readFields(node, nodeFields.Background, warnings).skyColor;
         return [];
       default:
-        return readChildren(node, reading);
+        return readChildren(node, reading, inherited);
     }
   });
 }
 
-interface Seen {
+interface GroupFields {
   readonly visible: boolean;
   readonly render: boolean;
+  readonly priority: number;
 }
 
-function groupOf(seen: Seen, children: NodeDescription[], transform?: TransformDescription): GroupDescription {
-  return { kind: "group", visible: seen.visible && seen.render, transform, children };
+function isSeen({ visible, render }: Omit<GroupFields, "priority">): boolean {
+  return visible && render;
 }
 
-/** One of its children is seen, or none; the others stay in the scene, so that choosing them shows them at once. */
-function readSwitch(node: SceneElement, reading: Reading): GroupDescription {
+/** What a node with these fields hands down. */
+function within(fields: GroupFields, inherited: Inherited): Inherited {
+  return { visible: inherited.visible && isSeen(fields), priority: inherited.priority * fields.priority };
+}
+
+function readGroup(node: SceneElement, fields: GroupFields, reading: Reading, inherited: Inherited,
+                   transform?: TransformDescription): GroupDescription {
+  return { kind: "group", visible: isSeen(fields), transform, children: readChildren(node, reading, within(fields, inherited)) };
+}
+
+/** One of its children is seen, or none; the others stay in the scene, so that choosing them shows at once what they have. */
+function readSwitch(node: SceneElement, reading: Reading, inherited: Inherited): GroupDescription {
   const fields = readFields(node, nodeFields.Switch, reading.warnings);
-  return groupOf(fields, childrenOf(node).map((child, place) =>
-    groupOf({ visible: place === fields.whichChoice, render: true }, readNode(child, reading))));
+  const children = childrenOf(node).map((child, place): GroupDescription => {
+    const visible = place === fields.whichChoice;
+    const own = within(fields, { ...inherited, visible: inherited.visible && visible });
+    return { kind: "group", visible, transform: undefined, children: readNode(child, reading, own) };
+  });
+  return { kind: "group", visible: isSeen(fields), transform: undefined, children };
 }
 
 /** Reads `element`, or what its USE names; `nothing` where that leads nowhere or in a circle. */
@@ -115,16 +137,24 @@ function withUse<Result>(element: SceneElement, reading: Reading, nothing: Resul
 }
 
 /** `element` is the shape's identity, `node` what describes it: the same but for USE. */
-function readShape(element: SceneElement, node: SceneElement, reading: Reading): ShapeDescription {
+function readShape(element: SceneElement, node: SceneElement, reading: Reading, inherited: Inherited): ShapeDescription {
   const values = readFields(node, nodeFields.Shape, reading.warnings);
   const parts = childrenOf(node);
-  const geometry = first(parts, reading, (part) => readGeometry(part, reading));
+  let priorityOfGeometry = 1;
+  const geometry = first(parts, reading, (part) => {
+    const read = readGeometry(part, reading);
+    // Beside the geometry, not in it: with another priority it is the same geometry.
+    if (read) priorityOfGeometry = readFields(part, { priority: nodeFields.ImageGeometry.priority }, []).priority;
+    return read;
+  });
   const material = first(parts, reading, (part) =>
     lowerNameOf(part) !== "appearance" ? undefined
       : first(childrenOf(part), reading, (child) =>
           lowerNameOf(child) === "material" ? readFields(child, nodeFields.Material, reading.warnings) : undefined));
   return {
-    kind: "shape", element, visible: values.visible && values.render, geometry,
+    kind: "shape", element, geometry,
+    visible: inherited.visible && isSeen(values),
+    priority: inherited.priority * values.priority * priorityOfGeometry,
     box: boxOf(values) ?? (geometry && boxOfGeometry(geometry)),
     material: material ?? readFields(withoutAttributes, nodeFields.Material, reading.warnings),
   };

@@ -36,6 +36,9 @@ export class ImgeoView extends HTMLElement {
     this.#listeners = new AbortController();
     const viewer = new Viewer(x3d, face.canvas, context, (share) => { face.showProgress(share); });
     this.#viewer = viewer;
+    // Known before the first request: what is asked for first depends on what is seen.
+    viewer.renderer.setSize(...sizeOf(face.canvas));
+    viewer.start();
     listenForMovement(face.canvas, viewer.renderer, this.#listeners.signal);
     watchSize(face.canvas, this.#listeners.signal, (width, height, ratio) => { viewer.renderer.resize(width, height, ratio); });
   }
@@ -64,6 +67,11 @@ function refuse(x3d: Element): void {
 
 function labelOf(x3d: Element): string {
   return x3d.querySelector("viewpoint")?.getAttribute("description") ?? "3D scene";
+}
+
+function sizeOf(canvas: HTMLCanvasElement): [width: number, height: number, ratio: number] {
+  const { width, height } = canvas.getBoundingClientRect();
+  return [devicePixels(width, undefined), devicePixels(height, undefined), devicePixelRatio];
 }
 
 /** Tells the canvas' size in device pixels, now and whenever it or the pixel ratio changes. */

@@ -71,6 +71,21 @@ describe("loading", () => {
     }
   });
 
+  test("goes on to tell of finer stages after its end, once each", () => {
+    const { element, log } = elementWithLog();
+    const loading = new Loading(element);
+    loading.reach("shaded");
+    loading.settle();
+    loading.onFrame(isShape);
+    loading.reach("full");
+    loading.onFrame(isShape);
+    loading.onFrame(isShape);
+    assert.deepEqual(log, ["first-image shaded", "load", "refine full"]);
+    loading.abandon();
+    loading.onFrame(isShape);
+    assert.equal(log.length, 3);
+  });
+
   test("that is abandoned breaks its promises and falls silent", async () => {
     const { element, log } = elementWithLog();
     const loading = new Loading(element);

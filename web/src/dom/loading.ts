@@ -26,7 +26,7 @@ export interface Loadable {
   /** Resolves when something of it is on the screen. */
   readonly firstImage: Promise<undefined>;
   /**
-   * Resolves when all that can be shown is on the screen. A shape's rejects where
+   * Resolves when all that this view needs is on the screen. A shape's rejects where
    * a file of it failed; the scene's resolves even then, after the error events.
    */
   readonly complete: Promise<undefined>;
@@ -41,7 +41,7 @@ export class Loading {
   /** What the next frame will show, and what the last one has. */
   #stage: StageName | "none" = "none";
   #shownStage: StageName | "none" = "none";
-  #outcome: "loading" | "settled" | "ended" = "loading";
+  #outcome: "loading" | "settled" | "ended" | "abandoned" = "loading";
   #error: Error | undefined;
 
   /** Puts fresh promises on the element. */
@@ -58,14 +58,14 @@ export class Loading {
     return this.#progress;
   }
 
-  /** Nothing more will come. */
+  /** This view needs nothing more. */
   get isSettled(): boolean {
     return this.#outcome !== "loading";
   }
 
   /** `load` has been sent, or nothing will be. */
   get isEnded(): boolean {
-    return this.#outcome === "ended";
+    return this.#outcome === "ended" || this.#outcome === "abandoned";
   }
 
   get stage(): StageName | "none" {
@@ -90,14 +90,14 @@ export class Loading {
     this.#send("error", detail);
   }
 
-  /** Says that nothing more will come. */
+  /** Says that this view needs nothing more. */
   settle(): void {
     if (this.#outcome === "loading") this.#outcome = "settled";
   }
 
-  /** A frame with everything reached so far is on the screen. */
+  /** A frame with everything reached so far is on the screen. After `load`, a nearer look may still refine. */
   onFrame(isScene: boolean): void {
-    if (this.#outcome === "ended") return;
+    if (this.#outcome === "abandoned") return;
     if (this.#stage !== this.#shownStage) {
       const isFirst = this.#shownStage === "none";
       this.#shownStage = this.#stage;
@@ -122,8 +122,9 @@ export class Loading {
 
   /** The element is gone or begins anew. */
   abandon(reason: Error = new DOMException("The element was removed or its geometry replaced.", "AbortError")): void {
-    if (this.#outcome === "ended") return;
-    this.#outcome = "ended";
+    const wasEnded = this.isEnded;
+    this.#outcome = "abandoned";
+    if (wasEnded) return;
     this.#firstImage.reject(reason);
     this.#complete.reject(reason);
   }

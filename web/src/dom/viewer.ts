@@ -4,12 +4,12 @@
 import { decodeWithBrowser } from "../decode/image.ts";
 import type { StageName } from "../decode/stage.ts";
 import { stageNames } from "../decode/stage.ts";
-import type { Delivery } from "../delivery/deliver.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import { progressOf } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resources.ts";
+import type { JoinedDelivery } from "../delivery/sharedDeliveries.ts";
 import { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
-import type { GeometryDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
+import type { GeometryDescription, ShapeDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { GeometryMemory } from "../document/geometryMemory.ts";
@@ -18,10 +18,13 @@ import type { RenderStatistics } from "../render/sceneRenderer.ts";
 import { SceneRenderer } from "../render/sceneRenderer.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
+import { slotsFor } from "../scheduler/slots.ts";
 import { leastStage, Loading } from "./loading.ts";
+import { watchProtocol } from "./protocol.ts";
+import { Steering } from "./steering.ts";
 
-/** Downloads at a time: few, so that what matters most gets the whole line (paper section 5.4). */
-const slotCount = 6;
+/** The bar moves no more often than people can see. */
+const progressIntervalMs = 50;
 
 export interface ViewStatistics extends RenderStatistics {
   /** Requests ever sent, retries included. */
@@ -31,24 +34,28 @@ export interface ViewStatistics extends RenderStatistics {
 
 interface LoadedShape {
   readonly geometry: GeometryDescription | undefined;
+  /** In any of its places. */
+  isVisible: boolean;
   readonly loading: Loading;
   readonly stages: (StageName | "none")[];
-  delivery: Delivery | undefined;
+  delivery: JoinedDelivery | undefined;
 }
 
 export class Viewer {
   readonly renderer: SceneRenderer;
   readonly #x3d: Element;
-  readonly #scheduler = new Scheduler(slotCount);
+  readonly #scheduler = new Scheduler(slotsFor(""));
   readonly #pool: ResourcePool;
   readonly #deliveries: SharedDeliveries;
   readonly #geometries = new GeometryMemory();
   readonly #shapes = new Map<SceneElement, LoadedShape>();
+  readonly #steering: Steering;
   readonly #observer: MutationObserver;
+  readonly #listeners = new AbortController();
   readonly #onProgress: (share: number) => void;
   readonly #warned = new Set<string>();
   #loading: Loading;
-  #progressIsDue = false;
+  #progressTimer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(x3d: Element, canvas: HTMLCanvasElement, context: WebGL2RenderingContext, onProgress: (share: number) => void) {
     this.#x3d = x3d;
@@ -64,11 +71,17 @@ export class Viewer {
       onTransfer: () => { this.#progressSoon(); },
     });
     this.#deliveries = new SharedDeliveries(this.#pool);
+    this.#steering = new Steering(this.renderer, this.#deliveries, () => { this.#onSteered(); });
     this.#observer = new MutationObserver((records) => {
       for (const { target } of records) this.#touchAround(target);
       this.#readDocument();
     });
-    this.#observer.observe(x3d, { subtree: true, childList: true, attributes: true });
+  }
+
+  /** Shows the document from now on. */
+  start(): void {
+    watchProtocol(this.#listeners.signal, (protocol) => { this.#scheduler.slotCount = slotsFor(protocol); });
+    this.#observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
     this.#readDocument();
   }
 
@@ -79,7 +92,9 @@ export class Viewer {
 
   /** Aborts all requests and frees the GPU. */
   dispose(): void {
+    this.#listeners.abort();
     this.#observer.disconnect();
+    this.#steering.stop();
     for (const shape of this.#shapes.values()) {
       shape.delivery?.cancel();
       shape.loading.abandon();
@@ -91,8 +106,8 @@ export class Viewer {
 
   #readDocument(): void {
     const scene = readScene(this.#x3d, this.#geometries);
-    this.#warn(scene);
-    const described = new Map(shapesOf(scene.root).map((shape) => [shape.element, shape]));
+    const places = shapesOf(scene.root);
+    const described = new Map(places.map((shape) => [shape.element, shape]));
     const isShown = (shape: ShapeDescription | undefined) => {
       const loaded = shape && this.#shapes.get(shape.element);
       return loaded !== undefined && loaded.geometry === shape?.geometry;
@@ -106,12 +121,16 @@ export class Viewer {
       this.#shapes.delete(element);
       shape.loading.abandon();
     }
-    if (begun.length > 0 && this.#loading.isEnded) this.#loading = new Loading(this.#x3d);
     this.renderer.setScene(scene);
     for (const shape of begun) this.#begin(shape);
+    const visible = new Set(places.filter((shape) => shape.visible).map(({ element }) => element));
+    for (const [element, shape] of this.#shapes) shape.isVisible = visible.has(element);
+    const isLoading = Array.from(this.#shapes.values()).some(({ isVisible, loading }) => isVisible && !loading.isSettled);
+    if (isLoading && this.#loading.isEnded) this.#loading = new Loading(this.#x3d);
+    this.#steering.setScene(scene, (problem) => { this.#warn(this.#x3d, `chunkPriority: ${problem}`); });
+    for (const { element, message } of scene.warnings) this.#warn(element, message);
     // Last, so that files that old and new shapes share are not fetched again.
     for (const [, shape] of gone) shape.delivery?.cancel();
-    this.#progressSoon();
   }
 
   /** The geometry that this is, or is a part of, may have changed. */
@@ -121,37 +140,39 @@ export class Viewer {
     }
   }
 
-  #begin(shape: ShapeDescription): void {
-    const element = shape.element as Element;
-    const { geometry } = shape;
-    const loaded: LoadedShape = {
-      geometry, loading: new Loading(element), delivery: undefined, stages: geometry?.patches.map(() => "none" as const) ?? [],
-    };
-    this.#shapes.set(element, loaded);
+  #begin({ element: described, geometry, visible }: ShapeDescription): void {
+    const element = described as Element;
+    const stages = geometry?.patches.map(() => "none" as const) ?? [];
+    const shape: LoadedShape = { geometry, stages, isVisible: visible, loading: new Loading(element), delivery: undefined };
+    this.#shapes.set(element, shape);
     if (geometry === undefined) {
-      loaded.loading.settle();
+      shape.loading.settle();
       return;
     }
-    loaded.delivery = this.#deliveries.join(geometry, {
+    shape.delivery = this.#deliveries.join(geometry, {
       onStage: (patch, stage) => {
         this.renderer.setStage(element, geometry, patch, stage);
-        loaded.stages[patch] = stage.name;
-        this.#reach(loaded, geometry);
+        shape.stages[patch] = stage.name;
+        // A shape is as far as its last patch; with a first picture as soon as any patch shows.
+        shape.loading.reach(stageShown(shape.stages));
       },
-      onError: (error) => { this.#fail(loaded, element, error); },
-      onSettled: () => {
-        loaded.loading.settle();
-        this.renderer.requestFrame(); // events wait for a frame
-      },
+      onError: (error) => { this.#fail(shape, element, error); },
+      onSettled: () => { this.#settle(shape); },
     });
   }
 
-  /** A shape is as far as its last patch; with a first picture as soon as any patch shows. */
-  #reach(shape: LoadedShape, geometry: GeometryDescription): void {
-    shape.loading.reach(stageShown(shape.stages.slice(0, geometry.patches.length)));
-    // Shapes of which nothing will come do not hold the scene back.
-    this.#loading.reach(stageShown(Array.from(this.#shapes.values(), ({ loading }) => loading)
-      .filter(({ stage, isSettled }) => stage !== "none" || !isSettled).map(({ stage }) => stage)));
+  /** Shapes from which this view needs nothing (more) are complete, even if they could be finer. */
+  #onSteered(): void {
+    for (const shape of this.#shapes.values()) {
+      if (shape.delivery?.isSettled === true) this.#settle(shape);
+    }
+    this.#progressSoon();
+  }
+
+  #settle(shape: LoadedShape): void {
+    if (shape.loading.isSettled || !shape.isVisible) return;
+    shape.loading.settle();
+    this.renderer.requestFrame(); // events wait for a frame
   }
 
   #fail(shape: LoadedShape, element: Element, error: DeliveryError): void {
@@ -161,17 +182,16 @@ export class Viewer {
     this.#loading.fail(detail, error);
   }
 
-  /** Once a turn of the event loop is often enough to tell of bytes. */
   #progressSoon(): void {
-    if (this.#progressIsDue) return;
-    this.#progressIsDue = true;
-    setTimeout(() => { this.#tellProgress(); });
+    this.#progressTimer ??= setTimeout(() => { this.#tellProgress(); }, progressIntervalMs);
   }
 
   #tellProgress(): void {
-    this.#progressIsDue = false;
-    for (const { loading, delivery } of this.#shapes.values()) {
-      if (delivery && !loading.isEnded) loading.moveOn(progressOf(delivery.transfers, loading.progress));
+    clearTimeout(this.#progressTimer);
+    this.#progressTimer = undefined;
+    for (const shape of this.#shapes.values()) {
+      const { loading, delivery } = shape;
+      if (delivery && shape.isVisible && !loading.isEnded) loading.moveOn(progressOf(delivery.transfers, loading.progress));
     }
     if (!this.#loading.isEnded) this.#loading.moveOn(progressOf(this.#pool.transfers(), this.#loading.progress));
     this.#onProgress(this.#loading.progress.totalProgress);
@@ -179,21 +199,23 @@ export class Viewer {
 
   #onFrame(): void {
     this.#tellProgress(); // all of it before `load`
-    const loadings = Array.from(this.#shapes.values(), ({ loading }) => loading);
+    // Not what is hidden: that is fetched when it is shown.
+    const awaited = Array.from(this.#shapes.values()).filter(({ isVisible }) => isVisible).map(({ loading }) => loading);
     // Asked for only now: until a frame has shown the end, further shapes may join.
-    if (loadings.every((loading) => loading.isSettled)) this.#loading.settle();
-    for (const loading of loadings) loading.onFrame(false);
+    if (awaited.every((loading) => loading.isSettled)) this.#loading.settle();
+    // Shapes of which nothing will come do not hold the scene back.
+    this.#loading.reach(stageShown(awaited.filter(({ stage, isSettled }) => stage !== "none" || !isSettled).map(({ stage }) => stage)));
+    for (const { loading } of this.#shapes.values()) loading.onFrame(false);
     this.#loading.onFrame(true);
+    this.#steering.follow();
   }
 
   /** One line for each thing in the document that could not be taken as written. */
-  #warn(scene: SceneDescription): void {
-    for (const { element, message } of scene.warnings) {
-      const line = `imgeo: <${element.localName}> ${message}`;
-      if (this.#warned.has(line)) continue;
-      this.#warned.add(line);
-      console.warn(line);
-    }
+  #warn(element: SceneElement, message: string): void {
+    const line = `imgeo: <${element.localName}> ${message}`;
+    if (this.#warned.has(line)) return;
+    this.#warned.add(line);
+    console.warn(line);
   }
 }
 

@@ -1,7 +1,7 @@
 // Draws a described scene into a canvas, and only when something changed.
 
 import {
-  Box3, Color, DirectionalLight, Group, LinearSRGBColorSpace, NoToneMapping, PerspectiveCamera, Scene, Vector2,
+  Box3, Color, DirectionalLight, Group, LinearSRGBColorSpace, Matrix4, NoToneMapping, PerspectiveCamera, Scene, Vector2,
   WebGLRenderer,
 } from "three";
 import type { Stage } from "../decode/stage.ts";
@@ -24,6 +24,16 @@ export interface RenderStatistics {
   readonly textures: number;
   readonly geometries: number;
   readonly programs: number;
+}
+
+/** Where the camera is and what it sees, as plain numbers. */
+export interface View {
+  readonly position: readonly [number, number, number];
+  /** 16 numbers, column by column. */
+  readonly clipFromScene: readonly number[];
+  /** Device pixels that something of length 1 covers at a distance of 1, in the middle of the view. */
+  readonly pixelsPerUnit: number;
+  readonly near: number;
 }
 
 const pointSizeInCssPixels = 2;
@@ -49,6 +59,7 @@ export class SceneRenderer {
   #pose = this.#home;
   #viewpointKey: string | undefined;
   #aspect = 1;
+  #height = 1;
   #hasArea = false;
   #frames = 0;
   #frameRequest = 0;
@@ -73,6 +84,25 @@ export class SceneRenderer {
     return { frames: this.#frames, textures: memory.textures, geometries: memory.geometries, programs: programs?.length ?? 0 };
   }
 
+  /** Undefined while the picture has no area. */
+  get view(): View | undefined {
+    if (!this.#hasArea) return undefined;
+    const camera = this.#camera;
+    applyPose(camera, this.#pose, this.#aspect, this.#sphere);
+    camera.updateMatrixWorld();
+    return {
+      position: camera.position.toArray(),
+      clipFromScene: new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements,
+      pixelsPerUnit: (camera.projectionMatrix.elements[5] * this.#height) / 2,
+      near: camera.near,
+    };
+  }
+
+  /** What puts a shape of the current scene into its place number `place`: 16 numbers, column by column. */
+  sceneFromShape(element: SceneElement, place: number): readonly number[] | undefined {
+    return this.#shapes.get(element)?.groupAt(place).matrixWorld.elements;
+  }
+
   /** Shows this scene from now on. Shapes that are gone give back what they hold on the GPU. */
   setScene(description: SceneDescription): void {
     const shapes = new Map(shapesOf(description.root).map((shape) => [shape.element, shape]));
@@ -95,6 +125,7 @@ export class SceneRenderer {
     this.#root.removeFromParent();
     this.#root = root;
     this.#scene.add(root);
+    root.updateMatrixWorld();
     this.#headlight.visible = description.headlight;
     const { skyColor } = description;
     // Of the scene, not the renderer's clear colour: that one is lost with the context.
@@ -120,14 +151,19 @@ export class SceneRenderer {
     this.requestFrame();
   }
 
-  /** In device pixels, with the number of them in a CSS pixel. */
-  resize(width: number, height: number, pixelRatio: number): void {
+  /** In device pixels, with the number of them in a CSS pixel. The canvas is empty until a frame is drawn. */
+  setSize(width: number, height: number, pixelRatio: number): void {
     this.#hasArea = width > 0 && height > 0;
     if (!this.#hasArea) return;
     this.#aspect = width / height;
+    this.#height = height;
     this.#shared.pointSize.value = pointSizeInCssPixels * pixelRatio;
     this.#renderer.setSize(width, height, false);
-    // Setting the size has cleared the canvas: draw before the browser shows it.
+  }
+
+  /** The same, and draws before the browser shows the empty canvas. */
+  resize(width: number, height: number, pixelRatio: number): void {
+    this.setSize(width, height, pixelRatio);
     this.#drawNow();
   }
 

@@ -1,6 +1,8 @@
 // One URL -> its bytes, counted as they come, with a limit on silence and
 // retries where trying again can help.
 
+import type { Prioritised } from "./queue.ts";
+import { retryDelayMs } from "./retry.ts";
 import type { Scheduler } from "./scheduler.ts";
 
 export type RequestFailure = "http" | "network" | "timeout" | "limit";
@@ -11,12 +13,15 @@ export class RequestError extends Error {
   readonly url: string;
   /** The HTTP status; 0 where there was no answer. */
   readonly status: number;
+  /** The server's `Retry-After`, as it wrote it. */
+  readonly retryAfter: string | undefined;
 
-  constructor(kind: RequestFailure, url: string, message: string, status = 0) {
+  constructor(kind: RequestFailure, url: string, message: string, status = 0, retryAfter?: string) {
     super(message);
     this.kind = kind;
     this.url = url;
     this.status = status;
+    this.retryAfter = retryAfter;
   }
 }
 
@@ -40,38 +45,46 @@ export const defaultDownloadOptions: DownloadOptions = {
   backoffMs: 400,
 };
 
-/** `totalBytes` is undefined where the server does not say or says it of the compressed body. */
-export type ByteCount = (loadedBytes: number, totalBytes: number | undefined) => void;
+/** Where a download stands: in the queue, on the line, or waiting to try again. */
+export type DownloadState = "waiting" | "loading" | "retrying";
+
+/** What is told of a download on its way. */
+export interface DownloadListener {
+  onState(state: DownloadState): void;
+  /** `totalBytes` is undefined where the server does not say or says it of the compressed body. */
+  onBytes(loadedBytes: number, totalBytes: number | undefined): void;
+}
 
 /**
- * Downloads `url` in a slot of the scheduler and turns it into a result there,
- * so that decoding too is bounded by the slots. Each attempt takes a slot of its
- * own: while it waits to retry, others use the slot. Network errors, silence and
- * 5xx are tried again, everything else is final.
+ * Downloads `url` in a slot of the scheduler and takes the bytes over there: while
+ * `take` waits, nothing further is asked for. Each attempt has a slot of its own:
+ * until the next one, others use the slot. Which failures are tried again, and
+ * when, is said in retry.ts; all others are final.
  */
-export async function downloadAnd<Result>(
-  scheduler: Scheduler, priority: number, url: string, signal: AbortSignal, options: DownloadOptions,
-  onBytes: ByteCount, decode: (bytes: Uint8Array<ArrayBuffer>, signal: AbortSignal) => Promise<Result>,
+export async function downloadInSlot<Result>(
+  scheduler: Scheduler, subject: Prioritised, url: string, signal: AbortSignal, options: DownloadOptions,
+  listener: DownloadListener, take: (bytes: Uint8Array<ArrayBuffer>, signal: AbortSignal) => Promise<Result>,
 ): Promise<Result> {
   for (let attempt = 0; ; ++attempt) {
     try {
-      return await scheduler.run(priority, signal, async (jobSignal) =>
-        decode(await download(url, jobSignal, options, onBytes), jobSignal));
+      listener.onState("waiting");
+      return await scheduler.run(subject, signal, async (jobSignal) => {
+        listener.onState("loading");
+        return take(await download(url, jobSignal, options, listener), jobSignal);
+      });
     } catch (error) {
-      if (signal.aborted || attempt >= options.retries || !isWorthRetrying(error)) throw error;
-      await pause(options.backoffMs * 2 ** attempt, signal);
+      const delayMs = attempt < options.retries && error instanceof RequestError
+        ? retryDelayMs(error, options.backoffMs * 2 ** attempt, Date.now()) : undefined;
+      if (signal.aborted || delayMs === undefined) throw error;
+      listener.onState("retrying");
+      await pause(delayMs, signal);
     }
   }
 }
 
-function isWorthRetrying(error: unknown): boolean {
-  if (!(error instanceof RequestError)) return false;
-  return error.kind === "network" || error.kind === "timeout" || error.status >= 500;
-}
-
 /** One attempt. Rejects with RequestError, or with the signal's reason. */
 export async function download(url: string, signal: AbortSignal, options: DownloadOptions,
-                               onBytes: ByteCount): Promise<Uint8Array<ArrayBuffer>> {
+                               listener: Pick<DownloadListener, "onBytes">): Promise<Uint8Array<ArrayBuffer>> {
   const silence = new AbortController();
   let timer: ReturnType<typeof setTimeout> | undefined;
   const listen = () => {
@@ -83,21 +96,30 @@ export async function download(url: string, signal: AbortSignal, options: Downlo
     const response = await options.fetch(url, { signal: AbortSignal.any([signal, silence.signal]) });
     if (!response.ok) {
       await response.body?.cancel();
-      throw new RequestError("http", url, `the server answered ${response.status} ${response.statusText}`.trim(), response.status);
+      throw new RequestError("http", url, `the server answered ${response.status} ${response.statusText}`.trim(),
+        response.status, response.headers.get("retry-after") ?? undefined);
     }
-    return await readBody(url, response, listen, onBytes);
+    return await readBody(url, response, listen, listener);
   } catch (error) {
     if (signal.aborted) throw signal.reason;
     if (silence.signal.aborted) throw new RequestError("timeout", url, `no byte came for ${options.silenceMs / 1000} s`);
     if (error instanceof RequestError) throw error;
-    throw new RequestError("network", url, error instanceof Error ? error.message : String(error));
+    throw new RequestError("network", url, networkMessage(url, error));
   } finally {
     clearTimeout(timer);
   }
 }
 
+/** Browsers do not say why: of another origin the likeliest cause is that it does not allow this page to read. */
+function networkMessage(url: string, error: unknown): string {
+  const reason = error instanceof Error ? error.message : String(error);
+  const page = (globalThis as { location?: Location }).location;
+  const isForeign = page !== undefined && URL.canParse(url) && new URL(url).origin !== page.origin;
+  return isForeign ? `${reason}; another origin must allow it with Access-Control-Allow-Origin` : reason;
+}
+
 async function readBody(url: string, response: Response, onChunk: () => void,
-                        onBytes: ByteCount): Promise<Uint8Array<ArrayBuffer>> {
+                        { onBytes }: Pick<DownloadListener, "onBytes">): Promise<Uint8Array<ArrayBuffer>> {
   const total = totalBytesOf(response);
   const chunks: Uint8Array[] = [];
   let loaded = 0;

@@ -2,23 +2,36 @@
 // once, in one `finally`, whatever becomes of the job: X3DOM's download manager
 // stood still after six network errors because an error kept its slot.
 
+import type { Prioritised } from "./queue.ts";
+import { PriorityQueue } from "./queue.ts";
+
 /** Told to stop through `signal`; its slot is free when the promise settles. */
 export type Job<Result> = (signal: AbortSignal) => Promise<Result>;
 
-interface Waiting {
-  readonly priority: number;
+interface Waiting extends Prioritised {
   readonly start: () => void;
 }
 
 export class Scheduler {
-  readonly slotCount: number;
-  #waiting: Waiting[] = [];
+  readonly #queue = new PriorityQueue<Waiting>();
+  #slotCount: number;
   #running = 0;
   #started = 0;
   #pumpIsDue = false;
+  #orderIsStale = false;
 
   constructor(slotCount: number) {
-    this.slotCount = slotCount;
+    this.#slotCount = slotCount;
+  }
+
+  get slotCount(): number {
+    return this.#slotCount;
+  }
+
+  /** With fewer slots, what runs goes on; new jobs wait until there is room. */
+  set slotCount(count: number) {
+    this.#slotCount = count;
+    this.#pumpSoon();
   }
 
   /** Jobs that hold a slot now. */
@@ -27,7 +40,7 @@ export class Scheduler {
   }
 
   get waiting(): number {
-    return this.#waiting.length;
+    return this.#queue.size;
   }
 
   /** Jobs that ever got a slot. */
@@ -36,32 +49,38 @@ export class Scheduler {
   }
 
   /**
-   * Runs `job` when a slot is free and nothing of a smaller priority number
-   * waits; equal priorities keep their order. Rejects with the signal's reason
-   * when aborted while waiting; a job that runs is told through its signal.
-   * Nothing starts before the caller's turn of the event loop has ended, so that
-   * what is enqueued together is ordered together.
+   * Runs `job` when a slot is free and nothing of a larger priority waits; equal
+   * priorities keep their order. The subject's priority is read now and after
+   * each `reorder`. Rejects with the signal's reason when aborted while waiting;
+   * a job that runs is told through its signal. Nothing starts before the
+   * caller's turn of the event loop has ended, so that what is enqueued together
+   * is ordered together.
    */
-  run<Result>(priority: number, signal: AbortSignal, job: Job<Result>): Promise<Result> {
+  run<Result>(subject: Prioritised, signal: AbortSignal, job: Job<Result>): Promise<Result> {
     return new Promise((resolve, reject) => {
       if (signal.aborted) {
         reject(signal.reason as Error);
         return;
       }
       const leave = () => {
-        this.#waiting = this.#waiting.filter((other) => other !== entry);
+        this.#queue.remove(entry);
         reject(signal.reason as Error);
       };
-      const entry: Waiting = {
-        priority,
+      const entry = this.#queue.push({
+        get priority() { return subject.priority; },
         start: () => {
           signal.removeEventListener("abort", leave);
           void this.#occupySlot(job, signal).then(resolve, reject);
         },
-      };
+      });
       signal.addEventListener("abort", leave, { once: true });
-      this.#enqueue(entry);
+      this.#pumpSoon();
     });
+  }
+
+  /** Priorities have changed. They are looked at when the next slot is free, however often this is called before. */
+  reorder(): void {
+    this.#orderIsStale = true;
   }
 
   async #occupySlot<Result>(job: Job<Result>, signal: AbortSignal): Promise<Result> {
@@ -75,15 +94,7 @@ export class Scheduler {
     }
   }
 
-  #enqueue(entry: Waiting): void {
-    let low = 0;
-    let high = this.#waiting.length;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if ((this.#waiting[middle]?.priority ?? Infinity) <= entry.priority) low = middle + 1;
-      else high = middle;
-    }
-    this.#waiting.splice(low, 0, entry);
+  #pumpSoon(): void {
     if (this.#pumpIsDue) return;
     this.#pumpIsDue = true;
     queueMicrotask(() => {
@@ -93,10 +104,10 @@ export class Scheduler {
   }
 
   #pump(): void {
-    while (this.#running < this.slotCount) {
-      const next = this.#waiting.shift();
-      if (next === undefined) return;
-      next.start();
+    while (this.#running < this.#slotCount && this.#queue.size > 0) {
+      if (this.#orderIsStale) this.#queue.reorder();
+      this.#orderIsStale = false;
+      this.#queue.pop()?.start();
     }
   }
 }

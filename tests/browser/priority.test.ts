@@ -1,0 +1,153 @@
+// In which order files are asked for (paper section 5.4), seen from outside.
+
+import assert from "node:assert/strict";
+import { createHash } from "node:crypto";
+import { describe, test } from "node:test";
+import { settle, until, withPage, type View } from "./harness.ts";
+import { ranksIn, sceneOf, shapeIn } from "./scenes.ts";
+import { gate } from "./server.ts";
+import { siteOfGenerated } from "./sites.ts";
+
+const knot = (): string => siteOfGenerated("trefoil", "--patch-vertices", "1000");
+const ball = (): string => siteOfGenerated("sphere", "--patch-vertices", "2000");
+
+/** The knot at the left, the ball at the right, each about 6 and 2 across. */
+function twoShapes(viewpoint: string, { knotIs = "", ballIs = "", x3dIs = "" } = {}): string {
+  const scene = `<Viewpoint ${viewpoint}></Viewpoint>
+    <Transform translation="-30 0 0">${shapeIn(knot(), "knot", `id="knot" ${knotIs}`)}</Transform>
+    <Transform translation="30 0 0">${shapeIn(ball(), "ball", `id="ball" ${ballIs}`)}</Transform>`;
+  const name = createHash("sha256").update(scene + x3dIs).digest("hex").slice(0, 12);
+  return sceneOf(`priority-${name}`, { knot: knot(), ball: ball() }, scene, x3dIs);
+}
+
+const atKnot = 'position="-30 0 12"';
+const atBall = 'position="30 0 6"';
+const atBoth = 'position="0 0 80" fieldOfView="1"';
+
+/** What was asked for of both shapes, in order: "knot0" is a first byte of the knot, "ball2" a normal of the ball. */
+function order(view: View): string[] {
+  const ranks = new Map([...ranksIn(knot(), "knot"), ...ranksIn(ball(), "ball")]);
+  return view.asked.filter((url) => ranks.has(url)).map((url) => `${url.split("/")[0] ?? ""}${ranks.get(url) ?? ""}`);
+}
+
+const isOf = (shape: string) => (name: string): boolean => name.startsWith(shape);
+
+function assertBefore(names: string[], early: (name: string) => boolean, late: (name: string) => boolean): void {
+  assert.ok(names.some(early) && names.some(late), names.join(" "));
+  assert.ok(names.findLastIndex(early) < names.findIndex(late), names.join(" "));
+}
+
+async function orderOf(directory: string): Promise<string[]> {
+  let names: string[] = [];
+  await withPage(directory, {}, async (view) => {
+    await view.promise("complete");
+    names = order(view);
+  });
+  return names;
+}
+
+describe("the order of requests", () => {
+  test("follows the camera: what it sees comes first", async () => {
+    assertBefore(await orderOf(twoShapes(atKnot)), isOf("knot"), isOf("ball"));
+    assertBefore(await orderOf(twoShapes(atBall)), isOf("ball"), isOf("knot"));
+  });
+
+  test("of two in the view makes both coarse before one is fine, the larger first", async () => {
+    const names = await orderOf(twoShapes(atBoth));
+    for (const rank of ["0", "1", "2"]) {
+      assertBefore(names, (name) => name === `knot${rank}`, (name) => name === `ball${rank}`);
+    }
+    assertBefore(names, (name) => name.endsWith("0"), (name) => name.endsWith("1"));
+  });
+
+  test("follows the author: by shape", async () => {
+    const names = await orderOf(twoShapes(atBoth, { ballIs: 'priority="1000"' }));
+    assertBefore(names, isOf("ball"), isOf("knot"));
+  });
+
+  test("follows the author: by what files hold", async () => {
+    const names = await orderOf(twoShapes(atBoth, { x3dIs: 'chunkPriority="normal: 100000"' }));
+    assertBefore(names, (name) => name.endsWith("2"), (name) => !name.endsWith("2"));
+  });
+
+  for (const [who, change] of [
+    ["the camera", () => { document.querySelector("viewpoint")!.setAttribute("position", "30 0 6"); }],
+    ["the author", () => { document.querySelector("#ball")!.setAttribute("priority", "100000"); }],
+  ] as const) {
+    test(`changes while files wait: ${who}`, async () => {
+      const { closed, open } = gate();
+      await withPage(twoShapes(atKnot), { server: (server) => server.when(/^\/(knot|ball)\//, { hold: closed }) }, async (view) => {
+        await until("all slots are taken", () => order(view).length === 6);
+        await view.page.evaluate(change);
+        await settle(view.page);
+        open();
+        await view.promise("complete");
+        const names = order(view);
+        assert.ok(names.slice(0, 6).every(isOf("knot")), names.join(" "));
+        assertBefore(names.slice(6), isOf("ball"), isOf("knot"));
+      });
+    });
+  }
+
+  test("changes while files wait: the user", async () => {
+    const { closed, open } = gate();
+    await withPage(twoShapes(atBoth), { server: (server) => server.when(/^\/(knot|ball)\//, { hold: closed }) }, async (view) => {
+      await until("all slots are taken", () => order(view).length === 6);
+      await view.page.locator("imgeo-view canvas").focus();
+      // Shifts the scene to the left, until only the ball at the right of it is seen.
+      for (let step = 0; step < 11; ++step) await view.page.keyboard.press("Shift+ArrowLeft");
+      await new Promise((resolve) => setTimeout(resolve, 500));
+      open();
+      await view.promise("complete");
+      assertBefore(order(view).slice(6), isOf("ball"), isOf("knot"));
+    });
+  });
+});
+
+describe("a shape that is hidden", () => {
+  test("is not asked for, and does not keep the scene waiting", async () => {
+    await withPage(twoShapes(atBoth, { ballIs: 'visible="false"' }), {}, async (view) => {
+      await view.promise("complete");
+      assert.ok(!order(view).some(isOf("ball")), order(view).join(" "));
+      assert.deepEqual(await view.events("progress", "shape#ball"), []);
+
+      await view.page.evaluate(() => { document.querySelector("#ball")!.setAttribute("visible", "true"); });
+      await view.promise("complete", "#ball");
+      await view.promise("complete");
+      assert.ok(order(view).some(isOf("ball")));
+      assert.equal((await view.events("load", "x3d")).length, 2);
+    });
+  });
+
+  test("while it loads is no longer asked for, and its requests are aborted", async () => {
+    const { closed } = gate();
+    const server = (server: View["server"]): void => void server.when(/^\/ball\//, { hold: closed });
+    await withPage(twoShapes(atBall), { server }, async (view) => {
+      await until("all slots are taken", () => view.server.requestsOf(/^\/ball\//).length === 6);
+      await view.page.evaluate(() => { document.querySelector("#ball")!.setAttribute("visible", "false"); });
+      await view.promise("complete"); // the knot gets the slots
+      const requests = view.server.requestsOf(/^\/ball\//);
+      assert.deepEqual(requests.map(({ state }) => state), Array.from({ length: 6 }, () => "aborted"));
+      assert.deepEqual(await view.events("error"), []);
+    });
+  });
+});
+
+describe("a byte that nobody could see", () => {
+  const secondBytes = (view: View): number => order(view).filter((name) => name === "knot4").length;
+
+  test("is not asked for, the scene is complete without it, and it comes when the camera does", async () => {
+    await withPage(twoShapes('position="-30 0 900"'), {}, async (view) => {
+      await view.promise("complete");
+      assert.equal(secondBytes(view), 0);
+      assert.deepEqual((await view.events("progress", "x3d")).at(-1)?.detail.totalProgress, 1);
+
+      await view.page.evaluate(() => { document.querySelector("viewpoint")!.setAttribute("position", "-30 0 12"); });
+      const stages = async (): Promise<unknown[]> => (await view.events("refine", "shape#knot")).map(({ detail }) => detail.stage);
+      await until("the knot is sharp", async () => (await stages()).at(-1) === "full");
+      assert.ok(secondBytes(view) > 0);
+      assert.equal((await view.events("load", "shape#knot")).length, 1);
+      assert.equal((await view.events("load", "x3d")).length, 1);
+    });
+  });
+});

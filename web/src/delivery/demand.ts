@@ -1,0 +1,81 @@
+// What a shape needs of its files for a view, and how soon: the three factors of
+// paper section 5.4 put together, and "closer objects get higher precision".
+
+import type { GeometryDescription, PatchDescription } from "../document/description.ts";
+import { boxAround } from "../document/geometry.ts";
+import { storedFrameOf } from "../document/storedFrame.ts";
+import type { ChunkWeights } from "../scheduler/priority.ts";
+import { priorityOf } from "../scheduler/priority.ts";
+import type { Camera, Matrix, Sphere, ViewOf } from "../scheduler/view.ts";
+import { scaleOf, sphereOf, unknownView, viewOf } from "../scheduler/view.ts";
+import type { Demand } from "./deliver.ts";
+import type { Part } from "./parts.ts";
+
+/** A vertex that moves by less than half of this many device pixels moves unseen. */
+const finestStepInPixels = 0.5;
+
+/** A geometry in one of the places where it stands in the scene; stays the same while only the camera moves. */
+export interface PlacedGeometry {
+  readonly geometry: GeometryDescription;
+  /** The author's priority, there. */
+  readonly content: number;
+  /** Around each patch, in the scene. */
+  readonly spheres: readonly Sphere[];
+  /** Of each patch, in the scene: the distance between two values of the first byte. */
+  readonly coarseSteps: readonly number[];
+}
+
+export function placeGeometry(geometry: GeometryDescription, sceneFromShape: Matrix, content: number): PlacedGeometry {
+  const scale = scaleOf(sceneFromShape);
+  return {
+    geometry, content,
+    spheres: geometry.patches.map((patch) =>
+      sphereOf(patch.box ?? boxAround(geometry.position, geometry.size), sceneFromShape)),
+    coarseSteps: geometry.patches.map((patch) =>
+      Math.max(...storedFrameOf(geometry, patch).step) * 256 ** (patch.coord.length - 1) * scale),
+  };
+}
+
+/** What is the same for all shapes of a scene. */
+export interface Viewing {
+  /** Undefined while there is no picture: everything is then wanted. */
+  readonly camera: Camera | undefined;
+  readonly weights: ChunkWeights;
+}
+
+/** What is wanted of a geometry that is seen in these places; nothing where it is seen in none. */
+export function demandFor(places: readonly PlacedGeometry[], viewing: Viewing): Demand {
+  const demands = places.map((placed) => demandAt(placed, viewing));
+  return (patch, part) => {
+    let most: number | undefined;
+    for (const demand of demands) {
+      const priority = demand(patch, part);
+      if (priority !== undefined && (most === undefined || priority > most)) most = priority;
+    }
+    return most;
+  };
+}
+
+function demandAt(placed: PlacedGeometry, { camera, weights }: Viewing): Demand {
+  const views = placed.spheres.map((sphere) => (camera ? viewOf(sphere, camera) : unknownView));
+  return (place, part) => {
+    const view = views[place] ?? unknownView;
+    const patch = placed.geometry.patches[place];
+    const coarseStep = placed.coarseSteps[place] ?? Infinity;
+    if (patch !== undefined && isTooFine(part, patch, coarseStep, view)) return undefined;
+    return priorityOf(placed.content, part.chunk, view, weights);
+  };
+}
+
+/**
+ * A byte plane waits while the planes above it place every vertex where the eye
+ * would see it anyway. Not where a surface has no normals: its shading comes from
+ * the slope between vertices, which shows steps that are far smaller.
+ */
+function isTooFine(part: Part, patch: PatchDescription, coarseStep: number, view: ViewOf): boolean {
+  if (part.chunk.type !== "refinement") return false;
+  const isShadedBySlope = patch.normal === undefined && patch.draws.some(({ primitive }) =>
+    primitive === "triangles" || primitive === "triangleStrip");
+  const stepAbove = coarseStep / 256 ** (part.plane - 1);
+  return !isShadedBySlope && stepAbove * view.pixelsPerUnit < finestStepInPixels;
+}

@@ -1,0 +1,85 @@
+// Steers deliveries by what the camera sees: says which files each geometry
+// needs, and how soon, when the scene or the view has changed.
+
+import type { PlacedGeometry, Viewing } from "../delivery/demand.ts";
+import { demandFor, placeGeometry } from "../delivery/demand.ts";
+import type { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
+import type { GeometryDescription, SceneDescription } from "../document/description.ts";
+import { shapesOf } from "../document/description.ts";
+import type { SceneElement } from "../document/element.ts";
+import type { SceneRenderer, View } from "../render/sceneRenderer.ts";
+import type { ChunkWeights } from "../scheduler/priority.ts";
+import { chunkWeightsOf, defaultChunkWeights } from "../scheduler/priority.ts";
+import { planesOf } from "../scheduler/view.ts";
+
+/** While the camera moves, the order changes this often; a few files' time on a fast line. */
+const steeringIntervalMs = 100;
+
+export class Steering {
+  readonly #renderer: SceneRenderer;
+  readonly #deliveries: SharedDeliveries;
+  readonly #onSteered: () => void;
+  #places = new Map<GeometryDescription, PlacedGeometry[]>();
+  #weights: ChunkWeights = defaultChunkWeights;
+  #view: View | undefined;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+
+  /** `onSteered` is called when files may have been added to those that are wanted, or taken from them. */
+  constructor(renderer: SceneRenderer, deliveries: SharedDeliveries, onSteered: () => void) {
+    this.#renderer = renderer;
+    this.#deliveries = deliveries;
+    this.#onSteered = onSteered;
+  }
+
+  /** Steers by this scene, which the renderer shows already; `onProblem` is told what cannot be read of its weights. */
+  setScene(scene: SceneDescription, onProblem: (problem: string) => void): void {
+    this.#weights = chunkWeightsOf(scene.chunkPriority, onProblem);
+    this.#places = placesIn(scene, this.#renderer);
+    this.steer();
+  }
+
+  /** Soon, if the camera has moved since the last time. */
+  follow(): void {
+    if (this.#timer !== undefined || isSameView(this.#renderer.view, this.#view)) return;
+    this.#timer = setTimeout(() => { this.steer(); }, steeringIntervalMs);
+  }
+
+  /** Now. */
+  steer(): void {
+    this.stop();
+    this.#view = this.#renderer.view;
+    const viewing = viewingOf(this.#view, this.#weights);
+    this.#deliveries.demand((geometry) => demandFor(this.#places.get(geometry) ?? [], viewing));
+    this.#onSteered();
+  }
+
+  stop(): void {
+    clearTimeout(this.#timer);
+    this.#timer = undefined;
+  }
+}
+
+/** Where each geometry is seen: a shape stands in as many places as it is met with in the tree. */
+function placesIn(scene: SceneDescription, renderer: SceneRenderer): Map<GeometryDescription, PlacedGeometry[]> {
+  const met = new Map<SceneElement, number>();
+  const places = new Map<GeometryDescription, PlacedGeometry[]>();
+  for (const { element, geometry, visible, priority } of shapesOf(scene.root)) {
+    const place = met.get(element) ?? 0;
+    met.set(element, place + 1);
+    const matrix = renderer.sceneFromShape(element, place);
+    if (geometry === undefined || matrix === undefined || !visible) continue;
+    const known = places.get(geometry) ?? [];
+    known.push(placeGeometry(geometry, matrix, priority));
+    places.set(geometry, known);
+  }
+  return places;
+}
+
+function viewingOf(view: View | undefined, weights: ChunkWeights): Viewing {
+  return { weights, camera: view && { ...view, planes: planesOf(view.clipFromScene) } };
+}
+
+function isSameView(a: View | undefined, b: View | undefined): boolean {
+  if (a === undefined || b === undefined) return a === b;
+  return a.pixelsPerUnit === b.pixelsPerUnit && a.clipFromScene.every((value, place) => value === b.clipFromScene[place]);
+}
