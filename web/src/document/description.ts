@@ -70,6 +70,7 @@ export interface GeometryDescription {
 
 export type MaterialDescription = Values<typeof nodeFields.Material>;
 export type ViewpointDescription = Values<typeof nodeFields.Viewpoint>;
+export type NavigationDescription = Values<typeof nodeFields.NavigationInfo>;
 export type LightDescription = Values<typeof nodeFields.DirectionalLight>;
 export type TransformDescription = Values<typeof nodeFields.Transform>;
 
@@ -104,13 +105,19 @@ export interface LightNodeDescription {
   readonly light: LightDescription;
 }
 
-export type NodeDescription = GroupDescription | ShapeDescription | LightNodeDescription;
+export interface ViewpointNodeDescription {
+  readonly kind: "viewpoint";
+  /** Who this is, as a shape's. */
+  readonly element: SceneElement;
+  readonly viewpoint: ViewpointDescription;
+}
+
+export type NodeDescription = GroupDescription | ShapeDescription | LightNodeDescription | ViewpointNodeDescription;
 
 export interface SceneDescription {
   readonly root: GroupDescription;
-  /** The first in the document, which X3D binds at the start; undefined: the scene is framed. */
-  readonly viewpoint: ViewpointDescription | undefined;
-  readonly headlight: boolean;
+  /** The one that is bound: the first in the document, or the last that says so. */
+  readonly navigation: NavigationDescription;
   /** Undefined: nothing behind the scene, the page shows through. */
   readonly skyColor: Vec3 | undefined;
   /** Changes to the weights of what files hold, as the author writes them. */
@@ -122,6 +129,12 @@ export interface SceneDescription {
 export function shapesOf(node: NodeDescription): ShapeDescription[] {
   if (node.kind === "shape") return [node];
   return node.kind === "group" ? node.children.flatMap(shapesOf) : [];
+}
+
+/** Every viewpoint below a node, in document order. */
+export function viewpointsOf(node: NodeDescription): ViewpointNodeDescription[] {
+  if (node.kind === "viewpoint") return [node];
+  return node.kind === "group" ? node.children.flatMap(viewpointsOf) : [];
 }
 
 export type { Rotation, Vec2, Vec3, Warning };

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import type { GeometryDescription, NodeDescription, SceneDescription, ShapeDescription } from "./description.ts";
-import { shapesOf } from "./description.ts";
+import type { GeometryDescription, NodeDescription, SceneDescription, ShapeDescription, ViewpointDescription } from "./description.ts";
+import { shapesOf, viewpointsOf } from "./description.ts";
 import { elementsOf } from "./elements.testing.ts";
 import { referenceOf } from "./geometry.ts";
 import { GeometryMemory } from "./geometryMemory.ts";
@@ -27,8 +27,12 @@ function geometryOf(markup: string): GeometryDescription {
   return geometry;
 }
 
+function viewpointsIn(scene: SceneDescription): ViewpointDescription[] {
+  return viewpointsOf(scene.root).map(({ viewpoint }) => viewpoint);
+}
+
 function visibleShapes(node: NodeDescription): ShapeDescription[] {
-  if (node.kind === "light" || !node.visible) return [];
+  if (node.kind === "light" || node.kind === "viewpoint" || !node.visible) return [];
   return node.kind === "shape" ? [node] : node.children.flatMap(visibleShapes);
 }
 
@@ -42,18 +46,18 @@ const patches = `
 describe("a field", () => {
   test("is found without regard to case, as HTML and XML write it", () => {
     for (const markup of ['<Viewpoint fieldOfView="0.5"/>', '<viewpoint fieldofview="0.5"/>', '<VIEWPOINT FIELDOFVIEW="0.5"/>']) {
-      assert.equal(sceneOf(markup).viewpoint?.fieldOfView, 0.5);
+      assert.equal(viewpointsIn(sceneOf(markup))[0]?.fieldOfView, 0.5);
     }
   });
 
   test("may separate its numbers by commas or white space", () => {
-    assert.deepEqual(sceneOf('<Viewpoint position=" 1,2 ,\n 3 "/>').viewpoint?.position, [1, 2, 3]);
+    assert.deepEqual(viewpointsIn(sceneOf('<Viewpoint position=" 1,2 ,\n 3 "/>'))[0]?.position, [1, 2, 3]);
   });
 
   for (const text of ["1 2", "1 2 3 4", "1 2 x", "1 2 Infinity", "1 2 NaN", ""]) {
     test(`that reads "${text}" where three numbers belong takes its default, with a warning`, () => {
       const scene = sceneOf(`<Viewpoint position="${text}"/>`);
-      assert.deepEqual(scene.viewpoint?.position, nodeFields.Viewpoint.position.defaultValue);
+      assert.deepEqual(viewpointsIn(scene)[0]?.position, nodeFields.Viewpoint.position.defaultValue);
       assert.equal(scene.warnings.length, 1);
       assert.match(scene.warnings[0]?.message ?? "", /position=.*SFVec3f/);
     });
@@ -72,15 +76,23 @@ describe("a scene", () => {
   test("without anything is empty, with a headlight and no background", () => {
     const scene = sceneOf("");
     assert.deepEqual(shapesOf(scene.root), []);
-    assert.equal(scene.headlight, true);
-    assert.equal(scene.viewpoint, undefined);
+    assert.equal(scene.navigation.headlight, true);
+    assert.equal(scene.navigation.speed, undefined);
+    assert.deepEqual(scene.warnings, []);
+    assert.deepEqual(viewpointsIn(scene), []);
     assert.equal(scene.skyColor, undefined);
   });
 
-  test("takes the first viewpoint and the first background", () => {
-    const scene = sceneOf('<Viewpoint description="a"/><Viewpoint description="b"/><Background skyColor="1 0 0 0 1 0"/>');
-    assert.equal(scene.viewpoint?.description, "a");
+  test("has its viewpoints in document order, wherever they stand, and takes the first background", () => {
+    const scene = sceneOf(`<Group><Viewpoint description="a"/></Group><Transform><Viewpoint description="b" set_bind="true"/></Transform>
+      <Background skyColor="1 0 0 0 1 0"/><Background skyColor="0 0 1"/>`);
+    assert.deepEqual(viewpointsIn(scene).map(({ description, set_bind }) => [description, set_bind]), [["a", false], ["b", true]]);
     assert.deepEqual(scene.skyColor, [1, 0, 0]);
+  });
+
+  test("takes the first NavigationInfo, or one that wants to be bound", () => {
+    assert.equal(sceneOf('<NavigationInfo speed="2"/><NavigationInfo speed="3"/>').navigation.speed, 2);
+    assert.equal(sceneOf('<NavigationInfo speed="2"/><NavigationInfo bind="true" speed="3"/>').navigation.speed, 3);
   });
 
   test("keeps shapes in document order below unknown nodes, groups and transforms", () => {

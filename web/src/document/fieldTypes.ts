@@ -52,6 +52,8 @@ const sfFloat: FieldType<number> = {
   },
 };
 
+const mfFloat: FieldType<readonly number[]> = { name: "MFFloat", parse: numbersIn };
+
 const sfInt32: FieldType<number> = {
   name: "SFInt32",
   parse(text) {
@@ -111,6 +113,11 @@ function maker<Value>(type: FieldType<Value>): (defaultValue: Value) => Field<Va
   return (defaultValue) => ({ type, defaultValue });
 }
 
+/** The same field, but its absence means something of its own. */
+export function optional<Value>(field: Field<Value>): Field<Value | undefined> {
+  return { ...field, defaultValue: undefined };
+}
+
 export const SFBool = maker(sfBool);
 export const SFFloat = maker(sfFloat);
 export const SFInt32 = maker(sfInt32);
@@ -121,5 +128,6 @@ export const SFVec3f = maker(tuple<Vec3>("SFVec3f", 3));
 export const SFColor = maker(tuple<Vec3>("SFColor", 3));
 export const SFRotation = maker(tuple<Rotation>("SFRotation", 4));
 export const MFInt32 = maker(mfInt32);
+export const MFFloat = maker(mfFloat);
 export const MFString = maker(mfString);
 export const MFColor = maker(firstColor);

@@ -6,8 +6,12 @@ import type { SceneElement } from "./element.ts";
 import { attributeOf } from "./element.ts";
 import type { Field } from "./fieldTypes.ts";
 import {
-  MFColor, MFInt32, MFString, Priority, SFBool, SFColor, SFFloat, SFInt32, SFRotation, SFString, SFVec2f, SFVec3f,
+  MFColor, MFFloat, MFInt32, MFString, optional, Priority, SFBool, SFColor, SFFloat, SFInt32, SFRotation, SFString, SFVec2f,
+  SFVec3f,
 } from "./fieldTypes.ts";
+
+/** True: becomes the one that counts (set_bind is X3D's event, bind X3DOM's field). */
+const bindable = { set_bind: SFBool(false), bind: SFBool(false) };
 
 /** Whether it is seen: X3D 4's name, and X3DOM's older one. Both must say so. */
 const seenObject = { visible: SFBool(true), render: SFBool(true) };
@@ -48,9 +52,19 @@ export const nodeFields = {
     /** Weights of what files hold, for the order of requests. */
     chunkPriority: SFString(""),
   },
-  NavigationInfo: { headlight: SFBool(true) },
+  NavigationInfo: {
+    ...bindable,
+    type: MFString(["EXAMINE", "ANY"]),
+    headlight: SFBool(true),
+    /** Absent: as fits the size of the scene. */
+    speed: optional(SFFloat(1)),
+    avatarSize: MFFloat([0.25, 1.6, 0.75]),
+    transitionType: MFString(["LINEAR"]),
+    transitionTime: SFFloat(1),
+  },
   Background: { skyColor: MFColor([0, 0, 0]) },
   Viewpoint: {
+    ...bindable,
     description: SFString(""),
     position: SFVec3f([0, 0, 10]),
     orientation: SFRotation([0, 0, 1, 0]),
@@ -118,8 +132,8 @@ export function readFields<Fields extends Record<string, Field<unknown>>>(
   for (const [name, field] of Object.entries(fields)) {
     const text = attributeOf(element, name);
     const value = text === undefined ? field.defaultValue : field.type.parse(text);
-    if (value === undefined) {
-      warnings.push({ element, message: `${name}="${shortened(text ?? "")}" is no ${field.type.name}; its default is used` });
+    if (value === undefined && text !== undefined) {
+      warnings.push({ element, message: `${name}="${shortened(text)}" is no ${field.type.name}; its default is used` });
     }
     values[name] = value ?? field.defaultValue;
   }

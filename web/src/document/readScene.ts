@@ -2,8 +2,8 @@
 // children, as a browser passes over unknown tags; what they hold still counts.
 
 import type {
-  Box3, GeometryDescription, GroupDescription, NodeDescription, SceneDescription, ShapeDescription,
-  TransformDescription, ViewpointDescription,
+  Box3, GeometryDescription, GroupDescription, NavigationDescription, NodeDescription, SceneDescription, ShapeDescription,
+  TransformDescription,
 } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
@@ -20,8 +20,7 @@ interface Reading {
   /** Elements whose USE is being followed, so that a circle of them ends. */
   readonly following: Set<SceneElement>;
   readonly warnings: Warning[];
-  viewpoint: ViewpointDescription | undefined;
-  headlight: boolean;
+  navigation: NavigationDescription | undefined;
   skyColor: Vec3 | undefined;
 }
 
@@ -35,14 +34,15 @@ interface Inherited {
 export function readScene(x3d: SceneElement, geometries = new GeometryMemory()): SceneDescription {
   const reading: Reading = {
     geometries, defined: definedIn(x3d), following: new Set(), warnings: [],
-    viewpoint: undefined, headlight: nodeFields.NavigationInfo.headlight.defaultValue, skyColor: undefined,
+    navigation: undefined, skyColor: undefined,
   };
   const root: GroupDescription = {
     kind: "group", visible: true, transform: undefined, children: readChildren(x3d, reading, { visible: true, priority: 1 }),
   };
-  const { viewpoint, headlight, skyColor, warnings } = reading;
+  const { skyColor, warnings } = reading;
+  const navigation = reading.navigation ?? readFields(withoutAttributes, nodeFields.NavigationInfo, warnings);
   const { chunkPriority } = readFields(x3d, nodeFields.X3D, warnings);
-  return { root, viewpoint, headlight, skyColor, chunkPriority, warnings };
+  return { root, navigation, skyColor, chunkPriority, warnings };
 }
 
 function definedIn(element: SceneElement, defined = new Map<string, SceneElement>()): Map<string, SceneElement> {
@@ -73,11 +73,12 @@ function readNode(element: SceneElement, reading: Reading, inherited: Inherited)
       case "directionallight":
         return [{ kind: "light", light: readFields(node, nodeFields.DirectionalLight, warnings) }];
       case "viewpoint":
-        reading.viewpoint ??= readFields(node, nodeFields.Viewpoint, warnings);
+        return [{ kind: "viewpoint", element, viewpoint: readFields(node, nodeFields.Viewpoint, warnings) }];
+      case "navigationinfo": {
+        const navigation = readFields(node, nodeFields.NavigationInfo, warnings);
+        if (reading.navigation === undefined || navigation.set_bind || navigation.bind) reading.navigation = navigation;
         return [];
-      case "navigationinfo":
-        reading.headlight = readFields(node, nodeFields.NavigationInfo, warnings).headlight;
-        return [];
+      }
       case "background":
         reading.skyColor ??= readFields(node, nodeFields.Background, warnings).skyColor;
         return [];

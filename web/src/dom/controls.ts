@@ -1,54 +1,25 @@
-// Mouse, touch and keyboard -> movements of the camera. No inertia: the picture
-// stands still when the hand does, which also is what `prefers-reduced-motion`
-// asks for.
+// Mouse and touch -> movements of the camera. No inertia: the picture stands
+// still when the hand does, which also is what `prefers-reduced-motion` asks for.
 
-export interface Movable {
-  turn(right: number, over: number): void;
-  zoom(factor: number): void;
-  pan(right: number, up: number): void;
-  reset(): void;
-  showAll(): void;
-}
+import { listenToKeys } from "./keyboard.ts";
+import type { KeySteered } from "./keyboard.ts";
+
+export type Movable = KeySteered;
 
 const radiansPerView = Math.PI;
-const keyTurn = Math.PI / 36;
-const keyPan = 0.05;
-const keyZoom = 1.1;
 
 /** Listens until `signal` aborts. */
 export function listenForMovement(canvas: HTMLCanvasElement, movable: Movable, signal: AbortSignal): void {
   listenToPointers(canvas, movable, signal);
   canvas.addEventListener("wheel", (event) => {
+    if (movable.type === "none") return; // the page scrolls
     event.preventDefault();
     const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1);
     movable.zoom(Math.exp(clamp(pixels, 200) / 500));
   }, { passive: false, signal });
-  canvas.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const act = keyAction(event, movable);
-    if (act === undefined) return; // Tab and all else stay the browser's
-    event.preventDefault();
-    act();
-  }, { signal });
+  listenToKeys(canvas, movable, signal);
   // The right button pans.
   canvas.addEventListener("contextmenu", (event) => { event.preventDefault(); }, { signal });
-}
-
-function keyAction(event: KeyboardEvent, movable: Movable): (() => void) | undefined {
-  const step = (right: number, up: number) => event.shiftKey
-    ? () => { movable.pan(right * keyPan, up * keyPan); }
-    : () => { movable.turn(right * keyTurn, up * -keyTurn); };
-  switch (event.key) {
-    case "ArrowLeft": return step(-1, 0);
-    case "ArrowRight": return step(1, 0);
-    case "ArrowUp": return step(0, 1);
-    case "ArrowDown": return step(0, -1);
-    case "+": case "=": case "PageUp": return () => { movable.zoom(1 / keyZoom); };
-    case "-": case "_": case "PageDown": return () => { movable.zoom(keyZoom); };
-    case "r": case "R": return () => { movable.reset(); };
-    case "a": case "A": return () => { movable.showAll(); };
-    default: return undefined;
-  }
 }
 
 interface Point {

@@ -39,7 +39,7 @@ export class ImgeoView extends HTMLElement {
     // Known before the first request: what is asked for first depends on what is seen.
     viewer.renderer.setSize(...sizeOf(face.canvas));
     viewer.start();
-    listenForMovement(face.canvas, viewer.renderer, this.#listeners.signal);
+    listenForMovement(face.canvas, viewer.navigator, this.#listeners.signal);
     watchSize(face.canvas, this.#listeners.signal, (width, height, ratio) => { viewer.renderer.resize(width, height, ratio); });
   }
 

@@ -14,6 +14,7 @@ import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { GeometryMemory } from "../document/geometryMemory.ts";
 import { readScene } from "../document/readScene.ts";
+import { Navigator } from "../navigation/navigator.ts";
 import type { RenderStatistics } from "../render/sceneRenderer.ts";
 import { SceneRenderer } from "../render/sceneRenderer.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
@@ -43,6 +44,7 @@ interface LoadedShape {
 
 export class Viewer {
   readonly renderer: SceneRenderer;
+  readonly navigator: Navigator;
   readonly #x3d: Element;
   readonly #scheduler = new Scheduler(slotsFor(""));
   readonly #pool: ResourcePool;
@@ -61,7 +63,8 @@ export class Viewer {
     this.#x3d = x3d;
     this.#onProgress = onProgress;
     this.#loading = new Loading(x3d);
-    this.renderer = new SceneRenderer(canvas, context, () => { this.#onFrame(); });
+    this.navigator = new Navigator(() => { this.renderer.requestFrame(); });
+    this.renderer = new SceneRenderer(canvas, context, this.navigator, () => { this.#onFrame(); });
     this.#pool = new ResourcePool({
       scheduler: this.#scheduler,
       decodeImage: decodeWithBrowser,
@@ -75,6 +78,7 @@ export class Viewer {
     this.#observer = new MutationObserver((records) => {
       for (const { target } of records) this.#touchAround(target);
       this.#readDocument();
+      for (const { target, attributeName } of records) this.#followBind(target as Element, attributeName);
     });
   }
 
@@ -121,7 +125,7 @@ export class Viewer {
       this.#shapes.delete(element);
       shape.loading.abandon();
     }
-    this.renderer.setScene(scene);
+    this.navigator.setScene({ ...this.renderer.setScene(scene), navigation: scene.navigation });
     for (const shape of begun) this.#begin(shape);
     const visible = new Set(places.filter((shape) => shape.visible).map(({ element }) => element));
     for (const [element, shape] of this.#shapes) shape.isVisible = visible.has(element);
@@ -138,6 +142,12 @@ export class Viewer {
     for (let node: Node | null = changed; node !== null && node !== this.#x3d; node = node.parentNode) {
       this.#geometries.touch(node as Element);
     }
+  }
+
+  /** set_bind is an event: it counts whenever it is written, even if it reads as before. */
+  #followBind(element: Element, attribute: string | null): void {
+    if (attribute === null || !/^(set_)?bind$/i.test(attribute)) return;
+    this.navigator.bind(element, element.getAttribute(attribute)?.trim().toLowerCase() === "true");
   }
 
   #begin({ element: described, geometry, visible }: ShapeDescription): void {

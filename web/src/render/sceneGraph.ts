@@ -6,35 +6,42 @@ import { AmbientLight, Box3, Color, DirectionalLight, Group, Matrix4, Quaternion
 import type {
   LightDescription, NodeDescription, Rotation, SceneDescription, ShapeDescription, TransformDescription,
 } from "../document/description.ts";
+import type { PlacedViewpoint } from "../navigation/camera.ts";
 import { setColor } from "./materials.ts";
 
 export interface BuiltGraph {
   readonly root: Group;
   /** Of the boxes of all shapes that are seen, in the scene's coordinates. */
   readonly box: Box3;
+  /** In document order. */
+  readonly viewpoints: readonly PlacedViewpoint[];
 }
 
 export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescription) => Group): BuiltGraph {
   const box = new Box3();
+  const viewpoints: PlacedViewpoint[] = [];
   const root = new Group();
   const ambient = new Color(0, 0, 0);
   hang(scene.root, root, new Matrix4(), true);
   const ambientLight = new AmbientLight();
   ambientLight.color.copy(ambient);
   root.add(ambientLight);
-  return { root, box };
+  return { root, box, viewpoints };
 
-  function hang(node: NodeDescription, parent: Group, worldFromParent: Matrix4, isSeen: boolean): void {
+  function hang(node: NodeDescription, parent: Group, sceneFromParent: Matrix4, isSeen: boolean): void {
     switch (node.kind) {
       case "light":
         if (node.light.on) hangLight(node.light, parent, ambient);
+        return;
+      case "viewpoint":
+        viewpoints.push({ element: node.element, viewpoint: node.viewpoint, sceneFromViewpoint: sceneFromParent });
         return;
       case "shape": {
         const group = groupOf(node);
         group.visible = node.visible;
         parent.add(group);
         if (node.box && isSeen && node.visible) {
-          box.union(new Box3(new Vector3(...node.box.min), new Vector3(...node.box.max)).applyMatrix4(worldFromParent));
+          box.union(new Box3(new Vector3(...node.box.min), new Vector3(...node.box.max)).applyMatrix4(sceneFromParent));
         }
         return;
       }
@@ -44,8 +51,8 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
         group.matrixAutoUpdate = false;
         if (node.transform) group.matrix.copy(matrixOf(node.transform));
         parent.add(group);
-        const worldFromGroup = worldFromParent.clone().multiply(group.matrix);
-        for (const child of node.children) hang(child, group, worldFromGroup, isSeen && node.visible);
+        const sceneFromGroup = sceneFromParent.clone().multiply(group.matrix);
+        for (const child of node.children) hang(child, group, sceneFromGroup, isSeen && node.visible);
       }
     }
   }

@@ -1,5 +1,6 @@
 // Draws a described scene into a canvas, and only when something changed.
 
+import type { Sphere } from "three";
 import {
   Box3, Color, DirectionalLight, Group, LinearSRGBColorSpace, Matrix4, NoToneMapping, PerspectiveCamera, Scene, Vector2,
   WebGLRenderer,
@@ -8,8 +9,8 @@ import type { Stage } from "../decode/stage.ts";
 import type { GeometryDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import type { Pose } from "./camera.ts";
-import { applyPose, panned, poseFraming, poseOfViewpoint, poseShowingAll, sphereAround, turned, zoomed } from "./camera.ts";
+import type { PlacedViewpoint, Pose } from "../navigation/camera.ts";
+import { applyPose, sphereAround } from "../navigation/camera.ts";
 import type { SceneUniforms } from "./materials.ts";
 import { setColor } from "./materials.ts";
 import { buildGraph } from "./sceneGraph.ts";
@@ -36,6 +37,23 @@ export interface View {
   readonly near: number;
 }
 
+/** Where the camera is. */
+export interface CameraMan {
+  readonly pose: Pose;
+  /** At this moment, in milliseconds as of `performance.now()`. */
+  advance(nowMs: number): Pose;
+  /** Another frame is due after this one. */
+  readonly isMoving: boolean;
+}
+
+/** What the scene has in it, in the scene's coordinates. */
+export interface BuiltScene {
+  /** Around all that is seen. */
+  readonly sphere: Sphere;
+  /** In document order. */
+  readonly viewpoints: readonly PlacedViewpoint[];
+}
+
 const pointSizeInCssPixels = 2;
 
 /** The canvas' WebGL2 context; null where the browser has none to give. */
@@ -51,13 +69,10 @@ export class SceneRenderer {
   readonly #shared: SceneUniforms = { pointSize: { value: pointSizeInCssPixels }, depthRange: { value: new Vector2() } };
   readonly #setting: ShapeSetting = { geometries: new GeometryPool(), textures: new TexturePool(), shared: this.#shared };
   readonly #shapes = new Map<SceneElement, ShapeObject>();
+  readonly #cameraMan: CameraMan;
   readonly #onFrame: () => void;
   #root = new Group();
   #sphere = sphereAround(new Box3());
-  /** Where `reset` leads: the Viewpoint's pose, or one that frames the scene. */
-  #home = poseFraming(this.#sphere);
-  #pose = this.#home;
-  #viewpointKey: string | undefined;
   #aspect = 1;
   #height = 1;
   #hasArea = false;
@@ -65,7 +80,8 @@ export class SceneRenderer {
   #frameRequest = 0;
 
   /** `onFrame` is called after each frame that has been drawn. */
-  constructor(canvas: HTMLCanvasElement, context: WebGL2RenderingContext, onFrame: () => void) {
+  constructor(canvas: HTMLCanvasElement, context: WebGL2RenderingContext, cameraMan: CameraMan, onFrame: () => void) {
+    this.#cameraMan = cameraMan;
     this.#onFrame = onFrame;
     this.#renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
     // The numbers of the document are the numbers of the screen: see materials.ts.
@@ -88,7 +104,7 @@ export class SceneRenderer {
   get view(): View | undefined {
     if (!this.#hasArea) return undefined;
     const camera = this.#camera;
-    applyPose(camera, this.#pose, this.#aspect, this.#sphere);
+    applyPose(camera, this.#cameraMan.pose, this.#aspect, this.#sphere);
     camera.updateMatrixWorld();
     return {
       position: camera.position.toArray(),
@@ -104,7 +120,7 @@ export class SceneRenderer {
   }
 
   /** Shows this scene from now on. Shapes that are gone give back what they hold on the GPU. */
-  setScene(description: SceneDescription): void {
+  setScene(description: SceneDescription): BuiltScene {
     const shapes = new Map(shapesOf(description.root).map((shape) => [shape.element, shape]));
     for (const [element, object] of this.#shapes) {
       if (shapes.has(element)) continue;
@@ -112,7 +128,7 @@ export class SceneRenderer {
       this.#shapes.delete(element);
     }
     const places = new Map<SceneElement, number>();
-    const { root, box } = buildGraph(description, (shape) => {
+    const { root, box, viewpoints } = buildGraph(description, (shape) => {
       const place = places.get(shape.element) ?? 0;
       places.set(shape.element, place + 1);
       return this.#objectOf(shape).groupAt(place);
@@ -126,7 +142,7 @@ export class SceneRenderer {
     this.#root = root;
     this.#scene.add(root);
     root.updateMatrixWorld();
-    this.#headlight.visible = description.headlight;
+    this.#headlight.visible = description.navigation.headlight;
     const { skyColor } = description;
     // Of the scene, not the renderer's clear colour: that one is lost with the context.
     this.#scene.background = null;
@@ -135,8 +151,8 @@ export class SceneRenderer {
       setColor(this.#scene.background, skyColor);
     }
     this.#sphere = sphereAround(box);
-    this.#followViewpoint(description);
     this.requestFrame();
+    return { sphere: this.#sphere, viewpoints };
   }
 
   /** Replaces what a patch of a shape of the current scene shows. */
@@ -167,29 +183,6 @@ export class SceneRenderer {
     this.#drawNow();
   }
 
-  /** Radians to the right and over the top. */
-  turn(right: number, over: number): void {
-    this.#moveTo(turned(this.#pose, right, over));
-  }
-
-  /** Multiplies the distance to the centre of rotation. */
-  zoom(factor: number): void {
-    this.#moveTo(zoomed(this.#pose, factor, this.#sphere));
-  }
-
-  /** Shares of the view's shorter side by which the scene follows the hand. */
-  pan(right: number, up: number): void {
-    this.#moveTo(panned(this.#pose, right, up));
-  }
-
-  reset(): void {
-    this.#moveTo(this.#home);
-  }
-
-  showAll(): void {
-    this.#moveTo(poseShowingAll(this.#pose, this.#sphere));
-  }
-
   requestFrame(): void {
     if (this.#frameRequest === 0) this.#frameRequest = requestAnimationFrame(() => { this.#drawNow(); });
   }
@@ -207,31 +200,17 @@ export class SceneRenderer {
     cancelAnimationFrame(this.#frameRequest);
     this.#frameRequest = 0;
     if (!this.#hasArea) return;
-    applyPose(this.#camera, this.#pose, this.#aspect, this.#sphere);
+    applyPose(this.#camera, this.#cameraMan.advance(performance.now()), this.#aspect, this.#sphere);
     this.#shared.depthRange.value.set(this.#camera.near, this.#camera.far);
     this.#renderer.render(this.#scene, this.#camera);
     this.#frames += 1;
     this.#onFrame();
-  }
-
-  #moveTo(pose: Pose): void {
-    this.#pose = pose;
-    this.requestFrame();
+    if (this.#cameraMan.isMoving) this.requestFrame();
   }
 
   #objectOf(shape: ShapeDescription): ShapeObject {
     const object = this.#shapes.get(shape.element) ?? new ShapeObject(this.#setting, shape);
     this.#shapes.set(shape.element, object);
     return object;
-  }
-
-  /** A Viewpoint that is new or has changed takes the camera with it; without one the scene stays framed until somebody moves. */
-  #followViewpoint({ viewpoint }: SceneDescription): void {
-    const key = viewpoint ? JSON.stringify(viewpoint) : "";
-    const wasAtHome = this.#pose === this.#home;
-    if (viewpoint === undefined) this.#home = poseFraming(this.#sphere);
-    else if (key !== this.#viewpointKey) this.#home = poseOfViewpoint(viewpoint);
-    if (key !== this.#viewpointKey || (viewpoint === undefined && wasAtHome)) this.#pose = this.#home;
-    this.#viewpointKey = key;
   }
 }

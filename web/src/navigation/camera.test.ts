@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { Box3, MathUtils, PerspectiveCamera, Sphere, Vector3 } from "three";
+import { Box3, MathUtils, Matrix4, PerspectiveCamera, Sphere, Vector3 } from "three";
+import type { ViewpointDescription } from "../document/description.ts";
 import type { Pose } from "./camera.ts";
 import { applyPose, panned, poseFraming, poseOfViewpoint, poseShowingAll, turned, zoomed } from "./camera.ts";
 
@@ -49,21 +50,39 @@ describe("a pose that frames the scene", () => {
 
 describe("a viewpoint", () => {
   const fields = {
-    description: "", position: [0, 0, 10], orientation: [0, 0, 1, 0], fieldOfView: 1, centerOfRotation: [0, 0, 0],
+    set_bind: false, bind: false, description: "", position: [0, 0, 10], orientation: [0, 0, 1, 0], fieldOfView: 1,
+    centerOfRotation: [0, 0, 0],
   } as const;
+  const poseOf = (changes: Partial<ViewpointDescription>, sceneFromViewpoint = new Matrix4()) =>
+    poseOfViewpoint({ viewpoint: { ...fields, ...changes }, sceneFromViewpoint });
 
   test("has its field of view along the shorter side", () => {
     const camera = new PerspectiveCamera();
-    applyPose(camera, poseOfViewpoint(fields), 2, sphere);
+    applyPose(camera, poseOf({}), 2, sphere);
     near(MathUtils.degToRad(camera.fov), 1);
-    applyPose(camera, poseOfViewpoint(fields), 0.5, sphere);
+    applyPose(camera, poseOf({}), 0.5, sphere);
     const horizontal = 2 * Math.atan(Math.tan(MathUtils.degToRad(camera.fov) / 2) * 0.5);
     near(horizontal, 1);
   });
 
   test("looks along -z of its orientation", () => {
-    const pose = poseOfViewpoint({ ...fields, orientation: [0, 2, 0, Math.PI / 2] });
+    const pose = poseOf({ orientation: [0, 2, 0, Math.PI / 2] });
     near(forward(pose).distanceTo(new Vector3(-1, 0, 0)), 0);
+  });
+
+  test("is moved and turned by the transforms around it", () => {
+    const matrix = new Matrix4().makeTranslation(5, 0, 0).multiply(new Matrix4().makeRotationY(Math.PI / 2)).multiply(new Matrix4().makeScale(2, 2, 2));
+    const pose = poseOf({ centerOfRotation: [0, 0, 1] }, matrix);
+    near(pose.position.distanceTo(new Vector3(25, 0, 0)), 0);
+    near(pose.center.distanceTo(new Vector3(7, 0, 0)), 0);
+    near(forward(pose).distanceTo(new Vector3(-1, 0, 0)), 0);
+  });
+
+  test("stands upright when it looks down from above, and keeps its own up when it is tilted", () => {
+    near(poseOf({ orientation: [1, 0, 0, -0.5] }).up.distanceTo(new Vector3(0, 1, 0)), 0);
+    near(poseOf({ orientation: [1, 0, 0, -0.5] }, new Matrix4().makeRotationX(1)).up.distanceTo(new Vector3(0, Math.cos(1), Math.sin(1))), 0);
+    near(poseOf({ orientation: [0, 0, 1, 0.4] }).up.distanceTo(new Vector3(-Math.sin(0.4), Math.cos(0.4), 0)), 0);
+    near(poseOf({ orientation: [1, 0, 0, -Math.PI / 2] }).up.distanceTo(new Vector3(0, 0, -1)), 0);
   });
 });
 

@@ -1,9 +1,10 @@
 // The camera as a pose: pure functions from one pose to the next, in double
-// precision. Turning is about the pose's own `up`, so a statue keeps standing.
+// precision. Turning is about the pose's own `up`.
 
-import type { Box3, PerspectiveCamera} from "three";
+import type { Box3, PerspectiveCamera } from "three";
 import { MathUtils, Matrix4, Quaternion, Sphere, Vector3 } from "three";
 import type { ViewpointDescription } from "../document/description.ts";
+import type { SceneElement } from "../document/element.ts";
 
 export interface Pose {
   readonly position: Vector3;
@@ -15,16 +16,34 @@ export interface Pose {
   readonly fieldOfView: number;
 }
 
-export function poseOfViewpoint(viewpoint: ViewpointDescription): Pose {
+export interface PlacedViewpoint {
+  readonly element: SceneElement;
+  readonly viewpoint: ViewpointDescription;
+  /** Of the transforms around it. */
+  readonly sceneFromViewpoint: Matrix4;
+}
+
+/** Transforms around a viewpoint move and turn it; their scale moves it only, since X3D leaves open what a stretched view is. */
+export function poseOfViewpoint({ viewpoint, sceneFromViewpoint }: Omit<PlacedViewpoint, "element">): Pose {
   const [x, y, z, angle] = viewpoint.orientation;
-  const orientation = new Quaternion().setFromAxisAngle(new Vector3(x, y, z).normalize(), angle);
+  const frame = new Quaternion();
+  sceneFromViewpoint.decompose(new Vector3(), frame, new Vector3());
+  const orientation = frame.clone().multiply(new Quaternion().setFromAxisAngle(new Vector3(x, y, z).normalize(), angle));
   return {
-    position: new Vector3(...viewpoint.position),
+    position: new Vector3(...viewpoint.position).applyMatrix4(sceneFromViewpoint),
     orientation,
-    center: new Vector3(...viewpoint.centerOfRotation),
-    up: new Vector3(0, 1, 0).applyQuaternion(orientation),
+    center: new Vector3(...viewpoint.centerOfRotation).applyMatrix4(sceneFromViewpoint),
+    up: uprightOf(orientation, new Vector3(0, 1, 0).applyQuaternion(frame)),
     fieldOfView: MathUtils.clamp(viewpoint.fieldOfView, 0.01, 3.1),
   };
+}
+
+/** X3D's up, +y around the viewpoint, so that a statue keeps standing; the camera's own where it is tilted or looks along it. */
+function uprightOf(orientation: Quaternion, upright: Vector3): Vector3 {
+  const [right, up, back] = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)]
+    .map((axis) => axis.applyQuaternion(orientation)) as [Vector3, Vector3, Vector3];
+  const isLevel = Math.abs(right.dot(upright)) < 0.02 && up.dot(upright) > 0;
+  return isLevel && Math.abs(back.dot(upright)) < 0.98 ? upright : up;
 }
 
 const defaultFieldOfView = 0.7854;
@@ -45,19 +64,24 @@ export function poseShowingAll(pose: Pose, sphere: Sphere): Pose {
   return { ...pose, center, position: center.clone().addScaledVector(forwardOf(pose), -distance) };
 }
 
-/** Turns by angles in radians: to the right around `up`, and over the top; never past a pole. */
+/** Turns around the centre by angles in radians: to the right around `up`, and over the top; never past a pole. */
 export function turned(pose: Pose, right: number, over: number): Pose {
-  const sideways = new Vector3(1, 0, 0).applyQuaternion(pose.orientation);
-  const towards = forwardOf(pose).angleTo(pose.up); // 0: looks along up; pi: straight down, from over the top
-  const nearestToPole = 0.02;
-  const pitch = MathUtils.clamp(over, nearestToPole - towards, Math.PI - nearestToPole - towards);
-  const turn = new Quaternion().setFromAxisAngle(pose.up, -right)
-    .multiply(new Quaternion().setFromAxisAngle(sideways, -pitch));
+  const turn = turnOf(pose, right, over);
   return {
     ...pose,
     position: pose.position.clone().sub(pose.center).applyQuaternion(turn).add(pose.center),
     orientation: turn.multiply(pose.orientation).normalize(),
   };
+}
+
+/** What turns a camera to the right around `up` and downwards, but never past a pole. */
+export function turnOf(pose: Pose, right: number, down: number): Quaternion {
+  const sideways = new Vector3(1, 0, 0).applyQuaternion(pose.orientation);
+  const towards = forwardOf(pose).angleTo(pose.up); // 0: looks along up; pi: straight down, from over the top
+  const nearestToPole = 0.02;
+  const pitch = MathUtils.clamp(down, nearestToPole - towards, Math.PI - nearestToPole - towards);
+  return new Quaternion().setFromAxisAngle(pose.up, -right)
+    .multiply(new Quaternion().setFromAxisAngle(sideways, -pitch));
 }
 
 /** Multiplies the distance to the centre, between a thousandth of the scene's radius and a thousand of them. */
@@ -95,7 +119,7 @@ export function sphereAround(box: Box3): Sphere {
   return box.isEmpty() ? new Sphere(new Vector3(), 1) : box.getBoundingSphere(new Sphere());
 }
 
-function forwardOf(pose: Pose): Vector3 {
+export function forwardOf(pose: Pick<Pose, "orientation">): Vector3 {
   return new Vector3(0, 0, -1).applyQuaternion(pose.orientation);
 }
 
