@@ -45,6 +45,7 @@ const geometryFields = {
   positionBits: SFInt32(0),
   texCoordMin: SFVec2f([0, 0]),
   texCoordSize: SFVec2f([1, 1]),
+  normalEncoding: SFString("rgb"),
 };
 
 export const nodeFields = {

@@ -81,6 +81,8 @@ export interface MaterialRequest {
   readonly colors: VertexColors;
   /** False: both sides are seen. */
   readonly solid: boolean;
+  /** How normals are stored, as normalDefinesOf says it. */
+  readonly normalDefines: Readonly<Record<string, string>>;
   /** Absent for vertices from buffers. */
   readonly images: ImageVertexUniforms | undefined;
   /** Along each axis, in the shape's coordinates. */
@@ -91,7 +93,7 @@ export interface MaterialRequest {
 export type PatchMaterial = (MeshPhongMaterial | MeshBasicMaterial) & { userData: { ambientIntensity?: { value: number } } };
 
 export function makeMaterial(request: MaterialRequest, description: MaterialDescription): PatchMaterial {
-  const { shading, colors, solid, images, latticeStep, shared } = request;
+  const { shading, colors, solid, images, normalDefines, latticeStep, shared } = request;
   const ambientIntensity = { value: 0 };
   const material: PatchMaterial = shading === "unlit" || shading === "distance" ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
@@ -100,6 +102,7 @@ export function makeMaterial(request: MaterialRequest, description: MaterialDesc
   material.defines = {
     ...(images && { [imageVerticesDefine]: "" }),
     ...(images && shading === "smooth" && { [imageNormalsDefine]: "" }),
+    ...(shading === "smooth" && normalDefines),
     ...(shading === "distance" && { [farnessDefine]: "" }),
   };
   material.userData.ambientIntensity = ambientIntensity;

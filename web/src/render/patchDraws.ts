@@ -12,6 +12,7 @@ import { applyMaterial, makeMaterial } from "./materials.ts";
 import type { GeometryPool } from "./stageGeometries.ts";
 import type { TexturePool } from "./textures.ts";
 import type { ImageVertexUniforms } from "./vertexChunk.ts";
+import { normalDefinesOf } from "./vertexChunk.ts";
 
 export interface PatchDraws {
   /** New objects, one per draw, for one more place in the scene. They own nothing on the GPU. */
@@ -38,13 +39,14 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
   // Places the lattice: stored integers -> the shape's coordinates.
   const matrix = new Matrix4().makeScale(...step).setPosition(...origin);
   const images = stage.kind === "textures" ? imagesOf(stage) : [];
+  const normalDefines = normalDefinesOf(stage.normalCode, stage.kind === "buffers" && stage.normal?.components === 1);
   const base = stage.kind === "textures" ? imageUniformsOf(stage, setting.textures) : undefined;
   const draws = setting.geometries.acquire(stage).flatMap((shape, place) => {
     const draw = stage.draws[place];
     if (draw === undefined || draw.count === 0) return [];
     shape.boundingSphere = bounds;
     const material = makeMaterial({
-      shading: shadingOf(stage, draw), colors, solid: geometry.solid, latticeStep: step, shared,
+      shading: shadingOf(stage, draw), colors, solid: geometry.solid, normalDefines, latticeStep: step, shared,
       images: base && { ...base, firstNumber: { value: draw.first }, isStrip: { value: draw.primitive === "triangleStrip" } },
     }, setting.material);
     return [{ draw, shape, material }];

@@ -9,6 +9,7 @@
 // that patches share then go through the same arithmetic, and no crack opens.
 
 import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "three";
+import type { NormalCode } from "../decode/stage.ts";
 
 /** What the image body reads, as uniforms. Textures that have not come are null and read as 0. */
 export interface ImageVertexUniforms extends Record<string, IUniform> {
@@ -36,6 +37,16 @@ export interface ImageVertexUniforms extends Record<string, IUniform> {
 export const imageVerticesDefine = "IMAGE_VERTICES";
 export const imageNormalsDefine = "IMAGE_NORMALS";
 
+/** How a material's normals are stored, as defines; none for vectors. `isWord`: both numbers in one of 16 bits. */
+export function normalDefinesOf(code: NormalCode, isWord: boolean): Record<string, string> {
+  if (code.kind === "vector") return {};
+  return {
+    [code.kind === "octahedral" ? "OCTAHEDRAL_NORMALS" : "SPHERICAL_NORMALS"]: "",
+    NORMAL_LARGEST: `${2 ** code.bits - 1}.0`,
+    ...(isWord && { NORMAL_WORDS: "" }),
+  };
+}
+
 // three.js shades flat whatever has no buffer of normals.
 const ownNormalsChunk = /* glsl */ `
 #ifdef ${imageNormalsDefine}
@@ -49,6 +60,25 @@ struct Vertex {
   vec3 normal;
   vec4 color;
 };
+
+#if defined(OCTAHEDRAL_NORMALS)
+
+// Meyer et al. 2010; the largest number counts as the one before it, so that the axes are exact.
+vec3 unitOf(vec2 pair) {
+  vec2 p = min(pair, NORMAL_LARGEST - 1.0) * (2.0 / (NORMAL_LARGEST - 1.0)) - 1.0;
+  vec3 unit = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+  if (unit.z < 0.0) unit.xy = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
+  return normalize(unit);
+}
+
+#elif defined(SPHERICAL_NORMALS)
+
+vec3 unitOf(vec2 pair) {
+  vec2 angles = PI * vec2(2.0, 1.0) * pair / NORMAL_LARGEST - vec2(PI, 0.0);
+  return vec3(sin(angles.y) * cos(angles.x), sin(angles.y) * sin(angles.x), cos(angles.y));
+}
+
+#endif
 
 #ifdef ${imageVerticesDefine}
 
@@ -90,7 +120,7 @@ uvec3 bytesOf(vec4 texel) {
 // An index texel holds column and row of a record in units of 1/256 of the
 // coordinate image (docs/formats/nodes.md, "Stored values").
 int recordNumber() {
-  if (!hasIndex) return texelNumber(coordImage0, runningNumber());
+  if (!hasIndex) return runningNumber();
   int n = texelNumber(indexImage, runningNumber());
   ivec2 place = ivec2(bytesOf(texelOf(indexImage, firstTexels.x, n)).rg);
   ivec2 size = textureSize(coordImage0, 0);
@@ -98,18 +128,41 @@ int recordNumber() {
   return texel.y * size.x + texel.x;
 }
 
+vec3 readNormal(int record, int texel) {
+  #ifdef NORMAL_LARGEST
+    ivec2 size = textureSize(normalImage, 0);
+    int first = firstTexels.y;
+    return unitOf(255.0 * vec2(texelOf(normalImage, first, record).r,
+                               texelOf(normalImage, first + size.x * size.y / 2, record).r));
+  #else
+    return texelOf(normalImage, firstTexels.y, texel).rgb * 2.0 - 1.0;
+  #endif
+}
+
 Vertex readVertex() {
-  int n = recordNumber();
+  int record = recordNumber();
+  int n = hasIndex ? record : texelNumber(coordImage0, record);
   uvec3 stored = bytesOf(texelOf(coordImage0, coordFirstTexels.x, n));
   if (coordPlanes > 1) stored = (stored << 8) | bytesOf(texelOf(coordImage1, coordFirstTexels.y, n));
   if (coordPlanes > 2) stored = (stored << 8) | bytesOf(texelOf(coordImage2, coordFirstTexels.z, n));
   if (coordPlanes > 3) stored = (stored << 8) | bytesOf(texelOf(coordImage3, coordFirstTexels.w, n));
   vec4 color = texelOf(colorImage, firstTexels.z, n);
   if (!colorHasAlpha) color.a = 1.0;
-  return Vertex(vec3(stored) + middleOfMissing, texelOf(normalImage, firstTexels.y, n).rgb * 2.0 - 1.0, color);
+  return Vertex(vec3(stored) + middleOfMissing, readNormal(record, n), color);
 }
 
 #else
+
+vec3 readNormal() {
+  #if defined(NORMAL_WORDS)
+    float word = normal.x < 0.0 ? normal.x + 65536.0 : normal.x; // X3DOM's, in records of Int16
+    return unitOf(vec2(mod(word, 256.0), floor(word / 256.0)));
+  #elif defined(NORMAL_LARGEST)
+    return unitOf(normal.xy);
+  #else
+    return normal;
+  #endif
+}
 
 Vertex readVertex() {
   #if defined(USE_COLOR_ALPHA)
@@ -119,7 +172,7 @@ Vertex readVertex() {
   #else
     vec4 vertexColor = vec4(1.0);
   #endif
-  return Vertex(position, normal, vertexColor);
+  return Vertex(position, readNormal(), vertexColor);
 }
 
 #endif
