@@ -62,8 +62,7 @@ std::string url(const Reference& reference, Container container) {
   return reference.url;
 }
 
-Element patchElement(const PatchDescription& patch, const GeometryDescription& geometry) {
-  const Container container = geometry.container;
+Element patchElement(const PatchDescription& patch, Container container) {
   Attributes draws{{"recordCount", std::to_string(patch.vertexCount)},
                    {"primType", primTypes(patch.draws)},
                    {"vertexCount", counts(patch.draws)}};
@@ -84,8 +83,7 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
   } else if (!patch.coord.empty()) {
     references.push_back({"coord", url(patch.coord[0], container)});
   }
-  if (!hasNormalsInCoords(geometry))
-    add("normal", patch.normal);
+  add("normal", patch.normal);
   add("texCoord", patch.texCoord);
   add("color", patch.color);
   return {"GeometryPatch", {boxAttributes(patch.box), draws, references}};
@@ -103,10 +101,8 @@ Element geometryElement(const GeometryDescription& geometry) {
               {"normalType", nameOf(geometry.normalType)},
               {"texCoordType", nameOf(geometry.texCoordType)},
               {"colorType", nameOf(geometry.colorType)}};
-  if (hasNormalsInCoords(geometry))
+  if (geometry.sphericalNormals)
     stored.push_back({"normalAsSphericalCoordinates", "true"});
-  else if (geometry.normalEncoding != NormalEncoding::rgb)
-    stored.push_back({"normalEncoding", nameOf(geometry.normalEncoding)});
   addUnless(stored, "texCoordMin", geometry.texCoordMin, Vec2f{0, 0}, numbers(geometry.texCoordMin));
   addUnless(stored, "texCoordSize", geometry.texCoordSize, Vec2f{1, 1}, numbers(geometry.texCoordSize));
   if (geometry.colorComponents == 4)
@@ -127,7 +123,7 @@ void writePatchedShape(ElementWriter& writer, const Shape& shape, const std::str
   writer.close(appearance);
   writer.open(node);
   for (const PatchDescription& patch : geometry.patches)
-    writer.leaf(patchElement(patch, geometry));
+    writer.leaf(patchElement(patch, geometry.container));
   writer.close(node);
   writer.close(element);
 }

@@ -9,28 +9,28 @@
 namespace imgeo::testing {
 
 /// The Error with which `bytes` are refused; a test failure where they are read.
-inline Error errorOf(ByteSpan bytes, const std::string& name, const ImportOptions& options = {}) {
+inline Error errorOf(ByteSpan bytes, const std::string& name) {
   try {
-    importBytes(bytes, name, options);
+    importBytes(bytes, name);
   } catch (const Error& error) {
     return error;
   }
   ADD_FAILURE() << name << " was read";
   return {ErrorKind::usage, "", ""};
 }
-inline Error errorOf(std::string_view text, const std::string& name, const ImportOptions& options = {}) {
-  return errorOf(asBytes(text), name, options);
+inline Error errorOf(std::string_view text, const std::string& name) {
+  return errorOf(asBytes(text), name);
 }
 
 /// The only mesh of what is read.
-inline Mesh onlyMesh(ByteSpan bytes, const std::string& name, const ImportOptions& options = {}) {
-  const Imported imported = importBytes(bytes, name, options);
+inline Mesh onlyMesh(ByteSpan bytes, const std::string& name) {
+  const Imported imported = importBytes(bytes, name);
   EXPECT_EQ(imported.scene.meshes.size(), 1u);
   EXPECT_TRUE(isConsistent(imported.scene.meshes.at(0)));
   return imported.scene.meshes.at(0);
 }
-inline Mesh onlyMesh(std::string_view text, const std::string& name, const ImportOptions& options = {}) {
-  return onlyMesh(asBytes(text), name, options);
+inline Mesh onlyMesh(std::string_view text, const std::string& name) {
+  return onlyMesh(asBytes(text), name);
 }
 
 } // namespace imgeo::testing

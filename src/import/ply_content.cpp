@@ -13,9 +13,8 @@ namespace imgeo {
 namespace {
 
 template <typename Cursor>
-void readVertices(PlyRecords<Cursor>& records, const PlyElement& element, const AttributeChoice& kept,
-                  PlyContent& content) {
-  PlyVertexReader reader(element, kept, content);
+void readVertices(PlyRecords<Cursor>& records, const PlyElement& element, PlyContent& content) {
+  PlyVertexReader reader(element, content);
   if (!reader.hasPosition())
     records.fail(ErrorKind::malformed, "the vertices have no x, y and z");
   reader.read(records);
@@ -59,8 +58,7 @@ void readEdges(PlyRecords<Cursor>& records, const PlyElement& element, std::uint
   });
 }
 
-template <typename Cursor>
-PlyContent readContent(Cursor cursor, const PlyHeader& header, const AttributeChoice& kept) {
+template <typename Cursor> PlyContent readContent(Cursor cursor, const PlyHeader& header) {
   PlyContent content;
   PlyRecords<Cursor> records(cursor);
   const PlyElement* vertices = header.find("vertex");
@@ -73,7 +71,7 @@ PlyContent readContent(Cursor cursor, const PlyHeader& header, const AttributeCh
   PlyFaceReader<Cursor> faces(records, content, vertices->count);
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex")
-      readVertices(records, element, kept, content);
+      readVertices(records, element, content);
     else if (element.name == "face")
       faces.readFaces(element);
     else if (element.name == "tristrips")
@@ -96,18 +94,17 @@ void PlyContent::noteIgnored(const PlyElement& element, const PlyProperty& prope
     ignored.push_back(fmt::format("'{}' of '{}'", asPrintable(property.name), element.name));
 }
 
-PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name,
-                          const AttributeChoice& kept) {
+PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name) {
   const std::size_t from = header.bodyOffset;
   switch (header.encoding) {
   case PlyEncoding::ascii:
-    return readContent(AsciiPlyCursor(bytes, name, from), header, kept);
+    return readContent(AsciiPlyCursor(bytes, name, from), header);
   case PlyEncoding::littleEndian:
-    return readContent(BinaryPlyCursor<std::endian::little>(bytes, name, from), header, kept);
+    return readContent(BinaryPlyCursor<std::endian::little>(bytes, name, from), header);
   case PlyEncoding::bigEndian:
     break;
   }
-  return readContent(BinaryPlyCursor<std::endian::big>(bytes, name, from), header, kept);
+  return readContent(BinaryPlyCursor<std::endian::big>(bytes, name, from), header);
 }
 
 } // namespace imgeo
