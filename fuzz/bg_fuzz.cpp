@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   geometry.normalType = type();
   geometry.texCoordType = type();
   geometry.colorType = type();
-  geometry.sphericalNormals = input.bits(8) % 4 == 1;
+  geometry.normalEncoding = static_cast<NormalEncoding>(input.bits(8) % 4);
   const PatchDescription patch = fuzz::readDescription(input, 1);
 
   std::map<std::string, Bytes> files;

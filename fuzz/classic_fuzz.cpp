@@ -10,7 +10,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   GeometryDescription geometry;
   geometry.container = Container::sig;
   geometry.lattice.bits = 8 + input.bits(8) % 25;
-  geometry.colorComponents = 3 + input.bits(8) % 2;
+  const std::uint32_t kinds = input.bits(8);
+  geometry.colorComponents = 3 + kinds % 2;
+  geometry.normalEncoding = static_cast<NormalEncoding>(kinds / 2 % 4);
   const PatchDescription patch = fuzz::readDescription(input, input.bits(8) % 5);
 
   std::map<std::string, Bytes> files;
@@ -19,6 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::uint32_t width = shape & 1 ? 256 : 1 + input.bits(8), height = 1u << (shape / 8 % 4);
     const std::uint32_t channels = shape & 2 ? 4 : shape & 4 ? 1 : 3;
     Image image{width, height, channels, Bytes(std::size_t{width} * height * channels)};
+    if (shape & 128 && channels == 1)
+      image.palette.assign(3u * 200, 17);
     std::ranges::copy(input.take(std::min<std::size_t>(image.pixels.size(), 1 + input.bits(16))),
                       image.pixels.begin());
     files[std::to_string(i)] = encodePng(image, 0);

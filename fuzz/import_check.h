@@ -22,7 +22,7 @@ inline bool isFinite(Vec3f p) {
 
 inline int importOrRefuse(ByteSpan bytes, const std::string& name) {
   try {
-    const Imported imported = importBytes(bytes, name);
+    const Imported imported = importBytes(bytes, name, {.attributes = {.all = true, .names = {}}});
     require(!imported.scene.shapes.empty());
     for (const Shape& shape : imported.scene.shapes)
       require(shape.mesh < imported.scene.meshes.size());
@@ -32,6 +32,9 @@ inline int importOrRefuse(ByteSpan bytes, const std::string& name) {
         require(isFinite(position));
       for (const Vec3f& normal : mesh.normals)
         require(std::abs(length(Vec3d(normal)) - 1) < 1e-5);
+      for (const NamedAttribute& attribute : mesh.namedAttributes)
+        for (const float value : attribute.values)
+          require(std::isfinite(value));
     }
   } catch (const Error& error) {
     require(!error.message().empty() && error.place().starts_with(name));

@@ -37,7 +37,11 @@ ConvertOptions optionsFrom(const Arguments& arguments) {
   options.normalWeighting = chosen(arguments, "normal-weighting",
                                    {NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform});
   options.positionBits = static_cast<std::uint32_t>(arguments.integer("position-bits"));
-  options.normalBits = static_cast<std::uint32_t>(arguments.integer("normal-bits"));
+  options.normals = chosen(
+      arguments, "normals",
+      {NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical, NormalEncoding::palette});
+  if (!arguments.text("normal-bits").empty())
+    options.normalBits = static_cast<std::uint32_t>(arguments.integer("normal-bits"));
   options.patchVertices = static_cast<std::uint32_t>(arguments.integer("patch-vertices"));
   options.effort = static_cast<int>(arguments.integer("effort"));
   options.title = arguments.text("title");
@@ -61,7 +65,9 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
   if (!report.x3domUrl.empty())
     json["x3dom"] = {{"version", report.x3domVersion}, {"url", report.x3domUrl}};
   json["positionBits"] = arguments.integer("position-bits");
-  json["normalBits"] = arguments.integer("normal-bits");
+  json["normalEncoding"] = arguments.text("normals");
+  json["normalBits"] = report.normalBits;
+  json["normalErrorDegrees"] = report.normalErrorDegrees;
   json["patchVertices"] = arguments.integer("patch-vertices");
   json["effort"] = arguments.integer("effort");
   json["normals"] = normalsOf(arguments, report);
@@ -114,7 +120,8 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
             fmt::format("{} bits: step {:.4g}, so off by at most {:.4g} an axis, in units of the source",
                         report.lattice.bits, report.lattice.step, report.lattice.step / 2));
   printLine("normals",
-            fmt::format("{} bits, {}", arguments.integer("normal-bits"),
+            fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", arguments.text("normals"),
+                        report.normalBits, report.normalErrorDegrees,
                         report.normalsComputed
                             ? "computed: triangles count by " +
                                   std::string(arguments.text("normal-weighting") == "area"    ? "their area"

@@ -29,6 +29,14 @@ Json jsonOf(const SiteInfo& info) {
             {"containerBytes", info.containerBytes},
             {"runtimeBytes", info.runtimeBytes},
             {"bytesPerTriangle", info.bytesPerTriangle}};
+  json["geometries"] = Json::array();
+  for (const GeometryInfo& geometry : info.geometries)
+    json["geometries"].push_back({{"container", geometry.container == Container::sig ? "sig" : "bg"},
+                                  {"positionBits", geometry.positionBits},
+                                  {"coordType", geometry.coordType},
+                                  {"indexType", geometry.indexType},
+                                  {"normalEncoding", geometry.normalEncoding},
+                                  {"normalBits", geometry.normalBits}});
   json["files"] = Json::array();
   for (const SiteFile& file : info.files)
     json["files"].push_back({{"path", file.path}, {"role", file.role}, {"bytes", file.bytes}});
@@ -39,9 +47,31 @@ bool isFetched(const std::string& role) {
   return role != "scene" && role != "marker";
 }
 
+/// "sig: positions of 16 bits, Uint16 indices, octahedral normals of 8 bits"
+std::string textOf(const GeometryInfo& geometry) {
+  std::string text = fmt::format("{}: positions of {} bits",
+                                 geometry.container == Container::sig ? "sig" : "bg", geometry.positionBits);
+  if (!geometry.coordType.empty())
+    text += " as " + geometry.coordType;
+  text += geometry.indexType.empty() ? ", no index" : ", " + geometry.indexType + " indices";
+  text += geometry.normalEncoding.empty()
+              ? ", no normals"
+              : fmt::format(", {} normals of {} bits", geometry.normalEncoding, geometry.normalBits);
+  return text;
+}
+
+/// Each way to store geometry once.
+void printGeometries(const std::vector<GeometryInfo>& geometries) {
+  for (auto it = geometries.begin(); it != geometries.end(); ++it)
+    if (std::find(geometries.begin(), it, *it) == it)
+      fmt::print("{}\n", textOf(*it));
+}
+
 void printSite(const SiteInfo& info) {
-  fmt::print("{}, {} vertices, {} {}\n\n", listed(info.elements), grouped(info.vertices), info.patches,
+  fmt::print("{}, {} vertices, {} {}\n", listed(info.elements), grouped(info.vertices), info.patches,
              info.patches == 1 ? "patch" : "patches");
+  printGeometries(info.geometries);
+  fmt::print("\n");
   struct Sum {
     std::size_t files = 0;
     std::uint64_t bytes = 0;

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "containers/bg/bg.h"
 #include "containers/classic/classic.h"
+#include "containers/normals.h"
 
 #include <algorithm>
 #include <cassert>
@@ -41,6 +42,17 @@ ElementType unsignedType(std::uint32_t bytes) {
   return bytes == 1 ? ElementType::uint8 : bytes == 2 ? ElementType::uint16 : ElementType::uint32;
 }
 
+ElementType normalTypeOf(const EncodeOptions& options) {
+  assert(options.normals != NormalEncoding::palette);
+  assert(options.normalBits == 8 || options.normals != NormalEncoding::spherical);
+  assert(options.normalBits == 8 || options.normalBits == 16 || options.normalBits == 32);
+  if (isPair(options.normals))
+    return unsignedType(options.normalBits / 8);
+  return options.normalBits == 8    ? ElementType::int8
+         : options.normalBits == 16 ? ElementType::int16
+                                    : ElementType::float32;
+}
+
 } // namespace
 
 GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& options) {
@@ -56,14 +68,13 @@ GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& optio
     geometry.colorComponents = 4;
   if (options.container == Container::bg) {
     assert(options.target == Target::web || mesh.lattice.bits <= 16);
-    assert(options.normalBits == 8 || options.normalBits == 16 || options.normalBits == 32);
     geometry.coordType = unsignedType(coordBytes(Container::bg, mesh.lattice.bits));
-    geometry.normalType = options.normalBits == 8    ? ElementType::int8
-                          : options.normalBits == 16 ? ElementType::int16
-                                                     : ElementType::float32;
+    geometry.normalType = normalTypeOf(options);
+    assert(!isPair(options.normals) || options.normalBits == 16 || byteSizeOf(geometry.coordType) == 2);
   } else {
     assert(options.normalBits == 8);
   }
+  geometry.normalEncoding = options.normals;
   return geometry;
 }
 

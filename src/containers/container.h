@@ -17,9 +17,12 @@ enum class Target : std::uint8_t { web, x3dom };
 
 struct EncodeOptions {
   Container container = Container::sig;
-  std::uint32_t normalBits = 8; ///< SIG: 8. BG: 8, 16 or 32 (Float32)
-  int effort = 5;               ///< 0 fastest .. 9 smallest
+  /// Bits of a stored component. SIG: 8. BG: 8, 16 or 32 (Float32); octahedral 8 or
+  /// 16, spherical 8, and those of 8 only beside coordinates of 9 .. 16 bits.
+  std::uint32_t normalBits = 8;
+  int effort = 5; ///< 0 fastest .. 9 smallest
   Target target = Target::web;
+  NormalEncoding normals = NormalEncoding::rgb; ///< palette: SIG alone
 };
 
 /// A file as it will lie in the site, unnamed yet.
@@ -35,6 +38,7 @@ struct EncodedFile {
 struct EncodedPatch {
   PatchDescription description;
   std::vector<EncodedFile> files;
+  double paletteError = 0; ///< largest angle between a normal and its palette entry, in radians
 };
 
 /// The geometry node's own fields for a mesh about to be encoded (no patches

@@ -1,6 +1,8 @@
 #include "containers/container.h"
 
+#include "containers/normals.h"
 #include "containers/testing.h"
+#include "containers/unit_vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -28,13 +30,9 @@ Encoded encode(const Mesh& mesh, Primitive primitive, bool indexed, std::uint32_
   return encoded;
 }
 
-double angleBetween(Vec3f a, Vec3f b) {
-  return std::atan2(length(cross(Vec3d(a), Vec3d(b))), dot(Vec3d(a), Vec3d(b)));
-}
-
 /// Everything integer comes back exactly, texture coordinates within half of
-/// their step, normals within the angle of half a step an axis.
-void expectEqualWithinSteps(const Encoded& encoded, double normalStep) {
+/// their step, normals within the angle that their encoding states.
+void expectEqualWithinSteps(const Encoded& encoded) {
   const IndexedPatch& source = encoded.source;
   const IndexedPatch decoded = encoded.decoded();
   EXPECT_EQ(decoded.positions, source.positions);
@@ -42,9 +40,10 @@ void expectEqualWithinSteps(const Encoded& encoded, double normalStep) {
   EXPECT_EQ(decoded.indices, source.indices);
   EXPECT_EQ(decoded.draws, source.draws);
   ASSERT_EQ(decoded.normals.size(), source.normals.size());
+  const double bound = std::max(normalErrorBound(encoded.geometry), encoded.patch.paletteError + 1e-6);
   for (std::size_t i = 0; i < source.normals.size(); ++i) {
-    EXPECT_LE(angleBetween(decoded.normals[i], source.normals[i]), std::sqrt(3.0) / 2 * normalStep + 1e-6);
-    EXPECT_NEAR(length(Vec3d(decoded.normals[i])), 1, 1e-6);
+    ASSERT_LE(angleBetween(decoded.normals[i], source.normals[i]), bound);
+    ASSERT_NEAR(length(Vec3d(decoded.normals[i])), 1, 1e-6);
   }
   ASSERT_EQ(decoded.texCoords.size(), source.texCoords.size());
   const Vec2f size = encoded.geometry.texCoordSize;
@@ -56,26 +55,59 @@ void expectEqualWithinSteps(const Encoded& encoded, double normalStep) {
 
 constexpr std::uint32_t everyPrecision[] = {8, 10, 12, 16, 20, 24, 32};
 
+/// Every way to store normals beside coordinates of so many bits.
+std::vector<EncodeOptions> everyNormalEncoding(std::uint32_t bits) {
+  const auto options = [](Container container, NormalEncoding normals, std::uint32_t normalBits) {
+    return EncodeOptions{container, normalBits, 1, Target::web, normals};
+  };
+  std::vector<EncodeOptions> all;
+  for (const NormalEncoding normals :
+       {NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical, NormalEncoding::palette})
+    all.push_back(options(Container::sig, normals, 8));
+  for (const std::uint32_t normalBits : {8u, 16u, 32u})
+    all.push_back(options(Container::bg, NormalEncoding::rgb, normalBits));
+  all.push_back(options(Container::bg, NormalEncoding::octahedral, 16));
+  if (coordBytes(Container::bg, bits) == 2) {
+    all.push_back(options(Container::bg, NormalEncoding::octahedral, 8));
+    all.push_back(options(Container::bg, NormalEncoding::spherical, 8));
+  }
+  return all;
+}
+
 TEST(Containers, GiveBackEveryMeshAtEveryPrecision) {
   Random random(1);
   for (const std::uint32_t bits : everyPrecision)
     for (std::uint32_t seed = 0; seed < 24; ++seed) {
       const Mesh mesh = randomMesh(seed + 100 * bits);
       const bool indexed = !random.once(4);
-      for (const Container container : {Container::sig, Container::bg})
-        for (const std::uint32_t normalBits : {8u, 16u, 32u}) {
-          if (container == Container::sig && normalBits != 8)
-            continue;
-          SCOPED_TRACE(std::to_string(bits) + " bits, mesh " + std::to_string(seed) + ", normals of " +
-                       std::to_string(normalBits));
-          const Primitive primitive = static_cast<Primitive>(random.below(4));
-          const Encoded encoded = encode(mesh, primitive, indexed, bits, {container, normalBits, 1});
-          const double normalStep = container == Container::sig ? 1 / 127.5
-                                    : normalBits == 32          ? 0
-                                                                : 1.0 / ((1 << (normalBits - 1)) - 1);
-          expectEqualWithinSteps(encoded, normalStep);
-        }
+      for (const EncodeOptions& options : everyNormalEncoding(bits)) {
+        SCOPED_TRACE(std::to_string(bits) + " bits, mesh " + std::to_string(seed) + ", " +
+                     nameOf(options.normals) + " normals of " + std::to_string(options.normalBits));
+        const Primitive primitive = static_cast<Primitive>(random.below(4));
+        expectEqualWithinSteps(encode(mesh, primitive, indexed, bits, options));
+      }
     }
+}
+
+TEST(Containers, PutPairsOfNormalsIntoWhatPadsCoordinates) {
+  for (const NormalEncoding normals : {NormalEncoding::octahedral, NormalEncoding::spherical}) {
+    const Encoded encoded = encode(testing::torus(9, 9), Primitive::triangles, true, 16,
+                                   {Container::bg, 8, 1, Target::web, normals});
+    const PatchDescription& patch = encoded.patch.description;
+    EXPECT_EQ(patch.normal, (Reference{patch.coord[0].url, 6, 8}));
+    EXPECT_EQ(encoded.patch.files.size(), 3u); // index, coordinates, texture coordinates
+  }
+}
+
+TEST(Containers, GiveBackPairsOfNormalsOfMoreVerticesThanAnIndexCouldName) {
+  for (const std::uint32_t count : {65537u, 1048577u}) {
+    Mesh mesh = testing::pointCloud(count, 3);
+    Random random(count);
+    for (std::uint32_t i = 0; i < count; ++i)
+      mesh.normals.push_back(random.direction());
+    expectEqualWithinSteps(encode(mesh, Primitive::points, false, 8,
+                                  {Container::sig, 8, 0, Target::web, NormalEncoding::octahedral}));
+  }
 }
 
 TEST(Containers, GiveBackAPatchOfEverySizeAroundARow) {
@@ -83,14 +115,14 @@ TEST(Containers, GiveBackAPatchOfEverySizeAroundARow) {
     for (const std::uint32_t count : {1u, 2u, 255u, 256u, 257u, 511u, 512u, 513u, 65535u})
       for (const bool indexed : {false, true})
         expectEqualWithinSteps(
-            encode(testing::pointCloud(count, count), Primitive::points, indexed, 16, {container, 8, 0}), 0);
+            encode(testing::pointCloud(count, count), Primitive::points, indexed, 16, {container, 8, 0}));
 }
 
 TEST(Containers, GiveBackMoreVerticesThanAnIndexCouldName) {
   for (const Container container : {Container::sig, Container::bg})
     for (const std::uint32_t count : {65536u, 65537u, 262144u, 262145u})
       expectEqualWithinSteps(
-          encode(testing::pointCloud(count, count), Primitive::points, false, 16, {container, 8, 0}), 0);
+          encode(testing::pointCloud(count, count), Primitive::points, false, 16, {container, 8, 0}));
 }
 
 TEST(Containers, RefuseMoreVerticesThanTheLargestImageHolds) {
@@ -117,7 +149,7 @@ TEST(Containers, GiveBackSeveralDraws) {
     encoded.source.draws = {
         {Primitive::triangles, 30}, {Primitive::triangleStrip, 50}, {Primitive::points, count - 80}};
     encoded.patch = encodePatch(encoded.source, encoded.geometry, options);
-    expectEqualWithinSteps(encoded, 0);
+    expectEqualWithinSteps(encoded);
   }
 }
 

@@ -17,6 +17,11 @@ const char* nameOf(Primitive primitive) {
   return names[static_cast<std::size_t>(primitive)];
 }
 
+const char* nameOf(NormalEncoding encoding) {
+  constexpr const char* names[] = {"rgb", "octahedral", "spherical", "palette"};
+  return names[static_cast<std::size_t>(encoding)];
+}
+
 const char* nameOf(ElementType type) {
   constexpr const char* names[] = {"Int8", "Uint8", "Int16", "Uint16", "Int32", "Uint32", "Float32"};
   return names[static_cast<std::size_t>(type)];
@@ -52,6 +57,18 @@ Lattice latticeOver(Vec3d origin, Vec3d size, double steps, std::uint32_t bits) 
 }
 
 } // namespace
+
+Reference normalInCoords(const Reference& coord) {
+  return {coord.url, coord.first + 6, coord.stride != 0 ? coord.stride : 8};
+}
+
+bool hasNormalsInCoords(const GeometryDescription& geometry) {
+  return geometry.container == Container::bg && geometry.normalEncoding == NormalEncoding::spherical &&
+         geometry.normalType == ElementType::uint8 && byteSizeOf(geometry.coordType) == 2 &&
+         std::ranges::all_of(geometry.patches, [](const PatchDescription& patch) {
+           return patch.coord.size() == 1 && patch.normal == normalInCoords(patch.coord[0]);
+         });
+}
 
 bool isUnsigned(ElementType type) {
   return type == ElementType::uint8 || type == ElementType::uint16 || type == ElementType::uint32;

@@ -24,6 +24,11 @@ const char* nameOf(Role role);
 /// "POINTS", "TRIANGLESTRIP", ...: as X3DOM's `primType` has them.
 const char* nameOf(Primitive primitive);
 
+/// How unit normals are stored: as three components, as two numbers
+/// (containers/normals.h), or as RGB out of an image's palette.
+enum class NormalEncoding : std::uint8_t { rgb, octahedral, spherical, palette };
+const char* nameOf(NormalEncoding encoding);
+
 /// The element type of a BG attribute, as X3DOM names them ("Uint16" ...).
 enum class ElementType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32 };
 const char* nameOf(ElementType type);
@@ -60,7 +65,7 @@ struct GeometryDescription {
   ElementType indexType = ElementType::uint16, coordType = ElementType::uint16,
               normalType = ElementType::int8, texCoordType = ElementType::uint16,
               colorType = ElementType::uint8; ///< BG only
-  bool sphericalNormals = false;              ///< BG: the normal is a coordinate record's fourth element
+  NormalEncoding normalEncoding = NormalEncoding::rgb;
   std::vector<PatchDescription> patches;
   friend bool operator==(const GeometryDescription&, const GeometryDescription&) = default;
 };
@@ -100,6 +105,12 @@ struct DecodeFields {
   Vec3d position, size;
 };
 DecodeFields decodeFields(const GeometryDescription& geometry);
+
+/// Where X3DOM has spherical normals of 16-bit coordinates: in the fourth element of their records.
+Reference normalInCoords(const Reference& coord);
+
+/// Whether the normals of every patch are X3DOM's normalAsSphericalCoordinates.
+bool hasNormalsInCoords(const GeometryDescription& geometry);
 
 bool isUnsigned(ElementType type);
 /// The integer that stands for 1: 127, 255, 32767, 65535 ...; 1 for Float32.

@@ -73,7 +73,9 @@ TEST(NormalPalette, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(alone.indices, together.indices);
 }
 
-TEST(NormalPalette, OfNothingIsStillATable) { EXPECT_TRUE(normalPalette({}).indices.empty()); }
+TEST(NormalPalette, OfNothingIsStillATable) {
+  EXPECT_TRUE(normalPalette({}).indices.empty());
+}
 
 } // namespace
 } // namespace imgeo

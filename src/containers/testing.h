@@ -19,8 +19,7 @@ inline PatchedMesh onePatch(const Mesh& mesh, std::uint32_t bits) {
   patched.lattice.bits = bits;
   if (box.longestEdge() > 0)
     patched.lattice.step = box.longestEdge() / patched.lattice.maximum();
-  Patch patch{mesh.topology,  {},          mesh.wedgePositions,  mesh.normals,
-              mesh.texCoords, mesh.colors, mesh.colorComponents, mesh.corners};
+  Patch patch{mesh, mesh.topology, {}, mesh.wedgePositions, mesh.corners};
   for (const Vec3f& position : mesh.positions) {
     const Vec3d steps = (Vec3d(position) - box.min) * (1 / patched.lattice.step);
     const auto nearest = [](double value) { return static_cast<std::uint32_t>(std::llround(value)); };
@@ -36,10 +35,7 @@ inline IndexedPatch verticesOf(const Patch& patch, Primitive primitive, bool ind
   IndexedPatch vertices;
   for (const std::uint32_t position : patch.wedgePositions)
     vertices.positions.push_back(patch.positions[position]);
-  vertices.normals = patch.normals;
-  vertices.texCoords = patch.texCoords;
-  vertices.colors = patch.colors;
-  vertices.colorComponents = patch.colorComponents;
+  static_cast<VertexAttributes&>(vertices) = patch;
   if (indexed)
     vertices.indices = patch.corners;
   const std::size_t count = indexed ? vertices.indices.size() : vertices.positions.size();

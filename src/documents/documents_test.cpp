@@ -85,11 +85,17 @@ GeometryDescription randomGeometry(Random& random) {
                                       : ElementType::uint32;
     geometry.normalType = static_cast<ElementType>(random.below(7));
     geometry.indexType = static_cast<ElementType>(random.below(7));
-    geometry.sphericalNormals = random.once(2);
   }
+  geometry.normalEncoding = static_cast<NormalEncoding>(random.below(4));
   for (std::uint32_t patches = 1 + random.below(4); patches > 0; --patches)
     geometry.patches.push_back(
         randomPatch(random, geometry.container, geometry.container == Container::sig ? bytes : 1));
+  if (geometry.container == Container::bg && bytes == 2 && random.once(3)) {
+    geometry.normalEncoding = NormalEncoding::spherical;
+    geometry.normalType = ElementType::uint8;
+    for (PatchDescription& patch : geometry.patches)
+      patch.normal = normalInCoords(patch.coord[0]);
+  }
   return geometry;
 }
 
@@ -411,12 +417,25 @@ TEST(Documents, KeepTheLatticeOfForeignGeometry) {
 }
 
 TEST(ReadScene, TakesX3domsDefaultsForABinaryGeometry) {
-  const GeometryDescription geometry =
-      readBinaryGeometry("coord='a' index='i' normalAsSphericalCoordinates='true'");
+  const GeometryDescription geometry = readBinaryGeometry("coord='a' index='i'");
   EXPECT_EQ(geometry.coordType, ElementType::float32);
   EXPECT_EQ(geometry.indexType, ElementType::uint16);
-  EXPECT_TRUE(geometry.sphericalNormals);
+  EXPECT_EQ(geometry.normalEncoding, NormalEncoding::rgb);
   EXPECT_EQ(geometry.patches[0].draws, (std::vector<Draw>{{Primitive::triangles, 0}}));
+}
+
+TEST(ReadScene, FindsX3domsSphericalNormalsInTheFourthElementOfCoordinates) {
+  const std::string spherical = " coordType='Uint16' normalAsSphericalCoordinates='true'";
+  for (const auto& [coord, normal] : {std::pair{"a.bin", Reference{"a.bin", 6, 8}},
+                                      {"a.bin?+8", {"a.bin", 6, 8}},
+                                      {"a.bin#24+32", {"a.bin", 30, 32}}}) {
+    const GeometryDescription geometry =
+        readBinaryGeometry(std::string("normal='ignored' coord='") + coord + "'" + spherical);
+    EXPECT_EQ(geometry.normalEncoding, NormalEncoding::spherical);
+    EXPECT_EQ(geometry.normalType, ElementType::uint8);
+    EXPECT_EQ(geometry.patches[0].normal, normal);
+  }
+  EXPECT_THROW(readBinaryGeometry("coord='a' normalAsSphericalCoordinates='true'"), Error);
 }
 
 TEST(ReadScene, JoinsAGroupOfShapesThatShareTheirAppearance) {

@@ -21,6 +21,17 @@ ElementType elementTypeOf(const Fields& fields, const char* name, ElementType fa
   fields.fail(ErrorKind::unsupported, std::string(name) + " is no element type we know");
 }
 
+NormalEncoding normalEncodingOf(const Fields& fields) {
+  const std::string text = fields.text("normalEncoding");
+  for (const NormalEncoding encoding :
+       {NormalEncoding::octahedral, NormalEncoding::spherical, NormalEncoding::palette})
+    if (sameName(text, nameOf(encoding)))
+      return encoding;
+  if (!text.empty() && !sameName(text, nameOf(NormalEncoding::rgb)))
+    fields.fail(ErrorKind::unsupported, "normalEncoding is none that we know");
+  return NormalEncoding::rgb;
+}
+
 bool parseWhole(std::string_view text, std::uint32_t& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc{} && end == text.data() + text.size();
@@ -174,6 +185,16 @@ Lattice latticeOf(const Fields& fields, const GeometryDescription& geometry) {
   return latticeFromTypedBox(geometry.coordType, position, size);
 }
 
+void takeNormalsFromCoords(const Fields& fields, GeometryDescription& geometry) {
+  if (byteSizeOf(geometry.coordType) != 2)
+    fields.fail(ErrorKind::unsupported,
+                std::string("spherical normals in coordinates of type ") + nameOf(geometry.coordType));
+  geometry.normalEncoding = NormalEncoding::spherical;
+  geometry.normalType = ElementType::uint8;
+  for (PatchDescription& patch : geometry.patches)
+    patch.normal = normalInCoords(patch.coord[0]);
+}
+
 } // namespace
 
 GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node,
@@ -183,6 +204,7 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   geometry.container = container;
   geometry.texCoordMin = fields.vec2("texCoordMin", {0, 0});
   geometry.texCoordSize = fields.vec2("texCoordSize", {1, 1});
+  geometry.normalEncoding = normalEncodingOf(fields);
   if (container == Container::bg) {
     geometry.indexType = elementTypeOf(fields, "indexType", ElementType::uint16);
     geometry.coordType = elementTypeOf(fields, "coordType", ElementType::float32);
@@ -190,7 +212,6 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
     geometry.texCoordType = elementTypeOf(fields, "texCoordType", ElementType::float32);
     geometry.colorType = elementTypeOf(fields, "colorType", ElementType::float32);
     geometry.colorComponents = fields.boolean("rgbaColors", false) ? 4 : 3;
-    geometry.sphericalNormals = fields.boolean("normalAsSphericalCoordinates", false);
     if (fields.boolean("compressed", false))
       fields.fail(ErrorKind::unsupported, "compressed containers are not read");
     if (!fields.boolean("normalPerVertex", true))
@@ -207,6 +228,8 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
           readPatch(source, child, container, implicitMeshSizeOf(Fields(source, child), implicitMeshSize)));
   if (geometry.patches.empty())
     geometry.patches.push_back(readPatch(source, node, container, implicitMeshSize));
+  if (container == Container::bg && fields.boolean("normalAsSphericalCoordinates", false))
+    takeNormalsFromCoords(fields, geometry);
   geometry.lattice = latticeOf(fields, geometry);
   return geometry;
 }

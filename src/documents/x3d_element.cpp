@@ -62,7 +62,8 @@ std::string url(const Reference& reference, Container container) {
   return reference.url;
 }
 
-Element patchElement(const PatchDescription& patch, Container container) {
+Element patchElement(const PatchDescription& patch, const GeometryDescription& geometry) {
+  const Container container = geometry.container;
   Attributes draws{{"recordCount", std::to_string(patch.vertexCount)},
                    {"primType", primTypes(patch.draws)},
                    {"vertexCount", counts(patch.draws)}};
@@ -83,7 +84,8 @@ Element patchElement(const PatchDescription& patch, Container container) {
   } else if (!patch.coord.empty()) {
     references.push_back({"coord", url(patch.coord[0], container)});
   }
-  add("normal", patch.normal);
+  if (!hasNormalsInCoords(geometry))
+    add("normal", patch.normal);
   add("texCoord", patch.texCoord);
   add("color", patch.color);
   return {"GeometryPatch", {boxAttributes(patch.box), draws, references}};
@@ -101,8 +103,10 @@ Element geometryElement(const GeometryDescription& geometry) {
               {"normalType", nameOf(geometry.normalType)},
               {"texCoordType", nameOf(geometry.texCoordType)},
               {"colorType", nameOf(geometry.colorType)}};
-  if (geometry.sphericalNormals)
+  if (hasNormalsInCoords(geometry))
     stored.push_back({"normalAsSphericalCoordinates", "true"});
+  else if (geometry.normalEncoding != NormalEncoding::rgb)
+    stored.push_back({"normalEncoding", nameOf(geometry.normalEncoding)});
   addUnless(stored, "texCoordMin", geometry.texCoordMin, Vec2f{0, 0}, numbers(geometry.texCoordMin));
   addUnless(stored, "texCoordSize", geometry.texCoordSize, Vec2f{1, 1}, numbers(geometry.texCoordSize));
   if (geometry.colorComponents == 4)
@@ -123,7 +127,7 @@ void writePatchedShape(ElementWriter& writer, const Shape& shape, const std::str
   writer.close(appearance);
   writer.open(node);
   for (const PatchDescription& patch : geometry.patches)
-    writer.leaf(patchElement(patch, geometry.container));
+    writer.leaf(patchElement(patch, geometry));
   writer.close(node);
   writer.close(element);
 }

@@ -1,5 +1,6 @@
 #include "documents/x3dom_element.h"
 
+#include "containers/normals.h"
 #include "documents/text.h"
 #include "documents/x3d_element.h"
 
@@ -132,10 +133,13 @@ private:
   void writeImages(ElementWriter& writer, const GeometryDescription& geometry,
                    const PatchDescription& patch) {
     assert(geometry.texCoordMin == Vec2f{} && geometry.texCoordSize == (Vec2f{1, 1}));
+    assert(!isPair(geometry.normalEncoding));
     Attributes draws = drawFields(patch);
     draws.push_back({"implicitMeshSize",
                      std::to_string(implicitMeshSize_.x) + " " + std::to_string(implicitMeshSize_.y)});
     draws.push_back({"numColorComponents", std::to_string(geometry.colorComponents)});
+    if (geometry.normalEncoding == NormalEncoding::palette)
+      draws.push_back({"normalEncoding", nameOf(geometry.normalEncoding)});
     const Element node{"ImageGeometry", {decodeFields(geometry), draws}};
     writer.open(node);
     const auto write = [&](const char* role, const std::optional<Reference>& image) {
@@ -185,7 +189,10 @@ private:
     };
     add("index", "indexType", geometry.indexType, patch.index);
     add("coord", "coordType", geometry.coordType, patch.coord.at(0));
-    add("normal", "normalType", geometry.normalType, patch.normal);
+    if (hasNormalsInCoords(geometry))
+      types.push_back({"normalAsSphericalCoordinates", "true"});
+    else
+      add("normal", "normalType", geometry.normalType, patch.normal);
     add("texCoord", "texCoordType", geometry.texCoordType, patch.texCoord);
     add("color", "colorType", geometry.colorType, patch.color);
     if (geometry.colorComponents == 4)

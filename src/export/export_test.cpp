@@ -148,8 +148,9 @@ TEST(ExportedObj, IsReadBackByOurImport) {
 }
 
 TEST(ExportedObj, HasLinesAndPoints) {
-  Mesh lines{"", Topology::lines, {{0, 0, 0}, {1, 0, 0}}, {0, 1}, {}, {{0, 0}, {1, 0.5f}}, {}, 3, {0, 1}};
-  Mesh points{"", Topology::points, {{7, 8, 9}}, {0}, {}, {}, {{255, 0, 51, 255}}, 3, {0}};
+  Mesh lines{
+      {{}, {{0, 0}, {1, 0.5f}}, {}, 3, {}}, "", Topology::lines, {{0, 0, 0}, {1, 0, 0}}, {0, 1}, {0, 1}};
+  Mesh points{{{}, {}, {{255, 0, 51, 255}}, 3, {}}, "", Topology::points, {{7, 8, 9}}, {0}, {0}};
   Scene scene = sceneOf({lines, points});
   scene.shapes[1].name = "two\nlines";
   EXPECT_EQ(asText(writeObj(scene)), "o part0\nv 0 0 0\nv 1 0 0\nvt 0 0\nvt 1 0.5\nl 1/1 2/2\n"

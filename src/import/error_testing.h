@@ -9,28 +9,28 @@
 namespace imgeo::testing {
 
 /// The Error with which `bytes` are refused; a test failure where they are read.
-inline Error errorOf(ByteSpan bytes, const std::string& name) {
+inline Error errorOf(ByteSpan bytes, const std::string& name, const ImportOptions& options = {}) {
   try {
-    importBytes(bytes, name);
+    importBytes(bytes, name, options);
   } catch (const Error& error) {
     return error;
   }
   ADD_FAILURE() << name << " was read";
   return {ErrorKind::usage, "", ""};
 }
-inline Error errorOf(std::string_view text, const std::string& name) {
-  return errorOf(asBytes(text), name);
+inline Error errorOf(std::string_view text, const std::string& name, const ImportOptions& options = {}) {
+  return errorOf(asBytes(text), name, options);
 }
 
 /// The only mesh of what is read.
-inline Mesh onlyMesh(ByteSpan bytes, const std::string& name) {
-  const Imported imported = importBytes(bytes, name);
+inline Mesh onlyMesh(ByteSpan bytes, const std::string& name, const ImportOptions& options = {}) {
+  const Imported imported = importBytes(bytes, name, options);
   EXPECT_EQ(imported.scene.meshes.size(), 1u);
   EXPECT_TRUE(isConsistent(imported.scene.meshes.at(0)));
   return imported.scene.meshes.at(0);
 }
-inline Mesh onlyMesh(std::string_view text, const std::string& name) {
-  return onlyMesh(asBytes(text), name);
+inline Mesh onlyMesh(std::string_view text, const std::string& name, const ImportOptions& options = {}) {
+  return onlyMesh(asBytes(text), name, options);
 }
 
 } // namespace imgeo::testing

@@ -8,9 +8,9 @@
 
 namespace imgeo {
 
-Imported readPly(ByteSpan bytes, const std::string& name);
-Imported readObj(ByteSpan bytes, const std::string& name);
-Imported readStl(ByteSpan bytes, const std::string& name);
+Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& options);
+Imported readObj(ByteSpan bytes, const std::string& name, const ImportOptions& options);
+Imported readStl(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 
 /// True where the bytes can only be this format.
 bool looksLikePly(ByteSpan bytes);

@@ -16,7 +16,7 @@ namespace imgeo {
 
 namespace {
 
-using Reader = Imported (*)(ByteSpan, const std::string&);
+using Reader = Imported (*)(ByteSpan, const std::string&, const ImportOptions&);
 
 std::string lowerCase(std::string text) {
   std::ranges::transform(text, text.begin(),
@@ -79,7 +79,7 @@ void addShape(Scene& scene, Mesh mesh, std::string shapeName) {
   scene.shapes.push_back(std::move(shape));
 }
 
-Imported importBytes(ByteSpan bytes, const std::string& name) {
+Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
   Bytes unpacked;
   if (isGzip(bytes)) {
     unpacked = gunzip(bytes, name);
@@ -90,7 +90,7 @@ Imported importBytes(ByteSpan bytes, const std::string& name) {
   if (asText(bytes).starts_with("\xef\xbb\xbf"))
     bytes = bytes.subspan(3); // byte order mark
 
-  Imported imported = readerFor(bytes, name)(bytes, name);
+  Imported imported = readerFor(bytes, name)(bytes, name, options);
   const bool hasElements =
       std::ranges::any_of(imported.scene.meshes, [](const Mesh& mesh) { return !mesh.corners.empty(); });
   if (!hasElements)
@@ -100,8 +100,8 @@ Imported importBytes(ByteSpan bytes, const std::string& name) {
   return imported;
 }
 
-Imported importFile(const std::filesystem::path& path) {
-  return importBytes(readFile(path), path.string());
+Imported importFile(const std::filesystem::path& path, const ImportOptions& options) {
+  return importBytes(readFile(path), path.string(), options);
 }
 
 } // namespace imgeo

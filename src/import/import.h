@@ -6,7 +6,10 @@
 // x y z, and where they are there nx ny nz, s t (u v, texture_u texture_v), red
 // green blue alpha (diffuse_red ...); `face` with vertex_indices (vertex_index)
 // and texcoord; `tristrips`; `edge` with vertex1 and vertex2, a shape of lines.
-// Without any of these: a point cloud.
+// Without any of these: a point cloud. Other numbers of a vertex are further
+// attributes for those who ask for them (as single precision; they must be
+// finite): NAME, or NAME_0 .. NAME_3 that follow one another for one of two to
+// four components.
 // OBJ: v (with colours), vt, vn, f, l; each `o` is a shape, or two where it has
 // faces and lines; groups are none. Without faces and lines: a point cloud.
 // STL: binary and ASCII; each ASCII solid is a shape, each corner has a position
@@ -19,6 +22,7 @@
 #include "scene/scene.h"
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,16 +34,28 @@ struct Imported {
   std::vector<std::string> warnings; ///< one sentence per kind of thing not carried over
 };
 
+/// Which further attributes of vertices are carried over, by name.
+struct AttributeChoice {
+  bool all = false;
+  std::set<std::string> names; ///< where not all
+
+  bool has(const std::string& name) const { return all || names.contains(name); }
+};
+
+struct ImportOptions {
+  AttributeChoice attributes; ///< none where nothing is said
+};
+
 /// Reads a file of any known format; the format is told from the content first,
 /// the name's ending second. A gzipped file (magic 1f 8b) is unpacked first.
 /// Safe for untrusted bytes: counts are checked against the bytes that are left
 /// before anything is allocated; NaN and infinite coordinates are refused.
 /// Throws Error (io, truncated, malformed, unsupported, limit) with file and
 /// line (text) or byte (binary).
-Imported importFile(const std::filesystem::path& path);
+Imported importFile(const std::filesystem::path& path, const ImportOptions& options = {});
 
 /// The same for bytes at hand; `name` stands for the file in messages and its
 /// ending helps to tell the format.
-Imported importBytes(ByteSpan bytes, const std::string& name);
+Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOptions& options = {});
 
 } // namespace imgeo

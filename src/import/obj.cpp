@@ -262,7 +262,7 @@ bool looksLikeObj(ByteSpan bytes) {
   return false;
 }
 
-Imported readObj(ByteSpan bytes, const std::string& name) {
+Imported readObj(ByteSpan bytes, const std::string& name, const ImportOptions&) {
   if (bytes.size() > kMaxObjBytes)
     throw Error(ErrorKind::limit, name, "OBJ files are read up to 8 GiB; binary PLY has no such limit");
   return ObjReader(bytes, name).read();

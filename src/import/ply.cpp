@@ -40,18 +40,6 @@ Triangles triangulateAll(const PlyContent& content) {
   return result;
 }
 
-/// What wedges have of an attribute that vertices have.
-template <typename T>
-std::vector<T> spread(const std::vector<T>& attribute, const std::vector<std::uint32_t>& wedgeVertices) {
-  std::vector<T> perWedge;
-  if (attribute.empty())
-    return perWedge;
-  perWedge.reserve(wedgeVertices.size());
-  for (const std::uint32_t vertex : wedgeVertices)
-    perWedge.push_back(attribute[vertex]);
-  return perWedge;
-}
-
 /// Exporters of point clouds often write an empty `face` element too.
 bool hasFaces(const PlyContent& content) {
   return !content.indices.empty() || content.facesTooSmall > 0;
@@ -62,7 +50,6 @@ Mesh edgesOf(const PlyContent& content) {
   constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
   Mesh mesh;
   mesh.topology = Topology::lines;
-  mesh.colorComponents = content.hasAlpha ? 4 : 3;
   std::vector<std::uint32_t> wedgeOf(content.positions.size(), unseen), vertices;
   for (const std::uint32_t vertex : content.edges) {
     if (wedgeOf[vertex] == unseen) {
@@ -72,10 +59,8 @@ Mesh edgesOf(const PlyContent& content) {
     }
     mesh.corners.push_back(wedgeOf[vertex]);
   }
-  mesh.positions = spread(content.positions, vertices);
-  mesh.normals = spread(content.normals, vertices);
-  mesh.texCoords = spread(content.texCoords, vertices);
-  mesh.colors = spread(content.colors, vertices);
+  static_cast<VertexAttributes&>(mesh) = gather(content.attributes, vertices);
+  mesh.positions = gather(content.positions, vertices);
   return mesh;
 }
 
@@ -83,11 +68,6 @@ Mesh edgesOf(const PlyContent& content) {
 /// The vertices move into it.
 Mesh surfaceOrCloudOf(PlyContent& content, std::size_t& fans) {
   Mesh mesh;
-  mesh.normals = std::move(content.normals);
-  mesh.texCoords = std::move(content.texCoords);
-  mesh.colors = std::move(content.colors);
-  mesh.colorComponents = content.hasAlpha ? 4 : 3;
-
   const bool isCloud = !hasFaces(content);
   mesh.topology = isCloud ? Topology::points : Topology::triangles;
   const bool perCorner = !isCloud && !content.cornerTexCoords.empty();
@@ -108,10 +88,10 @@ Mesh surfaceOrCloudOf(PlyContent& content, std::size_t& fans) {
 
   if (perCorner) {
     mesh.wedgePositions = std::move(content.indices);
-    mesh.normals = spread(mesh.normals, mesh.wedgePositions);
-    mesh.colors = spread(mesh.colors, mesh.wedgePositions);
+    static_cast<VertexAttributes&>(mesh) = gather(content.attributes, mesh.wedgePositions);
     mesh.texCoords = std::move(content.cornerTexCoords);
   } else {
+    static_cast<VertexAttributes&>(mesh) = std::move(content.attributes);
     mesh.wedgePositions.resize(content.positions.size());
     for (std::size_t i = 0; i < mesh.wedgePositions.size(); ++i)
       mesh.wedgePositions[i] = static_cast<std::uint32_t>(i);
@@ -145,9 +125,9 @@ bool looksLikePly(ByteSpan bytes) {
   return text == "ply\n" || text == "ply\r" || text == "ply ";
 }
 
-Imported readPly(ByteSpan bytes, const std::string& name) {
+Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
   const PlyHeader header = readPlyHeader(bytes, name);
-  PlyContent content = readPlyContent(bytes, header, name);
+  PlyContent content = readPlyContent(bytes, header, name, options.attributes);
   if (std::max(content.indices.size(), content.edges.size()) > std::numeric_limits<std::uint32_t>::max())
     throw Error(ErrorKind::limit, name,
                 "the polygons or edges have more corners than 32-bit indices can name");
@@ -155,7 +135,7 @@ Imported readPly(ByteSpan bytes, const std::string& name) {
   Imported imported;
   imported.format = "PLY";
   std::size_t unusableNormals = 0, fans = 0;
-  for (Vec3f& normal : content.normals)
+  for (Vec3f& normal : content.attributes.normals)
     unusableNormals += !makeUnit(normal);
   const auto add = [&](Mesh mesh, const char* shapeName) {
     mesh.name = stemOf(name);

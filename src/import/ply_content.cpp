@@ -13,8 +13,9 @@ namespace imgeo {
 namespace {
 
 template <typename Cursor>
-void readVertices(PlyRecords<Cursor>& records, const PlyElement& element, PlyContent& content) {
-  PlyVertexReader reader(element, content);
+void readVertices(PlyRecords<Cursor>& records, const PlyElement& element, const AttributeChoice& kept,
+                  PlyContent& content) {
+  PlyVertexReader reader(element, kept, content);
   if (!reader.hasPosition())
     records.fail(ErrorKind::malformed, "the vertices have no x, y and z");
   reader.read(records);
@@ -58,7 +59,8 @@ void readEdges(PlyRecords<Cursor>& records, const PlyElement& element, std::uint
   });
 }
 
-template <typename Cursor> PlyContent readContent(Cursor cursor, const PlyHeader& header) {
+template <typename Cursor>
+PlyContent readContent(Cursor cursor, const PlyHeader& header, const AttributeChoice& kept) {
   PlyContent content;
   PlyRecords<Cursor> records(cursor);
   const PlyElement* vertices = header.find("vertex");
@@ -71,7 +73,7 @@ template <typename Cursor> PlyContent readContent(Cursor cursor, const PlyHeader
   PlyFaceReader<Cursor> faces(records, content, vertices->count);
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex")
-      readVertices(records, element, content);
+      readVertices(records, element, kept, content);
     else if (element.name == "face")
       faces.readFaces(element);
     else if (element.name == "tristrips")
@@ -94,17 +96,18 @@ void PlyContent::noteIgnored(const PlyElement& element, const PlyProperty& prope
     ignored.push_back(fmt::format("'{}' of '{}'", asPrintable(property.name), element.name));
 }
 
-PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name) {
+PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name,
+                          const AttributeChoice& kept) {
   const std::size_t from = header.bodyOffset;
   switch (header.encoding) {
   case PlyEncoding::ascii:
-    return readContent(AsciiPlyCursor(bytes, name, from), header);
+    return readContent(AsciiPlyCursor(bytes, name, from), header, kept);
   case PlyEncoding::littleEndian:
-    return readContent(BinaryPlyCursor<std::endian::little>(bytes, name, from), header);
+    return readContent(BinaryPlyCursor<std::endian::little>(bytes, name, from), header, kept);
   case PlyEncoding::bigEndian:
     break;
   }
-  return readContent(BinaryPlyCursor<std::endian::big>(bytes, name, from), header);
+  return readContent(BinaryPlyCursor<std::endian::big>(bytes, name, from), header, kept);
 }
 
 } // namespace imgeo

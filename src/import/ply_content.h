@@ -1,6 +1,7 @@
 #pragma once
 // What the elements of a PLY file say, before it becomes a mesh.
 
+#include "import/import.h"
 #include "import/ply_header.h"
 #include "scene/mesh.h"
 
@@ -11,10 +12,7 @@ namespace imgeo {
 
 struct PlyContent {
   std::vector<Vec3f> positions; ///< finite
-  std::vector<Vec3f> normals;   ///< per vertex, as the file has them; or empty
-  std::vector<Vec2f> texCoords; ///< per vertex, finite; or empty
-  std::vector<Rgba8> colors;    ///< per vertex, or empty
-  bool hasAlpha = false;        ///< some alpha is below 255
+  VertexAttributes attributes;  ///< normals as the file has them; the rest is finite
 
   std::vector<std::uint32_t> indices; ///< of all polygons, one after the other; all are vertices
   std::vector<std::uint32_t> sizes;   ///< corners of each polygon; empty while all are triangles
@@ -32,6 +30,7 @@ struct PlyContent {
 
 /// Reads all elements behind `header`. Safe for untrusted bytes; throws Error
 /// (truncated, malformed, limit) naming the record and its line or byte.
-PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name);
+PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name,
+                          const AttributeChoice& kept);
 
 } // namespace imgeo

@@ -270,6 +270,53 @@ TEST(Ply, PassesOverWhatItDoesNotKnowAndSaysSo) {
   }
 }
 
+const ImportOptions kEveryAttribute{{.all = true, .names = {}}};
+
+TEST(Ply, KeepsTheAttributesThatAreAskedFor) {
+  const std::string elements = "element vertex 2\nproperty float quality\n" + kXyz +
+                               "property ushort count\nproperty double rate_0\nproperty double rate_1\n"
+                               "property float label_0\n";
+  const std::string text = asciiPly(elements, "0.5 1 2 3 65535 1 2 8\n-7 4 5 6 9 3 4 9\n");
+  const Imported all = importBytes(asBytes(text), "m.ply", kEveryAttribute);
+  EXPECT_TRUE(all.warnings.empty());
+  EXPECT_EQ(all.scene.meshes.at(0).positions, (std::vector<Vec3f>{{1, 2, 3}, {4, 5, 6}}));
+  EXPECT_EQ(all.scene.meshes.at(0).namedAttributes, (std::vector<NamedAttribute>{{"quality", 1, {0.5f, -7}},
+                                                                                 {"count", 1, {65535, 9}},
+                                                                                 {"rate", 2, {1, 2, 3, 4}},
+                                                                                 {"label_0", 1, {8, 9}}}));
+  const Imported some = importBytes(asBytes(text), "m.ply", {{.all = false, .names = {"rate", "quality"}}});
+  ASSERT_EQ(some.scene.meshes.at(0).namedAttributes.size(), 2u);
+  EXPECT_EQ(some.scene.meshes[0].namedAttributes[1].name, "rate");
+  EXPECT_EQ(some.warnings,
+            std::vector<std::string>{
+                "Not carried over from the PLY file: 'count' of 'vertex', 'label_0' of 'vertex'."});
+}
+
+TEST(Ply, HasAttributesWithTexturedFacesAndEdgesToo) {
+  const std::string text =
+      asciiPly("element vertex 4\n" + kXyz + "property float heat\nelement face 2\n" + kFaces +
+                   "property list uchar float texcoord\nelement edge 1\n"
+                   "property int vertex1\nproperty int vertex2\n",
+               "0 0 0 10\n1 0 0 11\n0 1 0 12\n1 1 0 13\n3 0 1 2 6 0 0 1 0 0 1\n"
+               "3 2 1 3 6 0 1 1 0 1 1\n3 0\n");
+  const Imported imported = importBytes(asBytes(text), "m.ply", kEveryAttribute);
+  EXPECT_EQ(imported.scene.meshes.at(0).namedAttributes.at(0).values,
+            (std::vector<float>{10, 11, 12, 12, 11, 13}));
+  EXPECT_EQ(imported.scene.meshes.at(1).namedAttributes.at(0).values, (std::vector<float>{13, 10}));
+}
+
+TEST(Ply, RefusesAttributesThatAreNoNumbersOnlyWhereTheyAreKept) {
+  for (const char* value : {"nan", "inf", "1e39"}) {
+    const std::string text = asciiPly("element vertex 2\n" + kXyz + "property double heat\n",
+                                      std::string("0 0 0 1\n1 1 1 ") + value + "\n");
+    EXPECT_EQ(onlyMesh(text, "m.ply").elementCount(), 2u);
+    const Error error = errorOf(text, "m.ply", kEveryAttribute);
+    EXPECT_EQ(error.kind(), ErrorKind::malformed);
+    EXPECT_EQ(error.place(), "m.ply:11");
+    EXPECT_NE(error.message().find("attribute"), std::string::npos);
+  }
+}
+
 TEST(Ply, SaysWhenSinglePrecisionIsTooCoarse) {
   const std::string xyz = "property double x\nproperty double y\nproperty double z\n";
   const auto warnings = [&](const std::string& body) {

@@ -34,28 +34,72 @@ PlySlot slotOf(const PlyProperty& property) {
   return PlySlot::unknown;
 }
 
+/// "scale" for component 1 of "scale_1"; empty where it is none.
+std::string baseOfComponent(const std::string& name, std::size_t component) {
+  const std::string ending = "_" + std::to_string(component);
+  return name.size() > ending.size() && name.ends_with(ending) ? name.substr(0, name.size() - ending.size())
+                                                               : "";
+}
+
+/// Names that documents and lists of names can hold.
+bool isPlain(const std::string& name) {
+  return std::ranges::all_of(name, [](char c) { return c > ' ' && c <= '~' && c != ','; });
+}
+
 } // namespace
 
-PlyVertexReader::PlyVertexReader(const PlyElement& element, PlyContent& content)
+PlyVertexReader::PlyVertexReader(const PlyElement& element, const AttributeChoice& kept, PlyContent& content)
     : element_(element), content_(content) {
   for (const PlyProperty& property : element.properties) {
     PlySlot slot = slotOf(property);
     if (present_[place(slot)])
       slot = PlySlot::unknown; // both s and u: the first counts
     slots_.push_back(slot);
-    if (slot == PlySlot::unknown) {
-      content.noteIgnored(element, property);
-    } else {
+    if (slot != PlySlot::unknown) {
       present_[place(slot)] = true;
       types_[place(slot)] = property.type;
     }
   }
+  chooseNamed(kept);
+  for (std::size_t p = 0; p < slots_.size(); ++p)
+    if (slots_[p] == PlySlot::unknown && (named_.empty() || named_[p] == nullptr))
+      content.noteIgnored(element, element.properties[p]);
   hasNormal_ = has(PlySlot::nx, PlySlot::nz);
   hasTexCoord_ = has(PlySlot::u, PlySlot::v);
   hasColor_ = has(PlySlot::red, PlySlot::blue);
   hasAlpha_ = has(PlySlot::alpha, PlySlot::alpha);
   isDouble_ =
       std::ranges::any_of(std::span(types_).first(3), [](PlyType type) { return type == PlyType::float64; });
+}
+
+void PlyVertexReader::chooseNamed(const AttributeChoice& kept) {
+  const std::vector<PlyProperty>& properties = element_.properties;
+  const auto isFree = [&](std::size_t p) {
+    return slots_[p] == PlySlot::unknown && !properties[p].isList() && isPlain(properties[p].name);
+  };
+  std::vector<NamedAttribute>& attributes = content_.attributes.namedAttributes;
+  std::vector<std::size_t> attributeOf(properties.size(), properties.size());
+  for (std::size_t p = 0, count = 1; p < properties.size(); p += count) {
+    count = 1;
+    if (!isFree(p))
+      continue;
+    const std::string base = baseOfComponent(properties[p].name, 0);
+    while (!base.empty() && p + count < properties.size() && isFree(p + count) &&
+           baseOfComponent(properties[p + count].name, count) == base)
+      ++count;
+    const bool isGroup = count >= 2 && count <= 4;
+    if (!isGroup)
+      count = 1;
+    const std::string& name = isGroup ? base : properties[p].name;
+    if (!kept.has(name) || std::ranges::find(attributes, name, &NamedAttribute::name) != attributes.end())
+      continue;
+    std::fill_n(attributeOf.begin() + static_cast<std::ptrdiff_t>(p), count, attributes.size());
+    attributes.push_back({name, static_cast<std::uint32_t>(count), {}});
+  }
+  if (attributes.empty())
+    return;
+  for (const std::size_t attribute : attributeOf)
+    named_.push_back(attribute < attributes.size() ? &attributes[attribute] : nullptr);
 }
 
 bool PlyVertexReader::has(PlySlot first, PlySlot last) const {
@@ -70,9 +114,12 @@ bool PlyVertexReader::isFinite(PlySlot first, PlySlot last) const {
 void PlyVertexReader::reserve() {
   const std::size_t count = element_.count;
   content_.positions.reserve(count);
-  content_.normals.reserve(hasNormal_ ? count : 0);
-  content_.texCoords.reserve(hasTexCoord_ ? count : 0);
-  content_.colors.reserve(hasColor_ ? count : 0);
+  VertexAttributes& attributes = content_.attributes;
+  attributes.normals.reserve(hasNormal_ ? count : 0);
+  attributes.texCoords.reserve(hasTexCoord_ ? count : 0);
+  attributes.colors.reserve(hasColor_ ? count : 0);
+  for (NamedAttribute& attribute : attributes.namedAttributes)
+    attribute.values.reserve(count * attribute.components);
 }
 
 /// 16 bits are spread over 0 .. 65,535, fractions over 0 .. 1; all others hold 0 .. 255.
@@ -101,20 +148,30 @@ const char* PlyVertexReader::addVertex() {
   if (isDouble_)
     noteRounding();
   if (hasNormal_)
-    content_.normals.push_back({f(PlySlot::nx), f(PlySlot::ny), f(PlySlot::nz)});
+    content_.attributes.normals.push_back({f(PlySlot::nx), f(PlySlot::ny), f(PlySlot::nz)});
   if (hasTexCoord_) {
     if (!isFinite(PlySlot::u, PlySlot::v))
       return "a texture coordinate is not a number";
-    content_.texCoords.push_back({f(PlySlot::u), f(PlySlot::v)});
+    content_.attributes.texCoords.push_back({f(PlySlot::u), f(PlySlot::v)});
   }
   if (hasColor_) {
     const std::uint8_t red = channel(PlySlot::red), green = channel(PlySlot::green),
                        blue = channel(PlySlot::blue);
     const std::uint8_t alpha = hasAlpha_ ? channel(PlySlot::alpha) : 255;
-    content_.colors.push_back({red, green, blue, alpha});
-    content_.hasAlpha |= alpha < 255;
+    content_.attributes.colors.push_back({red, green, blue, alpha});
+    if (alpha < 255)
+      content_.attributes.colorComponents = 4;
   }
+  if (!namedAreFinite())
+    return "an attribute that is to be kept is not a number or beyond single precision";
   return nullptr;
+}
+
+bool PlyVertexReader::namedAreFinite() const {
+  return std::ranges::all_of(content_.attributes.namedAttributes, [](const NamedAttribute& attribute) {
+    return std::all_of(attribute.values.end() - attribute.components, attribute.values.end(),
+                       [](float value) { return std::isfinite(value); });
+  });
 }
 
 } // namespace imgeo

@@ -158,7 +158,7 @@ bool looksLikeStl(ByteSpan bytes) {
   return hasBinarySize(bytes) || isAscii(bytes);
 }
 
-Imported readStl(ByteSpan bytes, const std::string& name) {
+Imported readStl(ByteSpan bytes, const std::string& name, const ImportOptions&) {
   Imported imported =
       !hasBinarySize(bytes) && isAscii(bytes) ? readAscii(bytes, name) : readBinary(bytes, name);
   imported.format = "STL";

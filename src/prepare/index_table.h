@@ -37,6 +37,14 @@ public:
     }
   }
 
+  /// The index in the table that `equals`, or `none`.
+  template <typename Equals> std::uint32_t find(std::uint64_t hash, Equals equals) const {
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t at = hash & mask;; at = (at + 1) & mask)
+      if (slots_[at] == none || equals(slots_[at]))
+        return slots_[at];
+  }
+
 private:
   std::vector<std::uint32_t> slots_;
 };

@@ -147,17 +147,6 @@ private:
   IndexTable table_;
 };
 
-template <typename T>
-std::vector<T> gather(const std::vector<T>& values, const std::vector<std::uint32_t>& from) {
-  std::vector<T> result;
-  if (values.empty())
-    return result;
-  result.reserve(from.size());
-  for (const std::uint32_t i : from)
-    result.push_back(values[i]);
-  return result;
-}
-
 Patch makePatch(const Mesh& mesh, const std::vector<Vec3u>& lattice, Elements elements,
                 std::size_t maxWedges) {
   // In the source's order, whatever order the cut left behind.
@@ -167,7 +156,6 @@ Patch makePatch(const Mesh& mesh, const std::vector<Vec3u>& lattice, Elements el
 
   Patch patch;
   patch.topology = mesh.topology;
-  patch.colorComponents = mesh.colorComponents;
   patch.corners.reserve(elements.size() * count);
   Compactor wedges(capacity), positions(capacity);
   for (const std::uint32_t element : elements)
@@ -178,9 +166,7 @@ Patch makePatch(const Mesh& mesh, const std::vector<Vec3u>& lattice, Elements el
   for (const std::uint32_t wedge : wedges.kept)
     patch.wedgePositions.push_back(positions.numberOf(mesh.wedgePositions[wedge]));
   patch.positions = gather(lattice, positions.kept);
-  patch.normals = gather(mesh.normals, wedges.kept);
-  patch.texCoords = gather(mesh.texCoords, wedges.kept);
-  patch.colors = gather(mesh.colors, wedges.kept);
+  static_cast<VertexAttributes&>(patch) = gather(mesh, wedges.kept);
   return patch;
 }
 

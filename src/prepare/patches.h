@@ -17,14 +17,10 @@ inline constexpr std::uint32_t maxPatchCorners = 2048 * 1024;
 
 /// A piece of a mesh: the same corner -> wedge -> position structure, positions
 /// on the lattice. Positions on a border stand in each patch that touches them.
-struct Patch {
+struct Patch : VertexAttributes {
   Topology topology = Topology::triangles;
   std::vector<Vec3u> positions;
   std::vector<std::uint32_t> wedgePositions;
-  std::vector<Vec3f> normals;
-  std::vector<Vec2f> texCoords;
-  std::vector<Rgba8> colors;
-  std::uint32_t colorComponents = 3;
   std::vector<std::uint32_t> corners;
 
   std::size_t wedgeCount() const { return wedgePositions.size(); }

@@ -14,25 +14,11 @@ namespace imgeo {
 
 namespace {
 
-template <typename T>
-std::vector<T> gather(const std::vector<T>& values, const std::vector<std::uint32_t>& from) {
-  std::vector<T> result;
-  if (values.empty())
-    return result;
-  result.reserve(from.size());
-  for (const std::uint32_t i : from)
-    result.push_back(values[i]);
-  return result;
-}
-
 /// Splits wedges into vertices: vertex i is wedge order[i].
 IndexedPatch verticesOf(const Patch& patch, const std::vector<std::uint32_t>& order) {
   IndexedPatch result;
+  static_cast<VertexAttributes&>(result) = gather(patch, order);
   result.positions = gather(patch.positions, gather(patch.wedgePositions, order));
-  result.normals = gather(patch.normals, order);
-  result.texCoords = gather(patch.texCoords, order);
-  result.colors = gather(patch.colors, order);
-  result.colorComponents = patch.colorComponents;
   return result;
 }
 
@@ -164,11 +150,8 @@ IndexedPatch withoutIndices(const IndexedPatch& patch) {
   if (patch.indices.empty())
     return patch;
   IndexedPatch result;
+  static_cast<VertexAttributes&>(result) = gather(patch, patch.indices);
   result.positions = gather(patch.positions, patch.indices);
-  result.normals = gather(patch.normals, patch.indices);
-  result.texCoords = gather(patch.texCoords, patch.indices);
-  result.colors = gather(patch.colors, patch.indices);
-  result.colorComponents = patch.colorComponents;
   result.draws = patch.draws;
   return result;
 }

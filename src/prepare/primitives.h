@@ -19,12 +19,8 @@ struct Draw {
 };
 
 /// A patch as classic SIG and BG store it: wedges split into vertices.
-struct IndexedPatch {
-  std::vector<Vec3u> positions; ///< per vertex, on the lattice
-  std::vector<Vec3f> normals;   ///< per vertex, or empty
-  std::vector<Vec2f> texCoords; ///< per vertex, or empty
-  std::vector<Rgba8> colors;    ///< per vertex, or empty
-  std::uint32_t colorComponents = 3;
+struct IndexedPatch : VertexAttributes {
+  std::vector<Vec3u> positions;       ///< per vertex, on the lattice
   std::vector<std::uint32_t> indices; ///< empty: vertices are drawn in order
   std::vector<Draw> draws;            ///< counts sum to indices.size(), or positions.size() where it is empty
 

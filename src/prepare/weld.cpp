@@ -46,16 +46,13 @@ struct Renumbering {
       ++merged;
     return newOf[old] = found;
   }
-
-  template <typename T> void apply(std::vector<T>& values) const {
-    if (values.empty())
-      return;
-    std::vector<T> result(kept.size());
-    for (std::size_t i = 0; i < kept.size(); ++i)
-      result[i] = values[kept[i]];
-    values = std::move(result);
-  }
 };
+
+/// The values of a vertex of an attribute.
+std::span<const float> valuesOf(const NamedAttribute& attribute, std::uint32_t vertex) {
+  return std::span(attribute.values)
+      .subspan(std::size_t{vertex} * attribute.components, attribute.components);
+}
 
 Renumbering weldPositions(Mesh& mesh) {
   Renumbering numbers(mesh.positions.size());
@@ -83,13 +80,21 @@ Renumbering weldWedges(const Mesh& mesh) {
       result = mixHash(result, keyOf(mesh.texCoords[w]));
     if (!mesh.colors.empty())
       result = mixHash(result, keyOf(mesh.colors[w]));
+    for (const NamedAttribute& attribute : mesh.namedAttributes)
+      for (const float value : valuesOf(attribute, w))
+        result = mixHash(result, keyOf(value));
     return result;
   };
   const auto equal = [&](std::uint32_t a, std::uint32_t b) {
     return mesh.wedgePositions[a] == mesh.wedgePositions[b] &&
            (mesh.normals.empty() || same(mesh.normals[a], mesh.normals[b])) &&
            (mesh.texCoords.empty() || keyOf(mesh.texCoords[a]) == keyOf(mesh.texCoords[b])) &&
-           (mesh.colors.empty() || keyOf(mesh.colors[a]) == keyOf(mesh.colors[b]));
+           (mesh.colors.empty() || keyOf(mesh.colors[a]) == keyOf(mesh.colors[b])) &&
+           std::ranges::all_of(mesh.namedAttributes, [&](const NamedAttribute& attribute) {
+             return std::ranges::equal(
+                 valuesOf(attribute, a), valuesOf(attribute, b), {}, [](float value) { return keyOf(value); },
+                 [](float value) { return keyOf(value); });
+           });
   };
   for (const std::uint32_t old : mesh.corners)
     if (numbers.newOf[old] == IndexTable::none)
@@ -148,16 +153,14 @@ WeldReport weld(Mesh& mesh) {
   const Renumbering positions = weldPositions(mesh);
   report.mergedPositions = positions.merged;
   report.unreferencedPositions = mesh.positions.size() - positions.kept.size() - positions.merged;
-  positions.apply(mesh.positions);
+  mesh.positions = gather(mesh.positions, positions.kept);
   for (std::uint32_t& position : mesh.wedgePositions)
     position = positions.newOf[position];
 
   const Renumbering wedges = weldWedges(mesh);
   report.mergedWedges = wedges.merged;
-  wedges.apply(mesh.wedgePositions);
-  wedges.apply(mesh.normals);
-  wedges.apply(mesh.texCoords);
-  wedges.apply(mesh.colors);
+  mesh.wedgePositions = gather(mesh.wedgePositions, wedges.kept);
+  static_cast<VertexAttributes&>(mesh) = gather(mesh, wedges.kept);
   for (std::uint32_t& wedge : mesh.corners)
     wedge = wedges.newOf[wedge];
 

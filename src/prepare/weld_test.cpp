@@ -18,7 +18,11 @@ auto valueOf(const Mesh& mesh, std::size_t corner) {
   const Vec3f n = (mesh.normals.empty() ? Vec3f{} : mesh.normals[wedge]) + Vec3f{};
   const Vec2f t = mesh.texCoords.empty() ? Vec2f{} : mesh.texCoords[wedge];
   const Rgba8 c = mesh.colors.empty() ? Rgba8{} : mesh.colors[wedge];
-  return std::tuple(p.x, p.y, p.z, n.x, n.y, n.z, t.x + 0.0f, t.y + 0.0f, c.r, c.g, c.b, c.a);
+  std::vector<float> named;
+  for (const NamedAttribute& attribute : mesh.namedAttributes)
+    for (std::uint32_t i = 0; i < attribute.components; ++i)
+      named.push_back(attribute.values[wedge * attribute.components + i] + 0.0f);
+  return std::tuple(p.x, p.y, p.z, n.x, n.y, n.z, t.x + 0.0f, t.y + 0.0f, c.r, c.g, c.b, c.a, named);
 }
 
 std::vector<decltype(valueOf(Mesh{}, 0))> valuesOf(const Mesh& mesh) {

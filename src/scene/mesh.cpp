@@ -24,12 +24,9 @@ Box3d boxOf(const Mesh& mesh) {
 }
 
 bool isConsistent(const Mesh& mesh) {
-  const auto emptyOrOnePerWedge = [&](const auto& attribute) {
-    return attribute.empty() || attribute.size() == mesh.wedgeCount();
-  };
   const auto below = [](std::size_t bound) { return [bound](std::uint32_t index) { return index < bound; }; };
-  return emptyOrOnePerWedge(mesh.normals) && emptyOrOnePerWedge(mesh.texCoords) &&
-         emptyOrOnePerWedge(mesh.colors) && mesh.corners.size() % cornersPerElement(mesh.topology) == 0 &&
+  return isConsistent(mesh, mesh.wedgeCount()) &&
+         mesh.corners.size() % cornersPerElement(mesh.topology) == 0 &&
          std::ranges::all_of(mesh.wedgePositions, below(mesh.positions.size())) &&
          std::ranges::all_of(mesh.corners, below(mesh.wedgeCount()));
 }

@@ -2,12 +2,13 @@
 // A mesh in memory: corners -> wedges -> positions.
 //
 // A corner is one corner of one element (triangle, line, point). It names a
-// wedge: one combination of position, normal, texture coordinate and colour. A
+// wedge: one combination of position and attributes (normal, colour ...). A
 // wedge names its position. A crease or a texture seam is one position with
 // several wedges, never two positions: connectivity stays what the shape is
 // (`compact` needs that; classic and BG split wedges into vertices when they write).
 
 #include "base/vec.h"
+#include "scene/vertex_attributes.h"
 
 #include <cassert>
 #include <cstdint>
@@ -41,15 +42,12 @@ struct ElementCounts {
   friend bool operator==(const ElementCounts&, const ElementCounts&) = default;
 };
 
-struct Mesh {
+/// The attributes are those of its wedges.
+struct Mesh : VertexAttributes {
   std::string name; ///< of the source's node or file; may be empty
   Topology topology = Topology::triangles;
   std::vector<Vec3f> positions;              ///< in the source's units, finite
   std::vector<std::uint32_t> wedgePositions; ///< wedge -> position
-  std::vector<Vec3f> normals;                ///< per wedge, unit length; empty where there are none
-  std::vector<Vec2f> texCoords;              ///< per wedge; empty where there are none
-  std::vector<Rgba8> colors;                 ///< per wedge; empty where there are none
-  std::uint32_t colorComponents = 3;         ///< 3: every alpha is 255; 4: alpha counts
   std::vector<std::uint32_t> corners;        ///< corner -> wedge, cornersPerElement(topology) an element
 
   std::size_t wedgeCount() const { return wedgePositions.size(); }
@@ -60,7 +58,7 @@ struct Mesh {
 /// The tight box of the positions.
 Box3d boxOf(const Mesh& mesh);
 
-/// Asserts what every Mesh keeps: attributes are empty or one per wedge, indices
+/// Asserts what every Mesh keeps: attributes are empty or one a wedge, indices
 /// are in range, corners are whole elements. For tests and for the ends of stages.
 bool isConsistent(const Mesh& mesh);
 

@@ -216,6 +216,18 @@ inline Mesh polylines(std::uint32_t count, std::uint32_t seed) {
   return mesh;
 }
 
+/// One to four numbers for each of `count` wedges: whole ones, fractions, or all the same.
+inline NamedAttribute randomAttribute(Random& random, const std::string& name, std::uint32_t count) {
+  const std::uint32_t kind = random.below(3), components = 1 + random.below(4);
+  const float low = random.between(-1000, 1000), extent = std::exp2(static_cast<float>(random.below(20)) - 5);
+  NamedAttribute attribute{name, components, {}};
+  for (std::uint32_t i = 0; i < components * count; ++i) {
+    const float value = low + extent * random.between(0, 1);
+    attribute.values.push_back(kind == 0 ? std::floor(value) : kind == 1 ? value : low);
+  }
+  return attribute;
+}
+
 /// Any of the above, at random size and place, with or without each attribute,
 /// with creases and seams (positions that have several wedges), degenerate and
 /// duplicate triangles. Always consistent and finite, never without elements.
@@ -288,6 +300,9 @@ inline Mesh randomMesh(std::uint32_t seed) {
         mesh.colors.back().a = static_cast<std::uint8_t>(random.below(256));
     }
   }
+  for (std::uint32_t i = random.once(3) ? 1 + random.below(3) : 0; i > 0; --i)
+    mesh.namedAttributes.push_back(randomAttribute(random, "measure" + std::to_string(i),
+                                                   static_cast<std::uint32_t>(mesh.wedgeCount())));
   return mesh;
 }
 

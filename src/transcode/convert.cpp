@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "transcode/encode_mesh.h"
 #include "transcode/marker.h"
+#include "transcode/options.h"
 #include "transcode/peak_memory.h"
 #include "transcode/preparation.h"
 #include "transcode/runtime.h"
@@ -46,29 +47,6 @@ private:
   Clock::time_point lap_ = Clock::now();
 };
 
-void requireHonourable(const ConvertOptions& options) {
-  const auto refuse = [](const char* option, const std::string& why) {
-    throw Error(ErrorKind::usage, option, why);
-  };
-  const bool isSig = options.container == Container::sig;
-  if (options.positionBits < 8 || options.positionBits > 32)
-    refuse("--position-bits", fmt::format("{} is not within 8..32", options.positionBits));
-  if (isSig && options.normalBits != 8)
-    refuse("--normal-bits",
-           fmt::format("sig stores normals in 8 bits, not {}; bg also in 16 or 32", options.normalBits));
-  if (options.normalBits != 8 && options.normalBits != 16 && options.normalBits != 32)
-    refuse("--normal-bits", fmt::format("bg stores normals in 8, 16 or 32 bits, not {}", options.normalBits));
-  if (options.patchVertices < 256 || options.patchVertices > 65535)
-    refuse("--patch-vertices", fmt::format("{} is not within 256..65535", options.patchVertices));
-  if (options.effort < 0 || options.effort > 9)
-    refuse("--effort", fmt::format("{} is not within 0..9", options.effort));
-  if (options.target == Target::x3dom && !isSig && options.positionBits > 16)
-    refuse("--position-bits",
-           fmt::format("X3DOM reads bg with at most 16 bits, not {}; sig holds more", options.positionBits));
-  if (options.target != Target::x3dom && !options.x3domUrl.empty())
-    refuse("--x3dom-url", "only a page for X3DOM needs X3DOM: --target x3dom");
-}
-
 /// The exchange would remove the input with the directory it lies in.
 void requireOutside(const fs::path& input, const fs::path& directory) {
   std::error_code none;
@@ -102,6 +80,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, Geometry
       report.elements += encoded.elements;
       report.vertices += encoded.vertices;
       report.patches += encoded.geometry.patches.size();
+      report.normalErrorDegrees = std::max(report.normalErrorDegrees, encoded.normalErrorDegrees);
       geometry = document.geometries.size();
       document.geometries.push_back(std::move(encoded.geometry));
     }
@@ -159,14 +138,15 @@ std::vector<RoleBytes> sumByRole(const std::vector<SiteFile>& files) {
 
 } // namespace
 
-ConvertReport convert(const fs::path& input, const fs::path& directory, const ConvertOptions& options,
+ConvertReport convert(const fs::path& input, const fs::path& directory, const ConvertOptions& given,
                       const Progress& progress) {
-  requireHonourable(options);
+  const ConvertOptions options = resolved(given);
   if (input != "-")
     requireOutside(input, directory);
   StagedSite site(directory, options.force);
 
   ConvertReport report;
+  report.normalBits = options.normalBits;
   Stopwatch total, step;
   const auto tell = [&](double share, const std::string& doing) {
     if (progress)
@@ -209,7 +189,8 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
                       options.primitives,
                       report.normalsComputed,
                       options.normalWeighting,
-                      report.elements};
+                      report.elements,
+                      options.normals == NormalEncoding::palette ? report.normalErrorDegrees : 0};
   writeFile(site.path() / stylesheetName, asBytes(pageStylesheet()));
   writeFile(site.path() / markerName, asBytes(writeMarker(marker)));
   if (options.target == Target::x3dom) {

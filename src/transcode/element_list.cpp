@@ -7,10 +7,11 @@ namespace imgeo {
 
 namespace {
 
-Rgba8 opaque(Rgba8 color, std::uint32_t components) {
-  if (components == 3)
-    color.a = 255;
-  return color;
+VertexAttributes withOpaqueColors(VertexAttributes attributes) {
+  if (attributes.colorComponents == 3)
+    for (Rgba8& color : attributes.colors)
+      color.a = 255;
+  return attributes;
 }
 
 /// Adds an element unless two of its corners are one.
@@ -29,12 +30,8 @@ void addElement(ElementList& list, std::array<std::uint32_t, 3> corners, Element
 ElementList elementsOf(const Mesh& mesh, const std::vector<Vec3u>& positions, ElementKind kind) {
   ElementList list;
   list.cornerCount = cornersPerElement(kind.topology);
-  list.normals = mesh.normals;
-  list.texCoords = mesh.texCoords;
-  for (const std::uint32_t position : mesh.wedgePositions)
-    list.positions.push_back(positions[position]);
-  for (const Rgba8 color : mesh.colors)
-    list.colors.push_back(opaque(color, mesh.colorComponents));
+  static_cast<VertexAttributes&>(list) = withOpaqueColors(mesh);
+  list.positions = gather(positions, mesh.wedgePositions);
   if (kind.topology == Topology::points) {
     for (std::uint32_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
       addElement(list, {wedge}, kind);
@@ -57,11 +54,8 @@ ElementList elementsOf(const std::vector<IndexedPatch>& patches, ElementKind kin
   list.cornerCount = cornersPerElement(kind.topology);
   for (const IndexedPatch& patch : patches) {
     const std::uint32_t base = static_cast<std::uint32_t>(list.positions.size());
+    append(list, list.vertexCount(), withOpaqueColors(patch), patch.vertexCount());
     list.positions.insert(list.positions.end(), patch.positions.begin(), patch.positions.end());
-    list.normals.insert(list.normals.end(), patch.normals.begin(), patch.normals.end());
-    list.texCoords.insert(list.texCoords.end(), patch.texCoords.begin(), patch.texCoords.end());
-    for (const Rgba8 color : patch.colors)
-      list.colors.push_back(opaque(color, patch.colorComponents));
     if (kind.topology == Topology::triangles)
       for (const Vec3u t : trianglesOf(patch))
         addElement(list, {base + t.x, base + t.y, base + t.z}, kind);

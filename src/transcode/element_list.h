@@ -12,12 +12,10 @@
 
 namespace imgeo {
 
-struct ElementList {
-  std::vector<Vec3u> positions;  ///< per vertex, on the lattice
-  std::vector<Vec3f> normals;    ///< per vertex, or empty
-  std::vector<Vec2f> texCoords;  ///< per vertex, or empty
-  std::vector<Rgba8> colors;     ///< per vertex, or empty; alpha 255 where it does not count
-  std::uint32_t cornerCount = 3; ///< of an element: 3 triangles, 2 lines, 1 points
+/// The attributes are those of its vertices; alpha is 255 where it does not count.
+struct ElementList : VertexAttributes {
+  std::vector<Vec3u> positions;                       ///< per vertex, on the lattice
+  std::uint32_t cornerCount = 3;                      ///< of an element: 3 triangles, 2 lines, 1 points
   std::vector<std::array<std::uint32_t, 3>> elements; ///< vertices; the corners behind cornerCount are 0
   std::vector<std::uint32_t> copies;                  ///< how often an element may be drawn; empty: once
 

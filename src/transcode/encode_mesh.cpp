@@ -2,10 +2,13 @@
 
 #include "base/file.h"
 #include "base/parallel.h"
+#include "containers/normals.h"
 #include "prepare/patches.h"
 #include "transcode/site.h"
 
+#include <algorithm>
 #include <charconv>
+#include <numbers>
 #include <utility>
 
 namespace imgeo {
@@ -74,11 +77,13 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& 
       cutIntoPatches(mesh, latticeFor(boxOf(mesh), options.positionBits), options.patchVertices);
   mesh = {};
 
-  const EncodeOptions encoding{options.container, options.normalBits, options.effort, options.target};
+  const EncodeOptions encoding{options.container, options.normalBits, options.effort, options.target,
+                               options.normals};
   EncodedMesh result;
   result.geometry = describe(patched, encoding);
   std::vector<PatchDescription> descriptions(patched.patches.size());
   std::vector<ElementCounts> elements(patched.patches.size());
+  std::vector<double> paletteErrors(patched.patches.size());
   parallelFor(patched.patches.size(), [&](std::size_t i) {
     const Patch patch = std::exchange(patched.patches[i], {});
     const IndexedPatch indexed = primitivesOf(patch, options);
@@ -89,12 +94,17 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& 
     nameReferences(encoded.description, urls);
     descriptions[i] = std::move(encoded.description);
     elements[i] = elementsDrawn(indexed);
+    paletteErrors[i] = encoded.paletteError;
     done(patch.elementCount());
   });
   for (const PatchDescription& patch : descriptions)
     result.vertices += patch.vertexCount;
   for (const ElementCounts& counts : elements)
     result.elements += counts;
+  if (!descriptions.empty() && descriptions.front().normal)
+    result.normalErrorDegrees =
+        std::max(normalErrorBound(result.geometry), *std::ranges::max_element(paletteErrors)) *
+        (180 / std::numbers::pi);
   result.geometry.patches = std::move(descriptions);
   return result;
 }

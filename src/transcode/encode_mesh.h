@@ -36,6 +36,7 @@ struct EncodedMesh {
   GeometryDescription geometry;
   ElementCounts elements;
   std::size_t vertices = 0;
+  double normalErrorDegrees = 0; ///< by which its stored normals may be off
 };
 
 /// Called with how many more elements have been written.

@@ -30,6 +30,26 @@ void count(const PatchDescription& patch, SiteInfo& info) {
   info.vertices += patch.vertexCount;
 }
 
+GeometryInfo infoOf(const GeometryDescription& geometry) {
+  const bool isBg = geometry.container == Container::bg;
+  const auto anyPatch = [&](auto reference) {
+    return std::ranges::any_of(geometry.patches,
+                               [&](const PatchDescription& patch) { return (patch.*reference).has_value(); });
+  };
+  GeometryInfo info;
+  info.container = geometry.container;
+  info.positionBits = geometry.lattice.bits;
+  if (isBg)
+    info.coordType = nameOf(geometry.coordType);
+  if (anyPatch(&PatchDescription::index))
+    info.indexType = nameOf(geometry.indexType);
+  if (anyPatch(&PatchDescription::normal)) {
+    info.normalEncoding = nameOf(geometry.normalEncoding);
+    info.normalBits = isBg ? 8 * byteSizeOf(geometry.normalType) : 8;
+  }
+  return info;
+}
+
 /// The bytes of the geometry nodes in a document's text, tags and all.
 std::uint64_t geometryNodeBytes(std::string text) {
   std::ranges::transform(text, text.begin(),
@@ -68,6 +88,7 @@ SiteInfo inspect(const fs::path& site) {
     info.containerBytes += add(file.url, nameOf(file.role));
 
   for (const GeometryDescription& geometry : document.scene.geometries) {
+    info.geometries.push_back(infoOf(geometry));
     info.patches += geometry.patches.size();
     for (const PatchDescription& patch : geometry.patches)
       count(patch, info);

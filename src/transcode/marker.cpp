@@ -49,6 +49,8 @@ std::string writeMarker(const Marker& marker) {
   json["triangles"] = marker.elements.triangles;
   json["lines"] = marker.elements.lines;
   json["points"] = marker.elements.points;
+  if (marker.paletteErrorDegrees > 0)
+    json["paletteErrorDegrees"] = marker.paletteErrorDegrees;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -65,6 +67,7 @@ Marker readMarker(std::string_view text, const std::string& name) {
     if (marker.normalsComputed)
       marker.normalWeighting = valueNamed(weightings, normals, name);
     marker.elements = {json.at("triangles"), json.value("lines", std::size_t{0}), json.at("points")};
+    marker.paletteErrorDegrees = json.value("paletteErrorDegrees", 0.0);
     return marker;
   } catch (const nlohmann::json::exception&) {
     throw Error(ErrorKind::malformed, name, "is not the marker of a site");

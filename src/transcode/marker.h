@@ -18,6 +18,7 @@ struct Marker {
   bool normalsComputed = false;
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where normals were computed
   ElementCounts elements;                                  ///< as drawn; a strip's length does not tell
+  double paletteErrorDegrees = 0; ///< normals of a palette are off by at most that; 0: there is none
 };
 
 std::string writeMarker(const Marker& marker);

@@ -60,29 +60,15 @@ std::vector<std::uint32_t> cornersOf(const IndexedPatch& patch, Topology topolog
   return corners;
 }
 
-/// Appends an attribute of a patch's records to that of the mesh's wedges. What
-/// an earlier or this patch lacks, `missing` stands for.
-template <typename T>
-void append(std::vector<T>& to, const std::vector<T>& from, std::size_t wedgesBefore, std::size_t records,
-            T missing) {
-  if (to.empty() && from.empty())
-    return;
-  to.resize(wedgesBefore, missing);
-  to.insert(to.end(), from.begin(), from.end());
-  to.resize(wedgesBefore + records, missing);
-}
-
 void append(Mesh& mesh, const IndexedPatch& patch, const Lattice& lattice, const std::string& place) {
   const std::size_t before = mesh.wedgeCount(), records = patch.vertexCount();
   if (before + records > std::numeric_limits<std::uint32_t>::max())
     throw Error(ErrorKind::limit, place, "a shape has more vertices than 32 bits count");
+  append(mesh, before, patch, records);
   for (const Vec3u& q : patch.positions) {
     mesh.wedgePositions.push_back(narrow<std::uint32_t>(mesh.positions.size()));
     mesh.positions.push_back(Vec3f(lattice.point(q)));
   }
-  append(mesh.normals, patch.normals, before, records, {0, 0, 1});
-  append(mesh.texCoords, patch.texCoords, before, records, {0, 0});
-  append(mesh.colors, patch.colors, before, records, {255, 255, 255, 255});
   for (const std::uint32_t corner : cornersOf(patch, mesh.topology))
     mesh.corners.push_back(narrow<std::uint32_t>(before + corner));
 }

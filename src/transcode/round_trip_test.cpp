@@ -27,6 +27,19 @@ VerifyReport expectRoundTrip(const Mesh& mesh, const ConvertOptions& options, co
   return verified;
 }
 
+/// One after the other, every way in which these coordinates can have their normals.
+void setNormals(ConvertOptions& options, std::uint32_t seed) {
+  using enum NormalEncoding;
+  if (options.container == Container::sig) {
+    options.normals = std::array{rgb, octahedral, spherical, palette}[seed % 4];
+    return;
+  }
+  const bool fit = options.positionBits > 8 && options.positionBits <= 16;
+  const std::pair<NormalEncoding, std::uint32_t> all[] = {{rgb, 8},         {rgb, 16},       {rgb, 32},
+                                                          {octahedral, 16}, {octahedral, 0}, {spherical, 0}};
+  std::tie(options.normals, options.normalBits) = all[seed % (fit ? 6 : 5)];
+}
+
 TEST(RoundTrip, EveryContainerPrimitiveAndPrecisionGivesBackEveryMesh) {
   std::uint32_t seed = 1;
   for (const Container container : {Container::sig, Container::bg})
@@ -38,7 +51,7 @@ TEST(RoundTrip, EveryContainerPrimitiveAndPrecisionGivesBackEveryMesh) {
           options.primitives = primitives;
           options.indexed = mesh % 2 == 0;
           options.positionBits = bits;
-          options.normalBits = container == Container::sig ? 8 : std::array{8u, 16u, 32u}[seed % 3];
+          setNormals(options, seed);
           options.patchVertices = seed % 2 ? 256 : 65535;
           options.effort = static_cast<int>(seed % 4);
           const VerifyReport verified = expectRoundTrip(

@@ -23,8 +23,9 @@ struct ConvertOptions {
   std::string x3domUrl; ///< target x3dom: the folder of x3dom.js and x3dom.css; empty: a public copy
   Primitives primitives = Primitives::triangles; ///< point clouds are always points
   bool indexed = true; ///< false: a vertex is repeated wherever it is drawn; points never have an index
-  std::uint32_t positionBits = 16;                         ///< 8..32
-  std::uint32_t normalBits = 8;                            ///< see EncodeOptions
+  std::uint32_t positionBits = 16; ///< 8..32
+  NormalEncoding normals = NormalEncoding::rgb;
+  std::uint32_t normalBits = 0; ///< see EncodeOptions; 0: the fewest that cost nothing
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where the source has no normals
   std::uint32_t patchVertices = 65535;                     ///< 256..65,535
   int effort = 5;                                          ///< 0 fastest .. 9 smallest
@@ -47,6 +48,8 @@ struct ConvertReport {
   WeldReport weld;
   bool normalsComputed = false;
   Lattice lattice;                    ///< of the first mesh: step states the precision
+  std::uint32_t normalBits = 0;       ///< of a stored component
+  double normalErrorDegrees = 0;      ///< by which stored normals may be off
   std::string x3domVersion, x3domUrl; ///< target x3dom: the release that the page is for, and its script
   std::vector<RoleBytes> roles;
   double bytesPerTriangle = 0; ///< as SiteInfo has it
@@ -75,7 +78,19 @@ struct SiteFile {
   std::uint64_t bytes = 0;
 };
 
+/// How the numbers of one geometry are stored.
+struct GeometryInfo {
+  Container container = Container::sig;
+  std::uint32_t positionBits = 0;
+  std::string coordType;      ///< BG: "Uint16" ...; SIG: empty
+  std::string indexType;      ///< empty where there is no index
+  std::string normalEncoding; ///< empty where there are no normals
+  std::uint32_t normalBits = 0;
+  friend bool operator==(const GeometryInfo&, const GeometryInfo&) = default;
+};
+
 struct SiteInfo {
+  std::vector<GeometryInfo> geometries; ///< one a shape
   ElementCounts elements;
   std::size_t vertices = 0, patches = 0;
   std::uint64_t documentBytes = 0, containerBytes = 0, runtimeBytes = 0;

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "containers/normals.h"
 #include "prepare/patches.h"
 #include "transcode/element_list.h"
 #include "transcode/marker.h"
@@ -36,23 +37,12 @@ private:
   VerifyReport& report_;
 };
 
-/// A normal rounded to components of step `unit` moves by at most half the
-/// diagonal of a cell; seen from the origin that is the angle whose sine it is.
-double roundingAngleDegrees(double unit) {
-  return std::asin(std::sqrt(3.0) * unit / 2) * (180 / std::numbers::pi);
-}
-
-double normalBoundDegrees(const GeometryDescription& geometry) {
-  if (geometry.container == Container::sig)
-    return roundingAngleDegrees(1 / 127.5);
-  switch (geometry.normalType) {
-  case ElementType::int8:
-    return roundingAngleDegrees(1.0 / 127);
-  case ElementType::int16:
-    return roundingAngleDegrees(1.0 / 32767);
-  default:
-    return 1e-5; // stored as they are; what is left is single precision
-  }
+/// A palette's bound is what convert measured; it need not hold for other sites.
+double normalBoundDegrees(const GeometryDescription& geometry, const Marker& marker) {
+  const double bound = geometry.normalEncoding == NormalEncoding::palette
+                           ? marker.paletteErrorDegrees
+                           : normalErrorBound(geometry) * (180 / std::numbers::pi);
+  return std::max(bound, 1e-5);
 }
 
 /// Half a step of 1/65535 of the box, and what single precision adds.
@@ -174,7 +164,7 @@ void count(const ElementDifference& difference, const ElementList& input, const 
 }
 
 void compareShape(const OpenedDocument& document, const GeometryDescription& geometry, const Mesh& mesh,
-                  Primitives primitives, VerifyReport& report, Findings& findings) {
+                  const Marker& marker, VerifyReport& report, Findings& findings) {
   const std::vector<IndexedPatch> patches = decodePatches(document, geometry);
   checkBoxes(patches, geometry, findings);
   checkAttributesPresent(mesh, patches, findings);
@@ -188,12 +178,12 @@ void compareShape(const OpenedDocument& document, const GeometryDescription& geo
     findings.add("Positions are off by up to {:.6g}, more than half a step of the lattice, {:.6g}.", error,
                  bound);
 
-  const Topology topology = primitives == Primitives::points ? Topology::points : mesh.topology;
+  const Topology topology = marker.primitives == Primitives::points ? Topology::points : mesh.topology;
   const bool isWithoutIndex =
       std::ranges::any_of(patches, &std::vector<std::uint32_t>::empty, &IndexedPatch::indices);
   const ElementKind kind{topology, isWithoutIndex};
   const ElementList input = elementsOf(mesh, quantised, kind), site = elementsOf(patches, kind);
-  const AttributeBounds bounds{normalBoundDegrees(geometry), texCoordBound(geometry)};
+  const AttributeBounds bounds{normalBoundDegrees(geometry, marker), texCoordBound(geometry)};
   const ElementDifference difference = compare(input, site, bounds);
   count(difference, input, site, topology, report);
   const char* elements = nameOf(topology);
@@ -241,7 +231,7 @@ VerifyReport verify(const fs::path& site, const fs::path& input) {
     else if (whole)
       for (std::size_t i = 0; i < shapes.size(); ++i)
         compareShape(document, document.scene.geometries.at(document.scene.shapes[i].mesh),
-                     imported.scene.meshes[shapes[i].mesh], marker.primitives, report, findings);
+                     imported.scene.meshes[shapes[i].mesh], marker, report, findings);
   } catch (const Error& error) {
     findings.add("{}.", error.what());
   }

@@ -18,10 +18,12 @@ using testing::TemporaryDirectory;
 /// A sphere in several patches, which tests then damage.
 class DamagedSite {
 public:
-  explicit DamagedSite(Container container = Container::sig, const Mesh& mesh = testing::sphere(30, 30)) {
+  explicit DamagedSite(Container container = Container::sig, const Mesh& mesh = testing::sphere(30, 30),
+                       NormalEncoding normals = NormalEncoding::rgb) {
     testing::writeMesh(directory_ / "input.ply", mesh);
     ConvertOptions options;
     options.container = container;
+    options.normals = normals;
     options.patchVertices = 300;
     convert(directory_ / "input.ply", site(), options);
     opened_ = openDocument(site());
@@ -186,6 +188,30 @@ TEST(Verify, SeesNormalsTurned) {
       site.change(normal, [](Bytes& bytes) { bytes[0] = static_cast<std::uint8_t>(bytes[0] ^ 4); });
     expectFinding(site, "Normals are off");
   }
+}
+
+TEST(Verify, SeesNormalsTurnedInEveryEncoding) {
+  for (const NormalEncoding normals : {NormalEncoding::octahedral, NormalEncoding::spherical}) {
+    DamagedSite images(Container::sig, testing::sphere(30, 30), normals),
+        arrays(Container::bg, testing::sphere(30, 30), normals);
+    images.changeImage(*images.geometry().patches[0].normal, [](Image& image) {
+      image.pixels[0] = static_cast<std::uint8_t>(image.pixels[0] ^ 16);
+    });
+    expectFinding(images, "Normals are off");
+    // The file that the normals share with the coordinates.
+    PatchDescription& patch = arrays.geometry().patches[0];
+    arrays.change(patch.coord[0], [](Bytes& bytes) { bytes[6] = static_cast<std::uint8_t>(bytes[6] ^ 16); });
+    patch.normal->url = patch.coord[0].url;
+    arrays.write();
+    expectFinding(arrays, "Normals are off");
+  }
+  DamagedSite palette(Container::sig, testing::sphere(30, 30), NormalEncoding::palette);
+  EXPECT_TRUE(palette.verified().equal);
+  palette.changeImage(*palette.geometry().patches[0].normal, [](Image& image) {
+    for (std::size_t i = 0; i < 3; ++i)
+      image.pixels[i] = static_cast<std::uint8_t>(255 - image.pixels[i]);
+  });
+  expectFinding(palette, "Normals are off");
 }
 
 TEST(Verify, SeesNormalsLeftOut) {

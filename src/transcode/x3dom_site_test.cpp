@@ -39,6 +39,10 @@ TEST(X3domSite, HoldsEveryMesh) {
     options.primitives = seed % 3 == 0 ? Primitives::strips : Primitives::triangles;
     options.positionBits = 8 + seed % 9;
     options.patchVertices = 256;
+    if (options.container == Container::sig)
+      options.normals = seed % 3 == 0 ? NormalEncoding::palette : NormalEncoding::rgb;
+    else if (options.positionBits > 8)
+      options.normals = seed % 3 == 0 ? NormalEncoding::spherical : NormalEncoding::rgb;
     writeMesh(mesh, directory.path() / "in.ply");
     convert(directory.path() / "in.ply", directory.path() / "site", options);
     const VerifyReport report = verify(directory.path() / "site", directory.path() / "in.ply");
@@ -75,6 +79,13 @@ TEST(X3domSite, RefusesWhatX3domCannotHold) {
   ConvertOptions options = optionsFor(Container::bg);
   options.positionBits = 17;
   EXPECT_EQ(kindOfConverting(testing::torus(9, 9), options), ErrorKind::usage);
+  for (const auto& [container, normals] : {std::pair{Container::sig, NormalEncoding::octahedral},
+                                           {Container::sig, NormalEncoding::spherical},
+                                           {Container::bg, NormalEncoding::octahedral}}) {
+    options = optionsFor(container);
+    options.normals = normals;
+    EXPECT_EQ(kindOfConverting(testing::torus(9, 9), options), ErrorKind::usage);
+  }
   Mesh mesh = testing::torus(9, 9);
   mesh.texCoords[0] = {1.5f, 0};
   EXPECT_EQ(kindOfConverting(mesh, optionsFor(Container::sig)), ErrorKind::unsupported);

@@ -35,6 +35,12 @@ const cases: { mesh: GeneratedMesh; options: string[] }[] = [
   { mesh: "trefoil-plain", options: ["--position-bits", "12"] },
   { mesh: "trefoil-plain", options: ["--position-bits", "24"] },
   { mesh: "trefoil-plain", options: ["--container", "bg", "--normal-bits", "16"] },
+  ...["octahedral", "spherical", "palette"].map((normals) =>
+    ({ mesh: "trefoil" as const, options: ["--normals", normals, "--patch-vertices", "1000"] })),
+  ...["octahedral", "spherical"].map((normals) =>
+    ({ mesh: "trefoil-colors" as const, options: ["--container", "bg", "--normals", normals] })),
+  { mesh: "trefoil-plain", options: ["--container", "bg", "--normals", "octahedral", "--normal-bits", "16"] },
+  { mesh: "trefoil", options: ["--normals", "octahedral", "--index", "off"] },
   { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"] },
   { mesh: "trefoil-colors", options: ["--index", "off", "--container", "bg"] },
   { mesh: "points", options: [] },

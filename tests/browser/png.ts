@@ -1,7 +1,7 @@
 // PNG in as few lines as possible, independent of the product's readers: for
 // screenshots, and for the container images that the reference pictures are
-// made of. 8 bits a channel, no palette, no interlace; nothing is validated,
-// because both sides are ours.
+// made of. 8 bits a channel, a palette expanded to RGB, no interlace; nothing is
+// validated, because both sides are ours.
 
 import { crc32, deflateSync, inflateSync } from "node:zlib";
 
@@ -13,7 +13,7 @@ export interface Picture {
   data: Uint8Array;
 }
 
-const channelsOfColorType: Record<number, number> = { 0: 1, 2: 3, 4: 2, 6: 4 };
+const channelsOfColorType: Record<number, number> = { 0: 1, 2: 3, 3: 1, 4: 2, 6: 4 };
 const colorTypeOfChannels = [0, 0, 4, 2, 6];
 
 export function decodePng(bytes: Uint8Array): Picture {
@@ -22,11 +22,8 @@ export function decodePng(bytes: Uint8Array): Picture {
   const height = view.readUInt32BE(20);
   const channels = channelsOfColorType[view.readUInt8(25)];
   if (channels === undefined || view.readUInt8(24) !== 8) throw new Error("the test decoder reads 8-bit grey and RGB only");
-  const parts: Buffer[] = [];
-  for (let at = 8; at < view.length; at += 12 + view.readUInt32BE(at)) {
-    if (view.toString("latin1", at + 4, at + 8) === "IDAT") parts.push(view.subarray(at + 8, at + 8 + view.readUInt32BE(at)));
-  }
-  const filtered = inflateSync(Buffer.concat(parts));
+  const [palette] = chunksOf(view, "PLTE");
+  const filtered = inflateSync(Buffer.concat(chunksOf(view, "IDAT")));
   const stride = width * channels;
   const data = new Uint8Array(height * stride);
   for (let y = 0; y < height; ++y) {
@@ -40,7 +37,17 @@ export function decodePng(bytes: Uint8Array): Picture {
       data[y * stride + x] = filtered[y * (stride + 1) + 1 + x]! + guess;
     }
   }
-  return { width, height, channels, data };
+  if (palette === undefined || view.readUInt8(25) !== 3) return { width, height, channels, data };
+  return { width, height, channels: 3, data: Uint8Array.from({ length: 3 * data.length }, (_, i) => palette[3 * data[Math.floor(i / 3)]! + (i % 3)]!) };
+}
+
+/** What the chunks of a type hold. */
+function chunksOf(png: Buffer, type: string): Buffer[] {
+  const bodies: Buffer[] = [];
+  for (let at = 8; at < png.length; at += 12 + png.readUInt32BE(at)) {
+    if (png.toString("latin1", at + 4, at + 8) === type) bodies.push(png.subarray(at + 8, at + 8 + png.readUInt32BE(at)));
+  }
+  return bodies;
 }
 
 function paeth(left: number, up: number, corner: number): number {

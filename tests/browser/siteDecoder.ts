@@ -46,8 +46,6 @@ export interface PlainPatch {
   triangles: Uint32Array;
   /** Pairs of vertices; strips are taken apart. */
   lines: Uint32Array;
-  /** Which of the patch's triangles each is, where a strip's joins without area are counted too. */
-  triangleNumbers?: Uint32Array;
   /** Vertices drawn as points. */
   points: Uint32Array;
 }
@@ -78,7 +76,10 @@ export function ranksOfFiles(html: string): Map<string, number> {
   for (const { name, attributes } of tagsOf(html)) {
     if (!/^(geometrypatch|imagegeometry|binarygeometry)$/.test(name)) continue;
     const note = (text: string | undefined, rank: (place: number) => number): void => {
-      stringsOf(text).forEach((url, place) => ranks.set(url.split("#")[0]!, rank(place)));
+      stringsOf(text).forEach((reference, place) => {
+        const url = reference.split("#")[0]!;
+        ranks.set(url, Math.min(rank(place), ranks.get(url) ?? Infinity));
+      });
     };
     note(attributes.coord, (place) => (place === 0 ? 0 : 3 + place));
     note(attributes.index, () => 1);
@@ -89,8 +90,38 @@ export function ranksOfFiles(html: string): Map<string, number> {
   return ranks;
 }
 
+interface DataImage extends Records {
+  width: number;
+  height: number;
+}
+
+function normalsOfImage(node: Attributes, image: DataImage, records: number): Float32Array {
+  const encoding = node.normalencoding ?? "rgb";
+  if (encoding === "rgb" || encoding === "palette") return table(records, (r, axis) => (2 * image.at(r, axis)) / 255 - 1);
+  const half = (image.width * image.height) / 2;
+  return normalsOfPairs(encoding, 255, records, (r, part) => image.at(part * half + r, 0));
+}
+
+/** Unit vectors of octahedral (x, y) or spherical (phi, theta), integers 0..largest. */
+function normalsOfPairs(encoding: string, largest: number, records: number, pairAt: (r: number, part: number) => number): Float32Array {
+  const normals = Array.from({ length: records }, (_, r): number[] => {
+    const [first, second] = [pairAt(r, 0), pairAt(r, 1)];
+    if (encoding === "spherical") {
+      const phi = Math.PI * ((2 * first) / largest - 1);
+      const theta = (Math.PI * second) / largest;
+      return [Math.sin(theta) * Math.cos(phi), Math.sin(theta) * Math.sin(phi), Math.cos(theta)];
+    }
+    const [u, v] = [first, second].map((number) => (2 * number) / (largest - 1) - 1) as [number, number];
+    const z = 1 - Math.abs(u) - Math.abs(v);
+    const [x, y] = z >= 0 ? [u, v] : [(1 - Math.abs(v)) * (u < 0 ? -1 : 1), (1 - Math.abs(u)) * (v < 0 ? -1 : 1)];
+    const length = Math.hypot(x, y, z);
+    return [x / length, y / length, z / length];
+  });
+  return Float32Array.from(normals.flat());
+}
+
 function decodeSig(node: Attributes, patch: Attributes, directory: string, planesHere: number): PlainPatch {
-  const image = (url: string): Records & { height: number; width: number } => {
+  const image = (url: string): DataImage => {
     const [path, first] = url.split("#");
     const { data, channels, width, height } = decodePng(readFileSync(join(directory, path!)));
     return { width, height, at: (record, component) => data[(record + Number(first ?? 0)) * channels + component]! };
@@ -115,7 +146,7 @@ function decodeSig(node: Attributes, patch: Attributes, directory: string, plane
   };
   return {
     positions: spread(node, coordinate, recordCount, 256 ** planes.length - 1),
-    ...(normal && { normals: table(recordCount, (r, axis) => (2 * normal.at(r, axis)) / 255 - 1) }),
+    ...(normal && { normals: normalsOfImage(node, normal, recordCount) }),
     ...(color && { colors: table(recordCount, (r, axis) => color.at(r, axis) / 255) }),
     ...elementsOf(patch, drawn),
   };
@@ -146,7 +177,7 @@ function decodeBg(node: Attributes, patch: Attributes, directory: string): Plain
   };
   const recordCount = Number(patch.recordcount);
   const coordinate = attribute("coord", "Float32")!;
-  const normal = attribute("normal", "Float32");
+  const normals = normalsOfArrays(node, patch, array, recordCount);
   const color = attribute("color", "Float32");
   const index = patch.index ? array(patch.index, node.indextype ?? "Uint16", 1) : undefined;
   const asFloats = (records: Records & { largest: number }): Float32Array =>
@@ -154,10 +185,28 @@ function decodeBg(node: Attributes, patch: Attributes, directory: string): Plain
   return {
     positions:
       coordinate.largest === 1 ? asFloats(coordinate) : spread(node, coordinate, recordCount, coordinate.largest),
-    ...(normal && { normals: asFloats(normal) }),
+    ...(normals && { normals }),
     ...(color && { colors: asFloats(color) }),
     ...elementsOf(patch, (n) => (index ? index.at(n, 0) : n)),
   };
+}
+
+type OpenArray = (url: string, type: string, components: number) => Records;
+
+function normalsOfArrays(node: Attributes, patch: Attributes, open: OpenArray, records: number): Float32Array | undefined {
+  if (node.normalassphericalcoordinates === "true") {
+    const words = open(patch.coord!, "Uint16", 4);
+    return normalsOfPairs("spherical", 255, records, (r, part) => (words.at(r, 3) >> (8 * part)) & 255);
+  }
+  if (!patch.normal) return undefined;
+  const type = node.normaltype ?? "Float32";
+  const largest = readers[type]![1];
+  if (node.normalencoding === "octahedral") {
+    const pairs = open(patch.normal, type, 2);
+    return normalsOfPairs("octahedral", largest, records, (r, part) => pairs.at(r, part));
+  }
+  const vectors = open(patch.normal, type, 3);
+  return table(records, (r, axis) => vectors.at(r, axis) / largest);
 }
 
 function table(records: number, value: (record: number, axis: number) => number): Float32Array {
@@ -171,13 +220,8 @@ function spread(node: Attributes, stored: Records, records: number, largest: num
   return table(records, (r, axis) => center[axis]! + size[axis]! * (stored.at(r, axis) / largest - 0.5));
 }
 
-function elementsOf(
-  patch: Attributes,
-  drawn: (n: number) => number,
-): Required<Pick<PlainPatch, "triangles" | "triangleNumbers" | "lines" | "points">> {
+function elementsOf(patch: Attributes, drawn: (n: number) => number): Pick<PlainPatch, "triangles" | "lines" | "points"> {
   const triangles: number[] = [];
-  const triangleNumbers: number[] = [];
-  let counted = 0;
   const lines: number[] = [];
   const points: number[] = [];
   const counts = numbersOf(patch.vertexcount, []);
@@ -188,22 +232,13 @@ function elementsOf(
     if (primitive === "POINTS") points.push(...vertices);
     else if (primitive === "LINES") lines.push(...vertices);
     else if (primitive === "LINESTRIP") vertices.slice(1).forEach((vertex, i) => lines.push(vertices[i]!, vertex));
-    else if (primitive === "TRIANGLES") {
-      for (const vertex of vertices) triangles.push(vertex);
-      for (let i = 2; i < vertices.length; i += 3) triangleNumbers.push(counted++);
-    } else if (primitive === "TRIANGLESTRIP") {
-      for (let i = 2; i < vertices.length; ++i, ++counted) {
+    else if (primitive === "TRIANGLES") for (const vertex of vertices) triangles.push(vertex);
+    else if (primitive === "TRIANGLESTRIP") {
+      for (let i = 2; i < vertices.length; ++i) {
         const [a, b, c] = [vertices[i - 2]!, vertices[i - 1]!, vertices[i]!];
-        if (a === b || b === c || c === a) continue;
-        triangles.push(...(i % 2 === 0 ? [a, b, c] : [b, a, c]));
-        triangleNumbers.push(counted);
+        if (a !== b && b !== c && c !== a) triangles.push(...(i % 2 === 0 ? [a, b, c] : [b, a, c]));
       }
     } else throw new Error(`the test decoder does not know ${primitive}`);
   });
-  return {
-    triangles: Uint32Array.from(triangles),
-    triangleNumbers: Uint32Array.from(triangleNumbers),
-    lines: Uint32Array.from(lines),
-    points: Uint32Array.from(points),
-  };
+  return { triangles: Uint32Array.from(triangles), lines: Uint32Array.from(lines), points: Uint32Array.from(points) };
 }

@@ -114,6 +114,13 @@ TEST_F(Faults, OptionsThatCannotBeHonoured) {
   };
   refuse("--normal-bits", {"--container", "sig", "--normal-bits", "16"});
   refuse("--normal-bits", {"--container", "bg", "-vn", "12"});
+  refuse("--normals", {"--normals", "cube"});
+  refuse("--normals", {"--container", "bg", "--normals", "palette"});
+  refuse("--normals", {"--container", "bg", "--normals", "spherical", "-vp", "20"});
+  refuse("--normal-bits", {"--container", "bg", "--normals", "spherical", "-vn", "16"});
+  refuse("--normal-bits", {"--container", "bg", "--normals", "octahedral", "-vn", "32"});
+  refuse("--normal-bits", {"--container", "bg", "--normals", "octahedral", "-vn", "8", "-vp", "8"});
+  refuse("--normals", {"--target", "x3dom", "--normals", "octahedral"});
   refuse("--position-bits", {"-vp", "7"});
   refuse("--position-bits", {"-qp", "33"});
   refuse("--position-bits", {"--position-bits", "abc"});

@@ -28,7 +28,7 @@ async function withX3dom(
   site: string,
   container: Container,
   html: string,
-  bodies: Record<string, string>,
+  bodies: Record<string, Buffer | string>,
   use: (view: View) => Promise<void>,
 ): Promise<void> {
   await withPage(
@@ -54,7 +54,7 @@ export async function pictureOf(
   site: string,
   container: Container,
   html: string,
-  bodies: Record<string, string> = {},
+  bodies: Record<string, Buffer | string> = {},
 ): Promise<Picture> {
   const pictures: Picture[] = [];
   await withX3dom(site, container, html, bodies, async (view) => {

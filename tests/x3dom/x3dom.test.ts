@@ -8,7 +8,7 @@ import { describe, test } from "node:test";
 import { assertSamePicture, difference, isWithin, savePicture, type Bounds } from "../browser/compare.ts";
 import { areaWeightedNormals, readObj, readPly, type PlainMesh } from "../browser/meshes.ts";
 import { modelDirectory } from "../browser/paths.ts";
-import type { Picture } from "../browser/png.ts";
+import { decodePng, encodePng, type Picture } from "../browser/png.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "../browser/sites.ts";
 import { referencePage } from "./referencePage.ts";
 import { fileOf, pictureOf, sumOf, type Container } from "./releases.ts";
@@ -71,6 +71,7 @@ for (const container of containers) {
       ["computed normals", "trefoil-plain", []],
     ];
     if (container === "sig") cases.push(["positions of three bytes", "sphere", ["--position-bits", "20"]]);
+    if (container === "bg") cases.push(["normals as angles beside the coordinates", "trefoil", ["--normals", "spherical"]]);
     for (const [what, mesh, more] of cases) {
       test(`shows ${what} as X3DOM shows them inline`, async () => {
         await assertShows(mesh, siteOfGenerated(mesh, ...options(container), ...more), container, sourceOf(mesh));
@@ -92,6 +93,18 @@ for (const container of containers) {
       test(`shows coloured lines as ${primitives === "strips" ? "strips" : "lines"} as X3DOM shows them inline`, async () => {
         const site = siteOfGenerated("coil", ...options(container), "--primitives", primitives);
         await assertShows("coil-16", site, container, onLattice(sourceOf("coil"), 16));
+      });
+    }
+
+    if (container === "sig") {
+      test("shows normals of a palette as the RGB that it stands for", async () => {
+        const site = siteOfGenerated("trefoil", ...options(container), "--normals", "palette");
+        const page = pageOf(site);
+        const [, normals = ""] = /containerField="normal" url='"([^"]+)"'/.exec(page) ?? [];
+        const expanded = encodePng(decodePng(readFileSync(join(site, normals))));
+        const expected = await pictureOf(site, container, page.replace(normals, "expanded.png"), { "/expanded.png": expanded });
+        assertShowsSomething(expected);
+        assertSamePicture("x3dom-palette", await pictureOf(site, container, page), expected, { mean: 0, offShare: 0 });
       });
     }
 

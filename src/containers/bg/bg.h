@@ -14,7 +14,7 @@ EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geom
 /// Reads what encodeBg writes and every layout of X3DOM's BinaryGeometry: all
 /// element types, interleaved records, spherical normals. Safe for untrusted
 /// bytes; see decodePatch. Throws Error{unsupported} for signed indices,
-/// unsigned normals, and spherical normals of other than 16 bits.
+/// unsigned components of normals, and pairs of other than 8 or 16 bits.
 IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry,
                       const FetchFile& fetch);
 

@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/narrow.h"
+#include "containers/normals.h"
 #include "containers/stored.h"
-#include "containers/unit_vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -130,13 +130,15 @@ std::vector<Vec3u> decodeFloats(const Records& records, std::uint32_t count, con
   return positions;
 }
 
-/// T and P of the high and the low byte of a record's fourth element.
-std::vector<Vec3f> decodeSphericalNormals(const Records& records, std::uint32_t count) {
+std::vector<Vec3f> decodeNormals(const Records& records, std::uint32_t count,
+                                 const GeometryDescription& geometry) {
   std::vector<Vec3f> normals(count);
-  for (std::uint32_t n = 0; n < count; ++n) {
-    const std::uint32_t word = records.unsignedAt(n, 3);
-    normals[n] = unitFromSpherical({word >> 8, word & 255}, 8);
-  }
+  const std::uint32_t bits = 8 * byteSizeOf(geometry.normalType);
+  for (std::uint32_t n = 0; n < count; ++n)
+    normals[n] =
+        isPair(geometry.normalEncoding)
+            ? loadNormal({records.unsignedAt(n, 0), records.unsignedAt(n, 1)}, geometry.normalEncoding, bits)
+            : unitNormal({records.realAt(n, 0), records.realAt(n, 1), records.realAt(n, 2)});
   return normals;
 }
 
@@ -148,10 +150,10 @@ void checkTypes(const PatchDescription& patch, const GeometryDescription& geomet
     throw Error(ErrorKind::malformed, place,
                 std::string(nameOf(geometry.coordType)) + " is no type for coordinates of " +
                     std::to_string(geometry.lattice.bits) + " bits");
-  if (geometry.sphericalNormals)
-    requireType(byteSizeOf(geometry.coordType) == 2, place, "coordinates with spherical normals",
-                geometry.coordType);
-  if (patch.normal)
+  if (patch.normal && isPair(geometry.normalEncoding))
+    requireType(geometry.normalType == ElementType::uint8 || geometry.normalType == ElementType::uint16,
+                patch.normal->url, "normals of two numbers", geometry.normalType);
+  else if (patch.normal)
     requireType(!isUnsigned(geometry.normalType), patch.normal->url, "normals", geometry.normalType);
 }
 
@@ -176,20 +178,16 @@ IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& 
     return records;
   };
 
-  const Records coords = fetchRecords(patch.coord[0], geometry.coordType, geometry.sphericalNormals ? 4 : 3);
+  const Records coords = fetchRecords(patch.coord[0], geometry.coordType, 3);
   decoded.positions = geometry.coordType == ElementType::float32
                           ? decodeFloats(coords, count, geometry.lattice, place)
                           : decodeIntegers(coords, count, geometry, place);
   checkInsideBox(decoded.positions, geometry.lattice, patch.box, place);
 
-  if (geometry.sphericalNormals) {
-    decoded.normals = decodeSphericalNormals(coords, count);
-  } else if (patch.normal) {
-    const Records records = fetchRecords(*patch.normal, geometry.normalType, 3);
-    for (std::uint32_t n = 0; n < count; ++n)
-      decoded.normals.push_back(
-          unitNormal({records.realAt(n, 0), records.realAt(n, 1), records.realAt(n, 2)}));
-  }
+  if (patch.normal)
+    decoded.normals = decodeNormals(
+        fetchRecords(*patch.normal, geometry.normalType, isPair(geometry.normalEncoding) ? 2 : 3), count,
+        geometry);
   if (patch.texCoord) {
     const Records records = fetchRecords(*patch.texCoord, geometry.texCoordType, 2);
     const Vec2f min = geometry.texCoordMin, size = geometry.texCoordSize;

@@ -1,6 +1,7 @@
 #include "containers/bg/bg.h"
 
 #include "base/narrow.h"
+#include "containers/normals.h"
 #include "containers/stored.h"
 
 #include <algorithm>
@@ -29,23 +30,47 @@ Bytes indexArray(const IndexedPatch& patch, ElementType type) {
   return out;
 }
 
-/// Coordinates of one or two bytes get a fourth, 0: GPUs want records to begin
+/// Two bytes of normal fit into what pads a record of 16-bit coordinates to whole
+/// words: X3DOM's place for spherical ones.
+bool areNormalsInCoords(const IndexedPatch& patch, const GeometryDescription& geometry) {
+  return !patch.normals.empty() && isPair(geometry.normalEncoding) &&
+         geometry.normalType == ElementType::uint8;
+}
+
+/// Coordinates of one or two bytes get a fourth element: GPUs want records to begin
 /// at whole words, and X3DOM binds four where the stride allows it.
-Bytes coordArray(const IndexedPatch& patch, ElementType type, std::uint32_t shift) {
+Bytes coordArray(const IndexedPatch& patch, const GeometryDescription& geometry) {
+  const ElementType type = geometry.coordType;
+  const std::uint32_t shift = coordShift(Container::bg, geometry.lattice.bits);
+  const bool withNormals = areNormalsInCoords(patch, geometry);
+  assert(!withNormals || byteSizeOf(type) == 2);
   Bytes out;
   out.reserve(patch.vertexCount() * 4 * byteSizeOf(type));
-  for (const Vec3u& position : patch.positions) {
+  for (std::size_t n = 0; n < patch.vertexCount(); ++n) {
     for (int axis = 0; axis < 3; ++axis)
-      appendUnsigned(out, type, storeCoord(position[axis], shift));
-    if (byteSizeOf(type) < 4)
+      appendUnsigned(out, type, storeCoord(patch.positions[n][axis], shift));
+    if (withNormals) {
+      const Vec2<std::uint32_t> stored = storeNormal(patch.normals[n], geometry.normalEncoding, 8);
+      out.insert(out.end(), {narrow<std::uint8_t>(stored.x), narrow<std::uint8_t>(stored.y)});
+    } else if (byteSizeOf(type) < 4) {
       appendUnsigned(out, type, 0);
+    }
   }
   return out;
 }
 
-Bytes normalArray(const IndexedPatch& patch, ElementType type) {
+Bytes normalArray(const IndexedPatch& patch, const GeometryDescription& geometry) {
+  const ElementType type = geometry.normalType;
   Bytes out;
   out.reserve(patch.vertexCount() * 4 * byteSizeOf(type));
+  if (isPair(geometry.normalEncoding)) {
+    for (const Vec3f& normal : patch.normals) {
+      const Vec2<std::uint32_t> stored = storeNormal(normal, geometry.normalEncoding, 8 * byteSizeOf(type));
+      appendUnsigned(out, type, stored.x);
+      appendUnsigned(out, type, stored.y);
+    }
+    return out;
+  }
   const auto stored = [](float component, int maximum) {
     return std::lround(std::clamp(double{component}, -1.0, 1.0) * maximum);
   };
@@ -95,7 +120,7 @@ Bytes colorArray(const IndexedPatch& patch) {
 EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geometry) {
   assert((geometry.texCoordType == ElementType::uint16 || geometry.texCoordType == ElementType::float32) &&
          geometry.colorType == ElementType::uint8);
-  EncodedPatch encoded{describePatch(patch, geometry), {}};
+  EncodedPatch encoded{describePatch(patch, geometry), {}, 0};
   PatchDescription& description = encoded.description;
   const auto add = [&](Role role, Bytes bytes, std::uint32_t stride) {
     Reference reference = addFile(encoded, {role, ".bin", std::move(bytes)});
@@ -106,12 +131,13 @@ EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geom
   const auto padded = [](ElementType type) { return byteSizeOf(type) < 4 ? 4 * byteSizeOf(type) : 0; };
   if (!patch.indices.empty())
     description.index = add(Role::index, indexArray(patch, geometry.indexType), 0);
-  const std::uint32_t shift = coordShift(Container::bg, geometry.lattice.bits);
-  description.coord = {
-      add(Role::coord, coordArray(patch, geometry.coordType, shift), padded(geometry.coordType))};
-  if (!patch.normals.empty())
-    description.normal =
-        add(Role::normal, normalArray(patch, geometry.normalType), padded(geometry.normalType));
+  description.coord = {add(Role::coord, coordArray(patch, geometry), padded(geometry.coordType))};
+  if (areNormalsInCoords(patch, geometry))
+    description.normal = normalInCoords(description.coord[0]);
+  else if (isPair(geometry.normalEncoding) && !patch.normals.empty())
+    description.normal = add(Role::normal, normalArray(patch, geometry), 0);
+  else if (!patch.normals.empty())
+    description.normal = add(Role::normal, normalArray(patch, geometry), padded(geometry.normalType));
   if (!patch.texCoords.empty())
     description.texCoord = add(Role::texCoord, texCoordArray(patch, geometry), 0);
   if (!patch.colors.empty())

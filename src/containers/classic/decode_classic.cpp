@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 #include "containers/classic/layout.h"
+#include "containers/classic/normal_image.h"
+#include "containers/normals.h"
 #include "containers/png/png.h"
 #include "containers/stored.h"
 
@@ -85,8 +87,14 @@ void addPlane(std::vector<Vec3u>& stored, const Texels& texels) {
       stored[n][axis] = stored[n][axis] << 8 | texels[n][axis];
 }
 
-Vec3f normalOf(const std::uint8_t* texel) {
-  return unitNormal(Vec3d{texel[0] / 127.5 - 1, texel[1] / 127.5 - 1, texel[2] / 127.5 - 1});
+/// Normals in the two halves of an image, whose texels are counted through all its columns.
+std::vector<Vec3f> decodePairs(const Texels& texels, std::uint32_t count, NormalEncoding encoding) {
+  const std::uint64_t half = std::uint64_t{texels.image().width} * texels.image().height / 2;
+  texels.require(half + count);
+  std::vector<Vec3f> normals(count);
+  for (std::uint32_t n = 0; n < count; ++n)
+    normals[n] = loadNormal({texels[n][0], texels[half + n][0]}, encoding, 8);
+  return normals;
 }
 
 Vec2f texCoordOf(const std::uint8_t* texel, const GeometryDescription& geometry) {
@@ -137,7 +145,9 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
       position[axis] = loadCoord(position[axis], shift, place);
   checkInsideBox(decoded.positions, geometry.lattice, patch.box, place);
 
-  if (patch.normal) {
+  if (patch.normal && isPair(geometry.normalEncoding)) {
+    decoded.normals = decodePairs(Texels(*patch.normal, fetch, 0, 1), count, geometry.normalEncoding);
+  } else if (patch.normal) {
     const Texels texels = fetchRecords(*patch.normal, 3);
     for (std::uint32_t n = 0; n < count; ++n)
       decoded.normals.push_back(normalOf(texels[n]));

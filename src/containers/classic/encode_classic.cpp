@@ -4,6 +4,7 @@
 #include "base/narrow.h"
 #include "base/parallel.h"
 #include "containers/classic/layout.h"
+#include "containers/classic/normal_image.h"
 #include "containers/limits.h"
 #include "containers/png/png.h"
 #include "containers/stored.h"
@@ -20,21 +21,6 @@ struct RoleImage {
   Image image;
 };
 
-/// An image of which texel(n, out) writes texel n of the first `count`; the rest repeat the last.
-template <typename Texel>
-Image imageOf(ImageSize size, std::uint32_t channels, std::size_t count, Texel texel) {
-  const std::size_t texels = std::size_t{size.columns} * size.rows;
-  Image image{size.columns, size.rows, channels, Bytes(texels * channels)};
-  std::uint8_t* out = image.pixels.data();
-  for (std::size_t n = 0; n < texels; ++n, out += channels) {
-    if (n < count)
-      texel(n, out);
-    else
-      std::copy_n(out - channels, channels, out);
-  }
-  return image;
-}
-
 ImageSize recordImageSizeOf(const IndexedPatch& patch, Target target) {
   if (target == Target::x3dom)
     return {recordColumns, std::bit_ceil(rowsFor(patch.vertexCount(), recordColumns))};
@@ -44,11 +30,10 @@ ImageSize recordImageSizeOf(const IndexedPatch& patch, Target target) {
 /// The texels of a patch's running numbers: those of the index image, or the part
 /// of the record images in use.
 ImageSize implicitMeshSizeOf(const IndexedPatch& patch, ImageSize records, Target target) {
-  const ImageSize size = patch.indices.empty()
-                             ? ImageSize{records.columns, rowsFor(patch.vertexCount(), records.columns)}
-                         : target == Target::x3dom
-                             ? ImageSize{recordColumns, rowsFor(patch.indices.size(), recordColumns)}
-                             : longImageSize(patch.indices.size());
+  const ImageSize size =
+      patch.indices.empty()     ? ImageSize{records.columns, rowsFor(patch.vertexCount(), records.columns)}
+      : target == Target::x3dom ? ImageSize{recordColumns, rowsFor(patch.indices.size(), recordColumns)}
+                                : longImageSize(patch.indices.size());
   if (size.rows > guaranteedImageEdge)
     throw Error(ErrorKind::limit, "",
                 "a patch that draws " + std::to_string(drawnCount(patch.draws)) +
@@ -71,15 +56,6 @@ Image coordImage(const IndexedPatch& patch, ImageSize size, std::uint32_t shift,
   return imageOf(size, 3, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
     for (int axis = 0; axis < 3; ++axis)
       out[axis] = static_cast<std::uint8_t>(storeCoord(patch.positions[n][axis], shift) >> (8 * plane));
-  });
-}
-
-Image normalImage(const IndexedPatch& patch, ImageSize size) {
-  return imageOf(size, 3, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double component = std::clamp(double{patch.normals[n][axis]}, -1.0, 1.0);
-      out[axis] = static_cast<std::uint8_t>(std::lround((component + 1) * 127.5));
-    }
   });
 }
 
@@ -108,7 +84,7 @@ Image colorImage(const IndexedPatch& patch, std::uint32_t components, ImageSize 
 
 EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort,
                            Target target) {
-  EncodedPatch encoded{describePatch(patch, geometry), {}};
+  EncodedPatch encoded{describePatch(patch, geometry), {}, 0};
   const ImageSize records = recordImageSizeOf(patch, target);
   const ImageSize running = implicitMeshSizeOf(patch, records, target);
   encoded.description.implicitMeshSize = {running.columns, running.rows};
@@ -120,7 +96,9 @@ EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription&
   for (std::uint32_t plane = coordBytes(Container::sig, geometry.lattice.bits); plane-- > 0;)
     images.push_back({Role::coord, coordImage(patch, records, shift, plane)});
   if (!patch.normals.empty())
-    images.push_back({Role::normal, normalImage(patch, records)});
+    images.push_back({Role::normal, normalImage(patch, geometry.normalEncoding, records)});
+  if (geometry.normalEncoding == NormalEncoding::palette && !patch.normals.empty())
+    encoded.paletteError = paletteErrorOf(patch, images.back().image);
   if (!patch.texCoords.empty())
     images.push_back({Role::texCoord, texCoordImage(patch, geometry, records)});
   if (!patch.colors.empty())

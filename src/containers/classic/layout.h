@@ -2,7 +2,9 @@
 // How records and indices lie in the images of SIG classic.
 
 #include "containers/limits.h"
+#include "containers/png/png.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -38,6 +40,28 @@ inline constexpr ImageSize recordImageSize(std::uint64_t recordCount) {
   if (size.rows > recordColumns)
     size = longImageSize(recordCount);
   return {size.columns, std::bit_ceil(size.rows)};
+}
+
+/// The image of pairs, one half of it after the other: twice the record image.
+inline constexpr ImageSize pairImageSize(ImageSize records) {
+  if (2 * records.rows <= guaranteedImageEdge)
+    return {records.columns, 2 * records.rows};
+  return {2 * records.columns, records.rows};
+}
+
+/// An image of which texel(n, out) writes texel n of the first `count`; the rest repeat the last.
+template <typename Texel>
+Image imageOf(ImageSize size, std::uint32_t channels, std::size_t count, Texel texel) {
+  const std::size_t texels = std::size_t{size.columns} * size.rows;
+  Image image{size.columns, size.rows, channels, Bytes(texels * channels)};
+  std::uint8_t* out = image.pixels.data();
+  for (std::size_t n = 0; n < texels; ++n, out += channels) {
+    if (n < count)
+      texel(n, out);
+    else
+      std::copy_n(out - channels, channels, out);
+  }
+  return image;
 }
 
 } // namespace imgeo

@@ -54,14 +54,33 @@ std::uint32_t channelsOf(const spng_ihdr& header, const std::string& place) {
     throw Error(ErrorKind::unsupported, place, "data images have 8 bits a channel and are not interlaced");
   switch (header.color_type) {
   case SPNG_COLOR_TYPE_GRAYSCALE:
+  case SPNG_COLOR_TYPE_INDEXED:
     return 1;
   case SPNG_COLOR_TYPE_TRUECOLOR:
     return 3;
   case SPNG_COLOR_TYPE_TRUECOLOR_ALPHA:
     return 4;
   default:
-    throw Error(ErrorKind::unsupported, place, "data images are gray, RGB or RGBA");
+    throw Error(ErrorKind::unsupported, place, "data images are gray, RGB, RGBA or of a palette");
   }
+}
+
+/// The RGB image that a palette makes of its indices, as a browser expands it.
+Image expanded(const Image& indices, spng_ctx* context, const std::string& place) {
+  spng_trns transparency;
+  if (spng_get_trns(context, &transparency) == SPNG_OK)
+    throw Error(ErrorKind::unsupported, place, "the palette of a data image has no transparent entries");
+  spng_plte palette;
+  check(spng_get_plte(context, &palette), place);
+  Image image{indices.width, indices.height, 3, {}};
+  image.pixels.reserve(indices.pixels.size() * 3);
+  for (const std::uint8_t index : indices.pixels) {
+    if (index >= palette.n_entries)
+      throw Error(ErrorKind::malformed, place, "a pixel names an entry that the palette does not have");
+    const spng_plte_entry& entry = palette.entries[index];
+    image.pixels.insert(image.pixels.end(), {entry.red, entry.green, entry.blue});
+  }
+  return image;
 }
 
 } // namespace
@@ -90,7 +109,7 @@ Image decodePng(ByteSpan bytes, const std::string& place) {
     throw Error(ErrorKind::truncated, place, "the PNG's last bytes are missing");
   if (source.at != bytes.size())
     throw Error(ErrorKind::malformed, place, "bytes follow the end of the PNG");
-  return image;
+  return header.color_type == SPNG_COLOR_TYPE_INDEXED ? expanded(image, context.get(), place) : image;
 }
 
 } // namespace imgeo

@@ -91,15 +91,21 @@ Bytes encodePng(const Image& image, int effort) {
   Bytes header;
   appendBig(header, image.width);
   appendBig(header, image.height);
-  const std::uint8_t colorType = image.channels == 1 ? 0 : image.channels == 3 ? 2 : 6;
+  assert(image.palette.empty() || (image.channels == 1 && image.palette.size() <= 256 * 3));
+  const std::uint8_t colorType = !image.palette.empty() ? 3
+                                 : image.channels == 1  ? 0
+                                 : image.channels == 3  ? 2
+                                                        : 6;
   header.insert(header.end(), {8, colorType, 0, 0, 0}); // depth; deflate, adaptive filters, not interlaced
 
   const Effort search = effortOf(effort);
   const int level = image.pixels.size() > largeImageBytes ? search.levelOfLarge : search.level;
   const Bytes data = deflate(smallestRows(image, search), compressorOf(level).get());
   Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  png.reserve(png.size() + 3 * 12 + header.size() + data.size());
+  png.reserve(png.size() + 4 * 12 + header.size() + image.palette.size() + data.size());
   appendChunk(png, "IHDR", header);
+  if (!image.palette.empty())
+    appendChunk(png, "PLTE", image.palette);
   appendChunk(png, "IDAT", data);
   appendChunk(png, "IEND", {});
   return png;

@@ -12,19 +12,21 @@ namespace imgeo {
 /// Rows from the top, pixels from the left, channels interleaved, no padding.
 struct Image {
   std::uint32_t width = 0, height = 0;
-  std::uint32_t channels = 3; ///< 1 gray, 3 RGB, 4 RGBA
-  Bytes pixels;               ///< width * height * channels
+  std::uint32_t channels = 3; ///< 1 gray or palette, 3 RGB, 4 RGBA
+  Bytes pixels{};             ///< width * height * channels
+  Bytes palette{};            ///< empty, or the RGB of 1 .. 256 entries that the pixels name
 
   friend bool operator==(const Image&, const Image&) = default;
 };
 
-/// Writes IHDR, one IDAT and IEND. `effort` 0 (fastest) .. 9 (smallest) bounds
+/// Writes IHDR, PLTE where there is a palette, one IDAT and IEND. `effort` 0 (fastest) .. 9 (smallest) bounds
 /// the search for filters and matches: docs/decisions/png-effort.md.
 /// Deterministic. The image is not empty and its edges are at most maxImageEdge.
 Bytes encodePng(const Image& image, int effort);
 
-/// Reads a PNG of 8 bits a channel, gray, RGB or RGBA, not interlaced, with
-/// edges of at most maxImageEdge; ancillary chunks are skipped, sample values
+/// Reads a PNG of 8 bits a channel, gray, RGB, RGBA or of a palette without
+/// transparency, which comes back expanded to RGB; not interlaced, with edges of
+/// at most maxImageEdge; ancillary chunks are skipped, sample values
 /// never altered. The file must end where its IEND chunk does and all its check
 /// sums must hold. Safe for untrusted bytes. Throws Error (truncated, malformed,
 /// unsupported, limit) with `place`.

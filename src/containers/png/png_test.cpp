@@ -22,6 +22,54 @@ Image randomImage(std::mt19937& random, std::uint32_t channels) {
   return image;
 }
 
+/// CRC-32 as PNG defines it, over type and data.
+std::uint32_t crcOf(ByteSpan bytes) {
+  std::uint32_t crc = 0xffffffff;
+  for (const std::uint8_t byte : bytes) {
+    crc ^= byte;
+    for (int bit = 0; bit < 8; ++bit)
+      crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0u);
+  }
+  return ~crc;
+}
+
+/// A PNG header with right check sum and an IDAT of no use.
+Bytes headerOnly(std::uint32_t width, std::uint32_t height, std::uint8_t depth, std::uint8_t colorType) {
+  Bytes png = encodePng({1, 1, 1, {7}}, 0);
+  Bytes size, sum;
+  appendBig(size, width);
+  appendBig(size, height);
+  std::copy(size.begin(), size.end(), png.begin() + 16);
+  png[24] = depth;
+  png[25] = colorType;
+  appendBig(sum, crcOf(ByteSpan(png).subspan(12, 17)));
+  std::copy(sum.begin(), sum.end(), png.begin() + 29);
+  return png;
+}
+
+/// A PNG with one more chunk before its IDAT.
+Bytes withChunk(Bytes png, std::string_view type, const Bytes& data) {
+  Bytes chunk;
+  appendBig(chunk, static_cast<std::uint32_t>(data.size()));
+  chunk.insert(chunk.end(), type.begin(), type.end());
+  chunk.insert(chunk.end(), data.begin(), data.end());
+  appendBig(chunk, crcOf(ByteSpan(chunk).subspan(4)));
+  const auto at = static_cast<std::ptrdiff_t>(asText(png).find("IDAT") - 4);
+  png.insert(png.begin() + at, chunk.begin(), chunk.end());
+  return png;
+}
+
+ErrorKind kindOfDecoding(const Bytes& png) {
+  try {
+    decodePng(png, "x.png");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.place(), "x.png");
+    return error.kind();
+  }
+  ADD_FAILURE() << "was read";
+  return ErrorKind::usage;
+}
+
 TEST(Png, ComesBackExactlyAtEveryEffort) {
   std::mt19937 random(1);
   for (const std::uint32_t channels : {1u, 3u, 4u})
@@ -31,6 +79,30 @@ TEST(Png, ComesBackExactlyAtEveryEffort) {
         EXPECT_EQ(decodePng(encodePng(image, effort), "x.png"), image)
             << channels << " channels, effort " << effort;
       }
+}
+
+TEST(Png, OfAPaletteComesBackExpanded) {
+  std::mt19937 random(6);
+  for (const std::size_t entries : {1u, 2u, 77u, 256u}) {
+    Image indices = randomImage(random, 1), rgb{indices.width, indices.height, 3, {}};
+    for (std::size_t i = 0; i < 3 * entries; ++i)
+      indices.palette.push_back(static_cast<std::uint8_t>(random()));
+    for (std::uint8_t& pixel : indices.pixels) {
+      pixel = static_cast<std::uint8_t>(pixel % entries);
+      rgb.pixels.insert(rgb.pixels.end(), &indices.palette[3u * pixel], &indices.palette[3u * pixel] + 3);
+    }
+    EXPECT_EQ(decodePng(encodePng(indices, 5), "x.png"), rgb) << entries << " entries";
+  }
+}
+
+TEST(Png, WhosePixelsNameMoreThanItsPaletteHoldsIsMalformed) {
+  const Image image{2, 1, 1, {0, 3}, {1, 2, 3, 4, 5, 6, 7, 8, 9}};
+  EXPECT_EQ(kindOfDecoding(encodePng(image, 5)), ErrorKind::malformed);
+}
+
+TEST(Png, WhosePaletteIsTransparentIsUnsupported) {
+  EXPECT_EQ(kindOfDecoding(withChunk(encodePng({1, 1, 1, {0}, {1, 2, 3}}, 5), "tRNS", {128})),
+            ErrorKind::unsupported);
 }
 
 TEST(Png, HoldsThreeChunksOnly) {
@@ -76,43 +148,10 @@ TEST(Png, IsRefusedWhenBytesFollowIt) {
   EXPECT_THROW(decodePng(png, "x.png"), Error);
 }
 
-/// A PNG header with right check sum and an IDAT of no use.
-Bytes headerOnly(std::uint32_t width, std::uint32_t height, std::uint8_t depth, std::uint8_t colorType) {
-  Bytes png = encodePng({1, 1, 1, {7}}, 0);
-  Bytes size;
-  appendBig(size, width);
-  appendBig(size, height);
-  std::copy(size.begin(), size.end(), png.begin() + 16);
-  png[24] = depth;
-  png[25] = colorType;
-  std::uint32_t crc = 0xffffffff; // CRC-32 as PNG defines it, over type and data
-  for (std::size_t i = 12; i < 29; ++i) {
-    crc ^= png[i];
-    for (int bit = 0; bit < 8; ++bit)
-      crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0u);
-  }
-  Bytes sum;
-  appendBig(sum, ~crc);
-  std::copy(sum.begin(), sum.end(), png.begin() + 29);
-  return png;
-}
-
-ErrorKind kindOfDecoding(const Bytes& png) {
-  try {
-    decodePng(png, "x.png");
-  } catch (const Error& error) {
-    EXPECT_EQ(error.place(), "x.png");
-    return error.kind();
-  }
-  ADD_FAILURE() << "was read";
-  return ErrorKind::usage;
-}
-
-TEST(Png, OfOtherPixelsThanEightBitGrayRgbRgbaIsUnsupported) {
+TEST(Png, OfOtherPixelsThanEightBitGrayRgbRgbaAndPaletteIsUnsupported) {
   EXPECT_EQ(decodePng(headerOnly(1, 1, 8, 0), "x.png").pixels, Bytes{7}); // the helper itself
   EXPECT_EQ(kindOfDecoding(headerOnly(1, 1, 16, 0)), ErrorKind::unsupported);
   EXPECT_EQ(kindOfDecoding(headerOnly(1, 1, 8, 4)), ErrorKind::unsupported);
-  EXPECT_EQ(kindOfDecoding(headerOnly(1, 1, 8, 3)), ErrorKind::unsupported);
   EXPECT_EQ(kindOfDecoding(headerOnly(1, 1, 1, 0)), ErrorKind::unsupported);
 }
 

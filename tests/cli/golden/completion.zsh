@@ -31,9 +31,10 @@ _imgeo() {
       '-vp[bits of a coordinate, 8..32, on one lattice over the whole mesh]:position-bits: ' \
       '-qp[bits of a coordinate, 8..32, on one lattice over the whole mesh]:position-bits: ' \
       '--position-bits[bits of a coordinate, 8..32, on one lattice over the whole mesh]:position-bits: ' \
-      '-vn[bits of a normal'\''s component; sig\: 8; bg\: 8, 16 or 32]:normal-bits: ' \
-      '-qn[bits of a normal'\''s component; sig\: 8; bg\: 8, 16 or 32]:normal-bits: ' \
-      '--normal-bits[bits of a normal'\''s component; sig\: 8; bg\: 8, 16 or 32]:normal-bits: ' \
+      '--normals[how normals are stored\: as vectors, as two numbers, or as 256 directions a patch]:normals:(rgb octahedral spherical palette)' \
+      '-vn[bits of a normal'\''s component; sig\: 8; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
+      '-qn[bits of a normal'\''s component; sig\: 8; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
+      '--normal-bits[bits of a normal'\''s component; sig\: 8; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
       '-vt[bits of a texture coordinate; classic has 16]:texcoord-bits: ' \
       '-qt[bits of a texture coordinate; classic has 16]:texcoord-bits: ' \
       '--texcoord-bits[bits of a texture coordinate; classic has 16]:texcoord-bits: ' \

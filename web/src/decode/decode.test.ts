@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { DecodeError } from "./decodeError.ts";
 import type { ElementRange } from "./elements.ts";
-import { byteSizeOf, countIn, indexArrayOf, sphericalNormalsOf, trianglesFromStrip, vertexArrayOf } from "./elements.ts";
+import { byteSizeOf, countIn, indexArrayOf, trianglesFromStrip, vertexArrayOf } from "./elements.ts";
 import { decodeImage } from "./image.ts";
 import { checkPng, largestImageEdge } from "./png.ts";
 import { chunkOf, joined, pngOf } from "./png.testing.ts";
@@ -12,23 +12,24 @@ function refused(kind: DecodeError["kind"]): (error: unknown) => boolean {
 }
 
 describe("a PNG", () => {
-  test("of 8-bit RGB or RGBA tells its size", () => {
-    assert.deepEqual(checkPng(pngOf({ width: 256, height: 3 })), { width: 256, height: 3 });
-    assert.deepEqual(checkPng(pngOf({ width: 1, height: 1, colorType: 6 })), { width: 1, height: 1 });
+  test("of 8-bit gray, RGB, palette or RGBA tells its size and channels", () => {
+    assert.deepEqual(checkPng(pngOf({ width: 256, height: 3 })), { width: 256, height: 3, channels: 3 });
+    assert.deepEqual(checkPng(pngOf({ width: 2, height: 9, colorType: 0 })), { width: 2, height: 9, channels: 1 });
+    assert.deepEqual(checkPng(pngOf({ width: 2, height: 9, colorType: 3 })), { width: 2, height: 9, channels: 3 });
+    assert.deepEqual(checkPng(pngOf({ width: 1, height: 1, colorType: 6 })), { width: 1, height: 1, channels: 4 });
   });
 
   test("may lie anywhere in a larger buffer", () => {
     const png = pngOf({ width: 5, height: 7 });
-    assert.deepEqual(checkPng(joined([new Uint8Array(3), png]).subarray(3)), { width: 5, height: 7 });
+    assert.deepEqual(checkPng(joined([new Uint8Array(3), png]).subarray(3)), { width: 5, height: 7, channels: 3 });
   });
 
   test("with further chunks is taken", () => {
-    assert.deepEqual(checkPng(pngOf({ width: 2, height: 2, extra: [chunkOf("tEXt", new Uint8Array(9))] })), { width: 2, height: 2 });
+    assert.deepEqual(checkPng(pngOf({ width: 2, height: 2, extra: [chunkOf("tEXt", new Uint8Array(9))] })), { width: 2, height: 2, channels: 3 });
   });
 
   for (const [what, png] of Object.entries({
-    "grey": pngOf({ width: 2, height: 2, colorType: 0 }),
-    "a palette": pngOf({ width: 2, height: 2, colorType: 3 }),
+    "a see-through palette": pngOf({ width: 2, height: 2, colorType: 3, extra: [chunkOf("tRNS", new Uint8Array(1))] }),
     "grey with alpha": pngOf({ width: 2, height: 2, colorType: 4 }),
     "16 bits a channel": pngOf({ width: 2, height: 2, bitDepth: 16 }),
     "interlacing": pngOf({ width: 2, height: 2, interlace: 1 }),
@@ -88,7 +89,7 @@ describe("an image", () => {
 
   test("is not given to the browser when its header is refused", async () => {
     let asked = 0;
-    await assert.rejects(decodeImage(pngOf({ width: 4, height: 2, colorType: 3 }), () => {
+    await assert.rejects(decodeImage(pngOf({ width: 4, height: 2, colorType: 4 }), () => {
       asked += 1;
       return Promise.reject(new Error("asked"));
     }), refused("unsupported"));
@@ -108,6 +109,19 @@ describe("a typed array", () => {
     assert.equal(aligned.array.buffer, bytes.buffer);
     const odd = vertexArrayOf(bytes, range({ byteOffset: 5, count: 1 }));
     assert.deepEqual(Array.from(odd.array), [0x0605, 0x0807, 0x0a09]);
+  });
+
+  test("that is part of larger records is a view of the same bytes as the other parts", () => {
+    const parts = [0, 6, 12].map((byteOffset) => vertexArrayOf(bytes, range({ byteOffset, byteStride: 18, count: 2 })));
+    assert.deepEqual(parts.map(({ offset }) => offset), [0, 3, 6]);
+    for (const { array, stride } of parts) {
+      assert.equal(stride, 9);
+      assert.deepEqual([array.buffer, array.byteOffset, array.length], [bytes.buffer, 0, 18]);
+    }
+    const { array, offset } = vertexArrayOf(bytes, range({ byteOffset: 18 + 12, byteStride: 18, components: 2, count: 1 }));
+    assert.equal(array[offset], 0x1f1e);
+    const across = vertexArrayOf(bytes, range({ byteOffset: 14, byteStride: 18, count: 1 }));
+    assert.deepEqual([across.offset, across.array[0]], [0, 0x0f0e]);
   });
 
   test("whose last group lacks its padding is completed", () => {
@@ -152,20 +166,6 @@ describe("a typed array", () => {
   });
 });
 
-test("spherical normals are unit vectors as X3DOM decodes them", () => {
-  const packed = [0x0000, 0xff00, 0x8000, 0x80ff, 0x7f80];
-  const { array } = sphericalNormalsOf({ array: Uint16Array.from(packed.flatMap((w) => [1, 2, 3, w])), components: 3, stride: 4 });
-  const normals = packed.map((_, n) => Array.from(array.slice(3 * n, 3 * n + 3)));
-  for (const normal of normals) assert.ok(Math.abs(Math.hypot(...normal) - 1) < 1e-6);
-  const near = (normal: number[] | undefined, expected: number[]) =>
-    { expected.forEach((value, axis) => { assert.ok(Math.abs((normal?.[axis] ?? NaN) - value) < 0.02); }); };
-  near(normals[0], [0, 0, 1]);
-  near(normals[1], [0, 0, -1]);
-  near(normals[2], [-1, 0, 0]);
-  near(normals[3], [-1, 0, 0]);
-  near(normals[4], [1, 0, 0]);
-});
-
 describe("indices", () => {
   const bytes = new Uint8Array(Uint16Array.from([0, 1, 2, 2, 1, 3]).buffer);
   const range: ElementRange = { type: "Uint16", byteOffset: 0, byteStride: 0, components: 1, count: 0 };
@@ -181,9 +181,9 @@ describe("indices", () => {
     }
   });
 
-  test("of a strip become its triangles, each in its orientation, joins among them", () => {
+  test("of a strip become the triangles it draws, each in its orientation", () => {
     const strip = Uint16Array.from([0, 1, 2, 3, 3, 4, 4, 5, 6]);
-    assert.deepEqual(Array.from(trianglesFromStrip(strip)), [0, 1, 2, 2, 1, 3, 2, 3, 3, 3, 3, 4, 3, 4, 4, 4, 4, 5, 4, 5, 6]);
+    assert.deepEqual(Array.from(trianglesFromStrip(strip)), [0, 1, 2, 2, 1, 3, 4, 5, 6]);
     assert.equal(trianglesFromStrip(Uint16Array.from([0, 1])).length, 0);
     assert.equal(trianglesFromStrip(new Uint16Array()).length, 0);
   });

@@ -21,7 +21,7 @@ export interface ElementRange {
   readonly byteOffset: number;
   /** Bytes from one group to the next; 0: tightly packed. */
   readonly byteStride: number;
-  readonly components: 1 | 3 | 4;
+  readonly components: 1 | 2 | 3 | 4;
   /** 0: as many as the bytes hold. */
   readonly count: number;
 }
@@ -34,17 +34,22 @@ export function countIn(byteLength: number, range: ElementRange): number {
 }
 
 /**
- * The attribute as an array of its elements, in whole groups of its stride. Coordinates
- * of 32-bit integers become floats, which is what shaders compute with. Throws
- * DecodeError where the bytes do not hold it. Safe for untrusted bytes.
+ * The attribute as an array of its elements, in whole groups of its stride. Of
+ * records that hold several attributes of one type each comes as a view of the same
+ * bytes. Coordinates of 32-bit integers become floats, which is what shaders compute
+ * with. Throws DecodeError where the bytes do not hold it. Safe for untrusted bytes.
  */
 export function vertexArrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange): VertexArray {
-  const stride = sizesOf(range).stride / byteSizeOf(range.type);
-  const stored = wholeGroups(arrayOf(bytes, range), stride);
+  const { size, group, stride } = sizesOf(range);
+  const inRecord = range.byteOffset % stride;
+  const isPart = inRecord > 0 && inRecord % size === 0 && inRecord + group <= stride;
+  const byteOffset = isPart ? inRecord : 0; // from where the view begins
+  const stored = wholeGroups(arrayOf(bytes, range, byteOffset), stride / size);
   return {
     array: stored instanceof Int32Array || stored instanceof Uint32Array ? new Float32Array(stored) : stored,
-    components: range.components === 4 ? 4 : 3,
-    stride,
+    components: range.components,
+    stride: stride / size,
+    offset: byteOffset / size,
   };
 }
 
@@ -75,7 +80,8 @@ function sizesOf(range: ElementRange): { size: number; group: number; stride: nu
   return { size, group, stride: range.byteStride === 0 ? group : range.byteStride };
 }
 
-function arrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange): ElementArray {
+/** The elements from `bytesBefore` before the range on, to the end of its last group's stride. */
+function arrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange, bytesBefore = 0): ElementArray {
   const { size, group, stride } = sizesOf(range);
   if (stride % size !== 0 || stride < group) {
     throw new DecodeError("malformed", `has a stride of ${stride} bytes for ${range.components} ${range.type}`);
@@ -85,42 +91,29 @@ function arrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange): ElementAr
   if (count > fit) throw new DecodeError("truncated", `holds ${fit} of ${count} ${range.components === 1 ? "indices" : "vertices"}`);
   if (count === 0) return new arrayTypes[range.type](0);
   // With the last group's padding, where the file has it.
-  const byteLength = Math.min(count * stride, Math.floor((bytes.byteLength - range.byteOffset) / size) * size);
-  const byteOffset = bytes.byteOffset + range.byteOffset;
+  const begin = range.byteOffset - bytesBefore;
+  const byteLength = Math.min(count * stride, Math.floor((bytes.byteLength - begin) / size) * size);
+  const byteOffset = bytes.byteOffset + begin;
   // A view must begin at a multiple of its element; elsewhere the bytes are copied.
   return byteOffset % size === 0 ? new arrayTypes[range.type](bytes.buffer, byteOffset, byteLength / size)
     : new arrayTypes[range.type](bytes.buffer.slice(byteOffset, byteOffset + byteLength));
 }
 
 /**
- * X3DOM's normals in the fourth element of 16-bit coordinate records: its high
- * byte is the angle from the z axis, its low byte the one around it
- * ("What else is read" in docs/formats/nodes.md).
- */
-export function sphericalNormalsOf({ array, stride }: VertexArray): VertexArray {
-  const count = stride < 4 ? 0 : array.length / stride;
-  const normals = new Float32Array(count * 3);
-  for (let n = 0; n < count; ++n) {
-    const packed = (array[n * stride + 3] ?? 0) & 0xffff;
-    const theta = (Math.PI * (packed >> 8)) / 255;
-    const phi = Math.PI * ((2 * (packed & 0xff)) / 255 - 1);
-    normals.set([Math.sin(theta) * Math.cos(phi), Math.sin(theta) * Math.sin(phi), Math.cos(theta)], n * 3);
-  }
-  return { array: normals, components: 3, stride: 3 };
-}
-
-/**
  * A triangle strip as separate triangles with the strip's orientation: buffers
- * of three.js are drawn as triangles only. Degenerate joins stay, so that the
- * strip's triangle t is triangle t; GPUs pass over them.
+ * of three.js are drawn as triangles only. Degenerate joins are left out.
  */
 export function trianglesFromStrip(strip: IndexArray): IndexArray {
-  const count = Math.max(0, strip.length - 2);
-  const triangles = new (strip.constructor as new (length: number) => IndexArray)(count * 3);
-  for (let n = 0; n < count; ++n) {
-    triangles[3 * n] = strip[n + (n & 1)] ?? 0;
-    triangles[3 * n + 1] = strip[n + 1 - (n & 1)] ?? 0;
-    triangles[3 * n + 2] = strip[n + 2] ?? 0;
+  const triangles = new (strip.constructor as new (length: number) => IndexArray)(Math.max(0, strip.length - 2) * 3);
+  let written = 0;
+  for (let n = 0; n + 2 < strip.length; ++n) {
+    const a = strip[n + (n & 1)] ?? 0;
+    const b = strip[n + 1 - (n & 1)] ?? 0;
+    const c = strip[n + 2] ?? 0;
+    if (a === b || b === c || c === a) continue;
+    triangles[written++] = a;
+    triangles[written++] = b;
+    triangles[written++] = c;
   }
-  return triangles;
+  return triangles.slice(0, written);
 }

@@ -1,4 +1,5 @@
 import { DecodeError } from "./decodeError.ts";
+import type { PngHeader } from "./png.ts";
 import { checkPng } from "./png.ts";
 
 /** An image that a texture can be made of; an ImageBitmap in browsers. */
@@ -9,6 +10,12 @@ export interface DecodedImage {
   close(): void;
 }
 
+/** An image and how many numbers its file has a texel: browsers make four of any. */
+export interface DataImage {
+  readonly image: DecodedImage;
+  readonly channels: PngHeader["channels"];
+}
+
 /** Decodes a PNG to exactly its stored bytes; rejects where that fails. */
 export type ImageDecoder = (png: Uint8Array<ArrayBuffer>) => Promise<DecodedImage>;
 
@@ -16,7 +23,7 @@ export type ImageDecoder = (png: Uint8Array<ArrayBuffer>) => Promise<DecodedImag
  * Checks and decodes. What comes back has the size that the header claims.
  * Rejects with DecodeError; the image is then closed.
  */
-export async function decodeImage(png: Uint8Array<ArrayBuffer>, decoder: ImageDecoder): Promise<DecodedImage> {
+export async function decodeImage(png: Uint8Array<ArrayBuffer>, decoder: ImageDecoder): Promise<DataImage> {
   const header = checkPng(png);
   let image: DecodedImage;
   try {
@@ -24,7 +31,7 @@ export async function decodeImage(png: Uint8Array<ArrayBuffer>, decoder: ImageDe
   } catch {
     throw new DecodeError("malformed", "is a PNG that does not decode");
   }
-  if (image.width === header.width && image.height === header.height) return image;
+  if (image.width === header.width && image.height === header.height) return { image, channels: header.channels };
   image.close();
   throw new DecodeError("malformed", `decoded to ${image.width} x ${image.height} texels, not ${header.width} x ${header.height}`);
 }

@@ -1,12 +1,14 @@
 // What we ask of a PNG before a browser decodes it (PNG specification, W3C 2003,
-// sections 5 and 11). A browser shows a palette, a 16-bit or a half image as best
-// it can; in an image of vertex data each of these would be a silent wrong shape.
+// sections 5 and 11). A browser shows a 16-bit, a see-through or a half image as
+// best it can; in an image of vertex data each of these would be a silent wrong shape.
 
 import { DecodeError } from "./decodeError.ts";
 
 export interface PngHeader {
   readonly width: number;
   readonly height: number;
+  /** Numbers that a texel holds: 1 gray, 3 RGB, also out of a palette, 4 RGBA. */
+  readonly channels: 1 | 3 | 4;
 }
 
 /** The texture size that every WebGL2 has. */
@@ -15,10 +17,13 @@ export const largestImageEdge = 2048;
 const signature = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
 const headerLength = 13;
 const chunkOverhead = 12; // length, type, CRC
+/** By PNG colour type; one of 3 is a palette. */
+const channelsOfColorType: Readonly<Record<number, PngHeader["channels"]>> = { 0: 1, 2: 3, 3: 3, 6: 4 };
 
 /**
- * Checks that the bytes are one whole PNG of 8-bit RGB or RGBA, not interlaced,
- * and gives its size. Safe for untrusted bytes. Throws DecodeError.
+ * Checks that the bytes are one whole PNG of 8-bit gray, RGB, RGBA or of an opaque
+ * palette, not interlaced, and gives its size. Safe for untrusted bytes. Throws
+ * DecodeError.
  */
 export function checkPng(bytes: Uint8Array): PngHeader {
   if (!signature.every((byte, place) => bytes[place] === byte)) {
@@ -30,6 +35,7 @@ export function checkPng(bytes: Uint8Array): PngHeader {
     throw new DecodeError("malformed", "does not begin with a PNG header");
   }
   if (!types.includes("IDAT")) throw new DecodeError("malformed", "holds no image data");
+  if (types.includes("tRNS")) throw new DecodeError("unsupported", "has colours that are see-through");
   return readHeader(view, signature.length + 8);
 }
 
@@ -41,12 +47,13 @@ function readHeader(view: DataView, offset: number): PngHeader {
   if (width < 1 || height < 1 || width > largestImageEdge || height > largestImageEdge) {
     throw new DecodeError("limit", `is ${width} x ${height} texels large; 1 to ${largestImageEdge} are allowed`);
   }
-  if (bitDepth !== 8 || (colorType !== 2 && colorType !== 6)) {
-    throw new DecodeError("unsupported", `has ${String(bitDepth)} bits a channel and PNG colour type ${String(colorType)}, not 8-bit RGB or RGBA`);
+  const channels = channelsOfColorType[colorType ?? NaN];
+  if (bitDepth !== 8 || channels === undefined) {
+    throw new DecodeError("unsupported", `has ${String(bitDepth)} bits a channel and PNG colour type ${String(colorType)}, not 8-bit gray, RGB, RGBA or palette`);
   }
   if (interlace !== 0) throw new DecodeError("unsupported", "is interlaced");
   if (compression !== 0 || filter !== 0) throw new DecodeError("malformed", "has an unknown compression or filter method");
-  return { width, height };
+  return { width, height, channels };
 }
 
 /** The chunks' types in order; throws unless they end with IEND exactly where the bytes end. */

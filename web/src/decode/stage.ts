@@ -29,6 +29,10 @@ export interface TexelRange {
   readonly first: number;
 }
 
+/** What a stored normal is: a vector; or two numbers, octahedral x and y or spherical phi and theta, of so many bits. */
+export type NormalCode = { readonly kind: "vector" }
+  | { readonly kind: "octahedral" | "spherical"; readonly bits: 8 | 16 };
+
 /** Vertices that the shader fetches from images (classic SIG). */
 export interface TextureStage extends StageHead {
   readonly kind: "textures";
@@ -43,6 +47,7 @@ export interface TextureStage extends StageHead {
   /** Added to every coordinate in place of the bytes that are not here. */
   readonly middleOfMissing: number;
   readonly normal: TexelRange | undefined;
+  readonly normalCode: NormalCode;
   readonly color: TexelRange | undefined;
   readonly colorComponents: 3 | 4;
 }
@@ -50,12 +55,13 @@ export interface TextureStage extends StageHead {
 export type ElementArray = Int8Array<ArrayBuffer> | Uint8Array<ArrayBuffer> | Int16Array<ArrayBuffer>
   | Uint16Array<ArrayBuffer> | Int32Array<ArrayBuffer> | Uint32Array<ArrayBuffer> | Float32Array<ArrayBuffer>;
 
-/** One group of `stride` elements a vertex, of which the first `components` count. */
+/** One group of `stride` elements a vertex, of which `components` from `offset` on count. */
 export interface VertexArray {
   readonly array: ElementArray;
-  readonly components: 3 | 4;
-  /** In elements. */
+  readonly components: 1 | 2 | 3 | 4;
+  /** In elements, as `offset`. */
   readonly stride: number;
+  readonly offset: number;
 }
 
 export type IndexArray = Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer> | Uint32Array<ArrayBuffer>;
@@ -65,7 +71,9 @@ export interface BufferStage extends StageHead {
   readonly kind: "buffers";
   readonly index: IndexArray | undefined;
   readonly coord: VertexArray;
+  /** Of two numbers of 8 bits also one 16-bit word, the first number its low byte. */
   readonly normal: VertexArray | undefined;
+  readonly normalCode: NormalCode;
   readonly color: VertexArray | undefined;
 }
 

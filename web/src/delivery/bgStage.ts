@@ -2,16 +2,19 @@
 
 import { DecodeError } from "../decode/decodeError.ts";
 import type { ElementRange } from "../decode/elements.ts";
-import { countIn, indexArrayOf, sphericalNormalsOf, trianglesFromStrip, vertexArrayOf } from "../decode/elements.ts";
+import { countIn, indexArrayOf, trianglesFromStrip, vertexArrayOf } from "../decode/elements.ts";
 import type { BufferStage, DrawRange, IndexArray, VertexArray } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
+import { hasNormalsInCoords } from "../document/geometry.ts";
 import type { Part } from "./parts.ts";
+import { componentsOf } from "./parts.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
-import { drawRangesOf, stageNameOf } from "./stageBuilder.ts";
+import { drawRangesOf, normalCodeOf, stageNameOf } from "./stageBuilder.ts";
 
 export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
   const here: { index?: IndexArray; coord?: VertexArray; normal?: VertexArray; color?: VertexArray } = {};
   let drawn: { index: IndexArray; draws: readonly DrawRange[] } | undefined;
+  const normalCode = normalCodeOf(geometry);
   let vertexCount = patch.vertexCount;
 
   return {
@@ -24,10 +27,11 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
         drawn = withoutStrips(here.index, drawRangesFor(patch, here.index.length));
         return;
       }
-      here[part.role] = vertexArrayOf(content.bytes, range);
+      const vertices = vertexArrayOf(content.bytes, range);
+      here[part.role] = vertices;
       if (part.role !== "coord") return;
       vertexCount ||= countIn(content.bytes.byteLength, range);
-      if (geometry.sphericalNormals && here.coord) here.normal = sphericalNormalsOf(here.coord);
+      if (hasNormalsInCoords(geometry, patch)) here.normal = fourthElementOf(vertices);
     },
 
     stage(): BufferStage | undefined {
@@ -38,9 +42,15 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
         : drawRangesFor(patch, vertexCount);
       // Strips without an index get one, since buffers are drawn as separate triangles.
       const shown = drawn ?? withoutStrips(undefined, unindexed());
-      return { kind: "buffers", name, index: shown.index, draws: shown.draws, coord, normal, color };
+      return { kind: "buffers", name, index: shown.index, draws: shown.draws, coord, normal, normalCode, color };
     },
   };
+}
+
+/** Of 16-bit coordinates, where it holds the normal as a word of two bytes. */
+function fourthElementOf({ array, stride, offset }: VertexArray): VertexArray {
+  if (offset + 3 >= stride) throw new DecodeError("malformed", "has no fourth element in its records");
+  return { array, components: 1, stride, offset: offset + 3 };
 }
 
 /** X3DOM's rule: a vertexCount of 0 means all there are. */
@@ -81,7 +91,7 @@ function rangeOf(geometry: GeometryDescription, patch: PatchDescription, role: P
     type: geometry[`${role}Type`],
     byteOffset: reference.first,
     byteStride: reference.stride,
-    components: role === "index" ? 1 : role === "color" ? geometry.colorComponents : 3,
+    components: componentsOf(geometry, role),
     count: role === "index" ? patch.draws.reduce((sum, draw) => sum + draw.count, 0) : patch.vertexCount,
   };
 }

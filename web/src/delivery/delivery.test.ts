@@ -88,6 +88,7 @@ describe("an image that lies", () => {
   const lies: Record<string, Uint8Array<ArrayBuffer>> = {
     "is too small for the records": pngOf({ width: 256, height: 1 }),
     "has 16 bits": pngOf({ width: 256, height: 2, bitDepth: 16 }),
+    "is gray": pngOf({ width: 256, height: 2, colorType: 0 }),
     "is cut short": records.slice(0, -1),
     "is a web page": new TextEncoder().encode("<!DOCTYPE html>"),
   };
@@ -110,6 +111,21 @@ describe("an image that lies", () => {
       assert.deepEqual(errors.map(({ url, kind }) => [url, kind]), [["i0.png", "malformed"]]);
       assert.equal(stages.at(-1)?.stage.name, "points");
     }
+  });
+
+  test("about normals of two numbers is an error: half of it ends before the records do", async () => {
+    const pairs = (fields: string) => geometryOf(`<ImageGeometry normalEncoding="octahedral" ${fields}>${sigPatch(0)}</ImageGeometry>`);
+    const gray = (height: number) => pngOf({ width: 256, height, colorType: 0 });
+    const good = siteOf({ ...sigFiles(1), "n0.png": gray(4) });
+    const full = record(pairs(""), good.pool);
+    await full.settled;
+    const stage = full.stages.at(-1)?.stage;
+    assert.ok(stage?.kind === "textures");
+    assert.deepEqual([full.errors, stage.name, stage.normalCode], [[], "full", { kind: "octahedral", bits: 8 }]);
+    const short = siteOf({ ...sigFiles(1), "n0.png": gray(3) });
+    const { errors, settled } = record(pairs(""), short.pool);
+    await settled;
+    assert.deepEqual(errors.map(({ url, kind }) => [url, kind]), [["n0.png", "malformed"]]);
   });
 
   test("about where a patch begins is an error", async () => {
@@ -146,8 +162,8 @@ describe("typed arrays", () => {
     await settled;
     const full = stages.at(-1)?.stage;
     assert.ok(full?.kind === "buffers");
-    assert.deepEqual(full.draws, [{ primitive: "triangles", first: 0, count: 3 }, { primitive: "triangles", first: 3, count: 12 }]);
-    assert.deepEqual(Array.from(full.index ?? []), [0, 1, 2, 0, 1, 2, 2, 1, 3, 2, 3, 3, 3, 3, 4]);
+    assert.deepEqual(full.draws, [{ primitive: "triangles", first: 0, count: 3 }, { primitive: "triangles", first: 3, count: 6 }]);
+    assert.deepEqual(Array.from(full.index ?? []), [0, 1, 2, 0, 1, 2, 2, 1, 3]);
   });
 
   test("with spherical normals are shaded with nothing but their coordinates", async () => {
@@ -155,7 +171,34 @@ describe("typed arrays", () => {
     const { stages, settled } = record(geometry('normalAsSphericalCoordinates="true" primType="POINTS" vertexCount="5" coord="c.bin#0+8"'), site.pool);
     await settled;
     const full = stages.at(-1)?.stage;
-    assert.deepEqual([full?.name, full?.kind === "buffers" && full.normal?.array.length], ["full", 15]);
+    assert.ok(full?.kind === "buffers");
+    assert.equal(full.name, "full");
+    assert.deepEqual(full.normalCode, { kind: "spherical", bits: 8 });
+    assert.equal(full.normal?.array, full.coord.array);
+    assert.deepEqual([full.normal.components, full.normal.stride, full.normal.offset], [1, 4, 3]);
+  });
+
+  test("with octahedral normals of two numbers say how to read them", async () => {
+    const site = siteOf({ "c.bin": coord, "n.bin": normal });
+    const { stages, settled } = record(geometryOf(
+      '<BinaryGeometry coordType="Uint16" normalType="Uint16" normalEncoding="octahedral" primType="POINTS" vertexCount="5" coord="c.bin#0+8" normal="n.bin"/>'), site.pool);
+    await settled;
+    const full = stages.at(-1)?.stage;
+    assert.ok(full?.kind === "buffers");
+    assert.deepEqual(full.normalCode, { kind: "octahedral", bits: 16 });
+    assert.deepEqual([full.normal?.components, full.normal?.stride, full.normal?.offset], [2, 2, 0]);
+  });
+
+  test("in the records of one file are views of the same bytes, fetched once", async () => {
+    const site = siteOf({ "v.bin": new Uint8Array(5 * 16) });
+    const { stages, settled } = record(geometryOf(
+      '<BinaryGeometry coordType="Int16" normalType="Int16" primType="POINTS" vertexCount="5" coord="v.bin#0+16" normal="v.bin#8+16"/>'), site.pool);
+    await settled;
+    const full = stages.at(-1)?.stage;
+    assert.ok(full?.kind === "buffers" && full.normal);
+    assert.deepEqual([full.coord.array.buffer, full.coord.array.length, full.coord.offset], [full.normal.array.buffer, 40, 0]);
+    assert.deepEqual([full.normal.array.length, full.normal.offset], [40, 4]);
+    assert.equal(site.asked.length, 1);
   });
 
   test("take all indices where vertexCount is 0, as X3DOM does", async () => {

@@ -2,6 +2,7 @@
 
 import { byteSizeOf } from "../decode/elements.ts";
 import type { GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
+import { hasNormalsInCoords, isPair } from "../document/geometry.ts";
 import type { Chunk } from "../scheduler/priority.ts";
 
 export interface Part {
@@ -22,13 +23,23 @@ export function partsOf(geometry: GeometryDescription, patch: PatchDescription):
     reference === undefined ? []
       : [{ role, plane, reference, expectedBytes, chunk: { type: plane > 0 ? "refinement" : role, plane } }];
   const bytesOf = (role: Part["role"]) => geometry.container === "sig" ? sigBytes[role]
-    : byteSizeOf(geometry[`${role}Type`]) * { index: 1, coord: 3, normal: 3, color: geometry.colorComponents }[role];
+    : byteSizeOf(geometry[`${role}Type`]) * componentsOf(geometry, role);
   return [
     ...patch.coord.flatMap((plane, place) => part("coord", plane, vertices * bytesOf("coord"), place)),
     ...part("index", patch.index, corners * bytesOf("index")),
-    ...part("normal", patch.normal, vertices * bytesOf("normal")),
+    ...(hasNormalsInCoords(geometry, patch) ? [] : part("normal", patch.normal, vertices * bytesOf("normal"))),
     ...part("color", patch.color, vertices * bytesOf("color")),
   ];
+}
+
+/** The numbers of one element in typed arrays. */
+export function componentsOf(geometry: GeometryDescription, role: Part["role"]): 1 | 2 | 3 | 4 {
+  switch (role) {
+    case "index": return 1;
+    case "coord": return 3;
+    case "normal": return isPair(geometry.normalEncoding) ? 2 : 3;
+    case "color": return geometry.colorComponents;
+  }
 }
 
 /** What a vertex (a corner, for the index) weighs in an image, roughly: only for the bar before servers tell sizes. */

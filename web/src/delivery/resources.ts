@@ -2,7 +2,7 @@
 // while somebody holds a lease on it; with the last lease its download is
 // aborted or its image is given back.
 
-import type { DecodedImage, ImageDecoder } from "../decode/image.ts";
+import type { DataImage, ImageDecoder } from "../decode/image.ts";
 import { decodeImage } from "../decode/image.ts";
 import { Backlog } from "../scheduler/backlog.ts";
 import type { DownloadOptions } from "../scheduler/download.ts";
@@ -11,7 +11,7 @@ import type { Scheduler } from "../scheduler/scheduler.ts";
 import type { Transfer } from "./progress.ts";
 
 export type Content =
-  | { readonly kind: "image"; readonly image: DecodedImage }
+  | { readonly kind: "image" } & DataImage
   | { readonly kind: "bytes"; readonly bytes: Uint8Array<ArrayBuffer> };
 
 export interface ResourceRequest {
@@ -174,7 +174,7 @@ class Resource {
   async #decode(kind: Content["kind"], { bytes, leave }: { bytes: Uint8Array<ArrayBuffer>; leave: () => void }): Promise<Content> {
     try {
       if (kind === "bytes") return { kind, bytes };
-      return { kind, image: await decodeImage(bytes, this.#options.decodeImage) };
+      return { kind, ...await decodeImage(bytes, this.#options.decodeImage) };
     } finally {
       leave();
     }

@@ -7,24 +7,30 @@ import type { TexelRange, TextureStage } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { middleOfMissing } from "../document/storedFrame.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
-import { drawRangesOf, stageNameOf } from "./stageBuilder.ts";
+import { drawRangesOf, normalCodeOf, stageNameOf } from "./stageBuilder.ts";
 
 export function sigBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
   const planes: (TexelRange | undefined)[] = [];
   const here: { index?: TexelRange; normal?: TexelRange; color?: TexelRange } = {};
+  const normalCode = normalCodeOf(geometry);
   const corners = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
 
   return {
     accept(part, content) {
       if (content.kind !== "image") throw new DecodeError("malformed", "is no image");
-      const range = { image: content.image, first: part.reference.first };
+      const { image, channels } = content;
+      const range = { image, first: part.reference.first };
+      const isPairs = part.role === "normal" && normalCode.kind !== "vector";
+      const needed = isPairs ? 1 : part.role === "color" ? geometry.colorComponents : 3;
+      if (channels < needed) throw new DecodeError("malformed", `has ${channels} channels where ${needed} are needed`);
       if (part.role === "index") {
         checkHolds(range, corners, patch.implicitWidth);
         here.index = range;
         return;
       }
-      if (patch.index !== undefined) checkHolds(range, patch.vertexCount, content.image.width);
-      else checkHolds(range, corners, patch.implicitWidth);
+      const records = patch.index === undefined ? corners : patch.vertexCount;
+      if (isPairs) checkHolds(range, texelsOf(image) / 2 + records, image.width);
+      else checkHolds(range, records, patch.index === undefined ? patch.implicitWidth : image.width);
       if (part.role === "coord") planes[part.plane] = range;
       else here[part.role] = range;
     },
@@ -47,6 +53,7 @@ export function sigBuilder(geometry: GeometryDescription, patch: PatchDescriptio
         coordPlanes: patch.coord.length,
         middleOfMissing: middleOfMissing(geometry, patch.coord.length, coord.length),
         normal: here.normal,
+        normalCode,
         color: here.color,
         colorComponents: geometry.colorComponents,
       };

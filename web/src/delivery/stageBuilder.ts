@@ -2,8 +2,9 @@
 // whatever order they come, checks each against the document, and says what can
 // be shown with those that are here. A part that never comes is merely absent.
 
-import type { DrawRange, Stage, StageName } from "../decode/stage.ts";
-import type { PatchDescription } from "../document/description.ts";
+import type { DrawRange, NormalCode, Stage, StageName } from "../decode/stage.ts";
+import type { GeometryDescription, PatchDescription } from "../document/description.ts";
+import { isPair } from "../document/geometry.ts";
 import type { Part } from "./parts.ts";
 import type { Content } from "./resources.ts";
 
@@ -12,6 +13,11 @@ export interface StageBuilder {
   accept(part: Part, content: Content): void;
   /** Undefined while nothing can be shown. */
   stage(): Stage | undefined;
+}
+
+export function normalCodeOf({ container, normalEncoding, normalType }: GeometryDescription): NormalCode {
+  if (!isPair(normalEncoding)) return { kind: "vector" };
+  return { kind: normalEncoding, bits: container === "bg" && normalType === "Uint16" ? 16 : 8 };
 }
 
 /** The patch's draws with the running number that each begins at. */

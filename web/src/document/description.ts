@@ -46,6 +46,10 @@ export interface PatchDescription {
 export const elementTypes = ["Int8", "Uint8", "Int16", "Uint16", "Int32", "Uint32", "Float32"] as const;
 export type ElementType = (typeof elementTypes)[number];
 
+/** How unit normals are stored: as three components, as two numbers, or as RGB out of a palette. */
+export const normalEncodings = ["rgb", "octahedral", "spherical", "palette"] as const;
+export type NormalEncoding = (typeof normalEncodings)[number];
+
 export interface GeometryDescription {
   readonly container: "sig" | "bg";
   /** Centre and extent of the box over which stored integers are spread. */
@@ -58,8 +62,8 @@ export interface GeometryDescription {
   readonly texCoordMin: Vec2;
   readonly texCoordSize: Vec2;
   readonly colorComponents: 3 | 4;
-  /** The fourth element of a coordinate record is the normal. Typed arrays only, as the types below. */
-  readonly sphericalNormals: boolean;
+  readonly normalEncoding: NormalEncoding;
+  /** Typed arrays only, as the other types. */
   readonly indexType: ElementType;
   readonly coordType: ElementType;
   readonly normalType: ElementType;
@@ -85,8 +89,6 @@ export interface ShapeDescription {
   readonly visible: boolean;
   /** What the author says of it, of its geometry and of the groups around it, multiplied. */
   readonly priority: number;
-  /** False: the pointer goes through it to what lies behind. */
-  readonly isPickable: boolean;
   /** Tight, in the shape's own coordinates; undefined where neither the shape nor its geometry has one. */
   readonly box: Box3 | undefined;
   readonly material: MaterialDescription;

@@ -211,6 +211,19 @@ describe("a geometry", () => {
     assert.deepEqual(patch.normal, { url: "n.bin+4", first: 0, stride: 4 });
   });
 
+  test("with normals of two numbers says which, and where X3DOM has them", () => {
+    assert.equal(geometryOf('<ImageGeometry coord="a" normal="n" vertexCount="3"/>').normalEncoding, "rgb");
+    assert.equal(geometryOf('<ImageGeometry coord="a" normal="n" normalEncoding="Octahedral"/>').normalEncoding, "octahedral");
+    for (const [coord, first, stride] of [["c.bin", 6, 8], ["c.bin?+8", 6, 8], ["c.bin#24+32", 30, 32]] as const) {
+      const { patches: [patch], ...geometry } = geometryOf(`
+        <BinaryGeometry coordType="Uint16" normalAsSphericalCoordinates="true" normal="ignored" coord="${coord}"/>`);
+      assert.deepEqual([geometry.normalEncoding, geometry.normalType], ["spherical", "Uint8"]);
+      assert.deepEqual([patch?.normal?.url, patch?.normal?.first, patch?.normal?.stride], [patch?.coord[0]?.url, first, stride]);
+    }
+    const wrong = sceneOf('<Shape><BinaryGeometry coord="c" normalAsSphericalCoordinates="true" normalEncoding="cube"/></Shape>');
+    assert.equal(wrong.warnings.length, 2);
+  });
+
   test("with an unknown primitive draws triangles, with an element type unknown the default, and says so", () => {
     const scene = sceneOf('<Shape><BinaryGeometry coordType="Float64" primType="QUADS" vertexCount="3 -1"/></Shape>');
     const geometry = shapesOf(scene.root)[0]?.geometry;

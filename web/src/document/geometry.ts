@@ -4,9 +4,9 @@
 // give the references.
 
 import type {
-  Box3, Draw, ElementType, GeometryDescription, PatchDescription, Primitive, Reference, Warning,
+  Box3, Draw, ElementType, GeometryDescription, NormalEncoding, PatchDescription, Primitive, Reference, Warning,
 } from "./description.ts";
-import { elementTypes } from "./description.ts";
+import { elementTypes, normalEncodings } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
@@ -22,10 +22,9 @@ type Container = GeometryDescription["container"];
 export function readImageGeometry(element: SceneElement, warnings: Warning[]): GeometryDescription {
   const values = readFields(element, nodeFields.ImageGeometry, warnings);
   return {
-    ...commonOf(values),
+    ...commonOf(element, values, warnings),
     container: "sig",
     colorComponents: values.numColorComponents === 4 ? 4 : 3,
-    sphericalNormals: false,
     // The bytes of an image are its only element type.
     indexType: "Uint8", coordType: "Uint8", normalType: "Uint8", texCoordType: "Uint8", colorType: "Uint8",
     patches: readPatches(element, "sig", warnings),
@@ -39,11 +38,10 @@ export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): 
     if (found === undefined) warnings.push({ element, message: `${field}="${values[field]}" is no element type` });
     return found ?? (nodeFields.BinaryGeometry[field].defaultValue as ElementType);
   };
-  return {
-    ...commonOf(values),
+  const geometry: GeometryDescription = {
+    ...commonOf(element, values, warnings),
     container: "bg",
     colorComponents: values.rgbaColors ? 4 : 3,
-    sphericalNormals: values.normalAsSphericalCoordinates,
     indexType: typeOf("indexType"),
     coordType: typeOf("coordType"),
     normalType: typeOf("normalType"),
@@ -51,11 +49,43 @@ export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): 
     colorType: typeOf("colorType"),
     patches: readPatches(element, "bg", warnings),
   };
+  if (!values.normalAsSphericalCoordinates) return geometry;
+  if (geometry.coordType.endsWith("16")) return withNormalsInCoords(geometry);
+  warnings.push({ element, message: `spherical normals in coordinates of type ${geometry.coordType} are not read` });
+  return geometry;
 }
 
-function commonOf(values: Omit<Values<typeof nodeFields.ImageGeometry>, "numColorComponents">) {
+/** X3DOM has spherical normals of one byte each in the fourth element of 16-bit coordinate records. */
+function withNormalsInCoords(geometry: GeometryDescription): GeometryDescription {
+  const patches = geometry.patches.map((patch) => ({ ...patch, normal: fourthElementOf(patch) }));
+  return { ...geometry, normalEncoding: "spherical", normalType: "Uint8", patches };
+}
+
+/** The last two bytes of 16-bit coordinate records, which their three components leave free. */
+function fourthElementOf({ coord: [coord] }: PatchDescription): Reference | undefined {
+  return coord && { url: coord.url, first: coord.first + 6, stride: coord.stride || 8 };
+}
+
+/** Whether a patch's normals are pairs of bytes in the fourth element of its coordinate records. */
+export function hasNormalsInCoords(geometry: GeometryDescription, patch: PatchDescription): boolean {
+  const isBytePair = geometry.normalType === "Uint8" && isPair(geometry.normalEncoding);
+  if (geometry.container !== "bg" || !isBytePair || !geometry.coordType.endsWith("16")) return false;
+  const place = fourthElementOf(patch);
+  return place !== undefined && patch.normal?.url === place.url && patch.normal.first === place.first &&
+    patch.normal.stride === place.stride;
+}
+
+/** Whether normals are two numbers: octahedral x and y, or spherical phi and theta. */
+export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "spherical" {
+  return encoding === "octahedral" || encoding === "spherical";
+}
+
+function commonOf(element: SceneElement, values: Omit<Values<typeof nodeFields.ImageGeometry>, "numColorComponents">,
+                  warnings: Warning[]) {
   const { position, size, positionBits, solid, texCoordMin, texCoordSize } = values;
-  return { position, size, positionBits, solid, texCoordMin, texCoordSize };
+  const normalEncoding = normalEncodings.find((name) => name === values.normalEncoding.trim().toLowerCase());
+  if (normalEncoding === undefined) warnings.push({ element, message: `normalEncoding="${values.normalEncoding}" is none that is known` });
+  return { position, size, positionBits, solid, texCoordMin, texCoordSize, normalEncoding: normalEncoding ?? "rgb" };
 }
 
 /** The box of `bboxCenter` and `bboxSize`; X3D's size -1 -1 -1 says that there is none. */

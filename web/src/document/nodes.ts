@@ -45,6 +45,7 @@ const geometryFields = {
   positionBits: SFInt32(0),
   texCoordMin: SFVec2f([0, 0]),
   texCoordSize: SFVec2f([1, 1]),
+  normalEncoding: SFString("rgb"),
 };
 
 export const nodeFields = {
@@ -89,7 +90,7 @@ export const nodeFields = {
     center: SFVec3f([0, 0, 0]),
     scaleOrientation: SFRotation([0, 0, 1, 0]),
   },
-  Shape: { ...ranked, ...boundedObject, ...seenObject, isPickable: SFBool(true) },
+  Shape: { ...ranked, ...boundedObject, ...seenObject },
   Material: {
     diffuseColor: SFColor([0.8, 0.8, 0.8]),
     specularColor: SFColor([0, 0, 0]),

@@ -10,7 +10,7 @@
 import type { Color, Vector2 } from "three";
 import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshPhongMaterial } from "three";
 import type { MaterialDescription, Vec3 } from "../document/description.ts";
-import type { VertexUniforms } from "./vertexChunk.ts";
+import type { ImageVertexUniforms } from "./vertexChunk.ts";
 import { imageNormalsDefine, imageVerticesDefine, readVerticesIn, replaceEach } from "./vertexChunk.ts";
 
 const x3dLighting = /* glsl */ `
@@ -81,29 +81,33 @@ export interface MaterialRequest {
   readonly colors: VertexColors;
   /** False: both sides are seen. */
   readonly solid: boolean;
-  /** Vertices come from images, not from buffers. */
-  readonly areImages: boolean;
-  readonly uniforms: VertexUniforms;
+  /** How normals are stored, as normalDefinesOf says it. */
+  readonly normalDefines: Readonly<Record<string, string>>;
+  /** Absent for vertices from buffers. */
+  readonly images: ImageVertexUniforms | undefined;
+  /** Along each axis, in the shape's coordinates. */
+  readonly latticeStep: Vec3;
   readonly shared: SceneUniforms;
 }
 
 export type PatchMaterial = (MeshPhongMaterial | MeshBasicMaterial) & { userData: { ambientIntensity?: { value: number } } };
 
 export function makeMaterial(request: MaterialRequest, description: MaterialDescription): PatchMaterial {
-  const { shading, colors, solid, areImages, uniforms, shared } = request;
+  const { shading, colors, solid, images, normalDefines, latticeStep, shared } = request;
   const ambientIntensity = { value: 0 };
   const material: PatchMaterial = shading === "unlit" || shading === "distance" ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
   material.side = solid ? FrontSide : DoubleSide;
   material.vertexColors = colors !== "none";
   material.defines = {
-    ...(areImages && { [imageVerticesDefine]: "" }),
-    ...(areImages && shading === "smooth" && { [imageNormalsDefine]: "" }),
+    ...(images && { [imageVerticesDefine]: "" }),
+    ...(images && shading === "smooth" && { [imageNormalsDefine]: "" }),
+    ...(shading === "smooth" && normalDefines),
     ...(shading === "distance" && { [farnessDefine]: "" }),
   };
   material.userData.ambientIntensity = ambientIntensity;
   material.onBeforeCompile = (shader) => {
-    Object.assign(shader.uniforms, uniforms, { depthRange: shared.depthRange, ambientIntensity });
+    Object.assign(shader.uniforms, images, shared, { ambientIntensity, latticeStep: { value: latticeStep } });
     readVerticesIn(shader);
     shader.vertexShader = farnessDeclarations + replaceEach(shader.vertexShader, [["#include <fog_vertex>", farnessVertex]]);
     shader.fragmentShader = farnessDeclarations + replaceEach(shader.fragmentShader, [

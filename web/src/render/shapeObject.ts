@@ -1,10 +1,11 @@
 // A shape on the screen: the draws of each patch's newest stage, hung into a
 // group for each place where the shape stands in the scene.
 
+import type { Object3D } from "three";
 import { Group } from "three";
 import type { Stage } from "../decode/stage.ts";
 import type { GeometryDescription, MaterialDescription, ShapeDescription } from "../document/description.ts";
-import type { PatchDraws, PatchSetting, PlacedDraw } from "./patchDraws.ts";
+import type { PatchDraws, PatchSetting } from "./patchDraws.ts";
 import { drawStage } from "./patchDraws.ts";
 
 /** What all shapes of a scene share. */
@@ -12,8 +13,8 @@ export type ShapeSetting = Pick<PatchSetting, "geometries" | "textures" | "share
 
 interface ShownPatch {
   readonly draws: PatchDraws;
-  /** The draws in every place. */
-  placed: PlacedDraw[];
+  /** The draws' objects in every place. */
+  readonly objects: Object3D[];
 }
 
 export class ShapeObject {
@@ -21,12 +22,10 @@ export class ShapeObject {
   readonly #groups: Group[] = [];
   readonly #patches = new Map<number, ShownPatch>();
   #material: MaterialDescription;
-  #isPickable: boolean;
 
   constructor(setting: ShapeSetting, shape: ShapeDescription) {
     this.#setting = setting;
     this.#material = shape.material;
-    this.#isPickable = shape.isPickable;
   }
 
   /** The group for the shape's place number `place`, 0, 1, 2 …, which its caller hangs into the scene. */
@@ -36,7 +35,7 @@ export class ShapeObject {
     const group = new Group();
     group.matrixAutoUpdate = false;
     this.#groups[place] = group;
-    for (const shown of this.#patches.values()) hang(shown, group);
+    for (const { draws, objects } of this.#patches.values()) hang(draws.makeObjects(), group, objects);
     return group;
   }
 
@@ -46,16 +45,9 @@ export class ShapeObject {
       group.removeFromParent();
       group.clear();
     }
-    for (const shown of this.#patches.values()) shown.placed = shown.placed.filter(({ object }) => object.parent !== null);
   }
 
-  get isPickable(): boolean {
-    return this.#isPickable;
-  }
-
-  /** Takes over what a changed document says, the geometry apart. */
-  setShape({ material, isPickable }: ShapeDescription): void {
-    this.#isPickable = isPickable;
+  setMaterial(material: MaterialDescription): void {
     this.#material = material;
     for (const { draws } of this.#patches.values()) draws.applyMaterial(material);
   }
@@ -65,15 +57,10 @@ export class ShapeObject {
     const patch = geometry.patches[place];
     if (patch === undefined) throw new RangeError(`no patch ${place}`);
     const before = this.#patches.get(place);
-    const shown = { draws: drawStage(stage, { ...this.#setting, geometry, patch, material: this.#material }), placed: [] };
-    for (const group of this.#groups) hang(shown, group);
+    const shown = { draws: drawStage(stage, { ...this.#setting, geometry, patch, material: this.#material }), objects: [] };
+    for (const group of this.#groups) hang(shown.draws.makeObjects(), group, shown.objects);
     this.#patches.set(place, shown);
     if (before !== undefined) takeAway(before);
-  }
-
-  /** Every draw in every place, with the number of its patch. */
-  *placedDraws(): Generator<PlacedDraw & { patch: number }> {
-    for (const [patch, { placed }] of this.#patches) for (const draw of placed) yield { ...draw, patch };
   }
 
   clear(): void {
@@ -87,14 +74,12 @@ export class ShapeObject {
   }
 }
 
-function hang(shown: ShownPatch, group: Group): void {
-  for (const placed of shown.draws.place()) {
-    group.add(placed.object);
-    shown.placed.push(placed);
-  }
+function hang(objects: Object3D[], group: Group, all: Object3D[]): void {
+  group.add(...objects);
+  all.push(...objects);
 }
 
-function takeAway({ draws, placed }: ShownPatch): void {
-  for (const { object } of placed) object.removeFromParent();
+function takeAway({ draws, objects }: ShownPatch): void {
+  for (const object of objects) object.removeFromParent();
   draws.dispose();
 }

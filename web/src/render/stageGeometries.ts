@@ -1,8 +1,9 @@
 // The three.js geometries of a stage, one per draw, shared by everything that
 // shows the stage and freed with the last of it.
 
+import type { TypedArray } from "three";
 import { BufferAttribute, BufferGeometry, InterleavedBuffer, InterleavedBufferAttribute } from "three";
-import type { DrawRange, Stage, VertexArray } from "../decode/stage.ts";
+import type { BufferStage, DrawRange, Stage, VertexArray } from "../decode/stage.ts";
 
 interface Entry {
   readonly geometries: readonly BufferGeometry[];
@@ -32,13 +33,8 @@ export class GeometryPool {
 
 function geometriesOf(stage: Stage): BufferGeometry[] {
   if (stage.kind === "textures") return stage.draws.map(emptyGeometryOf);
-  const { coord, normal, color, index } = stage;
-  const attributes = {
-    position: attributeOf(coord, false),
-    ...(normal && { normal: attributeOf(normal, true) }),
-    ...(color && { color: attributeOf(color, true) }),
-  };
-  const indices = index && new BufferAttribute(index, 1);
+  const attributes = attributesOf(stage);
+  const indices = stage.index && new BufferAttribute(stage.index, 1);
   return stage.draws.map(({ first, count }) => {
     const geometry = new BufferGeometry();
     for (const [name, attribute] of Object.entries(attributes)) geometry.setAttribute(name, attribute);
@@ -55,7 +51,25 @@ function emptyGeometryOf({ primitive, count }: DrawRange): BufferGeometry {
   return geometry;
 }
 
-function attributeOf({ array, components, stride }: VertexArray, isSpread: boolean): InterleavedBufferAttribute {
-  const normalized = isSpread && !(array instanceof Float32Array);
-  return new InterleavedBufferAttribute(new InterleavedBuffer(array, stride), components, 0, normalized);
+/** Attributes of one type in the records of one file share its buffer. */
+function attributesOf({ coord, normal, normalCode, color }: BufferStage): Readonly<Record<string, InterleavedBufferAttribute>> {
+  const buffers: InterleavedBuffer[] = [];
+  const bufferOf = ({ array, stride }: VertexArray): InterleavedBuffer => {
+    const shared = buffers.find((other) => other.stride === stride && isSameView(other.array, array));
+    if (shared !== undefined) return shared;
+    const buffer = new InterleavedBuffer(array, stride);
+    buffers.push(buffer);
+    return buffer;
+  };
+  const attributeOf = (vertices: VertexArray, isSpread: boolean) => new InterleavedBufferAttribute(
+    bufferOf(vertices), vertices.components, vertices.offset, isSpread && !(vertices.array instanceof Float32Array));
+  return {
+    position: attributeOf(coord, false),
+    ...(normal && { normal: attributeOf(normal, normalCode.kind === "vector") }),
+    ...(color && { color: attributeOf(color, true) }),
+  };
+}
+
+function isSameView(a: TypedArray, b: TypedArray): boolean {
+  return a.constructor === b.constructor && a.buffer === b.buffer && a.byteOffset === b.byteOffset && a.length === b.length;
 }

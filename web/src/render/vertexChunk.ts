@@ -9,17 +9,10 @@
 // that patches share then go through the same arithmetic, and no crack opens.
 
 import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "three";
-import type { Vec3 } from "../document/description.ts";
+import type { NormalCode } from "../decode/stage.ts";
 
-/** What both bodies read, as uniforms. */
-export interface VertexUniforms extends Record<string, IUniform> {
-  pointSize: IUniform<number>;
-  /** Along each axis, in the shape's coordinates. */
-  latticeStep: IUniform<Vec3>;
-}
-
-/** What the image body reads besides. Textures that have not come are null and read as 0. */
-export interface ImageVertexUniforms extends VertexUniforms {
+/** What the image body reads, as uniforms. Textures that have not come are null and read as 0. */
+export interface ImageVertexUniforms extends Record<string, IUniform> {
   indexImage: IUniform<Texture | null>;
   coordImage0: IUniform<Texture | null>;
   coordImage1: IUniform<Texture | null>;
@@ -44,6 +37,16 @@ export interface ImageVertexUniforms extends VertexUniforms {
 export const imageVerticesDefine = "IMAGE_VERTICES";
 export const imageNormalsDefine = "IMAGE_NORMALS";
 
+/** How a material's normals are stored, as defines; none for vectors. `isWord`: both numbers in one of 16 bits. */
+export function normalDefinesOf(code: NormalCode, isWord: boolean): Record<string, string> {
+  if (code.kind === "vector") return {};
+  return {
+    [code.kind === "octahedral" ? "OCTAHEDRAL_NORMALS" : "SPHERICAL_NORMALS"]: "",
+    NORMAL_LARGEST: `${2 ** code.bits - 1}.0`,
+    ...(isWord && { NORMAL_WORDS: "" }),
+  };
+}
+
 // three.js shades flat whatever has no buffer of normals.
 const ownNormalsChunk = /* glsl */ `
 #ifdef ${imageNormalsDefine}
@@ -52,14 +55,30 @@ const ownNormalsChunk = /* glsl */ `
 `;
 
 const readVertexChunk = /* glsl */ `
-uniform float pointSize;
-uniform vec3 latticeStep;
-
 struct Vertex {
   vec3 position;
   vec3 normal;
   vec4 color;
 };
+
+#if defined(OCTAHEDRAL_NORMALS)
+
+// Meyer et al. 2010; the largest number counts as the one before it, so that the axes are exact.
+vec3 unitOf(vec2 pair) {
+  vec2 p = min(pair, NORMAL_LARGEST - 1.0) * (2.0 / (NORMAL_LARGEST - 1.0)) - 1.0;
+  vec3 unit = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+  if (unit.z < 0.0) unit.xy = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
+  return normalize(unit);
+}
+
+#elif defined(SPHERICAL_NORMALS)
+
+vec3 unitOf(vec2 pair) {
+  vec2 angles = PI * vec2(2.0, 1.0) * pair / NORMAL_LARGEST - vec2(PI, 0.0);
+  return vec3(sin(angles.y) * cos(angles.x), sin(angles.y) * sin(angles.x), cos(angles.y));
+}
+
+#endif
 
 #ifdef ${imageVerticesDefine}
 
@@ -76,10 +95,10 @@ uniform bool colorHasAlpha;
 
 // Strips are drawn as separate triangles, three.js knows no others: triangle t
 // is t, t + 1, t + 2, its first two exchanged where t is odd.
-int runningNumber(int drawnNumber) {
-  if (!isStrip) return firstNumber + drawnNumber;
-  int triangle = drawnNumber / 3;
-  int corner = drawnNumber % 3;
+int runningNumber() {
+  if (!isStrip) return firstNumber + gl_VertexID;
+  int triangle = gl_VertexID / 3;
+  int corner = gl_VertexID % 3;
   return firstNumber + triangle + (corner == 2 ? 2 : corner ^ (triangle & 1));
 }
 
@@ -100,32 +119,50 @@ uvec3 bytesOf(vec4 texel) {
 
 // An index texel holds column and row of a record in units of 1/256 of the
 // coordinate image (docs/formats/nodes.md, "Stored values").
-int recordNumber(int drawnNumber) {
-  int running = runningNumber(drawnNumber);
-  if (!hasIndex) return texelNumber(coordImage0, running);
-  int n = texelNumber(indexImage, running);
+int recordNumber() {
+  if (!hasIndex) return runningNumber();
+  int n = texelNumber(indexImage, runningNumber());
   ivec2 place = ivec2(bytesOf(texelOf(indexImage, firstTexels.x, n)).rg);
   ivec2 size = textureSize(coordImage0, 0);
   ivec2 texel = (place * size + 128) >> 8;
   return texel.y * size.x + texel.x;
 }
 
-vec3 storedPosition(int record) {
-  uvec3 stored = bytesOf(texelOf(coordImage0, coordFirstTexels.x, record));
-  if (coordPlanes > 1) stored = (stored << 8) | bytesOf(texelOf(coordImage1, coordFirstTexels.y, record));
-  if (coordPlanes > 2) stored = (stored << 8) | bytesOf(texelOf(coordImage2, coordFirstTexels.z, record));
-  if (coordPlanes > 3) stored = (stored << 8) | bytesOf(texelOf(coordImage3, coordFirstTexels.w, record));
-  return vec3(stored) + middleOfMissing;
+vec3 readNormal(int record, int texel) {
+  #ifdef NORMAL_LARGEST
+    ivec2 size = textureSize(normalImage, 0);
+    int first = firstTexels.y;
+    return unitOf(255.0 * vec2(texelOf(normalImage, first, record).r,
+                               texelOf(normalImage, first + size.x * size.y / 2, record).r));
+  #else
+    return texelOf(normalImage, firstTexels.y, texel).rgb * 2.0 - 1.0;
+  #endif
 }
 
 Vertex readVertex() {
-  int record = recordNumber(gl_VertexID);
-  vec4 color = texelOf(colorImage, firstTexels.z, record);
+  int record = recordNumber();
+  int n = hasIndex ? record : texelNumber(coordImage0, record);
+  uvec3 stored = bytesOf(texelOf(coordImage0, coordFirstTexels.x, n));
+  if (coordPlanes > 1) stored = (stored << 8) | bytesOf(texelOf(coordImage1, coordFirstTexels.y, n));
+  if (coordPlanes > 2) stored = (stored << 8) | bytesOf(texelOf(coordImage2, coordFirstTexels.z, n));
+  if (coordPlanes > 3) stored = (stored << 8) | bytesOf(texelOf(coordImage3, coordFirstTexels.w, n));
+  vec4 color = texelOf(colorImage, firstTexels.z, n);
   if (!colorHasAlpha) color.a = 1.0;
-  return Vertex(storedPosition(record), texelOf(normalImage, firstTexels.y, record).rgb * 2.0 - 1.0, color);
+  return Vertex(vec3(stored) + middleOfMissing, readNormal(record, n), color);
 }
 
 #else
+
+vec3 readNormal() {
+  #if defined(NORMAL_WORDS)
+    float word = normal.x < 0.0 ? normal.x + 65536.0 : normal.x; // X3DOM's, in records of Int16
+    return unitOf(vec2(mod(word, 256.0), floor(word / 256.0)));
+  #elif defined(NORMAL_LARGEST)
+    return unitOf(normal.xy);
+  #else
+    return normal;
+  #endif
+}
 
 Vertex readVertex() {
   #if defined(USE_COLOR_ALPHA)
@@ -135,7 +172,7 @@ Vertex readVertex() {
   #else
     vec4 vertexColor = vec4(1.0);
   #endif
-  return Vertex(position, normal, vertexColor);
+  return Vertex(position, readNormal(), vertexColor);
 }
 
 #endif
@@ -151,7 +188,7 @@ const colorChunk = /* glsl */ `
 export function readVerticesIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
   shader.fragmentShader = ownNormalsChunk + shader.fragmentShader;
   shader.vertexShader = ownNormalsChunk + replaceEach(shader.vertexShader, [
-    ["#include <common>", `#include <common>\n${readVertexChunk}`],
+    ["#include <common>", `#include <common>\nuniform float pointSize;\nuniform vec3 latticeStep;\n${readVertexChunk}`],
     ["void main() {", "void main() {\n  Vertex vertex = readVertex();\n  gl_PointSize = pointSize;"],
     ["#include <color_vertex>", colorChunk],
     // Normals are the shape's own; the normal matrix takes the lattice's steps out of them again.

@@ -1,0 +1,40 @@
+#pragma once
+// What the attributes of wedges have in common: docs/formats/compact.md, "Attributes".
+
+#include "containers/compact/compact_patch.h"
+#include "containers/compact/prediction.h"
+#include "containers/compact/symbols.h"
+#include "containers/compact/wedges.h"
+
+namespace imgeo::compact {
+
+namespace attributeModels {
+inline constexpr std::size_t repeat = 0, choice = repeat + 1, flip = choice + 24, first = flip + 1,
+                             second = first + numberModels, count = second + 93 * numberModels;
+}
+
+/// What attributes are predicted from.
+struct Surface {
+  Topology topology;
+  const Connectivity& connectivity;
+  const Wedges& wedges;
+  const std::vector<Vec3u>& positions;
+  const NormalSums& normalSums; ///< per vertex; of triangles alone
+  std::uint32_t normalShift;
+
+  bool hasSeams() const { return wedges.count() > positions.size(); }
+};
+
+/// Whether each wedge repeats the value of the one made before at its vertex.
+template <typename Coder>
+std::vector<bool> codeRepeats(Coder& coder, const Surface& surface, const std::vector<Value>& values) {
+  const Wedges& wedges = surface.wedges;
+  std::vector<bool> repeats(wedges.count());
+  for (std::uint32_t wedge = 0; wedge < wedges.count(); ++wedge)
+    if (const std::uint32_t previous = wedges.previous[wedge]; previous != none)
+      repeats[wedge] =
+          coder.bit(attributeModels::repeat, Coder::encodes && values[wedge] == values[previous]);
+  return repeats;
+}
+
+} // namespace imgeo::compact

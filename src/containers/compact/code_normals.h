@@ -1,0 +1,111 @@
+#pragma once
+// Normals as residuals to the normal of the decoded surface, in integers, so that
+// every decoder gets the same: docs/formats/compact.md, "Normals".
+
+#include "containers/compact/code_attributes.h"
+
+namespace imgeo::compact {
+
+/// A point of the octahedron |x| + |y| + |z| = radius, all but its dominant
+/// coordinate rounded; the dominant one takes what is left.
+struct OctahedronPoint {
+  int axis = 2, u = 0, v = 1; ///< the dominant axis, the next, the one after
+  std::int64_t atU = 0, atV = 0;
+  bool isNegative = false; ///< on the dominant axis
+};
+
+/// In a direction; (0, 0, 1) for none.
+inline OctahedronPoint octahedronPoint(const Place& direction, std::int64_t radius) {
+  OctahedronPoint point;
+  point.axis = dominantAxis(direction);
+  point.u = (point.axis + 1) % 3;
+  point.v = (point.axis + 2) % 3;
+  point.isNegative = direction[point.axis] < 0;
+  const std::int64_t sum = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
+  const auto rounded = [&](std::int64_t component) {
+    const std::int64_t size = sum > 0 ? (2 * radius * std::abs(component) + sum) / (2 * sum) : 0;
+    return component < 0 ? -size : size;
+  };
+  point.atU = rounded(direction[point.u]);
+  point.atV = rounded(direction[point.v]);
+  return point;
+}
+
+inline Value valueOf(const OctahedronPoint& point, std::int64_t radius) {
+  const std::int64_t rest = radius - std::abs(point.atU) - std::abs(point.atV);
+  Value value;
+  value[static_cast<std::uint32_t>(point.u)] = static_cast<std::int32_t>(point.atU);
+  value[static_cast<std::uint32_t>(point.v)] = static_cast<std::int32_t>(point.atV);
+  value[static_cast<std::uint32_t>(point.axis)] = static_cast<std::int32_t>(point.isNegative ? -rest : rest);
+  return value;
+}
+
+/// The sums of the normals around each wedge and those that repeat it.
+inline NormalSums sumsOfWedges(const Surface& surface, const std::vector<bool>& repeats, bool isUniform) {
+  const Wedges& wedges = surface.wedges;
+  std::vector<std::uint32_t> repeated(wedges.count());
+  for (std::uint32_t wedge = 0; wedge < wedges.count(); ++wedge)
+    repeated[wedge] = repeats[wedge] ? repeated[wedges.previous[wedge]] : wedge;
+  NormalSums sums(wedges.count(), surface.normalShift);
+  for (std::size_t corner = 0; corner < wedges.ofCorner.size(); corner += 3) {
+    const auto position = [&](std::size_t i) {
+      return surface.positions[surface.connectivity.vertex[corner + i]];
+    };
+    Vec3<std::int32_t> normal = sums.normalOf(position(0), position(1), position(2));
+    if (isUniform) {
+      const Place n(normal);
+      const std::int64_t size = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+      for (int axis = 0; axis < 3 && size > 0; ++axis)
+        normal[axis] = static_cast<std::int32_t>(4096 * n[axis] / size);
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+      sums.add(repeated[wedges.ofCorner[corner + i]], normal);
+  }
+  return sums;
+}
+
+template <typename Coder>
+Value codeNormal(Coder& coder, OctahedronPoint point, std::int64_t radius, const Value& value) {
+  const auto at = [&](int axis) { return value[static_cast<std::uint32_t>(axis)]; };
+  const SignedNumber du = codeSigned(coder, attributeModels::first, at(point.u) - point.atU);
+  const std::size_t models = attributeModels::second + numberModels * std::min(du.length, 7u);
+  const SignedNumber dv = codeSigned(coder, models, at(point.v) - point.atV);
+  point.atU += du.value;
+  point.atV += dv.value;
+  const std::int64_t rest = radius - std::abs(point.atU) - std::abs(point.atV);
+  coder.require(rest >= 0, "a normal lies beyond the octahedron");
+  if (rest > 0 && coder.bit(attributeModels::flip, (at(point.axis) < 0) != point.isNegative))
+    point.isNegative = !point.isNegative;
+  return valueOf(point, radius);
+}
+
+template <typename Coder>
+void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type,
+                 std::vector<Value>& values) {
+  const Wedges& wedges = surface.wedges;
+  const std::int64_t radius = (std::int64_t{1} << (type.bits - 1)) - 1;
+  std::vector<bool> repeats(wedges.count());
+  if (surface.hasSeams() && !type.isDerived())
+    repeats = codeRepeats(coder, surface, values);
+  const bool hasTriangles = surface.topology == Topology::triangles;
+  const bool ofVertices = !surface.hasSeams() && !type.isUniform();
+  const NormalSums ofWedges =
+      hasTriangles && !ofVertices ? sumsOfWedges(surface, repeats, type.isUniform()) : NormalSums(0, 0);
+  const NormalSums& sums = ofVertices ? surface.normalSums : ofWedges;
+  for (std::uint32_t wedge = 0; wedge < wedges.count(); ++wedge) {
+    if (repeats[wedge]) {
+      values[wedge] = values[wedges.previous[wedge]];
+      continue;
+    }
+    Place direction;
+    if (hasTriangles)
+      direction = Place(sums[wedge]);
+    else if (wedge > 0)
+      direction = {values[wedge - 1][0], values[wedge - 1][1], values[wedge - 1][2]};
+    const OctahedronPoint point = octahedronPoint(direction, radius);
+    values[wedge] =
+        type.isDerived() ? valueOf(point, radius) : codeNormal(coder, point, radius, values[wedge]);
+  }
+}
+
+} // namespace imgeo::compact

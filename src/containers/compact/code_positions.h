@@ -1,0 +1,180 @@
+#pragma once
+// One loop codes positions both ways: docs/formats/compact.md, "Positions".
+
+#include "containers/compact/grid.h"
+#include "containers/compact/prediction.h"
+#include "containers/compact/symbols.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace imgeo::compact {
+
+namespace positionModels {
+inline constexpr std::size_t choice = 0, first = choice + 8 * 16 * 4, second = first + 16 * numberModels,
+                             third = second + 31 * numberModels, count = third + 31 * numberModels,
+                             lone = count, line = lone + 8 * numberModels, mask = line + 96 * numberModels,
+                             countWithGrid = mask + 512 * 8;
+} // namespace positionModels
+
+/// What is known of a vertex before its coordinates.
+struct VertexContext {
+  Slope slope;
+  std::uint32_t agreement = 0;
+  std::uint32_t mask = 0; ///< axes on the grid
+
+  /// Axes on the grid first, of the others the surface's dominant one last.
+  std::array<int, 3> order() const {
+    std::array<int, 3> axes{};
+    std::size_t count = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      if (mask >> axis & 1)
+        axes[count++] = axis;
+    for (int turn = 1; turn <= 3; ++turn)
+      if (const int axis = (slope.axis + turn) % 3; !(mask >> axis & 1))
+        axes[count++] = axis;
+    return axes;
+  }
+};
+
+template <typename Coder> class PositionCoder {
+public:
+  /// `positions` are those of an encoder, or room for a decoder's. All are kept by reference.
+  PositionCoder(Coder& coder, const Connectivity& connectivity, std::uint32_t bits,
+                const std::optional<Grid>& grid, std::uint32_t normalShift, std::vector<Vec3u>& positions)
+      : coder_(coder), connectivity_(connectivity), bits_(bits), maximum_((std::int64_t{1} << bits) - 1),
+        grid_(grid), positions_(positions),
+        sums_(connectivity.across.empty() ? 0 : positions.size(), normalShift),
+        masks_(grid ? positions.size() : 0) {}
+
+  /// Returns the sums of the triangle normals around each vertex; nothing for points and lines.
+  NormalSums run() {
+    const std::vector<std::uint32_t>& vertex = connectivity_.vertex;
+    for (std::uint32_t triangle = 0; triangle < connectivity_.across.size(); ++triangle) {
+      const std::uint32_t* corner = &vertex[std::size_t{triangle} * 3];
+      for (std::uint32_t i = 0; i < 3; ++i)
+        if (corner[i] == next_)
+          codeVertex(connectivity_.across[triangle]);
+      const auto normal = sums_.normalOf(positions_[corner[0]], positions_[corner[1]], positions_[corner[2]]);
+      for (std::uint32_t i = 0; i < 3; ++i)
+        sums_.add(corner[i], normal);
+    }
+    while (next_ < positions_.size()) // points and lines
+      codeVertex(none);
+    return std::move(sums_);
+  }
+
+private:
+  void codeVertex(std::uint32_t across) {
+    const std::uint32_t vertex = next_++;
+    const Candidates candidates = candidatesFor(vertex, across, connectivity_, positions_, bits_);
+    VertexContext context;
+    context.agreement = candidates.agreement();
+    if (across != none)
+      context.slope =
+          Slope(sums_[connectivity_.vertex[before(across)]], sums_[connectivity_.vertex[after(across)]]);
+    if (grid_)
+      context.mask = codeMask(vertex, across);
+    std::uint32_t choice = 0;
+    if constexpr (Coder::encodes)
+      choice = cheapest(candidates, context, positions_[vertex]);
+    choice = codeChoice(coder_, candidates, context, choice);
+    codeCoordinates(coder_, candidates.places[choice], context, positions_[vertex]);
+  }
+
+  std::uint32_t codeMask(std::uint32_t vertex, std::uint32_t across) {
+    std::uint32_t neighbours = 0, mask = 0;
+    if (across != none)
+      for (const std::uint32_t corner : {before(across), after(across), across})
+        neighbours = neighbours * 8 + masks_[connectivity_.vertex[corner]];
+    if constexpr (Coder::encodes)
+      mask = gridMask(*grid_, positions_[vertex]);
+    mask = codeTree(coder_, positionModels::mask + 8 * neighbours, 3, mask);
+    masks_[vertex] = static_cast<std::uint8_t>(mask);
+    return mask;
+  }
+
+  /// What the models would charge least for.
+  std::uint32_t cheapest(const Candidates& candidates, const VertexContext& context, Vec3u position) {
+    std::uint32_t best = 0;
+    float least = std::numeric_limits<float>::infinity();
+    for (std::uint32_t i = 0; i < candidates.count && candidates.count > 1; ++i) {
+      CostMeter meter(coder_);
+      codeChoice(meter, candidates, context, i);
+      codeCoordinates(meter, candidates.places[i], context, position);
+      if (meter.cost() < least)
+        least = meter.cost(), best = i;
+    }
+    return best;
+  }
+
+  template <typename C>
+  static std::uint32_t codeChoice(C& coder, const Candidates& candidates, const VertexContext& context,
+                                  std::uint32_t choice) {
+    const std::size_t models = positionModels::choice + (candidates.set * 16 + context.agreement) * 4;
+    std::uint32_t i = 0;
+    while (i + 1 < candidates.count && !coder.bit(models + i, i == choice))
+      ++i;
+    return i;
+  }
+
+  template <typename C>
+  void codeCoordinates(C& coder, const Place& guess, const VertexContext& context, Vec3u& position) const {
+    const std::array<int, 3> order = context.order();
+    std::uint32_t steps = 0, offGrid = 0, length = 0, longest = 0;
+    for (std::size_t turn = 0; turn < 3; ++turn) {
+      const int axis = order[turn];
+      std::int64_t expected = std::clamp<std::int64_t>(guess[axis], 0, maximum_), coordinate = position[axis];
+      if (context.mask >> axis & 1) {
+        const std::int64_t line = nearestGridLine(*grid_, axis, expected);
+        const std::size_t models =
+            positionModels::line +
+            numberModels * ((turn * 4 + std::min(steps, 3u)) * 8 + context.agreement / 2);
+        const std::int64_t moved =
+            codeSigned(coder, models, nearestGridLine(*grid_, axis, coordinate) - line).value;
+        steps += static_cast<std::uint32_t>(std::min<std::int64_t>(std::abs(moved), 7));
+        coordinate = gridLine(*grid_, axis, line + moved);
+      } else {
+        if (turn == 2)
+          expected = onSlope(guess, context.slope, order, position);
+        std::size_t models = positionModels::third + numberModels * longest;
+        if (offGrid == 0)
+          models = turn == 2 ? positionModels::lone + numberModels * std::min(steps, 7u)
+                             : positionModels::first + numberModels * context.agreement;
+        else if (offGrid == 1)
+          models = positionModels::second + numberModels * length;
+        const SignedNumber residual = codeSigned(coder, models, coordinate - expected);
+        ++offGrid;
+        length = residual.length;
+        longest = std::max(longest, length);
+        coordinate = expected + residual.value;
+      }
+      coder.require(coordinate >= 0 && coordinate <= maximum_, "a coordinate lies outside of the lattice");
+      position[axis] = static_cast<std::uint32_t>(coordinate);
+    }
+  }
+
+  /// The last coordinate at which the plane of the surface passes through the other two.
+  std::int64_t onSlope(const Place& guess, const Slope& slope, const std::array<int, 3>& order,
+                       const Vec3u& position) const {
+    const int u = order[0], v = order[1], axis = order[2];
+    std::int64_t expected = guess[axis];
+    if (const std::int64_t height = slope.normal[axis]; height != 0)
+      expected -= (slope.normal[u] * (std::int64_t{position[u]} - guess[u]) +
+                   slope.normal[v] * (std::int64_t{position[v]} - guess[v])) /
+                  height;
+    return std::clamp<std::int64_t>(expected, 0, maximum_);
+  }
+
+  Coder& coder_;
+  const Connectivity& connectivity_;
+  std::uint32_t bits_;
+  std::int64_t maximum_;
+  const std::optional<Grid>& grid_;
+  std::vector<Vec3u>& positions_;
+  NormalSums sums_;
+  std::vector<std::uint8_t> masks_;
+  std::uint32_t next_ = 0;
+};
+
+} // namespace imgeo::compact

@@ -1,0 +1,70 @@
+#pragma once
+// A patch in integers: exactly what a file of compact holds, and what comes back
+// of it, but for the order of its elements, corners, vertices and wedges.
+
+#include "base/vec.h"
+#include "scene/mesh.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace imgeo::compact {
+
+enum class AttributeKind : std::uint8_t { normal, texCoord, color, other };
+
+/// How a normal is predicted, and whether the prediction is the normal.
+enum class NormalMode : std::uint8_t { area, uniform, derivedArea, derivedUniform };
+
+struct AttributeType {
+  AttributeKind kind = AttributeKind::other;
+  std::uint8_t components = 1, bits = 8;
+  NormalMode mode = NormalMode::area; ///< normals only; 0 elsewhere
+
+  bool isDerived() const { return mode == NormalMode::derivedArea || mode == NormalMode::derivedUniform; }
+  bool isUniform() const { return mode == NormalMode::uniform || mode == NormalMode::derivedUniform; }
+  friend bool operator==(const AttributeType&, const AttributeType&) = default;
+};
+
+/// One value of an attribute; components beyond those of its type are 0.
+struct Value {
+  std::array<std::int32_t, 4> components{};
+
+  std::int32_t& operator[](std::uint32_t i) { return components[i]; }
+  std::int32_t operator[](std::uint32_t i) const { return components[i]; }
+  friend bool operator==(const Value&, const Value&) = default;
+};
+
+struct Attribute {
+  AttributeType type;
+  /// Per wedge. A normal is a point of the octahedron |x| + |y| + |z| = 2^(bits - 1) - 1,
+  /// everything else 0 .. 2^bits - 1 a component.
+  std::vector<Value> values;
+  friend bool operator==(const Attribute&, const Attribute&) = default;
+};
+
+/// The planes on which isosurfaces have their vertices: coordinate number i of an
+/// axis is round(origin + i * step), both in 1/65536 lattice steps.
+struct Grid {
+  Vec3u origin, step;
+  friend bool operator==(const Grid&, const Grid&) = default;
+};
+
+struct CompactPatch {
+  Topology topology = Topology::triangles;
+  std::uint32_t positionBits = 16;           ///< 1 .. 30
+  std::vector<Vec3u> positions;              ///< per vertex, 0 .. 2^positionBits - 1
+  std::vector<std::uint32_t> wedgePositions; ///< wedge -> vertex
+  std::vector<std::uint32_t> corners;        ///< corner -> wedge, cornersPerElement(topology) an element
+  std::vector<Attribute> attributes;
+
+  std::size_t wedgeCount() const { return wedgePositions.size(); }
+  std::size_t elementCount() const { return corners.size() / cornersPerElement(topology); }
+};
+
+/// What a patch may hold at most, of vertices, wedges and elements.
+inline constexpr std::uint32_t maxPatchCount = 1u << 20;
+inline constexpr std::uint32_t maxAttributes = 16;
+
+} // namespace imgeo::compact

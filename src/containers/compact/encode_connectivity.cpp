@@ -1,0 +1,121 @@
+#include "containers/compact/conquest.h"
+#include "containers/compact/edge_table.h"
+#include "containers/compact/lines.h"
+
+namespace imgeo::compact {
+
+namespace {
+
+/// Knows the source's triangles and says at each edge which one lies across.
+class TriangleGuide {
+public:
+  TriangleGuide(std::span<const std::uint32_t> vertices, std::uint32_t vertexCount,
+                std::uint32_t firstTriangle, std::vector<std::uint32_t>& sourceCorner)
+      : vertices_(vertices), edges_(vertices), numbers_(vertexCount, none), latestNodes_(vertexCount, none),
+        nextRoot_(firstTriangle), sourceCorner_(sourceCorner) {
+    sources_.reserve(vertexCount);
+    sourceCorner_.clear();
+    sourceCorner_.reserve(vertices.size());
+  }
+
+  void beginRoot() {
+    if (edges_.isTaken(nextRoot_))
+      for (nextRoot_ = lowestRoot_; edges_.isTaken(nextRoot_);)
+        lowestRoot_ = ++nextRoot_;
+    take(3 * nextRoot_);
+  }
+  std::uint32_t rootVertex(std::uint32_t i) const { return numbers_[vertices_[3 * nextRoot_ + i]]; }
+  void numberRootVertex(std::uint32_t i, std::uint32_t number) {
+    giveNumber(vertices_[3 * nextRoot_ + i], number);
+  }
+
+  void addNode(std::uint32_t node, std::uint32_t vertex) {
+    assert(node == olderNodes_.size());
+    olderNodes_.push_back(latestNodes_[vertex]);
+    latestNodes_[vertex] = node;
+  }
+
+  Step stepAcross(const Gate& gate, const std::vector<Node>& nodes) {
+    const std::uint32_t corner = edges_.find(sources_[nodes[gate.k].vertex], sources_[nodes[gate.p].vertex]);
+    if (corner == none)
+      return Step::hole;
+    take(corner);
+    targetSource_ = vertices_[before(corner)];
+    targetVertex_ = numbers_[targetSource_];
+    if (targetVertex_ == none)
+      return Step::make;
+    if (gate.next != none && nodes[gate.next].vertex == targetVertex_)
+      return Step::close;
+    if (gate.behind != none && nodes[gate.behind].vertex == targetVertex_)
+      return Step::back;
+    targetNode_ = findNode(gate, nodes);
+    return targetNode_ == none ? Step::reuse : Step::join;
+  }
+  void numberTarget(std::uint32_t number) { giveNumber(targetSource_, number); }
+  std::uint32_t targetVertex() const { return targetVertex_; }
+  std::uint32_t targetNode() const { return targetNode_; }
+
+private:
+  void giveNumber(std::uint32_t source, std::uint32_t number) {
+    assert(number == sources_.size());
+    numbers_[source] = number;
+    sources_.push_back(source);
+  }
+
+  /// Takes the triangle of a corner, which becomes its first.
+  void take(std::uint32_t corner) {
+    edges_.take(corner / 3);
+    sourceCorner_.insert(sourceCorner_.end(), {corner, after(corner), before(corner)});
+  }
+
+  /// A living node of the target behind the pivot. Of a vertex with very many, the
+  /// latest are looked at: any choice is right, and time stays linear.
+  std::uint32_t findNode(const Gate& gate, const std::vector<Node>& nodes) const {
+    std::uint32_t node = latestNodes_[targetVertex_];
+    for (int looks = 16; looks > 0 && node != none && node > gate.k; --looks, node = olderNodes_[node])
+      if (nodes[node].isAlive() && node != gate.p)
+        return node;
+    return none;
+  }
+
+  std::span<const std::uint32_t> vertices_;
+  EdgeTable edges_;
+  std::vector<std::uint32_t> numbers_;                  ///< source vertex -> number
+  std::vector<std::uint32_t> sources_;                  ///< number -> source vertex
+  std::vector<std::uint32_t> latestNodes_, olderNodes_; ///< lists of nodes, one a vertex
+  std::uint32_t nextRoot_, lowestRoot_ = 0;
+  std::uint32_t targetSource_ = none, targetVertex_ = none, targetNode_ = none;
+  std::vector<std::uint32_t>& sourceCorner_;
+};
+
+/// Numbers the vertices of lines as they come.
+class LineGuide {
+public:
+  LineGuide(std::span<const std::uint32_t> vertices, std::uint32_t vertexCount)
+      : vertices_(vertices), numbers_(vertexCount, none) {}
+
+  bool isChained(std::uint32_t line) const { return vertices_[2 * line] == vertices_[2 * line - 1]; }
+  std::uint32_t number(std::uint32_t corner) const { return numbers_[vertices_[corner]]; }
+  void giveNumber(std::uint32_t corner, std::uint32_t number) { numbers_[vertices_[corner]] = number; }
+
+private:
+  std::span<const std::uint32_t> vertices_;
+  std::vector<std::uint32_t> numbers_;
+};
+
+} // namespace
+
+Connectivity encodeTriangles(RangeEncoder& encoder, std::span<const std::uint32_t> vertices,
+                             std::uint32_t vertexCount, std::uint32_t firstTriangle,
+                             std::vector<std::uint32_t>& sourceCorner) {
+  TriangleGuide guide(vertices, vertexCount, firstTriangle, sourceCorner);
+  return Conquest(encoder, guide, static_cast<std::uint32_t>(vertices.size() / 3), vertexCount).run();
+}
+
+Connectivity encodeLines(RangeEncoder& encoder, std::span<const std::uint32_t> vertices,
+                         std::uint32_t vertexCount) {
+  LineGuide guide(vertices, vertexCount);
+  return codeLines(encoder, guide, static_cast<std::uint32_t>(vertices.size() / 2), vertexCount);
+}
+
+} // namespace imgeo::compact

@@ -1,0 +1,129 @@
+#include "containers/compact/grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace imgeo::compact {
+
+namespace {
+
+/// A coordinate that unusually many points have, and its number on the grid.
+struct Line {
+  std::int64_t coordinate = 0, number = 0;
+};
+
+struct Axis {
+  double origin = 0, step = 0; ///< in lattice steps
+};
+
+/// Lines closer than this would save next to nothing.
+constexpr std::int64_t leastStep = 16;
+constexpr std::size_t fewestLines = 4;
+
+/// The coordinates that have at least four times the points that they would have
+/// if points were spread evenly.
+std::vector<Line> popularCoordinates(std::span<const Vec3u> positions, int axis) {
+  std::vector<std::uint32_t> counts(65536);
+  std::uint32_t low = UINT32_MAX, high = 0;
+  for (const Vec3u& position : positions) {
+    ++counts[position[axis]];
+    low = std::min(low, position[axis]);
+    high = std::max(high, position[axis]);
+  }
+  const double even = static_cast<double>(positions.size()) / (high - low + 1.0);
+  std::vector<Line> lines;
+  for (std::uint32_t coordinate = low; coordinate <= high; ++coordinate)
+    if (counts[coordinate] >= std::max(4.0, 4 * even))
+      lines.push_back({coordinate, 0});
+  return lines;
+}
+
+/// Numbers lines by the distance that most neighbours among them have; 0 where it is too small.
+std::int64_t numberLines(std::vector<Line>& lines) {
+  std::vector<std::uint32_t> counts(65536);
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    ++counts[static_cast<std::size_t>(lines[i].coordinate - lines[i - 1].coordinate)];
+  const std::int64_t distance = std::ranges::max_element(counts) - counts.begin();
+  if (distance < leastStep)
+    return 0;
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    lines[i].number = lines[i - 1].number +
+                      static_cast<std::int64_t>(
+                          std::lround(static_cast<double>(lines[i].coordinate - lines[i - 1].coordinate) /
+                                      static_cast<double>(distance)));
+  return distance;
+}
+
+Axis leastSquares(const std::vector<Line>& lines) {
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (const Line& line : lines) {
+    const auto x = static_cast<double>(line.number), y = static_cast<double>(line.coordinate);
+    n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  const double step = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  return {(sy - step * sx) / n, step};
+}
+
+/// Origin and step for which every line rounds to its coordinate, if there are such.
+Axis exact(const std::vector<Line>& lines, const Axis& fitted) {
+  double leastStepPossible = 0, most = INFINITY;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    for (std::size_t j = i + 1; j < lines.size(); ++j) {
+      const auto distance = static_cast<double>(lines[j].coordinate - lines[i].coordinate);
+      const auto steps = static_cast<double>(lines[j].number - lines[i].number);
+      leastStepPossible = std::max(leastStepPossible, (distance - 1) / steps);
+      most = std::min(most, (distance + 1) / steps);
+    }
+  if (!(leastStepPossible < most))
+    return fitted;
+  const double step = (leastStepPossible + most) / 2;
+  double low = -INFINITY, high = INFINITY;
+  for (const Line& line : lines) {
+    const double origin = static_cast<double>(line.coordinate) - step * static_cast<double>(line.number);
+    low = std::max(low, origin - 0.5);
+    high = std::min(high, origin + 0.5);
+  }
+  return low < high ? Axis{(low + high) / 2, step} : fitted;
+}
+
+std::optional<Axis> findAxis(std::span<const Vec3u> positions, int axis) {
+  std::vector<Line> lines = popularCoordinates(positions, axis);
+  if (lines.size() < fewestLines || lines.size() > 65536 / leastStep || numberLines(lines) == 0)
+    return std::nullopt;
+  const Axis fitted = leastSquares(lines);
+  if (!(fitted.step >= leastStep))
+    return std::nullopt;
+  std::erase_if(lines, [&](const Line& line) {
+    return std::abs(fitted.origin + fitted.step * static_cast<double>(line.number) -
+                    static_cast<double>(line.coordinate)) > 0.75;
+  });
+  return lines.size() < fewestLines ? fitted : exact(lines, fitted);
+}
+
+} // namespace
+
+std::optional<Grid> findGrid(std::span<const Vec3u> positions) {
+  Grid grid;
+  int missing = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::optional<Axis> found = findAxis(positions, axis);
+    if (!found) { // height fields have none along their height: one line at 0
+      if (++missing > 1)
+        return std::nullopt;
+      grid.step[axis] = UINT32_MAX;
+      continue;
+    }
+    grid.step[axis] = static_cast<std::uint32_t>(std::llround(found->step * 65536));
+    const std::int64_t origin = std::llround(found->origin * 65536) % grid.step[axis];
+    grid.origin[axis] = static_cast<std::uint32_t>(origin < 0 ? origin + grid.step[axis] : origin);
+  }
+  // Worth it where points have more coordinates on the grid than off it.
+  std::size_t onGrid = 0;
+  for (const Vec3u& position : positions)
+    onGrid += static_cast<std::size_t>(std::popcount(gridMask(grid, position)));
+  return onGrid * 2 > positions.size() * 3 ? std::optional(grid) : std::nullopt;
+}
+
+} // namespace imgeo::compact

@@ -1,0 +1,36 @@
+#pragma once
+// The planes on which an isosurface has its vertices: marching cubes puts them on
+// the edges of a grid, so that two of three coordinates are multiples of its step.
+
+#include "containers/compact/compact_patch.h"
+
+#include <optional>
+#include <span>
+
+namespace imgeo::compact {
+
+/// Coordinate number i of an axis.
+inline std::int64_t gridLine(const Grid& grid, int axis, std::int64_t i) {
+  return (std::int64_t{grid.origin[axis]} + i * grid.step[axis] + 32768) >> 16;
+}
+
+/// The number whose coordinate is nearest.
+inline std::int64_t nearestGridLine(const Grid& grid, int axis, std::int64_t coordinate) {
+  const std::int64_t step = grid.step[axis];
+  const std::int64_t numerator = coordinate * 65536 - grid.origin[axis] + step / 2;
+  return numerator / step - (numerator % step < 0);
+}
+
+/// The axes, as bits, on which a point is on the grid.
+inline std::uint32_t gridMask(const Grid& grid, const Vec3u& point) {
+  std::uint32_t mask = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (gridLine(grid, axis, nearestGridLine(grid, axis, point[axis])) == point[axis])
+      mask |= 1u << axis;
+  return mask;
+}
+
+/// The grid on which most of the coordinates lie, if there is one.
+std::optional<Grid> findGrid(std::span<const Vec3u> positions);
+
+} // namespace imgeo::compact

@@ -1,0 +1,130 @@
+#pragma once
+// Where a vertex is expected, from the vertices before it: the candidates and the
+// surface's slope of docs/formats/compact.md, "Positions". Several parallelograms
+// of which the encoder chooses, after Isenburg and Cohen-Or, "Geometry prediction
+// for high degree polygons", 2005, and Draco's constrained multi-parallelograms.
+
+#include "base/vec.h"
+#include "containers/compact/connectivity.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace imgeo::compact {
+
+/// Lattice coordinates and their differences, without overflow.
+using Place = Vec3<std::int64_t>;
+
+inline std::uint32_t lengthInBits(std::int64_t value) {
+  return static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint64_t>(value < 0 ? -value : value)));
+}
+
+inline std::int64_t largestComponent(const Place& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// The axis of the largest component, the first of equals; 2 where all are 0.
+template <typename T> int dominantAxis(const Vec3<T>& v) {
+  const T x = v.x < 0 ? -v.x : v.x, y = v.y < 0 ? -v.y : v.y, z = v.z < 0 ? -v.z : v.z;
+  if (x == 0 && y == 0)
+    return 2;
+  return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+}
+
+struct Candidates {
+  std::array<Place, 4> places;
+  std::uint32_t count = 0, set = 0;
+
+  void add(const Place& place, std::uint32_t flag) {
+    places[count++] = place;
+    set += flag;
+  }
+  /// How far the first two are apart, as a context: 0 where there is one alone.
+  std::uint32_t agreement() const {
+    return count == 1 ? 0 : 1 + std::min(14u, lengthInBits(largestComponent(places[1] - places[0])));
+  }
+};
+
+/// The candidates of a vertex; `across` is the corner opposite of the edge over
+/// which a triangle brings it, or none.
+inline Candidates candidatesFor(std::uint32_t vertex, std::uint32_t across, const Connectivity& connectivity,
+                                const std::vector<Vec3u>& positions, std::uint32_t positionBits) {
+  const auto at = [&](std::uint32_t v) { return Place(positions[v]); };
+  Candidates candidates;
+  if (across != none) {
+    const Place o = at(connectivity.vertex[across]), p = at(connectivity.vertex[after(across)]),
+                k = at(connectivity.vertex[before(across)]);
+    candidates.add(k + p - o, 0);
+    if (const std::uint32_t s = connectivity.second[vertex]; s != none)
+      candidates.add(at(connectivity.vertex[after(s)]) + at(connectivity.vertex[before(s)]) -
+                         at(connectivity.vertex[s]),
+                     1);
+    if (const std::uint32_t ahead = connectivity.ahead[vertex]; ahead != none)
+      candidates.add(p + at(ahead) - k, 2);
+    if (const std::uint32_t behind = connectivity.behind[vertex]; behind != none)
+      candidates.add(p + p - at(behind), 4);
+    return candidates;
+  }
+  if (!connectivity.from.empty() && connectivity.from[vertex] != none) {
+    const std::uint32_t from = connectivity.from[vertex];
+    candidates.add(at(from), 0);
+    if (const std::uint32_t further = connectivity.from[from]; further != none)
+      candidates.add(at(from) + at(from) - at(further), 1);
+    return candidates;
+  }
+  const std::int64_t middle = std::int64_t{1} << (positionBits - 1);
+  candidates.add(vertex > 0 ? at(vertex - 1) : Place{middle, middle, middle}, 0);
+  return candidates;
+}
+
+/// Sums of triangle normals in 32 wrapping bits.
+class NormalSums {
+public:
+  NormalSums(std::size_t count, std::uint32_t shift) : sums_(count), shift_(shift) {}
+
+  const Vec3<std::int32_t>& operator[](std::size_t i) const { return sums_[i]; }
+
+  void add(std::size_t i, const Vec3<std::int32_t>& normal) {
+    for (int axis = 0; axis < 3; ++axis)
+      sums_[i][axis] = wrap(bits(sums_[i][axis]) + bits(normal[axis]));
+  }
+
+  /// Twice the area of a triangle as a vector, of edges shifted right.
+  Vec3<std::int32_t> normalOf(const Vec3u& a, const Vec3u& b, const Vec3u& c) const {
+    const auto edge = [&](const Vec3u& to) {
+      const auto component = [&](int axis) {
+        return bits(static_cast<std::int32_t>(to[axis] - a[axis]) >> shift_);
+      };
+      return Vec3u{component(0), component(1), component(2)};
+    };
+    const Vec3u e = edge(b), f = edge(c);
+    return {wrap(e.y * f.z - e.z * f.y), wrap(e.z * f.x - e.x * f.z), wrap(e.x * f.y - e.y * f.x)};
+  }
+
+private:
+  static std::uint32_t bits(std::int32_t value) { return static_cast<std::uint32_t>(value); }
+  static std::int32_t wrap(std::uint32_t value) { return static_cast<std::int32_t>(value); }
+
+  std::vector<Vec3<std::int32_t>> sums_;
+  std::uint32_t shift_;
+};
+
+/// The surface's normal at an edge, small enough to multiply with.
+struct Slope {
+  Place normal;
+  int axis = 2; ///< the dominant one
+
+  Slope() = default;
+  Slope(const Vec3<std::int32_t>& k, const Vec3<std::int32_t>& p) {
+    for (int a = 0; a < 3; ++a)
+      normal[a] =
+          static_cast<std::int32_t>(static_cast<std::uint32_t>(k[a]) + static_cast<std::uint32_t>(p[a]));
+    axis = dominantAxis(normal);
+    const std::uint32_t length = lengthInBits(largestComponent(normal));
+    for (int a = 0; a < 3 && length > 15; ++a)
+      normal[a] >>= length - 15;
+  }
+};
+
+} // namespace imgeo::compact

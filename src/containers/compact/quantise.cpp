@@ -1,0 +1,132 @@
+#include "containers/compact/quantise.h"
+
+#include "containers/compact/code_normals.h"
+#include "containers/stored.h"
+
+#include <cmath>
+
+namespace imgeo::compact {
+
+namespace {
+
+AttributeType typeOf(AttributeKind kind, std::uint32_t components, std::uint32_t bits) {
+  return {kind, static_cast<std::uint8_t>(components), static_cast<std::uint8_t>(bits), NormalMode::area};
+}
+
+/// The octahedron's point in a direction, rounded as predictions are, so that what
+/// the same triangles give in floats and in integers becomes the same point.
+Value quantiseNormal(const Vec3f& normal, std::uint32_t bits) {
+  constexpr double fine = 1 << 24;
+  const Place direction{std::llround(normal.x * fine), std::llround(normal.y * fine),
+                        std::llround(normal.z * fine)};
+  const std::int64_t radius = (std::int64_t{1} << (bits - 1)) - 1;
+  return valueOf(octahedronPoint(direction, radius), radius);
+}
+
+std::int32_t quantiseShare(double share, std::uint32_t bits) {
+  const double steps = static_cast<double>((1u << bits) - 1);
+  return static_cast<std::int32_t>(std::clamp(share, 0.0, 1.0) * steps + 0.5);
+}
+
+/// A component's share of its range.
+double shareOf(const Attribute& attribute, std::size_t wedge, std::uint32_t i) {
+  return attribute.values[wedge][i] / static_cast<double>((1u << attribute.type.bits) - 1);
+}
+
+void addNormals(CompactPatch& patch, const std::vector<Vec3f>& normals, const AttributeBits& bits) {
+  Attribute attribute{typeOf(AttributeKind::normal, 3, bits.normal), {}};
+  attribute.type.mode = bits.normalMode;
+  for (const Vec3f& normal : normals)
+    attribute.values.push_back(quantiseNormal(normal, bits.normal));
+  patch.attributes.push_back(std::move(attribute));
+}
+
+void addTexCoords(CompactPatch& patch, const std::vector<Vec2f>& texCoords,
+                  const GeometryDescription& geometry, std::uint32_t bits) {
+  const auto share = [](float value, float min, float size) {
+    return size > 0 ? (double{value} - min) / size : 0.0;
+  };
+  Attribute attribute{typeOf(AttributeKind::texCoord, 2, bits), {}};
+  for (const Vec2f& texCoord : texCoords)
+    attribute.values.push_back(
+        {{quantiseShare(share(texCoord.x, geometry.texCoordMin.x, geometry.texCoordSize.x), bits),
+          quantiseShare(share(texCoord.y, geometry.texCoordMin.y, geometry.texCoordSize.y), bits)}});
+  patch.attributes.push_back(std::move(attribute));
+}
+
+void addColors(CompactPatch& patch, const std::vector<Rgba8>& colors, std::uint32_t components,
+               std::uint32_t bits) {
+  Attribute attribute{typeOf(AttributeKind::color, components, bits), {}};
+  for (const Rgba8& color : colors) {
+    Value value{{quantiseShare(color.r / 255.0, bits), quantiseShare(color.g / 255.0, bits),
+                 quantiseShare(color.b / 255.0, bits)}};
+    if (components == 4)
+      value[3] = quantiseShare(color.a / 255.0, bits);
+    attribute.values.push_back(value);
+  }
+  patch.attributes.push_back(std::move(attribute));
+}
+
+Primitive primitiveOf(Topology topology) {
+  return topology == Topology::triangles ? Primitive::triangles
+         : topology == Topology::lines   ? Primitive::lines
+                                         : Primitive::points;
+}
+
+} // namespace
+
+CompactPatch quantise(const Patch& patch, const GeometryDescription& geometry, const AttributeBits& bits) {
+  CompactPatch quantised;
+  quantised.topology = patch.topology;
+  quantised.positionBits = geometry.lattice.bits;
+  quantised.positions = patch.positions;
+  quantised.wedgePositions = patch.wedgePositions;
+  quantised.corners = patch.corners;
+  if (!patch.normals.empty())
+    addNormals(quantised, patch.normals, bits);
+  if (!patch.texCoords.empty())
+    addTexCoords(quantised, patch.texCoords, geometry, bits.texCoord);
+  if (!patch.colors.empty())
+    addColors(quantised, patch.colors, geometry.colorComponents, bits.color);
+  return quantised;
+}
+
+IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& geometry) {
+  IndexedPatch vertices;
+  vertices.colorComponents = geometry.colorComponents;
+  for (const std::uint32_t position : patch.wedgePositions)
+    vertices.positions.push_back(patch.positions[position]);
+  for (const Attribute& attribute : patch.attributes)
+    for (std::size_t wedge = 0; wedge < patch.wedgeCount(); ++wedge) {
+      const Value& value = attribute.values[wedge];
+      switch (attribute.type.kind) {
+      case AttributeKind::normal:
+        vertices.normals.push_back(unitNormal({double(value[0]), double(value[1]), double(value[2])}));
+        break;
+      case AttributeKind::texCoord: {
+        const auto at = [&](std::uint32_t i, float min, float size) {
+          return static_cast<float>(min + size * shareOf(attribute, wedge, i));
+        };
+        vertices.texCoords.push_back({at(0, geometry.texCoordMin.x, geometry.texCoordSize.x),
+                                      at(1, geometry.texCoordMin.y, geometry.texCoordSize.y)});
+        break;
+      }
+      case AttributeKind::color: {
+        const auto at = [&](std::uint32_t i) {
+          return static_cast<std::uint8_t>(shareOf(attribute, wedge, i) * 255 + 0.5);
+        };
+        vertices.colors.push_back(
+            {at(0), at(1), at(2), attribute.type.components == 4 ? at(3) : std::uint8_t{255}});
+        break;
+      }
+      case AttributeKind::other:
+        break;
+      }
+    }
+  if (patch.topology != Topology::points)
+    vertices.indices = patch.corners;
+  vertices.draws = {{primitiveOf(patch.topology), static_cast<std::uint32_t>(patch.corners.size())}};
+  return vertices;
+}
+
+} // namespace imgeo::compact

@@ -1,0 +1,25 @@
+#pragma once
+// A patch's attributes in integers, and back.
+
+#include "containers/compact/compact_patch.h"
+#include "containers/geometry.h"
+#include "prepare/patches.h"
+
+namespace imgeo::compact {
+
+/// Bits of the attributes, and how normals are told.
+struct AttributeBits {
+  std::uint32_t normal = 8, texCoord = 12, color = 8;
+  NormalMode normalMode = NormalMode::area;
+};
+
+/// Normals go to the octahedron's point of octahedronPoint, each coordinate of which
+/// is at most half a step off; texture coordinates to 2^bits points over the
+/// node's box, colours over 0 .. 255, both to the nearest.
+CompactPatch quantise(const Patch& patch, const GeometryDescription& geometry, const AttributeBits& bits);
+
+/// The vertices and elements that a decoded patch stands for: its wedges. Normals
+/// are unit length. Attributes of kind `other` are left out.
+IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& geometry);
+
+} // namespace imgeo::compact

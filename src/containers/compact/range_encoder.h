@@ -1,0 +1,108 @@
+#pragma once
+// Adaptive bits to the front of a stream, raw bits to its back: Martin, "Range
+// encoding", 1979, binary and with carries; the two ends as in Opus (RFC 6716).
+
+#include "base/bytes.h"
+#include "containers/compact/models.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace imgeo::compact {
+
+class RangeEncoder {
+public:
+  static constexpr bool encodes = true;
+
+  explicit RangeEncoder(std::size_t modelCount) : models_(modelCount) {}
+
+  const Models& models() const { return models_; }
+
+  /// Writes a bit and returns it.
+  bool bit(std::size_t model, bool value) {
+    const std::uint32_t bound = (range_ >> 8) * models_[model].probability() >> 8;
+    models_[model].update(value);
+    if (value) {
+      range_ = bound;
+    } else {
+      low_ += bound;
+      range_ -= bound;
+      if (low_ >> 24)
+        carry();
+    }
+    for (; range_ < 65536; range_ <<= 8)
+      shiftOut();
+    return value;
+  }
+
+  /// Writes the `count` (0 .. 30) lowest bits of a value and returns it.
+  std::uint32_t raw(std::uint32_t count, std::uint32_t value) {
+    assert(count <= 30 && value >> count == 0);
+    hold_ |= std::uint64_t{value} << held_;
+    for (held_ += count; held_ >= 8; held_ -= 8, hold_ >>= 8)
+      back_.push_back(static_cast<std::uint8_t>(hold_));
+    return value;
+  }
+
+  /// What a decoder would refuse, an encoder must not write.
+  void require(bool condition, const char*) const { assert(condition), (void)condition; }
+
+  Bytes finish() {
+    for (int i = 0; i < 3; ++i)
+      shiftOut();
+    if (held_ > 0)
+      back_.push_back(static_cast<std::uint8_t>(hold_));
+    front_.insert(front_.end(), back_.rbegin(), back_.rend());
+    return std::move(front_);
+  }
+
+private:
+  void shiftOut() {
+    front_.push_back(static_cast<std::uint8_t>(low_ >> 16));
+    low_ = (low_ & 0xffff) << 8;
+  }
+
+  void carry() {
+    low_ &= 0xffffff;
+    auto digit = front_.rbegin();
+    for (; *digit == 0xff; ++digit)
+      *digit = 0;
+    ++*digit;
+  }
+
+  Models models_;
+  Bytes front_, back_;
+  std::uint32_t low_ = 0, range_ = 0xffffff;
+  std::uint64_t hold_ = 0;
+  std::uint32_t held_ = 0;
+};
+
+/// What bits would cost, in bits, if they were written now: for an encoder that chooses.
+class CostMeter {
+public:
+  static constexpr bool encodes = true;
+
+  explicit CostMeter(const RangeEncoder& encoder) : models_(encoder.models()) {}
+
+  float cost() const { return cost_; }
+
+  bool bit(std::size_t model, bool value) {
+    const std::uint32_t p = models_[model].probability();
+    cost_ += costOf(value ? p : 65536 - p);
+    return value;
+  }
+  std::uint32_t raw(std::uint32_t count, std::uint32_t value) {
+    cost_ += static_cast<float>(count);
+    return value;
+  }
+  void require(bool, const char*) const {}
+
+private:
+  /// -log2 of a probability in 1/65536.
+  static float costOf(std::uint32_t probability);
+
+  const Models& models_;
+  float cost_ = 0;
+};
+
+} // namespace imgeo::compact

@@ -1,0 +1,58 @@
+#pragma once
+// Numbers as adaptive and raw bits. Each function codes both ways: a Coder is a
+// RangeEncoder or CostMeter, which is given the value, or a RangeDecoder, which
+// is not and returns it.
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace imgeo::compact {
+
+/// Models that a number takes.
+inline constexpr std::size_t numberModels = 32;
+
+/// 0 .. 2^depth - 1 in models + 1 .. models + 2^depth - 1.
+template <typename Coder>
+std::uint32_t codeTree(Coder& coder, std::size_t models, std::uint32_t depth, std::uint32_t value = 0) {
+  std::uint32_t node = 1;
+  for (std::uint32_t level = depth; level-- > 0;)
+    node = node << 1 | std::uint32_t{coder.bit(models + node, value >> level & 1)};
+  return node - (1u << depth);
+}
+
+/// A number's length in bits, 0 .. 30.
+template <typename Coder> std::uint32_t codeClass(Coder& coder, std::size_t models, std::uint32_t value = 0) {
+  const std::uint32_t shortClass = codeTree(coder, models, 4, value < 15 ? value : 15);
+  return shortClass < 15 ? shortClass : 15 + codeTree(coder, models + 16, 4, value - 15);
+}
+
+/// 0 .. 2^30 - 1.
+template <typename Coder>
+std::uint32_t codeNumber(Coder& coder, std::size_t models, std::uint32_t value = 0) {
+  const std::uint32_t length = codeClass(coder, models, static_cast<std::uint32_t>(std::bit_width(value)));
+  if (length == 0)
+    return 0;
+  const std::uint32_t leading = 1u << (length - 1);
+  return leading | coder.raw(length - 1, value & (leading - 1));
+}
+
+struct SignedNumber {
+  std::int32_t value = 0;
+  std::uint32_t length = 0; ///< of its absolute value, in bits: a context for what follows
+};
+
+/// -(2^30 - 1) .. 2^30 - 1.
+template <typename Coder> SignedNumber codeSigned(Coder& coder, std::size_t models, std::int64_t value = 0) {
+  const auto magnitude = static_cast<std::uint32_t>(value < 0 ? -value : value);
+  const std::uint32_t length =
+      codeClass(coder, models, static_cast<std::uint32_t>(std::bit_width(magnitude)));
+  if (length == 0)
+    return {};
+  const std::uint32_t leading = 1u << (length - 1);
+  const std::uint32_t rest = coder.raw(length, (magnitude & (leading - 1)) << 1 | std::uint32_t{value < 0});
+  const auto decoded = static_cast<std::int32_t>(leading | rest >> 1);
+  return {rest & 1 ? -decoded : decoded, length};
+}
+
+} // namespace imgeo::compact

@@ -1,0 +1,46 @@
+#include "containers/normals.h"
+
+#include "containers/unit_vectors.h"
+
+#include <cassert>
+
+namespace imgeo {
+
+bool isPair(NormalEncoding encoding) {
+  return encoding == NormalEncoding::octahedral || encoding == NormalEncoding::spherical;
+}
+
+// X3DOM's word 256 * theta + phi, in the order in which its bytes lie.
+Vec2<std::uint32_t> storeNormal(Vec3f unit, NormalEncoding encoding, std::uint32_t bits) {
+  assert(isPair(encoding));
+  if (encoding == NormalEncoding::octahedral)
+    return octahedralFromUnit(unit, bits);
+  const Vec2<std::uint32_t> angles = sphericalFromUnit(unit, bits);
+  return {angles.y, angles.x};
+}
+
+Vec3f loadNormal(Vec2<std::uint32_t> stored, NormalEncoding encoding, std::uint32_t bits) {
+  assert(isPair(encoding));
+  return encoding == NormalEncoding::octahedral ? unitFromOctahedral(stored, bits)
+                                                : unitFromSpherical({stored.y, stored.x}, bits);
+}
+
+double normalErrorBound(const GeometryDescription& geometry) {
+  const bool isSig = geometry.container == Container::sig;
+  const std::uint32_t bits = isSig ? 8 : 8 * byteSizeOf(geometry.normalType);
+  switch (geometry.normalEncoding) {
+  case NormalEncoding::octahedral:
+    return octahedralErrorBound(bits);
+  case NormalEncoding::spherical:
+    return sphericalErrorBound(bits);
+  case NormalEncoding::palette:
+    return 0;
+  case NormalEncoding::rgb:
+    break;
+  }
+  if (!isSig && geometry.normalType == ElementType::float32)
+    return 2e-7; // stored as they are; what is left is single precision
+  return componentErrorBound(isSig ? 1 / 127.5 : 1 / maximumOf(geometry.normalType));
+}
+
+} // namespace imgeo

@@ -1,0 +1,74 @@
+#include "scene/vertex_attributes.h"
+
+#include <algorithm>
+#include <set>
+
+namespace imgeo {
+
+namespace {
+
+NamedAttribute gather(const NamedAttribute& attribute, std::span<const std::uint32_t> from) {
+  NamedAttribute result{attribute.name, attribute.components, {}};
+  result.values.reserve(from.size() * attribute.components);
+  for (const std::uint32_t i : from)
+    for (std::uint32_t c = 0; c < attribute.components; ++c)
+      result.values.push_back(attribute.values[std::size_t{i} * attribute.components + c]);
+  return result;
+}
+
+/// `count` and `moreCount` are in elements of the vectors.
+template <typename T>
+void append(std::vector<T>& values, std::size_t count, const std::vector<T>& more, std::size_t moreCount,
+            T missing) {
+  if (values.empty() && more.empty())
+    return;
+  values.resize(count, missing);
+  values.insert(values.end(), more.begin(), more.end());
+  values.resize(count + moreCount, missing);
+}
+
+} // namespace
+
+VertexAttributes gather(const VertexAttributes& attributes, std::span<const std::uint32_t> from) {
+  VertexAttributes result{gather(attributes.normals, from),
+                          gather(attributes.texCoords, from),
+                          gather(attributes.colors, from),
+                          attributes.colorComponents,
+                          {}};
+  for (const NamedAttribute& attribute : attributes.namedAttributes)
+    result.namedAttributes.push_back(gather(attribute, from));
+  return result;
+}
+
+void append(VertexAttributes& attributes, std::size_t count, const VertexAttributes& more,
+            std::size_t moreCount) {
+  append(attributes.normals, count, more.normals, moreCount, {0, 0, 1});
+  append(attributes.texCoords, count, more.texCoords, moreCount, {0, 0});
+  append(attributes.colors, count, more.colors, moreCount, {255, 255, 255, 255});
+  attributes.colorComponents = std::max(attributes.colorComponents, more.colorComponents);
+  std::vector<NamedAttribute>& named = attributes.namedAttributes;
+  for (const NamedAttribute& attribute : more.namedAttributes)
+    if (std::ranges::find(named, attribute.name, &NamedAttribute::name) == named.end())
+      named.push_back({attribute.name, attribute.components, {}});
+  for (NamedAttribute& attribute : named) {
+    const auto other = std::ranges::find(more.namedAttributes, attribute.name, &NamedAttribute::name);
+    const std::size_t each = attribute.components;
+    const bool isThere = other != more.namedAttributes.end() && other->components == each;
+    append(attribute.values, count * each, isThere ? other->values : std::vector<float>{}, moreCount * each,
+           0.0f);
+  }
+}
+
+bool isConsistent(const VertexAttributes& attributes, std::size_t count) {
+  const auto emptyOrAll = [&](const auto& values) { return values.empty() || values.size() == count; };
+  std::set<std::string> names;
+  return emptyOrAll(attributes.normals) && emptyOrAll(attributes.texCoords) &&
+         emptyOrAll(attributes.colors) &&
+         std::ranges::all_of(attributes.namedAttributes, [&](const NamedAttribute& attribute) {
+           return attribute.components >= 1 && attribute.components <= 4 &&
+                  attribute.values.size() == count * attribute.components &&
+                  names.insert(attribute.name).second;
+         });
+}
+
+} // namespace imgeo
