@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "containers/bg/bg.h"
 #include "containers/classic/classic.h"
+#include "containers/limits.h"
 #include "containers/normals.h"
 
 #include <algorithm>
@@ -42,6 +43,14 @@ ElementType unsignedType(std::uint32_t bytes) {
   return bytes == 1 ? ElementType::uint8 : bytes == 2 ? ElementType::uint16 : ElementType::uint32;
 }
 
+/// 16 bits wherever they name all vertices of every patch.
+ElementType indexTypeOf(const PatchedMesh& mesh, const EncodeOptions& options) {
+  const bool isShort = std::ranges::all_of(
+      mesh.patches, [](const Patch& patch) { return patch.wedgeCount() <= maxShortIndexedVertices; });
+  assert(isShort || options.target == Target::web || options.container == Container::bg);
+  return isShort ? ElementType::uint16 : ElementType::uint32;
+}
+
 ElementType normalTypeOf(const EncodeOptions& options) {
   assert(options.normals != NormalEncoding::palette);
   assert(options.normalBits == 8 || options.normals != NormalEncoding::spherical);
@@ -74,6 +83,7 @@ GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& optio
   } else {
     assert(options.normalBits == 8);
   }
+  geometry.indexType = indexTypeOf(mesh, options);
   geometry.normalEncoding = options.normals;
   return geometry;
 }

@@ -45,8 +45,9 @@ struct EncodedPatch {
 /// yet). Throws Error{unsupported} for texture coordinates that X3DOM cannot hold.
 GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& options);
 
-/// Encodes a patch by the node's fields. Deterministic. `patch` has at most
-/// 65,535 vertices where it has an index, and no NaN.
+/// Encodes a patch by the node's fields. Deterministic. `patch` is one of the mesh
+/// that was described, and has no NaN. Throws Error{limit} for a patch that draws
+/// more than an image holds.
 EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry,
                          const EncodeOptions& options);
 

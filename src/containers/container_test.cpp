@@ -125,6 +125,21 @@ TEST(Containers, GiveBackMoreVerticesThanAnIndexCouldName) {
           encode(testing::pointCloud(count, count), Primitive::points, false, 16, {container, 8, 0}));
 }
 
+TEST(Containers, GiveBackIndicesOf32Bits) {
+  for (const Container container : {Container::sig, Container::bg})
+    for (const std::uint32_t side : {256u, 300u, 1030u}) { // 66,049, 90,601 and 1,062,961 vertices
+      Mesh mesh = testing::grid(side);
+      mesh.normals.clear();
+      mesh.texCoords.clear();
+      if (side > 1000)
+        mesh.corners.resize(100'002); // all vertices, but not all triangles of them
+      mesh.corners.back() = static_cast<std::uint32_t>(mesh.wedgeCount() - 1);
+      const Encoded encoded = encode(mesh, Primitive::triangles, true, 12, {container, 8, 0});
+      EXPECT_EQ(encoded.geometry.indexType, ElementType::uint32);
+      expectEqualWithinSteps(encoded);
+    }
+}
+
 TEST(Containers, RefuseMoreVerticesThanTheLargestImageHolds) {
   const std::uint32_t most = 2048 * 2048;
   PatchedMesh mesh;
@@ -150,6 +165,17 @@ TEST(Containers, GiveBackSeveralDraws) {
         {Primitive::triangles, 30}, {Primitive::triangleStrip, 50}, {Primitive::points, count - 80}};
     encoded.patch = encodePatch(encoded.source, encoded.geometry, options);
     expectEqualWithinSteps(encoded);
+  }
+}
+
+TEST(Containers, RefuseIndicesOf32BitsBeyondTheVertices) {
+  for (const Container container : {Container::sig, Container::bg}) {
+    Encoded encoded = encode(testing::grid(256), Primitive::triangles, true, 12, {container, 8, 0});
+    ASSERT_GE(encoded.patch.description.vertexCount, 65536u);
+    encoded.patch.description.vertexCount = encoded.source.indices.back();
+    EXPECT_THROW(encoded.decoded(), Error);
+    encoded.patch.description.vertexCount = 0xffffffff;
+    EXPECT_THROW(encoded.decoded(), Error);
   }
 }
 

@@ -64,7 +64,7 @@ struct GeometryDescription {
   std::uint32_t colorComponents = 3;
   ElementType indexType = ElementType::uint16, coordType = ElementType::uint16,
               normalType = ElementType::int8, texCoordType = ElementType::uint16,
-              colorType = ElementType::uint8; ///< BG only
+              colorType = ElementType::uint8; ///< BG only, but for indexType: SIG has uint16 and uint32
   NormalEncoding normalEncoding = NormalEncoding::rgb;
   std::vector<PatchDescription> patches;
   friend bool operator==(const GeometryDescription&, const GeometryDescription&) = default;

@@ -16,6 +16,6 @@ inline constexpr std::uint32_t maxImageEdge = 4096;
 inline constexpr std::uint64_t maxDeflateRatio = 1032;
 
 /// Records that 16-bit indices name; 65535 itself is WebGL2's primitive restart.
-inline constexpr std::uint32_t maxIndexedVertices = 65535;
+inline constexpr std::uint32_t maxShortIndexedVertices = 65535;
 
 } // namespace imgeo

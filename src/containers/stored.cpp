@@ -48,7 +48,9 @@ Box3d boxOf(std::span<const Vec3u> positions, const Lattice& lattice) {
 }
 
 PatchDescription describePatch(const IndexedPatch& patch, const GeometryDescription& geometry) {
-  assert(patch.vertexCount() > 0 && (patch.indices.empty() || patch.vertexCount() <= maxIndexedVertices));
+  assert(patch.vertexCount() > 0);
+  assert(patch.indices.empty() || geometry.indexType == ElementType::uint32 ||
+         patch.vertexCount() <= maxShortIndexedVertices);
   assert(drawnCount(patch.draws) == (patch.indices.empty() ? patch.vertexCount() : patch.indices.size()));
   PatchDescription description;
   description.box = boxOf(patch.positions, geometry.lattice);

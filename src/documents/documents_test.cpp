@@ -87,6 +87,8 @@ GeometryDescription randomGeometry(Random& random) {
     geometry.indexType = static_cast<ElementType>(random.below(7));
   }
   geometry.normalEncoding = static_cast<NormalEncoding>(random.below(4));
+  if (geometry.container == Container::sig && random.once(2))
+    geometry.indexType = ElementType::uint32;
   for (std::uint32_t patches = 1 + random.below(4); patches > 0; --patches)
     geometry.patches.push_back(
         randomPatch(random, geometry.container, geometry.container == Container::sig ? bytes : 1));
@@ -436,6 +438,19 @@ TEST(ReadScene, FindsX3domsSphericalNormalsInTheFourthElementOfCoordinates) {
     EXPECT_EQ(geometry.patches[0].normal, normal);
   }
   EXPECT_THROW(readBinaryGeometry("coord='a' normalAsSphericalCoordinates='true'"), Error);
+}
+
+TEST(ReadScene, TakesIndicesOf16And32BitsFromImages) {
+  const auto read = [](const std::string& type) {
+    return readScene("<X3D><Scene><Shape><ImageGeometry indexType='" + type +
+                         "' coord='a' index='i'/></Shape></Scene></X3D>",
+                     "x")
+        .geometries.at(0)
+        .indexType;
+  };
+  EXPECT_EQ(read(""), ElementType::uint16);
+  EXPECT_EQ(read("uint32"), ElementType::uint32);
+  EXPECT_THROW(read("Uint8"), Error);
 }
 
 TEST(ReadScene, JoinsAGroupOfShapesThatShareTheirAppearance) {

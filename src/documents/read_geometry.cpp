@@ -205,8 +205,8 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   geometry.texCoordMin = fields.vec2("texCoordMin", {0, 0});
   geometry.texCoordSize = fields.vec2("texCoordSize", {1, 1});
   geometry.normalEncoding = normalEncodingOf(fields);
+  geometry.indexType = elementTypeOf(fields, "indexType", ElementType::uint16);
   if (container == Container::bg) {
-    geometry.indexType = elementTypeOf(fields, "indexType", ElementType::uint16);
     geometry.coordType = elementTypeOf(fields, "coordType", ElementType::float32);
     geometry.normalType = elementTypeOf(fields, "normalType", ElementType::float32);
     geometry.texCoordType = elementTypeOf(fields, "texCoordType", ElementType::float32);
@@ -220,6 +220,8 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
     geometry.colorComponents = fields.integer("numColorComponents", 3);
     if (geometry.colorComponents != 3 && geometry.colorComponents != 4)
       fields.fail(ErrorKind::malformed, "numColorComponents is neither 3 nor 4");
+    if (geometry.indexType != ElementType::uint16 && geometry.indexType != ElementType::uint32)
+      fields.fail(ErrorKind::unsupported, "images hold indices of type Uint16 or Uint32");
   }
   const Vec2<std::uint32_t> implicitMeshSize = implicitMeshSizeOf(fields, {256, 256});
   for (const pugi::xml_node& child : node.children())

@@ -103,6 +103,8 @@ Element geometryElement(const GeometryDescription& geometry) {
               {"normalType", nameOf(geometry.normalType)},
               {"texCoordType", nameOf(geometry.texCoordType)},
               {"colorType", nameOf(geometry.colorType)}};
+  else if (geometry.indexType != ElementType::uint16)
+    stored = {{"indexType", nameOf(geometry.indexType)}};
   if (hasNormalsInCoords(geometry))
     stored.push_back({"normalAsSphericalCoordinates", "true"});
   else if (geometry.normalEncoding != NormalEncoding::rgb)

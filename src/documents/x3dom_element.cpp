@@ -133,7 +133,7 @@ private:
   void writeImages(ElementWriter& writer, const GeometryDescription& geometry,
                    const PatchDescription& patch) {
     assert(geometry.texCoordMin == Vec2f{} && geometry.texCoordSize == (Vec2f{1, 1}));
-    assert(!isPair(geometry.normalEncoding));
+    assert(!isPair(geometry.normalEncoding) && geometry.indexType == ElementType::uint16);
     Attributes draws = drawFields(patch);
     draws.push_back({"implicitMeshSize",
                      std::to_string(implicitMeshSize_.x) + " " + std::to_string(implicitMeshSize_.y)});

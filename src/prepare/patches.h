@@ -11,9 +11,9 @@
 
 namespace imgeo {
 
-/// Corners of a patch at most: the texels of the largest index image (2048 x 1024)
-/// that every WebGL 2 allows.
-inline constexpr std::uint32_t maxPatchCorners = 2048 * 1024;
+/// Corners and wedges of a patch at most: the texels of the largest image (2048 x
+/// 2048) that every WebGL 2 allows.
+inline constexpr std::uint32_t maxPatchCorners = 2048 * 2048, maxPatchWedges = 2048 * 2048;
 
 /// A piece of a mesh: the same corner -> wedge -> position structure, positions
 /// on the lattice. Positions on a border stand in each patch that touches them.
@@ -36,9 +36,9 @@ struct PatchedMesh {
 /// A patch's tight box, in the mesh's units.
 Box3d boxOf(const Patch& patch, const Lattice& lattice);
 
-/// Cuts `mesh` so that no patch has more than `maxWedges` wedges (3 .. 65,535
-/// for 16-bit indices) or more than `maxPatchCorners` corners. Every element is in exactly one patch, in an
-/// order that depends on the input alone, not on threads.
+/// Cuts `mesh` so that no patch has more than `maxWedges` wedges (3 .. maxPatchWedges)
+/// or more than `maxPatchCorners` corners. Every element is in exactly one patch, in
+/// an order that depends on the input alone, not on threads.
 PatchedMesh cutIntoPatches(const Mesh& mesh, const Lattice& lattice, std::uint32_t maxWedges);
 
 } // namespace imgeo

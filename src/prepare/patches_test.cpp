@@ -132,7 +132,7 @@ TEST(Patches, AreMadeEvenWhereAllCentroidsAreOne) {
   Mesh same;
   same.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   testing::addPlainWedges(same);
-  for (int i = 0; i < 800000; ++i)
+  for (int i = 0; i < 1'400'000; ++i)
     testing::addTriangle(same, 0, 1, 2);
   const PatchedMesh result = cut(same, 65535);
   EXPECT_EQ(result.patches.size(), 2u);

@@ -1,7 +1,9 @@
 #include "transcode/options.h"
 
 #include "base/error.h"
+#include "containers/limits.h"
 #include "containers/normals.h"
+#include "prepare/patches.h"
 
 #include <fmt/format.h>
 
@@ -65,7 +67,7 @@ void requireNormals(const ConvertOptions& options) {
 
 ConvertOptions resolved(ConvertOptions options) {
   requireWithin("--position-bits", options.positionBits, 8, 32);
-  requireWithin("--patch-vertices", options.patchVertices, 256, 65535);
+  requireWithin("--patch-vertices", options.patchVertices, 256, maxPatchWedges);
   requireWithin("--effort", options.effort, 0, 9);
   if (options.normalBits == 0)
     options.normalBits = defaultNormalBits(options);
@@ -73,6 +75,11 @@ ConvertOptions resolved(ConvertOptions options) {
   if (options.target == Target::x3dom && options.container == Container::bg && options.positionBits > 16)
     refuse("--position-bits",
            fmt::format("X3DOM reads bg with at most 16 bits, not {}; sig holds more", options.positionBits));
+  if (options.target == Target::x3dom && options.container == Container::sig &&
+      options.patchVertices > maxShortIndexedVertices)
+    refuse("--patch-vertices",
+           fmt::format("X3DOM's index images name at most 65,535 vertices, not {}; bg's arrays more",
+                       options.patchVertices));
   if (options.target != Target::x3dom && !options.x3domUrl.empty())
     refuse("--x3dom-url", "only a page for X3DOM needs X3DOM: --target x3dom");
   return options;

@@ -64,6 +64,18 @@ TEST(RoundTrip, EveryContainerPrimitiveAndPrecisionGivesBackEveryMesh) {
         }
 }
 
+TEST(RoundTrip, PatchesOfMoreThan16BitIndicesNameGiveBackTheMesh) {
+  for (const Container container : {Container::sig, Container::bg})
+    for (const Mesh& mesh : {testing::torus(400, 170), testing::polylines(30'000, 7)}) {
+      ASSERT_GT(mesh.wedgeCount(), 65'535u);
+      ConvertOptions options;
+      options.container = container;
+      options.patchVertices = 4'194'304;
+      options.effort = 0;
+      expectRoundTrip(mesh, options, fmt::format("container {}", int(container)));
+    }
+}
+
 TEST(RoundTrip, EveryNormalWeightingIsTheOneThatVerifyRepeats) {
   for (const NormalWeighting weighting :
        {NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform}) {

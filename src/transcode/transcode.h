@@ -27,10 +27,10 @@ struct ConvertOptions {
   NormalEncoding normals = NormalEncoding::rgb;
   std::uint32_t normalBits = 0; ///< see EncodeOptions; 0: the fewest that cost nothing
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where the source has no normals
-  std::uint32_t patchVertices = 65535;                     ///< 256..65,535
-  int effort = 5;                                          ///< 0 fastest .. 9 smallest
-  std::string title;                                       ///< empty: the source's name
-  bool force = false; ///< replace a directory that is not one of our sites
+  std::uint32_t patchVertices = 65535; ///< 256..4,194,304; above 65,535 with 32-bit indices
+  int effort = 5;                      ///< 0 fastest .. 9 smallest
+  std::string title;                   ///< empty: the source's name
+  bool force = false;                  ///< replace a directory that is not one of our sites
 };
 
 /// Bytes of one kind of file.

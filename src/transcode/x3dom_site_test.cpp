@@ -79,6 +79,9 @@ TEST(X3domSite, RefusesWhatX3domCannotHold) {
   ConvertOptions options = optionsFor(Container::bg);
   options.positionBits = 17;
   EXPECT_EQ(kindOfConverting(testing::torus(9, 9), options), ErrorKind::usage);
+  options = optionsFor(Container::sig);
+  options.patchVertices = 65'536;
+  EXPECT_EQ(kindOfConverting(testing::torus(9, 9), options), ErrorKind::usage);
   for (const auto& [container, normals] : {std::pair{Container::sig, NormalEncoding::octahedral},
                                            {Container::sig, NormalEncoding::spherical},
                                            {Container::bg, NormalEncoding::octahedral}}) {

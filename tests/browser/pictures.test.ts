@@ -41,6 +41,8 @@ const cases: { mesh: GeneratedMesh; options: string[] }[] = [
     ({ mesh: "trefoil-colors" as const, options: ["--container", "bg", "--normals", normals] })),
   { mesh: "trefoil-plain", options: ["--container", "bg", "--normals", "octahedral", "--normal-bits", "16"] },
   { mesh: "trefoil", options: ["--normals", "octahedral", "--index", "off"] },
+  ...["sig", "bg"].map((container) =>
+    ({ mesh: "trefoil-large" as const, options: ["--container", container, "--patch-vertices", "100000"] })),
   { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"] },
   { mesh: "trefoil-colors", options: ["--index", "off", "--container", "bg"] },
   { mesh: "points", options: [] },

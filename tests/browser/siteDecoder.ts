@@ -142,6 +142,7 @@ function decodeSig(node: Attributes, patch: Attributes, directory: string, plane
   const drawn = (n: number): number => {
     if (!index) return n;
     const texel = (n % indexWidth) + Math.floor(n / indexWidth) * index.width;
+    if (node.indextype === "Uint32") return index.at(texel, 0) + 256 * index.at(texel, 1) + 65536 * index.at(texel, 2);
     return index.at(texel, 0) + 256 * ((index.at(texel, 1) * height) / 256);
   };
   return {

@@ -8,6 +8,8 @@ import { converter, outputDirectory } from "./paths.ts";
 
 const generators = {
   trefoil: () => trefoil(),
+  /** More vertices than 16 bits name. */
+  "trefoil-large": () => trefoil(2000, 34),
   "trefoil-colors": () => withColors(trefoil()),
   "trefoil-plain": () => withoutNormals(trefoil()),
   sphere: () => sphere(),

@@ -132,7 +132,8 @@ TEST_F(Faults, OptionsThatCannotBeHonoured) {
   refuse("--position-bits", {"--target", "x3dom", "--container", "bg", "-vp", "17"});
   refuse("--x3dom-url", {"--x3dom-url", "lib/"});
   refuse("--primitives", {"--primitives", "fans"});
-  refuse("--patch-vertices", {"--patch-vertices", "65536"});
+  refuse("--patch-vertices", {"--patch-vertices", "4194305"});
+  refuse("--patch-vertices", {"--patch-vertices", "65536", "--target", "x3dom"});
   refuse("--effort", {"--effort", "10"});
   refuse("did you mean --container?", {"--contaner", "bg"});
   refuse("too many", {"another.ply"});

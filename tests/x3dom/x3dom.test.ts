@@ -71,6 +71,7 @@ for (const container of containers) {
       ["computed normals", "trefoil-plain", []],
     ];
     if (container === "sig") cases.push(["positions of three bytes", "sphere", ["--position-bits", "20"]]);
+    if (container === "bg") cases.push(["indices of 32 bits", "trefoil-large", ["--patch-vertices", "100000"]]);
     if (container === "bg") cases.push(["normals as angles beside the coordinates", "trefoil", ["--normals", "spherical"]]);
     for (const [what, mesh, more] of cases) {
       test(`shows ${what} as X3DOM shows them inline`, async () => {

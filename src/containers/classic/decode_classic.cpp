@@ -61,6 +61,16 @@ std::vector<std::uint32_t> texelsByByte(std::uint32_t edge) {
   return texels;
 }
 
+std::vector<std::uint32_t> decodeWideIndices(const PatchDescription& patch, const FetchFile& fetch) {
+  const std::uint64_t count = drawnCount(patch.draws);
+  const Texels texels(*patch.index, fetch, patch.implicitMeshSize.x, 3);
+  texels.require(count);
+  std::vector<std::uint32_t> indices(count);
+  for (std::uint64_t n = 0; n < count; ++n)
+    indices[n] = texels[n][0] | std::uint32_t{texels[n][1]} << 8 | std::uint32_t{texels[n][2]} << 16;
+  return indices;
+}
+
 std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, const FetchFile& fetch,
                                          const Image& records, const std::string& recordsPlace) {
   if (records.width > recordColumns || records.height > recordColumns)
@@ -125,7 +135,9 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
   decoded.draws = patch.draws;
   decoded.colorComponents = geometry.colorComponents;
   if (patch.index)
-    decoded.indices = decodeIndices(patch, fetch, first.image(), place);
+    decoded.indices = geometry.indexType == ElementType::uint32
+                          ? decodeWideIndices(patch, fetch)
+                          : decodeIndices(patch, fetch, first.image(), place);
   const std::uint32_t count = recordCountOf(patch, decoded.indices, patch.index ? patch.index->url : place);
   first.require(count);
 

@@ -41,6 +41,14 @@ ImageSize implicitMeshSizeOf(const IndexedPatch& patch, ImageSize records, Targe
   return size;
 }
 
+/// Numbers of three bytes: no image that is read has more texels.
+Image wideIndexImage(const IndexedPatch& patch, ImageSize size) {
+  return imageOf(size, 3, patch.indices.size(), [&](std::size_t n, std::uint8_t* out) {
+    for (std::uint32_t byte = 0; byte < 3; ++byte)
+      out[byte] = static_cast<std::uint8_t>(patch.indices[n] >> (8 * byte));
+  });
+}
+
 Image indexImage(const IndexedPatch& patch, ImageSize size, ImageSize records) {
   const std::uint32_t rowStep = recordColumns / records.rows;
   return imageOf(size, 3, patch.indices.size(), [&](std::size_t n, std::uint8_t* out) {
@@ -92,7 +100,9 @@ EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription&
 
   std::vector<RoleImage> images;
   if (!patch.indices.empty())
-    images.push_back({Role::index, indexImage(patch, running, records)});
+    images.push_back({Role::index, geometry.indexType == ElementType::uint32
+                                       ? wideIndexImage(patch, running)
+                                       : indexImage(patch, running, records)});
   for (std::uint32_t plane = coordBytes(Container::sig, geometry.lattice.bits); plane-- > 0;)
     images.push_back({Role::coord, coordImage(patch, records, shift, plane)});
   if (!patch.normals.empty())

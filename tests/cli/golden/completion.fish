@@ -17,7 +17,7 @@ complete -c imgeo -n '__fish_seen_subcommand_from convert' -l normals -x -a 'rgb
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l normal-bits -o vn -o qn -x -d 'bits of a normal\'s component; sig: 8; bg: 8, 16 or 32; otherwise 8'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l texcoord-bits -o vt -o qt -x -d 'bits of a texture coordinate; classic has 16'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l color-bits -o vc -x -d 'bits of a colour\'s component; classic has 8'
-complete -c imgeo -n '__fish_seen_subcommand_from convert' -l patch-vertices -x -d 'the most vertices in one patch, 256..65535'
+complete -c imgeo -n '__fish_seen_subcommand_from convert' -l patch-vertices -x -d 'the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l normal-weighting -x -a 'area angle uniform' -d 'how triangles count in normals that the source lacks'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l title -x -d 'the page\'s title; otherwise the input\'s name'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l effort -x -d 'how hard to compress: 0 fastest, 9 smallest'

@@ -40,7 +40,7 @@ _imgeo() {
       '--texcoord-bits[bits of a texture coordinate; classic has 16]:texcoord-bits: ' \
       '-vc[bits of a colour'\''s component; classic has 8]:color-bits: ' \
       '--color-bits[bits of a colour'\''s component; classic has 8]:color-bits: ' \
-      '--patch-vertices[the most vertices in one patch, 256..65535]:patch-vertices: ' \
+      '--patch-vertices[the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices]:patch-vertices: ' \
       '--normal-weighting[how triangles count in normals that the source lacks]:normal-weighting:(area angle uniform)' \
       '--title[the page'\''s title; otherwise the input'\''s name]:title: ' \
       '--effort[how hard to compress\: 0 fastest, 9 smallest]:effort: ' \

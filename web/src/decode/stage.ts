@@ -38,6 +38,8 @@ export interface TextureStage extends StageHead {
   readonly kind: "textures";
   /** Absent: running numbers are record numbers. */
   readonly index: TexelRange | undefined;
+  /** Index texels hold the record's number; otherwise its column and row. */
+  readonly isIndexWide: boolean;
   /** Running number n is texel (n mod implicitWidth, n div implicitWidth). */
   readonly implicitWidth: number;
   /** The byte planes that are here, most significant first. */

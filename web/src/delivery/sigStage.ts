@@ -48,6 +48,7 @@ export function sigBuilder(geometry: GeometryDescription, patch: PatchDescriptio
         name,
         draws: name === "points" ? [points] : drawRangesOf(patch),
         index: here.index,
+        isIndexWide: geometry.indexType === "Uint32",
         implicitWidth: name === "points" ? first.image.width : patch.implicitWidth,
         coord,
         coordPlanes: patch.coord.length,

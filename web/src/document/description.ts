@@ -63,8 +63,9 @@ export interface GeometryDescription {
   readonly texCoordSize: Vec2;
   readonly colorComponents: 3 | 4;
   readonly normalEncoding: NormalEncoding;
-  /** Typed arrays only, as the other types. */
+  /** In images Uint16: column and row of the record, or Uint32: its number. */
   readonly indexType: ElementType;
+  /** Typed arrays only, as the types below. */
   readonly coordType: ElementType;
   readonly normalType: ElementType;
   readonly texCoordType: ElementType;

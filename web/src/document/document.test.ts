@@ -211,6 +211,11 @@ describe("a geometry", () => {
     assert.deepEqual(patch.normal, { url: "n.bin+4", first: 0, stride: 4 });
   });
 
+  test("of images has indices of 16 bits unless it says otherwise", () => {
+    assert.equal(geometryOf('<ImageGeometry coord="a" index="i"/>').indexType, "Uint16");
+    assert.equal(geometryOf('<ImageGeometry coord="a" index="i" indexType="uint32"/>').indexType, "Uint32");
+  });
+
   test("with normals of two numbers says which, and where X3DOM has them", () => {
     assert.equal(geometryOf('<ImageGeometry coord="a" normal="n" vertexCount="3"/>').normalEncoding, "rgb");
     assert.equal(geometryOf('<ImageGeometry coord="a" normal="n" normalEncoding="Octahedral"/>').normalEncoding, "octahedral");

@@ -25,24 +25,20 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
     ...commonOf(element, values, warnings),
     container: "sig",
     colorComponents: values.numColorComponents === 4 ? 4 : 3,
-    // The bytes of an image are its only element type.
-    indexType: "Uint8", coordType: "Uint8", normalType: "Uint8", texCoordType: "Uint8", colorType: "Uint8",
+    // The bytes of an image are its only element type; indices are made of two or three.
+    coordType: "Uint8", normalType: "Uint8", texCoordType: "Uint8", colorType: "Uint8",
     patches: readPatches(element, "sig", warnings),
   };
 }
 
 export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): GeometryDescription {
   const values = readFields(element, nodeFields.BinaryGeometry, warnings);
-  const typeOf = (field: "indexType" | "coordType" | "normalType" | "texCoordType" | "colorType"): ElementType => {
-    const found = elementTypes.find((type) => type.toLowerCase() === values[field].trim().toLowerCase());
-    if (found === undefined) warnings.push({ element, message: `${field}="${values[field]}" is no element type` });
-    return found ?? (nodeFields.BinaryGeometry[field].defaultValue as ElementType);
-  };
+  const typeOf = (field: "coordType" | "normalType" | "texCoordType" | "colorType"): ElementType =>
+    elementTypeOf(element, field, values[field], nodeFields.BinaryGeometry[field].defaultValue, warnings);
   const geometry: GeometryDescription = {
     ...commonOf(element, values, warnings),
     container: "bg",
     colorComponents: values.rgbaColors ? 4 : 3,
-    indexType: typeOf("indexType"),
     coordType: typeOf("coordType"),
     normalType: typeOf("normalType"),
     texCoordType: typeOf("texCoordType"),
@@ -83,9 +79,16 @@ export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "sp
 function commonOf(element: SceneElement, values: Omit<Values<typeof nodeFields.ImageGeometry>, "numColorComponents">,
                   warnings: Warning[]) {
   const { position, size, positionBits, solid, texCoordMin, texCoordSize } = values;
+  const indexType = elementTypeOf(element, "indexType", values.indexType, "Uint16", warnings);
   const normalEncoding = normalEncodings.find((name) => name === values.normalEncoding.trim().toLowerCase());
   if (normalEncoding === undefined) warnings.push({ element, message: `normalEncoding="${values.normalEncoding}" is none that is known` });
-  return { position, size, positionBits, solid, texCoordMin, texCoordSize, normalEncoding: normalEncoding ?? "rgb" };
+  return { position, size, positionBits, solid, texCoordMin, texCoordSize, indexType, normalEncoding: normalEncoding ?? "rgb" };
+}
+
+function elementTypeOf(element: SceneElement, field: string, text: string, fallback: string, warnings: Warning[]): ElementType {
+  const found = elementTypes.find((type) => type.toLowerCase() === text.trim().toLowerCase());
+  if (found === undefined) warnings.push({ element, message: `${field}="${text}" is no element type` });
+  return found ?? (fallback as ElementType);
 }
 
 /** The box of `bboxCenter` and `bboxSize`; X3D's size -1 -1 -1 says that there is none. */

@@ -46,6 +46,7 @@ const geometryFields = {
   texCoordMin: SFVec2f([0, 0]),
   texCoordSize: SFVec2f([1, 1]),
   normalEncoding: SFString("rgb"),
+  indexType: SFString("Uint16"),
 };
 
 export const nodeFields = {
@@ -104,7 +105,6 @@ export const nodeFields = {
     ...geometryFields,
     rgbaColors: SFBool(false),
     normalAsSphericalCoordinates: SFBool(false),
-    indexType: SFString("Uint16"),
     coordType: SFString("Float32"),
     normalType: SFString("Float32"),
     texCoordType: SFString("Float32"),

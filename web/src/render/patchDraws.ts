@@ -119,6 +119,7 @@ function imageUniformsOf(stage: TextureStage, textures: TexturePool): ImageVerte
     coordPlanes: { value: stage.coordPlanes },
     middleOfMissing: { value: stage.middleOfMissing },
     hasIndex: { value: index !== undefined },
+    isIndexWide: { value: stage.isIndexWide },
     implicitWidth: { value: stage.implicitWidth },
     firstNumber: { value: 0 },
     isStrip: { value: false },

@@ -26,6 +26,7 @@ export interface ImageVertexUniforms extends Record<string, IUniform> {
   coordPlanes: IUniform<number>;
   middleOfMissing: IUniform<number>;
   hasIndex: IUniform<boolean>;
+  isIndexWide: IUniform<boolean>;
   implicitWidth: IUniform<number>;
   /** The running number that the draw begins at, and whether it is a strip. */
   firstNumber: IUniform<number>;
@@ -88,6 +89,7 @@ uniform ivec4 coordFirstTexels;
 uniform int coordPlanes;
 uniform float middleOfMissing;
 uniform bool hasIndex;
+uniform bool isIndexWide;
 uniform int implicitWidth;
 uniform int firstNumber;
 uniform bool isStrip;
@@ -117,12 +119,14 @@ uvec3 bytesOf(vec4 texel) {
   return uvec3(texel.rgb * 255.0 + 0.5);
 }
 
-// An index texel holds column and row of a record in units of 1/256 of the
-// coordinate image (docs/formats/nodes.md, "Stored values").
+// An index texel holds the three bytes of a record's number, or column and row in
+// units of 1/256 of the coordinate image (docs/formats/nodes.md, "Stored values").
 int recordNumber() {
   if (!hasIndex) return runningNumber();
   int n = texelNumber(indexImage, runningNumber());
-  ivec2 place = ivec2(bytesOf(texelOf(indexImage, firstTexels.x, n)).rg);
+  ivec3 index = ivec3(bytesOf(texelOf(indexImage, firstTexels.x, n)));
+  if (isIndexWide) return index.r | index.g << 8 | index.b << 16;
+  ivec2 place = index.rg;
   ivec2 size = textureSize(coordImage0, 0);
   ivec2 texel = (place * size + 128) >> 8;
   return texel.y * size.x + texel.x;
