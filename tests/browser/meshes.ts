@@ -206,7 +206,7 @@ export function readPly(bytes: Buffer): PlainMesh {
     for (let corner = 0; corner < 3; ++corner) triangles[3 * t + corner] = bytes.readInt32LE(at + 1 + 4 * corner);
   }
   const lines = Uint32Array.from({ length: 2 * edgeCount }, (_, corner) => bytes.readInt32LE(at + 4 * corner));
-  return { positions, triangles, lines, ...(normals && { normals }), ...(colors && { colors }) };
+  return { positions, triangles, ...(edgeCount > 0 && { lines }), ...(normals && { normals }), ...(colors && { colors }) };
 }
 
 /** Positions and triangles of an OBJ file; anything else in it is left out. */

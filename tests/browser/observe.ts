@@ -19,8 +19,8 @@ export interface Observed {
   bubbled: string[];
   /** Draw calls and clears so far: stands still while nothing is rendered. */
   draws: number;
-  /** WebGL objects that exist now. */
-  live: { textures: number; buffers: number; vertexArrays: number; programs: number };
+  /** WebGL objects that exist now, and decoded images that are open. */
+  live: { textures: number; buffers: number; vertexArrays: number; programs: number; bitmaps: number };
 }
 
 declare global {
@@ -35,7 +35,7 @@ export function observe(): void {
     events: [],
     bubbled: [],
     draws: 0,
-    live: { textures: 0, buffers: 0, vertexArrays: 0, programs: 0 },
+    live: { textures: 0, buffers: 0, vertexArrays: 0, programs: 0, bitmaps: 0 },
   };
   window.observed = observed;
 
@@ -82,4 +82,16 @@ export function observe(): void {
     after(`create${kind}`, () => ++observed.live[counted]);
     after(`delete${kind}`, ([object]) => (observed.live[counted] -= object ? 1 : 0));
   }
+
+  const decode = window.createImageBitmap.bind(window) as (...args: unknown[]) => Promise<ImageBitmap>;
+  window.createImageBitmap = async (...args: unknown[]) => {
+    const bitmap = await decode(...args);
+    observed.live.bitmaps += 1;
+    return bitmap;
+  };
+  const close = Object.getOwnPropertyDescriptor(ImageBitmap.prototype, "close")?.value as () => void;
+  ImageBitmap.prototype.close = function () {
+    if (this.width > 0) observed.live.bitmaps -= 1; // a second time does nothing
+    close.call(this);
+  };
 }

@@ -13,6 +13,7 @@ const generators = {
   "trefoil-colors": () => withColors(trefoil()),
   "trefoil-plain": () => withoutNormals(trefoil()),
   sphere: () => sphere(),
+  "sphere-large": () => sphere(96),
   points: () => pointSpiral(),
   coil: () => coil(),
 } satisfies Record<string, () => PlainMesh>;

@@ -2,7 +2,7 @@ import { DecodeError } from "./decodeError.ts";
 import type { PngHeader } from "./png.ts";
 import { checkPng } from "./png.ts";
 
-/** An image that a texture can be made of; an ImageBitmap in browsers. */
+/** An image of vertex data: an ImageBitmap when it has been decoded, a texture when it is on the GPU. */
 export interface DecodedImage {
   readonly width: number;
   readonly height: number;
@@ -11,21 +11,23 @@ export interface DecodedImage {
 }
 
 /** An image and how many numbers its file has a texel: browsers make four of any. */
-export interface DataImage {
-  readonly image: DecodedImage;
+export interface DataImage<Image extends DecodedImage = DecodedImage> {
+  readonly image: Image;
   readonly channels: PngHeader["channels"];
 }
 
 /** Decodes a PNG to exactly its stored bytes; rejects where that fails. */
-export type ImageDecoder = (png: Uint8Array<ArrayBuffer>) => Promise<DecodedImage>;
+export type ImageDecoder<Image extends DecodedImage> = (png: Uint8Array<ArrayBuffer>) => Promise<Image>;
 
 /**
  * Checks and decodes. What comes back has the size that the header claims.
  * Rejects with DecodeError; the image is then closed.
  */
-export async function decodeImage(png: Uint8Array<ArrayBuffer>, decoder: ImageDecoder): Promise<DataImage> {
+export async function decodeImage<Image extends DecodedImage>(
+  png: Uint8Array<ArrayBuffer>, decoder: ImageDecoder<Image>,
+): Promise<DataImage<Image>> {
   const header = checkPng(png);
-  let image: DecodedImage;
+  let image: Image;
   try {
     image = await decoder(png);
   } catch {

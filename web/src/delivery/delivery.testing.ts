@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import type { DecodedImage } from "../decode/image.ts";
+import { decodeImage } from "../decode/image.ts";
 import { checkPng } from "../decode/png.ts";
 import { pngOf } from "../decode/png.testing.ts";
 import type { Stage } from "../decode/stage.ts";
@@ -38,10 +39,10 @@ export function siteOf(files: Record<string, Answer>, slots = 6) {
   };
   const pool = new ResourcePool({
     scheduler,
-    decodeImage: (png): Promise<DecodedImage> => {
+    makeImage: (png) => decodeImage(png, (): Promise<DecodedImage> => {
       images.open += 1;
       return Promise.resolve({ ...checkPng(png), close: () => { images.open -= 1; } });
-    },
+    }),
     download: { fetch: (url, init) => answer(url as string, init?.signal ?? new AbortController().signal), silenceMs: 1000, retries: 0, backoffMs: 1 },
     resolve: (url) => new URL(url, "https://site/").href,
     onTransfer: () => undefined,

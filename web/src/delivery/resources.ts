@@ -2,8 +2,7 @@
 // while somebody holds a lease on it; with the last lease its download is
 // aborted or its image is given back.
 
-import type { DataImage, ImageDecoder } from "../decode/image.ts";
-import { decodeImage } from "../decode/image.ts";
+import type { DataImage } from "../decode/image.ts";
 import { Backlog } from "../scheduler/backlog.ts";
 import type { DownloadOptions } from "../scheduler/download.ts";
 import { downloadInSlot } from "../scheduler/download.ts";
@@ -34,7 +33,8 @@ export interface Lease {
 
 export interface DeliveryOptions {
   readonly scheduler: Scheduler;
-  readonly decodeImage: ImageDecoder;
+  /** Brings the image that these bytes are to where stages can use it. Rejects with DecodeError, or with the signal's reason. */
+  readonly makeImage: (png: Uint8Array<ArrayBuffer>, signal: AbortSignal) => Promise<DataImage>;
   readonly download: DownloadOptions;
   /** The absolute URL of one that the document writes. */
   readonly resolve: (url: string) => string;
@@ -174,7 +174,7 @@ class Resource {
   async #decode(kind: Content["kind"], { bytes, leave }: { bytes: Uint8Array<ArrayBuffer>; leave: () => void }): Promise<Content> {
     try {
       if (kind === "bytes") return { kind, bytes };
-      return { kind, ...await decodeImage(bytes, this.#options.decodeImage) };
+      return { kind, ...await this.#options.makeImage(bytes, this.#aborter.signal) };
     } finally {
       leave();
     }

@@ -25,7 +25,7 @@ function deliveriesOf() {
   };
   const deliveries = new SharedDeliveries(new ResourcePool({
     scheduler: new Scheduler(6),
-    decodeImage: () => Promise.reject(new Error("no images here")),
+    makeImage: () => Promise.reject(new Error("no images here")),
     download: { fetch: (url, init) => fetchFile(url as string, init?.signal ?? new AbortController().signal), silenceMs: 1000, retries: 0, backoffMs: 1 },
     resolve: (url) => url,
     onTransfer: () => undefined,

@@ -1,7 +1,6 @@
 // Joins a document to a picture: reads the scene, starts and ends deliveries as
 // shapes come and go, hands stages to the renderer, and tells the page.
 
-import { decodeWithBrowser } from "../decode/image.ts";
 import type { StageName } from "../decode/stage.ts";
 import { stageNames } from "../decode/stage.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
@@ -20,6 +19,7 @@ import { SceneRenderer } from "../render/sceneRenderer.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
 import { slotsFor } from "../scheduler/slots.ts";
+import { Arrival } from "./arrival.ts";
 import { leastStage, Loading } from "./loading.ts";
 import { watchProtocol } from "./protocol.ts";
 import { Steering } from "./steering.ts";
@@ -65,9 +65,10 @@ export class Viewer {
     this.#loading = new Loading(x3d);
     this.navigator = new Navigator(() => { this.renderer.requestFrame(); });
     this.renderer = new SceneRenderer(canvas, context, this.navigator, () => { this.#onFrame(); });
+    const arrival = new Arrival(this.renderer);
     this.#pool = new ResourcePool({
       scheduler: this.#scheduler,
-      decodeImage: decodeWithBrowser,
+      makeImage: (png, signal) => arrival.makeImage(png, signal),
       download: defaultDownloadOptions,
       // What is no URL is left for the request to fail on.
       resolve: (url) => (URL.canParse(url, document.baseURI) ? new URL(url, document.baseURI).href : url),

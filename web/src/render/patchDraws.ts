@@ -10,7 +10,7 @@ import { middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
 import type { PatchMaterial, SceneUniforms, Shading, VertexColors } from "./materials.ts";
 import { applyMaterial, makeMaterial } from "./materials.ts";
 import type { GeometryPool } from "./stageGeometries.ts";
-import type { TexturePool } from "./textures.ts";
+import type { TextureStore } from "./textures.ts";
 import type { ImageVertexUniforms } from "./vertexChunk.ts";
 import { normalDefinesOf } from "./vertexChunk.ts";
 
@@ -24,7 +24,7 @@ export interface PatchDraws {
 
 export interface PatchSetting {
   readonly geometries: GeometryPool;
-  readonly textures: TexturePool;
+  readonly textures: TextureStore;
   readonly shared: SceneUniforms;
   readonly geometry: GeometryDescription;
   readonly patch: PatchDescription;
@@ -38,7 +38,6 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
   const { origin, step } = storedFrameOf(geometry, patch);
   // Places the lattice: stored integers -> the shape's coordinates.
   const matrix = new Matrix4().makeScale(...step).setPosition(...origin);
-  const images = stage.kind === "textures" ? imagesOf(stage) : [];
   const normalDefines = normalDefinesOf(stage.normalCode, stage.kind === "buffers" && stage.normal?.components === 1);
   const base = stage.kind === "textures" ? imageUniformsOf(stage, setting.textures) : undefined;
   const draws = setting.geometries.acquire(stage).flatMap((shape, place) => {
@@ -59,7 +58,6 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
     dispose() {
       for (const { material } of draws) material.dispose();
       setting.geometries.release(stage);
-      for (const image of images) setting.textures.release(image);
     },
   };
 }
@@ -98,13 +96,9 @@ function storedBoundsOf(geometry: GeometryDescription, patch: PatchDescription):
   return new Sphere(min.clone().add(max).multiplyScalar(0.5), min.distanceTo(max) / 2 + slack);
 }
 
-function imagesOf(stage: TextureStage): DecodedImage[] {
-  return [stage.index, ...stage.coord, stage.normal, stage.color].flatMap((range) => (range ? [range.image] : []));
-}
-
-function imageUniformsOf(stage: TextureStage, textures: TexturePool): ImageVertexUniforms {
+function imageUniformsOf(stage: TextureStage, textures: TextureStore): ImageVertexUniforms {
   const { index, coord, normal, color } = stage;
-  const texture = (range: { image: DecodedImage } | undefined) => ({ value: range ? textures.acquire(range.image) : null });
+  const texture = (range: { image: DecodedImage } | undefined) => ({ value: range ? textures.textureOf(range.image) : null });
   const first = (range: { first: number } | undefined) => range?.first ?? 0;
   return {
     indexImage: texture(index),

@@ -17,7 +17,8 @@ import { buildGraph } from "./sceneGraph.ts";
 import type { ShapeSetting } from "./shapeObject.ts";
 import { ShapeObject } from "./shapeObject.ts";
 import { GeometryPool } from "./stageGeometries.ts";
-import { TexturePool } from "./textures.ts";
+import type { TextureUpload } from "./textures.ts";
+import { TextureStore } from "./textures.ts";
 
 /** What has been drawn and what the GPU holds. */
 export interface RenderStatistics {
@@ -25,6 +26,8 @@ export interface RenderStatistics {
   readonly textures: number;
   readonly geometries: number;
   readonly programs: number;
+  /** That textures take; those of images only. */
+  readonly textureBytes: number;
 }
 
 /** Where the camera is and what it sees, as plain numbers. */
@@ -67,7 +70,7 @@ export class SceneRenderer {
   readonly #camera = new PerspectiveCamera();
   readonly #headlight = new DirectionalLight();
   readonly #shared: SceneUniforms = { pointSize: { value: pointSizeInCssPixels }, depthRange: { value: new Vector2() } };
-  readonly #setting: ShapeSetting = { geometries: new GeometryPool(), textures: new TexturePool(), shared: this.#shared };
+  readonly #setting: ShapeSetting = { geometries: new GeometryPool(), textures: new TextureStore(), shared: this.#shared };
   readonly #shapes = new Map<SceneElement, ShapeObject>();
   readonly #cameraMan: CameraMan;
   readonly #onFrame: () => void;
@@ -97,7 +100,8 @@ export class SceneRenderer {
 
   get statistics(): RenderStatistics {
     const { memory, programs } = this.#renderer.info;
-    return { frames: this.#frames, textures: memory.textures, geometries: memory.geometries, programs: programs?.length ?? 0 };
+    return { frames: this.#frames, textures: memory.textures, geometries: memory.geometries, programs: programs?.length ?? 0,
+             textureBytes: this.#setting.textures.bytes };
   }
 
   /** Undefined while the picture has no area. */
@@ -153,6 +157,11 @@ export class SceneRenderer {
     this.#sphere = sphereAround(box);
     this.requestFrame();
     return { sphere: this.#sphere, viewpoints };
+  }
+
+  /** Begins to bring an image to the GPU; stages may use it when all steps have been taken. */
+  beginUpload(bitmap: ImageBitmap): TextureUpload {
+    return this.#setting.textures.begin(bitmap, this.#renderer);
   }
 
   /** Replaces what a patch of a shape of the current scene shows. */

@@ -1,41 +1,79 @@
-// One texture per image, shared by the patches that use it and freed with the
-// last of them. Bytes reach the shader as they are in the file.
+// Images as textures. Their texels go to the GPU in strips, so that no single
+// step holds up a frame; bytes reach the shader as they are in the file. Nothing
+// of an image is kept here when it is on the GPU.
 
-import { ClampToEdgeWrapping, NearestFilter, NoColorSpace, RGBAFormat, Texture, UnsignedByteType } from "three";
+import {
+  Box2, ClampToEdgeWrapping, DataTexture, NearestFilter, NoColorSpace, RGBAFormat, Texture, UnsignedByteType, Vector2,
+  type WebGLRenderer,
+} from "three";
 import type { DecodedImage } from "../decode/image.ts";
 
-export class TexturePool {
-  readonly #textures = new Map<DecodedImage, { texture: Texture; users: number }>();
+/** An image on its way to the GPU. */
+export interface TextureUpload {
+  /** Stands for the texture, which is complete after the last step; closing it frees the texture at any time. */
+  readonly image: DecodedImage;
+  /** Each step yields the bytes that it has moved. */
+  readonly steps: Generator<number, void, void>;
+}
 
-  acquire(image: DecodedImage): Texture {
-    const entry = this.#textures.get(image) ?? { texture: textureOf(image), users: 0 };
-    entry.users += 1;
-    this.#textures.set(image, entry);
-    return entry.texture;
+/** WebGL2 stores three channels as four. */
+const bytesPerTexel = 4;
+const bytesPerStep = 2 ** 18;
+
+export class TextureStore {
+  readonly #textures = new WeakMap<DecodedImage, Texture>();
+  #bytes = 0;
+
+  /** Of all textures that are open. */
+  get bytes(): number {
+    return this.#bytes;
   }
 
-  release(image: DecodedImage): void {
-    const entry = this.#textures.get(image);
-    if (entry === undefined) return;
-    entry.users -= 1;
-    if (entry.users > 0) return;
-    entry.texture.dispose();
-    this.#textures.delete(image);
+  /** Throws where the image is not one of this store's, or is closed. */
+  textureOf(image: DecodedImage): Texture {
+    const texture = this.#textures.get(image);
+    if (texture === undefined) throw new RangeError("the image is not on the GPU");
+    return texture;
+  }
+
+  /** The bitmap may be closed after the last step. */
+  begin(bitmap: ImageBitmap, renderer: WebGLRenderer): TextureUpload {
+    const { width, height } = bitmap;
+    const texture = emptyTexture(width, height);
+    const bytes = width * height * bytesPerTexel;
+    this.#bytes += bytes;
+    const image = {
+      width, height,
+      close: () => {
+        if (!this.#textures.delete(image)) return;
+        this.#bytes -= bytes;
+        texture.dispose();
+      },
+    };
+    this.#textures.set(image, texture);
+    return { image, steps: strips(new Texture(bitmap), texture, width, height, renderer) };
   }
 }
 
-function textureOf(image: DecodedImage): Texture {
-  const texture = new Texture(image);
-  texture.format = RGBAFormat;
-  texture.type = UnsignedByteType;
+function* strips(from: Texture, to: Texture, width: number, height: number, renderer: WebGLRenderer): Generator<number, void, void> {
+  const rows = Math.max(1, Math.floor(bytesPerStep / (width * bytesPerTexel)));
+  for (let first = 0; first < height; first += rows) {
+    const strip = new Box2(new Vector2(0, first), new Vector2(width, Math.min(first + rows, height)));
+    renderer.copyTextureToTexture(from, to, strip, strip.min);
+    yield width * (strip.max.y - strip.min.y) * bytesPerTexel;
+  }
+}
+
+/** Its memory is allocated with the first strip. */
+function emptyTexture(width: number, height: number): Texture {
+  const texture = new DataTexture(null, width, height, RGBAFormat, UnsignedByteType);
+  texture.source.dataReady = false;
   texture.colorSpace = NoColorSpace;
   texture.minFilter = NearestFilter;
   texture.magFilter = NearestFilter;
   texture.wrapS = ClampToEdgeWrapping;
   texture.wrapT = ClampToEdgeWrapping;
   texture.generateMipmaps = false;
-  texture.flipY = false;
-  texture.premultiplyAlpha = false;
   texture.needsUpdate = true;
   return texture;
 }

@@ -1,0 +1,91 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { FrameWork } from "./frameWork.ts";
+
+/** Steps of so many bytes, each told to `note` by its number. */
+function* stepsOf(bytes: number[], note: (number: number) => void): Generator<number> {
+  for (const [place, each] of bytes.entries()) {
+    note(place + 1);
+    yield each;
+  }
+}
+
+/** Frames that come when the test says, and a clock on which each step takes a millisecond. */
+function framesOf(bytesPerFrame: number, millisecondsPerFrame: number) {
+  let due: (() => void) | undefined;
+  let clock = 0;
+  const done: string[] = [];
+  const work = new FrameWork({ bytesPerFrame, millisecondsPerFrame, now: () => clock, requestFrame: (callback) => { due = callback; } });
+  return {
+    work, done,
+    /** Steps named a1, a2, …, each of so many bytes. */
+    steps: (name: string, bytes: number[]) => stepsOf(bytes, (number) => {
+      clock += 1;
+      done.push(`${name}${number}`);
+    }),
+    /** What is done before the next frame; undefined where none was asked for. */
+    frame: (): string[] | undefined => {
+      const callback = due;
+      due = undefined;
+      const before = done.length;
+      callback?.();
+      return callback && done.slice(before);
+    },
+  };
+}
+
+const { signal } = new AbortController();
+
+describe("work before frames", () => {
+  test("stops when so many bytes have been moved, and goes on before the next frame", async () => {
+    const { work, steps, frame } = framesOf(10, 1000);
+    const first = work.run(steps("a", [4, 4, 4, 4]), signal);
+    const second = work.run(steps("b", [4]), signal);
+    assert.deepEqual(frame(), ["a1", "a2", "a3"]);
+    assert.deepEqual(frame(), ["a4", "b1"]);
+    await Promise.all([first, second]);
+    assert.equal(frame(), undefined);
+  });
+
+  test("stops when so much time has passed", () => {
+    const { work, steps, frame } = framesOf(1000, 2);
+    void work.run(steps("a", [1, 1, 1]), signal);
+    assert.deepEqual(frame(), ["a1", "a2"]);
+    assert.deepEqual(frame(), ["a3"]);
+  });
+
+  test("takes at least one step, however large", () => {
+    const { work, steps, frame } = framesOf(10, 0.5);
+    void work.run(steps("a", [99, 99]), signal);
+    assert.deepEqual(frame(), ["a1"]);
+    assert.deepEqual(frame(), ["a2"]);
+  });
+
+  test("is begun before a later frame, never at once", () => {
+    const { work, steps, done } = framesOf(10, 10);
+    void work.run(steps("a", [1]), signal);
+    assert.deepEqual(done, []);
+  });
+
+  test("that is aborted takes no further step, and the others go on", async () => {
+    const { work, steps, frame } = framesOf(4, 10);
+    const aborter = new AbortController();
+    const gone = work.run(steps("a", [4, 4, 4]), aborter.signal);
+    const stays = work.run(steps("b", [4]), signal);
+    assert.deepEqual(frame(), ["a1"]);
+    aborter.abort(new Error("removed"));
+    assert.deepEqual(frame(), ["b1"]);
+    frame();
+    await assert.rejects(gone, { message: "removed" });
+    await stays;
+  });
+
+  test("that fails is told, and the others go on", async () => {
+    const { work, steps, frame } = framesOf(10, 10);
+    const failing = work.run((function* (): Generator<number> { throw new Error("no room"); })(), signal);
+    const stays = work.run(steps("b", [4]), signal);
+    assert.deepEqual(frame(), ["b1"]);
+    await assert.rejects(failing, { message: "no room" });
+    await stays;
+  });
+});

@@ -1,0 +1,79 @@
+// Work that may not hold up a frame: done in small steps, so many bytes and so
+// many milliseconds before each one. Bursts are what freezes a page while a
+// scene arrives, not the work as a whole.
+
+export interface FrameWorkOptions {
+  /** At least one step is taken before each frame, and none that begins beyond these. */
+  readonly bytesPerFrame: number;
+  readonly millisecondsPerFrame: number;
+  readonly now: () => number;
+  /** Calls back before the next frame; soon, where no frames are drawn. */
+  readonly requestFrame: (callback: () => void) => void;
+}
+
+/** Each turn takes a step and yields the bytes that it has moved. */
+export type Steps = Iterator<number, void, void>;
+
+interface Work {
+  readonly steps: Steps;
+  readonly signal: AbortSignal;
+  readonly resolve: () => void;
+  readonly reject: (reason: Error) => void;
+}
+
+export class FrameWork {
+  readonly #options: FrameWorkOptions;
+  /** In order of arrival, which is that of the requests: what matters most came first. */
+  readonly #queue: Work[] = [];
+  #frameIsDue = false;
+
+  constructor(options: FrameWorkOptions) {
+    this.#options = options;
+  }
+
+  /**
+   * Takes all steps, in this frame or the next ones. Rejects with what a step
+   * throws, or with the signal's reason, after which none is taken.
+   */
+  run(steps: Steps, signal: AbortSignal): Promise<void> {
+    return new Promise((resolve, reject) => {
+      this.#queue.push({ steps, signal, resolve, reject });
+      this.#frameSoon();
+    });
+  }
+
+  #frameSoon(): void {
+    if (this.#frameIsDue) return;
+    this.#frameIsDue = true;
+    this.#options.requestFrame(() => {
+      this.#frameIsDue = false;
+      this.#workBeforeFrame();
+      if (this.#queue.length > 0) this.#frameSoon();
+    });
+  }
+
+  #workBeforeFrame(): void {
+    const { bytesPerFrame, millisecondsPerFrame, now } = this.#options;
+    const end = now() + millisecondsPerFrame;
+    for (let bytes = 0; bytes < bytesPerFrame && now() < end;) {
+      const work = this.#queue[0];
+      if (work === undefined) return;
+      const moved = step(work);
+      if (moved === undefined) this.#queue.shift();
+      bytes += moved ?? 0;
+    }
+  }
+}
+
+/** The bytes that one step has moved; undefined when there are no more. */
+function step({ steps, signal, resolve, reject }: Work): number | undefined {
+  try {
+    signal.throwIfAborted();
+    const { done, value } = steps.next();
+    if (done !== true) return value;
+    resolve();
+  } catch (error) {
+    reject(error as Error);
+  }
+  return undefined;
+}
