@@ -1,8 +1,7 @@
 #include "containers/compact/patch_coding.h"
 
 #include "base/error.h"
-#include "containers/compact/quantise.h"
-#include "containers/testing.h"
+#include "containers/compact/patch_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -55,17 +54,11 @@ void expectComesBack(const CompactPatch& patch) {
   EXPECT_EQ(elementsOf(back), elementsOf(patch));
 }
 
-CompactPatch patchOf(const Mesh& mesh, std::uint32_t bits, const AttributeBits& attributeBits = {}) {
-  const PatchedMesh patched = cutIntoPatches(mesh, latticeFor(boxOf(mesh), bits), 65535);
-  GeometryDescription geometry = describe(patched, {});
-  return quantise(patched.patches.at(0), geometry, attributeBits);
-}
-
 TEST(Compact, GivesBackRandomMeshes) {
   for (std::uint32_t seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE(seed);
     AttributeBits bits{4 + seed % 13, 1 + seed % 16, 1 + seed % 8, static_cast<NormalMode>(seed / 2 % 4)};
-    expectComesBack(patchOf(testing::randomMesh(seed), 8 + seed % 23, bits));
+    expectComesBack(testing::patchOf(imgeo::testing::randomMesh(seed), 8 + seed % 23, bits));
     if (HasFailure())
       return;
   }

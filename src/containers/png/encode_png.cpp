@@ -81,13 +81,8 @@ void appendChunk(Bytes& png, std::string_view type, ByteSpan data) {
   appendBig(png, libdeflate_crc32(0, png.data() + from, png.size() - from));
 }
 
-} // namespace
-
-Bytes encodePng(const Image& image, int effort) {
-  assert(image.width > 0 && image.width <= maxImageEdge && image.height > 0 && image.height <= maxImageEdge);
-  assert(image.channels == 1 || image.channels == 3 || image.channels == 4);
-  assert(image.pixels.size() == std::size_t{image.width} * image.height * image.channels);
-
+/// A PNG whose rows are filtered, to be deflated at a level.
+Bytes pngOf(const Image& image, const Bytes& rows, int level) {
   Bytes header;
   appendBig(header, image.width);
   appendBig(header, image.height);
@@ -98,9 +93,7 @@ Bytes encodePng(const Image& image, int effort) {
                                                         : 6;
   header.insert(header.end(), {8, colorType, 0, 0, 0}); // depth; deflate, adaptive filters, not interlaced
 
-  const Effort search = effortOf(effort);
-  const int level = image.pixels.size() > largeImageBytes ? search.levelOfLarge : search.level;
-  const Bytes data = deflate(smallestRows(image, search), compressorOf(level).get());
+  const Bytes data = deflate(rows, compressorOf(level).get());
   Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   png.reserve(png.size() + 4 * 12 + header.size() + image.palette.size() + data.size());
   appendChunk(png, "IHDR", header);
@@ -109,6 +102,26 @@ Bytes encodePng(const Image& image, int effort) {
   appendChunk(png, "IDAT", data);
   appendChunk(png, "IEND", {});
   return png;
+}
+
+[[maybe_unused]] bool isEncodable(const Image& image) {
+  return image.width > 0 && image.width <= maxImageEdge && image.height > 0 && image.height <= maxImageEdge &&
+         (image.channels == 1 || image.channels == 3 || image.channels == 4) &&
+         image.pixels.size() == std::size_t{image.width} * image.height * image.channels;
+}
+
+} // namespace
+
+Bytes encodePng(const Image& image, int effort) {
+  assert(isEncodable(image));
+  const Effort search = effortOf(effort);
+  const int level = image.pixels.size() > largeImageBytes ? search.levelOfLarge : search.level;
+  return pngOf(image, smallestRows(image, search), level);
+}
+
+Bytes encodePlainPng(const Image& image) {
+  assert(isEncodable(image));
+  return pngOf(image, filterRows(image, Filter::none), 1);
 }
 
 } // namespace imgeo

@@ -24,6 +24,9 @@ struct Image {
 /// Deterministic. The image is not empty and its edges are at most maxImageEdge.
 Bytes encodePng(const Image& image, int effort);
 
+/// The same without filters or search, for pixels that are compressed data already.
+Bytes encodePlainPng(const Image& image);
+
 /// Reads a PNG of 8 bits a channel, gray, RGB, RGBA or of a palette without
 /// transparency, which comes back expanded to RGB; not interlaced, with edges of
 /// at most maxImageEdge; ancillary chunks are skipped, sample values

@@ -1,0 +1,155 @@
+#pragma once
+// Patches that between them use every part of the format. Header-only and for tests alone.
+
+#include "containers/compact/compact_patch.h"
+#include "containers/compact/quantise.h"
+#include "containers/testing.h"
+#include "prepare/weld.h"
+
+#include <string>
+
+namespace imgeo::compact::testing {
+
+using imgeo::testing::Random;
+
+/// A mesh on its lattice, with what it has of attributes.
+inline CompactPatch patchOf(const Mesh& mesh, std::uint32_t bits, const AttributeBits& attributeBits = {}) {
+  const PatchedMesh patched = cutIntoPatches(mesh, latticeFor(boxOf(mesh), bits), 65535);
+  return quantise(patched.patches.at(0), describe(patched, {}), attributeBits);
+}
+
+/// An attribute of kind `other` with values all over its range.
+inline void addOther(CompactPatch& patch, std::uint8_t components, std::uint8_t bits, std::uint32_t seed) {
+  Random random(seed);
+  Attribute attribute{{AttributeKind::other, components, bits, NormalMode::area}, {}};
+  for (std::size_t wedge = 0; wedge < patch.wedgeCount(); ++wedge) {
+    Value value;
+    for (std::uint32_t i = 0; i < components; ++i)
+      value[i] = static_cast<std::int32_t>(random.bits() >> (32 - bits));
+    attribute.values.push_back(value);
+  }
+  patch.attributes.push_back(attribute);
+}
+
+/// A cube each of whose corners has three wedges, one a face.
+inline Mesh creasedCube() {
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < 8; ++i)
+    mesh.positions.push_back({float(i & 1), float(i >> 1 & 1), float(i >> 2)});
+  for (int axis = 0; axis < 3; ++axis)
+    for (const std::uint32_t side : {0u, 1u}) {
+      const std::uint32_t u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3, at = side << axis;
+      const std::uint32_t first = static_cast<std::uint32_t>(mesh.wedgeCount());
+      for (const std::uint32_t corner : {at, at + u, at + u + v, at + v}) {
+        mesh.wedgePositions.push_back(corner);
+        Vec3f normal;
+        normal[axis] = side == 1 ? 1.0f : -1.0f;
+        mesh.normals.push_back(normal);
+      }
+      const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        side == 1 ? imgeo::testing::addTriangle(mesh, first + a, first + b, first + c)
+                  : imgeo::testing::addTriangle(mesh, first + a, first + c, first + b);
+      };
+      add(0, 1, 2);
+      add(0, 2, 3);
+    }
+  return mesh;
+}
+
+/// A cone of flat triangles: its apex has a wedge for each, its rim two a position.
+inline Mesh flatCone(std::uint32_t triangles) {
+  Mesh mesh;
+  mesh.positions.push_back({0, 0, 1});
+  Random random(triangles);
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    const double angle = 2 * std::numbers::pi * i / triangles;
+    mesh.positions.push_back(Vec3f(Vec3d{std::cos(angle), std::sin(angle), 0}));
+  }
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    const Vec3f normal = random.direction();
+    for (const std::uint32_t position : {0u, 1 + i, 1 + (i + 1) % triangles}) {
+      mesh.corners.push_back(static_cast<std::uint32_t>(mesh.wedgeCount()));
+      mesh.wedgePositions.push_back(position);
+      mesh.normals.push_back(normal);
+    }
+  }
+  return mesh;
+}
+
+/// A height field whose x and y are multiples of a step.
+inline Mesh terrain(std::uint32_t n) {
+  Mesh mesh = imgeo::testing::grid(n);
+  Random random(n);
+  for (Vec3f& position : mesh.positions)
+    position.z = random.between(0, 0.4f);
+  return mesh;
+}
+
+/// A fan of triangles around one vertex.
+inline Mesh star(std::uint32_t triangles) {
+  Mesh mesh = flatCone(triangles);
+  mesh.corners.clear();
+  for (std::uint32_t i = 0; i < triangles; ++i)
+    imgeo::testing::addTriangle(mesh, 0, 1 + i, 1 + (i + 1) % triangles);
+  mesh.normals.clear();
+  mesh.wedgePositions.clear();
+  imgeo::testing::addPlainWedges(mesh);
+  return mesh;
+}
+
+struct Sample {
+  std::string name;
+  CompactPatch patch;
+};
+
+inline std::vector<Sample> samples() {
+  using namespace imgeo::testing;
+  const auto colored = [](Mesh mesh, std::uint32_t components) {
+    Random random(components);
+    mesh.colorComponents = components;
+    for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
+      mesh.colors.push_back(random.color());
+      if (components == 4)
+        mesh.colors.back().a = static_cast<std::uint8_t>(random.bits());
+    }
+    return mesh;
+  };
+  const auto welded = [](Mesh mesh) {
+    weld(mesh);
+    return mesh;
+  };
+  Mesh oneTriangle;
+  oneTriangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  addPlainWedges(oneTriangle);
+  addTriangle(oneTriangle, 0, 1, 2);
+
+  std::vector<Sample> samples;
+  samples.push_back({"triangle", patchOf(oneTriangle, 8)});
+  samples.push_back({"sphere", patchOf(sphere(12, 16), 16)});
+  samples.push_back({"sphere-derived", patchOf(sphere(5, 6), 12, {16, 12, 8, NormalMode::derivedArea})});
+  samples.push_back({"torus", patchOf(colored(torus(12, 9), 4), 14, {10, 12, 8, NormalMode::uniform})});
+  samples.push_back(
+      {"torus-plain-colors", patchOf(colored(torus(9, 12), 3), 11, {4, 16, 5, NormalMode::area})});
+  samples.push_back({"cube", patchOf(creasedCube(), 10)});
+  samples.push_back({"cube-derived", patchOf(creasedCube(), 10, {8, 12, 8, NormalMode::derivedUniform})});
+  samples.push_back({"cone", patchOf(flatCone(40), 16)});
+  samples.push_back({"terrain", patchOf(terrain(12), 16)});
+  samples.push_back({"star", patchOf(star(300), 16)});
+  samples.push_back({"soup", patchOf(welded(soup(60, 5)), 16)});
+  samples.push_back({"non-manifold", patchOf(nonManifold(), 16)});
+  samples.push_back({"fine", patchOf(sphere(6, 8), 30)});
+  samples.push_back({"coarse", patchOf(sphere(20, 20), 8)});
+  samples.push_back({"lines", patchOf(colored(polylines(9, 3), 3), 16)});
+  samples.push_back({"points", patchOf(pointCloud(90, 4), 16)});
+  Mesh pointsWithNormals = pointCloud(40, 6);
+  Random random(1);
+  for (std::size_t i = 0; i < pointsWithNormals.wedgeCount(); ++i)
+    pointsWithNormals.normals.push_back(random.direction());
+  samples.push_back({"points-with-normals", patchOf(pointsWithNormals, 20)});
+  samples.push_back({"others", patchOf(torus(5, 7), 16)});
+  addOther(samples.back().patch, 1, 24, 1);
+  addOther(samples.back().patch, 4, 3, 2);
+  return samples;
+}
+
+} // namespace imgeo::compact::testing

@@ -1,0 +1,189 @@
+// vectors/compact-1: files and what decodes from them, for readers in any language.
+// NAME.png holds the patch of NAME.json at byte `first` of its pixels. edits.json
+// lists edits of payloads, and what is to come of each: the kind of error, or the
+// FNV-1a sum of what decodes. IMGEO_REWRITE_GOLDEN=1 writes all anew, which is a
+// new version of the format.
+#include "base/error.h"
+#include "base/file.h"
+#include "containers/compact/patch_coding.h"
+#include "containers/compact/patch_samples.h"
+#include "containers/compact/payload_image.h"
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace imgeo::compact {
+namespace {
+
+using Json = nlohmann::ordered_json;
+const std::filesystem::path folder = IMGEO_VECTORS "/compact-1";
+
+template <typename Visit> void visitNumbers(const CompactPatch& patch, Visit visit) {
+  for (const Vec3u& position : patch.positions)
+    for (int axis = 0; axis < 3; ++axis)
+      visit("positions", std::int64_t{position[axis]});
+  for (const std::uint32_t position : patch.wedgePositions)
+    visit("wedgePositions", std::int64_t{position});
+  for (const std::uint32_t wedge : patch.corners)
+    visit("corners", std::int64_t{wedge});
+}
+
+Json jsonOf(const CompactPatch& patch, std::size_t first) {
+  Json json{{"first", first},
+            {"topology", static_cast<int>(patch.topology)},
+            {"positionBits", patch.positionBits},
+            {"positions", Json::array()},
+            {"wedgePositions", Json::array()},
+            {"corners", Json::array()},
+            {"attributes", Json::array()}};
+  visitNumbers(patch, [&](const char* name, std::int64_t number) { json[name].push_back(number); });
+  for (const Attribute& attribute : patch.attributes) {
+    const AttributeType& type = attribute.type;
+    Json& entry = json["attributes"].emplace_back();
+    entry = {{"kind", static_cast<int>(type.kind)},
+             {"components", type.components},
+             {"bits", type.bits},
+             {"mode", static_cast<int>(type.mode)},
+             {"values", Json::array()}};
+    for (const Value& value : attribute.values)
+      for (std::uint32_t i = 0; i < type.components; ++i)
+        entry["values"].push_back(value[i]);
+  }
+  return json;
+}
+
+/// FNV-1a over every number that decodes, as four little-endian bytes each.
+std::uint32_t sumOf(const CompactPatch& patch) {
+  std::uint32_t hash = 2166136261u;
+  const auto add = [&](std::int64_t number) {
+    for (int shift = 0; shift < 32; shift += 8)
+      hash = (hash ^ (static_cast<std::uint32_t>(number) >> shift & 255)) * 16777619u;
+  };
+  visitNumbers(patch, [&](const char*, std::int64_t number) { add(number); });
+  for (const Attribute& attribute : patch.attributes)
+    for (const Value& value : attribute.values)
+      for (std::uint32_t i = 0; i < attribute.type.components; ++i)
+        add(value[i]);
+  return hash;
+}
+
+Json verdictOn(const Bytes& payload, std::size_t first) {
+  static constexpr const char* names[] = {"io", "truncated", "malformed", "unsupported", "limit", "usage"};
+  try {
+    return sumOf(decodePatchBytes(payload, first, "x.png"));
+  } catch (const Error& error) {
+    return names[static_cast<std::size_t>(error.kind())];
+  }
+}
+
+/// A payload after [byte, value] pairs and, where "length" stands, cut to it.
+Bytes edited(Bytes payload, const Json& entry) {
+  for (const Json& edit : entry.at("edits"))
+    payload.at(edit.at(0).get<std::size_t>()) = edit.at(1).get<std::uint8_t>();
+  if (entry.contains("length"))
+    payload.resize(entry.at("length").get<std::size_t>());
+  return payload;
+}
+
+void write(const std::string& name, const Json& json) {
+  const std::string text = json.dump() + "\n";
+  writeFile(folder / name, asBytes(text));
+}
+
+Json read(const std::string& name) {
+  return Json::parse(asText(readFile(folder / name)));
+}
+
+/// Every byte of a header made wrong, every stream cut, and damage anywhere.
+Json editsOf(const std::string& name, const Bytes& payload, std::uint32_t seed) {
+  Json entries = Json::array();
+  const auto add = [&](Json edits, std::optional<std::size_t> length = {}) {
+    Json entry{{"file", name}, {"edits", std::move(edits)}};
+    if (length)
+      entry["length"] = *length;
+    entry["verdict"] = verdictOn(edited(payload, entry), 0);
+    entries.push_back(entry);
+  };
+  testing::Random random(seed);
+  for (std::size_t at = 0; at < std::min<std::size_t>(payload.size(), 64); ++at)
+    for (const int value : {0, 1, 2, 17, 31, 32, 128, 255})
+      if (value != payload[at] && random.once(3))
+        add({{at, value}});
+  for (int i = 0; i < 40; ++i)
+    add({{random.below(payload.size()), random.below(256)}});
+  for (int i = 0; i < 10; ++i)
+    add({{random.below(payload.size()), random.below(256)},
+         {random.below(payload.size()), random.below(256)}});
+  for (int i = 0; i < 10; ++i)
+    add(Json::array(), random.below(payload.size()));
+  return entries;
+}
+
+void rewrite() {
+  Json edits = Json::array();
+  std::uint32_t seed = 0;
+  for (const testing::Sample& sample : testing::samples()) {
+    const Bytes payload = encodePatchBytes(sample.patch, 0);
+    writeFile(folder / (sample.name + ".png"), imageOfPayload(payload));
+    write(sample.name + ".json", jsonOf(decodePatchBytes(payload, 0, ""), 0));
+    for (Json& entry : editsOf(sample.name, payload, ++seed))
+      edits.push_back(std::move(entry));
+  }
+  // Two patches in one file.
+  const std::vector<testing::Sample> samples = testing::samples();
+  Bytes payload = encodePatchBytes(samples[5].patch, 0);
+  const std::size_t first = payload.size();
+  const Bytes second = encodePatchBytes(samples[1].patch, 0);
+  payload.insert(payload.end(), second.begin(), second.end());
+  writeFile(folder / "second.png", imageOfPayload(payload));
+  write("second.json", jsonOf(decodePatchBytes(payload, first, ""), first));
+  write("edits.json", edits);
+}
+
+class Vectors : public ::testing::Test {
+protected:
+  static void SetUpTestSuite() {
+    if (std::getenv("IMGEO_REWRITE_GOLDEN") != nullptr)
+      rewrite();
+  }
+};
+
+TEST_F(Vectors, AreDecodedExactly) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".png")
+      continue;
+    const std::string name = entry.path().stem();
+    const Json expected = read(name + ".json");
+    const Bytes payload = payloadOfImage(readFile(entry.path()), name);
+    const auto first = expected.at("first").get<std::size_t>();
+    EXPECT_EQ(jsonOf(decodePatchBytes(payload, first, name), first), expected) << name;
+    ++count;
+  }
+  EXPECT_GT(count, 15u);
+}
+
+TEST_F(Vectors, AreWhatIsEncodedToday) {
+  for (const testing::Sample& sample : testing::samples())
+    EXPECT_EQ(imageOfPayload(encodePatchBytes(sample.patch, 0)), readFile(folder / (sample.name + ".png")))
+        << sample.name;
+}
+
+TEST_F(Vectors, AreRefusedOrDecodedAsStatedWhenEdited) {
+  std::map<std::string, Bytes> payloads;
+  std::map<std::string, std::size_t> verdicts;
+  for (const Json& entry : read("edits.json")) {
+    const std::string name = entry.at("file");
+    if (!payloads.contains(name))
+      payloads[name] = payloadOfImage(readFile(folder / (name + ".png")), name);
+    const Json verdict = verdictOn(edited(payloads[name], entry), 0);
+    EXPECT_EQ(verdict, entry.at("verdict")) << entry;
+    ++verdicts[verdict.is_string() ? verdict.get<std::string>() : "decoded"];
+  }
+  for (const char* verdict : {"truncated", "malformed", "unsupported", "limit", "decoded"})
+    EXPECT_GT(verdicts[verdict], 5u) << verdict;
+}
+
+} // namespace
+} // namespace imgeo::compact
