@@ -46,6 +46,8 @@ export interface PlainPatch {
   triangles: Uint32Array;
   /** Pairs of vertices; strips are taken apart. */
   lines: Uint32Array;
+  /** Which of the patch's triangles each is, where a strip's joins without area are counted too. */
+  triangleNumbers?: Uint32Array;
   /** Vertices drawn as points. */
   points: Uint32Array;
 }
@@ -221,8 +223,13 @@ function spread(node: Attributes, stored: Records, records: number, largest: num
   return table(records, (r, axis) => center[axis]! + size[axis]! * (stored.at(r, axis) / largest - 0.5));
 }
 
-function elementsOf(patch: Attributes, drawn: (n: number) => number): Pick<PlainPatch, "triangles" | "lines" | "points"> {
+function elementsOf(
+  patch: Attributes,
+  drawn: (n: number) => number,
+): Required<Pick<PlainPatch, "triangles" | "triangleNumbers" | "lines" | "points">> {
   const triangles: number[] = [];
+  const triangleNumbers: number[] = [];
+  let counted = 0;
   const lines: number[] = [];
   const points: number[] = [];
   const counts = numbersOf(patch.vertexcount, []);
@@ -233,13 +240,22 @@ function elementsOf(patch: Attributes, drawn: (n: number) => number): Pick<Plain
     if (primitive === "POINTS") points.push(...vertices);
     else if (primitive === "LINES") lines.push(...vertices);
     else if (primitive === "LINESTRIP") vertices.slice(1).forEach((vertex, i) => lines.push(vertices[i]!, vertex));
-    else if (primitive === "TRIANGLES") for (const vertex of vertices) triangles.push(vertex);
-    else if (primitive === "TRIANGLESTRIP") {
-      for (let i = 2; i < vertices.length; ++i) {
+    else if (primitive === "TRIANGLES") {
+      for (const vertex of vertices) triangles.push(vertex);
+      for (let i = 2; i < vertices.length; i += 3) triangleNumbers.push(counted++);
+    } else if (primitive === "TRIANGLESTRIP") {
+      for (let i = 2; i < vertices.length; ++i, ++counted) {
         const [a, b, c] = [vertices[i - 2]!, vertices[i - 1]!, vertices[i]!];
-        if (a !== b && b !== c && c !== a) triangles.push(...(i % 2 === 0 ? [a, b, c] : [b, a, c]));
+        if (a === b || b === c || c === a) continue;
+        triangles.push(...(i % 2 === 0 ? [a, b, c] : [b, a, c]));
+        triangleNumbers.push(counted);
       }
     } else throw new Error(`the test decoder does not know ${primitive}`);
   });
-  return { triangles: Uint32Array.from(triangles), lines: Uint32Array.from(lines), points: Uint32Array.from(points) };
+  return {
+    triangles: Uint32Array.from(triangles),
+    triangleNumbers: Uint32Array.from(triangleNumbers),
+    lines: Uint32Array.from(lines),
+    points: Uint32Array.from(points),
+  };
 }

@@ -101,19 +101,16 @@ function arrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange, bytesBefor
 
 /**
  * A triangle strip as separate triangles with the strip's orientation: buffers
- * of three.js are drawn as triangles only. Degenerate joins are left out.
+ * of three.js are drawn as triangles only. Degenerate joins stay, so that the
+ * strip's triangle t is triangle t; GPUs pass over them.
  */
 export function trianglesFromStrip(strip: IndexArray): IndexArray {
-  const triangles = new (strip.constructor as new (length: number) => IndexArray)(Math.max(0, strip.length - 2) * 3);
-  let written = 0;
-  for (let n = 0; n + 2 < strip.length; ++n) {
-    const a = strip[n + (n & 1)] ?? 0;
-    const b = strip[n + 1 - (n & 1)] ?? 0;
-    const c = strip[n + 2] ?? 0;
-    if (a === b || b === c || c === a) continue;
-    triangles[written++] = a;
-    triangles[written++] = b;
-    triangles[written++] = c;
+  const count = Math.max(0, strip.length - 2);
+  const triangles = new (strip.constructor as new (length: number) => IndexArray)(count * 3);
+  for (let n = 0; n < count; ++n) {
+    triangles[3 * n] = strip[n + (n & 1)] ?? 0;
+    triangles[3 * n + 1] = strip[n + 1 - (n & 1)] ?? 0;
+    triangles[3 * n + 2] = strip[n + 2] ?? 0;
   }
-  return triangles.slice(0, written);
+  return triangles;
 }

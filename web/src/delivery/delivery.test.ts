@@ -162,8 +162,8 @@ describe("typed arrays", () => {
     await settled;
     const full = stages.at(-1)?.stage;
     assert.ok(full?.kind === "buffers");
-    assert.deepEqual(full.draws, [{ primitive: "triangles", first: 0, count: 3 }, { primitive: "triangles", first: 3, count: 6 }]);
-    assert.deepEqual(Array.from(full.index ?? []), [0, 1, 2, 0, 1, 2, 2, 1, 3]);
+    assert.deepEqual(full.draws, [{ primitive: "triangles", first: 0, count: 3 }, { primitive: "triangles", first: 3, count: 12 }]);
+    assert.deepEqual(Array.from(full.index ?? []), [0, 1, 2, 0, 1, 2, 2, 1, 3, 2, 3, 3, 3, 3, 4]);
   });
 
   test("with spherical normals are shaded with nothing but their coordinates", async () => {

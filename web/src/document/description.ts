@@ -90,6 +90,8 @@ export interface ShapeDescription {
   readonly visible: boolean;
   /** What the author says of it, of its geometry and of the groups around it, multiplied. */
   readonly priority: number;
+  /** False: the pointer goes through it to what lies behind. */
+  readonly isPickable: boolean;
   /** Tight, in the shape's own coordinates; undefined where neither the shape nor its geometry has one. */
   readonly box: Box3 | undefined;
   readonly material: MaterialDescription;

@@ -91,7 +91,7 @@ export const nodeFields = {
     center: SFVec3f([0, 0, 0]),
     scaleOrientation: SFRotation([0, 0, 1, 0]),
   },
-  Shape: { ...ranked, ...boundedObject, ...seenObject },
+  Shape: { ...ranked, ...boundedObject, ...seenObject, isPickable: SFBool(true) },
   Material: {
     diffuseColor: SFColor([0.8, 0.8, 0.8]),
     specularColor: SFColor([0, 0, 0]),

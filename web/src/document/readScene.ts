@@ -156,6 +156,7 @@ function readShape(element: SceneElement, node: SceneElement, reading: Reading, 
     kind: "shape", element, geometry,
     visible: inherited.visible && isSeen(values),
     priority: inherited.priority * values.priority * priorityOfGeometry,
+    isPickable: values.isPickable,
     box: boxOf(values) ?? (geometry && boxOfGeometry(geometry)),
     material: material ?? readFields(withoutAttributes, nodeFields.Material, reading.warnings),
   };

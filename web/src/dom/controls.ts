@@ -35,7 +35,7 @@ function listenToPointers(canvas: HTMLCanvasElement, movable: Movable, signal: A
   canvas.addEventListener("pointerup", lift, { signal });
   canvas.addEventListener("pointercancel", lift, { signal });
   canvas.addEventListener("pointerdown", (event) => {
-    if (down.size === 2) return;
+    if (event.defaultPrevented || down.size === 2) return;
     down.set(event.pointerId, pointOf(event));
     canvas.setPointerCapture(event.pointerId);
   }, { signal });

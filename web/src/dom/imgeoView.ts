@@ -5,6 +5,9 @@ import { contextOf } from "../render/sceneRenderer.ts";
 import { listenForMovement } from "./controls.ts";
 import { makeFace } from "./face.ts";
 import { Loading } from "./loading.ts";
+import { listenForPointing, pixelAt } from "./pointing.ts";
+import type { Vector3D } from "./shapeEvents.ts";
+import { vector3DOf } from "./shapeEvents.ts";
 import type { ViewStatistics } from "./viewer.ts";
 import { Viewer } from "./viewer.ts";
 
@@ -12,13 +15,31 @@ export const viewTag = "imgeo-view";
 
 const noWebGl = "This page shows a 3D scene, for which the browser needs WebGL 2. It is missing or switched off here.";
 
+/** A place on a shape. */
+export interface SurfacePoint {
+  readonly position: Vector3D;
+  /** Of length 1; null on points and lines without normals. */
+  readonly normal: Vector3D | null;
+  readonly shape: Element;
+}
+
 export class ImgeoView extends HTMLElement {
   #viewer: Viewer | undefined;
+  #canvas: HTMLCanvasElement | undefined;
   #listeners = new AbortController();
 
   /** What has been drawn, requested, and is held on the GPU; undefined without a picture. */
   get statistics(): ViewStatistics | undefined {
     return this.#viewer?.statistics;
+  }
+
+  /** What is seen at a point of the window, in CSS pixels as events' clientX and clientY; null where no shape is. */
+  positionAndNormalFromPoint(x: number, y: number): SurfacePoint | null {
+    if (this.#viewer === undefined || this.#canvas === undefined) return null;
+    const hit = this.#viewer.renderer.pick(...pixelAt(this.#canvas, x, y));
+    if (hit === undefined) return null;
+    const { position, normal, element } = hit;
+    return { position: vector3DOf(position), normal: normal ? vector3DOf(normal) : null, shape: element as Element };
   }
 
   connectedCallback(): void {
@@ -39,6 +60,8 @@ export class ImgeoView extends HTMLElement {
     // Known before the first request: what is asked for first depends on what is seen.
     viewer.renderer.setSize(...sizeOf(face.canvas));
     viewer.start();
+    this.#canvas = face.canvas;
+    listenForPointing(face.canvas, this, viewer.renderer, this.#listeners.signal);
     listenForMovement(face.canvas, viewer.navigator, this.#listeners.signal);
     watchSize(face.canvas, this.#listeners.signal, (width, height, ratio) => { viewer.renderer.resize(width, height, ratio); });
   }

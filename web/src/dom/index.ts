@@ -5,6 +5,8 @@ import { ImgeoView, viewTag } from "./imgeoView.ts";
 
 export { ImgeoView };
 export type { ErrorDetail, Loadable, ProgressDetail } from "./loading.ts";
+export type { SurfacePoint } from "./imgeoView.ts";
+export type { ShapeEventProperties, ShapePointerEvent, Vector3D } from "./shapeEvents.ts";
 export type { ViewStatistics } from "./viewer.ts";
 
 function fillAll(): void {

@@ -10,7 +10,7 @@
 import type { Color, Vector2 } from "three";
 import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshPhongMaterial } from "three";
 import type { MaterialDescription, Vec3 } from "../document/description.ts";
-import type { ImageVertexUniforms } from "./vertexChunk.ts";
+import type { VertexUniforms } from "./vertexChunk.ts";
 import { imageNormalsDefine, imageVerticesDefine, readVerticesIn, replaceEach } from "./vertexChunk.ts";
 
 const x3dLighting = /* glsl */ `
@@ -83,31 +83,30 @@ export interface MaterialRequest {
   readonly solid: boolean;
   /** How normals are stored, as normalDefinesOf says it. */
   readonly normalDefines: Readonly<Record<string, string>>;
-  /** Absent for vertices from buffers. */
-  readonly images: ImageVertexUniforms | undefined;
-  /** Along each axis, in the shape's coordinates. */
-  readonly latticeStep: Vec3;
+  /** Vertices come from images, not from buffers. */
+  readonly areImages: boolean;
+  readonly uniforms: VertexUniforms;
   readonly shared: SceneUniforms;
 }
 
 export type PatchMaterial = (MeshPhongMaterial | MeshBasicMaterial) & { userData: { ambientIntensity?: { value: number } } };
 
 export function makeMaterial(request: MaterialRequest, description: MaterialDescription): PatchMaterial {
-  const { shading, colors, solid, images, normalDefines, latticeStep, shared } = request;
+  const { shading, colors, solid, areImages, normalDefines, uniforms, shared } = request;
   const ambientIntensity = { value: 0 };
   const material: PatchMaterial = shading === "unlit" || shading === "distance" ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
   material.side = solid ? FrontSide : DoubleSide;
   material.vertexColors = colors !== "none";
   material.defines = {
-    ...(images && { [imageVerticesDefine]: "" }),
-    ...(images && shading === "smooth" && { [imageNormalsDefine]: "" }),
+    ...(areImages && { [imageVerticesDefine]: "" }),
+    ...(areImages && shading === "smooth" && { [imageNormalsDefine]: "" }),
     ...(shading === "smooth" && normalDefines),
     ...(shading === "distance" && { [farnessDefine]: "" }),
   };
   material.userData.ambientIntensity = ambientIntensity;
   material.onBeforeCompile = (shader) => {
-    Object.assign(shader.uniforms, images, shared, { ambientIntensity, latticeStep: { value: latticeStep } });
+    Object.assign(shader.uniforms, uniforms, { depthRange: shared.depthRange, ambientIntensity });
     readVerticesIn(shader);
     shader.vertexShader = farnessDeclarations + replaceEach(shader.vertexShader, [["#include <fog_vertex>", farnessVertex]]);
     shader.fragmentShader = farnessDeclarations + replaceEach(shader.fragmentShader, [

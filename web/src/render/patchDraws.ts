@@ -1,7 +1,7 @@
 // A stage -> three.js objects, one per draw.
 
-import type { BufferGeometry, Object3D } from "three";
-import { Line, LineSegments, Matrix4, Mesh, Points, Sphere, Vector3 } from "three";
+import type { BufferGeometry } from "three";
+import { Matrix4, Sphere, Vector3 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
 import type { DrawRange, Stage, TextureStage } from "../decode/stage.ts";
 import type { GeometryDescription, MaterialDescription, PatchDescription } from "../document/description.ts";
@@ -9,14 +9,23 @@ import { boxAround } from "../document/geometry.ts";
 import { middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
 import type { PatchMaterial, SceneUniforms, Shading, VertexColors } from "./materials.ts";
 import { applyMaterial, makeMaterial } from "./materials.ts";
+import type { DrawnObject } from "./pickDraw.ts";
+import { objectOf, PickDraw } from "./pickDraw.ts";
 import type { GeometryPool } from "./stageGeometries.ts";
 import type { TextureStore } from "./textures.ts";
-import type { ImageVertexUniforms } from "./vertexChunk.ts";
+import type { ImageVertexUniforms, VertexUniforms } from "./vertexChunk.ts";
 import { normalDefinesOf } from "./vertexChunk.ts";
 
+/** A draw in one place of the scene. It owns nothing on the GPU. */
+export interface PlacedDraw {
+  readonly object: DrawnObject;
+  /** Shared by all places. */
+  readonly pick: PickDraw;
+}
+
 export interface PatchDraws {
-  /** New objects, one per draw, for one more place in the scene. They own nothing on the GPU. */
-  makeObjects(): Object3D[];
+  /** For one more place in the scene. */
+  place(): PlacedDraw[];
   applyMaterial(description: MaterialDescription): void;
   /** Frees what this stage alone uses; its objects must have left the scene. */
   dispose(): void;
@@ -39,24 +48,31 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
   // Places the lattice: stored integers -> the shape's coordinates.
   const matrix = new Matrix4().makeScale(...step).setPosition(...origin);
   const normalDefines = normalDefinesOf(stage.normalCode, stage.kind === "buffers" && stage.normal?.components === 1);
-  const base = stage.kind === "textures" ? imageUniformsOf(stage, setting.textures) : undefined;
+  const areImages = stage.kind === "textures";
+  const common: VertexUniforms = { pointSize: shared.pointSize, latticeStep: { value: step } };
+  const base = areImages ? imageUniformsOf(stage, setting.textures, common) : undefined;
   const draws = setting.geometries.acquire(stage).flatMap((shape, place) => {
-    const draw = stage.draws[place];
-    if (draw === undefined || draw.count === 0) return [];
+    const range = stage.draws[place];
+    if (range === undefined || range.count === 0) return [];
     shape.boundingSphere = bounds;
-    const material = makeMaterial({
-      shading: shadingOf(stage, draw), colors, solid: geometry.solid, normalDefines, latticeStep: step, shared,
-      images: base && { ...base, firstNumber: { value: draw.first }, isStrip: { value: draw.primitive === "triangleStrip" } },
-    }, setting.material);
-    return [{ draw, shape, material }];
+    const uniforms = base ? { ...base, firstNumber: { value: range.first }, isStrip: { value: range.primitive === "triangleStrip" } } : common;
+    const material = makeMaterial(
+      { shading: shadingOf(stage, range), colors, solid: geometry.solid, areImages, normalDefines, uniforms, shared }, setting.material);
+    const pick = new PickDraw(stage, range, shape, {
+      side: material.side, hasNormals: stage.normal !== undefined, areImages, normalDefines, uniforms,
+    });
+    return [{ range, shape, material, pick }];
   });
   return {
-    makeObjects: () => draws.map(({ draw, shape, material }) => objectOf(draw, shape, material, matrix)),
+    place: () => draws.map(({ range, shape, material, pick }) => ({ object: placedObject(range, shape, material, matrix), pick })),
     applyMaterial(description) {
       for (const { material } of draws) applyMaterial(material, description, colors);
     },
     dispose() {
-      for (const { material } of draws) material.dispose();
+      for (const { material, pick } of draws) {
+        material.dispose();
+        pick.dispose();
+      }
       setting.geometries.release(stage);
     },
   };
@@ -75,10 +91,8 @@ function shadingOf(stage: Stage, draw: DrawRange): Shading {
   return stage.normal === undefined ? "flat" : "smooth";
 }
 
-function objectOf(draw: DrawRange, shape: BufferGeometry, material: PatchMaterial, matrix: Matrix4): Object3D {
-  const object = draw.primitive === "points" ? new Points(shape, material)
-    : draw.primitive === "lines" ? new LineSegments(shape, material)
-    : draw.primitive === "lineStrip" ? new Line(shape, material) : new Mesh(shape, material);
+function placedObject(draw: DrawRange, shape: BufferGeometry, material: PatchMaterial, matrix: Matrix4): DrawnObject {
+  const object = objectOf(draw, shape, material);
   object.matrixAutoUpdate = false;
   object.matrix.copy(matrix);
   return object;
@@ -96,11 +110,12 @@ function storedBoundsOf(geometry: GeometryDescription, patch: PatchDescription):
   return new Sphere(min.clone().add(max).multiplyScalar(0.5), min.distanceTo(max) / 2 + slack);
 }
 
-function imageUniformsOf(stage: TextureStage, textures: TextureStore): ImageVertexUniforms {
+function imageUniformsOf(stage: TextureStage, textures: TextureStore, common: VertexUniforms): ImageVertexUniforms {
   const { index, coord, normal, color } = stage;
   const texture = (range: { image: DecodedImage } | undefined) => ({ value: range ? textures.textureOf(range.image) : null });
   const first = (range: { first: number } | undefined) => range?.first ?? 0;
   return {
+    ...common,
     indexImage: texture(index),
     coordImage0: texture(coord[0]),
     coordImage1: texture(coord[1]),

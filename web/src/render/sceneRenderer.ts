@@ -1,6 +1,6 @@
 // Draws a described scene into a canvas, and only when something changed.
 
-import type { Sphere } from "three";
+import type { Object3D, Sphere } from "three";
 import {
   Box3, Color, DirectionalLight, Group, LinearSRGBColorSpace, Matrix4, NoToneMapping, PerspectiveCamera, Scene, Vector2,
   WebGLRenderer,
@@ -13,6 +13,8 @@ import type { PlacedViewpoint, Pose } from "../navigation/camera.ts";
 import { applyPose, sphereAround } from "../navigation/camera.ts";
 import type { SceneUniforms } from "./materials.ts";
 import { setColor } from "./materials.ts";
+import type { Hit, PickCandidate, Place } from "./picking.ts";
+import { Picker } from "./picking.ts";
 import { buildGraph } from "./sceneGraph.ts";
 import type { ShapeSetting } from "./shapeObject.ts";
 import { ShapeObject } from "./shapeObject.ts";
@@ -68,18 +70,21 @@ export class SceneRenderer {
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
   readonly #camera = new PerspectiveCamera();
+  /** As it stood for the last frame. */
+  readonly #drawnCamera = new PerspectiveCamera();
   readonly #headlight = new DirectionalLight();
   readonly #shared: SceneUniforms = { pointSize: { value: pointSizeInCssPixels }, depthRange: { value: new Vector2() } };
   readonly #setting: ShapeSetting = { geometries: new GeometryPool(), textures: new TextureStore(), shared: this.#shared };
   readonly #shapes = new Map<SceneElement, ShapeObject>();
   readonly #cameraMan: CameraMan;
   readonly #onFrame: () => void;
+  readonly #picker: Picker;
   #root = new Group();
   #sphere = sphereAround(new Box3());
-  #aspect = 1;
-  #height = 1;
-  #hasArea = false;
+  #size = { width: 0, height: 0 };
   #frames = 0;
+  /** What `pick` has found since the scene last changed. */
+  #picked: { readonly x: number; readonly y: number; readonly hit: Hit | undefined } | undefined;
   #frameRequest = 0;
 
   /** `onFrame` is called after each frame that has been drawn. */
@@ -87,6 +92,7 @@ export class SceneRenderer {
     this.#cameraMan = cameraMan;
     this.#onFrame = onFrame;
     this.#renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
+    this.#picker = new Picker(this.#renderer);
     // The numbers of the document are the numbers of the screen: see materials.ts.
     this.#renderer.outputColorSpace = LinearSRGBColorSpace;
     this.#renderer.toneMapping = NoToneMapping;
@@ -113,7 +119,7 @@ export class SceneRenderer {
     return {
       position: camera.position.toArray(),
       clipFromScene: new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements,
-      pixelsPerUnit: (camera.projectionMatrix.elements[5] * this.#height) / 2,
+      pixelsPerUnit: (camera.projectionMatrix.elements[5] * this.#size.height) / 2,
       near: camera.near,
     };
   }
@@ -140,7 +146,7 @@ export class SceneRenderer {
     for (const [element, shape] of shapes) {
       const object = this.#objectOf(shape);
       object.keepPlaces(places.get(element) ?? 0);
-      object.setMaterial(shape.material);
+      object.setShape(shape);
     }
     this.#root.removeFromParent();
     this.#root = root;
@@ -178,10 +184,8 @@ export class SceneRenderer {
 
   /** In device pixels, with the number of them in a CSS pixel. The canvas is empty until a frame is drawn. */
   setSize(width: number, height: number, pixelRatio: number): void {
-    this.#hasArea = width > 0 && height > 0;
+    this.#size = { width, height };
     if (!this.#hasArea) return;
-    this.#aspect = width / height;
-    this.#height = height;
     this.#shared.pointSize.value = pointSizeInCssPixels * pixelRatio;
     this.#renderer.setSize(width, height, false);
   }
@@ -192,7 +196,26 @@ export class SceneRenderer {
     this.#drawNow();
   }
 
+  /** What the last frame shows at a pixel, counted in whole device pixels from the top left. Waits for the GPU. */
+  pick(x: number, y: number): Hit | undefined {
+    if (this.#frames === 0 || !this.#isInside(x, y)) return undefined;
+    if (this.#picked?.x !== x || this.#picked.y !== y) {
+      this.#picked = { x, y, hit: this.#picker.pick(this.#drawnCamera, this.#placeOf(x, y), this.#pickSlack, this.#pickCandidates()) };
+    }
+    return this.#picked.hit;
+  }
+
+  /** The same without waiting; no frame comes late for it. */
+  async pickSoon(x: number, y: number): Promise<Hit | undefined> {
+    while (this.#frames > 0 && this.#isInside(x, y)) {
+      const hit = await this.#picker.pickSoon(this.#drawnCamera, this.#placeOf(x, y), this.#pickSlack, this.#pickCandidates());
+      if (hit !== "stale") return hit;
+    }
+    return undefined;
+  }
+
   requestFrame(): void {
+    this.#picked = undefined;
     if (this.#frameRequest === 0) this.#frameRequest = requestAnimationFrame(() => { this.#drawNow(); });
   }
 
@@ -201,17 +224,48 @@ export class SceneRenderer {
     cancelAnimationFrame(this.#frameRequest);
     for (const object of this.#shapes.values()) object.dispose();
     this.#shapes.clear();
+    this.#picker.dispose();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
+  }
+
+  get #aspect(): number {
+    return this.#size.width / this.#size.height;
+  }
+
+  get #hasArea(): boolean {
+    return this.#size.width > 0 && this.#size.height > 0;
+  }
+
+  #isInside(x: number, y: number): boolean {
+    return x >= 0 && y >= 0 && x < this.#size.width && y < this.#size.height;
+  }
+
+  #placeOf(x: number, y: number): Place {
+    return { ...this.#size, x, y };
+  }
+
+  /** How far, in device pixels, a vertex may be from what it covers. */
+  get #pickSlack(): number {
+    return 1 + Math.ceil(this.#shared.pointSize.value / 2);
+  }
+
+  *#pickCandidates(): Generator<PickCandidate> {
+    for (const [element, object] of this.#shapes) {
+      if (!object.isPickable) continue;
+      for (const placed of object.placedDraws()) if (isShown(placed.object)) yield { ...placed, element };
+    }
   }
 
   #drawNow(): void {
     cancelAnimationFrame(this.#frameRequest);
     this.#frameRequest = 0;
+    this.#picked = undefined;
     if (!this.#hasArea) return;
     applyPose(this.#camera, this.#cameraMan.advance(performance.now()), this.#aspect, this.#sphere);
     this.#shared.depthRange.value.set(this.#camera.near, this.#camera.far);
     this.#renderer.render(this.#scene, this.#camera);
+    this.#drawnCamera.copy(this.#camera, false);
     this.#frames += 1;
     this.#onFrame();
     if (this.#cameraMan.isMoving) this.requestFrame();
@@ -222,4 +276,8 @@ export class SceneRenderer {
     this.#shapes.set(shape.element, object);
     return object;
   }
+}
+
+function isShown(object: Object3D | null): boolean {
+  return object === null || (object.visible && isShown(object.parent));
 }

@@ -1,11 +1,10 @@
 // A shape on the screen: the draws of each patch's newest stage, hung into a
 // group for each place where the shape stands in the scene.
 
-import type { Object3D } from "three";
 import { Group } from "three";
 import type { Stage } from "../decode/stage.ts";
 import type { GeometryDescription, MaterialDescription, ShapeDescription } from "../document/description.ts";
-import type { PatchDraws, PatchSetting } from "./patchDraws.ts";
+import type { PatchDraws, PatchSetting, PlacedDraw } from "./patchDraws.ts";
 import { drawStage } from "./patchDraws.ts";
 
 /** What all shapes of a scene share. */
@@ -13,8 +12,8 @@ export type ShapeSetting = Pick<PatchSetting, "geometries" | "textures" | "share
 
 interface ShownPatch {
   readonly draws: PatchDraws;
-  /** The draws' objects in every place. */
-  readonly objects: Object3D[];
+  /** The draws in every place. */
+  placed: PlacedDraw[];
 }
 
 export class ShapeObject {
@@ -22,10 +21,12 @@ export class ShapeObject {
   readonly #groups: Group[] = [];
   readonly #patches = new Map<number, ShownPatch>();
   #material: MaterialDescription;
+  #isPickable: boolean;
 
   constructor(setting: ShapeSetting, shape: ShapeDescription) {
     this.#setting = setting;
     this.#material = shape.material;
+    this.#isPickable = shape.isPickable;
   }
 
   /** The group for the shape's place number `place`, 0, 1, 2 …, which its caller hangs into the scene. */
@@ -35,7 +36,7 @@ export class ShapeObject {
     const group = new Group();
     group.matrixAutoUpdate = false;
     this.#groups[place] = group;
-    for (const { draws, objects } of this.#patches.values()) hang(draws.makeObjects(), group, objects);
+    for (const shown of this.#patches.values()) hang(shown, group);
     return group;
   }
 
@@ -45,9 +46,16 @@ export class ShapeObject {
       group.removeFromParent();
       group.clear();
     }
+    for (const shown of this.#patches.values()) shown.placed = shown.placed.filter(({ object }) => object.parent !== null);
   }
 
-  setMaterial(material: MaterialDescription): void {
+  get isPickable(): boolean {
+    return this.#isPickable;
+  }
+
+  /** Takes over what a changed document says, the geometry apart. */
+  setShape({ material, isPickable }: ShapeDescription): void {
+    this.#isPickable = isPickable;
     this.#material = material;
     for (const { draws } of this.#patches.values()) draws.applyMaterial(material);
   }
@@ -57,10 +65,15 @@ export class ShapeObject {
     const patch = geometry.patches[place];
     if (patch === undefined) throw new RangeError(`no patch ${place}`);
     const before = this.#patches.get(place);
-    const shown = { draws: drawStage(stage, { ...this.#setting, geometry, patch, material: this.#material }), objects: [] };
-    for (const group of this.#groups) hang(shown.draws.makeObjects(), group, shown.objects);
+    const shown = { draws: drawStage(stage, { ...this.#setting, geometry, patch, material: this.#material }), placed: [] };
+    for (const group of this.#groups) hang(shown, group);
     this.#patches.set(place, shown);
     if (before !== undefined) takeAway(before);
+  }
+
+  /** Every draw in every place, with the number of its patch. */
+  *placedDraws(): Generator<PlacedDraw & { patch: number }> {
+    for (const [patch, { placed }] of this.#patches) for (const draw of placed) yield { ...draw, patch };
   }
 
   clear(): void {
@@ -74,12 +87,14 @@ export class ShapeObject {
   }
 }
 
-function hang(objects: Object3D[], group: Group, all: Object3D[]): void {
-  group.add(...objects);
-  all.push(...objects);
+function hang(shown: ShownPatch, group: Group): void {
+  for (const placed of shown.draws.place()) {
+    group.add(placed.object);
+    shown.placed.push(placed);
+  }
 }
 
-function takeAway({ draws, objects }: ShownPatch): void {
-  for (const object of objects) object.removeFromParent();
+function takeAway({ draws, placed }: ShownPatch): void {
+  for (const { object } of placed) object.removeFromParent();
   draws.dispose();
 }

@@ -10,9 +10,17 @@
 
 import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "three";
 import type { NormalCode } from "../decode/stage.ts";
+import type { Vec3 } from "../document/description.ts";
 
-/** What the image body reads, as uniforms. Textures that have not come are null and read as 0. */
-export interface ImageVertexUniforms extends Record<string, IUniform> {
+/** What both bodies read, as uniforms. */
+export interface VertexUniforms extends Record<string, IUniform> {
+  pointSize: IUniform<number>;
+  /** Along each axis, in the shape's coordinates. */
+  latticeStep: IUniform<Vec3>;
+}
+
+/** What the image body reads besides. Textures that have not come are null and read as 0. */
+export interface ImageVertexUniforms extends VertexUniforms {
   indexImage: IUniform<Texture | null>;
   coordImage0: IUniform<Texture | null>;
   coordImage1: IUniform<Texture | null>;
@@ -56,6 +64,9 @@ const ownNormalsChunk = /* glsl */ `
 `;
 
 const readVertexChunk = /* glsl */ `
+uniform float pointSize;
+uniform vec3 latticeStep;
+
 struct Vertex {
   vec3 position;
   vec3 normal;
@@ -97,10 +108,10 @@ uniform bool colorHasAlpha;
 
 // Strips are drawn as separate triangles, three.js knows no others: triangle t
 // is t, t + 1, t + 2, its first two exchanged where t is odd.
-int runningNumber() {
-  if (!isStrip) return firstNumber + gl_VertexID;
-  int triangle = gl_VertexID / 3;
-  int corner = gl_VertexID % 3;
+int runningNumber(int drawnNumber) {
+  if (!isStrip) return firstNumber + drawnNumber;
+  int triangle = drawnNumber / 3;
+  int corner = drawnNumber % 3;
   return firstNumber + triangle + (corner == 2 ? 2 : corner ^ (triangle & 1));
 }
 
@@ -121,9 +132,10 @@ uvec3 bytesOf(vec4 texel) {
 
 // An index texel holds the three bytes of a record's number, or column and row in
 // units of 1/256 of the coordinate image (docs/formats/nodes.md, "Stored values").
-int recordNumber() {
-  if (!hasIndex) return runningNumber();
-  int n = texelNumber(indexImage, runningNumber());
+int recordNumber(int drawnNumber) {
+  int running = runningNumber(drawnNumber);
+  if (!hasIndex) return running;
+  int n = texelNumber(indexImage, running);
   ivec3 index = ivec3(bytesOf(texelOf(indexImage, firstTexels.x, n)));
   if (isIndexWide) return index.r | index.g << 8 | index.b << 16;
   ivec2 place = index.rg;
@@ -132,27 +144,36 @@ int recordNumber() {
   return texel.y * size.x + texel.x;
 }
 
-vec3 readNormal(int record, int texel) {
+// The texel of a record that is one texel: without an index, records stand in rows of implicitWidth.
+int recordTexel(int record) {
+  return hasIndex ? record : texelNumber(coordImage0, record);
+}
+
+vec3 readNormal(int record) {
   #ifdef NORMAL_LARGEST
     ivec2 size = textureSize(normalImage, 0);
     int first = firstTexels.y;
     return unitOf(255.0 * vec2(texelOf(normalImage, first, record).r,
                                texelOf(normalImage, first + size.x * size.y / 2, record).r));
   #else
-    return texelOf(normalImage, firstTexels.y, texel).rgb * 2.0 - 1.0;
+    return texelOf(normalImage, firstTexels.y, recordTexel(record)).rgb * 2.0 - 1.0;
   #endif
 }
 
-Vertex readVertex() {
-  int record = recordNumber();
-  int n = hasIndex ? record : texelNumber(coordImage0, record);
+vec3 storedPosition(int record) {
+  int n = recordTexel(record);
   uvec3 stored = bytesOf(texelOf(coordImage0, coordFirstTexels.x, n));
   if (coordPlanes > 1) stored = (stored << 8) | bytesOf(texelOf(coordImage1, coordFirstTexels.y, n));
   if (coordPlanes > 2) stored = (stored << 8) | bytesOf(texelOf(coordImage2, coordFirstTexels.z, n));
   if (coordPlanes > 3) stored = (stored << 8) | bytesOf(texelOf(coordImage3, coordFirstTexels.w, n));
-  vec4 color = texelOf(colorImage, firstTexels.z, n);
+  return vec3(stored) + middleOfMissing;
+}
+
+Vertex readVertex() {
+  int record = recordNumber(gl_VertexID);
+  vec4 color = texelOf(colorImage, firstTexels.z, recordTexel(record));
   if (!colorHasAlpha) color.a = 1.0;
-  return Vertex(vec3(stored) + middleOfMissing, readNormal(record, n), color);
+  return Vertex(storedPosition(record), readNormal(record), color);
 }
 
 #else
@@ -192,7 +213,7 @@ const colorChunk = /* glsl */ `
 export function readVerticesIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
   shader.fragmentShader = ownNormalsChunk + shader.fragmentShader;
   shader.vertexShader = ownNormalsChunk + replaceEach(shader.vertexShader, [
-    ["#include <common>", `#include <common>\nuniform float pointSize;\nuniform vec3 latticeStep;\n${readVertexChunk}`],
+    ["#include <common>", `#include <common>\n${readVertexChunk}`],
     ["void main() {", "void main() {\n  Vertex vertex = readVertex();\n  gl_PointSize = pointSize;"],
     ["#include <color_vertex>", colorChunk],
     // Normals are the shape's own; the normal matrix takes the lattice's steps out of them again.

@@ -1,0 +1,100 @@
+// Where the ray through a pixel meets a mesh: by the book (Möller and Trumbore
+// 1997), over every triangle, in double precision. What picking is tested with.
+
+import type { ReferenceScene } from "./reference.ts";
+import type { PlainPatch } from "./siteDecoder.ts";
+
+export type Vec3 = [number, number, number];
+
+export interface RayHit {
+  patch: number;
+  /** The patch's number for the triangle. */
+  triangle: number;
+  vertices: Vec3;
+  /** Shares of the three corners; they sum to 1. */
+  shares: Vec3;
+  position: Vec3;
+  /** From the corners' normals; from the triangle where there are none. */
+  normal: Vec3;
+  distance: number;
+}
+
+export interface Ray {
+  origin: Vec3;
+  direction: Vec3;
+}
+
+/** The ray through the middle of a pixel. */
+export function rayThrough(
+  { position, orientation, fieldOfView }: ReferenceScene["viewpoint"],
+  { width, height }: { width: number; height: number },
+  x: number,
+  y: number,
+): Ray {
+  const scale = Math.tan(fieldOfView / 2) / Math.min(width, height);
+  const inView: Vec3 = [(2 * x + 1 - width) * scale, (height - 2 * y - 1) * scale, -1];
+  return { origin: position, direction: rotated(inView, orientation) };
+}
+
+/** Rodrigues' formula. */
+function rotated(v: Vec3, [x, y, z, angle]: [number, number, number, number]): Vec3 {
+  const length = Math.hypot(x, y, z) || 1;
+  const axis: Vec3 = [x / length, y / length, z / length];
+  const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+  const turned = cross(axis, v);
+  const along = dot(axis, v) * (1 - cos);
+  return [0, 1, 2].map((i) => v[i]! * cos + turned[i]! * sin + axis[i]! * along) as Vec3;
+}
+
+/** The nearest triangle that faces the ray's origin. */
+export function firstHit({ origin, direction }: Ray, patches: PlainPatch[]): RayHit | undefined {
+  let found: RayHit | undefined;
+  for (const [patch, mesh] of patches.entries()) {
+    for (let t = 0; 3 * t < mesh.triangles.length; ++t) {
+      const vertices = [...mesh.triangles.subarray(3 * t, 3 * t + 3)] as Vec3;
+      const [a, b, c] = vertices.map((vertex) => vectorAt(mesh.positions, vertex)) as [Vec3, Vec3, Vec3];
+      const [ab, ac] = [minus(b, a), minus(c, a)];
+      const p = cross(direction, ac);
+      const determinant = dot(ab, p);
+      if (determinant <= 0) continue; // edge on, or seen from behind
+      const toOrigin = minus(origin, a);
+      const u = dot(toOrigin, p) / determinant;
+      const q = cross(toOrigin, ab);
+      const v = dot(direction, q) / determinant;
+      const distance = dot(ac, q) / determinant;
+      if (u < 0 || v < 0 || u + v > 1 || distance <= 0 || (found && found.distance <= distance)) continue;
+      const shares: Vec3 = [1 - u - v, u, v];
+      found = {
+        patch, triangle: mesh.triangleNumbers?.[t] ?? t, vertices, shares, distance,
+        position: [0, 1, 2].map((i) => origin[i]! + distance * direction[i]!) as Vec3,
+        normal: unit(mesh.normals ? mixed(mesh.normals, vertices, shares) : cross(ab, ac)),
+      };
+    }
+  }
+  return found;
+}
+
+function mixed(values: Float32Array, vertices: Vec3, shares: Vec3): Vec3 {
+  return [0, 1, 2].map((i) => shares.reduce((sum, share, corner) => sum + share * values[3 * vertices[corner]! + i]!, 0)) as Vec3;
+}
+
+export function vectorAt(values: Float32Array, n: number): Vec3 {
+  return [values[3 * n]!, values[3 * n + 1]!, values[3 * n + 2]!];
+}
+
+export function minus(a: Vec3, b: Vec3): Vec3 {
+  return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+}
+
+export function dot(a: Vec3, b: Vec3): number {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+function cross(a: Vec3, b: Vec3): Vec3 {
+  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+}
+
+function unit(a: Vec3): Vec3 {
+  const length = Math.hypot(...a);
+  return [a[0] / length, a[1] / length, a[2] / length];
+}

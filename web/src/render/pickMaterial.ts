@@ -1,0 +1,127 @@
+// What the picking pass draws: instead of a colour, each pixel gets the draw it
+// shows, the primitive and vertex of it, and the point and normal there. Vertices
+// come from the same chunk as in every other pass, so that what is hit is what is
+// seen.
+//
+// Four targets of 32-bit unsigned integers, which every WebGL 2 can draw into;
+// floats pass through as their bits.
+
+import type { Side } from "three";
+import { GLSL3, ShaderMaterial } from "three";
+import type { DrawRange } from "../decode/stage.ts";
+import type { VertexUniforms } from "./vertexChunk.ts";
+import { imageVerticesDefine, readVerticesIn } from "./vertexChunk.ts";
+
+/**
+ * Where in a pixel's words each field begins. Normals are zero where there is
+ * none; the three words of a vertex of the face stand in what the others leave.
+ */
+export const pickedWords = {
+  drawNumber: 0, element: 1, vertex: 2, position: 4, normal: 8, faceNormal: 12, facePoint: [7, 11, 15],
+} as const;
+export const pickedTargets = 4;
+
+const vertexShader = /* glsl */ `
+#include <common>
+uniform bool hasNormals;
+varying vec3 vPosition;
+varying vec3 vNormal;
+flat varying int element;
+flat varying ivec3 cornerVertices;
+flat varying vec3 facePoint;
+flat varying vec3 faceNormal;
+varying vec3 cornerWeights;
+
+void main() {
+  #include <beginnormal_vertex>
+  #include <begin_vertex>
+  #include <project_vertex>
+  vPosition = transformed;
+  vNormal = hasNormals ? objectNormal : vec3(0.0);
+  // Of vertices behind an index buffer, WebGL tells the shader no more than the
+  // number of the primitive's last one; picking.ts finds the rest.
+  element = gl_VertexID;
+  cornerVertices = ivec3(gl_VertexID);
+  cornerWeights = vec3(1.0, 0.0, 0.0);
+  facePoint = transformed;
+  faceNormal = vec3(0.0);
+  #ifdef ${imageVerticesDefine}
+    #ifdef IS_LINE_STRIP
+      // A vertex ends one line and begins the next, so even numbers are one corner
+      // and odd ones the other; of flat values the line's last vertex counts.
+      element = gl_VertexID - 1;
+      int other = recordNumber(max(element, 0));
+      bool isEven = (gl_VertexID & 1) == 0;
+      cornerVertices.xy = isEven ? ivec2(recordNumber(gl_VertexID), other) : ivec2(other, recordNumber(gl_VertexID));
+      cornerWeights = isEven ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    #else
+      element = gl_VertexID / PRIMITIVE_CORNERS;
+      int firstCorner = element * PRIMITIVE_CORNERS;
+      for (int corner = 0; corner < PRIMITIVE_CORNERS; ++corner) {
+        cornerVertices[corner] = recordNumber(firstCorner + corner);
+        cornerWeights[corner] = gl_VertexID == firstCorner + corner ? 1.0 : 0.0;
+      }
+    #endif
+    #if PRIMITIVE_CORNERS == 3
+      facePoint = storedPosition(cornerVertices.x);
+      faceNormal = cross(storedPosition(cornerVertices.y) - facePoint, storedPosition(cornerVertices.z) - facePoint);
+    #endif
+  #endif
+}
+`;
+
+const fragmentShader = /* glsl */ `
+uniform uint drawNumber;
+varying vec3 vPosition;
+varying vec3 vNormal;
+flat varying int element;
+flat varying ivec3 cornerVertices;
+flat varying vec3 facePoint;
+flat varying vec3 faceNormal;
+varying vec3 cornerWeights;
+layout(location = 0) out uvec4 what;
+layout(location = 1) out uvec4 where;
+layout(location = 2) out uvec4 shadedNormal;
+layout(location = 3) out uvec4 planeNormal;
+
+void main() {
+  vec3 w = cornerWeights;
+  int nearest = w.x >= w.y && w.x >= w.z ? cornerVertices.x : w.y >= w.z ? cornerVertices.y : cornerVertices.z;
+  vec3 normal = gl_FrontFacing || PRIMITIVE_CORNERS != 3 ? vNormal : -vNormal;
+  what = uvec4(drawNumber, uint(element), uint(nearest), 0u);
+  uvec3 point = floatBitsToUint(facePoint);
+  where = uvec4(floatBitsToUint(vPosition), point.x);
+  shadedNormal = uvec4(floatBitsToUint(normal), point.y);
+  planeNormal = uvec4(floatBitsToUint(faceNormal), point.z);
+}
+`;
+
+export interface PickMaterialRequest {
+  readonly primitive: DrawRange["primitive"];
+  readonly side: Side;
+  readonly hasNormals: boolean;
+  readonly areImages: boolean;
+  /** How normals are stored, as normalDefinesOf says it. */
+  readonly normalDefines: Readonly<Record<string, string>>;
+  /** Shared with the material that draws the colours. */
+  readonly uniforms: VertexUniforms;
+}
+
+export type PickMaterial = ShaderMaterial & { uniforms: { drawNumber: { value: number } } };
+
+export function makePickMaterial({ primitive, side, hasNormals, areImages, normalDefines, uniforms }: PickMaterialRequest): PickMaterial {
+  const isLine = primitive === "lines" || primitive === "lineStrip";
+  const shader = { vertexShader, fragmentShader };
+  readVerticesIn(shader);
+  return new ShaderMaterial({
+    ...shader, side,
+    glslVersion: GLSL3,
+    defines: {
+      PRIMITIVE_CORNERS: primitive === "points" ? 1 : isLine ? 2 : 3,
+      ...(primitive === "lineStrip" && { IS_LINE_STRIP: "" }),
+      ...(areImages && { [imageVerticesDefine]: "" }),
+      ...(hasNormals && normalDefines),
+    },
+    uniforms: { ...uniforms, drawNumber: { value: 0 }, hasNormals: { value: hasNormals } },
+  }) as PickMaterial;
+}

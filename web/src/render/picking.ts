@@ -1,0 +1,187 @@
+// What lies under a point of the picture: a pass into a target of one pixel,
+// through the same matrices and viewport as the picture's own, so that the pixel
+// is covered exactly as it is on the screen.
+
+import type { Object3D, WebGLRenderer } from "three";
+import {
+  Frustum, Matrix3, Matrix4, NearestFilter, PerspectiveCamera, Ray, RGBAIntegerFormat, Scene, Sphere, UnsignedIntType, Vector3,
+  WebGLRenderTarget,
+} from "three";
+import type { SceneElement } from "../document/element.ts";
+import type { PickDraw } from "./pickDraw.ts";
+import { cornersOf } from "./pickDraw.ts";
+import type { Face } from "./pickedPrimitive.ts";
+import { faceOf, nearestVertex, primitiveEndingAt, primitiveIn } from "./pickedPrimitive.ts";
+import { pickedTargets, pickedWords } from "./pickMaterial.ts";
+import { readPixel, readPixelSoon } from "./pixelReading.ts";
+
+/** What was hit, in the scene's coordinates. */
+export interface Hit {
+  readonly element: SceneElement;
+  readonly patch: number;
+  /** Of the patch's triangles in the order of its draws; in a strip each further element makes one. Undefined for points and lines. */
+  readonly triangle: number | undefined;
+  /** Record number, in the patch, of the primitive's vertex that is nearest to the place. */
+  readonly vertex: number;
+  readonly position: Vector3;
+  /** Of length 1, as it is shaded, on the side that is seen; undefined for points and lines without normals. */
+  readonly normal: Vector3 | undefined;
+}
+
+export interface PickCandidate {
+  readonly element: SceneElement;
+  readonly patch: number;
+  /** What is drawn on the screen. */
+  readonly object: Object3D;
+  readonly pick: PickDraw;
+}
+
+/** A pixel of a picture, in device pixels from its top left. */
+export interface Place {
+  readonly x: number;
+  readonly y: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+export class Picker {
+  readonly #renderer: WebGLRenderer;
+  readonly #scene = new Scene();
+  #target: WebGLRenderTarget | undefined;
+  /** The one whose buffers' contents are kept. */
+  #lastHit: PickDraw | undefined;
+
+  constructor(renderer: WebGLRenderer) {
+    this.#renderer = renderer;
+    this.#scene.matrixWorldAutoUpdate = false;
+  }
+
+  /** Waits for the GPU: for clicks. */
+  pick(camera: PerspectiveCamera, place: Place, slack: number, candidates: Iterable<PickCandidate>): Hit | undefined {
+    const near = candidatesNear(camera, place, slack, candidates);
+    if (near.length === 0) return undefined;
+    this.#draw(camera, place, near);
+    const words = readPixel(this.#gl, pickedTargets);
+    this.#renderer.setRenderTarget(null);
+    return this.#hitOf(words, camera, place, near);
+  }
+
+  /** Costs no frame: what the GPU finds is fetched when it is done. "stale" where the scene has moved on by then. */
+  async pickSoon(camera: PerspectiveCamera, place: Place, slack: number,
+                 candidates: Iterable<PickCandidate>): Promise<Hit | "stale" | undefined> {
+    const near = candidatesNear(camera, place, slack, candidates);
+    if (near.length === 0) return undefined;
+    this.#draw(camera, place, near);
+    const reading = readPixelSoon(this.#gl, pickedTargets);
+    this.#renderer.setRenderTarget(null);
+    const seenBy = new PerspectiveCamera().copy(camera, false); // it may move while we wait
+    const words = await reading;
+    const hit = near[(words[pickedWords.drawNumber] ?? 0) - 1];
+    return hit?.pick.isDisposed === true ? "stale" : this.#hitOf(words, seenBy, place, near);
+  }
+
+  dispose(): void {
+    this.#target?.dispose();
+    this.#target = undefined;
+  }
+
+  get #gl(): WebGL2RenderingContext {
+    return this.#renderer.getContext() as WebGL2RenderingContext;
+  }
+
+  /** Leaves the target bound. */
+  #draw(camera: PerspectiveCamera, { x, y, width, height }: Place, candidates: readonly PickCandidate[]): void {
+    this.#target ??= new WebGLRenderTarget(1, 1, {
+      count: pickedTargets, format: RGBAIntegerFormat, type: UnsignedIntType, magFilter: NearestFilter, minFilter: NearestFilter,
+    });
+    // The picture's viewport, pushed so far that the wanted pixel is the target's only one.
+    this.#target.viewport.set(-x, y - height + 1, width, height);
+    this.#scene.children = candidates.map(({ pick, object }, place) => pick.objectFor(place + 1, object.matrixWorld));
+    this.#renderer.setRenderTarget(this.#target);
+    this.#renderer.render(this.#scene, camera);
+    this.#scene.children = [];
+  }
+
+  #hitOf(words: Uint32Array, camera: PerspectiveCamera, place: Place, candidates: readonly PickCandidate[]): Hit | undefined {
+    const candidate = candidates[(words[pickedWords.drawNumber] ?? 0) - 1];
+    if (candidate === undefined) return undefined;
+    const { element, patch, pick } = candidate;
+    const worldFromStored = candidate.object.matrixWorld;
+    const floats = new Float32Array(words.buffer);
+    const stored = new Vector3().fromArray(floats, pickedWords.position);
+    const { number, vertex, face } = this.#primitiveOf(words, pick, stored);
+    const faceNormal = worldNormalOf(face.normal, worldFromStored);
+    const ray = rayThrough(camera, place);
+    // A face is seen from its front, or from behind as if that were its front.
+    if (faceNormal !== undefined && faceNormal.dot(ray.direction) > 0) faceNormal.negate();
+    const onFace = faceNormal && intersection(ray, face.point.clone().applyMatrix4(worldFromStored), faceNormal);
+    return {
+      element, patch, vertex,
+      triangle: cornersOf(pick.range) === 3 ? pick.trianglesBefore + number : undefined,
+      position: onFace ?? stored.applyMatrix4(worldFromStored),
+      normal: worldNormalOf(new Vector3().fromArray(floats, pickedWords.normal), worldFromStored) ?? faceNormal,
+    };
+  }
+
+  #primitiveOf(words: Uint32Array, pick: PickDraw, point: Vector3): { number: number; vertex: number; face: Face } {
+    const number = words[pickedWords.element] ?? 0;
+    const vertex = words[pickedWords.vertex] ?? 0;
+    const floats = new Float32Array(words.buffer);
+    const face = {
+      point: new Vector3(...pickedWords.facePoint.map((place) => floats[place] ?? 0)),
+      normal: new Vector3().fromArray(floats, pickedWords.faceNormal),
+    };
+    if (pick.layout === undefined || pick.range.primitive === "points") return { number, vertex, face };
+    if (this.#lastHit !== pick) this.#lastHit?.forget();
+    this.#lastHit = pick;
+    const contents = pick.contents(this.#gl);
+    if (contents === undefined) return { number: 0, vertex, face };
+    const { coord, index } = contents;
+    const { coordStride, coordOffset } = pick.layout;
+    const positionOf = (n: number) => new Vector3().fromArray(coord, coordOffset + n * coordStride);
+    const found = index ? primitiveIn(index, pick.range.primitive, vertex, point, positionOf)
+      : primitiveEndingAt(vertex - pick.range.first, pick.range);
+    if (found === undefined) return { number: 0, vertex, face };
+    return {
+      number: found.number,
+      vertex: nearestVertex(found.vertices, point, positionOf),
+      face: faceOf(found.vertices, positionOf),
+    };
+  }
+}
+
+/** Those whose bounds come within `slack` device pixels of the place. */
+function candidatesNear(camera: PerspectiveCamera, { x, y, width, height }: Place, slack: number,
+                        candidates: Iterable<PickCandidate>): PickCandidate[] {
+  const narrow = new PerspectiveCamera().copy(camera, false);
+  narrow.setViewOffset(width, height, x - slack, y - slack, 2 * slack + 1, 2 * slack + 1);
+  const frustum = new Frustum().setFromProjectionMatrix(
+    new Matrix4().multiplyMatrices(narrow.projectionMatrix, camera.matrixWorldInverse));
+  const sphere = new Sphere();
+  return Array.from(candidates).filter(({ object, pick }) =>
+    pick.bounds === null || frustum.intersectsSphere(sphere.copy(pick.bounds).applyMatrix4(object.matrixWorld)));
+}
+
+/** Undefined for a normal of no length. */
+function worldNormalOf(normal: Vector3, worldFromStored: Matrix4): Vector3 | undefined {
+  if (normal.lengthSq() === 0) return undefined;
+  return normal.clone().applyMatrix3(new Matrix3().getNormalMatrix(worldFromStored)).normalize();
+}
+
+/** Through the middle of the pixel, in the scene's coordinates. */
+function rayThrough(camera: PerspectiveCamera, { x, y, width, height }: Place): Ray {
+  const origin = new Vector3().setFromMatrixPosition(camera.matrixWorld);
+  const through = new Vector3((2 * x + 1) / width - 1, 1 - (2 * y + 1) / height, 0.5).unproject(camera);
+  return new Ray(origin, through.sub(origin).normalize());
+}
+
+/**
+ * Where the ray meets a plane; undefined where it runs along it. GPUs round
+ * vertices to a fraction of a pixel, so the point that they interpolate is a
+ * little off the ray, and far off on a slope.
+ */
+function intersection(ray: Ray, point: Vector3, normal: Vector3): Vector3 | undefined {
+  const slope = normal.dot(ray.direction);
+  if (Math.abs(slope) < 1e-6) return undefined;
+  return ray.at(normal.dot(point.clone().sub(ray.origin)) / slope, new Vector3());
+}

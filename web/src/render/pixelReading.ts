@@ -1,0 +1,52 @@
+// Pixel (0, 0) of the bound framebuffer's targets, four 32-bit words each: at once,
+// which waits for the GPU, or through a pixel pack buffer when a fence says that
+// the GPU is done, which nobody waits for.
+
+const wordsPerPixel = 4;
+const bytesPerPixel = 16;
+
+export function readPixel(gl: WebGL2RenderingContext, attachments: number): Uint32Array {
+  const words = new Uint32Array(attachments * wordsPerPixel);
+  for (let n = 0; n < attachments; ++n) {
+    gl.readBuffer(gl.COLOR_ATTACHMENT0 + n);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA_INTEGER, gl.UNSIGNED_INT, words, n * wordsPerPixel);
+  }
+  return words;
+}
+
+/** All zero where the context is lost on the way. The framebuffer is free again when this returns. */
+export function readPixelSoon(gl: WebGL2RenderingContext, attachments: number): Promise<Uint32Array> {
+  const buffer = gl.createBuffer();
+  gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
+  gl.bufferData(gl.PIXEL_PACK_BUFFER, attachments * bytesPerPixel, gl.STREAM_READ);
+  for (let n = 0; n < attachments; ++n) {
+    gl.readBuffer(gl.COLOR_ATTACHMENT0 + n);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA_INTEGER, gl.UNSIGNED_INT, n * bytesPerPixel);
+  }
+  gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
+  const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  gl.flush();
+
+  const words = new Uint32Array(attachments * wordsPerPixel);
+  return untilPassed(gl, fence).then(() => {
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
+    gl.getBufferSubData(gl.PIXEL_PACK_BUFFER, 0, words);
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
+    gl.deleteBuffer(buffer);
+    gl.deleteSync(fence);
+    return words;
+  });
+}
+
+const pollMs = 2;
+
+/** Of a lost context every fence has passed. */
+function untilPassed(gl: WebGL2RenderingContext, fence: WebGLSync | null): Promise<void> {
+  return new Promise((resolve) => {
+    const look = () => {
+      if (fence === null || gl.isContextLost() || gl.clientWaitSync(fence, 0, 0) !== gl.TIMEOUT_EXPIRED) resolve();
+      else setTimeout(look, pollMs);
+    };
+    setTimeout(look);
+  });
+}
