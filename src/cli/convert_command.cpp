@@ -36,7 +36,13 @@ ConvertOptions optionsFrom(const Arguments& arguments) {
   options.indexed = arguments.text("index") == "on";
   options.normalWeighting = chosen(arguments, "normal-weighting",
                                    {NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform});
-  options.positionBits = static_cast<std::uint32_t>(arguments.integer("position-bits"));
+  if (!arguments.text("position-bits").empty())
+    options.positionBits = static_cast<std::uint32_t>(arguments.integer("position-bits"));
+  options.coordType =
+      chosen<std::optional<ElementType>>(arguments, "coord-type",
+                                         {std::nullopt, ElementType::uint8, ElementType::int8,
+                                          ElementType::uint16, ElementType::int16, ElementType::float32});
+  options.layout = chosen(arguments, "layout", {Layout::separate, Layout::interleaved});
   options.normals = chosen(
       arguments, "normals",
       {NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical, NormalEncoding::palette});
@@ -64,7 +70,9 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
     json[name] = arguments.text(name);
   if (!report.x3domUrl.empty())
     json["x3dom"] = {{"version", report.x3domVersion}, {"url", report.x3domUrl}};
-  json["positionBits"] = arguments.integer("position-bits");
+  json["positionBits"] = report.lattice.bits;
+  json["coordType"] = arguments.text("coord-type");
+  json["layout"] = arguments.text("layout");
   json["normalEncoding"] = arguments.text("normals");
   json["normalBits"] = report.normalBits;
   json["normalErrorDegrees"] = report.normalErrorDegrees;
@@ -72,7 +80,7 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
   json["effort"] = arguments.integer("effort");
   json["normals"] = normalsOf(arguments, report);
   json["step"] = report.lattice.step;
-  json["positionError"] = report.lattice.step / 2;
+  json["positionError"] = report.positionError;
   json["triangles"] = report.elements.triangles;
   json["lines"] = report.elements.lines;
   json["points"] = report.elements.points;
@@ -104,6 +112,16 @@ void printLine(const std::string& label, const std::string& text) {
   fmt::print("{} {}\n", bold(fmt::format("{:10}", label)), text);
 }
 
+std::string positionsOf(const Arguments& arguments, const ConvertReport& report) {
+  const bool asFloats = arguments.text("coord-type") == "float32";
+  const std::string lattice =
+      asFloats && arguments.text("position-bits").empty()
+          ? "the source's numbers"
+          : fmt::format("{} bits: step {:.4g}", report.lattice.bits, report.lattice.step);
+  return fmt::format("{}{}, so off by at most {:.4g} an axis, in units of the source", lattice,
+                     asFloats ? " as float32" : "", report.positionError);
+}
+
 void printChoices(const Arguments& arguments, const ConvertReport& report) {
   const bool isSig = arguments.text("container") == "sig";
   printLine("source", fmt::format("{}, {}: {} from {} vertices", report.format, byteSize(report.sourceBytes),
@@ -116,9 +134,7 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
                         onlyPoints || arguments.text("index") == "on" ? "" : " without index"));
   if (!report.x3domUrl.empty())
     printLine("X3DOM", fmt::format("{}, from {}", report.x3domVersion, report.x3domUrl));
-  printLine("positions",
-            fmt::format("{} bits: step {:.4g}, so off by at most {:.4g} an axis, in units of the source",
-                        report.lattice.bits, report.lattice.step, report.lattice.step / 2));
+  printLine("positions", positionsOf(arguments, report));
   printLine("normals",
             fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", arguments.text("normals"),
                         report.normalBits, report.normalErrorDegrees,

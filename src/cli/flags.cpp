@@ -79,8 +79,15 @@ Command convertCommand() {
                        "is always points"),
                 choice("index", {"on", "off"},
                        "off: vertices are repeated wherever they are drawn instead of named by an index"),
-                integer("position-bits", {"-vp", "-qp"}, 8, 32, "16",
-                        "bits of a coordinate, 8..32, on one lattice over the whole mesh"),
+                integer(
+                    "position-bits", {"-vp", "-qp"}, 8, 32, "",
+                    "bits of a coordinate, 8..32, on one lattice over the whole mesh; otherwise 16, or what "
+                    "the coordinates' type holds"),
+                choice("coord-type", {"auto", "uint8", "int8", "uint16", "int16", "float32"},
+                       "bg: elements of coordinates; auto: the fewest unsigned bytes; float32 without "
+                       "--position-bits: the source's numbers"),
+                choice("layout", {"separate", "interleaved"},
+                       "bg: a file for each attribute, or one of records with all of them beside the index"),
                 choice("normals", {"rgb", "octahedral", "spherical", "palette"},
                        "how normals are stored: as vectors, as two numbers, or as 256 directions a patch"),
                 integer("normal-bits", {"-vn", "-qn"}, 8, 32, "",

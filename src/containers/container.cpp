@@ -2,9 +2,9 @@
 
 #include "base/error.h"
 #include "containers/bg/bg.h"
+#include "containers/bg/element_types.h"
 #include "containers/classic/classic.h"
 #include "containers/limits.h"
-#include "containers/normals.h"
 
 #include <algorithm>
 #include <cassert>
@@ -39,27 +39,11 @@ void spreadTexCoords(GeometryDescription& geometry, const PatchedMesh& mesh, Tar
   geometry.texCoordSize = {max.x - min.x, max.y - min.y};
 }
 
-ElementType unsignedType(std::uint32_t bytes) {
-  return bytes == 1 ? ElementType::uint8 : bytes == 2 ? ElementType::uint16 : ElementType::uint32;
-}
-
 /// 16 bits wherever they name all vertices of every patch.
-ElementType indexTypeOf(const PatchedMesh& mesh, const EncodeOptions& options) {
+ElementType indexTypeOf(const PatchedMesh& mesh) {
   const bool isShort = std::ranges::all_of(
       mesh.patches, [](const Patch& patch) { return patch.wedgeCount() <= maxShortIndexedVertices; });
-  assert(isShort || options.target == Target::web || options.container == Container::bg);
   return isShort ? ElementType::uint16 : ElementType::uint32;
-}
-
-ElementType normalTypeOf(const EncodeOptions& options) {
-  assert(options.normals != NormalEncoding::palette);
-  assert(options.normalBits == 8 || options.normals != NormalEncoding::spherical);
-  assert(options.normalBits == 8 || options.normalBits == 16 || options.normalBits == 32);
-  if (isPair(options.normals))
-    return unsignedType(options.normalBits / 8);
-  return options.normalBits == 8    ? ElementType::int8
-         : options.normalBits == 16 ? ElementType::int16
-                                    : ElementType::float32;
 }
 
 } // namespace
@@ -75,23 +59,19 @@ GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& optio
   // X3DOM takes the number of colour components of a page's first ImageGeometry for all.
   if (options.target == Target::x3dom && options.container == Container::sig)
     geometry.colorComponents = 4;
-  if (options.container == Container::bg) {
-    assert(options.target == Target::web || mesh.lattice.bits <= 16);
-    geometry.coordType = unsignedType(coordBytes(Container::bg, mesh.lattice.bits));
-    geometry.normalType = normalTypeOf(options);
-    assert(!isPair(options.normals) || options.normalBits == 16 || byteSizeOf(geometry.coordType) == 2);
-  } else {
-    assert(options.normalBits == 8);
-  }
-  geometry.indexType = indexTypeOf(mesh, options);
   geometry.normalEncoding = options.normals;
+  if (options.container == Container::bg)
+    chooseTypes(geometry, mesh, options);
+  geometry.indexType = indexTypeOf(mesh);
+  assert(geometry.indexType == ElementType::uint16 || options.target == Target::web ||
+         options.container == Container::bg);
   return geometry;
 }
 
 EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry,
                          const EncodeOptions& options) {
   return geometry.container == Container::sig ? encodeClassic(patch, geometry, options.effort, options.target)
-                                              : encodeBg(patch, geometry);
+                                              : encodeBg(patch, geometry, options.layout);
 }
 
 IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescription& geometry,

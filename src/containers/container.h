@@ -6,6 +6,7 @@
 #include "containers/geometry.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ namespace imgeo {
 /// (docs/formats/x3dom.md).
 enum class Target : std::uint8_t { web, x3dom };
 
+/// Whether a BG patch has a file for each attribute or one of records with all of
+/// them. Indices are always a file of their own: X3DOM's wish.
+enum class Layout : std::uint8_t { separate, interleaved };
+
 struct EncodeOptions {
   Container container = Container::sig;
   /// Bits of a stored component. SIG: 8. BG: 8, 16 or 32 (Float32); octahedral 8 or
@@ -23,6 +28,8 @@ struct EncodeOptions {
   int effort = 5; ///< 0 fastest .. 9 smallest
   Target target = Target::web;
   NormalEncoding normals = NormalEncoding::rgb; ///< palette: SIG alone
+  std::optional<ElementType> coordType{};       ///< BG; nothing: the smallest unsigned type
+  Layout layout = Layout::separate;             ///< BG
 };
 
 /// A file as it will lie in the site, unnamed yet.

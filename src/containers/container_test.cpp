@@ -1,6 +1,7 @@
 #include "containers/container.h"
 
 #include "containers/normals.h"
+#include "containers/stored_coords.h"
 #include "containers/testing.h"
 #include "containers/unit_vectors.h"
 
@@ -87,6 +88,62 @@ TEST(Containers, GiveBackEveryMeshAtEveryPrecision) {
         expectEqualWithinSteps(encode(mesh, primitive, indexed, bits, options));
       }
     }
+}
+
+/// Every BG of coordinates of so many bits.
+std::vector<EncodeOptions> everyArray(std::uint32_t bits) {
+  std::vector<EncodeOptions> all;
+  for (const ElementType type : {ElementType::int8, ElementType::uint8, ElementType::int16,
+                                 ElementType::uint16, ElementType::int32, ElementType::uint32})
+    for (const Layout layout : {Layout::separate, Layout::interleaved})
+      if (holdsLattice(type, bits))
+        for (const EncodeOptions& normals : everyNormalEncoding(8 * byteSizeOf(type)))
+          if (normals.container == Container::bg) {
+            all.push_back(normals);
+            all.back().coordType = type;
+            all.back().layout = layout;
+          }
+  return all;
+}
+
+TEST(Containers, GiveBackEveryMeshFromEveryArray) {
+  std::uint32_t seed = 0;
+  for (std::uint32_t bits = 8; bits <= 32; ++bits)
+    for (const EncodeOptions& options : everyArray(bits)) {
+      ++seed;
+      SCOPED_TRACE(std::to_string(bits) + " bits as " + nameOf(*options.coordType) + ", layout " +
+                   std::to_string(int(options.layout)) + ", mesh " + std::to_string(seed));
+      const Encoded encoded = encode(randomMesh(seed), Primitive::triangles, seed % 2 == 0, bits, options);
+      expectEqualWithinSteps(encoded);
+      const PatchDescription& patch = encoded.patch.description;
+      if (options.layout == Layout::interleaved && (patch.normal || patch.texCoord || patch.color))
+        EXPECT_EQ(encoded.patch.files.size(), patch.index ? 2u : 1u);
+    }
+}
+
+TEST(Containers, GiveBackFloatsAsNearAsSinglesAre) {
+  for (const std::uint32_t bits : {8u, 12u, 20u, 24u, 32u})
+    for (const Layout layout : {Layout::separate, Layout::interleaved})
+      for (std::uint32_t seed = 0; seed < 20; ++seed) {
+        SCOPED_TRACE(std::to_string(bits) + " bits, mesh " + std::to_string(seed));
+        const Mesh mesh = randomMesh(seed);
+        const Lattice lattice = latticeFor(boxOf(mesh), ElementType::float32, bits);
+        const PatchedMesh patched = cutIntoPatches(mesh, lattice, 65535);
+        const EncodeOptions options{Container::bg,        32,    0, Target::web, NormalEncoding::rgb,
+                                    ElementType::float32, layout};
+        const GeometryDescription geometry = describe(patched, options);
+        ASSERT_EQ(patched.patches.size(), 1u);
+        const IndexedPatch source = verticesOf(patched.patches[0], Primitive::triangles, true);
+        const EncodedPatch encoded = encodePatch(source, geometry, options);
+        const IndexedPatch decoded = decodePatch(encoded.description, geometry, filesOf(encoded));
+        ASSERT_EQ(decoded.vertexCount(), source.vertexCount());
+        for (std::size_t i = 0; i < source.vertexCount(); ++i) {
+          EXPECT_EQ(decoded.positions[i], pointReadBack(source.positions[i], lattice, geometry));
+          const Vec3d off = lattice.point(decoded.positions[i]) - lattice.point(source.positions[i]);
+          for (int axis = 0; axis < 3; ++axis)
+            EXPECT_LE(std::abs(off[axis]), positionErrorBound(geometry));
+        }
+      }
 }
 
 TEST(Containers, PutPairsOfNormalsIntoWhatPadsCoordinates) {
@@ -306,30 +363,6 @@ INSTANTIATE_TEST_SUITE_P(OfEach, HostilePatch, ::testing::Values(Container::sig,
                          [](const auto& parameter) {
                            return parameter.param == Container::sig ? "Sig" : "Bg";
                          });
-
-TEST(DecodeBox, HoldsTheLatticeAtEveryPrecision) {
-  for (const Container container : {Container::sig, Container::bg})
-    for (std::uint32_t bits = 8; bits <= 32; ++bits) {
-      const Lattice lattice{{-3, 1, 700}, 0.37, bits};
-      const Box3d box = decodeBox(container, lattice);
-      const double cells = std::pow(256.0, coordBytes(container, bits)) - 1;
-      const double stored = std::ldexp(lattice.maximum(), static_cast<int>(coordShift(container, bits)));
-      EXPECT_NEAR(box.min.x + box.size().x * stored / cells, lattice.point({lattice.maximum(), 0, 0}).x,
-                  1e-9 * box.size().x);
-      const Lattice back = latticeFromDecodeBox(container, box.center(), box.size(), bits);
-      EXPECT_NEAR(back.step, lattice.step, 1e-13 * box.size().x);
-      EXPECT_NEAR(back.origin.z, lattice.origin.z, 1e-13 * box.size().x + 1e-11);
-    }
-}
-
-TEST(DecodeBox, HasTheSourcesEdgeWhereBitsFillTheirBytes) {
-  const Lattice lattice{{0, 0, 0}, 2.0 / 65535, 16};
-  EXPECT_DOUBLE_EQ(decodeBox(Container::sig, lattice).size().x, 2);
-  EXPECT_EQ(coordBytes(Container::sig, 24), 3u);
-  EXPECT_EQ(coordBytes(Container::bg, 24), 4u);
-  EXPECT_EQ(coordShift(Container::bg, 24), 8u);
-  EXPECT_EQ(coordShift(Container::sig, 12), 4u);
-}
 
 } // namespace
 } // namespace imgeo

@@ -58,7 +58,7 @@ struct PatchDescription {
 /// The fields of one ImageGeometry or BinaryGeometry node.
 struct GeometryDescription {
   Container container = Container::sig;
-  Lattice lattice;                             ///< `position` and `size` follow from it: see decodeBox
+  Lattice lattice;                             ///< `position` and `size` follow from it: see decodeFields
   Box3d box;                                   ///< tight box of all patches
   Vec2f texCoordMin{0, 0}, texCoordSize{1, 1}; ///< texture coordinates are stored relative to this box
   std::uint32_t colorComponents = 3;
@@ -69,42 +69,6 @@ struct GeometryDescription {
   std::vector<PatchDescription> patches;
   friend bool operator==(const GeometryDescription&, const GeometryDescription&) = default;
 };
-
-/// Bytes a coordinate takes in a container: 1, 2, 3 or 4 byte planes (SIG), 1, 2
-/// or 4 bytes (BG).
-std::uint32_t coordBytes(Container container, std::uint32_t bits);
-
-/// Quantised coordinates are stored shifted left to fill their bytes (bits 12
-/// in two bytes: q << 4), so that the first byte always holds the eight most
-/// significant bits.
-std::uint32_t coordShift(Container container, std::uint32_t bits);
-
-/// Edge of the decode box: lattice steps that 0 .. 256^bytes - 1 stand for, times the step.
-double decodeEdge(Container container, const Lattice& lattice);
-
-/// The box over which X3DOM spreads 0 .. 256^bytes - 1: `position` is its centre,
-/// `size` its extent, the same for every patch of a mesh. For bits that fill
-/// their bytes its edge is the source's longest edge.
-Box3d decodeBox(Container container, const Lattice& lattice);
-
-/// The lattice of a node read back from a document; inverse of decodeBox
-/// but for roundings of the last bits. Not all of `size` is zero.
-Lattice latticeFromDecodeBox(Container container, Vec3d center, Vec3d size, std::uint32_t bits);
-
-/// The lattice of BG coordinates of a type that imgeo does not write. Signed
-/// integers v stand for centre + size * v / maximum (aopt uses half of them):
-/// q is v + 2^(bits - 1). Float32 coordinates lie on no lattice; they are put on
-/// one of 32 bits over a cube of twice the longest edge, which moves them less
-/// than single precision does far from the origin.
-Lattice latticeFromTypedBox(ElementType type, Vec3d center, Vec3d size);
-
-/// The node's `position` and `size` from which the lattice is read back: the
-/// inverse of the two above but for roundings, and for Float32 but for `size`
-/// being a cube.
-struct DecodeFields {
-  Vec3d position, size;
-};
-DecodeFields decodeFields(const GeometryDescription& geometry);
 
 /// Where X3DOM has spherical normals of 16-bit coordinates: in the fourth element of their records.
 Reference normalInCoords(const Reference& coord);

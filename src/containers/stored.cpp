@@ -10,18 +10,13 @@
 
 namespace imgeo {
 
-std::uint32_t loadCoord(std::uint32_t stored, std::uint32_t shift, const std::string& place) {
-  const std::uint32_t q = stored >> shift;
-  if (q << shift != stored)
-    throw Error(ErrorKind::malformed, place, "a coordinate has more bits than the node's positionBits");
-  return q;
+double texCoordShare(float value, float min, float size) {
+  return size > 0 ? (double{value} - min) / size : 0;
 }
 
 std::uint16_t storeTexCoord(float value, float min, float size) {
-  if (!(size > 0))
-    return 0;
-  const double share = (double{value} - min) / size;
-  return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0, 1.0) * 65535));
+  return static_cast<std::uint16_t>(
+      std::lround(std::clamp(texCoordShare(value, min, size), 0.0, 1.0) * 65535));
 }
 
 float loadTexCoord(std::uint16_t stored, float min, float size) {
@@ -40,10 +35,13 @@ std::uint64_t drawnCount(std::span<const Draw> draws) {
   return count;
 }
 
-Box3d boxOf(std::span<const Vec3u> positions, const Lattice& lattice) {
+Box3d boxOf(std::span<const Vec3u> positions, const GeometryDescription& geometry) {
+  const bool isFloat = geometry.container == Container::bg && geometry.coordType == ElementType::float32;
   Box3d box;
-  for (const Vec3u& q : positions)
-    box.add(lattice.point(q));
+  for (const Vec3u& q : positions) {
+    const Vec3d point = geometry.lattice.point(q);
+    box.add(isFloat ? Vec3d(Vec3f(point)) : point);
+  }
   return box;
 }
 
@@ -53,7 +51,7 @@ PatchDescription describePatch(const IndexedPatch& patch, const GeometryDescript
          patch.vertexCount() <= maxShortIndexedVertices);
   assert(drawnCount(patch.draws) == (patch.indices.empty() ? patch.vertexCount() : patch.indices.size()));
   PatchDescription description;
-  description.box = boxOf(patch.positions, geometry.lattice);
+  description.box = boxOf(patch.positions, geometry);
   description.vertexCount = narrow<std::uint32_t>(patch.vertexCount());
   description.draws = patch.draws;
   return description;
@@ -81,14 +79,14 @@ std::uint32_t recordCountOf(const PatchDescription& patch, std::span<const std::
   return patch.vertexCount;
 }
 
-void checkInsideBox(std::span<const Vec3u> positions, const Lattice& lattice, const Box3d& box,
+void checkInsideBox(std::span<const Vec3u> positions, const GeometryDescription& geometry, const Box3d& box,
                     const std::string& place) {
   if (box.empty())
     return;
-  const Box3d decoded = boxOf(positions, lattice);
+  const Box3d decoded = boxOf(positions, geometry);
+  const double half = 0.51 * geometry.lattice.step; // a half, and what was rounded on the way
   for (int axis = 0; axis < 3; ++axis)
-    if (decoded.min[axis] < box.min[axis] - lattice.step / 2 ||
-        decoded.max[axis] > box.max[axis] + lattice.step / 2)
+    if (decoded.min[axis] < box.min[axis] - half || decoded.max[axis] > box.max[axis] + half)
       throw Error(ErrorKind::malformed, place, "vertices lie outside of the box that their patch states");
 }
 

@@ -1,6 +1,7 @@
 #include "documents/documents.h"
 
 #include "base/error.h"
+#include "containers/stored_coords.h"
 #include "containers/testing.h"
 
 #include <gtest/gtest.h>
@@ -78,11 +79,10 @@ GeometryDescription randomGeometry(Random& random) {
   if (random.once(2))
     geometry.texCoordSize = {random.between(0, 5), 0};
   geometry.colorComponents = 3 + random.below(2);
-  const std::uint32_t bytes = coordBytes(geometry.container, geometry.lattice.bits);
   if (geometry.container == Container::bg) {
-    geometry.coordType = bytes == 1   ? ElementType::uint8
-                         : bytes == 2 ? ElementType::uint16
-                                      : ElementType::uint32;
+    do
+      geometry.coordType = static_cast<ElementType>(random.below(7));
+    while (!holdsLattice(geometry.coordType, geometry.lattice.bits));
     geometry.normalType = static_cast<ElementType>(random.below(7));
     geometry.indexType = static_cast<ElementType>(random.below(7));
   }
@@ -90,9 +90,10 @@ GeometryDescription randomGeometry(Random& random) {
   if (geometry.container == Container::sig && random.once(2))
     geometry.indexType = ElementType::uint32;
   for (std::uint32_t patches = 1 + random.below(4); patches > 0; --patches)
-    geometry.patches.push_back(
-        randomPatch(random, geometry.container, geometry.container == Container::sig ? bytes : 1));
-  if (geometry.container == Container::bg && bytes == 2 && random.once(3)) {
+    geometry.patches.push_back(randomPatch(
+        random, geometry.container,
+        geometry.container == Container::sig ? coordBytes(Container::sig, geometry.lattice.bits) : 1));
+  if (geometry.container == Container::bg && byteSizeOf(geometry.coordType) == 2 && random.once(3)) {
     geometry.normalEncoding = NormalEncoding::spherical;
     geometry.normalType = ElementType::uint8;
     for (PatchDescription& patch : geometry.patches)

@@ -1,5 +1,6 @@
 #include "documents/read_geometry.h"
 
+#include "containers/stored_coords.h"
 #include "documents/find_x3d.h"
 
 #include <charconv>
@@ -160,29 +161,32 @@ Vec2<std::uint32_t> implicitMeshSizeOf(const Fields& fields, Vec2<std::uint32_t>
   return {x, y == 0 ? x : y};
 }
 
+/// Bits that the stored coordinates have where the node does not say how many count.
+std::uint32_t storedBits(const Fields& fields, const GeometryDescription& geometry) {
+  if (geometry.container == Container::bg)
+    return geometry.coordType == ElementType::float32 ? sourceBits : 8 * byteSizeOf(geometry.coordType);
+  const std::size_t planes = geometry.patches[0].coord.size();
+  if (planes > 4)
+    fields.fail(ErrorKind::unsupported, "coordinates of more than four bytes");
+  for (const PatchDescription& patch : geometry.patches)
+    if (patch.coord.size() != planes)
+      fields.fail(ErrorKind::malformed, "patches differ in their coordinate images");
+  return 8 * static_cast<std::uint32_t>(planes);
+}
+
 Lattice latticeOf(const Fields& fields, const GeometryDescription& geometry) {
-  std::uint32_t bytes = byteSizeOf(geometry.coordType);
-  if (geometry.container == Container::sig) {
-    const std::size_t planes = geometry.patches[0].coord.size();
-    if (planes > 4)
-      fields.fail(ErrorKind::unsupported, "coordinates of more than four bytes");
-    for (const PatchDescription& patch : geometry.patches)
-      if (patch.coord.size() != planes)
-        fields.fail(ErrorKind::malformed, "patches differ in their coordinate images");
-    bytes = static_cast<std::uint32_t>(planes);
-  }
-  const std::uint32_t bits = fields.integer("positionBits", 8 * bytes);
-  if (bits < 8 || bits > 32 || coordBytes(geometry.container, bits) != bytes)
+  const std::uint32_t stored = storedBits(fields, geometry), bits = fields.integer("positionBits", stored);
+  const bool isHeld = geometry.container == Container::bg
+                          ? holdsLattice(geometry.coordType, bits)
+                          : bits >= 8 && bits <= 32 && 8 * coordBytes(Container::sig, bits) == stored;
+  if (!isHeld)
     fields.fail(ErrorKind::malformed,
-                "positionBits is no precision of coordinates of " + std::to_string(bytes) + " bytes");
-  const Vec3d position = fields.vec3("position", Vec3d{0, 0, 0}), size = fields.vec3("size", Vec3d{1, 1, 1});
-  if (!(std::min({size.x, size.y, size.z}) >= 0 && std::max({size.x, size.y, size.z}) > 0))
+                "positionBits is no precision of coordinates of " + std::to_string(stored / 8) + " bytes");
+  const DecodeFields box{fields.vec3("position", Vec3d{0, 0, 0}), fields.vec3("size", Vec3d{1, 1, 1})};
+  if (!(std::min({box.size.x, box.size.y, box.size.z}) >= 0 &&
+        std::max({box.size.x, box.size.y, box.size.z}) > 0))
     fields.fail(ErrorKind::malformed, "size is the extent of no box");
-  if (geometry.container == Container::sig || isUnsigned(geometry.coordType))
-    return latticeFromDecodeBox(geometry.container, position, size, bits);
-  if (bits != 8 * bytes)
-    fields.fail(ErrorKind::malformed, "positionBits is only for unsigned coordinates");
-  return latticeFromTypedBox(geometry.coordType, position, size);
+  return imgeo::latticeOf(box, geometry.container, geometry.coordType, bits);
 }
 
 void takeNormalsFromCoords(const Fields& fields, GeometryDescription& geometry) {

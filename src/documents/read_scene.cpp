@@ -3,6 +3,7 @@
 #include "documents/fields.h"
 #include "documents/find_x3d.h"
 #include "documents/read_geometry.h"
+#include "documents/text.h"
 
 #include <map>
 
@@ -60,7 +61,7 @@ private:
       else if (is("DirectionalLight"))
         readLight(fields);
       else if (is("WorldInfo"))
-        document_.title = fields.text("title");
+        document_.title = validText(fields.text("title"));
       else if (is("NavigationInfo"))
         document_.headlight = fields.boolean("headlight", true);
       else if (node.first_child().type() == pugi::node_element)
@@ -111,7 +112,7 @@ private:
 
   void readViewpoint(const Fields& fields) {
     Viewpoint viewpoint;
-    viewpoint.description = fields.text("description");
+    viewpoint.description = validText(fields.text("description"));
     viewpoint.position = fields.vec3("position", viewpoint.position);
     if (const std::vector<double> turn = fields.reals("orientation", 4); !turn.empty()) {
       viewpoint.orientationAxis = {turn[0], turn[1], turn[2]};

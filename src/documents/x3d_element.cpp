@@ -1,5 +1,6 @@
 #include "documents/x3d_element.h"
 
+#include "containers/stored_coords.h"
 #include "documents/text.h"
 
 #include <cassert>
@@ -93,9 +94,10 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
 
 Element geometryElement(const GeometryDescription& geometry) {
   const DecodeFields decode = decodeFields(geometry);
-  const Attributes box{{"position", numbers(decode.position)},
-                       {"size", numbers(decode.size)},
-                       {"positionBits", std::to_string(geometry.lattice.bits)}};
+  Attributes box{{"position", numbers(decode.position)}, {"size", numbers(decode.size)}};
+  if (geometry.container == Container::sig || geometry.coordType != ElementType::float32 ||
+      geometry.lattice.bits != sourceBits)
+    box.push_back({"positionBits", std::to_string(geometry.lattice.bits)});
   Attributes stored;
   if (geometry.container == Container::bg)
     stored = {{"indexType", nameOf(geometry.indexType)},

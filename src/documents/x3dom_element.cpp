@@ -1,6 +1,7 @@
 #include "documents/x3dom_element.h"
 
 #include "containers/normals.h"
+#include "containers/stored_coords.h"
 #include "documents/text.h"
 #include "documents/x3d_element.h"
 
@@ -112,12 +113,16 @@ private:
     writer.close(element);
   }
 
-  static Attributes decodeFields(const GeometryDescription& geometry) {
-    const double edge = decodeEdge(geometry.container, geometry.lattice);
-    const Vec3d size{edge, edge, edge};
-    Attributes fields{{"position", numbers(geometry.lattice.origin + size * 0.5)}, {"size", numbers(size)}};
-    if (coordShift(geometry.container, geometry.lattice.bits) != 0)
-      fields.push_back({"positionBits", std::to_string(geometry.lattice.bits)});
+  static Attributes boxFields(const GeometryDescription& geometry) {
+    const DecodeFields decode = decodeFields(geometry);
+    Attributes fields{{"position", numbers(decode.position)}, {"size", numbers(decode.size)}};
+    const std::uint32_t bits = geometry.lattice.bits;
+    const std::uint32_t stored = geometry.container == Container::sig ? 8 * coordBytes(Container::sig, bits)
+                                 : geometry.coordType == ElementType::float32
+                                     ? sourceBits
+                                     : 8 * byteSizeOf(geometry.coordType);
+    if (bits != stored)
+      fields.push_back({"positionBits", std::to_string(bits)});
     return fields;
   }
 
@@ -140,7 +145,7 @@ private:
     draws.push_back({"numColorComponents", std::to_string(geometry.colorComponents)});
     if (geometry.normalEncoding == NormalEncoding::palette)
       draws.push_back({"normalEncoding", nameOf(geometry.normalEncoding)});
-    const Element node{"ImageGeometry", {decodeFields(geometry), draws}};
+    const Element node{"ImageGeometry", {boxFields(geometry), draws}};
     writer.open(node);
     const auto write = [&](const char* role, const std::optional<Reference>& image) {
       if (image)
@@ -176,16 +181,31 @@ private:
     writer.close(texture);
   }
 
+  /// The stride as a query: a '+' in a file's name is a blank to some hosts.
+  static std::string strided(const Reference& file) {
+    assert(file.first == 0);
+    return file.url + (file.stride == 0 ? "" : "?+" + std::to_string(file.stride));
+  }
+
+  /// Part of a record: X3DOM then takes all attributes from the coordinates' file.
+  static std::string placed(const Reference& file) {
+    return file.url + "#" + std::to_string(file.first) + "+" + std::to_string(file.stride);
+  }
+
   static Element binaryGeometry(const GeometryDescription& geometry, const PatchDescription& patch) {
+    const Reference& coord = patch.coord.at(0);
+    const auto isBeside = [&](const std::optional<Reference>& file) {
+      return file && file->url == coord.url;
+    };
+    const bool isInterleaved = (isBeside(patch.normal) && !hasNormalsInCoords(geometry)) ||
+                               isBeside(patch.texCoord) || isBeside(patch.color);
     Attributes types, urls;
     const auto add = [&](const char* role, const char* typeField, ElementType type,
                          const std::optional<Reference>& file) {
       if (!file)
         return;
-      assert(file->first == 0);
       types.push_back({typeField, nameOf(type)});
-      // The stride as a query: a '+' in a file's name is a blank to some hosts.
-      urls.push_back({role, file->url + (file->stride == 0 ? "" : "?+" + std::to_string(file->stride))});
+      urls.push_back({role, isInterleaved && role != std::string("index") ? placed(*file) : strided(*file)});
     };
     add("index", "indexType", geometry.indexType, patch.index);
     add("coord", "coordType", geometry.coordType, patch.coord.at(0));
@@ -197,7 +217,7 @@ private:
     add("color", "colorType", geometry.colorType, patch.color);
     if (geometry.colorComponents == 4)
       types.push_back({"rgbaColors", "true"});
-    return {"BinaryGeometry", {decodeFields(geometry), drawFields(patch), types, urls}};
+    return {"BinaryGeometry", {boxFields(geometry), drawFields(patch), types, urls}};
   }
 
   Names names_;

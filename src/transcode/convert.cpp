@@ -80,6 +80,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, Geometry
       report.elements += encoded.elements;
       report.vertices += encoded.vertices;
       report.patches += encoded.geometry.patches.size();
+      report.positionError = std::max(report.positionError, encoded.positionError);
       report.normalErrorDegrees = std::max(report.normalErrorDegrees, encoded.normalErrorDegrees);
       geometry = document.geometries.size();
       document.geometries.push_back(std::move(encoded.geometry));

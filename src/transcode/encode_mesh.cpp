@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "containers/normals.h"
+#include "containers/stored_coords.h"
 #include "prepare/patches.h"
 #include "transcode/site.h"
 
@@ -73,12 +74,13 @@ std::string GeometryFiles::write(const EncodedFile& file) {
 
 EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& files,
                        const ElementsDone& done) {
-  PatchedMesh patched =
-      cutIntoPatches(mesh, latticeFor(boxOf(mesh), options.positionBits), options.patchVertices);
+  const Lattice lattice =
+      latticeFor(boxOf(mesh), options.coordType.value_or(ElementType::uint32), options.positionBits);
+  PatchedMesh patched = cutIntoPatches(mesh, lattice, options.patchVertices);
   mesh = {};
 
   const EncodeOptions encoding{options.container, options.normalBits, options.effort, options.target,
-                               options.normals};
+                               options.normals,   options.coordType,  options.layout};
   EncodedMesh result;
   result.geometry = describe(patched, encoding);
   std::vector<PatchDescription> descriptions(patched.patches.size());
@@ -105,6 +107,7 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& 
     result.normalErrorDegrees =
         std::max(normalErrorBound(result.geometry), *std::ranges::max_element(paletteErrors)) *
         (180 / std::numbers::pi);
+  result.positionError = positionErrorBound(result.geometry);
   result.geometry.patches = std::move(descriptions);
   return result;
 }

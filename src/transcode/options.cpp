@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "containers/limits.h"
 #include "containers/normals.h"
+#include "containers/stored_coords.h"
 #include "prepare/patches.h"
 
 #include <fmt/format.h>
@@ -20,14 +21,64 @@ void requireWithin(const char* option, std::int64_t value, std::int64_t least, s
     refuse(option, fmt::format("{} is not within {}..{}", value, least, most));
 }
 
+/// X3DOM takes all attributes of interleaved records for numbers of the coordinates' type.
+bool isOfOneType(const ConvertOptions& options) {
+  return options.target == Target::x3dom && options.layout == Layout::interleaved;
+}
+
 bool has16BitCoords(const ConvertOptions& options) {
-  return coordBytes(Container::bg, options.positionBits) == 2;
+  return (options.coordType ? byteSizeOf(*options.coordType)
+                            : coordBytes(Container::bg, options.positionBits)) == 2;
+}
+
+std::uint32_t defaultPositionBits(const ConvertOptions& options) {
+  if (!options.coordType)
+    return 16;
+  if (*options.coordType == ElementType::float32)
+    return sourceBits;
+  const bool isHalved = options.target == Target::x3dom && *options.coordType == ElementType::int16;
+  return 8 * byteSizeOf(*options.coordType) - isHalved;
 }
 
 /// Two numbers of a byte each fit beside 16-bit coordinates without taking any room.
 std::uint32_t defaultNormalBits(const ConvertOptions& options) {
+  if (isOfOneType(options) && options.normals == NormalEncoding::rgb && options.coordType)
+    return 8 * byteSizeOf(*options.coordType);
   const bool roomless = options.container == Container::bg && !has16BitCoords(options);
   return options.normals == NormalEncoding::octahedral && roomless ? 16 : 8;
+}
+
+void requireCoordType(ElementType type, const ConvertOptions& options) {
+  const std::uint32_t bits = options.positionBits;
+  const bool forX3dom = options.target == Target::x3dom;
+  if (forX3dom && type == ElementType::int8)
+    refuse("--coord-type", "X3DOM spends a bit of int8 on what lies outside of the box; uint8 holds 8");
+  if (type == ElementType::float32 && !holdsLattice(type, bits))
+    refuse("--position-bits", fmt::format("float32 holds lattices of at most 24 bits, not {}; without "
+                                          "--position-bits it holds the source's numbers",
+                                          bits));
+  if (!holdsLattice(type, bits))
+    refuse("--position-bits",
+           fmt::format("{} holds at most {} bits, not {}", nameOf(type), 8 * byteSizeOf(type), bits));
+  if (forX3dom && type == ElementType::int16 && bits > 15)
+    refuse("--position-bits",
+           "X3DOM spends a bit of int16 on what lies outside of the box, which leaves 15; uint16 holds 16");
+}
+
+void requireCoords(const ConvertOptions& options) {
+  if (options.container == Container::sig) {
+    if (options.coordType)
+      refuse("--coord-type", "images hold bytes; element types belong to bg");
+    if (options.layout != Layout::separate)
+      refuse("--layout", "images are not interleaved; that belongs to bg");
+    return;
+  }
+  if (options.coordType)
+    requireCoordType(*options.coordType, options);
+  else if (options.target == Target::x3dom && options.positionBits > 16)
+    refuse("--position-bits",
+           fmt::format("X3DOM reads bg with at most 16 bits, not {}; float32 and sig hold more",
+                       options.positionBits));
 }
 
 void requireNormals(const ConvertOptions& options) {
@@ -42,6 +93,11 @@ void requireNormals(const ConvertOptions& options) {
   }
   switch (options.normals) {
   case NormalEncoding::rgb:
+    if (isOfOneType(options) && options.coordType && bits != 8 * byteSizeOf(*options.coordType))
+      refuse("--normal-bits",
+             fmt::format("X3DOM reads interleaved records as one element type, so that normals "
+                         "beside {} have its bits, not {}",
+                         nameOf(*options.coordType), bits));
     if (bits != 8 && bits != 16 && bits != 32)
       refuse("--normal-bits", fmt::format("bg stores normals in 8, 16 or 32 bits, not {}", bits));
     return;
@@ -66,15 +122,15 @@ void requireNormals(const ConvertOptions& options) {
 } // namespace
 
 ConvertOptions resolved(ConvertOptions options) {
+  if (options.positionBits == 0)
+    options.positionBits = defaultPositionBits(options);
   requireWithin("--position-bits", options.positionBits, 8, 32);
   requireWithin("--patch-vertices", options.patchVertices, 256, maxPatchWedges);
   requireWithin("--effort", options.effort, 0, 9);
   if (options.normalBits == 0)
     options.normalBits = defaultNormalBits(options);
+  requireCoords(options);
   requireNormals(options);
-  if (options.target == Target::x3dom && options.container == Container::bg && options.positionBits > 16)
-    refuse("--position-bits",
-           fmt::format("X3DOM reads bg with at most 16 bits, not {}; sig holds more", options.positionBits));
   if (options.target == Target::x3dom && options.container == Container::sig &&
       options.patchVertices > maxShortIndexedVertices)
     refuse("--patch-vertices",

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
+#include <set>
 
 namespace imgeo {
 namespace {
@@ -62,6 +63,65 @@ TEST(RoundTrip, EveryContainerPrimitiveAndPrecisionGivesBackEveryMesh) {
           if (HasFailure())
             return;
         }
+}
+
+TEST(RoundTrip, EveryElementTypeAndLayoutGivesBackEveryMesh) {
+  using enum NormalEncoding;
+  struct Case {
+    std::optional<ElementType> type;
+    std::vector<std::uint32_t> bits; ///< 0: the type's own
+    std::vector<NormalEncoding> normals;
+  };
+  const Case cases[] = {{ElementType::uint8, {0, 8}, {rgb, octahedral}},
+                        {ElementType::int8, {0}, {rgb, octahedral}},
+                        {ElementType::uint16, {0, 8, 13}, {rgb, octahedral, spherical}},
+                        {ElementType::int16, {0, 8, 13, 15}, {rgb, octahedral, spherical}},
+                        {ElementType::float32, {0, 8, 14, 24}, {rgb, octahedral}},
+                        {std::nullopt, {0, 11, 20, 32}, {rgb, octahedral}}};
+  std::uint32_t seed = 500;
+  for (const Case& one : cases)
+    for (const std::uint32_t bits : one.bits)
+      for (const NormalEncoding normals : one.normals)
+        for (const Layout layout : {Layout::separate, Layout::interleaved}) {
+          ConvertOptions options;
+          options.container = Container::bg;
+          options.coordType = one.type;
+          options.positionBits = bits;
+          options.normals = normals;
+          options.layout = layout;
+          options.indexed = ++seed % 3 != 0;
+          options.patchVertices = seed % 2 ? 256 : 65535;
+          expectRoundTrip(testing::randomMesh(seed), options,
+                          fmt::format("seed {} type {} bits {} normals {} layout {}", seed,
+                                      one.type ? nameOf(*one.type) : "auto", bits, nameOf(normals),
+                                      int(layout)));
+        }
+}
+
+TEST(RoundTrip, FloatsAreTheSourcesOwn) {
+  const TemporaryDirectory directory;
+  const Mesh mesh = testing::torus(40, 20);
+  testing::writeMesh(directory / "input.ply", mesh);
+  ConvertOptions options;
+  options.container = Container::bg;
+  options.coordType = ElementType::float32;
+  options.indexed = false;
+  convert(directory / "input.ply", directory / "site", options);
+  const OpenedDocument site = openDocument(directory / "site");
+  const Bytes floats = readFile(directory / "site" / site.scene.geometries[0].patches[0].coord[0].url);
+  ASSERT_EQ(floats.size(), mesh.corners.size() * 12);
+  const auto key = [](Vec3f p) { return std::tuple(p.x, p.y, p.z); };
+  std::set<std::tuple<float, float, float>> source;
+  for (const Vec3f& position : mesh.positions)
+    source.insert(key(position));
+  std::size_t own = 0, near = 0;
+  for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
+    const auto at = [&](std::size_t axis) { return loadLittle<float>(&floats[12 * i + 4 * axis]); };
+    own += source.contains(key({at(0), at(1), at(2)}));
+    near += std::min({std::abs(at(0)), std::abs(at(1)), std::abs(at(2))}) < boxOf(mesh).longestEdge() / 128;
+  }
+  EXPECT_GE(own + near, mesh.corners.size()) << "all but those next to zero, which a single holds too finely";
+  EXPECT_GT(own, mesh.corners.size() / 2);
 }
 
 TEST(RoundTrip, PatchesOfMoreThan16BitIndicesNameGiveBackTheMesh) {

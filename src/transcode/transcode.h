@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,10 @@ struct ConvertOptions {
   std::string x3domUrl; ///< target x3dom: the folder of x3dom.js and x3dom.css; empty: a public copy
   Primitives primitives = Primitives::triangles; ///< point clouds are always points
   bool indexed = true; ///< false: a vertex is repeated wherever it is drawn; points never have an index
-  std::uint32_t positionBits = 16; ///< 8..32
+  /// 8..32; 0: 16, or what `coordType` holds, of Float32 the source's own numbers.
+  std::uint32_t positionBits = 0;
+  std::optional<ElementType> coordType; ///< see EncodeOptions, as `layout`
+  Layout layout = Layout::separate;
   NormalEncoding normals = NormalEncoding::rgb;
   std::uint32_t normalBits = 0; ///< see EncodeOptions; 0: the fewest that cost nothing
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where the source has no normals
@@ -48,6 +52,7 @@ struct ConvertReport {
   WeldReport weld;
   bool normalsComputed = false;
   Lattice lattice;                    ///< of the first mesh: step states the precision
+  double positionError = 0;           ///< by which vertices of any mesh may be off, along an axis
   std::uint32_t normalBits = 0;       ///< of a stored component
   double normalErrorDegrees = 0;      ///< by which stored normals may be off
   std::string x3domVersion, x3domUrl; ///< target x3dom: the release that the page is for, and its script

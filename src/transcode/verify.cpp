@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "containers/normals.h"
+#include "containers/stored_coords.h"
 #include "prepare/patches.h"
 #include "transcode/element_list.h"
 #include "transcode/marker.h"
@@ -45,11 +46,19 @@ double normalBoundDegrees(const GeometryDescription& geometry, const Marker& mar
   return std::max(bound, 1e-5);
 }
 
-/// Half a step of 1/65535 of the box, and what single precision adds.
+/// Of images any type but Float32: their lattice is exact.
+ElementType coordTypeOf(const GeometryDescription& geometry) {
+  return geometry.container == Container::bg ? geometry.coordType : ElementType::uint32;
+}
+
+/// Half a step of the type's share of the box, and what single precision adds.
 Vec2<double> texCoordBound(const GeometryDescription& geometry) {
-  const auto bound = [](double low, double size) {
+  const bool isSig = geometry.container == Container::sig;
+  const double steps = isSig ? 65535 : maximumOf(geometry.texCoordType);
+  const bool isExact = !isSig && geometry.texCoordType == ElementType::float32;
+  const auto bound = [&](double low, double size) {
     const double largest = std::max(std::abs(low), std::abs(low + size));
-    return size / 65535 / 2 + 4 * largest * std::numeric_limits<float>::epsilon() + 1e-30;
+    return (isExact ? 0 : size / steps / 2) + 4 * largest * std::numeric_limits<float>::epsilon() + 1e-30;
   };
   return {bound(geometry.texCoordMin.x, geometry.texCoordSize.x),
           bound(geometry.texCoordMin.y, geometry.texCoordSize.y)};
@@ -169,9 +178,11 @@ void compareShape(const OpenedDocument& document, const GeometryDescription& geo
   checkBoxes(patches, geometry, findings);
   checkAttributesPresent(mesh, patches, findings);
 
-  const Lattice expected = latticeFor(boxOf(mesh), geometry.lattice.bits);
-  const std::vector<Vec3u> quantised = quantise(mesh.positions, expected);
-  const double error = positionError(mesh, quantised, geometry.lattice), bound = expected.step / 2;
+  const Lattice expected = latticeFor(boxOf(mesh), coordTypeOf(geometry), geometry.lattice.bits);
+  std::vector<Vec3u> quantised = quantise(mesh.positions, expected);
+  for (Vec3u& q : quantised)
+    q = pointReadBack(q, expected, geometry);
+  const double error = positionError(mesh, quantised, geometry.lattice), bound = positionErrorBound(geometry);
   if (error * report.positionBound >= report.positionError * bound)
     report.positionError = error, report.positionBound = bound;
   if (error > bound + positionTolerance(mesh, expected))

@@ -62,8 +62,9 @@ public:
 
   /// Makes room for damaged coordinates, which the readers would refuse.
   void widenBoxes() {
+    const Lattice& lattice = geometry().lattice;
     for (PatchDescription& patch : geometry().patches)
-      patch.box = decodeBox(geometry().container, geometry().lattice);
+      patch.box = {lattice.origin, lattice.point({lattice.maximum(), lattice.maximum(), lattice.maximum()})};
     geometry().box = geometry().patches[0].box;
   }
 

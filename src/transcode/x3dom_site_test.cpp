@@ -50,6 +50,41 @@ TEST(X3domSite, HoldsEveryMesh) {
   }
 }
 
+TEST(X3domSite, HoldsEveryMeshInEveryArray) {
+  struct Case {
+    ElementType type;
+    Layout layout;
+    NormalEncoding normals;
+  };
+  using enum NormalEncoding;
+  const Case cases[] = {{ElementType::uint8, Layout::separate, rgb},
+                        {ElementType::uint16, Layout::separate, spherical},
+                        {ElementType::int16, Layout::separate, rgb},
+                        {ElementType::float32, Layout::separate, rgb},
+                        {ElementType::uint16, Layout::interleaved, spherical},
+                        {ElementType::int16, Layout::interleaved, rgb},
+                        {ElementType::float32, Layout::interleaved, rgb}};
+  for (const Case& one : cases)
+    for (std::uint32_t seed = 0; seed < 8; ++seed) {
+      SCOPED_TRACE(std::string(nameOf(one.type)) + ", layout " + std::to_string(int(one.layout)) + ", mesh " +
+                   std::to_string(seed));
+      const TemporaryDirectory directory;
+      Mesh mesh = testing::randomMesh(seed);
+      if (one.type != ElementType::float32)
+        for (Vec2f& texCoord : mesh.texCoords)
+          texCoord.x = std::clamp(texCoord.x, 0.0f, 1.0f);
+      ConvertOptions options = optionsFor(Container::bg);
+      options.coordType = one.type;
+      options.layout = one.layout;
+      options.normals = one.normals;
+      options.patchVertices = 256;
+      writeMesh(mesh, directory.path() / "in.ply");
+      convert(directory.path() / "in.ply", directory.path() / "site", options);
+      const VerifyReport report = verify(directory.path() / "site", directory.path() / "in.ply");
+      EXPECT_TRUE(report.equal) << ::testing::PrintToString(report.findings);
+    }
+}
+
 TEST(X3domSite, HasNoRuntimeOfOurs) {
   const TemporaryDirectory directory;
   writeMesh(testing::torus(9, 9), directory.path() / "in.ply");
@@ -89,6 +124,19 @@ TEST(X3domSite, RefusesWhatX3domCannotHold) {
     options.normals = normals;
     EXPECT_EQ(kindOfConverting(testing::torus(9, 9), options), ErrorKind::usage);
   }
+  const auto arrays = [](ElementType type, Layout layout, std::uint32_t bits) {
+    ConvertOptions typed = optionsFor(Container::bg);
+    typed.coordType = type;
+    typed.layout = layout;
+    typed.positionBits = bits;
+    return typed;
+  };
+  for (const ConvertOptions& refused :
+       {arrays(ElementType::int8, Layout::separate, 0), arrays(ElementType::int16, Layout::separate, 16)})
+    EXPECT_EQ(kindOfConverting(testing::torus(9, 9), refused), ErrorKind::usage);
+  for (const ElementType type : {ElementType::uint8, ElementType::uint16})
+    EXPECT_EQ(kindOfConverting(testing::torus(9, 9), arrays(type, Layout::interleaved, 0)),
+              ErrorKind::unsupported);
   Mesh mesh = testing::torus(9, 9);
   mesh.texCoords[0] = {1.5f, 0};
   EXPECT_EQ(kindOfConverting(mesh, optionsFor(Container::sig)), ErrorKind::unsupported);

@@ -41,6 +41,12 @@ const cases: { mesh: GeneratedMesh; options: string[] }[] = [
     ({ mesh: "trefoil-colors" as const, options: ["--container", "bg", "--normals", normals] })),
   { mesh: "trefoil-plain", options: ["--container", "bg", "--normals", "octahedral", "--normal-bits", "16"] },
   { mesh: "trefoil", options: ["--normals", "octahedral", "--index", "off"] },
+  ...["uint8", "int8", "int16", "float32"].flatMap((type) => ["separate", "interleaved"].map((layout) =>
+    ({ mesh: "trefoil-colors" as const, options: ["--container", "bg", "--coord-type", type, "--layout", layout] }))),
+  { mesh: "trefoil", options: ["--container", "bg", "--coord-type", "int16", "--position-bits", "11", "--normals", "spherical"] },
+  { mesh: "trefoil-colors", options: ["--container", "bg", "--layout", "interleaved", "--position-bits", "20", "--primitives", "strips"] },
+  { mesh: "trefoil-colors", options: ["--container", "bg", "--layout", "interleaved", "--normals", "octahedral"] },
+  { mesh: "points", options: ["--container", "bg", "--layout", "interleaved", "--coord-type", "float32"] },
   ...["sig", "bg"].map((container) =>
     ({ mesh: "trefoil-large" as const, options: ["--container", container, "--patch-vertices", "100000"] })),
   { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"] },

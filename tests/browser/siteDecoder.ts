@@ -186,8 +186,8 @@ function decodeBg(node: Attributes, patch: Attributes, directory: string): Plain
   const asFloats = (records: Records & { largest: number }): Float32Array =>
     table(recordCount, (r, axis) => records.at(r, axis) / records.largest);
   return {
-    positions:
-      coordinate.largest === 1 ? asFloats(coordinate) : spread(node, coordinate, recordCount, coordinate.largest),
+    positions: coordinate.largest === 1 ? asFloats(coordinate)
+      : spread(node, coordinate, recordCount, coordinate.largest, node.coordtype!.startsWith("Int") ? 0 : 0.5),
     ...(normals && { normals }),
     ...(color && { colors: asFloats(color) }),
     ...elementsOf(patch, (n) => (index ? index.at(n, 0) : n)),
@@ -216,11 +216,11 @@ function table(records: number, value: (record: number, axis: number) => number)
   return Float32Array.from({ length: 3 * records }, (_, i) => value(Math.floor(i / 3), i % 3));
 }
 
-/** Stored integers 0..largest spread over the decode box. */
-function spread(node: Attributes, stored: Records, records: number, largest: number): Float32Array {
+/** Stored integers 0..largest spread over the decode box; signed ones (`middle` 0) around its centre. */
+function spread(node: Attributes, stored: Records, records: number, largest: number, middle = 0.5): Float32Array {
   const center = numbersOf(node.position, [0, 0, 0]);
   const size = numbersOf(node.size, [1, 1, 1]);
-  return table(records, (r, axis) => center[axis]! + size[axis]! * (stored.at(r, axis) / largest - 0.5));
+  return table(records, (r, axis) => center[axis]! + size[axis]! * (stored.at(r, axis) / largest - middle));
 }
 
 function elementsOf(

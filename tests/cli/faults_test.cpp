@@ -121,6 +121,15 @@ TEST_F(Faults, OptionsThatCannotBeHonoured) {
   refuse("--normal-bits", {"--container", "bg", "--normals", "octahedral", "-vn", "32"});
   refuse("--normal-bits", {"--container", "bg", "--normals", "octahedral", "-vn", "8", "-vp", "8"});
   refuse("--normals", {"--target", "x3dom", "--normals", "octahedral"});
+  refuse("--coord-type", {"--coord-type", "uint16"});
+  refuse("--coord-type", {"--container", "bg", "--coord-type", "float64"});
+  refuse("--coord-type", {"--container", "bg", "--coord-type", "int8", "--target", "x3dom"});
+  refuse("--layout", {"--layout", "interleaved"});
+  refuse("--position-bits", {"--container", "bg", "--coord-type", "uint8", "-vp", "9"});
+  refuse("--position-bits", {"--container", "bg", "--coord-type", "float32", "-vp", "25"});
+  refuse("--position-bits", {"--container", "bg", "--coord-type", "int16", "-vp", "16", "--target", "x3dom"});
+  refuse("--normal-bits", {"--container", "bg", "--coord-type", "int16", "--layout", "interleaved", "-vn", "8",
+                           "--target", "x3dom"});
   refuse("--position-bits", {"-vp", "7"});
   refuse("--position-bits", {"-qp", "33"});
   refuse("--position-bits", {"--position-bits", "abc"});

@@ -63,7 +63,8 @@ async function assertShows(name: string, site: string, container: Container, mes
 
 for (const container of containers) {
   describe(`A site for X3DOM in ${container === "sig" ? "images" : "arrays"}`, () => {
-    const cases: [what: string, mesh: GeneratedMesh, more: string[]][] = [
+    /** With `bits` the reference's positions are on the lattice, which is coarse enough to move pixels. */
+    const cases: [what: string, mesh: GeneratedMesh, more: string[], bits?: number][] = [
       ["triangles", "trefoil", []],
       ["strips", "trefoil", ["--primitives", "strips"]],
       ["many patches", "trefoil", patches],
@@ -71,11 +72,21 @@ for (const container of containers) {
       ["computed normals", "trefoil-plain", []],
     ];
     if (container === "sig") cases.push(["positions of three bytes", "sphere", ["--position-bits", "20"]]);
-    if (container === "bg") cases.push(["indices of 32 bits", "trefoil-large", ["--patch-vertices", "100000"]]);
-    if (container === "bg") cases.push(["normals as angles beside the coordinates", "trefoil", ["--normals", "spherical"]]);
-    for (const [what, mesh, more] of cases) {
+    if (container === "bg") {
+      for (const layout of ["separate", "interleaved"]) {
+        cases.push([`coordinates as float32, ${layout}`, "trefoil-colors", ["--coord-type", "float32", "--layout", layout]]);
+        cases.push([`coordinates as int16, ${layout}`, "trefoil-colors", ["--coord-type", "int16", "--layout", layout, "--primitives", "strips"], 15]);
+      }
+      cases.push(["coordinates as uint16 beside angles and colours", "trefoil-colors",
+        ["--coord-type", "uint16", "--layout", "interleaved", "--normals", "spherical"]]);
+      cases.push(["many interleaved patches without an index", "trefoil", ["--coord-type", "int16", "--layout", "interleaved", "--index", "off", ...patches], 15]);
+      cases.push(["indices of 32 bits", "trefoil-large", ["--patch-vertices", "100000"]]);
+      cases.push(["normals as angles beside the coordinates", "trefoil", ["--normals", "spherical"]]);
+    }
+    for (const [what, mesh, more, bits] of cases) {
       test(`shows ${what} as X3DOM shows them inline`, async () => {
-        await assertShows(mesh, siteOfGenerated(mesh, ...options(container), ...more), container, sourceOf(mesh));
+        const source = bits === undefined ? sourceOf(mesh) : onLattice(sourceOf(mesh), bits);
+        await assertShows(bits === undefined ? mesh : `${mesh}-${bits}`, siteOfGenerated(mesh, ...options(container), ...more), container, source);
       });
     }
 
@@ -83,6 +94,20 @@ for (const container of containers) {
       const site = siteOfGenerated("sphere", ...options(container), "--position-bits", "12");
       await assertShows("sphere-12", site, container, onLattice(sourceOf("sphere"), 12));
     });
+
+    if (container === "bg") {
+      test("shows positions of 8 bits as uint8 and of 11 as int16 as X3DOM shows them inline", async () => {
+        for (const [type, bits] of [["uint8", 8], ["int16", 11]] as const) {
+          const site = siteOfGenerated("sphere", ...options(container), "--coord-type", type, "--position-bits", `${bits}`);
+          await assertShows(`sphere-${bits}`, site, container, onLattice(sourceOf("sphere"), bits));
+        }
+      });
+
+      test("shows coloured points of interleaved bytes as X3DOM shows them inline", async () => {
+        const site = siteOfGenerated("points", ...options(container), "--coord-type", "uint8", "--layout", "interleaved");
+        await assertShows("points-8", site, container, onLattice(sourceOf("points"), 8));
+      });
+    }
 
     test("shows coloured points as X3DOM shows them inline", async () => {
       // A point is one pixel: half a step of the lattice puts some of them into the next.

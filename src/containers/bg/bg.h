@@ -7,9 +7,11 @@
 
 namespace imgeo {
 
-/// One file for each of indices (where there are any), coordinates, normals,
-/// texture coordinates and colours, of the node's element types.
-EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geometry);
+/// A file of indices (where there are any) and one for each attribute, or one of
+/// records with all of them, of the node's element types. In records every attribute
+/// begins at a multiple of four bytes; normals of a byte each lie in the fourth
+/// element of 16-bit coordinates.
+EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geometry, Layout layout);
 
 /// Reads what encodeBg writes and every layout of X3DOM's BinaryGeometry: all
 /// element types, interleaved records, spherical normals. Safe for untrusted

@@ -4,6 +4,7 @@
 #include "base/narrow.h"
 #include "containers/normals.h"
 #include "containers/stored.h"
+#include "containers/stored_coords.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,21 +55,25 @@ public:
     }
   }
 
-  /// An element as shaders see it: integers as shares of their type's maximum.
-  double realAt(std::uint64_t record, std::uint32_t component) const {
+  std::int64_t integerAt(std::uint64_t record, std::uint32_t component) const {
     const std::uint8_t* at = this->at(record, component);
     switch (type_) {
     case ElementType::int8:
-      return static_cast<std::int8_t>(*at) / maximumOf(type_);
+      return static_cast<std::int8_t>(*at);
     case ElementType::int16:
-      return loadLittle<std::int16_t>(at) / maximumOf(type_);
+      return loadLittle<std::int16_t>(at);
     case ElementType::int32:
-      return loadLittle<std::int32_t>(at) / maximumOf(type_);
-    case ElementType::float32:
-      return loadLittle<float>(at);
+      return loadLittle<std::int32_t>(at);
     default:
-      return unsignedAt(record, component) / maximumOf(type_);
+      return unsignedAt(record, component);
     }
+  }
+
+  /// An element as shaders see it: integers as shares of their type's maximum.
+  double realAt(std::uint64_t record, std::uint32_t component) const {
+    if (type_ == ElementType::float32)
+      return loadLittle<float>(at(record, component));
+    return static_cast<double>(integerAt(record, component)) / maximumOf(type_);
   }
 
 private:
@@ -101,32 +106,23 @@ std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, ElementT
   return indices;
 }
 
-/// Lattice coordinates as they are stored; signed ones in offset binary.
 std::vector<Vec3u> decodeIntegers(const Records& records, std::uint32_t count,
                                   const GeometryDescription& geometry, const std::string& place) {
-  const std::uint32_t signBit =
-      isUnsigned(geometry.coordType) ? 0 : 1u << (8 * byteSizeOf(geometry.coordType) - 1);
-  const std::uint32_t shift = coordShift(Container::bg, geometry.lattice.bits);
+  const StoredCoords stored = storedCoords(Container::bg, geometry.coordType, geometry.lattice.bits);
   std::vector<Vec3u> positions(count);
   for (std::uint32_t n = 0; n < count; ++n)
     for (int axis = 0; axis < 3; ++axis)
       if (geometry.lattice.stretch[axis] > 0) // on a flat axis all numbers mean the same
-        positions[n][axis] =
-            loadCoord(records.unsignedAt(n, static_cast<std::uint32_t>(axis)) ^ signBit, shift, place);
+        positions[n][axis] = loadCoord(records.integerAt(n, static_cast<std::uint32_t>(axis)), stored, place);
   return positions;
 }
 
 std::vector<Vec3u> decodeFloats(const Records& records, std::uint32_t count, const Lattice& lattice,
                                 const std::string& place) {
-  std::vector<Vec3u> positions(count);
+  std::vector<Vec3u> positions;
   for (std::uint32_t n = 0; n < count; ++n)
-    for (int axis = 0; axis < 3; ++axis) {
-      const double value = records.realAt(n, static_cast<std::uint32_t>(axis));
-      const double steps = std::round((value - lattice.origin[axis]) / lattice.step);
-      if (!(steps >= 0 && steps <= lattice.maximum()))
-        throw Error(ErrorKind::malformed, place, "vertices lie far outside of the box that the node states");
-      positions[n][axis] = static_cast<std::uint32_t>(steps);
-    }
+    positions.push_back(nearestPoint(
+        Vec3f(Vec3d{records.realAt(n, 0), records.realAt(n, 1), records.realAt(n, 2)}), lattice, place));
   return positions;
 }
 
@@ -146,7 +142,7 @@ void checkTypes(const PatchDescription& patch, const GeometryDescription& geomet
   if (patch.coord.size() != 1)
     throw Error(ErrorKind::malformed, "", "a BinaryGeometry patch has one file of coordinates");
   const std::string& place = patch.coord[0].url;
-  if (byteSizeOf(geometry.coordType) != coordBytes(Container::bg, geometry.lattice.bits))
+  if (!holdsLattice(geometry.coordType, geometry.lattice.bits))
     throw Error(ErrorKind::malformed, place,
                 std::string(nameOf(geometry.coordType)) + " is no type for coordinates of " +
                     std::to_string(geometry.lattice.bits) + " bits");
@@ -182,7 +178,7 @@ IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& 
   decoded.positions = geometry.coordType == ElementType::float32
                           ? decodeFloats(coords, count, geometry.lattice, place)
                           : decodeIntegers(coords, count, geometry, place);
-  checkInsideBox(decoded.positions, geometry.lattice, patch.box, place);
+  checkInsideBox(decoded.positions, geometry, patch.box, place);
 
   if (patch.normal)
     decoded.normals = decodeNormals(

@@ -3,6 +3,7 @@
 #include "base/narrow.h"
 #include "containers/normals.h"
 #include "containers/stored.h"
+#include "containers/stored_coords.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,22 +12,40 @@ namespace imgeo {
 
 namespace {
 
-void appendUnsigned(Bytes& out, ElementType type, std::uint32_t value) {
+/// The low bytes of an integer, as many as the type has.
+void appendInteger(Bytes& out, ElementType type, std::int64_t value) {
   switch (byteSizeOf(type)) {
   case 1:
-    return out.push_back(narrow<std::uint8_t>(value));
+    return out.push_back(static_cast<std::uint8_t>(value));
   case 2:
-    return appendLittle(out, narrow<std::uint16_t>(value));
+    return appendLittle(out, static_cast<std::uint16_t>(value));
   default:
-    return appendLittle(out, value);
+    return appendLittle(out, static_cast<std::uint32_t>(value));
   }
 }
+
+/// A share of 1: of integers the nearest part of their type's maximum, of floats the share itself.
+void appendShare(Bytes& out, ElementType type, double share) {
+  if (type == ElementType::float32)
+    return appendLittle(out, static_cast<float>(share));
+  const double clamped = std::clamp(share, isUnsigned(type) ? 0.0 : -1.0, 1.0);
+  appendInteger(out, type, std::llround(clamped * maximumOf(type)));
+}
+
+/// An attribute's records one after the other, each a multiple of four bytes long:
+/// GPUs want them to begin at whole words.
+struct Column {
+  Role role = Role::coord;
+  Bytes bytes;
+  std::uint32_t recordBytes = 0;
+  bool isPadded = false; ///< records are longer than what they hold
+};
 
 Bytes indexArray(const IndexedPatch& patch, ElementType type) {
   Bytes out;
   out.reserve(patch.indices.size() * byteSizeOf(type));
   for (const std::uint32_t index : patch.indices)
-    appendUnsigned(out, type, index);
+    appendInteger(out, type, index);
   return out;
 }
 
@@ -37,111 +56,147 @@ bool areNormalsInCoords(const IndexedPatch& patch, const GeometryDescription& ge
          geometry.normalType == ElementType::uint8;
 }
 
-/// Coordinates of one or two bytes get a fourth element: GPUs want records to begin
-/// at whole words, and X3DOM binds four where the stride allows it.
-Bytes coordArray(const IndexedPatch& patch, const GeometryDescription& geometry) {
+/// Coordinates of one or two bytes have a fourth element; X3DOM binds four where the
+/// stride allows it.
+Column coordColumn(const IndexedPatch& patch, const GeometryDescription& geometry) {
   const ElementType type = geometry.coordType;
-  const std::uint32_t shift = coordShift(Container::bg, geometry.lattice.bits);
+  const std::uint32_t size = byteSizeOf(type);
+  Column column{Role::coord, {}, size < 4 ? 4 * size : 12, size < 4};
+  column.bytes.reserve(patch.vertexCount() * column.recordBytes);
+  if (type == ElementType::float32) {
+    for (const Vec3u& q : patch.positions) {
+      const Vec3f point(geometry.lattice.point(q));
+      for (int axis = 0; axis < 3; ++axis)
+        appendLittle(column.bytes, point[axis]);
+    }
+    return column;
+  }
+  const StoredCoords stored = storedCoords(Container::bg, type, geometry.lattice.bits);
   const bool withNormals = areNormalsInCoords(patch, geometry);
-  assert(!withNormals || byteSizeOf(type) == 2);
-  Bytes out;
-  out.reserve(patch.vertexCount() * 4 * byteSizeOf(type));
+  assert(!withNormals || size == 2);
   for (std::size_t n = 0; n < patch.vertexCount(); ++n) {
     for (int axis = 0; axis < 3; ++axis)
-      appendUnsigned(out, type, storeCoord(patch.positions[n][axis], shift));
-    if (withNormals) {
-      const Vec2<std::uint32_t> stored = storeNormal(patch.normals[n], geometry.normalEncoding, 8);
-      out.insert(out.end(), {narrow<std::uint8_t>(stored.x), narrow<std::uint8_t>(stored.y)});
-    } else if (byteSizeOf(type) < 4) {
-      appendUnsigned(out, type, 0);
-    }
+      appendInteger(column.bytes, type, storeCoord(patch.positions[n][axis], stored));
+    const Vec2<std::uint32_t> pair =
+        withNormals ? storeNormal(patch.normals[n], geometry.normalEncoding, 8) : Vec2<std::uint32_t>{};
+    if (size < 4)
+      appendInteger(column.bytes, type, pair.x | pair.y << 8);
   }
-  return out;
+  return column;
 }
 
-Bytes normalArray(const IndexedPatch& patch, const GeometryDescription& geometry) {
+Column normalColumn(const IndexedPatch& patch, const GeometryDescription& geometry) {
   const ElementType type = geometry.normalType;
-  Bytes out;
-  out.reserve(patch.vertexCount() * 4 * byteSizeOf(type));
-  if (isPair(geometry.normalEncoding)) {
-    for (const Vec3f& normal : patch.normals) {
-      const Vec2<std::uint32_t> stored = storeNormal(normal, geometry.normalEncoding, 8 * byteSizeOf(type));
-      appendUnsigned(out, type, stored.x);
-      appendUnsigned(out, type, stored.y);
-    }
-    return out;
-  }
-  const auto stored = [](float component, int maximum) {
-    return std::lround(std::clamp(double{component}, -1.0, 1.0) * maximum);
-  };
+  const std::uint32_t size = byteSizeOf(type);
+  const bool isOfPairs = isPair(geometry.normalEncoding), isPadded = !isOfPairs && size < 4;
+  Column column{Role::normal, {}, (isOfPairs ? 2 : isPadded ? 4 : 3) * size, isPadded};
+  column.bytes.reserve(patch.vertexCount() * column.recordBytes);
   for (const Vec3f& normal : patch.normals) {
-    if (type == ElementType::float32) {
-      for (int axis = 0; axis < 3; ++axis)
-        appendLittle(out, normal[axis]);
-    } else if (type == ElementType::int16) {
-      for (int axis = 0; axis < 3; ++axis)
-        appendLittle(out, static_cast<std::int16_t>(stored(normal[axis], 32767)));
-      appendLittle(out, std::int16_t{0});
-    } else {
-      assert(type == ElementType::int8);
-      for (int axis = 0; axis < 3; ++axis)
-        out.push_back(static_cast<std::uint8_t>(stored(normal[axis], 127)));
-      out.push_back(0);
-    }
-  }
-  return out;
-}
-
-Bytes texCoordArray(const IndexedPatch& patch, const GeometryDescription& geometry) {
-  Bytes out;
-  out.reserve(patch.vertexCount() * 4);
-  for (const Vec2f& texCoord : patch.texCoords) {
-    if (geometry.texCoordType == ElementType::float32) {
-      appendLittle(out, texCoord.x);
-      appendLittle(out, texCoord.y);
+    if (isOfPairs) {
+      const Vec2<std::uint32_t> pair = storeNormal(normal, geometry.normalEncoding, 8 * size);
+      appendInteger(column.bytes, type, pair.x);
+      appendInteger(column.bytes, type, pair.y);
       continue;
     }
-    appendLittle(out, storeTexCoord(texCoord.x, geometry.texCoordMin.x, geometry.texCoordSize.x));
-    appendLittle(out, storeTexCoord(texCoord.y, geometry.texCoordMin.y, geometry.texCoordSize.y));
+    for (int axis = 0; axis < 3; ++axis)
+      appendShare(column.bytes, type, normal[axis]);
+    if (isPadded)
+      appendInteger(column.bytes, type, 0);
   }
+  return column;
+}
+
+Column texCoordColumn(const IndexedPatch& patch, const GeometryDescription& geometry) {
+  const ElementType type = geometry.texCoordType;
+  const Vec2f min = geometry.texCoordMin, size = geometry.texCoordSize;
+  Column column{Role::texCoord, {}, 2 * byteSizeOf(type), false};
+  column.bytes.reserve(patch.vertexCount() * column.recordBytes);
+  for (const Vec2f& texCoord : patch.texCoords) {
+    appendShare(column.bytes, type, texCoordShare(texCoord.x, min.x, size.x));
+    appendShare(column.bytes, type, texCoordShare(texCoord.y, min.y, size.y));
+  }
+  return column;
+}
+
+/// Always of four elements, so that records of any type are whole words.
+Column colorColumn(const IndexedPatch& patch, const GeometryDescription& geometry) {
+  const ElementType type = geometry.colorType;
+  Column column{Role::color, {}, 4 * byteSizeOf(type), geometry.colorComponents == 3};
+  column.bytes.reserve(patch.vertexCount() * column.recordBytes);
+  for (const Rgba8& color : patch.colors)
+    for (const std::uint8_t channel : {color.r, color.g, color.b, color.a})
+      appendShare(column.bytes, type, channel / 255.0);
+  return column;
+}
+
+std::vector<Column> columnsOf(const IndexedPatch& patch, const GeometryDescription& geometry) {
+  std::vector<Column> columns{coordColumn(patch, geometry)};
+  if (!patch.normals.empty() && !areNormalsInCoords(patch, geometry))
+    columns.push_back(normalColumn(patch, geometry));
+  if (!patch.texCoords.empty())
+    columns.push_back(texCoordColumn(patch, geometry));
+  if (!patch.colors.empty())
+    columns.push_back(colorColumn(patch, geometry));
+  return columns;
+}
+
+/// The columns as one, their records side by side.
+Bytes interleaved(const std::vector<Column>& columns, std::size_t count) {
+  Bytes out;
+  for (std::size_t n = 0; n < count; ++n)
+    for (const Column& column : columns) {
+      const auto record = column.bytes.begin() + static_cast<std::ptrdiff_t>(n * column.recordBytes);
+      out.insert(out.end(), record, record + column.recordBytes);
+    }
   return out;
 }
 
-Bytes colorArray(const IndexedPatch& patch) {
-  Bytes out;
-  out.reserve(patch.vertexCount() * 4);
-  for (const Rgba8& color : patch.colors)
-    out.insert(out.end(), {color.r, color.g, color.b, color.a});
-  return out;
+void refer(PatchDescription& description, Role role, const Reference& reference) {
+  switch (role) {
+  case Role::coord:
+    description.coord = {reference};
+    break;
+  case Role::normal:
+    description.normal = reference;
+    break;
+  case Role::texCoord:
+    description.texCoord = reference;
+    break;
+  case Role::color:
+    description.color = reference;
+    break;
+  case Role::index:
+    description.index = reference;
+    break;
+  }
 }
 
 } // namespace
 
-EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geometry) {
-  assert((geometry.texCoordType == ElementType::uint16 || geometry.texCoordType == ElementType::float32) &&
-         geometry.colorType == ElementType::uint8);
+EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geometry, Layout layout) {
   EncodedPatch encoded{describePatch(patch, geometry), {}, 0};
   PatchDescription& description = encoded.description;
-  const auto add = [&](Role role, Bytes bytes, std::uint32_t stride) {
-    Reference reference = addFile(encoded, {role, ".bin", std::move(bytes)});
-    reference.stride = stride;
-    return reference;
-  };
-  // A stride is stated only where it is more than the components take.
-  const auto padded = [](ElementType type) { return byteSizeOf(type) < 4 ? 4 * byteSizeOf(type) : 0; };
   if (!patch.indices.empty())
-    description.index = add(Role::index, indexArray(patch, geometry.indexType), 0);
-  description.coord = {add(Role::coord, coordArray(patch, geometry), padded(geometry.coordType))};
+    description.index = addFile(encoded, {Role::index, ".bin", indexArray(patch, geometry.indexType)});
+  std::vector<Column> columns = columnsOf(patch, geometry);
+  if (layout == Layout::interleaved && columns.size() > 1) {
+    Reference reference = addFile(encoded, {Role::coord, ".bin", interleaved(columns, patch.vertexCount())});
+    for (const Column& column : columns)
+      reference.stride += column.recordBytes;
+    for (const Column& column : columns) {
+      refer(description, column.role, reference);
+      reference.first += column.recordBytes;
+    }
+  } else {
+    for (Column& column : columns) {
+      Reference reference = addFile(encoded, {column.role, ".bin", std::move(column.bytes)});
+      // A stride is stated only where it is more than the components take.
+      reference.stride = column.isPadded ? column.recordBytes : 0;
+      refer(description, column.role, reference);
+    }
+  }
   if (areNormalsInCoords(patch, geometry))
     description.normal = normalInCoords(description.coord[0]);
-  else if (isPair(geometry.normalEncoding) && !patch.normals.empty())
-    description.normal = add(Role::normal, normalArray(patch, geometry), 0);
-  else if (!patch.normals.empty())
-    description.normal = add(Role::normal, normalArray(patch, geometry), padded(geometry.normalType));
-  if (!patch.texCoords.empty())
-    description.texCoord = add(Role::texCoord, texCoordArray(patch, geometry), 0);
-  if (!patch.colors.empty())
-    description.color = add(Role::color, colorArray(patch), geometry.colorComponents == 4 ? 0 : 4);
   return encoded;
 }
 

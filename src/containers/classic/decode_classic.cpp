@@ -6,6 +6,7 @@
 #include "containers/normals.h"
 #include "containers/png/png.h"
 #include "containers/stored.h"
+#include "containers/stored_coords.h"
 
 namespace imgeo {
 
@@ -119,7 +120,8 @@ Vec2f texCoordOf(const std::uint8_t* texel, const GeometryDescription& geometry)
 
 IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescription& geometry,
                            const FetchFile& fetch) {
-  const std::uint32_t bits = geometry.lattice.bits, shift = coordShift(Container::sig, bits);
+  const std::uint32_t bits = geometry.lattice.bits;
+  const StoredCoords stored = storedCoords(Container::sig, geometry.coordType, bits);
   if (patch.coord.size() != coordBytes(Container::sig, bits))
     throw Error(ErrorKind::malformed, "",
                 std::to_string(bits) + "-bit coordinates need " +
@@ -154,8 +156,8 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
     addPlane(decoded.positions, fetchRecords(patch.coord[plane], 3));
   for (Vec3u& position : decoded.positions)
     for (int axis = 0; axis < 3; ++axis)
-      position[axis] = loadCoord(position[axis], shift, place);
-  checkInsideBox(decoded.positions, geometry.lattice, patch.box, place);
+      position[axis] = loadCoord(position[axis], stored, place);
+  checkInsideBox(decoded.positions, geometry, patch.box, place);
 
   if (patch.normal && isPair(geometry.normalEncoding)) {
     decoded.normals = decodePairs(Texels(*patch.normal, fetch, 0, 1), count, geometry.normalEncoding);

@@ -8,6 +8,7 @@
 #include "containers/limits.h"
 #include "containers/png/png.h"
 #include "containers/stored.h"
+#include "containers/stored_coords.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,10 +61,10 @@ Image indexImage(const IndexedPatch& patch, ImageSize size, ImageSize records) {
 }
 
 /// Byte `plane` of every coordinate, counted from the least significant.
-Image coordImage(const IndexedPatch& patch, ImageSize size, std::uint32_t shift, std::uint32_t plane) {
+Image coordImage(const IndexedPatch& patch, ImageSize size, const StoredCoords& stored, std::uint32_t plane) {
   return imageOf(size, 3, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
     for (int axis = 0; axis < 3; ++axis)
-      out[axis] = static_cast<std::uint8_t>(storeCoord(patch.positions[n][axis], shift) >> (8 * plane));
+      out[axis] = static_cast<std::uint8_t>(storeCoord(patch.positions[n][axis], stored) >> (8 * plane));
   });
 }
 
@@ -96,7 +97,7 @@ EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription&
   const ImageSize records = recordImageSizeOf(patch, target);
   const ImageSize running = implicitMeshSizeOf(patch, records, target);
   encoded.description.implicitMeshSize = {running.columns, running.rows};
-  const std::uint32_t shift = coordShift(Container::sig, geometry.lattice.bits);
+  const StoredCoords stored = storedCoords(Container::sig, geometry.coordType, geometry.lattice.bits);
 
   std::vector<RoleImage> images;
   if (!patch.indices.empty())
@@ -104,7 +105,7 @@ EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription&
                                        ? wideIndexImage(patch, running)
                                        : indexImage(patch, running, records)});
   for (std::uint32_t plane = coordBytes(Container::sig, geometry.lattice.bits); plane-- > 0;)
-    images.push_back({Role::coord, coordImage(patch, records, shift, plane)});
+    images.push_back({Role::coord, coordImage(patch, records, stored, plane)});
   if (!patch.normals.empty())
     images.push_back({Role::normal, normalImage(patch, geometry.normalEncoding, records)});
   if (geometry.normalEncoding == NormalEncoding::palette && !patch.normals.empty())

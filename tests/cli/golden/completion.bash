@@ -15,6 +15,8 @@ _imgeo() {
     "convert --primitives") COMPREPLY=($(compgen -W "triangles strips points" -- "$word")); return ;;
     "convert --index") COMPREPLY=($(compgen -W "on off" -- "$word")); return ;;
     "convert -vp"|"convert -qp"|"convert --position-bits") COMPREPLY=(); return ;;
+    "convert --coord-type") COMPREPLY=($(compgen -W "auto uint8 int8 uint16 int16 float32" -- "$word")); return ;;
+    "convert --layout") COMPREPLY=($(compgen -W "separate interleaved" -- "$word")); return ;;
     "convert --normals") COMPREPLY=($(compgen -W "rgb octahedral spherical palette" -- "$word")); return ;;
     "convert -vn"|"convert -qn"|"convert --normal-bits") COMPREPLY=(); return ;;
     "convert -vt"|"convert -qt"|"convert --texcoord-bits") COMPREPLY=(); return ;;
@@ -30,7 +32,7 @@ _imgeo() {
     "serve --host") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
-    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --container --profile --target --x3dom-url --primitives --index --position-bits --normals --normal-bits --texcoord-bits --color-bits --patch-vertices --normal-weighting --title --effort --threads --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --container --profile --target --x3dom-url --primitives --index --position-bits --coord-type --layout --normals --normal-bits --texcoord-bits --color-bits --patch-vertices --normal-weighting --title --effort --threads --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;

@@ -19,17 +19,22 @@ export interface Part {
 export function partsOf(geometry: GeometryDescription, patch: PatchDescription): Part[] {
   const corners = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
   const vertices = patch.vertexCount;
-  const part = (role: Part["role"], reference: Reference | undefined, expectedBytes: number, plane = 0): Part[] =>
-    reference === undefined ? []
-      : [{ role, plane, reference, expectedBytes, chunk: { type: plane > 0 ? "refinement" : role, plane } }];
-  const bytesOf = (role: Part["role"]) => geometry.container === "sig" ? sigBytes[role]
-    : byteSizeOf(geometry[`${role}Type`]) * componentsOf(geometry, role);
+  const part = (role: Part["role"], reference: Reference | undefined, elements: number, plane = 0): Part[] =>
+    reference === undefined ? [] : [{
+      role, plane, reference,
+      expectedBytes: elements * (geometry.container === "sig" ? sigBytes[role] : reference.stride || bytesOf(geometry, role)),
+      chunk: { type: plane > 0 ? "refinement" : role, plane },
+    }];
   return [
-    ...patch.coord.flatMap((plane, place) => part("coord", plane, vertices * bytesOf("coord"), place)),
-    ...part("index", patch.index, corners * bytesOf("index")),
-    ...(hasNormalsInCoords(geometry, patch) ? [] : part("normal", patch.normal, vertices * bytesOf("normal"))),
-    ...part("color", patch.color, vertices * bytesOf("color")),
+    ...patch.coord.flatMap((plane, place) => part("coord", plane, vertices, place)),
+    ...part("index", patch.index, corners),
+    ...(hasNormalsInCoords(geometry, patch) ? [] : part("normal", patch.normal, vertices)),
+    ...part("color", patch.color, vertices),
   ];
+}
+
+function bytesOf(geometry: GeometryDescription, role: Part["role"]): number {
+  return byteSizeOf(geometry[`${role}Type`]) * componentsOf(geometry, role);
 }
 
 /** The numbers of one element in typed arrays. */

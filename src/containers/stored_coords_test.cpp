@@ -1,0 +1,143 @@
+#include "containers/stored_coords.h"
+
+#include "base/error.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+constexpr ElementType everyType[] = {ElementType::int8,   ElementType::uint8, ElementType::int16,
+                                     ElementType::uint16, ElementType::int32, ElementType::uint32,
+                                     ElementType::float32};
+const Lattice somewhere{{-3, 1, 700}, 0.37, 8};
+
+GeometryDescription arrays(ElementType type, std::uint32_t bits) {
+  GeometryDescription geometry;
+  geometry.container = Container::bg;
+  geometry.coordType = type;
+  geometry.lattice = somewhere;
+  geometry.lattice.bits = bits;
+  return geometry;
+}
+
+GeometryDescription images(std::uint32_t bits) {
+  GeometryDescription geometry;
+  geometry.lattice = somewhere;
+  geometry.lattice.bits = bits;
+  return geometry;
+}
+
+std::vector<GeometryDescription> everyGeometry() {
+  std::vector<GeometryDescription> all;
+  for (std::uint32_t bits = 8; bits <= 32; ++bits) {
+    all.push_back(images(bits));
+    for (const ElementType type : everyType)
+      if (holdsLattice(type, bits))
+        all.push_back(arrays(type, bits));
+  }
+  return all;
+}
+
+std::string nameOf(const GeometryDescription& geometry) {
+  return std::string(geometry.container == Container::sig ? "images" : nameOf(geometry.coordType)) + " of " +
+         std::to_string(geometry.lattice.bits) + " bits";
+}
+
+bool isFloat(const GeometryDescription& geometry) {
+  return geometry.container == Container::bg && geometry.coordType == ElementType::float32;
+}
+
+TEST(StoredCoords, AreWhatX3domSpreadsOverTheBox) {
+  for (const GeometryDescription& geometry : everyGeometry()) {
+    if (isFloat(geometry))
+      continue;
+    SCOPED_TRACE(nameOf(geometry));
+    const DecodeFields fields = decodeFields(geometry);
+    const StoredCoords stored = storedCoords(geometry.container, geometry.coordType, geometry.lattice.bits);
+    const bool isSigned = geometry.container == Container::bg && !isUnsigned(geometry.coordType);
+    const std::uint32_t most = geometry.lattice.maximum();
+    for (const std::uint32_t q : {0u, 1u, most / 3, most - 1, most}) {
+      // docs/formats/nodes.md, in X3DOM's words.
+      const double share = static_cast<double>(storeCoord(q, stored)) / stored.maximum;
+      const double x = fields.position.x + fields.size.x * (isSigned ? share : share - 0.5);
+      EXPECT_NEAR(x, geometry.lattice.point({q, 0, 0}).x, 1e-13 * fields.size.x) << q;
+    }
+  }
+}
+
+TEST(StoredCoords, FitTheirTypeAndComeBack) {
+  for (const GeometryDescription& geometry : everyGeometry()) {
+    if (isFloat(geometry) || geometry.container == Container::sig)
+      continue;
+    SCOPED_TRACE(nameOf(geometry));
+    const std::uint32_t most = geometry.lattice.maximum();
+    const StoredCoords stored = storedCoords(Container::bg, geometry.coordType, geometry.lattice.bits);
+    const double lowest = isUnsigned(geometry.coordType) ? 0 : -maximumOf(geometry.coordType) - 1;
+    for (const std::uint32_t q : {0u, 1u, most / 3, most}) {
+      const std::int64_t value = storeCoord(q, stored);
+      EXPECT_GE(static_cast<double>(value), lowest);
+      EXPECT_LE(static_cast<double>(value), maximumOf(geometry.coordType));
+      EXPECT_EQ(loadCoord(value, stored, ""), q);
+    }
+    if (stored.shift > 0) {
+      EXPECT_THROW(loadCoord(storeCoord(1, stored) + 1, stored, ""), Error);
+    }
+    EXPECT_THROW(loadCoord(stored.bias - 1, stored, ""), Error);
+    EXPECT_THROW(loadCoord(storeCoord(most, stored) + (std::int64_t{1} << stored.shift), stored, ""), Error);
+  }
+}
+
+TEST(StoredCoords, OfSignedTypesStayWithinTheHalfThatX3domUses) {
+  for (std::uint32_t bits = 8; bits <= 15; ++bits) {
+    const GeometryDescription geometry = arrays(ElementType::int16, bits);
+    const StoredCoords stored = storedCoords(Container::bg, ElementType::int16, bits);
+    EXPECT_GE(storeCoord(0, stored), -16384);
+    EXPECT_LE(storeCoord(geometry.lattice.maximum(), stored), 16383);
+    const double edge = decodeFields(geometry).size.x,
+                 extent = geometry.lattice.step * geometry.lattice.maximum();
+    EXPECT_GE(edge, extent * 0.9999);
+    EXPECT_LE(edge, extent * 1.004) << "a box much larger than the mesh is culled too late";
+  }
+}
+
+TEST(DecodeFields, GiveTheLatticeBack) {
+  for (const GeometryDescription& geometry : everyGeometry()) {
+    SCOPED_TRACE(nameOf(geometry));
+    const Lattice &lattice = geometry.lattice, back = latticeOf(decodeFields(geometry), geometry.container,
+                                                                geometry.coordType, lattice.bits);
+    const double edge = lattice.step * lattice.maximum();
+    EXPECT_EQ(back.bits, lattice.bits);
+    EXPECT_NEAR(back.step, lattice.step, 1e-13 * lattice.step);
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(back.origin[axis], lattice.origin[axis], 1e-13 * edge + 1e-11);
+  }
+}
+
+TEST(DecodeFields, HaveTheSourcesEdgeWhereBitsFillTheirBytes) {
+  GeometryDescription geometry = images(16);
+  geometry.lattice.step = 2.0 / 65535;
+  EXPECT_DOUBLE_EQ(decodeFields(geometry).size.x, 2);
+  EXPECT_EQ(coordBytes(Container::sig, 24), 3u);
+  EXPECT_EQ(coordBytes(Container::bg, 24), 4u);
+}
+
+TEST(NearestPoint, KeepsASinglesOwnValueFromTheSourcesLattice) {
+  const Box3d box{{-1, 2, 5}, {3, 2.5, 6}};
+  const Lattice lattice = latticeFor(box, ElementType::float32, sourceBits);
+  for (const float x : {-1.0f, -0.7f, 0.1f, 1.0f / 3, 2.9999998f, 3.0f}) {
+    const Vec3f position{x, 2.2f, 5.5f};
+    EXPECT_EQ(Vec3f(lattice.point(nearestPoint(position, lattice, ""))), position);
+  }
+}
+
+TEST(NearestPoint, RefusesWhatIsFarOutsideAndWhatIsNoNumber) {
+  const Lattice lattice{{0, 0, 0}, 0.25, 10};
+  EXPECT_EQ(nearestPoint({255.8f, 0.1f, -0.2f}, lattice, ""), (Vec3u{1023, 0, 0}));
+  for (const float x : {-1.0f, 257.0f, std::numeric_limits<float>::infinity(), std::nanf("")})
+    EXPECT_THROW(nearestPoint({x, 0, 0}, lattice, "x"), Error) << x;
+}
+
+} // namespace
+} // namespace imgeo
