@@ -9,12 +9,10 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "bench/models.h"
 #include "containers/container.h"
 #include "containers/png/png.h"
 #include "export/export.h"
-#include "import/import.h"
-#include "prepare/normals.h"
-#include "prepare/weld.h"
 
 #include <cmath>
 #include <csetjmp>
@@ -82,8 +80,8 @@ Coded throughWebp(const Image& image, int quality) {
   std::uint8_t* buffer = nullptr;
   const int stride = static_cast<int>(image.width) * 3;
   const std::size_t size =
-      WebPEncodeRGB(image.pixels.data(), static_cast<int>(image.width), static_cast<int>(image.height), stride,
-                    static_cast<float>(quality), &buffer);
+      WebPEncodeRGB(image.pixels.data(), static_cast<int>(image.width), static_cast<int>(image.height),
+                    stride, static_cast<float>(quality), &buffer);
   Coded coded{size, image};
   WebPDecodeRGBInto(buffer, size, coded.image.pixels.data(), coded.image.pixels.size(), stride);
   WebPFree(buffer);
@@ -98,7 +96,7 @@ struct Variant {
 
 struct Outcome {
   std::size_t coordBytes = 0;
-  double squaredError = 0, largestError = 0; ///< in the mesh's units
+  double squaredError = 0, largestError = 0;     ///< in the mesh's units
   std::size_t vertices = 0, beyondFirstByte = 0; ///< moved by more than the first byte's step
 
   void add(double error, const Lattice& lattice) {
@@ -132,7 +130,8 @@ void distort(IndexedPatch& patch, const GeometryDescription& geometry, const Enc
         stored[i][axis] = stored[i][axis] << 8 | coded.image.pixels[i * 3 + static_cast<std::size_t>(axis)];
   }
   for (std::size_t i = 0; i < stored.size(); ++i)
-    outcome.add(length(Vec3d(stored[i]) - Vec3d(patch.positions[i])) * geometry.lattice.step, geometry.lattice);
+    outcome.add(length(Vec3d(stored[i]) - Vec3d(patch.positions[i])) * geometry.lattice.step,
+                geometry.lattice);
   patch.positions = std::move(stored);
 }
 
@@ -181,7 +180,7 @@ Outcome withFewerBits(const Mesh& mesh, const Lattice& full, std::uint32_t bits,
 void measure(const std::filesystem::path& model, const std::string& directory) {
   Mesh mesh = importFile(model).scene.meshes.at(0);
   weld(mesh);
-  const PatchedMesh patched = cutIntoPatches(mesh, latticeFor(boxOf(mesh), 16), 65535);
+  const PatchedMesh patched = bench::patchesOf(mesh);
   const EncodeOptions options{.container = Container::sig, .normalBits = 8, .effort = 9};
   const GeometryDescription geometry = describe(patched, options);
   const double diagonal = length(boxOf(mesh).size());
@@ -190,8 +189,9 @@ void measure(const std::filesystem::path& model, const std::string& directory) {
     exact.push_back(asTriangles(patch));
 
   fmt::print("\n{}: {} triangles\n\n", model.filename().string(), mesh.elementCount());
-  fmt::print("| coordinate images | bytes | of lossless | RMS error, % of diagonal | largest | vertices off by "
-             "more than 8-bit precision |\n|---|---|---|---|---|---|\n");
+  fmt::print(
+      "| coordinate images | bytes | of lossless | RMS error, % of diagonal | largest | vertices off by "
+      "more than 8-bit precision |\n|---|---|---|---|---|---|\n");
   std::size_t losslessBytes = 0;
   const auto run = [&](const Variant& variant, const std::string& name, const std::string& file) {
     std::vector<IndexedPatch> patches = exact;
@@ -202,7 +202,8 @@ void measure(const std::filesystem::path& model, const std::string& directory) {
       losslessBytes = outcome.coordBytes;
     printRow(name, outcome, losslessBytes, diagonal);
     if (!directory.empty())
-      writeMesh(patches, geometry.lattice, fmt::format("{}/{}-{}.ply", directory, model.stem().string(), file));
+      writeMesh(patches, geometry.lattice,
+                fmt::format("{}/{}-{}.ply", directory, model.stem().string(), file));
   };
   run({"PNG", 0, false}, "PNG, 16 bits, lossless", "lossless");
   for (const std::uint32_t bits : {14u, 12u, 10u})
@@ -228,14 +229,10 @@ int main(int argc, char** argv) {
     else
       models.emplace_back(argv[i]);
   }
-  try {
+  return imgeo::bench::run([&] {
     if (models.empty())
       throw imgeo::Error(imgeo::ErrorKind::usage, "", "usage: lossy MODEL... [--write DIRECTORY]");
     for (const std::string& model : models)
       imgeo::measure(model, directory);
-  } catch (const imgeo::Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return imgeo::exitCode(error.kind());
-  }
-  return 0;
+  });
 }

@@ -7,14 +7,12 @@
 
 #include "containers/normals.h"
 #include "base/error.h"
+#include "bench/models.h"
 #include "containers/classic/layout.h"
 #include "containers/container.h"
 #include "containers/normal_palette.h"
 #include "containers/png/png.h"
 #include "containers/unit_vectors.h"
-#include "import/import.h"
-#include "prepare/normals.h"
-#include "prepare/weld.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -127,13 +125,8 @@ void printTable(const std::string& path) {
       {"palette, PNG", "none", asWritten(NormalEncoding::palette)},
       {"palette, GIF", "none", asGif},
   };
-  for (Mesh& mesh : importFile(path).scene.meshes) {
-    if (mesh.topology != Topology::triangles)
-      continue;
-    weld(mesh);
-    if (mesh.normals.empty())
-      computeNormals(mesh, NormalWeighting::area);
-    const PatchedMesh patched = cutIntoPatches(mesh, latticeFor(boxOf(mesh), 16), 65535);
+  bench::visitSurfaces(path, [&](const Mesh& mesh) {
+    const PatchedMesh patched = bench::patchesOf(mesh);
     std::vector<IndexedPatch> patches;
     for (const Patch& patch : patched.patches)
       patches.push_back(asTriangles(patch));
@@ -155,20 +148,18 @@ void printTable(const std::string& path) {
                  outcome.largest, row.bound);
       std::fflush(stdout);
     }
-  }
+  });
 }
 
 } // namespace
 } // namespace imgeo
 
-int main(int argc, char** argv) {
-  try {
-    if (argc < 2)
-      throw imgeo::Error(imgeo::ErrorKind::usage, "", "usage: normals MODEL...");
-    for (int i = 1; i < argc; ++i)
-      imgeo::printTable(argv[i]);
-  } catch (const imgeo::Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return imgeo::exitCode(error.kind());
-  }
+int main(int count, char** words) {
+  using namespace imgeo;
+  return bench::run([&] {
+    if (count < 2)
+      throw Error(ErrorKind::usage, "", "usage: normals MODEL...");
+    for (int i = 1; i < count; ++i)
+      printTable(words[i]);
+  });
 }

@@ -1,14 +1,14 @@
 // What the order of triangles and vertices costs and gains: bytes of each image,
 // indices a triangle and time, for fan order, for stitched strips and for the order
-// of the source. Checks first that each draws the source's triangles.
+// of the source; and how few indices any strips could have. Checks first that
+// each draws the source's triangles.
 //
 //   build/bench/order [--effort 0..9] MODEL...
 
 #include "base/error.h"
+#include "bench/models.h"
 #include "containers/container.h"
-#include "import/import.h"
-#include "prepare/normals.h"
-#include "prepare/weld.h"
+#include "prepare/dual_graph.h"
 
 #include <algorithm>
 #include <array>
@@ -29,12 +29,8 @@ struct Order {
 /// A patch as it came: triangles and wedges in the order of the source.
 IndexedPatch asInSource(const Patch& patch) {
   IndexedPatch result;
-  for (const std::uint32_t position : patch.wedgePositions)
-    result.positions.push_back(patch.positions[position]);
-  result.normals = patch.normals;
-  result.texCoords = patch.texCoords;
-  result.colors = patch.colors;
-  result.colorComponents = patch.colorComponents;
+  static_cast<VertexAttributes&>(result) = patch;
+  result.positions = gather(patch.positions, patch.wedgePositions);
   result.indices = patch.corners;
   result.draws = {{Primitive::triangles, static_cast<std::uint32_t>(patch.corners.size())}};
   return result;
@@ -53,6 +49,29 @@ std::vector<std::array<std::uint32_t, 9>> drawnTriangles(const IndexedPatch& pat
   }
   std::sort(triangles.begin(), triangles.end());
   return triangles;
+}
+
+/// The fewest indices that any strips over a patch can have: one that names a vertex
+/// serves three triangles at most, which follow one another around it, so a fan of n
+/// triangles takes n / 3 of its centre.
+std::size_t fewestStripIndices(const Patch& patch) {
+  const std::vector<std::uint32_t> across = sidesAcross(patch.corners);
+  std::vector<bool> isSeen(patch.corners.size());
+  std::size_t fewest = 0;
+  for (std::uint32_t corner = 0; corner < patch.corners.size(); ++corner) {
+    const std::uint32_t* triangle = &patch.corners[corner - corner % 3];
+    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+      continue;
+    std::uint32_t first = corner, size = 0;
+    while (across[first] != noSide && sideAfter(across[first]) != corner)
+      first = sideAfter(across[first]);
+    for (std::uint32_t at = first; at != noSide && !isSeen[at]; at = across[sideBefore(at)]) {
+      isSeen[at] = true;
+      ++size;
+    }
+    fewest += (size + 2) / 3;
+  }
+  return fewest;
 }
 
 struct Measured {
@@ -86,16 +105,9 @@ Measured measure(const PatchedMesh& mesh, const Order& order, const EncodeOption
 
 void printTable(const std::string& path, const EncodeOptions& options) {
   const Order orders[] = {{"source", asInSource}, {"strips", asStrips}, {"fans", asTriangles}};
-  for (Mesh& mesh : importFile(path).scene.meshes) {
-    if (mesh.topology != Topology::triangles)
-      continue;
-    weld(mesh);
-    if (mesh.normals.empty()) {
-      computeNormals(mesh, NormalWeighting::area);
-      weld(mesh);
-    }
+  bench::visitSurfaces(path, [&](const Mesh& mesh) {
     const double triangles = static_cast<double>(mesh.elementCount());
-    const PatchedMesh patches = cutIntoPatches(mesh, latticeFor(boxOf(mesh), 16), 65535);
+    const PatchedMesh patches = bench::patchesOf(mesh);
     fmt::print("\n{}: {} triangles, {} vertices, {} patches\n\n", path, mesh.elementCount(),
                mesh.wedgeCount(), patches.patches.size());
     fmt::print("| order | s | indices/triangle | index | coord high | coord low | normal and other | all | "
@@ -108,40 +120,26 @@ void printTable(const std::string& path, const EncodeOptions& options) {
                  static_cast<double>(all) / triangles);
       std::fflush(stdout);
     }
-  }
-}
-
-int run(const std::vector<std::string>& arguments) {
-  EncodeOptions options;
-  options.effort = 8;
-  std::vector<std::string> models;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (arguments[i] != "--effort") {
-      models.push_back(arguments[i]);
-      continue;
-    }
-    const std::string& value = i + 1 < arguments.size() ? arguments[++i] : std::string();
-    if (value.size() != 1 || value[0] < '0' || value[0] > '9')
-      throw Error(ErrorKind::usage, "--effort", "takes a digit");
-    options.effort = value[0] - '0';
-  }
-  if (models.empty())
-    throw Error(ErrorKind::usage, "", "usage: order [--effort 0..9] MODEL...");
-  fmt::print("SIG classic, 16-bit positions, 8-bit normals, PNG effort {}; s: processor time to arrange\n",
-             options.effort);
-  for (const std::string& model : models)
-    printTable(model, options);
-  return 0;
+    std::size_t fewest = 0;
+    for (const Patch& patch : patches.patches)
+      fewest += fewestStripIndices(patch);
+    fmt::print("\nNo strips have fewer than {:.3f} indices a triangle.\n",
+               static_cast<double>(fewest) / triangles);
+  });
 }
 
 } // namespace
 } // namespace imgeo
 
-int main(int argc, char** argv) {
-  try {
-    return imgeo::run({argv + 1, argv + argc});
-  } catch (const imgeo::Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return imgeo::exitCode(error.kind());
-  }
+int main(int count, char** words) {
+  using namespace imgeo;
+  return bench::run([&] {
+    const bench::ModelArguments arguments = bench::modelArguments(count, words, "order", 8);
+    EncodeOptions options;
+    options.effort = arguments.effort;
+    fmt::print("SIG classic, 16-bit positions, 8-bit normals, PNG effort {}; s: processor time to arrange\n",
+               options.effort);
+    for (const std::string& model : arguments.models)
+      printTable(model, options);
+  });
 }

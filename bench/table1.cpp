@@ -6,12 +6,10 @@
 //   build/bench/table1 [--effort 0..9] MODEL...
 
 #include "base/error.h"
+#include "bench/models.h"
 #include "containers/container.h"
 #include "containers/raw_size.h"
 #include "documents/element.h"
-#include "import/import.h"
-#include "prepare/normals.h"
-#include "prepare/weld.h"
 
 #include <array>
 #include <cstdio>
@@ -49,26 +47,42 @@ std::string grouped(std::uint64_t number) {
   return digits;
 }
 
-/// The X3D node that holds a patch inline: its name, and the field that lays out its triangles.
-std::uint64_t textSize(const IndexedPatch& patch, const Lattice& lattice) {
-  const bool indexed = !patch.indices.empty();
-  const bool strip = patch.draws.front().primitive == Primitive::triangleStrip;
-  std::string text = fmt::format("<{}Triangle{}Set", indexed ? "Indexed" : "", strip ? "Strip" : "");
-  if (indexed) {
-    text += fmt::format(" index='{}", patch.indices.front());
-    for (const std::uint32_t index : std::span(patch.indices).subspan(1))
-      text += fmt::format(" {}", index);
-    text += strip ? " -1'" : "'";
-  } else if (strip) {
-    text += fmt::format(" stripCount='{}'", patch.vertexCount());
-  }
-  text += "><Coordinate point='";
-  for (const Vec3u& position : patch.positions)
+/// The X3D nodes of some of a patch's vertices.
+std::string verticesText(const IndexedPatch& patch, const Lattice& lattice, std::size_t first,
+                         std::size_t count) {
+  std::string text = "><Coordinate point='";
+  for (const Vec3u& position : std::span(patch.positions).subspan(first, count))
     text += numbers(Vec3f(lattice.point(position))) + " ";
   text += "'></Coordinate><Normal vector='";
-  for (const Vec3f& normal : patch.normals)
+  for (const Vec3f& normal : std::span(patch.normals).subspan(first, count))
     text += numbers(normal) + " ";
-  return text.size() + std::string("'></Normal></IndexedTriangleStripSet>").size();
+  return text + "'></Normal>";
+}
+
+/// What the X3D nodes take that hold a patch inline: one for each draw; all but the first USE its vertices.
+std::uint64_t textSize(const IndexedPatch& patch, const Lattice& lattice) {
+  std::string text;
+  std::size_t first = 0;
+  for (const Draw& draw : patch.draws) {
+    const bool indexed = !patch.indices.empty(), strip = draw.primitive == Primitive::triangleStrip;
+    const std::string name = fmt::format("{}Triangle{}Set", indexed ? "Indexed" : "", strip ? "Strip" : "");
+    text += "<" + name;
+    if (indexed) {
+      text += " index='";
+      for (const std::uint32_t index : std::span(patch.indices).subspan(first, draw.count))
+        text += fmt::format("{} ", index);
+      text += strip ? "-1'" : "'";
+    } else if (strip) {
+      text += fmt::format(" stripCount='{}'", draw.count);
+    }
+    const bool sharesVertices = indexed && first > 0;
+    text += sharesVertices ? "><Coordinate USE='c'/><Normal USE='n'/>"
+                           : verticesText(patch, lattice, indexed ? 0 : first,
+                                          indexed ? patch.vertexCount() : draw.count);
+    text += "</" + name + ">";
+    first += draw.count;
+  }
+  return text.size();
 }
 
 struct Measured {
@@ -154,48 +168,24 @@ void printTable(const std::array<Measured, 4>& rows, std::size_t triangles) {
   }
 }
 
-int run(const std::vector<std::string>& arguments) {
-  EncodeOptions options;
-  options.effort = 9;
-  std::vector<std::string> models;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (arguments[i] != "--effort") {
-      models.push_back(arguments[i]);
-      continue;
-    }
-    const std::string& value = i + 1 < arguments.size() ? arguments[++i] : std::string();
-    if (value.size() != 1 || value[0] < '0' || value[0] > '9')
-      throw Error(ErrorKind::usage, "--effort", "takes a digit");
-    options.effort = value[0] - '0';
-  }
-  if (models.empty())
-    throw Error(ErrorKind::usage, "", "usage: table1 [--effort 0..9] MODEL...");
-  for (const std::string& model : models)
-    for (Mesh& mesh : importFile(model).scene.meshes) {
-      if (mesh.topology != Topology::triangles)
-        continue;
-      weld(mesh);
-      if (mesh.normals.empty())
-        computeNormals(mesh, NormalWeighting::area);
-      const PatchedMesh patched = cutIntoPatches(mesh, latticeFor(boxOf(mesh), 16), 65535);
-      fmt::print("\n## {}: {} triangles, {} vertices, {} {}\n\n",
-                 std::filesystem::path(model).filename().string(), grouped(mesh.elementCount()),
-                 grouped(mesh.wedgeCount()), patched.patches.size(),
-                 patched.patches.size() == 1 ? "patch" : "patches");
-      printTable(measure(patched, options), mesh.elementCount());
-      std::fflush(stdout);
-    }
-  return 0;
-}
-
 } // namespace
 } // namespace imgeo
 
-int main(int argc, char** argv) {
-  try {
-    return imgeo::run({argv + 1, argv + argc});
-  } catch (const imgeo::Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return imgeo::exitCode(error.kind());
-  }
+int main(int count, char** words) {
+  using namespace imgeo;
+  return bench::run([&] {
+    const bench::ModelArguments arguments = bench::modelArguments(count, words, "table1", 9);
+    EncodeOptions options;
+    options.effort = arguments.effort;
+    for (const std::string& model : arguments.models)
+      bench::visitSurfaces(model, [&](const Mesh& mesh) {
+        const PatchedMesh patched = bench::patchesOf(mesh);
+        fmt::print("\n## {}: {} triangles, {} vertices, {} {}\n\n",
+                   std::filesystem::path(model).filename().string(), grouped(mesh.elementCount()),
+                   grouped(mesh.wedgeCount()), patched.patches.size(),
+                   patched.patches.size() == 1 ? "patch" : "patches");
+        printTable(measure(patched, options), mesh.elementCount());
+        std::fflush(stdout);
+      });
+  });
 }

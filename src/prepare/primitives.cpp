@@ -2,8 +2,8 @@
 
 #include "base/narrow.h"
 #include "prepare/fan_order.h"
-#include "prepare/line_trails.h"
 #include "prepare/strips.h"
+#include "prepare/trails.h"
 
 #include <algorithm>
 #include <cassert>
@@ -77,18 +77,22 @@ constexpr std::size_t fewestStripLines = 64;
 /// Trails of at least so many lines as strips, all others as separate lines behind them.
 IndexedPatch drawTrails(const Patch& patch, std::size_t fewestInStrip) {
   assert(patch.topology == Topology::lines);
-  const LineTrails trails = findLineTrails(patch.corners, patch.wedgeCount());
+  const std::vector<std::uint32_t>& corners = patch.corners;
+  const Trails trails = findTrails(corners, patch.wedgeCount());
   std::vector<Draw> draws;
   std::vector<std::uint32_t> wedges, separate;
   for (std::size_t i = 0; i < trails.count(); ++i) {
     const std::span<const std::uint32_t> trail = trails.trail(i);
-    if (trail.size() > fewestInStrip) {
-      draws.push_back({Primitive::lineStrip, narrow<std::uint32_t>(trail.size())});
-      wedges.insert(wedges.end(), trail.begin(), trail.end());
-      continue;
+    const bool isStrip = trail.size() >= fewestInStrip;
+    if (isStrip) {
+      draws.push_back({Primitive::lineStrip, narrow<std::uint32_t>(trail.size() + 1)});
+      wedges.push_back(corners[trail.front()]);
     }
-    for (std::size_t n = 1; n < trail.size(); ++n)
-      separate.insert(separate.end(), {trail[n - 1], trail[n]});
+    for (const std::uint32_t corner : trail)
+      if (isStrip)
+        wedges.push_back(corners[corner ^ 1]);
+      else
+        separate.insert(separate.end(), {corners[corner], corners[corner ^ 1]});
   }
   if (!separate.empty())
     draws.push_back({Primitive::lines, narrow<std::uint32_t>(separate.size())});
@@ -123,7 +127,16 @@ IndexedPatch asTriangles(const Patch& patch) {
 
 IndexedPatch asStrips(const Patch& patch) {
   assert(patch.topology == Topology::triangles);
-  return drawWedges(patch, Primitive::triangleStrip, stitchedStrip(inFanOrder(patch), patch.wedgeCount()));
+  Strips strips = makeStrips(inFanOrder(patch), patch.wedgeCount());
+  if (strips.strip.empty() && strips.triangles.empty())
+    return asTriangles(patch); // all of them degenerate: something has to stand in the patch
+  std::vector<Draw> draws;
+  if (!strips.strip.empty())
+    draws.push_back({Primitive::triangleStrip, narrow<std::uint32_t>(strips.strip.size())});
+  if (!strips.triangles.empty())
+    draws.push_back({Primitive::triangles, narrow<std::uint32_t>(strips.triangles.size())});
+  strips.strip.insert(strips.strip.end(), strips.triangles.begin(), strips.triangles.end());
+  return drawWedges(patch, std::move(draws), std::move(strips.strip));
 }
 
 IndexedPatch asLines(const Patch& patch) {

@@ -33,12 +33,13 @@ struct IndexedPatch : VertexAttributes {
 /// docs/decisions/vertex-order.md. The triangles and their orientation are the patch's.
 IndexedPatch asTriangles(const Patch& patch);
 
-/// One stitched triangle strip, 1.15 to 1.32 indices a triangle on scans. Draws
-/// exactly the patch's non-degenerate triangles with their orientation. Takes some
-/// twenty microseconds a triangle.
+/// One stitched triangle strip, 1.13 to 1.3 indices a triangle on scans, then the lone
+/// triangles that it would only be longer for (docs/decisions/strips.md). Draws exactly
+/// the patch's non-degenerate triangles with their orientation. Takes some fifteen
+/// microseconds a triangle.
 IndexedPatch asStrips(const Patch& patch);
 
-/// Indexed lines, one behind the other along trails (prepare/line_trails.h), each
+/// Indexed lines, one behind the other along trails (prepare/trails.h), each
 /// between the wedges it has in the patch, in either direction.
 IndexedPatch asLines(const Patch& patch);
 

@@ -7,10 +7,16 @@
 
 namespace imgeo {
 
-/// One triangle strip over `corners` (three vertices below `vertexCount` a
-/// triangle) that draws every non-degenerate triangle as often as it is there,
-/// in its orientation, and else only degenerate ones. Neighbours in `corners`
-/// come near each other in the strip.
-std::vector<std::uint32_t> stitchedStrip(std::span<const std::uint32_t> corners, std::size_t vertexCount);
+struct Strips {
+  std::vector<std::uint32_t> strip;     ///< one strip
+  std::vector<std::uint32_t> triangles; ///< separate ones, three vertices each
+};
+
+/// Draws every non-degenerate triangle of `corners` (three vertices below `vertexCount`
+/// each) as often as it is there, in its orientation, and else only degenerate ones.
+/// Triangles that would lengthen the strip by more than three indices each are
+/// separate, where there are enough of them to be worth a draw of their own.
+/// Neighbours in `corners` come near each other.
+Strips makeStrips(std::span<const std::uint32_t> corners, std::size_t vertexCount);
 
 } // namespace imgeo

@@ -300,8 +300,8 @@ inline Mesh randomMesh(std::uint32_t seed) {
         mesh.colors.back().a = static_cast<std::uint8_t>(random.below(256));
     }
   }
-  for (std::uint32_t i = random.once(3) ? 1 + random.below(3) : 0; i > 0; --i)
-    mesh.namedAttributes.push_back(randomAttribute(random, "measure" + std::to_string(i),
+  for (std::uint32_t left = random.once(3) ? 1 + random.below(3) : 0; left > 0; --left)
+    mesh.namedAttributes.push_back(randomAttribute(random, "measure" + std::to_string(left),
                                                    static_cast<std::uint32_t>(mesh.wedgeCount())));
   return mesh;
 }

@@ -3,7 +3,7 @@
 // every vertex, one closed trail draws them all. Vertices where it is odd get one
 // more line, which no pen draws, two by two; it is where the trails are cut.
 
-#include "prepare/line_trails.h"
+#include "prepare/trails.h"
 
 #include "prepare/incidence.h"
 
@@ -15,27 +15,27 @@ namespace {
 
 class TrailWalk {
 public:
-  TrailWalk(std::span<const std::uint32_t> corners, std::size_t vertexCount)
-      : corners_(corners.begin(), corners.end()), lineCount_(corners.size() / 2) {
+  TrailWalk(std::span<const std::uint32_t> vertices, std::size_t vertexCount)
+      : vertices_(vertices.begin(), vertices.end()), drawnCorners_(vertices.size()) {
     std::vector<bool> isOdd(vertexCount);
-    for (const std::uint32_t vertex : corners)
+    for (const std::uint32_t vertex : vertices)
       isOdd[vertex] = !isOdd[vertex];
     for (std::uint32_t vertex = 0; vertex < vertexCount; ++vertex)
       if (isOdd[vertex])
-        corners_.push_back(vertex);
+        vertices_.push_back(vertex);
     incidence_ =
-        incidenceOf(corners_.size(), vertexCount, [&](std::size_t corner) { return corners_[corner]; });
+        incidenceOf(vertices_.size(), vertexCount, [&](std::size_t corner) { return vertices_[corner]; });
     // Taken from the back, the undrawn line of a vertex comes first and the others
     // from last to first; the trail comes out the other way round.
     left_.assign(incidence_.offsets.begin() + 1, incidence_.offsets.end());
-    isUsed_.resize(corners_.size() / 2);
-    trails_.vertices.reserve(lineCount_ + vertexCount);
+    isUsed_.resize(vertices_.size() / 2);
+    trails_.corners.reserve(drawnCorners_ / 2);
   }
 
-  LineTrails run() && {
-    for (std::size_t corner = 2 * lineCount_; corner < corners_.size(); ++corner)
-      walkFrom(corners_[corner]);
-    for (const std::uint32_t vertex : corners_)
+  Trails run() && {
+    for (std::size_t corner = drawnCorners_; corner < vertices_.size(); ++corner)
+      walkFrom(vertices_[corner]);
+    for (const std::uint32_t vertex : vertices_)
       walkFrom(vertex);
     return std::move(trails_);
   }
@@ -44,7 +44,8 @@ private:
   static constexpr std::uint32_t none = 0xffffffff;
 
   struct Step {
-    std::uint32_t vertex, line; ///< and by which line it was reached
+    std::uint32_t vertex;
+    std::uint32_t corner; ///< at which a line has led here
   };
 
   /// The closed trail through a vertex, and with it every line that hangs together with it.
@@ -53,12 +54,13 @@ private:
     while (!path_.empty()) {
       const Step last = path_.back();
       if (const std::uint32_t corner = takeLine(last.vertex); corner != none) {
-        path_.push_back({corners_[corner ^ 1], corner / 2});
+        path_.push_back({vertices_[corner ^ 1], corner ^ 1});
         continue;
       }
       path_.pop_back();
-      trails_.vertices.push_back(last.vertex);
-      if (last.line >= lineCount_) // undrawn, or none
+      if (last.corner < drawnCorners_)
+        trails_.corners.push_back(last.corner);
+      else
         endTrail();
     }
   }
@@ -77,26 +79,24 @@ private:
 
   void endTrail() {
     const std::uint32_t begin = trails_.ends.empty() ? 0 : trails_.ends.back();
-    if (trails_.vertices.size() - begin < 2)
-      trails_.vertices.resize(begin);
-    else
-      trails_.ends.push_back(static_cast<std::uint32_t>(trails_.vertices.size()));
+    if (trails_.corners.size() > begin)
+      trails_.ends.push_back(static_cast<std::uint32_t>(trails_.corners.size()));
   }
 
-  std::vector<std::uint32_t> corners_; ///< two a line; the undrawn lines last
-  std::size_t lineCount_;              ///< of those that are drawn
+  std::vector<std::uint32_t> vertices_; ///< by corner; those of the undrawn lines last
+  std::size_t drawnCorners_;
   Incidence incidence_;
   std::vector<std::uint32_t> left_; ///< by vertex: where its corners not yet looked at end
   std::vector<bool> isUsed_;        ///< by line
   std::vector<Step> path_;
-  LineTrails trails_;
+  Trails trails_;
 };
 
 } // namespace
 
-LineTrails findLineTrails(std::span<const std::uint32_t> corners, std::size_t vertexCount) {
-  assert(corners.size() % 2 == 0);
-  return TrailWalk(corners, vertexCount).run();
+Trails findTrails(std::span<const std::uint32_t> vertices, std::size_t vertexCount) {
+  assert(vertices.size() % 2 == 0);
+  return TrailWalk(vertices, vertexCount).run();
 }
 
 } // namespace imgeo

@@ -1,4 +1,4 @@
-#include "prepare/line_trails.h"
+#include "prepare/trails.h"
 
 #include "scene/testing.h"
 
@@ -25,12 +25,12 @@ Lines linesIn(const std::vector<std::uint32_t>& corners) {
   return sorted(lines);
 }
 
-Lines linesIn(const LineTrails& trails) {
+/// The lines in their order, each from where it is walked to where it leads.
+Lines linesIn(std::span<const std::uint32_t> trail, const std::vector<std::uint32_t>& corners) {
   Lines lines;
-  for (std::size_t i = 0; i < trails.count(); ++i)
-    for (std::size_t n = 1; n < trails.trail(i).size(); ++n)
-      lines.push_back({trails.trail(i)[n - 1], trails.trail(i)[n]});
-  return sorted(lines);
+  for (const std::uint32_t corner : trail)
+    lines.push_back({corners[corner], corners[corner ^ 1]});
+  return lines;
 }
 
 /// Half the vertices where an odd number of lines end; a group of connected lines
@@ -59,7 +59,7 @@ std::size_t fewestTrails(const std::vector<std::uint32_t>& corners, std::size_t 
   return trails;
 }
 
-TEST(LineTrails, DrawEveryLineOnceInAsFewTrailsAsThereCanBe) {
+TEST(Trails, DrawEveryLineOnceInAsFewTrailsAsThereCanBe) {
   testing::Random random(1);
   for (std::uint32_t round = 0; round < 500; ++round) {
     const std::uint32_t vertices = 1 + random.below(round % 2 ? 60 : 8);
@@ -67,19 +67,23 @@ TEST(LineTrails, DrawEveryLineOnceInAsFewTrailsAsThereCanBe) {
     for (std::uint32_t i = random.below(100); i > 0; --i)
       for (int end = 0; end < 2; ++end)
         corners.push_back(random.below(vertices));
-    const LineTrails trails = findLineTrails(corners, vertices);
-    EXPECT_EQ(linesIn(trails), linesIn(corners));
+    const Trails trails = findTrails(corners, vertices);
+    EXPECT_EQ(sorted(linesIn(trails.corners, corners)), linesIn(corners));
     EXPECT_EQ(trails.count(), fewestTrails(corners, vertices));
-    for (std::size_t i = 0; i < trails.count(); ++i)
-      EXPECT_GE(trails.trail(i).size(), 2u);
+    for (std::size_t i = 0; i < trails.count(); ++i) {
+      const Lines lines = linesIn(trails.trail(i), corners);
+      EXPECT_FALSE(lines.empty());
+      for (std::size_t n = 1; n < lines.size(); ++n)
+        EXPECT_EQ(lines[n].first, lines[n - 1].second);
+    }
   }
 }
 
-TEST(LineTrails, KeepTheDirectionOfAnOpenLine) {
+TEST(Trails, KeepTheDirectionOfAnOpenLine) {
   const std::vector<std::uint32_t> corners{3, 4, 4, 5, 5, 6, 0, 1, 1, 2};
-  const LineTrails trails = findLineTrails(corners, 7);
-  EXPECT_EQ(trails.vertices, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6}));
-  EXPECT_EQ(trails.ends, (std::vector<std::uint32_t>{3, 7}));
+  const Trails trails = findTrails(corners, 7);
+  EXPECT_EQ(trails.corners, (std::vector<std::uint32_t>{6, 8, 0, 2, 4}));
+  EXPECT_EQ(trails.ends, (std::vector<std::uint32_t>{2, 5}));
 }
 
 } // namespace

@@ -1,0 +1,69 @@
+#pragma once
+// What the benchmarks of models share: their command line, the meshes, and the
+// end that an Error brings.
+
+#include "base/error.h"
+#include "import/import.h"
+#include "prepare/normals.h"
+#include "prepare/patches.h"
+#include "prepare/weld.h"
+
+#include <fmt/format.h>
+#include <string>
+#include <vector>
+
+namespace imgeo::bench {
+
+struct ModelArguments {
+  int effort = 0;
+  std::vector<std::string> models; ///< at least one
+};
+
+/// Reads "[--effort 0..9] MODEL..."; `effort` stands where none is given. Throws Error{usage}.
+inline ModelArguments modelArguments(int count, char** words, const std::string& program, int effort) {
+  ModelArguments arguments{effort, {}};
+  for (int i = 1; i < count; ++i) {
+    if (std::string(words[i]) != "--effort") {
+      arguments.models.emplace_back(words[i]);
+      continue;
+    }
+    const std::string value = i + 1 < count ? words[++i] : "";
+    if (value.size() != 1 || value[0] < '0' || value[0] > '9')
+      throw Error(ErrorKind::usage, "--effort", "takes a digit");
+    arguments.effort = value[0] - '0';
+  }
+  if (arguments.models.empty())
+    throw Error(ErrorKind::usage, "", "usage: " + program + " [--effort 0..9] MODEL...");
+  return arguments;
+}
+
+/// Calls visit(mesh) for every mesh of triangles in a file, welded and with normals
+/// as `imgeo convert` prepares it.
+template <typename Visit> void visitSurfaces(const std::string& model, Visit visit) {
+  for (Mesh& mesh : importFile(model).scene.meshes) {
+    if (mesh.topology != Topology::triangles)
+      continue;
+    weld(mesh);
+    if (mesh.normals.empty())
+      computeNormals(mesh, NormalWeighting::area);
+    visit(mesh);
+  }
+}
+
+/// The patches that `imgeo convert` makes of a mesh where nothing is said.
+inline PatchedMesh patchesOf(const Mesh& mesh) {
+  return cutIntoPatches(mesh, latticeFor(boxOf(mesh), 16), 65535);
+}
+
+/// For main: calls body(); the exit code is that of an Error, whose sentence is printed.
+template <typename Body> int run(Body body) {
+  try {
+    body();
+    return 0;
+  } catch (const Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return exitCode(error.kind());
+  }
+}
+
+} // namespace imgeo::bench

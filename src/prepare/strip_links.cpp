@@ -1,0 +1,396 @@
+// A heat bath (Geman and Geman, "Stochastic relaxation, Gibbs distributions, and the
+// Bayesian restoration of images", 1984) over whole stars: the spokes around
+// a vertex are a ring in which each knows the next two, so that all of them can be
+// drawn at once, forward sums and backward draws (Carter and Kohn, "On Gibbs
+// sampling for state space models", 1994).
+
+#include "prepare/strip_links.h"
+
+#include "prepare/dual_graph.h"
+
+#include <algorithm>
+
+namespace imgeo {
+
+namespace {
+
+// In quarters of an index.
+constexpr std::uint32_t endCost = 5, swapCost = 4, oddCost = 4;
+
+constexpr std::array<std::uint8_t, 8> bitCounts{0, 1, 1, 2, 1, 2, 2, 3};
+
+constexpr std::uint32_t after(std::uint32_t side) {
+  return side == 2 ? 0 : side + 1;
+}
+constexpr std::uint32_t before(std::uint32_t side) {
+  return side == 0 ? 2 : side - 1;
+}
+
+/// Where a triangle's other link is, seen from a linked side: 1 at the side after it, 2 at the
+/// side before; 0 where the side is not linked or the only one.
+constexpr std::uint8_t turns[8][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 2, 0},
+                                      {0, 0, 0}, {2, 0, 1}, {0, 1, 2}, {0, 0, 0}};
+
+/// What a triangle of a star is besides its two spokes: its outer side is not
+/// linked; or is, to a triangle that ends there, turns on at the side after, or
+/// before; or there is no triangle, and a fan is open.
+enum Outer : std::uint8_t {
+  outerFree,
+  outerLinked,
+  outerTurnsAfter,
+  outerTurnsBefore,
+  noTriangle,
+  outerKinds
+};
+
+bool hasOuterLink(std::uint32_t outer) {
+  return outer != outerFree;
+}
+
+/// factor^cost, or 0 for what cannot be.
+struct Powers {
+  explicit Powers(float factor) {
+    float power = 1;
+    for (float& value : values) {
+      value = power;
+      power *= factor;
+    }
+  }
+  std::array<float, 32> values;
+};
+
+/// The weights of everything that a star can meet, for one factor.
+struct WeightTables {
+  explicit WeightTables(float factor) {
+    const Powers powers(factor);
+    for (std::uint32_t outer = 0; outer < outerKinds; ++outer)
+      for (std::uint32_t spokes = 0; spokes < 4; ++spokes)
+        ofTriangle[outer][spokes] = triangleWeight(powers, outer, spokes & 1, spokes >> 1);
+    for (std::uint32_t kind = 0; kind < 8; ++kind)
+      for (std::uint32_t links = 0; links < 8; ++links)
+        ofSpoke[kind][links] = powers.values[spokeCost(kind & 1, kind >> 1 & 1, kind >> 2, links)];
+    odd = powers.values[oddCost];
+  }
+
+  /// Ends that it is, and a swap at its outer side.
+  static float triangleWeight(const Powers& powers, std::uint32_t outer, std::uint32_t in,
+                              std::uint32_t out) {
+    if (outer == noTriangle)
+      return in + out == 0 ? 1.0f : 0.0f;
+    const std::uint32_t degree = in + out + hasOuterLink(outer);
+    if (degree > 2)
+      return 0;
+    const bool isSwap =
+        degree == 2 && ((outer == outerTurnsAfter && in) || (outer == outerTurnsBefore && out));
+    return powers.values[endCost * (2 - degree) + (isSwap ? swapCost : 0)];
+  }
+
+  /// A swap at a spoke, or the tips at its far end, of which there are some odd already.
+  /// `links` has the spoke before it, itself and the one behind as bits.
+  static std::uint32_t spokeCost(bool outerBefore, bool outerBehind, std::uint32_t oddBefore,
+                                 std::uint32_t links) {
+    const bool before = links & 1, here = links >> 1 & 1, behind = links >> 2 & 1;
+    if (here) {
+      const int turnBefore = before ? 1 : outerBefore ? 2 : 0, turnBehind = outerBehind ? 1 : behind ? 2 : 0;
+      const bool isSwap = turnBefore != 0 && turnBehind != 0 && turnBefore != turnBehind;
+      return (isSwap ? swapCost : 0) + (oddBefore ? oddCost : 0);
+    }
+    const std::uint32_t tips = (before && !outerBefore) + (behind && !outerBehind);
+    return (oddBefore + tips) % 2 * oddCost;
+  }
+
+  float ofTriangle[outerKinds][4];
+  float ofSpoke[8][8]; ///< by outer links before and behind, oddness; by links
+  float odd;
+};
+
+} // namespace
+
+/// The draw of one star. Spoke i lies between triangles i - 1 and i; the first
+/// links bit of a state is the earlier spoke's.
+class StripLinks::StarDraw {
+public:
+  StarDraw(StripLinks& links, const Star& star) : links_(links), size_(star.size) {
+    std::uint32_t at = star.corner;
+    const std::uint32_t count = size_ - star.isOpen;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t number = at / 4, in = at % 4, out = before(in), outer = after(in);
+      const Triangle& triangle = links_.triangles_[number];
+      links_.toggleTip(number); // its tip goes; the new one comes back
+      numbers_[i] = number;
+      ins_[i] = in;
+      outers_[i] = outerFree;
+      if (triangle.linked >> outer & 1) {
+        const std::uint32_t opposite = triangle.across[outer];
+        outers_[i] =
+            static_cast<Outer>(outerLinked + turns[links_.triangles_[opposite / 4].linked][opposite % 4]);
+      }
+      farOdd_[i] = links_.oddTips_[links_.corners_[3 * number + outer]];
+      at = triangle.across[out];
+    }
+    if (star.isOpen) {
+      const std::uint32_t last = numbers_[count - 1];
+      outers_[count] = noTriangle;
+      farOdd_[count] = links_.oddTips_[links_.corners_[3 * last + before(ins_[count - 1])]];
+    }
+    count_ = count;
+    center_ = links_.corners_[3 * (star.corner / 4) + star.corner % 4];
+  }
+
+  void run(const WeightTables& tables, RepeatableRandom& random) {
+    weigh(tables);
+    sumForward();
+    if (drawBackward(links_.oddTips_[center_], tables.odd, random))
+      write();
+    for (std::uint32_t i = 0; i < count_; ++i)
+      links_.toggleTip(numbers_[i]);
+  }
+
+private:
+  /// weights_[i][l]: of spoke i and triangle i, by spokes i - 1, i and i + 1 as bits.
+  void weigh(const WeightTables& tables) {
+    for (std::uint32_t i = 0; i < size_; ++i) {
+      const std::uint32_t previous = i == 0 ? size_ - 1 : i - 1;
+      const float* spoke =
+          tables.ofSpoke[hasOuterLink(outers_[previous]) | hasOuterLink(outers_[i]) << 1 | farOdd_[i] << 2];
+      const float* triangle = tables.ofTriangle[outers_[i]];
+      for (std::uint32_t l = 0; l < 8; ++l)
+        weights_[i][l] = spoke[l] * triangle[l >> 1];
+      // With none of its spokes linked but its outer side, a triangle has its tip at the centre.
+      isTipAtCenter_[i] = outers_[i] != outerFree && outers_[i] != noTriangle;
+    }
+  }
+
+  /// sums_[i][p][s][lane]: of all spokes before i, where spokes i - 1 and i are s, p is whether the
+  /// number of tips at the centre is odd, and lane is spokes 0 and 1.
+  void sumForward() {
+    for (auto& row : sums_[1])
+      for (auto& lanes : row)
+        lanes = {};
+    for (std::uint32_t lane = 0; lane < 4; ++lane)
+      sums_[1][0][lane][lane] = 1;
+    for (std::uint32_t i = 1; i + 1 < size_; ++i)
+      for (std::uint32_t p = 0; p < 2; ++p)
+        for (std::uint32_t s = 0; s < 4; ++s) {
+          const std::uint32_t from = p ^ (s == 0 && isTipAtCenter_[i]);
+          const std::uint32_t here = s & 1;
+          const Lanes &free = sums_[i][from][here << 1], &linked = sums_[i][from][here << 1 | 1];
+          const float freeWeight = weights_[i][s << 1], linkedWeight = weights_[i][s << 1 | 1];
+          for (std::uint32_t lane = 0; lane < 4; ++lane)
+            sums_[i + 1][p][s][lane] = free[lane] * freeWeight + linked[lane] * linkedWeight;
+        }
+  }
+
+  /// Draws the spokes; false where nothing has any weight.
+  bool drawBackward(std::uint32_t centerOdd, float oddWeight, RepeatableRandom& random) {
+    const std::uint32_t last = size_ - 1;
+    std::array<float, 32> ends{}; // by parity, the last two spokes, and the first two
+    float total = 0;
+    for (std::uint32_t n = 0; n < 32; ++n) {
+      const std::uint32_t lane = n & 3, s = n >> 2 & 3, p = n >> 4;
+      const std::uint32_t first = lane & 1, second = lane >> 1, lastSpoke = s >> 1;
+      const bool tipOfLast = lastSpoke == 0 && first == 0 && isTipAtCenter_[last];
+      const bool tipOfFirst = lane == 0 && isTipAtCenter_[0];
+      const bool isOdd = (centerOdd + p + tipOfLast + tipOfFirst) % 2;
+      ends[n] = sums_[last][p][s][lane] * weights_[last][s | first << 2] *
+                weights_[0][lastSpoke | first << 1 | second << 2] * (isOdd ? oddWeight : 1);
+      total += ends[n];
+    }
+    if (!(total > 0))
+      return false;
+    float rest = total * random.share();
+    std::uint32_t picked = 32;
+    for (std::uint32_t n = 0; n < 32 && (picked == 32 || rest >= 0); ++n)
+      if (ends[n] > 0) {
+        picked = n;
+        rest -= ends[n];
+      }
+    const std::uint32_t lane = picked & 3;
+    std::uint32_t s = picked >> 2 & 3, p = picked >> 4;
+    spokes_[last] = s >> 1;
+    spokes_[last - 1] = s & 1;
+    for (std::uint32_t i = last - 1; i >= 1; --i) {
+      const std::uint32_t from = p ^ (s == 0 && isTipAtCenter_[i]);
+      const std::uint32_t here = s & 1;
+      const float free = sums_[i][from][here << 1][lane] * weights_[i][s << 1];
+      const float linked = sums_[i][from][here << 1 | 1][lane] * weights_[i][s << 1 | 1];
+      const std::uint32_t drawn = random.share() * (free + linked) >= free;
+      spokes_[i - 1] = drawn;
+      s = here << 1 | drawn;
+      p = from;
+    }
+    return true;
+  }
+
+  void write() {
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      const std::uint32_t in = ins_[i];
+      const std::uint32_t behind = i + 1 == size_ ? 0 : i + 1;
+      links_.triangles_[numbers_[i]].linked = spokes_[i] << in | spokes_[behind] << before(in) |
+                                              std::uint32_t{outers_[i] != outerFree} << after(in);
+    }
+  }
+
+  using Lanes = std::array<float, 4>;
+
+  StripLinks& links_;
+  std::uint32_t size_, count_, center_;
+  std::array<std::uint32_t, mostAround> numbers_; ///< of the triangles
+  std::array<std::uint32_t, mostAround> ins_;     ///< by triangle: the side that is its spoke
+  std::array<std::uint8_t, mostAround> outers_;   ///< by triangle: Outer
+  std::array<std::uint8_t, mostAround> farOdd_;   ///< by spoke: tips that the star has not put there are odd
+  std::array<bool, mostAround> isTipAtCenter_;
+  std::array<std::array<float, 8>, mostAround> weights_;
+  Lanes sums_[mostAround][2][4];
+  std::array<std::uint32_t, mostAround> spokes_;
+};
+
+StripLinks::StripLinks(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> across,
+                       std::size_t vertexCount)
+    : triangles_(corners.size() / 3), corners_(corners), oddTips_(vertexCount) {
+  for (std::uint32_t side = 0; side < corners.size(); ++side)
+    triangles_[side / 3].across[side % 3] =
+        across[side] == noSide ? noSide : 4 * (across[side] / 3) + across[side] % 3;
+  findStars(across);
+}
+
+/// Side 3t + s begins at corner s: the triangle before it around that corner lies across, and
+/// the one behind it across the side that ends there.
+void StripLinks::findStars(std::span<const std::uint32_t> across) {
+  std::vector<bool> isFound(corners_.size());
+  for (std::uint32_t corner = 0; corner < corners_.size(); ++corner) {
+    if (isFound[corner])
+      continue;
+    std::uint32_t first = corner;
+    while (across[first] != noSide && sideAfter(across[first]) != corner)
+      first = sideAfter(across[first]);
+    const bool isOpen = across[first] == noSide;
+    Star star{4 * (first / 3) + first % 3, isOpen, isOpen};
+    for (std::uint32_t at = first; at != noSide && !isFound[at]; at = across[sideBefore(at)]) {
+      isFound[at] = true;
+      ++star.size;
+    }
+    if (star.size >= 3 && star.size <= mostAround)
+      stars_.push_back(star);
+  }
+}
+
+void StripLinks::redraw(float factor, RepeatableRandom& random) {
+  const WeightTables tables(factor);
+  for (const Star& star : stars_)
+    StarDraw(*this, star).run(tables, random);
+}
+
+std::uint32_t StripLinks::degree(std::uint32_t triangle) const {
+  return bitCounts[triangles_[triangle].linked];
+}
+
+bool StripLinks::isSwap(std::uint32_t triangle, std::uint32_t side) const {
+  const std::uint32_t opposite = triangles_[triangle].across[side];
+  return (turns[triangles_[triangle].linked][side] ^ turns[triangles_[opposite / 4].linked][opposite % 4]) ==
+         3;
+}
+
+/// Puts the tip of a triangle that has one link where it is, or takes it away;
+/// returns what that costs.
+int StripLinks::toggleTip(std::uint32_t triangle) {
+  const std::uint32_t linked = triangles_[triangle].linked;
+  if (bitCounts[linked] != 1)
+    return 0;
+  std::uint8_t& isOdd =
+      oddTips_[corners_[3 * triangle + before(linked / 2)]]; // bits 1, 2, 4 are sides 0, 1, 2
+  isOdd ^= 1;
+  return isOdd ? int{oddCost} : -int{oddCost};
+}
+
+/// What the triangles of a change cost as ends and at their links, tips apart.
+int StripLinks::costAt(const Change& change) const {
+  int cost = 0;
+  const auto isIn = [&](std::uint32_t triangle, std::uint32_t count) {
+    return std::find(change.triangles.begin(), change.triangles.begin() + count, triangle) !=
+           change.triangles.begin() + count;
+  };
+  for (std::uint32_t i = 0; i < change.triangleCount; ++i) {
+    const std::uint32_t triangle = change.triangles[i];
+    cost += int{endCost} * (2 - static_cast<int>(degree(triangle)));
+    for (std::uint32_t side = 0; side < 3; ++side) // a link within the change counts at its first triangle
+      if (isLinked(triangle, side) && isSwap(triangle, side) &&
+          !isIn(triangles_[triangle].across[side] / 4, i))
+        cost += swapCost;
+  }
+  return cost;
+}
+
+/// Returns what the tips then cost more.
+int StripLinks::toggle(const Change& change) {
+  int cost = 0;
+  for (std::uint32_t i = 0; i < change.triangleCount; ++i)
+    cost += toggleTip(change.triangles[i]);
+  for (std::uint32_t i = 0; i < change.sideCount; ++i)
+    for (const std::uint32_t half :
+         {change.sides[i], triangles_[change.sides[i] / 4].across[change.sides[i] % 4]})
+      triangles_[half / 4].linked ^= 1u << half % 4;
+  for (std::uint32_t i = 0; i < change.triangleCount; ++i)
+    cost += toggleTip(change.triangles[i]);
+  return cost;
+}
+
+/// A linked side of a triangle other than `besides`; noSide where there is none.
+std::uint32_t StripLinks::linkedSide(std::uint32_t triangle, std::uint32_t besides) const {
+  for (std::uint32_t side = 4 * triangle; side < 4 * triangle + 3; ++side)
+    if (side != besides && isLinked(triangle, side % 4))
+      return side;
+  return noSide;
+}
+
+void StripLinks::openRings() {
+  std::vector<bool> isSeen(triangles_.size());
+  std::vector<std::uint32_t> sides; // by which the triangles of a path or ring are left
+  const auto walk = [&](std::uint32_t triangle) {
+    sides.clear();
+    for (std::uint32_t entered = noSide; !isSeen[triangle];) {
+      isSeen[triangle] = true;
+      const std::uint32_t side = linkedSide(triangle, entered);
+      if (side == noSide)
+        break;
+      sides.push_back(side);
+      entered = triangles_[triangle].across[side % 4];
+      triangle = entered / 4;
+    }
+  };
+  for (std::uint32_t triangle = 0; triangle < triangles_.size(); ++triangle)
+    if (degree(triangle) < 2)
+      walk(triangle);
+  for (std::uint32_t triangle = 0; triangle < triangles_.size(); ++triangle)
+    if (!isSeen[triangle]) {
+      walk(triangle);
+      openRing(sides);
+    }
+}
+
+/// `ring` has the sides by which its triangles are left.
+void StripLinks::openRing(std::span<const std::uint32_t> ring) {
+  Change best;
+  int bestCost = 0;
+  const auto consider = [&](const Change& change) {
+    int cost = -costAt(change);
+    cost += toggle(change);
+    cost += costAt(change);
+    toggle(change);
+    if (best.sideCount == 0 || cost < bestCost)
+      bestCost = cost, best = change;
+  };
+  for (const std::uint32_t side : ring) {
+    const std::uint32_t triangle = side / 4, next = triangles_[triangle].across[side % 4];
+    consider({{side}, {triangle, next / 4}, 1, 2});
+    for (const auto& [joined, other] : {std::pair(triangle, next / 4), std::pair(next / 4, triangle)})
+      for (std::uint32_t free = 0; free < 3; ++free) {
+        const std::uint32_t beside = triangles_[joined].across[free];
+        if (!isLinked(joined, free) && beside != noSide && degree(beside / 4) < 2)
+          consider({{side, beside}, {joined, other, beside / 4}, 2, 3});
+      }
+  }
+  toggle(best);
+}
+
+} // namespace imgeo
