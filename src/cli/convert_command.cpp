@@ -81,6 +81,7 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
   json["normals"] = normalsOf(arguments, report);
   json["step"] = report.lattice.step;
   json["positionError"] = report.positionError;
+  json["collapsed"] = {{"triangles", report.collapsed.triangles}, {"lines", report.collapsed.lines}};
   json["triangles"] = report.elements.triangles;
   json["lines"] = report.elements.lines;
   json["points"] = report.elements.points;
@@ -135,6 +136,9 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   if (!report.x3domUrl.empty())
     printLine("X3DOM", fmt::format("{}, from {}", report.x3domVersion, report.x3domUrl));
   printLine("positions", positionsOf(arguments, report));
+  if (report.collapsed.sum() > 0)
+    printLine("", fmt::format("{} triangles lose their area and {} lines their length",
+                              grouped(report.collapsed.triangles), grouped(report.collapsed.lines)));
   printLine("normals",
             fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", arguments.text("normals"),
                         report.normalBits, report.normalErrorDegrees,

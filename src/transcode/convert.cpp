@@ -80,6 +80,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, Geometry
       report.elements += encoded.elements;
       report.vertices += encoded.vertices;
       report.patches += encoded.geometry.patches.size();
+      report.collapsed += encoded.collapsed;
       report.positionError = std::max(report.positionError, encoded.positionError);
       report.normalErrorDegrees = std::max(report.normalErrorDegrees, encoded.normalErrorDegrees);
       geometry = document.geometries.size();
@@ -122,6 +123,19 @@ void writePage(const SceneDocument& document, const fs::path& site) {
   writeFile(site / runtimeUrl, asBytes(runtime));
   writeFile(site / sceneName, asBytes(writeX3d(document)));
   writeFile(site / pageName, asBytes(writeHtml(document, {runtimeUrl, stylesheetName})));
+}
+
+/// Scans have slivers, a few of which any lattice flattens; more than one element in
+/// a hundred speaks of too few bits.
+void warnOfCollapsed(ConvertReport& report) {
+  const auto warn = [&](Topology topology, const char* lost) {
+    if (const std::size_t count = report.collapsed.of(topology); 100 * count > report.elements.of(topology))
+      report.warnings.push_back(fmt::format("{} of {} {} have no {} at {} bits", count,
+                                            report.elements.of(topology), nameOf(topology), lost,
+                                            report.lattice.bits));
+  };
+  warn(Topology::triangles, "area");
+  warn(Topology::lines, "length");
 }
 
 /// Bytes by role, in the order in which `inspect` lists the roles.
@@ -184,6 +198,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
         elementsDone += count;
         tell(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
       });
+  warnOfCollapsed(report);
   const Marker marker{generator,
                       input == "-" ? "" : input.filename().string(),
                       options.container,

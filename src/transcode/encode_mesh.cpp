@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "containers/normals.h"
 #include "containers/stored_coords.h"
+#include "prepare/collapsed.h"
 #include "prepare/patches.h"
 #include "transcode/site.h"
 
@@ -76,12 +77,13 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& 
                        const ElementsDone& done) {
   const Lattice lattice =
       latticeFor(boxOf(mesh), options.coordType.value_or(ElementType::uint32), options.positionBits);
+  EncodedMesh result;
+  result.collapsed.of(mesh.topology) = collapsedElements(mesh, lattice);
   PatchedMesh patched = cutIntoPatches(mesh, lattice, options.patchVertices);
   mesh = {};
 
   const EncodeOptions encoding{options.container, options.normalBits, options.effort, options.target,
                                options.normals,   options.coordType,  options.layout};
-  EncodedMesh result;
   result.geometry = describe(patched, encoding);
   std::vector<PatchDescription> descriptions(patched.patches.size());
   std::vector<ElementCounts> elements(patched.patches.size());

@@ -36,6 +36,7 @@ struct EncodedMesh {
   GeometryDescription geometry;
   ElementCounts elements;
   std::size_t vertices = 0;
+  ElementCounts collapsed;       ///< those that lost their area or length on the lattice
   double positionError = 0;      ///< by which its vertices may be off, along an axis
   double normalErrorDegrees = 0; ///< by which its stored normals may be off
 };

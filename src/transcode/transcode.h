@@ -52,6 +52,7 @@ struct ConvertReport {
   WeldReport weld;
   bool normalsComputed = false;
   Lattice lattice;                    ///< of the first mesh: step states the precision
+  ElementCounts collapsed;            ///< that lost their area or length on so coarse a lattice
   double positionError = 0;           ///< by which vertices of any mesh may be off, along an axis
   std::uint32_t normalBits = 0;       ///< of a stored component
   double normalErrorDegrees = 0;      ///< by which stored normals may be off

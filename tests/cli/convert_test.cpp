@@ -89,6 +89,21 @@ TEST_F(Convert, StoresNormalsAsItIsTold) {
   EXPECT_NEAR(bound({"--normals", "spherical", "--container", "bg", "-vp", "10"}), 0.789, 0.001);
 }
 
+TEST_F(Convert, SaysHowManyTrianglesTooFewBitsCollapse) {
+  write(input_, gridPly(600)); // more quads along a side than 8 bits have steps
+  const Outcome coarse = run({"convert", input_, "-o", site_, "-vp", "8", "--json", "--effort", "0"});
+  ASSERT_EQ(coarse.code, 0) << coarse.err;
+  const Json report = Json::parse(coarse.out);
+  const std::size_t collapsed = report["collapsed"]["triangles"];
+  EXPECT_GT(collapsed, 360'000u);
+  EXPECT_NE(coarse.err.find(std::to_string(collapsed) + " of 720000 triangles have no area at 8 bits"),
+            std::string::npos)
+      << coarse.err;
+  const Outcome fine = run({"convert", input_, "-o", site_, "--effort", "0", "--json"});
+  EXPECT_EQ(fine.err, "");
+  EXPECT_EQ(Json::parse(fine.out)["collapsed"]["triangles"], 0);
+}
+
 TEST_F(Convert, ReadsStandardInput) {
   ASSERT_EQ(run({"convert", input_, "-o", site_, "--title", "T"}).code, 0);
   ASSERT_EQ(run({"convert", "-", "-o", directory_ / "piped", "--title", "T"}, input_).code, 0);

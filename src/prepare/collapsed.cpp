@@ -1,0 +1,57 @@
+#include "prepare/collapsed.h"
+
+#include "base/parallel.h"
+
+#include <atomic>
+
+namespace imgeo {
+
+namespace {
+
+/// Differences of lattice points take 33 bits, their products more than 64.
+__extension__ using Wide = __int128;
+
+Vec3<Wide> between(Vec3u a, Vec3u b) {
+  const auto difference = [](std::uint32_t x, std::uint32_t y) {
+    return static_cast<Wide>(y) - static_cast<Wide>(x);
+  };
+  return {difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z)};
+}
+
+bool hasArea(Vec3u a, Vec3u b, Vec3u c) {
+  return cross(between(a, b), between(a, c)) != Vec3<Wide>{};
+}
+
+bool hasArea(Vec3f a, Vec3f b, Vec3f c) {
+  const Vec3d origin(a);
+  return cross(Vec3d(b) - origin, Vec3d(c) - origin) != Vec3d{};
+}
+
+} // namespace
+
+std::size_t collapsedElements(const Mesh& mesh, const Lattice& lattice) {
+  if (mesh.topology == Topology::points)
+    return 0;
+  const std::vector<Vec3u> points = quantise(mesh.positions, lattice);
+  std::atomic<std::size_t> collapsed = 0;
+  parallelForBlocks(mesh.elementCount(), [&](std::size_t begin, std::size_t end) {
+    std::size_t here = 0;
+    for (std::size_t element = begin; element < end; ++element) {
+      const auto corner = [&](std::size_t n) {
+        return mesh.wedgePositions[mesh.corners[element * cornersPerElement(mesh.topology) + n]];
+      };
+      const std::uint32_t a = corner(0), b = corner(1);
+      if (mesh.topology == Topology::lines) {
+        here += points[a] == points[b] && mesh.positions[a] != mesh.positions[b];
+        continue;
+      }
+      const std::uint32_t c = corner(2);
+      here += !hasArea(points[a], points[b], points[c]) &&
+              hasArea(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
+    }
+    collapsed += here;
+  });
+  return collapsed;
+}
+
+} // namespace imgeo
