@@ -139,9 +139,9 @@ Command verifyCommand() {
           "Compares every triangle, line or point of the site with the input, welded as convert does it: the "
           "same "
           "elements in the same orientation, positions within half a step of the lattice, normals within the "
-          "rounding of their bits. Checks that every file is there and holds what its name says. Exits with "
-          "0 "
-          "only if all of that is so, with 3 if not.",
+          "rounding of their bits. Checks that every file is there and holds what its name says, in a site "
+          "of "
+          "another program only that it is there. Exits with 0 only if all of that is so, with 3 if not.",
       .flags = {positional("site", "DIR", Value::directory, "the site"),
                 positional("input", "INPUT", Value::file, "the file it was converted from"),
                 jsonFlag("the result"), helpFlag()},

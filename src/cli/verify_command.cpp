@@ -42,6 +42,10 @@ void printText(const VerifyReport& report) {
   if (report.normalBoundDegrees > 0)
     fmt::print("{} off by at most {:.4g} degrees; their rounding allows {:.4g}\n",
                bold(fmt::format("{:10}", "normals")), report.normalErrorDegrees, report.normalBoundDegrees);
+  if (report.isForeign)
+    fmt::print(
+        "Another program wrote the site: how its files are named, and normals that the input lacks, are "
+        "not checked.\n");
   for (const std::string& finding : report.findings)
     fmt::print("{}\n", finding);
   fmt::print("{}\n", report.equal ? "The site equals its input." : "The site does not equal its input.");

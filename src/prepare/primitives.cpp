@@ -120,6 +120,20 @@ bool differ(const IndexedPatch& patch, std::uint32_t a, std::uint32_t b) {
 
 } // namespace
 
+Topology topologyOf(Primitive primitive) {
+  switch (primitive) {
+  case Primitive::points:
+    return Topology::points;
+  case Primitive::lines:
+  case Primitive::lineStrip:
+    return Topology::lines;
+  case Primitive::triangles:
+  case Primitive::triangleStrip:
+    break;
+  }
+  return Topology::triangles;
+}
+
 IndexedPatch asTriangles(const Patch& patch) {
   assert(patch.topology == Topology::triangles);
   return drawWedges(patch, Primitive::triangles, inFanOrder(patch));

@@ -11,6 +11,9 @@ namespace imgeo {
 
 enum class Primitive : std::uint8_t { points, lines, lineStrip, triangles, triangleStrip };
 
+/// What kind of element a primitive draws.
+Topology topologyOf(Primitive primitive);
+
 /// `count` indices drawn as one kind of primitive, following the previous draw's.
 struct Draw {
   Primitive primitive = Primitive::triangles;

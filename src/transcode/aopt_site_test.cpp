@@ -6,11 +6,12 @@
 #include "containers/png/png.h"
 #include "scene/testing.h"
 #include "transcode/read_meshes.h"
-#include "transcode/transcode.h"
+#include "transcode/testing.h"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -98,6 +99,46 @@ protected:
     }
   }
 
+  /// What `verify` says of the site against the mesh as a PLY file, without what the site lacks.
+  VerifyReport verified(bool normals, bool texCoords, bool colors) const {
+    Mesh input = mesh;
+    if (!normals)
+      input.normals.clear();
+    if (!texCoords)
+      input.texCoords.clear();
+    if (!colors)
+      input.colors.clear();
+    const TemporaryDirectory inputs;
+    testing::writeMesh(inputs / "in.ply", input);
+    return verify(directory.path(), inputs / "in.ply");
+  }
+  void expectVerified(bool normals, bool texCoords, bool colors) const {
+    const VerifyReport report = verified(normals, texCoords, colors);
+    EXPECT_TRUE(report.isForeign);
+    EXPECT_TRUE(report.equal) << ::testing::PrintToString(report.findings);
+    EXPECT_EQ(report.site.triangles, mesh.elementCount());
+    EXPECT_LE(report.positionError, report.positionBound);
+  }
+
+  /// Writes a site of Int16 around the centre; `round` makes integers of v.
+  void writeSigned(const std::function<std::int16_t(double)>& round) {
+    Bytes coords, normals;
+    for (std::size_t w = 0; w < mesh.wedgeCount(); ++w) {
+      for (int axis = 0; axis < 3; ++axis) {
+        appendLittle(coords, round(32767 * share(w)[axis]));
+        normals.push_back(static_cast<std::uint8_t>(std::lround(127 * mesh.normals[w][axis])));
+      }
+      appendLittle(coords, std::int16_t{0});
+      normals.push_back(0);
+    }
+    write("i.bin", index);
+    write("c.bin+8", coords);
+    write("n.bin+4", normals);
+    readBack("<BinaryGeometry " + boxFields() + " " + draws() +
+             " index='i.bin' coord='c.bin+8' normal='n.bin+4' coordType='Int16' "
+             "normalType='Int8'></BinaryGeometry>");
+  }
+
   std::string draws() const {
     return fmt::format("primType='\"TRIANGLES\"' vertexCount='{}'", mesh.corners.size());
   }
@@ -127,6 +168,7 @@ TEST_F(AoptSite, WithSeparateFilesNamedByTheirStride) {
       " coordType='Int16' normalType='Int8' texCoordType='Uint16' colorType='Uint8'></BinaryGeometry>");
   expectEqual(read, 0.5 / 32767, 0.4, 0.51 / 65535);
   EXPECT_FALSE(read.colors.empty());
+  expectVerified(true, true, true);
 }
 
 TEST_F(AoptSite, WithInterleavedRecords) {
@@ -148,6 +190,7 @@ TEST_F(AoptSite, WithInterleavedRecords) {
                        " index='i.bin' coord='v.bin#0+24' normal='v.bin#8+24' texCoord='v.bin#16+24'"
                        " coordType='Int16' normalType='Int16' texCoordType='Int16'></BinaryGeometry>"),
               0.5 / 32767, 0.01, 0.51 / 32767);
+  expectVerified(true, true, false);
 }
 
 TEST_F(AoptSite, WithNormalsAsSphericalCoordinates) {
@@ -166,6 +209,7 @@ TEST_F(AoptSite, WithNormalsAsSphericalCoordinates) {
                        " index='i.bin' coord='c.bin+8' coordType='Uint16' "
                        "normalAsSphericalCoordinates='true'></BinaryGeometry>"),
               0.5 / 65535, 0.8, 0);
+  expectVerified(true, false, false);
 }
 
 TEST_F(AoptSite, WithPlainFloats) {
@@ -187,6 +231,7 @@ TEST_F(AoptSite, WithPlainFloats) {
   expectEqual(readBack("<BinaryGeometry " + boxFields() + " " + draws() +
                        " index='i.bin' coord='c.bin' normal='n.bin' texCoord='t.bin'></BinaryGeometry>"),
               0, 1e-4, 1e-7);
+  expectVerified(true, true, false);
 }
 
 TEST_F(AoptSite, WithImagesAsImageTextures) {
@@ -229,6 +274,26 @@ TEST_F(AoptSite, WithImagesAsImageTextures) {
                        texture("index", "i.png") + texture("coord", "c0.png") + texture("coord", "c1.png") +
                        texture("normal", "n.png") + texture("texCoord", "t.png") + "</ImageGeometry>"),
               0.5 / 65535, 0.4, 0.51 / 65535);
+  expectVerified(true, true, false);
+}
+
+TEST_F(AoptSite, IsVerifiedThoughItsWriterComputedInSinglePrecision) {
+  writeSigned([](double v) { return static_cast<std::int16_t>(std::lround(v + (v > 0 ? 0.03 : -0.03))); });
+  expectVerified(true, false, false);
+}
+
+TEST_F(AoptSite, IsNotVerifiedWhereItsWriterCutOffInsteadOfRounding) {
+  writeSigned([](double v) { return static_cast<std::int16_t>(v); });
+  const VerifyReport report = verified(true, false, false);
+  EXPECT_FALSE(report.equal);
+  EXPECT_GT(report.missing.triangles, 0u);
+}
+
+TEST_F(AoptSite, IsVerifiedWithoutTheNormalsThatItsInputLacks) {
+  writeSigned([](double v) { return static_cast<std::int16_t>(std::lround(v)); });
+  expectVerified(true, false, false);
+  expectVerified(false, false, false);
+  EXPECT_FALSE(verified(true, true, false).equal) << "the input has texture coordinates that the site lacks";
 }
 
 TEST_F(AoptSite, CanBeInspectedAndExported) {

@@ -15,20 +15,6 @@ namespace imgeo {
 
 namespace {
 
-Topology topologyOf(Primitive primitive) {
-  switch (primitive) {
-  case Primitive::points:
-    return Topology::points;
-  case Primitive::lines:
-  case Primitive::lineStrip:
-    return Topology::lines;
-  case Primitive::triangles:
-  case Primitive::triangleStrip:
-    break;
-  }
-  return Topology::triangles;
-}
-
 /// The kind of element that all draws of a geometry have.
 Topology topologyOf(const GeometryDescription& geometry, const std::string& place) {
   std::optional<Topology> topology;

@@ -137,7 +137,8 @@ struct GeometryFileInfo {
 GeometryFileInfo inspectGeometryFile(const std::filesystem::path& file);
 
 struct VerifyReport {
-  bool equal = false; ///< all of the below within their bounds
+  bool equal = false;     ///< all of the below within their bounds
+  bool isForeign = false; ///< there is no imgeo.json: another program wrote the site
   ElementCounts input, site, missing, extra;
   double positionError = 0, positionBound = 0; ///< largest error per axis and step / 2, in the mesh's units
   double normalErrorDegrees = 0, normalBoundDegrees = 0;
@@ -145,7 +146,9 @@ struct VerifyReport {
 };
 
 /// Reads the site back through our own readers and compares it with the input,
-/// prepared as `convert` does it (weld, drop unreferenced, computed normals).
+/// prepared as `convert` does it (weld, drop unreferenced, computed normals). Of a
+/// site of another program the files' names and normals that the input lacks are not
+/// checked, and its vertices may be off by a twentieth of a step more.
 VerifyReport verify(const std::filesystem::path& site, const std::filesystem::path& input);
 
 struct ExportReport {

@@ -7,6 +7,7 @@
 #include "containers/stored_coords.h"
 #include "prepare/patches.h"
 #include "transcode/element_list.h"
+#include "transcode/foreign_site.h"
 #include "transcode/marker.h"
 #include "transcode/preparation.h"
 #include "transcode/site.h"
@@ -64,10 +65,10 @@ Vec2<double> texCoordBound(const GeometryDescription& geometry) {
           bound(geometry.texCoordMin.y, geometry.texCoordSize.y)};
 }
 
-/// Every file that the page names is there and holds what its name says.
-bool checkFiles(const OpenedDocument& document, Findings& findings) {
+/// Every file that the page names is there and, in our sites, holds what its name says.
+bool checkFiles(const OpenedDocument& document, bool isForeign, Findings& findings) {
   bool whole = true;
-  std::vector<std::string> urls = pageFilesOf(document.text);
+  std::vector<std::string> urls = isForeign ? std::vector<std::string>{} : pageFilesOf(document.text);
   for (const NamedFile& file : geometryFilesOf(document.scene))
     urls.push_back(file.url);
   for (const std::string& url : urls) {
@@ -78,7 +79,7 @@ bool checkFiles(const OpenedDocument& document, Findings& findings) {
       whole = false;
       continue;
     }
-    if (file.extension() == ".css")
+    if (isForeign || file.extension() == ".css")
       continue;
     const std::string stem = file.stem(), content = contentName(readFile(file));
     if (!stem.ends_with(content))
@@ -105,12 +106,12 @@ std::vector<IndexedPatch> decodePatches(const OpenedDocument& document, const Ge
   return patches;
 }
 
-/// Every patch lies in the box that the document gives it.
+/// Every patch lies in the box that the document gives it, if it gives one.
 void checkBoxes(const std::vector<IndexedPatch>& patches, const GeometryDescription& geometry,
                 Findings& findings) {
   const double slack = geometry.lattice.step / 2 + 1e-6 * geometry.box.longestEdge();
   const auto agree = [&](const Box3d& a, const Box3d& b) {
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3 && !b.empty(); ++axis)
       if (!(std::abs(a.min[axis] - b.min[axis]) <= slack && std::abs(a.max[axis] - b.max[axis]) <= slack))
         return false;
     return true;
@@ -172,29 +173,50 @@ void count(const ElementDifference& difference, const ElementList& input, const 
   report.extra.of(topology) += difference.extra;
 }
 
-void compareShape(const OpenedDocument& document, const GeometryDescription& geometry, const Mesh& mesh,
-                  const Marker& marker, VerifyReport& report, Findings& findings) {
-  const std::vector<IndexedPatch> patches = decodePatches(document, geometry);
-  checkBoxes(patches, geometry, findings);
-  checkAttributesPresent(mesh, patches, findings);
-
+/// Where the vertices of the input are on the site's lattice.
+std::vector<Vec3u> quantisedAs(const GeometryDescription& geometry, const std::vector<IndexedPatch>& patches,
+                               const Mesh& mesh, bool isForeign) {
+  if (isForeign)
+    return quantiseLike(patches, mesh.positions, geometry.lattice);
   const Lattice expected = latticeFor(boxOf(mesh), coordTypeOf(geometry), geometry.lattice.bits);
   std::vector<Vec3u> quantised = quantise(mesh.positions, expected);
   for (Vec3u& q : quantised)
     q = pointReadBack(q, expected, geometry);
-  const double error = positionError(mesh, quantised, geometry.lattice), bound = positionErrorBound(geometry);
+  return quantised;
+}
+
+void checkPositions(const GeometryDescription& geometry, const std::vector<Vec3u>& quantised,
+                    const Mesh& mesh, VerifyReport& report, Findings& findings) {
+  const double error = positionError(mesh, quantised, geometry.lattice),
+               slack = report.isForeign ? foreignRounding * geometry.lattice.step : 0,
+               bound = positionErrorBound(geometry) + slack;
   if (error * report.positionBound >= report.positionError * bound)
     report.positionError = error, report.positionBound = bound;
-  if (error > bound + positionTolerance(mesh, expected))
+  if (error > bound + positionTolerance(mesh, geometry.lattice))
     findings.add("Positions are off by up to {:.6g}, more than half a step of the lattice, {:.6g}.", error,
                  bound);
+}
 
-  const Topology topology = marker.primitives == Primitives::points ? Topology::points : mesh.topology;
+void compareShape(const OpenedDocument& document, const GeometryDescription& geometry, const Mesh& mesh,
+                  const std::optional<Marker>& marker, VerifyReport& report, Findings& findings) {
+  std::vector<IndexedPatch> patches = decodePatches(document, geometry);
+  checkBoxes(patches, geometry, findings);
+  if (!marker && mesh.normals.empty())
+    for (IndexedPatch& patch : patches)
+      patch.normals.clear(); // computed, who knows how
+  checkAttributesPresent(mesh, patches, findings);
+  const std::vector<Vec3u> quantised = quantisedAs(geometry, patches, mesh, !marker);
+  checkPositions(geometry, quantised, mesh, report, findings);
+
+  const Topology topology = marker
+                                ? marker->primitives == Primitives::points ? Topology::points : mesh.topology
+                                : topologyOf(patches.front().draws.front().primitive);
   const bool isWithoutIndex =
       std::ranges::any_of(patches, &std::vector<std::uint32_t>::empty, &IndexedPatch::indices);
   const ElementKind kind{topology, isWithoutIndex};
   const ElementList input = elementsOf(mesh, quantised, kind), site = elementsOf(patches, kind);
-  const AttributeBounds bounds{normalBoundDegrees(geometry, marker), texCoordBound(geometry)};
+  const AttributeBounds bounds{normalBoundDegrees(geometry, marker.value_or(Marker{})),
+                               texCoordBound(geometry)};
   const ElementDifference difference = compare(input, site, bounds);
   count(difference, input, site, topology, report);
   const char* elements = nameOf(topology);
@@ -219,23 +241,45 @@ void compareShape(const OpenedDocument& document, const GeometryDescription& geo
     findings.add("{} {} have other colours.", difference.colorsDiffering, elements);
 }
 
+/// Nothing in a site of another program.
+std::optional<Marker> markerOf(const OpenedDocument& document) {
+  const fs::path file = document.root / markerName;
+  std::error_code none;
+  if (!fs::exists(file, none))
+    return std::nullopt;
+  return readMarker(asText(readFile(file)), file.string());
+}
+
+/// The input, with normals computed as they were for our site; for another's only with its own.
+Imported prepared(const fs::path& input, const std::optional<Marker>& marker) {
+  std::uint64_t bytes = 0;
+  Imported imported = importInput(input, bytes);
+  std::vector<bool> hadNormals;
+  for (const Mesh& mesh : imported.scene.meshes)
+    hadNormals.push_back(!mesh.normals.empty());
+  prepareScene(imported.scene, marker.value_or(Marker{}).normalWeighting, placeOf(input));
+  for (std::size_t i = 0; i < hadNormals.size(); ++i)
+    if (!marker && !hadNormals[i])
+      imported.scene.meshes[i].normals.clear();
+  return imported;
+}
+
 } // namespace
 
 VerifyReport verify(const fs::path& site, const fs::path& input) {
   VerifyReport report;
   Findings findings(report);
   const OpenedDocument document = openDocument(site);
-  const fs::path markerFile = document.root / markerName;
-  const Marker marker = readMarker(asText(readFile(markerFile)), markerFile.string());
-  std::uint64_t inputBytes = 0;
-  Imported imported = importInput(input, inputBytes);
-  prepareScene(imported.scene, marker.normalWeighting, placeOf(input));
+  const std::optional<Marker> marker = markerOf(document);
+  report.isForeign = !marker;
+  const Imported imported = prepared(input, marker);
 
   // What our readers refuse is here a result, not the end: the one place below
   // main, handlers and fuzz targets that catches an Error.
   try {
-    checkDocuments(document, findings);
-    const bool whole = checkFiles(document, findings);
+    if (marker)
+      checkDocuments(document, findings);
+    const bool whole = checkFiles(document, report.isForeign, findings);
     const std::vector<Shape>& shapes = imported.scene.shapes;
     if (document.scene.shapes.size() != shapes.size())
       findings.add("The site has {} shapes, the input {}.", document.scene.shapes.size(), shapes.size());
