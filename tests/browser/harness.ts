@@ -26,6 +26,8 @@ export interface PageOptions {
   size?: { width: number; height: number };
   deviceScaleFactor?: number;
   hasTouch?: boolean;
+  /** People may move: pictures are only comparable where they do not. */
+  motion?: boolean;
   /** Runs in the page before its scripts; self-contained. */
   before?: () => void;
   /** Sets up the server (rules, bodies) before the page asks for anything. */
@@ -63,7 +65,8 @@ export async function withPage(
   options.server?.(server);
   const { size = pictureSize, deviceScaleFactor = 1, hasTouch = false } = options;
   // Less motion: the bar does not fade while pictures are taken.
-  const shown = { viewport: size, deviceScaleFactor, hasTouch, reducedMotion: "reduce" as const };
+  const reducedMotion = options.motion ? ("no-preference" as const) : ("reduce" as const);
+  const shown = { viewport: size, deviceScaleFactor, hasTouch, reducedMotion };
   const context = await (await browser()).newContext(shown);
   try {
     await context.addInitScript(observe);

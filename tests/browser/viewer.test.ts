@@ -4,7 +4,8 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { assertSamePicture, boundsOfQuantised, difference } from "./compare.ts";
-import { pictureSize, settle, until, withPage, type PageOptions, type View } from "./harness.ts";
+import { center, covered, focusView, touch } from "./gestures.ts";
+import { settle, until, withPage, type PageOptions, type View } from "./harness.ts";
 import { referencePicture } from "./reference.ts";
 import { decodeSite } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
@@ -17,8 +18,6 @@ async function withCompletePage(options: PageOptions, use: (view: View) => Promi
     await use(view);
   });
 }
-
-const center = { x: pictureSize.width / 2, y: pictureSize.height / 2 };
 
 const gestures: Record<string, (view: View) => Promise<void>> = {
   "the arrow keys with Shift": async ({ page }) => {
@@ -73,33 +72,6 @@ describe("the view moves, and R brings it back", () => {
     });
   });
 });
-
-async function focusView({ page }: View): Promise<void> {
-  await page.keyboard.press("Tab");
-  const focused = await page.evaluate(() => document.activeElement?.localName);
-  assert.equal(focused, "imgeo-view");
-}
-
-/** Fingers at places relative to the centre, one list of fingers for each moment. */
-async function touch({ page }: View, moments: [number, number][][]): Promise<void> {
-  const session = await page.context().newCDPSession(page);
-  const points = (fingers: [number, number][]): { x: number; y: number; id: number }[] =>
-    fingers.map(([x, y], id) => ({ x: center.x + x, y: center.y + y, id }));
-  for (const [moment, fingers] of moments.entries()) {
-    const type = moment === 0 ? "touchStart" : "touchMove";
-    await session.send("Input.dispatchTouchEvent", { type, touchPoints: points(fingers) });
-  }
-  await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
-}
-
-/** Pixels that are not like the top left corner. */
-function covered({ data, channels }: { data: Uint8Array; channels: number }): number {
-  let count = 0;
-  for (let at = 0; at < data.length; at += channels) {
-    count += [0, 1, 2].some((channel) => Math.abs(data[at + channel]! - data[channel]!) > 8) ? 1 : 0;
-  }
-  return count;
-}
 
 describe("the picture fits its place", () => {
   test("after the window has changed its size", async () => {

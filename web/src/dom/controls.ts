@@ -1,23 +1,21 @@
 // Mouse and touch -> movements of the camera. No inertia: the picture stands
 // still when the hand does, which also is what `prefers-reduced-motion` asks for.
 
+import type { Hands } from "./hands.ts";
 import { listenToKeys } from "./keyboard.ts";
-import type { KeySteered } from "./keyboard.ts";
-
-export type Movable = KeySteered;
 
 const radiansPerView = Math.PI;
 
 /** Listens until `signal` aborts. */
-export function listenForMovement(canvas: HTMLCanvasElement, movable: Movable, signal: AbortSignal): void {
-  listenToPointers(canvas, movable, signal);
+export function listenForMovement(canvas: HTMLCanvasElement, hands: Hands, signal: AbortSignal): void {
+  listenToPointers(canvas, hands, signal);
   canvas.addEventListener("wheel", (event) => {
-    if (movable.type === "none") return; // the page scrolls
+    if (!hands.canZoom) return; // the page scrolls
     event.preventDefault();
     const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1);
-    movable.zoom(Math.exp(clamp(pixels, 200) / 500));
+    hands.zoom(Math.exp(clamp(pixels, 200) / 500));
   }, { passive: false, signal });
-  listenToKeys(canvas, movable, signal);
+  listenToKeys(canvas, hands, signal);
   // The right button pans.
   canvas.addEventListener("contextmenu", (event) => { event.preventDefault(); }, { signal });
 }
@@ -28,14 +26,14 @@ interface Point {
 }
 
 /** One pointer turns (with Shift or another button it pans), two pan by their middle and zoom by their distance. */
-function listenToPointers(canvas: HTMLCanvasElement, movable: Movable, signal: AbortSignal): void {
+function listenToPointers(canvas: HTMLCanvasElement, hands: Hands, signal: AbortSignal): void {
   const down = new Map<number, Point>();
 
   const lift = (event: PointerEvent) => { down.delete(event.pointerId); };
   canvas.addEventListener("pointerup", lift, { signal });
   canvas.addEventListener("pointercancel", lift, { signal });
   canvas.addEventListener("pointerdown", (event) => {
-    if (event.defaultPrevented || down.size === 2) return;
+    if (event.defaultPrevented || down.size === 2 || hands.type === "none") return;
     down.set(event.pointerId, pointOf(event));
     canvas.setPointerCapture(event.pointerId);
   }, { signal });
@@ -49,12 +47,12 @@ function listenToPointers(canvas: HTMLCanvasElement, movable: Movable, signal: A
     const right = (to.x - from.x) / shorter;
     const below = (to.y - from.y) / shorter;
     if (other !== undefined) {
-      movable.pan(right / 2, -below / 2);
-      movable.zoom(Math.max(distance(from, other), 1) / Math.max(distance(to, other), 1));
+      hands.pan(right / 2, -below / 2);
+      hands.zoom(Math.max(distance(from, other), 1) / Math.max(distance(to, other), 1));
     } else if (event.shiftKey || (event.buttons & 6) !== 0) {
-      movable.pan(right, -below);
+      hands.pan(right, -below);
     } else {
-      movable.turn(right * radiansPerView, below * radiansPerView);
+      hands.turn(right * radiansPerView, below * radiansPerView);
     }
   }, { signal });
 }

@@ -1,77 +1,73 @@
-// What people see of a view besides the picture: a thin bar, a message. All
-// style stands in constructable sheets: the page's `default-src 'self'` allows
-// no other.
+// What people see of a view besides the picture: poster, thin bar, hotspots,
+// lists, a message. Pages replace or style them by slots and parts.
+
+import { viewStyle } from "./faceStyle.ts";
 
 export interface Face {
   readonly canvas: HTMLCanvasElement;
-  /** 0 … 1; at 1 the bar goes away. */
-  showProgress(share: number): void;
+  readonly poster: HTMLElement;
+  readonly posterImage: HTMLImageElement;
+  readonly hotspots: HTMLElement;
+  /** For lists; pages may put their own controls in its place. */
+  readonly controls: HTMLElement;
+  /** 0 … 1; at 1 the bar goes away. `words` say the same to those who do not see it. */
+  showProgress(share: number, words: string): void;
+  /** Says something to those who do not see the picture. */
+  say(text: string): void;
   /** Instead of the picture. */
   showMessage(text: string): void;
 }
 
-const viewStyle = sheetOf(`
-  :host { position: absolute; inset: 0; display: block; overflow: hidden; contain: strict; }
-  canvas { display: block; width: 100%; height: 100%; touch-action: none; outline: none; cursor: grab; }
-  canvas:active { cursor: grabbing; }
-  canvas:focus-visible { box-shadow: inset 0 0 0 2px Highlight; outline: 2px solid Highlight; outline-offset: -2px; }
-  .bar { position: absolute; inset: 0 0 auto 0; height: 3px; pointer-events: none; }
-  .bar > div { height: 100%; background: #3b82f6; transform-origin: 0 0; transform: scaleX(0); }
-  .message { position: absolute; inset: 0; display: grid; place-content: center; margin: 0; padding: 1em;
-             text-align: center; font: 1rem/1.5 system-ui, sans-serif; background: Canvas; color: CanvasText; }
-  [hidden] { display: none; }
-`);
-
-/** A default that any rule of the page outweighs: <x3d> is an unknown inline element otherwise. */
-const pageStyle = sheetOf(`
-  :where(x3d) { display: block; position: relative; width: 100%; aspect-ratio: 4 / 3; }
-  :where(x3d) > :where(:not(imgeo-view)) { display: none; }
-`);
-
-export function stylePage(document: Document): void {
-  if (!document.adoptedStyleSheets.includes(pageStyle)) document.adoptedStyleSheets.push(pageStyle);
-}
-
-export function makeFace(root: ShadowRoot, label: string): Face {
+/** Fills the shadow root. */
+export function makeFace(root: ShadowRoot): Face {
   root.adoptedStyleSheets = [viewStyle];
   const canvas = document.createElement("canvas");
-  canvas.tabIndex = 0;
-  canvas.setAttribute("role", "img");
-  canvas.setAttribute("aria-label", label);
-  canvas.setAttribute("aria-description",
-    "Arrow keys turn, with Shift they move, plus and minus zoom, R goes back to the start, A shows all.");
 
-  const bar = document.createElement("div");
-  const fill = document.createElement("div");
-  bar.className = "bar";
-  bar.setAttribute("role", "progressbar");
-  bar.setAttribute("aria-label", "Loading");
-  bar.append(fill);
+  const hotspots = elementOf("div", { class: "hotspots" });
+  const posterImage = elementOf("img", { part: "default-poster", alt: "" });
+  const poster = elementOf("div", { class: "poster", hidden: "" }, slotOf("poster", posterImage));
 
-  const message = document.createElement("p");
-  message.className = "message";
-  message.setAttribute("role", "alert");
-  message.hidden = true;
-  root.append(canvas, bar, message);
+  const fill = elementOf("div", {});
+  const bar = elementOf("div", { class: "bar", part: "default-progress-bar", role: "progressbar", "aria-label": "Loading",
+    "aria-valuemin": "0", "aria-valuemax": "100", "aria-valuenow": "0" }, fill);
+  const barSlot = slotOf("progress-bar", bar);
+
+  const controls = elementOf("div", { class: "controls", part: "default-controls" });
+  const spoken = elementOf("p", { class: "spoken", role: "status" });
+  const message = elementOf("p", { class: "message", role: "alert", hidden: "" });
+  root.replaceChildren(canvas, hotspots, poster, slotOf("controls", controls), barSlot, spoken, message);
 
   return {
-    canvas,
-    showProgress(share) {
+    canvas, poster, posterImage, hotspots, controls,
+    showProgress(share, words) {
+      const percent = Math.round(share * 100);
       fill.style.transform = `scaleX(${share})`;
-      bar.setAttribute("aria-valuenow", String(Math.round(share * 100)));
-      bar.hidden = share >= 1;
+      bar.setAttribute("aria-valuenow", String(percent));
+      bar.setAttribute("aria-valuetext", `${percent} %, ${words}`);
+      bar.classList.toggle("done", share >= 1);
+      // What is complete is no progress any more: it leaves the accessibility tree.
+      bar.ariaHidden = share >= 1 ? "true" : null;
+    },
+    say(text) {
+      spoken.textContent = text;
     },
     showMessage(text) {
-      canvas.hidden = true;
-      bar.hidden = true;
+      for (const element of [canvas, hotspots, poster, barSlot, controls]) element.hidden = true;
       message.hidden = false;
       message.textContent = text;
     },
   };
 }
 
-function sheetOf(css: string): CSSStyleSheet {
-  const sheet = new CSSStyleSheet();
-  sheet.replaceSync(css);
-  return sheet;
+/** The children stand where the page puts nothing into the slot. */
+function slotOf(name: string, ...children: Node[]): HTMLSlotElement {
+  return elementOf("slot", { name }, ...children);
+}
+
+function elementOf<Name extends keyof HTMLElementTagNameMap>(
+  name: Name, attributes: Readonly<Record<string, string>>, ...children: Node[]): HTMLElementTagNameMap[Name] {
+  const element = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  element.append(...children);
+  return element;
 }

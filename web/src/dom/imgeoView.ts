@@ -1,19 +1,31 @@
 // <imgeo-view>: the picture inside an <x3d>. <x3d> itself is no custom element
 // and can have no shadow root, so the runtime puts this one into it.
 
+import type { Orbit } from "../navigation/orbit.ts";
+import { orbitOf } from "../navigation/orbit.ts";
 import { contextOf } from "../render/sceneRenderer.ts";
-import { listenForMovement } from "./controls.ts";
 import { makeFace } from "./face.ts";
 import { Loading } from "./loading.ts";
-import { listenForPointing, pixelAt } from "./pointing.ts";
+import { pixelAt } from "./pointing.ts";
+import { Presentation } from "./presentation.ts";
 import type { Vector3D } from "./shapeEvents.ts";
 import { vector3DOf } from "./shapeEvents.ts";
 import type { ViewStatistics } from "./viewer.ts";
-import { Viewer } from "./viewer.ts";
-
-export const viewTag = "imgeo-view";
 
 const noWebGl = "This page shows a 3D scene, for which the browser needs WebGL 2. It is missing or switched off here.";
+
+export interface BlobOptions {
+  readonly mimeType?: string;
+  /** 0 … 1, for formats that lose something. */
+  readonly qualityArgument?: number;
+}
+
+/** A viewpoint of the scene, for a page's own list. */
+export interface ViewpointEntry {
+  readonly element: Element;
+  readonly description: string;
+  readonly isBound: boolean;
+}
 
 /** A place on a shape. */
 export interface SurfacePoint {
@@ -24,19 +36,80 @@ export interface SurfacePoint {
 }
 
 export class ImgeoView extends HTMLElement {
-  #viewer: Viewer | undefined;
+  #presentation: Presentation | undefined;
   #canvas: HTMLCanvasElement | undefined;
-  #listeners = new AbortController();
 
   /** What has been drawn, requested, and is held on the GPU; undefined without a picture. */
   get statistics(): ViewStatistics | undefined {
-    return this.#viewer?.statistics;
+    return this.#presentation?.viewer.statistics;
+  }
+
+  /** In document order. */
+  get viewpoints(): readonly ViewpointEntry[] {
+    const navigator = this.#presentation?.viewer.navigator;
+    return (navigator?.viewpoints ?? []).map(({ element, viewpoint }) => ({
+      element: element as Element, description: viewpoint.description, isBound: element === navigator?.bound,
+    }));
+  }
+
+  /** Does not turn by itself. */
+  get paused(): boolean {
+    return this.#presentation?.viewer.navigator.turntable.isStopped ?? true;
+  }
+
+  /** Turns the scene, as `auto-rotate` does, but at once, and also for people who prefer less motion. */
+  play(): void {
+    this.#presentation?.play();
+  }
+
+  pause(): void {
+    this.#presentation?.pause();
+  }
+
+  /** Takes the poster away; with `reveal="manual"` nothing else does. */
+  dismissPoster(): void {
+    this.#presentation?.poster.dismiss();
+  }
+
+  /** Travels to a viewpoint, given as its element or its description. */
+  bindViewpoint(viewpoint: Element | string): void {
+    const entry = this.viewpoints.find(({ element, description }) => element === viewpoint || description === viewpoint);
+    if (entry) this.#presentation?.viewer.navigator.bind(entry.element);
+  }
+
+  /** Travels back to the bound viewpoint. */
+  resetView(): void {
+    this.#presentation?.viewer.navigator.reset();
+  }
+
+  showAll(): void {
+    this.#presentation?.viewer.navigator.showAll();
+  }
+
+  /** Where the camera is on its orbit; as a string in the form of the attribute `camera-orbit`. */
+  getCameraOrbit(): Orbit & { toString(): string } {
+    const navigator = this.#presentation?.viewer.navigator;
+    const orbit = navigator ? orbitOf(navigator.pose) : { theta: 0, phi: 0, radius: 0 };
+    return { ...orbit, toString: () => `${orbit.theta}rad ${orbit.phi}rad ${orbit.radius}m` };
+  }
+
+  /** The picture as a file. Rejects where there is none. */
+  async toBlob({ mimeType = "image/png", qualityArgument }: BlobOptions = {}): Promise<Blob> {
+    const canvas = this.#canvas;
+    // In one turn of the event loop: afterwards the picture is the browser's alone.
+    this.#presentation?.viewer.renderer.draw();
+    const blob = await new Promise<Blob | null>((resolve) => {
+      if (canvas === undefined) resolve(null);
+      else canvas.toBlob(resolve, mimeType, qualityArgument);
+    });
+    if (blob === null) throw new Error("There is no picture to make a file of.");
+    return blob;
   }
 
   /** What is seen at a point of the window, in CSS pixels as events' clientX and clientY; null where no shape is. */
   positionAndNormalFromPoint(x: number, y: number): SurfacePoint | null {
-    if (this.#viewer === undefined || this.#canvas === undefined) return null;
-    const hit = this.#viewer.renderer.pick(...pixelAt(this.#canvas, x, y));
+    if (this.#presentation === undefined || this.#canvas === undefined) return null;
+    const hit = this.#presentation.viewer.renderer.pick(...pixelAt(this.#canvas, x, y));
     if (hit === undefined) return null;
     const { position, normal, element } = hit;
     return { position: vector3DOf(position), normal: normal ? vector3DOf(normal) : null, shape: element as Element };
@@ -44,36 +117,45 @@ export class ImgeoView extends HTMLElement {
 
   connectedCallback(): void {
     const x3d = this.parentElement;
-    if (this.#viewer !== undefined || x3d === null) return;
-    const root = this.shadowRoot ?? this.attachShadow({ mode: "open" });
-    root.replaceChildren();
-    const face = makeFace(root, x3d.getAttribute("aria-label") ?? x3d.getAttribute("title") ?? labelOf(x3d));
+    if (this.#presentation !== undefined || x3d === null) return;
+    const face = makeFace(this.shadowRoot ?? this.attachShadow({ mode: "open" }));
     const context = contextOf(face.canvas);
     if (context === null) {
       face.showMessage(noWebGl);
       refuse(x3d);
       return;
     }
-    this.#listeners = new AbortController();
-    const viewer = new Viewer(x3d, face.canvas, context, (share) => { face.showProgress(share); });
-    this.#viewer = viewer;
-    // Known before the first request: what is asked for first depends on what is seen.
-    viewer.renderer.setSize(...sizeOf(face.canvas));
-    viewer.start();
     this.#canvas = face.canvas;
-    listenForPointing(face.canvas, this, viewer.renderer, this.#listeners.signal);
-    listenForMovement(face.canvas, viewer.navigator, this.#listeners.signal);
-    watchSize(face.canvas, this.#listeners.signal, (width, height, ratio) => { viewer.renderer.resize(width, height, ratio); });
+    this.#presentation = new Presentation(x3d, this, face, context);
+    lendMembers(this, x3d);
+    this.#presentation.start();
   }
 
   disconnectedCallback(): void {
     // An element that is only being moved is connected again before this runs.
     queueMicrotask(() => {
       if (this.isConnected) return;
-      this.#listeners.abort();
-      this.#viewer?.dispose();
-      this.#viewer = undefined;
+      this.#presentation?.dispose();
+      this.#presentation = undefined;
+      this.#canvas = undefined;
     });
+  }
+}
+
+/** What <x3d> can do too, since that is the element that pages know. */
+const lentMethods = ["play", "pause", "dismissPoster", "bindViewpoint", "resetView", "showAll", "getCameraOrbit", "toBlob",
+  "positionAndNormalFromPoint"] as const;
+const lentProperties = ["statistics", "viewpoints", "paused"] as const;
+
+/** The properties that the runtime gives to <x3d>. */
+export type ViewElement = Element & Pick<ImgeoView, (typeof lentMethods)[number] | (typeof lentProperties)[number]>;
+
+function lendMembers(view: ImgeoView, x3d: Element): void {
+  for (const name of lentMethods) {
+    Object.defineProperty(x3d, name, { value: view[name].bind(view), configurable: true, enumerable: true });
+  }
+  for (const name of lentProperties) {
+    Object.defineProperty(x3d, name, { get: () => view[name], configurable: true, enumerable: true });
   }
 }
 
@@ -86,38 +168,4 @@ function refuse(x3d: Element): void {
     loading.fail({ type: "webgl", url: "", element, message: noWebGl }, error);
     loading.abandon(error);
   }
-}
-
-function labelOf(x3d: Element): string {
-  return x3d.querySelector("viewpoint")?.getAttribute("description") ?? "3D scene";
-}
-
-function sizeOf(canvas: HTMLCanvasElement): [width: number, height: number, ratio: number] {
-  const { width, height } = canvas.getBoundingClientRect();
-  return [devicePixels(width, undefined), devicePixels(height, undefined), devicePixelRatio];
-}
-
-/** Tells the canvas' size in device pixels, now and whenever it or the pixel ratio changes. */
-function watchSize(canvas: HTMLCanvasElement, signal: AbortSignal,
-                   onSize: (width: number, height: number, ratio: number) => void): void {
-  const observer = new ResizeObserver((entries) => {
-    for (const { contentRect, devicePixelContentBoxSize } of entries) {
-      // Not every browser tells device pixels.
-      const exact = (devicePixelContentBoxSize as readonly ResizeObserverSize[] | undefined)?.[0];
-      onSize(devicePixels(contentRect.width, exact?.inlineSize),
-             devicePixels(contentRect.height, exact?.blockSize), devicePixelRatio);
-    }
-  });
-  try {
-    observer.observe(canvas, { box: "device-pixel-content-box" });
-  } catch {
-    observer.observe(canvas);
-  }
-  signal.addEventListener("abort", () => { observer.disconnect(); });
-}
-
-/** What the browser says it is, unless that is more than a rounding away: an emulated pixel ratio is not in it. */
-function devicePixels(cssPixels: number, exact: number | undefined): number {
-  const product = cssPixels * devicePixelRatio;
-  return exact !== undefined && Math.abs(exact - product) <= 1 ? exact : Math.round(product);
 }

@@ -1,9 +1,10 @@
 // The runtime: puts a view into every <x3d> of the page, now and later.
 
-import { stylePage } from "./face.ts";
-import { ImgeoView, viewTag } from "./imgeoView.ts";
+import { stylePage, viewTag } from "./faceStyle.ts";
+import { ImgeoView } from "./imgeoView.ts";
 
 export { ImgeoView };
+export type { BlobOptions, ViewElement, ViewpointEntry } from "./imgeoView.ts";
 export type { ErrorDetail, Loadable, ProgressDetail } from "./loading.ts";
 export type { SurfacePoint } from "./imgeoView.ts";
 export type { ShapeEventProperties, ShapePointerEvent, Vector3D } from "./shapeEvents.ts";

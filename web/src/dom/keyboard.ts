@@ -5,26 +5,16 @@
 import type { NavigationType } from "../navigation/navigationType.ts";
 import type { Motion } from "../navigation/travel.ts";
 import { standingStill } from "../navigation/travel.ts";
-
-export interface KeySteered {
-  /** How one moves now; setting what the scene does not allow does nothing. */
-  type: NavigationType;
-  turn(right: number, over: number): void;
-  zoom(factor: number): void;
-  pan(right: number, up: number): void;
-  move(motion: Motion): void;
-  reset(): void;
-  showAll(): void;
-}
+import type { Hands } from "./hands.ts";
 
 const turnStep = Math.PI / 36;
 const panStep = 0.05;
 const zoomStep = 1.1;
 
 /** Listens until `signal` aborts. */
-export function listenToKeys(canvas: HTMLElement, steered: KeySteered, signal: AbortSignal): void {
+export function listenToKeys(canvas: HTMLElement, hands: Hands, signal: AbortSignal): void {
   const held = new Map<string, Partial<Motion>>();
-  const moveOn = () => { steered.move(Array.from(held.values()).reduce<Motion>(together, standingStill)); };
+  const moveOn = () => { hands.move(Array.from(held.values()).reduce<Motion>(together, standingStill)); };
   const letGo = () => {
     if (held.size === 0) return;
     held.clear();
@@ -32,8 +22,8 @@ export function listenToKeys(canvas: HTMLElement, steered: KeySteered, signal: A
   };
   canvas.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const motion = isTravelling(steered.type) ? motionOf(event) : undefined;
-    const act = motion ? () => { held.set(event.code, motion); moveOn(); } : actionOf(event, steered, canvas);
+    const motion = isTravelling(hands.type) ? motionOf(event) : undefined;
+    const act = motion ? () => { held.set(event.code, motion); moveOn(); } : actionOf(event, hands, canvas);
     if (act === undefined) return;
     event.preventDefault();
     if (motion === undefined) letGo(); // R and the like end what is held
@@ -69,26 +59,26 @@ function together(motion: Motion, other: Partial<Motion>): Motion {
 }
 
 /** What a key press does, whoever one is. */
-function actionOf(event: KeyboardEvent, steered: KeySteered, canvas: HTMLElement): (() => void) | undefined {
+function actionOf(event: KeyboardEvent, hands: Hands, canvas: HTMLElement): (() => void) | undefined {
   const arrow = (right: number, up: number) => event.shiftKey
-    ? () => { steered.pan(right * panStep, up * panStep); }
-    : () => { steered.turn(right * turnStep, up * -turnStep); };
+    ? () => { hands.pan(right * panStep, up * panStep); }
+    : () => { hands.turn(right * turnStep, up * -turnStep); };
   switch (event.key) {
-    case "e": case "E": return () => { steered.type = "examine"; };
-    case "w": case "W": return () => { steered.type = "walk"; };
-    case "f": case "F": return () => { steered.type = "fly"; };
+    case "e": case "E": return () => { hands.type = "examine"; };
+    case "w": case "W": return () => { hands.type = "walk"; };
+    case "f": case "F": return () => { hands.type = "fly"; };
     case "Escape": return () => { canvas.blur(); };
   }
-  if (steered.type === "none") return undefined;
+  if (hands.type === "none") return undefined; // arrows scroll the page
   switch (event.key) {
     case "ArrowLeft": return arrow(-1, 0);
     case "ArrowRight": return arrow(1, 0);
     case "ArrowUp": return arrow(0, 1);
     case "ArrowDown": return arrow(0, -1);
-    case "+": case "=": case "PageUp": return () => { steered.zoom(1 / zoomStep); };
-    case "-": case "_": case "PageDown": return () => { steered.zoom(zoomStep); };
-    case "r": case "R": return () => { steered.reset(); };
-    case "a": case "A": return () => { steered.showAll(); };
+    case "+": case "=": case "PageUp": return !hands.canZoom ? undefined : () => { hands.zoom(1 / zoomStep); };
+    case "-": case "_": case "PageDown": return !hands.canZoom ? undefined : () => { hands.zoom(zoomStep); };
+    case "r": case "R": return () => { hands.reset(); };
+    case "a": case "A": return () => { hands.showAll(); };
     default: return undefined;
   }
 }

@@ -23,6 +23,7 @@ export class Steering {
   #weights: ChunkWeights = defaultChunkWeights;
   #view: View | undefined;
   #timer: ReturnType<typeof setTimeout> | undefined;
+  #isHeld = true;
 
   /** `onSteered` is called when files may have been added to those that are wanted, or taken from them. */
   constructor(renderer: SceneRenderer, deliveries: SharedDeliveries, onSteered: () => void) {
@@ -38,6 +39,12 @@ export class Steering {
     this.steer();
   }
 
+  /** Asks for nothing before this. */
+  begin(): void {
+    this.#isHeld = false;
+    this.steer();
+  }
+
   /** Soon, if the camera has moved since the last time. */
   follow(): void {
     if (this.#timer !== undefined || isSameView(this.#renderer.view, this.#view)) return;
@@ -47,6 +54,7 @@ export class Steering {
   /** Now. */
   steer(): void {
     this.stop();
+    if (this.#isHeld) return;
     this.#view = this.#renderer.view;
     const viewing = viewingOf(this.#view, this.#weights);
     this.#deliveries.demand((geometry) => demandFor(this.#places.get(geometry) ?? [], viewing));

@@ -20,6 +20,7 @@ import { defaultDownloadOptions } from "../scheduler/download.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
 import { slotsFor } from "../scheduler/slots.ts";
 import { Arrival } from "./arrival.ts";
+import { viewTag } from "./faceStyle.ts";
 import { leastStage, Loading } from "./loading.ts";
 import { watchProtocol } from "./protocol.ts";
 import { Steering } from "./steering.ts";
@@ -31,6 +32,15 @@ export interface ViewStatistics extends RenderStatistics {
   /** Requests ever sent, retries included. */
   readonly requests: number;
   readonly openRequests: number;
+}
+
+/** Who shows what the viewer knows. */
+export interface ViewerListener {
+  onProgress(share: number, stage: StageName | "none"): void;
+  /** After each frame, before the events that wait for it. */
+  onFrame(): void;
+  /** Another viewpoint is bound, or one moves in another way; or the scene has changed what there is of both. */
+  onNavigation(): void;
 }
 
 interface LoadedShape {
@@ -54,16 +64,17 @@ export class Viewer {
   readonly #steering: Steering;
   readonly #observer: MutationObserver;
   readonly #listeners = new AbortController();
-  readonly #onProgress: (share: number) => void;
+  readonly #listener: ViewerListener;
   readonly #warned = new Set<string>();
   #loading: Loading;
+  #isLoading = false;
   #progressTimer: ReturnType<typeof setTimeout> | undefined;
 
-  constructor(x3d: Element, canvas: HTMLCanvasElement, context: WebGL2RenderingContext, onProgress: (share: number) => void) {
+  constructor(x3d: Element, canvas: HTMLCanvasElement, context: WebGL2RenderingContext, listener: ViewerListener) {
     this.#x3d = x3d;
-    this.#onProgress = onProgress;
+    this.#listener = listener;
     this.#loading = new Loading(x3d);
-    this.navigator = new Navigator(() => { this.renderer.requestFrame(); });
+    this.navigator = new Navigator(() => { this.renderer.requestFrame(); }, () => { listener.onNavigation(); });
     this.renderer = new SceneRenderer(canvas, context, this.navigator, () => { this.#onFrame(); });
     const arrival = new Arrival(this.renderer);
     this.#pool = new ResourcePool({
@@ -76,18 +87,27 @@ export class Viewer {
     });
     this.#deliveries = new SharedDeliveries(this.#pool);
     this.#steering = new Steering(this.renderer, this.#deliveries, () => { this.#onSteered(); });
-    this.#observer = new MutationObserver((records) => {
+    this.#observer = new MutationObserver((all) => {
+      const records = all.filter(({ target }) => isOfScene(target, x3d));
+      if (records.length === 0) return;
       for (const { target } of records) this.#touchAround(target);
       this.#readDocument();
       for (const { target, attributeName } of records) this.#followBind(target as Element, attributeName);
     });
   }
 
-  /** Shows the document from now on. */
+  /** Follows the document from now on. */
   start(): void {
     watchProtocol(this.#listeners.signal, (protocol) => { this.#scheduler.slotCount = slotsFor(protocol); });
     this.#observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
     this.#readDocument();
+  }
+
+  /** Asks for files from now on. */
+  load(): void {
+    this.#isLoading = true;
+    this.#steering.begin();
+    this.renderer.requestFrame();
   }
 
   get statistics(): ViewStatistics {
@@ -205,10 +225,12 @@ export class Viewer {
       if (delivery && shape.isVisible && !loading.isEnded) loading.moveOn(progressOf(delivery.transfers, loading.progress));
     }
     if (!this.#loading.isEnded) this.#loading.moveOn(progressOf(this.#pool.transfers(), this.#loading.progress));
-    this.#onProgress(this.#loading.progress.totalProgress);
+    this.#listener.onProgress(this.#loading.progress.totalProgress, this.#loading.stage);
   }
 
   #onFrame(): void {
+    this.#listener.onFrame();
+    if (!this.#isLoading) return;
     this.#tellProgress(); // all of it before `load`
     // Not what is hidden: that is fetched when it is shown.
     const awaited = Array.from(this.#shapes.values()).filter(({ isVisible }) => isVisible).map(({ loading }) => loading);
@@ -228,6 +250,14 @@ export class Viewer {
     this.#warned.add(line);
     console.warn(line);
   }
+}
+
+/** Not what the runtime and the page have put into the view itself. */
+function isOfScene(node: Node, x3d: Element): boolean {
+  for (let inner: Node | null = node; inner !== null && inner !== x3d; inner = inner.parentNode) {
+    if (inner.parentNode === x3d) return inner.nodeName.toLowerCase() !== viewTag;
+  }
+  return true;
 }
 
 function stageShown(stages: readonly (StageName | "none")[]): StageName | "none" {

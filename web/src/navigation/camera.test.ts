@@ -139,6 +139,20 @@ describe("zooming and panning", () => {
   });
 });
 
+test("depth is spent on the scene alone, and from inside on what is farther than the author's clearance", () => {
+  const camera = new PerspectiveCamera();
+  const nearOf = (pose: Pose, clearance?: number) => {
+    applyPose(camera, pose, 1, sphere, clearance);
+    return camera.near;
+  };
+  const inside = { ...start, position: sphere.center.clone() };
+  near(nearOf(start), start.position.distanceTo(sphere.center) - sphere.radius * 1.01);
+  near(nearOf(start, 0.02), nearOf(start));
+  near(nearOf(inside), sphere.radius * 1.01 * 1e-4);
+  near(nearOf(inside, 0.02), 0.02);
+  near(nearOf(inside, 100), sphere.radius * 1.01 * 1e-2);
+});
+
 test("a scene without extent is still looked at", () => {
   const camera = new PerspectiveCamera();
   const point = new Box3(new Vector3(1, 1, 1), new Vector3(1, 1, 1)).getBoundingSphere(new Sphere());

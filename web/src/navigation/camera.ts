@@ -57,9 +57,14 @@ export function poseFraming(sphere: Sphere): Pose {
   }, sphere);
 }
 
+/** From where the sphere just fills the shorter side of the view. */
+export function framingDistance(sphere: Sphere, fieldOfView: number): number {
+  return Math.max(sphere.radius, 1e-9) / Math.sin(fieldOfView / 2);
+}
+
 /** The same direction of view, so far away that the whole sphere is seen. */
 export function poseShowingAll(pose: Pose, sphere: Sphere): Pose {
-  const distance = Math.max(sphere.radius, 1e-9) / Math.sin(pose.fieldOfView / 2);
+  const distance = framingDistance(sphere, pose.fieldOfView);
   const center = sphere.center.clone();
   return { ...pose, center, position: center.clone().addScaledVector(forwardOf(pose), -distance) };
 }
@@ -100,18 +105,22 @@ export function panned(pose: Pose, right: number, up: number): Pose {
   return { ...pose, position: pose.position.clone().add(shift), center: pose.center.clone().add(shift) };
 }
 
-/** Sets the camera up for a view of `aspect` (width / height) onto a scene inside `sphere`. */
-export function applyPose(camera: PerspectiveCamera, pose: Pose, aspect: number, sphere: Sphere): void {
+/**
+ * Sets the camera up for a view of `aspect` (width / height) onto a scene inside
+ * `sphere`. From inside, what is nearer than `clearance` need not be seen.
+ */
+export function applyPose(camera: PerspectiveCamera, pose: Pose, aspect: number, sphere: Sphere, clearance = 0): void {
   camera.position.copy(pose.position);
   camera.quaternion.copy(pose.orientation);
   const half = Math.tan(pose.fieldOfView / 2);
   camera.fov = MathUtils.radToDeg(2 * Math.atan(aspect >= 1 ? half : half / aspect));
   camera.aspect = aspect;
-  // Depth is spent on the scene alone; from inside, a ten-thousandth of the depth is near enough.
+  // Depth is spent on the scene alone; from inside, a ten-thousandth of the depth is near enough,
+  // and a hundredth still leaves a room's walls standing whose author says that nobody gets so close.
   const distance = pose.position.distanceTo(sphere.center);
   const radius = Math.max(sphere.radius * 1.01, 1e-9);
   camera.far = distance + radius;
-  camera.near = Math.max(distance - radius, camera.far * 1e-4);
+  camera.near = Math.max(distance - radius, MathUtils.clamp(clearance, camera.far * 1e-4, camera.far * 1e-2));
   camera.updateProjectionMatrix();
 }
 

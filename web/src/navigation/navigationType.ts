@@ -13,10 +13,18 @@ const typesByName: Readonly<Record<string, NavigationType>> = {
 
 const movingTypes: readonly NavigationType[] = ["examine", "walk", "fly"];
 
+export interface NavigationTypes {
+  readonly first: NavigationType;
+  /** Those that are named. */
+  readonly listed: readonly NavigationType[];
+  /** Those that people may choose. */
+  readonly allowed: readonly NavigationType[];
+}
+
 /** The first name that is known counts; with ANY, or where none is known, people may choose among all. */
-export function navigationTypesOf(names: readonly string[]): { readonly first: NavigationType; readonly allowed: readonly NavigationType[] } {
+export function navigationTypesOf(names: readonly string[]): NavigationTypes {
   const known = names.flatMap((name) => typesByName[name.trim().toUpperCase()] ?? []);
   const isAny = names.some((name) => name.trim().toUpperCase() === "ANY");
   const allowed = isAny || known.length === 0 ? [...known, ...movingTypes] : known;
-  return { first: known[0] ?? "examine", allowed: Array.from(new Set(allowed)) };
+  return { first: known[0] ?? "examine", listed: Array.from(new Set(known)), allowed: Array.from(new Set(allowed)) };
 }

@@ -12,7 +12,10 @@ import { Journey } from "./journey.ts";
 import type { NavigationType } from "./navigationType.ts";
 import { navigationTypesOf } from "./navigationType.ts";
 import type { Motion } from "./travel.ts";
+import type { CameraSetting } from "./orbit.ts";
+import { poseWith, poseWithin, unsetCamera } from "./orbit.ts";
 import { isStandingStill, looked, standingStill, stepped, travelled } from "./travel.ts";
+import { Turntable } from "./turntable.ts";
 
 /** What the navigator must know of a scene. */
 export interface NavigatedScene {
@@ -31,11 +34,14 @@ const longestFrameSeconds = 0.1;
 export class Navigator {
   /** Journeys take no time, as people ask for who prefer reduced motion. */
   isInstant = false;
-  readonly #onChange: () => void;
+  readonly turntable: Turntable;
+  readonly #onMove: () => void;
+  readonly #onNavigation: () => void;
   readonly #viewpoints = new BindingStack<SceneElement>();
   #scene: NavigatedScene | undefined;
   #home = poseFraming(new Sphere(new Vector3(), 1));
   #homeKey = "";
+  #camera = unsetCamera;
   #pose = this.#home;
   #journey: Journey | undefined;
   #motion = standingStill;
@@ -44,9 +50,11 @@ export class Navigator {
   #type: NavigationType = "examine";
   #source: ChangeSource = "none";
 
-  /** `onChange` is called when another frame is due, or what is bound or allowed has changed. */
-  constructor(onChange: () => void) {
-    this.#onChange = onChange;
+  /** `onMove` is called when another frame is due, `onNavigation` when another viewpoint is bound or one moves in another way. */
+  constructor(onMove: () => void, onNavigation: () => void) {
+    this.#onMove = onMove;
+    this.#onNavigation = onNavigation;
+    this.turntable = new Turntable(onMove);
   }
 
   get pose(): Pose {
@@ -67,11 +75,22 @@ export class Navigator {
     if (!this.allowedTypes.includes(type) || type === this.#type) return;
     this.#type = type;
     this.#motion = standingStill;
-    this.#onChange();
+    this.#onNavigation();
   }
 
   get allowedTypes(): readonly NavigationType[] {
     return navigationTypesOf(this.#scene?.navigation.type ?? []).allowed;
+  }
+
+  /** Those that the scene names. */
+  get listedTypes(): readonly NavigationType[] {
+    return navigationTypesOf(this.#scene?.navigation.type ?? []).listed;
+  }
+
+  /** What stands beside the viewpoints, and outweighs them; a change takes the camera with it. */
+  setCamera(camera: CameraSetting): void {
+    this.#camera = camera;
+    this.#followHome(this.#scene !== undefined);
   }
 
   get viewpoints(): readonly PlacedViewpoint[] {
@@ -94,6 +113,13 @@ export class Navigator {
     if (typesKey !== this.#typesKey) this.#type = navigationTypesOf(scene.navigation.type).first;
     this.#typesKey = typesKey;
     this.#followHome(!isFirst && this.bound !== before);
+    this.#onNavigation();
+  }
+
+  /** The name of the viewpoint at which the camera stands. */
+  get placeName(): string | undefined {
+    const placed = this.viewpoints.find(({ element }) => element === this.bound);
+    return this.#pose === this.#home && placed?.viewpoint.description !== "" ? placed?.viewpoint.description : undefined;
   }
 
   /** set_bind of a viewpoint of the scene. */
@@ -104,12 +130,17 @@ export class Navigator {
     this.#followHome(true);
     // Also when it was bound before: that is how one returns to it.
     if (isBound) this.#travelTo(this.#home, "none");
+    this.#onNavigation();
   }
 
-  /** Radians to the right and over the top; who walks or flies looks about instead. */
+  /** Radians to the right and over the top. Who walks or flies looks about instead, so that what he sees follows his hand. */
   turn(right: number, over: number): void {
-    if (this.#type === "examine") this.#moveTo(turned(this.#pose, right, over));
-    else this.#moveTo(looked(this.#pose, -right, over));
+    if (this.#type === "examine") {
+      this.#moveTo(turned(this.#pose, right, over));
+    } else {
+      const share = this.#pose.fieldOfView / Math.PI; // half a turn is a hand's way across the view
+      this.#moveTo(looked(this.#pose, -right * share, over * share));
+    }
   }
 
   /** Multiplies the distance to the centre; who walks or flies goes as far ahead. */
@@ -130,7 +161,8 @@ export class Navigator {
     this.#motion = this.#type === "walk" || this.#type === "fly" ? motion : standingStill;
     if (isStandingStill(this.#motion)) return;
     this.#journey = undefined;
-    this.#onChange();
+    this.turntable.rest();
+    this.#onMove();
   }
 
   /** Back to the bound viewpoint. */
@@ -152,14 +184,27 @@ export class Navigator {
     } else if (!isStandingStill(this.#motion)) {
       this.#source = "user-interaction";
       this.#pose = travelled(this.#pose, this.#motion, Math.max(seconds, 0), this.#speed, this.#type === "walk");
+    } else if (this.#isTurning) {
+      this.#source = "automatic";
+      this.#pose = turned(this.#pose, this.turntable.radiansPerSecond * Math.max(seconds, 0), 0);
     }
     if (!this.isMoving) this.#lastMs = undefined;
     return this.#pose;
   }
 
+  /** Half of the distance that an avatar keeps from things (ISO/IEC 19775-1, 23.4.4); who examines keeps none. */
+  get clearance(): number {
+    const [distance = 0] = this.#scene?.navigation.avatarSize ?? [];
+    return this.#type === "walk" || this.#type === "fly" ? Math.max(distance, 0) / 2 : 0;
+  }
+
   /** Whether the next frame will differ from the last without anybody doing anything. */
   get isMoving(): boolean {
-    return this.#journey !== undefined || !isStandingStill(this.#motion);
+    return this.#journey !== undefined || !isStandingStill(this.#motion) || this.#isTurning;
+  }
+
+  get #isTurning(): boolean {
+    return this.turntable.isTurning && this.#type === "examine";
   }
 
   get #sphere(): Sphere {
@@ -174,38 +219,42 @@ export class Navigator {
   #moveTo(pose: Pose): void {
     if (this.#type === "none") return;
     this.#journey = undefined;
-    this.#pose = pose;
+    this.#pose = this.#type === "examine" ? poseWithin(pose, this.#camera, this.#sphere) : pose;
     this.#source = "user-interaction";
-    this.#onChange();
+    this.turntable.rest();
+    this.#onMove();
   }
 
   #travelTo(pose: Pose, source: ChangeSource): void {
     const { transitionType, transitionTime } = this.#scene?.navigation ?? { transitionType: [], transitionTime: 0 };
     const isInstant = this.isInstant || transitionType[0]?.toUpperCase() === "TELEPORT" || transitionTime <= 0;
     this.#source = source;
+    this.turntable.rest();
     this.#journey = isInstant ? undefined : new Journey(this.#pose, pose, transitionTime * 1000);
     if (isInstant) this.#pose = pose;
-    this.#onChange();
+    this.#onMove();
   }
 
-  /** Home is the bound viewpoint; without one, the whole scene. */
+  /** Home is the bound viewpoint or the whole scene, and what the author says of the camera. */
   #followHome(isJourney: boolean): void {
-    const viewpoint = this.viewpoints.find(({ element }) => element === this.bound);
-    const home = viewpoint ? poseOfViewpoint(viewpoint) : poseFraming(this.#sphere);
-    const key = viewpoint ? JSON.stringify(home) : "";
-    const wasAtHome = this.#pose === this.#home;
+    const placed = this.viewpoints.find(({ element }) => element === this.bound);
+    const viewpoint = placed && poseOfViewpoint(placed);
+    const home = poseWith(viewpoint ?? poseFraming(this.#sphere), this.#camera, this.#sphere);
+    const key = JSON.stringify([viewpoint, this.#camera]);
     const isOther = key !== this.#homeKey;
-    if (viewpoint !== undefined && !isOther) return;
+    if (!isOther && JSON.stringify(home) === JSON.stringify(this.#home)) return;
+    const wasAtHome = this.#pose === this.#home;
     this.#homeKey = key;
     this.#home = home;
+    // A home that has merely grown with the scene takes nobody along who has left it.
     if (!isOther && !wasAtHome) return;
-    if (isJourney) {
+    if (isOther && isJourney) {
       this.#travelTo(this.#home, "none");
     } else {
       this.#journey = undefined;
       this.#pose = this.#home;
       this.#source = "none";
-      this.#onChange();
+      this.#onMove();
     }
   }
 }

@@ -2,7 +2,7 @@
 
 import type { Object3D, Sphere } from "three";
 import {
-  Box3, Color, DirectionalLight, Group, LinearSRGBColorSpace, Matrix4, NoToneMapping, PerspectiveCamera, Scene, Vector2,
+  Box3, Color, DirectionalLight, Group, LinearSRGBColorSpace, LinearToneMapping, Matrix4, NoToneMapping, PerspectiveCamera, Scene, Vector2,
   WebGLRenderer,
 } from "three";
 import type { Stage } from "../decode/stage.ts";
@@ -45,6 +45,8 @@ export interface View {
 /** Where the camera is. */
 export interface CameraMan {
   readonly pose: Pose;
+  /** What is nearer need not be seen. */
+  readonly clearance: number;
   /** At this moment, in milliseconds as of `performance.now()`. */
   advance(nowMs: number): Pose;
   /** Another frame is due after this one. */
@@ -114,7 +116,7 @@ export class SceneRenderer {
   get view(): View | undefined {
     if (!this.#hasArea) return undefined;
     const camera = this.#camera;
-    applyPose(camera, this.#cameraMan.pose, this.#aspect, this.#sphere);
+    applyPose(camera, this.#cameraMan.pose, this.#aspect, this.#sphere, this.#cameraMan.clearance);
     camera.updateMatrixWorld();
     return {
       position: camera.position.toArray(),
@@ -214,6 +216,18 @@ export class SceneRenderer {
     return undefined;
   }
 
+  /** Multiplies the light that reaches the eye; 1 leaves the document's numbers as they are. */
+  setExposure(exposure: number): void {
+    this.#renderer.toneMapping = exposure === 1 ? NoToneMapping : LinearToneMapping;
+    this.#renderer.toneMappingExposure = exposure;
+    this.requestFrame();
+  }
+
+  /** Draws now, for whoever reads the canvas in this turn of the event loop. */
+  draw(): void {
+    this.#drawNow();
+  }
+
   requestFrame(): void {
     this.#picked = undefined;
     if (this.#frameRequest === 0) this.#frameRequest = requestAnimationFrame(() => { this.#drawNow(); });
@@ -262,7 +276,7 @@ export class SceneRenderer {
     this.#frameRequest = 0;
     this.#picked = undefined;
     if (!this.#hasArea) return;
-    applyPose(this.#camera, this.#cameraMan.advance(performance.now()), this.#aspect, this.#sphere);
+    applyPose(this.#camera, this.#cameraMan.advance(performance.now()), this.#aspect, this.#sphere, this.#cameraMan.clearance);
     this.#shared.depthRange.value.set(this.#camera.near, this.#camera.far);
     this.#renderer.render(this.#scene, this.#camera);
     this.#drawnCamera.copy(this.#camera, false);

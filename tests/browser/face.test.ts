@@ -1,0 +1,376 @@
+// What stands around the picture: the attributes of <x3d>, poster, progress,
+// hotspots, and what people get who do not see it or use no mouse.
+
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
+import { assertSamePicture, difference } from "./compare.ts";
+import { center, drag, focusView } from "./gestures.ts";
+import { settle, until, withPage, type PageOptions, type View } from "./harness.ts";
+import { heard, listen } from "./heard.ts";
+import { decodePng } from "./png.ts";
+import { gate } from "./server.ts";
+import { ranksOfFiles } from "./siteDecoder.ts";
+import { pageOf, siteOfGenerated, variantOf } from "./sites.ts";
+
+/** The page with attributes on its <x3d>, elements in it, and more around it. */
+function siteWith(name: string, { attributes = "", inside = "", before = "", after = "" }): string {
+  return variantOf(siteOfGenerated("trefoil"), name, (page) => page
+    .replace(/<X3D/i, `<X3D ${attributes}`)
+    .replace(/<\/X3D>/i, (end) => `${inside}${end}${after}`)
+    .replace(/<body[^>]*>/i, (start) => `${start}${before}`));
+}
+
+async function withScene(site: string, options: PageOptions, use: (view: View) => Promise<void>): Promise<void> {
+  await withPage(site, { before: listen, ...options }, async (view) => {
+    await view.promise("complete");
+    await use(view);
+  });
+}
+
+async function orbitOf({ page }: View): Promise<{ theta: number; phi: number; radius: number }> {
+  return page.evaluate(() => {
+    const { theta, phi, radius } = document.querySelector<ViewElement>("x3d")!.getCameraOrbit();
+    return { theta, phi, radius };
+  });
+}
+
+function near(actual: number, expected: number, tolerance = 1e-6): void {
+  assert.ok(Math.abs(actual - expected) <= tolerance, `${actual} is not ${expected}`);
+}
+
+describe("attributes of <x3d>", () => {
+  test("place the camera, at the start and when they change", async () => {
+    await withScene(siteWith("orbit", { attributes: 'camera-orbit="30deg 60deg 9m" camera-target="1m 0m 0m"' }), {}, async (view) => {
+      const { theta, phi, radius } = await orbitOf(view);
+      near(theta, Math.PI / 6);
+      near(phi, Math.PI / 3);
+      near(radius, 9);
+      await focusView(view);
+      await view.page.keyboard.press("ArrowLeft");
+      assert.ok(Math.abs((await orbitOf(view)).theta - theta) > 0.01);
+      await view.page.keyboard.press("r");
+      near((await orbitOf(view)).theta, theta);
+      await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("camera-orbit", "-1rad auto auto"); });
+      await settle(view.page);
+      near((await orbitOf(view)).theta, -1);
+      const text = await view.page.evaluate(() => String(document.querySelector<ViewElement>("x3d")!.getCameraOrbit()));
+      assert.match(text, /^-[\d.]+rad [\d.]+rad [\d.]+m$/);
+    });
+  });
+
+  test("bound the camera, and its field of view frames more or less", async () => {
+    await withScene(siteWith("bounds", { attributes: 'max-camera-orbit="auto 80deg auto" min-camera-orbit="auto auto 100%"' }), {}, async (view) => {
+      await drag(view, 0, -300);
+      near((await orbitOf(view)).phi, (80 * Math.PI) / 180);
+      const { radius } = await orbitOf(view);
+      for (let i = 0; i < 9; ++i) await view.page.mouse.wheel(0, -240);
+      await settle(view.page);
+      const { radius: nearest } = await orbitOf(view);
+      assert.ok(nearest <= radius && nearest > radius / 3);
+      const before = await view.picture();
+      await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("field-of-view", "80deg"); });
+      assert.ok(difference(before, await view.picture()).mean > 1);
+    });
+  });
+
+  test("switch the camera's controls off, and on again", async () => {
+    await withScene(siteWith("still", { attributes: 'camera-controls="false"' }), {}, async (view) => {
+      const start = await view.picture();
+      await drag(view, 90, 40);
+      await view.page.mouse.wheel(0, 240);
+      await view.page.keyboard.press("Tab");
+      assert.equal(await view.page.evaluate(() => document.activeElement?.localName), "body");
+      assertSamePicture("camera-controls off", await view.picture(), start, { mean: 0 });
+      assert.equal(await view.page.getByRole("img").count(), 1);
+      await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("camera-controls", ""); });
+      await drag(view, 90, 40);
+      assert.ok(difference(start, await view.picture()).mean > 1);
+    });
+  });
+
+  test("leave wheel and fingers to the page where it says so", async () => {
+    const site = siteWith("scrolls", { attributes: 'disable-zoom touch-action="pan-y"', after: '<div id="tall"></div>' });
+    const tall = (): void => {
+      const sheet = new CSSStyleSheet();
+      sheet.replaceSync("#tall { height: 3000px } html, body { height: auto !important; overflow: auto !important } x3d { height: 480px !important }");
+      document.adoptedStyleSheets.push(sheet);
+    };
+    await withScene(site, {}, async (view) => {
+      await view.page.evaluate(tall);
+      const before = await orbitOf(view);
+      await view.page.mouse.move(center.x, center.y);
+      await view.page.mouse.wheel(0, 300);
+      await until("the page scrolls", async () => (await view.page.evaluate(() => scrollY)) > 100);
+      assert.deepEqual(await orbitOf(view), before);
+      assert.equal(await view.page.evaluate(() => getComputedStyle(document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!).touchAction), "pan-y");
+    });
+  });
+
+  test("that are malformed are named on the console and change nothing", async () => {
+    const lines: string[] = [];
+    await withPage(siteWith("malformed", { attributes: 'camera-orbit="left" exposure="high"' }), {}, async (view) => {
+      view.page.on("console", (message) => lines.push(message.text()));
+      await view.promise("complete");
+      await view.picture();
+    });
+    assert.equal(lines.filter((line) => line.includes('camera-orbit="left"')).length, 1);
+  });
+
+  test("set the exposure", async () => {
+    await withScene(siteOfGenerated("trefoil"), {}, async (view) => {
+      const before = await view.picture();
+      await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("exposure", "0.5"); });
+      const after = await view.picture();
+      // The sky is no light that reaches the scene; it stays.
+      const isScene = (at: number): boolean => before.data[at] !== before.data[at % before.channels];
+      const ratios = Array.from(after.data, (byte, at) => (isScene(at) ? byte / before.data[at]! : NaN)).filter((ratio) => !Number.isNaN(ratio)).sort((a, b) => a - b);
+      near(ratios[Math.floor(ratios.length / 2)]!, 0.5, 0.01);
+      await view.page.evaluate(() => { document.querySelector("x3d")!.removeAttribute("exposure"); });
+      assertSamePicture("exposure back", await view.picture(), before, { mean: 0 });
+    });
+  });
+});
+
+describe("turning by itself", () => {
+  const attributes = 'auto-rotate auto-rotate-delay="50" rotation-per-second="90deg"';
+
+  test("begins after the delay, rests while somebody moves the camera, and stops when it is told", async () => {
+    await withPage(siteWith("turns", { attributes }), { before: listen, motion: true }, async (view) => {
+      await view.promise("complete");
+      await until("it turns", async () => (await heard(view, "camera-change")).some(({ detail }) => detail.source === "automatic"));
+      assert.equal(await view.page.evaluate(() => document.querySelector<ViewElement>("x3d")!.paused), false);
+      await view.page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.pause(); });
+      await settle(view.page);
+      const { theta } = await orbitOf(view);
+      await view.page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.play(); });
+      await until("it turns on", async () => Math.abs((await orbitOf(view)).theta - theta) > 0.01);
+      await view.page.evaluate(() => { document.querySelector("x3d")!.removeAttribute("auto-rotate"); });
+      await settle(view.page);
+      assert.ok(await view.page.evaluate(() => document.querySelector<ViewElement>("x3d")!.paused));
+    });
+  });
+
+  test("is not for people who prefer less motion, unless they ask", async () => {
+    await withScene(siteWith("turns", { attributes }), {}, async (view) => {
+      await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 300)));
+      assert.ok((await heard(view, "camera-change")).every(({ detail }) => detail.source !== "automatic"));
+      await view.page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.play(); });
+      await until("it turns", async () => (await heard(view, "camera-change")).some(({ detail }) => detail.source === "automatic"));
+      await view.page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.pause(); });
+    });
+  });
+});
+
+describe("a poster", () => {
+  const posterShown = async ({ page }: View): Promise<boolean> =>
+    page.evaluate(() => document.querySelector("imgeo-view")!.shadowRoot!.querySelector<HTMLElement>(".poster")!.checkVisibility());
+  const geometry = (path: string): boolean => path.startsWith("/geometry/");
+
+  test("stands until the first picture", async () => {
+    const { closed, open } = gate();
+    const site = siteWith("poster", { attributes: 'poster="poster.png" alt="A knot"' });
+    const server: PageOptions["server"] = (server) => {
+      server.when(geometry, { hold: closed });
+      server.put("/poster.png", redPng());
+    };
+    await withPage(site, { server, before: listen }, async (view) => {
+      await until("the poster is shown", async () => isRed(view));
+      assert.equal(await view.page.getByRole("img", { name: "A knot" }).count(), 1);
+      assert.deepEqual(await heard(view, "poster-dismissed"), []);
+      open();
+      await view.promise("complete");
+      assert.equal(await posterShown(view), false);
+      const types = (await heard(view)).map(({ type }) => type).filter((type) => type !== "camera-change");
+      assert.deepEqual(types, ["poster-dismissed", "model-visibility"]);
+    });
+  });
+
+  test("with reveal=manual stands until the page dismisses it, also one of the page's own", async () => {
+    const site = siteWith("manual", { attributes: 'reveal="manual"', inside: '<p slot="poster">Wait for it</p>' });
+    await withScene(site, {}, async (view) => {
+      await settle(view.page);
+      assert.ok(await posterShown(view));
+      assert.ok(await view.page.getByText("Wait for it").isVisible());
+      assert.deepEqual(await heard(view, "model-visibility"), []);
+      await view.page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.dismissPoster(); });
+      assert.equal(await posterShown(view), false);
+      assert.deepEqual((await heard(view, "model-visibility")).map(({ detail }) => detail), [{ visible: true }]);
+      await view.page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.dismissPoster(); });
+      assert.equal((await heard(view, "poster-dismissed")).length, 1);
+    });
+  });
+
+  const isRed = async ({ page }: View): Promise<boolean> => {
+    const { data, width, channels } = decodePng(await page.screenshot());
+    const at = (center.y * width + center.x) * channels;
+    return data[at]! > 200 && data[at + 1]! < 50;
+  };
+});
+
+/** One red pixel. */
+function redPng(): Buffer {
+  return Buffer.from("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC", "base64");
+}
+
+describe("loading", () => {
+  const below = (loading: string): string => variantOf(siteOfGenerated("trefoil"), `below-${loading}`, (page) => page
+    .replace(/<link rel="preload"[^>]*>/g, "").replace(/<X3D/i, `<div id="tall"></div><X3D loading="${loading}"`));
+  const tall = (): void => {
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync("#tall { height: 6000px } html, body { height: auto !important; overflow: auto !important } x3d { height: 400px !important }");
+    document.adoptedStyleSheets.push(sheet);
+  };
+
+  for (const loading of ["auto", "lazy"]) {
+    test(`="${loading}" waits for a scene far below the window until people come near`, async () => {
+      await withPage(below(loading), { before: tall }, async (view) => {
+        await until("the runtime runs", async () => view.page.evaluate(() => document.querySelector("imgeo-view")?.shadowRoot !== null
+          && document.querySelector("imgeo-view") !== null));
+        await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 300)));
+        assert.equal(view.server.requestsOf(/geometry/).length, 0);
+        await view.page.evaluate(() => { document.querySelector("x3d")!.scrollIntoView(); });
+        await view.promise("complete");
+        await view.promise("complete", "shape");
+      });
+    });
+  }
+
+  test('="eager" does not wait', async () => {
+    await withPage(below("eager"), { before: tall }, async (view) => {
+      await until("all files are asked for", () => view.server.requestsOf(/geometry/).length === ranksOfFiles(pageOf(siteOfGenerated("trefoil"))).size);
+    });
+  });
+});
+
+describe("hotspots", () => {
+  const inside = `<button slot="hotspot-front" id="front" data-position="0 0 1.5" data-normal="0 0 1" data-visibility-attribute="visible">Front</button>
+    <a slot="hotspot-back" id="back" href="#" data-position="0m 0m -1.5m" data-normal="0m 0m -1m" data-visibility-attribute="visible">Back</a>`;
+  const site = (): string => siteWith("hotspots", { inside, attributes: 'camera-orbit="0deg 90deg 10m" camera-target="0 0 0" field-of-view="45deg"' });
+
+  test("stand where their places are seen, and follow the camera", async () => {
+    await withScene(site(), {}, async (view) => {
+      const middle = async (): Promise<[number, number]> => view.page.evaluate(() => {
+        const { x, y, width, height } = document.querySelector("#front")!.getBoundingClientRect();
+        return [x + width / 2, y + height / 2];
+      });
+      await settle(view.page);
+      assert.deepEqual((await middle()).map(Math.round), [center.x, center.y]);
+      await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("camera-orbit", "40deg 90deg 10m"); });
+      await settle(view.page);
+      // The eye is at 10 (sin 40, 0, cos 40); the place is 1.5 ahead of the centre as seen from the front.
+      const angle = (40 * Math.PI) / 180;
+      const [sideways, away] = [-1.5 * Math.sin(angle), 10 - 1.5 * Math.cos(angle)];
+      const focal = center.y / Math.tan(Math.PI / 8);
+      const [x, y] = await middle();
+      near(x, center.x + (focal * sideways) / away, 0.6);
+      near(y, center.y, 0.6);
+    });
+  });
+
+  test("say whether they face the camera, and stay readable and focusable", async () => {
+    await withScene(site(), {}, async (view) => {
+      const visible = async (id: string): Promise<boolean> => view.page.evaluate((name) => document.querySelector(name)!.hasAttribute("data-visible"), id);
+      await settle(view.page);
+      assert.deepEqual([await visible("#front"), await visible("#back")], [true, false]);
+      await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("camera-orbit", "180deg 90deg 10m"); });
+      await until("they change places", async () => !(await visible("#front")) && (await visible("#back")));
+      assert.ok((await heard(view, "hotspot-visibility")).length >= 4);
+      assert.equal(await view.page.getByRole("button", { name: "Front" }).count(), 1);
+      await view.page.keyboard.press("Tab");
+      await view.page.keyboard.press("Tab");
+      assert.equal(await view.page.evaluate(() => document.activeElement?.id), "front");
+    });
+  });
+
+  test("come, move and go with their elements, and the scene is not read anew for them", async () => {
+    await withScene(site(), {}, async (view) => {
+      const asked = view.server.requests.length;
+      await view.page.evaluate(() => {
+        document.querySelector("#front")!.setAttribute("data-position", "0 2 0");
+        const added = document.querySelector("#back")!.cloneNode(true) as Element;
+        added.id = "added";
+        added.slot = "hotspot-added";
+        added.setAttribute("data-position", "0 -2 0");
+        document.querySelector("x3d")!.append(added);
+      });
+      await settle(view.page);
+      const top = async (id: string): Promise<number> => view.page.evaluate((name) => document.querySelector(name)!.getBoundingClientRect().y, id);
+      assert.ok((await top("#front")) < center.y - 50 && (await top("#added")) > center.y + 50);
+      await view.page.evaluate(() => { document.querySelector("#added")!.remove(); });
+      await until("its frame goes", async () => view.page.evaluate(() => document.querySelector("imgeo-view")!.shadowRoot!.querySelectorAll(".hotspots > div").length === 2));
+      assert.equal(view.server.requests.length, asked);
+    });
+  });
+});
+
+describe("people who do not see the picture, or use no mouse", () => {
+  test("get its name, how it moves, and where it is seen from", async () => {
+    await withScene(siteWith("named", { attributes: 'alt="A trefoil knot in stone"' }), {}, async (view) => {
+      const canvas = view.page.getByRole("application", { name: "A trefoil knot in stone" });
+      assert.equal(await canvas.count(), 1);
+      assert.match(await canvas.getAttribute("aria-description") ?? "", /Arrow keys turn/);
+      await focusView(view);
+      await view.page.keyboard.press("ArrowRight");
+      await until("the view is described", async () => (await view.page.getByRole("status").textContent() ?? "").startsWith("View from"));
+      await view.page.keyboard.press("r");
+      await until("the viewpoint is named", async () => (await view.page.getByRole("status").textContent()) === "Start");
+      await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("alt", "Another name"); });
+      await until("the name follows", async () => (await view.page.getByRole("application", { name: "Another name" }).count()) === 1);
+    });
+  });
+
+  test("hear how far it has come", async () => {
+    const { closed, open } = gate();
+    await withPage(siteOfGenerated("trefoil"), { server: (server) => server.when((path) => path.startsWith("/geometry/"), { hold: closed }) }, async (view) => {
+      const bar = view.page.getByRole("progressbar", { name: "Loading" });
+      await until("the bar is there", async () => (await bar.count()) === 1);
+      assert.deepEqual([await bar.getAttribute("aria-valuemin"), await bar.getAttribute("aria-valuenow"), await bar.getAttribute("aria-valuemax")], ["0", "0", "100"]);
+      open();
+      await view.promise("complete");
+      await settle(view.page);
+      assert.equal(await bar.count(), 0); // what is complete is not announced as going on
+      assert.equal(await view.page.getByRole("status").textContent(), "The scene is complete.");
+    });
+  });
+
+  test("see where the focus is, and leave by Tab or Escape", async () => {
+    const site = siteWith("between", { before: '<a id="first" href="#">Before</a>', after: '<a id="last" href="#">Behind</a>' });
+    await withScene(site, {}, async (view) => {
+      const focused = async (): Promise<string> => view.page.evaluate(() => document.activeElement?.id ?? document.activeElement?.localName ?? "");
+      const unfocused = await view.picture();
+      await view.page.keyboard.press("Tab");
+      assert.equal(await focused(), "first");
+      await view.page.keyboard.press("Tab");
+      assert.equal(await view.page.evaluate(() => document.activeElement?.localName), "imgeo-view");
+      assert.ok(difference(unfocused, await view.picture()).mean > 0.3, "the focus is not seen");
+      await view.page.keyboard.press("Tab");
+      assert.equal(await focused(), "last");
+      await view.page.keyboard.press("Shift+Tab");
+      await view.page.keyboard.press("Escape");
+      assert.equal(await view.page.evaluate(() => document.activeElement?.localName), "body");
+      await view.page.keyboard.press("Tab"); // on from where one was
+      assert.equal(await focused(), "last");
+    });
+  });
+});
+
+test("a page puts its own progress into the slot", async () => {
+  await withPage(siteWith("own-bar", { inside: '<p slot="progress-bar" id="own">…</p>' }), {}, async (view) => {
+    await view.promise("complete");
+    assert.ok(await view.page.locator("#own").isVisible());
+    assert.equal(await view.page.getByRole("progressbar").count(), 0);
+  });
+});
+
+test("toBlob gives the picture as a file", async () => {
+  await withScene(siteOfGenerated("trefoil"), {}, async (view) => {
+    const shown = await view.picture();
+    const bytes = await view.page.evaluate(async () => {
+      const blob = await document.querySelector<ViewElement>("x3d")!.toBlob();
+      return [blob.type, Array.from(new Uint8Array(await blob.arrayBuffer()))] as const;
+    });
+    assert.equal(bytes[0], "image/png");
+    assertSamePicture("toBlob", decodePng(Buffer.from(bytes[1])), shown, { mean: 0.001 });
+  });
+});

@@ -1,0 +1,260 @@
+// Viewpoints and ways to move, as the document says them and as people use them:
+// by keyboard, mouse, touch and lists.
+
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
+import { assertSamePicture, difference } from "./compare.ts";
+import { drag, focusView, touch } from "./gestures.ts";
+import { settle, until, withPage, type PageOptions, type View } from "./harness.ts";
+import { heard, listen } from "./heard.ts";
+import type { Picture } from "./png.ts";
+import { pageOf, siteOfGenerated, variantOf } from "./sites.ts";
+
+const above = '<Viewpoint id="above" description="From above" position="0 12 0" orientation="1 0 0 -1.5707963"></Viewpoint>';
+const side = '<Transform rotation="0 1 0 1.5707963"><Viewpoint id="side" description="Side" position="0 0 12"></Viewpoint></Transform>';
+
+/** The site with more viewpoints behind its own, and another NavigationInfo. */
+function siteWith(name: string, viewpoints: string, navigation?: string): string {
+  return variantOf(siteOfGenerated("trefoil-colors"), name, (page) => page
+    .replace(/<\/Viewpoint>/i, (end) => `${end}${viewpoints}`)
+    .replace(/<NavigationInfo[^>]*>/i, (own) => navigation ?? own));
+}
+
+const threeViews = (): string => siteWith("views", above + side);
+
+async function withScene(site: string, options: PageOptions, use: (view: View) => Promise<void>): Promise<void> {
+  await withPage(site, { before: listen, ...options }, async (view) => {
+    await view.promise("complete");
+    await use(view);
+  });
+}
+
+/** The picture of the page when that viewpoint is its only one. */
+async function pictureFrom(viewpoint: string): Promise<Picture> {
+  const site = variantOf(siteOfGenerated("trefoil-colors"), "one-view", (page) => page.replace(/<Viewpoint[\s\S]*<\/Viewpoint>/i, viewpoint));
+  let seen: Picture | undefined;
+  await withScene(site, {}, async (view) => {
+    seen = await view.picture();
+  });
+  assert.ok(seen);
+  return seen;
+}
+
+/** Without the lists, which are drawn over the scene. */
+async function bare(view: View): Promise<Picture> {
+  await view.page.evaluate(() => {
+    document.querySelector("imgeo-view")!.shadowRoot!.querySelector<HTMLElement>(".controls")!.style.opacity = "0";
+  });
+  return view.picture();
+}
+
+const waysToBind: Record<string, (view: View) => Promise<void>> = {
+  "the list": async ({ page }) => { await page.getByRole("combobox", { name: "Viewpoint" }).selectOption("Side"); },
+  "set_bind": async ({ page }) => { await page.evaluate(() => { document.querySelector("#side")!.setAttribute("set_bind", "true"); }); },
+  "X3DOM's bind": async ({ page }) => { await page.evaluate(() => { document.querySelector("#side")!.setAttribute("bind", "TRUE"); }); },
+  "its name": async ({ page }) => { await page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.bindViewpoint("Side"); }); },
+  "its element": async ({ page }) => {
+    await page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.bindViewpoint(document.querySelector("#side")!); });
+  },
+};
+
+describe("a viewpoint is chosen by", () => {
+  for (const [name, bind] of Object.entries(waysToBind)) {
+    test(`${name}, and left again`, async () => {
+      await withScene(threeViews(), {}, async (view) => {
+        const start = await bare(view);
+        await bind(view);
+        assertSamePicture(`viewpoint by ${name}`, await bare(view), await pictureFrom(side), { mean: 0.001 });
+        assert.equal(await view.page.getByRole("combobox").inputValue(), "Side");
+        assert.deepEqual(await boundNames(view), ["Side"]);
+        await view.page.evaluate(() => { document.querySelector("#side")!.setAttribute("set_bind", "false"); });
+        assertSamePicture(`unbound after ${name}`, await bare(view), start, { mean: 0.001 });
+        assert.deepEqual(await boundNames(view), ["Start"]);
+      });
+    });
+  }
+
+  test("set_bind in the document from the start", async () => {
+    const site = siteWith("bound", above.replace("description", 'set_bind="true" description') + side);
+    await withScene(site, {}, async (view) => {
+      assertSamePicture("bound from the start", await bare(view), await pictureFrom(above), { mean: 0.001 });
+    });
+  });
+
+  test("its removal from under the camera", async () => {
+    await withScene(threeViews(), {}, async (view) => {
+      const start = await bare(view);
+      await view.page.evaluate(() => { document.querySelector("#above")!.setAttribute("set_bind", "true"); });
+      await view.page.evaluate(() => { document.querySelector("#above")!.remove(); });
+      assertSamePicture("removed viewpoint", await bare(view), start, { mean: 0.001 });
+      assert.equal(await view.page.getByRole("option").count(), 2);
+    });
+  });
+
+  test("no list where there is only one", async () => {
+    await withScene(siteOfGenerated("trefoil-colors"), {}, async ({ page }) => {
+      assert.equal(await page.getByRole("combobox").count(), 0);
+    });
+  });
+
+  async function boundNames({ page }: View): Promise<string[]> {
+    return page.evaluate(() => document.querySelector<ViewElement>("x3d")!.viewpoints.filter(({ isBound }) => isBound).map(({ description }) => description));
+  }
+});
+
+describe("the way to a viewpoint", () => {
+  const travel = async (view: View): Promise<{ frames: number; picture: Picture }> => {
+    await settle(view.page);
+    const before = (await heard(view, "camera-change")).length;
+    await waysToBind.set_bind!(view);
+    const picture = await bare(view);
+    return { frames: (await heard(view, "camera-change")).length - before, picture };
+  };
+
+  test("is a journey that ends where the viewpoint is", async () => {
+    await withScene(threeViews(), { motion: true }, async (view) => {
+      const { frames, picture } = await travel(view);
+      assert.ok(frames > 3, `${frames} frames`);
+      assertSamePicture("end of a journey", picture, await pictureFrom(side), { mean: 0.001 });
+    });
+  });
+
+  test("is none for people who prefer less motion, nor where the document teleports", async () => {
+    await withScene(threeViews(), {}, async (view) => {
+      assert.equal((await travel(view)).frames, 1);
+    });
+    const teleporting = siteWith("teleport", above + side, '<NavigationInfo transitionType="TELEPORT">');
+    await withScene(teleporting, { motion: true }, async (view) => {
+      assert.equal((await travel(view)).frames, 1);
+    });
+  });
+});
+
+const walking = (): string => siteWith("walk", "", '<NavigationInfo type=\'"WALK" "FLY" "EXAMINE"\' speed="3">');
+
+describe("walking and flying", () => {
+  test("go on while a key is held, and end with it or with the focus", async () => {
+    await withScene(walking(), {}, async (view) => {
+      await focusView(view);
+      for (const end of [async () => view.page.keyboard.up("ArrowUp"), async () => view.page.evaluate(() => { (document.activeElement as HTMLElement).blur(); })]) {
+        const before = (await heard(view, "camera-change")).length;
+        await view.page.keyboard.down("ArrowUp");
+        await until("the camera moves on", async () => (await heard(view, "camera-change")).length > before + 3);
+        await end();
+        await settle(view.page);
+        const { length } = await heard(view, "camera-change");
+        await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 200)));
+        assert.equal((await heard(view, "camera-change")).length, length);
+        await view.page.keyboard.up("ArrowUp");
+      }
+      assert.ok((await heard(view, "camera-change")).slice(1).every(({ detail }) => detail.source === "user-interaction"));
+    });
+  });
+
+  /** Where the eye is, and where it looks. */
+  async function radiusAnd({ page }: View): Promise<{ theta: number; phi: number; radius: number }> {
+    return page.evaluate(() => {
+      const { theta, phi, radius } = document.querySelector<ViewElement>("x3d")!.getCameraOrbit();
+      return { theta, phi, radius };
+    });
+  }
+
+  test("drag to look about: what is seen follows the hand, the eye stays", async () => {
+    await withScene(walking(), {}, async (view) => {
+      const before = await radiusAnd(view);
+      await drag(view, 80, 0);
+      const after = await radiusAnd(view);
+      assert.ok(Math.abs(after.radius - before.radius) < 1e-6);
+      // Looking to the left is as if the eye had gone to the right around what is ahead.
+      assert.ok(after.theta > before.theta + 0.05, `${before.theta} to ${after.theta}`);
+    });
+  });
+
+  test("by touch: one finger looks about, two walk", async () => {
+    await withScene(walking(), { hasTouch: true }, async (view) => {
+      const start = await view.picture();
+      await touch(view, [[[0, 0]], [[60, 0]], [[90, 10]]]);
+      const looked = await view.picture();
+      assert.ok(difference(start, looked).mean > 1, "one finger does not look about");
+      await touch(view, [[[-40, 0], [40, 0]], [[-40, 40], [40, 40]], [[-40, 90], [40, 90]]]);
+      assert.ok(difference(looked, await view.picture()).mean > 1, "two fingers do not walk");
+    });
+  });
+
+  test("are chosen by list or by key, and said", async () => {
+    await withScene(walking(), {}, async (view) => {
+      const list = view.page.getByRole("combobox", { name: "Way to move" });
+      assert.deepEqual(await list.getByRole("option").allTextContents(), ["Walk", "Fly", "Examine"]);
+      await focusView(view);
+      await view.page.keyboard.press("e");
+      assert.equal(await list.inputValue(), "Examine");
+      await until("it is said", async () => (await spoken(view)).includes('Examining'));
+      await list.selectOption("Fly");
+      await until("it is said", async () => (await spoken(view)).includes('Flying'));
+    });
+  });
+
+  test("a walk by keyboard leads somewhere, and R back", async () => {
+    await withScene(walking(), {}, async (view) => {
+      await focusView(view);
+      const start = await bare(view);
+      for (const key of ["ArrowUp", "ArrowRight", "Shift+ArrowUp", "Shift+ArrowLeft", "f", "PageUp", "e", "ArrowLeft", "+", "w", "ArrowDown"]) {
+        const before = await bare(view);
+        await hold(view, key);
+        if (!/^[efw]$/.test(key)) assert.ok(difference(before, await bare(view)).mean > 0.2, `${key} does nothing`);
+      }
+      await view.page.keyboard.press("r");
+      assertSamePicture("back from a walk", await bare(view), start, { mean: 0.001 });
+    });
+  });
+
+  /** Long enough for some frames. */
+  async function hold({ page }: View, key: string): Promise<void> {
+    const keys = key.split("+").filter((part) => part !== "");
+    for (const part of keys.length ? keys : ["+"]) await page.keyboard.down(part);
+    await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 250)));
+    for (const part of (keys.length ? keys : ["+"]).reverse()) await page.keyboard.up(part);
+  }
+});
+
+async function spoken({ page }: View): Promise<string> {
+  return page.evaluate(() => document.querySelector("imgeo-view")!.shadowRoot!.querySelector("[role=status]")!.textContent);
+}
+
+describe("what a document does not allow", () => {
+  test("is not to be had by key", async () => {
+    await withScene(siteWith("only-walk", "", '<NavigationInfo type="WALK">'), {}, async (view) => {
+      await focusView(view);
+      await view.page.keyboard.press("e");
+      const before = (await heard(view)).length;
+      await view.page.keyboard.down("ArrowUp"); // walks still: examining would be a single step
+      await until("the camera moves on", async () => (await heard(view)).length > before + 3);
+      await view.page.keyboard.up("ArrowUp");
+    });
+  });
+
+  test("with NONE, nothing moves the camera but the page", async () => {
+    await withScene(siteWith("none", above + side, '<NavigationInfo type="NONE">'), { hasTouch: true }, async (view) => {
+      const start = await bare(view);
+      await drag(view, 90, 40);
+      await view.page.mouse.wheel(0, 240);
+      await touch(view, [[[0, 0]], [[60, 0]], [[90, 10]]]); // two fingers would zoom the page
+      await view.page.evaluate(() => { document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.focus(); });
+      for (const key of ["ArrowLeft", "+", "r", "a", "w", "Escape"]) await view.page.keyboard.press(key);
+      assertSamePicture("NONE", await bare(view), start, { mean: 0 });
+      await waysToBind.set_bind!(view);
+      assertSamePicture("NONE, bound", await bare(view), await pictureFrom(side), { mean: 0.001 });
+    });
+  });
+});
+
+test("the page says which way is up: a statue seen from above stays upright when it is turned", async () => {
+  await withScene(siteOfGenerated("trefoil-colors"), {}, async (view) => {
+    const orbit = async (): Promise<number> => view.page.evaluate(() => document.querySelector<ViewElement>("x3d")!.getCameraOrbit().phi);
+    const before = await orbit();
+    assert.ok(before < Math.PI / 2 - 0.1, pageOf(siteOfGenerated("trefoil-colors")));
+    await drag(view, 150, 0);
+    assert.ok(Math.abs((await orbit()) - before) < 1e-6);
+  });
+});

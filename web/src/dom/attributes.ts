@@ -1,0 +1,132 @@
+// What an author can say of a view, as attributes of <x3d>: one table of names,
+// values and defaults, after the conventions of <model-viewer>. What is malformed
+// counts as absent, and the console says so.
+
+import type { CameraSetting, OrbitSetting, RadiusSetting } from "../navigation/orbit.ts";
+
+interface Kind<Value> {
+  /** What may stand there, for the warning. */
+  readonly form: string;
+  /** Undefined: malformed. */
+  parse(text: string): Value | undefined;
+}
+
+interface Attribute<Value> {
+  readonly kind: Kind<Value>;
+  readonly defaultValue: Value;
+}
+
+const anyText: Kind<string> = { form: "a text", parse: (text) => text };
+
+/** There or not; "false" and "off" say that it is not, as frameworks write it. */
+const flag: Kind<boolean> = { form: "a flag", parse: (text) => !/^(false|off|none)$/i.test(text.trim()) };
+
+const number: Kind<number> = {
+  form: "a number",
+  parse: (text) => (text.trim() !== "" && Number.isFinite(Number(text)) ? Number(text) : undefined),
+};
+
+function oneOf<const Word extends string>(...words: readonly Word[]): Kind<Word> {
+  return {
+    form: `one of ${words.join(", ")}`,
+    parse: (text) => words.find((word) => word === text.trim().toLowerCase()),
+  };
+}
+
+/** An angle with its unit, in radians. */
+const angle: Kind<number> = {
+  form: "an angle such as 45deg or 0.8rad",
+  parse(text) {
+    const [, value, unit] = /^([-+]?[\d.]+(?:e[-+]?\d+)?)(deg|rad)$/i.exec(text.trim()) ?? [];
+    const radians = Number(value) * (unit?.toLowerCase() === "deg" ? Math.PI / 180 : 1);
+    return Number.isFinite(radians) ? radians : undefined;
+  },
+};
+
+const radius: Kind<RadiusSetting> = {
+  form: "a length such as 2m, or a share such as 105%",
+  parse(text) {
+    const [, value, unit] = /^([\d.]+(?:e[-+]?\d+)?)(m|cm|mm|%)$/i.exec(text.trim()) ?? [];
+    const amount = Number(value);
+    if (!Number.isFinite(amount)) return undefined;
+    const meters = { m: 1, cm: 0.01, mm: 0.001 }[unit?.toLowerCase() ?? ""];
+    return meters === undefined ? { share: amount / 100 } : { length: amount * meters };
+  },
+};
+
+const orbit: Kind<OrbitSetting> = {
+  form: "an orbit such as 0deg 75deg 105%, each part may be auto",
+  parse(text) {
+    const [theta = "", phi = "", distance = "", ...more] = text.trim().split(/\s+/);
+    const said = { theta: angle.parse(theta), phi: angle.parse(phi), radius: radius.parse(distance) };
+    const isMalformed = (word: string, value: unknown) => value === undefined && word.toLowerCase() !== "auto";
+    if (more.length > 0 || isMalformed(theta, said.theta) || isMalformed(phi, said.phi) || isMalformed(distance, said.radius)) return undefined;
+    return said;
+  },
+};
+
+const target: Kind<CameraSetting["target"]> = {
+  form: "a point such as 0m 1.2m 0m",
+  parse(text) {
+    const lengths = text.trim().split(/\s+/).map((word) => number.parse(word.replace(/m$/i, "")));
+    const [x, y, z] = lengths;
+    return lengths.length === 3 && x !== undefined && y !== undefined && z !== undefined ? [x, y, z] : undefined;
+  },
+};
+
+function attribute<Value>(kind: Kind<Value>, defaultValue: Value): Attribute<Value> {
+  return { kind, defaultValue };
+}
+
+/** The same, but "auto" and absence leave the value to the document. */
+function automatic<Value>(kind: Kind<Value>): Attribute<Value | undefined> {
+  return { kind: { ...kind, form: `${kind.form}, or auto` }, defaultValue: undefined };
+}
+
+/** Every attribute of a view. docs/embedding.md tells what each does. */
+export const viewAttributes = {
+  alt: attribute(anyText, ""),
+  poster: attribute(anyText, ""),
+  loading: attribute(oneOf("auto", "lazy", "eager"), "auto"),
+  reveal: attribute(oneOf("auto", "manual"), "auto"),
+  "camera-controls": attribute(flag, true),
+  "camera-orbit": automatic(orbit),
+  "camera-target": automatic(target),
+  "field-of-view": automatic(angle),
+  "min-camera-orbit": automatic(orbit),
+  "max-camera-orbit": automatic(orbit),
+  "auto-rotate": attribute(flag, false),
+  "auto-rotate-delay": attribute(number, 3000),
+  "rotation-per-second": attribute(angle, Math.PI / 6),
+  "touch-action": attribute(oneOf("none", "pan-x", "pan-y"), "none"),
+  "disable-zoom": attribute(flag, false),
+  "disable-pan": attribute(flag, false),
+  exposure: attribute(number, 1),
+} as const;
+
+export type ViewSettings = {
+  readonly [Name in keyof typeof viewAttributes]: (typeof viewAttributes)[Name] extends Attribute<infer Value> ? Value : never;
+};
+
+/** What an element says; `onMalformed` gets a sentence for each attribute that could not be taken as written. */
+export function readSettings(element: Pick<Element, "getAttribute">, onMalformed: (sentence: string) => void): ViewSettings {
+  const settings: Record<string, unknown> = {};
+  for (const [name, { kind, defaultValue }] of Object.entries<Attribute<unknown>>(viewAttributes)) {
+    const text = element.getAttribute(name);
+    const isAutomatic = text === null || (defaultValue === undefined && text.trim().toLowerCase() === "auto");
+    const value = isAutomatic ? defaultValue : kind.parse(text);
+    if (value === undefined && !isAutomatic) onMalformed(`${name}="${text}" is not ${kind.form}`);
+    settings[name] = value ?? defaultValue;
+  }
+  return settings as ViewSettings;
+}
+
+export function cameraSettingOf(settings: ViewSettings): CameraSetting {
+  return {
+    orbit: settings["camera-orbit"],
+    target: settings["camera-target"],
+    fieldOfView: settings["field-of-view"],
+    minOrbit: settings["min-camera-orbit"],
+    maxOrbit: settings["max-camera-orbit"],
+  };
+}

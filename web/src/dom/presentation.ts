@@ -1,0 +1,211 @@
+// Joins a viewer to its face: attributes, poster, progress, lists, hotspots, and
+// what is said to those who do not see the picture.
+
+import type { StageName } from "../decode/stage.ts";
+import { orbitOf } from "../navigation/orbit.ts";
+import type { ViewSettings } from "./attributes.ts";
+import { cameraSettingOf, readSettings, viewAttributes } from "./attributes.ts";
+import { listenForMovement } from "./controls.ts";
+import type { Face } from "./face.ts";
+import type { HandLimits } from "./hands.ts";
+import { Hands } from "./hands.ts";
+import { Hotspots } from "./hotspots.ts";
+import { Lists } from "./lists.ts";
+import { listenForPointing } from "./pointing.ts";
+import { Poster } from "./poster.ts";
+import { Viewer } from "./viewer.ts";
+import { sizeOf, watchSize, whenNear } from "./visibility.ts";
+import { keyWords, stageWords, typeWords, viewWords } from "./words.ts";
+
+/** So long after the last movement the view is described. */
+const quietMs = 700;
+
+/** In screens around the visible part of the page. */
+const marginOfLoading = { auto: 1, lazy: 0, eager: Infinity } as const;
+
+export class Presentation {
+  readonly viewer: Viewer;
+  readonly poster: Poster;
+  readonly #x3d: Element;
+  readonly #face: Face;
+  readonly #hands: Hands;
+  readonly #lists: Lists;
+  readonly #hotspots: Hotspots;
+  readonly #listeners = new AbortController();
+  readonly #warned = new Set<string>();
+  readonly #lessMotion = matchMedia("(prefers-reduced-motion: reduce)");
+  #settings: ViewSettings;
+  #size = { width: 0, height: 0 };
+  #shownPose: unknown;
+  #shownType: string | undefined;
+  #quietTimer: ReturnType<typeof setTimeout> | undefined;
+
+  /** `host` is the element in `x3d` whose shadow root the face fills. */
+  constructor(x3d: Element, host: HTMLElement, face: Face, context: WebGL2RenderingContext) {
+    this.#x3d = x3d;
+    this.#face = face;
+    this.#hotspots = new Hotspots(host, face.hotspots);
+    this.poster = new Poster(host, face, (name, detail) => { this.#send(name, detail); this.#rotate(); });
+    this.viewer = new Viewer(x3d, face.canvas, context, {
+      onProgress: (share, stage) => { this.#showProgress(share, stage); },
+      onFrame: () => { this.#onFrame(); },
+      onNavigation: () => { this.#describe(); },
+    });
+    const { signal } = this.#listeners;
+    const { navigator } = this.viewer;
+    this.#hands = new Hands(navigator, this.#limits);
+    this.#lists = new Lists(face.controls, navigator, signal);
+    this.#settings = this.#readSettings();
+    navigator.isInstant = this.#lessMotion.matches;
+    this.#lessMotion.addEventListener("change", ({ matches }) => { navigator.isInstant = matches; this.#rotate(); }, { signal });
+    adoptSlotted(x3d, host);
+    this.#follow(host);
+    this.#apply();
+    this.poster.show(this.#settings.poster, this.#label);
+    x3d.addEventListener("first-image", () => { this.poster.onPicture(); }, { signal });
+    x3d.addEventListener("load", () => { face.say("The scene is complete."); }, { signal });
+    listenForPointing(face.canvas, host, this.viewer.renderer, signal);
+    listenForMovement(face.canvas, this.#hands, signal);
+    watchSize(face.canvas, signal, (width, height, ratio) => {
+      this.#size = { width: width / ratio, height: height / ratio };
+      this.viewer.renderer.resize(width, height, ratio);
+    });
+  }
+
+  /** Begins to show the document; what is far outside of the window waits to be loaded. */
+  start(): void {
+    // Known before the first request: what is asked for first depends on what is seen.
+    this.viewer.renderer.setSize(...sizeOf(this.#face.canvas));
+    this.viewer.start();
+    const margin = marginOfLoading[this.#settings.loading];
+    if (margin === Infinity) this.viewer.load();
+    else whenNear(this.#face.canvas, margin, this.#listeners.signal, () => { this.viewer.load(); });
+  }
+
+  /** Turns the scene, from now on. */
+  play(): void {
+    this.viewer.navigator.turntable.start(false);
+  }
+
+  pause(): void {
+    this.viewer.navigator.turntable.stop();
+  }
+
+  dispose(): void {
+    clearTimeout(this.#quietTimer);
+    this.#listeners.abort();
+    this.viewer.dispose();
+  }
+
+  /** What the picture is called. */
+  get #label(): string {
+    const words = [this.#settings.alt, ...["aria-label", "title"].map((name) => this.#x3d.getAttribute(name)),
+      this.#x3d.querySelector("worldinfo")?.getAttribute("title")];
+    return words.find((word) => word !== "" && word !== null && word !== undefined) ?? "3D scene";
+  }
+
+  /** What hands and keys may not do now. */
+  readonly #limits = (): HandLimits => ({
+    isStill: !this.#settings["camera-controls"],
+    canZoom: !this.#settings["disable-zoom"],
+    canPan: !this.#settings["disable-pan"],
+  });
+
+  /** Attributes, and elements for slots, that come and go later. */
+  #follow(host: Element): void {
+    const onChildren = new MutationObserver(() => { adoptSlotted(this.#x3d, host); });
+    onChildren.observe(this.#x3d, { childList: true });
+    const onAttributes = new MutationObserver(() => {
+      this.#settings = this.#readSettings();
+      this.#apply();
+    });
+    onAttributes.observe(this.#x3d, { attributeFilter: [...Object.keys(viewAttributes), "aria-label", "title"] });
+    const onHotspots = new MutationObserver(() => {
+      this.#hotspots.read();
+      this.viewer.renderer.requestFrame();
+    });
+    onHotspots.observe(host, { childList: true, subtree: true, attributeFilter: ["slot", "data-position", "data-normal"] });
+    this.#hotspots.read();
+    this.#listeners.signal.addEventListener("abort", () => {
+      for (const observer of [onChildren, onAttributes, onHotspots]) observer.disconnect();
+    });
+  }
+
+  #readSettings(): ViewSettings {
+    return readSettings(this.#x3d, (sentence) => {
+      if (this.#warned.has(sentence)) return;
+      this.#warned.add(sentence);
+      console.warn(`imgeo: <${this.#x3d.localName}> ${sentence}`);
+    });
+  }
+
+  #apply(): void {
+    const { renderer, navigator } = this.viewer;
+    const settings = this.#settings;
+    navigator.setCamera(cameraSettingOf(settings));
+    navigator.turntable.delayMs = settings["auto-rotate-delay"];
+    navigator.turntable.radiansPerSecond = settings["rotation-per-second"];
+    renderer.setExposure(settings.exposure);
+    this.poster.reveal = settings.reveal;
+    this.#describe();
+    this.#rotate();
+  }
+
+  /** Turns by itself where the page asks for it, there is something to see, and people do not mind motion. */
+  #rotate(): void {
+    const { turntable } = this.viewer.navigator;
+    const wanted = this.#settings["auto-rotate"] && this.poster.isModelVisible && !this.#lessMotion.matches;
+    if (!wanted) turntable.stop();
+    else if (turntable.isStopped) turntable.start(true);
+  }
+
+  /** Says what the picture is and how it moves. */
+  #describe(): void {
+    const { canvas } = this.#face;
+    const { type } = this.viewer.navigator;
+    const isStill = this.#hands.type === "none";
+    canvas.setAttribute("aria-label", this.#label);
+    // An application is what gets the arrow keys from screen readers.
+    canvas.setAttribute("role", isStill ? "img" : "application");
+    canvas.ariaRoleDescription = isStill ? null : "3D view";
+    canvas.ariaDescription = isStill ? null : keyWords[type];
+    canvas.tabIndex = isStill ? -1 : 0;
+    canvas.classList.toggle("moves", !isStill);
+    canvas.style.touchAction = isStill ? "auto" : this.#settings["touch-action"];
+    this.#lists.update();
+    if (this.#shownType !== undefined && this.#shownType !== type) this.#face.say(`${typeWords[type]}. ${keyWords[type]}`);
+    this.#shownType = type;
+  }
+
+  #showProgress(share: number, stage: StageName | "none"): void {
+    this.#face.showProgress(share, stageWords[stage]);
+  }
+
+  #onFrame(): void {
+    const { navigator, renderer } = this.viewer;
+    const { view } = renderer;
+    if (view !== undefined) this.#hotspots.place(view, this.#size.width, this.#size.height);
+    if (navigator.pose === this.#shownPose) return;
+    const isFirst = this.#shownPose === undefined;
+    this.#shownPose = navigator.pose;
+    this.#send("camera-change", { source: navigator.source });
+    if (!isFirst && navigator.source !== "automatic") this.#sayViewSoon();
+  }
+
+  #sayViewSoon(): void {
+    clearTimeout(this.#quietTimer);
+    this.#quietTimer = setTimeout(() => {
+      const { navigator } = this.viewer;
+      this.#face.say(navigator.placeName ?? viewWords(orbitOf(navigator.pose)));
+    }, quietMs);
+  }
+
+  #send(name: string, detail: object): void {
+    this.#x3d.dispatchEvent(new CustomEvent(name, { detail, bubbles: false }));
+  }
+}
+
+/** Moves a page's elements for our slots to where slots see them. */
+function adoptSlotted(x3d: Element, host: Element): void {
+  host.append(...Array.from(x3d.children).filter((child) => child !== host && child.hasAttribute("slot")));
+}

@@ -1,0 +1,36 @@
+// What is said to those who do not see the picture.
+
+import type { StageName } from "../decode/stage.ts";
+import type { NavigationType } from "../navigation/navigationType.ts";
+import type { Orbit } from "../navigation/orbit.ts";
+
+export const stageWords: Readonly<Record<StageName | "none", string>> = {
+  none: "nothing is shown yet",
+  points: "the shape is shown as points",
+  surface: "the surface is shown",
+  shaded: "the shape is shown, details are coming",
+  full: "all of it is shown",
+};
+
+/** Keys, for the description of the picture. */
+export const keyWords: Readonly<Record<NavigationType, string>> = {
+  examine: "Arrow keys turn, with Shift they move, plus and minus zoom, R goes back to the start, A shows all.",
+  walk: "Arrow keys walk and turn, with Shift they look up and down and step aside, R goes back to the start.",
+  fly: "Arrow keys fly and turn, with Shift they look up and down and step aside, Page Up and Page Down rise and sink, R goes back to the start.",
+  none: "",
+};
+
+export const typeWords: Readonly<Record<NavigationType, string>> = {
+  examine: "Examining", walk: "Walking", fly: "Flying", none: "Staying",
+};
+
+const sides = ["the front", "the front right", "the right", "the back right", "the back", "the back left", "the left", "the front left"];
+
+/** Where one looks from, as eight sides and three heights. */
+export function viewWords({ theta, phi }: Pick<Orbit, "theta" | "phi">): string {
+  const side = sides[((Math.round(theta / (Math.PI / 4)) % 8) + 8) % 8] ?? "";
+  if (phi < Math.PI / 8) return "View from above";
+  if (phi > (7 * Math.PI) / 8) return "View from below";
+  const height = phi < (3 * Math.PI) / 8 ? ", from above" : phi > (5 * Math.PI) / 8 ? ", from below" : "";
+  return `View from ${side}${height}`;
+}

@@ -1,0 +1,117 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { Sphere, Vector3 } from "three";
+import { forwardOf, framingDistance, poseFraming, turned } from "./camera.ts";
+import type { Orbit } from "./orbit.ts";
+import { orbitOf, poseOnOrbit, poseWith, poseWithin, unsetCamera } from "./orbit.ts";
+import { Turntable } from "./turntable.ts";
+
+const sphere = new Sphere(new Vector3(1, 2, 3), 2);
+const start = poseFraming(sphere);
+const degrees = (angle: number) => (angle * Math.PI) / 180;
+
+function near(actual: number, expected: number): void {
+  assert.ok(Math.abs(actual - expected) < 1e-9 * Math.max(1, Math.abs(expected)), `${actual} is not ${expected}`);
+}
+
+function sameOrbit(actual: Orbit, expected: Partial<Orbit>): void {
+  for (const [name, value] of Object.entries(expected)) near(actual[name as keyof Orbit], value);
+}
+
+describe("an orbit", () => {
+  test("is measured from +z towards +x, and down from above", () => {
+    for (const [theta, phi, eye] of [[0, 90, [0, 0, 1]], [90, 90, [1, 0, 0]], [0, 45, [0, Math.SQRT1_2, Math.SQRT1_2]]] as const) {
+      const pose = poseOnOrbit(start, { theta: degrees(theta), phi: degrees(phi), radius: 5 });
+      near(pose.position.clone().sub(sphere.center).distanceTo(new Vector3(...eye).multiplyScalar(5)), 0);
+      near(forwardOf(pose).angleTo(sphere.center.clone().sub(pose.position)), 0);
+    }
+  });
+
+  test("leads back to where it was read, also around an up that is not +y", () => {
+    for (const up of [new Vector3(0, 1, 0), new Vector3(1, 1, 0).normalize(), new Vector3(0, 0, 1), new Vector3(0, -1, 0)]) {
+      for (const orbit of [{ theta: 0.3, phi: 1.1, radius: 4 }, { theta: -2.9, phi: 0.2, radius: 0.5 }]) {
+        sameOrbit(orbitOf(poseOnOrbit({ ...start, up }, orbit)), orbit);
+      }
+    }
+  });
+
+  test("turns with the camera: to the right is towards smaller theta", () => {
+    const before = orbitOf(start);
+    sameOrbit(orbitOf(turned(start, 0.25, 0.1)), { theta: before.theta - 0.25, phi: before.phi - 0.1, radius: before.radius });
+  });
+
+  test("of an eye in the centre itself is finite", () => {
+    assert.ok(Object.values(orbitOf({ ...start, position: start.center.clone() })).every(Number.isFinite));
+  });
+});
+
+describe("what the author says of the camera", () => {
+  test("changes only what it says", () => {
+    assert.equal(poseWith(start, unsetCamera, sphere).position, start.position);
+    const orbit = { theta: undefined, phi: degrees(90), radius: undefined };
+    const { theta, radius } = orbitOf(start);
+    sameOrbit(orbitOf(poseWith(start, { ...unsetCamera, orbit }, sphere)), { theta, phi: degrees(90), radius });
+    const wide = poseWith(start, { ...unsetCamera, fieldOfView: 1.2 }, sphere);
+    near(wide.fieldOfView, 1.2);
+    near(wide.position.distanceTo(start.position), 0);
+  });
+
+  test("may give the radius as a length, or as a share of the distance that frames the scene", () => {
+    const radiusOf = (radius: { length: number } | { share: number }) =>
+      orbitOf(poseWith(start, { ...unsetCamera, fieldOfView: 1, orbit: { theta: 0, phi: 1, radius } }, sphere)).radius;
+    near(radiusOf({ length: 7 }), 7);
+    near(radiusOf({ share: 1.5 }), 1.5 * framingDistance(sphere, 1));
+  });
+
+  test("moves the centre, and looks at it", () => {
+    const pose = poseWith(start, { ...unsetCamera, target: [5, 5, 5] }, sphere);
+    near(pose.center.distanceTo(new Vector3(5, 5, 5)), 0);
+    near(forwardOf(pose).angleTo(pose.center.clone().sub(pose.position)), 0);
+  });
+
+  test("bounds where hands can lead", () => {
+    const least = { theta: degrees(-30), phi: degrees(60), radius: { length: 3 } };
+    const most = { theta: degrees(30), phi: degrees(90), radius: { length: 6 } };
+    const bounds = { ...unsetCamera, minOrbit: least, maxOrbit: most };
+    const at = (theta: number, phi: number, radius: number) =>
+      orbitOf(poseWithin(poseOnOrbit(start, { theta: degrees(theta), phi: degrees(phi), radius }), bounds, sphere));
+    sameOrbit(at(10, 70, 5), { theta: degrees(10), phi: degrees(70), radius: 5 });
+    sameOrbit(at(100, 10, 1), { theta: degrees(30), phi: degrees(60), radius: 3 });
+    sameOrbit(at(-170, 170, 100), { theta: degrees(-30), phi: degrees(90), radius: 6 });
+    const free = poseOnOrbit(start, { theta: 3, phi: 0.3, radius: 99 });
+    assert.equal(poseWithin(free, unsetCamera, sphere), free);
+  });
+
+  test("bounds an arc that crosses the back", () => {
+    const arc = (theta: number) => ({ theta: degrees(theta), phi: undefined, radius: undefined });
+    const bounds = { ...unsetCamera, minOrbit: arc(150), maxOrbit: arc(210) };
+    const thetaOf = (theta: number) => orbitOf(poseWithin(poseOnOrbit(start, { theta: degrees(theta), phi: 1, radius: 5 }), bounds, sphere)).theta;
+    near(thetaOf(-170), degrees(-170)); // is 190
+    near(thetaOf(-90), degrees(-150)); // 270 is nearest to 210
+    near(thetaOf(100), degrees(150));
+  });
+});
+
+test("a turntable rests after the start and after each touch, and stops for good when it is told", (context) => {
+  context.mock.timers.enable({ apis: ["setTimeout"] });
+  let begun = 0;
+  const turntable = new Turntable(() => { begun += 1; });
+  turntable.delayMs = 1000;
+  turntable.rest();
+  assert.ok(turntable.isStopped);
+  turntable.start(true);
+  context.mock.timers.tick(999);
+  assert.equal(turntable.isTurning, false);
+  turntable.rest();
+  context.mock.timers.tick(999);
+  assert.equal(begun, 0);
+  context.mock.timers.tick(1);
+  assert.ok(turntable.isTurning);
+  assert.equal(begun, 1);
+  turntable.stop();
+  turntable.rest();
+  context.mock.timers.tick(5000);
+  assert.ok(turntable.isStopped);
+  turntable.start(false);
+  assert.ok(turntable.isTurning);
+});
