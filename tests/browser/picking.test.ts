@@ -90,10 +90,13 @@ const sites: string[][] = ["sig", "bg"].flatMap((container) => [
   ["--container", container, "--patch-vertices", "1000"],
   ["--container", container, "--primitives", "strips"],
   ["--container", container, "--index", "off"],
+  ["--container", container, "--normals", "octahedral"],
 ]);
+const layouts: string[][] = ["int16", "float32"].map((type) =>
+  ["--container", "bg", "--layout", "interleaved", "--coord-type", type]);
 
 describe("a click tells the triangle, vertex, place and normal that the pixel shows", () => {
-  for (const options of [...sites, ["--position-bits", "24"], ["--container", "bg", "--normal-bits", "32", "--position-bits", "8"]]) {
+  for (const options of [...sites, ...layouts, ["--position-bits", "24"], ["--container", "bg", "--normal-bits", "32", "--position-bits", "8"]]) {
     test(options.join(" "), async () => {
       const site = siteOfGenerated("trefoil", ...options);
       // From here a third byte plane would not be seen, so it has not been asked for.
