@@ -116,6 +116,8 @@ void requireNormals(const ConvertOptions& options) {
       refuse("--normal-bits", fmt::format("spherical normals have 8 bits, not {}", bits));
     if (!has16BitCoords(options))
       refuse("--normals", "spherical normals in bg lie beside coordinates of 9..16 bits");
+    if (options.target == Target::x3dom && options.coordType == ElementType::int16)
+      refuse("--normals", "X3DOM takes spherical normals beside int16 for signed numbers; uint16 holds them");
   }
 }
 

@@ -121,6 +121,7 @@ TEST_F(Faults, OptionsThatCannotBeHonoured) {
   refuse("--normal-bits", {"--container", "bg", "--normals", "octahedral", "-vn", "32"});
   refuse("--normal-bits", {"--container", "bg", "--normals", "octahedral", "-vn", "8", "-vp", "8"});
   refuse("--normals", {"--target", "x3dom", "--normals", "octahedral"});
+  refuse("--normals", {"--container", "bg", "--normals", "spherical", "--coord-type", "int16", "--target", "x3dom"});
   refuse("--coord-type", {"--coord-type", "uint16"});
   refuse("--coord-type", {"--container", "bg", "--coord-type", "float64"});
   refuse("--coord-type", {"--container", "bg", "--coord-type", "int8", "--target", "x3dom"});
