@@ -86,7 +86,7 @@ void writeGlb(const std::string& model, const fs::path& glb) {
   const pid_t child = fork();
   if (child == 0) {
     std::uint64_t bytes = 0;
-    Scene scene = importInput(model, bytes).scene;
+    Scene scene = importInput(model, {}, bytes).scene;
     prepareScene(scene, NormalWeighting::area, model);
     writeFile(glb, exportScene(scene, MeshFormat::glb));
     _exit(0);

@@ -6,6 +6,7 @@
 #include "cli/terminal.h"
 #include "transcode/transcode.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -24,6 +25,20 @@ Value chosen(const Arguments& arguments, const std::string& name, std::initializ
         if (flag.choices[i] == arguments.text(name))
           return values.begin()[i];
   return *values.begin();
+}
+
+/// "all", "none", or names with commas between.
+AttributeChoice attributesNamed(const std::string& text) {
+  AttributeChoice choice;
+  choice.all = text == "all";
+  if (choice.all || text == "none")
+    return choice;
+  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+    end = std::min(text.find(',', begin), text.size());
+    if (end > begin)
+      choice.names.insert(text.substr(begin, end - begin));
+  }
+  return choice;
 }
 
 ConvertOptions optionsFrom(const Arguments& arguments) {
@@ -48,6 +63,9 @@ ConvertOptions optionsFrom(const Arguments& arguments) {
       {NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical, NormalEncoding::palette});
   if (!arguments.text("normal-bits").empty())
     options.normalBits = static_cast<std::uint32_t>(arguments.integer("normal-bits"));
+  options.keepAttributes = attributesNamed(arguments.text("keep-attributes"));
+  if (!arguments.text("attribute-bits").empty())
+    options.attributeBits = static_cast<std::uint32_t>(arguments.integer("attribute-bits"));
   options.patchVertices = static_cast<std::uint32_t>(arguments.integer("patch-vertices"));
   options.effort = static_cast<int>(arguments.integer("effort"));
   options.title = arguments.text("title");
@@ -76,6 +94,12 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
   json["normalEncoding"] = arguments.text("normals");
   json["normalBits"] = report.normalBits;
   json["normalErrorDegrees"] = report.normalErrorDegrees;
+  json["attributes"] = Json::array();
+  for (const AttributeReport& attribute : report.attributes)
+    json["attributes"].push_back({{"name", attribute.name},
+                                  {"components", attribute.components},
+                                  {"bits", attribute.bits},
+                                  {"error", attribute.error}});
   json["patchVertices"] = arguments.integer("patch-vertices");
   json["effort"] = arguments.integer("effort");
   json["normals"] = normalsOf(arguments, report);
@@ -148,6 +172,9 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
                                               : arguments.text("normal-weighting") == "angle" ? "their angle"
                                                                                               : "one each")
                             : "the source's, where it has any"));
+  for (const AttributeReport& attribute : report.attributes)
+    printLine("attribute", fmt::format("{}: {} bits, off by at most {:.3g}", attribute.name, attribute.bits,
+                                       attribute.error));
   printLine("patches", fmt::format("{} of at most {} vertices", report.patches,
                                    grouped(static_cast<std::uint64_t>(arguments.integer("patch-vertices")))));
   const WeldReport& weld = report.weld;

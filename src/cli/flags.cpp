@@ -97,6 +97,13 @@ Command convertCommand() {
                 integer("color-bits", {"-vc"}, 8, 8, "8", "bits of a colour's component; classic has 8"),
                 integer("patch-vertices", {}, 256, 4194304, "65535",
                         "the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices"),
+                {.name = "keep-attributes",
+                 .value = Value::text,
+                 .valueName = "NAMES",
+                 .help = "further numbers of PLY's vertices to keep: names with commas between, all or none",
+                 .fallback = "none"},
+                integer("attribute-bits", {}, 8, 24, "",
+                        "bits of such a number; sig: 8, 16 or 24, otherwise 16; bg holds floats"),
                 choice("normal-weighting", {"area", "angle", "uniform"},
                        "how triangles count in normals that the source lacks"),
                 {.name = "title",
@@ -115,6 +122,7 @@ Command convertCommand() {
       .examples = {"imgeo convert statue.ply -o site",
                    "imgeo convert statue.ply.gz -o site --container bg --normal-bits 16",
                    "imgeo convert cloud.ply -o site -vp 20 --title \"The cave\"",
+                   "imgeo convert scan.ply -o site --keep-attributes intensity",
                    "curl -s https://example.org/part.stl | imgeo convert - -o site",
                    "imgeo convert statue.ply -o site --json | jq .bytesPerTriangle"}};
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -108,8 +109,8 @@ Json jsonOf(const SourceInfo& info) {
           {"lines", info.elements.lines},   {"points", info.elements.points},
           {"vertices", info.vertices},      {"normals", info.normals},
           {"texCoords", info.texCoords},    {"colors", info.colors},
-          {"boxMin", vector(info.box.min)}, {"boxMax", vector(info.box.max)},
-          {"warnings", info.warnings}};
+          {"attributes", info.attributes},  {"boxMin", vector(info.box.min)},
+          {"boxMax", vector(info.box.max)}, {"warnings", info.warnings}};
 }
 
 void printSource(const SourceInfo& info) {
@@ -118,6 +119,8 @@ void printSource(const SourceInfo& info) {
              grouped(info.vertices), info.shapes, info.shapes == 1 ? "shape" : "shapes");
   fmt::print("{}, {}, {}\n", has(info.normals, "normals"), has(info.texCoords, "texture coordinates"),
              has(info.colors, "colours"));
+  if (!info.attributes.empty())
+    fmt::print("further attributes of vertices: {}\n", fmt::join(info.attributes, ", "));
   if (!info.box.empty())
     fmt::print("box {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n", info.box.min.x, info.box.min.y,
                info.box.min.z, info.box.max.x, info.box.max.y, info.box.max.z);

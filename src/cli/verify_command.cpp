@@ -26,6 +26,7 @@ void printJson(const VerifyReport& report) {
   json["positionBound"] = report.positionBound;
   json["normalErrorDegrees"] = report.normalErrorDegrees;
   json["normalBoundDegrees"] = report.normalBoundDegrees;
+  json["attributeError"] = report.attributeError;
   json["findings"] = report.findings;
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
@@ -46,6 +47,9 @@ void printText(const VerifyReport& report) {
     fmt::print(
         "Another program wrote the site: how its files are named, and normals that the input lacks, are "
         "not checked.\n");
+  if (report.attributeError > 0)
+    fmt::print("{} off by at most {:.4g} of what their rounding allows\n",
+               bold(fmt::format("{:10}", "attributes")), report.attributeError);
   for (const std::string& finding : report.findings)
     fmt::print("{}\n", finding);
   fmt::print("{}\n", report.equal ? "The site equals its input." : "The site does not equal its input.");

@@ -5,6 +5,7 @@
 #include "containers/bg/element_types.h"
 #include "containers/classic/classic.h"
 #include "containers/limits.h"
+#include "containers/named_attributes.h"
 
 #include <algorithm>
 #include <cassert>
@@ -60,6 +61,7 @@ GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& optio
   if (options.target == Target::x3dom && options.container == Container::sig)
     geometry.colorComponents = 4;
   geometry.normalEncoding = options.normals;
+  geometry.attributes = describeAttributes(mesh, options.container, options.attributeBits / 8);
   if (options.container == Container::bg)
     chooseTypes(geometry, mesh, options);
   geometry.indexType = indexTypeOf(mesh);

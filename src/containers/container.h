@@ -30,6 +30,7 @@ struct EncodeOptions {
   NormalEncoding normals = NormalEncoding::rgb; ///< palette: SIG alone
   std::optional<ElementType> coordType{};       ///< BG; nothing: the smallest unsigned type
   Layout layout = Layout::separate;             ///< BG
+  std::uint32_t attributeBits = 16;             ///< SIG: 8, 16 or 24; BG has Float32
 };
 
 /// A file as it will lie in the site, unnamed yet.

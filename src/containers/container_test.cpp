@@ -1,5 +1,6 @@
 #include "containers/container.h"
 
+#include "containers/named_attributes.h"
 #include "containers/normals.h"
 #include "containers/stored_coords.h"
 #include "containers/testing.h"
@@ -31,6 +32,18 @@ Encoded encode(const Mesh& mesh, Primitive primitive, bool indexed, std::uint32_
   return encoded;
 }
 
+void expectEqualWithinSteps(const NamedAttribute& decoded, const NamedAttribute& source,
+                            const GeometryDescription& geometry, std::size_t place) {
+  EXPECT_EQ(decoded.name, source.name);
+  ASSERT_EQ(decoded.components, source.components);
+  ASSERT_EQ(decoded.values.size(), source.values.size());
+  for (std::size_t i = 0; i < source.values.size(); ++i) {
+    const auto component = static_cast<std::uint32_t>(i % source.components);
+    ASSERT_NEAR(decoded.values[i], source.values[i],
+                numberBound(geometry.container, geometry.attributes[place], component));
+  }
+}
+
 /// Everything integer comes back exactly, texture coordinates within half of
 /// their step, normals within the angle that their encoding states.
 void expectEqualWithinSteps(const Encoded& encoded) {
@@ -52,6 +65,9 @@ void expectEqualWithinSteps(const Encoded& encoded) {
     EXPECT_NEAR(decoded.texCoords[i].x, source.texCoords[i].x, size.x * 0.5001 / 65535 + 1e-6);
     EXPECT_NEAR(decoded.texCoords[i].y, source.texCoords[i].y, size.y * 0.5001 / 65535 + 1e-6);
   }
+  ASSERT_EQ(decoded.namedAttributes.size(), source.namedAttributes.size());
+  for (std::size_t a = 0; a < source.namedAttributes.size(); ++a)
+    expectEqualWithinSteps(decoded.namedAttributes[a], source.namedAttributes[a], encoded.geometry, a);
 }
 
 constexpr std::uint32_t everyPrecision[] = {8, 10, 12, 16, 20, 24, 32};

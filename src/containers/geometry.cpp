@@ -5,7 +5,7 @@
 namespace imgeo {
 
 const char* nameOf(Role role) {
-  constexpr const char* names[] = {"index", "coord", "normal", "texCoord", "color"};
+  constexpr const char* names[] = {"index", "coord", "normal", "texCoord", "color", "attribute"};
   return names[static_cast<std::size_t>(role)];
 }
 

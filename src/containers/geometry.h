@@ -16,7 +16,7 @@ namespace imgeo {
 enum class Container : std::uint8_t { sig, bg };
 
 /// What a file holds; also its row in `info`.
-enum class Role : std::uint8_t { index, coord, normal, texCoord, color };
+enum class Role : std::uint8_t { index, coord, normal, texCoord, color, attribute };
 
 /// "index", "coord", ...: the names the documents use.
 const char* nameOf(Role role);
@@ -52,7 +52,37 @@ struct PatchDescription {
   std::optional<Reference> index;                 ///< absent: records are drawn in order
   std::vector<Reference> coord;                   ///< SIG: byte planes, most significant first. BG: one
   std::optional<Reference> normal, texCoord, color;
+  std::vector<std::vector<Reference>>
+      attributes; ///< each of the geometry's: its byte planes (SIG) or one (BG)
   friend bool operator==(const PatchDescription&, const PatchDescription&) = default;
+};
+
+/// Calls visit(role, reference) for everything that a patch refers to.
+template <typename Patch, typename Visit> void visitReferences(Patch& patch, Visit visit) {
+  if (patch.index)
+    visit(Role::index, *patch.index);
+  for (auto& plane : patch.coord)
+    visit(Role::coord, plane);
+  if (patch.normal)
+    visit(Role::normal, *patch.normal);
+  if (patch.texCoord)
+    visit(Role::texCoord, *patch.texCoord);
+  if (patch.color)
+    visit(Role::color, *patch.color);
+  for (auto& planes : patch.attributes)
+    for (auto& plane : planes)
+      visit(Role::attribute, plane);
+}
+
+/// A further attribute of vertices: one FloatVertexAttribute.
+struct AttributeDescription {
+  std::string name;
+  std::uint32_t components = 1; ///< 1..4
+  std::uint32_t bytes = 2;      ///< SIG: byte planes of each number, 1..3. BG has Float32
+  /// By component. SIG: the box over which stored integers 0 .. 256^bytes - 1 are spread. BG: what the
+  /// numbers lie in.
+  std::vector<double> min, size;
+  friend bool operator==(const AttributeDescription&, const AttributeDescription&) = default;
 };
 
 /// The fields of one ImageGeometry or BinaryGeometry node.
@@ -66,6 +96,7 @@ struct GeometryDescription {
               normalType = ElementType::int8, texCoordType = ElementType::uint16,
               colorType = ElementType::uint8; ///< BG only, but for indexType: SIG has uint16 and uint32
   NormalEncoding normalEncoding = NormalEncoding::rgb;
+  std::vector<AttributeDescription> attributes;
   std::vector<PatchDescription> patches;
   friend bool operator==(const GeometryDescription&, const GeometryDescription&) = default;
 };

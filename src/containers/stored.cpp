@@ -95,4 +95,28 @@ Reference addFile(EncodedPatch& encoded, EncodedFile file) {
   return {std::to_string(encoded.files.size() - 1), 0, 0};
 }
 
+void addReference(PatchDescription& patch, Role role, std::size_t attribute, const Reference& reference) {
+  switch (role) {
+  case Role::index:
+    patch.index = reference;
+    break;
+  case Role::coord:
+    patch.coord.push_back(reference);
+    break;
+  case Role::normal:
+    patch.normal = reference;
+    break;
+  case Role::texCoord:
+    patch.texCoord = reference;
+    break;
+  case Role::color:
+    patch.color = reference;
+    break;
+  case Role::attribute:
+    patch.attributes.resize(std::max(patch.attributes.size(), attribute + 1));
+    patch.attributes[attribute].push_back(reference);
+    break;
+  }
+}
+
 } // namespace imgeo

@@ -43,4 +43,8 @@ void checkInsideBox(std::span<const Vec3u> positions, const GeometryDescription&
 /// Appends a file to an encoded patch and refers to it by its index.
 Reference addFile(EncodedPatch& encoded, EncodedFile file);
 
+/// Puts a reference in its place: behind others of coordinates, or of the geometry's
+/// attribute of this number.
+void addReference(PatchDescription& patch, Role role, std::size_t attribute, const Reference& reference);
+
 } // namespace imgeo

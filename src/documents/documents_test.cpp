@@ -1,6 +1,7 @@
 #include "documents/documents.h"
 
 #include "base/error.h"
+#include "containers/named_attributes.h"
 #include "containers/stored_coords.h"
 #include "containers/testing.h"
 
@@ -87,12 +88,28 @@ GeometryDescription randomGeometry(Random& random) {
     geometry.indexType = static_cast<ElementType>(random.below(7));
   }
   geometry.normalEncoding = static_cast<NormalEncoding>(random.below(4));
+  for (std::uint32_t count = random.once(2) ? random.below(3) : 0; count > 0; --count) {
+    AttributeDescription attribute{"a" + std::to_string(count) + "<&\"", 1 + random.below(4), 2, {}, {}};
+    if (geometry.container == Container::sig)
+      attribute.bytes = 1 + random.below(3);
+    for (std::uint32_t c = 0; c < attribute.components; ++c) {
+      attribute.min.push_back(random.between(-5, 5));
+      attribute.size.push_back(random.between(0, 5));
+    }
+    geometry.attributes.push_back(attribute);
+  }
   if (geometry.container == Container::sig && random.once(2))
     geometry.indexType = ElementType::uint32;
   for (std::uint32_t patches = 1 + random.below(4); patches > 0; --patches)
     geometry.patches.push_back(randomPatch(
         random, geometry.container,
         geometry.container == Container::sig ? coordBytes(Container::sig, geometry.lattice.bits) : 1));
+  for (PatchDescription& patch : geometry.patches)
+    for (const AttributeDescription& attribute : geometry.attributes) {
+      patch.attributes.emplace_back();
+      for (std::size_t file = filesOf(geometry.container, attribute); file > 0; --file)
+        patch.attributes.back().push_back(randomReference(random, geometry.container));
+    }
   if (geometry.container == Container::bg && byteSizeOf(geometry.coordType) == 2 && random.once(3)) {
     geometry.normalEncoding = NormalEncoding::spherical;
     geometry.normalType = ElementType::uint8;
@@ -242,7 +259,7 @@ SceneDocument documentNamed(const std::string& name) {
   document.title = name;
   GeometryDescription geometry;
   geometry.patches = {
-      {{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", 0, 0}, {"b.png", 0, 0}}, {}, {}, {}}};
+      {{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", 0, 0}, {"b.png", 0, 0}}, {}, {}, {}, {}}};
   document.geometries = {geometry, geometry};
   document.shapes = {{name, 0, {}}, {name, 1, {}}};
   document.viewpoints = {{name, {}, {0, 0, 1}, 0, 0.8, {}}};
@@ -417,6 +434,28 @@ TEST(Documents, KeepTheLatticeOfForeignGeometry) {
       for (const Vec3u& q : corners)
         EXPECT_LE(length(after.point(q) - before.point(q)), 1e-12) << type << ", " << size;
     }
+}
+
+TEST(ReadScene, RefusesAttributesThatItsPatchesDoNotHave) {
+  const auto messageOf = [](const std::string& attribute, const std::string& attrib) -> std::string {
+    const std::string text = "<X3D><Scene><Shape><ImageGeometry coord='a.png' vertexCount='3' attrib='" +
+                             attrib + "'><FloatVertexAttribute " + attribute +
+                             "></FloatVertexAttribute></ImageGeometry></Shape></Scene></X3D>";
+    try {
+      readScene(text, "s.x3d");
+    } catch (const Error& error) {
+      return error.message();
+    }
+    return "read";
+  };
+  const std::string good = "name='heat' numComponents='1' valueBits='16'";
+  EXPECT_EQ(messageOf(good, "\"b.png\" \"c.png\""), "read");
+  EXPECT_NE(messageOf(good, "b.png").find("fewer"), std::string::npos);
+  EXPECT_NE(messageOf(good, "\"b\" \"c\" \"d\"").find("more"), std::string::npos);
+  EXPECT_NE(messageOf("numComponents='1'", "\"b\" \"c\"").find("no name"), std::string::npos);
+  EXPECT_NE(messageOf(good + " valueSize='-1'", "\"b\" \"c\"").find("range"), std::string::npos);
+  EXPECT_NE(messageOf("name='heat' numComponents='5'", "b").find("1 to 4"), std::string::npos);
+  EXPECT_NE(messageOf("name='heat' numComponents='1' valueBits='12'", "b").find("8, 16"), std::string::npos);
 }
 
 TEST(ReadScene, TakesX3domsDefaultsForABinaryGeometry) {

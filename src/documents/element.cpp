@@ -59,6 +59,13 @@ std::string number(float value) {
   return fmt::format("{}", value);
 }
 
+std::string numbers(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values)
+    text += (text.empty() ? "" : " ") + number(value);
+  return text;
+}
+
 std::string strings(const std::vector<std::string>& values) {
   std::string text;
   for (const std::string& value : values) {

@@ -48,6 +48,8 @@ template <typename T> std::string numbers(Vec3<T> v) {
   return number(v.x) + " " + number(v.y) + " " + number(v.z);
 }
 
+std::string numbers(const std::vector<double>& values);
+
 /// An X3D MFString: each string in double quotes, backslash before quotes and backslashes.
 std::string strings(const std::vector<std::string>& values);
 

@@ -2,6 +2,7 @@
 
 #include "containers/stored_coords.h"
 #include "documents/find_x3d.h"
+#include "documents/read_attributes.h"
 
 #include <charconv>
 #include <cmath>
@@ -117,8 +118,9 @@ void readTexture(const DocumentText& source, const pugi::xml_node& node, PatchDe
                 "an ImageTexture in an ImageGeometry has no containerField that we know");
 }
 
-PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& node, Container container,
-                           Vec2<std::uint32_t> implicitMeshSize) {
+PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& node,
+                           const GeometryDescription& geometry, Vec2<std::uint32_t> implicitMeshSize) {
+  const Container container = geometry.container;
   const Fields fields(source, node);
   PatchDescription patch;
   patch.box = fields.box();
@@ -143,6 +145,10 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
     fields.fail(ErrorKind::malformed, "there are no coordinates");
   if (container == Container::bg && patch.coord.size() != 1)
     fields.fail(ErrorKind::malformed, "a BinaryGeometry has one file of coordinates");
+  std::vector<Reference> attributes;
+  for (const std::string& url : fields.strings("attrib"))
+    attributes.push_back(referenceOf(fields, url, container));
+  patch.attributes = referencesByAttribute(fields, attributes, geometry.attributes, container);
   return patch;
 }
 
@@ -227,13 +233,14 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
     if (geometry.indexType != ElementType::uint16 && geometry.indexType != ElementType::uint32)
       fields.fail(ErrorKind::unsupported, "images hold indices of type Uint16 or Uint32");
   }
+  geometry.attributes = readAttributes(source, node, container);
   const Vec2<std::uint32_t> implicitMeshSize = implicitMeshSizeOf(fields, {256, 256});
   for (const pugi::xml_node& child : node.children())
     if (sameName(child.name(), "GeometryPatch"))
       geometry.patches.push_back(
-          readPatch(source, child, container, implicitMeshSizeOf(Fields(source, child), implicitMeshSize)));
+          readPatch(source, child, geometry, implicitMeshSizeOf(Fields(source, child), implicitMeshSize)));
   if (geometry.patches.empty())
-    geometry.patches.push_back(readPatch(source, node, container, implicitMeshSize));
+    geometry.patches.push_back(readPatch(source, node, geometry, implicitMeshSize));
   if (container == Container::bg && fields.boolean("normalAsSphericalCoordinates", false))
     takeNormalsFromCoords(fields, geometry);
   geometry.lattice = latticeOf(fields, geometry);

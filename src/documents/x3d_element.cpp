@@ -89,6 +89,12 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
     add("normal", patch.normal);
   add("texCoord", patch.texCoord);
   add("color", patch.color);
+  std::vector<std::string> attributes;
+  for (const std::vector<Reference>& planes : patch.attributes)
+    for (const Reference& plane : planes)
+      attributes.push_back(url(plane, container));
+  if (!attributes.empty())
+    references.push_back({"attrib", strings(attributes)});
   return {"GeometryPatch", {boxAttributes(patch.box), draws, references}};
 }
 
@@ -119,6 +125,15 @@ Element geometryElement(const GeometryDescription& geometry) {
   return {geometry.container == Container::sig ? "ImageGeometry" : "BinaryGeometry", {box, stored}};
 }
 
+Element attributeElement(const AttributeDescription& attribute, Container container) {
+  Attributes fields{{"name", attribute.name}, {"numComponents", std::to_string(attribute.components)}};
+  if (container == Container::sig)
+    fields.push_back({"valueBits", std::to_string(8 * attribute.bytes)});
+  fields.push_back({"valueMin", numbers(attribute.min)});
+  fields.push_back({"valueSize", numbers(attribute.size)});
+  return {"FloatVertexAttribute", {fields}};
+}
+
 void writePatchedShape(ElementWriter& writer, const Shape& shape, const std::string& def,
                        const GeometryDescription& geometry) {
   Element element{"Shape", {{}, boxAttributes(geometry.box)}};
@@ -130,6 +145,8 @@ void writePatchedShape(ElementWriter& writer, const Shape& shape, const std::str
   writer.leaf(materialElement(shape.material));
   writer.close(appearance);
   writer.open(node);
+  for (const AttributeDescription& attribute : geometry.attributes)
+    writer.leaf(attributeElement(attribute, geometry.container));
   for (const PatchDescription& patch : geometry.patches)
     writer.leaf(patchElement(patch, geometry));
   writer.close(node);

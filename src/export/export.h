@@ -26,8 +26,9 @@ Bytes exportScene(const Scene& scene, MeshFormat format);
 /// PLY, binary little-endian: all shapes as one mesh, since PLY knows no objects.
 /// Each wedge is a vertex with x y z, nx ny nz, s t, red green blue (alpha);
 /// triangles are `face`, lines `edge` elements; the corners of points need none.
+/// Further attributes are floats of their names, those of several components NAME_0, NAME_1 ....
 /// Where only some shapes have an attribute, the others get (0, 0, 0) as
-/// normals, (0, 0) as texture coordinates, and their diffuse colour.
+/// normals, (0, 0) as texture coordinates, their diffuse colour, and zeros.
 Bytes writePly(const Scene& scene);
 
 /// Wavefront OBJ: an `o` for each shape; a position is a `v`, a wedge a `vt`

@@ -115,6 +115,24 @@ TEST(ExportedPly, HoldsAllShapesAndWhatOnlySomeHave) {
   EXPECT_EQ(corners.back().position, cornersOf(colored).back().position);
 }
 
+TEST(ExportedPly, HasFurtherAttributes) {
+  Mesh plain = testing::grid(2), rich = testing::sphere(4, 5);
+  testing::Random random(1);
+  const auto count = static_cast<std::uint32_t>(rich.wedgeCount());
+  for (const char* name : {"quality", "flow"})
+    rich.namedAttributes.push_back(testing::randomAttribute(random, name, count));
+  rich.namedAttributes[0] = {"quality", 1, std::vector<float>(count, 0.5f)};
+  const Imported read =
+      importBytes(writePly(sceneOf({plain, rich})), "a.ply", {.attributes = {.all = true, .names = {}}});
+  const std::vector<NamedAttribute>& attributes = read.scene.meshes.at(0).namedAttributes;
+  ASSERT_EQ(attributes.size(), 2u);
+  EXPECT_EQ(attributes[0].name, "flow");
+  EXPECT_EQ(attributes[0].components, rich.namedAttributes[1].components);
+  EXPECT_EQ(attributes[0].values.back(), rich.namedAttributes[1].values.back());
+  EXPECT_EQ(attributes[1].values.front(), 0);
+  EXPECT_EQ(attributes[1].values.back(), 0.5f);
+}
+
 TEST(ExportedPly, HasLinesAsEdges) {
   Mesh mesh = testing::grid(1);
   writeLines(mesh);

@@ -4,8 +4,11 @@
 #include "base/narrow.h"
 #include "export/export.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
+#include <string>
 
 namespace imgeo {
 
@@ -14,6 +17,7 @@ namespace {
 /// What some shape has, and therefore every vertex; and what there is of each element.
 struct Layout {
   bool normals = false, texCoords = false, colors = false, alpha = false;
+  std::map<std::string, std::uint32_t> named; ///< further attributes and how many components they have
   std::uint64_t vertices = 0, faces = 0, edges = 0;
 };
 
@@ -25,6 +29,8 @@ Layout layoutOf(const Scene& scene) {
     layout.texCoords |= !mesh.texCoords.empty();
     layout.colors |= !mesh.colors.empty();
     layout.alpha |= !mesh.colors.empty() && mesh.colorComponents == 4;
+    for (const NamedAttribute& attribute : mesh.namedAttributes)
+      layout.named.emplace(attribute.name, attribute.components);
     layout.vertices += mesh.wedgeCount();
     if (mesh.topology == Topology::triangles)
       layout.faces += mesh.elementCount();
@@ -50,6 +56,10 @@ std::string headerOf(const Layout& layout) {
     properties("uchar", {"red", "green", "blue"});
   if (layout.alpha)
     properties("uchar", {"alpha"});
+  for (const auto& [name, components] : layout.named)
+    for (std::uint32_t c = 0; c < components; ++c)
+      header += components == 1 ? fmt::format("property float {}\n", name)
+                                : fmt::format("property float {}_{}\n", name, c);
   if (layout.faces > 0) {
     header += fmt::format("element face {}\n", layout.faces);
     properties("list uchar int", {"vertex_indices"});
@@ -66,6 +76,14 @@ Rgba8 diffuseColorOf(const Material& material) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255));
   };
   return {byte(material.diffuseColor.x), byte(material.diffuseColor.y), byte(material.diffuseColor.z), 255};
+}
+
+/// 0 where a mesh has no such attribute.
+float numberOf(const Mesh& mesh, const std::string& name, std::uint32_t components, std::size_t wedge,
+               std::uint32_t component) {
+  const auto found = std::ranges::find(mesh.namedAttributes, name, &NamedAttribute::name);
+  const bool isThere = found != mesh.namedAttributes.end() && found->components == components;
+  return isThere ? found->values[wedge * components + component] : 0;
 }
 
 void appendVertices(Bytes& out, const Shape& shape, const Mesh& mesh, const Layout& layout) {
@@ -89,6 +107,9 @@ void appendVertices(Bytes& out, const Shape& shape, const Mesh& mesh, const Layo
       if (layout.alpha)
         out.push_back(color.a);
     }
+    for (const auto& [name, components] : layout.named)
+      for (std::uint32_t c = 0; c < components; ++c)
+        appendLittle(out, numberOf(mesh, name, components, wedge, c));
   }
 }
 

@@ -29,9 +29,10 @@
 namespace imgeo {
 
 struct Imported {
-  Scene scene;        ///< one shape per object of the source; normals only where the file has them
-  std::string format; ///< "PLY", "OBJ", "STL": for reports
-  std::vector<std::string> warnings; ///< one sentence per kind of thing not carried over
+  Scene scene; ///< one shape per object of the source; normals only where the file has them
+  std::vector<std::string> attributes; ///< names of all further attributes of the source, kept or not
+  std::string format;                  ///< "PLY", "OBJ", "STL": for reports
+  std::vector<std::string> warnings;   ///< one sentence per kind of thing not carried over
 };
 
 /// Which further attributes of vertices are carried over, by name.

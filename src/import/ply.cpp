@@ -144,6 +144,7 @@ Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& o
   Box3d box;
   for (const Vec3f& position : content.positions)
     box.add(Vec3d(position));
+  imported.attributes = content.namedAttributes;
   const bool isSurface = hasFaces(content), hasEdges = !content.edges.empty();
   Mesh edges = hasEdges ? edgesOf(content) : Mesh{};
   if (isSurface || !hasEdges)

@@ -19,6 +19,7 @@ struct PlyContent {
   std::vector<Vec2f> cornerTexCoords; ///< per index, finite; or empty
   std::vector<std::uint32_t> edges;   ///< two vertices each
 
+  std::vector<std::string> namedAttributes; ///< that there are, kept or not
   std::vector<std::string> ignored; ///< "'quality' of 'vertex'", "element 'camera'": in the file's order
   std::uint64_t facesTooSmall = 0;  ///< left out: fewer than three corners
   std::uint64_t colorsClamped = 0;  ///< channels outside their type's range

@@ -285,6 +285,7 @@ TEST(Ply, KeepsTheAttributesThatAreAskedFor) {
                                                                                  {"rate", 2, {1, 2, 3, 4}},
                                                                                  {"label_0", 1, {8, 9}}}));
   const Imported some = importBytes(asBytes(text), "m.ply", {{.all = false, .names = {"rate", "quality"}}});
+  EXPECT_EQ(some.attributes, (std::vector<std::string>{"quality", "count", "rate", "label_0"}));
   ASSERT_EQ(some.scene.meshes.at(0).namedAttributes.size(), 2u);
   EXPECT_EQ(some.scene.meshes[0].namedAttributes[1].name, "rate");
   EXPECT_EQ(some.warnings,

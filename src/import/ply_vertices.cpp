@@ -91,7 +91,10 @@ void PlyVertexReader::chooseNamed(const AttributeChoice& kept) {
     if (!isGroup)
       count = 1;
     const std::string& name = isGroup ? base : properties[p].name;
-    if (!kept.has(name) || std::ranges::find(attributes, name, &NamedAttribute::name) != attributes.end())
+    if (std::ranges::find(content_.namedAttributes, name) != content_.namedAttributes.end())
+      continue;
+    content_.namedAttributes.push_back(name);
+    if (!kept.has(name))
       continue;
     std::fill_n(attributeOf.begin() + static_cast<std::ptrdiff_t>(p), count, attributes.size());
     attributes.push_back({name, static_cast<std::uint32_t>(count), {}});

@@ -58,7 +58,15 @@ double angleDegrees(Vec3f a, Vec3f b) {
 struct Distance {
   double normalDegrees = 0;
   Vec2<double> texCoord;
+  double named = 0; ///< in parts of what is allowed
   bool colorsDiffer = false;
+};
+
+/// An attribute of both lists, and what its components may differ by.
+struct NamedPair {
+  const NamedAttribute& input;
+  const NamedAttribute& site;
+  std::vector<double> bounds;
 };
 
 class Matcher {
@@ -67,7 +75,15 @@ public:
       : input_(input), site_(site), bounds_(bounds),
         normals_(!input.normals.empty() && !site.normals.empty()),
         texCoords_(!input.texCoords.empty() && !site.texCoords.empty()),
-        colors_(!input.colors.empty() && !site.colors.empty()) {}
+        colors_(!input.colors.empty() && !site.colors.empty()) {
+    for (const NamedAttribute& attribute : input.namedAttributes) {
+      const auto other = std::ranges::find(site.namedAttributes, attribute.name, &NamedAttribute::name);
+      const auto bound = bounds.named.find(attribute.name);
+      if (other != site.namedAttributes.end() && other->components == attribute.components &&
+          bound != bounds.named.end())
+        named_.push_back({attribute, *other, bound->second});
+    }
+  }
 
   /// Measures the elements at one place, in both directions.
   void match(std::span<const Place> inputs, std::span<const Place> sites, ElementDifference& worst) const {
@@ -102,6 +118,11 @@ private:
       return list.texCoords[vertex].x / bounds_.texCoord.x;
     if (colors_)
       return list.colors[vertex].r;
+    if (!named_.empty()) {
+      const NamedPair& pair = named_.front();
+      const NamedAttribute& attribute = &list == &input_ ? pair.input : pair.site;
+      return attribute.values[std::size_t{vertex} * attribute.components] / allowed(pair.bounds[0]);
+    }
     return 0;
   }
 
@@ -120,7 +141,7 @@ private:
   Distance nearest(std::uint32_t element, const std::vector<Candidate>& candidates, const ElementList& others,
                    const ElementList& own, std::size_t ownTurns) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Distance best{180, {infinity, infinity}, true}; // stands where nothing can be compared: a NaN
+    Distance best{180, {infinity, infinity}, infinity, true}; // stands where nothing can be compared: a NaN
     double bestCost = infinity;
     for (std::uint32_t ownTurn = 0; ownTurn < ownTurns; ++ownTurn) {
       const double here = key(own, element, ownTurn);
@@ -156,14 +177,30 @@ private:
       }
       if (colors_)
         distance.colorsDiffer |= a.colors[va] != b.colors[vb];
+      const bool isInput = &a == &input_;
+      for (const NamedPair& pair : named_)
+        distance.named = std::max(distance.named, between(pair, isInput ? va : vb, isInput ? vb : va));
     }
     return distance;
   }
 
+  static double between(const NamedPair& pair, std::uint32_t inputVertex, std::uint32_t siteVertex) {
+    const std::size_t components = pair.input.components;
+    double distance = 0;
+    for (std::size_t c = 0; c < components; ++c)
+      distance = std::max(distance, std::abs(double{pair.input.values[inputVertex * components + c]} -
+                                             pair.site.values[siteVertex * components + c]) /
+                                        allowed(pair.bounds[c]));
+    return distance;
+  }
+
+  /// What is stored exactly may differ by nothing.
+  static double allowed(double bound) { return std::max(bound, 1e-300); }
+
   /// 1 and less is within bounds. Colours are stored exactly: one step off
   /// outweighs what their keys may be apart.
   double cost(const Distance& distance) const {
-    double cost = distance.colorsDiffer ? 256 : 0;
+    double cost = std::max(distance.colorsDiffer ? 256.0 : 0.0, distance.named);
     if (normals_)
       cost = std::max(cost, distance.normalDegrees / bounds_.normalDegrees);
     if (texCoords_)
@@ -176,6 +213,7 @@ private:
     worst.normalDegrees = std::max(worst.normalDegrees, distance.normalDegrees);
     worst.texCoord.x = std::max(worst.texCoord.x, distance.texCoord.x);
     worst.texCoord.y = std::max(worst.texCoord.y, distance.texCoord.y);
+    worst.named = std::max(worst.named, distance.named);
     worst.colorsDiffering += distance.colorsDiffer;
   }
 
@@ -183,6 +221,7 @@ private:
   const ElementList& site_;
   const AttributeBounds& bounds_;
   bool normals_, texCoords_, colors_;
+  std::vector<NamedPair> named_;
 };
 
 /// The elements of `places` at the place of `places[begin]`.

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "containers/named_attributes.h"
 #include "transcode/encode_mesh.h"
 #include "transcode/marker.h"
 #include "transcode/options.h"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <mutex>
 
 namespace imgeo {
@@ -65,6 +67,29 @@ std::string titleFrom(const fs::path& input) {
   return name.stem();
 }
 
+void requireAttributes(const Imported& imported, const ConvertOptions& options) {
+  for (const std::string& name : options.keepAttributes.names)
+    if (std::ranges::find(imported.attributes, name) == imported.attributes.end())
+      throw Error(ErrorKind::usage, "--keep-attributes",
+                  imported.attributes.empty()
+                      ? fmt::format("the input has no attribute \"{}\", nor any other", name)
+                      : fmt::format("the input has no attribute \"{}\" but {}", name,
+                                    fmt::join(imported.attributes, ", ")));
+}
+
+/// What a report says of the attributes of a geometry, which are those of others, too.
+void addAttributes(std::vector<AttributeReport>& reports, const GeometryDescription& geometry) {
+  for (const AttributeDescription& attribute : geometry.attributes) {
+    auto report = std::ranges::find(reports, attribute.name, &AttributeReport::name);
+    if (report == reports.end())
+      report = reports.insert(report, {attribute.name, attribute.components, 0, 0});
+    const bool isSig = geometry.container == Container::sig;
+    report->bits = std::max(report->bits, isSig ? 8 * attribute.bytes : 32);
+    for (std::uint32_t c = 0; c < attribute.components; ++c)
+      report->error = std::max(report->error, numberBound(geometry.container, attribute, c));
+  }
+}
+
 /// Encodes every shape's mesh; two shapes of one mesh share its files.
 SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, GeometryFiles& files,
                           ConvertReport& report, const ElementsDone& done) {
@@ -83,6 +108,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, Geometry
       report.collapsed += encoded.collapsed;
       report.positionError = std::max(report.positionError, encoded.positionError);
       report.normalErrorDegrees = std::max(report.normalErrorDegrees, encoded.normalErrorDegrees);
+      addAttributes(report.attributes, encoded.geometry);
       geometry = document.geometries.size();
       document.geometries.push_back(std::move(encoded.geometry));
     }
@@ -169,7 +195,8 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   };
 
   tell(0, "reading");
-  Imported imported = importInput(input, report.sourceBytes);
+  Imported imported = importInput(input, {options.keepAttributes}, report.sourceBytes);
+  requireAttributes(imported, options);
   report.format = imported.format;
   report.warnings = std::move(imported.warnings);
   if (imported.scene.title.empty())
@@ -199,14 +226,17 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
         tell(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
       });
   warnOfCollapsed(report);
-  const Marker marker{generator,
-                      input == "-" ? "" : input.filename().string(),
-                      options.container,
-                      options.primitives,
-                      report.normalsComputed,
-                      options.normalWeighting,
-                      report.elements,
-                      options.normals == NormalEncoding::palette ? report.normalErrorDegrees : 0};
+  Marker marker{generator,
+                input == "-" ? "" : input.filename().string(),
+                options.container,
+                options.primitives,
+                report.normalsComputed,
+                options.normalWeighting,
+                report.elements,
+                options.normals == NormalEncoding::palette ? report.normalErrorDegrees : 0,
+                {}};
+  for (const AttributeReport& attribute : report.attributes)
+    marker.attributes.push_back(attribute.name);
   writeFile(site.path() / stylesheetName, asBytes(pageStylesheet()));
   writeFile(site.path() / markerName, asBytes(writeMarker(marker)));
   if (options.target == Target::x3dom) {

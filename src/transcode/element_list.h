@@ -8,6 +8,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace imgeo {
@@ -41,6 +43,7 @@ ElementList elementsOf(const std::vector<IndexedPatch>& patches, ElementKind kin
 struct AttributeBounds {
   double normalDegrees = 0;
   Vec2<double> texCoord;
+  std::map<std::string, std::vector<double>> named; ///< by further attribute and component
 };
 
 struct ElementDifference {
@@ -48,6 +51,7 @@ struct ElementDifference {
   std::size_t extra = 0;           ///< elements of the site that the input lacks
   double normalDegrees = 0;        ///< largest between an element's corners and the best element at its place
   Vec2<double> texCoord;           ///< likewise, an axis
+  double named = 0;                ///< largest of a further attribute's number, in parts of its bound
   std::size_t colorsDiffering = 0; ///< elements for which no element at the place has the same colours
 };
 

@@ -33,16 +33,11 @@ IndexedPatch primitivesOf(const Patch& patch, const ConvertOptions& options) {
 
 /// An encoder refers to its files by number; the document by url.
 void nameReferences(PatchDescription& patch, const std::vector<std::string>& urls) {
-  const auto name = [&](Reference& reference) {
+  visitReferences(patch, [&](Role, Reference& reference) {
     std::size_t file = 0;
     std::from_chars(reference.url.data(), reference.url.data() + reference.url.size(), file);
     reference.url = urls.at(file);
-  };
-  for (Reference& plane : patch.coord)
-    name(plane);
-  for (std::optional<Reference>* reference : {&patch.index, &patch.normal, &patch.texCoord, &patch.color})
-    if (*reference)
-      name(**reference);
+  });
 }
 
 /// What a patch draws. The joins of strips draw nothing, so strips are walked.

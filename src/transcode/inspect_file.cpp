@@ -9,9 +9,10 @@ namespace imgeo {
 
 SourceInfo inspectSource(const std::filesystem::path& file) {
   SourceInfo info;
-  const Imported imported = importInput(file, info.bytes);
+  const Imported imported = importInput(file, {}, info.bytes);
   info.format = imported.format;
   info.warnings = imported.warnings;
+  info.attributes = imported.attributes;
   info.shapes = imported.scene.shapes.size();
   for (const Mesh& mesh : imported.scene.meshes) {
     info.elements.of(mesh.topology) += mesh.elementCount();

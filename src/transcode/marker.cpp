@@ -49,6 +49,8 @@ std::string writeMarker(const Marker& marker) {
   json["triangles"] = marker.elements.triangles;
   json["lines"] = marker.elements.lines;
   json["points"] = marker.elements.points;
+  if (!marker.attributes.empty())
+    json["attributes"] = marker.attributes;
   if (marker.paletteErrorDegrees > 0)
     json["paletteErrorDegrees"] = marker.paletteErrorDegrees;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -67,6 +69,7 @@ Marker readMarker(std::string_view text, const std::string& name) {
     if (marker.normalsComputed)
       marker.normalWeighting = valueNamed(weightings, normals, name);
     marker.elements = {json.at("triangles"), json.value("lines", std::size_t{0}), json.at("points")};
+    marker.attributes = json.value("attributes", std::vector<std::string>{});
     marker.paletteErrorDegrees = json.value("paletteErrorDegrees", 0.0);
     return marker;
   } catch (const nlohmann::json::exception&) {

@@ -18,7 +18,8 @@ struct Marker {
   bool normalsComputed = false;
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where normals were computed
   ElementCounts elements;                                  ///< as drawn; a strip's length does not tell
-  double paletteErrorDegrees = 0; ///< normals of a palette are off by at most that; 0: there is none
+  double paletteErrorDegrees = 0;      ///< normals of a palette are off by at most that; 0: there is none
+  std::vector<std::string> attributes; ///< further ones that were kept
 };
 
 std::string writeMarker(const Marker& marker);

@@ -121,6 +121,17 @@ void requireNormals(const ConvertOptions& options) {
   }
 }
 
+void requireAttributes(const ConvertOptions& options) {
+  const bool isAny = options.keepAttributes.all || !options.keepAttributes.names.empty();
+  if (isAny && options.target == Target::x3dom)
+    refuse("--keep-attributes", "X3DOM reads no further attributes out of images and arrays");
+  if (options.container == Container::bg && options.attributeBits != 0)
+    refuse("--attribute-bits",
+           fmt::format("bg stores attributes as Float32, not in {} bits", options.attributeBits));
+  if (options.attributeBits % 8 != 0 || options.attributeBits > 24)
+    refuse("--attribute-bits", fmt::format("images hold 8, 16 or 24 bits, not {}", options.attributeBits));
+}
+
 } // namespace
 
 ConvertOptions resolved(ConvertOptions options) {
@@ -133,6 +144,9 @@ ConvertOptions resolved(ConvertOptions options) {
     options.normalBits = defaultNormalBits(options);
   requireCoords(options);
   requireNormals(options);
+  requireAttributes(options);
+  if (options.attributeBits == 0)
+    options.attributeBits = 16;
   if (options.target == Target::x3dom && options.container == Container::sig &&
       options.patchVertices > maxShortIndexedVertices)
     refuse("--patch-vertices",

@@ -38,13 +38,13 @@ std::string placeOf(const std::filesystem::path& input) {
   return input == "-" ? "standard input" : input.string();
 }
 
-Imported importInput(const std::filesystem::path& input, std::uint64_t& bytes) {
+Imported importInput(const std::filesystem::path& input, const ImportOptions& options, std::uint64_t& bytes) {
   if (input == "-") {
     const Bytes read = readFile(input);
     bytes = read.size();
-    return importBytes(read, placeOf(input));
+    return importBytes(read, placeOf(input), options);
   }
-  Imported imported = importFile(input);
+  Imported imported = importFile(input, options);
   std::error_code none;
   bytes = std::filesystem::file_size(input, none);
   return imported;

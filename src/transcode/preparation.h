@@ -15,7 +15,7 @@
 namespace imgeo {
 
 /// Imports a file, or standard input for "-", and says how long it is.
-Imported importInput(const std::filesystem::path& input, std::uint64_t& bytes);
+Imported importInput(const std::filesystem::path& input, const ImportOptions& options, std::uint64_t& bytes);
 
 /// The input in messages.
 std::string placeOf(const std::filesystem::path& input);

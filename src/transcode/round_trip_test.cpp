@@ -55,6 +55,8 @@ TEST(RoundTrip, EveryContainerPrimitiveAndPrecisionGivesBackEveryMesh) {
           setNormals(options, seed);
           options.patchVertices = seed % 2 ? 256 : 65535;
           options.effort = static_cast<int>(seed % 4);
+          options.keepAttributes.all = seed % 3 > 0;
+          options.attributeBits = container == Container::sig ? 8 * (1 + seed % 3) : 0;
           const VerifyReport verified = expectRoundTrip(
               testing::randomMesh(seed), options,
               fmt::format("seed {} container {} primitives {} indexed {} bits {} patches of {}", seed,

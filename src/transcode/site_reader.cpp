@@ -29,23 +29,12 @@ OpenedDocument openDocument(const fs::path& site) {
 std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene) {
   std::vector<NamedFile> files;
   std::set<std::string> seen;
-  const auto add = [&](const Reference& reference, Role role) {
-    if (seen.insert(reference.url).second)
-      files.push_back({reference.url, role});
-  };
   for (const GeometryDescription& geometry : scene.geometries)
-    for (const PatchDescription& patch : geometry.patches) {
-      if (patch.index)
-        add(*patch.index, Role::index);
-      for (const Reference& plane : patch.coord)
-        add(plane, Role::coord);
-      if (patch.normal)
-        add(*patch.normal, Role::normal);
-      if (patch.texCoord)
-        add(*patch.texCoord, Role::texCoord);
-      if (patch.color)
-        add(*patch.color, Role::color);
-    }
+    for (const PatchDescription& patch : geometry.patches)
+      visitReferences(patch, [&](Role role, const Reference& reference) {
+        if (seen.insert(reference.url).second)
+          files.push_back({reference.url, role});
+      });
   return files;
 }
 

@@ -3,6 +3,7 @@
 
 #include "containers/container.h"
 #include "documents/documents.h"
+#include "import/import.h"
 #include "prepare/normals.h"
 #include "prepare/weld.h"
 
@@ -32,6 +33,8 @@ struct ConvertOptions {
   std::uint32_t normalBits = 0; ///< see EncodeOptions; 0: the fewest that cost nothing
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where the source has no normals
   std::uint32_t patchVertices = 65535; ///< 256..4,194,304; above 65,535 with 32-bit indices
+  AttributeChoice keepAttributes;      ///< further attributes of vertices
+  std::uint32_t attributeBits = 0;     ///< SIG: 8, 16 or 24; 0: 16. BG has Float32
   int effort = 5;                      ///< 0 fastest .. 9 smallest
   std::string title;                   ///< empty: the source's name
   bool force = false;                  ///< replace a directory that is not one of our sites
@@ -44,6 +47,13 @@ struct RoleBytes {
   std::size_t files = 0;
 };
 
+/// A further attribute as it is stored.
+struct AttributeReport {
+  std::string name;
+  std::uint32_t components = 1, bits = 16;
+  double error = 0; ///< by which its numbers may be off
+};
+
 struct ConvertReport {
   std::string format; ///< of the source
   std::uint64_t sourceBytes = 0;
@@ -51,11 +61,12 @@ struct ConvertReport {
   std::size_t vertices = 0, patches = 0;
   WeldReport weld;
   bool normalsComputed = false;
-  Lattice lattice;                    ///< of the first mesh: step states the precision
-  ElementCounts collapsed;            ///< that lost their area or length on so coarse a lattice
-  double positionError = 0;           ///< by which vertices of any mesh may be off, along an axis
-  std::uint32_t normalBits = 0;       ///< of a stored component
-  double normalErrorDegrees = 0;      ///< by which stored normals may be off
+  Lattice lattice;               ///< of the first mesh: step states the precision
+  ElementCounts collapsed;       ///< that lost their area or length on so coarse a lattice
+  double positionError = 0;      ///< by which vertices of any mesh may be off, along an axis
+  std::uint32_t normalBits = 0;  ///< of a stored component
+  double normalErrorDegrees = 0; ///< by which stored normals may be off
+  std::vector<AttributeReport> attributes;
   std::string x3domVersion, x3domUrl; ///< target x3dom: the release that the page is for, and its script
   std::vector<RoleBytes> roles;
   double bytesPerTriangle = 0; ///< as SiteInfo has it
@@ -118,6 +129,7 @@ struct SourceInfo {
   ElementCounts elements;
   std::size_t shapes = 0, vertices = 0;
   bool normals = false, texCoords = false, colors = false; ///< in any of its meshes
+  std::vector<std::string> attributes;                     ///< names of further ones
   Box3d box;
   std::vector<std::string> warnings;
 };
@@ -142,6 +154,7 @@ struct VerifyReport {
   ElementCounts input, site, missing, extra;
   double positionError = 0, positionBound = 0; ///< largest error per axis and step / 2, in the mesh's units
   double normalErrorDegrees = 0, normalBoundDegrees = 0;
+  double attributeError = 0;         ///< of further attributes, in parts of what their rounding allows
   std::vector<std::string> findings; ///< one sentence per bound that is broken
 };
 

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "containers/named_attributes.h"
 #include "containers/normals.h"
 #include "containers/stored_coords.h"
 #include "prepare/patches.h"
@@ -17,8 +18,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <set>
 
 namespace imgeo {
 
@@ -63,6 +67,15 @@ Vec2<double> texCoordBound(const GeometryDescription& geometry) {
   };
   return {bound(geometry.texCoordMin.x, geometry.texCoordSize.x),
           bound(geometry.texCoordMin.y, geometry.texCoordSize.y)};
+}
+
+/// By how much each component of the further attributes may be off.
+std::map<std::string, std::vector<double>> namedBounds(const GeometryDescription& geometry) {
+  std::map<std::string, std::vector<double>> bounds;
+  for (const AttributeDescription& attribute : geometry.attributes)
+    for (std::uint32_t c = 0; c < attribute.components; ++c)
+      bounds[attribute.name].push_back(numberBound(geometry.container, attribute, c));
+  return bounds;
 }
 
 /// Every file that the page names is there and, in our sites, holds what its name says.
@@ -163,6 +176,16 @@ void checkAttributesPresent(const Mesh& mesh, const std::vector<IndexedPatch>& p
   check("normals", !mesh.normals.empty(), &IndexedPatch::normals);
   check("texture coordinates", !mesh.texCoords.empty(), &IndexedPatch::texCoords);
   check("colours", !mesh.colors.empty(), &IndexedPatch::colors);
+  const auto namesOf = [](const VertexAttributes& attributes) {
+    std::set<std::string> names;
+    for (const NamedAttribute& attribute : attributes.namedAttributes)
+      names.insert(fmt::format("\"{}\" of {}", attribute.name, attribute.components));
+    return names;
+  };
+  for (const IndexedPatch& patch : patches)
+    if (namesOf(patch) != namesOf(mesh))
+      return findings.add("The input's further attributes are {}, the site's {}.",
+                          fmt::join(namesOf(mesh), ", "), fmt::join(namesOf(patch), ", "));
 }
 
 void count(const ElementDifference& difference, const ElementList& input, const ElementList& site,
@@ -216,7 +239,7 @@ void compareShape(const OpenedDocument& document, const GeometryDescription& geo
   const ElementKind kind{topology, isWithoutIndex};
   const ElementList input = elementsOf(mesh, quantised, kind), site = elementsOf(patches, kind);
   const AttributeBounds bounds{normalBoundDegrees(geometry, marker.value_or(Marker{})),
-                               texCoordBound(geometry)};
+                               texCoordBound(geometry), namedBounds(geometry)};
   const ElementDifference difference = compare(input, site, bounds);
   count(difference, input, site, topology, report);
   const char* elements = nameOf(topology);
@@ -237,6 +260,10 @@ void compareShape(const OpenedDocument& document, const GeometryDescription& geo
     findings.add("Texture coordinates are off by up to {:.4g} and {:.4g}, more than their rounding, {:.4g} "
                  "and {:.4g}.",
                  difference.texCoord.x, difference.texCoord.y, bounds.texCoord.x, bounds.texCoord.y);
+  report.attributeError = std::max(report.attributeError, difference.named);
+  if (difference.named > 1)
+    findings.add("Further attributes are off by up to {:.4g} times what their rounding allows.",
+                 difference.named);
   if (difference.colorsDiffering > 0)
     findings.add("{} {} have other colours.", difference.colorsDiffering, elements);
 }
@@ -253,7 +280,10 @@ std::optional<Marker> markerOf(const OpenedDocument& document) {
 /// The input, with normals computed as they were for our site; for another's only with its own.
 Imported prepared(const fs::path& input, const std::optional<Marker>& marker) {
   std::uint64_t bytes = 0;
-  Imported imported = importInput(input, bytes);
+  ImportOptions options;
+  if (marker)
+    options.attributes.names = {marker->attributes.begin(), marker->attributes.end()};
+  Imported imported = importInput(input, options, bytes);
   std::vector<bool> hadNormals;
   for (const Mesh& mesh : imported.scene.meshes)
     hadNormals.push_back(!mesh.normals.empty());

@@ -22,9 +22,9 @@ TEST_F(Convert, SaysWhatItChose) {
   const Outcome outcome = run({"convert", input_, "-o", site_});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "") << "silent where standard error is no terminal";
-  for (const char* words :
-       {"sig (PNG images)", "profile classic", "target web", "16 bits: step", "rgb, 8 bits: off by at most 0.39 degrees; computed",
-        "800 triangles", "1 of at most 65,535 vertices", "coord", "bytes a triangle", "memory"})
+  for (const char* words : {"sig (PNG images)", "profile classic", "target web", "16 bits: step",
+                            "rgb, 8 bits: off by at most 0.39 degrees; computed", "800 triangles",
+                            "1 of at most 65,535 vertices", "coord", "bytes a triangle", "memory"})
     EXPECT_NE(outcome.out.find(words), std::string::npos) << words << " is not in:\n" << outcome.out;
   EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos) << "colours are for terminals";
   EXPECT_EQ(namesIn(site_), (std::vector<std::string>{"geometry", "imgeo.css", "imgeo.json", "index.html",
@@ -58,7 +58,8 @@ TEST_F(Convert, TakesEveryShortName) {
                                              {"-qt", "16", "-qp", "14"},
                                              {"-vc", "8", "-qp", "14"},
                                              {"-v", "-qp", "14"}}) {
-    std::vector<std::string> line{"convert", input_, "-o" + site_, "-r=" + (directory_ / "report.json").string()};
+    std::vector<std::string> line{"convert", input_, "-o" + site_,
+                                  "-r=" + (directory_ / "report.json").string()};
     line.insert(line.end(), options.begin(), options.end());
     const Outcome outcome = run(line);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -222,6 +223,26 @@ TEST_F(Convert, VerifyExitsWithThreeAndSentencesWhereTheSiteIsAnother) {
   EXPECT_EQ(report["equal"], false);
   EXPECT_GT(report["missingTriangles"], 0);
   EXPECT_FALSE(report["findings"].empty());
+}
+
+TEST_F(Convert, KeepsTheAttributesThatAreNamed) {
+  write(
+      input_,
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float heat\nproperty uchar label\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0 0.5 1\n1 0 0 1.5 2\n0 1 0 -3 9\n3 0 1 2\n");
+  EXPECT_NE(run({"info", input_}).out.find("heat, label"), std::string::npos);
+  for (const std::string container : {"sig", "bg"}) {
+    const Outcome outcome = run({"convert", input_, "-o", site_, "--container", container,
+                                 "--keep-attributes", "label,heat", "--json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(Json::parse(outcome.out)["attributes"].size(), 2);
+    EXPECT_EQ(run({"verify", site_, input_}).code, 0);
+    EXPECT_NE(run({"info", site_}).out.find("attribute"), std::string::npos);
+    ASSERT_EQ(run({"export", site_, "-o", directory_ / "out.ply"}).code, 0);
+    EXPECT_NE(textOf(directory_ / "out.ply").find("property float heat\nproperty float label\n"),
+              std::string::npos);
+  }
 }
 
 TEST_F(Convert, ServePrintsTheAddressAndStopsOnCtrlC) {

@@ -61,6 +61,18 @@ TEST_F(Faults, CoordinatesThatAreNoNumbers) {
                   "bad.ply:11");
 }
 
+TEST_F(Faults, TextureCoordinatesAndAttributesThatAreNoNumbers) {
+  const auto cloud = [](const std::string& properties, const std::string& values) {
+    return "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n" +
+           properties + "end_header\n0 0 0 " + values + "\n";
+  };
+  expectRefusal("bad.ply", cloud("property float s\nproperty float t\n", "nan 0"), 3, "texture coordinate");
+  expectRefusal("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt nan 0\nf 1/1 2/1 3/1\n", 3, "texture coordinate");
+  const std::string heat = cloud("property float heat\n", "inf");
+  expectRefusal("bad.ply", heat, 3, "attribute", {"--keep-attributes", "heat"});
+  expectRefusal("bad.ply", heat, 1, "no attribute \"cold\" but heat", {"--keep-attributes", "cold"});
+}
+
 TEST_F(Faults, AMeshWithNothingInIt) {
   expectRefusal("empty.ply", header("ascii", "0", "0"), 3, "empty.ply");
   expectRefusal("empty.ply", "", 3, "empty.ply");
@@ -129,8 +141,8 @@ TEST_F(Faults, OptionsThatCannotBeHonoured) {
   refuse("--position-bits", {"--container", "bg", "--coord-type", "uint8", "-vp", "9"});
   refuse("--position-bits", {"--container", "bg", "--coord-type", "float32", "-vp", "25"});
   refuse("--position-bits", {"--container", "bg", "--coord-type", "int16", "-vp", "16", "--target", "x3dom"});
-  refuse("--normal-bits", {"--container", "bg", "--coord-type", "int16", "--layout", "interleaved", "-vn", "8",
-                           "--target", "x3dom"});
+  refuse("--normal-bits", {"--container", "bg", "--coord-type", "int16", "--layout", "interleaved", "-vn",
+                           "8", "--target", "x3dom"});
   refuse("--position-bits", {"-vp", "7"});
   refuse("--position-bits", {"-qp", "33"});
   refuse("--position-bits", {"--position-bits", "abc"});
@@ -145,6 +157,10 @@ TEST_F(Faults, OptionsThatCannotBeHonoured) {
   refuse("--patch-vertices", {"--patch-vertices", "4194305"});
   refuse("--patch-vertices", {"--patch-vertices", "65536", "--target", "x3dom"});
   refuse("--effort", {"--effort", "10"});
+  refuse("nor any other", {"--keep-attributes", "heat"});
+  refuse("--keep-attributes", {"--target", "x3dom", "--keep-attributes", "all"});
+  refuse("--attribute-bits", {"--attribute-bits", "12"});
+  refuse("--attribute-bits", {"--container", "bg", "--attribute-bits", "16"});
   refuse("did you mean --container?", {"--contaner", "bg"});
   refuse("too many", {"another.ply"});
   refuse("--container is given more than once", {"--container", "bg", "--container", "sig"});

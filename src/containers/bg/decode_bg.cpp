@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/narrow.h"
+#include "containers/named_attributes.h"
 #include "containers/normals.h"
 #include "containers/stored.h"
 #include "containers/stored_coords.h"
@@ -138,6 +139,18 @@ std::vector<Vec3f> decodeNormals(const Records& records, std::uint32_t count,
   return normals;
 }
 
+NamedAttribute decodeAttribute(const Records& records, std::uint32_t count,
+                               const AttributeDescription& description, const std::string& place) {
+  NamedAttribute attribute{description.name, description.components, {}};
+  for (std::uint32_t n = 0; n < count; ++n)
+    for (std::uint32_t c = 0; c < description.components; ++c) {
+      attribute.values.push_back(static_cast<float>(records.realAt(n, c)));
+      if (!std::isfinite(attribute.values.back()))
+        throw Error(ErrorKind::malformed, place, "an attribute is not a number");
+    }
+  return attribute;
+}
+
 void checkTypes(const PatchDescription& patch, const GeometryDescription& geometry) {
   if (patch.coord.size() != 1)
     throw Error(ErrorKind::malformed, "", "a BinaryGeometry patch has one file of coordinates");
@@ -200,6 +213,13 @@ IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& 
     for (std::uint32_t n = 0; n < count; ++n)
       decoded.colors.push_back({byte(n, 0), byte(n, 1), byte(n, 2),
                                 geometry.colorComponents == 4 ? byte(n, 3) : std::uint8_t{255}});
+  }
+  checkAttributes(patch, geometry);
+  for (std::size_t a = 0; a < geometry.attributes.size(); ++a) {
+    const AttributeDescription& attribute = geometry.attributes[a];
+    decoded.namedAttributes.push_back(
+        decodeAttribute(fetchRecords(patch.attributes[a][0], ElementType::float32, attribute.components),
+                        count, attribute, patch.attributes[a][0].url));
   }
   return decoded;
 }

@@ -38,7 +38,8 @@ struct Column {
   Role role = Role::coord;
   Bytes bytes;
   std::uint32_t recordBytes = 0;
-  bool isPadded = false; ///< records are longer than what they hold
+  bool isPadded = false;     ///< records are longer than what they hold
+  std::size_t attribute = 0; ///< the geometry's, for Role::attribute
 };
 
 Bytes indexArray(const IndexedPatch& patch, ElementType type) {
@@ -129,6 +130,14 @@ Column colorColumn(const IndexedPatch& patch, const GeometryDescription& geometr
   return column;
 }
 
+Column attributeColumn(const NamedAttribute& attribute, std::size_t number) {
+  Column column{Role::attribute, {}, 4 * attribute.components, false, number};
+  column.bytes.reserve(4 * attribute.values.size());
+  for (const float value : attribute.values)
+    appendLittle(column.bytes, value);
+  return column;
+}
+
 std::vector<Column> columnsOf(const IndexedPatch& patch, const GeometryDescription& geometry) {
   std::vector<Column> columns{coordColumn(patch, geometry)};
   if (!patch.normals.empty() && !areNormalsInCoords(patch, geometry))
@@ -137,6 +146,8 @@ std::vector<Column> columnsOf(const IndexedPatch& patch, const GeometryDescripti
     columns.push_back(texCoordColumn(patch, geometry));
   if (!patch.colors.empty())
     columns.push_back(colorColumn(patch, geometry));
+  for (std::size_t a = 0; a < geometry.attributes.size(); ++a)
+    columns.push_back(attributeColumn(patch.namedAttributes.at(a), a));
   return columns;
 }
 
@@ -149,26 +160,6 @@ Bytes interleaved(const std::vector<Column>& columns, std::size_t count) {
       out.insert(out.end(), record, record + column.recordBytes);
     }
   return out;
-}
-
-void refer(PatchDescription& description, Role role, const Reference& reference) {
-  switch (role) {
-  case Role::coord:
-    description.coord = {reference};
-    break;
-  case Role::normal:
-    description.normal = reference;
-    break;
-  case Role::texCoord:
-    description.texCoord = reference;
-    break;
-  case Role::color:
-    description.color = reference;
-    break;
-  case Role::index:
-    description.index = reference;
-    break;
-  }
 }
 
 } // namespace
@@ -184,7 +175,7 @@ EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geom
     for (const Column& column : columns)
       reference.stride += column.recordBytes;
     for (const Column& column : columns) {
-      refer(description, column.role, reference);
+      addReference(description, column.role, column.attribute, reference);
       reference.first += column.recordBytes;
     }
   } else {
@@ -192,7 +183,7 @@ EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geom
       Reference reference = addFile(encoded, {column.role, ".bin", std::move(column.bytes)});
       // A stride is stated only where it is more than the components take.
       reference.stride = column.isPadded ? column.recordBytes : 0;
-      refer(description, column.role, reference);
+      addReference(description, column.role, column.attribute, reference);
     }
   }
   if (areNormalsInCoords(patch, geometry))

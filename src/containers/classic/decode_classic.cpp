@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "containers/classic/layout.h"
 #include "containers/classic/normal_image.h"
+#include "containers/named_attributes.h"
 #include "containers/normals.h"
 #include "containers/png/png.h"
 #include "containers/stored.h"
@@ -116,6 +117,21 @@ Vec2f texCoordOf(const std::uint8_t* texel, const GeometryDescription& geometry)
           loadTexCoord(word(texel[1], texel[3]), geometry.texCoordMin.y, geometry.texCoordSize.y)};
 }
 
+/// An attribute out of its byte planes, which are most significant first.
+NamedAttribute decodeAttribute(const std::vector<Texels>& planes, std::uint32_t count,
+                               const AttributeDescription& description) {
+  NamedAttribute attribute{description.name, description.components, {}};
+  attribute.values.reserve(std::size_t{count} * description.components);
+  for (std::uint32_t n = 0; n < count; ++n)
+    for (std::uint32_t c = 0; c < description.components; ++c) {
+      std::uint32_t stored = 0;
+      for (const Texels& plane : planes)
+        stored = stored << 8 | plane[n][c];
+      attribute.values.push_back(loadNumber(stored, description, c));
+    }
+  return attribute;
+}
+
 } // namespace
 
 IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescription& geometry,
@@ -177,6 +193,13 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
     for (std::uint32_t n = 0; n < count; ++n)
       decoded.colors.push_back(
           {texels[n][0], texels[n][1], texels[n][2], alpha ? texels[n][3] : std::uint8_t{255}});
+  }
+  checkAttributes(patch, geometry);
+  for (std::size_t a = 0; a < geometry.attributes.size(); ++a) {
+    std::vector<Texels> planes;
+    for (const Reference& plane : patch.attributes[a])
+      planes.push_back(fetchRecords(plane, channelsOf(geometry.attributes[a])));
+    decoded.namedAttributes.push_back(decodeAttribute(planes, count, geometry.attributes[a]));
   }
   return decoded;
 }

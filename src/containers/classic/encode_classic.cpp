@@ -6,6 +6,7 @@
 #include "containers/classic/layout.h"
 #include "containers/classic/normal_image.h"
 #include "containers/limits.h"
+#include "containers/named_attributes.h"
 #include "containers/png/png.h"
 #include "containers/stored.h"
 #include "containers/stored_coords.h"
@@ -20,6 +21,7 @@ namespace {
 struct RoleImage {
   Role role;
   Image image;
+  std::size_t attribute = 0; ///< the geometry's, for Role::attribute
 };
 
 ImageSize recordImageSizeOf(const IndexedPatch& patch, Target target) {
@@ -89,6 +91,17 @@ Image colorImage(const IndexedPatch& patch, std::uint32_t components, ImageSize 
   });
 }
 
+/// Byte `plane` of every number, counted from the least significant; a component a channel.
+Image attributeImage(const NamedAttribute& attribute, const AttributeDescription& description, ImageSize size,
+                     std::size_t count, std::uint32_t plane) {
+  return imageOf(size, channelsOf(description), count, [&](std::size_t n, std::uint8_t* out) {
+    for (std::uint32_t c = 0; c < description.components; ++c) {
+      const float value = attribute.values[n * description.components + c];
+      out[c] = static_cast<std::uint8_t>(storeNumber(value, description, c) >> (8 * plane));
+    }
+  });
+}
+
 } // namespace
 
 EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort,
@@ -114,28 +127,18 @@ EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription&
     images.push_back({Role::texCoord, texCoordImage(patch, geometry, records)});
   if (!patch.colors.empty())
     images.push_back({Role::color, colorImage(patch, geometry.colorComponents, records)});
+  for (std::size_t a = 0; a < geometry.attributes.size(); ++a)
+    for (std::uint32_t plane = geometry.attributes[a].bytes; plane-- > 0;)
+      images.push_back({Role::attribute,
+                        attributeImage(patch.namedAttributes.at(a), geometry.attributes[a], records,
+                                       patch.vertexCount(), plane),
+                        a});
 
   std::vector<Bytes> pngs(images.size());
   parallelFor(images.size(), [&](std::size_t i) { pngs[i] = encodePng(images[i].image, effort); });
   for (std::size_t i = 0; i < images.size(); ++i) {
     const Reference reference = addFile(encoded, {images[i].role, ".png", std::move(pngs[i])});
-    switch (images[i].role) {
-    case Role::index:
-      encoded.description.index = reference;
-      break;
-    case Role::coord:
-      encoded.description.coord.push_back(reference);
-      break;
-    case Role::normal:
-      encoded.description.normal = reference;
-      break;
-    case Role::texCoord:
-      encoded.description.texCoord = reference;
-      break;
-    case Role::color:
-      encoded.description.color = reference;
-      break;
-    }
+    addReference(encoded.description, images[i].role, images[i].attribute, reference);
   }
   return encoded;
 }

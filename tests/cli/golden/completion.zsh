@@ -43,6 +43,8 @@ _imgeo() {
       '-vc[bits of a colour'\''s component; classic has 8]:color-bits: ' \
       '--color-bits[bits of a colour'\''s component; classic has 8]:color-bits: ' \
       '--patch-vertices[the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices]:patch-vertices: ' \
+      '--keep-attributes[further numbers of PLY'\''s vertices to keep\: names with commas between, all or none]:keep-attributes: ' \
+      '--attribute-bits[bits of such a number; sig\: 8, 16 or 24, otherwise 16; bg holds floats]:attribute-bits: ' \
       '--normal-weighting[how triangles count in normals that the source lacks]:normal-weighting:(area angle uniform)' \
       '--title[the page'\''s title; otherwise the input'\''s name]:title: ' \
       '--effort[how hard to compress\: 0 fastest, 9 smallest]:effort: ' \
