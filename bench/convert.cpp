@@ -1,6 +1,6 @@
 // What `imgeo convert` takes and gives, measured as a user would see it: whole
 // processes, medians of five, peak memory as the kernel counts it. Each site is
-// verified before it is timed. On the first model npm's gltfpack (meshoptimizer
+// verified before it is timed. On the first model every effort, and npm's gltfpack (meshoptimizer
 // compiled to WebAssembly) runs beside it, on the same mesh as GLB.
 // Prints Markdown tables for the README.
 //
@@ -35,6 +35,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr int runs = 5;
+constexpr const char* defaultEffort = "5";
 
 struct Run {
   double seconds = 0;
@@ -106,10 +107,11 @@ struct Measured {
   Json report;
 };
 
-Measured measureConvert(const std::string& model, const std::string& container, const fs::path& work) {
+Measured measureConvert(const std::string& model, const std::string& container, const std::string& effort,
+                        const fs::path& work) {
   const std::string site = work / "site", report = work / "report.json";
-  const std::vector<std::string> words{"build/imgeo", "convert", model, "-o",  site,
-                                       "--container", container, "-r",  report};
+  const std::vector<std::string> words{"build/imgeo", "convert", model,  "-o",       site,  "--container",
+                                       container,     "-r",      report, "--effort", effort};
   runOnce(words);
   runOnce({"build/imgeo", "verify", site, model});
   Measured measured{measure(words), {}};
@@ -157,6 +159,20 @@ void compareWithGltfpack(const std::string& model, const Measured& sig, const fs
   }
 }
 
+/// What each effort takes and gives, as images.
+void compareEfforts(const std::string& model, const fs::path& work) {
+  fmt::print("\n| {}, --effort | time | bytes/triangle | peak memory, bytes/triangle |\n|---|--:|--:|--:|\n",
+             fs::path(model).filename().string());
+  for (int effort = 0; effort <= 9; ++effort) {
+    const Measured measured = measureConvert(model, "sig", std::to_string(effort), work);
+    const double triangles = measured.report["triangles"];
+    fmt::print("| {} | {:.2f} s | {:.3f} | {:.0f} |\n", effort, measured.run.seconds,
+               measured.report["bytesPerTriangle"].get<double>(),
+               static_cast<double>(measured.run.peakBytes) / triangles);
+    std::fflush(stdout);
+  }
+}
+
 int benchmark(const std::vector<std::string>& models) {
   std::string pattern = (fs::temp_directory_path() / "imgeo-bench-XXXXXX").string();
   const fs::path work = mkdtemp(pattern.data());
@@ -166,13 +182,14 @@ int benchmark(const std::vector<std::string>& models) {
   std::vector<Measured> first;
   for (const std::string& model : models)
     for (const std::string container : {"sig", "bg"}) {
-      const Measured measured = measureConvert(model, container, work);
+      const Measured measured = measureConvert(model, container, defaultEffort, work);
       printRow(fs::path(model).filename(), container, measured);
       first.push_back(measured);
     }
   fmt::print("\nBytes a triangle by role; medians of {} runs on {} threads.\n", runs,
              sysconf(_SC_NPROCESSORS_ONLN));
   compareWithGltfpack(models.front(), first.front(), work);
+  compareEfforts(models.front(), work);
   fs::remove_all(work);
   return 0;
 }

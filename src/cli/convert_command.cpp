@@ -208,6 +208,14 @@ void printBytes(const ConvertReport& report) {
                report.bytesPerTriangle);
 }
 
+/// ", 83 bytes a triangle"; nothing for what has none.
+std::string eachTriangle(const ConvertReport& report) {
+  return report.elements.triangles == 0
+             ? ""
+             : fmt::format(", {} bytes a triangle",
+                           grouped(report.peakMemoryBytes / report.elements.triangles));
+}
+
 void printFiles(const std::filesystem::path& site) {
   fmt::print("\n");
   for (const SiteFile& file : inspect(site).files)
@@ -242,9 +250,9 @@ int runConvert(const Arguments& arguments) {
   printBytes(report);
   if (arguments.has("verbose"))
     printFiles(output);
-  fmt::print("It took {:.2f} s (import {:.2f}, prepare {:.2f}, encode {:.2f}) and at most {} of memory.\n",
+  fmt::print("It took {:.2f} s (import {:.2f}, prepare {:.2f}, encode {:.2f}) and at most {} of memory{}.\n",
              report.totalSeconds, report.importSeconds, report.prepareSeconds, report.encodeSeconds,
-             byteSize(report.peakMemoryBytes));
+             byteSize(report.peakMemoryBytes), eachTriangle(report));
   fmt::print("\nTo look at it: imgeo serve {}\n", output);
   return 0;
 }
