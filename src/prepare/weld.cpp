@@ -1,8 +1,11 @@
 #include "prepare/weld.h"
 
+#include "base/parallel.h"
+#include "prepare/incidence.h"
 #include "prepare/index_table.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 
 namespace imgeo {
@@ -68,8 +71,27 @@ Renumbering weldPositions(Mesh& mesh) {
   return numbers;
 }
 
+/// Wedges that are nothing but positions, which are welded already and numbered in
+/// the order of their first use: most scans.
+Renumbering weldPlainWedges(const Mesh& mesh) {
+  Renumbering numbers(mesh.wedgeCount());
+  for (const std::uint32_t old : mesh.corners) {
+    if (numbers.newOf[old] != IndexTable::none)
+      continue;
+    const std::uint32_t position = mesh.wedgePositions[old];
+    numbers.newOf[old] = position;
+    if (position == numbers.kept.size())
+      numbers.kept.push_back(old);
+    else
+      ++numbers.merged;
+  }
+  return numbers;
+}
+
 /// `mesh.wedgePositions` of wedges in use must name welded positions.
 Renumbering weldWedges(const Mesh& mesh) {
+  if (mesh.normals.empty() && mesh.texCoords.empty() && mesh.colors.empty() && mesh.namedAttributes.empty())
+    return weldPlainWedges(mesh);
   Renumbering numbers(mesh.wedgeCount());
   IndexTable table(mesh.wedgeCount());
   const auto hash = [&](std::uint32_t w) {
@@ -120,15 +142,26 @@ Vec3u turned(const Mesh& mesh, std::size_t element) {
   return best;
 }
 
+/// Elements are told apart among those of the same least corner, which are few.
 std::size_t countDuplicates(const Mesh& mesh) {
-  std::size_t duplicates = 0;
-  IndexTable table(mesh.elementCount());
-  for (std::uint32_t element = 0; element < mesh.elementCount(); ++element) {
-    const Vec3u key = turned(mesh, element);
-    const std::uint64_t hash = mixHash(mixHash(key.z, std::uint64_t{key.x} << 32 | key.y), 0);
-    if (table.findOrInsert(hash, element, [&](std::uint32_t e) { return turned(mesh, e) == key; }) != element)
-      ++duplicates;
-  }
+  const Incidence byLeast = incidenceOf(mesh.elementCount(), mesh.wedgeCount(),
+                                        [&](std::size_t element) { return turned(mesh, element).x; });
+  std::atomic<std::size_t> duplicates = 0;
+  parallelForBlocks(mesh.wedgeCount(), [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint64_t> others;
+    std::size_t found = 0;
+    for (std::size_t least = begin; least < end; ++least) {
+      others.clear();
+      for (const std::uint32_t element : byLeast.of(static_cast<std::uint32_t>(least))) {
+        const Vec3u corners = turned(mesh, element);
+        others.push_back(std::uint64_t{corners.y} << 32 | corners.z);
+      }
+      std::sort(others.begin(), others.end());
+      for (std::size_t i = 1; i < others.size(); ++i)
+        found += others[i] == others[i - 1];
+    }
+    duplicates += found;
+  });
   return duplicates;
 }
 

@@ -118,5 +118,23 @@ TEST(Weld, KeepsTheWedgesOfACreaseAtOnePosition) {
   EXPECT_EQ(mesh.wedgePositions[3], 0u);
 }
 
+TEST(Weld, CountsElementsThatRepeatAnotherWhicheverCornerTheyBeginAt) {
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    Mesh mesh = randomMesh(seed);
+    const WeldReport report = weld(mesh);
+    const std::uint32_t count = cornersPerElement(mesh.topology);
+    std::set<std::vector<std::uint32_t>> distinct;
+    for (std::size_t first = 0; first < mesh.corners.size(); first += count) {
+      std::vector<std::uint32_t> corners(&mesh.corners[first], &mesh.corners[first] + count), least = corners;
+      for (std::uint32_t turn = 1; turn < count; ++turn) {
+        std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+        least = std::min(least, corners);
+      }
+      distinct.insert(least);
+    }
+    EXPECT_EQ(report.duplicateElements, mesh.elementCount() - distinct.size()) << seed;
+  }
+}
+
 } // namespace
 } // namespace imgeo
