@@ -1,0 +1,11 @@
+// The models that every attribute's stream begins with: docs/formats/compact.md,
+// the end of "Attributes".
+
+import { numberModels } from "./rangeDecoder.ts";
+
+export const repeatModel = 0;
+export const choiceModels = repeatModel + 1;
+export const flipModel = choiceModels + 24;
+export const firstModels = flipModel + 1;
+export const secondModels = firstModels + numberModels;
+export const attributeModelCount = secondModels + 93 * numberModels;

@@ -1,0 +1,35 @@
+// The order in which a patch's triangles (or lines) and vertices come, and what
+// the passes after it want to know of that order. Corner i of triangle t is
+// 3 t + i; -1 stands for what there is not.
+
+export interface Connectivity {
+  /** Per corner. */
+  readonly vertex: Int32Array;
+  /** Per triangle: the corner opposite of its first edge, in the neighbour there. */
+  readonly across: Int32Array;
+  /** Per triangle: the same for the second edge that it closes. */
+  readonly closing: Int32Array;
+  /** Per vertex: those next to it on the boundary when it came. */
+  readonly ahead: Int32Array;
+  readonly behind: Int32Array;
+  /** Per vertex: the corner opposite of the edge on its other side. */
+  readonly second: Int32Array;
+  /** Per vertex, lines: the other end of the line that brought it. */
+  readonly from: Int32Array;
+}
+
+const nothing = new Int32Array();
+
+/** What points have. */
+export const unconnected: Connectivity = {
+  vertex: nothing, across: nothing, closing: nothing, ahead: nothing, behind: nothing, second: nothing, from: nothing,
+};
+
+/** The corners of a corner's triangle after and before it, in its orientation. */
+export function after(corner: number): number {
+  return corner % 3 === 2 ? corner - 2 : corner + 1;
+}
+
+export function before(corner: number): number {
+  return corner % 3 === 0 ? corner + 2 : corner - 1;
+}

@@ -1,0 +1,42 @@
+// Lines, one behind the other: docs/formats/compact.md, "Lines".
+
+import { DecodeError } from "../decodeError.ts";
+import type { Connectivity } from "./connectivity.ts";
+import { unconnected } from "./connectivity.ts";
+import { numberModels, RangeDecoder } from "./rangeDecoder.ts";
+
+const chainModel = 0;
+const oldModels = 1;
+const vertexModels = oldModels + 2;
+const modelCount = vertexModels + numberModels;
+
+/** Safe for untrusted bytes. Throws DecodeError. */
+export function decodeLines(stream: Uint8Array, lineCount: number, vertexCount: number): Connectivity {
+  const decoder = new RangeDecoder(stream, modelCount);
+  const vertex = new Int32Array(2 * lineCount);
+  const from = new Int32Array(vertexCount).fill(-1);
+  let vertices = 0;
+
+  const end = (model: number): number => {
+    if (decoder.bit(model) === 1) {
+      const known = vertices - 1 - decoder.number(vertexModels);
+      if (known < 0) throw new DecodeError("malformed", "names a vertex that has not come");
+      return known;
+    }
+    if (vertices === vertexCount) throw new DecodeError("malformed", "holds more vertices than its header states");
+    return vertices++;
+  };
+
+  let b = -1;
+  for (let line = 0; line < lineCount; ++line) {
+    const a = line > 0 && decoder.bit(chainModel) === 1 ? b : end(oldModels);
+    const known = vertices;
+    b = end(oldModels + 1);
+    if (b === known) from[b] = a;
+    vertex[2 * line] = a;
+    vertex[2 * line + 1] = b;
+  }
+  if (vertices < vertexCount) throw new DecodeError("malformed", "holds fewer vertices than its header states");
+  decoder.finish();
+  return { ...unconnected, vertex, from };
+}

@@ -1,0 +1,103 @@
+// Normals: points of an octahedron, predicted from the triangles around
+// (docs/formats/compact.md, "Normals").
+
+import { DecodeError } from "../decodeError.ts";
+import { attributeModelCount, firstModels, flipModel, repeatModel, secondModels } from "./attributeModels.ts";
+import type { AttributeType } from "./header.ts";
+import type { DecodedShape } from "./neighbours.ts";
+import { decodeRepeats } from "./neighbours.ts";
+import { dominantAxis, NormalSums } from "./normalSums.ts";
+import { lengthInBits, numberModels, RangeDecoder } from "./rangeDecoder.ts";
+
+/** x, y, z of each wedge, |x| + |y| + |z| = 2^(bits - 1) - 1. Safe for untrusted bytes. Throws DecodeError. */
+export function decodeNormals(stream: Uint8Array, type: AttributeType, shape: DecodedShape): Int32Array {
+  if (type.isDerived) return new NormalDecoder(undefined, type, shape, new Uint8Array()).run();
+  const decoder = new RangeDecoder(stream, attributeModelCount);
+  const repeats = decodeRepeats(decoder, repeatModel, shape.wedges);
+  const normals = new NormalDecoder(decoder, type, shape, repeats).run();
+  decoder.finish();
+  return normals;
+}
+
+class NormalDecoder {
+  /** Undefined: normals are what is predicted. */
+  readonly #decoder: RangeDecoder | undefined;
+  readonly #radius: number;
+  readonly #repeats: Uint8Array;
+  readonly #previous: Int32Array | undefined;
+  readonly #normals: Int32Array;
+  /** Undefined in points and lines: a normal is expected to be the one before. */
+  readonly #sums: Int32Array | undefined;
+
+  constructor(decoder: RangeDecoder | undefined, type: AttributeType, shape: DecodedShape, repeats: Uint8Array) {
+    this.#decoder = decoder;
+    this.#radius = 2 ** (type.bits - 1) - 1;
+    this.#repeats = repeats;
+    this.#previous = shape.wedges.seams?.previous;
+    this.#normals = new Int32Array(3 * shape.header.wedgeCount);
+    this.#sums = shape.header.topology === "triangles" ? sumsOf(type, shape, repeats) : undefined;
+  }
+
+  run(): Int32Array {
+    const normals = this.#normals;
+    const repeats = this.#repeats;
+    const sums = this.#sums;
+    for (let w = 0; 3 * w < normals.length; ++w) {
+      if (repeats.length > 0 && repeats[w] === 1) {
+        const previous = 3 * this.#previous![w]!;
+        normals.copyWithin(3 * w, previous, previous + 3);
+      } else if (sums) {
+        this.#decode(w, sums[3 * w]!, sums[3 * w + 1]!, sums[3 * w + 2]!);
+      } else if (w > 0) {
+        this.#decode(w, normals[3 * w - 3]!, normals[3 * w - 2]!, normals[3 * w - 1]!);
+      } else {
+        this.#decode(w, 0, 0, 0);
+      }
+    }
+    return normals;
+  }
+
+  /** A normal that is expected in a direction, in whatever length. */
+  #decode(w: number, x: number, y: number, z: number): void {
+    const decoder = this.#decoder;
+    const normals = this.#normals;
+    const axis = dominantAxis(x, y, z);
+    let length = Math.abs(x) + Math.abs(y) + Math.abs(z);
+    if (length === 0) length = z = 1;
+    // u, v, d are x, y, z turned until the dominant one is last.
+    let u = this.#project(axis === 0 ? y : axis === 1 ? z : x, length);
+    let v = this.#project(axis === 0 ? z : axis === 1 ? x : y, length);
+    const isNegative = (axis === 0 ? x : axis === 1 ? y : z) < 0;
+    if (decoder) {
+      const residual = decoder.signed(firstModels);
+      u += residual;
+      v += decoder.signed(secondModels + numberModels * Math.min(lengthInBits(Math.abs(residual)), 7));
+    }
+    const rest = this.#radius - Math.abs(u) - Math.abs(v);
+    if (rest < 0) throw new DecodeError("malformed", "holds a normal beside its octahedron");
+    const isFlipped = decoder !== undefined && rest > 0 && decoder.bit(flipModel) === 1;
+    const first = 3 * w;
+    normals[first + (axis === 2 ? 0 : axis + 1)] = u;
+    normals[first + (axis === 0 ? 2 : axis - 1)] = v;
+    normals[first + axis] = isNegative !== isFlipped ? -rest : rest;
+  }
+
+  /** A component on the octahedron, rounded to the nearest. */
+  #project(component: number, length: number): number {
+    const magnitude = Math.floor((2 * this.#radius * Math.abs(component) + length) / (2 * length));
+    return component < 0 ? -magnitude : magnitude;
+  }
+}
+
+/** The sum of the triangle normals around each wedge; those that repeat add to the one that they repeat. */
+function sumsOf(type: AttributeType, shape: DecodedShape, repeats: Uint8Array): Int32Array {
+  const { header, connectivity: { vertex }, wedges: { wedge, seams }, coordinates, normalSums } = shape;
+  if (!type.isUniform && seams === undefined) return normalSums;
+  const sums = new NormalSums(header.wedgeCount, coordinates, header.normalShift, type.isUniform);
+  const target = Int32Array.from({ length: header.wedgeCount }, (_, w) => w);
+  for (let w = 0; seams && w < repeats.length; ++w) if (repeats[w] === 1) target[w] = target[seams.previous[w]!]!;
+  for (let c = 0; c < vertex.length; c += 3) {
+    sums.add(vertex[c]!, vertex[c + 1]!, vertex[c + 2]!, target[wedge[c]!]!, target[wedge[c + 1]!]!, target[wedge[c + 2]!]!);
+  }
+  return sums.sums;
+}

@@ -1,0 +1,132 @@
+// The decoder against vectors/, which the encoder's tests wrote and the C++
+// decoder reads as well, and against damage of every kind.
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { DecodeError } from "../decodeError.ts";
+import type { CompactPatch } from "./patch.ts";
+import { decodePatch } from "./patch.ts";
+import { TestRandom } from "./rangeEncoder.testing.ts";
+import { readPayload, readVector, vectorNames } from "./vectors.testing.ts";
+
+const names = vectorNames();
+
+/** What a vector's JSON states. */
+interface Expected {
+  readonly first: number;
+  readonly topology: number;
+  readonly positionBits: number;
+  readonly positions: number[];
+  readonly wedgePositions: number[];
+  readonly corners: number[];
+  readonly attributes: { readonly kind: number; readonly components: number; readonly bits: number; readonly mode: number; readonly values: number[] }[];
+}
+
+function expectedOf({ header, coordinates, connectivity, wedges: { wedge, seams }, attributes }: CompactPatch, first: number): Expected {
+  const running = Array.from({ length: header.wedgeCount }, (_, w) => w);
+  return {
+    first,
+    topology: ["", "points", "lines", "triangles"].indexOf(header.topology),
+    positionBits: header.positionBits,
+    positions: Array.from(coordinates.subarray(0, 3 * header.vertexCount)),
+    wedgePositions: seams ? Array.from(seams.corner, (corner) => connectivity.vertex[corner]!) : running,
+    corners: header.topology === "points" ? running : Array.from(wedge),
+    attributes: attributes.map((values, place) => {
+      const { kind, components, bits, isUniform, isDerived } = header.attributes[place]!;
+      return { kind: ["normal", "texCoord", "color", "other"].indexOf(kind), components, bits,
+               mode: Number(isUniform) + 2 * Number(isDerived), values: Array.from(values, (value) => value + 0) };
+    }),
+  };
+}
+
+/** FNV-1a over every number that decodes, as four little-endian bytes each. */
+function sumOf(patch: CompactPatch): number {
+  const { positions, wedgePositions, corners, attributes } = expectedOf(patch, 0);
+  let hash = 2166136261;
+  for (const number of [positions, wedgePositions, corners, ...attributes.map(({ values }) => values)].flat()) {
+    for (let shift = 0; shift < 32; shift += 8) hash = Math.imul(hash ^ number >>> shift & 255, 16777619);
+  }
+  return hash >>> 0;
+}
+
+interface Edit {
+  readonly file: string;
+  /** Bytes and what to put there. */
+  readonly edits: [number, number][];
+  /** Where to cut, after that. */
+  readonly length?: number;
+  readonly verdict: number | DecodeError["kind"];
+}
+
+describe("a patch of compact", () => {
+  for (const name of names) {
+    test(`"${name}" decodes to what its vector states`, () => {
+      const expected = readVector(name) as Expected;
+      assert.deepEqual(expectedOf(decodePatch(readPayload(name), expected.first), expected.first), expected);
+    });
+  }
+
+  test("there are vectors of every topology, with and without a grid, seams and every attribute", () => {
+    assert.ok(names.length > 15);
+    const headers = names.map((name) => decodePatch(readPayload(name), (readVector(name) as Expected).first).header);
+    for (const topology of ["points", "lines", "triangles"]) assert.ok(headers.some((header) => header.topology === topology), topology);
+    assert.ok(headers.some(({ grid }) => grid));
+    assert.ok(headers.some(({ vertexCount, wedgeCount }) => wedgeCount > vertexCount));
+    const attributes = headers.flatMap((header) => header.attributes);
+    for (const kind of ["normal", "texCoord", "color", "other"]) assert.ok(attributes.some((type) => type.kind === kind), kind);
+    assert.ok(attributes.some(({ isUniform }) => isUniform) && attributes.some(({ isDerived }) => isDerived));
+  });
+
+  test("is refused as it should be, or decodes as it should, after every edit that the vectors state", () => {
+    const payloads = new Map(names.map((name) => [name, readPayload(name)]));
+    for (const edit of readVector("edits") as Edit[]) {
+      const payload = payloads.get(edit.file)!.slice();
+      for (const [place, value] of edit.edits) payload[place] = value;
+      assert.equal(verdictOn(payload.subarray(0, edit.length)), edit.verdict, JSON.stringify(edit));
+    }
+  });
+
+  test("is decoded or refused, quickly, whatever its bytes", () => {
+    const random = new TestRandom(1);
+    const payloads = names.map(readPayload);
+    // Processor time, since a busy machine may take any.
+    const milliseconds = () => process.cpuUsage().user / 1000;
+    const started = milliseconds();
+    let refusals = 0;
+    for (let round = 0; round < 4000; ++round) {
+      const payload = payloads[random.below(payloads.length)]!.slice();
+      for (let edit = random.below(4); edit >= 0; --edit) {
+        // Headers are what hostile counts come from.
+        payload[random.below(random.below(2) === 0 ? Math.min(64, payload.length) : payload.length)] = random.below(256);
+      }
+      const before = milliseconds();
+      if (typeof verdictOn(payload) === "string") refusals += 1;
+      assert.ok(milliseconds() - before < 5000, `round ${round} took ${milliseconds() - before} ms`);
+    }
+    assert.ok(refusals > 1000 && refusals < 3999, `${refusals} refusals`);
+    assert.ok(milliseconds() - started < 60_000);
+  });
+
+  test("is refused with a sentence that names what is wrong", () => {
+    const payload = readPayload("triangle");
+    const at = (place: number, value: number) => { const changed = payload.slice(); changed[place] = value; return changed; };
+    for (const [changed, kind, message] of [
+      [at(0, 0), "malformed", /no patch at byte 0/], [at(3, 2), "unsupported", /version 2, not 1/],
+      [at(4, 4), "malformed", /4 as topology; 1 to 3/], [at(5, 31), "malformed", /31 as bits of a position/],
+      [at(11, 1), "limit", /vertices; 1048576 are allowed/], [at(20, 17), "malformed", /17 as number of attributes/],
+      [payload.slice(0, 30), "truncated", /ends inside a patch/],
+    ] as const) {
+      assert.throws(() => decodePatch(changed, 0), (error) => error instanceof DecodeError && error.kind === kind && message.test(error.message));
+    }
+  });
+});
+
+function verdictOn(payload: Uint8Array): number | DecodeError["kind"] {
+  let patch: CompactPatch;
+  try {
+    patch = decodePatch(payload, 0);
+  } catch (error) {
+    if (error instanceof DecodeError) return error.kind;
+    throw error;
+  }
+  return sumOf(patch);
+}

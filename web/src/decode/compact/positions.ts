@@ -1,0 +1,248 @@
+// Where vertices are, each predicted by the best of several parallelograms, which
+// the encoder chose, and its last coordinate by the plane of the surface so far:
+// docs/formats/compact.md, "Positions".
+
+import { DecodeError } from "../decodeError.ts";
+import type { Connectivity } from "./connectivity.ts";
+import { after, before } from "./connectivity.ts";
+import type { Grid, PatchHeader } from "./header.ts";
+import { dominantAxis, NormalSums } from "./normalSums.ts";
+import { lengthInBits, numberModels, RangeDecoder } from "./rangeDecoder.ts";
+
+const choiceModels = 0;
+const firstModels = choiceModels + 8 * 16 * 4;
+const secondModels = firstModels + 16 * numberModels;
+const thirdModels = secondModels + 31 * numberModels;
+const modelCount = thirdModels + 31 * numberModels;
+// With a grid:
+const loneModels = modelCount;
+const gridModels = loneModels + 8 * numberModels;
+const maskModels = gridModels + 96 * numberModels;
+const modelCountWithGrid = maskModels + 512 * 8;
+
+export interface Positions {
+  /** x, y, z of each vertex; what follows them means nothing. */
+  readonly coordinates: Int32Array;
+  /** x, y, z of the sum of the triangle normals around each vertex; 0 in points and lines. */
+  readonly normalSums: Int32Array;
+}
+
+/** Safe for untrusted bytes. Throws DecodeError. */
+export function decodePositions(stream: Uint8Array, header: PatchHeader, connectivity: Connectivity): Positions {
+  const decoder = new RangeDecoder(stream, header.grid ? modelCountWithGrid : modelCount);
+  const positions = new PositionDecoder(decoder, header, connectivity).run();
+  decoder.finish();
+  return positions;
+}
+
+/** The order in which coordinates come: axis number j, by 3 (3 mask + dominant axis) + j. */
+const orders = Uint8Array.from({ length: 8 }, (_, mask) => mask).reduce<number[]>((all, mask) => {
+  for (const dominant of [0, 1, 2]) {
+    const onGrid = [0, 1, 2].filter((axis) => (mask & 1 << axis) !== 0);
+    const offGrid = [1, 2, 3].map((step) => (dominant + step) % 3).filter((axis) => (mask & 1 << axis) === 0);
+    all.push(...onGrid, ...offGrid);
+  }
+  return all;
+}, []);
+
+class PositionDecoder {
+  readonly #decoder: RangeDecoder;
+  readonly #connectivity: Connectivity;
+  readonly #vertexCount: number;
+  readonly #largest: number;
+  readonly #grid: Grid | undefined;
+  readonly #masks: Uint8Array;
+  /** With one vertex more, the middle of the lattice, that the first one is predicted from. */
+  readonly #coordinates: Int32Array;
+  readonly #sums: NormalSums;
+  /** Candidates, each of three vertices a, b, c and meaning a + b - c. */
+  readonly #candidates = new Int32Array(3 * 4);
+  #candidateCount = 0;
+  #candidateSet = 0;
+  /** How far the first two candidates are apart, 0 where there is one. */
+  #agreement = 0;
+  /** The candidate that was chosen, and the slope of the surface there. */
+  readonly #guess = new Int32Array(3);
+  readonly #slope = new Int32Array(3);
+
+  constructor(decoder: RangeDecoder, header: PatchHeader, connectivity: Connectivity) {
+    const { vertexCount, positionBits, grid } = header;
+    this.#decoder = decoder;
+    this.#connectivity = connectivity;
+    this.#vertexCount = vertexCount;
+    this.#largest = 2 ** positionBits - 1;
+    this.#grid = grid;
+    this.#masks = new Uint8Array(grid ? vertexCount : 0);
+    this.#coordinates = new Int32Array(3 * (vertexCount + 1));
+    this.#coordinates.fill(2 ** (positionBits - 1), 3 * vertexCount);
+    this.#sums = new NormalSums(header.topology === "triangles" ? vertexCount : 0, this.#coordinates, header.normalShift, false);
+  }
+
+  run(): Positions {
+    const { vertex, across, from } = this.#connectivity;
+    const sums = this.#sums;
+    let next = 0;
+    for (let t = 0; t < across.length; ++t) {
+      const c = 3 * t;
+      if (vertex[c] === next) this.#decodeAlone(next++);
+      if (vertex[c + 1] === next) this.#decodeAlone(next++);
+      if (vertex[c + 2] === next) this.#decodeBeyond(next++, across[t]!);
+      const va = vertex[c]!;
+      const vb = vertex[c + 1]!;
+      const vc = vertex[c + 2]!;
+      sums.add(va, vb, vc, va, vb, vc);
+    }
+    for (; next < this.#vertexCount; ++next) { // points and lines
+      if (from.length > 0 && from[next]! >= 0) this.#decodeOnLine(next, from);
+      else this.#decodeAlone(next);
+    }
+    return { coordinates: this.#coordinates, normalSums: sums.sums };
+  }
+
+  /** A vertex that nothing but the one before it speaks for. */
+  #decodeAlone(x: number): void {
+    const last = x > 0 ? x - 1 : this.#vertexCount;
+    this.#beginCandidates(last, last, last);
+    this.#slope.fill(0);
+    this.#decode(x, 2, 0);
+  }
+
+  #decodeOnLine(x: number, from: Int32Array): void {
+    const last = from[x]!;
+    const further = from[last]!;
+    this.#beginCandidates(last, last, last);
+    if (further >= 0) this.#addCandidate(last, last, further, 1);
+    this.#slope.fill(0);
+    this.#decode(x, 2, 0);
+  }
+
+  /** A vertex that a triangle brought, whose first edge's other side is known; or one of a root. */
+  #decodeBeyond(x: number, across: number): void {
+    if (across < 0) {
+      this.#decodeAlone(x);
+      return;
+    }
+    const { vertex, ahead, behind, second } = this.#connectivity;
+    const o = vertex[across]!;
+    const p = vertex[after(across)]!;
+    const k = vertex[before(across)]!;
+    this.#beginCandidates(k, p, o);
+    const s = second[x]!;
+    if (s >= 0) this.#addCandidate(vertex[after(s)]!, vertex[before(s)]!, vertex[s]!, 1);
+    if (ahead[x]! >= 0) this.#addCandidate(p, ahead[x]!, k, 2);
+    if (behind[x]! >= 0) this.#addCandidate(p, p, behind[x]!, 4);
+    const dominant = this.#setSlope(k, p);
+    const masks = this.#masks;
+    this.#decode(x, dominant, this.#grid ? masks[k]! * 64 + masks[p]! * 8 + masks[o]! : 0);
+  }
+
+  #beginCandidates(a: number, b: number, c: number): void {
+    this.#candidateCount = 0;
+    this.#candidateSet = 0;
+    this.#addCandidate(a, b, c, 0);
+  }
+
+  #addCandidate(a: number, b: number, c: number, flag: number): void {
+    const place = 3 * this.#candidateCount++;
+    this.#candidates[place] = a;
+    this.#candidates[place + 1] = b;
+    this.#candidates[place + 2] = c;
+    this.#candidateSet += flag;
+  }
+
+  /** One coordinate of a candidate. */
+  #candidate(i: number, axis: number): number {
+    const coordinates = this.#coordinates;
+    const candidates = this.#candidates;
+    return coordinates[3 * candidates[3 * i]! + axis]! + coordinates[3 * candidates[3 * i + 1]! + axis]!
+      - coordinates[3 * candidates[3 * i + 2]! + axis]!;
+  }
+
+  /** The surface's normal at an edge, small enough to multiply with; gives its dominant axis. */
+  #setSlope(k: number, p: number): 0 | 1 | 2 {
+    const sums = this.#sums.sums;
+    const slope = this.#slope;
+    const x = sums[3 * k]! + sums[3 * p]! | 0;
+    const y = sums[3 * k + 1]! + sums[3 * p + 1]! | 0;
+    const z = sums[3 * k + 2]! + sums[3 * p + 2]! | 0;
+    const shift = Math.max(0, lengthInBits(Math.max(Math.abs(x), Math.abs(y), Math.abs(z))) - 15);
+    slope[0] = x >> shift;
+    slope[1] = y >> shift;
+    slope[2] = z >> shift;
+    return dominantAxis(x, y, z);
+  }
+
+  #choose(): void {
+    const decoder = this.#decoder;
+    const last = this.#candidateCount - 1;
+    this.#agreement = 0;
+    let chosen = 0;
+    if (last > 0) {
+      const apart = Math.max(Math.abs(this.#candidate(1, 0) - this.#candidate(0, 0)),
+                             Math.abs(this.#candidate(1, 1) - this.#candidate(0, 1)),
+                             Math.abs(this.#candidate(1, 2) - this.#candidate(0, 2)));
+      this.#agreement = 1 + Math.min(14, lengthInBits(apart));
+      const models = choiceModels + (this.#candidateSet * 16 + this.#agreement) * 4;
+      while (chosen < last && decoder.bit(models + chosen) === 0) ++chosen;
+    }
+    for (let axis = 0; axis < 3; ++axis) this.#guess[axis] = this.#candidate(chosen, axis);
+  }
+
+  #decode(x: number, dominant: 0 | 1 | 2, maskContext: number): void {
+    const decoder = this.#decoder;
+    const coordinates = this.#coordinates;
+    const guess = this.#guess;
+    const grid = this.#grid;
+    let mask = 0;
+    if (grid) this.#masks[x] = mask = decoder.tree(maskModels + 8 * maskContext, 3);
+    this.#choose();
+    let steps = 0;
+    let largest = 0;
+    let length = -1; // of the residual before, off the grid
+    for (let j = 0; j < 3; ++j) {
+      const axis = orders[3 * (3 * mask + dominant) + j]!;
+      let value: number;
+      if (grid && (mask & 1 << axis) !== 0) {
+        const residual = decoder.signed(gridModels + numberModels * ((j * 4 + Math.min(steps, 3)) * 8 + (this.#agreement >> 1)));
+        steps += Math.abs(residual);
+        value = lineOf(grid, axis, nearestLine(grid, axis, this.#clamp(guess[axis]!)) + residual);
+      } else {
+        const expected = j === 2 ? this.#height(x, dominant, mask, axis) : guess[axis]!;
+        const models = length < 0 ? (j === 2 ? loneModels + numberModels * Math.min(steps, 7) : firstModels + numberModels * this.#agreement)
+          : j === 2 && mask === 0 ? thirdModels + numberModels * largest : secondModels + numberModels * length;
+        const residual = decoder.signed(models);
+        length = lengthInBits(Math.abs(residual));
+        largest = Math.max(largest, length);
+        value = this.#clamp(expected) + residual;
+      }
+      if (value < 0 || value > this.#largest) throw new DecodeError("malformed", "holds a vertex beside its lattice");
+      coordinates[3 * x + axis] = value;
+    }
+  }
+
+  /** The last coordinate, where the surface's plane has it over the two others. */
+  #height(x: number, dominant: number, mask: number, axis: number): number {
+    const slope = this.#slope;
+    const guess = this.#guess;
+    const coordinates = this.#coordinates;
+    if (slope[axis] === 0) return guess[axis]!;
+    const u = orders[3 * (3 * mask + dominant)]!;
+    const w = orders[3 * (3 * mask + dominant) + 1]!;
+    const rise = slope[u]! * (coordinates[3 * x + u]! - guess[u]!) + slope[w]! * (coordinates[3 * x + w]! - guess[w]!);
+    return guess[axis]! - Math.trunc(rise / slope[axis]!);
+  }
+
+  #clamp(coordinate: number): number {
+    return Math.min(Math.max(coordinate, 0), this.#largest);
+  }
+}
+
+/** Coordinate number i of an axis. */
+function lineOf({ origin, step }: Grid, axis: number, i: number): number {
+  return Math.floor((origin[axis]! + i * step[axis]! + 32768) / 65536);
+}
+
+/** The number of the coordinate that is nearest. */
+function nearestLine({ origin, step }: Grid, axis: number, coordinate: number): number {
+  return Math.floor((65536 * coordinate - origin[axis]! + Math.trunc(step[axis]! / 2)) / step[axis]!);
+}

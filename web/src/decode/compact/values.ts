@@ -1,0 +1,79 @@
+// Colours and other values: the middle of two neighbours or a parallelogram, as
+// the encoder chose (docs/formats/compact.md, "Colours and others").
+
+import { DecodeError } from "../decodeError.ts";
+import { attributeModelCount, choiceModels, firstModels, repeatModel, secondModels } from "./attributeModels.ts";
+import type { AttributeType } from "./header.ts";
+import type { DecodedShape } from "./neighbours.ts";
+import { decodeRepeats, Neighbours } from "./neighbours.ts";
+import { lengthInBits, numberModels, RangeDecoder } from "./rangeDecoder.ts";
+
+/** `components` of each wedge, each 0 … 2^bits - 1. Safe for untrusted bytes. Throws DecodeError. */
+export function decodeValues(stream: Uint8Array, type: AttributeType, shape: DecodedShape): Int32Array {
+  const decoder = new RangeDecoder(stream, attributeModelCount);
+  const repeats = decodeRepeats(decoder, repeatModel, shape.wedges);
+  const previous = shape.wedges.seams?.previous;
+  const { components } = type;
+  const values = new Int32Array(components * shape.header.wedgeCount);
+  const one = new ValueDecoder(decoder, type, shape, values);
+  for (let w = 0; w < shape.header.wedgeCount; ++w) {
+    if (repeats.length > 0 && repeats[w] === 1) {
+      const first = components * previous![w]!;
+      values.copyWithin(components * w, first, first + components);
+    } else {
+      one.decode(w);
+    }
+  }
+  decoder.finish();
+  return values;
+}
+
+class ValueDecoder {
+  readonly #decoder: RangeDecoder;
+  readonly #isColor: boolean;
+  readonly #components: number;
+  readonly #largest: number;
+  readonly #values: Int32Array;
+  readonly #neighbours: Neighbours;
+  #lastChoice = 0;
+
+  constructor(decoder: RangeDecoder, { kind, components, bits }: AttributeType, shape: DecodedShape, values: Int32Array) {
+    this.#decoder = decoder;
+    this.#isColor = kind === "color";
+    this.#components = components;
+    this.#largest = 2 ** bits - 1;
+    this.#values = values;
+    this.#neighbours = new Neighbours(shape);
+  }
+
+  decode(w: number): void {
+    const decoder = this.#decoder;
+    const neighbours = this.#neighbours;
+    neighbours.find(w);
+    // The second of two candidates, where there are two.
+    const isParallelogram = neighbours.o >= 0 && decoder.bit(choiceModels + (2 * 4 + this.#lastChoice) * 2) === 0;
+    this.#lastChoice = Number(isParallelogram);
+    let first = 0;
+    let length = 0;
+    for (let j = 0; j < this.#components; ++j) {
+      // Green first: red and blue follow it.
+      const component = this.#isColor && j < 2 ? 1 - j : j;
+      const expected = Math.min(Math.max(this.#expect(w, component, isParallelogram), 0), this.#largest);
+      const residual = decoder.signed(j === 0 ? firstModels : secondModels + numberModels * (31 * (j - 1) + length));
+      length = lengthInBits(Math.abs(residual));
+      if (j === 0) first = residual;
+      const value = expected + residual + (this.#isColor && (j === 1 || j === 2) ? first : 0);
+      if (value < 0 || value > this.#largest) throw new DecodeError("malformed", "holds a value that its bits cannot");
+      this.#values[this.#components * w + component] = value;
+    }
+  }
+
+  #expect(w: number, component: number, isParallelogram: boolean): number {
+    const { a, b, o } = this.#neighbours;
+    const values = this.#values;
+    const at = (wedge: number) => values[this.#components * wedge + component]!;
+    if (a >= 0 && b >= 0) return isParallelogram ? at(a) + at(b) - at(o) : at(a) + at(b) >> 1;
+    if (a >= 0 || b >= 0) return at(a >= 0 ? a : b);
+    return w > 0 ? at(w - 1) : (this.#largest + 1) / 2;
+  }
+}

@@ -1,0 +1,32 @@
+// The files of vectors/ (docs/formats/compact.md, "Conformance").
+
+import { readdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { inflateSync } from "node:zlib";
+
+const folder = join(import.meta.dirname, "../../../../vectors/compact-1");
+
+/** Of the files that hold patches. */
+export function vectorNames(): string[] {
+  return readdirSync(folder).filter((name) => name.endsWith(".png")).map((name) => name.slice(0, -".png".length));
+}
+
+/** What NAME.json states. */
+export function readVector(name: string): unknown {
+  return JSON.parse(readFileSync(join(folder, `${name}.json`), "utf8")) as unknown;
+}
+
+/** The pixels of NAME.png, which has one IDAT chunk and no filters. */
+export function readPayload(name: string): Uint8Array<ArrayBuffer> {
+  const png = readFileSync(join(folder, `${name}.png`));
+  const width = png.readUInt32BE(16);
+  const height = png.readUInt32BE(20);
+  const data = png.indexOf("IDAT") + 4;
+  const rows = inflateSync(png.subarray(data, data + png.readUInt32BE(data - 8)));
+  const pixels = new Uint8Array(width * height);
+  for (let y = 0; y < height; ++y) {
+    if (rows[y * (width + 1)] !== 0) throw new Error(`${name}.png has a filter`);
+    pixels.set(rows.subarray(y * (width + 1) + 1, (y + 1) * (width + 1)), y * width);
+  }
+  return pixels;
+}
