@@ -1,25 +1,26 @@
-// Bundles the runtime and three.js into one ES module, web/dist/imgeo.js, which
-// the `imgeo` tool carries inside itself and copies into every site.
+// Bundles the runtime and three.js into one ES module, web/dist/imgeo.js, and what
+// its workers run into another, web/dist/imgeo-worker.js. The `imgeo` tool carries
+// both inside itself and copies them into every site.
 import { build } from "esbuild";
-import { stat } from "node:fs/promises";
+import { readFile } from "node:fs/promises";
 import { gzipSync } from "node:zlib";
-import { readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
-const outfile = fileURLToPath(new URL("dist/imgeo.js", import.meta.url));
+const bundles = { "imgeo.js": "dom/index.ts", "imgeo-worker.js": "workers/worker.ts" };
 
-await build({
-  entryPoints: [fileURLToPath(new URL("src/dom/index.ts", import.meta.url))],
-  outfile,
-  bundle: true,
-  format: "esm",
-  target: "es2022",
-  minify: true,
-  sourcemap: false,
-  legalComments: "inline",
-  logLevel: "warning",
-});
-
-const { size } = await stat(outfile);
-const gzipped = gzipSync(readFileSync(outfile), { level: 9 }).byteLength;
-console.log(`web/dist/imgeo.js ${size} bytes, ${gzipped} gzipped`);
+for (const [name, entry] of Object.entries(bundles)) {
+  const outfile = fileURLToPath(new URL(`dist/${name}`, import.meta.url));
+  await build({
+    entryPoints: [fileURLToPath(new URL(`src/${entry}`, import.meta.url))],
+    outfile,
+    bundle: true,
+    format: "esm",
+    target: "es2022",
+    minify: true,
+    sourcemap: false,
+    legalComments: "inline",
+    logLevel: "warning",
+  });
+  const bytes = await readFile(outfile);
+  console.log(`web/dist/${name} ${bytes.byteLength} bytes, ${gzipSync(bytes, { level: 9 }).byteLength} gzipped`);
+}

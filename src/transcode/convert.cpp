@@ -143,10 +143,11 @@ void writeX3domPage(const SceneDocument& document, const X3domRelease& release, 
 
 /// The documents of a site with our runtime, and it.
 void writePage(const SceneDocument& document, const fs::path& site) {
-  const std::string_view runtime = runtimeModule();
-  const std::string runtimeUrl = fmt::format("{}/imgeo-{}.js", runtimeFolder, contentName(asBytes(runtime)));
+  const Runtime runtime = runtimeOfSite();
+  const std::string runtimeUrl = fmt::format("{}/{}", runtimeFolder, runtime.module.name);
   fs::create_directory(site / runtimeFolder);
-  writeFile(site / runtimeUrl, asBytes(runtime));
+  for (const RuntimeFile& file : {runtime.module, runtime.worker})
+    writeFile(site / runtimeFolder / file.name, asBytes(file.text));
   writeFile(site / sceneName, asBytes(writeX3d(document)));
   writeFile(site / pageName, asBytes(writeHtml(document, {runtimeUrl, stylesheetName})));
 }

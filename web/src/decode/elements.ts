@@ -98,19 +98,3 @@ function arrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange, bytesBefor
   return byteOffset % size === 0 ? new arrayTypes[range.type](bytes.buffer, byteOffset, byteLength / size)
     : new arrayTypes[range.type](bytes.buffer.slice(byteOffset, byteOffset + byteLength));
 }
-
-/**
- * A triangle strip as separate triangles with the strip's orientation: buffers
- * of three.js are drawn as triangles only. Degenerate joins stay, so that the
- * strip's triangle t is triangle t; GPUs pass over them.
- */
-export function trianglesFromStrip(strip: IndexArray): IndexArray {
-  const count = Math.max(0, strip.length - 2);
-  const triangles = new (strip.constructor as new (length: number) => IndexArray)(count * 3);
-  for (let n = 0; n < count; ++n) {
-    triangles[3 * n] = strip[n + (n & 1)] ?? 0;
-    triangles[3 * n + 1] = strip[n + 1 - (n & 1)] ?? 0;
-    triangles[3 * n + 2] = strip[n + 2] ?? 0;
-  }
-  return triangles;
-}

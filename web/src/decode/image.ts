@@ -24,9 +24,9 @@ export type ImageDecoder<Image extends DecodedImage> = (png: Uint8Array<ArrayBuf
  * Rejects with DecodeError; the image is then closed.
  */
 export async function decodeImage<Image extends DecodedImage>(
-  png: Uint8Array<ArrayBuffer>, decoder: ImageDecoder<Image>,
+  png: Uint8Array<ArrayBuffer>, decoder: ImageDecoder<Image>, largestEdge?: number,
 ): Promise<DataImage<Image>> {
-  const header = checkPng(png);
+  const header = checkPng(png, largestEdge);
   let image: Image;
   try {
     image = await decoder(png);

@@ -11,8 +11,8 @@ export interface PngHeader {
   readonly channels: 1 | 3 | 4;
 }
 
-/** The texture size that every WebGL2 has. */
-export const largestImageEdge = 2048;
+/** What readers of the format take (docs/formats/sig-classic.md). */
+export const largestImageEdge = 4096;
 
 const signature = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
 const headerLength = 13;
@@ -22,10 +22,10 @@ const channelsOfColorType: Readonly<Record<number, PngHeader["channels"]>> = { 0
 
 /**
  * Checks that the bytes are one whole PNG of 8-bit gray, RGB, RGBA or of an opaque
- * palette, not interlaced, and gives its size. Safe for untrusted bytes. Throws
- * DecodeError.
+ * palette, not interlaced, no edge longer than `largestEdge`, and gives its size.
+ * Safe for untrusted bytes. Throws DecodeError.
  */
-export function checkPng(bytes: Uint8Array): PngHeader {
+export function checkPng(bytes: Uint8Array, largestEdge = largestImageEdge): PngHeader {
   if (!signature.every((byte, place) => bytes[place] === byte)) {
     throw new DecodeError(bytes.length < signature.length ? "truncated" : "malformed", "is no PNG image");
   }
@@ -36,16 +36,16 @@ export function checkPng(bytes: Uint8Array): PngHeader {
   }
   if (!types.includes("IDAT")) throw new DecodeError("malformed", "holds no image data");
   if (types.includes("tRNS")) throw new DecodeError("unsupported", "has colours that are see-through");
-  return readHeader(view, signature.length + 8);
+  return readHeader(view, signature.length + 8, largestEdge);
 }
 
-function readHeader(view: DataView, offset: number): PngHeader {
+function readHeader(view: DataView, offset: number, largestEdge: number): PngHeader {
   const width = view.getUint32(offset);
   const height = view.getUint32(offset + 4);
   const [bitDepth, colorType, compression, filter, interlace] =
     [8, 9, 10, 11, 12].map((place) => view.getUint8(offset + place));
-  if (width < 1 || height < 1 || width > largestImageEdge || height > largestImageEdge) {
-    throw new DecodeError("limit", `is ${width} x ${height} texels large; 1 to ${largestImageEdge} are allowed`);
+  if (width < 1 || height < 1 || width > largestEdge || height > largestEdge) {
+    throw new DecodeError("limit", `is ${width} x ${height} texels large; 1 to ${largestEdge} are allowed`);
   }
   const channels = channelsOfColorType[colorType ?? NaN];
   if (bitDepth !== 8 || channels === undefined) {

@@ -29,9 +29,18 @@ export interface TexelRange {
   readonly first: number;
 }
 
-/** What a stored normal is: a vector; or two numbers, octahedral x and y or spherical phi and theta, of so many bits. */
-export type NormalCode = { readonly kind: "vector" }
-  | { readonly kind: "octahedral" | "spherical"; readonly bits: 8 | 16 };
+/** Two numbers for a normal, octahedral x and y or spherical phi and theta, of so many bits. */
+export interface PairCode {
+  readonly kind: "octahedral" | "spherical";
+  readonly bits: 8 | 16;
+}
+
+/** What a stored normal is: a vector; one whose components are bytes, 0 … 255 for -1 … 1; or two numbers. */
+export type NormalCode = { readonly kind: "vector" | "byteVector" } | PairCode;
+
+export function isPairCode(code: NormalCode): code is PairCode {
+  return "bits" in code;
+}
 
 /** Vertices that the shader fetches from images (classic SIG). */
 export interface TextureStage extends StageHead {

@@ -2,8 +2,9 @@
 
 import { DecodeError } from "../decode/decodeError.ts";
 import type { ElementRange } from "../decode/elements.ts";
-import { countIn, indexArrayOf, trianglesFromStrip, vertexArrayOf } from "../decode/elements.ts";
+import { countIn, indexArrayOf, vertexArrayOf } from "../decode/elements.ts";
 import type { BufferStage, DrawRange, IndexArray, VertexArray } from "../decode/stage.ts";
+import { withoutStrips } from "../decode/strips.ts";
 import type { GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
 import { hasNormalsInCoords } from "../document/geometry.ts";
 import type { Part } from "./parts.ts";
@@ -61,28 +62,6 @@ function drawRangesFor(patch: PatchDescription, available: number): readonly Dra
   const wanted = draws.reduce((sum, draw) => sum + draw.count, 0);
   if (wanted > available) throw new DecodeError("truncated", `holds ${available} of ${wanted} indices`);
   return draws;
-}
-
-/** The same draws with every strip turned into triangles behind an index of their own. */
-function withoutStrips<Index extends IndexArray | undefined>(
-  index: Index, draws: readonly DrawRange[],
-): { index: Index | IndexArray; draws: readonly DrawRange[] } {
-  if (!draws.some((draw) => draw.primitive === "triangleStrip")) return { index, draws };
-  const parts: IndexArray[] = [];
-  let first = 0;
-  const separate = draws.map((draw): DrawRange => {
-    const numbers = index?.subarray(draw.first, draw.first + draw.count)
-      ?? Uint32Array.from({ length: draw.count }, (_, n) => draw.first + n);
-    const isStrip = draw.primitive === "triangleStrip";
-    const part = (isStrip ? trianglesFromStrip(numbers) : numbers);
-    parts.push(part);
-    const range = { primitive: isStrip ? "triangles" as const : draw.primitive, first, count: part.length };
-    first += part.length;
-    return range;
-  });
-  const joined = new Uint32Array(first);
-  separate.forEach((draw, place) => { joined.set(parts[place] ?? [], draw.first); });
-  return { index: joined, draws: separate };
 }
 
 function rangeOf(geometry: GeometryDescription, patch: PatchDescription, role: Part["role"],

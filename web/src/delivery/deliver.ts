@@ -9,7 +9,7 @@ import { asDeliveryError } from "./deliveryError.ts";
 import type { Part } from "./parts.ts";
 import { partsOf } from "./parts.ts";
 import type { Transfer } from "./progress.ts";
-import type { Lease, ResourcePool } from "./resources.ts";
+import type { ContentKind, Lease, ResourcePool } from "./resources.ts";
 import { bgBuilder } from "./bgStage.ts";
 import { sigBuilder } from "./sigStage.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
@@ -43,6 +43,7 @@ export interface Delivery {
 interface Need {
   readonly place: number;
   readonly part: Part;
+  readonly kind: ContentKind;
   readonly builder: StageBuilder;
   /** While it is asked for, and when it is here. */
   lease: Lease | undefined;
@@ -55,22 +56,22 @@ export function deliver(geometry: GeometryDescription, pool: ResourcePool, liste
 }
 
 class GeometryDelivery implements Delivery {
-  readonly #kind: "image" | "bytes";
   readonly #pool: ResourcePool;
   readonly #listener: DeliveryListener;
   readonly #needs: readonly Need[];
   readonly #reported = new Set<string>();
   /** Undefined when leases have come or gone: there may be thousands of deliveries to ask. */
   #transfers: readonly Readonly<Transfer>[] | undefined;
-  #isCancelled = false;
+  readonly #aborter = new AbortController();
 
   constructor(geometry: GeometryDescription, pool: ResourcePool, listener: DeliveryListener) {
-    this.#kind = geometry.container === "sig" ? "image" : "bytes";
     this.#pool = pool;
     this.#listener = listener;
     this.#needs = geometry.patches.flatMap((patch: PatchDescription, place) => {
-      const builder = (geometry.container === "sig" ? sigBuilder : bgBuilder)(geometry, patch);
-      return partsOf(geometry, patch).map((part): Need => ({ place, part, builder, lease: undefined, state: "absent" }));
+      const builder = geometry.container === "bg" ? bgBuilder(geometry, patch)
+        : sigBuilder(geometry, patch, pool.runJob, this.#aborter.signal);
+      const kind = contentKindOf(geometry, patch, pool.largestTexture);
+      return partsOf(geometry, patch).map((part): Need => ({ place, part, kind, builder, lease: undefined, state: "absent" }));
     });
   }
 
@@ -98,13 +99,13 @@ class GeometryDelivery implements Delivery {
   }
 
   cancel(): void {
-    this.#isCancelled = true;
+    this.#aborter.abort();
     for (const { lease } of this.#needs) lease?.release();
   }
 
   #ask(need: Need, priority: number): void {
     const { reference, expectedBytes } = need.part;
-    const lease = this.#pool.lease({ kind: this.#kind, url: reference.url, priority, expectedBytes });
+    const lease = this.#pool.lease({ kind: need.kind, url: reference.url, priority, expectedBytes });
     need.lease = lease;
     need.state = "asked";
     this.#transfers = undefined;
@@ -121,11 +122,12 @@ class GeometryDelivery implements Delivery {
 
   async #await(need: Need, lease: Lease): Promise<void> {
     // Given up in between, or given up and asked for again.
-    const isOver = () => this.#isCancelled || need.lease !== lease;
+    const isOver = () => this.#aborter.signal.aborted || need.lease !== lease;
     try {
       const content = await lease.content;
       if (isOver()) return;
-      need.builder.accept(need.part, content);
+      await need.builder.accept(need.part, content);
+      if (isOver()) return;
       need.state = "here";
       const stage = need.builder.stage();
       if (stage !== undefined) this.#listener.onStage(need.place, stage);
@@ -142,4 +144,13 @@ class GeometryDelivery implements Delivery {
     this.#reported.add(url);
     this.#listener.onError(asDeliveryError(error, url));
   }
+}
+
+/** Where the vertices of a patch are to be decoded, and so what its files are to become. */
+function contentKindOf(geometry: GeometryDescription, patch: PatchDescription, largestTexture: number): ContentKind {
+  if (geometry.container === "bg" || geometry.decode === "cpu") return "bytes";
+  if (geometry.decode === "gpu") return "texture";
+  const texels = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
+  const edge = Math.max(patch.implicitWidth, Math.ceil(texels / patch.implicitWidth));
+  return edge > largestTexture ? "bytes" : "either";
 }

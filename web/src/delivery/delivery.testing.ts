@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import type { DecodedImage } from "../decode/image.ts";
 import { decodeImage } from "../decode/image.ts";
+import { jobs } from "../decode/jobs.ts";
 import { checkPng } from "../decode/png.ts";
 import { pngOf } from "../decode/png.testing.ts";
 import type { Stage } from "../decode/stage.ts";
@@ -21,7 +22,7 @@ import { ResourcePool } from "./resources.ts";
 export type Answer = Uint8Array<ArrayBuffer> | number | Promise<Uint8Array<ArrayBuffer>>;
 
 /** A site in memory: its files, what was asked for in order, and what was delivered. */
-export function siteOf(files: Record<string, Answer>, slots = 6) {
+export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures = true) {
   const asked: string[] = [];
   const aborted: string[] = [];
   const images = { open: 0 };
@@ -43,6 +44,9 @@ export function siteOf(files: Record<string, Answer>, slots = 6) {
       images.open += 1;
       return Promise.resolve({ ...checkPng(png), close: () => { images.open -= 1; } });
     }),
+    readsTextures: () => Promise.resolve(readsTextures),
+    largestTexture: 4096,
+    runJob: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
     download: { fetch: (url, init) => answer(url as string, init?.signal ?? new AbortController().signal), silenceMs: 1000, retries: 0, backoffMs: 1 },
     resolve: (url) => new URL(url, "https://site/").href,
     onTransfer: () => undefined,

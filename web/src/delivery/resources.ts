@@ -3,6 +3,7 @@
 // aborted or its image is given back.
 
 import type { DataImage } from "../decode/image.ts";
+import type { RunJob } from "../decode/jobs.ts";
 import { Backlog } from "../scheduler/backlog.ts";
 import type { DownloadOptions } from "../scheduler/download.ts";
 import { downloadInSlot } from "../scheduler/download.ts";
@@ -13,8 +14,11 @@ export type Content =
   | { readonly kind: "image" } & DataImage
   | { readonly kind: "bytes"; readonly bytes: Uint8Array<ArrayBuffer> };
 
+/** What a file is to become: a texture, or its own bytes; or either, as the view decides. */
+export type ContentKind = "texture" | "bytes" | "either";
+
 export interface ResourceRequest {
-  readonly kind: Content["kind"];
+  readonly kind: ContentKind;
   /** As the document writes it, without its fragment. */
   readonly url: string;
   /** Larger comes first. Of several leases the largest counts. */
@@ -35,6 +39,11 @@ export interface DeliveryOptions {
   readonly scheduler: Scheduler;
   /** Brings the image that these bytes are to where stages can use it. Rejects with DecodeError, or with the signal's reason. */
   readonly makeImage: (png: Uint8Array<ArrayBuffer>, signal: AbortSignal) => Promise<DataImage>;
+  /** Whether shaders read textures as they should; asked when a file is here that may become one. */
+  readonly readsTextures: () => Promise<boolean>;
+  /** Texels of the longest edge that a texture may have. */
+  readonly largestTexture: number;
+  readonly runJob: RunJob;
   readonly download: DownloadOptions;
   /** The absolute URL of one that the document writes. */
   readonly resolve: (url: string) => string;
@@ -52,6 +61,14 @@ export class ResourcePool {
 
   constructor(options: DeliveryOptions) {
     this.#options = options;
+  }
+
+  get runJob(): RunJob {
+    return this.#options.runJob;
+  }
+
+  get largestTexture(): number {
+    return this.#options.largestTexture;
   }
 
   /** The transfers of everything that is leased now. */
@@ -171,10 +188,11 @@ class Resource {
     });
   }
 
-  async #decode(kind: Content["kind"], { bytes, leave }: { bytes: Uint8Array<ArrayBuffer>; leave: () => void }): Promise<Content> {
+  async #decode(kind: ContentKind, { bytes, leave }: { bytes: Uint8Array<ArrayBuffer>; leave: () => void }): Promise<Content> {
     try {
-      if (kind === "bytes") return { kind, bytes };
-      return { kind, ...await this.#options.makeImage(bytes, this.#aborter.signal) };
+      const isTexture = kind === "texture" || (kind === "either" && await this.#options.readsTextures());
+      if (!isTexture) return { kind: "bytes", bytes };
+      return { kind: "image", ...await this.#options.makeImage(bytes, this.#aborter.signal) };
     } finally {
       leave();
     }

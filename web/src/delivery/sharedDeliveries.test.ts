@@ -26,6 +26,9 @@ function deliveriesOf() {
   const deliveries = new SharedDeliveries(new ResourcePool({
     scheduler: new Scheduler(6),
     makeImage: () => Promise.reject(new Error("no images here")),
+    readsTextures: () => Promise.resolve(true),
+    largestTexture: 2048,
+    runJob: () => Promise.reject(new Error("no jobs here")),
     download: { fetch: (url, init) => fetchFile(url as string, init?.signal ?? new AbortController().signal), silenceMs: 1000, retries: 0, backoffMs: 1 },
     resolve: (url) => url,
     onTransfer: () => undefined,

@@ -1,15 +1,31 @@
-// Classic SIG: images of index, coordinate bytes, normals and colours, handed on
-// as they are; the shader fetches vertices from them.
+// Classic SIG: images of index, coordinate bytes, normals and colours. As textures
+// they are handed on as they are, and the shader fetches vertices from them; what
+// comes as files is decoded on the CPU.
 
 import { DecodeError } from "../decode/decodeError.ts";
 import type { DecodedImage } from "../decode/image.ts";
+import type { RunJob } from "../decode/jobs.ts";
 import type { TexelRange, TextureStage } from "../decode/stage.ts";
+import { isPairCode } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { middleOfMissing } from "../document/storedFrame.ts";
+import { sigCpuBuilder } from "./sigCpuStage.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
 import { drawRangesOf, normalCodeOf, stageNameOf } from "./stageBuilder.ts";
 
-export function sigBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
+/** Which of the two is known when the first file is here. */
+export function sigBuilder(geometry: GeometryDescription, patch: PatchDescription, run: RunJob, signal: AbortSignal): StageBuilder {
+  let builder: StageBuilder | undefined;
+  return {
+    accept(part, content) {
+      builder ??= content.kind === "image" ? sigGpuBuilder(geometry, patch) : sigCpuBuilder(geometry, patch, run, signal);
+      return builder.accept(part, content);
+    },
+    stage: () => builder?.stage(),
+  };
+}
+
+function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
   const planes: (TexelRange | undefined)[] = [];
   const here: { index?: TexelRange; normal?: TexelRange; color?: TexelRange } = {};
   const normalCode = normalCodeOf(geometry);
@@ -20,7 +36,7 @@ export function sigBuilder(geometry: GeometryDescription, patch: PatchDescriptio
       if (content.kind !== "image") throw new DecodeError("malformed", "is no image");
       const { image, channels } = content;
       const range = { image, first: part.reference.first };
-      const isPairs = part.role === "normal" && normalCode.kind !== "vector";
+      const isPairs = part.role === "normal" && isPairCode(normalCode);
       const needed = isPairs ? 1 : part.role === "color" ? geometry.colorComponents : 3;
       if (channels < needed) throw new DecodeError("malformed", `has ${channels} channels where ${needed} are needed`);
       if (part.role === "index") {

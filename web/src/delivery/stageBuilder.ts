@@ -9,14 +9,14 @@ import type { Part } from "./parts.ts";
 import type { Content } from "./resources.ts";
 
 export interface StageBuilder {
-  /** Throws DecodeError where the content does not hold what the document says. */
-  accept(part: Part, content: Content): void;
+  /** Throws, or rejects with, DecodeError where the content does not hold what the document says. */
+  accept(part: Part, content: Content): void | Promise<void>;
   /** Undefined while nothing can be shown. */
   stage(): Stage | undefined;
 }
 
 export function normalCodeOf({ container, normalEncoding, normalType }: GeometryDescription): NormalCode {
-  if (!isPair(normalEncoding)) return { kind: "vector" };
+  if (!isPair(normalEncoding)) return { kind: container === "sig" ? "byteVector" : "vector" };
   return { kind: normalEncoding, bits: container === "bg" && normalType === "Uint16" ? 16 : 8 };
 }
 

@@ -50,6 +50,9 @@ export type ElementType = (typeof elementTypes)[number];
 export const normalEncodings = ["rgb", "octahedral", "spherical", "palette"] as const;
 export type NormalEncoding = (typeof normalEncodings)[number];
 
+export const decodePlaces = ["auto", "gpu", "cpu"] as const;
+export type DecodePlace = (typeof decodePlaces)[number];
+
 export interface GeometryDescription {
   readonly container: "sig" | "bg";
   /** Centre and extent of the box over which stored integers are spread. */
@@ -63,6 +66,8 @@ export interface GeometryDescription {
   readonly texCoordSize: Vec2;
   readonly colorComponents: 3 | 4;
   readonly normalEncoding: NormalEncoding;
+  /** Where images are decoded: by the shader, in workers, or as is best. */
+  readonly decode: DecodePlace;
   /** In images Uint16: column and row of the record, or Uint32: its number. */
   readonly indexType: ElementType;
   /** Typed arrays only, as the types below. */

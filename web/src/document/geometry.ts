@@ -6,7 +6,7 @@
 import type {
   Box3, Draw, ElementType, GeometryDescription, NormalEncoding, PatchDescription, Primitive, Reference, Warning,
 } from "./description.ts";
-import { elementTypes, normalEncodings } from "./description.ts";
+import { decodePlaces, elementTypes, normalEncodings } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
@@ -25,6 +25,7 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
     ...commonOf(element, values, warnings),
     container: "sig",
     colorComponents: values.numColorComponents === 4 ? 4 : 3,
+    decode: choiceOf(element, "decode", values.decode, decodePlaces, "auto", warnings),
     // The bytes of an image are its only element type; indices are made of two or three.
     coordType: "Uint8", normalType: "Uint8", texCoordType: "Uint8", colorType: "Uint8",
     patches: readPatches(element, "sig", warnings),
@@ -34,11 +35,12 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
 export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): GeometryDescription {
   const values = readFields(element, nodeFields.BinaryGeometry, warnings);
   const typeOf = (field: "coordType" | "normalType" | "texCoordType" | "colorType"): ElementType =>
-    elementTypeOf(element, field, values[field], nodeFields.BinaryGeometry[field].defaultValue, warnings);
+    choiceOf(element, field, values[field], elementTypes, nodeFields.BinaryGeometry[field].defaultValue as ElementType, warnings);
   const geometry: GeometryDescription = {
     ...commonOf(element, values, warnings),
     container: "bg",
     colorComponents: values.rgbaColors ? 4 : 3,
+    decode: "auto",
     coordType: typeOf("coordType"),
     normalType: typeOf("normalType"),
     texCoordType: typeOf("texCoordType"),
@@ -76,19 +78,20 @@ export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "sp
   return encoding === "octahedral" || encoding === "spherical";
 }
 
-function commonOf(element: SceneElement, values: Omit<Values<typeof nodeFields.ImageGeometry>, "numColorComponents">,
+function commonOf(element: SceneElement, values: Omit<Values<typeof nodeFields.ImageGeometry>, "numColorComponents" | "decode">,
                   warnings: Warning[]) {
   const { position, size, positionBits, solid, texCoordMin, texCoordSize } = values;
-  const indexType = elementTypeOf(element, "indexType", values.indexType, "Uint16", warnings);
-  const normalEncoding = normalEncodings.find((name) => name === values.normalEncoding.trim().toLowerCase());
-  if (normalEncoding === undefined) warnings.push({ element, message: `normalEncoding="${values.normalEncoding}" is none that is known` });
-  return { position, size, positionBits, solid, texCoordMin, texCoordSize, indexType, normalEncoding: normalEncoding ?? "rgb" };
+  const indexType = choiceOf(element, "indexType", values.indexType, elementTypes, "Uint16", warnings);
+  const normalEncoding = choiceOf(element, "normalEncoding", values.normalEncoding, normalEncodings, "rgb", warnings);
+  return { position, size, positionBits, solid, texCoordMin, texCoordSize, indexType, normalEncoding };
 }
 
-function elementTypeOf(element: SceneElement, field: string, text: string, fallback: string, warnings: Warning[]): ElementType {
-  const found = elementTypes.find((type) => type.toLowerCase() === text.trim().toLowerCase());
-  if (found === undefined) warnings.push({ element, message: `${field}="${text}" is no element type` });
-  return found ?? (fallback as ElementType);
+/** The one of `choices` that the text names, without regard to case. */
+function choiceOf<Choice extends string>(element: SceneElement, field: string, text: string, choices: readonly Choice[],
+                                         fallback: Choice, warnings: Warning[]): Choice {
+  const found = choices.find((choice) => choice.toLowerCase() === text.trim().toLowerCase());
+  if (found === undefined) warnings.push({ element, message: `${field}="${text}" is none of ${choices.join(", ")}` });
+  return found ?? fallback;
 }
 
 /** The box of `bboxCenter` and `bboxSize`; X3D's size -1 -1 -1 says that there is none. */

@@ -100,7 +100,7 @@ export const nodeFields = {
     shininess: SFFloat(0.2),
     transparency: SFFloat(0),
   },
-  ImageGeometry: { ...geometryFields, numColorComponents: SFInt32(3) },
+  ImageGeometry: { ...geometryFields, numColorComponents: SFInt32(3), decode: SFString("auto") },
   BinaryGeometry: {
     ...geometryFields,
     rgbaColors: SFBool(false),

@@ -23,7 +23,7 @@ export class Arrival {
 
   /** Rejects with DecodeError, or with the signal's reason; nothing is then left behind. */
   async makeImage(png: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DataImage> {
-    const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser);
+    const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, this.#renderer.largestTexture);
     try {
       signal.throwIfAborted();
       return { image: await this.#upload(bitmap, signal), channels };

@@ -19,6 +19,7 @@ import { SceneRenderer } from "../render/sceneRenderer.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
 import { slotsFor } from "../scheduler/slots.ts";
+import { pageWorkers } from "../workers/pageWorkers.ts";
 import { Arrival } from "./arrival.ts";
 import { viewTag } from "./faceStyle.ts";
 import { leastStage, Loading } from "./loading.ts";
@@ -59,6 +60,7 @@ export class Viewer {
   readonly #scheduler = new Scheduler(slotsFor(""));
   readonly #pool: ResourcePool;
   readonly #deliveries: SharedDeliveries;
+  readonly #workers = pageWorkers();
   readonly #geometries = new GeometryMemory();
   readonly #shapes = new Map<SceneElement, LoadedShape>();
   readonly #steering: Steering;
@@ -80,6 +82,9 @@ export class Viewer {
     this.#pool = new ResourcePool({
       scheduler: this.#scheduler,
       makeImage: (png, signal) => arrival.makeImage(png, signal),
+      readsTextures: () => this.#readsTextures(),
+      largestTexture: this.renderer.largestTexture,
+      runJob: (name, input, signal) => this.#workers.run(name, input, signal),
       download: defaultDownloadOptions,
       // What is no URL is left for the request to fail on.
       resolve: (url) => (URL.canParse(url, document.baseURI) ? new URL(url, document.baseURI).href : url),
@@ -126,7 +131,14 @@ export class Viewer {
     }
     this.#shapes.clear();
     this.#loading.abandon();
+    this.#workers.dispose();
     this.renderer.dispose();
+  }
+
+  async #readsTextures(): Promise<boolean> {
+    const reads = await this.renderer.readsTextures();
+    if (!reads) this.#warn(this.#x3d, "images cannot be read exactly on this GPU; vertices are decoded in workers");
+    return reads;
   }
 
   #readDocument(): void {

@@ -91,9 +91,7 @@ export class Picker {
 
   /** Leaves the target bound. */
   #draw(camera: PerspectiveCamera, { x, y, width, height }: Place, candidates: readonly PickCandidate[]): void {
-    this.#target ??= new WebGLRenderTarget(1, 1, {
-      count: pickedTargets, format: RGBAIntegerFormat, type: UnsignedIntType, magFilter: NearestFilter, minFilter: NearestFilter,
-    });
+    this.#target ??= makePickTarget();
     // The picture's viewport, pushed so far that the wanted pixel is the target's only one.
     this.#target.viewport.set(-x, y - height + 1, width, height);
     this.#scene.children = candidates.map(({ pick, object }, place) => pick.objectFor(place + 1, object.matrixWorld));
@@ -148,6 +146,13 @@ export class Picker {
       face: faceOf(found.vertices, positionOf),
     };
   }
+}
+
+/** One pixel of what the picking material draws. */
+export function makePickTarget(): WebGLRenderTarget {
+  return new WebGLRenderTarget(1, 1, {
+    count: pickedTargets, format: RGBAIntegerFormat, type: UnsignedIntType, magFilter: NearestFilter, minFilter: NearestFilter,
+  });
 }
 
 /** Those whose bounds come within `slack` device pixels of the place. */

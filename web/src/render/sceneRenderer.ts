@@ -21,6 +21,7 @@ import { ShapeObject } from "./shapeObject.ts";
 import { GeometryPool } from "./stageGeometries.ts";
 import type { TextureUpload } from "./textures.ts";
 import { TextureStore } from "./textures.ts";
+import { readsTextures } from "./textureTest.ts";
 
 /** What has been drawn and what the GPU holds. */
 export interface RenderStatistics {
@@ -88,6 +89,7 @@ export class SceneRenderer {
   /** What `pick` has found since the scene last changed. */
   #picked: { readonly x: number; readonly y: number; readonly hit: Hit | undefined } | undefined;
   #frameRequest = 0;
+  #readsTextures: Promise<boolean> | undefined;
 
   /** `onFrame` is called after each frame that has been drawn. */
   constructor(canvas: HTMLCanvasElement, context: WebGL2RenderingContext, cameraMan: CameraMan, onFrame: () => void) {
@@ -165,6 +167,17 @@ export class SceneRenderer {
     this.#sphere = sphereAround(box);
     this.requestFrame();
     return { sphere: this.#sphere, viewpoints };
+  }
+
+  /** Texels of the longest edge that a texture may have. */
+  get largestTexture(): number {
+    return this.#renderer.capabilities.maxTextureSize;
+  }
+
+  /** Whether vertices may be read from textures; tried out once. */
+  readsTextures(): Promise<boolean> {
+    this.#readsTextures ??= readsTextures(this.#renderer, this.#setting.textures);
+    return this.#readsTextures;
   }
 
   /** Begins to bring an image to the GPU; stages may use it when all steps have been taken. */

@@ -4,6 +4,7 @@
 import type { TypedArray } from "three";
 import { BufferAttribute, BufferGeometry, InterleavedBuffer, InterleavedBufferAttribute } from "three";
 import type { BufferStage, DrawRange, Stage, VertexArray } from "../decode/stage.ts";
+import { isPairCode } from "../decode/stage.ts";
 
 interface Entry {
   readonly geometries: readonly BufferGeometry[];
@@ -65,7 +66,7 @@ function attributesOf({ coord, normal, normalCode, color }: BufferStage): Readon
     bufferOf(vertices), vertices.components, vertices.offset, isSpread && !(vertices.array instanceof Float32Array));
   return {
     position: attributeOf(coord, false),
-    ...(normal && { normal: attributeOf(normal, normalCode.kind === "vector") }),
+    ...(normal && { normal: attributeOf(normal, !isPairCode(normalCode)) }),
     ...(color && { color: attributeOf(color, true) }),
   };
 }

@@ -10,6 +10,7 @@
 
 import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "three";
 import type { NormalCode } from "../decode/stage.ts";
+import { isPairCode } from "../decode/stage.ts";
 import type { Vec3 } from "../document/description.ts";
 
 /** What both bodies read, as uniforms. */
@@ -42,13 +43,16 @@ export interface ImageVertexUniforms extends VertexUniforms {
   colorHasAlpha: IUniform<boolean>;
 }
 
+/** Samplers that the image body declares, and so texture units that a vertex shader must have. */
+export const vertexSamplers = 7;
+
 /** Defined in materials that read images, and in those that read normals from them. */
 export const imageVerticesDefine = "IMAGE_VERTICES";
 export const imageNormalsDefine = "IMAGE_NORMALS";
 
-/** How a material's normals are stored, as defines; none for vectors. `isWord`: both numbers in one of 16 bits. */
+/** How a material's normals are stored, as defines. `isWord`: both numbers in one of 16 bits. */
 export function normalDefinesOf(code: NormalCode, isWord: boolean): Record<string, string> {
-  if (code.kind === "vector") return {};
+  if (!isPairCode(code)) return code.kind === "byteVector" ? { NORMAL_BYTES: "" } : {};
   return {
     [code.kind === "octahedral" ? "OCTAHEDRAL_NORMALS" : "SPHERICAL_NORMALS"]: "",
     NORMAL_LARGEST: `${2 ** code.bits - 1}.0`,
@@ -184,6 +188,8 @@ vec3 readNormal() {
     return unitOf(vec2(mod(word, 256.0), floor(word / 256.0)));
   #elif defined(NORMAL_LARGEST)
     return unitOf(normal.xy);
+  #elif defined(NORMAL_BYTES)
+    return normal * 2.0 - 1.0;
   #else
     return normal;
   #endif

@@ -1,0 +1,170 @@
+// Images decoded in workers instead of by the shader: the same picture, chosen by
+// the document, by what the GPU offers, or because the shader reads wrong values.
+
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { assertSamePicture, boundsOfQuantised } from "./compare.ts";
+import { until, withPage, type PageOptions, type View } from "./harness.ts";
+import type { Picture } from "./png.ts";
+import { referencePicture } from "./reference.ts";
+import { gate } from "./server.ts";
+import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
+import { pageOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
+
+const onCpu = (html: Buffer): string => html.toString().replaceAll(/<ImageGeometry/gi, `$& decode="cpu"`);
+const cpuServer = (server: View["server"]): void => void server.when(/^\/$/, { replace: onCpu });
+
+interface Shown {
+  picture: Picture;
+  /** Textures that hold vertex data: those that were there when all had come. */
+  textures: number;
+  workers: number;
+}
+
+async function shown(site: string, options: PageOptions): Promise<Shown> {
+  let seen: Shown | undefined;
+  await withPage(site, options, async (view) => {
+    await view.promise("complete");
+    const picture = await view.picture();
+    seen = { picture, textures: (await view.observed()).live.textures, workers: view.page.workers().length };
+  });
+  assert.ok(seen);
+  return seen;
+}
+
+const cases: { mesh: GeneratedMesh; options: string[] }[] = [
+  ...["triangles", "strips"].map((primitives) => ({ mesh: "trefoil-colors" as const, options: ["--primitives", primitives, "--patch-vertices", "1000"] })),
+  { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"] },
+  { mesh: "trefoil-plain", options: ["--position-bits", "12"] },
+  { mesh: "trefoil", options: ["--normals", "octahedral"] },
+  { mesh: "trefoil", options: ["--normals", "palette"] },
+  { mesh: "points", options: [] },
+  { mesh: "coil", options: ["--primitives", "strips"] },
+];
+
+describe("decoded on the CPU, the picture is that of the GPU and of plain buffers", () => {
+  for (const { mesh, options } of cases) {
+    test([mesh, ...options].join(" "), async () => {
+      const site = siteOfGenerated(mesh, ...options);
+      const gpu = await shown(site, {});
+      const cpu = await shown(site, { server: cpuServer });
+      assertSamePicture(`cpu and gpu ${mesh} ${options.join("")}`, cpu.picture, gpu.picture, { mean: 0.0005 });
+      assertSamePicture(`cpu ${mesh} ${options.join("")}`, cpu.picture, await referencePicture(pageOf(site), decodeSite(site)), boundsOfQuantised);
+      assert.ok(gpu.textures > cpu.textures, `${gpu.textures} and ${cpu.textures} textures`);
+      assert.ok(gpu.workers === 0 && cpu.workers > 0, `${gpu.workers} and ${cpu.workers} workers`);
+    });
+  }
+
+  test("with the first coordinate byte alone", async () => {
+    const site = siteOfGenerated("trefoil-colors");
+    const pictures: Picture[] = [];
+    for (const decode of [undefined, cpuServer]) {
+      const { closed } = gate();
+      const held = [...ranksOfFiles(pageOf(site))].filter(([, rank]) => rank > 3).map(([url]) => `/${url}`);
+      const server = (server: View["server"]): void => {
+        decode?.(server);
+        server.when((path) => held.includes(path), { hold: closed });
+      };
+      await withPage(site, { server }, async (view) => {
+        await until("it is shaded", async () => (await view.observed()).events.some(({ target, detail }) => target === "shape" && detail.stage === "shaded"));
+        pictures.push(await view.picture());
+      });
+    }
+    assertSamePicture("coarse on the CPU", pictures[1]!, pictures[0]!, { mean: 0.0005 });
+  });
+});
+
+/** Self-contained: compiles a vertex fetch that is a little off. */
+function readWrongValues(): void {
+  const gl = WebGL2RenderingContext.prototype as unknown as Record<string, (...args: unknown[]) => unknown>;
+  const shaderSource = gl.shaderSource!;
+  gl.shaderSource = function (shader, source) {
+    return shaderSource.call(this, shader, String(source).replace("rgb * 255.0 + 0.5", "rgb * 254.0 + 0.5"));
+  };
+}
+
+describe("images are decoded on the CPU of themselves", () => {
+  const site = (): string => siteOfGenerated("trefoil-colors");
+
+  async function assertFallsBack(name: string, before: () => void): Promise<void> {
+    const messages: string[] = [];
+    const expected = await referencePicture(pageOf(site()), decodeSite(site()));
+    await withPage(site(), { before }, async (view) => {
+      view.page.on("console", (message) => messages.push(message.text()));
+      await view.promise("complete");
+      assertSamePicture(name, await view.picture(), expected, boundsOfQuantised);
+      assert.ok(view.page.workers().length > 0, "nothing was decoded in workers");
+      assert.ok(messages.some((message) => message.includes("decoded in workers")), messages.join("; "));
+    });
+  }
+
+  test("where a vertex shader has too few texture units", async () => {
+    await assertFallsBack("few units", () => {
+      const gl = WebGL2RenderingContext.prototype as unknown as Record<string, (...args: unknown[]) => unknown>;
+      const getParameter = gl.getParameter!;
+      gl.getParameter = function (name) {
+        return name === WebGL2RenderingContext.MAX_VERTEX_TEXTURE_IMAGE_UNITS ? 4 : getParameter.call(this, name);
+      };
+    });
+  });
+
+  test("where the shader reads wrong values", async () => {
+    await assertFallsBack("wrong shader", readWrongValues);
+  });
+
+  test("where the browser multiplies by alpha against orders", async () => {
+    await assertFallsBack("premultiplied", () => {
+      const make = window.createImageBitmap.bind(window);
+      window.createImageBitmap = (image: ImageBitmapSource) => make(image, { premultiplyAlpha: "premultiply" });
+    });
+  });
+
+  test("where a texture would be larger than the GPU has", async () => {
+    const before = (): void => {
+      const gl = WebGL2RenderingContext.prototype as unknown as Record<string, (...args: unknown[]) => unknown>;
+      const getParameter = gl.getParameter!;
+      gl.getParameter = function (name) {
+        return name === WebGL2RenderingContext.MAX_TEXTURE_SIZE ? 512 : getParameter.call(this, name);
+      };
+    };
+    // Index images are 1024 wide.
+    const { picture, workers } = await shown(site(), { before });
+    assertSamePicture("large texture", picture, await referencePicture(pageOf(site()), decodeSite(site())), boundsOfQuantised);
+    assert.ok(workers > 0, "nothing was decoded in workers");
+  });
+
+  test("but not where the document wants the shader", async () => {
+    const server = (server: View["server"]): void => {
+      server.when(/^\/$/, { replace: (html) => html.toString().replace(/<ImageGeometry/i, `$& decode="gpu"`) });
+    };
+    const { workers } = await shown(site(), { server, before: readWrongValues });
+    assert.equal(workers, 0);
+  });
+});
+
+test("the page decodes by itself where it may start no workers", async () => {
+  const site = siteOfGenerated("trefoil-colors");
+  const expected = await referencePicture(pageOf(site), decodeSite(site));
+  for (const before of [
+    () => { window.Worker = function () { throw new DOMException("not here", "SecurityError"); } as unknown as typeof Worker; },
+    () => { window.Worker = class extends Worker { constructor() { super("/missing.js", { type: "module" }); } }; },
+  ]) {
+    const { picture } = await shown(site, { server: cpuServer, before, expectedErrors: /missing\.js|404/ });
+    assertSamePicture("without workers", picture, expected, boundsOfQuantised);
+  }
+});
+
+test("a file that is wrong is named, and the rest is shown", async () => {
+  const site = siteOfGenerated("trefoil-colors");
+  const [normal] = [...ranksOfFiles(pageOf(site))].find(([, rank]) => rank === 2)!;
+  const server = (server: View["server"]): void => {
+    cpuServer(server);
+    server.when((path) => path === `/${normal}`, { truncateTo: 300 });
+  };
+  await withPage(site, { server, expectedErrors: /imgeo/ }, async (view) => {
+    await view.promise("complete");
+    const [error] = await view.events("error", "shape");
+    assert.deepEqual([error?.detail.type, error?.detail.url], ["truncated", normal]);
+    assert.ok((await view.events("refine", "shape")).some(({ detail }) => detail.stage === "surface"));
+  });
+});

@@ -1,0 +1,155 @@
+// Classic SIG on the CPU (paper, section 5.2): the images of a patch to the arrays
+// that buffers are made of. Stored integers come out as the vertex shader would
+// read them (render/vertexChunk.ts), so that both ways show the same picture.
+// Pure functions, to be run in workers.
+
+import { DecodeError } from "./decodeError.ts";
+import type { Pixels } from "./pngPixels.ts";
+import { decodePixels } from "./pngPixels.ts";
+import type { DrawRange, IndexArray, NormalCode, VertexArray } from "./stage.ts";
+import { isPairCode } from "./stage.ts";
+import { withoutStrips } from "./strips.ts";
+
+/** A file, and the texel that its data begin at. */
+export interface ImageFile {
+  readonly png: Uint8Array<ArrayBuffer>;
+  readonly first: number;
+}
+
+/** Where the records of a patch lie in its images. */
+export interface RecordLayout {
+  readonly count: number;
+  /** Record r is texel (r mod rowLength, r div rowLength), or texel r where it is 0. */
+  readonly rowLength: number;
+}
+
+export interface CoordJob extends RecordLayout {
+  /** The byte planes that are here, most significant first. */
+  readonly planes: readonly ImageFile[];
+  /** The byte planes that there will be. */
+  readonly planeCount: number;
+  /** Added to every coordinate in place of the bytes that are not here. */
+  readonly middleOfMissing: number;
+}
+
+/** Stored integers; in Float32 where bytes are missing or there are more than two. */
+export async function classicCoords({ planes, planeCount, middleOfMissing, ...layout }: CoordJob): Promise<VertexArray> {
+  const images = await Promise.all(planes.map((plane) => imageOf(plane, 3)));
+  const isWhole = planes.length === planeCount;
+  const array = isWhole && planeCount === 1 ? new Uint8Array(layout.count * 4)
+    : isWhole && planeCount === 2 ? new Uint16Array(layout.count * 4) : new Float32Array(layout.count * 3);
+  const stride = array instanceof Float32Array ? 3 : 4;
+  const sums = new Float64Array(layout.count * 3);
+  for (const image of images) {
+    const { data, channels } = image;
+    const texelOf = placesOf(image, layout);
+    for (let record = 0; record < layout.count; ++record) {
+      const at = texelOf(record) * channels;
+      for (let axis = 0; axis < 3; ++axis) {
+        sums[3 * record + axis] = (sums[3 * record + axis] ?? 0) * 256 + (data[at + axis] ?? 0);
+      }
+    }
+  }
+  const shift = 256 ** (planeCount - planes.length);
+  for (let record = 0; record < layout.count; ++record) {
+    for (let axis = 0; axis < 3; ++axis) array[record * stride + axis] = (sums[3 * record + axis] ?? 0) * shift + middleOfMissing;
+  }
+  return { array, components: 3, stride, offset: 0 };
+}
+
+export interface IndexJob {
+  readonly file: ImageFile;
+  /** Element n is texel (n mod rowLength, n div rowLength), counted from the file's first. */
+  readonly rowLength: number;
+  readonly draws: readonly DrawRange[];
+  /** Texels hold the record's number; otherwise its column and row in 256ths of the coordinate image. */
+  readonly isWide: boolean;
+  readonly coordWidth: number;
+  readonly coordHeight: number;
+  readonly recordCount: number;
+}
+
+/** The index with strips taken apart, and the draws that go with it. */
+export async function classicIndex(job: IndexJob): Promise<{ index: IndexArray; draws: readonly DrawRange[] }> {
+  const { file, rowLength, draws, isWide, coordWidth, coordHeight, recordCount } = job;
+  const count = draws.reduce((sum, draw) => sum + draw.count, 0);
+  const image = await imageOf(file, 3);
+  const texelOf = placesOf(image, { count, rowLength });
+  const index = recordCount <= 2 ** 16 ? new Uint16Array(count) : new Uint32Array(count);
+  const { data, channels } = image;
+  for (let n = 0; n < count; ++n) {
+    const at = texelOf(n) * channels;
+    const [r = 0, g = 0, b = 0] = [data[at], data[at + 1], data[at + 2]];
+    const record = isWide ? r + 256 * g + 65536 * b
+      : ((g * coordHeight + 128) >> 8) * coordWidth + ((r * coordWidth + 128) >> 8);
+    if (record >= recordCount) throw new DecodeError("malformed", `holds index ${record} where there are ${recordCount} vertices`);
+    index[n] = record;
+  }
+  return withoutStrips(index, draws);
+}
+
+export interface NormalJob extends RecordLayout {
+  readonly file: ImageFile;
+  readonly code: NormalCode;
+}
+
+/** Bytes: three of a vector, or the two numbers of which the second stand in the image's lower half. */
+export async function classicNormals({ file, code, ...layout }: NormalJob): Promise<VertexArray> {
+  if (!isPairCode(code)) return bytesOf(await imageOf(file, 3), layout, 3);
+  const image = await imageOf(file, 1);
+  const { data, channels } = image;
+  const half = (image.width * image.height) / 2;
+  requireTexels(image, half + layout.count);
+  const array = new Uint8Array(layout.count * 4);
+  for (let record = 0; record < layout.count; ++record) {
+    array[4 * record] = data[(image.first + record) * channels] ?? 0;
+    array[4 * record + 1] = data[(image.first + half + record) * channels] ?? 0;
+  }
+  return { array, components: 2, stride: 4, offset: 0 };
+}
+
+export interface ColorJob extends RecordLayout {
+  readonly file: ImageFile;
+  readonly components: 3 | 4;
+}
+
+export async function classicColors({ file, components, ...layout }: ColorJob): Promise<VertexArray> {
+  return bytesOf(await imageOf(file, components), layout, components);
+}
+
+interface FirstPixels extends Pixels {
+  readonly first: number;
+}
+
+async function imageOf({ png, first }: ImageFile, least: number): Promise<FirstPixels> {
+  const pixels = await decodePixels(png);
+  if (pixels.channels < least) throw new DecodeError("malformed", `has ${pixels.channels} channels where ${least} are needed`);
+  return { ...pixels, first };
+}
+
+function bytesOf(image: FirstPixels, layout: RecordLayout, components: 3 | 4): VertexArray {
+  const texelOf = placesOf(image, layout);
+  const { data, channels } = image;
+  const array = new Uint8Array(layout.count * 4);
+  for (let record = 0; record < layout.count; ++record) {
+    const at = texelOf(record) * channels;
+    for (let n = 0; n < components; ++n) array[4 * record + n] = data[at + n] ?? 0;
+  }
+  return { array, components, stride: 4, offset: 0 };
+}
+
+/** From numbers to texels of the image; throws where it has fewer. */
+function placesOf(image: FirstPixels, { count, rowLength }: RecordLayout): (n: number) => number {
+  const { width, first } = image;
+  const place = rowLength === 0 || rowLength === width ? (n: number) => first + n
+    : (n: number) => first + Math.floor(n / rowLength) * width + (n % rowLength);
+  if (rowLength > width) throw new DecodeError("malformed", `is ${width} texels wide, rows of ${rowLength} do not fit`);
+  if (count > 0) requireTexels(image, place(count - 1) - first + 1);
+  return place;
+}
+
+function requireTexels({ width, height, first }: FirstPixels, count: number): void {
+  if (first + count > width * height) {
+    throw new DecodeError("malformed", `has ${width} x ${height} texels; ${count} from texel ${first} on do not fit`);
+  }
+}

@@ -1,0 +1,13 @@
+// What can be computed away from the main thread: pure functions from plain data
+// and bytes to plain data and arrays, by name.
+
+import { classicColors, classicCoords, classicIndex, classicNormals } from "./classicArrays.ts";
+
+export const jobs = { classicCoords, classicIndex, classicNormals, classicColors } as const;
+
+export type JobName = keyof typeof jobs;
+export type InputOf<Name extends JobName> = Parameters<(typeof jobs)[Name]>[0];
+export type OutputOf<Name extends JobName> = Awaited<ReturnType<(typeof jobs)[Name]>>;
+
+/** Rejects with what the job throws, a DecodeError for bytes that are wrong, or with the signal's reason. */
+export type RunJob = <Name extends JobName>(name: Name, input: InputOf<Name>, signal: AbortSignal) => Promise<OutputOf<Name>>;

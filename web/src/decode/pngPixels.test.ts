@@ -1,0 +1,102 @@
+import assert from "node:assert/strict";
+import { deflateSync } from "node:zlib";
+import { describe, test } from "node:test";
+import { DecodeError } from "./decodeError.ts";
+import { chunkOf, joined } from "./png.testing.ts";
+import { decodePixels } from "./pngPixels.ts";
+
+interface Sample {
+  readonly width: number;
+  readonly height: number;
+  readonly channels: 1 | 3 | 4;
+  readonly texels: Uint8Array<ArrayBuffer>;
+}
+
+function sampleOf(width: number, height: number, channels: 1 | 3 | 4): Sample {
+  return { width, height, channels, texels: Uint8Array.from({ length: width * height * channels }, (_, n) => (n * 2654435761) >>> 23) };
+}
+
+/** The specification's filters the other way round, written from its formulas. */
+function filtered({ width, height, channels, texels }: Sample, filterOf: (row: number) => number): Uint8Array<ArrayBuffer> {
+  const length = width * channels;
+  const byte = (row: number, n: number) => (row < 0 || n < 0 ? 0 : texels[row * length + n] ?? 0);
+  const bytes: number[] = [];
+  for (let row = 0; row < height; ++row) {
+    const filter = filterOf(row);
+    bytes.push(filter);
+    for (let n = 0; n < length; ++n) {
+      const [a, b, c] = [byte(row, n - channels), byte(row - 1, n), n < channels ? 0 : byte(row - 1, n - channels)];
+      const p = a + b - c;
+      const nearest = [a, b, c].reduce((best, guess) => (Math.abs(p - guess) < Math.abs(p - best) ? guess : best), a);
+      bytes.push((byte(row, n) - ([0, a, b, Math.floor((a + b) / 2), nearest][filter] ?? 0)) & 255);
+    }
+  }
+  return Uint8Array.from(bytes);
+}
+
+function pngWith(sample: Sample, data: Uint8Array, { colorType = { 1: 0, 3: 2, 4: 6 }[sample.channels], extra = [] as Uint8Array[], parts = 1 } = {}) {
+  const header = Buffer.alloc(13);
+  header.writeUInt32BE(sample.width, 0);
+  header.writeUInt32BE(sample.height, 4);
+  header.set([8, colorType, 0, 0, 0], 8);
+  const packed = deflateSync(data);
+  const size = Math.ceil(packed.length / parts);
+  return joined([
+    Uint8Array.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]), chunkOf("IHDR", header), ...extra,
+    ...Array.from({ length: parts }, (_, part) => chunkOf("IDAT", packed.subarray(part * size, (part + 1) * size))),
+    chunkOf("IEND", new Uint8Array()),
+  ]);
+}
+
+describe("the texels of a PNG", () => {
+  for (const channels of [1, 3, 4] as const) {
+    test(`of ${channels} channels come back from every filter, and from all of them mixed`, async () => {
+      const sample = sampleOf(23, 11, channels);
+      for (const filterOf of [...[0, 1, 2, 3, 4].map((filter) => () => filter), (row: number) => row % 5]) {
+        const pixels = await decodePixels(pngWith(sample, filtered(sample, filterOf)));
+        assert.deepEqual(pixels, { width: 23, height: 11, channels, data: sample.texels });
+      }
+    });
+  }
+
+  test("may come in several chunks, behind a view of a larger buffer", async () => {
+    const sample = sampleOf(9, 5, 3);
+    const png = pngWith(sample, filtered(sample, () => 4), { parts: 3 });
+    const larger = joined([new Uint8Array(7), png, new Uint8Array(5)]);
+    assert.deepEqual((await decodePixels(larger.subarray(7, 7 + png.length))).data, sample.texels);
+  });
+
+  test("are looked up in a palette", async () => {
+    const numbers: Sample = { width: 4, height: 1, channels: 1, texels: Uint8Array.from([0, 2, 1, 2]) };
+    const palette = chunkOf("PLTE", Uint8Array.from([1, 2, 3, 4, 5, 6, 7, 8, 9]));
+    const png = (texels: number[]) => pngWith(numbers, filtered({ ...numbers, texels: Uint8Array.from(texels) }, () => 0), { colorType: 3, extra: [palette] });
+    const { data, channels } = await decodePixels(png([0, 2, 1, 2]));
+    assert.deepEqual([channels, Array.from(data)], [3, [1, 2, 3, 7, 8, 9, 4, 5, 6, 7, 8, 9]]);
+    await assert.rejects(decodePixels(png([0, 3, 1, 2])), { message: /colour that its palette does not have/ });
+    await assert.rejects(decodePixels(pngWith(numbers, filtered(numbers, () => 0), { colorType: 3 })), { message: /no palette/ });
+  });
+
+  const sample = sampleOf(6, 4, 3);
+  const whole = filtered(sample, () => 1);
+  for (const [what, data] of [
+    ["too few", whole.subarray(0, whole.length - 1)],
+    ["too many", joined([whole, Uint8Array.from([0])])],
+    ["an unknown filter", joined([Uint8Array.from([5]), whole.subarray(1)])],
+  ] as const) {
+    test(`are refused where there is ${what}`, async () => {
+      await assert.rejects(decodePixels(pngWith(sample, data)), (error) => error instanceof DecodeError);
+    });
+  }
+
+  test("are refused whichever byte of their stream is changed, or come back the same", async () => {
+    const png = pngWith(sample, whole);
+    const begin = Buffer.from(png).indexOf("IDAT") + 4;
+    const end = Buffer.from(png).indexOf("IEND") - 8;
+    for (let at = begin; at < end; ++at) {
+      const changed = Uint8Array.from(png);
+      changed[at] = (changed[at] ?? 0) ^ 0x41;
+      const outcome = await decodePixels(changed).catch((error: unknown) => error);
+      if (!(outcome instanceof DecodeError)) assert.deepEqual((outcome as { data: Uint8Array }).data, sample.texels, `byte ${at}`);
+    }
+  });
+});

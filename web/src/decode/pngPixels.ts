@@ -1,0 +1,124 @@
+// A PNG to its stored bytes by our own hands (PNG specification, W3C 2003,
+// sections 7 to 10): where a canvas would do it, browsers multiply by alpha, apply
+// colour profiles, and against fingerprinting add noise.
+
+import { DecodeError } from "./decodeError.ts";
+import type { PngHeader } from "./png.ts";
+import { checkPng } from "./png.ts";
+
+export interface Pixels {
+  readonly width: number;
+  readonly height: number;
+  readonly channels: PngHeader["channels"];
+  /** Row by row from the top, `channels` bytes a texel. */
+  readonly data: Uint8Array<ArrayBuffer>;
+}
+
+/** Rejects with DecodeError. Safe for untrusted bytes. */
+export async function decodePixels(png: Uint8Array<ArrayBuffer>): Promise<Pixels> {
+  const { width, height, channels } = checkPng(png);
+  const chunks = chunksOf(png);
+  const palette = chunks.find(({ type }) => type === "PLTE")?.data;
+  const isPalette = png[colorTypePlace] === 3;
+  const rowLength = width * (isPalette ? 1 : channels);
+  const packed = chunks.filter(({ type }) => type === "IDAT").map(({ data }) => data);
+  const filtered = await inflate(packed, height * (1 + rowLength));
+  const data = unfiltered(filtered, height, rowLength, isPalette ? 1 : channels);
+  return { width, height, channels, data: isPalette ? throughPalette(data, palette) : data };
+}
+
+const signatureLength = 8;
+const colorTypePlace = 25;
+
+/** Of bytes that `checkPng` has accepted. */
+function chunksOf(png: Uint8Array<ArrayBuffer>): { type: string; data: Uint8Array<ArrayBuffer> }[] {
+  const view = new DataView(png.buffer, png.byteOffset, png.byteLength);
+  const chunks: { type: string; data: Uint8Array<ArrayBuffer> }[] = [];
+  for (let at = signatureLength; at < png.length; ) {
+    const length = view.getUint32(at);
+    const type = String.fromCharCode(...png.subarray(at + 4, at + 8));
+    chunks.push({ type, data: png.subarray(at + 8, at + 8 + length) });
+    at += length + 12;
+  }
+  return chunks;
+}
+
+/** A zlib stream of exactly `length` bytes; no more than that is ever unpacked. */
+async function inflate(packed: readonly Uint8Array<ArrayBuffer>[], length: number): Promise<Uint8Array> {
+  const bytes = new Uint8Array(length);
+  let filled = 0;
+  const reader = new Blob([...packed]).stream().pipeThrough(new DecompressionStream("deflate")).getReader();
+  try {
+    for (let part = await reader.read(); !part.done; part = await reader.read()) {
+      if (filled + part.value.length > length) throw new DecodeError("malformed", "holds more than its texels");
+      bytes.set(part.value, filled);
+      filled += part.value.length;
+    }
+  } catch (error) {
+    await reader.cancel().catch(() => undefined);
+    if (error instanceof DecodeError) throw error;
+    throw new DecodeError("malformed", "is a PNG that does not decode");
+  }
+  if (filled < length) throw new DecodeError("truncated", "does not hold all of its texels");
+  return bytes;
+}
+
+/** Undoes the five filters of PNG, row by row: a byte is told relative to those left of it, above it, and left above it. */
+function unfiltered(filtered: Uint8Array, rows: number, rowLength: number, texelLength: number): Uint8Array<ArrayBuffer> {
+  const bytes = new Uint8Array(rows * rowLength);
+  for (let row = 0; row < rows; ++row) {
+    const from = row * (rowLength + 1) + 1;
+    const source = filtered.subarray(from, from + rowLength);
+    const start = row * rowLength;
+    const line = bytes.subarray(start, start + rowLength);
+    const above = row === 0 ? new Uint8Array(rowLength) : bytes.subarray(start - rowLength, start);
+    unfilterRow(filtered[from - 1] ?? 0, source, line, above, texelLength);
+  }
+  return bytes;
+}
+
+function unfilterRow(filter: number, source: Uint8Array, line: Uint8Array, above: Uint8Array, texelLength: number): void {
+  // Bytes left of the first texel count as 0; typed arrays wrap at 256 as PNG does.
+  const at = (bytes: Uint8Array, n: number) => (n < 0 ? 0 : bytes[n] ?? 0);
+  const length = source.length;
+  switch (filter) {
+    case 0: line.set(source); return;
+    case 1:
+      for (let n = 0; n < length; ++n) line[n] = at(source, n) + at(line, n - texelLength);
+      return;
+    case 2:
+      for (let n = 0; n < length; ++n) line[n] = at(source, n) + at(above, n);
+      return;
+    case 3:
+      for (let n = 0; n < length; ++n) line[n] = at(source, n) + ((at(line, n - texelLength) + at(above, n)) >> 1);
+      return;
+    case 4:
+      for (let n = 0; n < length; ++n) {
+        line[n] = at(source, n) + paeth(at(line, n - texelLength), at(above, n), at(above, n - texelLength));
+      }
+      return;
+    default: throw new DecodeError("malformed", `has a row with filter ${filter}`);
+  }
+}
+
+function paeth(left: number, above: number, corner: number): number {
+  const guess = left + above - corner;
+  const toLeft = Math.abs(guess - left);
+  const toAbove = Math.abs(guess - above);
+  const toCorner = Math.abs(guess - corner);
+  if (toLeft <= toAbove && toLeft <= toCorner) return left;
+  return toAbove <= toCorner ? above : corner;
+}
+
+function throughPalette(numbers: Uint8Array, palette: Uint8Array | undefined): Uint8Array<ArrayBuffer> {
+  if (palette === undefined) throw new DecodeError("malformed", "has no palette");
+  const colors = new Uint8Array(numbers.length * 3);
+  for (let n = 0; n < numbers.length; ++n) {
+    const entry = (numbers[n] ?? 0) * 3;
+    if (entry + 3 > palette.length) throw new DecodeError("malformed", "names a colour that its palette does not have");
+    colors[3 * n] = palette[entry] ?? 0;
+    colors[3 * n + 1] = palette[entry + 1] ?? 0;
+    colors[3 * n + 2] = palette[entry + 2] ?? 0;
+  }
+  return colors;
+}

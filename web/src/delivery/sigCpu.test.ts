@@ -1,0 +1,68 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { pngWithTexels } from "../decode/png.testing.ts";
+import { geometryOf, held, record, records, sigPatch, siteOf, soon } from "./delivery.testing.ts";
+
+describe("images that are decoded on the CPU", () => {
+  const coordAt = (first: number) => pngWithTexels(256, 2, 3, (n, channel) => first + (n + channel) % 100);
+  const files = () => ({
+    "i0.png": pngWithTexels(256, 4, 3, (n, channel) => [n % 200, 0, 0][channel] ?? 0),
+    "a0.png": coordAt(1), "b0.png": coordAt(100), "n0.png": records,
+  });
+
+  for (const [why, attribute, readsTextures] of [["the document says so", 'decode="cpu"', true], ["textures are not read right", "", false]] as const) {
+    test(`give stages of buffers where ${why}`, async () => {
+      const site = siteOf(files(), 6, readsTextures);
+      const { stages, errors, settled } = record(geometryOf(`<ImageGeometry ${attribute}>${sigPatch(0)}</ImageGeometry>`), site.pool);
+      await settled;
+      assert.deepEqual(errors, []);
+      assert.equal(site.images.open, 0);
+      const full = stages.at(-1)?.stage;
+      assert.ok(full?.kind === "buffers");
+      assert.deepEqual([full.name, full.draws], ["full", [{ primitive: "triangles", first: 0, count: 600 }]]);
+      assert.deepEqual([full.coord.array[4], full.index?.[201], full.normalCode.kind], [2 * 256 + 101, 1, "byteVector"]);
+    });
+  }
+
+  test("are textures where the document insists", async () => {
+    const site = siteOf(files(), 6, false);
+    const { stages, settled } = record(geometryOf(`<ImageGeometry decode="gpu">${sigPatch(0)}</ImageGeometry>`), site.pool);
+    await settled;
+    assert.equal(stages.at(-1)?.stage.kind, "textures");
+  });
+
+  test("need not fit into a texture", async () => {
+    const site = siteOf({ "c.png": pngWithTexels(16, 8, 3, (n, channel) => n + channel) });
+    const patch = (width: number) => `<ImageGeometry primType="POINTS" vertexCount="20" implicitMeshSize="${width} 2" coord="c.png"/>`;
+    for (const [width, kind] of [[16, "textures"], [5000, "buffers"]] as const) {
+      const { stages, errors, settled } = record(geometryOf(patch(width)), site.pool);
+      await settled;
+      // The file itself is too narrow for the rows that it is said to have.
+      if (width > 16) assert.match(errors[0]?.message ?? "", /is 16 texels wide/);
+      else assert.equal(stages.at(-1)?.stage.kind, kind);
+    }
+  });
+
+  test("grow from points to a surface in whatever order their files come", async () => {
+    for (const late of ["a0.png", "i0.png", "b0.png"] as const) {
+      const all = files();
+      const { promise, release } = held(all[late]);
+      const site = siteOf({ ...all, [late]: promise });
+      const { stages, errors, settled } = record(geometryOf(`<ImageGeometry decode="cpu">${sigPatch(0)}</ImageGeometry>`), site.pool);
+      while (stages.length < (late === "a0.png" ? 0 : 2)) await soon();
+      const names = stages.map(({ stage }) => stage.name);
+      assert.equal(names.at(-1), { "a0.png": undefined, "i0.png": "points", "b0.png": "shaded" }[late]);
+      release();
+      await settled;
+      assert.deepEqual([errors, stages.at(-1)?.stage.name], [[], "full"]);
+    }
+  });
+
+  test("name the file that is wrong, whichever it was that led to it", async () => {
+    const site = siteOf({ ...files(), "i0.png": pngWithTexels(256, 4, 3, () => 255) });
+    const { stages, errors, settled } = record(geometryOf(`<ImageGeometry decode="cpu">${sigPatch(0)}</ImageGeometry>`), site.pool);
+    await settled;
+    assert.deepEqual(errors.map(({ url, kind }) => [url, kind]), [["i0.png", "malformed"]]);
+    assert.equal(stages.at(-1)?.stage.name, "points");
+  });
+});

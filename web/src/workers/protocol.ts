@@ -1,0 +1,32 @@
+// What pages and workers say to each other.
+
+import { DecodeError } from "../decode/decodeError.ts";
+import type { JobName } from "../decode/jobs.ts";
+
+export interface JobMessage {
+  readonly name: JobName;
+  readonly input: unknown;
+}
+
+export type AnswerMessage = { readonly output: unknown }
+  | { readonly error: { readonly kind: DecodeError["kind"] | undefined; readonly message: string } };
+
+/** Errors lose their class on the way. */
+export function asAnswer(error: unknown): AnswerMessage {
+  const message = error instanceof Error ? error.message : String(error);
+  return { error: { kind: error instanceof DecodeError ? error.kind : undefined, message } };
+}
+
+export function asError({ error: { kind, message } }: Extract<AnswerMessage, { error: unknown }>): Error {
+  return kind === undefined ? new Error(message) : new DecodeError(kind, message);
+}
+
+/** The memory of all arrays in some plain data, to be handed over instead of copied. */
+export function buffersIn(value: unknown, found = new Set<ArrayBuffer>()): ArrayBuffer[] {
+  if (ArrayBuffer.isView(value)) {
+    if (value.buffer instanceof ArrayBuffer) found.add(value.buffer);
+  } else if (value !== null && typeof value === "object") {
+    for (const member of Object.values(value)) buffersIn(member, found);
+  }
+  return Array.from(found);
+}

@@ -1,0 +1,127 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import type { IndexJob, NormalJob } from "../decode/classicArrays.ts";
+import { DecodeError } from "../decode/decodeError.ts";
+import { pngWithTexels } from "../decode/png.testing.ts";
+import type { AnswerMessage, JobMessage } from "./protocol.ts";
+import { asAnswer, asError, buffersIn } from "./protocol.ts";
+import { runJob } from "./worker.ts";
+import type { JobWorker } from "./workerPool.ts";
+import { WorkerPool } from "./workerPool.ts";
+
+/** Workers that answer when they are told to. */
+function fakes({ size = 2, idleMs = 1000, start = true, broken = false } = {}) {
+  const workers: { asked: JobMessage[]; isEnded: boolean; answer: (answer: AnswerMessage) => void }[] = [];
+  const here: JobMessage[] = [];
+  const pool = new WorkerPool({
+    size, idleMs,
+    start: () => {
+      if (!start) throw new DOMException("no", "SecurityError");
+      const worker: JobWorker = {
+        onmessage: null, onerror: null,
+        postMessage: (message) => {
+          fake.asked.push(message);
+          if (broken) setTimeout(() => worker.onerror?.({ preventDefault: () => undefined } as ErrorEvent));
+        },
+        terminate: () => { fake.isEnded = true; },
+      };
+      const fake = {
+        asked: [] as JobMessage[], isEnded: false,
+        answer: (answer: AnswerMessage) => worker.onmessage?.({ data: answer } as MessageEvent<AnswerMessage>),
+      };
+      workers.push(fake);
+      return worker;
+    },
+    runHere: (message) => {
+      here.push(message);
+      return runJob(message);
+    },
+  });
+  return { pool, workers, here };
+}
+
+const input = (n: number): NormalJob => ({
+  file: { png: pngWithTexels(4, 1, 3, (texel) => n + texel), first: 0 }, code: { kind: "byteVector" }, count: 2, rowLength: 0,
+});
+const forever = new AbortController().signal;
+const output = (n: number) => ({ output: { array: Uint8Array.from([n]), components: 3, stride: 4, offset: 0 } });
+const soon = () => new Promise((resolve) => setTimeout(resolve, 5));
+
+describe("jobs", () => {
+  test("run in as many workers as there are jobs, and as are allowed; the rest wait", async () => {
+    const { pool, workers } = fakes();
+    const jobs = [1, 2, 3].map((n) => pool.run("classicNormals", input(n), forever));
+    assert.deepEqual(workers.map(({ asked }) => asked.length), [1, 1]);
+    workers[1]?.answer(output(2));
+    assert.deepEqual(workers.map(({ asked }) => asked.length), [1, 2]);
+    workers[0]?.answer(output(1));
+    workers[1]?.answer(output(3));
+    assert.deepEqual((await Promise.all(jobs)).map(({ array }) => array[0]), [1, 2, 3]);
+    pool.dispose();
+    assert.ok(workers.every(({ isEnded }) => isEnded));
+  });
+
+  test("fail with their own errors, and the worker goes on", async () => {
+    const { pool, workers } = fakes({ size: 1 });
+    const failing = pool.run("classicNormals", input(1), forever);
+    const next = pool.run("classicNormals", input(2), forever);
+    workers[0]?.answer(asAnswer(new DecodeError("truncated", "is short")));
+    await assert.rejects(failing, (error) => error instanceof DecodeError && error.kind === "truncated" && error.message === "is short");
+    workers[0]?.answer(output(2));
+    assert.equal((await next).array[0], 2);
+    pool.dispose();
+  });
+
+  test("that are aborted are not begun; those that run are dropped, and their worker is free after", async () => {
+    const { pool, workers } = fakes({ size: 1 });
+    const aborter = new AbortController();
+    const running = pool.run("classicNormals", input(1), aborter.signal);
+    const waiting = pool.run("classicNormals", input(2), aborter.signal);
+    const other = pool.run("classicNormals", input(3), forever);
+    aborter.abort();
+    await assert.rejects(running, { name: "AbortError" });
+    await assert.rejects(waiting, { name: "AbortError" });
+    await assert.rejects(pool.run("classicNormals", input(4), aborter.signal), { name: "AbortError" });
+    assert.equal(workers[0]?.asked.length, 1);
+    workers[0].answer(output(1));
+    workers[0].answer(output(3));
+    assert.equal((await other).array[0], 3);
+    pool.dispose();
+  });
+
+  test("end the workers that have none for a while", async () => {
+    const { pool, workers } = fakes({ idleMs: 1 });
+    const job = pool.run("classicNormals", input(1), forever);
+    workers[0]?.answer(output(1));
+    await job;
+    await soon();
+    assert.deepEqual([pool.workerCount, workers[0]?.isEnded], [0, true]);
+    const again = pool.run("classicNormals", input(2), forever);
+    workers[1]?.answer(output(2));
+    assert.equal((await again).array[0], 2);
+    pool.dispose();
+  });
+
+  for (const [why, options] of [["cannot be started", { start: false }], ["do not load", { broken: true }]] as const) {
+    test(`are done in the page where workers ${why}`, async () => {
+      const { pool, here } = fakes(options);
+      const results = await Promise.all([1, 20, 40].map((n) => pool.run("classicNormals", input(n), forever)));
+      assert.deepEqual(results.map(({ array }) => array[4]), [2, 21, 41]);
+      assert.equal(here.length, 3);
+      assert.equal(pool.workerCount, 0);
+      const bad: IndexJob = {
+        file: { png: pngWithTexels(4, 1, 3, () => 255), first: 0 }, draws: [{ primitive: "points", first: 0, count: 2 }],
+        rowLength: 4, isWide: true, coordWidth: 1, coordHeight: 1, recordCount: 1,
+      };
+      await assert.rejects(pool.run("classicIndex", bad, forever), { name: "DecodeError" });
+    });
+  }
+});
+
+test("messages hand over the memory of all arrays in them, once, and errors keep their kind", () => {
+  const shared = new ArrayBuffer(8);
+  const value = { a: new Uint8Array(shared), b: [new Float32Array(shared), { c: new Uint16Array(2) }], d: "text", e: null, f: 3 };
+  assert.equal(buffersIn(value).length, 2);
+  const back = (error: unknown) => asError(asAnswer(error) as Parameters<typeof asError>[0]);
+  assert.deepEqual([back(new DecodeError("limit", "m")).name, back(new RangeError("m")).name, back("m").message], ["DecodeError", "Error", "m"]);
+});

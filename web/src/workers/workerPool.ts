@@ -1,0 +1,149 @@
+// A few workers that do jobs, one at a time each. They are started when there is
+// work and ended when there has been none for a while. Where workers cannot be
+// started (a runtime from another origin, a policy against them) the jobs are
+// done in the page.
+
+import type { InputOf, JobName, OutputOf } from "../decode/jobs.ts";
+import type { AnswerMessage, JobMessage } from "./protocol.ts";
+import { asError } from "./protocol.ts";
+
+/** The part of a Worker that is used. */
+export interface JobWorker {
+  onmessage: ((event: MessageEvent<AnswerMessage>) => void) | null;
+  onerror: ((event: ErrorEvent) => void) | null;
+  postMessage(message: JobMessage): void;
+  terminate(): void;
+}
+
+export interface WorkerPoolOptions {
+  readonly size: number;
+  /** May throw. */
+  readonly start: () => JobWorker;
+  readonly runHere: (message: JobMessage) => Promise<unknown>;
+  /** A worker without work ends after so long. */
+  readonly idleMs: number;
+}
+
+interface Job {
+  readonly message: JobMessage;
+  readonly signal: AbortSignal;
+  readonly resolve: (output: unknown) => void;
+  readonly reject: (reason: Error) => void;
+}
+
+interface Busy {
+  readonly worker: JobWorker;
+  job: Job | undefined;
+  idleTimer: ReturnType<typeof setTimeout> | undefined;
+}
+
+export class WorkerPool {
+  readonly #options: WorkerPoolOptions;
+  readonly #workers = new Set<Busy>();
+  #waiting: Job[] = [];
+  #canStart = true;
+  #isDisposed = false;
+  #here: Promise<void> = Promise.resolve();
+
+  constructor(options: WorkerPoolOptions) {
+    this.#options = options;
+  }
+
+  /** Workers that are alive. */
+  get workerCount(): number {
+    return this.#workers.size;
+  }
+
+  /** See RunJob. */
+  run<Name extends JobName>(name: Name, input: InputOf<Name>, signal: AbortSignal): Promise<OutputOf<Name>> {
+    return new Promise<unknown>((resolve, reject) => {
+      if (signal.aborted) {
+        reject(signal.reason as Error);
+        return;
+      }
+      const job: Job = { message: { name, input }, signal, resolve, reject };
+      signal.addEventListener("abort", () => {
+        this.#waiting = this.#waiting.filter((other) => other !== job);
+        reject(signal.reason as Error); // one that runs is finished, and its result dropped
+      }, { once: true });
+      this.#waiting.push(job);
+      this.#pump();
+    }) as Promise<OutputOf<Name>>;
+  }
+
+  /** Ends the workers; jobs that are not done never are. */
+  dispose(): void {
+    this.#isDisposed = true;
+    this.#waiting = [];
+    for (const busy of this.#workers) this.#end(busy);
+  }
+
+  #pump(): void {
+    while (this.#waiting.length > 0 && !this.#isDisposed) {
+      const idle = this.#idle();
+      if (idle === "none") return;
+      const job = this.#waiting.shift();
+      if (job === undefined) return;
+      if (idle === "never") {
+        this.#doHere(job);
+        continue;
+      }
+      clearTimeout(idle.idleTimer);
+      idle.job = job;
+      idle.worker.postMessage(job.message);
+    }
+  }
+
+  /** A worker without a job; "none" while all are at work, "never" where none can be started. */
+  #idle(): Busy | "none" | "never" {
+    const idle = Array.from(this.#workers).find(({ job }) => job === undefined);
+    if (idle !== undefined) return idle;
+    if (!this.#canStart) return "never";
+    if (this.#workers.size >= this.#options.size) return "none";
+    try {
+      return this.#start(this.#options.start());
+    } catch {
+      this.#canStart = false;
+      return "never";
+    }
+  }
+
+  #start(worker: JobWorker): Busy {
+    const busy: Busy = { worker, job: undefined, idleTimer: undefined };
+    this.#workers.add(busy);
+    worker.onmessage = ({ data }) => { this.#take(busy, data); };
+    worker.onerror = (event) => {
+      // Its module did not load: jobs catch their own errors.
+      event.preventDefault();
+      this.#canStart = false;
+      const { job } = busy;
+      this.#end(busy);
+      if (job) this.#waiting.unshift(job);
+      this.#pump();
+    };
+    return busy;
+  }
+
+  #take(busy: Busy, answer: AnswerMessage): void {
+    const { job } = busy;
+    busy.job = undefined;
+    if ("output" in answer) job?.resolve(answer.output);
+    else job?.reject(asError(answer));
+    busy.idleTimer = setTimeout(() => { this.#end(busy); }, this.#options.idleMs);
+    this.#pump();
+  }
+
+  #end(busy: Busy): void {
+    clearTimeout(busy.idleTimer);
+    busy.worker.terminate();
+    this.#workers.delete(busy);
+  }
+
+  /** One after the other, with room for the page in between. */
+  #doHere({ message, signal, resolve, reject }: Job): void {
+    this.#here = this.#here.then(async () => {
+      await new Promise((next) => { setTimeout(next); });
+      if (!signal.aborted && !this.#isDisposed) await this.#options.runHere(message).then(resolve, reject);
+    });
+  }
+}
