@@ -8,7 +8,7 @@ import { describe, test } from "node:test";
 import { assertSamePicture, difference } from "./compare.ts";
 import { until, withPage, type View } from "./harness.ts";
 import { outputDirectory } from "./paths.ts";
-import type { Picture } from "./png.ts";
+import { encodePng, type Picture } from "./png.ts";
 import type { Behaviour } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
@@ -58,6 +58,16 @@ async function withFault(rank: number, behaviour: Behaviour, use: (view: View, u
 
 async function assertReported(view: View, url: string): Promise<void> {
   const errors = await view.events("error");
+  const own = view.errors.filter((line) => line.startsWith("imgeo:"));
+  assert.equal(own.length, 1, own.join("; "));
+  const listed = await view.page.evaluate(() => ["x3d", "#bad", "#good"].map((selector) => {
+    const { errors } = document.querySelector(selector) as unknown as { errors: { url: string; message: string }[] };
+    return errors.map(({ url, message }) => ({ url, message }));
+  }));
+  const [inScene, ofBad, ofGood] = listed;
+  assert.deepEqual([inScene, ofGood], [ofBad, []]);
+  assert.equal(ofBad?.length, 1);
+  assert.equal(own[0], `imgeo: ${ofBad[0]!.message}`);
   assert.deepEqual(errors.map(({ target }) => target).sort(), ["shape#bad", "x3d"]);
   for (const { detail } of errors) {
     assert.equal(typeof detail.type, "string");
@@ -113,10 +123,20 @@ describe("a file that does not come", () => {
   });
 });
 
+const smallestJpeg = "/9j/4AAQSkZJRgABAQEASABIAAD/2wBDAP//////////////////////////////////////////////////////////////////////" +
+  "////////////////wgALCAABAAEBAREA/8QAFBABAAAAAAAAAAAAAAAAAAAAAP/aAAgBAQABPxA=";
+const smallestWebp = "UklGRiIAAABXRUJQVlA4IBYAAAAwAQCdASoBAAEADsD+JaQAA3AAAAAA";
+
 describe("a file that is broken is reported", () => {
   const broken: Record<string, Behaviour> = {
     "a truncated image": { truncateTo: 200 },
     "an empty image": { truncateTo: 0 },
+    "a lossy image: JPEG": { replace: () => Buffer.from(smallestJpeg, "base64") },
+    "a lossy image: WebP": { replace: () => Buffer.from(smallestWebp, "base64") },
+    "an image of another size": { replace: () => encodePng({ width: 16, height: 16, channels: 3, data: new Uint8Array(768) }) },
+    "an image larger than any texture may be": {
+      replace: () => encodePng({ width: 16_384, height: 2, channels: 3, data: new Uint8Array(16_384 * 6) }),
+    },
     "no image at all": { replace: () => "<!doctype html><p>Not found</p>" },
     "an image with flipped bits": { replace: (body) => Buffer.from(body.map((byte, i) => (i > 100 && i % 50 === 0 ? byte ^ 255 : byte))) },
   };

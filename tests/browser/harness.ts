@@ -32,6 +32,8 @@ export interface PageOptions {
   before?: () => void;
   /** Sets up the server (rules, bodies) before the page asks for anything. */
   server?: (server: TestServer) => void;
+  /** The page may send requests to other servers. */
+  isCrossOrigin?: boolean;
   /** Messages that this page may write to the console; every other error fails the test. */
   expectedErrors?: RegExp;
 }
@@ -46,8 +48,8 @@ export interface View {
   foreignRequests: string[];
   /** Paths without their first slash in the order in which the page asked for them, which the network may change. */
   asked: string[];
-  /** Resolves when the promise of that name on the element does; throws after 20 s. */
-  promise: (name: "firstImage" | "complete", selector?: string) => Promise<void>;
+  /** Resolves when the promise of that name on the element does; throws after 20 s, or as many as are given. */
+  promise: (name: "firstImage" | "complete", selector?: string, seconds?: number) => Promise<void>;
   observed: () => Promise<Observed>;
   events: (type: string, target?: string) => Promise<ObservedEvent[]>;
   /** Waits until the page has stopped drawing, then takes what is seen. */
@@ -76,7 +78,7 @@ export async function withPage(
     await page.goto(server.origin + (options.path ?? ""), { waitUntil: "commit" });
     await use(view);
     assert.deepEqual(view.errors.filter((message) => options.expectedErrors?.test(message) !== true), []);
-    assert.deepEqual(view.foreignRequests, []);
+    if (options.isCrossOrigin !== true) assert.deepEqual(view.foreignRequests, []);
   } finally {
     await context.close();
     await server.close();
@@ -103,9 +105,9 @@ function watch(page: Page, server: TestServer): View {
     foreignRequests,
     asked,
     observed,
-    async promise(name, selector = "x3d") {
-      const isKept = await page.evaluate(awaitPromise, { name, selector, timeoutMs: 20_000 });
-      if (!isKept) throw new Error(`${name} of ${selector} did not come within 20 s; console: ${errors.join("; ")}`);
+    async promise(name, selector = "x3d", seconds = 20) {
+      const isKept = await page.evaluate(awaitPromise, { name, selector, timeoutMs: 1000 * seconds });
+      if (!isKept) throw new Error(`${name} of ${selector} did not come within ${seconds} s; console: ${errors.join("; ")}`);
     },
     async events(type, target) {
       const { events } = await observed();

@@ -8,6 +8,7 @@ import { readFile } from "node:fs/promises";
 import { createServer, type IncomingMessage, type ServerResponse } from "node:http";
 import type { AddressInfo } from "node:net";
 import { extname, join, normalize } from "node:path";
+import { Line, type LineOptions } from "./line.ts";
 
 export interface RequestRecord {
   /** Decoded path, without the query. */
@@ -28,6 +29,8 @@ export interface Behaviour {
   delayMs?: number;
   /** Sends only so many bytes of the body, as if the file ended there. */
   truncateTo?: number;
+  /** Sent besides, or instead of, the usual ones. */
+  headers?: Record<string, string>;
   /** Changes the body. */
   replace?: (body: Buffer) => Buffer | string;
 }
@@ -37,6 +40,12 @@ export interface TestServer {
   origin: string;
   /** Every request in order of arrival. */
   requests: RequestRecord[];
+  /** Of all bodies so far. */
+  bytesSent: number;
+  /** What lies between the server and its clients; at first nothing. */
+  useLine(options: LineOptions | undefined): void;
+  /** Sends this file as it is, with `Content-Encoding`, to clients that take it. */
+  putEncoded(path: string, encoding: "br" | "gzip", body: Buffer): void;
   /** Sent with everything; ours is the strictest, other people's pages need more. */
   contentPolicy: string;
   /** Serves `body` under "/name". */
@@ -55,12 +64,15 @@ const mediaTypes: Record<string, string> = {
   ".x3d": "model/x3d+xml",
   ".png": "image/png",
   ".json": "application/json",
+  ".wasm": "application/wasm",
 };
 
 /** Serves `directory` as "/" on a free port of 127.0.0.1. */
 export async function startServer(directory: string): Promise<TestServer> {
   const requests: RequestRecord[] = [];
   const bodies = new Map<string, Buffer>();
+  const encoded = new Map<string, { encoding: string; body: Buffer }>();
+  let line: Line | undefined;
   const rules: { matches: (path: string) => boolean; behaviour: Behaviour }[] = [];
 
   async function answer(request: IncomingMessage, response: ServerResponse): Promise<void> {
@@ -76,6 +88,7 @@ export async function startServer(directory: string): Promise<TestServer> {
       if (!response.writableFinished) record.state = "aborted";
     });
     const behaviour = rules.findLast((rule) => rule.matches(path))?.behaviour ?? {};
+    await line?.arrive(request);
     await behaviour.hold;
     if (behaviour.delayMs !== undefined) await new Promise((resolve) => setTimeout(resolve, behaviour.delayMs));
     if (record.state === "aborted") return;
@@ -86,12 +99,24 @@ export async function startServer(directory: string): Promise<TestServer> {
     const body = behaviour.status === undefined ? await bodyOf(path, behaviour) : undefined;
     record.status = behaviour.status ?? (body ? 200 : 404);
     response.on("finish", () => (record.state = "answered"));
+    const packed = Object.keys(behaviour).length === 0 ? encodedFor(request, path) : undefined;
+    const sent = packed?.body ?? body ?? Buffer.alloc(0);
     response.writeHead(record.status, {
       "Content-Type": mediaTypes[extname(path) || ".html"] ?? "application/octet-stream",
+      "Content-Length": sent.length,
       "Content-Security-Policy": testServer.contentPolicy,
       "Cache-Control": "no-cache",
+      ...(packed && { "Content-Encoding": packed.encoding }),
+      ...behaviour.headers,
     });
-    response.end(body);
+    testServer.bytesSent += sent.length;
+    if (line) await line.send(response, sent);
+    else response.end(sent);
+  }
+
+  function encodedFor(request: IncomingMessage, path: string): { encoding: string; body: Buffer } | undefined {
+    const packed = encoded.get(path);
+    return packed && String(request.headers["accept-encoding"]).includes(packed.encoding) ? packed : undefined;
   }
 
   async function bodyOf(path: string, behaviour: Behaviour): Promise<Buffer | undefined> {
@@ -107,6 +132,9 @@ export async function startServer(directory: string): Promise<TestServer> {
     contentPolicy: "default-src 'self'",
     origin: `http://127.0.0.1:${(server.address() as AddressInfo).port}/`,
     requests,
+    bytesSent: 0,
+    useLine: (options) => void (line = options && new Line(options)),
+    putEncoded: (path, encoding, body) => void encoded.set(path, { encoding, body }),
     put: (path, body) => void bodies.set(path, Buffer.from(body)),
     when(matches, behaviour) {
       const rule = { matches: matches instanceof RegExp ? (path: string) => matches.test(path) : matches, behaviour };

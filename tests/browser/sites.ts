@@ -14,6 +14,7 @@ const generators = {
   "trefoil-plain": () => withoutNormals(trefoil()),
   sphere: () => sphere(),
   "sphere-large": () => sphere(96),
+  "sphere-small": () => sphere(4),
   points: () => pointSpiral(),
   coil: () => coil(),
 } satisfies Record<string, () => PlainMesh>;

@@ -70,8 +70,19 @@ describe("a PNG", () => {
 
   test("another format under its name is refused", () => {
     assert.throws(() => checkPng(new TextEncoder().encode("<!DOCTYPE html><title>404</title>")), refused("malformed"));
-    assert.throws(() => checkPng(Uint8Array.from([0xff, 0xd8, 0xff, 0xe0, 0, 16, 0x4a, 0x46, 0x49, 0x46])), refused("malformed"));
   });
+
+  for (const [name, head] of Object.entries({
+    "a JPEG": [0xff, 0xd8, 0xff, 0xe0, 0, 16, 0x4a, 0x46, 0x49, 0x46],
+    "a WebP": [...Buffer.from("RIFF\x10\0\0\0WEBPVP8 ")],
+    "an AVIF": [...Buffer.from("\0\0\0\x20ftypavif")],
+    "a GIF": [...Buffer.from("GIF89a")],
+  })) {
+    test(`that has become ${name} is refused by that name`, () => {
+      assert.throws(() => checkPng(Uint8Array.from(head)), (error) =>
+        error instanceof DecodeError && error.kind === "unsupported" && error.message.startsWith(`is ${name} image`));
+    });
+  }
 });
 
 describe("an image", () => {

@@ -3,6 +3,7 @@
 // best it can; in an image of vertex data each of these would be a silent wrong shape.
 
 import { DecodeError } from "./decodeError.ts";
+import { foreignFormatOf } from "./foreignFormat.ts";
 
 export interface PngHeader {
   readonly width: number;
@@ -27,6 +28,8 @@ const channelsOfColorType: Readonly<Record<number, PngHeader["channels"]>> = { 0
  */
 export function checkPng(bytes: Uint8Array, largestEdge = largestImageEdge): PngHeader {
   if (!signature.every((byte, place) => bytes[place] === byte)) {
+    const other = foreignFormatOf(bytes);
+    if (other !== undefined) throw new DecodeError("unsupported", `is ${other}; vertex data must be PNG, which keeps every byte`);
     throw new DecodeError(bytes.length < signature.length ? "truncated" : "malformed", "is no PNG image");
   }
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);

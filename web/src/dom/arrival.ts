@@ -10,7 +10,7 @@ import { FrameWork } from "../scheduler/frameWork.ts";
 const bytesPerFrame = 4 * 2 ** 20;
 const millisecondsPerFrame = 4;
 
-/** In a page that nobody sees no frames are drawn, but files come. */
+/** In a page that nobody sees there are no frames, but files come. */
 const framelessMs = 250;
 
 export class Arrival {
@@ -44,12 +44,12 @@ export class Arrival {
   }
 }
 
-function beforeNextFrame(callback: () => void): void {
-  const call = () => {
+function beforeNextFrame(callback: (isUnseen: boolean) => void): void {
+  const call = (isUnseen: boolean) => {
     cancelAnimationFrame(frame);
     clearTimeout(timer);
-    callback();
+    callback(isUnseen);
   };
-  const frame = requestAnimationFrame(call);
-  const timer = setTimeout(call, framelessMs);
+  const frame = requestAnimationFrame(() => { call(false); });
+  const timer = setTimeout(() => { call(document.hidden); }, framelessMs);
 }

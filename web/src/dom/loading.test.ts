@@ -86,6 +86,17 @@ describe("loading", () => {
     assert.equal(log.length, 3);
   });
 
+  test("keeps what failed on the element", () => {
+    const { element } = elementWithLog();
+    const loading = new Loading(element);
+    assert.deepEqual(element.errors, []);
+    const detail = { type: "http", url: "a.png", element, message: "a.png: 404" };
+    loading.fail(detail, new Error(detail.message));
+    assert.deepEqual(element.errors, [detail]);
+    new Loading(element);
+    assert.deepEqual(element.errors, []);
+  });
+
   test("that is abandoned breaks its promises and falls silent", async () => {
     const { element, log } = elementWithLog();
     const loading = new Loading(element);

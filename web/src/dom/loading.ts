@@ -30,6 +30,8 @@ export interface Loadable {
    * a file of it failed; the scene's resolves even then, after the error events.
    */
   readonly complete: Promise<undefined>;
+  /** What has failed so far, in order; of the scene, of all its shapes. */
+  readonly errors: readonly ErrorDetail[];
 }
 
 /** The loading of one element, from its start to `load`. */
@@ -43,15 +45,17 @@ export class Loading {
   #shownStage: StageName | "none" = "none";
   #outcome: "loading" | "settled" | "ended" | "abandoned" = "loading";
   #error: Error | undefined;
+  readonly #errors: ErrorDetail[] = [];
 
-  /** Puts fresh promises on the element. */
+  /** Puts fresh promises, and an empty list of errors, on the element. */
   constructor(element: Element) {
     this.#element = element;
-    for (const [name, { promise }] of [["firstImage", this.#firstImage], ["complete", this.#complete]] as const) {
-      // Nobody has to listen; a rejection must not show up as an unhandled one.
-      promise.catch(() => undefined);
-      Object.defineProperty(element, name, { value: promise, configurable: true, enumerable: true });
+    const properties: Loadable = { firstImage: this.#firstImage.promise, complete: this.#complete.promise, errors: this.#errors };
+    for (const [name, value] of Object.entries(properties)) {
+      Object.defineProperty(element, name, { value: value as unknown, configurable: true, enumerable: true });
     }
+    // Nobody has to listen; a rejection must not show up as an unhandled one.
+    for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined);
   }
 
   get progress(): Progress {
@@ -87,6 +91,7 @@ export class Loading {
 
   fail(detail: ErrorDetail, error: Error): void {
     this.#error ??= error;
+    this.#errors.push(detail);
     this.#send("error", detail);
   }
 

@@ -57,6 +57,7 @@ export class Viewer {
   readonly renderer: SceneRenderer;
   readonly navigator: Navigator;
   readonly #x3d: Element;
+  readonly #canvas: HTMLCanvasElement;
   readonly #scheduler = new Scheduler(slotsFor(""));
   readonly #pool: ResourcePool;
   readonly #deliveries: SharedDeliveries;
@@ -67,13 +68,14 @@ export class Viewer {
   readonly #observer: MutationObserver;
   readonly #listeners = new AbortController();
   readonly #listener: ViewerListener;
-  readonly #warned = new Set<string>();
+  readonly #logged = new Set<string>();
   #loading: Loading;
   #isLoading = false;
   #progressTimer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(x3d: Element, canvas: HTMLCanvasElement, context: WebGL2RenderingContext, listener: ViewerListener) {
     this.#x3d = x3d;
+    this.#canvas = canvas;
     this.#listener = listener;
     this.#loading = new Loading(x3d);
     this.navigator = new Navigator(() => { this.renderer.requestFrame(); }, () => { listener.onNavigation(); });
@@ -103,7 +105,11 @@ export class Viewer {
 
   /** Follows the document from now on. */
   start(): void {
-    watchProtocol(this.#listeners.signal, (protocol) => { this.#scheduler.slotCount = slotsFor(protocol); });
+    const { signal } = this.#listeners;
+    // The renderer has heard of it before: its listeners are older.
+    this.#canvas.addEventListener("webglcontextlost", () => { this.#loseContext(); }, { signal });
+    this.#canvas.addEventListener("webglcontextrestored", () => { this.#restoreContext(); }, { signal });
+    watchProtocol(signal, (protocol) => { this.#scheduler.slotCount = slotsFor(protocol); });
     this.#observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
     this.#readDocument();
   }
@@ -192,6 +198,10 @@ export class Viewer {
       shape.loading.settle();
       return;
     }
+    if (!this.renderer.isContextLost) this.#deliver(shape, geometry, element);
+  }
+
+  #deliver(shape: LoadedShape, geometry: GeometryDescription, element: Element): void {
     shape.delivery = this.#deliveries.join(geometry, {
       onStage: (patch, stage) => {
         this.renderer.setStage(element, geometry, patch, stage);
@@ -212,6 +222,26 @@ export class Viewer {
     this.#progressSoon();
   }
 
+  /** All that was on the GPU is gone. What is asked for now would come to nothing. */
+  #loseContext(): void {
+    this.#warn(this.#x3d, "has lost its WebGL context, which the browser took; it comes back with it");
+    for (const [element, shape] of this.#shapes) {
+      this.renderer.clearShape(element);
+      shape.delivery?.cancel();
+      shape.delivery = undefined;
+      shape.stages.fill("none");
+    }
+  }
+
+  /** Everything is fetched once more, from the browser's cache as a rule. Events go on where they were. */
+  #restoreContext(): void {
+    for (const [element, shape] of this.#shapes) {
+      if (shape.geometry !== undefined) this.#deliver(shape, shape.geometry, element as Element);
+    }
+    this.#steering.steer();
+    this.renderer.requestFrame();
+  }
+
   #settle(shape: LoadedShape): void {
     if (shape.loading.isSettled || !shape.isVisible) return;
     shape.loading.settle();
@@ -219,7 +249,7 @@ export class Viewer {
   }
 
   #fail(shape: LoadedShape, element: Element, error: DeliveryError): void {
-    console.error(`imgeo: ${error.message}`);
+    this.#logOnce("error", error.message);
     const detail = { type: error.kind, url: error.url, element, message: error.message };
     shape.loading.fail(detail, error);
     this.#loading.fail(detail, error);
@@ -255,12 +285,15 @@ export class Viewer {
     this.#steering.follow();
   }
 
-  /** One line for each thing in the document that could not be taken as written. */
   #warn(element: SceneElement, message: string): void {
-    const line = `imgeo: <${element.localName}> ${message}`;
-    if (this.#warned.has(line)) return;
-    this.#warned.add(line);
-    console.warn(line);
+    this.#logOnce("warn", `<${element.localName}> ${message}`);
+  }
+
+  /** One line for each thing, however many shapes it concerns and however often the document is read. */
+  #logOnce(level: "warn" | "error", message: string): void {
+    if (this.#logged.has(message)) return;
+    this.#logged.add(message);
+    console[level](`imgeo: ${message}`);
   }
 }
 

@@ -105,13 +105,17 @@ export class SceneRenderer {
     this.#headlight.target.position.set(0, 0, -1);
     this.#camera.add(this.#headlight, this.#headlight.target);
     this.#scene.add(this.#camera, this.#root);
-    canvas.addEventListener("webglcontextrestored", () => { this.requestFrame(); });
   }
 
   get statistics(): RenderStatistics {
     const { memory, programs } = this.#renderer.info;
     return { frames: this.#frames, textures: memory.textures, geometries: memory.geometries, programs: programs?.length ?? 0,
              textureBytes: this.#setting.textures.bytes };
+  }
+
+  /** Nothing is drawn, and nothing is on the GPU, until the browser gives the context back. */
+  get isContextLost(): boolean {
+    return this.#renderer.getContext().isContextLost();
   }
 
   /** Undefined while the picture has no area. */
@@ -288,7 +292,7 @@ export class SceneRenderer {
     cancelAnimationFrame(this.#frameRequest);
     this.#frameRequest = 0;
     this.#picked = undefined;
-    if (!this.#hasArea) return;
+    if (!this.#hasArea || this.isContextLost) return;
     applyPose(this.#camera, this.#cameraMan.advance(performance.now()), this.#aspect, this.#sphere, this.#cameraMan.clearance);
     this.#shared.depthRange.value.set(this.#camera.near, this.#camera.far);
     this.#renderer.render(this.#scene, this.#camera);

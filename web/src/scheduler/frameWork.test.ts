@@ -12,7 +12,7 @@ function* stepsOf(bytes: number[], note: (number: number) => void): Generator<nu
 
 /** Frames that come when the test says, and a clock on which each step takes a millisecond. */
 function framesOf(bytesPerFrame: number, millisecondsPerFrame: number) {
-  let due: (() => void) | undefined;
+  let due: ((isUnseen: boolean) => void) | undefined;
   let clock = 0;
   const done: string[] = [];
   const work = new FrameWork({ bytesPerFrame, millisecondsPerFrame, now: () => clock, requestFrame: (callback) => { due = callback; } });
@@ -24,11 +24,11 @@ function framesOf(bytesPerFrame: number, millisecondsPerFrame: number) {
       done.push(`${name}${number}`);
     }),
     /** What is done before the next frame; undefined where none was asked for. */
-    frame: (): string[] | undefined => {
+    frame: (isUnseen = false): string[] | undefined => {
       const callback = due;
       due = undefined;
       const before = done.length;
-      callback?.();
+      callback?.(isUnseen);
       return callback && done.slice(before);
     },
   };
@@ -59,6 +59,13 @@ describe("work before frames", () => {
     void work.run(steps("a", [99, 99]), signal);
     assert.deepEqual(frame(), ["a1"]);
     assert.deepEqual(frame(), ["a2"]);
+  });
+
+  test("is all done at once where nobody sees frames", () => {
+    const { work, steps, frame } = framesOf(1, 1);
+    void work.run(steps("a", [9, 9]), signal);
+    void work.run(steps("b", [9]), signal);
+    assert.deepEqual(frame(true), ["a1", "a2", "b1"]);
   });
 
   test("is begun before a later frame, never at once", () => {

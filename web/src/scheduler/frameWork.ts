@@ -7,8 +7,8 @@ export interface FrameWorkOptions {
   readonly bytesPerFrame: number;
   readonly millisecondsPerFrame: number;
   readonly now: () => number;
-  /** Calls back before the next frame; soon, where no frames are drawn. */
-  readonly requestFrame: (callback: () => void) => void;
+  /** Calls back before the next frame; or soon, and with `true`, where nobody sees any: the work is then done at once. */
+  readonly requestFrame: (callback: (isUnseen?: boolean) => void) => void;
 }
 
 /** Each turn takes a step and yields the bytes that it has moved. */
@@ -45,17 +45,17 @@ export class FrameWork {
   #frameSoon(): void {
     if (this.#frameIsDue) return;
     this.#frameIsDue = true;
-    this.#options.requestFrame(() => {
+    this.#options.requestFrame((isUnseen = false) => {
       this.#frameIsDue = false;
-      this.#workBeforeFrame();
+      this.#workBeforeFrame(isUnseen ? Infinity : this.#options.bytesPerFrame, isUnseen ? Infinity : this.#options.millisecondsPerFrame);
       if (this.#queue.length > 0) this.#frameSoon();
     });
   }
 
-  #workBeforeFrame(): void {
-    const { bytesPerFrame, millisecondsPerFrame, now } = this.#options;
-    const end = now() + millisecondsPerFrame;
-    for (let bytes = 0; bytes < bytesPerFrame && now() < end;) {
+  #workBeforeFrame(mostBytes: number, milliseconds: number): void {
+    const { now } = this.#options;
+    const end = now() + milliseconds;
+    for (let bytes = 0; bytes < mostBytes && now() < end;) {
       const work = this.#queue[0];
       if (work === undefined) return;
       const moved = step(work);

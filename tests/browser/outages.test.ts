@@ -1,0 +1,208 @@
+// What may happen to a page from outside: a slow host, one that says no to other
+// sites, a lost WebGL context, a tab that nobody looks at. In the end the picture
+// is right and the events are true.
+
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { assertSamePicture } from "./compare.ts";
+import { settle, until, withPage, type View } from "./harness.ts";
+import type { Picture } from "./png.ts";
+import { sceneOf, shapeIn } from "./scenes.ts";
+import { gate, startServer } from "./server.ts";
+import { ranksOfFiles } from "./siteDecoder.ts";
+import { pageOf, siteOfGenerated } from "./sites.ts";
+
+const site = (): string => siteOfGenerated("trefoil", "--patch-vertices", "1000");
+
+async function undisturbed(): Promise<Picture> {
+  let seen: Picture | undefined;
+  await withPage(site(), {}, async (view) => {
+    await view.promise("complete");
+    seen = await view.picture();
+  });
+  assert.ok(seen);
+  return seen;
+}
+
+function filesOf(ranks: (rank: number) => boolean): (path: string) => boolean {
+  const paths = [...ranksOfFiles(pageOf(site()))].filter(([, rank]) => ranks(rank)).map(([url]) => `/${url}`);
+  return (path) => paths.includes(path);
+}
+
+/** first-image once, then rising stages, then load once; all before or at it. */
+async function assertTruthfulEvents(view: View): Promise<void> {
+  for (const target of ["x3d", "shape"]) {
+    const types = (await view.events("first-image", target)).length;
+    assert.equal(types, 1, `${types} first images of ${target}`);
+    assert.equal((await view.events("load", target)).length, 1);
+    const own = (await view.observed()).events.filter((event) => event.target === target && event.type !== "progress");
+    assert.equal(own[0]?.type, "first-image");
+    assert.equal(own.at(-1)?.type, "load");
+    const ranks = own.slice(0, -1).map(({ detail }) => ["points", "surface", "shaded", "full"].indexOf(String(detail.stage)));
+    assert.deepEqual(ranks, ranks.toSorted((a, b) => a - b));
+  }
+  assert.deepEqual(await view.events("error"), []);
+}
+
+describe("a slow host", () => {
+  test("shows the first picture before any second byte has come, and then all of it", async () => {
+    const server = (server: View["server"]): void => {
+      server.useLine({ bitsPerSecond: 2e6, roundTripMs: 100 });
+    };
+    await withPage(site(), { server }, async (view) => {
+      await view.promise("firstImage");
+      const isSecondByte = filesOf((rank) => rank === 4);
+      const early = view.server.requests.filter(({ path, state }) => isSecondByte(path) && state === "answered");
+      assert.deepEqual(early, [], "a second byte came before the first picture");
+      await view.promise("complete");
+      await assertTruthfulEvents(view);
+      assertSamePicture("slow host", await view.picture(), await undisturbed(), { mean: 0 });
+    });
+  });
+
+  test("that is busy for a second is asked again when it says so", async () => {
+    const server = (server: View["server"]): void => {
+      const busy = server.when(filesOf((rank) => rank === 2), { status: 503, headers: { "Retry-After": "1" } });
+      setTimeout(busy, 1000);
+    };
+    await withPage(site(), { server, expectedErrors: /503/ }, async (view) => {
+      await view.promise("complete");
+      await assertTruthfulEvents(view);
+      assertSamePicture("busy host", await view.picture(), await undisturbed(), { mean: 0 });
+    });
+  });
+});
+
+test("a host that refuses other sites' pages costs the shapes whose files it has, and says what it must allow", async () => {
+  const other = await startServer(site());
+  try {
+    const scene = shapeIn(site(), "good", 'id="good"') +
+      shapeIn(site(), "bad", 'id="bad"').replaceAll("bad/", other.origin);
+    const options = {
+      isCrossOrigin: true,
+      server: (server: View["server"]): void => void (server.contentPolicy = "default-src 'self'; connect-src *"),
+      expectedErrors: /Access-Control-Allow-Origin|Failed to load resource|imgeo/,
+    };
+    await withPage(sceneOf("cross-origin", { good: site() }, scene), options, async (view) => {
+      await view.promise("complete", "#good");
+      await view.promise("complete");
+      const errors = await view.events("error", "shape#bad");
+      assert.ok(errors.length > 0);
+      for (const { detail } of errors) {
+        assert.equal(detail.type, "network");
+        assert.match(String(detail.message), /another origin must allow it with Access-Control-Allow-Origin/);
+      }
+      assert.deepEqual(await view.events("error", "shape#good"), []);
+    });
+  } finally {
+    await other.close();
+  }
+});
+
+describe("a lost WebGL context", () => {
+  const lose = (): void => {
+    const context = document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.getContext("webgl2")!;
+    (window as unknown as { loser: WEBGL_lose_context }).loser = context.getExtension("WEBGL_lose_context")!;
+    (window as unknown as { loser: WEBGL_lose_context }).loser.loseContext();
+  };
+  const restore = (): void => { (window as unknown as { loser: WEBGL_lose_context }).loser.restoreContext(); };
+
+  test("comes back with the same picture, and without a second load", async () => {
+    await withPage(site(), {}, async (view) => {
+      await view.promise("complete");
+      const before = await view.picture();
+      await view.page.evaluate(lose);
+      await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 200)));
+      const asked = view.server.requests.length;
+      await view.page.evaluate(restore);
+      await until("the files are asked for again", () => view.server.requests.length > asked);
+      await until("the picture is back", async () => {
+        await settle(view.page);
+        const statistics = await view.page.evaluate(() => {
+          const { statistics } = document.querySelector("imgeo-view") as unknown as { statistics: { openRequests: number } };
+          return statistics.openRequests;
+        });
+        return statistics === 0;
+      });
+      await settle(view.page);
+      assertSamePicture("restored context", await view.picture(), before, { mean: 0 });
+      await assertTruthfulEvents(view);
+      assert.equal((await view.observed()).live.bitmaps, 0);
+    });
+  });
+
+  test("amid loading only delays it", async () => {
+    const { closed, open } = gate();
+    const server = (server: View["server"]): void => void server.when(filesOf((rank) => rank > 0), { hold: closed });
+    await withPage(site(), { server }, async (view) => {
+      await view.promise("firstImage");
+      await view.page.evaluate(lose);
+      open();
+      await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 300)));
+      assert.deepEqual(await view.events("load"), []);
+      await view.page.evaluate(restore);
+      await view.promise("complete");
+      await assertTruthfulEvents(view);
+      assertSamePicture("context lost amid loading", await view.picture(), await undisturbed(), { mean: 0 });
+    });
+  });
+});
+
+test("ten thousand shapes, one without its files, are all shown but that one, and the page follows the keyboard", async () => {
+  const side = 100;
+  const small = siteOfGenerated("sphere-small");
+  const [whole, broken] = [shapeIn(small, "small", 'id="NAME"'), shapeIn(small, "missing", 'id="NAME"')];
+  const shapes = Array.from({ length: side * side }, (_, place) => {
+    const shape = (place === 4321 ? broken : whole).replace("NAME", `s${place}`);
+    return `<Transform translation="${2.5 * (place % side) - 125} ${2.5 * Math.floor(place / side) - 125} 0">${shape}</Transform>`;
+  });
+  const directory = sceneOf("ten-thousand", { small }, `<Viewpoint position="0 0 320"></Viewpoint>${shapes.join("\n")}`);
+  await withPage(directory, { expectedErrors: /Failed to load resource|imgeo/ }, async (view) => {
+    await view.promise("complete", "x3d", 120);
+    const { loaded, failed, draws } = await view.page.evaluate(() => {
+      const of = (wanted: string) => window.observed.events.filter(({ type, target }) => type === wanted && target !== "x3d");
+      return { loaded: of("load").length, failed: of("error").map(({ target }) => target), draws: window.observed.draws };
+    });
+    assert.equal(loaded, side * side - 1);
+    assert.deepEqual([...new Set(failed)], ["shape#s4321"]);
+    // One URL is one request, and a request that fails is one line.
+    assert.ok(view.server.requests.length < 20, `${view.server.requests.length} requests`);
+    assert.equal(view.errors.filter((line) => line.startsWith("imgeo:")).length, failed.length);
+    await view.page.locator("imgeo-view canvas").press("ArrowLeft");
+    await until("it draws again", () => view.page.evaluate((least) => window.observed.draws >= least, draws + side * side - 1));
+  });
+});
+
+describe("a tab that nobody looks at", () => {
+  /** Headless Chromium shows every tab: what a hidden one lacks is taken away. */
+  const hideAtFirst = (): void => {
+    let isHidden = true;
+    let waiting: FrameRequestCallback[] = [];
+    const request = window.requestAnimationFrame.bind(window);
+    window.requestAnimationFrame = (callback) => (isHidden ? -waiting.push(callback) : request(callback));
+    Object.defineProperty(document, "hidden", { get: () => isHidden });
+    Object.defineProperty(document, "visibilityState", { get: () => (isHidden ? "hidden" : "visible") });
+    (window as unknown as { reveal: () => void }).reveal = () => {
+      isHidden = false;
+      for (const callback of waiting) request(callback);
+      waiting = [];
+      document.dispatchEvent(new Event("visibilitychange"));
+    };
+  };
+
+  test("loads all the same; pictures, and what is told of them, wait until somebody does", async () => {
+    await withPage(site(), { before: hideAtFirst }, async (view) => {
+      const files = filesOf(() => true);
+      const count = ranksOfFiles(pageOf(site())).size;
+      await until("all files have come", () =>
+        view.server.requests.filter(({ path, state }) => files(path) && state === "answered").length === count);
+      await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 1000)));
+      for (const type of ["first-image", "refine", "load"]) assert.deepEqual(await view.events(type), []);
+      await view.page.evaluate(() => { (window as unknown as { reveal: () => void }).reveal(); });
+      await view.promise("complete");
+      await assertTruthfulEvents(view);
+      assertSamePicture("hidden tab", await view.picture(), await undisturbed(), { mean: 0 });
+      assert.equal((await view.observed()).live.bitmaps, 0);
+    });
+  });
+});
