@@ -36,23 +36,23 @@ export function decodeTriangles(stream: Uint8Array, triangleCount: number, verte
 
 class Conquest {
   readonly #decoder: RangeDecoder;
-  readonly #cornerCount: number;
+  readonly #triangleCount: number;
   readonly #vertexCount: number;
   readonly #out: Connectivity;
   readonly #vertex: Int32Array;
   readonly #nodes: Int32Array;
   readonly #degrees: Int32Array;
-  /** Where the next node, corner and vertex go. */
+  /** What comes next. */
   #node = 0;
-  #corner = 0;
+  #triangle = 0;
   #newVertex = 0;
 
   constructor(decoder: RangeDecoder, triangleCount: number, vertexCount: number) {
     this.#decoder = decoder;
-    this.#cornerCount = 3 * triangleCount;
+    this.#triangleCount = triangleCount;
     this.#vertexCount = vertexCount;
     const none = (count: number) => new Int32Array(count).fill(-1);
-    this.#vertex = new Int32Array(this.#cornerCount);
+    this.#vertex = new Int32Array(3 * triangleCount);
     this.#out = {
       ...unconnected, vertex: this.#vertex, across: none(triangleCount), closing: none(triangleCount),
       ahead: none(vertexCount), behind: none(vertexCount), second: none(vertexCount),
@@ -64,10 +64,10 @@ class Conquest {
   run(): Connectivity {
     const nodes = this.#nodes;
     let pivot = 0;
-    while (this.#corner < this.#cornerCount) {
+    while (this.#triangle < this.#triangleCount) {
       this.#takeRoot();
       for (; pivot < this.#node; pivot += nodeSize) {
-        while (this.#corner < this.#cornerCount && nodes[pivot + previousField]! >= 0) this.#crossEdgeTo(pivot);
+        while (this.#triangle < this.#triangleCount && nodes[pivot + previousField]! >= 0) this.#crossEdgeTo(pivot);
       }
     }
     if (this.#newVertex < this.#vertexCount) throw new DecodeError("malformed", "holds fewer vertices than its header states");
@@ -76,7 +76,7 @@ class Conquest {
 
   /** A triangle that shares no edge with the boundary. */
   #takeRoot(): void {
-    const corner = this.#corner;
+    const corner = 3 * this.#triangle;
     const node = this.#node;
     const decoder = this.#decoder;
     const [a, b, c] = [0, 1, 2].map((i) => decoder.bit(oldModels + i) === 1 ? this.#oldVertex() : this.#makeVertex());
@@ -120,8 +120,9 @@ class Conquest {
   /** A triangle whose third vertex becomes a new node between p and k. */
   #insert(k: number, p: number, x: number): void {
     const nodes = this.#nodes;
-    const corner = this.#corner;
-    this.#out.across[corner / 3] = nodes[k + apexField]!;
+    const t = this.#triangle;
+    const corner = 3 * t;
+    this.#out.across[t] = nodes[k + apexField]!;
     this.#addTriangle(nodes[k]!, nodes[p]!, x);
     const node = this.#addNode(x, p, k, corner);
     nodes[p + nextField] = node;
@@ -132,15 +133,16 @@ class Conquest {
   /** A triangle with the next node's vertex: k is done. */
   #close(k: number, p: number, next: number, behind: number): void {
     const nodes = this.#nodes;
-    const corner = this.#corner;
+    const t = this.#triangle;
+    const corner = 3 * t;
     const { across, closing, second } = this.#out;
     const vk = nodes[k]!;
     const vp = nodes[p]!;
     const vn = nodes[next]!;
     const opposite = nodes[next + apexField]!;
     if (vp > vk && vp > vn && vp > this.#vertex[opposite]! && second[vp]! < 0) second[vp] = opposite;
-    across[corner / 3] = nodes[k + apexField]!;
-    closing[corner / 3] = opposite;
+    across[t] = nodes[k + apexField]!;
+    closing[t] = opposite;
     this.#addTriangle(vk, vp, vn);
     nodes[k + previousField] = nodes[k + nextField] = -1;
     if (behind === next) { // the loop is closed
@@ -156,9 +158,10 @@ class Conquest {
   /** A triangle with the vertex before p: p is done. */
   #back(k: number, p: number, behind: number): void {
     const nodes = this.#nodes;
-    const corner = this.#corner;
-    this.#out.across[corner / 3] = nodes[k + apexField]!;
-    this.#out.closing[corner / 3] = nodes[p + apexField]!;
+    const t = this.#triangle;
+    const corner = 3 * t;
+    this.#out.across[t] = nodes[k + apexField]!;
+    this.#out.closing[t] = nodes[p + apexField]!;
     this.#addTriangle(nodes[k]!, nodes[p]!, nodes[behind]!);
     nodes[p + previousField] = nodes[p + nextField] = -1;
     nodes[behind + nextField] = k;
@@ -172,10 +175,11 @@ class Conquest {
    */
   #join(k: number, p: number): void {
     const nodes = this.#nodes;
-    const corner = this.#corner;
+    const t = this.#triangle;
+    const corner = 3 * t;
     const target = k + nodeSize * (1 + this.#decoder.number(nodeModels));
     if (target >= this.#node) throw new DecodeError("malformed", "names a node of the boundary that has not come");
-    this.#out.across[corner / 3] = nodes[k + apexField]!;
+    this.#out.across[t] = nodes[k + apexField]!;
     this.#addTriangle(nodes[k]!, nodes[p]!, nodes[target]!);
     const beforeTarget = nodes[target + previousField]!;
     const node = this.#addNode(nodes[target]!, beforeTarget, k, nodes[target + apexField]!);
@@ -200,14 +204,14 @@ class Conquest {
 
   #addTriangle(a: number, b: number, c: number): void {
     const degrees = this.#degrees;
-    const corner = this.#corner;
+    const corner = 3 * this.#triangle;
     this.#vertex[corner] = a;
     this.#vertex[corner + 1] = b;
     this.#vertex[corner + 2] = c;
     degrees[a] = degrees[a]! + 1;
     degrees[b] = degrees[b]! + 1;
     degrees[c] = degrees[c]! + 1;
-    this.#corner = corner + 3;
+    this.#triangle += 1;
   }
 
   #makeVertex(): number {

@@ -1,0 +1,89 @@
+// A decoded patch as what a GPU takes: wedges are its vertices. Everything stays
+// as many bits as it needs; positions stay lattice numbers.
+
+import type { ElementArray, IndexArray, VertexArray } from "../stage.ts";
+import type { AttributeType, Topology } from "./header.ts";
+import type { CompactPatch } from "./patch.ts";
+import { orderForVertexCache } from "./vertexCache.ts";
+
+export interface PatchBuffers {
+  readonly topology: Topology;
+  readonly positionBits: number;
+  readonly vertexCount: number;
+  /** Corners of elements; undefined in points, which are drawn in order. */
+  readonly index: IndexArray | undefined;
+  /** Lattice numbers; as floats where they have more than 16 bits. */
+  readonly coord: VertexArray;
+  /** Directions of any length, as signed shares of a type's largest value. */
+  readonly normal: VertexArray | undefined;
+  /** Shares of a type's largest value, as texture coordinates. */
+  readonly color: VertexArray | undefined;
+  readonly texCoord: VertexArray | undefined;
+}
+
+/** An index of 65,535 restarts primitives where it is the largest of its type. */
+const mostShortVertices = 65535;
+
+/** Of each kind of attribute the first is shown. */
+export function buffersOf(patch: CompactPatch): PatchBuffers {
+  const { header, wedges } = patch;
+  const attribute = <Array>(kind: AttributeType["kind"], make: (values: Int32Array, type: AttributeType) => Array) => {
+    const place = header.attributes.findIndex((type) => type.kind === kind);
+    return place < 0 ? undefined : make(patch.attributes[place]!, header.attributes[place]!);
+  };
+  return {
+    topology: header.topology,
+    positionBits: header.positionBits,
+    vertexCount: header.wedgeCount,
+    index: header.topology === "points" ? undefined
+      : indexOf(header.topology === "triangles" ? orderForVertexCache(wedges.wedge, header.wedgeCount) : wedges.wedge, header.wedgeCount),
+    coord: coordOf(patch),
+    normal: attribute("normal", (values, { bits }) => {
+      const array = bits <= 8 ? new Int8Array(4 * header.wedgeCount) : new Int16Array(4 * header.wedgeCount);
+      return interleaved(values, 3, array, 1);
+    }),
+    color: attribute("color", sharesOf),
+    texCoord: attribute("texCoord", sharesOf),
+  };
+}
+
+function indexOf(corners: Int32Array, vertexCount: number): IndexArray {
+  return vertexCount <= mostShortVertices ? Uint16Array.from(corners) : Uint32Array.from(corners);
+}
+
+function coordOf({ header, coordinates, connectivity, wedges: { seams } }: CompactPatch): VertexArray {
+  const count = header.wedgeCount;
+  const array = header.positionBits <= 8 ? new Uint8Array(4 * count)
+    : header.positionBits <= 16 ? new Uint16Array(4 * count) : new Float32Array(3 * count);
+  if (seams === undefined) return interleaved(coordinates.subarray(0, 3 * count), 3, array, 1);
+  const stride = array.length / count;
+  for (let w = 0; w < count; ++w) {
+    const from = 3 * connectivity.vertex[seams.corner[w]!]!;
+    array[stride * w] = coordinates[from]!;
+    array[stride * w + 1] = coordinates[from + 1]!;
+    array[stride * w + 2] = coordinates[from + 2]!;
+  }
+  return { array, components: 3, stride, offset: 0 };
+}
+
+/** Numbers of some bits, spread over the whole range of bytes or of words. */
+function sharesOf(values: Int32Array, { components, bits }: AttributeType): VertexArray {
+  const count = values.length / components;
+  const stride = components === 2 ? 2 : 4; // multiples of four bytes are what GPUs read at once
+  const array = bits <= 8 && components > 2 ? new Uint8Array(stride * count) : new Uint16Array(stride * count);
+  const largest = array instanceof Uint8Array ? 255 : 65535;
+  return interleaved(values, components as 2 | 3 | 4, array, largest / (2 ** bits - 1));
+}
+
+function interleaved(values: Int32Array, components: 2 | 3 | 4, array: ElementArray, factor: number): VertexArray {
+  const count = values.length / components;
+  const stride = array.length / count;
+  if (stride === components && factor === 1) {
+    array.set(values);
+  } else {
+    for (let n = 0; n < count; ++n) {
+      for (let i = 0; i < components; ++i) array[stride * n + i] = Math.round(values[components * n + i]! * factor);
+    }
+  }
+  return { array, components, stride, offset: 0 };
+}
