@@ -2,8 +2,9 @@
 // and bytes to plain data and arrays, by name.
 
 import { classicColors, classicCoords, classicIndex, classicNormals } from "./classicArrays.ts";
+import { compactPatch, compactPayload } from "./compact/jobs.ts";
 
-export const jobs = { classicCoords, classicIndex, classicNormals, classicColors } as const;
+export const jobs = { classicCoords, classicIndex, classicNormals, classicColors, compactPayload, compactPatch } as const;
 
 export type JobName = keyof typeof jobs;
 export type InputOf<Name extends JobName> = Parameters<(typeof jobs)[Name]>[0];

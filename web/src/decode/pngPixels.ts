@@ -14,7 +14,7 @@ export interface Pixels {
   readonly data: Uint8Array<ArrayBuffer>;
 }
 
-/** Rejects with DecodeError. Safe for untrusted bytes. */
+/** Rejects with DecodeError. Safe for untrusted bytes: memory is bounded by the file's length. */
 export async function decodePixels(png: Uint8Array<ArrayBuffer>): Promise<Pixels> {
   const { width, height, channels } = checkPng(png);
   const chunks = chunksOf(png);
@@ -22,13 +22,19 @@ export async function decodePixels(png: Uint8Array<ArrayBuffer>): Promise<Pixels
   const isPalette = png[colorTypePlace] === 3;
   const rowLength = width * (isPalette ? 1 : channels);
   const packed = chunks.filter(({ type }) => type === "IDAT").map(({ data }) => data);
-  const filtered = await inflate(packed, height * (1 + rowLength));
+  for (const chunk of chunks) checkSum(chunk);
+  const length = height * (1 + rowLength);
+  if (length > png.length * largestDeflateRatio) throw new DecodeError("truncated", "is too short for the size in its header");
+  const filtered = await inflate(packed, length);
   const data = unfiltered(filtered, height, rowLength, isPalette ? 1 : channels);
   return { width, height, channels, data: isPalette ? throughPalette(data, palette) : data };
 }
 
 const signatureLength = 8;
 const colorTypePlace = 25;
+
+/** Deflate makes at most so many bytes of one. */
+const largestDeflateRatio = 1032;
 
 /** Of bytes that `checkPng` has accepted. */
 function chunksOf(png: Uint8Array<ArrayBuffer>): { type: string; data: Uint8Array<ArrayBuffer> }[] {
@@ -41,6 +47,21 @@ function chunksOf(png: Uint8Array<ArrayBuffer>): { type: string; data: Uint8Arra
     at += length + 12;
   }
   return chunks;
+}
+
+const crcTable = Int32Array.from({ length: 256 }, (_, byte) => {
+  let crc = byte;
+  for (let bit = 0; bit < 8; ++bit) crc = (crc >>> 1) ^ ((crc & 1) === 0 ? 0 : 0xedb88320);
+  return crc;
+});
+
+/** The sum behind a chunk's data is that of its type and its data. */
+function checkSum({ type, data }: { type: string; data: Uint8Array }): void {
+  const checked = new Uint8Array(data.buffer, data.byteOffset - 4, data.length + 4);
+  let crc = -1;
+  for (const byte of checked) crc = (crcTable[(crc ^ byte) & 255] ?? 0) ^ (crc >>> 8);
+  const stored = new DataView(data.buffer, data.byteOffset + data.length, 4).getInt32(0);
+  if (~crc !== stored) throw new DecodeError("malformed", `has a damaged ${type} chunk`);
 }
 
 /** A zlib stream of exactly `length` bytes; no more than that is ever unpacked. */

@@ -7,7 +7,7 @@ import type { BufferStage, DrawRange, IndexArray, VertexArray } from "../decode/
 import { withoutStrips } from "../decode/strips.ts";
 import type { GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
 import { hasNormalsInCoords } from "../document/geometry.ts";
-import type { Part } from "./parts.ts";
+import type { PartRole } from "./parts.ts";
 import { componentsOf } from "./parts.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
 import { drawRangesOf, normalCodeOf, stageNameOf } from "./stageBuilder.ts";
@@ -20,7 +20,7 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
 
   return {
     accept(part, content) {
-      if (content.kind !== "bytes") throw new DecodeError("malformed", "is no typed array");
+      if (content.kind !== "bytes" || part.role === "patch") throw new DecodeError("malformed", "is no typed array");
       const range = rangeOf(geometry, patch, part.role, part.reference);
       if (part.role === "index") {
         // A document that does not tell the number of vertices leaves this to WebGL's own bounds.
@@ -64,7 +64,7 @@ function drawRangesFor(patch: PatchDescription, available: number): readonly Dra
   return draws;
 }
 
-function rangeOf(geometry: GeometryDescription, patch: PatchDescription, role: Part["role"],
+function rangeOf(geometry: GeometryDescription, patch: PatchDescription, role: PartRole,
                  reference: Reference): ElementRange {
   return {
     type: geometry[`${role}Type`],

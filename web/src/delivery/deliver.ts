@@ -11,6 +11,7 @@ import { partsOf } from "./parts.ts";
 import type { Transfer } from "./progress.ts";
 import type { ContentKind, Lease, ResourcePool } from "./resources.ts";
 import { bgBuilder } from "./bgStage.ts";
+import { compactBuilder } from "./compactStage.ts";
 import { sigBuilder } from "./sigStage.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
 
@@ -69,6 +70,7 @@ class GeometryDelivery implements Delivery {
     this.#listener = listener;
     this.#needs = geometry.patches.flatMap((patch: PatchDescription, place) => {
       const builder = geometry.container === "bg" ? bgBuilder(geometry, patch)
+        : geometry.container === "compact" ? compactBuilder(geometry, patch, pool.runJob, this.#aborter.signal)
         : sigBuilder(geometry, patch, pool.runJob, this.#aborter.signal);
       const kind = contentKindOf(geometry, patch, pool.largestTexture);
       return partsOf(geometry, patch).map((part): Need => ({ place, part, kind, builder, lease: undefined, state: "absent" }));
@@ -148,6 +150,7 @@ class GeometryDelivery implements Delivery {
 
 /** Where the vertices of a patch are to be decoded, and so what its files are to become. */
 function contentKindOf(geometry: GeometryDescription, patch: PatchDescription, largestTexture: number): ContentKind {
+  if (geometry.container === "compact") return "payload";
   if (geometry.container === "bg" || geometry.decode === "cpu") return "bytes";
   if (geometry.decode === "gpu") return "texture";
   const texels = patch.draws.reduce((sum, draw) => sum + draw.count, 0);

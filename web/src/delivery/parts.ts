@@ -5,8 +5,12 @@ import type { GeometryDescription, PatchDescription, Reference } from "../docume
 import { hasNormalsInCoords, isPair } from "../document/geometry.ts";
 import type { Chunk } from "../scheduler/priority.ts";
 
+/** What a file may hold of a patch. */
+export type PartRole = "index" | "coord" | "normal" | "color";
+
 export interface Part {
-  readonly role: "index" | "coord" | "normal" | "color";
+  /** `patch`: all of it. */
+  readonly role: PartRole | "patch";
   /** Which byte plane, for `coord` of images. */
   readonly plane: number;
   readonly reference: Reference;
@@ -17,9 +21,10 @@ export interface Part {
 
 /** Texture coordinates are not asked for: nothing that the document can say yet uses them. */
 export function partsOf(geometry: GeometryDescription, patch: PatchDescription): Part[] {
+  if (geometry.container === "compact") return patch.data ? [compactPart(patch, patch.data)] : [];
   const corners = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
   const vertices = patch.vertexCount;
-  const part = (role: Part["role"], reference: Reference | undefined, elements: number, plane = 0): Part[] =>
+  const part = (role: PartRole, reference: Reference | undefined, elements: number, plane = 0): Part[] =>
     reference === undefined ? [] : [{
       role, plane, reference,
       expectedBytes: elements * (geometry.container === "sig" ? sigBytes[role] : reference.stride || bytesOf(geometry, role)),
@@ -33,12 +38,17 @@ export function partsOf(geometry: GeometryDescription, patch: PatchDescription):
   ];
 }
 
-function bytesOf(geometry: GeometryDescription, role: Part["role"]): number {
+function compactPart({ draws, vertexCount }: PatchDescription, reference: Reference): Part {
+  const corners = draws.reduce((sum, draw) => sum + draw.count, 0);
+  return { role: "patch", plane: 0, reference, expectedBytes: 2 * vertexCount + corners / 6, chunk: { type: "patch", plane: 0 } };
+}
+
+function bytesOf(geometry: GeometryDescription, role: PartRole): number {
   return byteSizeOf(geometry[`${role}Type`]) * componentsOf(geometry, role);
 }
 
 /** The numbers of one element in typed arrays. */
-export function componentsOf(geometry: GeometryDescription, role: Part["role"]): 1 | 2 | 3 | 4 {
+export function componentsOf(geometry: GeometryDescription, role: PartRole): 1 | 2 | 3 | 4 {
   switch (role) {
     case "index": return 1;
     case "coord": return 3;

@@ -12,10 +12,10 @@ import type { Transfer } from "./progress.ts";
 
 export type Content =
   | { readonly kind: "image" } & DataImage
-  | { readonly kind: "bytes"; readonly bytes: Uint8Array<ArrayBuffer> };
+  | { readonly kind: "bytes" | "payload"; readonly bytes: Uint8Array<ArrayBuffer> };
 
-/** What a file is to become: a texture, or its own bytes; or either, as the view decides. */
-export type ContentKind = "texture" | "bytes" | "either";
+/** What a file is to become: a texture, its own bytes, or either, as the view decides; or the payload of compact that it carries. */
+export type ContentKind = "texture" | "bytes" | "either" | "payload";
 
 export interface ResourceRequest {
   readonly kind: ContentKind;
@@ -190,6 +190,7 @@ class Resource {
 
   async #decode(kind: ContentKind, { bytes, leave }: { bytes: Uint8Array<ArrayBuffer>; leave: () => void }): Promise<Content> {
     try {
+      if (kind === "payload") return { kind, bytes: await this.#options.runJob("compactPayload", bytes, this.#aborter.signal) };
       const isTexture = kind === "texture" || (kind === "either" && await this.#options.readsTextures());
       if (!isTexture) return { kind: "bytes", bytes };
       return { kind: "image", ...await this.#options.makeImage(bytes, this.#aborter.signal) };

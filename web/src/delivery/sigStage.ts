@@ -48,7 +48,7 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
       if (isPairs) checkHolds(range, texelsOf(image) / 2 + records, image.width);
       else checkHolds(range, records, patch.index === undefined ? patch.implicitWidth : image.width);
       if (part.role === "coord") planes[part.plane] = range;
-      else here[part.role] = range;
+      else if (part.role !== "patch") here[part.role] = range;
     },
 
     stage(): TextureStage | undefined {

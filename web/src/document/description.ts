@@ -18,7 +18,7 @@ export interface Draw {
   readonly count: number;
 }
 
-/** Where an attribute's data begins: images count `first` in texels, typed arrays in bytes. */
+/** Where data begins: images count `first` in texels, typed arrays in bytes. */
 export interface Reference {
   readonly url: string;
   readonly first: number;
@@ -41,6 +41,8 @@ export interface PatchDescription {
   readonly normal: Reference | undefined;
   readonly texCoord: Reference | undefined;
   readonly color: Reference | undefined;
+  /** SIG compact: all of it in one file, from this byte of its pixels on. */
+  readonly data: Reference | undefined;
 }
 
 export const elementTypes = ["Int8", "Uint8", "Int16", "Uint16", "Int32", "Uint32", "Float32"] as const;
@@ -50,11 +52,15 @@ export type ElementType = (typeof elementTypes)[number];
 export const normalEncodings = ["rgb", "octahedral", "spherical", "palette"] as const;
 export type NormalEncoding = (typeof normalEncodings)[number];
 
+/** Of SIG: a file for each of its parts, or one that holds all of a patch. */
+export const profiles = ["classic", "compact"] as const;
+
 export const decodePlaces = ["auto", "gpu", "cpu"] as const;
 export type DecodePlace = (typeof decodePlaces)[number];
 
 export interface GeometryDescription {
-  readonly container: "sig" | "bg";
+  /** `compact` is SIG with all of a patch in one file. */
+  readonly container: "sig" | "bg" | "compact";
   /** Centre and extent of the box over which stored integers are spread. */
   readonly position: Vec3;
   readonly size: Vec3;

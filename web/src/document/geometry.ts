@@ -6,7 +6,7 @@
 import type {
   Box3, Draw, ElementType, GeometryDescription, NormalEncoding, PatchDescription, Primitive, Reference, Warning,
 } from "./description.ts";
-import { decodePlaces, elementTypes, normalEncodings } from "./description.ts";
+import { decodePlaces, elementTypes, normalEncodings, profiles } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
@@ -21,14 +21,16 @@ type Container = GeometryDescription["container"];
 
 export function readImageGeometry(element: SceneElement, warnings: Warning[]): GeometryDescription {
   const values = readFields(element, nodeFields.ImageGeometry, warnings);
+  const profile = choiceOf(element, "profile", values.profile, profiles, "classic", warnings);
+  const container = profile === "compact" ? "compact" : "sig";
   return {
     ...commonOf(element, values, warnings),
-    container: "sig",
+    container,
     colorComponents: values.numColorComponents === 4 ? 4 : 3,
     decode: choiceOf(element, "decode", values.decode, decodePlaces, "auto", warnings),
     // The bytes of an image are its only element type; indices are made of two or three.
     coordType: "Uint8", normalType: "Uint8", texCoordType: "Uint8", colorType: "Uint8",
-    patches: readPatches(element, "sig", warnings),
+    patches: readPatches(element, container, warnings),
   };
 }
 
@@ -78,7 +80,7 @@ export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "sp
   return encoding === "octahedral" || encoding === "spherical";
 }
 
-function commonOf(element: SceneElement, values: Omit<Values<typeof nodeFields.ImageGeometry>, "numColorComponents" | "decode">,
+function commonOf(element: SceneElement, values: Omit<Values<typeof nodeFields.ImageGeometry>, "numColorComponents" | "decode" | "profile">,
                   warnings: Warning[]) {
   const { position, size, positionBits, solid, texCoordMin, texCoordSize } = values;
   const indexType = choiceOf(element, "indexType", values.indexType, elementTypes, "Uint16", warnings);
@@ -151,6 +153,7 @@ function patchOf(element: SceneElement, values: PatchValues, container: Containe
     normal: reference(values.normal),
     texCoord: reference(values.texCoord),
     color: reference(values.color),
+    data: reference(values.data),
   };
 }
 

@@ -33,6 +33,7 @@ const patchFields = {
   normal: SFString(""),
   texCoord: SFString(""),
   color: SFString(""),
+  data: SFString(""),
 };
 
 const geometryFields = {
@@ -100,7 +101,7 @@ export const nodeFields = {
     shininess: SFFloat(0.2),
     transparency: SFFloat(0),
   },
-  ImageGeometry: { ...geometryFields, numColorComponents: SFInt32(3), decode: SFString("auto") },
+  ImageGeometry: { ...geometryFields, numColorComponents: SFInt32(3), decode: SFString("auto"), profile: SFString("classic") },
   BinaryGeometry: {
     ...geometryFields,
     rgbaColors: SFBool(false),

@@ -19,8 +19,8 @@ const largestValue: Readonly<Record<ElementType, number>> = {
 export function storedFrameOf(geometry: GeometryDescription, patch: PatchDescription): StoredFrame {
   const { position, size } = geometry;
   if (geometry.container === "bg" && geometry.coordType === "Float32") return { origin: [0, 0, 0], step: [1, 1, 1] };
-  const largest = geometry.container === "sig" ? 256 ** Math.max(1, patch.coord.length) - 1
-    : largestValue[geometry.coordType];
+  const largest = geometry.container === "compact" ? largestLatticeValue(latticeBitsOf(geometry))
+    : geometry.container === "sig" ? 256 ** Math.max(1, patch.coord.length) - 1 : largestValue[geometry.coordType];
   // Signed coordinates spread around the centre; X3DOM gives them half the range, -PMAX/2 .. PMAX/2.
   const signed = geometry.container === "bg" && geometry.coordType.startsWith("Int");
   const along = (axis: 0 | 1 | 2) => (signed ? position[axis] : position[axis] - size[axis] / 2);
@@ -30,6 +30,17 @@ export function storedFrameOf(geometry: GeometryDescription, patch: PatchDescrip
     origin: [along(0), along(1), along(2)],
     step: [edge(0) / largest, edge(1) / largest, edge(2) / largest],
   };
+}
+
+/** Of SIG compact. */
+export function latticeBitsOf({ positionBits }: GeometryDescription): number {
+  return positionBits > 0 ? positionBits : 16;
+}
+
+/** The box is spread over whole bytes, of which the lattice has the upper bits; its numbers come without the lower ones. */
+function largestLatticeValue(bits: number): number {
+  const bytes = Math.ceil(bits / 8);
+  return (256 ** bytes - 1) / 2 ** (8 * bytes - bits);
 }
 
 /**

@@ -55,8 +55,15 @@ export function cornersPerElement(topology: Topology): 1 | 2 | 3 {
   return topology === "triangles" ? 3 : topology === "lines" ? 2 : 1;
 }
 
+export interface ReadPatchHeader {
+  readonly header: PatchHeader;
+  readonly streams: PatchStreams;
+  /** The first byte behind the patch. */
+  readonly end: number;
+}
+
 /** Reads the patch at a byte of a payload. Safe for untrusted bytes. Throws DecodeError. */
-export function readPatchHeader(payload: Uint8Array, start: number): { header: PatchHeader; streams: PatchStreams } {
+export function readPatchHeader(payload: Uint8Array, start: number): ReadPatchHeader {
   const reader = new FieldReader(payload, start);
   const [first, second, third, patchVersion] = [reader.byte(), reader.byte(), reader.byte(), reader.byte()];
   if (first !== magic[0] || second !== magic[1] || third !== magic[2]) {
@@ -79,7 +86,7 @@ export function readPatchHeader(payload: Uint8Array, start: number): { header: P
   if (hasGrid) within("bits of a position on a grid", positionBits, 1, 16);
   const grid = hasGrid ? readGrid(reader) : undefined;
   const header = { topology, positionBits, normalShift, grid, vertexCount, wedgeCount, elementCount, attributes };
-  return { header, streams: readStreams(reader, header) };
+  return { header, streams: readStreams(reader, header), end: reader.at };
 }
 
 function readCount(reader: FieldReader, what: string, least: number): number {
@@ -136,6 +143,10 @@ class FieldReader {
   constructor(payload: Uint8Array, start: number) {
     this.#payload = payload;
     this.#at = start;
+  }
+
+  get at(): number {
+    return this.#at;
   }
 
   bytes(length: number): Uint8Array {

@@ -30,3 +30,8 @@ export function readPayload(name: string): Uint8Array<ArrayBuffer> {
   }
   return pixels;
 }
+
+/** NAME.png as it stands. */
+export function readVectorFile(name: string): Uint8Array<ArrayBuffer> {
+  return new Uint8Array(readFileSync(join(folder, `${name}.png`)));
+}

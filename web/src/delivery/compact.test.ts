@@ -1,0 +1,96 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { readPatchHeader } from "../decode/compact/header.ts";
+import { decodePatch } from "../decode/compact/patch.ts";
+import { buffersOf } from "../decode/compact/patchBuffers.ts";
+import { readPayload, readVector, readVectorFile, vectorNames } from "../decode/compact/vectors.testing.ts";
+import { pngWithTexels } from "../decode/png.testing.ts";
+import { storedFrameOf } from "../document/storedFrame.ts";
+import { geometryOf, held, record, siteOf, soon } from "./delivery.testing.ts";
+
+const secondFirst = (readVector("second") as { first: number }).first;
+
+/** A geometry of patches that begin at bytes of files, as documents describe them. */
+function geometryFor(patches: readonly (readonly [file: string, first: number])[], changes: Record<string, string> = {}) {
+  const { header } = readPatchHeader(readPayload(patches[0]?.[0] ?? ""), patches[0]?.[1] ?? 0);
+  const markup = patches.map(([file, first]) => {
+    const { index, vertexCount, topology } = buffersOf(decodePatch(readPayload(file), first));
+    const fields = { recordCount: String(vertexCount), vertexCount: String(index?.length ?? vertexCount),
+                     primType: topology.toUpperCase(), data: `${file}.png#${first}`, ...changes };
+    return `<GeometryPatch ${Object.entries(fields).map(([name, value]) => `${name}="${value}"`).join(" ")}/>`;
+  });
+  return geometryOf(`<ImageGeometry profile="compact" positionBits="${changes.positionBits ?? header.positionBits}">${markup.join("")}</ImageGeometry>`);
+}
+
+const filesOf = (...names: string[]) => Object.fromEntries(names.map((name) => [`${name}.png`, readVectorFile(name)]));
+
+describe("a geometry of compact", () => {
+  test("becomes whole stages of buffers, whatever it holds", async () => {
+    for (const name of vectorNames().filter((name) => name !== "second")) {
+      const site = siteOf(filesOf(name));
+      const { stages, errors, settled } = record(geometryFor([[name, 0]]), site.pool);
+      await settled;
+      assert.deepEqual(errors, []);
+      const [{ stage } = assert.fail("no stage")] = stages;
+      assert.ok(stages.length === 1 && stage.kind === "buffers" && stage.name === "full");
+      const { index, coord, normal, color } = buffersOf(decodePatch(readPayload(name), 0));
+      assert.deepEqual([stage.index, stage.coord, stage.normal, stage.color], [index, coord, normal, color]);
+    }
+  });
+
+  test("asks once for a file of several patches", async () => {
+    const site = siteOf(filesOf("second"));
+    const { stages, errors, settled } = record(geometryFor([["second", secondFirst]]), site.pool);
+    await settled;
+    assert.deepEqual([errors, stages.map(({ patch }) => patch), site.asked], [[], [0], ["second.png"]]);
+    const both = record(geometryFor([["cube", 0], ["cube", 0]]), siteOf(filesOf("cube")).pool);
+    await both.settled;
+    assert.deepEqual(both.stages.map(({ patch }) => patch), [0, 1]);
+  });
+
+  for (const [what, changes] of Object.entries({
+    "position bits": { positionBits: "15" }, "a number of vertices": { recordCount: "7" },
+    "a number of corners": { vertexCount: "3" }, "a primitive": { primType: "LINES" },
+    "a place": { data: "torus.png#4" }, "a place behind its end": { data: "torus.png#99999999" },
+  })) {
+    test(`refuses a file that has not ${what} which the document states`, async () => {
+      const { stages, errors, settled } = record(geometryFor([["torus", 0]], changes), siteOf(filesOf("torus")).pool);
+      await settled;
+      assert.deepEqual([stages.length, errors.length, errors[0]?.url], [0, 1, "torus.png"]);
+      assert.match(errors[0]?.kind ?? "", /malformed|truncated/);
+    });
+  }
+
+  test("shows the other patches where one file is damaged, of colours, or missing", async () => {
+    const damaged = readVectorFile("sphere");
+    damaged[damaged.length >> 1] = (damaged[damaged.length >> 1] ?? 0) ^ 1;
+    const geometry = geometryFor([["torus", 0], ["sphere", 0], ["cone", 0], ["cube", 0]], { positionBits: "10" });
+    const site = siteOf({ ...filesOf("cube"), "torus.png": 404, "sphere.png": damaged, "cone.png": pngWithTexels(9, 9, 3, () => 0) });
+    const { stages, errors, settled } = record(geometry, site.pool);
+    await settled;
+    assert.deepEqual(stages.map(({ patch }) => patch), [3]);
+    assert.deepEqual(errors.map(({ url, kind }) => `${url} ${kind}`).sort(), ["cone.png malformed", "sphere.png malformed", "torus.png http"]);
+  });
+
+  test("says nothing more once it is cancelled", async () => {
+    const { promise, release } = held(readVectorFile("torus"));
+    const { stages, errors, delivery } = record(geometryFor([["torus", 0]]), siteOf({ "torus.png": promise }).pool);
+    await soon();
+    delivery.cancel();
+    release();
+    await soon();
+    assert.deepEqual([stages, errors], [[], []]);
+  });
+
+  test("spreads its lattice as classic does: over whole bytes, of which it has the upper bits", () => {
+    for (const bits of [8, 10, 16, 20]) {
+      const geometry = geometryOf(`<ImageGeometry profile="compact" position="1 2 3" size="4 4 4" positionBits="${bits}" data="x.png"/>`);
+      const classic = geometryOf(`<ImageGeometry position="1 2 3" size="4 4 4" positionBits="${bits}"
+        coord='${Array.from({ length: Math.ceil(bits / 8) }, (_, plane) => `"${plane}.png"`).join(" ")}'/>`);
+      const [frame, same] = [geometry, classic].map((one) => storedFrameOf(one, one.patches[0] ?? assert.fail()));
+      assert.deepEqual(frame?.origin, same?.origin);
+      const stored = 2 ** (8 * Math.ceil(bits / 8) - bits);
+      assert.ok(Math.abs((frame?.step[0] ?? 0) - (same?.step[0] ?? 0) * stored) < 1e-15);
+    }
+  });
+});
