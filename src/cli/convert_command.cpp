@@ -1,3 +1,4 @@
+#include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
 #include "cli/commands.h"
@@ -7,6 +8,8 @@
 #include "transcode/transcode.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -41,9 +44,23 @@ AttributeChoice attributesNamed(const std::string& text) {
   return choice;
 }
 
+/// "0.02" or "0.05%".
+MaxError maxErrorFrom(const std::string& text) {
+  MaxError error;
+  const char* end = text.data() + text.size();
+  error.isPercent = text.ends_with('%');
+  const auto [last, fault] = std::from_chars(text.data(), end - error.isPercent, error.value);
+  if (fault != std::errc{} || last != end - error.isPercent || !(error.value > 0) ||
+      !std::isfinite(error.value))
+    throw Error(ErrorKind::usage, "--max-error",
+                fmt::format("\"{}\" is no length, nor one of percent", text));
+  return error;
+}
+
 ConvertOptions optionsFrom(const Arguments& arguments) {
   ConvertOptions options;
   options.container = chosen(arguments, "container", {Container::sig, Container::bg});
+  options.profile = chosen(arguments, "profile", {Profile::classic, Profile::compact});
   options.target = chosen(arguments, "target", {Target::web, Target::x3dom});
   options.x3domUrl = arguments.text("x3dom-url");
   options.primitives =
@@ -51,18 +68,24 @@ ConvertOptions optionsFrom(const Arguments& arguments) {
   options.indexed = arguments.text("index") == "on";
   options.normalWeighting = chosen(arguments, "normal-weighting",
                                    {NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform});
-  if (!arguments.text("position-bits").empty())
-    options.positionBits = static_cast<std::uint32_t>(arguments.integer("position-bits"));
+  const auto takeBits = [&](const char* name, std::uint32_t& bits) {
+    if (!arguments.text(name).empty())
+      bits = static_cast<std::uint32_t>(arguments.integer(name));
+  };
+  takeBits("position-bits", options.positionBits);
+  takeBits("normal-bits", options.normalBits);
+  takeBits("texcoord-bits", options.texCoordBits);
+  takeBits("color-bits", options.colorBits);
+  if (!arguments.text("max-error").empty())
+    options.maxError = maxErrorFrom(arguments.text("max-error"));
   options.coordType =
       chosen<std::optional<ElementType>>(arguments, "coord-type",
                                          {std::nullopt, ElementType::uint8, ElementType::int8,
                                           ElementType::uint16, ElementType::int16, ElementType::float32});
   options.layout = chosen(arguments, "layout", {Layout::separate, Layout::interleaved});
-  options.normals = chosen(
-      arguments, "normals",
-      {NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical, NormalEncoding::palette});
-  if (!arguments.text("normal-bits").empty())
-    options.normalBits = static_cast<std::uint32_t>(arguments.integer("normal-bits"));
+  options.normals = chosen(arguments, "normals",
+                           {NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical,
+                            NormalEncoding::palette, NormalEncoding::derived});
   options.keepAttributes = attributesNamed(arguments.text("keep-attributes"));
   if (!arguments.text("attribute-bits").empty())
     options.attributeBits = static_cast<std::uint32_t>(arguments.integer("attribute-bits"));
@@ -91,7 +114,7 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
   json["positionBits"] = report.lattice.bits;
   json["coordType"] = arguments.text("coord-type");
   json["layout"] = arguments.text("layout");
-  json["normalEncoding"] = arguments.text("normals");
+  json["normalEncoding"] = nameOf(report.normalEncoding);
   json["normalBits"] = report.normalBits;
   json["normalErrorDegrees"] = report.normalErrorDegrees;
   json["attributes"] = Json::array();
@@ -100,6 +123,8 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
                                   {"components", attribute.components},
                                   {"bits", attribute.bits},
                                   {"error", attribute.error}});
+  json["texCoordBits"] = report.texCoordBits;
+  json["colorBits"] = report.colorBits;
   json["patchVertices"] = arguments.integer("patch-vertices");
   json["effort"] = arguments.integer("effort");
   json["normals"] = normalsOf(arguments, report);
@@ -164,7 +189,7 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
     printLine("", fmt::format("{} triangles lose their area and {} lines their length",
                               grouped(report.collapsed.triangles), grouped(report.collapsed.lines)));
   printLine("normals",
-            fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", arguments.text("normals"),
+            fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", nameOf(report.normalEncoding),
                         report.normalBits, report.normalErrorDegrees,
                         report.normalsComputed
                             ? "computed: triangles count by " +

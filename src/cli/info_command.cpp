@@ -20,6 +20,11 @@ void printJson(const Json& json) {
   fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
+/// Of SIG; empty for BG.
+const char* profileOf(const GeometryInfo& geometry) {
+  return geometry.container == Container::sig ? nameOf(geometry.profile) : "";
+}
+
 Json jsonOf(const SiteInfo& info) {
   Json json{{"triangles", info.elements.triangles},
             {"lines", info.elements.lines},
@@ -32,12 +37,15 @@ Json jsonOf(const SiteInfo& info) {
             {"bytesPerTriangle", info.bytesPerTriangle}};
   json["geometries"] = Json::array();
   for (const GeometryInfo& geometry : info.geometries)
-    json["geometries"].push_back({{"container", geometry.container == Container::sig ? "sig" : "bg"},
+    json["geometries"].push_back({{"container", nameOf(geometry.container)},
+                                  {"profile", profileOf(geometry)},
                                   {"positionBits", geometry.positionBits},
                                   {"coordType", geometry.coordType},
                                   {"indexType", geometry.indexType},
                                   {"normalEncoding", geometry.normalEncoding},
-                                  {"normalBits", geometry.normalBits}});
+                                  {"normalBits", geometry.normalBits},
+                                  {"texCoordBits", geometry.texCoordBits},
+                                  {"colorBits", geometry.colorBits}});
   json["files"] = Json::array();
   for (const SiteFile& file : info.files)
     json["files"].push_back({{"path", file.path}, {"role", file.role}, {"bytes", file.bytes}});
@@ -50,11 +58,13 @@ bool isFetched(const std::string& role) {
 
 /// "sig: positions of 16 bits, Uint16 indices, octahedral normals of 8 bits"
 std::string textOf(const GeometryInfo& geometry) {
-  std::string text = fmt::format("{}: positions of {} bits",
-                                 geometry.container == Container::sig ? "sig" : "bg", geometry.positionBits);
+  const bool isCompact = geometry.profile == Profile::compact;
+  std::string text = fmt::format("{}{}: positions of {} bits", nameOf(geometry.container),
+                                 isCompact ? " compact" : "", geometry.positionBits);
   if (!geometry.coordType.empty())
     text += " as " + geometry.coordType;
-  text += geometry.indexType.empty() ? ", no index" : ", " + geometry.indexType + " indices";
+  if (!isCompact)
+    text += geometry.indexType.empty() ? ", no index" : ", " + geometry.indexType + " indices";
   text += geometry.normalEncoding.empty()
               ? ", no normals"
               : fmt::format(", {} normals of {} bits", geometry.normalEncoding, geometry.normalBits);

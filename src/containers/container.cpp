@@ -4,6 +4,7 @@
 #include "containers/bg/bg.h"
 #include "containers/bg/element_types.h"
 #include "containers/classic/classic.h"
+#include "containers/compact/compact.h"
 #include "containers/limits.h"
 #include "containers/named_attributes.h"
 
@@ -38,6 +39,10 @@ void spreadTexCoords(GeometryDescription& geometry, const PatchedMesh& mesh, Tar
   }
   geometry.texCoordMin = min;
   geometry.texCoordSize = {max.x - min.x, max.y - min.y};
+  // Compact predicts them from the shapes of triangles: one step on both axes.
+  if (geometry.profile == Profile::compact)
+    geometry.texCoordSize.x = geometry.texCoordSize.y =
+        std::max(geometry.texCoordSize.x, geometry.texCoordSize.y);
 }
 
 /// 16 bits wherever they name all vertices of every patch.
@@ -52,6 +57,7 @@ ElementType indexTypeOf(const PatchedMesh& mesh) {
 GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& options) {
   GeometryDescription geometry;
   geometry.container = options.container;
+  geometry.profile = options.profile;
   geometry.lattice = mesh.lattice;
   geometry.box = mesh.box;
   spreadTexCoords(geometry, mesh, options.target);
@@ -64,6 +70,10 @@ GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& optio
   geometry.attributes = describeAttributes(mesh, options.container, options.attributeBits / 8);
   if (options.container == Container::bg)
     chooseTypes(geometry, mesh, options);
+  if (options.profile == Profile::compact) { // its files say
+    geometry.normalEncoding = NormalEncoding::rgb;
+    return geometry;
+  }
   geometry.indexType = indexTypeOf(mesh);
   assert(geometry.indexType == ElementType::uint16 || options.target == Target::web ||
          options.container == Container::bg);
@@ -72,14 +82,31 @@ GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& optio
 
 EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry,
                          const EncodeOptions& options) {
+  assert(geometry.profile == Profile::classic);
   return geometry.container == Container::sig ? encodeClassic(patch, geometry, options.effort, options.target)
                                               : encodeBg(patch, geometry, options.layout);
 }
 
 IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescription& geometry,
                          const FetchFile& fetch) {
-  return geometry.container == Container::sig ? decodeClassic(patch, geometry, fetch)
-                                              : decodeBg(patch, geometry, fetch);
+  if (geometry.container == Container::bg)
+    return decodeBg(patch, geometry, fetch);
+  return geometry.profile == Profile::classic ? decodeClassic(patch, geometry, fetch)
+                                              : decodeCompact(patch, geometry, fetch);
+}
+
+StoredPrecision precisionOf(const GeometryDescription& geometry, const FetchFile& fetch) {
+  if (geometry.profile == Profile::compact)
+    return geometry.patches.empty() ? StoredPrecision{} : precisionOfCompact(geometry.patches[0], fetch);
+  const bool isBg = geometry.container == Container::bg;
+  const auto bits = [&](auto reference, ElementType type, std::uint32_t inImages) {
+    const bool isThere = std::ranges::any_of(
+        geometry.patches, [&](const PatchDescription& patch) { return (patch.*reference).has_value(); });
+    return !isThere ? 0 : isBg ? 8 * byteSizeOf(type) : inImages;
+  };
+  return {bits(&PatchDescription::normal, geometry.normalType, 8),
+          bits(&PatchDescription::texCoord, geometry.texCoordType, 16),
+          bits(&PatchDescription::color, geometry.colorType, 8), geometry.normalEncoding};
 }
 
 } // namespace imgeo

@@ -1,6 +1,6 @@
 #pragma once
-// One patch <-> the files that hold it. The two containers have the same two
-// functions each; these pick by Container.
+// One patch <-> the files that hold it. Each container has the same functions;
+// these pick by Container.
 
 #include "base/bytes.h"
 #include "containers/geometry.h"
@@ -22,15 +22,17 @@ enum class Layout : std::uint8_t { separate, interleaved };
 
 struct EncodeOptions {
   Container container = Container::sig;
-  /// Bits of a stored component. SIG: 8. BG: 8, 16 or 32 (Float32); octahedral 8 or
+  /// Bits of a stored component. SIG: 8. Compact: 4 .. 16. BG: 8, 16 or 32 (Float32); octahedral 8 or
   /// 16, spherical 8, and those of 8 only beside coordinates of 9 .. 16 bits.
   std::uint32_t normalBits = 8;
   int effort = 5; ///< 0 fastest .. 9 smallest
   Target target = Target::web;
-  NormalEncoding normals = NormalEncoding::rgb; ///< palette: SIG alone
-  std::optional<ElementType> coordType{};       ///< BG; nothing: the smallest unsigned type
-  Layout layout = Layout::separate;             ///< BG
-  std::uint32_t attributeBits = 16;             ///< SIG: 8, 16 or 24; BG has Float32
+  NormalEncoding normals = NormalEncoding::rgb;   ///< palette: SIG alone. Compact: octahedral or derived
+  std::optional<ElementType> coordType{};         ///< BG; nothing: the smallest unsigned type
+  Layout layout = Layout::separate;               ///< BG
+  std::uint32_t attributeBits = 16;               ///< SIG: 8, 16 or 24; BG has Float32
+  Profile profile = Profile::classic;             ///< SIG
+  std::uint32_t texCoordBits = 16, colorBits = 8; ///< only compact has others
 };
 
 /// A file as it will lie in the site, unnamed yet.
@@ -46,16 +48,18 @@ struct EncodedFile {
 struct EncodedPatch {
   PatchDescription description;
   std::vector<EncodedFile> files;
-  double paletteError = 0; ///< largest angle between a normal and its palette entry, in radians
+  /// Largest angle between a normal and what is stored of it, in radians: measured for
+  /// palettes and derived normals, a bound in compact. 0: see normalErrorBound.
+  double normalError = 0;
 };
 
 /// The geometry node's own fields for a mesh about to be encoded (no patches
 /// yet). Throws Error{unsupported} for texture coordinates that X3DOM cannot hold.
 GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& options);
 
-/// Encodes a patch by the node's fields. Deterministic. `patch` is one of the mesh
-/// that was described, and has no NaN. Throws Error{limit} for a patch that draws
-/// more than an image holds.
+/// Encodes a patch by the node's fields, of SIG and BG. Deterministic. `patch` is one of the
+/// mesh that was described, and has no NaN. Compact: see encodeCompact. Throws Error{limit} for a patch that
+/// draws more than an image holds.
 EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry,
                          const EncodeOptions& options);
 
@@ -67,5 +71,15 @@ using FetchFile = std::function<Bytes(const std::string& url)>;
 /// allocation. Throws Error naming the url. Normals come back unit length.
 IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescription& geometry,
                          const FetchFile& fetch);
+
+/// Bits of a component of each attribute; 0 where there is none.
+struct StoredPrecision {
+  std::uint32_t normalBits = 0, texCoordBits = 0, colorBits = 0;
+  NormalEncoding normalEncoding = NormalEncoding::rgb;
+};
+
+/// What is stored of a geometry: its node says so, or in compact the header of its first
+/// patch. Safe for untrusted bytes.
+StoredPrecision precisionOf(const GeometryDescription& geometry, const FetchFile& fetch);
 
 } // namespace imgeo

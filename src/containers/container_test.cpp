@@ -54,7 +54,7 @@ void expectEqualWithinSteps(const Encoded& encoded) {
   EXPECT_EQ(decoded.indices, source.indices);
   EXPECT_EQ(decoded.draws, source.draws);
   ASSERT_EQ(decoded.normals.size(), source.normals.size());
-  const double bound = std::max(normalErrorBound(encoded.geometry), encoded.patch.paletteError + 1e-6);
+  const double bound = std::max(normalErrorBound(encoded.geometry), encoded.patch.normalError + 1e-6);
   for (std::size_t i = 0; i < source.normals.size(); ++i) {
     ASSERT_LE(angleBetween(decoded.normals[i], source.normals[i]), bound);
     ASSERT_NEAR(length(Vec3d(decoded.normals[i])), 1, 1e-6);

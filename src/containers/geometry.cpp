@@ -4,8 +4,16 @@
 
 namespace imgeo {
 
+const char* nameOf(Container container) {
+  return container == Container::sig ? "sig" : "bg";
+}
+
+const char* nameOf(Profile profile) {
+  return profile == Profile::classic ? "classic" : "compact";
+}
+
 const char* nameOf(Role role) {
-  constexpr const char* names[] = {"index", "coord", "normal", "texCoord", "color", "attribute"};
+  constexpr const char* names[] = {"index", "coord", "normal", "texCoord", "color", "attribute", "patch"};
   return names[static_cast<std::size_t>(role)];
 }
 
@@ -15,7 +23,7 @@ const char* nameOf(Primitive primitive) {
 }
 
 const char* nameOf(NormalEncoding encoding) {
-  constexpr const char* names[] = {"rgb", "octahedral", "spherical", "palette"};
+  constexpr const char* names[] = {"rgb", "octahedral", "spherical", "palette", "derived"};
   return names[static_cast<std::size_t>(encoding)];
 }
 

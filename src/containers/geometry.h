@@ -14,9 +14,14 @@
 namespace imgeo {
 
 enum class Container : std::uint8_t { sig, bg };
+const char* nameOf(Container container); ///< "sig", "bg"
+
+/// How SIG's images hold a patch: as byte planes, or predicted and packed.
+enum class Profile : std::uint8_t { classic, compact };
+const char* nameOf(Profile profile); ///< "classic", "compact"
 
 /// What a file holds; also its row in `info`.
-enum class Role : std::uint8_t { index, coord, normal, texCoord, color, attribute };
+enum class Role : std::uint8_t { index, coord, normal, texCoord, color, attribute, patch };
 
 /// "index", "coord", ...: the names the documents use.
 const char* nameOf(Role role);
@@ -25,8 +30,9 @@ const char* nameOf(Role role);
 const char* nameOf(Primitive primitive);
 
 /// How unit normals are stored: as three components, as two numbers
-/// (containers/normals.h), or as RGB out of an image's palette.
-enum class NormalEncoding : std::uint8_t { rgb, octahedral, spherical, palette };
+/// (containers/normals.h), as RGB out of an image's palette, or not at all, but
+/// found from the triangles. Compact: octahedral and derived.
+enum class NormalEncoding : std::uint8_t { rgb, octahedral, spherical, palette, derived };
 const char* nameOf(NormalEncoding encoding);
 
 /// The element type of a BG attribute, as X3DOM names them ("Uint16" ...).
@@ -53,7 +59,8 @@ struct PatchDescription {
   std::vector<Reference> coord;                   ///< SIG: byte planes, most significant first. BG: one
   std::optional<Reference> normal, texCoord, color;
   std::vector<std::vector<Reference>>
-      attributes; ///< each of the geometry's: its byte planes (SIG) or one (BG)
+      attributes;                ///< each of the geometry's: its byte planes (SIG) or one (BG)
+  std::optional<Reference> data; ///< compact: all of it
   friend bool operator==(const PatchDescription&, const PatchDescription&) = default;
 };
 
@@ -72,6 +79,8 @@ template <typename Patch, typename Visit> void visitReferences(Patch& patch, Vis
   for (auto& planes : patch.attributes)
     for (auto& plane : planes)
       visit(Role::attribute, plane);
+  if (patch.data)
+    visit(Role::patch, *patch.data);
 }
 
 /// A further attribute of vertices: one FloatVertexAttribute.
@@ -88,6 +97,7 @@ struct AttributeDescription {
 /// The fields of one ImageGeometry or BinaryGeometry node.
 struct GeometryDescription {
   Container container = Container::sig;
+  Profile profile = Profile::classic;          ///< SIG only
   Lattice lattice;                             ///< `position` and `size` follow from it: see decodeFields
   Box3d box;                                   ///< tight box of all patches
   Vec2f texCoordMin{0, 0}, texCoordSize{1, 1}; ///< texture coordinates are stored relative to this box

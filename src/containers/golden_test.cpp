@@ -83,7 +83,7 @@ TEST_P(Golden, FilesAreStillRead) {
   EXPECT_EQ(decoded.positions, patch.source.positions);
   EXPECT_EQ(decoded.colors, patch.source.colors);
   EXPECT_EQ(decoded.indices, patch.source.indices);
-  const double bound = std::max(normalErrorBound(patch.geometry), patch.encoded.paletteError + 1e-6);
+  const double bound = std::max(normalErrorBound(patch.geometry), patch.encoded.normalError + 1e-6);
   for (std::size_t i = 0; i < decoded.normals.size(); ++i)
     EXPECT_LE(angleBetween(decoded.normals[i], patch.source.normals[i]), bound);
   for (std::size_t i = 0; i < decoded.texCoords.size(); ++i)

@@ -26,6 +26,8 @@ Vec3f loadNormal(Vec2<std::uint32_t> stored, NormalEncoding encoding, std::uint3
 }
 
 double normalErrorBound(const GeometryDescription& geometry) {
+  if (geometry.profile == Profile::compact)
+    return 0;
   const bool isSig = geometry.container == Container::sig;
   const std::uint32_t bits = isSig ? 8 : 8 * byteSizeOf(geometry.normalType);
   switch (geometry.normalEncoding) {
@@ -34,6 +36,7 @@ double normalErrorBound(const GeometryDescription& geometry) {
   case NormalEncoding::spherical:
     return sphericalErrorBound(bits);
   case NormalEncoding::palette:
+  case NormalEncoding::derived:
     return 0;
   case NormalEncoding::rgb:
     break;

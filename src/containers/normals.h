@@ -15,7 +15,7 @@ Vec2<std::uint32_t> storeNormal(Vec3f unit, NormalEncoding encoding, std::uint32
 Vec3f loadNormal(Vec2<std::uint32_t> stored, NormalEncoding encoding, std::uint32_t bits);
 
 /// The largest angle, in radians, between a unit normal and what is stored of it. A
-/// palette has no such bound: there it is what EncodedPatch measures, and this is 0.
+/// palette and compact have no such bound here: there it is what EncodedPatch says, and this is 0.
 double normalErrorBound(const GeometryDescription& geometry);
 
 } // namespace imgeo

@@ -116,6 +116,9 @@ void addReference(PatchDescription& patch, Role role, std::size_t attribute, con
     patch.attributes.resize(std::max(patch.attributes.size(), attribute + 1));
     patch.attributes[attribute].push_back(reference);
     break;
+  case Role::patch:
+    patch.data = reference;
+    break;
   }
 }
 

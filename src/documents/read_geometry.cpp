@@ -4,6 +4,7 @@
 #include "documents/find_x3d.h"
 #include "documents/read_attributes.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -51,7 +52,7 @@ Reference stridedReference(const std::string& url) {
   return reference;
 }
 
-/// SIG: url, url#N. BG: url, url+S, url?+S, url#O+S.
+/// SIG, classic and compact: url, url#N. BG: url, url+S, url?+S, url#O+S.
 Reference referenceOf(const Fields& fields, const std::string& url, Container container) {
   const std::size_t hash = url.rfind('#');
   if (hash == std::string::npos && container == Container::bg)
@@ -66,7 +67,7 @@ Reference referenceOf(const Fields& fields, const std::string& url, Container co
   const std::string_view fragment = std::string_view(url).substr(hash + 1);
   const std::size_t plus = container == Container::bg ? fragment.find('+') : std::string_view::npos;
   bool good = parseWhole(fragment.substr(0, plus), reference.first) &&
-              (container == Container::sig) == (plus == std::string_view::npos);
+              (container == Container::bg) == (plus != std::string_view::npos);
   if (plus != std::string_view::npos)
     good = good && parseWhole(fragment.substr(plus + 1), reference.stride);
   if (!good)
@@ -131,6 +132,12 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
     if (const std::string url = fields.text(name); !url.empty())
       reference = referenceOf(fields, url, container);
   };
+  if (geometry.profile == Profile::compact) {
+    read("data", patch.data);
+    if (!patch.data)
+      fields.fail(ErrorKind::malformed, "a patch of compact has no data");
+    return patch;
+  }
   read("index", patch.index);
   read("normal", patch.normal);
   read("texCoord", patch.texCoord);
@@ -171,6 +178,8 @@ Vec2<std::uint32_t> implicitMeshSizeOf(const Fields& fields, Vec2<std::uint32_t>
 std::uint32_t storedBits(const Fields& fields, const GeometryDescription& geometry) {
   if (geometry.container == Container::bg)
     return geometry.coordType == ElementType::float32 ? sourceBits : 8 * byteSizeOf(geometry.coordType);
+  if (geometry.profile == Profile::compact)
+    return 16;
   const std::size_t planes = geometry.patches[0].coord.size();
   if (planes > 4)
     fields.fail(ErrorKind::unsupported, "coordinates of more than four bytes");
@@ -182,9 +191,11 @@ std::uint32_t storedBits(const Fields& fields, const GeometryDescription& geomet
 
 Lattice latticeOf(const Fields& fields, const GeometryDescription& geometry) {
   const std::uint32_t stored = storedBits(fields, geometry), bits = fields.integer("positionBits", stored);
-  const bool isHeld = geometry.container == Container::bg
-                          ? holdsLattice(geometry.coordType, bits)
-                          : bits >= 8 && bits <= 32 && 8 * coordBytes(Container::sig, bits) == stored;
+  const bool isHeld =
+      geometry.container == Container::bg
+          ? holdsLattice(geometry.coordType, bits)
+          : bits >= 8 && bits <= 32 &&
+                (geometry.profile == Profile::compact || 8 * coordBytes(Container::sig, bits) == stored);
   if (!isHeld)
     fields.fail(ErrorKind::malformed,
                 "positionBits is no precision of coordinates of " + std::to_string(stored / 8) + " bytes");
@@ -193,6 +204,16 @@ Lattice latticeOf(const Fields& fields, const GeometryDescription& geometry) {
         std::max({box.size.x, box.size.y, box.size.z}) > 0))
     fields.fail(ErrorKind::malformed, "size is the extent of no box");
   return imgeo::latticeOf(box, geometry.container, geometry.coordType, bits);
+}
+
+/// Which of SIG's profiles a node has: classic where it does not say.
+Profile profileOf(const Fields& fields) {
+  const std::string profile = fields.text("profile");
+  if (sameName(profile, nameOf(Profile::compact)))
+    return Profile::compact;
+  if (!profile.empty() && !sameName(profile, nameOf(Profile::classic)))
+    fields.fail(ErrorKind::unsupported, "profile is neither classic nor compact");
+  return Profile::classic;
 }
 
 void takeNormalsFromCoords(const Fields& fields, GeometryDescription& geometry) {
@@ -212,6 +233,8 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   const Fields fields(source, node);
   GeometryDescription geometry;
   geometry.container = container;
+  if (container == Container::sig)
+    geometry.profile = profileOf(fields);
   geometry.texCoordMin = fields.vec2("texCoordMin", {0, 0});
   geometry.texCoordSize = fields.vec2("texCoordSize", {1, 1});
   geometry.normalEncoding = normalEncodingOf(fields);

@@ -68,6 +68,8 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
   Attributes draws{{"recordCount", std::to_string(patch.vertexCount)},
                    {"primType", primTypes(patch.draws)},
                    {"vertexCount", counts(patch.draws)}};
+  if (patch.data)
+    return {"GeometryPatch", {boxAttributes(patch.box), draws, {{"data", url(*patch.data, container)}}}};
   if (container == Container::sig)
     draws.push_back({"implicitMeshSize", std::to_string(patch.implicitMeshSize.x) + " " +
                                              std::to_string(patch.implicitMeshSize.y)});
@@ -105,7 +107,9 @@ Element geometryElement(const GeometryDescription& geometry) {
       geometry.lattice.bits != sourceBits)
     box.push_back({"positionBits", std::to_string(geometry.lattice.bits)});
   Attributes stored;
-  if (geometry.container == Container::bg)
+  if (geometry.profile == Profile::compact)
+    stored = {{"profile", nameOf(geometry.profile)}};
+  else if (geometry.container == Container::bg)
     stored = {{"indexType", nameOf(geometry.indexType)},
               {"coordType", nameOf(geometry.coordType)},
               {"normalType", nameOf(geometry.normalType)},
@@ -120,9 +124,9 @@ Element geometryElement(const GeometryDescription& geometry) {
   addUnless(stored, "texCoordMin", geometry.texCoordMin, Vec2f{0, 0}, numbers(geometry.texCoordMin));
   addUnless(stored, "texCoordSize", geometry.texCoordSize, Vec2f{1, 1}, numbers(geometry.texCoordSize));
   if (geometry.colorComponents == 4)
-    stored.push_back(geometry.container == Container::sig ? Attribute{"numColorComponents", "4"}
-                                                          : Attribute{"rgbaColors", "true"});
-  return {geometry.container == Container::sig ? "ImageGeometry" : "BinaryGeometry", {box, stored}};
+    stored.push_back(geometry.container == Container::bg ? Attribute{"rgbaColors", "true"}
+                                                         : Attribute{"numColorComponents", "4"});
+  return {geometry.container == Container::bg ? "BinaryGeometry" : "ImageGeometry", {box, stored}};
 }
 
 Element attributeElement(const AttributeDescription& attribute, Container container) {

@@ -161,13 +161,18 @@ IndexedPatch asLineStrips(const Patch& patch) {
   return drawTrails(patch, fewestStripLines);
 }
 
-IndexedPatch asPoints(const Patch& patch) {
+std::vector<std::uint32_t> mortonOrder(const Patch& patch) {
   std::vector<std::uint32_t> order(patch.wedgeCount());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return beforeInMortonOrder(patch.positions[patch.wedgePositions[a]],
                                patch.positions[patch.wedgePositions[b]]);
   });
+  return order;
+}
+
+IndexedPatch asPoints(const Patch& patch) {
+  const std::vector<std::uint32_t> order = mortonOrder(patch);
   IndexedPatch result = verticesOf(patch, order);
   result.draws = {{Primitive::points, narrow<std::uint32_t>(order.size())}};
   return result;

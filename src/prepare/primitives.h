@@ -50,6 +50,9 @@ IndexedPatch asLines(const Patch& patch);
 /// of its own costs more than a short strip saves.
 IndexedPatch asLineStrips(const Patch& patch);
 
+/// The wedges of a patch in the Morton order of their positions.
+std::vector<std::uint32_t> mortonOrder(const Patch& patch);
+
 /// Every wedge as a point, in Morton order, without indices; for point clouds
 /// and for meshes shown as points.
 IndexedPatch asPoints(const Patch& patch);

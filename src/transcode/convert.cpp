@@ -189,6 +189,9 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
 
   ConvertReport report;
   report.normalBits = options.normalBits;
+  report.texCoordBits = options.texCoordBits;
+  report.colorBits = options.colorBits;
+  report.normalEncoding = options.normals;
   Stopwatch total, step;
   const auto tell = [&](double share, const std::string& doing) {
     if (progress)
@@ -230,11 +233,12 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   Marker marker{generator,
                 input == "-" ? "" : input.filename().string(),
                 options.container,
+                options.profile,
                 options.primitives,
                 report.normalsComputed,
                 options.normalWeighting,
                 report.elements,
-                options.normals == NormalEncoding::palette ? report.normalErrorDegrees : 0,
+                hasStatedError(options) ? report.normalErrorDegrees : 0,
                 {}};
   for (const AttributeReport& attribute : report.attributes)
     marker.attributes.push_back(attribute.name);

@@ -2,10 +2,12 @@
 
 #include "base/file.h"
 #include "base/parallel.h"
+#include "containers/compact/compact.h"
 #include "containers/normals.h"
 #include "containers/stored_coords.h"
 #include "prepare/collapsed.h"
 #include "prepare/patches.h"
+#include "transcode/options.h"
 #include "transcode/site.h"
 
 #include <algorithm>
@@ -40,17 +42,29 @@ void nameReferences(PatchDescription& patch, const std::vector<std::string>& url
   });
 }
 
-/// What a patch draws. The joins of strips draw nothing, so strips are walked.
-ElementCounts elementsDrawn(const IndexedPatch& patch) {
-  ElementCounts counts;
-  bool hasJoins = false;
-  for (const Draw& draw : patch.draws) {
-    counts += elementsOf(draw);
-    hasJoins |= draw.primitive == Primitive::triangleStrip;
+struct EncodedElements {
+  EncodedPatch patch;
+  ElementCounts counts; ///< of what it draws
+};
+
+EncodedElements encodeElements(Patch patch, const GeometryDescription& geometry,
+                               const ConvertOptions& options, const EncodeOptions& encoding) {
+  EncodedElements encoded;
+  if (geometry.profile == Profile::compact) {
+    if (options.primitives == Primitives::points)
+      patch.topology = Topology::points;
+    encoded.patch = encodeCompact(patch, geometry, encoding);
+  } else {
+    const IndexedPatch indexed = primitivesOf(patch, options);
+    // The joins of strips draw nothing, so strips are walked.
+    if (options.primitives == Primitives::strips && patch.topology == Topology::triangles)
+      encoded.counts.triangles = trianglesOf(indexed).size();
+    encoded.patch = encodePatch(indexed, geometry, encoding);
   }
-  if (hasJoins)
-    counts.triangles = trianglesOf(patch).size();
-  return counts;
+  if (encoded.counts.sum() == 0)
+    for (const Draw& draw : encoded.patch.description.draws)
+      encoded.counts += elementsOf(draw);
+  return encoded;
 }
 
 } // namespace
@@ -70,39 +84,42 @@ std::string GeometryFiles::write(const EncodedFile& file) {
 
 EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& files,
                        const ElementsDone& done) {
+  const Box3d box = boxOf(mesh);
   const Lattice lattice =
-      latticeFor(boxOf(mesh), options.coordType.value_or(ElementType::uint32), options.positionBits);
+      latticeFor(box, options.coordType.value_or(ElementType::uint32), positionBitsFor(box, options));
   EncodedMesh result;
   result.collapsed.of(mesh.topology) = collapsedElements(mesh, lattice);
   PatchedMesh patched = cutIntoPatches(mesh, lattice, options.patchVertices);
   mesh = {};
 
-  const EncodeOptions encoding{options.container, options.normalBits, options.effort, options.target,
-                               options.normals,   options.coordType,  options.layout};
+  const EncodeOptions encoding{options.container,    options.normalBits,    options.effort,
+                               options.target,       options.normals,       options.coordType,
+                               options.layout,       options.attributeBits, options.profile,
+                               options.texCoordBits, options.colorBits};
   result.geometry = describe(patched, encoding);
   std::vector<PatchDescription> descriptions(patched.patches.size());
   std::vector<ElementCounts> elements(patched.patches.size());
-  std::vector<double> paletteErrors(patched.patches.size());
+  std::vector<double> normalErrors(patched.patches.size());
   parallelFor(patched.patches.size(), [&](std::size_t i) {
-    const Patch patch = std::exchange(patched.patches[i], {});
-    const IndexedPatch indexed = primitivesOf(patch, options);
-    EncodedPatch encoded = encodePatch(indexed, result.geometry, encoding);
+    const std::size_t elementCount = patched.patches[i].elementCount();
+    EncodedElements encoded =
+        encodeElements(std::exchange(patched.patches[i], {}), result.geometry, options, encoding);
     std::vector<std::string> urls;
-    for (const EncodedFile& file : encoded.files)
+    for (const EncodedFile& file : encoded.patch.files)
       urls.push_back(files.write(file));
-    nameReferences(encoded.description, urls);
-    descriptions[i] = std::move(encoded.description);
-    elements[i] = elementsDrawn(indexed);
-    paletteErrors[i] = encoded.paletteError;
-    done(patch.elementCount());
+    nameReferences(encoded.patch.description, urls);
+    descriptions[i] = std::move(encoded.patch.description);
+    elements[i] = encoded.counts;
+    normalErrors[i] = encoded.patch.normalError;
+    done(elementCount);
   });
   for (const PatchDescription& patch : descriptions)
     result.vertices += patch.vertexCount;
   for (const ElementCounts& counts : elements)
     result.elements += counts;
-  if (!descriptions.empty() && descriptions.front().normal)
+  if (!descriptions.empty() && (descriptions.front().normal || descriptions.front().data))
     result.normalErrorDegrees =
-        std::max(normalErrorBound(result.geometry), *std::ranges::max_element(paletteErrors)) *
+        std::max(normalErrorBound(result.geometry), *std::ranges::max_element(normalErrors)) *
         (180 / std::numbers::pi);
   result.positionError = positionErrorBound(result.geometry);
   result.geometry.patches = std::move(descriptions);

@@ -30,7 +30,7 @@ void count(const PatchDescription& patch, SiteInfo& info) {
   info.vertices += patch.vertexCount;
 }
 
-GeometryInfo infoOf(const GeometryDescription& geometry) {
+GeometryInfo infoOf(const GeometryDescription& geometry, const FetchFile& fetch) {
   const bool isBg = geometry.container == Container::bg;
   const auto anyPatch = [&](auto reference) {
     return std::ranges::any_of(geometry.patches,
@@ -38,15 +38,18 @@ GeometryInfo infoOf(const GeometryDescription& geometry) {
   };
   GeometryInfo info;
   info.container = geometry.container;
+  info.profile = geometry.profile;
   info.positionBits = geometry.lattice.bits;
   if (isBg)
     info.coordType = nameOf(geometry.coordType);
   if (anyPatch(&PatchDescription::index))
     info.indexType = nameOf(geometry.indexType);
-  if (anyPatch(&PatchDescription::normal)) {
-    info.normalEncoding = nameOf(geometry.normalEncoding);
-    info.normalBits = isBg ? 8 * byteSizeOf(geometry.normalType) : 8;
-  }
+  const StoredPrecision precision = precisionOf(geometry, fetch);
+  info.normalBits = precision.normalBits;
+  info.texCoordBits = precision.texCoordBits;
+  info.colorBits = precision.colorBits;
+  if (precision.normalBits > 0)
+    info.normalEncoding = nameOf(precision.normalEncoding);
   return info;
 }
 
@@ -88,7 +91,7 @@ SiteInfo inspect(const fs::path& site) {
     info.containerBytes += add(file.url, nameOf(file.role));
 
   for (const GeometryDescription& geometry : document.scene.geometries) {
-    info.geometries.push_back(infoOf(geometry));
+    info.geometries.push_back(infoOf(geometry, fetchFrom(document)));
     info.patches += geometry.patches.size();
     for (const PatchDescription& patch : geometry.patches)
       count(patch, info);

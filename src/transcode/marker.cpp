@@ -10,6 +10,7 @@ namespace imgeo {
 namespace {
 
 constexpr std::array containers{Container::sig, Container::bg};
+constexpr std::array profiles{Profile::classic, Profile::compact};
 constexpr std::array primitiveKinds{Primitives::triangles, Primitives::strips, Primitives::points};
 constexpr std::array weightings{NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform};
 
@@ -22,10 +23,6 @@ Value valueNamed(const std::array<Value, count>& values, const std::string& name
 }
 
 } // namespace
-
-const char* nameOf(Container container) {
-  return container == Container::sig ? "sig" : "bg";
-}
 
 const char* nameOf(Primitives primitives) {
   return primitives == Primitives::triangles ? "triangles"
@@ -44,6 +41,7 @@ std::string writeMarker(const Marker& marker) {
   json["generator"] = marker.generator;
   json["source"] = marker.source;
   json["container"] = nameOf(marker.container);
+  json["profile"] = nameOf(marker.profile);
   json["primitives"] = nameOf(marker.primitives);
   json["normals"] = marker.normalsComputed ? nameOf(marker.normalWeighting) : "source";
   json["triangles"] = marker.elements.triangles;
@@ -51,8 +49,8 @@ std::string writeMarker(const Marker& marker) {
   json["points"] = marker.elements.points;
   if (!marker.attributes.empty())
     json["attributes"] = marker.attributes;
-  if (marker.paletteErrorDegrees > 0)
-    json["paletteErrorDegrees"] = marker.paletteErrorDegrees;
+  if (marker.normalErrorDegrees > 0)
+    json["normalErrorDegrees"] = marker.normalErrorDegrees;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -63,6 +61,7 @@ Marker readMarker(std::string_view text, const std::string& name) {
     marker.generator = json.at("generator");
     marker.source = json.at("source");
     marker.container = valueNamed(containers, json.at("container"), name);
+    marker.profile = valueNamed(profiles, json.value("profile", nameOf(Profile::classic)), name);
     marker.primitives = valueNamed(primitiveKinds, json.at("primitives"), name);
     const std::string normals = json.at("normals");
     marker.normalsComputed = normals != "source";
@@ -70,7 +69,7 @@ Marker readMarker(std::string_view text, const std::string& name) {
       marker.normalWeighting = valueNamed(weightings, normals, name);
     marker.elements = {json.at("triangles"), json.value("lines", std::size_t{0}), json.at("points")};
     marker.attributes = json.value("attributes", std::vector<std::string>{});
-    marker.paletteErrorDegrees = json.value("paletteErrorDegrees", 0.0);
+    marker.normalErrorDegrees = json.value("normalErrorDegrees", 0.0);
     return marker;
   } catch (const nlohmann::json::exception&) {
     throw Error(ErrorKind::malformed, name, "is not the marker of a site");

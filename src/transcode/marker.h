@@ -14,11 +14,13 @@ struct Marker {
   std::string generator; ///< "imgeo 0.1.0"
   std::string source;    ///< the input's file name
   Container container = Container::sig;
+  Profile profile = Profile::classic;
   Primitives primitives = Primitives::triangles;
   bool normalsComputed = false;
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where normals were computed
   ElementCounts elements;                                  ///< as drawn; a strip's length does not tell
-  double paletteErrorDegrees = 0;      ///< normals of a palette are off by at most that; 0: there is none
+  /// By which normals of a palette and of compact may be off; 0: see normalErrorBound.
+  double normalErrorDegrees = 0;
   std::vector<std::string> attributes; ///< further ones that were kept
 };
 
@@ -27,7 +29,6 @@ std::string writeMarker(const Marker& marker);
 /// Safe for untrusted text. Throws Error{malformed} naming `name`.
 Marker readMarker(std::string_view text, const std::string& name);
 
-const char* nameOf(Container container);       ///< "sig", "bg"
 const char* nameOf(Primitives primitives);     ///< "triangles", "strips", "points"
 const char* nameOf(NormalWeighting weighting); ///< "area", "angle", "uniform"
 

@@ -1,11 +1,13 @@
 #include "transcode/options.h"
 
 #include "base/error.h"
+#include "containers/compact/compact_patch.h"
 #include "containers/limits.h"
 #include "containers/normals.h"
 #include "containers/stored_coords.h"
 #include "prepare/patches.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace imgeo {
@@ -86,6 +88,8 @@ void requireNormals(const ConvertOptions& options) {
   if (options.container == Container::sig) {
     if (bits != 8)
       refuse("--normal-bits", fmt::format("sig stores normals in 8 bits, not {}; bg also in 16 or 32", bits));
+    if (options.normals == NormalEncoding::derived)
+      refuse("--normals", "only compact derives normals");
     if (options.target == Target::x3dom && isPair(options.normals))
       refuse("--normals", fmt::format("X3DOM reads no {} normals from images; rgb and palette it does",
                                       nameOf(options.normals)));
@@ -103,6 +107,8 @@ void requireNormals(const ConvertOptions& options) {
     return;
   case NormalEncoding::palette:
     refuse("--normals", "a palette belongs to images, and bg has none");
+  case NormalEncoding::derived:
+    refuse("--normals", "only compact derives normals");
   case NormalEncoding::octahedral:
     if (options.target == Target::x3dom)
       refuse("--normals", "X3DOM reads no octahedral normals; spherical ones take the same room");
@@ -132,18 +138,83 @@ void requireAttributes(const ConvertOptions& options) {
     refuse("--attribute-bits", fmt::format("images hold 8, 16 or 24 bits, not {}", options.attributeBits));
 }
 
+std::uint32_t mostPositionBits(const ConvertOptions& options) {
+  return options.profile == Profile::compact ? 30 : 32;
+}
+
+void requireMaxError(const ConvertOptions& options) {
+  if (options.positionBits != 0)
+    refuse("--max-error", "chooses the bits that --position-bits states");
+  if (options.container == Container::bg)
+    refuse("--max-error", "chooses bits for images; bg has --position-bits and --coord-type");
+}
+
+/// Compact has its own way with normals, its own order, and is for our runtime.
+ConvertOptions resolvedCompact(ConvertOptions options) {
+  if (options.container == Container::bg)
+    refuse("--profile", "compact is a profile of sig, and bg has none");
+  if (options.target == Target::x3dom)
+    refuse("--profile", "X3DOM reads no compact images; it reads classic ones");
+  if (options.primitives == Primitives::strips)
+    refuse("--primitives", "compact holds triangles, lines and points, and no strips");
+  if (!options.indexed)
+    refuse("--index", "compact always has an index");
+  if (options.normals == NormalEncoding::rgb)
+    options.normals = NormalEncoding::octahedral;
+  if (options.normals != NormalEncoding::octahedral && options.normals != NormalEncoding::derived)
+    refuse("--normals", fmt::format("compact stores octahedral normals or derives them, but has no {} ones",
+                                    nameOf(options.normals)));
+  requireWithin("--normal-bits", options.normalBits, 4, 16);
+  requireWithin("--patch-vertices", options.patchVertices, 256, compact::maxPatchCount);
+  return options;
+}
+
+void requireOtherBits(ConvertOptions& options) {
+  const bool isCompact = options.profile == Profile::compact;
+  if (options.texCoordBits == 0)
+    options.texCoordBits = isCompact ? 12 : 16;
+  if (options.colorBits == 0)
+    options.colorBits = 8;
+  requireWithin("--texcoord-bits", options.texCoordBits, isCompact ? 1 : 16, 16);
+  requireWithin("--color-bits", options.colorBits, isCompact ? 1 : 8, 8);
+}
+
 } // namespace
 
+std::uint32_t positionBitsFor(const Box3d& box, const ConvertOptions& options) {
+  if (!options.maxError || !(box.longestEdge() > 0))
+    return options.positionBits;
+  const MaxError& error = *options.maxError;
+  const double allowed = error.isPercent ? error.value / 100 * box.longestEdge() : error.value;
+  // Half a step on each axis is the half diagonal of a cell.
+  const double steps = box.longestEdge() * std::sqrt(3.0) / 2 / allowed;
+  const std::uint32_t most = mostPositionBits(options);
+  for (std::uint32_t bits = 8; bits <= most; ++bits)
+    if (std::ldexp(1.0, static_cast<int>(bits)) - 1 >= steps)
+      return bits;
+  refuse("--max-error", fmt::format("takes more than {} bits, the most there are", most));
+}
+
+bool hasStatedError(const ConvertOptions& options) {
+  return options.normals == NormalEncoding::palette || options.profile == Profile::compact;
+}
+
 ConvertOptions resolved(ConvertOptions options) {
+  if (options.maxError)
+    requireMaxError(options);
   if (options.positionBits == 0)
     options.positionBits = defaultPositionBits(options);
-  requireWithin("--position-bits", options.positionBits, 8, 32);
+  requireWithin("--position-bits", options.positionBits, 8, mostPositionBits(options));
   requireWithin("--patch-vertices", options.patchVertices, 256, maxPatchWedges);
   requireWithin("--effort", options.effort, 0, 9);
   if (options.normalBits == 0)
     options.normalBits = defaultNormalBits(options);
   requireCoords(options);
-  requireNormals(options);
+  if (options.profile == Profile::compact)
+    options = resolvedCompact(options);
+  else
+    requireNormals(options);
+  requireOtherBits(options);
   requireAttributes(options);
   if (options.attributeBits == 0)
     options.attributeBits = 16;

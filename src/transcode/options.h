@@ -10,4 +10,11 @@ namespace imgeo {
 /// container or the target cannot honour.
 ConvertOptions resolved(ConvertOptions options);
 
+/// The position bits for a mesh: as stated, or the fewest within the stated error.
+/// Throws Error{usage} for an error that the most bits exceed.
+std::uint32_t positionBitsFor(const Box3d& box, const ConvertOptions& options);
+
+/// Whether a site has to say how far its normals may be off, because no reader could tell.
+bool hasStatedError(const ConvertOptions& options);
+
 } // namespace imgeo

@@ -63,8 +63,7 @@ Mesh readMesh(const OpenedDocument& document, const GeometryDescription& geometr
   const std::string place = (document.root / document.name).string();
   std::vector<IndexedPatch> patches(geometry.patches.size());
   parallelFor(patches.size(), [&](std::size_t i) {
-    patches[i] = decodePatch(geometry.patches[i], geometry,
-                             [&](const std::string& url) { return readFile(fileOf(document, url)); });
+    patches[i] = decodePatch(geometry.patches[i], geometry, fetchFrom(document));
   });
   Mesh mesh;
   mesh.topology = topologyOf(geometry, place);

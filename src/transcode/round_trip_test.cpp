@@ -67,6 +67,40 @@ TEST(RoundTrip, EveryContainerPrimitiveAndPrecisionGivesBackEveryMesh) {
         }
 }
 
+TEST(RoundTrip, CompactGivesBackEveryMeshAtEveryPrecision) {
+  std::uint32_t seed = 900;
+  for (const Primitives primitives : {Primitives::triangles, Primitives::points})
+    for (const std::uint32_t bits : {8u, 12u, 16u, 24u, 30u})
+      for (int mesh = 0; mesh < 6; ++mesh, ++seed) {
+        ConvertOptions options;
+        options.profile = Profile::compact;
+        options.primitives = primitives;
+        options.positionBits = bits;
+        options.normals = seed % 5 == 0 ? NormalEncoding::derived : NormalEncoding::octahedral;
+        options.normalBits = 4 + seed % 13;
+        options.texCoordBits = 1 + seed % 16;
+        options.colorBits = 1 + seed % 8;
+        options.patchVertices = seed % 2 ? 256 : 65535;
+        options.effort = static_cast<int>(seed % 3);
+        expectRoundTrip(testing::randomMesh(seed), options, fmt::format("seed {} bits {}", seed, bits));
+        if (HasFailure())
+          return;
+      }
+}
+
+TEST(RoundTrip, TheLargestErrorChoosesTheFewestBits) {
+  const TemporaryDirectory directory;
+  testing::writeMesh(directory / "input.ply", testing::torus(20, 12)); // 2.7 wide
+  for (const auto& [error, bits] :
+       {std::pair{MaxError{0.01, false}, 8u}, {MaxError{0.001, false}, 12u}, {MaxError{0.01, true}, 14u}})
+    for (const Profile profile : {Profile::classic, Profile::compact}) {
+      ConvertOptions options;
+      options.profile = profile;
+      options.maxError = error;
+      EXPECT_EQ(convert(directory / "input.ply", directory / "site", options).lattice.bits, bits);
+    }
+}
+
 TEST(RoundTrip, EveryElementTypeAndLayoutGivesBackEveryMesh) {
   using enum NormalEncoding;
   struct Case {

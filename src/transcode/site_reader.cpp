@@ -64,4 +64,8 @@ fs::path fileOf(const OpenedDocument& document, const std::string& url) {
   return document.root / path;
 }
 
+FetchFile fetchFrom(const OpenedDocument& document) {
+  return [&document](const std::string& url) { return readFile(fileOf(document, url)); };
+}
+
 } // namespace imgeo

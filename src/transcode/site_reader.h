@@ -2,6 +2,7 @@
 // A finished site -> its document and the files that this names. Safe for
 // untrusted bytes; all throw Error.
 
+#include "containers/container.h"
 #include "documents/documents.h"
 #include "transcode/transcode.h"
 
@@ -39,5 +40,8 @@ std::vector<std::string> pageFilesOf(std::string_view html);
 /// The file of a relative url; Error{unsupported} for a url that leaves the
 /// document's folder.
 std::filesystem::path fileOf(const OpenedDocument& document, const std::string& url);
+
+/// The same as the bytes of urls. `document` outlives it.
+FetchFile fetchFrom(const OpenedDocument& document);
 
 } // namespace imgeo

@@ -19,18 +19,27 @@ namespace imgeo {
 /// How elements are drawn; lines as lines, as line strips or as points.
 enum class Primitives { triangles, strips, points };
 
+/// The distance by which quantising may move a vertex.
+struct MaxError {
+  double value = 0;
+  bool isPercent = false; ///< of the mesh's longest edge; otherwise in the source's units
+};
+
 struct ConvertOptions {
   Container container = Container::sig;
+  Profile profile = Profile::classic;
   Target target = Target::web;
   std::string x3domUrl; ///< target x3dom: the folder of x3dom.js and x3dom.css; empty: a public copy
   Primitives primitives = Primitives::triangles; ///< point clouds are always points
   bool indexed = true; ///< false: a vertex is repeated wherever it is drawn; points never have an index
   /// 8..32; 0: 16, or what `coordType` holds, of Float32 the source's own numbers.
   std::uint32_t positionBits = 0;
+  std::optional<MaxError> maxError;     ///< SIG: chooses the position bits of each mesh instead
   std::optional<ElementType> coordType; ///< see EncodeOptions, as `layout`
   Layout layout = Layout::separate;
   NormalEncoding normals = NormalEncoding::rgb;
-  std::uint32_t normalBits = 0; ///< see EncodeOptions; 0: the fewest that cost nothing
+  std::uint32_t normalBits = 0;                  ///< see EncodeOptions; 0: the fewest that cost nothing
+  std::uint32_t texCoordBits = 0, colorBits = 0; ///< 0: 12 and 8 in compact, 16 and 8 elsewhere
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where the source has no normals
   std::uint32_t patchVertices = 65535; ///< 256..4,194,304; above 65,535 with 32-bit indices
   AttributeChoice keepAttributes;      ///< further attributes of vertices
@@ -61,11 +70,12 @@ struct ConvertReport {
   std::size_t vertices = 0, patches = 0;
   WeldReport weld;
   bool normalsComputed = false;
-  Lattice lattice;               ///< of the first mesh: step states the precision
-  ElementCounts collapsed;       ///< that lost their area or length on so coarse a lattice
-  double positionError = 0;      ///< by which vertices of any mesh may be off, along an axis
-  std::uint32_t normalBits = 0;  ///< of a stored component
-  double normalErrorDegrees = 0; ///< by which stored normals may be off
+  Lattice lattice;          ///< of the first mesh: step states the precision
+  ElementCounts collapsed;  ///< that lost their area or length on so coarse a lattice
+  double positionError = 0; ///< by which vertices of any mesh may be off, along an axis
+  NormalEncoding normalEncoding = NormalEncoding::rgb;
+  std::uint32_t normalBits = 0, texCoordBits = 0, colorBits = 0; ///< of a stored component
+  double normalErrorDegrees = 0;                                 ///< by which stored normals may be off
   std::vector<AttributeReport> attributes;
   std::string x3domVersion, x3domUrl; ///< target x3dom: the release that the page is for, and its script
   std::vector<RoleBytes> roles;
@@ -98,11 +108,12 @@ struct SiteFile {
 /// How the numbers of one geometry are stored.
 struct GeometryInfo {
   Container container = Container::sig;
+  Profile profile = Profile::classic;
   std::uint32_t positionBits = 0;
-  std::string coordType;      ///< BG: "Uint16" ...; SIG: empty
-  std::string indexType;      ///< empty where there is no index
-  std::string normalEncoding; ///< empty where there are no normals
-  std::uint32_t normalBits = 0;
+  std::string coordType;                                         ///< BG: "Uint16" ...; SIG: empty
+  std::string indexType;                                         ///< empty where there is no index
+  std::string normalEncoding;                                    ///< empty where there are no normals
+  std::uint32_t normalBits = 0, texCoordBits = 0, colorBits = 0; ///< 0: there are none
   friend bool operator==(const GeometryInfo&, const GeometryInfo&) = default;
 };
 

@@ -43,11 +43,12 @@ private:
   VerifyReport& report_;
 };
 
-/// A palette's bound is what convert measured; it need not hold for other sites.
+/// The bound of a palette and of compact is what convert says; it need not hold for other sites.
 double normalBoundDegrees(const GeometryDescription& geometry, const Marker& marker) {
-  const double bound = geometry.normalEncoding == NormalEncoding::palette
-                           ? marker.paletteErrorDegrees
-                           : normalErrorBound(geometry) * (180 / std::numbers::pi);
+  const bool isStated =
+      geometry.normalEncoding == NormalEncoding::palette || geometry.profile == Profile::compact;
+  const double bound =
+      isStated ? marker.normalErrorDegrees : normalErrorBound(geometry) * (180 / std::numbers::pi);
   return std::max(bound, 1e-5);
 }
 
@@ -56,10 +57,10 @@ ElementType coordTypeOf(const GeometryDescription& geometry) {
   return geometry.container == Container::bg ? geometry.coordType : ElementType::uint32;
 }
 
-/// Half a step of the type's share of the box, and what single precision adds.
-Vec2<double> texCoordBound(const GeometryDescription& geometry) {
+/// Half a step of the stored share of the box, and what single precision adds.
+Vec2<double> texCoordBound(const GeometryDescription& geometry, std::uint32_t bits) {
   const bool isSig = geometry.container == Container::sig;
-  const double steps = isSig ? 65535 : maximumOf(geometry.texCoordType);
+  const double steps = isSig ? std::ldexp(1.0, static_cast<int>(bits)) - 1 : maximumOf(geometry.texCoordType);
   const bool isExact = !isSig && geometry.texCoordType == ElementType::float32;
   const auto bound = [&](double low, double size) {
     const double largest = std::max(std::abs(low), std::abs(low + size));
@@ -67,6 +68,17 @@ Vec2<double> texCoordBound(const GeometryDescription& geometry) {
   };
   return {bound(geometry.texCoordMin.x, geometry.texCoordSize.x),
           bound(geometry.texCoordMin.y, geometry.texCoordSize.y)};
+}
+
+/// Brings colours to those that fewer than 8 bits a component can tell apart.
+void roundColors(std::vector<Rgba8>& colors, std::uint32_t bits) {
+  if (bits == 0 || bits >= 8)
+    return;
+  const double steps = (1 << bits) - 1;
+  for (Rgba8& color : colors)
+    for (std::uint8_t* component : {&color.r, &color.g, &color.b, &color.a})
+      *component =
+          static_cast<std::uint8_t>(std::floor(*component / 255.0 * steps + 0.5) / steps * 255 + 0.5);
 }
 
 /// By how much each component of the further attributes may be off.
@@ -113,8 +125,7 @@ void checkDocuments(const OpenedDocument& page, Findings& findings) {
 std::vector<IndexedPatch> decodePatches(const OpenedDocument& document, const GeometryDescription& geometry) {
   std::vector<IndexedPatch> patches(geometry.patches.size());
   parallelFor(patches.size(), [&](std::size_t i) {
-    patches[i] = decodePatch(geometry.patches[i], geometry,
-                             [&](const std::string& url) { return readFile(fileOf(document, url)); });
+    patches[i] = decodePatch(geometry.patches[i], geometry, fetchFrom(document));
   });
   return patches;
 }
@@ -237,9 +248,13 @@ void compareShape(const OpenedDocument& document, const GeometryDescription& geo
   const bool isWithoutIndex =
       std::ranges::any_of(patches, &std::vector<std::uint32_t>::empty, &IndexedPatch::indices);
   const ElementKind kind{topology, isWithoutIndex};
-  const ElementList input = elementsOf(mesh, quantised, kind), site = elementsOf(patches, kind);
+  ElementList input = elementsOf(mesh, quantised, kind);
+  const ElementList site = elementsOf(patches, kind);
+  const StoredPrecision precision = precisionOf(geometry, fetchFrom(document));
+  roundColors(input.colors, precision.colorBits);
   const AttributeBounds bounds{normalBoundDegrees(geometry, marker.value_or(Marker{})),
-                               texCoordBound(geometry), namedBounds(geometry)};
+                               texCoordBound(geometry, std::max(precision.texCoordBits, 1u)),
+                               namedBounds(geometry)};
   const ElementDifference difference = compare(input, site, bounds);
   count(difference, input, site, topology, report);
   const char* elements = nameOf(topology);

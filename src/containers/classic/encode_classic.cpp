@@ -122,7 +122,7 @@ EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription&
   if (!patch.normals.empty())
     images.push_back({Role::normal, normalImage(patch, geometry.normalEncoding, records)});
   if (geometry.normalEncoding == NormalEncoding::palette && !patch.normals.empty())
-    encoded.paletteError = paletteErrorOf(patch, images.back().image);
+    encoded.normalError = paletteErrorOf(patch, images.back().image);
   if (!patch.texCoords.empty())
     images.push_back({Role::texCoord, texCoordImage(patch, geometry, records)});
   if (!patch.colors.empty())

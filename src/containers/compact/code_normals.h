@@ -4,6 +4,8 @@
 
 #include "containers/compact/code_attributes.h"
 
+#include <cmath>
+
 namespace imgeo::compact {
 
 /// A point of the octahedron |x| + |y| + |z| = radius, all but its dominant
@@ -38,6 +40,13 @@ inline Value valueOf(const OctahedronPoint& point, std::int64_t radius) {
   value[static_cast<std::uint32_t>(point.v)] = static_cast<std::int32_t>(point.atV);
   value[static_cast<std::uint32_t>(point.axis)] = static_cast<std::int32_t>(point.isNegative ? -rest : rest);
   return value;
+}
+
+/// The largest angle, in radians, between a direction and the point that stands for
+/// it: half a step off on two axes and so a whole one on the third moves a point of
+/// a face by sqrt(3 / 2) steps, seen from 1 / sqrt(3) of the radius away.
+inline double octahedronErrorBound(std::uint32_t bits) {
+  return std::sqrt(4.5) / ((1 << (bits - 1)) - 1) * 1.001 + 1e-6;
 }
 
 /// The sums of the normals around each wedge and those that repeat it.

@@ -3,6 +3,8 @@
 #include "containers/compact/code_values.h"
 #include "containers/compact/header.h"
 #include "containers/compact/patch_coding.h"
+#include "containers/stored.h"
+#include "containers/unit_vectors.h"
 
 #include <numeric>
 
@@ -71,99 +73,143 @@ std::uint32_t normalShiftFor(const CompactPatch& patch, const std::vector<std::u
   }
 }
 
+/// The largest angle between two lists of normals, in radians.
+double largestAngle(const std::vector<Value>& a, const std::vector<Value>& b) {
+  const auto vector = [](const Value& value) {
+    return unitNormal({double(value[0]), double(value[1]), double(value[2])});
+  };
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    largest = std::max(largest, angleBetween(vector(a[i]), vector(b[i])));
+  return largest;
+}
+
+/// A stream, and for an attribute its type as it turned out best.
+struct EncodedAttribute {
+  AttributeType type;
+  Bytes bytes;
+  double normalError = 0;
+};
+
 class PatchEncoder {
 public:
-  PatchEncoder(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices)
-      : patch_(patch), normalShift_(normalShiftFor(patch, vertices)) {
-    if (patch.positionBits <= 16)
-      grid_ = findGrid(patch.positions);
+  PatchEncoder(const CompactPatch& patch, const Ordered& ordered, const std::optional<Grid>& grid,
+               std::uint32_t normalShift, int effort)
+      : patch_(patch), ordered_(ordered), effort_(effort) {
+    header_.topology = patch.topology;
+    header_.positionBits = patch.positionBits;
+    header_.normalShift = normalShift;
+    header_.vertexCount = static_cast<std::uint32_t>(patch.positions.size());
+    header_.wedgeCount = static_cast<std::uint32_t>(patch.wedgeCount());
+    header_.elementCount = static_cast<std::uint32_t>(patch.elementCount());
+    header_.grid = grid;
   }
 
-  /// Positions by an order; also what attributes are predicted from.
-  Bytes encodePositions(const Ordered& ordered, std::vector<Vec3u>& positions, NormalSums& sums) const {
-    positions.resize(ordered.sourceVertex.size());
-    for (std::size_t vertex = 0; vertex < positions.size(); ++vertex)
-      positions[vertex] = patch_.positions[ordered.sourceVertex[vertex]];
-    RangeEncoder encoder(grid_ ? positionModels::countWithGrid : positionModels::count);
-    sums = PositionCoder(encoder, ordered.connectivity, patch_.positionBits, grid_, normalShift_, positions)
-               .run();
-    return encoder.finish();
-  }
-
-  Bytes encode(const Ordered& ordered) const {
-    Header header;
-    header.topology = patch_.topology;
-    header.positionBits = patch_.positionBits;
-    header.normalShift = normalShift_;
-    header.vertexCount = static_cast<std::uint32_t>(patch_.positions.size());
-    header.wedgeCount = static_cast<std::uint32_t>(patch_.wedgeCount());
-    header.elementCount = static_cast<std::uint32_t>(patch_.elementCount());
-    header.grid = grid_;
-    std::vector<Bytes> streams;
-    if (header.hasConnectivity())
-      streams.push_back(ordered.bytes);
-    std::vector<Vec3u> positions;
-    NormalSums sums(0, 0);
-    streams.push_back(encodePositions(ordered, positions, sums));
-
-    Wedges wedges;
-    const auto sourceWedge = [&](std::uint32_t corner) {
-      return patch_.corners[ordered.sourceCorner[corner]];
-    };
-    if (header.hasSeams()) {
-      RangeEncoder encoder(wedgeModels::count);
-      wedges = WedgeCoder(encoder, ordered.connectivity, header.wedgeCount, sourceWedge).run();
-      streams.push_back(encoder.finish());
-    } else {
-      wedges = plainWedges(ordered.connectivity);
-    }
-    const Surface surface{patch_.topology, ordered.connectivity, wedges, positions, sums, normalShift_};
+  PatchBytes run() {
+    if (header_.hasConnectivity())
+      addStream(ordered_.bytes);
+    std::vector<Vec3u> positions = orderedPositions();
+    const NormalSums sums = encodePositions(positions);
+    const Wedges wedges = encodeWedges();
+    const Surface surface{patch_.topology,    ordered_.connectivity, wedges, positions, sums,
+                          header_.normalShift};
+    PatchBytes result;
     for (const Attribute& attribute : patch_.attributes) {
-      header.attributes.push_back(attribute.type);
-      streams.push_back(encodeAttribute(surface, attribute, [&](std::uint32_t wedge) {
-        return attribute.values[sourceWedge(wedges.corner[wedge])];
-      }));
+      const EncodedAttribute encoded = encodeAttribute(surface, attribute);
+      header_.attributes.push_back(encoded.type);
+      addStream(encoded.bytes);
+      result.normalError = std::max(result.normalError, encoded.normalError);
     }
-    Bytes bytes;
-    for (const Bytes& stream : streams)
-      header.streamLengths.push_back(static_cast<std::uint32_t>(stream.size()));
-    appendHeader(bytes, header);
-    for (const Bytes& stream : streams)
-      bytes.insert(bytes.end(), stream.begin(), stream.end());
-    return bytes;
+    appendHeader(result.bytes, header_);
+    result.bytes.insert(result.bytes.end(), streams_.begin(), streams_.end());
+    return result;
   }
 
 private:
-  template <typename ValueOf>
-  Bytes encodeAttribute(const Surface& surface, const Attribute& attribute, ValueOf valueOf) const {
-    if (attribute.type.isDerived())
-      return {};
+  void addStream(const Bytes& stream) {
+    header_.streamLengths.push_back(static_cast<std::uint32_t>(stream.size()));
+    streams_.insert(streams_.end(), stream.begin(), stream.end());
+  }
+
+  std::vector<Vec3u> orderedPositions() const {
+    std::vector<Vec3u> positions;
+    for (const std::uint32_t vertex : ordered_.sourceVertex)
+      positions.push_back(patch_.positions[vertex]);
+    return positions;
+  }
+
+  NormalSums encodePositions(std::vector<Vec3u>& positions) {
+    RangeEncoder encoder(header_.grid ? positionModels::countWithGrid : positionModels::count);
+    NormalSums sums = PositionCoder(encoder, ordered_.connectivity, header_.positionBits, header_.grid,
+                                    header_.normalShift, positions)
+                          .run();
+    addStream(encoder.finish());
+    return sums;
+  }
+
+  std::uint32_t sourceWedge(std::uint32_t corner) const {
+    return patch_.corners[ordered_.sourceCorner[corner]];
+  }
+
+  Wedges encodeWedges() {
+    if (!header_.hasSeams())
+      return plainWedges(ordered_.connectivity);
+    RangeEncoder encoder(wedgeModels::count);
+    Wedges wedges = WedgeCoder(encoder, ordered_.connectivity, header_.wedgeCount, [&](std::uint32_t corner) {
+                      return sourceWedge(corner);
+                    }).run();
+    addStream(encoder.finish());
+    return wedges;
+  }
+
+  EncodedAttribute encodeAttribute(const Surface& surface, const Attribute& attribute) const {
     std::vector<Value> values;
-    for (std::uint32_t wedge = 0; wedge < surface.wedges.count(); ++wedge)
-      values.push_back(valueOf(wedge));
-    RangeEncoder encoder(attributeModels::count);
+    for (const std::uint32_t corner : surface.wedges.corner)
+      values.push_back(attribute.values[sourceWedge(corner)]);
     if (attribute.type.kind == AttributeKind::normal)
-      codeNormals(encoder, surface, attribute.type, values);
-    else
-      ValueCoder(encoder, surface, attribute.type, values).run();
-    return encoder.finish();
+      return encodeNormals(surface, attribute.type, values);
+    RangeEncoder encoder(attributeModels::count);
+    ValueCoder(encoder, surface, attribute.type, values).run();
+    return {attribute.type, encoder.finish()};
+  }
+
+  EncodedAttribute encodeNormals(const Surface& surface, const AttributeType& type,
+                                 const std::vector<Value>& values) const {
+    const auto encode = [&](const AttributeType& as, std::vector<Value> coded) {
+      RangeEncoder encoder(attributeModels::count);
+      codeNormals(encoder, surface, as, coded);
+      return as.isDerived()
+                 ? EncodedAttribute{as, {}, largestAngle(values, coded) + octahedronErrorBound(as.bits)}
+                 : EncodedAttribute{as, encoder.finish(), octahedronErrorBound(as.bits)};
+    };
+    const EncodedAttribute given = encode(type, values);
+    if (effort_ == 0 || patch_.topology != Topology::triangles)
+      return given;
+    AttributeType other = type;
+    other.mode = static_cast<NormalMode>(static_cast<unsigned>(type.mode) ^ 1u); // area, uniform
+    const EncodedAttribute tried = encode(other, values);
+    const bool isBetter =
+        type.isDerived() ? tried.normalError < given.normalError : tried.bytes.size() < given.bytes.size();
+    return isBetter ? tried : given;
   }
 
   const CompactPatch& patch_;
-  std::uint32_t normalShift_;
-  std::optional<Grid> grid_;
+  const Ordered& ordered_;
+  int effort_;
+  Header header_;
+  Bytes streams_;
 };
 
 } // namespace
 
-Bytes encodePatchBytes(const CompactPatch& patch, int effort) {
+PatchBytes encodePatchBytes(const CompactPatch& patch, int effort) {
   std::vector<std::uint32_t> vertices;
   vertices.reserve(patch.corners.size());
   for (const std::uint32_t wedge : patch.corners)
     vertices.push_back(patch.wedgePositions[wedge]);
-  (void)effort;
-  const PatchEncoder encoder(patch, vertices);
-  return encoder.encode(orderOf(patch, vertices, 0));
+  const std::optional<Grid> grid = patch.positionBits <= 16 ? findGrid(patch.positions) : std::nullopt;
+  const Ordered ordered = orderOf(patch, vertices, 0);
+  return PatchEncoder(patch, ordered, grid, normalShiftFor(patch, vertices), effort).run();
 }
 
 } // namespace imgeo::compact

@@ -42,7 +42,7 @@ std::vector<ElementText> elementsOf(const CompactPatch& patch) {
 }
 
 void expectComesBack(const CompactPatch& patch) {
-  const Bytes bytes = encodePatchBytes(patch, 0);
+  const Bytes bytes = encodePatchBytes(patch, 0).bytes;
   const CompactPatch back = decodePatchBytes(bytes, 0, "x.png");
   EXPECT_EQ(back.topology, patch.topology);
   EXPECT_EQ(back.positionBits, patch.positionBits);

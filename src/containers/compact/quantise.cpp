@@ -1,9 +1,14 @@
 #include "containers/compact/quantise.h"
 
 #include "containers/compact/code_normals.h"
+#include "containers/named_attributes.h"
 #include "containers/stored.h"
+#include "prepare/primitives.h"
+#include "prepare/trails.h"
 
 #include <cmath>
+#include <numeric>
+#include <span>
 
 namespace imgeo::compact {
 
@@ -67,15 +72,28 @@ void addColors(CompactPatch& patch, const std::vector<Rgba8>& colors, std::uint3
   patch.attributes.push_back(std::move(attribute));
 }
 
-Primitive primitiveOf(Topology topology) {
-  return topology == Topology::triangles ? Primitive::triangles
-         : topology == Topology::lines   ? Primitive::lines
-                                         : Primitive::points;
+void addNamed(CompactPatch& patch, const NamedAttribute& named, const AttributeDescription& description) {
+  Attribute attribute{typeOf(AttributeKind::other, named.components, 8 * description.bytes), {}};
+  for (std::size_t wedge = 0; wedge < named.count(); ++wedge) {
+    Value value;
+    for (std::uint32_t i = 0; i < named.components; ++i)
+      value[i] =
+          static_cast<std::int32_t>(storeNumber(named.values[wedge * named.components + i], description, i));
+    attribute.values.push_back(value);
+  }
+  patch.attributes.push_back(std::move(attribute));
 }
 
-} // namespace
+NamedAttribute namedOf(const Attribute& attribute, const AttributeDescription& description) {
+  NamedAttribute named{description.name, description.components, {}};
+  for (const Value& value : attribute.values)
+    for (std::uint32_t i = 0; i < description.components; ++i)
+      named.values.push_back(loadNumber(static_cast<std::uint32_t>(value[i]), description, i));
+  return named;
+}
 
-CompactPatch quantise(const Patch& patch, const GeometryDescription& geometry, const AttributeBits& bits) {
+CompactPatch quantiseInOrder(const Patch& patch, const GeometryDescription& geometry,
+                             const AttributeBits& bits) {
   CompactPatch quantised;
   quantised.topology = patch.topology;
   quantised.positionBits = geometry.lattice.bits;
@@ -88,6 +106,50 @@ CompactPatch quantise(const Patch& patch, const GeometryDescription& geometry, c
     addTexCoords(quantised, patch.texCoords, geometry, bits.texCoord);
   if (!patch.colors.empty())
     addColors(quantised, patch.colors, geometry.colorComponents, bits.color);
+  for (std::size_t i = 0; i < patch.namedAttributes.size(); ++i)
+    addNamed(quantised, patch.namedAttributes[i], geometry.attributes.at(i));
+  return quantised;
+}
+
+/// Every wedge with a position of its own, in Morton order.
+Patch separatePoints(const Patch& patch) {
+  const std::vector<std::uint32_t> order = mortonOrder(patch);
+  Patch points;
+  static_cast<VertexAttributes&>(points) = gather(patch, order);
+  points.topology = Topology::points;
+  points.positions = gather(patch.positions, gather(patch.wedgePositions, order));
+  points.wedgePositions.resize(order.size());
+  std::iota(points.wedgePositions.begin(), points.wedgePositions.end(), 0u);
+  points.corners = points.wedgePositions;
+  return points;
+}
+
+/// The lines' corners in the order in which a pen would draw them.
+std::vector<std::uint32_t> alongTrails(const Patch& patch) {
+  std::vector<std::uint32_t> corners;
+  for (const std::uint32_t corner : findTrails(patch.corners, patch.wedgeCount()).corners)
+    corners.insert(corners.end(), {patch.corners[corner], patch.corners[corner ^ 1]});
+  return corners;
+}
+
+Primitive primitiveOf(Topology topology) {
+  return topology == Topology::triangles ? Primitive::triangles
+         : topology == Topology::lines   ? Primitive::lines
+                                         : Primitive::points;
+}
+
+} // namespace
+
+std::vector<Draw> drawsOf(const CompactPatch& patch) {
+  return {{primitiveOf(patch.topology), static_cast<std::uint32_t>(patch.corners.size())}};
+}
+
+CompactPatch quantise(const Patch& patch, const GeometryDescription& geometry, const AttributeBits& bits) {
+  if (patch.topology == Topology::points)
+    return quantiseInOrder(separatePoints(patch), geometry, bits);
+  CompactPatch quantised = quantiseInOrder(patch, geometry, bits);
+  if (patch.topology == Topology::lines)
+    quantised.corners = alongTrails(patch);
   return quantised;
 }
 
@@ -96,7 +158,10 @@ IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& ge
   vertices.colorComponents = geometry.colorComponents;
   for (const std::uint32_t position : patch.wedgePositions)
     vertices.positions.push_back(patch.positions[position]);
-  for (const Attribute& attribute : patch.attributes)
+  for (const Attribute& attribute : patch.attributes) {
+    if (attribute.type.kind == AttributeKind::other)
+      vertices.namedAttributes.push_back(
+          namedOf(attribute, geometry.attributes.at(vertices.namedAttributes.size())));
     for (std::size_t wedge = 0; wedge < patch.wedgeCount(); ++wedge) {
       const Value& value = attribute.values[wedge];
       switch (attribute.type.kind) {
@@ -123,9 +188,10 @@ IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& ge
         break;
       }
     }
+  }
   if (patch.topology != Topology::points)
     vertices.indices = patch.corners;
-  vertices.draws = {{primitiveOf(patch.topology), static_cast<std::uint32_t>(patch.corners.size())}};
+  vertices.draws = drawsOf(patch);
   return vertices;
 }
 

@@ -13,13 +13,18 @@ struct AttributeBits {
   NormalMode normalMode = NormalMode::area;
 };
 
-/// Normals go to the octahedron's point of octahedronPoint, each coordinate of which
+/// Points come in Morton order, each wedge once and with a position of its own; lines
+/// one behind the other. Normals go to the octahedron's point of octahedronPoint, each coordinate of which
 /// is at most half a step off; texture coordinates to 2^bits points over the
 /// node's box, colours over 0 .. 255, both to the nearest.
 CompactPatch quantise(const Patch& patch, const GeometryDescription& geometry, const AttributeBits& bits);
 
+/// What is drawn of a patch: all its elements.
+std::vector<Draw> drawsOf(const CompactPatch& patch);
+
 /// The vertices and elements that a decoded patch stands for: its wedges. Normals
-/// are unit length. Attributes of kind `other` are left out.
+/// are unit length. Attributes of kind
+/// `other` are as many, of the same components and bits, as the geometry's further ones.
 IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& geometry);
 
 } // namespace imgeo::compact

@@ -124,7 +124,7 @@ void rewrite() {
   Json edits = Json::array();
   std::uint32_t seed = 0;
   for (const testing::Sample& sample : testing::samples()) {
-    const Bytes payload = encodePatchBytes(sample.patch, 0);
+    const Bytes payload = encodePatchBytes(sample.patch, 0).bytes;
     writeFile(folder / (sample.name + ".png"), imageOfPayload(payload));
     write(sample.name + ".json", jsonOf(decodePatchBytes(payload, 0, ""), 0));
     for (Json& entry : editsOf(sample.name, payload, ++seed))
@@ -132,9 +132,9 @@ void rewrite() {
   }
   // Two patches in one file.
   const std::vector<testing::Sample> samples = testing::samples();
-  Bytes payload = encodePatchBytes(samples[5].patch, 0);
+  Bytes payload = encodePatchBytes(samples[5].patch, 0).bytes;
   const std::size_t first = payload.size();
-  const Bytes second = encodePatchBytes(samples[1].patch, 0);
+  const Bytes second = encodePatchBytes(samples[1].patch, 0).bytes;
   payload.insert(payload.end(), second.begin(), second.end());
   writeFile(folder / "second.png", imageOfPayload(payload));
   write("second.json", jsonOf(decodePatchBytes(payload, first, ""), first));
@@ -166,7 +166,8 @@ TEST_F(Vectors, AreDecodedExactly) {
 
 TEST_F(Vectors, AreWhatIsEncodedToday) {
   for (const testing::Sample& sample : testing::samples())
-    EXPECT_EQ(imageOfPayload(encodePatchBytes(sample.patch, 0)), readFile(folder / (sample.name + ".png")))
+    EXPECT_EQ(imageOfPayload(encodePatchBytes(sample.patch, 0).bytes),
+              readFile(folder / (sample.name + ".png")))
         << sample.name;
 }
 

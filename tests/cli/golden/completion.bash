@@ -9,15 +9,16 @@ _imgeo() {
     "convert -i") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "convert -o"|"convert --output") COMPREPLY=($(compgen -d -- "$word")); return ;;
     "convert --container") COMPREPLY=($(compgen -W "sig bg" -- "$word")); return ;;
-    "convert --profile") COMPREPLY=($(compgen -W "classic" -- "$word")); return ;;
+    "convert --profile") COMPREPLY=($(compgen -W "classic compact" -- "$word")); return ;;
     "convert --target") COMPREPLY=($(compgen -W "web x3dom" -- "$word")); return ;;
     "convert --x3dom-url") COMPREPLY=(); return ;;
     "convert --primitives") COMPREPLY=($(compgen -W "triangles strips points" -- "$word")); return ;;
     "convert --index") COMPREPLY=($(compgen -W "on off" -- "$word")); return ;;
     "convert -vp"|"convert -qp"|"convert --position-bits") COMPREPLY=(); return ;;
+    "convert --max-error") COMPREPLY=(); return ;;
     "convert --coord-type") COMPREPLY=($(compgen -W "auto uint8 int8 uint16 int16 float32" -- "$word")); return ;;
     "convert --layout") COMPREPLY=($(compgen -W "separate interleaved" -- "$word")); return ;;
-    "convert --normals") COMPREPLY=($(compgen -W "rgb octahedral spherical palette" -- "$word")); return ;;
+    "convert --normals") COMPREPLY=($(compgen -W "rgb octahedral spherical palette derived" -- "$word")); return ;;
     "convert -vn"|"convert -qn"|"convert --normal-bits") COMPREPLY=(); return ;;
     "convert -vt"|"convert -qt"|"convert --texcoord-bits") COMPREPLY=(); return ;;
     "convert -vc"|"convert --color-bits") COMPREPLY=(); return ;;
@@ -34,7 +35,7 @@ _imgeo() {
     "serve --host") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
-    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --container --profile --target --x3dom-url --primitives --index --position-bits --coord-type --layout --normals --normal-bits --texcoord-bits --color-bits --patch-vertices --keep-attributes --attribute-bits --normal-weighting --title --effort --threads --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --container --profile --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --normal-bits --texcoord-bits --color-bits --patch-vertices --keep-attributes --attribute-bits --normal-weighting --title --effort --threads --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;

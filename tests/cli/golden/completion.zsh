@@ -23,25 +23,26 @@ _imgeo() {
       '-o[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--output[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--container[sig\: PNG images that the GPU decodes; bg\: typed arrays]:container:(sig bg)' \
-      '--profile[classic\: the layout that X3DOM 1.7 reads as well]:profile:(classic)' \
+      '--profile[of sig. classic\: the layout that X3DOM 1.7 reads as well, refined byte by byte; compact\: a third of its bytes, decoded by workers]:profile:(classic compact)' \
       '--target[web\: a page with its own runtime; x3dom\: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)]:target:(web x3dom)' \
       '--x3dom-url[target x3dom\: the folder that has x3dom.js and x3dom.css; otherwise npm'\''s by jsdelivr.net]:x3dom-url: ' \
       '--primitives[how patches are drawn, those of lines as lines, line strips or points; a point cloud is always points]:primitives:(triangles strips points)' \
       '--index[off\: vertices are repeated wherever they are drawn instead of named by an index]:index:(on off)' \
-      '-vp[bits of a coordinate, 8..32, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds]:position-bits: ' \
-      '-qp[bits of a coordinate, 8..32, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds]:position-bits: ' \
-      '--position-bits[bits of a coordinate, 8..32, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds]:position-bits: ' \
+      '-vp[bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds]:position-bits: ' \
+      '-qp[bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds]:position-bits: ' \
+      '--position-bits[bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; otherwise 16, or what the coordinates'\'' type holds]:position-bits: ' \
+      '--max-error[sig\: the fewest position bits that move no vertex farther, in units of the source or, with %, of a mesh'\''s longest edge]:max-error: ' \
       '--coord-type[bg\: elements of coordinates; auto\: the fewest unsigned bytes; float32 without --position-bits\: the source'\''s numbers]:coord-type:(auto uint8 int8 uint16 int16 float32)' \
       '--layout[bg\: a file for each attribute, or one of records with all of them beside the index]:layout:(separate interleaved)' \
-      '--normals[how normals are stored\: as vectors, as two numbers, or as 256 directions a patch]:normals:(rgb octahedral spherical palette)' \
-      '-vn[bits of a normal'\''s component; sig\: 8; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
-      '-qn[bits of a normal'\''s component; sig\: 8; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
-      '--normal-bits[bits of a normal'\''s component; sig\: 8; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
-      '-vt[bits of a texture coordinate; classic has 16]:texcoord-bits: ' \
-      '-qt[bits of a texture coordinate; classic has 16]:texcoord-bits: ' \
-      '--texcoord-bits[bits of a texture coordinate; classic has 16]:texcoord-bits: ' \
-      '-vc[bits of a colour'\''s component; classic has 8]:color-bits: ' \
-      '--color-bits[bits of a colour'\''s component; classic has 8]:color-bits: ' \
+      '--normals[how normals are stored\: as vectors, as two numbers (compact\: always), as 256 directions a patch, or in compact not at all]:normals:(rgb octahedral spherical palette derived)' \
+      '-vn[bits of a normal'\''s component; sig\: 8, compact\: 4..16; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
+      '-qn[bits of a normal'\''s component; sig\: 8, compact\: 4..16; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
+      '--normal-bits[bits of a normal'\''s component; sig\: 8, compact\: 4..16; bg\: 8, 16 or 32; otherwise 8]:normal-bits: ' \
+      '-vt[bits of a texture coordinate; compact\: 1..16, otherwise 12; classic and bg have 16]:texcoord-bits: ' \
+      '-qt[bits of a texture coordinate; compact\: 1..16, otherwise 12; classic and bg have 16]:texcoord-bits: ' \
+      '--texcoord-bits[bits of a texture coordinate; compact\: 1..16, otherwise 12; classic and bg have 16]:texcoord-bits: ' \
+      '-vc[bits of a colour'\''s component; compact\: 1..8, otherwise 8; classic and bg have 8]:color-bits: ' \
+      '--color-bits[bits of a colour'\''s component; compact\: 1..8, otherwise 8; classic and bg have 8]:color-bits: ' \
       '--patch-vertices[the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices]:patch-vertices: ' \
       '--keep-attributes[further numbers of PLY'\''s vertices to keep\: names with commas between, all or none]:keep-attributes: ' \
       '--attribute-bits[bits of such a number; sig\: 8, 16 or 24, otherwise 16; bg holds floats]:attribute-bits: ' \
