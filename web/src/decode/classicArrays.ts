@@ -33,28 +33,35 @@ export interface CoordJob extends RecordLayout {
 }
 
 /** Stored integers; in Float32 where bytes are missing or there are more than two. */
-export async function classicCoords({ planes, planeCount, middleOfMissing, ...layout }: CoordJob): Promise<VertexArray> {
-  const images = await Promise.all(planes.map((plane) => imageOf(plane, 3)));
+export async function classicCoords(job: CoordJob): Promise<VertexArray> {
+  const { planes, planeCount, middleOfMissing, count } = job;
+  const sums = await sumsOf(job, 3);
   const isWhole = planes.length === planeCount;
-  const array = isWhole && planeCount === 1 ? new Uint8Array(layout.count * 4)
-    : isWhole && planeCount === 2 ? new Uint16Array(layout.count * 4) : new Float32Array(layout.count * 3);
+  const array = isWhole && planeCount === 1 ? new Uint8Array(count * 4)
+    : isWhole && planeCount === 2 ? new Uint16Array(count * 4) : new Float32Array(count * 3);
   const stride = array instanceof Float32Array ? 3 : 4;
-  const sums = new Float64Array(layout.count * 3);
+  const shift = 256 ** (planeCount - planes.length);
+  for (let record = 0; record < count; ++record) {
+    for (let axis = 0; axis < 3; ++axis) array[record * stride + axis] = (sums[3 * record + axis] ?? 0) * shift + middleOfMissing;
+  }
+  return { array, components: 3, stride, offset: 0 };
+}
+
+/** The bytes that are here put together, three numbers a record, of which `channels` count. */
+export async function sumsOf({ planes, count, rowLength }: CoordJob, channels: 1 | 3): Promise<Float64Array> {
+  const images = await Promise.all(planes.map((plane) => imageOf(plane, channels)));
+  const sums = new Float64Array(count * 3);
   for (const image of images) {
-    const { data, channels } = image;
-    const texelOf = placesOf(image, layout);
-    for (let record = 0; record < layout.count; ++record) {
-      const at = texelOf(record) * channels;
-      for (let axis = 0; axis < 3; ++axis) {
+    const { data } = image;
+    const texelOf = placesOf(image, { count, rowLength });
+    for (let record = 0; record < count; ++record) {
+      const at = texelOf(record) * image.channels;
+      for (let axis = 0; axis < channels; ++axis) {
         sums[3 * record + axis] = (sums[3 * record + axis] ?? 0) * 256 + (data[at + axis] ?? 0);
       }
     }
   }
-  const shift = 256 ** (planeCount - planes.length);
-  for (let record = 0; record < layout.count; ++record) {
-    for (let axis = 0; axis < 3; ++axis) array[record * stride + axis] = (sums[3 * record + axis] ?? 0) * shift + middleOfMissing;
-  }
-  return { array, components: 3, stride, offset: 0 };
+  return sums;
 }
 
 export interface IndexJob {

@@ -2,9 +2,12 @@
 // and bytes to plain data and arrays, by name.
 
 import { classicColors, classicCoords, classicIndex, classicNormals } from "./classicArrays.ts";
+import { classicGrid } from "./classicGrid.ts";
 import { compactPatch, compactPayload } from "./compact/jobs.ts";
 
-export const jobs = { classicCoords, classicIndex, classicNormals, classicColors, compactPayload, compactPatch } as const;
+export const jobs = {
+  classicCoords, classicIndex, classicNormals, classicColors, classicGrid, compactPayload, compactPatch,
+} as const;
 
 export type JobName = keyof typeof jobs;
 export type InputOf<Name extends JobName> = Parameters<(typeof jobs)[Name]>[0];

@@ -42,6 +42,17 @@ export function isPairCode(code: NormalCode): code is PairCode {
   return "bits" in code;
 }
 
+/**
+ * A surface over a grid of texels, without an index: heights over a plane, points
+ * of a sheet, or points of a sheet whose last column is joined to its first.
+ */
+export interface Grid {
+  readonly kind: "heightMap" | "geometryImage" | "sculpt";
+  /** Of vertices, each 2 or more. */
+  readonly columns: number;
+  readonly rows: number;
+}
+
 /** Vertices that the shader fetches from images (classic SIG). */
 export interface TextureStage extends StageHead {
   readonly kind: "textures";
@@ -49,6 +60,8 @@ export interface TextureStage extends StageHead {
   readonly index: TexelRange | undefined;
   /** Index texels hold the record's number; otherwise its column and row. */
   readonly isIndexWide: boolean;
+  /** Its two triangles a cell are what is drawn, and without normals it is shaded by those of its slope. */
+  readonly grid: Grid | undefined;
   /** Running number n is texel (n mod implicitWidth, n div implicitWidth). */
   readonly implicitWidth: number;
   /** The byte planes that are here, most significant first. */

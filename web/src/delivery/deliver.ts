@@ -153,7 +153,7 @@ function contentKindOf(geometry: GeometryDescription, patch: PatchDescription, l
   if (geometry.container === "compact") return "payload";
   if (geometry.container === "bg" || geometry.decode === "cpu") return "bytes";
   if (geometry.decode === "gpu") return "texture";
-  const texels = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
+  const texels = patch.grid ? patch.vertexCount : patch.draws.reduce((sum, draw) => sum + draw.count, 0);
   const edge = Math.max(patch.implicitWidth, Math.ceil(texels / patch.implicitWidth));
   return edge > largestTexture ? "bytes" : "either";
 }

@@ -9,7 +9,7 @@ import { checkPng } from "../decode/png.ts";
 import type { BufferStage, DrawRange, IndexArray, VertexArray } from "../decode/stage.ts";
 import { withoutStrips } from "../decode/strips.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
-import { middleOfMissing } from "../document/storedFrame.ts";
+import { largestStoredOf, middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
 import { asDeliveryError } from "./deliveryError.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
 import { drawRangesOf, normalCodeOf, stageNameOf } from "./stageBuilder.ts";
@@ -36,6 +36,8 @@ class SigCpuBuilder implements StageBuilder {
   #coordPlanes = 0;
   #drawn: Drawn | undefined;
   #normal: VertexArray | undefined;
+  /** Of a grid that has no other normals. */
+  #slope: VertexArray | undefined;
   #color: VertexArray | undefined;
 
   constructor(geometry: GeometryDescription, patch: PatchDescription, run: RunJob, signal: AbortSignal) {
@@ -71,15 +73,16 @@ class SigCpuBuilder implements StageBuilder {
   stage(): BufferStage | undefined {
     const coord = this.#coord;
     if (coord === undefined) return undefined;
-    const normal = this.#normal;
+    const normal = this.#normal ?? this.#slope;
+    const normalCode = this.#normal ? normalCodeOf(this.#geometry) : { kind: "vector" } as const;
     const color = this.#color;
     const name = stageNameOf(this.#patch, {
-      index: this.#drawn, normal, color, coord: Array.from({ length: this.#coordPlanes }),
+      index: this.#drawn, normal: this.#normal, color, coord: Array.from({ length: this.#coordPlanes }),
     });
     const points = { index: undefined, draws: [{ primitive: "points", first: 0, count: coord.array.length / coord.stride } as const] };
-    if (this.#patch.index === undefined) this.#drawn ??= withoutStrips(undefined, drawRangesOf(this.#patch));
+    if (this.#patch.index === undefined && this.#patch.grid === undefined) this.#drawn ??= withoutStrips(undefined, drawRangesOf(this.#patch));
     const { index, draws } = (name === "points" ? undefined : this.#drawn) ?? points;
-    return { kind: "buffers", name, index, draws, coord, normal, normalCode: normalCodeOf(this.#geometry), color };
+    return { kind: "buffers", name, index, draws, coord, normal, normalCode, color };
   }
 
   /** A plane is of use only when all above it are here. */
@@ -89,12 +92,21 @@ class SigCpuBuilder implements StageBuilder {
     const planes = this.#planes.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
     if (header === undefined || planes.length <= this.#coordPlanes) return;
     const planeCount = this.#patch.coord.length;
-    const coord = await this.#run("classicCoords", {
+    const job = {
       planes, planeCount, middleOfMissing: middleOfMissing(this.#geometry, planeCount, planes.length), ...this.#layout(header, planes[0]),
-    }, this.#signal);
+    };
+    const grid = this.#patch.grid;
+    const arrays = grid === undefined ? { coord: await this.#run("classicCoords", job, this.#signal) }
+      : await this.#run("classicGrid", {
+          ...job, grid, largestStored: largestStoredOf(this.#geometry, this.#patch), step: storedFrameOf(this.#geometry, this.#patch).step,
+        }, this.#signal);
     if (planes.length <= this.#coordPlanes) return; // a later one was faster
-    this.#coord = coord;
+    this.#coord = arrays.coord;
     this.#coordPlanes = planes.length;
+    if ("index" in arrays) {
+      this.#drawn = { index: arrays.index, draws: drawRangesOf(this.#patch) };
+      this.#slope = arrays.normal;
+    }
     if (planes.length === planeCount) this.#planes = [];
   }
 
@@ -118,7 +130,8 @@ class SigCpuBuilder implements StageBuilder {
   }
 
   #layout({ width, height }: PngHeader, { first }: { first: number } = { first: 0 }): RecordLayout {
-    const { index, vertexCount, implicitWidth, draws } = this.#patch;
+    const { index, grid, vertexCount, implicitWidth, draws } = this.#patch;
+    if (grid !== undefined) return { count: vertexCount, rowLength: implicitWidth };
     if (index === undefined) return { count: draws.reduce((sum, draw) => sum + draw.count, 0), rowLength: implicitWidth };
     return { count: vertexCount || width * height - first, rowLength: 0 };
   }

@@ -37,14 +37,15 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
       const { image, channels } = content;
       const range = { image, first: part.reference.first };
       const isPairs = part.role === "normal" && isPairCode(normalCode);
-      const needed = isPairs ? 1 : part.role === "color" ? geometry.colorComponents : 3;
+      const isHeights = part.role === "coord" && patch.grid?.kind === "heightMap";
+      const needed = isPairs || isHeights ? 1 : part.role === "color" ? geometry.colorComponents : 3;
       if (channels < needed) throw new DecodeError("malformed", `has ${channels} channels where ${needed} are needed`);
       if (part.role === "index") {
         checkHolds(range, corners, patch.implicitWidth);
         here.index = range;
         return;
       }
-      const records = patch.index === undefined ? corners : patch.vertexCount;
+      const records = patch.index === undefined && patch.grid === undefined ? corners : patch.vertexCount;
       if (isPairs) checkHolds(range, texelsOf(image) / 2 + records, image.width);
       else checkHolds(range, records, patch.index === undefined ? patch.implicitWidth : image.width);
       if (part.role === "coord") planes[part.plane] = range;
@@ -63,6 +64,7 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
         kind: "textures",
         name,
         draws: name === "points" ? [points] : drawRangesOf(patch),
+        grid: patch.grid,
         index: here.index,
         isIndexWide: geometry.indexType === "Uint32",
         implicitWidth: name === "points" ? first.image.width : patch.implicitWidth,

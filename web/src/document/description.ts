@@ -26,6 +26,13 @@ export interface Reference {
   readonly stride: number;
 }
 
+/** A surface over a grid of texels: decode/stage.ts says the same to those who draw it. */
+export interface GridDescription {
+  readonly kind: Exclude<MeshMode, "sig">;
+  readonly columns: number;
+  readonly rows: number;
+}
+
 export interface PatchDescription {
   /** Tight, for culling and priority; undefined where the document has none. */
   readonly box: Box3 | undefined;
@@ -34,6 +41,9 @@ export interface PatchDescription {
   readonly draws: readonly Draw[];
   /** Running number n is texel (n mod implicitWidth, n div implicitWidth). Images only. */
   readonly implicitWidth: number;
+  readonly implicitHeight: number;
+  /** Instead of draws in the document. Images only. */
+  readonly grid: GridDescription | undefined;
   /** Absent: records are drawn in order. */
   readonly index: Reference | undefined;
   /** Images: byte planes, most significant first. Typed arrays: one. */
@@ -44,6 +54,10 @@ export interface PatchDescription {
   /** SIG compact: all of it in one file, from this byte of its pixels on. */
   readonly data: Reference | undefined;
 }
+
+/** What an image geometry's texels mean: vertices and indices, or a surface over their grid. */
+export const meshModes = ["sig", "heightMap", "geometryImage", "sculpt"] as const;
+export type MeshMode = (typeof meshModes)[number];
 
 export const elementTypes = ["Int8", "Uint8", "Int16", "Uint16", "Int32", "Uint32", "Float32"] as const;
 export type ElementType = (typeof elementTypes)[number];

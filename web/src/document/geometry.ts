@@ -4,9 +4,10 @@
 // give the references.
 
 import type {
-  Box3, Draw, ElementType, GeometryDescription, NormalEncoding, PatchDescription, Primitive, Reference, Warning,
+  Box3, Draw, ElementType, GeometryDescription, MeshMode, NormalEncoding, PatchDescription, Primitive, Reference,
+  Warning,
 } from "./description.ts";
-import { decodePlaces, elementTypes, normalEncodings, profiles } from "./description.ts";
+import { decodePlaces, elementTypes, meshModes, normalEncodings, profiles } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
@@ -23,6 +24,9 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
   const values = readFields(element, nodeFields.ImageGeometry, warnings);
   const profile = choiceOf(element, "profile", values.profile, profiles, "classic", warnings);
   const container = profile === "compact" ? "compact" : "sig";
+  // Compact has its own connectivity.
+  const mode = container === "compact" ? "sig"
+    : choiceOf(element, "implicitMeshMode", values.implicitMeshMode, meshModes, "sig", warnings);
   return {
     ...commonOf(element, values, warnings),
     container,
@@ -30,7 +34,7 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
     decode: choiceOf(element, "decode", values.decode, decodePlaces, "auto", warnings),
     // The bytes of an image are its only element type; indices are made of two or three.
     coordType: "Uint8", normalType: "Uint8", texCoordType: "Uint8", colorType: "Uint8",
-    patches: readPatches(element, container, warnings),
+    patches: readPatches(element, container, warnings).map((patch) => withGrid(element, patch, mode, warnings)),
   };
 }
 
@@ -80,7 +84,10 @@ export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "sp
   return encoding === "octahedral" || encoding === "spherical";
 }
 
-function commonOf(element: SceneElement, values: Omit<Values<typeof nodeFields.ImageGeometry>, "numColorComponents" | "decode" | "profile">,
+/** What only images have. */
+type ImageFields = "numColorComponents" | "decode" | "profile" | "implicitMeshMode";
+
+function commonOf(element: SceneElement, values: Omit<Values<typeof nodeFields.ImageGeometry>, ImageFields>,
                   warnings: Warning[]) {
   const { position, size, positionBits, solid, texCoordMin, texCoordSize } = values;
   const indexType = choiceOf(element, "indexType", values.indexType, elementTypes, "Uint16", warnings);
@@ -148,12 +155,29 @@ function patchOf(element: SceneElement, values: PatchValues, container: Containe
     vertexCount: Math.max(0, values.recordCount),
     draws: drawsOf(element, values, warnings),
     implicitWidth: Math.max(1, Math.floor(values.implicitMeshSize[0])),
+    implicitHeight: Math.max(1, Math.floor(values.implicitMeshSize[1] || values.implicitMeshSize[0])),
+    grid: undefined,
     index: reference(values.index),
     coord: coord.map((url) => referenceOf(url, container)),
     normal: reference(values.normal),
     texCoord: reference(values.texCoord),
     color: reference(values.color),
     data: reference(values.data),
+  };
+}
+
+/** Of a grid the size says all: its vertices, and two triangles between each four of them. */
+function withGrid(element: SceneElement, patch: PatchDescription, kind: MeshMode, warnings: Warning[]): PatchDescription {
+  if (kind === "sig") return patch;
+  const { implicitWidth: columns, implicitHeight: rows } = patch;
+  if (columns < 2 || rows < 2) {
+    warnings.push({ element, message: `a grid of ${columns} x ${rows} vertices has no surface; nothing is drawn` });
+    return { ...patch, draws: [], index: undefined };
+  }
+  const cells = (kind === "sculpt" ? columns : columns - 1) * (rows - 1);
+  return {
+    ...patch, index: undefined, vertexCount: columns * rows, draws: [{ primitive: "triangles", count: 6 * cells }],
+    grid: { kind, columns, rows },
   };
 }
 

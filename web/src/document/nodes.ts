@@ -101,7 +101,13 @@ export const nodeFields = {
     shininess: SFFloat(0.2),
     transparency: SFFloat(0),
   },
-  ImageGeometry: { ...geometryFields, numColorComponents: SFInt32(3), decode: SFString("auto"), profile: SFString("classic") },
+  ImageGeometry: {
+    ...geometryFields,
+    numColorComponents: SFInt32(3),
+    decode: SFString("auto"),
+    profile: SFString("classic"),
+    implicitMeshMode: SFString("SIG"),
+  },
   BinaryGeometry: {
     ...geometryFields,
     rgbaColors: SFBool(false),

@@ -16,11 +16,19 @@ const largestValue: Readonly<Record<ElementType, number>> = {
   Int8: 127, Uint8: 255, Int16: 32767, Uint16: 65535, Int32: 2147483647, Uint32: 4294967295, Float32: 1,
 };
 
+/** The stored value that stands for the far side of the decode box. */
+export function largestStoredOf(geometry: GeometryDescription, patch: PatchDescription): number {
+  switch (geometry.container) {
+    case "compact": return largestLatticeValue(latticeBitsOf(geometry));
+    case "sig": return 256 ** Math.max(1, patch.coord.length) - 1;
+    case "bg": return largestValue[geometry.coordType];
+  }
+}
+
 export function storedFrameOf(geometry: GeometryDescription, patch: PatchDescription): StoredFrame {
   const { position, size } = geometry;
   if (geometry.container === "bg" && geometry.coordType === "Float32") return { origin: [0, 0, 0], step: [1, 1, 1] };
-  const largest = geometry.container === "compact" ? largestLatticeValue(latticeBitsOf(geometry))
-    : geometry.container === "sig" ? 256 ** Math.max(1, patch.coord.length) - 1 : largestValue[geometry.coordType];
+  const largest = largestStoredOf(geometry, patch);
   // Signed coordinates spread around the centre; X3DOM gives them half the range, -PMAX/2 .. PMAX/2.
   const signed = geometry.container === "bg" && geometry.coordType.startsWith("Int");
   const along = (axis: 0 | 1 | 2) => (signed ? position[axis] : position[axis] - size[axis] / 2);

@@ -81,6 +81,8 @@ export interface MaterialRequest {
   readonly colors: VertexColors;
   /** False: both sides are seen. */
   readonly solid: boolean;
+  /** How vertices are found, as gridDefinesOf says it. */
+  readonly vertexDefines: Readonly<Record<string, string>>;
   /** How normals are stored, as normalDefinesOf says it. */
   readonly normalDefines: Readonly<Record<string, string>>;
   /** Vertices come from images, not from buffers. */
@@ -92,7 +94,7 @@ export interface MaterialRequest {
 export type PatchMaterial = (MeshPhongMaterial | MeshBasicMaterial) & { userData: { ambientIntensity?: { value: number } } };
 
 export function makeMaterial(request: MaterialRequest, description: MaterialDescription): PatchMaterial {
-  const { shading, colors, solid, areImages, normalDefines, uniforms, shared } = request;
+  const { shading, colors, solid, areImages, vertexDefines, normalDefines, uniforms, shared } = request;
   const ambientIntensity = { value: 0 };
   const material: PatchMaterial = shading === "unlit" || shading === "distance" ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
@@ -101,6 +103,7 @@ export function makeMaterial(request: MaterialRequest, description: MaterialDesc
   material.defines = {
     ...(areImages && { [imageVerticesDefine]: "" }),
     ...(areImages && shading === "smooth" && { [imageNormalsDefine]: "" }),
+    ...vertexDefines,
     ...(shading === "smooth" && normalDefines),
     ...(shading === "distance" && { [farnessDefine]: "" }),
   };

@@ -6,7 +6,7 @@ import type { DecodedImage } from "../decode/image.ts";
 import type { DrawRange, Stage, TextureStage } from "../decode/stage.ts";
 import type { GeometryDescription, MaterialDescription, PatchDescription } from "../document/description.ts";
 import { boxAround } from "../document/geometry.ts";
-import { middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
+import { largestStoredOf, middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
 import type { PatchMaterial, SceneUniforms, Shading, VertexColors } from "./materials.ts";
 import { applyMaterial, makeMaterial } from "./materials.ts";
 import type { DrawnObject } from "./pickDraw.ts";
@@ -14,7 +14,7 @@ import { objectOf, PickDraw } from "./pickDraw.ts";
 import type { GeometryPool } from "./stageGeometries.ts";
 import type { TextureStore } from "./textures.ts";
 import type { ImageVertexUniforms, VertexUniforms } from "./vertexChunk.ts";
-import { normalDefinesOf } from "./vertexChunk.ts";
+import { gridDefinesOf, normalDefinesOf } from "./vertexChunk.ts";
 
 /** A draw in one place of the scene. It owns nothing on the GPU. */
 export interface PlacedDraw {
@@ -48,18 +48,20 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
   // Places the lattice: stored integers -> the shape's coordinates.
   const matrix = new Matrix4().makeScale(...step).setPosition(...origin);
   const normalDefines = normalDefinesOf(stage.normalCode, stage.kind === "buffers" && stage.normal?.components === 1);
+  const vertexDefines = stage.kind === "textures" ? gridDefinesOf(stage.grid, stage.normal !== undefined) : {};
   const areImages = stage.kind === "textures";
   const common: VertexUniforms = { pointSize: shared.pointSize, latticeStep: { value: step } };
-  const base = areImages ? imageUniformsOf(stage, setting.textures, common) : undefined;
+  const base = areImages ? imageUniformsOf(stage, setting.textures, common, largestStoredOf(geometry, patch)) : undefined;
   const draws = setting.geometries.acquire(stage).flatMap((shape, place) => {
     const range = stage.draws[place];
     if (range === undefined || range.count === 0) return [];
     shape.boundingSphere = bounds;
     const uniforms = base ? { ...base, firstNumber: { value: range.first }, isStrip: { value: range.primitive === "triangleStrip" } } : common;
     const material = makeMaterial(
-      { shading: shadingOf(stage, range), colors, solid: geometry.solid, areImages, normalDefines, uniforms, shared }, setting.material);
+      { shading: shadingOf(stage, range), colors, solid: geometry.solid, areImages, vertexDefines, normalDefines, uniforms, shared },
+      setting.material);
     const pick = new PickDraw(stage, range, shape, {
-      side: material.side, hasNormals: stage.normal !== undefined, areImages, normalDefines, uniforms,
+      side: material.side, hasNormals: hasNormals(stage), areImages, vertexDefines, normalDefines, uniforms,
     });
     return [{ range, shape, material, pick }];
   });
@@ -87,8 +89,13 @@ function colorsOf(stage: Stage): VertexColors {
 function shadingOf(stage: Stage, draw: DrawRange): Shading {
   const isSurface = draw.primitive === "triangles" || draw.primitive === "triangleStrip";
   if (stage.name === "points") return "distance";
-  if (!isSurface && stage.normal === undefined) return "unlit"; // a cloud with normals is lit
-  return stage.normal === undefined ? "flat" : "smooth";
+  if (!isSurface && !hasNormals(stage)) return "unlit"; // a cloud with normals is lit
+  return hasNormals(stage) ? "smooth" : "flat";
+}
+
+/** Stored ones, or those of a grid's slope. */
+function hasNormals(stage: Stage): boolean {
+  return stage.normal !== undefined || (stage.kind === "textures" && stage.grid !== undefined);
 }
 
 function placedObject(draw: DrawRange, shape: BufferGeometry, material: PatchMaterial, matrix: Matrix4): DrawnObject {
@@ -110,7 +117,7 @@ function storedBoundsOf(geometry: GeometryDescription, patch: PatchDescription):
   return new Sphere(min.clone().add(max).multiplyScalar(0.5), min.distanceTo(max) / 2 + slack);
 }
 
-function imageUniformsOf(stage: TextureStage, textures: TextureStore, common: VertexUniforms): ImageVertexUniforms {
+function imageUniformsOf(stage: TextureStage, textures: TextureStore, common: VertexUniforms, largestStored: number): ImageVertexUniforms {
   const { index, coord, normal, color } = stage;
   const texture = (range: { image: DecodedImage } | undefined) => ({ value: range ? textures.textureOf(range.image) : null });
   const first = (range: { first: number } | undefined) => range?.first ?? 0;
@@ -130,6 +137,9 @@ function imageUniformsOf(stage: TextureStage, textures: TextureStore, common: Ve
     hasIndex: { value: index !== undefined },
     isIndexWide: { value: stage.isIndexWide },
     implicitWidth: { value: stage.implicitWidth },
+    gridSize: { value: [stage.grid?.columns ?? 0, stage.grid?.rows ?? 0] },
+    isGridClosed: { value: stage.grid?.kind === "sculpt" },
+    largestStored: { value: largestStored },
     firstNumber: { value: 0 },
     isStrip: { value: false },
     colorHasAlpha: { value: colorsOf(stage) === "rgba" },

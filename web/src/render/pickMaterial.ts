@@ -101,6 +101,8 @@ export interface PickMaterialRequest {
   readonly side: Side;
   readonly hasNormals: boolean;
   readonly areImages: boolean;
+  /** How vertices are found, as gridDefinesOf says it. */
+  readonly vertexDefines: Readonly<Record<string, string>>;
   /** How normals are stored, as normalDefinesOf says it. */
   readonly normalDefines: Readonly<Record<string, string>>;
   /** Shared with the material that draws the colours. */
@@ -109,7 +111,7 @@ export interface PickMaterialRequest {
 
 export type PickMaterial = ShaderMaterial & { uniforms: { drawNumber: { value: number } } };
 
-export function makePickMaterial({ primitive, side, hasNormals, areImages, normalDefines, uniforms }: PickMaterialRequest): PickMaterial {
+export function makePickMaterial({ primitive, side, hasNormals, areImages, vertexDefines, normalDefines, uniforms }: PickMaterialRequest): PickMaterial {
   const isLine = primitive === "lines" || primitive === "lineStrip";
   const shader = { vertexShader, fragmentShader };
   readVerticesIn(shader);
@@ -120,6 +122,7 @@ export function makePickMaterial({ primitive, side, hasNormals, areImages, norma
       PRIMITIVE_CORNERS: primitive === "points" ? 1 : isLine ? 2 : 3,
       ...(primitive === "lineStrip" && { IS_LINE_STRIP: "" }),
       ...(areImages && { [imageVerticesDefine]: "" }),
+      ...vertexDefines,
       ...(hasNormals && normalDefines),
     },
     uniforms: { ...uniforms, drawNumber: { value: 0 }, hasNormals: { value: hasNormals } },

@@ -45,13 +45,14 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
   bitmap.close();
   const texture = { value: textures.textureOf(image) };
   const material = makePickMaterial({
-    primitive: "points", side: FrontSide, hasNormals: true, areImages: true, normalDefines: {},
+    primitive: "points", side: FrontSide, hasNormals: true, areImages: true, vertexDefines: {}, normalDefines: {},
     uniforms: {
       pointSize: { value: 1 }, latticeStep: { value: [1, 1, 1] },
       indexImage: texture, coordImage0: texture, coordImage1: texture, coordImage2: { value: null }, coordImage3: { value: null },
       normalImage: texture, colorImage: { value: null },
       firstTexels: { value: [2, 3, 0] }, coordFirstTexels: { value: [0, 1, 0, 0] }, coordPlanes: { value: 2 },
       middleOfMissing: { value: 0 }, hasIndex: { value: true }, isIndexWide: { value: false }, implicitWidth: { value: 4 },
+      gridSize: { value: [0, 0] }, isGridClosed: { value: false }, largestStored: { value: 65535 },
       firstNumber: { value: 0 }, isStrip: { value: false }, colorHasAlpha: { value: false },
     },
   });

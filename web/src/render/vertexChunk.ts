@@ -9,7 +9,7 @@
 // that patches share then go through the same arithmetic, and no crack opens.
 
 import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "three";
-import type { NormalCode } from "../decode/stage.ts";
+import type { Grid, NormalCode } from "../decode/stage.ts";
 import { isPairCode } from "../decode/stage.ts";
 import type { Vec3 } from "../document/description.ts";
 
@@ -37,6 +37,11 @@ export interface ImageVertexUniforms extends VertexUniforms {
   hasIndex: IUniform<boolean>;
   isIndexWide: IUniform<boolean>;
   implicitWidth: IUniform<number>;
+  /** Columns and rows of a grid's vertices, and whether its last column is joined to the first; used with gridDefinesOf. */
+  gridSize: IUniform<[number, number]>;
+  isGridClosed: IUniform<boolean>;
+  /** The stored integer that stands for the far side of the box. */
+  largestStored: IUniform<number>;
   /** The running number that the draw begins at, and whether it is a strip. */
   firstNumber: IUniform<number>;
   isStrip: IUniform<boolean>;
@@ -57,6 +62,16 @@ export function normalDefinesOf(code: NormalCode, isWord: boolean): Record<strin
     [code.kind === "octahedral" ? "OCTAHEDRAL_NORMALS" : "SPHERICAL_NORMALS"]: "",
     NORMAL_LARGEST: `${2 ** code.bits - 1}.0`,
     ...(isWord && { NORMAL_WORDS: "" }),
+  };
+}
+
+/** What a grid changes in the image body, as defines: where its vertices are, and its normals where it has no others. */
+export function gridDefinesOf(grid: Grid | undefined, hasNormals: boolean): Record<string, string> {
+  if (grid === undefined) return {};
+  return {
+    GRID: "",
+    ...(grid.kind === "heightMap" && { GRID_HEIGHTS: "" }),
+    ...(!hasNormals && { GRID_NORMALS: "" }),
   };
 }
 
@@ -106,13 +121,35 @@ uniform float middleOfMissing;
 uniform bool hasIndex;
 uniform bool isIndexWide;
 uniform int implicitWidth;
+uniform ivec2 gridSize;
+uniform bool isGridClosed;
+uniform float largestStored;
 uniform int firstNumber;
 uniform bool isStrip;
 uniform bool colorHasAlpha;
 
+#ifdef GRID
+
+// Cell by cell, two triangles each, which turn left where columns run right and
+// rows down. The last column of a closed grid is followed by its first.
+int gridVertex(int drawnNumber) {
+  int cell = drawnNumber / 6;
+  int corner = drawnNumber % 6;
+  int cellsAcross = isGridClosed ? gridSize.x : gridSize.x - 1;
+  ivec2 away = corner == 0 ? ivec2(0, 0) : corner == 1 || corner == 3 ? ivec2(0, 1)
+    : corner == 2 || corner == 5 ? ivec2(1, 0) : ivec2(1, 1);
+  ivec2 at = ivec2(cell % cellsAcross, cell / cellsAcross) + away;
+  return at.y * gridSize.x + at.x % gridSize.x;
+}
+
+#endif
+
 // Strips are drawn as separate triangles, three.js knows no others: triangle t
 // is t, t + 1, t + 2, its first two exchanged where t is odd.
 int runningNumber(int drawnNumber) {
+  #ifdef GRID
+    return gridVertex(drawnNumber);
+  #endif
   if (!isStrip) return firstNumber + drawnNumber;
   int triangle = drawnNumber / 3;
   int corner = drawnNumber % 3;
@@ -153,8 +190,47 @@ int recordTexel(int record) {
   return hasIndex ? record : texelNumber(coordImage0, record);
 }
 
+vec3 storedPosition(int record) {
+  int n = recordTexel(record);
+  uvec3 stored = bytesOf(texelOf(coordImage0, coordFirstTexels.x, n));
+  if (coordPlanes > 1) stored = (stored << 8) | bytesOf(texelOf(coordImage1, coordFirstTexels.y, n));
+  if (coordPlanes > 2) stored = (stored << 8) | bytesOf(texelOf(coordImage2, coordFirstTexels.z, n));
+  if (coordPlanes > 3) stored = (stored << 8) | bytesOf(texelOf(coordImage3, coordFirstTexels.w, n));
+  vec3 place = vec3(stored) + middleOfMissing;
+  #ifdef GRID_HEIGHTS
+    vec2 across = vec2(record % gridSize.x, record / gridSize.x) * largestStored / vec2(gridSize - 1);
+    return vec3(across.x, place.x, across.y);
+  #else
+    return place;
+  #endif
+}
+
+#ifdef GRID_NORMALS
+
+// Across the neighbours on both sides; at a border, the vertex itself is one of
+// them. Divided by the step because the caller multiplies by it.
+vec3 slopeAt(ivec2 at) {
+  ivec2 last = gridSize - 1;
+  int left = isGridClosed ? (at.x + last.x) % gridSize.x : max(at.x - 1, 0);
+  int right = isGridClosed ? (at.x + 1) % gridSize.x : min(at.x + 1, last.x);
+  vec3 along = storedPosition(at.y * gridSize.x + right) - storedPosition(at.y * gridSize.x + left);
+  vec3 down = storedPosition(min(at.y + 1, last.y) * gridSize.x + at.x) - storedPosition(max(at.y - 1, 0) * gridSize.x + at.x);
+  return cross(down, along) / latticeStep;
+}
+
+// At a pole all of a row is one point; the next row says where it faces.
+vec3 slopeNormal(int record) {
+  ivec2 at = ivec2(record % gridSize.x, record / gridSize.x);
+  vec3 slope = slopeAt(at);
+  return slope != vec3(0.0) ? slope : slopeAt(ivec2(at.x, at.y == 0 ? 1 : at.y - 1));
+}
+
+#endif
+
 vec3 readNormal(int record) {
-  #ifdef NORMAL_LARGEST
+  #ifdef GRID_NORMALS
+    return slopeNormal(record);
+  #elif defined(NORMAL_LARGEST)
     ivec2 size = textureSize(normalImage, 0);
     int first = firstTexels.y;
     return unitOf(255.0 * vec2(texelOf(normalImage, first, record).r,
@@ -162,15 +238,6 @@ vec3 readNormal(int record) {
   #else
     return texelOf(normalImage, firstTexels.y, recordTexel(record)).rgb * 2.0 - 1.0;
   #endif
-}
-
-vec3 storedPosition(int record) {
-  int n = recordTexel(record);
-  uvec3 stored = bytesOf(texelOf(coordImage0, coordFirstTexels.x, n));
-  if (coordPlanes > 1) stored = (stored << 8) | bytesOf(texelOf(coordImage1, coordFirstTexels.y, n));
-  if (coordPlanes > 2) stored = (stored << 8) | bytesOf(texelOf(coordImage2, coordFirstTexels.z, n));
-  if (coordPlanes > 3) stored = (stored << 8) | bytesOf(texelOf(coordImage3, coordFirstTexels.w, n));
-  return vec3(stored) + middleOfMissing;
 }
 
 Vertex readVertex() {

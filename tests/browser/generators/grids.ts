@@ -1,0 +1,128 @@
+// Images that are surfaces by themselves: a terrain, a sheet of points, and a
+// sculpted vase, as the files that an ImageGeometry names and as the plain mesh
+// that its picture must be of.
+
+import type { PlainPatch } from "../siteDecoder.ts";
+import { encodePng } from "../png.ts";
+
+type Point = [number, number, number];
+
+export interface GridExample {
+  mode: "heightMap" | "geometryImage" | "sculpt";
+  columns: number;
+  rows: number;
+  position: Point;
+  size: Point;
+  /** Byte planes, most significant first, by the name of their file. */
+  files: Map<string, Buffer>;
+}
+
+/** Of a point on the grid, 0..1 in each axis of its box; u runs along columns, v along rows. */
+type Shape = (u: number, v: number) => Point;
+
+/** Hills 4 wide and at most 1 high; heights in 16 bits. */
+export function terrain(columns = 80, rows = 60): GridExample {
+  const height: Shape = (u, v) => {
+    const hills = Math.sin(7 * u) * Math.cos(5 * v) + 0.4 * Math.sin(17 * u + 3) * Math.sin(13 * v) + 0.15 * Math.cos(41 * u * v);
+    return [(hills + 1.6) / 3.2, 0, 0];
+  };
+  return exampleOf("heightMap", columns, rows, [0.5, 0.25, 0], [4, 1, 3], 2, 1, height);
+}
+
+/** A sheet of waves, rolled up by a third; 16 bits. */
+export function sheet(columns = 50, rows = 40): GridExample {
+  return exampleOf("geometryImage", columns, rows, [0, 0, 0], [2, 2, 2], 2, 3, (u, v) => {
+    const angle = 2 * (u - 0.5);
+    const radius = 0.45 + 0.04 * Math.sin(20 * v);
+    return [0.5 + radius * Math.sin(angle), 1 - v, 0.1 + radius * Math.cos(angle)];
+  });
+}
+
+/** A vase, joined at its back, its ends drawn together into poles; 8 bits. */
+export function vase(columns = 64, rows = 48): GridExample {
+  return exampleOf("sculpt", columns, rows, [0, 0, 0], [2, 3, 2], 1, 3, (u, v) => {
+    const radius = v === 0 || v === 1 ? 0 : 0.5 * Math.sin(Math.PI * v) * (0.6 + 0.4 * Math.cos(9 * v));
+    // Columns run right as one looks at it from outside, so around it against the clock.
+    const angle = 2 * Math.PI * u * (columns - 1) / columns;
+    return [0.5 + radius * Math.sin(angle), 1 - v, 0.5 + radius * Math.cos(angle)];
+  });
+}
+
+function exampleOf(mode: GridExample["mode"], columns: number, rows: number, position: Point, size: Point,
+                   planes: number, channels: number, shape: Shape): GridExample {
+  const largest = 256 ** planes - 1;
+  const files = new Map<string, Buffer>();
+  for (let plane = 0; plane < planes; ++plane) {
+    const data = new Uint8Array(columns * rows * channels);
+    for (let texel = 0; texel < columns * rows; ++texel) {
+      const point = shape((texel % columns) / (columns - 1), Math.floor(texel / columns) / (rows - 1));
+      for (let channel = 0; channel < channels; ++channel) {
+        const stored = Math.round(point[channel]! * largest);
+        data[texel * channels + channel] = Math.floor(stored / 256 ** (planes - 1 - plane)) % 256;
+      }
+    }
+    files.set(`/grid/${mode}-${plane}.png`, encodePng({ width: columns, height: rows, channels, data }));
+  }
+  return { mode, columns, rows, position, size, files };
+}
+
+/** The Shape that shows it. */
+export function shapeOf({ mode, columns, rows, position, size, files }: GridExample, attributes = ""): string {
+  const coord = [...files.keys()].map((path) => `"${path}"`).join(" ");
+  return `<Shape><Appearance><Material diffuseColor="0.7 0.6 0.4" specularColor="0.2 0.2 0.2"></Material></Appearance>
+    <ImageGeometry implicitMeshMode="${mode}" implicitMeshSize="${columns} ${rows}" position="${position.join(" ")}" size="${size.join(" ")}"
+      coord='${coord}' ${attributes}></ImageGeometry></Shape>`;
+}
+
+/** The same surface as plain buffers, from the bytes of the files. */
+export function meshOf({ mode, columns, rows, position, size }: GridExample, planes: { data: Uint8Array; channels: number }[]): PlainPatch {
+  const largest = 256 ** planes.length - 1;
+  const stored = (texel: number, channel: number): number =>
+    planes.reduce((value, { data, channels }) => 256 * value + data[texel * channels + channel]!, 0) / largest;
+  const count = columns * rows;
+  const positions = new Float32Array(3 * count);
+  for (let n = 0; n < count; ++n) {
+    const [column, row] = [n % columns, Math.floor(n / columns)];
+    const share = mode === "heightMap" ? [column / (columns - 1), stored(n, 0), row / (rows - 1)] : [0, 1, 2].map((axis) => stored(n, axis));
+    positions.set(share.map((part, axis) => position[axis]! + size[axis]! * (part - 0.5)), 3 * n);
+  }
+  const triangles: number[] = [];
+  const across = mode === "sculpt" ? columns : columns - 1;
+  for (let row = 0; row < rows - 1; ++row) {
+    for (let column = 0; column < across; ++column) {
+      const next = (column + 1) % columns;
+      const [a, b, c, d] = [row * columns + column, row * columns + next, (row + 1) * columns + column, (row + 1) * columns + next];
+      triangles.push(a, c, b, c, d, b);
+    }
+  }
+  return {
+    positions, normals: slopes(positions, columns, rows, mode === "sculpt"),
+    triangles: Uint32Array.from(triangles), lines: new Uint32Array(0), points: new Uint32Array(0),
+  };
+}
+
+/** Central differences; where a row is one point, those of the row beside it. */
+function slopes(positions: Float32Array, columns: number, rows: number, isClosed: boolean): Float32Array {
+  const at = (row: number, column: number): Point => {
+    const n = row * columns + column;
+    return [positions[3 * n]!, positions[3 * n + 1]!, positions[3 * n + 2]!];
+  };
+  const difference = (a: Point, b: Point): Point => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+  const slope = (row: number, column: number): Point => {
+    const right = isClosed ? (column + 1) % columns : Math.min(column + 1, columns - 1);
+    const left = isClosed ? (column - 1 + columns) % columns : Math.max(column - 1, 0);
+    const [x, y, z] = difference(at(row, right), at(row, left));
+    const [a, b, c] = difference(at(Math.min(row + 1, rows - 1), column), at(Math.max(row - 1, 0), column));
+    return [b * z - c * y, c * x - a * z, a * y - b * x];
+  };
+  const normals = new Float32Array(positions.length);
+  for (let row = 0; row < rows; ++row) {
+    for (let column = 0; column < columns; ++column) {
+      let normal = slope(row, column);
+      if (Math.hypot(...normal) < 1e-12) normal = slope(row === 0 ? 1 : row - 1, column);
+      const length = Math.hypot(...normal);
+      normals.set(normal.map((part) => part / length), 3 * (row * columns + column));
+    }
+  }
+  return normals;
+}

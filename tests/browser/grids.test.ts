@@ -1,0 +1,69 @@
+// Surfaces over the grid of an image: terrain, geometry image, sculpted prim.
+
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { assertSamePicture, boundsOfQuantised, savePicture } from "./compare.ts";
+import { meshOf, shapeOf, sheet, terrain, vase, type GridExample } from "./generators/grids.ts";
+import { pictureSize, withPage, type View } from "./harness.ts";
+import { decodePng } from "./png.ts";
+import { firstHit, minus, rayThrough, type Vec3 } from "./rays.ts";
+import { lookOf, referencePicture } from "./reference.ts";
+import { pageOf, siteOfGenerated } from "./sites.ts";
+
+const site = (): string => siteOfGenerated("trefoil");
+
+/** A page that shows the example from above its front. */
+function pageWith(example: GridExample, attributes = ""): string {
+  return pageOf(site())
+    .replace(/<link rel="preload"[^>]*>/g, "")
+    .replace(/<Shape[\s\S]*<\/Shape>/i, () => shapeOf(example, attributes))
+    .replace(/<Viewpoint[^>]*>/i, `<Viewpoint position="0.6 2.6 5.2" orientation="-1 0.1 0 0.45" fieldOfView="0.75">`);
+}
+
+function serving(example: GridExample, html: string): (server: View["server"]) => void {
+  return (server) => {
+    for (const [path, body] of example.files) server.put(path, body);
+    server.when(/^\/$/, { replace: () => html });
+  };
+}
+
+const plain = (example: GridExample) => meshOf(example, [...example.files.values()].map((file) => decodePng(file)));
+
+for (const [name, example] of [["terrain", terrain()], ["sheet", sheet()], ["vase", vase()]] as const) {
+  describe(`the ${name}`, () => {
+    for (const decode of ["gpu", "cpu"]) {
+      test(`is the surface of its texels, shaded by its slope, on the ${decode}`, async () => {
+        const html = pageWith(example, `decode="${decode}"`);
+        await withPage(site(), { server: serving(example, html) }, async (view) => {
+          await view.promise("complete");
+          const picture = await view.picture();
+          savePicture(`grid ${name} ${decode}`, picture);
+          assertSamePicture(`grid ${name} on the ${decode}`, picture, await referencePicture(html, [plain(example)]), boundsOfQuantised);
+        });
+      });
+    }
+
+    test("is hit by the pointer", async () => {
+      const html = pageWith(example);
+      const mesh = plain(example);
+      await withPage(site(), { server: serving(example, html) }, async (view) => {
+        await view.promise("complete");
+        await view.picture();
+        let hits = 0;
+        for (const [x, y] of [[320, 240], [300, 200], [350, 280], [280, 300], [330, 320]] as const) {
+          const expected = firstHit(rayThrough(lookOf(html).viewpoint, pictureSize, x, y), [mesh]);
+          const found = await view.page.evaluate(([x, y]) => {
+            const point = document.querySelector<HTMLElement & { positionAndNormalFromPoint(x: number, y: number): { position: { x: number; y: number; z: number } } | null }>("imgeo-view")!
+              .positionAndNormalFromPoint(x, y);
+            return point && `${point.position.x} ${point.position.y} ${point.position.z}`;
+          }, [x + 0.5, y + 0.5] as const);
+          assert.equal(found !== null, expected !== undefined, `at ${x}, ${y}`);
+          if (found === null || expected === undefined) continue;
+          ++hits;
+          assert.ok(Math.hypot(...minus(found.split(" ").map(Number) as Vec3, expected.position)) < 1e-5);
+        }
+        assert.ok(hits >= 3, `${hits} hits`);
+      });
+    });
+  });
+}

@@ -1,0 +1,88 @@
+// Grids of texels on the CPU: what the vertex shader makes of them without an
+// index (render/vertexChunk.ts), written out for buffers.
+
+import type { CoordJob } from "./classicArrays.ts";
+import { sumsOf } from "./classicArrays.ts";
+import type { Grid, IndexArray, VertexArray } from "./stage.ts";
+
+export interface GridJob extends CoordJob {
+  readonly grid: Grid;
+  /** The stored integer that stands for the far side of the box. */
+  readonly largestStored: number;
+  /** Of the lattice, along each axis. */
+  readonly step: readonly [number, number, number];
+}
+
+export interface GridArrays {
+  readonly index: IndexArray;
+  readonly coord: VertexArray;
+  /** Of the surface's slope. */
+  readonly normal: VertexArray;
+}
+
+type Vector = [number, number, number];
+
+export async function classicGrid({ grid, largestStored, step, ...job }: GridJob): Promise<GridArrays> {
+  const { columns, rows } = grid;
+  const isHeights = grid.kind === "heightMap";
+  const sums = await sumsOf(job, isHeights ? 1 : 3);
+  const shift = 256 ** (job.planeCount - job.planes.length);
+  const array = new Float32Array(columns * rows * 3);
+  for (let record = 0; record < columns * rows; ++record) {
+    const stored = (axis: number) => (sums[3 * record + axis] ?? 0) * shift + job.middleOfMissing;
+    const place = isHeights
+      ? [(record % columns) * largestStored / (columns - 1), stored(0), Math.floor(record / columns) * largestStored / (rows - 1)]
+      : [stored(0), stored(1), stored(2)];
+    array.set(place, 3 * record);
+  }
+  return {
+    index: gridIndex(grid),
+    coord: { array, components: 3, stride: 3, offset: 0 },
+    normal: { array: slopeNormals(array, grid, step), components: 3, stride: 3, offset: 0 },
+  };
+}
+
+/** Two triangles a cell, which turn left where columns run right and rows down. */
+export function gridIndex({ kind, columns, rows }: Grid): IndexArray {
+  const cellsAcross = kind === "sculpt" ? columns : columns - 1;
+  const count = 6 * cellsAcross * (rows - 1);
+  const index = columns * rows <= 2 ** 16 ? new Uint16Array(count) : new Uint32Array(count);
+  let at = 0;
+  for (let row = 0; row + 1 < rows; ++row) {
+    for (let column = 0; column < cellsAcross; ++column) {
+      const here = row * columns + column;
+      const right = row * columns + (column + 1) % columns;
+      index.set([here, here + columns, right, here + columns, right + columns, right], at);
+      at += 6;
+    }
+  }
+  return index;
+}
+
+function slopeNormals(places: Float32Array, { kind, columns, rows }: Grid, step: readonly number[]): Float32Array<ArrayBuffer> {
+  const isClosed = kind === "sculpt";
+  const normals = new Float32Array(places.length);
+  const at = (row: number, column: number, axis: number) => places[3 * (row * columns + column) + axis] ?? 0;
+  const slopeAt = (row: number, column: number): Vector => {
+    const left = isClosed ? (column + columns - 1) % columns : Math.max(column - 1, 0);
+    const right = isClosed ? (column + 1) % columns : Math.min(column + 1, columns - 1);
+    const [above, below] = [Math.max(row - 1, 0), Math.min(row + 1, rows - 1)];
+    const across = [0, 1, 2].map((axis) => at(row, right, axis) - at(row, left, axis)) as Vector;
+    const down = [0, 1, 2].map((axis) => at(below, column, axis) - at(above, column, axis)) as Vector;
+    return cross(down, across).map((part, axis) => part / (step[axis] ?? 1)) as Vector;
+  };
+  for (let row = 0; row < rows; ++row) {
+    for (let column = 0; column < columns; ++column) {
+      let normal = slopeAt(row, column);
+      // At a pole all of a row is one point; the next row says where it faces.
+      if (normal.every((part) => part === 0)) normal = slopeAt(row === 0 ? 1 : row - 1, column);
+      const length = Math.hypot(...normal) || 1;
+      normals.set(normal.map((part) => part / length), 3 * (row * columns + column));
+    }
+  }
+  return normals;
+}
+
+function cross(a: Vector, b: Vector): Vector {
+  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+}
