@@ -7,26 +7,18 @@
 //   build/bench/convert MODEL...        (in the repository's root)
 
 #include "base/file.h"
-#include "export/export.h"
-#include "transcode/preparation.h"
+#include "bench/process.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
-#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <spawn.h>
 #include <string>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
-
-extern char** environ;
 
 namespace imgeo {
 namespace {
@@ -36,36 +28,6 @@ using Json = nlohmann::json;
 
 constexpr int runs = 5;
 constexpr const char* defaultEffort = "5";
-
-struct Run {
-  double seconds = 0;
-  std::uint64_t peakBytes = 0;
-};
-
-/// Runs a program and waits for it. This process stays small, since a child's
-/// peak memory begins with that of its parent.
-Run runOnce(const std::vector<std::string>& words) {
-  std::vector<char*> arguments;
-  for (const std::string& word : words)
-    arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-  const auto start = std::chrono::steady_clock::now();
-  pid_t child = 0;
-  int status = -1;
-  struct rusage usage {};
-  if (posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ) == 0)
-    wait4(child, &status, 0, &usage);
-  posix_spawn_file_actions_destroy(&actions);
-  if (status != 0) {
-    fmt::print(stderr, "failed: {}\n", fmt::join(words, " "));
-    std::exit(1);
-  }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  return {seconds.count(), static_cast<std::uint64_t>(usage.ru_maxrss) * 1024};
-}
 
 /// The median time and the largest peak.
 Run measure(const std::vector<std::string>& words) {
@@ -79,23 +41,6 @@ Run measure(const std::vector<std::string>& words) {
   std::ranges::sort(seconds);
   result.seconds = seconds[runs / 2];
   return result;
-}
-
-/// Writes the mesh with the normals that convert computes as a GLB of floats, in
-/// a process of its own.
-void writeGlb(const std::string& model, const fs::path& glb) {
-  const pid_t child = fork();
-  if (child == 0) {
-    std::uint64_t bytes = 0;
-    Scene scene = importInput(model, {}, bytes).scene;
-    prepareScene(scene, NormalWeighting::area, model);
-    writeFile(glb, exportScene(scene, MeshFormat::glb));
-    _exit(0);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (status != 0)
-    std::exit(1);
 }
 
 double millions(double number) {
@@ -135,7 +80,7 @@ void printRow(const std::string& name, const std::string& container, const Measu
 
 void compareWithGltfpack(const std::string& model, const Measured& sig, const fs::path& work) {
   const fs::path glb = work / "model.glb", packed = work / "packed.glb";
-  writeGlb(model, glb);
+  writePrepared(model, glb, MeshFormat::glb);
   const Json package = Json::parse(asText(readFile("node_modules/gltfpack/package.json")));
   const double triangles = sig.report["triangles"];
   fmt::print("\n| {} | time | ratio | peak memory | bytes/triangle |\n|---|--:|--:|--:|--:|\n",

@@ -1,0 +1,129 @@
+// Bytes by role of compact sites at the highest effort, beside Draco and gltfpack with
+// brotli, all given the same welded mesh with the same normals and asked for the same bits.
+// Every site is verified against its input before it is counted. Prints a Markdown table.
+//
+//   build/bench/size MODEL...        (in the repository's root, with draco_encoder installed)
+
+#include "base/file.h"
+#include "bench/process.h"
+#include "containers/compact/header.h"
+#include "containers/compact/payload_image.h"
+
+#include <array>
+#include <brotli/encode.h>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace imgeo {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::array roles{"connectivity", "positions", "seams", "normals", "texCoords", "colors", "other"};
+
+struct Site {
+  std::map<std::string, std::uint64_t> streams;
+  std::uint64_t files = 0;    ///< geometry files, the base apart
+  std::uint64_t together = 0; ///< and the geometry nodes
+  std::size_t triangles = 0;
+};
+
+/// What each stream of a patch's file takes.
+void addStreams(const fs::path& file, Site& site) {
+  const Bytes png = readFile(file), payload = compact::payloadOfImage(png, file);
+  const compact::Header header = compact::readHeader(payload, 0, file).header;
+  auto length = header.streamLengths.begin();
+  if (header.hasConnectivity())
+    site.streams["connectivity"] += *length++;
+  site.streams["positions"] += *length++;
+  if (header.hasSeams())
+    site.streams["seams"] += *length++;
+  for (const compact::AttributeType& type : header.attributes) {
+    constexpr const char* names[] = {"normals", "texCoords", "colors", "other"};
+    site.streams[names[static_cast<std::size_t>(type.kind)]] += *length++;
+  }
+  site.files += png.size();
+}
+
+Site measureSite(const std::string& model, int bits, const fs::path& work) {
+  const std::string directory = work / "site", report = work / "report.json";
+  runOnce({"build/imgeo", "convert", model, "-o", directory, "--profile", "compact", "--effort", "9", "-vp",
+           std::to_string(bits), "-vn", "8", "-r", report});
+  runOnce({"build/imgeo", "verify", directory, model});
+  const Json json = Json::parse(asText(readFile(report)));
+  Site site;
+  site.triangles = json["triangles"];
+  for (const auto& entry : fs::directory_iterator(fs::path(directory) / "geometry"))
+    addStreams(entry.path(), site);
+  site.together = static_cast<std::uint64_t>(
+      json["bytesPerTriangle"].get<double>() * static_cast<double>(site.triangles) + 0.5);
+  return site;
+}
+
+std::uint64_t measureDraco(const fs::path& mesh, int bits, const fs::path& work) {
+  const std::string out = work / "mesh.drc";
+  runOnce({"draco_encoder", "-i", mesh, "-o", out, "-cl", "10", "-qp", std::to_string(bits), "-qn", "8",
+           "-qt", "12"});
+  return fs::file_size(out);
+}
+
+std::uint64_t brotliSize(const Bytes& bytes) {
+  Bytes out(BrotliEncoderMaxCompressedSize(bytes.size()));
+  std::size_t size = out.size();
+  if (!BrotliEncoderCompress(11, 24, BROTLI_MODE_GENERIC, bytes.size(), bytes.data(), &size, out.data()))
+    std::exit(1);
+  return size;
+}
+
+std::uint64_t measureGltfpack(const fs::path& mesh, int bits, const fs::path& work) {
+  const fs::path out = work / "packed.glb";
+  runOnce({"node", "node_modules/gltfpack/cli.js", "-i", mesh, "-o", out, "-cz", "-vp", std::to_string(bits),
+           "-vn", "8", "-vt", "12", "-kv"});
+  return brotliSize(readFile(out));
+}
+
+void printModel(const std::string& model, const fs::path& work) {
+  // Draco reads texture coordinates from OBJ files alone.
+  const fs::path obj = work / "mesh.obj", glb = work / "mesh.glb";
+  writePrepared(model, obj, MeshFormat::obj);
+  writePrepared(model, glb, MeshFormat::glb);
+  for (const int bits : {16, 14, 12}) {
+    Site site = measureSite(model, bits, work);
+    const std::uint64_t draco = measureDraco(obj, bits, work), gltfpack = measureGltfpack(glb, bits, work);
+    fmt::print("| {} | {} | {}", fs::path(model).filename().string(), site.triangles, bits);
+    for (const char* role : roles)
+      fmt::print(" | {}", site.streams[role]);
+    const auto ratio = [&](std::uint64_t other) {
+      return static_cast<double>(site.together) / static_cast<double>(other);
+    };
+    fmt::print(" | {} | **{}** | {} | **{:.3f}** | {} | {:.3f} |\n", site.files, site.together, draco,
+               ratio(draco), gltfpack, ratio(gltfpack));
+    std::fflush(stdout);
+  }
+}
+
+int benchmark(const std::vector<std::string>& models) {
+  std::string pattern = (fs::temp_directory_path() / "imgeo-size-XXXXXX").string();
+  const fs::path work = mkdtemp(pattern.data());
+  fmt::print(
+      "| model | triangles | bits | {} | files | with nodes | Draco | ratio | gltfpack + brotli | ratio |\n"
+      "|---|--:|--:|{}--:|--:|--:|--:|--:|--:|\n",
+      fmt::join(roles, " | "), "--:|--:|--:|--:|--:|--:|--:|");
+  for (const std::string& model : models)
+    printModel(model, work);
+  fmt::print("\ndraco_encoder -cl 10 -qn 8 -qt 12; gltfpack -cz -vn 8 -vt 12 -kv, then brotli 11.\n");
+  fs::remove_all(work);
+  return 0;
+}
+
+} // namespace
+} // namespace imgeo
+
+int main(int count, char** words) {
+  if (count < 2) {
+    fmt::print(stderr, "usage: build/bench/size MODEL...\n");
+    return 1;
+  }
+  return imgeo::benchmark({words + 1, words + count});
+}
