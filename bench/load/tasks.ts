@@ -19,7 +19,7 @@ export interface Tasks {
 }
 
 /** An event of Chromium's trace, as far as we read it. */
-interface TraceEvent {
+export interface TraceEvent {
   name: string;
   ph: string;
   pid: number;
@@ -63,11 +63,16 @@ async function traceLoad(browser: Browser, page: BenchPage, server: TestServer):
 
 /** From the first request of the page on: what comes before is the browser's own beginning. */
 function tasksOf(events: TraceEvent[]): Tasks {
-  const mainThreads = new Set(events.filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain").map(threadOf));
   const first = events.find(({ name, args }) => name === "ResourceSendRequest" && args.data?.url?.startsWith("http://127.0.0.1"));
   if (first === undefined) throw new Error("the trace has no request of the page");
+  return longestTaskOf(events, first.ts);
+}
+
+/** Of the main threads of a trace's pages, from a time on. */
+export function longestTaskOf(events: TraceEvent[], from = 0): Tasks {
+  const mainThreads = new Set(events.filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain").map(threadOf));
   const tasks = events.filter((event) =>
-    event.ph === "X" && event.name.endsWith("RunTask") && event.ts >= first.ts && mainThreads.has(threadOf(event)));
+    event.ph === "X" && event.name.endsWith("RunTask") && event.ts >= from && mainThreads.has(threadOf(event)));
   const longest = (of: (task: TraceEvent) => number | undefined): number => Math.max(...tasks.map((task) => of(task) ?? 0)) / 1000;
   return {
     longestMs: longest(({ dur }) => dur),
@@ -75,6 +80,23 @@ function tasksOf(events: TraceEvent[]): Tasks {
     // A task appears twice, once for each of the two layers that run it.
     longCount: new Set(tasks.filter(({ dur = 0 }) => dur > 50_000).map(({ ts }) => Math.round(ts / 1000))).size,
   };
+}
+
+/** Milliseconds on the processor of all tasks of the pages' main threads and of their workers. */
+export function processorMsOf(events: TraceEvent[]): number {
+  const threads = new Set(events.filter(({ name, args }) =>
+    name === "thread_name" && /^(CrRendererMain|DedicatedWorker thread)/.test(args.name ?? "")).map(threadOf));
+  const tasks = events.filter((event) => event.ph === "X" && event.name.endsWith("RunTask") && threads.has(threadOf(event)))
+    .toSorted((a, b) => a.ts - b.ts || (b.dur ?? 0) - (a.dur ?? 0));
+  // A task appears once for each layer that runs it: only the outermost counts.
+  const ends = new Map<string, number>();
+  let sum = 0;
+  for (const task of tasks) {
+    if (task.ts < (ends.get(threadOf(task)) ?? 0)) continue;
+    ends.set(threadOf(task), task.ts + (task.dur ?? 0));
+    sum += task.tdur ?? 0;
+  }
+  return sum / 1000;
 }
 
 function threadOf({ pid, tid }: TraceEvent): string {

@@ -8,117 +8,68 @@ const cacheSize = 16;
 
 /** Corners of triangles over vertices 0 … vertexCount - 1, in their new order; each triangle keeps its turn. */
 export function orderForVertexCache(corners: Int32Array, vertexCount: number): Int32Array {
-  return new CacheOrder(corners, vertexCount).run();
-}
-
-class CacheOrder {
-  readonly #corners: Int32Array;
-  readonly #vertexCount: number;
-  readonly #ordered: Int32Array;
-  /** The triangles around vertex v are `around` from `firsts[v]` on. */
-  readonly #firsts: Int32Array;
-  readonly #around: Int32Array;
-  /** Per vertex: triangles that are still to come, and when it entered the cache. */
-  readonly #live: Int32Array;
-  readonly #entered: Int32Array;
-  /** Per triangle. */
-  readonly #isDone: Uint8Array;
-  /** Vertices that have been met, the latest last: where to go on when the cache has nothing to offer. */
-  readonly #met: Int32Array;
-  #metCount = 0;
-  #time = cacheSize + 1;
-  #written = 0;
-  #scan = 0;
-
-  constructor(corners: Int32Array, vertexCount: number) {
-    this.#corners = corners;
-    this.#vertexCount = vertexCount;
-    this.#ordered = new Int32Array(corners.length);
-    this.#live = new Int32Array(vertexCount);
-    this.#entered = new Int32Array(vertexCount);
-    this.#isDone = new Uint8Array(corners.length / 3);
-    this.#met = new Int32Array(corners.length);
-    this.#firsts = new Int32Array(vertexCount + 1);
-    this.#around = new Int32Array(corners.length);
-    this.#listTriangles();
-  }
-
-  run(): Int32Array {
-    for (let fan = 0; fan >= 0;) {
-      const before = this.#metCount;
-      this.#emitAround(fan);
-      fan = this.#nextFan(before);
-    }
-    return this.#ordered;
-  }
-
-  #listTriangles(): void {
-    const corners = this.#corners;
-    const live = this.#live;
-    const firsts = this.#firsts;
-    for (const v of corners) live[v] = live[v]! + 1;
-    for (let v = 0, sum = 0; v < this.#vertexCount; ++v) {
-      sum += live[v]!;
-      firsts[v + 1] = sum;
-    }
-    // Filled from the back, which leaves each list's place where it belongs.
-    for (let t = this.#isDone.length - 1; t >= 0; --t) {
-      for (let c = 3 * t + 2; c >= 3 * t; --c) {
-        const place = firsts[corners[c]! + 1]! - 1;
-        firsts[corners[c]! + 1] = place;
-        this.#around[place] = t;
-      }
-    }
-    firsts.copyWithin(0, 1);
-    firsts[this.#vertexCount] = corners.length;
-  }
-
-  #emitAround(fan: number): void {
-    const corners = this.#corners;
-    const around = this.#around;
-    const isDone = this.#isDone;
-    for (let place = this.#firsts[fan]!, end = this.#firsts[fan + 1]!; place < end; ++place) {
+  const { firsts, around } = trianglesAround(corners, vertexCount);
+  const ordered = new Int32Array(corners.length);
+  const isDone = new Uint8Array(corners.length / 3);
+  // Per vertex: triangles that are still to come, and when it entered the cache.
+  const live = new Int32Array(vertexCount);
+  for (let v = 0; v < vertexCount; ++v) live[v] = firsts[v + 1]! - firsts[v]!;
+  const entered = new Int32Array(vertexCount);
+  let time = cacheSize + 1;
+  let written = 0;
+  // Where to go on when the cache has nothing to offer: back along what came into it, then from the first vertex on.
+  const came = new Int32Array(corners.length);
+  let cameCount = 0;
+  let scan = 0;
+  for (let fan = 0; written < ordered.length;) {
+    const begin = written;
+    for (let place = firsts[fan]!, end = firsts[fan + 1]!; place < end; ++place) {
       const t = around[place]!;
       if (isDone[t] === 1) continue;
       isDone[t] = 1;
-      this.#emit(corners[3 * t]!);
-      this.#emit(corners[3 * t + 1]!);
-      this.#emit(corners[3 * t + 2]!);
-    }
-  }
-
-  #emit(v: number): void {
-    this.#ordered[this.#written++] = v;
-    this.#met[this.#metCount++] = v;
-    this.#live[v] = this.#live[v]! - 1;
-    if (this.#time - this.#entered[v]! > cacheSize) this.#entered[v] = this.#time++;
-  }
-
-  /** Of the vertices met since, the one longest in the cache that will still be there when its fan is done. */
-  #nextFan(since: number): number {
-    const met = this.#met;
-    const live = this.#live;
-    let best = -1;
-    let longest = -1;
-    for (let place = since; place < this.#metCount; ++place) {
-      const v = met[place]!;
-      if (live[v] === 0) continue;
-      const age = this.#time - this.#entered[v]!;
-      const priority = age + 2 * live[v]! <= cacheSize ? age : 0;
-      if (priority > longest) {
-        longest = priority;
-        best = v;
+      for (let c = 3 * t; c < 3 * t + 3; ++c) {
+        const v = corners[c]!;
+        ordered[written++] = v;
+        live[v] = live[v]! - 1;
+        if (time - entered[v]! <= cacheSize) continue;
+        entered[v] = time++;
+        came[cameCount++] = v;
       }
     }
-    return best >= 0 ? best : this.#leaveDeadEnd();
-  }
-
-  #leaveDeadEnd(): number {
-    while (this.#metCount > 0) {
-      const v = this.#met[--this.#metCount]!;
-      if (this.#live[v]! > 0) return v;
+    // Of the vertices met, the one longest in the cache that will still be there when its fan is done.
+    let longest = -1;
+    for (let place = begin; place < written; ++place) {
+      const v = ordered[place]!;
+      const left = live[v]!;
+      if (left === 0) continue;
+      const age = time - entered[v]!;
+      const priority = age + 2 * left <= cacheSize ? age : 0;
+      if (priority > longest) {
+        longest = priority;
+        fan = v;
+      }
     }
-    for (; this.#scan < this.#vertexCount; ++this.#scan) if (this.#live[this.#scan]! > 0) return this.#scan;
-    return -1;
+    if (longest >= 0) continue;
+    while (cameCount > 0 && live[came[cameCount - 1]!] === 0) --cameCount;
+    while (cameCount === 0 && scan < vertexCount && live[scan] === 0) ++scan;
+    fan = cameCount > 0 ? came[cameCount - 1]! : scan;
   }
+  return ordered;
+}
+
+/** The triangles around vertex v are `around` from `firsts[v]` on. */
+function trianglesAround(corners: Int32Array, vertexCount: number): { firsts: Int32Array; around: Int32Array } {
+  // Counted two places further, then summed and filled one place further, which leaves each list's place where it belongs.
+  const firsts = new Int32Array(vertexCount + 2);
+  for (const v of corners) firsts[v + 2] = firsts[v + 2]! + 1;
+  for (let v = 2; v < firsts.length; ++v) firsts[v] = firsts[v]! + firsts[v - 1]!;
+  const around = new Int32Array(corners.length);
+  for (let t = 0; 3 * t < corners.length; ++t) {
+    for (let c = 3 * t; c < 3 * t + 3; ++c) {
+      const place = firsts[corners[c]! + 1]!;
+      around[place] = t;
+      firsts[corners[c]! + 1] = place + 1;
+    }
+  }
+  return { firsts, around };
 }
