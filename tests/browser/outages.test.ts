@@ -46,14 +46,17 @@ async function assertTruthfulEvents(view: View): Promise<void> {
 
 describe("a slow host", () => {
   test("shows the first picture before any second byte has come, and then all of it", async () => {
+    const { closed, open } = gate();
+    const isSecondByte = filesOf((rank) => rank === 4);
     const server = (server: View["server"]): void => {
       server.useLine({ bitsPerSecond: 2e6, roundTripMs: 100 });
+      server.when(isSecondByte, { hold: closed });
     };
     await withPage(site(), { server }, async (view) => {
-      await view.promise("firstImage");
-      const isSecondByte = filesOf((rank) => rank === 4);
-      const early = view.server.requests.filter(({ path, state }) => isSecondByte(path) && state === "answered");
-      assert.deepEqual(early, [], "a second byte came before the first picture");
+      await view.promise("firstImage"); // which would not come if it waited for one
+      const answered = view.server.requests.filter(({ path, state }) => isSecondByte(path) && state === "answered");
+      assert.deepEqual(answered, []);
+      open();
       await view.promise("complete");
       await assertTruthfulEvents(view);
       assertSamePicture("slow host", await view.picture(), await undisturbed(), { mean: 0 });
