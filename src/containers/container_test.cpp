@@ -132,8 +132,9 @@ TEST(Containers, GiveBackEveryMeshFromEveryArray) {
       const Encoded encoded = encode(randomMesh(seed), Primitive::triangles, seed % 2 == 0, bits, options);
       expectEqualWithinSteps(encoded);
       const PatchDescription& patch = encoded.patch.description;
-      if (options.layout == Layout::interleaved && (patch.normal || patch.texCoord || patch.color))
+      if (options.layout == Layout::interleaved && (patch.normal || patch.texCoord || patch.color)) {
         EXPECT_EQ(encoded.patch.files.size(), patch.index ? 2u : 1u);
+      }
     }
 }
 

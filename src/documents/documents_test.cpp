@@ -259,7 +259,7 @@ SceneDocument documentNamed(const std::string& name) {
   document.title = name;
   GeometryDescription geometry;
   geometry.patches = {
-      {{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", 0, 0}, {"b.png", 0, 0}}, {}, {}, {}, {}}};
+      {{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", 0, 0}, {"b.png", 0, 0}}, {}, {}, {}, {}, {}}};
   document.geometries = {geometry, geometry};
   document.shapes = {{name, 0, {}}, {name, 1, {}}};
   document.viewpoints = {{name, {}, {0, 0, 1}, 0, 0.8, {}}};
