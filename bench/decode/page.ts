@@ -55,7 +55,7 @@ function countsOf(geometry: BufferGeometry): Decoded {
 
 function meshesIn(root: Object3D): Mesh[] {
   const meshes: Mesh[] = [];
-  root.traverse((object) => { if (object instanceof Mesh) meshes.push(object); });
+  root.traverse((object) => { if (object instanceof Mesh) meshes.push(object as Mesh); });
   return meshes;
 }
 
