@@ -7,7 +7,8 @@ import { assertSamePicture, boundsOfQuantised, difference } from "./compare.ts";
 import { center, covered, focusView, touch } from "./gestures.ts";
 import { settle, until, withPage, type PageOptions, type View } from "./harness.ts";
 import { referencePicture } from "./reference.ts";
-import { decodeSite } from "./siteDecoder.ts";
+import { gate } from "./server.ts";
+import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 
 const site = (): string => siteOfGenerated("trefoil-colors");
@@ -109,7 +110,13 @@ test("nothing is drawn while nothing changes", async () => {
 
 describe("events", () => {
   test("tell how far the scene and each shape are, in order, and do not bubble", async () => {
-    await withCompletePage({}, async (view) => {
+    // What refines waits for the first picture: where all came before it, nothing would be refined.
+    const { closed, open } = gate();
+    const later = [...ranksOfFiles(pageOf(site()))].filter(([, rank]) => rank > 0).map(([url]) => `/${url}`);
+    await withPage(site(), { server: (server) => void server.when((path) => later.includes(path), { hold: closed }) }, async (view) => {
+      await view.promise("firstImage");
+      open();
+      await view.promise("complete");
       await settle(view.page);
       const { events, bubbled } = await view.observed();
       assert.deepEqual(bubbled, []);
