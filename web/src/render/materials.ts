@@ -7,11 +7,12 @@
 // (three.js by default lights in linear space and divides by pi; hence a chunk
 // of our own, and `outputColorSpace` linear in the renderer.)
 
-import type { Color, Vector2 } from "three";
+import type { Color, Material } from "three";
 import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshPhongMaterial } from "three";
 import type { MaterialDescription, Vec3 } from "../document/description.ts";
-import type { VertexUniforms } from "./vertexChunk.ts";
-import { imageNormalsDefine, imageVerticesDefine, readVerticesIn, replaceEach } from "./vertexChunk.ts";
+import { farnessDefine, shadeByFarnessIn } from "./farness.ts";
+import type { Look, MaterialRequest, VertexColors } from "./look.ts";
+import { readVerticesIn, replaceEach, vertexDefinesOf } from "./vertexChunk.ts";
 
 const x3dLighting = /* glsl */ `
 varying vec3 vViewPosition;
@@ -43,77 +44,25 @@ void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 norma
 
 const materialFromUniforms = "X3dMaterial material = X3dMaterial(diffuseColor.rgb, specular, shininess);";
 
-// Points that stand for a surface to come cannot be lit yet; they are darker the
-// farther they are, so that they show a shape and not just its outline.
-const farnessDefine = "SHADE_BY_FARNESS";
-const farnessVertex = /* glsl */ `
-#ifdef ${farnessDefine}
-  vFarness = clamp((-mvPosition.z - depthRange.x) / (depthRange.y - depthRange.x), 0.0, 1.0);
-#endif
-`;
-const farnessFragment = /* glsl */ `
-#ifdef ${farnessDefine}
-  diffuseColor.rgb *= 1.0 - 0.75 * smoothstep(0.15, 0.85, vFarness);
-#endif
-`;
-const farnessDeclarations = /* glsl */ `
-#ifdef ${farnessDefine}
-  uniform vec2 depthRange;
-  varying float vFarness;
-#endif
-`;
+type PatchMaterial = (MeshPhongMaterial | MeshBasicMaterial) & { userData: { ambientIntensity?: { value: number } } };
 
-/** Unlit for points and lines, by distance for points that stand in for a surface, flat where there are no normals (yet). */
-export type Shading = "unlit" | "distance" | "flat" | "smooth";
+/** Pages look as X3D says. */
+export const x3dLook: Look = { makeMaterial, applyMaterial, prepare: () => undefined };
 
-/** Uniforms that everything in a scene shares. */
-export interface SceneUniforms {
-  readonly pointSize: { value: number };
-  /** Distances along the view between which the scene lies. */
-  readonly depthRange: { value: Vector2 };
-}
-
-/** What colours the vertices bring: those with alpha blend. */
-export type VertexColors = "none" | "rgb" | "rgba";
-
-export interface MaterialRequest {
-  readonly shading: Shading;
-  readonly colors: VertexColors;
-  /** False: both sides are seen. */
-  readonly solid: boolean;
-  /** How vertices are found, as gridDefinesOf says it. */
-  readonly vertexDefines: Readonly<Record<string, string>>;
-  /** How normals are stored, as normalDefinesOf says it. */
-  readonly normalDefines: Readonly<Record<string, string>>;
-  /** Vertices come from images, not from buffers. */
-  readonly areImages: boolean;
-  readonly uniforms: VertexUniforms;
-  readonly shared: SceneUniforms;
-}
-
-export type PatchMaterial = (MeshPhongMaterial | MeshBasicMaterial) & { userData: { ambientIntensity?: { value: number } } };
-
-export function makeMaterial(request: MaterialRequest, description: MaterialDescription): PatchMaterial {
-  const { shading, colors, solid, areImages, vertexDefines, normalDefines, uniforms, shared } = request;
+function makeMaterial(request: MaterialRequest, description: MaterialDescription): PatchMaterial {
+  const { shading, colors, solid, uniforms, shared } = request;
   const ambientIntensity = { value: 0 };
   const material: PatchMaterial = shading === "unlit" || shading === "distance" ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
   material.side = solid ? FrontSide : DoubleSide;
   material.vertexColors = colors !== "none";
-  material.defines = {
-    ...(areImages && { [imageVerticesDefine]: "" }),
-    ...(areImages && shading === "smooth" && { [imageNormalsDefine]: "" }),
-    ...vertexDefines,
-    ...(shading === "smooth" && normalDefines),
-    ...(shading === "distance" && { [farnessDefine]: "" }),
-  };
+  material.defines = { ...vertexDefinesOf(request, shading === "smooth"), ...(shading === "distance" && { [farnessDefine]: "" }) };
   material.userData.ambientIntensity = ambientIntensity;
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms, { depthRange: shared.depthRange, ambientIntensity });
     readVerticesIn(shader);
-    shader.vertexShader = farnessDeclarations + replaceEach(shader.vertexShader, [["#include <fog_vertex>", farnessVertex]]);
-    shader.fragmentShader = farnessDeclarations + replaceEach(shader.fragmentShader, [
-      ["#include <color_fragment>", `#include <color_fragment>\n${farnessFragment}`],
+    shadeByFarnessIn(shader);
+    shader.fragmentShader = replaceEach(shader.fragmentShader, [
       ["#include <lights_phong_pars_fragment>", x3dLighting],
       ["#include <lights_phong_fragment>", materialFromUniforms],
     ]);
@@ -124,8 +73,8 @@ export function makeMaterial(request: MaterialRequest, description: MaterialDesc
   return material;
 }
 
-/** Changes a material in place; colours of vertices stand in for the diffuse colour. */
-export function applyMaterial(material: PatchMaterial, description: MaterialDescription, colors: VertexColors): void {
+/** Colours of vertices stand in for the diffuse colour. */
+function applyMaterial(material: Material, description: MaterialDescription, colors: VertexColors): void {
   const { diffuseColor, specularColor, emissiveColor, ambientIntensity, shininess, transparency } = description;
   const hasColors = colors !== "none";
   if (material instanceof MeshPhongMaterial) {
@@ -133,12 +82,13 @@ export function applyMaterial(material: PatchMaterial, description: MaterialDesc
     setColor(material.specular, specularColor);
     setColor(material.emissive, emissiveColor);
     material.shininess = shininess * 128;
-  } else {
+  } else if (material instanceof MeshBasicMaterial) {
     // X3D shows unlit points in the emissive colour. Scans without one would be black on black.
     const isDark = emissiveColor.every((channel) => channel === 0);
     setColor(material.color, hasColors ? [1, 1, 1] : isDark ? diffuseColor : emissiveColor);
   }
-  if (material.userData.ambientIntensity) material.userData.ambientIntensity.value = ambientIntensity;
+  const ambient = (material as PatchMaterial).userData.ambientIntensity;
+  if (ambient) ambient.value = ambientIntensity;
   material.opacity = 1 - transparency;
   const isTransparent = transparency > 0 || colors === "rgba";
   if (material.transparent !== isTransparent) {

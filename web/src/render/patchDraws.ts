@@ -1,19 +1,17 @@
 // A stage -> three.js objects, one per draw.
 
-import type { BufferGeometry } from "three";
-import { Matrix4, Sphere, Vector3 } from "three";
+import type { BufferGeometry, Material, Texture } from "three";
+import { Box3, Matrix4, Sphere, Vector3 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
 import type { DrawRange, Stage, TextureStage } from "../decode/stage.ts";
 import type { GeometryDescription, MaterialDescription, PatchDescription } from "../document/description.ts";
 import { boxAround } from "../document/geometry.ts";
 import { largestStoredOf, middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
-import type { PatchMaterial, SceneUniforms, Shading, VertexColors } from "./materials.ts";
-import { applyMaterial, makeMaterial } from "./materials.ts";
+import type { Look, MaterialRequest, SceneUniforms, Shading, VertexColors } from "./look.ts";
 import type { DrawnObject } from "./pickDraw.ts";
 import { objectOf, PickDraw } from "./pickDraw.ts";
 import type { GeometryPool } from "./stageGeometries.ts";
-import type { TextureStore } from "./textures.ts";
-import type { ImageVertexUniforms, VertexUniforms } from "./vertexChunk.ts";
+import type { ImageVertexUniforms, VertexForm, VertexUniforms } from "./vertexChunk.ts";
 import { gridDefinesOf, normalDefinesOf } from "./vertexChunk.ts";
 
 /** A draw in one place of the scene. It owns nothing on the GPU. */
@@ -31,9 +29,16 @@ export interface PatchDraws {
   dispose(): void;
 }
 
+/** Where images are that have become textures. */
+export interface Textures {
+  /** Throws where the image is not one of these, or is closed. */
+  textureOf(image: DecodedImage): Texture;
+}
+
 export interface PatchSetting {
+  readonly look: Look;
   readonly geometries: GeometryPool;
-  readonly textures: TextureStore;
+  readonly textures: Textures;
   readonly shared: SceneUniforms;
   readonly geometry: GeometryDescription;
   readonly patch: PatchDescription;
@@ -41,34 +46,34 @@ export interface PatchSetting {
 }
 
 export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
-  const { geometry, patch, shared } = setting;
+  const { geometry, patch, shared, look } = setting;
   const colors = colorsOf(stage);
-  const bounds = storedBoundsOf(geometry, patch);
+  const { box, sphere } = storedBoundsOf(geometry, patch);
   const { origin, step } = storedFrameOf(geometry, patch);
   // Places the lattice: stored integers -> the shape's coordinates.
   const matrix = new Matrix4().makeScale(...step).setPosition(...origin);
-  const normalDefines = normalDefinesOf(stage.normalCode, stage.kind === "buffers" && stage.normal?.components === 1);
-  const vertexDefines = stage.kind === "textures" ? gridDefinesOf(stage.grid, stage.normal !== undefined) : {};
-  const areImages = stage.kind === "textures";
+  const form = vertexFormOf(stage);
   const common: VertexUniforms = { pointSize: shared.pointSize, latticeStep: { value: step } };
-  const base = areImages ? imageUniformsOf(stage, setting.textures, common, largestStoredOf(geometry, patch)) : undefined;
+  const base = stage.kind === "textures" ? imageUniformsOf(stage, setting.textures, common, largestStoredOf(geometry, patch)) : undefined;
   const draws = setting.geometries.acquire(stage).flatMap((shape, place) => {
     const range = stage.draws[place];
     if (range === undefined || range.count === 0) return [];
-    shape.boundingSphere = bounds;
+    shape.boundingBox = box;
+    shape.boundingSphere = sphere;
     const uniforms = base ? { ...base, firstNumber: { value: range.first }, isStrip: { value: range.primitive === "triangleStrip" } } : common;
-    const material = makeMaterial(
-      { shading: shadingOf(stage, range), colors, solid: geometry.solid, areImages, vertexDefines, normalDefines, uniforms, shared },
-      setting.material);
-    const pick = new PickDraw(stage, range, shape, {
-      side: material.side, hasNormals: hasNormals(stage), areImages, vertexDefines, normalDefines, uniforms,
-    });
-    return [{ range, shape, material, pick }];
+    const request: MaterialRequest = { ...form, shading: shadingOf(stage, range), colors, solid: geometry.solid, uniforms, shared };
+    const material = look.makeMaterial(request, setting.material);
+    const pick = new PickDraw(stage, range, shape, { side: material.side, hasNormals: hasNormals(stage), ...form, uniforms });
+    return [{ range, shape, material, request, pick }];
   });
   return {
-    place: () => draws.map(({ range, shape, material, pick }) => ({ object: placedObject(range, shape, material, matrix), pick })),
+    place: () => draws.map(({ range, shape, material, request, pick }) => {
+      const object = placedObject(range, shape, material, matrix);
+      look.prepare(object, request, material);
+      return { object, pick };
+    }),
     applyMaterial(description) {
-      for (const { material } of draws) applyMaterial(material, description, colors);
+      for (const { material } of draws) look.applyMaterial(material, description, colors);
     },
     dispose() {
       for (const { material, pick } of draws) {
@@ -77,6 +82,15 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
       }
       setting.geometries.release(stage);
     },
+  };
+}
+
+function vertexFormOf(stage: Stage): VertexForm {
+  const areImages = stage.kind === "textures";
+  return {
+    areImages,
+    gridDefines: areImages ? gridDefinesOf(stage.grid, stage.normal !== undefined) : {},
+    normalDefines: normalDefinesOf(stage.normalCode, !areImages && stage.normal?.components === 1),
   };
 }
 
@@ -98,26 +112,26 @@ function hasNormals(stage: Stage): boolean {
   return stage.normal !== undefined || (stage.kind === "textures" && stage.grid !== undefined);
 }
 
-function placedObject(draw: DrawRange, shape: BufferGeometry, material: PatchMaterial, matrix: Matrix4): DrawnObject {
+function placedObject(draw: DrawRange, shape: BufferGeometry, material: Material, matrix: Matrix4): DrawnObject {
   const object = objectOf(draw, shape, material);
   object.matrixAutoUpdate = false;
   object.matrix.copy(matrix);
+  object.matrixWorldNeedsUpdate = true;
   return object;
 }
 
-/** The patch's bounding sphere among stored integers, wide enough for its coarsest stage. */
-function storedBoundsOf(geometry: GeometryDescription, patch: PatchDescription): Sphere {
+/** The patch's bounds among stored integers; the sphere is wide enough for its coarsest stage. */
+function storedBoundsOf(geometry: GeometryDescription, patch: PatchDescription): { box: Box3; sphere: Sphere } {
   const { origin, step } = storedFrameOf(geometry, patch);
-  const box = patch.box ?? boxAround(geometry.position, geometry.size);
+  const { min, max } = patch.box ?? boxAround(geometry.position, geometry.size);
   const stored = (point: readonly [number, number, number]) => new Vector3(
     (point[0] - origin[0]) / step[0], (point[1] - origin[1]) / step[1], (point[2] - origin[2]) / step[2]);
-  const min = stored(box.min);
-  const max = stored(box.max);
+  const box = new Box3(stored(min), stored(max));
   const slack = geometry.container === "sig" ? middleOfMissing(geometry, patch.coord.length, 1) * Math.sqrt(3) : 0;
-  return new Sphere(min.clone().add(max).multiplyScalar(0.5), min.distanceTo(max) / 2 + slack);
+  return { box, sphere: new Sphere(box.getCenter(new Vector3()), box.min.distanceTo(box.max) / 2 + slack) };
 }
 
-function imageUniformsOf(stage: TextureStage, textures: TextureStore, common: VertexUniforms, largestStored: number): ImageVertexUniforms {
+function imageUniformsOf(stage: TextureStage, textures: Textures, common: VertexUniforms, largestStored: number): ImageVertexUniforms {
   const { index, coord, normal, color } = stage;
   const texture = (range: { image: DecodedImage } | undefined) => ({ value: range ? textures.textureOf(range.image) : null });
   const first = (range: { first: number } | undefined) => range?.first ?? 0;

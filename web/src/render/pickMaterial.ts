@@ -9,8 +9,8 @@
 import type { Side } from "three";
 import { GLSL3, ShaderMaterial } from "three";
 import type { DrawRange } from "../decode/stage.ts";
-import type { VertexUniforms } from "./vertexChunk.ts";
-import { imageVerticesDefine, readVerticesIn } from "./vertexChunk.ts";
+import type { VertexForm, VertexUniforms } from "./vertexChunk.ts";
+import { imageVerticesDefine, readVerticesIn, vertexDefinesOf } from "./vertexChunk.ts";
 
 /**
  * Where in a pixel's words each field begins. Normals are zero where there is
@@ -96,22 +96,18 @@ void main() {
 }
 `;
 
-export interface PickMaterialRequest {
+export interface PickMaterialRequest extends VertexForm {
   readonly primitive: DrawRange["primitive"];
   readonly side: Side;
   readonly hasNormals: boolean;
-  readonly areImages: boolean;
-  /** How vertices are found, as gridDefinesOf says it. */
-  readonly vertexDefines: Readonly<Record<string, string>>;
-  /** How normals are stored, as normalDefinesOf says it. */
-  readonly normalDefines: Readonly<Record<string, string>>;
   /** Shared with the material that draws the colours. */
   readonly uniforms: VertexUniforms;
 }
 
 export type PickMaterial = ShaderMaterial & { uniforms: { drawNumber: { value: number } } };
 
-export function makePickMaterial({ primitive, side, hasNormals, areImages, vertexDefines, normalDefines, uniforms }: PickMaterialRequest): PickMaterial {
+export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
+  const { primitive, side, hasNormals, uniforms } = request;
   const isLine = primitive === "lines" || primitive === "lineStrip";
   const shader = { vertexShader, fragmentShader };
   readVerticesIn(shader);
@@ -121,9 +117,7 @@ export function makePickMaterial({ primitive, side, hasNormals, areImages, verte
     defines: {
       PRIMITIVE_CORNERS: primitive === "points" ? 1 : isLine ? 2 : 3,
       ...(primitive === "lineStrip" && { IS_LINE_STRIP: "" }),
-      ...(areImages && { [imageVerticesDefine]: "" }),
-      ...vertexDefines,
-      ...(hasNormals && normalDefines),
+      ...vertexDefinesOf(request, hasNormals),
     },
     uniforms: { ...uniforms, drawNumber: { value: 0 }, hasNormals: { value: hasNormals } },
   }) as PickMaterial;

@@ -18,6 +18,8 @@ import { readPixel, readPixelSoon } from "./pixelReading.ts";
 /** What was hit, in the scene's coordinates. */
 export interface Hit {
   readonly element: SceneElement;
+  /** What is drawn there. */
+  readonly object: Object3D;
   readonly patch: number;
   /** Of the patch's triangles in the order of its draws; in a strip each further element makes one. Undefined for points and lines. */
   readonly triangle: number | undefined;
@@ -103,8 +105,8 @@ export class Picker {
   #hitOf(words: Uint32Array, camera: PerspectiveCamera, place: Place, candidates: readonly PickCandidate[]): Hit | undefined {
     const candidate = candidates[(words[pickedWords.drawNumber] ?? 0) - 1];
     if (candidate === undefined) return undefined;
-    const { element, patch, pick } = candidate;
-    const worldFromStored = candidate.object.matrixWorld;
+    const { element, object, patch, pick } = candidate;
+    const worldFromStored = object.matrixWorld;
     const floats = new Float32Array(words.buffer);
     const stored = new Vector3().fromArray(floats, pickedWords.position);
     const { number, vertex, face } = this.#primitiveOf(words, pick, stored);
@@ -114,7 +116,7 @@ export class Picker {
     if (faceNormal !== undefined && faceNormal.dot(ray.direction) > 0) faceNormal.negate();
     const onFace = faceNormal && intersection(ray, face.point.clone().applyMatrix4(worldFromStored), faceNormal);
     return {
-      element, patch, vertex,
+      element, object, patch, vertex,
       triangle: cornersOf(pick.range) === 3 ? pick.trianglesBefore + number : undefined,
       position: onFace ?? stored.applyMatrix4(worldFromStored),
       normal: worldNormalOf(new Vector3().fromArray(floats, pickedWords.normal), worldFromStored) ?? faceNormal,

@@ -23,9 +23,7 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
   const root = new Group();
   const ambient = new Color(0, 0, 0);
   hang(scene.root, root, new Matrix4(), true);
-  const ambientLight = new AmbientLight();
-  ambientLight.color.copy(ambient);
-  root.add(ambientLight);
+  if (ambient.r + ambient.g + ambient.b > 0) root.add(new AmbientLight(ambient));
   return { root, box, viewpoints };
 
   function hang(node: NodeDescription, parent: Group, sceneFromParent: Matrix4, isSeen: boolean): void {

@@ -11,8 +11,8 @@ import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { PlacedViewpoint, Pose } from "../navigation/camera.ts";
 import { applyPose, sphereAround } from "../navigation/camera.ts";
-import type { SceneUniforms } from "./materials.ts";
-import { setColor } from "./materials.ts";
+import type { SceneUniforms } from "./look.ts";
+import { setColor, x3dLook } from "./materials.ts";
 import type { Hit, PickCandidate, Place } from "./picking.ts";
 import { Picker } from "./picking.ts";
 import { buildGraph } from "./sceneGraph.ts";
@@ -77,7 +77,8 @@ export class SceneRenderer {
   readonly #drawnCamera = new PerspectiveCamera();
   readonly #headlight = new DirectionalLight();
   readonly #shared: SceneUniforms = { pointSize: { value: pointSizeInCssPixels }, depthRange: { value: new Vector2() } };
-  readonly #setting: ShapeSetting = { geometries: new GeometryPool(), textures: new TextureStore(), shared: this.#shared };
+  readonly #textures = new TextureStore();
+  readonly #setting: ShapeSetting = { look: x3dLook, geometries: new GeometryPool(), textures: this.#textures, shared: this.#shared };
   readonly #shapes = new Map<SceneElement, ShapeObject>();
   readonly #cameraMan: CameraMan;
   readonly #onFrame: () => void;
@@ -110,7 +111,7 @@ export class SceneRenderer {
   get statistics(): RenderStatistics {
     const { memory, programs } = this.#renderer.info;
     return { frames: this.#frames, textures: memory.textures, geometries: memory.geometries, programs: programs?.length ?? 0,
-             textureBytes: this.#setting.textures.bytes };
+             textureBytes: this.#textures.bytes };
   }
 
   /** Nothing is drawn, and nothing is on the GPU, until the browser gives the context back. */
@@ -180,13 +181,13 @@ export class SceneRenderer {
 
   /** Whether vertices may be read from textures; tried out once. */
   readsTextures(): Promise<boolean> {
-    this.#readsTextures ??= readsTextures(this.#renderer, this.#setting.textures);
+    this.#readsTextures ??= readsTextures(this.#renderer, this.#textures);
     return this.#readsTextures;
   }
 
   /** Begins to bring an image to the GPU; stages may use it when all steps have been taken. */
   beginUpload(bitmap: ImageBitmap): TextureUpload {
-    return this.#setting.textures.begin(bitmap, this.#renderer);
+    return this.#textures.begin(bitmap, this.#renderer);
   }
 
   /** Replaces what a patch of a shape of the current scene shows. */

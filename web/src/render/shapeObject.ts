@@ -8,7 +8,7 @@ import type { PatchDraws, PatchSetting, PlacedDraw } from "./patchDraws.ts";
 import { drawStage } from "./patchDraws.ts";
 
 /** What all shapes of a scene share. */
-export type ShapeSetting = Pick<PatchSetting, "geometries" | "textures" | "shared">;
+export type ShapeSetting = Pick<PatchSetting, "look" | "geometries" | "textures" | "shared">;
 
 interface ShownPatch {
   readonly draws: PatchDraws;

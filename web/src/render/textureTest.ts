@@ -45,7 +45,7 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
   bitmap.close();
   const texture = { value: textures.textureOf(image) };
   const material = makePickMaterial({
-    primitive: "points", side: FrontSide, hasNormals: true, areImages: true, vertexDefines: {}, normalDefines: {},
+    primitive: "points", side: FrontSide, hasNormals: true, areImages: true, gridDefines: {}, normalDefines: {},
     uniforms: {
       pointSize: { value: 1 }, latticeStep: { value: [1, 1, 1] },
       indexImage: texture, coordImage0: texture, coordImage1: texture, coordImage2: { value: null }, coordImage3: { value: null },

@@ -53,7 +53,27 @@ export const vertexSamplers = 7;
 
 /** Defined in materials that read images, and in those that read normals from them. */
 export const imageVerticesDefine = "IMAGE_VERTICES";
-export const imageNormalsDefine = "IMAGE_NORMALS";
+const imageNormalsDefine = "IMAGE_NORMALS";
+
+/** How the vertices of a stage are found. */
+export interface VertexForm {
+  /** They come from images, not from buffers. */
+  readonly areImages: boolean;
+  /** As gridDefinesOf says it. */
+  readonly gridDefines: Readonly<Record<string, string>>;
+  /** As normalDefinesOf says it. */
+  readonly normalDefines: Readonly<Record<string, string>>;
+}
+
+/** What a material must define to read vertices of this form. */
+export function vertexDefinesOf({ areImages, gridDefines, normalDefines }: VertexForm, readsNormals: boolean): Record<string, string> {
+  return {
+    ...(areImages && { [imageVerticesDefine]: "" }),
+    ...(areImages && readsNormals && { [imageNormalsDefine]: "" }),
+    ...gridDefines,
+    ...(readsNormals && normalDefines),
+  };
+}
 
 /** How a material's normals are stored, as defines. `isWord`: both numbers in one of 16 bits. */
 export function normalDefinesOf(code: NormalCode, isWord: boolean): Record<string, string> {
@@ -276,9 +296,15 @@ Vertex readVertex() {
 #endif
 `;
 
+/** Defined in materials that light in linear space: colours of vertices are sRGB, as everything that people see in files. */
+export const srgbColorsDefine = "SRGB_VERTEX_COLORS";
+
 const colorChunk = /* glsl */ `
 #if defined(USE_COLOR) || defined(USE_COLOR_ALPHA)
   vColor = vertex.color;
+  #ifdef ${srgbColorsDefine}
+    vColor.rgb = mix(pow((vColor.rgb + 0.055) / 1.055, vec3(2.4)), vColor.rgb / 12.92, vec3(lessThanEqual(vColor.rgb, vec3(0.04045))));
+  #endif
 #endif
 `;
 

@@ -1,0 +1,38 @@
+// What draws look like: in pages as X3D says (materials.ts), in other people's
+// three.js apps as those say (loader/appLook.ts). Where their vertices come from
+// is the same for all.
+
+import type { Material, Vector2 } from "three";
+import type { MaterialDescription } from "../document/description.ts";
+import type { DrawnObject } from "./pickDraw.ts";
+import type { VertexForm, VertexUniforms } from "./vertexChunk.ts";
+
+export interface Look {
+  makeMaterial(request: MaterialRequest, description: MaterialDescription): Material;
+  /** Changes a material of this look in place. */
+  applyMaterial(material: Material, description: MaterialDescription, colors: VertexColors): void;
+  /** Gives an object what it needs besides its material. */
+  prepare(object: DrawnObject, request: MaterialRequest, material: Material): void;
+}
+
+/** Unlit for points and lines, by distance for points that stand in for a surface, flat where there are no normals (yet). */
+export type Shading = "unlit" | "distance" | "flat" | "smooth";
+
+/** What colours the vertices bring: those with alpha blend. */
+export type VertexColors = "none" | "rgb" | "rgba";
+
+/** Uniforms that everything in a scene shares. */
+export interface SceneUniforms {
+  readonly pointSize: { value: number };
+  /** Distances along the view between which the scene lies. */
+  readonly depthRange: { value: Vector2 };
+}
+
+export interface MaterialRequest extends VertexForm {
+  readonly shading: Shading;
+  readonly colors: VertexColors;
+  /** False: both sides are seen. */
+  readonly solid: boolean;
+  readonly uniforms: VertexUniforms;
+  readonly shared: SceneUniforms;
+}
