@@ -13,6 +13,7 @@ const declarations = /* glsl */ `
 #endif
 `;
 const vertexChunk = /* glsl */ `
+#include <fog_vertex>
 #ifdef ${farnessDefine}
   vFarness = clamp((-mvPosition.z - depthRange.x) / (depthRange.y - depthRange.x), 0.0, 1.0);
 #endif

@@ -8,14 +8,17 @@ interface WorkerModule {
 
 const idleMs = 10_000;
 
-export function pageWorkers(): WorkerPool {
-  // `imgeo convert` puts the name that the file has in the site in the place of this one.
-  const url = new URL("./imgeo-worker.js", import.meta.url);
+// `imgeo convert` puts the name that the file has in the site in the place of this
+// one; bundlers that know this form bring the file along.
+const besideThis = (): URL => new URL("./imgeo-worker.js", import.meta.url);
+
+export function pageWorkers(url: string | URL = besideThis()): WorkerPool {
   return new WorkerPool({
     // One core is the page's.
     size: Math.min(4, Math.max(1, navigator.hardwareConcurrency - 1)),
     idleMs,
     start: () => new Worker(url, { type: "module", name: "imgeo" }),
-    runHere: async (message) => ((await import(url.href)) as WorkerModule).runJob(message),
+    runHere: async (message) =>
+      ((await import(/* webpackIgnore: true */ /* @vite-ignore */ new URL(url, document.baseURI).href)) as WorkerModule).runJob(message),
   });
 }

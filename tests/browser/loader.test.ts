@@ -1,0 +1,261 @@
+// The loader in a three.js app that knows nothing of us: its lights, shadows, tone
+// mapping and colour space hold for the scene as they hold for plain buffers.
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { before, describe, test } from "node:test";
+import { build } from "esbuild";
+import type { Page } from "playwright-core";
+import { assertSamePicture, difference } from "./compare.ts";
+import { until, withPage, type PageOptions, type View } from "./harness.ts";
+import type { AppRequest, PlainBuffers } from "./loaderPage.ts";
+import { readPly } from "./meshes.ts";
+import { outputDirectory, repository } from "./paths.ts";
+import { decodePng, type Picture } from "./png.ts";
+import { lookOf, patchOfInput } from "./reference.ts";
+import { gate } from "./server.ts";
+import { ranksOfFiles } from "./siteDecoder.ts";
+import { meshFile, pageOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
+
+const bundles = { "app.js": "tests/browser/loaderPage.ts", "worker.js": "web/src/workers/worker.ts" };
+const directory = join(outputDirectory, "loader");
+
+before(async () => {
+  for (const [name, entry] of Object.entries(bundles)) {
+    await build({
+      entryPoints: [join(repository, entry)], outfile: join(directory, name),
+      bundle: true, format: "esm", target: "es2022", logLevel: "error",
+    });
+  }
+});
+
+const page = `<!doctype html><meta charset="utf-8"><link rel="stylesheet" href="/app.css"><script type="module" src="/app.js"></script><body>`;
+
+/** An app beside a site. Its worker stands where the app says it is. */
+async function withApp(site: string, options: PageOptions, use: (view: View) => Promise<void>): Promise<void> {
+  const server: PageOptions["server"] = (server) => {
+    server.put("/", page);
+    server.put("/app.css", "body { margin: 0 } canvas { display: block }");
+    for (const name of Object.keys(bundles)) server.put(`/${name}`, readFileSync(join(directory, name)));
+    options.server?.(server);
+  };
+  await withPage(site, { ...options, server }, async (view) => {
+    await until("the app runs", async () => view.page.evaluate(() => "app" in window));
+    await view.page.evaluate(() => { window.app.loader.setWorkerUrl("/worker.js"); });
+    await use(view);
+  });
+}
+
+async function draw(page: Page, light: AppRequest["light"], what: AppRequest["what"], castShadow = true): Promise<Picture> {
+  await page.evaluate((asked) => window.app.draw(asked), { light, what, castShadow });
+  return decodePng(await page.screenshot());
+}
+
+function plainOf(mesh: GeneratedMesh): PlainBuffers {
+  const { positions, normals, colors, triangles, lines } = patchOfInput(readPly(readFileSync(meshFile(mesh))));
+  return {
+    positions: [...positions], ...(normals && { normals: [...normals] }), ...(colors && { colors: [...colors] }),
+    triangles: [...triangles], lines: [...lines],
+  };
+}
+
+interface Case {
+  mesh: GeneratedMesh;
+  options: string[];
+  lights?: AppRequest["light"][];
+  keepsVertices?: boolean;
+}
+
+const cases: Case[] = [
+  { mesh: "trefoil", options: ["--profile", "classic"], lights: ["directional", "spot", "point"] },
+  { mesh: "trefoil", options: ["--profile", "classic"], keepsVertices: true },
+  { mesh: "trefoil", options: ["--profile", "classic", "--normals", "octahedral", "--primitives", "strips", "--patch-vertices", "1000"] },
+  { mesh: "trefoil", options: ["--profile", "compact"], lights: ["directional", "point"] },
+  { mesh: "trefoil", options: ["--container", "bg", "--normals", "spherical"], lights: ["directional", "point"] },
+  { mesh: "trefoil-colors", options: ["--profile", "classic"] },
+  { mesh: "trefoil-colors", options: ["--container", "bg"] },
+  { mesh: "points", options: ["--profile", "classic"] },
+  { mesh: "coil", options: ["--container", "bg"] },
+  { mesh: "coil", options: ["--profile", "classic"] },
+];
+
+describe("a scene in somebody's own app looks as plain buffers do there", () => {
+  for (const { mesh, options, lights = ["directional" as const], keepsVertices = false } of cases) {
+    test([mesh, ...options, ...(keepsVertices ? ["keeping vertices"] : [])].join(" "), async () => {
+      const site = siteOfGenerated(mesh, ...options);
+      await withApp(site, {}, async ({ page, server }) => {
+        await page.evaluate((keep) => window.app.loader.setKeepVertices(keep), keepsVertices);
+        const { diffuseColor, shininess } = lookOf(pageOf(site)).material;
+        await page.evaluate(([mesh, look]) => { window.app.setPlain(mesh, look); }, [plainOf(mesh), { diffuseColor, shininess }] as const);
+        await page.evaluate(() => window.app.load());
+        for (const light of lights) {
+          const expected = await draw(page, light, "plain");
+          const name = `loader ${mesh} ${options.join("")} ${keepsVertices ? "kept " : ""}${light}`;
+          // Shadow edges may fall to the other side of a texel of the map.
+          assertSamePicture(name, await draw(page, light, "scene"), expected, { mean: 0.06, offShare: 0.001 });
+          const [empty, unshadowed] = [await draw(page, light, "nothing"), await draw(page, light, "plain", false)];
+          assert.ok(difference(expected, empty).mean > 0.5, "the reference shows nothing");
+          if (mesh.startsWith("trefoil")) assert.ok(difference(expected, unshadowed).mean > 1, "the reference has no shadow");
+        }
+        const usesWorker = keepsVertices || options.includes("compact");
+        assert.equal(server.requestsOf(/^\/worker\.js$/).length > 0, usesWorker);
+      });
+    });
+  }
+});
+
+const classic = (): string => siteOfGenerated("trefoil", "--profile", "classic");
+const filesOf = (site: string): string[] => [...ranksOfFiles(pageOf(site)).keys()].map((url) => url.replace(/.*\//, ""));
+const isGeometry = (path: string): boolean => path.startsWith("/geometry/");
+
+describe("the loader keeps three's conventions", () => {
+  test("its manager hears of the document and of every file, once each, and of the end", async () => {
+    const site = classic();
+    await withApp(site, {}, async ({ page }) => {
+      for (const document of ["scene.x3d", "index.html"]) {
+        const lines = await page.evaluate((name) => window.app.log(name), document);
+        for (const item of [document, ...filesOf(site)]) {
+          assert.deepEqual(lines.filter((line) => line.endsWith(` ${item}`)), [`start ${item}`, `end ${item}`]);
+        }
+        assert.ok(lines.indexOf("onLoad") < lines.indexOf("complete"));
+        assert.ok(lines.indexOf("onLoad") < lines.indexOf("manager.onLoad"));
+        assert.ok(lines.includes("progress"));
+        assert.equal(lines.filter((line) => line === "manager.onLoad").length, 1);
+        assert.ok(!lines.some((line) => line.startsWith("error") || line.startsWith("onError")));
+      }
+    });
+  });
+
+  test("a document that is missing or none is an error that names it", async () => {
+    // Chromium styles its message about XML inline.
+    await withApp(classic(), { expectedErrors: /404|inline style/ }, async ({ page, server }) => {
+      server.put("/none.html", "<p>nothing here");
+      server.put("/broken.x3d", "<X3D><Scene></X3D>");
+      for (const [url, message] of [["absent.x3d", /absent\.x3d: the server answered 404/], ["none.html", /none\.html has no X3D/], ["broken.x3d", /broken\.x3d is not well-formed/]] as const) {
+        const lines = await page.evaluate((name) => window.app.log(name), url);
+        assert.match(lines.find((line) => line.startsWith("onError")) ?? "", message);
+        assert.deepEqual(lines.filter((line) => line.endsWith(` ${url}`) && !line.startsWith("onError")), [`start ${url}`, `error ${url}`, `end ${url}`]);
+      }
+    });
+  });
+
+  test("a file that fails is the manager's error, and the rest of the scene is there; without any there is none", async () => {
+    const site = classic();
+    const [, index] = filesOf(site);
+    await withApp(site, { expectedErrors: /404/ }, async ({ page, server }) => {
+      const mend = server.when((path) => path.endsWith(index!), { status: 404 });
+      const partly = await page.evaluate(() => window.app.log("scene.x3d"));
+      assert.deepEqual(partly.filter((line) => line.startsWith("error")), [`error ${index!}`]);
+      assert.ok(partly.includes("onLoad") && partly.includes("complete"));
+      mend();
+      server.when(isGeometry, { status: 404 });
+      const none = await page.evaluate(() => window.app.log("scene.x3d"));
+      assert.match(none.find((line) => line.startsWith("onError")) ?? "", /404/);
+      assert.ok(!none.includes("onLoad"));
+    });
+  });
+
+  test("an abort ends its requests and its promise, and what has come stays", async () => {
+    const { closed, open } = gate();
+    await withApp(classic(), {}, async ({ page, server, observed }) => {
+      const [first, ...later] = filesOf(classic());
+      server.when(isGeometry, { hold: closed });
+      const log = page.evaluate(() => window.app.log("scene.x3d"));
+      await until("files are asked for", () => server.requestsOf(/^\/geometry\//).length > 0);
+      await page.evaluate(() => { window.app.abort(); });
+      const nothing = await log;
+      assert.match(nothing.find((line) => line.startsWith("onError")) ?? "", /AbortError/);
+      assert.equal(nothing.at(-1), "manager.onLoad"); // every item has ended
+      await until("requests end", () => server.requestsOf(/^\/geometry\//).every(({ state }) => state === "aborted"));
+      assert.equal((await observed()).live.bitmaps, 0);
+
+      const pass = server.when((path) => path.endsWith(first!), {});
+      const partial = page.evaluate(() => {
+        const { loader } = window.app;
+        return loader.loadAsync("scene.x3d").then(async (scene) => {
+          const complete = scene.complete.then(() => "resolved", (error: unknown) => (error as Error).name);
+          loader.abort();
+          const shown: string[] = [];
+          scene.traverse(({ type }) => { if (type !== "Group") shown.push(type); });
+          return { complete: await complete, shown };
+        });
+      });
+      assert.deepEqual(await partial, { complete: "AbortError", shown: ["Points"] });
+      for (const file of later) {
+        await until(`${file} is given up`, () => server.requestsOf(new RegExp(file)).every(({ state }) => state === "aborted"));
+      }
+      pass();
+      open();
+    });
+  });
+
+  test("dispose gives everything back", async () => {
+    for (const site of [classic(), siteOfGenerated("trefoil", "--profile", "compact")]) {
+      await withApp(site, {}, async ({ page, observed }) => {
+        await draw(page, "directional", "nothing");
+        const left = [];
+        for (let round = 0; round < 3; ++round) {
+          await page.evaluate(() => window.app.load());
+          await draw(page, "directional", "scene");
+          await page.evaluate(() => window.app.pick(320, 200));
+          const held = (await observed()).live;
+          await page.evaluate(() => { window.app.dispose(); });
+          // The app makes its floor and its shadow map anew each time, and the scene must leave no more than that.
+          const { live } = await observed();
+          assert.ok(live.textures + live.buffers < held.textures + held.buffers);
+          left.push({ textures: live.textures, buffers: live.buffers, bitmaps: live.bitmaps });
+        }
+        const before = (await observed()).live;
+        await draw(page, "directional", "nothing");
+        const { live } = await observed();
+        const app = { textures: live.textures - before.textures, buffers: live.buffers - before.buffers };
+        assert.equal(left[2]!.textures - left[1]!.textures, app.textures);
+        assert.equal(left[2]!.buffers - left[1]!.buffers, app.buffers);
+        assert.equal(live.bitmaps, 0);
+      });
+    }
+  });
+
+  test("materials, shadows, names and the box are the app's to use", async () => {
+    await withApp(classic(), {}, async ({ page }) => {
+      const { size, sizeOfObjects, ...found } = await page.evaluate(() => window.app.inspect());
+      assert.deepEqual(found, { meshes: 1, toon: true, casting: true, byName: true, lights: false });
+      assert.ok((size as number[]).every((edge) => edge > 2 && edge < 7));
+      (size as number[]).forEach((edge, axis) => { assert.ok(Math.abs(edge - (sizeOfObjects as number[])[axis]!) < 1e-3); });
+    });
+  });
+
+  test("the GPU says what is under a pixel, and a ray finds it where vertices are kept", async () => {
+    for (const [options, keeps] of [[["--profile", "classic"], false], [["--profile", "classic"], true], [["--profile", "compact"], false], [["--container", "bg"], false]] as const) {
+      await withApp(siteOfGenerated("trefoil", ...options), {}, async ({ page }) => {
+        await page.evaluate((keep) => window.app.loader.setKeepVertices(keep), keeps);
+        await page.evaluate(() => window.app.load());
+        const before = await draw(page, "directional", "scene");
+        const hasVertices = keeps || !options.includes("classic" as never);
+        let [hits, sameTriangles] = [0, 0];
+        for (const [x, y] of [[320, 150], [250, 200], [400, 220], [330, 260], [5, 5], [635, 475]] as const) {
+          const { gpu, ray } = await page.evaluate(([x, y]) => window.app.pick(x, y), [x, y] as const);
+          if (gpu === undefined) {
+            assert.equal(ray, undefined);
+            continue;
+          }
+          hits += 1;
+          assert.equal(gpu.name, "trefoil");
+          if (!hasVertices) {
+            assert.equal(ray, undefined);
+            continue;
+          }
+          assert.equal(ray?.name, gpu.name);
+          if (ray.triangle === gpu.triangle) sameTriangles += 1;
+          assert.ok(Math.hypot(...gpu.point.map((part, axis) => part - ray.point[axis]!)) < 1e-2);
+        }
+        assert.ok(hits >= 2 && hits < 6, `${hits} hits`);
+        // GPUs round corners to a fraction of a pixel: on an edge the neighbour may be hit.
+        if (hasVertices) assert.ok(sameTriangles >= hits - 1, `${sameTriangles} of ${hits} triangles are the ray's`);
+        // The app's renderer is as it was.
+        assert.equal(difference(before, await draw(page, "directional", "scene")).largest, 0);
+      });
+    }
+  });
+});

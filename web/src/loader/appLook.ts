@@ -1,0 +1,121 @@
+// How a scene looks in somebody's own three.js app: with three's materials, so
+// that the app's lights, shadows, tone mapping and colour space hold for it as
+// for everything else there. Only where vertices come from is ours, and it is
+// the same in every pass: what casts a shadow is what is seen.
+
+import type { Camera, Material, Sphere, WebGLRenderer } from "three";
+import {
+  Color, DoubleSide, FrontSide, MeshBasicMaterial, MeshDepthMaterial, MeshDistanceMaterial, MeshStandardMaterial, Points, SRGBColorSpace,
+} from "three";
+import type { MaterialDescription } from "../document/description.ts";
+import { farnessDefine, shadeByFarnessIn } from "../render/farness.ts";
+import type { Look, MaterialRequest, Shading } from "../render/look.ts";
+import { readVerticesIn, srgbColorsDefine, vertexDefinesOf } from "../render/vertexChunk.ts";
+
+/**
+ * Makes the material of a shape from X3D's. `shading` says what there is to shade:
+ * "smooth" by normals, "flat" by slope, "unlit" and "distance" are points and
+ * lines. Any built-in material of three.js but its ShaderMaterials will do; each
+ * call must make a new one. Called again for each stage of a patch.
+ */
+export type MaterialMaker = (material: MaterialDescription, shading: Shading) => Material;
+
+/** A physically based reading of X3D's: its shininess as roughness, by the width of the highlight. */
+export function standardMaterialOf({ diffuseColor, emissiveColor, shininess, transparency }: MaterialDescription, shading: Shading): Material {
+  const color = new Color().setRGB(...diffuseColor, SRGBColorSpace);
+  const opacity = 1 - transparency;
+  const transparent = transparency > 0;
+  if (shading === "unlit" || shading === "distance") {
+    const emissive = new Color().setRGB(...emissiveColor, SRGBColorSpace);
+    return new MeshBasicMaterial({ color: emissive.getHex() === 0 ? color : emissive, opacity, transparent });
+  }
+  return new MeshStandardMaterial({
+    color, opacity, transparent,
+    emissive: new Color().setRGB(...emissiveColor, SRGBColorSpace),
+    roughness: Math.sqrt(2 / (shininess * 128 + 2)), // as of Blinn's exponent, Walter et al. 2007
+    metalness: 0,
+  });
+}
+
+/** Points are that wide, in CSS pixels. */
+const pointSize = 2;
+
+/** What a scene is in the app that it is hung into. */
+export interface Surroundings {
+  readonly castShadow: boolean;
+  readonly receiveShadow: boolean;
+  /** Around the scene, in the app's world. */
+  readonly sphere: Sphere;
+}
+
+export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings): Look {
+  const shadowMaterials = new WeakMap<Material, ShadowMaterials>();
+  return {
+    makeMaterial(request, description) {
+      const material = makeMaterial(description, request.shading);
+      material.side = request.solid ? FrontSide : DoubleSide;
+      material.vertexColors = request.colors !== "none";
+      if (request.colors === "rgba") material.transparent = true;
+      if ("flatShading" in material && request.shading === "flat") material.flatShading = true;
+      // Colours of vertices stand in for the diffuse colour, as X3D has it.
+      if (material.vertexColors && "color" in material && material.color instanceof Color) material.color.set(0xffffff);
+      shadowMaterials.set(material, shadowMaterialsOf(material, request));
+      return readVertices(material, request, request.shading === "smooth" && !("flatShading" in material && material.flatShading === true));
+    },
+    applyMaterial: () => undefined, // the document is read once
+    prepare(object, request, material) {
+      object.castShadow = surroundings.castShadow;
+      object.receiveShadow = surroundings.receiveShadow;
+      const { depth, distance } = shadowMaterials.get(material) ?? {};
+      object.customDepthMaterial = depth;
+      object.customDistanceMaterial = distance;
+      // There are no vertices in JavaScript for a ray, and three does not expect that.
+      if (request.areImages) object.raycast = () => undefined;
+      if (object instanceof Points) object.onBeforeRender = (renderer, _, camera) => { measure(renderer, camera, request); };
+    },
+  };
+
+  /** Points are as large in every app, and those that stand for a surface are darker the farther they are in the scene. */
+  function measure(renderer: WebGLRenderer, camera: Camera, { shared }: MaterialRequest): void {
+    shared.pointSize.value = pointSize * renderer.getPixelRatio();
+    const { center, radius } = surroundings.sphere;
+    const ahead = -center.applyMatrix4(camera.matrixWorldInverse).z;
+    shared.depthRange.value.set(Math.max(ahead - radius, 0), ahead + radius);
+  }
+}
+
+interface ShadowMaterials {
+  readonly depth: Material;
+  readonly distance: Material;
+}
+
+/** For shadows of directional lights and spots, and for those of points; they go with the material that is seen. */
+function shadowMaterialsOf(material: Material, request: MaterialRequest): ShadowMaterials {
+  const depth = readVertices(new MeshDepthMaterial(), request, false);
+  const distance = readVertices(new MeshDistanceMaterial(), request, false);
+  const onDispose = () => {
+    material.removeEventListener("dispose", onDispose);
+    depth.dispose();
+    distance.dispose();
+  };
+  material.addEventListener("dispose", onDispose);
+  return { depth, distance };
+}
+
+/** Lets a material draw vertices of this form, whatever it does besides. */
+function readVertices<Any extends Material>(material: Any, request: MaterialRequest, readsNormals: boolean): Any {
+  const own = material.onBeforeCompile.bind(material);
+  const ownKey = material.customProgramCacheKey();
+  material.defines = {
+    ...material.defines, ...vertexDefinesOf(request, readsNormals), [srgbColorsDefine]: "",
+    ...(request.shading === "distance" && { [farnessDefine]: "" }),
+  };
+  material.onBeforeCompile = (shader, renderer) => {
+    own(shader, renderer);
+    Object.assign(shader.uniforms, request.uniforms, { depthRange: request.shared.depthRange });
+    readVerticesIn(shader);
+    shadeByFarnessIn(shader);
+  };
+  material.customProgramCacheKey = () => `imgeo ${ownKey}`;
+  return material;
+}

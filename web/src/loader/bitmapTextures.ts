@@ -1,0 +1,54 @@
+// Images of vertex data as textures of whatever renderer draws them first. They
+// keep their bitmaps, as three.js' own textures do, so that a lost context comes
+// back by itself.
+
+import { NearestFilter, NoColorSpace, Texture } from "three";
+import type { DataImage, DecodedImage } from "../decode/image.ts";
+import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
+import type { Textures } from "../render/patchDraws.ts";
+
+/** Texels of the longest edge: a renderer that can do less is not in use any more, and we are asked before there is one. */
+export const largestTexture = 4096;
+
+export class BitmapTextures implements Textures {
+  readonly #textures = new WeakMap<DecodedImage, Texture>();
+
+  textureOf(image: DecodedImage): Texture {
+    const texture = this.#textures.get(image);
+    if (texture === undefined) throw new RangeError("the image is closed");
+    return texture;
+  }
+
+  /** Rejects with DecodeError, or with the signal's reason; nothing is then left behind. */
+  async makeImage(png: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DataImage> {
+    const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, largestTexture);
+    if (signal.aborted) {
+      bitmap.close();
+      throw signal.reason;
+    }
+    const texture = textureOf(bitmap);
+    const image = {
+      width: bitmap.width, height: bitmap.height,
+      close: () => {
+        if (!this.#textures.delete(image)) return;
+        texture.dispose();
+        bitmap.close();
+      },
+    };
+    this.#textures.set(image, texture);
+    return { image, channels };
+  }
+}
+
+/** Bytes reach the shader as they are in the file. */
+function textureOf(bitmap: ImageBitmap): Texture {
+  const texture = new Texture(bitmap);
+  texture.colorSpace = NoColorSpace;
+  texture.minFilter = NearestFilter;
+  texture.magFilter = NearestFilter;
+  texture.generateMipmaps = false;
+  texture.flipY = false;
+  texture.premultiplyAlpha = false;
+  texture.needsUpdate = true;
+  return texture;
+}
