@@ -148,7 +148,7 @@ void writeMesh(const std::vector<IndexedPatch>& patches, const Lattice& lattice,
       mesh.corners.push_back(first + index);
   }
   scene.meshes.push_back(std::move(mesh));
-  scene.shapes.push_back({"distorted", 0, {}});
+  addRoot(scene.graph, {"distorted", Shape{}, {}, ""});
   writeFile(path, exportScene(scene, MeshFormat::ply));
 }
 

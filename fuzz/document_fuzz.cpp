@@ -20,12 +20,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   for (const std::string& text : {writeX3d(read), writeHtml(read, {"runtime.js", "style.css"})}) {
     const SceneDocument again = readScene(text, "again");
-    require(again.title == read.title && again.headlight == read.headlight);
-    require(again.shapes.size() == read.shapes.size() && again.viewpoints.size() == read.viewpoints.size());
-    for (std::size_t i = 0; i < read.shapes.size(); ++i) {
-      require(again.shapes[i].material == read.shapes[i].material);
-      require(again.geometries[again.shapes[i].mesh].patches.size() ==
-              read.geometries[read.shapes[i].mesh].patches.size());
+    require(again.graph.title == read.graph.title && again.graph.headlight == read.graph.headlight);
+    const std::vector<std::size_t> nodes = nodesInOrder(read.graph), nodesAgain = nodesInOrder(again.graph);
+    require(nodes.size() == nodesAgain.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Node &node = read.graph.nodes[nodes[i]], &nodeAgain = again.graph.nodes[nodesAgain[i]];
+      require(node.content.index() == nodeAgain.content.index());
+      const Shape* shape = std::get_if<Shape>(&node.content);
+      if (!shape)
+        continue;
+      const Shape& shapeAgain = std::get<Shape>(nodeAgain.content);
+      require(again.geometries.at(shapeAgain.mesh).patches.size() ==
+              read.geometries.at(shape->mesh).patches.size());
+      require(!shape->appearance || again.graph.appearances.at(*shapeAgain.appearance).material ==
+                                        read.graph.appearances.at(*shape->appearance).material);
     }
   }
   return 0;

@@ -20,12 +20,28 @@ inline bool isFinite(Vec3f p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
+/// Every index names something, and something is seen.
+inline void requireGraph(const Scene& scene) {
+  const SceneGraph& graph = scene.graph;
+  for (const Node& node : graph.nodes) {
+    for (const std::size_t child : node.children)
+      require(child < graph.nodes.size());
+    if (const Shape* shape = std::get_if<Shape>(&node.content))
+      require(shape->mesh < scene.meshes.size() &&
+              (!shape->appearance || *shape->appearance < graph.appearances.size()));
+  }
+  for (const Appearance& appearance : graph.appearances)
+    for (const TextureUse& use : appearance.textures)
+      require(use.texture < graph.textures.size());
+  for (const Texture& texture : graph.textures)
+    require(texture.image < graph.images.size());
+  require(!placedShapes(graph).empty());
+}
+
 inline int importOrRefuse(ByteSpan bytes, const std::string& name) {
   try {
     const Imported imported = importBytes(bytes, name, {.attributes = {.all = true, .names = {}}});
-    require(!imported.scene.shapes.empty());
-    for (const Shape& shape : imported.scene.shapes)
-      require(shape.mesh < imported.scene.meshes.size());
+    requireGraph(imported.scene);
     for (const Mesh& mesh : imported.scene.meshes) {
       require(isConsistent(mesh));
       for (const Vec3f& position : mesh.positions)

@@ -12,12 +12,8 @@ namespace imgeo {
 
 /// A scene whose meshes have been written into containers.
 struct SceneDocument {
-  std::string title;
-  std::vector<Shape> shapes;                   ///< Shape::mesh indexes `geometries`
+  SceneGraph graph;                            ///< Shape::mesh indexes `geometries`
   std::vector<GeometryDescription> geometries; ///< one per mesh
-  std::vector<Viewpoint> viewpoints;
-  std::vector<DirectionalLight> lights;
-  bool headlight = true;
 };
 
 struct PageOptions {

@@ -4,13 +4,16 @@
 #include "containers/named_attributes.h"
 #include "containers/stored_coords.h"
 #include "containers/testing.h"
+#include "documents/appearance_element.h"
 
 #include <gtest/gtest.h>
+#include <map>
 
 namespace imgeo {
 namespace {
 
 using testing::Random;
+using testing::shapeName;
 
 /// Text with everything in it that markup could stumble over.
 std::string randomText(Random& random) {
@@ -119,34 +122,133 @@ GeometryDescription randomGeometry(Random& random) {
   return geometry;
 }
 
+Rotation randomRotation(Random& random) {
+  return {randomVector(random), random.between(-3, 3)};
+}
+
+Appearance randomAppearance(Random& random, std::size_t textures) {
+  Appearance appearance;
+  if (random.once(2))
+    appearance.name = "look_" + std::to_string(random.bits());
+  switch (random.below(3)) {
+  case 0:
+    appearance.material = Material{.diffuseColor = randomColor(random),
+                                   .specularColor = randomColor(random),
+                                   .shininess = random.between(0, 1)};
+    break;
+  case 1:
+    appearance.material = PhysicalMaterial{.baseColor = randomColor(random),
+                                           .metallic = random.between(0, 1),
+                                           .transparency = random.between(0, 1)};
+    break;
+  default:
+    appearance.material = UnlitMaterial{.emissiveColor = randomColor(random)};
+  }
+  const bool oneTransform = random.once(2);
+  TextureTransform transform;
+  for (int role = 0; role < 8 && textures > 0; ++role) {
+    if (textureField(appearance.material, static_cast<TextureRole>(role)).empty() || random.once(2))
+      continue;
+    if (!oneTransform)
+      transform = {{random.between(-2, 2), 0}, {random.between(1, 2), 1}, {0, 0}, random.between(-1, 1)};
+    appearance.textures.push_back({static_cast<TextureRole>(role), random.below(textures), transform});
+  }
+  appearance.alphaMode = static_cast<AlphaMode>(random.below(4));
+  if (appearance.alphaMode == AlphaMode::mask)
+    appearance.alphaCutoff = random.between(0, 1);
+  return appearance;
+}
+
+Texture randomTexture(Random& random, std::size_t images) {
+  Texture texture;
+  texture.image = random.below(images);
+  texture.boundaryS = static_cast<Boundary>(random.below(3));
+  texture.boundaryT = static_cast<Boundary>(random.below(3));
+  if (random.once(2))
+    texture.magnification = static_cast<Filter>(1 + random.below(2));
+  if (random.once(2)) {
+    texture.minification = static_cast<Filter>(1 + random.below(2));
+    texture.mipMaps = random.once(2);
+    if (texture.mipMaps)
+      texture.betweenMipMaps = static_cast<Filter>(1 + random.below(2));
+  }
+  return texture;
+}
+
+/// Any node that is no Group, Transform or Shape.
+NodeContent randomLeaf(Random& random) {
+  switch (random.below(5)) {
+  case 0:
+    return Viewpoint{random.once(2) ? "" : randomText(random), randomVector(random), randomRotation(random),
+                     random.between(0.1f, 3), randomVector(random)};
+  case 1:
+    return OrthoViewpoint{randomText(random),  randomVector(random), randomRotation(random), {-2, -1}, {3, 4},
+                          randomVector(random)};
+  case 2:
+    return DirectionalLight{randomVector(random), randomColor(random), random.between(0, 1), random.once(2)};
+  case 3:
+    return PointLight{randomVector(random), {0, 0, 1},     7, randomColor(random),
+                      random.between(0, 9), random.once(2)};
+  default:
+    return SpotLight{
+        randomVector(random), randomVector(random), random.between(0, 1), random.between(0, 1), {1, 2, 3},
+        random.between(1, 9), randomColor(random),  random.between(0, 9), random.once(2)};
+  }
+}
+
+/// A graph in which nodes, appearances, textures and geometries are shared.
 SceneDocument randomDocument(std::uint32_t seed) {
   Random random(seed);
   SceneDocument document;
+  SceneGraph& graph = document.graph;
   if (!random.once(4))
-    document.title = randomText(random);
-  for (std::uint32_t shapes = random.below(4); shapes > 0; --shapes) {
-    Shape shape;
-    if (!random.once(3))
-      shape.name = "Größe_" + std::to_string(shapes) + ".a-b";
-    shape.mesh = document.geometries.size();
-    if (random.once(2))
-      shape.material.diffuseColor = randomColor(random);
-    if (random.once(2))
-      shape.material.specularColor = randomColor(random);
-    if (random.once(2))
-      shape.material.shininess = random.between(0, 1);
-    if (random.once(2))
-      shape.material.transparency = random.between(0, 1);
-    document.shapes.push_back(shape);
+    graph.title = randomText(random);
+  if (random.once(3))
+    graph.info = {randomText(random), "more"};
+  if (random.once(2))
+    graph.background = Background{randomColor(random)};
+  graph.headlight = random.once(2);
+  for (std::uint32_t count = random.below(3); count > 0; --count)
+    graph.images.push_back({"textures/" + std::to_string(count) + ".png", {}});
+  for (std::uint32_t count = graph.images.empty() ? 0 : random.below(4); count > 0; --count)
+    graph.textures.push_back(randomTexture(random, graph.images.size()));
+  for (std::uint32_t count = 1 + random.below(3); count > 0; --count)
+    graph.appearances.push_back(randomAppearance(random, graph.textures.size()));
+  for (std::uint32_t count = 1 + random.below(3); count > 0; --count)
     document.geometries.push_back(randomGeometry(random));
+
+  std::vector<std::size_t> made; // children stand before their parents, so there are no circles
+  for (std::uint32_t count = random.below(12); count > 0; --count) {
+    Node node;
+    if (!random.once(3))
+      node.name = "Größe_" + std::to_string(count) + ".a-b";
+    if (random.once(5))
+      node.extras = "{\"note\":\"" + std::to_string(random.bits()) + "\"}";
+    const std::uint32_t kind = random.below(4);
+    if (kind == 0)
+      node.content = randomLeaf(random);
+    if (kind == 1) {
+      Shape shape;
+      shape.mesh = random.below(document.geometries.size());
+      shape.solid = !random.once(3);
+      if (!random.once(4))
+        shape.appearance = random.below(graph.appearances.size());
+      node.content = shape;
+    }
+    if (kind == 2)
+      node.content = Transform{randomVector(random),
+                               randomRotation(random),
+                               randomVector(random),
+                               random.once(2) ? Rotation{} : randomRotation(random),
+                               {}};
+    if (kind >= 2)
+      for (std::uint32_t children = random.below(4); children > 0 && !made.empty(); --children)
+        node.children.push_back(made[random.below(made.size())]);
+    made.push_back(addNode(graph, std::move(node)));
   }
-  for (std::uint32_t views = random.below(3); views > 0; --views)
-    document.viewpoints.push_back({random.once(2) ? "" : randomText(random), randomVector(random),
-                                   randomVector(random), random.between(-3, 3), random.between(0.1f, 3),
-                                   randomVector(random)});
-  for (std::uint32_t lights = random.below(3); lights > 0; --lights)
-    document.lights.push_back({randomVector(random), randomColor(random), random.between(0, 1)});
-  document.headlight = random.once(2);
+  for (const std::size_t node : made)
+    if (random.once(2))
+      graph.roots.push_back(node);
   return document;
 }
 
@@ -180,30 +282,61 @@ void expectEqual(const GeometryDescription& read, GeometryDescription written) {
   EXPECT_EQ(read, written);
 }
 
+/// The same nodes in the same order, shared alike. Names are left out where the
+/// writer gives them.
 void expectEqual(const SceneDocument& read, const SceneDocument& written) {
-  EXPECT_EQ(read.title, written.title);
-  EXPECT_EQ(read.headlight, written.headlight);
-  ASSERT_EQ(read.shapes.size(), written.shapes.size());
-  for (std::size_t i = 0; i < read.shapes.size(); ++i) {
-    EXPECT_EQ(read.shapes[i].name, written.shapes[i].name);
-    EXPECT_EQ(read.shapes[i].material, written.shapes[i].material);
-    expectEqual(read.geometries.at(read.shapes[i].mesh), written.geometries.at(written.shapes[i].mesh));
-  }
-  ASSERT_EQ(read.viewpoints.size(), written.viewpoints.size());
-  for (std::size_t i = 0; i < read.viewpoints.size(); ++i) {
-    const Viewpoint &a = read.viewpoints[i], &b = written.viewpoints[i];
-    EXPECT_EQ(a.description, b.description);
-    EXPECT_EQ(a.position, b.position);
-    EXPECT_EQ(a.orientationAxis, b.orientationAxis);
-    EXPECT_EQ(a.orientationAngle, b.orientationAngle);
-    EXPECT_EQ(a.fieldOfView, b.fieldOfView);
-    EXPECT_EQ(a.centerOfRotation, b.centerOfRotation);
-  }
-  ASSERT_EQ(read.lights.size(), written.lights.size());
-  for (std::size_t i = 0; i < read.lights.size(); ++i) {
-    EXPECT_EQ(read.lights[i].direction, written.lights[i].direction);
-    EXPECT_EQ(read.lights[i].color, written.lights[i].color);
-    EXPECT_EQ(read.lights[i].intensity, written.lights[i].intensity);
+  EXPECT_EQ(read.graph.title, written.graph.title);
+  EXPECT_EQ(read.graph.info, written.graph.info);
+  EXPECT_EQ(read.graph.background, written.graph.background);
+  EXPECT_EQ(read.graph.headlight, written.graph.headlight);
+  const std::vector<std::size_t> readNodes = nodesInOrder(read.graph), nodes = nodesInOrder(written.graph);
+  ASSERT_EQ(readNodes.size(), nodes.size());
+  std::map<std::size_t, std::size_t> readOf;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    readOf[nodes[i]] = readNodes[i];
+  std::map<std::size_t, std::size_t> readAppearance, readTexture;
+  const auto expectSame = [](std::map<std::size_t, std::size_t>& known, std::size_t key, std::size_t value) {
+    EXPECT_EQ(known.try_emplace(key, value).first->second, value);
+  };
+  for (const std::size_t index : nodes) {
+    const Node &a = read.graph.nodes[readOf[index]], &b = written.graph.nodes[index];
+    EXPECT_TRUE(b.name.empty() || a.name == b.name) << a.name << b.name;
+    EXPECT_EQ(a.extras, b.extras);
+    std::vector<std::size_t> children;
+    for (const std::size_t child : b.children)
+      children.push_back(readOf[child]);
+    EXPECT_EQ(a.children, children);
+    ASSERT_EQ(a.content.index(), b.content.index());
+    const Shape* shape = std::get_if<Shape>(&b.content);
+    if (!shape) {
+      EXPECT_EQ(a.content, b.content);
+      continue;
+    }
+    const Shape& readShape = std::get<Shape>(a.content);
+    EXPECT_EQ(readShape.solid, shape->solid);
+    expectEqual(read.geometries.at(readShape.mesh), written.geometries.at(shape->mesh));
+    ASSERT_EQ(readShape.appearance.has_value(), shape->appearance.has_value());
+    if (!shape->appearance)
+      continue;
+    expectSame(readAppearance, *shape->appearance, *readShape.appearance);
+    const Appearance &look = written.graph.appearances[*shape->appearance],
+                     &readLook = read.graph.appearances[*readShape.appearance];
+    EXPECT_EQ(readLook.material, look.material);
+    EXPECT_EQ(readLook.alphaMode, look.alphaMode);
+    EXPECT_EQ(readLook.alphaCutoff, look.alphaCutoff);
+    ASSERT_EQ(readLook.textures.size(), look.textures.size());
+    for (std::size_t i = 0; i < look.textures.size(); ++i) {
+      TextureUse use = readLook.textures[i];
+      expectSame(readTexture, look.textures[i].texture, use.texture);
+      Texture texture = read.graph.textures[use.texture],
+              expected = written.graph.textures[look.textures[i].texture];
+      EXPECT_EQ(read.graph.images[texture.image], written.graph.images[expected.image]);
+      texture.image = expected.image;
+      texture.name = expected.name;
+      EXPECT_EQ(texture, expected);
+      use.texture = look.textures[i].texture;
+      EXPECT_EQ(use, look.textures[i]);
+    }
   }
 }
 
@@ -256,13 +389,23 @@ TEST(Documents, HoldTheSameElementInBothForms) {
 
 SceneDocument documentNamed(const std::string& name) {
   SceneDocument document;
-  document.title = name;
+  document.graph.title = name;
   GeometryDescription geometry;
-  geometry.patches = {
-      {{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", 0, 0}, {"b.png", 0, 0}}, {}, {}, {}, {}, {}}};
+  geometry.patches = {{{},
+                       3,
+                       {{Primitive::triangles, 3}},
+                       {256, 1},
+                       {},
+                       {{"a.png", 0, 0}, {"b.png", 0, 0}},
+                       {},
+                       {},
+                       {},
+                       {},
+                       {}}};
   document.geometries = {geometry, geometry};
-  document.shapes = {{name, 0, {}}, {name, 1, {}}};
-  document.viewpoints = {{name, {}, {0, 0, 1}, 0, 0.8, {}}};
+  addRoot(document.graph, {"", Viewpoint{name, {}, {}, 0.8, {}}, {}, ""});
+  addRoot(document.graph, {name, Shape{0, {}, true}, {}, ""});
+  addRoot(document.graph, {name, Shape{1, {}, true}, {}, ""});
   return document;
 }
 
@@ -271,24 +414,24 @@ TEST(Documents, DoNotRunWhatANameSays) {
                                  "--><script>", "</noscript><script>", "a\0b<script>"}) {
     const std::string html = writeHtml(documentNamed(name), page);
     EXPECT_EQ(html.find("<script"), html.rfind("<script")) << html;
-    EXPECT_EQ(readScene(html, "x").title, name);
-    EXPECT_EQ(readScene(html, "x").viewpoints.at(0).description, name);
+    EXPECT_EQ(readScene(html, "x").graph.title, name);
+    EXPECT_EQ(std::get<Viewpoint>(readScene(html, "x").graph.nodes.at(0).content).description, name);
   }
 }
 
 TEST(Documents, GiveShapesValidUniqueNames) {
-  EXPECT_EQ(readScene(writeX3d(documentNamed("\"><script>")), "x").shapes[0].name, "___script_");
-  EXPECT_EQ(readScene(writeX3d(documentNamed("2 hares")), "x").shapes[0].name, "_2_hares");
-  EXPECT_EQ(readScene(writeX3d(documentNamed("2 hares")), "x").shapes[1].name, "_2_hares_2");
-  EXPECT_EQ(readScene(writeX3d(documentNamed("\xff\xfe")), "x").shapes[0].name, "__");
-  EXPECT_EQ(readScene(writeX3d(documentNamed("")), "x").shapes[1].name, "");
+  EXPECT_EQ(shapeName(readScene(writeX3d(documentNamed("\"><script>")), "x").graph, 0), "___script_");
+  EXPECT_EQ(shapeName(readScene(writeX3d(documentNamed("2 hares")), "x").graph, 0), "_2_hares");
+  EXPECT_EQ(shapeName(readScene(writeX3d(documentNamed("2 hares")), "x").graph, 1), "_2_hares_2");
+  EXPECT_EQ(shapeName(readScene(writeX3d(documentNamed("\xff\xfe")), "x").graph, 0), "__");
+  EXPECT_EQ(shapeName(readScene(writeX3d(documentNamed("")), "x").graph, 1), "");
 }
 
 TEST(Documents, AreValidUtf8WhateverTheirNamesAre) {
   const SceneDocument read =
       readScene(writeHtml(documentNamed("a\xc3(\xed\xa0\x80\x01z\xf0\x9f"), page), "x");
   const std::string r = "\xef\xbf\xbd";
-  EXPECT_EQ(read.title, "a" + r + "(" + r + r + r + r + "z" + r + r);
+  EXPECT_EQ(read.graph.title, "a" + r + "(" + r + r + r + r + "z" + r + r);
 }
 
 TEST(Html, HintsAtTheFirstPlanesThenAtTheIndices) {
@@ -356,7 +499,7 @@ TEST(ReadScene, TakesImageTexturesForImages) {
   patch.normal = Reference{"n.png", 0, 0};
   EXPECT_EQ(document.geometries[0].patches, std::vector<PatchDescription>{patch});
   EXPECT_EQ(document.geometries[0].lattice.bits, 16u);
-  EXPECT_EQ(document.shapes[0].name, "S");
+  EXPECT_EQ(shapeName(document.graph, 0), "S");
 }
 
 TEST(ReadScene, FindsTheElementPastWhatOnlyLooksLikeIt) {
@@ -364,7 +507,7 @@ TEST(ReadScene, FindsTheElementPastWhatOnlyLooksLikeIt) {
       readScene("<!DOCTYPE html><!-- <X3D> --><script>'<X3D>'</script><title><x3d></title>"
                 "<p title='<X3D>'></p><X3D><Scene><WorldInfo title='here'/></Scene></X3D>",
                 "x");
-  EXPECT_EQ(document.title, "here");
+  EXPECT_EQ(document.graph.title, "here");
 }
 
 TEST(ReadScene, RefusesDocumentTypesAndEntities) {
@@ -505,19 +648,19 @@ TEST(ReadScene, JoinsAGroupOfShapesThatShareTheirAppearance) {
                      "x");
   };
   const SceneDocument joined = scene(shape("DEF='A'", "a") + shape("USE='A'", "b"));
-  ASSERT_EQ(joined.shapes.size(), 1u);
-  EXPECT_EQ(joined.shapes[0].name, "statue");
-  EXPECT_EQ(joined.shapes[0].material.diffuseColor, (Vec3f{1, 0, 0}));
+  ASSERT_EQ(shapeNodes(joined.graph).size(), 1u);
+  EXPECT_EQ(shapeName(joined.graph, 0), "statue");
+  EXPECT_EQ(testing::appearanceOf(joined.graph, 0).material, AnyMaterial(Material{.diffuseColor{1, 0, 0}}));
   ASSERT_EQ(joined.geometries.at(0).patches.size(), 2u);
   EXPECT_EQ(joined.geometries[0].patches[1].coord[0].url, "b");
   EXPECT_EQ(joined.geometries[0].patches[1].box.size(), (Vec3d{1, 1, 1}));
   EXPECT_EQ(joined.geometries[0].box.size(), (Vec3d{3, 3, 3}));
 
-  EXPECT_EQ(scene(shape("DEF='A'", "a") + shape("DEF='B'", "b")).shapes.size(), 2u);
-  EXPECT_EQ(scene(shape("", "a") + shape("", "b")).shapes.size(), 2u);
+  EXPECT_EQ(shapeNodes(scene(shape("DEF='A'", "a") + shape("DEF='B'", "b")).graph).size(), 2u);
+  EXPECT_EQ(shapeNodes(scene(shape("", "a") + shape("", "b")).graph).size(), 2u);
   const std::string otherBox =
       "<Shape><Appearance USE='A'/><BinaryGeometry size='3 3 3' coordType='Uint16' coord='b'/></Shape>";
-  EXPECT_EQ(scene(shape("DEF='A'", "a") + otherBox).shapes.size(), 2u);
+  EXPECT_EQ(shapeNodes(scene(shape("DEF='A'", "a") + otherBox).graph).size(), 2u);
   EXPECT_EQ(kindOfReading("<X3D><Scene>" + shape("USE='A'", "a") + "</Scene></X3D>"), ErrorKind::malformed);
 }
 
@@ -533,8 +676,7 @@ TEST(ReadScene, RefusesGeometryThatNoLatticeStandsFor) {
   EXPECT_EQ(kindOfReading(geometry("primType='TRIANGLEFAN' vertexCount='3'", "a")), ErrorKind::unsupported);
   EXPECT_EQ(kindOfReading(geometry("", "")), ErrorKind::malformed);
   EXPECT_EQ(kindOfReading("<X3D><Scene><Shape><Box/></Shape></Scene></X3D>"), ErrorKind::unsupported);
-  EXPECT_EQ(kindOfReading("<X3D><Scene><Transform><Shape/></Transform></Scene></X3D>"),
-            ErrorKind::unsupported);
+  EXPECT_EQ(kindOfReading("<X3D><Scene><Transform><Shape/></Transform></Scene></X3D>"), ErrorKind::malformed);
 }
 
 TEST(ReadScene, RefusesADepthThatNobodyWrites) {
@@ -544,6 +686,44 @@ TEST(ReadScene, RefusesADepthThatNobodyWrites) {
   for (int i = 0; i < 100000; ++i)
     text += "</Group>";
   EXPECT_EQ(kindOfReading(text + "</Scene></X3D>"), ErrorKind::limit);
+
+  std::string chain = "<X3D><Scene><Group DEF='g0'></Group>";
+  for (int i = 1; i < 100000; ++i)
+    chain += "<Group DEF='g" + std::to_string(i) + "'><Group USE='g" + std::to_string(i - 1) + "'/></Group>";
+  EXPECT_EQ(kindOfReading(chain + "</Scene></X3D>"), ErrorKind::limit);
+}
+
+TEST(ReadScene, RefusesAUseThatNamesNothingBefore) {
+  for (const std::string use :
+       {"<Shape USE='a'/>", "<Group DEF='a'><Group USE='a'/></Group>",
+        "<Transform USE='a'/><Transform DEF='a'/>", "<Shape><ImageGeometry USE='a'/></Shape>"})
+    EXPECT_EQ(kindOfReading("<X3D><Scene>" + use + "</Scene></X3D>"), ErrorKind::malformed) << use;
+}
+
+TEST(Documents, WriteWhatStandsInSeveralPlacesOnce) {
+  SceneDocument document = documentNamed("");
+  SceneGraph& graph = document.graph;
+  graph.appearances.push_back({"", Material{}, {}, AlphaMode::automatic, 0.5f});
+  const std::vector<std::size_t> shapes = shapeNodes(graph);
+  for (const std::size_t node : shapes)
+    std::get<Shape>(graph.nodes[node].content) = {0, 0, true};
+  for (double x = 0; x < 3; ++x)
+    addRoot(graph, {"", Transform{{x, 0, 0}, {}, {1, 1, 1}, {}, {}}, {shapes[0]}, ""});
+  const std::string text = writeX3d(document);
+  const auto countOf = [&](const std::string& what) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + 1))
+      ++count;
+    return count;
+  };
+  EXPECT_EQ(countOf("<Shape DEF=\"shared\""), 1u);
+  EXPECT_EQ(countOf("<Shape USE=\"shared\""), 3u);
+  EXPECT_EQ(countOf("<Appearance DEF=\"look\""), 1u);
+  EXPECT_EQ(countOf("<Appearance USE=\"look\""), 1u);
+  EXPECT_EQ(countOf("<ImageGeometry DEF=\"geometry\""), 1u);
+  EXPECT_EQ(countOf("<ImageGeometry USE=\"geometry\""), 1u);
+  EXPECT_EQ(countOf("<GeometryPatch "), 1u);
+  EXPECT_EQ(placedShapes(readScene(text, "x").graph).size(), 5u);
 }
 
 TEST(ReadScene, RefusesEveryBeginningOfAText) {

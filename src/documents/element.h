@@ -13,11 +13,13 @@ struct Attribute {
   std::string name, value; ///< the value as it is meant, not escaped
 };
 
+using Attributes = std::vector<Attribute>;
+
 /// An element's name and attributes. Groups stand on a line each where all of
 /// them together are too long for one.
 struct Element {
   std::string name;
-  std::vector<std::vector<Attribute>> groups;
+  std::vector<Attributes> groups;
 };
 
 /// Collects the text of nested elements, two spaces a level.
@@ -49,6 +51,13 @@ template <typename T> std::string numbers(Vec3<T> v) {
 }
 
 std::string numbers(const std::vector<double>& values);
+
+/// Appends the attribute where its value is not what an absent one means.
+template <typename T>
+void addUnless(Attributes& attributes, const char* name, const T& value, const T& absent, std::string text) {
+  if (!(value == absent))
+    attributes.push_back({name, std::move(text)});
+}
 
 /// An X3D MFString: each string in double quotes, backslash before quotes and backslashes.
 std::string strings(const std::vector<std::string>& values);

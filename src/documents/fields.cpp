@@ -1,6 +1,7 @@
 #include "documents/fields.h"
 
 #include "documents/find_x3d.h"
+#include "documents/text.h"
 
 #include <charconv>
 #include <cmath>
@@ -44,7 +45,7 @@ void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind
 std::string Fields::text(const char* name) const {
   for (const pugi::xml_attribute& attribute : node_.attributes())
     if (sameName(attribute.name(), name))
-      return attribute.value();
+      return validText(attribute.value());
   return {};
 }
 
@@ -99,6 +100,13 @@ Vec3f Fields::vec3(const char* name, Vec3f fallback) const {
 Vec3d Fields::vec3(const char* name, Vec3d fallback) const {
   const auto numbers = parse<double>(name, 3);
   return numbers.empty() ? fallback : Vec3d{numbers[0], numbers[1], numbers[2]};
+}
+Rotation Fields::rotation(const char* name, const Rotation& fallback) const {
+  const auto numbers = parse<double>(name, 4);
+  return numbers.empty() ? fallback : Rotation{{numbers[0], numbers[1], numbers[2]}, numbers[3]};
+}
+std::vector<double> Fields::reals(const char* name) const {
+  return parse<double>(name);
 }
 std::vector<double> Fields::reals(const char* name, std::size_t count) const {
   return parse<double>(name, count);

@@ -3,7 +3,7 @@
 // is an Error that names the document and the line.
 
 #include "base/error.h"
-#include "base/vec.h"
+#include "scene/transform.h"
 
 #include <optional>
 #include <pugixml.hpp>
@@ -41,6 +41,9 @@ public:
   Vec2f vec2(const char* name, Vec2f fallback) const;
   Vec3f vec3(const char* name, Vec3f fallback) const;
   Vec3d vec3(const char* name, Vec3d fallback) const;
+  Rotation rotation(const char* name, const Rotation& fallback) const;
+  /// Finite numbers, any number of them.
+  std::vector<double> reals(const char* name) const;
   /// Finite numbers, exactly `count` of them, or none where the field is absent.
   std::vector<double> reals(const char* name, std::size_t count) const;
   /// Non-negative whole numbers of at most 32 bits; any number of them.

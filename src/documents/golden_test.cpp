@@ -45,12 +45,16 @@ SceneDocument goldenDocument() {
   bg.patches = {strip};
 
   SceneDocument document;
-  document.title = "Statue & base";
-  document.shapes = {{"statue", 0, {}}, {"", 1, {}}};
-  document.shapes[1].material = {{1, 0.5f, 0}, {0.1f, 0.1f, 0.1f}, {0, 0, 0.2f}, 0.3f, 0.4f, 0.5f};
   document.geometries = {sig, bg};
-  document.viewpoints = {{"Start", {0, 1, 5.5}, {0, 1, 0}, 0.25, 0.7854, {0, 1, 0.75}}};
-  document.lights = {{{0, -1, -1}, {1, 1, 0.9f}, 0.8f}};
+  SceneGraph& graph = document.graph;
+  graph.title = "Statue & base";
+  graph.background = Background{{0.93f, 0.94f, 0.95f}};
+  graph.appearances.resize(2);
+  graph.appearances[1].material = Material{{1, 0.5f, 0}, {0.1f, 0.1f, 0.1f}, {0, 0, 0.2f}, 0.3f, 0.4f, 0.5f};
+  addRoot(graph, {"", Viewpoint{"Start", {0, 1, 5.5}, {{0, 1, 0}, 0.25}, 0.7854, {0, 1, 0.75}}, {}, ""});
+  addRoot(graph, {"", DirectionalLight{{0, -1, -1}, {1, 1, 0.9f}, 0.8f, false}, {}, ""});
+  addRoot(graph, {"statue", Shape{0, 0, true}, {}, ""});
+  addRoot(graph, {"", Shape{1, 1, true}, {}, ""});
   return document;
 }
 
@@ -68,7 +72,7 @@ TEST(GoldenDocuments, AreStillWrittenAndRead) {
   for (const std::string name : {"document-1.x3d", "document-1.html"}) {
     const SceneDocument read = readScene(asText(readFile(golden / name)), name);
     ASSERT_EQ(read.geometries.size(), 2u);
-    EXPECT_EQ(read.title, document.title);
+    EXPECT_EQ(read.graph.title, document.graph.title);
     EXPECT_EQ(read.geometries[0].patches[1].coord, document.geometries[0].patches[1].coord);
     EXPECT_EQ(read.geometries[1].patches, document.geometries[1].patches);
   }

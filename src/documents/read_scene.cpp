@@ -2,9 +2,12 @@
 
 #include "documents/fields.h"
 #include "documents/find_x3d.h"
+#include "documents/read_appearance.h"
+#include "documents/read_fields.h"
 #include "documents/read_geometry.h"
-#include "documents/text.h"
 
+#include <algorithm>
+#include <array>
 #include <map>
 
 namespace imgeo {
@@ -12,29 +15,29 @@ namespace imgeo {
 namespace {
 
 constexpr std::size_t maxDocumentBytes = 64u << 20; // some hundred thousand patches
-constexpr std::size_t maxDepth = 64;
+constexpr std::size_t maxDepth = 256;               // of elements, and of nodes with what they USE
 
-/// The first child element of a name; a null node where there is none.
-pugi::xml_node childNamed(const pugi::xml_node& parent, const char* name) {
-  for (const pugi::xml_node& child : parent.children())
-    if (sameName(child.name(), name))
-      return child;
-  return {};
+constexpr std::array nodeNames{"Shape",      "Group",          "Transform",
+                               "Viewpoint",  "OrthoViewpoint", "DirectionalLight",
+                               "PointLight", "SpotLight"};
+
+bool hasElements(const pugi::xml_node& node) {
+  return std::ranges::any_of(node.children(),
+                             [](const auto& child) { return child.type() == pugi::node_element; });
 }
 
 class SceneReader {
 public:
-  SceneReader(const DocumentText& source) : source_(source) {}
+  SceneReader(const DocumentText& source) : source_(source), appearances_(source, document_.graph) {}
 
   SceneDocument read(const pugi::xml_node& x3d) {
-    document_.headlight = true;
     bool found = false;
     for (const pugi::xml_node& child : x3d.children())
       if (sameName(child.name(), "Scene")) {
         if (found)
           fail(child, ErrorKind::malformed, "there are two Scenes");
         found = true;
-        readChildren(child, 1);
+        document_.graph.roots = readChildren(child, 1);
       }
     if (!found)
       fail(x3d, ErrorKind::malformed, "there is no Scene in the X3D element");
@@ -46,62 +49,118 @@ private:
     imgeo::fail(source_, node, kind, message);
   }
 
-  void readChildren(const pugi::xml_node& parent, std::size_t depth) {
+  std::vector<std::size_t> readChildren(const pugi::xml_node& parent, std::size_t depth) {
     if (depth > maxDepth)
       fail(parent, ErrorKind::limit, "elements are nested too deeply");
-    for (const pugi::xml_node& node : parent.children()) {
-      const Fields fields(source_, node);
-      const auto is = [&](const char* name) { return sameName(node.name(), name); };
-      if (is("Group"))
-        readGroup(fields, depth + 1);
-      else if (is("Shape"))
-        readShape(fields);
-      else if (is("Viewpoint"))
-        readViewpoint(fields);
-      else if (is("DirectionalLight"))
-        readLight(fields);
-      else if (is("WorldInfo"))
-        document_.title = validText(fields.text("title"));
-      else if (is("NavigationInfo"))
-        document_.headlight = fields.boolean("headlight", true);
-      else if (node.first_child().type() == pugi::node_element)
-        fail(node, ErrorKind::unsupported, "shapes inside of this element cannot be read back");
-    }
+    std::vector<std::size_t> children;
+    for (const pugi::xml_node& node : parent.children())
+      if (const std::optional<std::size_t> child = readChild(Fields(source_, node), depth))
+        children.push_back(*child);
+    return children;
   }
 
-  /// A Group that stands for one Shape (see x3dom_element.h) becomes that Shape again.
-  void readGroup(const Fields& fields, std::size_t depth) {
-    const std::size_t first = document_.shapes.size();
-    readChildren(fields.node(), depth);
-    const std::string name = fields.text("DEF");
-    if (!sharesAppearance(fields.node()))
-      return;
-    for (std::size_t i = first + 1; i < document_.shapes.size(); ++i)
-      if (!sameButForPatches(document_.geometries[i], document_.geometries[first]))
-        return;
+  /// The node that an element stands for, if it stands for one.
+  std::optional<std::size_t> readChild(const Fields& fields, std::size_t depth) {
+    const auto is = [&](const char* name) { return sameName(fields.node().name(), name); };
+    if (is("WorldInfo")) {
+      document_.graph.title = fields.text("title");
+      document_.graph.info = fields.strings("info");
+    } else if (is("NavigationInfo")) {
+      document_.graph.headlight = fields.boolean("headlight", true);
+    } else if (is("Background")) {
+      readBackground(fields);
+    } else if (std::ranges::any_of(nodeNames, is)) {
+      const std::string use = fields.text("USE");
+      return use.empty() ? readNodeElement(fields, depth) : defined(fields, use);
+    } else if (hasElements(fields.node())) {
+      fail(fields.node(), ErrorKind::unsupported, "shapes inside of this element cannot be read back");
+    }
+    return {};
+  }
+
+  std::size_t defined(const Fields& fields, const std::string& use) const {
+    const auto found = defined_.find(use);
+    if (found == defined_.end())
+      fields.fail(ErrorKind::malformed,
+                  std::string("USE names no ") + fields.node().name() + " that stands before");
+    return found->second;
+  }
+
+  std::optional<std::size_t> readNodeElement(const Fields& fields, std::size_t depth) {
+    const auto is = [&](const char* name) { return sameName(fields.node().name(), name); };
+    if (is("Shape"))
+      return readShape(fields);
+    if (is("Viewpoint"))
+      return add(fields, readNode<Viewpoint>(fields));
+    if (is("OrthoViewpoint"))
+      return add(fields, readOrthoViewpoint(fields));
+    if (is("Group") || is("Transform"))
+      return readGrouping(fields, depth);
+    return readLight(fields);
+  }
+
+  std::size_t add(const Fields& fields, NodeContent content, std::vector<std::size_t> children = {}) {
+    Node node{fields.text("DEF"), std::move(content), std::move(children), extrasOf(fields.node())};
+    std::size_t height = 0;
+    for (const std::size_t child : node.children)
+      height = std::max(height, heights_[child] + 1);
+    if (height > maxDepth)
+      fail(fields.node(), ErrorKind::limit, "elements that USE one another are nested too deeply");
+    heights_.push_back(height);
+    const std::size_t index = addNode(document_.graph, std::move(node));
+    if (const std::string& name = document_.graph.nodes[index].name; !name.empty())
+      defined_[name] = index;
+    return index;
+  }
+
+  std::string extrasOf(const pugi::xml_node& node) const {
+    for (const pugi::xml_node& child : node.children()) {
+      const Fields fields(source_, child);
+      if (!sameName(child.name(), "MetadataString") || fields.text("name") != "extras")
+        continue;
+      const std::vector<std::string> values = fields.strings("value");
+      return values.empty() ? "" : values[0];
+    }
+    return "";
+  }
+
+  std::size_t readGrouping(const Fields& fields, std::size_t depth) {
+    const bool isTransform = sameName(fields.node().name(), "Transform");
+    const std::size_t geometriesBefore = document_.geometries.size();
+    std::vector<std::size_t> children = readChildren(fields.node(), depth + 1);
+    if (isTransform)
+      return add(fields, readNode<Transform>(fields), std::move(children));
+    if (joinPatches(fields, children, geometriesBefore))
+      return add(fields, document_.graph.nodes[children[0]].content);
+    return add(fields, Group{}, std::move(children));
+  }
+
+  /// A Group with a box stands for one Shape (see x3dom_element.h) where it holds
+  /// nothing but Shapes that look alike and differ in their patches alone. Joins
+  /// the geometries to the first Shape's.
+  bool joinPatches(const Fields& fields, const std::vector<std::size_t>& children, std::size_t first) {
+    const Box3d box = fields.box();
+    if (box.empty() || children.empty() || document_.geometries.size() - first != children.size())
+      return false;
+    const auto shapeAt = [&](std::size_t i) {
+      return std::get_if<Shape>(&document_.graph.nodes[children[i]].content);
+    };
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      const Shape* shape = shapeAt(i);
+      if (!shape || !shape->appearance || shape->appearance != shapeAt(0)->appearance ||
+          shape->mesh != first + i || !isJoinable_[shape->mesh] ||
+          !document_.graph.nodes[children[i]].name.empty() ||
+          !sameButForPatches(document_.geometries[first + i], document_.geometries[first]))
+        return false;
+    }
     GeometryDescription& geometry = document_.geometries[first];
     for (std::size_t i = first + 1; i < document_.geometries.size(); ++i)
       for (PatchDescription& patch : document_.geometries[i].patches)
         geometry.patches.push_back(std::move(patch));
-    geometry.box = fields.box();
-    document_.shapes[first].name = name;
-    document_.shapes.resize(first + 1);
+    geometry.box = box;
     document_.geometries.resize(first + 1);
-  }
-
-  /// Whether a Group holds Shapes alone, all of them with the first's Appearance.
-  bool sharesAppearance(const pugi::xml_node& group) const {
-    std::string first;
-    for (const pugi::xml_node& shape : group.children()) {
-      if (shape.type() != pugi::node_element)
-        continue;
-      const Fields appearance(source_, childNamed(shape, "Appearance"));
-      const std::string name = appearance.text(first.empty() ? "DEF" : "USE");
-      if (!sameName(shape.name(), "Shape") || name.empty() || (!first.empty() && name != first))
-        return false;
-      first = name;
-    }
-    return !first.empty();
+    isJoinable_.resize(first + 1);
+    return true;
   }
 
   static bool sameButForPatches(GeometryDescription a, const GeometryDescription& b) {
@@ -110,85 +169,87 @@ private:
     return a == b;
   }
 
-  void readViewpoint(const Fields& fields) {
-    Viewpoint viewpoint;
-    viewpoint.description = validText(fields.text("description"));
-    viewpoint.position = fields.vec3("position", viewpoint.position);
-    if (const std::vector<double> turn = fields.reals("orientation", 4); !turn.empty()) {
-      viewpoint.orientationAxis = {turn[0], turn[1], turn[2]};
-      viewpoint.orientationAngle = turn[3];
+  static OrthoViewpoint readOrthoViewpoint(const Fields& fields) {
+    OrthoViewpoint viewpoint = readNode<OrthoViewpoint>(fields);
+    if (const std::vector<double> edges = fields.reals("fieldOfView", 4); !edges.empty()) {
+      viewpoint.min = {edges[0], edges[1]};
+      viewpoint.max = {edges[2], edges[3]};
     }
-    viewpoint.fieldOfView = fields.real("fieldOfView", viewpoint.fieldOfView);
-    viewpoint.centerOfRotation = fields.vec3("centerOfRotation", viewpoint.centerOfRotation);
-    document_.viewpoints.push_back(std::move(viewpoint));
+    return viewpoint;
   }
 
-  void readLight(const Fields& fields) {
+  std::optional<std::size_t> readLight(const Fields& fields) {
     if (!fields.boolean("on", true))
-      return;
-    DirectionalLight light;
-    light.direction = fields.vec3("direction", light.direction);
-    light.color = fields.vec3("color", light.color);
-    light.intensity = fields.real("intensity", light.intensity);
-    document_.lights.push_back(light);
+      return {};
+    if (sameName(fields.node().name(), "DirectionalLight"))
+      return add(fields, readNode<DirectionalLight>(fields));
+    if (sameName(fields.node().name(), "PointLight"))
+      return add(fields, readNode<PointLight>(fields));
+    return add(fields, readNode<SpotLight>(fields));
   }
 
-  void readMaterial(const Fields& fields, Material& material) const {
-    material.diffuseColor = fields.vec3("diffuseColor", material.diffuseColor);
-    material.specularColor = fields.vec3("specularColor", material.specularColor);
-    material.emissiveColor = fields.vec3("emissiveColor", material.emissiveColor);
-    material.ambientIntensity = fields.real("ambientIntensity", material.ambientIntensity);
-    material.shininess = fields.real("shininess", material.shininess);
-    material.transparency = fields.real("transparency", material.transparency);
+  void readBackground(const Fields& fields) {
+    const std::vector<double> colors = fields.reals("skyColor");
+    if (colors.size() >= 3)
+      document_.graph.background = Background{Vec3f(Vec3d{colors[0], colors[1], colors[2]})};
   }
 
-  void readAppearance(const Fields& fields, Material& material) {
-    if (const std::string use = fields.text("USE"); !use.empty()) {
-      const auto defined = materials_.find(use);
-      if (defined == materials_.end())
-        fields.fail(ErrorKind::malformed, "USE names no Appearance that stands before");
-      material = defined->second;
-      return;
-    }
-    for (const pugi::xml_node& node : fields.node().children())
-      if (sameName(node.name(), "Material"))
-        readMaterial(Fields(source_, node), material);
-    if (const std::string def = fields.text("DEF"); !def.empty())
-      materials_[def] = material;
-  }
-
-  void readShape(const Fields& fields) {
-    Shape shape;
-    shape.name = fields.text("DEF");
-    shape.mesh = document_.geometries.size();
-    bool patchless = false; // the geometry node itself is its only patch
+  std::size_t readShape(const Fields& fields) {
+    std::optional<Shape> shape;
+    std::optional<std::size_t> appearance;
     for (const pugi::xml_node& child : fields.node().children()) {
       if (child.type() != pugi::node_element)
         continue;
       if (sameName(child.name(), "Appearance")) {
-        readAppearance(Fields(source_, child), shape.material);
-      } else if (sameName(child.name(), "ImageGeometry")) {
-        document_.geometries.push_back(readGeometry(source_, child, Container::sig));
-        patchless = !childNamed(child, "GeometryPatch");
-      } else if (sameName(child.name(), "BinaryGeometry")) {
-        document_.geometries.push_back(readGeometry(source_, child, Container::bg));
-        patchless = !childNamed(child, "GeometryPatch");
-      } else {
-        fail(child, ErrorKind::unsupported, "a Shape's geometry is neither ImageGeometry nor BinaryGeometry");
+        appearance = appearances_.read(child);
+      } else if (sameName(child.name(), "ImageGeometry") || sameName(child.name(), "BinaryGeometry")) {
+        if (shape)
+          fail(child, ErrorKind::malformed, "a Shape has more than one geometry");
+        shape = readGeometryOf(fields, Fields(source_, child));
+      } else if (!std::string_view(child.name()).starts_with("Metadata") &&
+                 !std::string_view(child.name()).starts_with("metadata")) {
+        fail(child, ErrorKind::unsupported, "this is no geometry that lies in containers");
       }
     }
-    if (document_.geometries.size() != shape.mesh + 1)
-      fail(fields.node(), ErrorKind::malformed, "a Shape has no geometry, or more than one");
-    GeometryDescription& geometry = document_.geometries.back();
-    geometry.box = fields.box();
-    if (patchless)
+    if (!shape)
+      fail(fields.node(), ErrorKind::malformed, "a Shape has no geometry");
+    shape->appearance = appearance;
+    return add(fields, *shape);
+  }
+
+  Shape readGeometryOf(const Fields& shape, const Fields& fields) {
+    if (const std::string use = fields.text("USE"); !use.empty()) {
+      const auto found = definedGeometries_.find(use);
+      if (found == definedGeometries_.end())
+        fields.fail(ErrorKind::malformed, "USE names no geometry that stands before");
+      return found->second;
+    }
+    Shape read;
+    read.mesh = document_.geometries.size();
+    read.solid = fields.boolean("solid", true);
+    const bool isSig = sameName(fields.node().name(), "ImageGeometry");
+    GeometryDescription geometry =
+        readGeometry(source_, fields.node(), isSig ? Container::sig : Container::bg);
+    geometry.box = shape.box();
+    const bool hasPatches = std::ranges::any_of(
+        fields.node().children(), [](const auto& child) { return sameName(child.name(), "GeometryPatch"); });
+    if (!hasPatches)
       geometry.patches[0].box = geometry.box;
-    document_.shapes.push_back(std::move(shape));
+    document_.geometries.push_back(std::move(geometry));
+    const std::string def = fields.text("DEF");
+    isJoinable_.push_back(!hasPatches && def.empty());
+    if (!def.empty())
+      definedGeometries_[def] = read;
+    return read;
   }
 
   const DocumentText& source_;
   SceneDocument document_;
-  std::map<std::string, Material> materials_; ///< by the DEF of their Appearance
+  AppearanceReader appearances_;
+  std::vector<std::size_t> heights_;           ///< by node: how deep the nodes below it go
+  std::vector<bool> isJoinable_;               ///< by geometry: it is its only patch, and nothing can USE it
+  std::map<std::string, std::size_t> defined_; ///< nodes by their DEF
+  std::map<std::string, Shape> definedGeometries_;
 };
 
 /// pugixml leaves references that it does not know as text; we refuse them.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <set>
 
 namespace imgeo {
 
@@ -148,17 +147,14 @@ std::string quoteAttribute(std::string_view text) {
          quote;
 }
 
-std::vector<std::string> defNames(const std::vector<Shape>& shapes) {
-  std::set<std::string> taken;
-  std::vector<std::string> names;
-  for (const Shape& shape : shapes) {
-    const std::string base = xmlName(shape.name);
-    std::string name = base;
-    for (std::size_t number = 2; !name.empty() && !taken.insert(name).second; ++number)
-      name = base + "_" + std::to_string(number);
-    names.push_back(name);
-  }
-  return names;
+std::string NameTable::take(std::string_view wish) {
+  const std::string wanted = xmlName(wish);
+  if (wanted.empty())
+    return "";
+  std::string name = wanted;
+  while (!next_.try_emplace(name, 2).second)
+    name = wanted + "_" + std::to_string(next_[wanted]++);
+  return name;
 }
 
 } // namespace imgeo

@@ -1,11 +1,9 @@
 #pragma once
 // Text from anywhere -> text that XML 1.0 and HTML both hold and read alike.
 
-#include "scene/scene.h"
-
+#include <map>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace imgeo {
 
@@ -20,8 +18,15 @@ std::string escapeText(std::string_view text);
 /// double quotes stand inside. Line ends and tabs survive the parsers.
 std::string quoteAttribute(std::string_view text);
 
-/// The DEF of each shape: its name made a valid, unique XML name without colons;
-/// empty for a shape without a name. Valid unique names stay as they are.
-std::vector<std::string> defNames(const std::vector<Shape>& shapes);
+/// The names of a document's elements: valid XML names without colons, each given
+/// once. Names that are valid and not yet taken stay as they are.
+class NameTable {
+public:
+  /// A name like `wish`, with a number behind it where that is taken; "" for "".
+  std::string take(std::string_view wish);
+
+private:
+  std::map<std::string, std::size_t> next_; ///< taken name -> the number to try for who wants it too
+};
 
 } // namespace imgeo

@@ -1,7 +1,7 @@
 #include "documents/documents.h"
 
+#include "documents/scene_writer.h"
 #include "documents/text.h"
-#include "documents/x3d_element.h"
 #include "documents/x3dom_element.h"
 
 #include <algorithm>
@@ -21,9 +21,10 @@ std::vector<std::string> firstRequests(const SceneDocument& document) {
     if (urls.size() < maxPreloads && std::ranges::find(urls, reference.url) == urls.end())
       urls.push_back(reference.url);
   };
+  const std::vector<std::size_t> shapes = shapeNodes(document.graph);
   const auto forEachPatch = [&](auto visit) {
-    for (const Shape& shape : document.shapes)
-      for (const PatchDescription& patch : document.geometries.at(shape.mesh).patches)
+    for (const std::size_t node : shapes)
+      for (const PatchDescription& patch : document.geometries.at(shapeOf(document.graph, node).mesh).patches)
         visit(patch);
   };
   forEachPatch([&](const PatchDescription& patch) {
@@ -49,7 +50,7 @@ std::string page(const SceneDocument& document, const std::string& head, const s
          "    <meta charset=\"utf-8\">\n"
          "    <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
          "    <title>" +
-         escapeText(document.title.empty() ? "imgeo" : document.title) + "</title>\n" + head +
+         escapeText(document.graph.title.empty() ? "imgeo" : document.graph.title) + "</title>\n" + head +
          "  </head>\n"
          "  <body>\n"
          "    <noscript>This page shows a 3D model and needs JavaScript to draw it.</noscript>\n" +
@@ -63,7 +64,7 @@ constexpr const char* xmlDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"
 } // namespace
 
 std::string writeX3d(const SceneDocument& document) {
-  return xmlDeclaration + x3dElement(document, 0);
+  return xmlDeclaration + SceneWriter(document, 0).write();
 }
 
 std::string writeHtml(const SceneDocument& document, const PageOptions& options) {
@@ -71,7 +72,7 @@ std::string writeHtml(const SceneDocument& document, const PageOptions& options)
   for (const std::string& url : firstRequests(document))
     head += link("preload", url, " as=\"fetch\" crossorigin=\"anonymous\" fetchpriority=\"high\"");
   head += "    <script type=\"module\" src=" + quoteAttribute(options.runtimeUrl) + "></script>\n";
-  return page(document, head, x3dElement(document, 2));
+  return page(document, head, SceneWriter(document, 2).write());
 }
 
 std::string writeX3domX3d(const SceneDocument& document) {

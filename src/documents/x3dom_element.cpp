@@ -2,32 +2,16 @@
 
 #include "containers/normals.h"
 #include "containers/stored_coords.h"
-#include "documents/text.h"
-#include "documents/x3d_element.h"
+#include "documents/appearance_element.h"
+#include "documents/geometry_element.h"
+#include "documents/scene_writer.h"
 
 #include <algorithm>
 #include <cassert>
-#include <set>
 
 namespace imgeo {
 
 namespace {
-
-/// Names for elements of ours that no shape of the document has.
-class Names {
-public:
-  explicit Names(const std::vector<std::string>& taken) : taken_(taken.begin(), taken.end()) {}
-
-  std::string unused(const std::string& wish) {
-    std::string name = wish;
-    for (int n = 2; !taken_.insert(name).second; ++n)
-      name = wish + std::to_string(n);
-    return name;
-  }
-
-private:
-  std::set<std::string> taken_;
-};
 
 /// The one implicit mesh that X3DOM keeps for a page: as wide as every image
 /// that is counted through, and enough rows for the patch that needs most.
@@ -41,46 +25,52 @@ Vec2<std::uint32_t> implicitMeshSizeOf(const SceneDocument& document) {
   return size;
 }
 
-Attributes defOf(const std::string& name) {
-  return name.empty() ? Attributes{} : Attributes{{"DEF", name}};
-}
-
-class ShapeWriter {
+class X3domWriter : public SceneWriter {
 public:
-  ShapeWriter(const SceneDocument& document, const std::vector<std::string>& defs)
-      : names_(defs), sampling_(names_.unused("exactTexels")),
-        implicitMeshSize_(implicitMeshSizeOf(document)) {}
-
-  void write(ElementWriter& writer, const Shape& shape, const std::string& def,
-             const GeometryDescription& geometry) {
-    if (geometry.patches.size() == 1) {
-      writePatch(writer, defOf(def), appearanceOf(shape, geometry, ""), geometry, geometry.patches[0]);
-      return;
-    }
-    const std::string shared = names_.unused(def.empty() ? "look" : def + "-look");
-    const Element group{"Group", {defOf(def), boxAttributes(geometry.box)}};
-    writer.open(group);
-    for (const PatchDescription& patch : geometry.patches) {
-      const bool isFirst = &patch == &geometry.patches.front();
-      writePatch(writer, {}, isFirst ? appearanceOf(shape, geometry, shared) : Look{{{"USE", shared}}, {}},
-                 geometry, patch);
-    }
-    writer.close(group);
-  }
+  X3domWriter(const SceneDocument& document, std::size_t level)
+      : SceneWriter(document, level), sampling_(table_.take("exactTexels")),
+        shiningNames_(document.graph.appearances.size()), implicitMeshSize_(implicitMeshSizeOf(document)) {}
 
 private:
-  struct Look {
-    Attributes attributes;
-    std::optional<Material> material;
-  };
+  void writeShape(const Node& node, const Attributes& names) override {
+    const Shape& shape = std::get<Shape>(node.content);
+    const GeometryDescription& geometry = document_.geometries.at(shape.mesh);
+    if (geometry.patches.size() == 1)
+      return writePatch(node, names, geometry, geometry.patches[0]);
+    if (shape.appearance) { // so that all but the first patch can USE it
+      std::string& look = appearanceNames(shines(geometry.patches[0]))[*shape.appearance];
+      if (look.empty())
+        look = table_.take(names.empty() ? "look" : names[0].value + "-look");
+    }
+    const Element group{"Group", {names, boxAttributes(geometry.box)}};
+    writer_.open(group);
+    writeExtras(node);
+    for (const PatchDescription& patch : geometry.patches)
+      writePatch({"", shape, {}, ""}, {}, geometry, patch);
+    writer_.close(group);
+  }
 
   /// X3DOM lights triangles alone; other elements shine in their emissive colour.
-  static Look appearanceOf(const Shape& shape, const GeometryDescription& geometry, const std::string& def) {
-    Look look{defOf(def), shape.material};
-    const PatchDescription& patch = geometry.patches.front();
-    if (!isLit(patch) && !patch.color)
-      look.material->emissiveColor = shape.material.diffuseColor;
-    return look;
+  static bool shines(const PatchDescription& patch) { return !isLit(patch) && !patch.color; }
+
+  Names& appearanceNames(bool shining) { return shining ? shiningNames_ : appearanceNames_; }
+
+  void writeAppearanceOf(const Shape& shape, bool shining) {
+    if (!shape.appearance)
+      return;
+    const Attributes names = appearanceNames(shining).defOrUse(*shape.appearance);
+    if (isUse(names))
+      return writer_.leaf({"Appearance", {names}});
+    const Appearance& source = document_.graph.appearances.at(*shape.appearance);
+    Material material = phongOf(source.material);
+    if (shining)
+      material.emissiveColor = material.diffuseColor;
+    Appearance appearance{"", material, {}, AlphaMode::automatic, 0.5f};
+    for (const TextureUse& use : source.textures)
+      if (use.role == TextureRole::color)
+        appearance.textures.push_back(use);
+    writeAppearance(writer_, document_.graph, appearance, names,
+                    [&](std::size_t texture) { return textureNames_.defOrUse(texture); });
   }
 
   /// Without normals X3DOM would light by what it finds in other textures.
@@ -91,29 +81,24 @@ private:
     return patch.normal && std::ranges::all_of(patch.draws, isTriangles);
   }
 
-  void writePatch(ElementWriter& writer, Attributes names, const Look& look,
-                  const GeometryDescription& geometry, const PatchDescription& patch) {
+  void writePatch(const Node& node, Attributes names, const GeometryDescription& geometry,
+                  const PatchDescription& patch) {
+    const Shape& shape = std::get<Shape>(node.content);
     const bool isSig = geometry.container == Container::sig;
     if (isSig)
       names.push_back({"isPickable", "false"}); // the shader that picks images does not compile
-    const Element element{"Shape", {names, boxAttributes(patch.box)}},
-        appearance{"Appearance", {look.attributes}};
-    writer.open(element);
-    if (look.material) {
-      writer.open(appearance);
-      writer.leaf(materialElement(*look.material));
-      writer.close(appearance);
-    } else {
-      writer.leaf(appearance);
-    }
+    const Element element{"Shape", {names, boxAttributes(patch.box)}};
+    writer_.open(element);
+    writeExtras(node);
+    writeAppearanceOf(shape, shines(patch));
     if (isSig)
-      writeImages(writer, geometry, patch);
+      writeImages(geometry, patch, shape.solid);
     else
-      writer.leaf(binaryGeometry(geometry, patch));
-    writer.close(element);
+      writer_.leaf(binaryGeometry(geometry, patch, shape.solid));
+    writer_.close(element);
   }
 
-  static Attributes boxFields(const GeometryDescription& geometry) {
+  static Attributes boxFields(const GeometryDescription& geometry, bool solid) {
     const DecodeFields decode = decodeFields(geometry);
     Attributes fields{{"position", numbers(decode.position)}, {"size", numbers(decode.size)}};
     const std::uint32_t bits = geometry.lattice.bits;
@@ -123,6 +108,7 @@ private:
                                      : 8 * byteSizeOf(geometry.coordType);
     if (bits != stored)
       fields.push_back({"positionBits", std::to_string(bits)});
+    addUnless(fields, "solid", solid, true, "false");
     return fields;
   }
 
@@ -135,8 +121,7 @@ private:
     return fields;
   }
 
-  void writeImages(ElementWriter& writer, const GeometryDescription& geometry,
-                   const PatchDescription& patch) {
+  void writeImages(const GeometryDescription& geometry, const PatchDescription& patch, bool solid) {
     assert(geometry.texCoordMin == Vec2f{} && geometry.texCoordSize == (Vec2f{1, 1}));
     assert(!isPair(geometry.normalEncoding) && geometry.indexType == ElementType::uint16);
     Attributes draws = drawFields(patch);
@@ -145,11 +130,11 @@ private:
     draws.push_back({"numColorComponents", std::to_string(geometry.colorComponents)});
     if (geometry.normalEncoding == NormalEncoding::palette)
       draws.push_back({"normalEncoding", nameOf(geometry.normalEncoding)});
-    const Element node{"ImageGeometry", {boxFields(geometry), draws}};
-    writer.open(node);
+    const Element node{"ImageGeometry", {boxFields(geometry, solid), draws}};
+    writer_.open(node);
     const auto write = [&](const char* role, const std::optional<Reference>& image) {
       if (image)
-        writeTexture(writer, role, *image);
+        writeImage(role, *image);
     };
     write("index", patch.index);
     for (const Reference& plane : patch.coord)
@@ -157,28 +142,28 @@ private:
     write("normal", patch.normal);
     write("texCoord", patch.texCoord);
     write("color", patch.color);
-    writer.close(node);
+    writer_.close(node);
   }
 
   /// Texels must arrive as they are: not resized, not filtered, not repeated.
-  void writeTexture(ElementWriter& writer, const char* role, const Reference& image) {
+  void writeImage(const char* role, const Reference& image) {
     assert(image.first == 0);
     const Element texture{"ImageTexture",
                           {{{"containerField", role}, {"url", strings({image.url})}, {"scale", "false"}}}};
-    writer.open(texture);
+    writer_.open(texture);
     if (samplingIsDefined_)
-      writer.leaf({"TextureProperties", {{{"USE", sampling_}}}});
+      writer_.leaf({"TextureProperties", {{{"USE", sampling_}}}});
     else
-      writer.leaf({"TextureProperties",
-                   {{{"DEF", sampling_},
-                     {"boundaryModeS", "CLAMP_TO_EDGE"},
-                     {"boundaryModeT", "CLAMP_TO_EDGE"},
-                     {"boundaryModeR", "CLAMP_TO_EDGE"}},
-                    {{"magnificationFilter", "NEAREST"},
-                     {"minificationFilter", "NEAREST"},
-                     {"generateMipMaps", "false"}}}});
+      writer_.leaf({"TextureProperties",
+                    {{{"DEF", sampling_},
+                      {"boundaryModeS", "CLAMP_TO_EDGE"},
+                      {"boundaryModeT", "CLAMP_TO_EDGE"},
+                      {"boundaryModeR", "CLAMP_TO_EDGE"}},
+                     {{"magnificationFilter", "NEAREST"},
+                      {"minificationFilter", "NEAREST"},
+                      {"generateMipMaps", "false"}}}});
     samplingIsDefined_ = true;
-    writer.close(texture);
+    writer_.close(texture);
   }
 
   /// The stride as a query: a '+' in a file's name is a blank to some hosts.
@@ -192,7 +177,8 @@ private:
     return file.url + "#" + std::to_string(file.first) + "+" + std::to_string(file.stride);
   }
 
-  static Element binaryGeometry(const GeometryDescription& geometry, const PatchDescription& patch) {
+  static Element binaryGeometry(const GeometryDescription& geometry, const PatchDescription& patch,
+                                bool solid) {
     const Reference& coord = patch.coord.at(0);
     const auto isBeside = [&](const std::optional<Reference>& file) {
       return file && file->url == coord.url;
@@ -217,22 +203,19 @@ private:
     add("color", "colorType", geometry.colorType, patch.color);
     if (geometry.colorComponents == 4)
       types.push_back({"rgbaColors", "true"});
-    return {"BinaryGeometry", {boxFields(geometry), drawFields(patch), types, urls}};
+    return {"BinaryGeometry", {boxFields(geometry, solid), drawFields(patch), types, urls}};
   }
 
-  Names names_;
   std::string sampling_; ///< DEF of the TextureProperties that all images use
   bool samplingIsDefined_ = false;
+  Names shiningNames_; ///< of appearances where they shine
   Vec2<std::uint32_t> implicitMeshSize_;
 };
 
 } // namespace
 
 std::string x3domElement(const SceneDocument& document, std::size_t level) {
-  ShapeWriter shapes(document, defNames(document.shapes));
-  return x3dElement(document, level,
-                    [&](ElementWriter& writer, const Shape& shape, const std::string& def,
-                        const GeometryDescription& geometry) { shapes.write(writer, shape, def, geometry); });
+  return X3domWriter(document, level).write();
 }
 
 } // namespace imgeo

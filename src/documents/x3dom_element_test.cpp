@@ -33,7 +33,10 @@ SceneDocument images() {
   points.patches[0].normal.reset();
   SceneDocument document;
   document.geometries = {two, one, points};
-  document.shapes = {{"statue", 0, {}}, {"base", 1, {}}, {"", 2, {}}};
+  document.graph.appearances.resize(3);
+  const char* names[] = {"statue", "base", ""};
+  for (std::size_t i = 0; i < 3; ++i)
+    addRoot(document.graph, {names[i], Shape{i, i, true}, {}, ""});
   return document;
 }
 
@@ -61,11 +64,12 @@ std::size_t countOf(const std::string& text, const std::string& pattern) {
 /// Both forms of one document read back as the same but for what X3DOM needs changed.
 void expectReadsBackAs(const SceneDocument& written, const std::string& text) {
   const SceneDocument read = readScene(text, "x");
-  ASSERT_EQ(read.shapes.size(), written.shapes.size());
-  for (std::size_t i = 0; i < read.shapes.size(); ++i) {
-    EXPECT_EQ(read.shapes[i].name, written.shapes[i].name);
-    GeometryDescription geometry = read.geometries.at(read.shapes[i].mesh);
-    const GeometryDescription& expected = written.geometries.at(written.shapes[i].mesh);
+  const std::vector<std::size_t> shapes = shapeNodes(read.graph);
+  ASSERT_EQ(shapes.size(), written.graph.nodes.size());
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    EXPECT_EQ(read.graph.nodes[shapes[i]].name, written.graph.nodes[i].name);
+    GeometryDescription geometry = read.geometries.at(shapeOf(read.graph, shapes[i]).mesh);
+    const GeometryDescription& expected = written.geometries.at(i);
     EXPECT_NEAR(geometry.lattice.step, expected.lattice.step, 1e-15);
     EXPECT_EQ(geometry.lattice.bits, expected.lattice.bits);
     geometry.lattice = expected.lattice;
@@ -116,12 +120,12 @@ TEST(X3domElement, GivesTheGroupTheNameAndItsShapesOneLook) {
 
 TEST(X3domElement, TakesNoNameThatAShapeHas) {
   SceneDocument document = images();
-  document.shapes[1].name = "statue-look";
-  document.shapes[2].name = "exactTexels";
+  document.graph.nodes[1].name = "statue-look";
+  document.graph.nodes[2].name = "exactTexels";
   const std::string text = x3domElement(document, 0);
   EXPECT_EQ(countOf(text, "DEF=\"statue-look\""), 1u);
-  EXPECT_EQ(countOf(text, "<Appearance USE=\"statue-look2\">"), 1u);
-  EXPECT_EQ(countOf(text, "<TextureProperties DEF=\"exactTexels2\""), 1u);
+  EXPECT_EQ(countOf(text, "<Appearance USE=\"statue-look_2\">"), 1u);
+  EXPECT_EQ(countOf(text, "<TextureProperties DEF=\"exactTexels_2\""), 1u);
 }
 
 TEST(X3domElement, IsLitOnlyWhereThereAreNormals) {

@@ -24,7 +24,7 @@ std::optional<MeshFormat> meshFormatOf(const std::filesystem::path& file) {
 }
 
 Bytes exportScene(const Scene& scene, MeshFormat format) {
-  assert(!scene.shapes.empty());
+  assert(!shapeNodes(scene.graph).empty());
   switch (format) {
   case MeshFormat::ply:
     return writePly(scene);

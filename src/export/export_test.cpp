@@ -11,6 +11,8 @@ namespace imgeo {
 namespace {
 
 using testing::randomMesh;
+using testing::sceneOf;
+using testing::shapeName;
 
 /// Everything that a corner sees, whatever wedges and positions it shares.
 struct Corner {
@@ -37,8 +39,8 @@ std::vector<Corner> cornersOf(const Mesh& mesh) {
 
 std::vector<Corner> cornersOf(const Scene& scene) {
   std::vector<Corner> corners;
-  for (const Shape& shape : scene.shapes)
-    for (const Corner& corner : cornersOf(scene.meshes[shape.mesh]))
+  for (const PlacedShape& placed : placedShapes(scene.graph))
+    for (const Corner& corner : cornersOf(scene.meshes[shapeOf(scene.graph, placed.node).mesh]))
       corners.push_back(corner);
   return corners;
 }
@@ -54,12 +56,10 @@ void expectEqual(const std::vector<Corner>& read, const std::vector<Corner>& wri
   }
 }
 
-Scene sceneOf(std::vector<Mesh> meshes) {
-  Scene scene;
-  for (std::size_t i = 0; i < meshes.size(); ++i)
-    scene.shapes.push_back({"part" + std::to_string(i), i, {}});
-  scene.meshes = std::move(meshes);
-  return scene;
+/// Gives a scene's first shape a look.
+void setLook(Scene& scene, const AnyMaterial& material) {
+  std::get<Shape>(scene.graph.nodes.at(0).content).appearance = scene.graph.appearances.size();
+  scene.graph.appearances.push_back({"", material, {}, AlphaMode::automatic, 0.5f});
 }
 
 void writeLines(Mesh& mesh) {
@@ -105,7 +105,7 @@ TEST(ExportedPly, HoldsAllShapesAndWhatOnlySomeHave) {
   Mesh plain = testing::grid(3), colored = testing::sphere(4, 5);
   colored.colors.assign(colored.wedgeCount(), {1, 2, 3, 255});
   Scene scene = sceneOf({plain, colored});
-  scene.shapes[0].material.diffuseColor = {1, 0, 0.2f};
+  setLook(scene, Material{.diffuseColor{1, 0, 0.2f}});
   const Imported read = importBytes(writePly(scene), "a.ply");
   ASSERT_EQ(read.scene.meshes.size(), 1u);
   const std::vector<Corner> corners = cornersOf(read.scene);
@@ -158,9 +158,9 @@ TEST(ExportedObj, IsReadBackByOurImport) {
         color.a = 255;
     const Scene scene = sceneOf({mesh, other});
     const Imported read = importBytes(exportScene(scene, MeshFormat::obj), "a.obj");
-    ASSERT_EQ(read.scene.shapes.size(), 2u);
-    EXPECT_EQ(read.scene.shapes[0].name, "part0");
-    EXPECT_EQ(read.scene.shapes[1].name, "part1");
+    ASSERT_EQ(shapeNodes(read.scene.graph).size(), 2u);
+    EXPECT_EQ(shapeName(read.scene.graph, 0), "part0");
+    EXPECT_EQ(shapeName(read.scene.graph, 1), "part1");
     expectEqual(cornersOf(read.scene), cornersOf(scene));
   }
 }
@@ -170,7 +170,7 @@ TEST(ExportedObj, HasLinesAndPoints) {
       {{}, {{0, 0}, {1, 0.5f}}, {}, 3, {}}, "", Topology::lines, {{0, 0, 0}, {1, 0, 0}}, {0, 1}, {0, 1}};
   Mesh points{{{}, {}, {{255, 0, 51, 255}}, 3, {}}, "", Topology::points, {{7, 8, 9}}, {0}, {0}};
   Scene scene = sceneOf({lines, points});
-  scene.shapes[1].name = "two\nlines";
+  scene.graph.nodes[1].name = "two\nlines";
   EXPECT_EQ(asText(writeObj(scene)), "o part0\nv 0 0 0\nv 1 0 0\nvt 0 0\nvt 1 0.5\nl 1/1 2/2\n"
                                      "o two lines\nv 7 8 9 1 0 0.2\np 3\n");
 }
@@ -223,7 +223,7 @@ TEST(ExportedGlb, IsReadByAssimp) {
     ASSERT_EQ(read->mNumMeshes, 2u);
     for (unsigned i = 0; i < 2; ++i) {
       const Mesh& written = scene.meshes[i];
-      EXPECT_STREQ(read->mMeshes[i]->mName.C_Str(), scene.shapes[i].name.c_str());
+      EXPECT_STREQ(read->mMeshes[i]->mName.C_Str(), shapeName(scene.graph, i).c_str());
       std::vector<Corner> corners = cornersOf(*read->mMeshes[i], cornersPerElement(written.topology));
       const std::vector<Corner> expected = cornersOf(written);
       ASSERT_EQ(corners.size(), expected.size());
@@ -238,8 +238,7 @@ TEST(ExportedGlb, IsReadByAssimp) {
 
 TEST(ExportedGlb, CarriesTheMaterial) {
   Scene scene = sceneOf({testing::grid(2)});
-  scene.shapes[0].material.diffuseColor = {1, 0, 0.5f};
-  scene.shapes[0].material.transparency = 0.25f;
+  setLook(scene, Material{.diffuseColor{1, 0, 0.5f}, .transparency = 0.25f});
   Assimp::Importer importer;
   const aiScene* read = readGlb(importer, writeGlb(scene));
   ASSERT_NE(read, nullptr) << importer.GetErrorString();

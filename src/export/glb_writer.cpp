@@ -3,27 +3,24 @@
 #include "base/error.h"
 #include "base/narrow.h"
 #include "export/export.h"
+#include "export/gltf_material.h"
+#include "scene/color.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <map>
+#include <optional>
+#include <tuple>
 
 namespace imgeo {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // The names that the specification gives its constants.
 constexpr int arrayBuffer = 34962, elementArrayBuffer = 34963;
 constexpr int unsignedShort = 5123, unsignedInt = 5125, floatType = 5126;
 constexpr std::uint32_t jsonChunk = 0x4e4f534a, binaryChunk = 0x004e4942, magic = 0x46546c67;
-
-/// The inverse of the sRGB transfer function (IEC 61966-2-1), 0..1.
-double linear(double srgb) {
-  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
 
 /// The binary chunk, and the views and accessors that say what lies where in it.
 class Arrays {
@@ -46,13 +43,17 @@ public:
     return accessors.size() - 1;
   }
 
+  /// Adds a file; returns the number of its view.
+  std::size_t addBytes(const Bytes& file) {
+    views.push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", file.size()}});
+    bytes.insert(bytes.end(), file.begin(), file.end());
+    bytes.resize((bytes.size() + 3) / 4 * 4);
+    return views.size() - 1;
+  }
+
 private:
   std::size_t first_ = 0;
 };
-
-Json jsonOf(Vec3f v) {
-  return {v.x, v.y, v.z};
-}
 
 std::size_t addPositions(Arrays& arrays, const Mesh& mesh) {
   Vec3f min = mesh.positions[mesh.wedgePositions[0]], max = min;
@@ -65,8 +66,8 @@ std::size_t addPositions(Arrays& arrays, const Mesh& mesh) {
       appendLittle(arrays.bytes, value);
     }
   const std::size_t accessor = arrays.end(arrayBuffer, floatType, "VEC3", mesh.wedgeCount());
-  arrays.accessors.back()["min"] = jsonOf(min);
-  arrays.accessors.back()["max"] = jsonOf(max);
+  arrays.accessors.back()["min"] = {min.x, min.y, min.z};
+  arrays.accessors.back()["max"] = {max.x, max.y, max.z};
   return accessor;
 }
 
@@ -90,7 +91,7 @@ std::size_t addTexCoords(Arrays& arrays, const Mesh& mesh) {
 std::size_t addColors(Arrays& arrays, const Mesh& mesh) {
   std::array<std::uint16_t, 256> linearOf;
   for (std::size_t i = 0; i < 256; ++i)
-    linearOf[i] = static_cast<std::uint16_t>(std::lround(65535 * linear(static_cast<double>(i) / 255)));
+    linearOf[i] = static_cast<std::uint16_t>(std::lround(65535 * linearOfSrgb(static_cast<double>(i) / 255)));
   arrays.begin();
   for (const Rgba8& color : mesh.colors) {
     for (const std::uint8_t channel : {color.r, color.g, color.b})
@@ -115,7 +116,8 @@ std::size_t addIndices(Arrays& arrays, const Mesh& mesh) {
   return arrays.end(elementArrayBuffer, shorts ? unsignedShort : unsignedInt, "SCALAR", mesh.corners.size());
 }
 
-Json primitiveOf(Arrays& arrays, const Mesh& mesh, std::size_t material) {
+/// Everything of a primitive but its material.
+Json primitiveOf(Arrays& arrays, const Mesh& mesh) {
   Json attributes{{"POSITION", addPositions(arrays, mesh)}};
   if (!mesh.normals.empty())
     attributes["NORMAL"] = addNormals(arrays, mesh);
@@ -126,26 +128,128 @@ Json primitiveOf(Arrays& arrays, const Mesh& mesh, std::size_t material) {
   constexpr int modes[] = {0, 1, 4}; // POINTS, LINES, TRIANGLES
   return {{"attributes", attributes},
           {"indices", addIndices(arrays, mesh)},
-          {"mode", modes[cornersPerElement(mesh.topology) - 1]},
-          {"material", material}};
+          {"mode", modes[cornersPerElement(mesh.topology) - 1]}};
 }
 
-/// Vertex colours take the place of the diffuse colour in X3D, and multiply it in glTF.
-Json materialOf(const Material& material, const Mesh& mesh) {
-  const Vec3f diffuse = mesh.colors.empty() ? material.diffuseColor : Vec3f{1, 1, 1},
-              emissive = material.emissiveColor;
-  const bool clear = material.transparency > 0 || (!mesh.colors.empty() && mesh.colorComponents == 4);
-  Json json{{"pbrMetallicRoughness",
-             {{"baseColorFactor",
-               {linear(diffuse.x), linear(diffuse.y), linear(diffuse.z), 1 - material.transparency}},
-              {"metallicFactor", 0},
-              {"roughnessFactor", 1 - material.shininess}}}};
-  if (emissive != Vec3f{})
-    json["emissiveFactor"] = {linear(emissive.x), linear(emissive.y), linear(emissive.z)};
-  if (clear)
-    json["alphaMode"] = "BLEND";
-  return json;
-}
+/// Collects the lists of a glTF file. A mesh's arrays are written once, however
+/// many shapes show it in whatever materials.
+class GltfBuilder {
+public:
+  explicit GltfBuilder(const Scene& scene) : scene_(scene), primitives_(scene.meshes.size()) {
+    placedShapes(scene.graph); // refuses more than can be listed: glTF knows no node in two places
+    for (const std::size_t root : scene.graph.roots)
+      if (const std::optional<std::size_t> node = addNode(root))
+        roots.push_back(*node);
+  }
+
+  Arrays arrays;
+  Json nodes = Json::array(), meshes = Json::array(), materials = Json::array(), roots = Json::array();
+  Json images = Json::array(), samplers = Json::array(), textures = Json::array();
+
+private:
+  /// The glTF node of a node below which something is seen.
+  std::optional<std::size_t> addNode(std::size_t index) {
+    const Node& node = scene_.graph.nodes[index];
+    Json json = Json::object();
+    if (!node.name.empty())
+      json["name"] = node.name;
+    if (const Shape* shape = std::get_if<Shape>(&node.content)) {
+      json["mesh"] = meshOf(*shape, node.name);
+    } else {
+      Json children = Json::array();
+      for (const std::size_t child : node.children)
+        if (const std::optional<std::size_t> added = addNode(child))
+          children.push_back(*added);
+      if (children.empty())
+        return {};
+      json["children"] = std::move(children);
+      if (const Transform* transform = std::get_if<Transform>(&node.content))
+        addTransform(json, *transform);
+    }
+    nodes.push_back(std::move(json));
+    return nodes.size() - 1;
+  }
+
+  static void addTransform(Json& json, const Transform& transform) {
+    const Affine3d map = affineOf(transform);
+    if (map == Affine3d{})
+      return;
+    Json matrix = Json::array();
+    for (const Vec3d& column : {map.x, map.y, map.z, map.translation}) {
+      for (int axis = 0; axis < 3; ++axis)
+        matrix.push_back(column[axis]);
+      matrix.push_back(matrix.size() == 15 ? 1 : 0);
+    }
+    json["matrix"] = std::move(matrix);
+  }
+
+  std::size_t meshOf(const Shape& shape, const std::string& name) {
+    const auto [found, isNew] =
+        meshOf_.try_emplace({shape.mesh, shape.appearance, shape.solid}, meshes.size());
+    if (!isNew)
+      return found->second;
+    const Mesh& mesh = scene_.meshes.at(shape.mesh);
+    Json& primitive = primitives_[shape.mesh];
+    if (primitive.is_null())
+      primitive = primitiveOf(arrays, mesh);
+    Json withMaterial = primitive;
+    withMaterial["material"] = materialIndexOf(shape, mesh);
+    Json json{{"primitives", Json::array({std::move(withMaterial)})}};
+    if (!name.empty())
+      json["name"] = name;
+    meshes.push_back(std::move(json));
+    return found->second;
+  }
+
+  std::size_t materialIndexOf(const Shape& shape, const Mesh& mesh) {
+    static const Appearance plain;
+    const Appearance& appearance = shape.appearance ? scene_.graph.appearances.at(*shape.appearance) : plain;
+    Json json =
+        gltfMaterial(appearance, shape, mesh, [&](std::size_t texture) { return textureIndexOf(texture); });
+    const auto [found, isNew] =
+        materialOf_.try_emplace(json.dump(-1, ' ', false, replaceBadUtf8), materials.size());
+    if (isNew)
+      materials.push_back(std::move(json));
+    return found->second;
+  }
+
+  std::optional<std::size_t> textureIndexOf(std::size_t index) {
+    if (const auto found = textureOf_.find(index); found != textureOf_.end())
+      return found->second;
+    const Texture& texture = scene_.graph.textures.at(index);
+    const ImageFile& image = scene_.graph.images.at(texture.image);
+    std::optional<std::size_t>& gltfIndex = textureOf_[index];
+    const std::string_view start = asText(image.bytes);
+    const char* type = start.starts_with("\x89PNG")        ? "image/png"
+                       : start.starts_with("\xff\xd8\xff") ? "image/jpeg"
+                       : start.starts_with("RIFF")         ? "image/webp"
+                                                           : nullptr;
+    if (!type)
+      return gltfIndex;
+    const auto [imageIndex, isNew] = imageOf_.try_emplace(texture.image, images.size());
+    if (isNew)
+      images.push_back({{"bufferView", arrays.addBytes(image.bytes)}, {"mimeType", type}});
+    samplers.push_back(gltfSampler(texture));
+    textures.push_back({{"sampler", samplers.size() - 1}});
+    if (type == std::string_view("image/webp"))
+      textures.back()["extensions"]["EXT_texture_webp"]["source"] = imageIndex->second;
+    else
+      textures.back()["source"] = imageIndex->second;
+    if (!texture.name.empty())
+      textures.back()["name"] = texture.name;
+    gltfIndex = textures.size() - 1;
+    return gltfIndex;
+  }
+
+  static constexpr auto replaceBadUtf8 = Json::error_handler_t::replace;
+
+  const Scene& scene_;
+  std::vector<Json> primitives_; ///< by mesh
+  std::map<std::tuple<std::size_t, std::optional<std::size_t>, bool>, std::size_t> meshOf_;
+  std::map<std::string, std::size_t> materialOf_; ///< by its text
+  std::map<std::size_t, std::optional<std::size_t>> textureOf_;
+  std::map<std::size_t, std::size_t> imageOf_;
+};
 
 void appendChunk(Bytes& glb, std::uint32_t type, ByteSpan data, std::uint8_t padding) {
   const std::size_t padded = (data.size() + 3) / 4 * 4;
@@ -158,26 +262,27 @@ void appendChunk(Bytes& glb, std::uint32_t type, ByteSpan data, std::uint8_t pad
 } // namespace
 
 Bytes writeGlb(const Scene& scene) {
-  Arrays arrays;
-  Json nodes = Json::array(), meshes = Json::array(), materials = Json::array(), roots = Json::array();
-  for (const Shape& shape : scene.shapes) {
-    const Mesh& mesh = scene.meshes[shape.mesh];
-    materials.push_back(materialOf(shape.material, mesh));
-    meshes.push_back({{"primitives", Json::array({primitiveOf(arrays, mesh, materials.size() - 1)})}});
-    nodes.push_back({{"mesh", meshes.size() - 1}});
-    if (!shape.name.empty())
-      meshes.back()["name"] = nodes.back()["name"] = shape.name;
-    roots.push_back(nodes.size() - 1);
+  const GltfBuilder gltf(scene);
+  const Arrays& arrays = gltf.arrays;
+  Json root{{"asset", {{"version", "2.0"}, {"generator", "imgeo"}}}};
+  const std::string looks =
+      Json{gltf.materials, gltf.textures}.dump(-1, ' ', false, Json::error_handler_t::replace);
+  for (const char* extension : {"KHR_materials_unlit", "KHR_texture_transform", "EXT_texture_webp"})
+    if (looks.find(extension) != looks.npos)
+      root["extensionsUsed"].push_back(extension);
+  root["scene"] = 0;
+  root["scenes"] = Json::array({{{"nodes", gltf.roots}}});
+  root["nodes"] = gltf.nodes;
+  root["meshes"] = gltf.meshes;
+  root["materials"] = gltf.materials;
+  if (!gltf.textures.empty()) {
+    root["textures"] = gltf.textures;
+    root["images"] = gltf.images;
+    root["samplers"] = gltf.samplers;
   }
-  const Json root{{"asset", {{"version", "2.0"}, {"generator", "imgeo"}}},
-                  {"scene", 0},
-                  {"scenes", Json::array({{{"nodes", roots}}})},
-                  {"nodes", nodes},
-                  {"meshes", meshes},
-                  {"materials", materials},
-                  {"accessors", arrays.accessors},
-                  {"bufferViews", arrays.views},
-                  {"buffers", Json::array({{{"byteLength", arrays.bytes.size()}}})}};
+  root["accessors"] = arrays.accessors;
+  root["bufferViews"] = arrays.views;
+  root["buffers"] = Json::array({{{"byteLength", arrays.bytes.size()}}});
   const std::string json = root.dump(-1, ' ', false, Json::error_handler_t::replace);
 
   const std::uint64_t length = 12 + 8 + (json.size() + 3) / 4 * 4 + 8 + arrays.bytes.size();

@@ -1,6 +1,7 @@
 // Wavefront OBJ (Wavefront Technologies, Advanced Visualizer manual, appendix B1).
 
 #include "export/export.h"
+#include "export/world_shapes.h"
 
 #include <bit>
 #include <fmt/format.h>
@@ -83,10 +84,10 @@ std::string oneLine(std::string name) {
 Bytes writeObj(const Scene& scene) {
   Text out;
   LinesBefore before;
-  for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
-    const Shape& shape = scene.shapes[i];
-    const Mesh& mesh = scene.meshes[shape.mesh];
-    print(out, "o {}\n", shape.name.empty() ? fmt::format("shape{}", i + 1) : oneLine(shape.name));
+  std::size_t shapes = 0;
+  forEachWorldShape(scene, [&](const std::string& name, const Appearance&, const Mesh& mesh) {
+    ++shapes;
+    print(out, "o {}\n", name.empty() ? fmt::format("shape{}", shapes) : oneLine(name));
     const PositionLines positions = printPositions(out, mesh);
     for (const Vec2f& t : mesh.texCoords)
       print(out, "vt {} {}\n", t.x, t.y);
@@ -96,7 +97,7 @@ Bytes writeObj(const Scene& scene) {
     before.positions += positions.count;
     before.texCoords += mesh.texCoords.size();
     before.normals += mesh.normals.size();
-  }
+  });
   return Bytes(out.begin(), out.end());
 }
 

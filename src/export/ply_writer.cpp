@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/narrow.h"
 #include "export/export.h"
+#include "export/world_shapes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +22,15 @@ struct Layout {
   std::uint64_t vertices = 0, faces = 0, edges = 0;
 };
 
+/// Calls `visit` for the mesh of every shape, where its positions do not count.
+template <typename Visit> void forEachMesh(const Scene& scene, Visit visit) {
+  for (const PlacedShape& placed : placedShapes(scene.graph))
+    visit(scene.meshes[shapeOf(scene.graph, placed.node).mesh]);
+}
+
 Layout layoutOf(const Scene& scene) {
   Layout layout;
-  for (const Shape& shape : scene.shapes) {
-    const Mesh& mesh = scene.meshes[shape.mesh];
+  forEachMesh(scene, [&](const Mesh& mesh) {
     layout.normals |= !mesh.normals.empty();
     layout.texCoords |= !mesh.texCoords.empty();
     layout.colors |= !mesh.colors.empty();
@@ -36,7 +42,7 @@ Layout layoutOf(const Scene& scene) {
       layout.faces += mesh.elementCount();
     if (mesh.topology == Topology::lines)
       layout.edges += mesh.elementCount();
-  }
+  });
   return layout;
 }
 
@@ -86,8 +92,8 @@ float numberOf(const Mesh& mesh, const std::string& name, std::uint32_t componen
   return isThere ? found->values[wedge * components + component] : 0;
 }
 
-void appendVertices(Bytes& out, const Shape& shape, const Mesh& mesh, const Layout& layout) {
-  const Rgba8 plain = diffuseColorOf(shape.material);
+void appendVertices(Bytes& out, const Appearance& appearance, const Mesh& mesh, const Layout& layout) {
+  const Rgba8 plain = diffuseColorOf(phongOf(appearance.material));
   for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
     const auto append = [&](Vec3f v) {
       for (int axis = 0; axis < 3; ++axis)
@@ -113,18 +119,12 @@ void appendVertices(Bytes& out, const Shape& shape, const Mesh& mesh, const Layo
   }
 }
 
-/// The corners of every mesh of one topology, counted through all shapes' vertices.
-void appendElements(Bytes& out, const Scene& scene, Topology topology) {
-  std::uint64_t firstVertex = 0;
-  for (const Shape& shape : scene.shapes) {
-    const Mesh& mesh = scene.meshes[shape.mesh];
-    if (mesh.topology == topology)
-      for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
-        if (topology == Topology::triangles && corner % 3 == 0)
-          out.push_back(3);
-        appendLittle(out, narrow<std::int32_t>(firstVertex + mesh.corners[corner]));
-      }
-    firstVertex += mesh.wedgeCount();
+/// The corners of a mesh's elements, as vertices of the whole file.
+void appendElements(Bytes& out, const Mesh& mesh, std::uint64_t firstVertex) {
+  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
+    if (mesh.topology == Topology::triangles && corner % 3 == 0)
+      out.push_back(3);
+    appendLittle(out, narrow<std::int32_t>(firstVertex + mesh.corners[corner]));
   }
 }
 
@@ -136,11 +136,16 @@ Bytes writePly(const Scene& scene) {
     throw Error(ErrorKind::limit, "",
                 fmt::format("{} vertices are more than a PLY file can count", layout.vertices));
   const std::string header = headerOf(layout);
-  Bytes out(header.begin(), header.end());
-  for (const Shape& shape : scene.shapes)
-    appendVertices(out, shape, scene.meshes[shape.mesh], layout);
-  appendElements(out, scene, Topology::triangles);
-  appendElements(out, scene, Topology::lines);
+  Bytes out(header.begin(), header.end()), faces, edges;
+  std::uint64_t firstVertex = 0;
+  forEachWorldShape(scene, [&](const std::string&, const Appearance& appearance, const Mesh& mesh) {
+    appendVertices(out, appearance, mesh, layout);
+    if (mesh.topology != Topology::points)
+      appendElements(mesh.topology == Topology::triangles ? faces : edges, mesh, firstVertex);
+    firstVertex += mesh.wedgeCount();
+  });
+  out.insert(out.end(), faces.begin(), faces.end());
+  out.insert(out.end(), edges.begin(), edges.end());
   return out;
 }
 

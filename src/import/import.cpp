@@ -49,15 +49,16 @@ Reader readerFor(ByteSpan bytes, const std::string& name) {
   throw Error(ErrorKind::unsupported, name, "is in no format that imgeo reads, which are PLY, OBJ and STL");
 }
 
-/// Names of shapes become DEFs, which must differ: "wheel", "wheel-2", ...
-void makeNamesUnique(std::vector<Shape>& shapes) {
+/// Names of nodes become DEFs, which must differ: "wheel", "wheel-2", ...
+void makeNamesUnique(SceneGraph& graph) {
   std::map<std::string, std::size_t> next; // name -> the number to try for its next holder
-  for (Shape& shape : shapes) {
-    if (shape.name.empty())
+  for (const std::size_t index : nodesInOrder(graph)) {
+    std::string& name = graph.nodes[index].name;
+    if (name.empty())
       continue;
-    const std::string wanted = shape.name;
-    while (!next.try_emplace(shape.name, 2).second)
-      shape.name = fmt::format("{}-{}", wanted, next[wanted]++);
+    const std::string wanted = name;
+    while (!next.try_emplace(name, 2).second)
+      name = fmt::format("{}-{}", wanted, next[wanted]++);
   }
 }
 
@@ -73,10 +74,9 @@ std::string bytePlace(const std::string& name, std::size_t byte) {
 
 void addShape(Scene& scene, Mesh mesh, std::string shapeName) {
   Shape shape;
-  shape.name = std::move(shapeName);
   shape.mesh = scene.meshes.size();
   scene.meshes.push_back(std::move(mesh));
-  scene.shapes.push_back(std::move(shape));
+  addRoot(scene.graph, {std::move(shapeName), shape, {}, ""});
 }
 
 Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
@@ -95,8 +95,8 @@ Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOption
       std::ranges::any_of(imported.scene.meshes, [](const Mesh& mesh) { return !mesh.corners.empty(); });
   if (!hasElements)
     throw Error(ErrorKind::malformed, name, "the file has no triangles, lines or points");
-  makeNamesUnique(imported.scene.shapes);
-  imported.scene.title = stemOf(name);
+  makeNamesUnique(imported.scene.graph);
+  imported.scene.graph.title = stemOf(name);
   return imported;
 }
 

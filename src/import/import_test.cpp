@@ -50,7 +50,7 @@ TEST(Import, SaysThatItDoesNotReadUtf16) {
 TEST(Import, NamesTheSceneAfterTheFile) {
   for (const char* name : {"models/bunny.ply", "bunny.ply.gz", "bunny"}) {
     const Scene scene = importBytes(asBytes(kPly), name).scene;
-    EXPECT_EQ(scene.title, "bunny");
+    EXPECT_EQ(scene.graph.title, "bunny");
     EXPECT_EQ(scene.meshes.at(0).name, "bunny");
   }
 }

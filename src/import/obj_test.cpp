@@ -80,10 +80,10 @@ TEST(Obj, KeepsObjectsAsShapesWithNamesThatDiffer) {
       importBytes(asBytes("v 9 9 9\n" + kSquare +
                           "o a\nf 2 3 4\no empty\no a\nf 2 4 5\no b c \ng x\nf 2 3 5\ng y\nf 2 3 4\n"),
                   "m.obj");
-  ASSERT_EQ(imported.scene.shapes.size(), 3u);
-  EXPECT_EQ(imported.scene.shapes[0].name, "a");
-  EXPECT_EQ(imported.scene.shapes[1].name, "a-2");
-  EXPECT_EQ(imported.scene.shapes[2].name, "b c");
+  ASSERT_EQ(shapeNodes(imported.scene.graph).size(), 3u);
+  EXPECT_EQ(testing::shapeName(imported.scene.graph, 0), "a");
+  EXPECT_EQ(testing::shapeName(imported.scene.graph, 1), "a-2");
+  EXPECT_EQ(testing::shapeName(imported.scene.graph, 2), "b c");
   EXPECT_EQ(imported.scene.meshes[1].positions, (std::vector<Vec3f>{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
   EXPECT_EQ(imported.scene.meshes[2].elementCount(), 2u);
   for (const Mesh& mesh : imported.scene.meshes)
@@ -116,10 +116,10 @@ TEST(Obj, HasLinesOfManyCornersAsAMeshOfLines) {
 TEST(Obj, HasAShapeOfLinesBesideThatOfTheFacesOfAnObject) {
   const Imported imported =
       importBytes(asBytes("o roof\n" + kSquare + "f 1 2 3 4\nl 4 3\no post\nv 9 9 9\nl 1 5\n"), "m.obj");
-  ASSERT_EQ(imported.scene.shapes.size(), 3u);
-  EXPECT_EQ(imported.scene.shapes[0].name, "roof");
-  EXPECT_EQ(imported.scene.shapes[1].name, "roof-2");
-  EXPECT_EQ(imported.scene.shapes[2].name, "post");
+  ASSERT_EQ(shapeNodes(imported.scene.graph).size(), 3u);
+  EXPECT_EQ(testing::shapeName(imported.scene.graph, 0), "roof");
+  EXPECT_EQ(testing::shapeName(imported.scene.graph, 1), "roof-2");
+  EXPECT_EQ(testing::shapeName(imported.scene.graph, 2), "post");
   EXPECT_EQ(imported.scene.meshes[0].topology, Topology::triangles);
   EXPECT_EQ(imported.scene.meshes[1].topology, Topology::lines);
   EXPECT_EQ(imported.scene.meshes[1].positions, (std::vector<Vec3f>{{0, 1, 0}, {1, 1, 0}}));

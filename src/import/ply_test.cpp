@@ -79,8 +79,8 @@ TEST(Ply, HasItsEdgesBesideItsFacesAsAShapeOfLines) {
     appendLittle(bytes, std::uint32_t{3});
   }
   const Imported imported = importBytes(bytes, "m.ply");
-  ASSERT_EQ(imported.scene.shapes.size(), 2u);
-  EXPECT_EQ(imported.scene.shapes[1].name, "edges");
+  ASSERT_EQ(shapeNodes(imported.scene.graph).size(), 2u);
+  EXPECT_EQ(shapeName(imported.scene.graph, 1), "edges");
   expectEqual(imported.scene.meshes[0], mesh);
   Mesh edges = mesh;
   edges.topology = Topology::lines;

@@ -69,8 +69,8 @@ TEST(Stl, BinaryFilesMayBeginWithSolid) {
 
 TEST(Stl, EverySolidIsAShape) {
   const Imported imported = importBytes(asBytes(asciiStl(grid(1), "a") + asciiStl(grid(2), "b")), "m.stl");
-  ASSERT_EQ(imported.scene.shapes.size(), 2u);
-  EXPECT_EQ(imported.scene.shapes[1].name, "b");
+  ASSERT_EQ(shapeNodes(imported.scene.graph).size(), 2u);
+  EXPECT_EQ(testing::shapeName(imported.scene.graph, 1), "b");
   EXPECT_EQ(imported.scene.meshes[1].elementCount(), 8u);
 }
 

@@ -1,8 +1,107 @@
 #include "scene/scene.h"
 
+#include "base/error.h"
+
+#include <cassert>
 #include <cmath>
 
 namespace imgeo {
+
+namespace {
+
+constexpr std::size_t maxPlacedShapes = 1'000'000;
+
+void visit(const SceneGraph& graph, std::size_t node, std::vector<bool>& seen,
+           std::vector<std::size_t>& order) {
+  if (seen[node])
+    return;
+  seen[node] = true;
+  order.push_back(node);
+  for (const std::size_t child : graph.nodes[node].children)
+    visit(graph, child, seen, order);
+}
+
+/// Lists the places of the shapes below a node. Nodes below which there are none
+/// are visited once, however often they are USEd.
+class Placing {
+public:
+  Placing(const SceneGraph& graph, const std::string& where)
+      : graph_(graph), where_(where), isBare_(graph.nodes.size()) {}
+
+  void place(std::size_t index, const Affine3d& worldFromParent) {
+    if (isBare_[index])
+      return;
+    const Node& node = graph_.nodes[index];
+    if (std::holds_alternative<Shape>(node.content)) {
+      if (placed.size() == maxPlacedShapes)
+        throw Error(ErrorKind::limit, where_, "the scene shows more than a million shapes");
+      placed.push_back({index, worldFromParent});
+      return;
+    }
+    const std::size_t before = placed.size();
+    const Transform* transform = std::get_if<Transform>(&node.content);
+    const Affine3d worldFromNode = transform ? worldFromParent * affineOf(*transform) : worldFromParent;
+    for (const std::size_t child : node.children)
+      place(child, worldFromNode);
+    isBare_[index] = placed.size() == before;
+  }
+
+  std::vector<PlacedShape> placed;
+
+private:
+  const SceneGraph& graph_;
+  const std::string& where_;
+  std::vector<bool> isBare_;
+};
+
+} // namespace
+
+std::size_t addNode(SceneGraph& graph, Node node) {
+  graph.nodes.push_back(std::move(node));
+  return graph.nodes.size() - 1;
+}
+
+std::size_t addRoot(SceneGraph& graph, Node node) {
+  graph.roots.push_back(addNode(graph, std::move(node)));
+  return graph.roots.back();
+}
+
+std::vector<std::size_t> nodesInOrder(const SceneGraph& graph) {
+  std::vector<bool> seen(graph.nodes.size());
+  std::vector<std::size_t> order;
+  for (const std::size_t root : graph.roots)
+    visit(graph, root, seen, order);
+  return order;
+}
+
+std::vector<std::size_t> shapeNodes(const SceneGraph& graph) {
+  std::vector<std::size_t> nodes = nodesInOrder(graph);
+  std::erase_if(nodes,
+                [&](std::size_t node) { return !std::holds_alternative<Shape>(graph.nodes[node].content); });
+  return nodes;
+}
+
+const Shape& shapeOf(const SceneGraph& graph, std::size_t node) {
+  assert(std::holds_alternative<Shape>(graph.nodes.at(node).content));
+  return std::get<Shape>(graph.nodes[node].content);
+}
+
+void removeShapes(SceneGraph& graph, const std::vector<bool>& isLeftOut) {
+  const auto leavesOut = [&](std::size_t node) {
+    const Shape* shape = std::get_if<Shape>(&graph.nodes[node].content);
+    return shape && isLeftOut.at(shape->mesh);
+  };
+  std::erase_if(graph.roots, leavesOut);
+  for (Node& node : graph.nodes)
+    std::erase_if(node.children, leavesOut);
+}
+
+std::vector<PlacedShape> placedShapes(const SceneGraph& graph, const std::string& place) {
+  Placing placing(graph, place);
+  for (const std::size_t root : graph.roots)
+    placing.place(root, {});
+  return std::move(placing.placed);
+}
 
 Viewpoint viewpointFor(const Box3d& box) {
   Viewpoint viewpoint;
@@ -10,11 +109,11 @@ Viewpoint viewpointFor(const Box3d& box) {
 
   // Turn the default view (along -z) by `yaw` to the side, then look down by `pitch`.
   const double yaw = 0.45, pitch = -0.3;
-  const double cy = std::cos(yaw / 2), sy = std::sin(yaw / 2), cp = std::cos(pitch / 2), sp = std::sin(pitch / 2);
+  const double cy = std::cos(yaw / 2), sy = std::sin(yaw / 2), cp = std::cos(pitch / 2),
+               sp = std::sin(pitch / 2);
   const Vec3d axis{cy * sp, sy * cp, -sy * sp}; // quaternion yaw * pitch
   const double axisLength = length(axis);
-  viewpoint.orientationAxis = axis * (1 / axisLength);
-  viewpoint.orientationAngle = 2 * std::atan2(axisLength, cy * cp);
+  viewpoint.orientation = {axis * (1 / axisLength), 2 * std::atan2(axisLength, cy * cp)};
 
   const Vec3d right{std::cos(yaw), 0, -std::sin(yaw)};
   const Vec3d back{std::sin(yaw) * std::cos(pitch), -std::sin(pitch), std::cos(yaw) * std::cos(pitch)};
@@ -25,7 +124,8 @@ Viewpoint viewpointFor(const Box3d& box) {
   const Vec3d half = box.size() * 0.5;
   double distance = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3d c{corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z};
+    const Vec3d c{corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y,
+                  corner & 4 ? half.z : -half.z};
     const double aside = std::max(std::abs(dot(c, right)), std::abs(dot(c, up)));
     distance = std::max(distance, dot(c, back) + aside / widest);
   }

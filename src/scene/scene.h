@@ -1,34 +1,54 @@
 #pragma once
-// A scene: what import makes and documents write. Plain data; X3D's defaults.
+// A scene: what import makes and documents write. Plain data after X3D's scene
+// graph (ISO/IEC 19775-1), with X3D's defaults.
+//
+// Nodes refer to one another by index. A node may be the child of several others:
+// it then stands in several places, and documents write it once and USE it
+// elsewhere. The graph has no cycles.
 
-#include "base/vec.h"
+#include "scene/appearance.h"
 #include "scene/mesh.h"
+#include "scene/transform.h"
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace imgeo {
 
-/// X3D Material: colours 0..1, shininess 0..1 (times 128 is the exponent).
-struct Material {
-  Vec3f diffuseColor{0.8f, 0.8f, 0.8f};
-  Vec3f specularColor{0, 0, 0};
-  Vec3f emissiveColor{0, 0, 0};
-  float ambientIntensity = 0.2f;
-  float shininess = 0.2f;
-  float transparency = 0;
-  friend bool operator==(const Material&, const Material&) = default;
+/// X3D Group: children, and nothing else.
+struct Group {
+  friend bool operator==(const Group&, const Group&) = default;
 };
 
-/// X3D Viewpoint: looks along -z of `orientation` (unit axis, angle in radians).
+/// One visible thing: a mesh and what it looks like.
+struct Shape {
+  std::size_t mesh = 0; ///< index into Scene::meshes
+  std::optional<std::size_t>
+      appearance;    ///< index into SceneGraph::appearances; absent: the source says nothing
+  bool solid = true; ///< false: its triangles are seen from both sides
+  friend bool operator==(const Shape&, const Shape&) = default;
+};
+
+/// X3D Viewpoint: looks along -z of `orientation`.
 struct Viewpoint {
   std::string description;
   Vec3d position{0, 0, 10};
-  Vec3d orientationAxis{0, 0, 1};
-  double orientationAngle = 0;
+  Rotation orientation;
   double fieldOfView = 0.7854; ///< radians, along the shorter side
-  Vec3d centerOfRotation{0, 0, 0};
+  Vec3d centerOfRotation;
+  friend bool operator==(const Viewpoint&, const Viewpoint&) = default;
+};
+
+/// X3D OrthoViewpoint: the same without perspective.
+struct OrthoViewpoint {
+  std::string description;
+  Vec3d position{0, 0, 10};
+  Rotation orientation;
+  Vec2<double> min{-1, -1}, max{1, 1}; ///< what is seen, in units of the scene
+  Vec3d centerOfRotation;
+  friend bool operator==(const OrthoViewpoint&, const OrthoViewpoint&) = default;
 };
 
 /// X3D DirectionalLight: shines along `direction`.
@@ -36,23 +56,100 @@ struct DirectionalLight {
   Vec3d direction{0, 0, -1};
   Vec3f color{1, 1, 1};
   float intensity = 1;
+  bool global = false; ///< false: lights what stands below the light's parent
+  friend bool operator==(const DirectionalLight&, const DirectionalLight&) = default;
 };
 
-/// One visible thing: a mesh and what it looks like.
-struct Shape {
-  std::string name;         ///< becomes its DEF; unique in the scene, may be empty
-  std::size_t mesh = 0;     ///< index into Scene::meshes
-  Material material;
+/// X3D PointLight: at distance d its light is divided by a + b d + c d^2 of
+/// `attenuation`, or 1 where that is less, and ends at `radius`.
+struct PointLight {
+  Vec3d location;
+  Vec3d attenuation{1, 0, 0};
+  double radius = 100;
+  Vec3f color{1, 1, 1};
+  float intensity = 1;
+  bool global = true;
+  friend bool operator==(const PointLight&, const PointLight&) = default;
+};
+
+/// X3D SpotLight: a cone that is full up to `beamWidth` from its axis and fades
+/// to nothing at `cutOffAngle`, both in radians.
+struct SpotLight {
+  Vec3d location;
+  Vec3d direction{0, 0, -1};
+  double beamWidth = 0.7854, cutOffAngle = 1.5708;
+  Vec3d attenuation{1, 0, 0};
+  double radius = 100;
+  Vec3f color{1, 1, 1};
+  float intensity = 1;
+  bool global = true;
+  friend bool operator==(const SpotLight&, const SpotLight&) = default;
+};
+
+using NodeContent =
+    std::variant<Group, Transform, Shape, Viewpoint, OrthoViewpoint, DirectionalLight, PointLight, SpotLight>;
+
+struct Node {
+  std::string name; ///< becomes its DEF; of several nodes of one name the later get a number
+  NodeContent content;
+  std::vector<std::size_t> children; ///< of Groups and Transforms: indices into SceneGraph::nodes
+  std::string extras;                ///< what the source's author has added, as JSON; may be empty
+  friend bool operator==(const Node&, const Node&) = default;
+};
+
+/// X3D Background: one colour.
+struct Background {
+  Vec3f skyColor;
+  friend bool operator==(const Background&, const Background&) = default;
+};
+
+/// Everything of a scene but its meshes.
+struct SceneGraph {
+  std::string title;
+  std::vector<std::string> info; ///< X3D WorldInfo: who made the source, whose it is
+  std::vector<Node> nodes;
+  std::vector<std::size_t> roots; ///< indices into `nodes`, in document order
+  std::vector<Appearance> appearances;
+  std::vector<Texture> textures;
+  std::vector<ImageFile> images;
+  std::optional<Background> background;
+  bool headlight = true; ///< X3D NavigationInfo
+  friend bool operator==(const SceneGraph&, const SceneGraph&) = default;
 };
 
 struct Scene {
-  std::string title;
+  SceneGraph graph;
   std::vector<Mesh> meshes;
-  std::vector<Shape> shapes;
-  std::vector<Viewpoint> viewpoints;
-  std::vector<DirectionalLight> lights;
-  bool headlight = true;
 };
+
+/// Appends a node and returns its index; nothing refers to it yet.
+std::size_t addNode(SceneGraph& graph, Node node);
+/// The same for a node that stands at the top.
+std::size_t addRoot(SceneGraph& graph, Node node);
+
+/// The nodes below the roots, each once, parents before children, in the order in
+/// which a document first mentions them.
+std::vector<std::size_t> nodesInOrder(const SceneGraph& graph);
+
+/// The indices of all Shape nodes in that order.
+std::vector<std::size_t> shapeNodes(const SceneGraph& graph);
+
+/// The Shape of a node that is one.
+const Shape& shapeOf(const SceneGraph& graph, std::size_t node);
+
+/// Takes the Shape nodes of some meshes out of the graph; `isLeftOut` is by mesh.
+void removeShapes(SceneGraph& graph, const std::vector<bool>& isLeftOut);
+
+/// A shape in one of the places where it stands.
+struct PlacedShape {
+  std::size_t node = 0;
+  Affine3d worldFromShape;
+};
+
+/// Every shape as often as it is seen, in document order. Throws Error{limit} naming
+/// `place` for more than a million: groups of groups that are USEd grow without
+/// measure.
+std::vector<PlacedShape> placedShapes(const SceneGraph& graph, const std::string& place = "");
 
 /// A viewpoint from which a box is seen whole, from slightly above and beside,
 /// centred on the box; for pages whose source brings none.

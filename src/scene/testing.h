@@ -3,7 +3,7 @@
 // for tests alone. The same arguments give the same bits on every machine: the
 // generator's sequence is the standard's, and no library distribution is used.
 
-#include "scene/mesh.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -226,6 +226,28 @@ inline NamedAttribute randomAttribute(Random& random, const std::string& name, s
     attribute.values.push_back(kind == 0 ? std::floor(value) : kind == 1 ? value : low);
   }
   return attribute;
+}
+
+/// A shape for each mesh, named "part0", "part1", ...
+inline Scene sceneOf(std::vector<Mesh> meshes) {
+  Scene scene;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    Shape shape;
+    shape.mesh = i;
+    addRoot(scene.graph, {"part" + std::to_string(i), shape, {}, ""});
+  }
+  scene.meshes = std::move(meshes);
+  return scene;
+}
+
+/// The name of the nth shape of a scene.
+inline const std::string& shapeName(const SceneGraph& graph, std::size_t n) {
+  return graph.nodes.at(shapeNodes(graph).at(n)).name;
+}
+
+/// The look of the nth shape of a scene, which has one.
+inline const Appearance& appearanceOf(const SceneGraph& graph, std::size_t n) {
+  return graph.appearances.at(shapeOf(graph, shapeNodes(graph).at(n)).appearance.value());
 }
 
 /// Any of the above, at random size and place, with or without each attribute,

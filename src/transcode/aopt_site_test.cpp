@@ -66,8 +66,9 @@ protected:
                              node + "</Shape></Scene></X3D></body></html>";
     writeFile(directory.path() / "index.html", asBytes(page));
     const Scene scene = readMeshes(openDocument(directory.path()));
-    EXPECT_EQ(scene.shapes.at(0).name, "torus");
-    EXPECT_EQ(scene.shapes.at(0).material.diffuseColor, (Vec3f{1, 0, 0}));
+    EXPECT_EQ(testing::shapeName(scene.graph, 0), "torus");
+    EXPECT_EQ(std::get<Material>(testing::appearanceOf(scene.graph, 0).material).diffuseColor,
+              (Vec3f{1, 0, 0}));
     return scene.meshes.at(0);
   }
 

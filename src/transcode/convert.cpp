@@ -2,8 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "containers/named_attributes.h"
-#include "transcode/encode_mesh.h"
+#include "transcode/encode_scene.h"
 #include "transcode/marker.h"
 #include "transcode/options.h"
 #include "transcode/peak_memory.h"
@@ -26,15 +25,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* generator = "imgeo " IMGEO_VERSION;
-
-/// A warm stone: shape shows by shading, and nothing of it is clipped where both
-/// lights meet: (1 + 0.45) * (diffuse + specular) is about 1.
-constexpr Material stone{
-    .diffuseColor{0.56f, 0.55f, 0.52f}, .specularColor{0.14f, 0.14f, 0.13f}, .shininess = 0.25f};
-
-/// From above and to the left of the viewer, warmer than the headlight, so that
-/// carving casts light and shade across the view.
-constexpr DirectionalLight keyLight{{-0.45, -0.8, -0.4}, {1.0f, 0.96f, 0.9f}, 0.45f};
 
 class Stopwatch {
 public:
@@ -77,62 +67,14 @@ void requireAttributes(const Imported& imported, const ConvertOptions& options) 
                                     fmt::join(imported.attributes, ", ")));
 }
 
-/// What a report says of the attributes of a geometry, which are those of others, too.
-void addAttributes(std::vector<AttributeReport>& reports, const GeometryDescription& geometry) {
-  for (const AttributeDescription& attribute : geometry.attributes) {
-    auto report = std::ranges::find(reports, attribute.name, &AttributeReport::name);
-    if (report == reports.end())
-      report = reports.insert(report, {attribute.name, attribute.components, 0, 0});
-    const bool isSig = geometry.container == Container::sig;
-    report->bits = std::max(report->bits, isSig ? 8 * attribute.bytes : 32);
-    for (std::uint32_t c = 0; c < attribute.components; ++c)
-      report->error = std::max(report->error, numberBound(geometry.container, attribute, c));
-  }
-}
-
-/// Encodes every shape's mesh; two shapes of one mesh share its files.
-SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, GeometryFiles& files,
-                          ConvertReport& report, const ElementsDone& done) {
-  SceneDocument document;
-  document.title = options.title.empty() ? scene.title : options.title;
-  constexpr std::size_t notEncoded = ~std::size_t{0};
-  std::vector<std::size_t> geometryOf(scene.meshes.size(), notEncoded);
-  Box3d whole;
-  for (Shape& shape : scene.shapes) {
-    std::size_t& geometry = geometryOf[shape.mesh];
-    if (geometry == notEncoded) {
-      EncodedMesh encoded = encodeMesh(std::move(scene.meshes[shape.mesh]), options, files, done);
-      report.elements += encoded.elements;
-      report.vertices += encoded.vertices;
-      report.patches += encoded.geometry.patches.size();
-      report.collapsed += encoded.collapsed;
-      report.positionError = std::max(report.positionError, encoded.positionError);
-      report.normalErrorDegrees = std::max(report.normalErrorDegrees, encoded.normalErrorDegrees);
-      addAttributes(report.attributes, encoded.geometry);
-      geometry = document.geometries.size();
-      document.geometries.push_back(std::move(encoded.geometry));
-    }
-    whole.add(document.geometries[geometry].box.min);
-    whole.add(document.geometries[geometry].box.max);
-    if (shape.material == Material{})
-      shape.material = stone;
-    // X3D does not light points and lines: it shows their own or the emissive colour.
-    const Primitive primitive = document.geometries[geometry].patches.front().draws.front().primitive;
-    const bool isSurface = primitive == Primitive::triangles || primitive == Primitive::triangleStrip;
-    if (!isSurface && shape.material.emissiveColor == Vec3f{})
-      shape.material.emissiveColor = shape.material.diffuseColor;
-    shape.mesh = geometry;
-    document.shapes.push_back(std::move(shape));
-  }
-  report.lattice = document.geometries.front().lattice;
-  document.viewpoints = std::move(scene.viewpoints);
-  if (document.viewpoints.empty())
-    document.viewpoints.push_back(viewpointFor(whole));
-  document.lights = std::move(scene.lights);
-  if (document.lights.empty())
-    document.lights.push_back(keyLight);
-  document.headlight = scene.headlight;
-  return document;
+/// A title of the user's wins over the source's own, which wins over the file's name.
+void nameScene(SceneGraph& graph, const std::string& title, bool isWanted) {
+  if (isWanted || graph.title.empty())
+    graph.title = title;
+  // Scripts find shapes by name, and the only object of a file rarely has one.
+  const std::vector<std::size_t> shapes = shapeNodes(graph);
+  if (shapes.size() == 1 && graph.nodes[shapes[0]].name.empty())
+    graph.nodes[shapes[0]].name = graph.title;
 }
 
 /// The documents of a site for X3DOM, which brings its own runtime.
@@ -203,11 +145,8 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   requireAttributes(imported, options);
   report.format = imported.format;
   report.warnings = std::move(imported.warnings);
-  if (imported.scene.title.empty())
-    imported.scene.title = titleFrom(input);
-  // Scripts find shapes by name, and the only object of a file rarely has one.
-  if (imported.scene.shapes.size() == 1 && imported.scene.shapes[0].name.empty())
-    imported.scene.shapes[0].name = options.title.empty() ? imported.scene.title : options.title;
+  nameScene(imported.scene.graph, options.title.empty() ? titleFrom(input) : options.title,
+            !options.title.empty());
   report.importSeconds = step.lapSeconds();
 
   tell(0.2, "preparing");
@@ -222,9 +161,9 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   for (const Mesh& mesh : imported.scene.meshes)
     elementCount += mesh.elementCount();
   std::mutex doneMutex;
-  GeometryFiles files(site.path());
+  SiteContent content{{site.path(), geometryFolder}, {site.path(), textureFolder}};
   const SceneDocument document =
-      encodeScene(std::move(imported.scene), options, files, report, [&](std::size_t count) {
+      encodeScene(std::move(imported.scene), options, content, report, [&](std::size_t count) {
         const std::lock_guard lock(doneMutex);
         elementsDone += count;
         tell(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");

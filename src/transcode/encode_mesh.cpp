@@ -69,20 +69,20 @@ EncodedElements encodeElements(Patch patch, const GeometryDescription& geometry,
 
 } // namespace
 
-std::string GeometryFiles::write(const EncodedFile& file) {
-  std::string url = std::string(geometryFolder) + "/" + contentName(file.bytes) + file.extension;
+std::string ContentFiles::write(ByteSpan bytes, const std::string& extension) {
+  std::string url = folder_ + "/" + contentName(bytes) + extension;
   {
     const std::lock_guard lock(mutex_);
     if (bytes_.empty())
-      std::filesystem::create_directories(site_ / geometryFolder);
-    if (!bytes_.emplace(url, file.bytes.size()).second)
+      std::filesystem::create_directories(site_ / folder_);
+    if (!bytes_.emplace(url, bytes.size()).second)
       return url;
   }
-  writeFile(site_ / url, file.bytes);
+  writeFile(site_ / url, bytes);
   return url;
 }
 
-EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& files,
+EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files,
                        const ElementsDone& done) {
   const Box3d box = boxOf(mesh);
   const Lattice lattice =
@@ -106,7 +106,7 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& 
         encodeElements(std::exchange(patched.patches[i], {}), result.geometry, options, encoding);
     std::vector<std::string> urls;
     for (const EncodedFile& file : encoded.patch.files)
-      urls.push_back(files.write(file));
+      urls.push_back(files.write(file.bytes, file.extension));
     nameReferences(encoded.patch.description, urls);
     descriptions[i] = std::move(encoded.patch.description);
     elements[i] = encoded.counts;

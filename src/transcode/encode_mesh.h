@@ -12,21 +12,23 @@
 
 namespace imgeo {
 
-/// The files of a site under construction, each written once however often it
-/// is referred to. Safe to call from any thread.
-class GeometryFiles {
+/// The files of one folder of a site under construction, each written once however
+/// often it is referred to. Safe to call from any thread.
+class ContentFiles {
 public:
-  /// `site` is the site's root; its geometry folder is made by the first file.
-  explicit GeometryFiles(std::filesystem::path site) : site_(std::move(site)) {}
+  /// `site` is the site's root; its folder is made by the first file.
+  ContentFiles(std::filesystem::path site, std::string folder)
+      : site_(std::move(site)), folder_(std::move(folder)) {}
 
   /// Writes a file named by its content and returns its url, relative to the site.
-  std::string write(const EncodedFile& file);
+  std::string write(ByteSpan bytes, const std::string& extension);
 
   /// The length of a written file, in bytes.
   std::uint64_t bytesOf(const std::string& url) const { return bytes_.at(url); }
 
 private:
   std::filesystem::path site_;
+  std::string folder_;
   std::mutex mutex_;
   std::map<std::string, std::uint64_t> bytes_;
 };
@@ -47,7 +49,7 @@ using ElementsDone = std::function<void(std::size_t count)>;
 /// Cuts a mesh into patches and writes them, several at a time; a patch's memory
 /// is given back when its files are written, so that the peak is the patches
 /// and not their encodings. `mesh` is used up. Deterministic.
-EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, GeometryFiles& files,
+EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files,
                        const ElementsDone& done);
 
 } // namespace imgeo

@@ -7,22 +7,39 @@
 #include "transcode/site_reader.h"
 #include "transcode/transcode.h"
 
+#include <algorithm>
+
 namespace imgeo {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// The images that are in the site; those of other hosts stay away.
+void readImages(const OpenedDocument& document, SceneGraph& graph) {
+  const std::vector<std::string> urls = textureFilesOf(document.scene);
+  for (ImageFile& image : graph.images)
+    if (std::ranges::find(urls, image.url) != urls.end())
+      image.bytes = readFile(fileOf(document, image.url));
+}
+
+} // namespace
 
 ExportReport exportSite(const fs::path& site, const fs::path& output) {
   const std::optional<MeshFormat> format = meshFormatOf(output);
   if (!format)
     throw Error(ErrorKind::usage, output.string(),
                 "ends in none of .ply, .obj and .glb, which say what to write");
-  const Scene scene = readMeshes(openDocument(site));
+  const OpenedDocument document = openDocument(site);
+  Scene scene = readMeshes(document);
+  if (*format == MeshFormat::glb) // the others have no place for images
+    readImages(document, scene.graph);
 
   ExportReport report;
   report.format = nameOf(*format);
-  report.shapes = scene.shapes.size();
-  for (const Shape& shape : scene.shapes) {
-    const Mesh& mesh = scene.meshes[shape.mesh];
+  for (const PlacedShape& placed : placedShapes(scene.graph)) {
+    const Mesh& mesh = scene.meshes[shapeOf(scene.graph, placed.node).mesh];
+    ++report.shapes;
     report.vertices += mesh.wedgeCount();
     report.elements.of(mesh.topology) += mesh.elementCount();
   }

@@ -13,18 +13,11 @@ namespace {
 
 using testing::TemporaryDirectory;
 
-Scene sceneOf(const Mesh& mesh) {
-  Scene scene;
-  scene.meshes = {mesh};
-  scene.shapes = {{"part", 0, {}}};
-  return scene;
-}
-
 /// Converts `mesh` and exports it again as `name`; what is written equals the site.
 void expectComesBack(const Mesh& mesh, const ConvertOptions& options, const std::string& name) {
   const TemporaryDirectory directory;
   const auto path = [&](const std::string& file) { return directory.path() / file; };
-  writeFile(path("in.ply"), exportScene(sceneOf(mesh), MeshFormat::ply));
+  writeFile(path("in.ply"), exportScene(testing::sceneOf({mesh}), MeshFormat::ply));
   convert(path("in.ply"), path("site"), options);
   const ExportReport written = exportSite(path("site"), path(name));
   const VerifyReport report = verify(path("site"), path(name));
@@ -55,7 +48,7 @@ TEST(ExportSite, JoinsPatchesAtTheirBorders) {
   expectComesBack(mesh, options, "out.obj");
 
   const TemporaryDirectory directory;
-  writeFile(directory.path() / "in.ply", exportScene(sceneOf(mesh), MeshFormat::ply));
+  writeFile(directory.path() / "in.ply", exportScene(testing::sceneOf({mesh}), MeshFormat::ply));
   convert(directory.path() / "in.ply", directory.path() / "site", options);
   ASSERT_GT(inspect(directory.path() / "site").patches, 5u);
   exportSite(directory.path() / "site", directory.path() / "out.ply");

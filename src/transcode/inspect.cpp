@@ -89,6 +89,8 @@ SiteInfo inspect(const fs::path& site) {
   }
   for (const NamedFile& file : geometryFilesOf(document.scene))
     info.containerBytes += add(file.url, nameOf(file.role));
+  for (const std::string& url : textureFilesOf(document.scene))
+    info.textureBytes += add(url, "texture");
 
   for (const GeometryDescription& geometry : document.scene.geometries) {
     info.geometries.push_back(infoOf(geometry, fetchFrom(document)));

@@ -13,15 +13,18 @@ SourceInfo inspectSource(const std::filesystem::path& file) {
   info.format = imported.format;
   info.warnings = imported.warnings;
   info.attributes = imported.attributes;
-  info.shapes = imported.scene.shapes.size();
+  const std::vector<PlacedShape> placed = placedShapes(imported.scene.graph);
+  info.shapes = placed.size();
+  for (const PlacedShape& shape : placed)
+    for (const Vec3f& position :
+         imported.scene.meshes[shapeOf(imported.scene.graph, shape.node).mesh].positions)
+      info.box.add(shape.worldFromShape.point(Vec3d(position)));
   for (const Mesh& mesh : imported.scene.meshes) {
     info.elements.of(mesh.topology) += mesh.elementCount();
     info.vertices += mesh.wedgeCount();
     info.normals |= !mesh.normals.empty();
     info.texCoords |= !mesh.texCoords.empty();
     info.colors |= !mesh.colors.empty();
-    for (const Vec3f& position : mesh.positions)
-      info.box.add(Vec3d(position));
   }
   return info;
 }

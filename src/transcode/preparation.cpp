@@ -60,13 +60,16 @@ PreparationReport prepareScene(Scene& scene, NormalWeighting weighting, const st
     addTo(sum.weld, report.weld);
     sum.normalsComputed |= report.normalsComputed;
   }
-  const std::size_t shapesBefore = scene.shapes.size();
-  std::erase_if(scene.shapes,
-                [&](const Shape& shape) { return scene.meshes[shape.mesh].elementCount() == 0; });
-  if (scene.shapes.empty())
+  const std::size_t shapesBefore = shapeNodes(scene.graph).size();
+  std::vector<bool> isEmpty;
+  for (const Mesh& mesh : scene.meshes)
+    isEmpty.push_back(mesh.elementCount() == 0);
+  removeShapes(scene.graph, isEmpty);
+  const std::size_t shapesLeft = shapeNodes(scene.graph).size();
+  if (shapesLeft == 0)
     throw Error(ErrorKind::malformed, place,
                 "holds no triangles, lines or points, so there is nothing to show");
-  if (const std::size_t dropped = shapesBefore - scene.shapes.size())
+  if (const std::size_t dropped = shapesBefore - shapesLeft)
     sum.warnings.push_back(fmt::format("left out shapes without triangles, lines or points: {}", dropped));
   return sum;
 }

@@ -79,19 +79,19 @@ Mesh readMesh(const OpenedDocument& document, const GeometryDescription& geometr
 
 Scene readMeshes(const OpenedDocument& document) {
   Scene scene;
-  scene.title = document.scene.title;
-  scene.viewpoints = document.scene.viewpoints;
-  scene.lights = document.scene.lights;
-  scene.headlight = document.scene.headlight;
-  for (const Shape& shape : document.scene.shapes) {
-    Mesh mesh = readMesh(document, document.scene.geometries.at(shape.mesh));
-    if (mesh.corners.empty())
-      continue;
-    mesh.name = shape.name;
-    scene.shapes.push_back({shape.name, scene.meshes.size(), shape.material});
-    scene.meshes.push_back(std::move(mesh));
+  scene.graph = document.scene.graph;
+  std::vector<bool> isEmpty;
+  for (const GeometryDescription& geometry : document.scene.geometries) {
+    scene.meshes.push_back(readMesh(document, geometry));
+    isEmpty.push_back(scene.meshes.back().corners.empty());
   }
-  if (scene.shapes.empty())
+  for (const std::size_t node : shapeNodes(scene.graph)) {
+    Mesh& mesh = scene.meshes[shapeOf(scene.graph, node).mesh];
+    if (mesh.name.empty())
+      mesh.name = scene.graph.nodes[node].name;
+  }
+  removeShapes(scene.graph, isEmpty);
+  if (shapeNodes(scene.graph).empty())
     throw Error(ErrorKind::malformed, (document.root / document.name).string(), "draws nothing");
   return scene;
 }

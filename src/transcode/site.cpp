@@ -237,7 +237,7 @@ void StagedSite::publishInPlace(const Rename& rename) {
     kept.insert(file);
   }
   std::error_code none;
-  for (const char* folder : {geometryFolder, runtimeFolder}) {
+  for (const char* folder : {geometryFolder, textureFolder, runtimeFolder}) {
     std::vector<fs::path> stale;
     for (const fs::directory_entry& entry : fs::directory_iterator(target_ / folder, none))
       if (!entry.is_directory(none) && !kept.contains(fs::path(folder) / entry.path().filename()))

@@ -17,6 +17,7 @@ inline constexpr const char* pageName = "index.html";
 inline constexpr const char* sceneName = "scene.x3d";
 inline constexpr const char* stylesheetName = "imgeo.css";
 inline constexpr const char* geometryFolder = "geometry";
+inline constexpr const char* textureFolder = "textures";
 inline constexpr const char* runtimeFolder = "runtime";
 
 /// Moves `from` to `to`; `flags` are those of renameat2(2). Returns 0 or an errno.

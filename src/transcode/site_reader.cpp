@@ -38,6 +38,21 @@ std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene) {
   return files;
 }
 
+std::vector<std::string> textureFilesOf(const SceneDocument& scene) {
+  const SceneGraph& graph = scene.graph;
+  std::vector<std::string> urls;
+  std::set<std::string> seen;
+  for (const std::size_t node : shapeNodes(graph))
+    if (const auto& appearance = shapeOf(graph, node).appearance)
+      for (const TextureUse& use : graph.appearances[*appearance].textures) {
+        const std::string& url = graph.images[graph.textures[use.texture].image].url;
+        const bool isElsewhere = url.empty() || url.find(':') != url.npos || url.starts_with("//");
+        if (!isElsewhere && seen.insert(url).second)
+          urls.push_back(url);
+      }
+  return urls;
+}
+
 std::vector<std::string> pageFilesOf(std::string_view html) {
   // Read as text: the values of src and href attributes that end in .js and .css.
   std::vector<std::string> urls;

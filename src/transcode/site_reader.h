@@ -33,6 +33,10 @@ struct NamedFile {
 /// Every geometry file of a scene once, in the order of first mention.
 std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene);
 
+/// The urls of the images that textures show, each once, in the order of first
+/// mention; those of other hosts are left out.
+std::vector<std::string> textureFilesOf(const SceneDocument& scene);
+
 /// The urls of the runtime module and the stylesheet that a page names; those of
 /// other hosts, X3DOM's and absent ones are left out.
 std::vector<std::string> pageFilesOf(std::string_view html);

@@ -18,7 +18,7 @@ namespace imgeo::testing {
 inline void writeMesh(const std::filesystem::path& file, const Mesh& mesh) {
   Scene scene;
   scene.meshes.push_back(mesh);
-  scene.shapes.push_back({});
+  addRoot(scene.graph, {"", Shape{}, {}, ""});
   writeFile(file, exportScene(scene, MeshFormat::ply));
 }
 

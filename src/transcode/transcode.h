@@ -101,7 +101,8 @@ ConvertReport convert(const std::filesystem::path& input, const std::filesystem:
 
 struct SiteFile {
   std::string path; ///< relative to the site
-  std::string role; ///< "document" (the page), "runtime", a geometry role, "scene", "style" or "marker"
+  std::string
+      role; ///< "document" (the page), "runtime", a geometry role, "texture", "scene", "style" or "marker"
   std::uint64_t bytes = 0;
 };
 
@@ -121,14 +122,14 @@ struct SiteInfo {
   std::vector<GeometryInfo> geometries; ///< one a shape
   ElementCounts elements;
   std::size_t vertices = 0, patches = 0;
-  std::uint64_t documentBytes = 0, containerBytes = 0, runtimeBytes = 0;
+  std::uint64_t documentBytes = 0, containerBytes = 0, textureBytes = 0, runtimeBytes = 0;
   double bytesPerTriangle = 0; ///< containers and the document's geometry nodes; 0 without triangles
   std::vector<SiteFile> files;
 };
 
 /// Reads a site (its directory, its index.html or a scene.x3d) without decoding
 /// it. The document is index.html where there is one: what a browser fetches
-/// is document, runtime, style and containers; `scene` is the same scene for
+/// is document, runtime, style, containers and textures; `scene` is the same scene for
 /// other readers. Safe for untrusted bytes; throws Error, also for files that
 /// are missing.
 SiteInfo inspect(const std::filesystem::path& site);

@@ -94,6 +94,8 @@ std::map<std::string, std::vector<double>> namedBounds(const GeometryDescription
 bool checkFiles(const OpenedDocument& document, bool isForeign, Findings& findings) {
   bool whole = true;
   std::vector<std::string> urls = isForeign ? std::vector<std::string>{} : pageFilesOf(document.text);
+  for (const std::string& url : textureFilesOf(document.scene))
+    urls.push_back(url);
   for (const NamedFile& file : geometryFilesOf(document.scene))
     urls.push_back(file.url);
   for (const std::string& url : urls) {
@@ -207,6 +209,18 @@ void count(const ElementDifference& difference, const ElementList& input, const 
   report.extra.of(topology) += difference.extra;
 }
 
+/// Whether two maps put a mesh to the same place, but for how documents round.
+bool agree(const Affine3d& a, const Affine3d& b, const Box3d& box) {
+  const double slack = 1e-6 * (length(b.direction(box.size())) + length(b.point(box.center())));
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3d point{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                      corner & 4 ? box.max.z : box.min.z};
+    if (!(length(a.point(point) - b.point(point)) <= slack))
+      return false;
+  }
+  return true;
+}
+
 /// Where the vertices of the input are on the site's lattice.
 std::vector<Vec3u> quantisedAs(const GeometryDescription& geometry, const std::vector<IndexedPatch>& patches,
                                const Mesh& mesh, bool isForeign) {
@@ -231,8 +245,8 @@ void checkPositions(const GeometryDescription& geometry, const std::vector<Vec3u
                  bound);
 }
 
-void compareShape(const OpenedDocument& document, const GeometryDescription& geometry, const Mesh& mesh,
-                  const std::optional<Marker>& marker, VerifyReport& report, Findings& findings) {
+void compareMesh(const OpenedDocument& document, const GeometryDescription& geometry, const Mesh& mesh,
+                 const std::optional<Marker>& marker, VerifyReport& report, Findings& findings) {
   std::vector<IndexedPatch> patches = decodePatches(document, geometry);
   checkBoxes(patches, geometry, findings);
   if (!marker && mesh.normals.empty())
@@ -309,6 +323,28 @@ Imported prepared(const fs::path& input, const std::optional<Marker>& marker) {
   return imported;
 }
 
+/// Shapes are compared where they stand; what they show once for each mesh.
+void compareScenes(const OpenedDocument& document, const Scene& input, const std::optional<Marker>& marker,
+                   VerifyReport& report, Findings& findings) {
+  const SceneGraph& siteGraph = document.scene.graph;
+  const std::vector<PlacedShape> inSite = placedShapes(siteGraph, (document.root / document.name).string()),
+                                 inInput = placedShapes(input.graph);
+  if (inSite.size() != inInput.size())
+    return findings.add("The site has {} shapes, the input {}.", inSite.size(), inInput.size());
+  std::set<std::pair<std::size_t, std::size_t>> compared;
+  std::size_t misplaced = 0;
+  for (std::size_t i = 0; i < inSite.size(); ++i) {
+    const std::size_t geometry = shapeOf(siteGraph, inSite[i].node).mesh,
+                      mesh = shapeOf(input.graph, inInput[i].node).mesh;
+    misplaced += !agree(inSite[i].worldFromShape, inInput[i].worldFromShape, boxOf(input.meshes[mesh]));
+    if (compared.emplace(geometry, mesh).second)
+      compareMesh(document, document.scene.geometries.at(geometry), input.meshes[mesh], marker, report,
+                  findings);
+  }
+  if (misplaced > 0)
+    findings.add("{} of {} shapes stand elsewhere than in the input.", misplaced, inSite.size());
+}
+
 } // namespace
 
 VerifyReport verify(const fs::path& site, const fs::path& input) {
@@ -324,14 +360,8 @@ VerifyReport verify(const fs::path& site, const fs::path& input) {
   try {
     if (marker)
       checkDocuments(document, findings);
-    const bool whole = checkFiles(document, report.isForeign, findings);
-    const std::vector<Shape>& shapes = imported.scene.shapes;
-    if (document.scene.shapes.size() != shapes.size())
-      findings.add("The site has {} shapes, the input {}.", document.scene.shapes.size(), shapes.size());
-    else if (whole)
-      for (std::size_t i = 0; i < shapes.size(); ++i)
-        compareShape(document, document.scene.geometries.at(document.scene.shapes[i].mesh),
-                     imported.scene.meshes[shapes[i].mesh], marker, report, findings);
+    if (checkFiles(document, report.isForeign, findings))
+      compareScenes(document, imported.scene, marker, report, findings);
   } catch (const Error& error) {
     findings.add("{}.", error.what());
   }

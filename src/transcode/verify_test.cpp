@@ -246,7 +246,7 @@ TEST(Verify, SeesTrianglesDrawnAsPoints) {
 
 TEST(Verify, SeesDocumentsThatDiffer) {
   DamagedSite site;
-  site.scene().shapes[0].material.shininess = 0.9f;
+  std::get<Material>(site.scene().graph.appearances.at(0).material).shininess = 0.9f;
   writeFile(site.site() / sceneName, asBytes(writeX3d(site.scene())));
   expectFinding(site, "index.html and scene.x3d differ");
 }

@@ -13,10 +13,7 @@ namespace {
 using testing::TemporaryDirectory;
 
 void writeMesh(const Mesh& mesh, const std::filesystem::path& file) {
-  Scene scene;
-  scene.meshes = {mesh};
-  scene.shapes = {{"", 0, {}}};
-  writeFile(file, exportScene(scene, MeshFormat::ply));
+  writeFile(file, exportScene(testing::sceneOf({mesh}), MeshFormat::ply));
 }
 
 ConvertOptions optionsFor(Container container) {

@@ -1,0 +1,75 @@
+#include "documents/appearance_names.h"
+
+#include "documents/appearance_element.h"
+
+namespace imgeo {
+
+namespace {
+
+constexpr const char* nearestPixel = "NEAREST_PIXEL";
+constexpr const char* averagePixel = "AVG_PIXEL";
+constexpr std::string_view nearestMipMap = "_NEAREST_MIPMAP", averageMipMap = "_AVG_MIPMAP";
+
+} // namespace
+
+std::string magnificationFilter(const Texture& texture) {
+  return texture.magnification == Filter::nearest ? nearestPixel : averagePixel;
+}
+
+std::string minificationFilter(const Texture& texture) {
+  std::string name = texture.minification == Filter::nearest ? nearestPixel : averagePixel;
+  if (texture.mipMaps)
+    name += texture.betweenMipMaps == Filter::nearest ? nearestMipMap : averageMipMap;
+  return name;
+}
+
+void setMagnificationFilter(Texture& texture, std::string_view name) {
+  if (sameName(name, nearestPixel))
+    texture.magnification = Filter::nearest;
+  if (sameName(name, averagePixel))
+    texture.magnification = Filter::linear;
+}
+
+void setMinificationFilter(Texture& texture, std::string_view name) {
+  for (const bool nearest : {true, false}) {
+    const std::string_view pixel = nearest ? nearestPixel : averagePixel;
+    if (name.size() < pixel.size() || !sameName(name.substr(0, pixel.size()), pixel))
+      continue;
+    const std::string_view mipMap = name.substr(pixel.size());
+    const bool betweenNearest = sameName(mipMap, nearestMipMap),
+               betweenAverage = sameName(mipMap, averageMipMap);
+    if (!mipMap.empty() && !betweenNearest && !betweenAverage)
+      continue;
+    texture.minification = nearest ? Filter::nearest : Filter::linear;
+    texture.mipMaps = !mipMap.empty();
+    texture.betweenMipMaps = betweenNearest   ? Filter::nearest
+                             : betweenAverage ? Filter::linear
+                                              : Filter::standard;
+  }
+}
+
+std::string textureField(const AnyMaterial& material, TextureRole role) {
+  const bool isPhong = std::holds_alternative<Material>(material),
+             isPhysical = std::holds_alternative<PhysicalMaterial>(material);
+  switch (role) {
+  case TextureRole::color:
+    return isPhong ? "diffuseTexture" : isPhysical ? "baseTexture" : "emissiveTexture";
+  case TextureRole::emissive:
+    return isPhong || isPhysical ? "emissiveTexture" : "";
+  case TextureRole::metallicRoughness:
+    return isPhysical ? "metallicRoughnessTexture" : "";
+  case TextureRole::normal:
+    return "normalTexture";
+  case TextureRole::occlusion:
+    return isPhong || isPhysical ? "occlusionTexture" : "";
+  case TextureRole::ambient:
+    return isPhong ? "ambientTexture" : "";
+  case TextureRole::specular:
+    return isPhong ? "specularTexture" : "";
+  case TextureRole::shininess:
+    return isPhong ? "shininessTexture" : "";
+  }
+  return "";
+}
+
+} // namespace imgeo

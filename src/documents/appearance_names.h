@@ -1,0 +1,45 @@
+#pragma once
+// The words that X3D has for the choices of an appearance, for the writer and the reader.
+
+#include "documents/find_x3d.h"
+#include "scene/appearance.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace imgeo {
+
+inline constexpr std::array alphaModeNames{"AUTO", "OPAQUE", "MASK", "BLEND"};
+inline constexpr std::array boundaryNames{"REPEAT", "CLAMP_TO_EDGE", "MIRRORED_REPEAT"};
+inline constexpr std::array textureRoleNames{"color",     "emissive", "metallicRoughness", "normal",
+                                             "occlusion", "ambient",  "specular",          "shininess"};
+
+inline const char* nameOf(AlphaMode mode) {
+  return alphaModeNames.at(static_cast<std::size_t>(mode));
+}
+inline const char* nameOf(Boundary boundary) {
+  return boundaryNames.at(static_cast<std::size_t>(boundary));
+}
+/// Names the mapping of a role's texture.
+inline const char* nameOf(TextureRole role) {
+  return textureRoleNames.at(static_cast<std::size_t>(role));
+}
+
+/// The value whose name, without regard to case, is `name`.
+template <typename Value, std::size_t count>
+std::optional<Value> valueNamed(const std::array<const char*, count>& names, std::string_view name) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (sameName(names[i], name))
+      return static_cast<Value>(i);
+  return {};
+}
+
+/// X3D's words for the filters of TextureProperties.
+std::string magnificationFilter(const Texture& texture);
+std::string minificationFilter(const Texture& texture);
+void setMagnificationFilter(Texture& texture, std::string_view name);
+void setMinificationFilter(Texture& texture, std::string_view name);
+
+} // namespace imgeo

@@ -1,0 +1,110 @@
+#pragma once
+// The fields of every node that a Scene holds as plain data, once for the writer
+// and the reader: their X3D names, in the order in which they are written. What
+// an absent field means is what the struct's own default says.
+//
+// A visitor is called with the name and the member, and whether the field is
+// written even where it has its default; its line() begins a new line in an
+// element that is too long for one.
+
+#include "scene/scene.h"
+
+#include <type_traits>
+
+namespace imgeo {
+
+enum class Written : std::uint8_t { unlessDefault, always };
+
+template <typename Visit> void visitFieldsOf(const Transform*, auto& transform, Visit&& visit) {
+  visit("translation", transform.translation);
+  visit("rotation", transform.rotation);
+  visit("scale", transform.scale);
+  visit("scaleOrientation", transform.scaleOrientation);
+  visit("center", transform.center);
+}
+
+template <typename Visit> void visitFieldsOf(const Viewpoint*, auto& viewpoint, Visit&& visit) {
+  visit("description", viewpoint.description);
+  visit.line();
+  visit("position", viewpoint.position, Written::always);
+  visit("orientation", viewpoint.orientation, Written::always);
+  visit.line();
+  visit("fieldOfView", viewpoint.fieldOfView, Written::always);
+  visit("centerOfRotation", viewpoint.centerOfRotation, Written::always);
+}
+
+/// All but fieldOfView, which is two members.
+template <typename Visit> void visitFieldsOf(const OrthoViewpoint*, auto& viewpoint, Visit&& visit) {
+  visit("description", viewpoint.description);
+  visit.line();
+  visit("position", viewpoint.position, Written::always);
+  visit("orientation", viewpoint.orientation, Written::always);
+  visit.line();
+  visit("centerOfRotation", viewpoint.centerOfRotation, Written::always);
+}
+
+template <typename Visit> void visitFieldsOf(const DirectionalLight*, auto& light, Visit&& visit) {
+  visit("direction", light.direction, Written::always);
+  visit("color", light.color, Written::always);
+  visit("intensity", light.intensity, Written::always);
+  visit("global", light.global);
+}
+
+template <typename Visit> void visitFieldsOf(const PointLight*, auto& light, Visit&& visit) {
+  visit("location", light.location, Written::always);
+  visit("color", light.color, Written::always);
+  visit("intensity", light.intensity, Written::always);
+  visit("attenuation", light.attenuation);
+  visit("radius", light.radius);
+  visit("global", light.global);
+}
+
+template <typename Visit> void visitFieldsOf(const SpotLight*, auto& light, Visit&& visit) {
+  visit("location", light.location, Written::always);
+  visit("direction", light.direction, Written::always);
+  visit("beamWidth", light.beamWidth);
+  visit("cutOffAngle", light.cutOffAngle);
+  visit("color", light.color, Written::always);
+  visit("intensity", light.intensity, Written::always);
+  visit("attenuation", light.attenuation);
+  visit("radius", light.radius);
+  visit("global", light.global);
+}
+
+template <typename Visit> void visitFieldsOf(const Material*, auto& material, Visit&& visit) {
+  visit("diffuseColor", material.diffuseColor, Written::always);
+  visit("specularColor", material.specularColor);
+  visit("emissiveColor", material.emissiveColor);
+  visit("ambientIntensity", material.ambientIntensity);
+  visit("shininess", material.shininess);
+  visit("transparency", material.transparency);
+}
+
+template <typename Visit> void visitFieldsOf(const PhysicalMaterial*, auto& material, Visit&& visit) {
+  visit("baseColor", material.baseColor, Written::always);
+  visit("metallic", material.metallic, Written::always);
+  visit("roughness", material.roughness, Written::always);
+  visit("emissiveColor", material.emissiveColor);
+  visit("normalScale", material.normalScale);
+  visit("occlusionStrength", material.occlusionStrength);
+  visit("transparency", material.transparency);
+}
+
+template <typename Visit> void visitFieldsOf(const UnlitMaterial*, auto& material, Visit&& visit) {
+  visit("emissiveColor", material.emissiveColor, Written::always);
+  visit("transparency", material.transparency);
+}
+
+template <typename Visit> void visitFieldsOf(const TextureTransform*, auto& transform, Visit&& visit) {
+  visit("translation", transform.translation);
+  visit("rotation", transform.rotation);
+  visit("scale", transform.scale);
+  visit("center", transform.center);
+}
+
+/// Visits the fields of `node`, which may be const.
+template <typename Node, typename Visit> void visitFields(Node&& node, Visit&& visit) {
+  visitFieldsOf(static_cast<const std::remove_cvref_t<Node>*>(nullptr), node, visit);
+}
+
+} // namespace imgeo

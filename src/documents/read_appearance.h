@@ -1,0 +1,38 @@
+#pragma once
+// Appearance elements -> appearances, textures and images of a graph.
+
+#include "documents/fields.h"
+#include "scene/scene.h"
+
+#include <map>
+#include <string>
+
+namespace imgeo {
+
+class AppearanceReader {
+public:
+  AppearanceReader(const DocumentText& source, SceneGraph& graph) : source_(source), graph_(graph) {}
+
+  /// Reads an Appearance, or finds the one that it USEs; returns its index.
+  std::size_t read(const pugi::xml_node& node);
+
+private:
+  struct DefinedMaterial {
+    AnyMaterial material;
+    std::vector<TextureUse> textures;
+    std::map<std::string, std::string> mappings;
+  };
+
+  DefinedMaterial readMaterial(const Fields& fields);
+  void readTextures(const Fields& material, DefinedMaterial& read);
+  std::size_t readTexture(const Fields& fields);
+  void readTransforms(const Fields& fields, std::map<std::string, TextureTransform>& transforms) const;
+  template <typename T> const T* used(const Fields& fields, const std::map<std::string, T>& defined) const;
+
+  const DocumentText& source_;
+  SceneGraph& graph_;
+  std::map<std::string, std::size_t> appearances_, textures_, images_;
+  std::map<std::string, DefinedMaterial> materials_;
+};
+
+} // namespace imgeo

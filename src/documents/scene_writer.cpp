@@ -1,0 +1,181 @@
+#include "documents/scene_writer.h"
+
+#include "documents/appearance_element.h"
+#include "documents/field_text.h"
+#include "documents/geometry_element.h"
+
+namespace imgeo {
+
+namespace {
+
+Element contentElement(const Group&, const Attributes& names) {
+  return {"Group", {names}};
+}
+Element contentElement(const Transform& transform, const Attributes& names) {
+  return nodeElement("Transform", transform, names);
+}
+Element contentElement(const Shape&, const Attributes& names) {
+  return {"Shape", {names}};
+}
+Element contentElement(const Viewpoint& viewpoint, const Attributes& names) {
+  return nodeElement("Viewpoint", viewpoint, names);
+}
+Element contentElement(const OrthoViewpoint& viewpoint, const Attributes& names) {
+  Element element = nodeElement("OrthoViewpoint", viewpoint, names);
+  element.groups.back().push_back({"fieldOfView", numbers(viewpoint.min) + " " + numbers(viewpoint.max)});
+  return element;
+}
+Element contentElement(const DirectionalLight& light, const Attributes& names) {
+  return nodeElement("DirectionalLight", light, names);
+}
+Element contentElement(const PointLight& light, const Attributes& names) {
+  return nodeElement("PointLight", light, names);
+}
+Element contentElement(const SpotLight& light, const Attributes& names) {
+  return nodeElement("SpotLight", light, names);
+}
+
+Element elementOf(const Node& node, const Attributes& names) {
+  return std::visit([&](const auto& content) { return contentElement(content, names); }, node.content);
+}
+
+/// A name for something that has none and is used more than once.
+std::string wishFor(const std::string& name, std::size_t uses, const char* otherwise) {
+  return !name.empty() || uses < 2 ? name : otherwise;
+}
+
+} // namespace
+
+bool isUse(const Attributes& names) {
+  return !names.empty() && names[0].name == "USE";
+}
+
+Attributes SceneWriter::Names::defOrUse(std::size_t index) {
+  if (names_[index].empty())
+    return {};
+  const bool wasWritten = written_[index];
+  written_[index] = true;
+  return {{wasWritten ? "USE" : "DEF", names_[index]}};
+}
+
+SceneWriter::SceneWriter(const SceneDocument& document, std::size_t level)
+    : document_(document), writer_(level), nodeNames_(document.graph.nodes.size()),
+      appearanceNames_(document.graph.appearances.size()), textureNames_(document.graph.textures.size()),
+      geometryNames_(2 * document.geometries.size()) {
+  giveNames();
+}
+
+/// Nodes first: scripts look for the names of things that are seen.
+void SceneWriter::giveNames() {
+  const SceneGraph& graph = document_.graph;
+  std::vector<std::size_t> nodeUses(graph.nodes.size()), appearanceUses(graph.appearances.size()),
+      textureUses(graph.textures.size()), geometryUses(2 * document_.geometries.size());
+  const std::vector<std::size_t> order = nodesInOrder(graph);
+  for (const std::size_t root : graph.roots)
+    ++nodeUses[root];
+  for (const std::size_t index : order) {
+    for (const std::size_t child : graph.nodes[index].children)
+      ++nodeUses[child];
+    if (const Shape* shape = std::get_if<Shape>(&graph.nodes[index].content)) {
+      ++geometryUses.at(2 * shape->mesh + !shape->solid);
+      if (shape->appearance && appearanceUses.at(*shape->appearance)++ == 0)
+        for (const TextureUse& use : graph.appearances[*shape->appearance].textures)
+          ++textureUses.at(use.texture);
+    }
+  }
+  for (const std::size_t index : order) {
+    const Node& node = graph.nodes[index];
+    nodeNames_[index] = table_.take(wishFor(node.name, nodeUses[index], "shared"));
+  }
+  for (std::size_t i = 0; i < appearanceUses.size(); ++i)
+    if (appearanceUses[i] > 0)
+      appearanceNames_[i] = table_.take(wishFor(graph.appearances[i].name, appearanceUses[i], "look"));
+  for (std::size_t i = 0; i < textureUses.size(); ++i)
+    textureNames_[i] = textureUses[i] < 2 ? "" : table_.take(wishFor(graph.textures[i].name, 2, "texture"));
+  for (std::size_t i = 0; i < geometryUses.size(); ++i)
+    geometryNames_[i] = geometryUses[i] < 2 ? "" : table_.take("geometry");
+}
+
+void SceneWriter::writeHead() {
+  const SceneGraph& graph = document_.graph;
+  if (!graph.title.empty() || !graph.info.empty()) {
+    Attributes fields{{"title", graph.title}};
+    if (!graph.info.empty())
+      fields.push_back({"info", strings(graph.info)});
+    writer_.leaf({"WorldInfo", {fields}});
+  }
+  writer_.leaf({"NavigationInfo", {{{"headlight", fieldText(graph.headlight)}}}});
+  if (graph.background)
+    writer_.leaf({"Background", {{{"skyColor", numbers(graph.background->skyColor)}}}});
+}
+
+std::string SceneWriter::write() {
+  const Element x3d{"X3D", {{{"profile", "Interchange"}, {"version", "4.0"}}}}, scene{"Scene", {}};
+  writer_.open(x3d);
+  writer_.open(scene);
+  writeHead();
+  for (const std::size_t root : document_.graph.roots)
+    writeNode(root);
+  writer_.close(scene);
+  writer_.close(x3d);
+  return writer_.text();
+}
+
+void SceneWriter::writeExtras(const Node& node) {
+  if (!node.extras.empty())
+    writer_.leaf({"MetadataString",
+                  {{{"containerField", "metadata"}, {"name", "extras"}, {"value", strings({node.extras})}}}});
+}
+
+void SceneWriter::writeNode(std::size_t index) {
+  const Node& node = document_.graph.nodes[index];
+  const Attributes names = nodeNames_.defOrUse(index);
+  if (isUse(names))
+    return writer_.leaf({elementOf(node, {}).name, {names}});
+  if (std::holds_alternative<Shape>(node.content))
+    return writeShape(node, names);
+  const Element element = elementOf(node, names);
+  if (node.children.empty() && node.extras.empty())
+    return writer_.leaf(element);
+  writer_.open(element);
+  writeExtras(node);
+  for (const std::size_t child : node.children)
+    writeNode(child);
+  writer_.close(element);
+}
+
+void SceneWriter::writeAppearanceOf(const Shape& shape) {
+  if (!shape.appearance)
+    return;
+  const Attributes names = appearanceNames_.defOrUse(*shape.appearance);
+  if (isUse(names))
+    return writer_.leaf({"Appearance", {names}});
+  writeAppearance(writer_, document_.graph, document_.graph.appearances.at(*shape.appearance), names,
+                  [&](std::size_t texture) { return textureNames_.defOrUse(texture); });
+}
+
+void SceneWriter::writeGeometryOf(const Shape& shape) {
+  const GeometryDescription& geometry = document_.geometries.at(shape.mesh);
+  const Attributes names = geometryNames_.defOrUse(2 * shape.mesh + !shape.solid);
+  if (isUse(names))
+    return writer_.leaf({geometryNodeName(geometry.container), {names}});
+  const Element node = geometryElement(geometry, shape.solid, names);
+  writer_.open(node);
+  for (const AttributeDescription& attribute : geometry.attributes)
+    writer_.leaf(attributeElement(attribute, geometry.container));
+  for (const PatchDescription& patch : geometry.patches)
+    writer_.leaf(patchElement(patch, geometry));
+  writer_.close(node);
+}
+
+void SceneWriter::writeShape(const Node& node, const Attributes& names) {
+  const Shape& shape = std::get<Shape>(node.content);
+  const Element element{"Shape", {names, boxAttributes(document_.geometries.at(shape.mesh).box)}};
+  writer_.open(element);
+  writeExtras(node);
+  writeAppearanceOf(shape);
+  writeGeometryOf(shape);
+  writer_.close(element);
+}
+
+} // namespace imgeo

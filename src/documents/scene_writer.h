@@ -1,0 +1,61 @@
+#pragma once
+// The <X3D> element: one text for both documents. A subclass writes shapes in the
+// dialect of another runtime.
+
+#include "documents/documents.h"
+#include "documents/element.h"
+#include "documents/text.h"
+
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+class SceneWriter {
+public:
+  /// `document` outlives the writer; `level` is the element's indent.
+  SceneWriter(const SceneDocument& document, std::size_t level);
+  virtual ~SceneWriter() = default;
+  SceneWriter(const SceneWriter&) = delete;
+  SceneWriter& operator=(const SceneWriter&) = delete;
+
+  /// The element with all its children, ending in a newline. To be called once.
+  std::string write();
+
+protected:
+  /// Writes what stands for a Shape node; `names` is its DEF, if it has one.
+  virtual void writeShape(const Node& node, const Attributes& names);
+  void writeExtras(const Node& node);
+
+  /// Names that elements have, given when they are first written.
+  class Names {
+  public:
+    Names(std::size_t count) : names_(count), written_(count) {}
+    std::string& operator[](std::size_t index) { return names_[index]; }
+    /// Its DEF the first time, its USE from then on; nothing where it has no name.
+    Attributes defOrUse(std::size_t index);
+
+  private:
+    std::vector<std::string> names_;
+    std::vector<bool> written_;
+  };
+
+  const SceneDocument& document_;
+  ElementWriter writer_;
+  NameTable table_;
+  Names nodeNames_, appearanceNames_, textureNames_;
+
+private:
+  void giveNames();
+  void writeHead();
+  void writeNode(std::size_t index);
+  void writeAppearanceOf(const Shape& shape);
+  void writeGeometryOf(const Shape& shape);
+
+  Names geometryNames_; ///< two for each: solid and not
+};
+
+/// Whether attributes are a USE, so that an element stands elsewhere.
+bool isUse(const Attributes& names);
+
+} // namespace imgeo

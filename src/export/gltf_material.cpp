@@ -1,0 +1,153 @@
+#include "export/gltf_material.h"
+
+#include "scene/color.h"
+
+#include <cmath>
+
+namespace imgeo {
+
+namespace {
+
+Json pbrOf(Vec3f linearColor, float transparency, float metallic, float roughness) {
+  return {{"baseColorFactor", {linearColor.x, linearColor.y, linearColor.z, 1 - transparency}},
+          {"metallicFactor", metallic},
+          {"roughnessFactor", roughness}};
+}
+
+Vec3f linearOf(Vec3f srgb) {
+  return {static_cast<float>(linearOfSrgb(srgb.x)), static_cast<float>(linearOfSrgb(srgb.y)),
+          static_cast<float>(linearOfSrgb(srgb.z))};
+}
+
+/// Materials of X3D in glTF's terms: its own as they are, those of Phong as rough dielectrics.
+struct MaterialJson {
+  Json json;
+  float transparency = 0;
+
+  void operator()(const Material& material) {
+    json["pbrMetallicRoughness"] =
+        pbrOf(linearOf(material.diffuseColor), material.transparency, 0, 1 - material.shininess);
+    addEmissive(linearOf(material.emissiveColor));
+    transparency = material.transparency;
+  }
+  void operator()(const PhysicalMaterial& material) {
+    json["pbrMetallicRoughness"] =
+        pbrOf(material.baseColor, material.transparency, material.metallic, material.roughness);
+    addEmissive(material.emissiveColor);
+    transparency = material.transparency;
+  }
+  void operator()(const UnlitMaterial& material) {
+    json["pbrMetallicRoughness"] = pbrOf(linearOf(material.emissiveColor), material.transparency, 0, 1);
+    json["extensions"]["KHR_materials_unlit"] = Json::object();
+    transparency = material.transparency;
+  }
+  void addEmissive(Vec3f linearColor) {
+    if (linearColor != Vec3f{})
+      json["emissiveFactor"] = {linearColor.x, linearColor.y, linearColor.z};
+  }
+};
+
+/// Vertex colours take the place of the diffuse colour in X3D, and multiply it in glTF.
+AnyMaterial withVertexColors(AnyMaterial material) {
+  if (Material* phong = std::get_if<Material>(&material))
+    phong->diffuseColor = {1, 1, 1};
+  if (PhysicalMaterial* physical = std::get_if<PhysicalMaterial>(&material))
+    physical->baseColor = {1, 1, 1};
+  if (UnlitMaterial* unlit = std::get_if<UnlitMaterial>(&material))
+    unlit->emissiveColor = {1, 1, 1};
+  return material;
+}
+
+/// KHR_texture_transform of X3D's (ISO/IEC 19775-1, 18.4.9), with v measured down.
+/// glTF scales before it turns, X3D after; where both do something unlike, nothing is left of it.
+Json gltfTransform(const TextureTransform& transform) {
+  const double c = std::cos(transform.rotation), s = std::sin(transform.rotation);
+  const bool isUniform = transform.scale.x == transform.scale.y;
+  if (!isUniform && transform.rotation != 0)
+    return {};
+  const Vec2<double> moved{transform.translation.x + transform.center.x,
+                           transform.translation.y + transform.center.y};
+  const double x = (c * moved.x - s * moved.y) * transform.scale.x - transform.center.x,
+               y = (s * moved.x + c * moved.y) * transform.scale.y - transform.center.y;
+  // t' = s sx u + c sy t + y with t = 1 - v, measured up like t'.
+  Json json;
+  json["offset"] = {x - s * transform.scale.x, 1 - y - c * transform.scale.y};
+  json["scale"] = {transform.scale.x, transform.scale.y};
+  if (transform.rotation != 0)
+    json["rotation"] = transform.rotation;
+  return json;
+}
+
+void addTexture(Json& material, const TextureUse& use, std::size_t index, const AnyMaterial& kind) {
+  Json info{{"index", index}};
+  if (use.transform != TextureTransform{})
+    if (const Json transform = gltfTransform(use.transform); !transform.is_null())
+      info["extensions"]["KHR_texture_transform"] = transform;
+  const PhysicalMaterial* physical = std::get_if<PhysicalMaterial>(&kind);
+  switch (use.role) {
+  case TextureRole::color:
+    material["pbrMetallicRoughness"]["baseColorTexture"] = std::move(info);
+    break;
+  case TextureRole::emissive:
+    material["emissiveTexture"] = std::move(info);
+    break;
+  case TextureRole::metallicRoughness:
+    material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = std::move(info);
+    break;
+  case TextureRole::normal:
+    if (physical && physical->normalScale != 1)
+      info["scale"] = physical->normalScale;
+    material["normalTexture"] = std::move(info);
+    break;
+  case TextureRole::occlusion:
+    if (physical && physical->occlusionStrength != 1)
+      info["strength"] = physical->occlusionStrength;
+    material["occlusionTexture"] = std::move(info);
+    break;
+  default: // Phong's own, which glTF has no word for
+    break;
+  }
+}
+
+} // namespace
+
+Json gltfMaterial(const Appearance& appearance, const Shape& shape, const Mesh& mesh,
+                  const TextureIndex& textureIndex) {
+  MaterialJson material;
+  std::visit(material, mesh.colors.empty() ? appearance.material : withVertexColors(appearance.material));
+  Json& json = material.json;
+  if (!appearance.name.empty())
+    json["name"] = appearance.name;
+  for (const TextureUse& use : appearance.textures)
+    if (const std::optional<std::size_t> index = textureIndex(use.texture))
+      addTexture(json, use, *index, appearance.material);
+  const bool clear = material.transparency > 0 || (!mesh.colors.empty() && mesh.colorComponents == 4);
+  if (appearance.alphaMode == AlphaMode::mask) {
+    json["alphaMode"] = "MASK";
+    json["alphaCutoff"] = appearance.alphaCutoff;
+  } else if (appearance.alphaMode == AlphaMode::blend ||
+             (appearance.alphaMode == AlphaMode::automatic && clear)) {
+    json["alphaMode"] = "BLEND";
+  }
+  if (!shape.solid)
+    json["doubleSided"] = true;
+  return json;
+}
+
+Json gltfSampler(const Texture& texture) {
+  constexpr int repeat = 10497, clampToEdge = 33071, mirroredRepeat = 33648, nearest = 9728, linear = 9729;
+  constexpr int boundaries[] = {repeat, clampToEdge, mirroredRepeat};
+  Json json{{"wrapS", boundaries[static_cast<std::size_t>(texture.boundaryS)]},
+            {"wrapT", boundaries[static_cast<std::size_t>(texture.boundaryT)]}};
+  if (texture.magnification != Filter::standard)
+    json["magFilter"] = texture.magnification == Filter::nearest ? nearest : linear;
+  if (texture.minification != Filter::standard) {
+    const int within = texture.minification == Filter::nearest ? 0 : 1,
+              between = texture.betweenMipMaps == Filter::nearest ? 0 : 2;
+    constexpr int firstWithMipMaps = 9984;
+    json["minFilter"] = texture.mipMaps ? firstWithMipMaps + within + between : nearest + within;
+  }
+  return json;
+}
+
+} // namespace imgeo

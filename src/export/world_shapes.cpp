@@ -1,0 +1,36 @@
+#include "export/world_shapes.h"
+
+#include <utility>
+
+namespace imgeo {
+
+Mesh transformed(Mesh mesh, const Affine3d& world) {
+  for (Vec3f& position : mesh.positions)
+    position = Vec3f(world.point(Vec3d(position)));
+  const Affine3d normalMap = normalMapOf(world);
+  for (Vec3f& normal : mesh.normals) {
+    const Vec3d turned = normalMap.direction(Vec3d(normal));
+    const double size = length(turned);
+    normal = size > 0 ? Vec3f(turned * (1 / size)) : Vec3f{0, 0, 1};
+  }
+  if (mesh.topology == Topology::triangles && world.determinant() < 0)
+    for (std::size_t corner = 0; corner + 2 < mesh.corners.size(); corner += 3)
+      std::swap(mesh.corners[corner + 1], mesh.corners[corner + 2]);
+  return mesh;
+}
+
+void forEachWorldShape(const Scene& scene, const VisitWorldShape& visit) {
+  static const Appearance plain;
+  for (const PlacedShape& placed : placedShapes(scene.graph)) {
+    const Shape& shape = shapeOf(scene.graph, placed.node);
+    const Appearance& appearance = shape.appearance ? scene.graph.appearances.at(*shape.appearance) : plain;
+    const std::string& name = scene.graph.nodes[placed.node].name;
+    const Mesh& mesh = scene.meshes[shape.mesh];
+    if (placed.worldFromShape == Affine3d{})
+      visit(name, appearance, mesh);
+    else
+      visit(name, appearance, transformed(mesh, placed.worldFromShape));
+  }
+}
+
+} // namespace imgeo

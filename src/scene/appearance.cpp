@@ -1,0 +1,54 @@
+#include "scene/appearance.h"
+
+#include "scene/color.h"
+
+#include <algorithm>
+
+namespace imgeo {
+
+namespace {
+
+Vec3f encodedSrgb(Vec3f linear) {
+  const auto encode = [](float value) {
+    return static_cast<float>(srgbOfLinear(std::clamp(value, 0.0f, 1.0f)));
+  };
+  return {encode(linear.x), encode(linear.y), encode(linear.z)};
+}
+
+Material phongOf(const PhysicalMaterial& material) {
+  // glTF 2.0, appendix B: a dielectric reflects 0.04, a metal its base colour and
+  // nothing diffusely. A metal without surroundings to mirror would be black, so
+  // half of its colour stays diffuse.
+  const Vec3f base = material.baseColor;
+  const float metallic = std::clamp(material.metallic, 0.0f, 1.0f);
+  const float smooth = 1 - std::clamp(material.roughness, 0.0f, 1.0f);
+  Material phong;
+  phong.diffuseColor = encodedSrgb(base * (1 - metallic / 2));
+  const float dielectric = 0.04f * (1 - metallic);
+  phong.specularColor = encodedSrgb((base * metallic + Vec3f{dielectric, dielectric, dielectric}) * smooth);
+  phong.emissiveColor = encodedSrgb(material.emissiveColor);
+  phong.shininess = std::max(smooth, 0.01f);
+  phong.transparency = material.transparency;
+  return phong;
+}
+
+Material phongOf(const UnlitMaterial& material) {
+  Material phong;
+  phong.diffuseColor = {0, 0, 0};
+  phong.ambientIntensity = 0;
+  phong.emissiveColor = material.emissiveColor;
+  phong.transparency = material.transparency;
+  return phong;
+}
+
+Material phongOf(const Material& material) {
+  return material;
+}
+
+} // namespace
+
+Material phongOf(const AnyMaterial& material) {
+  return std::visit([](const auto& any) { return phongOf(any); }, material);
+}
+
+} // namespace imgeo

@@ -1,0 +1,113 @@
+#pragma once
+// What shapes look like: X3D 4's materials, and textures with their samplers.
+// Plain data; the defaults are X3D's.
+
+#include "base/bytes.h"
+#include "base/vec.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace imgeo {
+
+/// X3D Material: colours 0..1, shininess 0..1 (times 128 is the exponent).
+struct Material {
+  Vec3f diffuseColor{0.8f, 0.8f, 0.8f};
+  Vec3f specularColor{0, 0, 0};
+  Vec3f emissiveColor{0, 0, 0};
+  float ambientIntensity = 0.2f;
+  float shininess = 0.2f;
+  float transparency = 0;
+  friend bool operator==(const Material&, const Material&) = default;
+};
+
+/// X3D 4 PhysicalMaterial: glTF 2.0's metallic-roughness material, its colours
+/// linear as glTF has them.
+struct PhysicalMaterial {
+  Vec3f baseColor{1, 1, 1};
+  Vec3f emissiveColor{0, 0, 0};
+  float metallic = 1;
+  float roughness = 1;
+  float transparency = 0;
+  float normalScale = 1;
+  float occlusionStrength = 1;
+  friend bool operator==(const PhysicalMaterial&, const PhysicalMaterial&) = default;
+};
+
+/// X3D 4 UnlitMaterial.
+struct UnlitMaterial {
+  Vec3f emissiveColor{1, 1, 1};
+  float transparency = 0;
+  friend bool operator==(const UnlitMaterial&, const UnlitMaterial&) = default;
+};
+
+using AnyMaterial = std::variant<Material, PhysicalMaterial, UnlitMaterial>;
+
+/// The X3D Material that looks most like any other, for renderers that know no other.
+Material phongOf(const AnyMaterial& material);
+
+/// The part of a material that a texture modulates. `color` is the texture of
+/// diffuseColor, baseColor or an UnlitMaterial's emissiveColor.
+enum class TextureRole : std::uint8_t {
+  color,
+  emissive,
+  metallicRoughness, ///< PhysicalMaterial
+  normal,
+  occlusion,
+  ambient,   ///< Material
+  specular,  ///< Material
+  shininess, ///< Material
+};
+
+/// X3D TextureTransform: a texture coordinate t is read at
+/// -center + scale * rotation * (t + translation + center).
+struct TextureTransform {
+  Vec2f translation{0, 0}, scale{1, 1}, center{0, 0};
+  float rotation = 0; ///< radians
+  friend bool operator==(const TextureTransform&, const TextureTransform&) = default;
+};
+
+enum class Boundary : std::uint8_t { repeat, clamp, mirroredRepeat };
+enum class Filter : std::uint8_t { standard, nearest, linear };
+
+/// X3D ImageTexture with its TextureProperties.
+struct Texture {
+  std::string name;      ///< of the source; may be empty
+  std::size_t image = 0; ///< index into SceneGraph::images
+  Boundary boundaryS = Boundary::repeat, boundaryT = Boundary::repeat;
+  Filter magnification = Filter::standard, minification = Filter::standard;
+  Filter betweenMipMaps = Filter::standard; ///< nearest, linear; where `mipMaps`
+  bool mipMaps = true;
+  friend bool operator==(const Texture&, const Texture&) = default;
+};
+
+/// An image file.
+struct ImageFile {
+  std::string url; ///< in a document: relative to it. Of a source: what it calls the image
+  Bytes bytes;     ///< the file as it was found; empty in a document that was read
+  friend bool operator==(const ImageFile&, const ImageFile&) = default;
+};
+
+struct TextureUse {
+  TextureRole role = TextureRole::color;
+  std::size_t texture = 0; ///< index into SceneGraph::textures
+  TextureTransform transform;
+  friend bool operator==(const TextureUse&, const TextureUse&) = default;
+};
+
+enum class AlphaMode : std::uint8_t { automatic, opaque, mask, blend };
+
+/// X3D Appearance.
+struct Appearance {
+  std::string name; ///< of the source's material; may be empty
+  AnyMaterial material;
+  std::vector<TextureUse> textures; ///< at most one a role
+  AlphaMode alphaMode = AlphaMode::automatic;
+  float alphaCutoff = 0.5f; ///< for AlphaMode::mask
+  friend bool operator==(const Appearance&, const Appearance&) = default;
+};
+
+} // namespace imgeo

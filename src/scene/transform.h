@@ -1,0 +1,35 @@
+#pragma once
+// X3D's Transform (ISO/IEC 19775-1, 10.4.4) and the affine map it stands for.
+
+#include "base/affine.h"
+
+namespace imgeo {
+
+/// A turn about `axis` (which need not be of unit length) by `angle` radians.
+struct Rotation {
+  Vec3d axis{0, 0, 1};
+  double angle = 0;
+  friend bool operator==(const Rotation&, const Rotation&) = default;
+};
+
+/// Maps p to translation + center + R SR S SR^-1 (p - center).
+struct Transform {
+  Vec3d translation;
+  Rotation rotation;
+  Vec3d scale{1, 1, 1};
+  Rotation scaleOrientation; ///< the axes along which `scale` scales
+  Vec3d center;
+  friend bool operator==(const Transform&, const Transform&) = default;
+};
+
+Rotation rotationOfQuaternion(double x, double y, double z, double w);
+
+Affine3d affineOf(const Rotation& rotation);
+Affine3d affineOf(const Transform& transform);
+
+/// The Transform of any affine map, sheared and mirrored ones included: the polar
+/// decomposition into a rotation and a stretch along three axes (Shoemake & Duff,
+/// "Matrix animation and polar decomposition", 1992).
+Transform transformOf(const Affine3d& map);
+
+} // namespace imgeo

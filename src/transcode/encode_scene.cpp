@@ -1,0 +1,162 @@
+#include "transcode/encode_scene.h"
+
+#include "containers/named_attributes.h"
+#include "import/image_type.h"
+#include "transcode/site.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace imgeo {
+
+namespace {
+
+/// A warm stone: shape shows by shading, and nothing of it is clipped where both
+/// lights meet: (1 + 0.45) * (diffuse + specular) is about 1.
+constexpr Material stone{
+    .diffuseColor{0.56f, 0.55f, 0.52f}, .specularColor{0.14f, 0.14f, 0.13f}, .shininess = 0.25f};
+
+/// From above and to the left of the viewer, warmer than the headlight, so that
+/// carving casts light and shade across the view.
+constexpr DirectionalLight keyLight{{-0.45, -0.8, -0.4}, {1.0f, 0.96f, 0.9f}, 0.45f};
+
+constexpr Background sky{{0.93f, 0.94f, 0.95f}};
+
+bool drawsSurface(const GeometryDescription& geometry) {
+  const Primitive primitive = geometry.patches.front().draws.front().primitive;
+  return primitive == Primitive::triangles || primitive == Primitive::triangleStrip;
+}
+
+/// X3D does not light points and lines: it shows their own or the emissive colour.
+AnyMaterial shiningMaterial(const AnyMaterial& material) {
+  Material shining = phongOf(material);
+  if (shining.emissiveColor == Vec3f{})
+    shining.emissiveColor = shining.diffuseColor;
+  return shining;
+}
+
+/// Gives shapes without an appearance one, and those that are no surface one that shines.
+class Looks {
+public:
+  explicit Looks(SceneGraph& graph) : graph_(graph) {}
+
+  std::size_t lookFor(const Shape& shape, bool isSurface) {
+    if (shape.appearance && isSurface)
+      return *shape.appearance;
+    const auto [look, isNew] = made_.try_emplace({shape.appearance, isSurface}, graph_.appearances.size());
+    if (isNew) {
+      Appearance appearance;
+      appearance.material = stone;
+      if (shape.appearance)
+        appearance = graph_.appearances[*shape.appearance];
+      if (!isSurface)
+        appearance.material = shiningMaterial(appearance.material);
+      graph_.appearances.push_back(std::move(appearance));
+    }
+    return look->second;
+  }
+
+private:
+  SceneGraph& graph_;
+  std::map<std::pair<std::optional<std::size_t>, bool>, std::size_t> made_;
+};
+
+Box3d worldBoxOf(const SceneDocument& document) {
+  Box3d whole;
+  for (const PlacedShape& placed : placedShapes(document.graph)) {
+    const Box3d& box = document.geometries[shapeOf(document.graph, placed.node).mesh].box;
+    for (int corner = 0; corner < 8; ++corner)
+      whole.add(
+          placed.worldFromShape.point({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                       corner & 4 ? box.max.z : box.min.z}));
+  }
+  return whole;
+}
+
+/// Puts the nodes that a page needs and the source lacks before its own.
+void addDefaults(SceneDocument& document) {
+  SceneGraph& graph = document.graph;
+  bool hasViewpoint = false, hasLight = false;
+  for (const std::size_t index : nodesInOrder(graph)) {
+    const NodeContent& content = graph.nodes[index].content;
+    hasViewpoint |=
+        std::holds_alternative<Viewpoint>(content) || std::holds_alternative<OrthoViewpoint>(content);
+    hasLight |= std::holds_alternative<DirectionalLight>(content) ||
+                std::holds_alternative<PointLight>(content) || std::holds_alternative<SpotLight>(content);
+  }
+  const auto addFirst = [&](NodeContent content) {
+    graph.roots.insert(graph.roots.begin(), addNode(graph, {"", std::move(content), {}, ""}));
+  };
+  if (!hasLight)
+    addFirst(keyLight);
+  if (!hasViewpoint)
+    addFirst(viewpointFor(worldBoxOf(document)));
+  if (!graph.background)
+    graph.background = sky;
+}
+
+/// Writes the images of what is seen, and no others.
+void writeTextures(SceneGraph& graph, ContentFiles& files) {
+  std::set<std::size_t> images;
+  for (const std::size_t node : shapeNodes(graph))
+    if (const auto& appearance = shapeOf(graph, node).appearance)
+      for (const TextureUse& use : graph.appearances[*appearance].textures)
+        images.insert(graph.textures[use.texture].image);
+  for (const std::size_t index : images) {
+    ImageFile& image = graph.images[index];
+    image.url = files.write(image.bytes, imageType(image.bytes));
+    image.bytes = {};
+  }
+}
+
+/// What a report says of the attributes of a geometry, which are those of others, too.
+void addAttributes(std::vector<AttributeReport>& reports, const GeometryDescription& geometry) {
+  for (const AttributeDescription& attribute : geometry.attributes) {
+    auto report = std::ranges::find(reports, attribute.name, &AttributeReport::name);
+    if (report == reports.end())
+      report = reports.insert(report, {attribute.name, attribute.components, 0, 0});
+    const bool isSig = geometry.container == Container::sig;
+    report->bits = std::max(report->bits, isSig ? 8 * attribute.bytes : 32);
+    for (std::uint32_t c = 0; c < attribute.components; ++c)
+      report->error = std::max(report->error, numberBound(geometry.container, attribute, c));
+  }
+}
+
+void addEncoded(ConvertReport& report, const EncodedMesh& encoded) {
+  report.elements += encoded.elements;
+  report.vertices += encoded.vertices;
+  report.patches += encoded.geometry.patches.size();
+  report.collapsed += encoded.collapsed;
+  report.positionError = std::max(report.positionError, encoded.positionError);
+  report.normalErrorDegrees = std::max(report.normalErrorDegrees, encoded.normalErrorDegrees);
+  addAttributes(report.attributes, encoded.geometry);
+}
+
+} // namespace
+
+SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteContent& content,
+                          ConvertReport& report, const ElementsDone& done) {
+  SceneDocument document;
+  document.graph = std::move(scene.graph);
+  std::vector<std::optional<std::size_t>> geometryOf(scene.meshes.size());
+  Looks looks(document.graph);
+  for (const std::size_t node : shapeNodes(document.graph)) {
+    Shape& shape = std::get<Shape>(document.graph.nodes[node].content);
+    std::optional<std::size_t>& geometry = geometryOf[shape.mesh];
+    if (!geometry) {
+      EncodedMesh encoded = encodeMesh(std::move(scene.meshes[shape.mesh]), options, content.geometry, done);
+      addEncoded(report, encoded);
+      geometry = document.geometries.size();
+      document.geometries.push_back(std::move(encoded.geometry));
+    }
+    shape.mesh = *geometry;
+    shape.appearance = looks.lookFor(shape, drawsSurface(document.geometries[*geometry]));
+  }
+  report.lattice = document.geometries.front().lattice;
+  writeTextures(document.graph, content.textures);
+  addDefaults(document);
+  return document;
+}
+
+} // namespace imgeo
