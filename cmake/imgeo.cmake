@@ -22,6 +22,10 @@ if(IMGEO_THREAD_SANITIZE)
   target_link_options(imgeo_options INTERFACE -fsanitize=thread)
 endif()
 
+# Tests run once a build: what they test is optimised, they themselves compile
+# in half the time so.
+set(IMGEO_TEST_OPTIONS $<$<CONFIG:Release>:-Og>)
+
 # imgeo_folder(NAME USES targets...): every .cpp of this folder becomes the
 # library imgeo_NAME, every *_test.cpp part of the test program NAME_test.
 function(imgeo_folder name)
@@ -41,6 +45,7 @@ function(imgeo_folder name)
     find_package(GTest REQUIRED)
     add_executable(${name}_test ${tests})
     target_link_libraries(${name}_test PRIVATE imgeo_${name} ${ARG_TEST_USES} GTest::gtest GTest::gtest_main)
+    target_compile_options(${name}_test PRIVATE ${IMGEO_TEST_OPTIONS})
     add_test(NAME ${name} COMMAND ${name}_test --gtest_brief=1)
     set_tests_properties(${name} PROPERTIES ENVIRONMENT "IMGEO_SHARED=${PROJECT_SOURCE_DIR}/../shared")
   endif()

@@ -6,7 +6,7 @@ import { describe, test } from "node:test";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, difference } from "./compare.ts";
 import { center, drag, focusView } from "./gestures.ts";
-import { settle, until, withPage, type PageOptions, type View } from "./harness.ts";
+import { screenshotOf, settle, until, withPage, type PageOptions, type View } from "./harness.ts";
 import { heard, listen } from "./heard.ts";
 import { decodePng } from "./png.ts";
 import { gate } from "./server.ts";
@@ -202,7 +202,7 @@ describe("a poster", () => {
   });
 
   const isRed = async ({ page }: View): Promise<boolean> => {
-    const { data, width, channels } = decodePng(await page.screenshot());
+    const { data, width, channels } = await screenshotOf(page);
     const at = (center.y * width + center.x) * channels;
     return data[at]! > 200 && data[at + 1]! < 50;
   };

@@ -115,7 +115,7 @@ function watch(page: Page, server: TestServer): View {
     },
     async picture() {
       await settle(page);
-      return decodePng(await page.screenshot());
+      return screenshotOf(page);
     },
   };
 }
@@ -129,6 +129,19 @@ async function awaitPromise({ name, selector, timeoutMs }: { name: string; selec
     if (promise) return Promise.race([promise.then(() => true), pause(end - performance.now())]);
   }
   return false;
+}
+
+/** What is on the screen now. Chromium has nothing to capture for a moment where a
+ *  busy page gets its first WebGL context, and says so: then once more, five times at most. */
+export async function screenshotOf(page: Page): Promise<Picture> {
+  for (let left = 5; ; left -= 1) {
+    try {
+      return decodePng(await page.screenshot());
+    } catch (error) {
+      if (left === 0 || !String(error).includes("Unable to capture screenshot")) throw error;
+      await page.waitForTimeout(50);
+    }
+  }
 }
 
 /** Waits until four frames in a row have drawn nothing. */

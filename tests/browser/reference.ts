@@ -4,11 +4,12 @@
 
 import { build } from "esbuild";
 import { join } from "node:path";
-import { browser, pictureSize } from "./harness.ts";
+import type { Page } from "playwright-core";
+import { browser, pictureSize, screenshotOf } from "./harness.ts";
 import { areaWeightedNormals, type PlainMesh } from "./meshes.ts";
 import { outputDirectory, repository } from "./paths.ts";
-import { decodePng, type Picture } from "./png.ts";
-import { startServer } from "./server.ts";
+import type { Picture } from "./png.ts";
+import { startServer, type TestServer } from "./server.ts";
 import { numbersOf, tagsOf, type PlainPatch } from "./siteDecoder.ts";
 
 type Vec3 = [number, number, number];
@@ -67,6 +68,15 @@ export function patchOfInput({ positions, normals, colors, triangles, lines = ne
   };
 }
 
+/** Draws one reference after the other: opening a page costs more than drawing. */
+interface ReferencePage {
+  page: Page;
+  server: TestServer;
+  /** Console errors and uncaught exceptions. */
+  failures: string[];
+}
+
+const referencePages = new Map<number, Promise<ReferencePage>>();
 let bundled: Promise<string> | undefined;
 
 async function bundle(): Promise<string> {
@@ -82,6 +92,23 @@ async function bundle(): Promise<string> {
   return outfile;
 }
 
+async function openReferencePage(deviceScaleFactor: number): Promise<ReferencePage> {
+  bundled ??= bundle();
+  await bundled;
+  const server = await startServer(outputDirectory);
+  server.put("/", `<!doctype html><link rel="stylesheet" href="/reference.css"><canvas></canvas><script type="module" src="/reference.js"></script>`);
+  server.put("/reference.css", "body { margin: 0 } canvas { display: block }");
+  const page = await (await browser()).newPage({ viewport: pictureSize, deviceScaleFactor });
+  page.on("close", () => void server.close());
+  const failures: string[] = [];
+  page.on("console", (message) => {
+    if (message.type() === "error") failures.push(message.text());
+  });
+  page.on("pageerror", (error) => failures.push(String(error)));
+  await page.goto(server.origin);
+  return { page, server, failures };
+}
+
 /** The picture of plain buffers under the look of a site's document. */
 export async function referencePicture(
   html: string,
@@ -89,29 +116,15 @@ export async function referencePicture(
   size = pictureSize,
   deviceScaleFactor = 1,
 ): Promise<Picture> {
-  bundled ??= bundle();
-  await bundled;
-  const server = await startServer(outputDirectory);
-  const context = await (await browser()).newContext({ viewport: size, deviceScaleFactor });
-  try {
-    const scene: ReferenceScene = { ...lookOf(html), patches: patches.map(asArrays) };
-    server.put("/scene.json", JSON.stringify(scene));
-    server.put("/", `<!doctype html><link rel="stylesheet" href="/reference.css"><canvas></canvas><script type="module" src="/reference.js"></script>`);
-    server.put("/reference.css", "body { margin: 0 } canvas { display: block }");
-    const page = await context.newPage();
-    const failures: string[] = [];
-    page.on("console", (message) => {
-      if (message.type() === "error") failures.push(message.text());
-    });
-    page.on("pageerror", (error) => failures.push(String(error)));
-    await page.goto(server.origin);
-    await page.evaluate(() => window.drawReference("/scene.json"));
-    if (failures.length) throw new Error(`the reference page failed: ${failures.join("; ")}`);
-    return decodePng(await page.screenshot());
-  } finally {
-    await context.close();
-    await server.close();
-  }
+  const opened = referencePages.get(deviceScaleFactor) ?? openReferencePage(deviceScaleFactor);
+  referencePages.set(deviceScaleFactor, opened);
+  const { page, server, failures } = await opened;
+  const scene: ReferenceScene = { ...lookOf(html), patches: patches.map(asArrays) };
+  server.put("/scene.json", JSON.stringify(scene));
+  await page.setViewportSize(size);
+  await page.evaluate(() => window.drawReference("/scene.json"));
+  if (failures.length) throw new Error(`the reference page failed: ${failures.splice(0).join("; ")}`);
+  return screenshotOf(page);
 }
 
 function asArrays(patch: PlainPatch): ReferenceScene["patches"][number] {

@@ -19,11 +19,17 @@ type Patch = ReferenceScene["patches"][number];
 /** Of points, in CSS pixels. */
 const pointSize = 2;
 
+let drawn: WebGLRenderer | undefined;
+
 window.drawReference = async (sceneUrl) => {
-  const description = (await (await fetch(sceneUrl)).json()) as ReferenceScene;
-  const canvas = document.querySelector("canvas");
-  if (!canvas) throw new Error("the reference page has no canvas");
+  const description = (await (await fetch(sceneUrl, { cache: "no-store" })).json()) as ReferenceScene;
+  // A context of its own for each: nothing of the last picture can reach this one.
+  drawn?.forceContextLoss();
+  drawn?.dispose();
+  const canvas = document.createElement("canvas");
+  document.body.replaceChildren(canvas);
   const renderer = new WebGLRenderer({ canvas, antialias: true });
+  drawn = renderer;
   renderer.outputColorSpace = LinearSRGBColorSpace;
   renderer.setPixelRatio(window.devicePixelRatio);
   renderer.setSize(window.innerWidth, window.innerHeight);
