@@ -1,6 +1,7 @@
 #include "import/ply_content.h"
 
 #include "import/ply_faces.h"
+#include "import/ply_lines.h"
 #include "import/ply_records.h"
 #include "import/ply_vertices.h"
 
@@ -60,9 +61,26 @@ void readEdges(PlyRecords<Cursor>& records, const PlyElement& element, std::uint
 }
 
 template <typename Cursor>
-PlyContent readContent(Cursor cursor, const PlyHeader& header, const AttributeChoice& kept) {
+void readElement(PlyRecords<Cursor>& records, const PlyElement& element, std::uint64_t vertexCount,
+                 const AttributeChoice& kept, PlyContent& content) {
+  if (element.name == "vertex")
+    readVertices(records, element, kept, content);
+  else if (element.name == "face")
+    PlyFaceReader<Cursor>(records, content, vertexCount).readFaces(element);
+  else if (element.name == "tristrips")
+    PlyFaceReader<Cursor>(records, content, vertexCount).readStrips(element);
+  else if (isEdge(element))
+    readEdges(records, element, vertexCount, content);
+  else
+    skipElement(records, element, content);
+}
+
+template <typename Cursor>
+PlyContent readContent(ByteSpan bytes, const PlyHeader& header, const std::string& name,
+                       const AttributeChoice& kept) {
   PlyContent content;
-  PlyRecords<Cursor> records(cursor);
+  PlyRecords<Cursor> records(Cursor(bytes, name, header.bodyOffset));
+  [[maybe_unused]] PlyLineReader lines(bytes, name);
   const PlyElement* vertices = header.find("vertex");
   if (!vertices)
     records.fail(ErrorKind::malformed, "the header has no element 'vertex'");
@@ -70,18 +88,14 @@ PlyContent readContent(Cursor cursor, const PlyHeader& header, const AttributeCh
     records.fail(ErrorKind::limit,
                  fmt::format("{} vertices are more than 32-bit indices can name", vertices->count));
 
-  PlyFaceReader<Cursor> faces(records, content, vertices->count);
   for (const PlyElement& element : header.elements) {
-    if (element.name == "vertex")
-      readVertices(records, element, kept, content);
-    else if (element.name == "face")
-      faces.readFaces(element);
-    else if (element.name == "tristrips")
-      faces.readStrips(element);
-    else if (isEdge(element))
-      readEdges(records, element, vertices->count, content);
-    else
-      skipElement(records, element, content);
+    if constexpr (std::is_same_v<Cursor, AsciiPlyCursor>)
+      if (lines.read(records.cursor(), element, content,
+                     [&](AsciiPlyRecords& of, const PlyElement& part, PlyContent& into) {
+                       readElement(of, part, vertices->count, kept, into);
+                     }))
+        continue;
+    readElement(records, element, vertices->count, kept, content);
   }
   if (!content.cornerTexCoords.empty())
     content.cornerTexCoords.resize(content.indices.size());
@@ -96,18 +110,57 @@ void PlyContent::noteIgnored(const PlyElement& element, const PlyProperty& prope
     ignored.push_back(fmt::format("'{}' of '{}'", asPrintable(property.name), element.name));
 }
 
+void PlyContent::append(std::vector<PlyContent>& parts) {
+  // The same in all parts.
+  ignored.insert(ignored.end(), parts[0].ignored.begin(), parts[0].ignored.end());
+  namedAttributes.insert(namedAttributes.end(), parts[0].namedAttributes.begin(),
+                         parts[0].namedAttributes.end());
+  const auto reserve = [&](auto member) {
+    std::size_t count = (this->*member).size();
+    for (const PlyContent& part : parts)
+      count += (part.*member).size();
+    (this->*member).reserve(count);
+  };
+  reserve(&PlyContent::positions);
+  reserve(&PlyContent::indices);
+  for (PlyContent& part : parts) {
+    append(part);
+    part = {};
+  }
+}
+
+void PlyContent::append(const PlyContent& part) {
+  const auto add = [](auto& values, const auto& more) {
+    values.insert(values.end(), more.begin(), more.end());
+  };
+  imgeo::append(attributes, positions.size(), part.attributes, part.positions.size());
+  add(positions, part.positions);
+  if (!part.sizes.empty() && sizes.empty())
+    sizes.assign(indices.size() / 3, 3);
+  else if (part.sizes.empty() && !sizes.empty())
+    sizes.insert(sizes.end(), part.indices.size() / 3, 3);
+  add(sizes, part.sizes);
+  if (!part.cornerTexCoords.empty())
+    cornerTexCoords.resize(indices.size());
+  add(cornerTexCoords, part.cornerTexCoords);
+  add(indices, part.indices);
+  add(edges, part.edges);
+  facesTooSmall += part.facesTooSmall;
+  colorsClamped += part.colorsClamped;
+  largestRounding = std::max(largestRounding, part.largestRounding);
+}
+
 PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name,
                           const AttributeChoice& kept) {
-  const std::size_t from = header.bodyOffset;
   switch (header.encoding) {
   case PlyEncoding::ascii:
-    return readContent(AsciiPlyCursor(bytes, name, from), header, kept);
+    return readContent<AsciiPlyCursor>(bytes, header, name, kept);
   case PlyEncoding::littleEndian:
-    return readContent(BinaryPlyCursor<std::endian::little>(bytes, name, from), header, kept);
+    return readContent<BinaryPlyCursor<std::endian::little>>(bytes, header, name, kept);
   case PlyEncoding::bigEndian:
     break;
   }
-  return readContent(BinaryPlyCursor<std::endian::big>(bytes, name, from), header, kept);
+  return readContent<BinaryPlyCursor<std::endian::big>>(bytes, header, name, kept);
 }
 
 } // namespace imgeo

@@ -27,6 +27,11 @@ struct PlyContent {
   double largestRounding = 0;       ///< of coordinates that were double
 
   void noteIgnored(const PlyElement& element, const PlyProperty& property);
+  /// Appends what has been read of an element in parts, which it gives back part by part.
+  void append(std::vector<PlyContent>& parts);
+
+private:
+  void append(const PlyContent& part);
 };
 
 /// Reads all elements behind `header`. Safe for untrusted bytes; throws Error

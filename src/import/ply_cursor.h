@@ -32,6 +32,11 @@ public:
   /// The last value of a file needs nothing behind it.
   static constexpr std::size_t kSparedAtEnd = 1;
   std::size_t bytesLeft() const { return scanner_.bytesLeft(); }
+  /// Between records: the byte at which the line of the next one begins.
+  std::size_t beginOfLine() const {
+    return scanner_.byteOffset() + (scanner_.atEnd() || !scanner_.atLineEnd() ? 0 : 1);
+  }
+  void goTo(std::size_t byteOffset) { scanner_.goTo(byteOffset); }
 
   void beginRecord(const PlyRecord& record) { record_ = record; }
   void endRecord() {

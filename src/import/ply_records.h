@@ -14,6 +14,8 @@ template <typename Cursor> class PlyRecords {
 public:
   explicit PlyRecords(Cursor cursor) : cursor_(cursor) {}
 
+  Cursor& cursor() { return cursor_; }
+
   [[noreturn]] void fail(ErrorKind kind, const std::string& message) const { cursor_.fail(kind, message); }
   std::size_t bytesLeft() const { return cursor_.bytesLeft(); }
   /// How many values the bytes left can hold at most.

@@ -396,6 +396,76 @@ TEST(Ply, RefusesWithOneSentenceAndAPlace) {
   }
 }
 
+/// So many records that text is read in parts.
+class LongPly : public ::testing::Test {
+protected:
+  static Mesh surface() {
+    Mesh mesh = withVertexPerWedge(torus(200, 200));
+    Random random(7);
+    for (std::size_t vertex = 0; vertex < mesh.wedgeCount(); ++vertex)
+      mesh.colors.push_back(random.color());
+    return mesh;
+  }
+
+  /// The place of the first character of a line, counted from 1.
+  static std::size_t beginOf(const std::string& text, std::size_t line) {
+    std::size_t at = 0;
+    for (std::size_t i = 1; i < line; ++i)
+      at = text.find('\n', at) + 1;
+    return at;
+  }
+
+  const Mesh mesh = surface();
+  const Bytes bytes = plyBytes(mesh, {.encoding = "ascii"});
+  const std::string text{asText(bytes)};
+  const std::size_t firstFaceLine =
+      1 + mesh.wedgeCount() +
+      static_cast<std::size_t>(std::count(text.begin(), text.begin() + text.find("end_header"), '\n')) + 1;
+  const std::size_t vertexLine = 30'000, faceLine = 100'000;
+};
+
+TEST_F(LongPly, IsReadAsAShortOne) {
+  expectEqual(onlyMesh(text, "m.ply"), mesh);
+  expectEqual(onlyMesh(text.substr(0, text.size() - 1), "m.ply"), mesh); // without its last line feed
+}
+
+TEST_F(LongPly, MayHaveRecordsThatAreNotOneALine) {
+  for (const std::size_t line : {vertexLine, faceLine, faceLine + 1}) {
+    std::string other = text;
+    other.insert(beginOf(text, line), "\n \n");
+    expectEqual(onlyMesh(other, "m.ply"), mesh);
+    other = text;
+    other.replace(other.find(' ', beginOf(text, line)), 1, "\r\n");
+    expectEqual(onlyMesh(other, "m.ply"), mesh);
+  }
+}
+
+TEST_F(LongPly, MayHavePolygonsThatAreNoTriangles) {
+  const std::size_t at = beginOf(text, faceLine);
+  const std::size_t end = text.find('\n', at);
+  const std::string triangle = text.substr(at, end - at);
+  std::string other = text;
+  other.replace(at, triangle.size(), "4" + triangle.substr(1) + " 0");
+  const Mesh quad = onlyMesh(other, "m.ply");
+  EXPECT_EQ(quad.corners.size(), mesh.corners.size() + 3);
+  const std::ptrdiff_t before = static_cast<std::ptrdiff_t>(3 * (faceLine - firstFaceLine));
+  EXPECT_TRUE(std::equal(mesh.corners.begin(), mesh.corners.begin() + before, quad.corners.begin()));
+  EXPECT_TRUE(
+      std::equal(mesh.corners.begin() + before + 3, mesh.corners.end(), quad.corners.begin() + before + 6));
+}
+
+TEST_F(LongPly, NamesTheLineOfAFault) {
+  for (const std::size_t line : {vertexLine, faceLine}) {
+    std::string other = text;
+    other[beginOf(text, line)] = 'x';
+    const Error error = errorOf(other, "m.ply");
+    EXPECT_EQ(error.kind(), ErrorKind::malformed);
+    EXPECT_EQ(error.place(), fmt::format("m.ply:{}", line));
+  }
+  const Error cut = errorOf(text.substr(0, beginOf(text, faceLine)), "m.ply");
+  EXPECT_EQ(cut.kind(), ErrorKind::truncated);
+}
+
 TEST(Ply, NamesTheByteInBinaryFiles) {
   Mesh mesh = withVertexPerWedge(grid(1));
   const PlyStyle style{.encoding = "binary_big_endian"};

@@ -25,6 +25,8 @@ public:
   bool atWordEnd() const { return at_ == end_ || isSpace(*at_); }
   std::size_t bytesLeft() const { return static_cast<std::size_t>(end_ - at_); }
   std::size_t byteOffset() const { return static_cast<std::size_t>(at_ - begin_); }
+  /// Goes to a byte of the text, or its end.
+  void goTo(std::size_t byteOffset) { at_ = begin_ + byteOffset; }
 
   /// Skips what separates words within a line; a backslash at the end of a line
   /// continues it (OBJ).
