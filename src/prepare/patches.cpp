@@ -3,6 +3,9 @@
 #include "base/parallel.h"
 #include "prepare/index_table.h"
 
+#include <algorithm>
+#include <iterator>
+#include <limits>
 #include <numeric>
 #include <span>
 
@@ -10,7 +13,8 @@ namespace imgeo {
 
 namespace {
 
-using Elements = std::span<std::uint32_t>; ///< a node of the tree: a range of one permutation
+/// A node of the tree: a range of one permutation, in the source's order.
+using Elements = std::span<std::uint32_t>;
 
 /// What the cut needs to know of every element.
 struct ElementTable {
@@ -54,42 +58,60 @@ std::size_t countWedges(const Mesh& mesh, Elements elements) {
   return wedges;
 }
 
-int longestAxis(const ElementTable& table, Elements elements) {
+Box3d boxOf(const ElementTable& table, Elements elements) {
   Box3d box;
   for (const std::uint32_t element : elements)
     box.add(Vec3d(table.centroids[element]));
+  return box;
+}
+
+int longestAxis(const Box3d& box) {
   const Vec3d size = box.size();
   return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 
-std::uint64_t weightOf(const ElementTable& table, Elements elements) {
-  return std::accumulate(elements.begin(), elements.end(), std::uint64_t{0},
-                         [&](std::uint64_t sum, std::uint32_t e) { return sum + table.weights[e]; });
-}
-
-/// Orders the elements along `axis` just as far as is needed to cut off the
-/// first `share` of their weight; returns how many those are, at least one and
-/// not all. A quickselect by weight: linear time.
-std::size_t cutOff(const ElementTable& table, Elements elements, int axis, double share) {
+/// Parts the elements into those that come first along the box's longest axis, until
+/// they have `share` of all weight, and the others, each in the order that they had;
+/// returns how many the first are, at least one and not all. Linear time: of buckets
+/// along the axis only that on the border is sorted.
+std::size_t cutOff(const ElementTable& table, Elements elements, const Box3d& box, double share) {
+  constexpr std::size_t bucketCount = 4096;
+  const int axis = longestAxis(box);
+  const double extent = box.size()[axis];
+  const double scale = extent > std::numeric_limits<float>::min() ? (bucketCount - 1) / extent : 0;
+  const auto bucketOf = [&](std::uint32_t element) {
+    return static_cast<std::size_t>((table.centroids[element][axis] - box.min[axis]) * scale);
+  };
   const auto before = [&](std::uint32_t a, std::uint32_t b) {
     const float at = table.centroids[a][axis], bt = table.centroids[b][axis];
     return at != bt ? at < bt : a < b;
   };
-  double wanted = share * static_cast<double>(weightOf(table, elements));
-  std::size_t begin = 0, end = elements.size();
-  while (end - begin > 1) {
-    const Elements range = elements.subspan(begin, end - begin);
-    const std::size_t middle = range.size() / 2;
-    std::nth_element(range.begin(), range.begin() + static_cast<std::ptrdiff_t>(middle), range.end(), before);
-    const double lower = static_cast<double>(weightOf(table, range.first(middle)));
-    if (lower <= wanted) {
-      wanted -= lower;
-      begin += middle;
-    } else {
-      end = begin + middle;
-    }
-  }
-  return std::clamp<std::size_t>(begin, 1, elements.size() - 1);
+
+  std::vector<std::uint64_t> weights(bucketCount);
+  for (const std::uint32_t element : elements)
+    weights[bucketOf(element)] += table.weights[element];
+  const double wanted =
+      share * static_cast<double>(std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
+  std::uint64_t lower = 0;
+  std::size_t border = 0;
+  while (border + 1 < bucketCount && static_cast<double>(lower + weights[border]) <= wanted)
+    lower += weights[border++];
+
+  std::vector<std::uint32_t> onBorder;
+  std::ranges::copy_if(elements, std::back_inserter(onBorder),
+                       [&](std::uint32_t element) { return bucketOf(element) == border; });
+  std::sort(onBorder.begin(), onBorder.end(), before);
+  std::size_t last = 0; // of the first part, on the border
+  while (last + 1 < onBorder.size() && static_cast<double>(lower + table.weights[onBorder[last]]) <= wanted)
+    lower += table.weights[onBorder[last++]];
+  const bool takesOne = lower == 0; // an element that weighs more than the share
+  const std::uint32_t first = onBorder[last];
+  const auto isFirst = [&](std::uint32_t element) {
+    const std::size_t bucket = bucketOf(element);
+    return bucket != border ? bucket < border : before(element, first) || (takesOne && element == first);
+  };
+  const auto parted = std::stable_partition(elements.begin(), elements.end(), isFirst);
+  return static_cast<std::size_t>(parted - elements.begin());
 }
 
 /// Cuts a node in two, or leaves it whole where it fits.
@@ -103,7 +125,7 @@ std::vector<Elements> cutOnce(const ElementTable& table, Elements elements, std:
   // Not always in half: three patches' worth is cut at a third, so that
   // patches end up well filled.
   const double share = static_cast<double>(wanted / 2) / static_cast<double>(wanted);
-  const std::size_t cut = cutOff(table, elements, longestAxis(table, elements), share);
+  const std::size_t cut = cutOff(table, elements, boxOf(table, elements), share);
   return {elements.first(cut), elements.subspan(cut)};
 }
 
@@ -149,8 +171,6 @@ private:
 
 Patch makePatch(const Mesh& mesh, const std::vector<Vec3u>& lattice, Elements elements,
                 std::size_t maxWedges) {
-  // In the source's order, whatever order the cut left behind.
-  std::sort(elements.begin(), elements.end());
   const std::uint32_t count = cornersPerElement(mesh.topology);
   const std::size_t capacity = std::min(maxWedges, elements.size() * count);
 

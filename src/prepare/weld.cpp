@@ -5,6 +5,7 @@
 #include "prepare/index_table.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 
@@ -71,8 +72,8 @@ Renumbering weldPositions(Mesh& mesh) {
   return numbers;
 }
 
-/// Wedges that are nothing but positions, which are welded already and numbered in
-/// the order of their first use: most scans.
+/// Wedges of which two are the same where their positions are, which are welded
+/// already and numbered in the order of their first use: most scans.
 Renumbering weldPlainWedges(const Mesh& mesh) {
   Renumbering numbers(mesh.wedgeCount());
   for (const std::uint32_t old : mesh.corners) {
@@ -88,9 +89,11 @@ Renumbering weldPlainWedges(const Mesh& mesh) {
   return numbers;
 }
 
-/// `mesh.wedgePositions` of wedges in use must name welded positions.
-Renumbering weldWedges(const Mesh& mesh) {
-  if (mesh.normals.empty() && mesh.texCoords.empty() && mesh.colors.empty() && mesh.namedAttributes.empty())
+/// `mesh.wedgePositions` of wedges in use must name welded positions, of which there are `positionCount`.
+Renumbering weldWedges(const Mesh& mesh, std::size_t positionCount) {
+  const bool arePlain =
+      mesh.normals.empty() && mesh.texCoords.empty() && mesh.colors.empty() && mesh.namedAttributes.empty();
+  if (arePlain || mesh.wedgeCount() == positionCount) // as many: each has a position of its own
     return weldPlainWedges(mesh);
   Renumbering numbers(mesh.wedgeCount());
   IndexTable table(mesh.wedgeCount());
@@ -125,35 +128,41 @@ Renumbering weldWedges(const Mesh& mesh) {
 }
 
 /// An element's corners turned so that the smallest sequence comes first.
-Vec3u turned(const Mesh& mesh, std::size_t element) {
-  const std::uint32_t count = cornersPerElement(mesh.topology);
-  const auto from = [&](std::size_t first) {
-    Vec3u result{0, 0, 0};
-    for (std::uint32_t i = 0; i < count; ++i)
-      result[static_cast<int>(i)] = mesh.corners[element * count + (first + i) % count];
-    return result;
-  };
-  const auto before = [](Vec3u a, Vec3u b) {
-    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-  };
-  Vec3u best = from(0);
-  for (std::uint32_t first = 1; first < count; ++first)
-    best = std::min(best, from(first), before);
-  return best;
+Vec3u turned(const std::uint32_t* corners, std::uint32_t count) {
+  if (count == 1)
+    return {corners[0], 0, 0};
+  if (count == 2)
+    return {std::min(corners[0], corners[1]), std::max(corners[0], corners[1]), 0};
+  const auto [a, b, c] = std::array{corners[0], corners[1], corners[2]};
+  // Where two are the least, the sequence begins with both.
+  if (a <= b && a < c)
+    return {a, b, c};
+  if (b <= c && b < a)
+    return {b, c, a};
+  return {c, a, b};
 }
 
 /// Elements are told apart among those of the same least corner, which are few.
 std::size_t countDuplicates(const Mesh& mesh) {
-  const Incidence byLeast = incidenceOf(mesh.elementCount(), mesh.wedgeCount(),
-                                        [&](std::size_t element) { return turned(mesh, element).x; });
+  const std::uint32_t count = cornersPerElement(mesh.topology);
+  const auto cornersOf = [&](std::size_t element) {
+    return turned(mesh.corners.data() + element * count, count);
+  };
+  std::vector<std::uint32_t> least(mesh.elementCount());
+  parallelForBlocks(least.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t element = begin; element < end; ++element)
+      least[element] = cornersOf(element).x;
+  });
+  const Incidence byLeast =
+      incidenceOf(least.size(), mesh.wedgeCount(), [&](std::size_t element) { return least[element]; });
   std::atomic<std::size_t> duplicates = 0;
   parallelForBlocks(mesh.wedgeCount(), [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint64_t> others;
     std::size_t found = 0;
-    for (std::size_t least = begin; least < end; ++least) {
+    for (std::size_t first = begin; first < end; ++first) {
       others.clear();
-      for (const std::uint32_t element : byLeast.of(static_cast<std::uint32_t>(least))) {
-        const Vec3u corners = turned(mesh, element);
+      for (const std::uint32_t element : byLeast.of(static_cast<std::uint32_t>(first))) {
+        const Vec3u corners = cornersOf(element);
         others.push_back(std::uint64_t{corners.y} << 32 | corners.z);
       }
       std::sort(others.begin(), others.end());
@@ -167,15 +176,17 @@ std::size_t countDuplicates(const Mesh& mesh) {
 
 std::size_t countDegenerates(const Mesh& mesh) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
-  std::size_t degenerates = 0;
-  for (std::size_t first = 0; first < mesh.corners.size(); first += count) {
-    const auto at = [&](std::size_t i) { return mesh.wedgePositions[mesh.corners[first + i % count]]; };
-    for (std::size_t i = 0; i < count && count > 1; ++i)
-      if (at(i) == at(i + 1)) {
-        ++degenerates;
-        break;
-      }
-  }
+  std::atomic<std::size_t> degenerates = 0;
+  parallelForBlocks(count > 1 ? mesh.elementCount() : 0, [&](std::size_t begin, std::size_t end) {
+    std::size_t found = 0;
+    for (std::size_t element = begin; element < end; ++element) {
+      const auto at = [&](std::size_t i) {
+        return mesh.wedgePositions[mesh.corners[element * count + i % count]];
+      };
+      found += at(0) == at(1) || (count > 2 && (at(1) == at(2) || at(2) == at(0)));
+    }
+    degenerates += found;
+  });
   return degenerates;
 }
 
@@ -190,12 +201,14 @@ WeldReport weld(Mesh& mesh) {
   for (std::uint32_t& position : mesh.wedgePositions)
     position = positions.newOf[position];
 
-  const Renumbering wedges = weldWedges(mesh);
+  const Renumbering wedges = weldWedges(mesh, positions.kept.size());
   report.mergedWedges = wedges.merged;
   mesh.wedgePositions = gather(mesh.wedgePositions, wedges.kept);
   static_cast<VertexAttributes&>(mesh) = gather(mesh, wedges.kept);
-  for (std::uint32_t& wedge : mesh.corners)
-    wedge = wedges.newOf[wedge];
+  parallelForBlocks(mesh.corners.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t corner = begin; corner < end; ++corner)
+      mesh.corners[corner] = wedges.newOf[mesh.corners[corner]];
+  });
 
   report.degenerateElements = countDegenerates(mesh);
   report.duplicateElements = countDuplicates(mesh);
