@@ -17,7 +17,7 @@ Image rgbImage(const IndexedPatch& patch, ImageSize records) {
   return imageOf(records, 3, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
     for (int axis = 0; axis < 3; ++axis) {
       const double component = std::clamp(double{patch.normals[n][axis]}, -1.0, 1.0);
-      out[axis] = static_cast<std::uint8_t>(std::lround((component + 1) * 127.5));
+      out[axis] = static_cast<std::uint8_t>((component + 1) * 127.5 + 0.5);
     }
   });
 }

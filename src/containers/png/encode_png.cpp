@@ -4,8 +4,10 @@
 
 #include "base/narrow.h"
 
+#include <algorithm>
 #include <cassert>
 #include <libdeflate.h>
+#include <map>
 #include <memory>
 #include <new>
 #include <span>
@@ -16,28 +18,42 @@ namespace {
 
 using Compressor = std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)>;
 
-Compressor compressorOf(int level) {
+/// Of libdeflate's level 0 .. 12. Each thread keeps those it has used: memory of up to 9 MB
+/// takes longer to come by than a small image to deflate.
+libdeflate_compressor* compressorOf(int level) {
+  thread_local std::map<int, Compressor> compressors;
+  const auto found = compressors.find(level);
+  if (found != compressors.end())
+    return found->second.get();
   Compressor compressor(libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
   if (!compressor)
     throw std::bad_alloc();
-  return compressor;
+  return compressors.emplace(level, std::move(compressor)).first->second.get();
 }
 
-Bytes deflate(ByteSpan bytes, libdeflate_compressor* compressor) {
-  Bytes out(libdeflate_zlib_compress_bound(compressor, bytes.size()));
-  out.resize(libdeflate_zlib_compress(compressor, bytes.data(), bytes.size(), out.data(), out.size()));
-  assert(!out.empty());
-  return out;
+Bytes deflate(ByteSpan bytes, int level) {
+  libdeflate_compressor* compressor = compressorOf(level);
+  const std::size_t bound = libdeflate_zlib_compress_bound(compressor, bytes.size());
+  const auto out = std::make_unique_for_overwrite<std::uint8_t[]>(bound);
+  const std::size_t size = libdeflate_zlib_compress(compressor, bytes.data(), bytes.size(), out.get(), bound);
+  assert(size > 0);
+  return Bytes(out.get(), out.get() + size);
 }
 
+/// Levels are libdeflate's, 0 .. 12, from 10 on by near-optimal parsing.
 struct Effort {
-  int level, levelOfLarge; ///< libdeflate's, 0 .. 12; time grows with size, so large images may get less
-  int probeLevel;          ///< for choosing among the filters
+  int levelOfDense;        ///< for images that hardly repeat: low bytes, normals
+  int level, levelOfLarge; ///< for images that do, where parsing takes the longer the longer its matches are
   std::span<const Filter> filters;
+  int probeLevel = 1;                            ///< filters are compared at this level
+  std::size_t probeBytes = std::size_t{1} << 16; ///< and on so much of an image
 };
 
 /// Records of a patch fill no more than this; what is larger holds indices.
 constexpr std::size_t largeImageBytes = 256 * 256 * 4;
+
+/// Rows that deflate to less than this part of themselves at the probe level repeat.
+constexpr double repetitiveRatio = 0.3;
 
 /// Measured in docs/decisions/png-effort.md. Neighbours in the images of a mesh
 /// stand side by side, hardly ever above one another: sub nearly always wins.
@@ -47,30 +63,52 @@ Effort effortOf(int effort) {
                                    Filter::adaptive, Filter::up,   Filter::average};
   static constexpr std::span<const Filter> filters(all);
   static const Effort ladder[] = {
-      {1, 1, 1, filters.first(1)},   {1, 1, 1, filters.first(2)},   {4, 4, 1, filters.first(2)},
-      {6, 6, 1, filters.first(3)},   {7, 7, 1, filters.first(4)},   {10, 7, 1, filters.first(4)},
-      {10, 10, 1, filters.first(4)}, {11, 11, 1, filters.first(4)}, {12, 12, 1, filters.first(4)},
-      {12, 12, 12, filters},
+      {1, 1, 1, filters.first(1)},         {1, 1, 1, filters.first(2)},    {1, 4, 4, filters.first(2)},
+      {1, 6, 6, filters.first(3)},         {1, 7, 7, filters.first(4)},    {10, 7, 7, filters.first(4)},
+      {10, 10, 7, filters.first(4)},       {10, 10, 10, filters.first(4)}, {12, 12, 12, filters.first(4)},
+      {12, 12, 12, filters, 12, SIZE_MAX},
   };
   return ladder[effort];
 }
 
-/// The filtered rows that deflate smallest at the probe level; the first of equals.
-Bytes smallestRows(const Image& image, const Effort& effort) {
+/// What filters are compared on: an image of at most some `bytes`, or else bands of
+/// rows spread evenly over it.
+Image probeOf(const Image& image, std::size_t bytes) {
+  if (image.pixels.size() <= bytes)
+    return image;
+  constexpr std::size_t bandCount = 4;
+  const std::size_t rowBytes = std::size_t{image.width} * image.channels;
+  const std::size_t bandRows = std::max<std::size_t>(1, bytes / (bandCount * rowBytes));
+  Image probe{image.width, 0, image.channels, {}};
+  for (std::size_t band = 0; band < bandCount; ++band) {
+    const std::size_t first = (image.height - bandRows) * band / (bandCount - 1);
+    const auto begin = image.pixels.begin() + static_cast<std::ptrdiff_t>(first * rowBytes);
+    probe.pixels.insert(probe.pixels.end(), begin, begin + static_cast<std::ptrdiff_t>(bandRows * rowBytes));
+  }
+  probe.height = narrow<std::uint32_t>(bandCount * bandRows);
+  return probe;
+}
+
+/// What is known of an image before all of it is deflated.
+struct Estimate {
+  Filter filter; ///< whose rows deflate smallest at the probe level; the first of equals
+  bool isRepetitive = false;
+};
+
+Estimate estimate(const Image& image, const Effort& effort) {
   if (effort.filters.size() == 1)
-    return filterRows(image, effort.filters[0]);
-  const Compressor probe = compressorOf(effort.probeLevel);
-  Bytes best;
+    return {effort.filters[0]};
+  const Image probe = probeOf(image, effort.probeBytes);
+  Filter best = effort.filters[0];
   std::size_t bestSize = SIZE_MAX;
   for (const Filter filter : effort.filters) {
-    Bytes rows = filterRows(image, filter);
-    const std::size_t size = deflate(rows, probe.get()).size();
+    const std::size_t size = deflate(filterRows(probe, filter), effort.probeLevel).size();
     if (size >= bestSize)
       continue;
     bestSize = size;
-    best = std::move(rows);
+    best = filter;
   }
-  return best;
+  return {best, static_cast<double>(bestSize) < repetitiveRatio * static_cast<double>(probe.pixels.size())};
 }
 
 void appendChunk(Bytes& png, std::string_view type, ByteSpan data) {
@@ -93,7 +131,7 @@ Bytes pngOf(const Image& image, const Bytes& rows, int level) {
                                                         : 6;
   header.insert(header.end(), {8, colorType, 0, 0, 0}); // depth; deflate, adaptive filters, not interlaced
 
-  const Bytes data = deflate(rows, compressorOf(level).get());
+  const Bytes data = deflate(rows, level);
   Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   png.reserve(png.size() + 4 * 12 + header.size() + image.palette.size() + data.size());
   appendChunk(png, "IHDR", header);
@@ -115,8 +153,11 @@ Bytes pngOf(const Image& image, const Bytes& rows, int level) {
 Bytes encodePng(const Image& image, int effort) {
   assert(isEncodable(image));
   const Effort search = effortOf(effort);
-  const int level = image.pixels.size() > largeImageBytes ? search.levelOfLarge : search.level;
-  return pngOf(image, smallestRows(image, search), level);
+  const auto [filter, isRepetitive] = estimate(image, search);
+  const int level = !isRepetitive                           ? search.levelOfDense
+                    : image.pixels.size() > largeImageBytes ? search.levelOfLarge
+                                                            : search.level;
+  return pngOf(image, filterRows(image, filter), level);
 }
 
 Bytes encodePlainPng(const Image& image) {

@@ -16,16 +16,20 @@ std::uint8_t paeth(int left, int up, int upLeft) {
   return static_cast<std::uint8_t>(toUp <= toUpLeft ? up : upLeft);
 }
 
-/// Filters one row into `out`. `above` is the row before, or null at the top.
+/// Filters one row into `out`. `above` is the row before, or null at the top. The
+/// first pixel, which has nothing to its left, is apart, so that the rest is a plain loop.
 void filterRow(Filter filter, const std::uint8_t* row, const std::uint8_t* above, std::size_t rowBytes,
                std::size_t pixelBytes, std::uint8_t* out) {
   const auto each = [&](auto predict) {
-    for (std::size_t i = 0; i < rowBytes; ++i) {
-      const int left = i < pixelBytes ? 0 : row[i - pixelBytes];
-      const int up = above ? above[i] : 0;
-      const int upLeft = above && i >= pixelBytes ? above[i - pixelBytes] : 0;
-      out[i] = static_cast<std::uint8_t>(row[i] - predict(left, up, upLeft));
-    }
+    for (std::size_t i = 0; i < pixelBytes; ++i)
+      out[i] = static_cast<std::uint8_t>(row[i] - predict(0, above ? above[i] : 0, 0));
+    if (above)
+      for (std::size_t i = pixelBytes; i < rowBytes; ++i)
+        out[i] =
+            static_cast<std::uint8_t>(row[i] - predict(row[i - pixelBytes], above[i], above[i - pixelBytes]));
+    else
+      for (std::size_t i = pixelBytes; i < rowBytes; ++i)
+        out[i] = static_cast<std::uint8_t>(row[i] - predict(row[i - pixelBytes], 0, 0));
   };
   switch (filter) {
   case Filter::sub:
