@@ -7,7 +7,7 @@ PORT  ?= 8080
 export MODEL PORT
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo test soak check tidy install bench clean
+.PHONY: help build demo app test soak check tidy install bench clean
 
 help: ## say what can be made
 	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
@@ -20,6 +20,9 @@ build: install ## build the tool build/imgeo
 
 demo: build ## convert a mesh and serve its page [MODEL=statue.ply PORT=8080]
 	@scripts/demo
+
+app: build ## convert a mesh and serve an app of three.js that shows it [MODEL=statue.ply PORT=8080]
+	@scripts/demo --three
 
 test: build ## run every test: C++, TypeScript and the browser
 	@scripts/test
@@ -40,4 +43,4 @@ bench: build ## measure convert, beside gltfpack; print the README's tables
 	@scripts/bench
 
 clean: ## remove everything that was built; node_modules stays
-	rm -rf build build-* web/dist
+	rm -rf build build-* web/dist web/lib

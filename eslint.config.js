@@ -4,7 +4,7 @@ import tseslint from "typescript-eslint";
 
 // eslint asks for a default export here and nowhere else.
 export default tseslint.config(
-  { ignores: ["**/dist/", "build*/", "node_modules/"] },
+  { ignores: ["**/dist/", "web/lib/", "build*/", "node_modules/"] },
   {
     files: ["**/*.ts"],
     extends: [tseslint.configs.strictTypeChecked, tseslint.configs.stylisticTypeChecked],

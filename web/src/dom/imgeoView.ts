@@ -5,6 +5,7 @@ import type { Orbit } from "../navigation/orbit.ts";
 import { orbitOf } from "../navigation/orbit.ts";
 import { contextOf } from "../render/sceneRenderer.ts";
 import { makeFace } from "./face.ts";
+import type { Loadable } from "./loading.ts";
 import { Loading } from "./loading.ts";
 import { pixelAt } from "./pointing.ts";
 import { Presentation } from "./presentation.ts";
@@ -148,7 +149,7 @@ const lentMethods = ["play", "pause", "dismissPoster", "bindViewpoint", "resetVi
 const lentProperties = ["statistics", "viewpoints", "paused"] as const;
 
 /** The properties that the runtime gives to <x3d>. */
-export type ViewElement = Element & Pick<ImgeoView, (typeof lentMethods)[number] | (typeof lentProperties)[number]>;
+export type ViewElement = Element & Loadable & Pick<ImgeoView, (typeof lentMethods)[number] | (typeof lentProperties)[number]>;
 
 function lendMembers(view: ImgeoView, x3d: Element): void {
   for (const name of lentMethods) {

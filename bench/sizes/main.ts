@@ -1,0 +1,64 @@
+// What visitors download to see a scene, beside other viewers': bytes minified,
+// and compressed as hosts do. Prints a Markdown table.
+//
+//   scripts/bench sizes
+
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { brotliCompressSync, constants, gzipSync } from "node:zlib";
+import { build, transform, type Plugin } from "esbuild";
+import { repository } from "../../tests/browser/paths.ts";
+import { runtimeBundle, workerBundle } from "../../web/bundle.ts";
+
+/** three.js itself is left to the app, but not its add-ons. */
+const withoutThree: Plugin = {
+  name: "without three.js",
+  setup(bundle) {
+    bundle.onResolve({ filter: /^three$/ }, () => ({ path: "three", external: true }));
+  },
+};
+
+async function bundled(source: string, ...plugins: Plugin[]): Promise<Buffer> {
+  const { outputFiles } = await build({
+    ...runtimeBundle, plugins, write: false, entryPoints: [],
+    stdin: { contents: source, resolveDir: repository, loader: "ts" },
+  });
+  return Buffer.from(outputFiles[0]!.contents);
+}
+
+async function worker(): Promise<Buffer> {
+  const { outputFiles } = await build({ ...workerBundle, write: false });
+  return Buffer.from(outputFiles[0]!.contents);
+}
+
+/** What another viewer's package ships for pages, minified where it is not so already. */
+async function shipped(path: string): Promise<Buffer> {
+  const { code } = await transform(readFileSync(join(repository, "node_modules", path)), { minify: true, legalComments: "inline" });
+  return Buffer.from(code);
+}
+
+const element = `import "./web/src/dom/index.ts";`;
+const loader = `export { ImgeoLoader } from "./web/src/loader/index.ts";`;
+// What an app that shows a mesh uses of three.js, as bench/load's pages do.
+const app = `export { Scene, WebGLRenderer, PerspectiveCamera, DirectionalLight, Mesh, MeshStandardMaterial } from "three";`;
+
+const rows: [name: string, withThree: Buffer | undefined, without: Buffer | undefined][] = [
+  ["imgeo, the element `<x3d>`", await bundled(element), await bundled(element, withoutThree)],
+  ["imgeo, `ImgeoLoader`", await bundled(app + loader), await bundled(loader, withoutThree)],
+  ["imgeo's worker, for compact", undefined, await worker()],
+  ["three.js itself, in an app", await bundled(app), undefined],
+  ["three.js' GLTFLoader and MeshoptDecoder", undefined, await bundled(
+    `export { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+     export { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";`, withoutThree)],
+  ["model-viewer", await shipped("@google/model-viewer/dist/model-viewer.min.js"), await shipped("@google/model-viewer/dist/model-viewer-module.min.js")],
+  ["X3DOM", undefined, await shipped("x3dom-1.8/x3dom.js")],
+];
+
+function cellOf(bytes: Buffer | undefined): string {
+  if (bytes === undefined) return "";
+  const brotli = brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length } });
+  return [bytes.length, gzipSync(bytes, { level: 9 }).length, brotli.length].map((length) => (length / 1000).toFixed(0)).join(" / ");
+}
+
+console.log("| kB minified / gzip / brotli | with three.js | without |\n|---|--:|--:|");
+for (const [name, withThree, without] of rows) console.log(`| ${name} | ${cellOf(withThree)} | ${cellOf(without)} |`);

@@ -1,0 +1,43 @@
+// The example of docs/three.md as a visitor sees it.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { join } from "node:path";
+import { test } from "node:test";
+import { until, withPage } from "./harness.ts";
+import { outputDirectory, repository } from "./paths.ts";
+import { decodePng, type Picture } from "./png.ts";
+import { siteOfGenerated } from "./sites.ts";
+
+/** Of pixels that are as red as the mark. */
+function redIn({ data, channels }: Picture): number {
+  let count = 0;
+  for (let i = 0; i < data.length; i += channels) if (data[i]! > 150 && data[i + 1]! < 90 && data[i + 2]! < 90) count += 1;
+  return count;
+}
+
+/** Pixels of the floor that are much darker than the rest of it. */
+function shadowIn({ data, width, height, channels }: Picture): number {
+  const brightness = (x: number, y: number): number => data[(y * width + x) * channels]! + data[(y * width + x) * channels + 1]!;
+  const lit = brightness(20, height - 60);
+  let count = 0;
+  for (let y = Math.floor(height * 0.6); y < height; ++y) {
+    for (let x = 0; x < width; ++x) if (brightness(x, y) < 0.75 * lit) count += 1;
+  }
+  return count;
+}
+
+test("the three.js app shows a model with its shadow, and marks where one clicks on it", async () => {
+  const directory = join(outputDirectory, "three-app");
+  execFileSync(process.execPath, ["examples/three/build.ts", siteOfGenerated("trefoil", "--profile", "compact"), directory], { cwd: repository });
+  await withPage(directory, {}, async ({ page, server }) => {
+    await until("all is there", async () => (await page.textContent("#status"))?.startsWith("Complete") === true);
+    await page.waitForTimeout(100);
+    const shown = decodePng(await page.screenshot());
+    assert.ok(shadowIn(shown) > 2000, `${shadowIn(shown)} pixels lie in the shadow`);
+    assert.equal(redIn(shown), 0);
+    await page.mouse.click(310, 190); // beside the middle, which is a hole
+    await until("a mark is there", async () => redIn(decodePng(await page.screenshot())) > 20);
+    assert.equal(server.requestsOf(/imgeo-worker\.js$/).length, 1);
+  });
+});

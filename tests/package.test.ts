@@ -1,0 +1,100 @@
+// The npm package as its users get it: packed, installed somewhere without a
+// network, and used by an app that is checked and bundled there.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, describe, test } from "node:test";
+import { build, type Metafile } from "esbuild";
+
+const root = join(import.meta.dirname, "..");
+const work = mkdtempSync(join(tmpdir(), "imgeo-package-"));
+const app = join(work, "app");
+let packed: string[] = [];
+
+function run(directory: string, program: string, ...words: string[]): string {
+  return execFileSync(program, words, { cwd: directory, encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
+}
+
+before(() => {
+  run(root, process.execPath, "web/package.ts");
+  const [tarball] = JSON.parse(run(join(root, "web"), "npm", "pack", "--json", "--pack-destination", work)) as { filename: string; files: { path: string }[] }[];
+  assert.ok(tarball);
+  packed = tarball.files.map(({ path }) => path);
+  mkdirSync(app);
+  writeFileSync(join(app, "package.json"), JSON.stringify({ name: "app", private: true, type: "module" }));
+  // Peers are the app's own: here those of this repository.
+  run(app, "npm", "install", "--offline", "--legacy-peer-deps", "--no-audit", "--no-fund", join(work, tarball.filename));
+  mkdirSync(join(app, "node_modules/@types"));
+  for (const name of ["three", "@types/three"]) symlinkSync(join(root, "node_modules", name), join(app, "node_modules", name));
+});
+
+after(() => { rmSync(work, { recursive: true, force: true }); });
+
+const users: Record<string, string> = {
+  "loader.ts": `
+    import { Scene, MeshToonMaterial, type Object3D } from "three";
+    import { ImgeoLoader, type ImgeoScene } from "imgeo/loader";
+    const loader = new ImgeoLoader().setPath("statue/").setMaterial(({ diffuseColor }) => new MeshToonMaterial({ color: diffuseColor[0] }));
+    const statue: ImgeoScene = await loader.loadAsync("scene.x3d", ({ loaded }) => { console.log(loaded); });
+    const object: Object3D = statue;
+    statue.addEventListener("change", () => { console.log(statue.box.min.x); });
+    new Scene().add(object);
+    // @ts-expect-error a URL is text
+    loader.load(5, () => undefined);`,
+  "element.ts": `
+    import "imgeo";
+    import type { ViewElement, ProgressDetail } from "imgeo";
+    const x3d = document.querySelector<ViewElement>("x3d");
+    await x3d?.complete;
+    x3d?.addEventListener("progress", (event) => { console.log((event as CustomEvent<ProgressDetail>).detail.totalProgress); });`,
+};
+
+async function bundle(source: string): Promise<{ text: string; metafile: Metafile }> {
+  const { outputFiles, metafile } = await build({
+    stdin: { contents: source, resolveDir: app, loader: "ts" }, external: ["three"],
+    bundle: true, format: "esm", target: "es2022", write: false, metafile: true, logLevel: "error",
+  });
+  return { text: outputFiles[0]?.text ?? "", metafile };
+}
+
+/** The package's folders that have left something in a bundle. */
+function foldersIn({ outputs }: Metafile): Set<string> {
+  const inputs = Object.values(outputs).flatMap((output) => Object.entries(output.inputs));
+  return new Set(inputs.filter(([, { bytesInOutput }]) => bytesInOutput > 0).flatMap(([path]) => /imgeo\/lib\/(\w+)\//.exec(path)?.[1] ?? []));
+}
+
+describe("the package", () => {
+  test("holds modules, their types and the worker, and nothing else", () => {
+    assert.ok(["lib/loader/index.js", "lib/loader/index.d.ts", "lib/dom/index.js", "lib/workers/imgeo-worker.js", "README.md", "package.json"]
+      .every((path) => packed.includes(path)));
+    assert.deepEqual(packed.filter((path) => /test|\.ts$/.test(path) && !path.endsWith(".d.ts")), []);
+  });
+
+  test("types an app under strict rules", () => {
+    for (const [name, text] of Object.entries(users)) writeFileSync(join(app, name), text);
+    const options = { strict: true, module: "nodenext", target: "es2022", lib: ["es2024", "dom", "dom.iterable"], noEmit: true, skipLibCheck: false, types: [] };
+    writeFileSync(join(app, "tsconfig.json"), JSON.stringify({ compilerOptions: options, files: Object.keys(users) }));
+    run(app, process.execPath, join(root, "node_modules/typescript/bin/tsc"), "--project", ".");
+  });
+
+  test("leaves in an app only what it uses", async () => {
+    const loader = await bundle(users["loader.ts"] ?? "");
+    const folders = foldersIn(loader.metafile);
+    assert.ok(folders.has("loader") && folders.has("render"));
+    for (const folder of ["dom", "navigation"]) assert.ok(!folders.has(folder), `${folder} is in the loader's bundle`);
+    assert.doesNotMatch(loader.text, /customElements|x3dLook|keydown/);
+    const nothing = await bundle(`import { ImgeoLoader } from "imgeo/loader"; import "three"; console.log(1);`);
+    assert.deepEqual([...foldersIn(nothing.metafile)], []);
+    const element = await bundle(users["element.ts"] ?? "");
+    assert.ok(foldersIn(element.metafile).has("dom"));
+    assert.match(element.text, /customElements\.define/);
+  });
+
+  test("carries three.js as a peer of one range with the tested release", () => {
+    const { peerDependencies } = JSON.parse(readFileSync(join(root, "web/package.json"), "utf8")) as { peerDependencies: Record<string, string> };
+    const { devDependencies } = JSON.parse(readFileSync(join(root, "package.json"), "utf8")) as { devDependencies: Record<string, string> };
+    assert.equal(peerDependencies.three, `>=${devDependencies.three} <1`);
+  });
+});
