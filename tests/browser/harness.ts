@@ -90,7 +90,8 @@ function watch(page: Page, server: TestServer): View {
   const foreignRequests: string[] = [];
   const asked: string[] = [];
   page.on("console", (message) => {
-    if (message.type() === "error") errors.push(message.text());
+    // WebGL tells of wrong calls by warnings.
+    if (message.type() === "error" || /GL_INVALID|WebGL: INVALID/.test(message.text())) errors.push(message.text());
   });
   page.on("pageerror", (error) => errors.push(String(error)));
   page.on("request", (request) => {

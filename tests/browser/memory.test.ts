@@ -2,8 +2,62 @@
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { settle, withPage } from "./harness.ts";
+import { assertSamePicture } from "./compare.ts";
+import { settle, withPage, type View } from "./harness.ts";
+import type { Picture } from "./png.ts";
+import { sceneOf, shapeIn } from "./scenes.ts";
 import { siteOfGenerated } from "./sites.ts";
+
+interface Memory {
+  /** Of all arrays that were sent to WebGL or read as images. */
+  seen: { bytes: number; array: WeakRef<ArrayBuffer> }[];
+  /** Of textures and buffers that exist now, and the most that ever did. */
+  gpuBytes: number;
+  mostGpuBytes: number;
+}
+
+/** Self-contained: keeps an account of memory from outside of the runtime. */
+function keepAccount(): void {
+  const memory: Memory = { seen: [], gpuBytes: 0, mostGpuBytes: 0 };
+  Object.assign(window, { memory });
+  const see = (data: unknown): void => {
+    if (ArrayBuffer.isView(data)) memory.seen.push({ bytes: data.byteLength, array: new WeakRef(data.buffer as ArrayBuffer) });
+  };
+  const gl = WebGL2RenderingContext.prototype;
+  const methods = gl as unknown as Record<string, (...args: unknown[]) => unknown>;
+  const after = (name: string, note: (gl: WebGL2RenderingContext, args: unknown[]) => void): void => {
+    const original = methods[name]!;
+    methods[name] = function (...args) {
+      note(this as unknown as WebGL2RenderingContext, args);
+      return original.apply(this, args);
+    };
+  };
+  const sizes = new Map<unknown, number>();
+  const take = (object: unknown, bytes: number): void => {
+    memory.gpuBytes += bytes - (sizes.get(object) ?? 0);
+    sizes.set(object, bytes);
+    memory.mostGpuBytes = Math.max(memory.mostGpuBytes, memory.gpuBytes);
+  };
+  const bound: Record<number, number> = { [gl.COPY_WRITE_BUFFER]: 0x8f37, [gl.ARRAY_BUFFER]: gl.ARRAY_BUFFER_BINDING, [gl.ELEMENT_ARRAY_BUFFER]: gl.ELEMENT_ARRAY_BUFFER_BINDING };
+  after("bufferSubData", (_, [, , data]) => { see(data); });
+  after("bufferData", (context, [target, data]) => {
+    see(data);
+    const place = bound[target as number];
+    if (place) take(context.getParameter(place), typeof data === "number" ? data : (data as ArrayBufferView).byteLength);
+  });
+  after("texStorage2D", (context, [target, , , width, height]) => {
+    if (target === gl.TEXTURE_2D) take(context.getParameter(gl.TEXTURE_BINDING_2D), Number(width) * Number(height) * 4);
+  });
+  for (const name of ["deleteBuffer", "deleteTexture"]) after(name, (_, [object]) => { if (sizes.has(object)) take(object, 0); });
+  window.Blob = class extends Blob {
+    constructor(parts: BlobPart[] = [], options?: BlobPropertyBag) {
+      super(parts, options);
+      parts.forEach(see);
+    }
+  };
+}
+
+const memoryOf = (view: View): Promise<Memory> => view.page.evaluate(() => (window as unknown as { memory: Memory }).memory);
 
 describe("a scene that has loaded", () => {
   test("keeps no decoded image", async () => {
@@ -15,6 +69,89 @@ describe("a scene that has loaded", () => {
       assert.ok(live.textures > 10);
     });
   });
+});
+
+describe("vertex data", () => {
+  for (const [what, mesh, options, attribute] of [
+    ["of images", "trefoil-colors", [], ""],
+    ["of arrays", "trefoil-colors", ["--container", "bg", "--layout", "separate"], ""],
+    ["of arrays of records", "trefoil-colors", ["--container", "bg", "--layout", "interleaved"], ""],
+    ["of images that workers decode", "trefoil-colors", [], 'decode="cpu"'],
+    ["of compact", "trefoil-colors", ["--profile", "compact"], ""],
+  ] as const) {
+    test(`${what} are not kept in JavaScript`, async () => {
+      const site = siteOfGenerated(mesh, "--patch-vertices", "1000", ...options);
+      const server = (server: View["server"]): void => {
+        server.when(/^\/$/, { replace: (html) => html.toString().replace(/<ImageGeometry/i, `$& ${attribute}`) });
+      };
+      await withPage(site, { before: keepAccount, server }, async (view) => {
+        await view.promise("complete");
+        await settle(view.page);
+        const { seen, kept } = await view.page.evaluate(async () => {
+          const { memory, gc } = window as unknown as { memory: Memory; gc: () => void };
+          const sum = (arrays: Memory["seen"]): number => arrays.reduce((bytes, each) => bytes + each.bytes, 0);
+          const all = sum(memory.seen);
+          for (let turn = 0; turn < 20 && memory.seen.length > 0; ++turn) {
+            await new Promise((resolve) => setTimeout(resolve, 50)); // whoever asks a WeakRef keeps it for the turn
+            gc();
+            memory.seen = memory.seen.filter(({ array }) => array.deref() !== undefined);
+          }
+          return { seen: all, kept: sum(memory.seen) };
+        });
+        assert.ok(seen > 20_000, `${seen} bytes were seen`);
+        assert.equal(kept, 0);
+      });
+    });
+  }
+});
+
+describe("a budget", () => {
+  /** Two knots far apart, and a viewpoint before each. */
+  const scene = (site: string, attributes: string): string => {
+    const at = (x: number): string => `<Transform translation="${x} 0 0">${shapeIn(site, "knot", `id="at${x}"`).replaceAll("knot/", `knot${x}/`)}</Transform>`;
+    const point = (x: number): string => `<Viewpoint description="at ${x}" position="${x} 0 12"></Viewpoint>`;
+    return sceneOf(`budget-${attributes.replaceAll(/\W+/g, "-")}`, { knot0: site, knot500: site }, `${point(0)}${point(500)}${at(0)}${at(500)}`, attributes);
+  };
+
+  async function pictures(directory: string, check: (view: View, place: number) => Promise<void>): Promise<Picture[]> {
+    const seen: Picture[] = [];
+    await withPage(directory, { before: keepAccount }, async (view) => {
+      await view.promise("complete");
+      for (const place of [0, 500, 0]) {
+        await view.page.evaluate((name) => {
+          (document.querySelector("x3d") as unknown as { bindViewpoint: (name: string) => void }).bindViewpoint(name);
+        }, `at ${place}`);
+        const stateOf = async (): Promise<string> => `${view.server.requests.length} ${(await memoryOf(view)).gpuBytes}`;
+        for (let before = ""; before !== (before = await stateOf());) {
+          await settle(view.page);
+          await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 200)));
+        }
+        seen.push(await view.picture());
+        await check(view, place);
+      }
+    });
+    return seen;
+  }
+
+  for (const container of ["sig", "bg"]) {
+    test(`holds what is seen, gives up what is not, and comes to rest: ${container}`, async () => {
+      const site = siteOfGenerated("trefoil", "--patch-vertices", "700", "--container", container);
+      let all = 0;
+      const expected = await pictures(scene(site, `id="${container}"`), async (view) => { all = (await memoryOf(view)).gpuBytes; });
+      const budget = 0.6 * all;
+      let requests = 0;
+      const found = await pictures(scene(site, `id="${container}" budget="${budget / 1e6}"`), async (view, place) => {
+        const { gpuBytes, mostGpuBytes } = await memoryOf(view);
+        assert.ok(gpuBytes <= budget && gpuBytes > 0.4 * all, `${gpuBytes} bytes of ${budget}`);
+        // A stage of buffers is there before the one that it replaces is gone.
+        assert.ok(mostGpuBytes <= budget * 1.1, `at most ${mostGpuBytes} bytes of ${budget}`);
+        const { length } = view.server.requests;
+        assert.ok(place === 0 || length > requests, "nothing was fetched again");
+        requests = length;
+      });
+      found.forEach((picture, n) => { assertSamePicture(`budget ${container} ${n}`, picture, expected[n]!, { mean: 0 }); });
+    });
+  }
 });
 
 test("an image of many texels comes to the GPU in strips", async () => {

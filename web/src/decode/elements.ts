@@ -15,6 +15,15 @@ export function byteSizeOf(type: ElementType): number {
   return arrayTypes[type].BYTES_PER_ELEMENT;
 }
 
+export function elementTypeOf(array: ElementArray): ElementType {
+  const types = Object.keys(arrayTypes) as ElementType[];
+  return types.find((type) => array instanceof arrayTypes[type]) ?? "Uint8";
+}
+
+export function arrayTypeOf(type: ElementType): (typeof arrayTypes)[ElementType] {
+  return arrayTypes[type];
+}
+
 /** Where an attribute lies in a file. */
 export interface ElementRange {
   readonly type: ElementType;

@@ -2,6 +2,7 @@
 // renderer knows nothing of how a stage came about; it only ever replaces a
 // patch's stage by a newer one.
 
+import type { ElementType } from "./elements.ts";
 import type { DecodedImage } from "./image.ts";
 
 /** Running numbers first .. first + count - 1 drawn as one kind of primitive. */
@@ -90,15 +91,36 @@ export interface VertexArray {
 
 export type IndexArray = Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer> | Uint32Array<ArrayBuffer>;
 
+/** Bytes of typed arrays that are where draws read them, and not here any more. */
+export interface StoredBytes {
+  readonly byteLength: number;
+  /** Gives their memory back. */
+  close(): void;
+}
+
+/** WebGL wants to know before: a buffer that has held the one never holds the other. */
+export type ArrayUse = "vertices" | "index";
+
+/** A VertexArray that is stored. */
+export interface StoredVertices extends Omit<VertexArray, "array"> {
+  readonly bytes: StoredBytes;
+  readonly type: ElementType;
+}
+
+export interface StoredIndex {
+  readonly bytes: StoredBytes;
+  readonly type: ElementType;
+}
+
 /** Vertices in buffers (BG). Coordinates are integers as stored, the rest is spread over its range. */
 export interface BufferStage extends StageHead {
   readonly kind: "buffers";
-  readonly index: IndexArray | undefined;
-  readonly coord: VertexArray;
+  readonly index: StoredIndex | undefined;
+  readonly coord: StoredVertices;
   /** Of two numbers of 8 bits also one 16-bit word, the first number its low byte. */
-  readonly normal: VertexArray | undefined;
+  readonly normal: StoredVertices | undefined;
   readonly normalCode: NormalCode;
-  readonly color: VertexArray | undefined;
+  readonly color: StoredVertices | undefined;
 }
 
 export type Stage = TextureStage | BufferStage;

@@ -2,56 +2,84 @@
 
 import { DecodeError } from "../decode/decodeError.ts";
 import type { ElementRange } from "../decode/elements.ts";
-import { countIn, indexArrayOf, vertexArrayOf } from "../decode/elements.ts";
-import type { BufferStage, DrawRange, IndexArray, VertexArray } from "../decode/stage.ts";
+import { byteSizeOf, countIn, indexArrayOf, vertexArrayOf } from "../decode/elements.ts";
+import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../decode/stage.ts";
 import { withoutStrips } from "../decode/strips.ts";
 import type { GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
 import { hasNormalsInCoords } from "../document/geometry.ts";
+import { Holdings } from "./holdings.ts";
 import type { PartRole } from "./parts.ts";
 import { componentsOf } from "./parts.ts";
-import type { StageBuilder } from "./stageBuilder.ts";
+import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
 import { drawRangesOf, normalCodeOf, stageNameOf } from "./stageBuilder.ts";
 
-export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
-  const here: { index?: IndexArray; coord?: VertexArray; normal?: VertexArray; color?: VertexArray } = {};
-  let drawn: { index: IndexArray; draws: readonly DrawRange[] } | undefined;
+interface Here {
+  index?: { readonly stored: StoredIndex | undefined; readonly draws: readonly DrawRange[] };
+  coord?: StoredVertices;
+  normal?: StoredVertices;
+  color?: StoredVertices;
+}
+
+export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription, { storeBytes }: BuilderTools): StageBuilder {
+  const holdings = new Holdings(storeBytes);
+  let here: Here = {};
   const normalCode = normalCodeOf(geometry);
-  let vertexCount = patch.vertexCount;
+  const unindexed = (count: number) => withoutStrips(undefined, drawRangesFor(patch, count));
 
   return {
-    accept(part, content) {
+    isDivisible: false,
+
+    async accept(part, content, signal) {
       if (content.kind !== "bytes" || part.role === "patch") throw new DecodeError("malformed", "is no typed array");
       const range = rangeOf(geometry, patch, part.role, part.reference);
+      const present = here;
       if (part.role === "index") {
         // A document that does not tell the number of vertices leaves this to WebGL's own bounds.
-        here.index = indexArrayOf(content.bytes, range, patch.vertexCount || 2 ** 32);
-        drawn = withoutStrips(here.index, drawRangesFor(patch, here.index.length));
+        const whole = indexArrayOf(content.bytes, range, patch.vertexCount || 2 ** 32);
+        const { index, draws } = withoutStrips(whole, drawRangesFor(patch, whole.length));
+        present.index = { stored: await holdings.storeIndex(index, signal), draws };
         return;
       }
       const vertices = vertexArrayOf(content.bytes, range);
-      here[part.role] = vertices;
+      const stored = await holdings.storeVertices(vertices, signal);
+      present[part.role] = stored;
       if (part.role !== "coord") return;
-      vertexCount ||= countIn(content.bytes.byteLength, range);
-      if (hasNormalsInCoords(geometry, patch)) here.normal = fourthElementOf(vertices);
+      if (hasNormalsInCoords(geometry, patch)) present.normal = fourthElementOf(stored);
+      if (patch.index !== undefined) return;
+      // Strips without an index get one, since buffers are drawn as separate triangles.
+      const { index, draws } = unindexed(patch.vertexCount || countIn(content.bytes.byteLength, range));
+      present.index = { stored: index && await holdings.storeIndex(index, signal), draws };
     },
 
     stage(): BufferStage | undefined {
-      const { coord, normal, color } = here;
+      const { coord, normal, color, index } = here;
       if (coord === undefined) return undefined;
-      const name = stageNameOf(patch, { index: here.index, normal, color, coord: [coord] });
-      const unindexed = () => name === "points" ? [{ primitive: "points", first: 0, count: vertexCount } as const]
-        : drawRangesFor(patch, vertexCount);
-      // Strips without an index get one, since buffers are drawn as separate triangles.
-      const shown = drawn ?? withoutStrips(undefined, unindexed());
-      return { kind: "buffers", name, index: shown.index, draws: shown.draws, coord, normal, normalCode, color };
+      const name = stageNameOf(patch, { index, normal, color, coord: [coord] });
+      const points = { stored: undefined, draws: [{ primitive: "points", first: 0, count: countOf(coord) } as const] };
+      const { stored, draws } = index ?? points;
+      return { kind: "buffers", name, index: stored, draws, coord, normal, normalCode, color };
     },
+
+    get storedBytes() { return holdings.byteLength; },
+    drop: () => undefined,
+    clear() {
+      // Normals in coordinates are those of the coordinates.
+      const normal = hasNormalsInCoords(geometry, patch) ? undefined : here.normal;
+      holdings.retire(here.index?.stored, here.coord, normal, here.color);
+      here = {};
+    },
+    sweep: () => { holdings.sweep(); },
   };
 }
 
 /** Of 16-bit coordinates, where it holds the normal as a word of two bytes. */
-function fourthElementOf({ array, stride, offset }: VertexArray): VertexArray {
+function fourthElementOf({ bytes, type, stride, offset }: StoredVertices): StoredVertices {
   if (offset + 3 >= stride) throw new DecodeError("malformed", "has no fourth element in its records");
-  return { array, components: 1, stride, offset: offset + 3 };
+  return { bytes, type, components: 1, stride, offset: offset + 3 };
+}
+
+function countOf({ bytes, type, stride }: StoredVertices): number {
+  return Math.floor(bytes.byteLength / byteSizeOf(type) / stride);
 }
 
 /** X3DOM's rule: a vertexCount of 0 means all there are. */

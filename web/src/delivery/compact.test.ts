@@ -34,7 +34,10 @@ describe("a geometry of compact", () => {
       const [{ stage } = assert.fail("no stage")] = stages;
       assert.ok(stages.length === 1 && stage.kind === "buffers" && stage.name === "full");
       const { index, coord, normal, color } = buffersOf(decodePatch(readPayload(name), 0));
-      assert.deepEqual([stage.index, stage.coord, stage.normal, stage.color], [index, coord, normal, color]);
+      assert.deepEqual([stage.index, stage.coord, stage.normal, stage.color].map((stored) => stored && site.arrayOf(stored)),
+                       [index, coord.array, normal?.array, color?.array]);
+      const { type, components, stride, offset } = stage.coord;
+      assert.deepEqual([`${type}Array`, components, stride, offset], [coord.array.constructor.name, coord.components, coord.stride, coord.offset]);
     }
   });
 

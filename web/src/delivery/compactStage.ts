@@ -3,26 +3,40 @@
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import { readPatchHeader } from "../decode/compact/header.ts";
 import { DecodeError } from "../decode/decodeError.ts";
-import type { RunJob } from "../decode/jobs.ts";
-import type { BufferStage } from "../decode/stage.ts";
+import type { BufferStage, VertexArray } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { latticeBitsOf } from "../document/storedFrame.ts";
-import type { StageBuilder } from "./stageBuilder.ts";
+import { Holdings } from "./holdings.ts";
+import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
 import { drawRangesOf } from "./stageBuilder.ts";
 
-export function compactBuilder(geometry: GeometryDescription, patch: PatchDescription, run: RunJob, signal: AbortSignal): StageBuilder {
+export function compactBuilder(geometry: GeometryDescription, patch: PatchDescription, { runJob, storeBytes }: BuilderTools): StageBuilder {
+  const holdings = new Holdings(storeBytes);
   let stage: BufferStage | undefined;
   return {
-    async accept(part, content) {
+    isDivisible: false,
+    async accept(part, content, signal) {
       if (content.kind !== "payload") throw new DecodeError("malformed", "is no file of compact");
       const { first } = part.reference;
       const { end } = readPatchHeader(content.bytes, first);
-      const buffers = await run("compactPatch", content.bytes.slice(first, end), signal);
+      const buffers = await runJob("compactPatch", content.bytes.slice(first, end), signal);
       check(buffers, geometry, patch);
       const { index, coord, normal, color } = buffers;
-      stage = { kind: "buffers", name: "full", index, draws: drawRangesOf(patch), coord, normal, normalCode: { kind: "vector" }, color };
+      const store = (array: VertexArray | undefined) => array && holdings.storeVertices(array, signal);
+      stage = {
+        kind: "buffers", name: "full", draws: drawRangesOf(patch), normalCode: { kind: "vector" },
+        index: index && await holdings.storeIndex(index, signal),
+        coord: await holdings.storeVertices(coord, signal), normal: await store(normal), color: await store(color),
+      };
     },
     stage: () => stage,
+    get storedBytes() { return holdings.byteLength; },
+    drop: () => undefined,
+    clear() {
+      holdings.retire(stage?.index, stage?.coord, stage?.normal, stage?.color);
+      stage = undefined;
+    },
+    sweep: () => { holdings.sweep(); },
   };
 }
 

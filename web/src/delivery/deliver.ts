@@ -1,23 +1,25 @@
 // A geometry -> its stages. Asks for the files of its patches as it is told to,
 // turns what comes into stages, and reports what does not come; one missing file
-// costs what it holds and nothing else.
+// costs what it holds and nothing else. What it has it gives up when it is told
+// to, and asks for again.
 
 import type { Stage } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
+import type { Claim } from "../scheduler/budget.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
 import type { Part } from "./parts.ts";
-import { partsOf } from "./parts.ts";
+import { bytesPerTexel, partsOf } from "./parts.ts";
 import type { Transfer } from "./progress.ts";
-import type { ContentKind, Lease, ResourcePool } from "./resources.ts";
+import type { Content, ContentKind, Lease, ResourcePool } from "./resources.ts";
 import { bgBuilder } from "./bgStage.ts";
 import { compactBuilder } from "./compactStage.ts";
 import { sigBuilder } from "./sigStage.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
 
 export interface DeliveryListener {
-  /** A newer stage of a patch; it takes the place of the one before as a whole. */
-  onStage(patch: number, stage: Stage): void;
+  /** Another stage of a patch; it takes the place of the one before as a whole. Undefined: nothing is left of the patch. */
+  onStage(patch: number, stage: Stage | undefined): void;
   /** Once for each file that is of no use. */
   onError(error: DeliveryError): void;
   /** Every file that was asked for has come or failed. Again after each demand that asked for more. */
@@ -34,21 +36,45 @@ export interface Delivery {
   readonly isSettled: boolean;
   /** There is nothing left that could be asked for. */
   readonly isExhausted: boolean;
-  /** Asks for what is wanted, gives new priorities to what is on its way, and aborts what is no longer wanted. */
-  demand(priorityOf: Demand): void;
+  /** What all of it takes on the GPU, as far as that is known. */
+  readonly storedBytes: number;
+  /** What it wants, and has, of the GPU: for each patch in the order of use. */
+  claims(priorityOf: Demand): readonly (readonly Claim[])[];
+  /**
+   * Asks for what is wanted, gives new priorities to what is on its way, and aborts
+   * what is no longer wanted. What is here stays, but of claims only what is granted.
+   */
+  demand(priorityOf: Demand, granted?: ReadonlySet<Claim>): void;
   /** No call to the listener follows. Stages must no longer be used. */
   cancel(): void;
 }
 
 /** A file that a patch needs, and how far it is. */
 interface Need {
-  readonly place: number;
   readonly part: Part;
   readonly kind: ContentKind;
-  readonly builder: StageBuilder;
-  /** While it is asked for, and when it is here. */
+  /** While it is asked for; of an image, also while it is here. */
   lease: Lease | undefined;
+  transfer: Readonly<Transfer> | undefined;
+  /** Stops what is done with the content. */
+  aborter: AbortController;
   state: "absent" | "asked" | "here" | "failed";
+  /** On the GPU: an estimate until it has been there. */
+  storedBytes: number;
+}
+
+interface Patch {
+  readonly place: number;
+  readonly builder: StageBuilder;
+  /** In the order of their use. */
+  readonly needs: readonly Need[];
+  /** As last asked for. */
+  claims: readonly PatchClaim[];
+}
+
+/** To be granted together. */
+interface PatchClaim extends Claim {
+  readonly needs: readonly Need[];
 }
 
 /** Asks for nothing before `demand`. Never calls the listener before it returns. */
@@ -59,26 +85,28 @@ export function deliver(geometry: GeometryDescription, pool: ResourcePool, liste
 class GeometryDelivery implements Delivery {
   readonly #pool: ResourcePool;
   readonly #listener: DeliveryListener;
+  readonly #patches: readonly Patch[];
   readonly #needs: readonly Need[];
   readonly #reported = new Set<string>();
-  /** Undefined when leases have come or gone: there may be thousands of deliveries to ask. */
+  /** Undefined when transfers have come or gone: there may be thousands of deliveries to ask. */
   #transfers: readonly Readonly<Transfer>[] | undefined;
-  readonly #aborter = new AbortController();
+  #storedBytes: number | undefined;
+  #isCancelled = false;
 
   constructor(geometry: GeometryDescription, pool: ResourcePool, listener: DeliveryListener) {
     this.#pool = pool;
     this.#listener = listener;
-    this.#needs = geometry.patches.flatMap((patch: PatchDescription, place) => {
-      const builder = geometry.container === "bg" ? bgBuilder(geometry, patch)
-        : geometry.container === "compact" ? compactBuilder(geometry, patch, pool.runJob, this.#aborter.signal)
-        : sigBuilder(geometry, patch, pool.runJob, this.#aborter.signal);
-      const kind = contentKindOf(geometry, patch, pool.largestTexture);
-      return partsOf(geometry, patch).map((part): Need => ({ place, part, kind, builder, lease: undefined, state: "absent" }));
-    });
+    this.#patches = geometry.patches.map((patch, place) => ({
+      place,
+      builder: builderOf(geometry, patch, pool),
+      needs: needsOf(geometry, patch, pool.largestTexture),
+      claims: [],
+    }));
+    this.#needs = this.#patches.flatMap(({ needs }) => needs);
   }
 
   get transfers(): readonly Readonly<Transfer>[] {
-    this.#transfers ??= Array.from(new Set(this.#needs.flatMap(({ lease }) => (lease ? [lease.transfer] : []))));
+    this.#transfers ??= Array.from(new Set(this.#needs.flatMap(({ transfer }) => (transfer ? [transfer] : []))));
     return this.#transfers;
   }
 
@@ -90,55 +118,112 @@ class GeometryDelivery implements Delivery {
     return this.#needs.every(({ state }) => state === "here" || state === "failed");
   }
 
-  demand(priorityOf: Demand): void {
-    for (const need of this.#needs) {
-      if (need.state === "here" || need.state === "failed") continue;
-      const priority = priorityOf(need.place, need.part);
-      if (priority === undefined) this.#giveUp(need);
-      else if (need.lease !== undefined) need.lease.setPriority(priority);
-      else this.#ask(need, priority);
+  get storedBytes(): number {
+    this.#storedBytes ??= this.#needs.reduce((sum, { storedBytes, state }) => sum + (state === "failed" ? 0 : storedBytes), 0);
+    return this.#storedBytes;
+  }
+
+  claims(priorityOf: Demand): readonly (readonly Claim[])[] {
+    for (const patch of this.#patches) patch.claims = claimsOf(patch, priorityOf);
+    return this.#patches.map(({ claims }) => claims);
+  }
+
+  demand(priorityOf: Demand, granted?: ReadonlySet<Claim>): void {
+    for (const patch of this.#patches) {
+      const denied = granted && new Set(patch.claims.filter((claim) => !granted.has(claim)).flatMap(({ needs }) => needs));
+      for (const need of patch.needs) {
+        if (need.state === "here" || need.state === "failed") continue;
+        const priority = denied?.has(need) === true ? undefined : priorityOf(patch.place, need.part);
+        if (priority === undefined) this.#giveUp(need);
+        else if (need.lease !== undefined) need.lease.setPriority(priority);
+        else this.#ask(patch, need, priority);
+      }
+      if (denied !== undefined) this.#evict(patch, patch.needs.filter((need) => need.state === "here" && denied.has(need)));
     }
   }
 
   cancel(): void {
-    this.#aborter.abort();
-    for (const { lease } of this.#needs) lease?.release();
+    this.#isCancelled = true;
+    for (const need of this.#needs) this.#release(need);
+    for (const { builder } of this.#patches) {
+      builder.clear();
+      builder.sweep();
+    }
   }
 
-  #ask(need: Need, priority: number): void {
+  #ask(patch: Patch, need: Need, priority: number): void {
     const { reference, expectedBytes } = need.part;
     const lease = this.#pool.lease({ kind: need.kind, url: reference.url, priority, expectedBytes });
     need.lease = lease;
+    need.transfer = lease.transfer;
+    need.aborter = new AbortController();
     need.state = "asked";
     this.#transfers = undefined;
-    void this.#await(need, lease);
+    void this.#await(patch, need, lease);
   }
 
   #giveUp(need: Need): void {
     if (need.lease === undefined) return;
-    need.lease.release();
-    need.lease = undefined;
+    this.#release(need);
     need.state = "absent";
+    need.transfer = undefined;
     this.#transfers = undefined;
   }
 
-  async #await(need: Need, lease: Lease): Promise<void> {
+  #release(need: Need): void {
+    need.aborter.abort();
+    need.lease?.release();
+    need.lease = undefined;
+  }
+
+  /** Gives up what is here: the listener first lets go of it. */
+  #evict({ place, builder, needs }: Patch, evicted: readonly Need[]): void {
+    if (evicted.length === 0) return;
+    if (!builder.isDivisible || evicted.length === needs.filter(({ state }) => state === "here").length) builder.clear();
+    else for (const { part } of evicted) builder.drop(part);
+    this.#listener.onStage(place, builder.stage());
+    for (const need of evicted) {
+      this.#release(need);
+      need.state = "absent";
+    }
+    builder.sweep();
+  }
+
+  async #await(patch: Patch, need: Need, lease: Lease): Promise<void> {
+    const { signal } = need.aborter;
     // Given up in between, or given up and asked for again.
-    const isOver = () => this.#aborter.signal.aborted || need.lease !== lease;
+    const isOver = () => this.#isCancelled || need.lease !== lease;
+    const { builder } = patch;
     try {
       const content = await lease.content;
       if (isOver()) return;
-      await need.builder.accept(need.part, content);
+      await builder.accept(need.part, content, signal);
       if (isOver()) return;
       need.state = "here";
-      const stage = need.builder.stage();
-      if (stage !== undefined) this.#listener.onStage(need.place, stage);
+      this.#note(patch, need, content);
+      const stage = builder.stage();
+      if (stage !== undefined) this.#listener.onStage(patch.place, stage);
+      builder.sweep();
     } catch (error) {
       if (isOver()) return;
       need.state = "failed";
+      this.#storedBytes = undefined;
       this.#report(need.part.reference.url, error);
+    } finally {
+      lease.finish();
     }
     if (this.isSettled) this.#listener.onSettled();
+  }
+
+  /** What it takes on the GPU is known now, and stays known when it has gone. */
+  #note({ builder, needs }: Patch, need: Need, content: Content): void {
+    this.#storedBytes = undefined;
+    if (content.kind === "image") {
+      need.storedBytes = content.image.width * content.image.height * bytesPerTexel;
+    } else if (needs.every(({ state }) => state !== "absent" && state !== "asked")) {
+      // Arrays of a patch are one claim: it does not matter which of its files they are counted for.
+      needs.forEach((each, place) => { each.storedBytes = place === 0 ? builder.storedBytes : 0; });
+    }
   }
 
   #report(url: string, error: unknown): void {
@@ -146,6 +231,52 @@ class GeometryDelivery implements Delivery {
     this.#reported.add(url);
     this.#listener.onError(asDeliveryError(error, url));
   }
+}
+
+function builderOf(geometry: GeometryDescription, patch: PatchDescription, pool: ResourcePool): StageBuilder {
+  switch (geometry.container) {
+    case "bg": return bgBuilder(geometry, patch, pool);
+    case "compact": return compactBuilder(geometry, patch, pool);
+    case "sig": return sigBuilder(geometry, patch, pool);
+  }
+}
+
+function needsOf(geometry: GeometryDescription, patch: PatchDescription, largestTexture: number): Need[] {
+  const kind = contentKindOf(geometry, patch, largestTexture);
+  return partsOf(geometry, patch).sort((a, b) => useOf(a) - useOf(b)).map((part): Need => ({
+    part, kind, lease: undefined, transfer: undefined, aborter: new AbortController(), state: "absent", storedBytes: part.storedBytes,
+  }));
+}
+
+/** What each is of no use without comes before it. */
+function useOf({ role, plane }: Part): number {
+  return plane > 0 ? 4 + plane : ["patch", "coord", "index", "normal", "color"].indexOf(role);
+}
+
+function claimsOf({ place, builder, needs }: Patch, priorityOf: Demand): PatchClaim[] {
+  const wanted = needs.flatMap((need) => {
+    if (need.state === "failed") return [];
+    const priority = priorityOf(place, need.part);
+    if (priority === undefined && need.state === "absent") return [];
+    return [{ need, priority: priority ?? 0 }];
+  });
+  if (wanted.length === 0) return [];
+  if (builder.isDivisible && wanted.every(({ need }) => isImage(need))) {
+    return wanted.map(({ need, priority }) => ({
+      needs: [need], key: need.part.reference.url, bytes: need.storedBytes, priority, isHeld: need.state !== "absent",
+    }));
+  }
+  return [{
+    needs: wanted.map(({ need }) => need),
+    key: builder,
+    bytes: wanted.reduce((sum, { need }) => sum + need.storedBytes, 0),
+    priority: Math.max(...wanted.map(({ priority }) => priority)),
+    isHeld: wanted.some(({ need }) => need.state !== "absent"),
+  }];
+}
+
+function isImage({ kind }: Need): boolean {
+  return kind === "texture" || kind === "either";
 }
 
 /** Where the vertices of a patch are to be decoded, and so what its files are to become. */

@@ -6,7 +6,7 @@ import { decodeImage } from "../decode/image.ts";
 import { jobs } from "../decode/jobs.ts";
 import { checkPng } from "../decode/png.ts";
 import { pngOf } from "../decode/png.testing.ts";
-import type { Stage } from "../decode/stage.ts";
+import type { ElementArray, Stage, StoredBytes } from "../decode/stage.ts";
 import { elementsOf } from "../document/elements.testing.ts";
 import type { GeometryDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
@@ -26,6 +26,7 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
   const asked: string[] = [];
   const aborted: string[] = [];
   const images = { open: 0 };
+  const arrays = new Map<StoredBytes, ElementArray>();
   const scheduler = new Scheduler(slots);
   const answer = async (url: string, signal: AbortSignal): Promise<Response> => {
     const name = url.replace("https://site/", "");
@@ -47,15 +48,26 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
     readsTextures: () => Promise.resolve(readsTextures),
     largestTexture: 4096,
     runJob: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
+    storeBytes: (array, _, signal) => {
+      signal.throwIfAborted();
+      const stored = { byteLength: array.byteLength, close: () => { assert.ok(arrays.delete(stored), "closed twice"); } };
+      arrays.set(stored, array);
+      return Promise.resolve(stored);
+    },
     download: { fetch: (url, init) => answer(url as string, init?.signal ?? new AbortController().signal), silenceMs: 1000, retries: 0, backoffMs: 1 },
     resolve: (url) => new URL(url, "https://site/").href,
     onTransfer: () => undefined,
   });
-  return { asked, aborted, images, scheduler, pool };
+  /** What has been stored. */
+  const arrayOf = (stored: { readonly bytes: StoredBytes } | undefined) => arrays.get(stored?.bytes ?? assert.fail("nothing there")) ?? assert.fail("closed");
+  return { asked, aborted, images, arrays, arrayOf, scheduler, pool };
 }
 
 export interface Recording {
+  /** Those that were shown. */
   readonly stages: { patch: number; stage: Stage }[];
+  /** What each patch shows now. */
+  readonly shown: Map<number, Stage | undefined>;
   readonly errors: DeliveryError[];
   readonly delivery: Delivery;
   readonly settled: Promise<void>;
@@ -67,15 +79,19 @@ export const everything: Demand = (_, part) => priorityOf(1, part.chunk, unknown
 export function record(geometry: GeometryDescription, pool: ResourcePool, demand = everything): Recording {
   const stages: Recording["stages"] = [];
   const errors: DeliveryError[] = [];
+  const shown: Recording["shown"] = new Map();
   let resolve: () => void = () => undefined;
   const settled = new Promise<void>((done) => { resolve = done; });
   const delivery = deliver(geometry, pool, {
-    onStage: (patch, stage) => stages.push({ patch, stage }),
+    onStage: (patch, stage) => {
+      shown.set(patch, stage);
+      if (stage !== undefined) stages.push({ patch, stage });
+    },
     onError: (error) => errors.push(error),
     onSettled: () => { resolve(); },
   });
   delivery.demand(demand);
-  return { stages, errors, delivery, settled };
+  return { stages, shown, errors, delivery, settled };
 }
 
 export function geometryOf(markup: string): GeometryDescription {

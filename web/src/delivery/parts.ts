@@ -17,6 +17,8 @@ export interface Part {
   /** What it is to the order of requests. */
   readonly chunk: Chunk;
   readonly expectedBytes: number;
+  /** What it is likely to take on the GPU, until it is there. */
+  readonly storedBytes: number;
 }
 
 /** Texture coordinates are not asked for: nothing that the document can say yet uses them. */
@@ -28,6 +30,8 @@ export function partsOf(geometry: GeometryDescription, patch: PatchDescription):
     reference === undefined ? [] : [{
       role, plane, reference,
       expectedBytes: elements * (geometry.container === "sig" ? sigBytes[role] : reference.stride || bytesOf(geometry, role)),
+      storedBytes: geometry.container === "sig" ? bytesPerTexel * texelsOf(patch, role, elements)
+        : elements * (reference.stride || bytesOf(geometry, role)),
       chunk: { type: plane > 0 ? "refinement" : role, plane },
     }];
   return [
@@ -40,8 +44,21 @@ export function partsOf(geometry: GeometryDescription, patch: PatchDescription):
 
 function compactPart({ draws, vertexCount }: PatchDescription, reference: Reference): Part {
   const corners = draws.reduce((sum, draw) => sum + draw.count, 0);
-  return { role: "patch", plane: 0, reference, expectedBytes: 2 * vertexCount + corners / 6, chunk: { type: "patch", plane: 0 } };
+  return {
+    role: "patch", plane: 0, reference, chunk: { type: "patch", plane: 0 },
+    expectedBytes: 2 * vertexCount + corners / 6,
+    storedBytes: 12 * vertexCount + 2 * corners, // words of positions, bytes of normals, short indices
+  };
 }
+
+/** Of an image, as our writer lays it out: records in a power of two of rows of 256. */
+function texelsOf({ implicitWidth }: PatchDescription, role: PartRole, elements: number): number {
+  if (role === "index") return Math.ceil(elements / implicitWidth) * implicitWidth;
+  return 256 * 2 ** Math.ceil(Math.log2(Math.max(1, elements / 256)));
+}
+
+/** Of textures: three channels are stored as four. */
+export const bytesPerTexel = 4;
 
 function bytesOf(geometry: GeometryDescription, role: PartRole): number {
   return byteSizeOf(geometry[`${role}Type`]) * componentsOf(geometry, role);

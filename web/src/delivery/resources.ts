@@ -1,6 +1,7 @@
 // One request per URL, however many patches and shapes use it. A resource lives
 // while somebody holds a lease on it; with the last lease its download is
-// aborted or its image is given back.
+// aborted or its image is given back. Bytes go sooner: when all who hold a lease
+// have taken of them what they need.
 
 import type { DataImage } from "../decode/image.ts";
 import type { RunJob } from "../decode/jobs.ts";
@@ -8,6 +9,7 @@ import { Backlog } from "../scheduler/backlog.ts";
 import type { DownloadOptions } from "../scheduler/download.ts";
 import { downloadInSlot } from "../scheduler/download.ts";
 import type { Scheduler } from "../scheduler/scheduler.ts";
+import type { StoreBytes } from "./holdings.ts";
 import type { Transfer } from "./progress.ts";
 
 export type Content =
@@ -29,9 +31,11 @@ export interface ResourceRequest {
 
 export interface Lease {
   readonly transfer: Readonly<Transfer>;
-  /** Rejects with RequestError, DecodeError, or an AbortError after the last release. */
+  /** Rejects with RequestError, DecodeError, or an AbortError after the last release. To be asked for before `finish`. */
   readonly content: Promise<Content>;
   setPriority(priority: number): void;
+  /** The content is not looked at again. An image stays until it is released; whoever asks for bytes later gets them anew. */
+  finish(): void;
   release(): void;
 }
 
@@ -44,6 +48,7 @@ export interface DeliveryOptions {
   /** Texels of the longest edge that a texture may have. */
   readonly largestTexture: number;
   readonly runJob: RunJob;
+  readonly storeBytes: StoreBytes;
   readonly download: DownloadOptions;
   /** The absolute URL of one that the document writes. */
   readonly resolve: (url: string) => string;
@@ -51,12 +56,13 @@ export interface DeliveryOptions {
   readonly onTransfer: () => void;
 }
 
-/** Downloaded bytes that may wait for their decoder. */
+/** Downloaded bytes that may wait for their decoder, and for their way to the GPU. */
 const mostBacklogBytes = 8 * 2 ** 20;
 
 export class ResourcePool {
   readonly #options: DeliveryOptions;
   readonly #backlog = new Backlog(mostBacklogBytes);
+  /** Those that can be leased once more. */
   readonly #resources = new Map<string, Resource>();
 
   constructor(options: DeliveryOptions) {
@@ -67,34 +73,38 @@ export class ResourcePool {
     return this.#options.runJob;
   }
 
-  get largestTexture(): number {
-    return this.#options.largestTexture;
+  get storeBytes(): StoreBytes {
+    return this.#options.storeBytes;
   }
 
-  /** The transfers of everything that is leased now. */
-  transfers(): Transfer[] {
-    return Array.from(this.#resources.values(), (resource) => resource.transfer);
+  get largestTexture(): number {
+    return this.#options.largestTexture;
   }
 
   lease(request: ResourceRequest): Lease {
     const { scheduler, resolve } = this.#options;
     const key = `${request.kind} ${resolve(request.url)}`;
     const resource = this.#resources.get(key) ?? this.#start(key, request);
-    const leased = { priority: request.priority };
+    const leased = { priority: request.priority, isFinished: false };
     resource.add(leased);
     scheduler.reorder();
+    const forget = () => { if (this.#resources.get(key) === resource) this.#resources.delete(key); };
     return {
       transfer: resource.transfer,
-      content: resource.content,
+      get content() { return resource.content; },
       setPriority(priority) {
         leased.priority = priority;
         resource.reconsider();
         scheduler.reorder();
       },
+      finish() {
+        leased.isFinished = true;
+        if (resource.dropBytes()) forget();
+      },
       release: () => {
-        if (!resource.remove(leased) || !resource.isUnused) return;
-        this.#resources.delete(key);
-        resource.end();
+        if (!resource.remove(leased)) return;
+        if (resource.isUnused) resource.end();
+        if (resource.isUnused || resource.dropBytes()) forget();
       },
     };
   }
@@ -106,13 +116,21 @@ export class ResourcePool {
   }
 }
 
+interface Leased {
+  readonly priority: number;
+  readonly isFinished: boolean;
+}
+
 class Resource {
   readonly transfer: Transfer;
-  readonly content: Promise<Content>;
   readonly #options: DeliveryOptions;
   readonly #backlog: Backlog;
   readonly #aborter = new AbortController();
-  readonly #leases = new Set<{ readonly priority: number }>();
+  readonly #leases = new Set<Leased>();
+  #content: Promise<Content> | undefined;
+  /** Gives the room of the bytes back. */
+  #leave: () => void = () => undefined;
+  #hasBytes = false;
   #priority: number | undefined;
 
   constructor(request: ResourceRequest, options: DeliveryOptions, backlog: Backlog) {
@@ -120,7 +138,12 @@ class Resource {
     this.#backlog = backlog;
     this.#priority = request.priority;
     this.transfer = { url: request.url, state: "waiting", loadedBytes: 0, totalBytes: request.expectedBytes };
-    this.content = this.#fetch(request);
+    this.#content = this.#fetch(request);
+  }
+
+  get content(): Promise<Content> {
+    if (this.#content === undefined) throw new RangeError("the bytes have been dropped");
+    return this.#content;
   }
 
   get priority(): number {
@@ -137,20 +160,29 @@ class Resource {
     this.#priority = undefined;
   }
 
-  add(lease: { readonly priority: number }): void {
+  add(lease: Leased): void {
     this.#leases.add(lease);
     this.reconsider();
   }
 
   /** False where the lease has been given back before. */
-  remove(lease: { readonly priority: number }): boolean {
+  remove(lease: Leased): boolean {
     this.reconsider();
     return this.#leases.delete(lease);
   }
 
+  /** Where nobody needs them any more; false where there are none to drop. */
+  dropBytes(): boolean {
+    if (!this.#hasBytes || !Array.from(this.#leases).every(({ isFinished }) => isFinished)) return false;
+    this.#content = undefined;
+    this.#leave();
+    return true;
+  }
+
   end(): void {
     this.#aborter.abort();
-    this.content.then(
+    this.#leave();
+    this.#content?.then(
       (content) => { if (content.kind === "image") content.image.close(); },
       () => undefined, // whoever held a lease has been told
     );
@@ -189,13 +221,20 @@ class Resource {
   }
 
   async #decode(kind: ContentKind, { bytes, leave }: { bytes: Uint8Array<ArrayBuffer>; leave: () => void }): Promise<Content> {
+    this.#leave = leave;
     try {
-      if (kind === "payload") return { kind, bytes: await this.#options.runJob("compactPayload", bytes, this.#aborter.signal) };
-      const isTexture = kind === "texture" || (kind === "either" && await this.#options.readsTextures());
-      if (!isTexture) return { kind: "bytes", bytes };
-      return { kind: "image", ...await this.#options.makeImage(bytes, this.#aborter.signal) };
+      const content = await this.#contentOf(kind, bytes);
+      this.#hasBytes = content.kind !== "image";
+      return content;
     } finally {
-      leave();
+      if (!this.#hasBytes || this.isUnused) leave();
     }
+  }
+
+  async #contentOf(kind: ContentKind, bytes: Uint8Array<ArrayBuffer>): Promise<Content> {
+    if (kind === "payload") return { kind, bytes: await this.#options.runJob("compactPayload", bytes, this.#aborter.signal) };
+    const isTexture = kind === "texture" || (kind === "either" && await this.#options.readsTextures());
+    if (!isTexture) return { kind: "bytes", bytes };
+    return { kind: "image", ...await this.#options.makeImage(bytes, this.#aborter.signal) };
   }
 }

@@ -29,6 +29,7 @@ function deliveriesOf() {
     readsTextures: () => Promise.resolve(true),
     largestTexture: 2048,
     runJob: () => Promise.reject(new Error("no jobs here")),
+    storeBytes: ({ byteLength }) => Promise.resolve({ byteLength, close: () => undefined }),
     download: { fetch: (url, init) => fetchFile(url as string, init?.signal ?? new AbortController().signal), silenceMs: 1000, retries: 0, backoffMs: 1 },
     resolve: (url) => url,
     onTransfer: () => undefined,
@@ -43,7 +44,7 @@ function logged() {
   const settled = Promise.withResolvers<undefined>();
   const stages: unknown[] = [];
   const listener: DeliveryListener = {
-    onStage: (_, stage) => { log.push(stage.name); stages.push(stage); },
+    onStage: (_, stage) => { log.push(stage?.name ?? "nothing"); stages.push(stage); },
     onError: (error) => { log.push(error.url); },
     onSettled: () => { log.push("settled"); settled.resolve(undefined); },
   };

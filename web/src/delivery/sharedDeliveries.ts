@@ -6,10 +6,12 @@ import type { GeometryDescription } from "../document/description.ts";
 import type { Delivery, DeliveryListener, Demand } from "./deliver.ts";
 import { deliver } from "./deliver.ts";
 import type { DeliveryError } from "./deliveryError.ts";
+import type { Transfer } from "./progress.ts";
 import type { ResourcePool } from "./resources.ts";
+import { grantedOf } from "../scheduler/budget.ts";
 
 /** What one of those who share a delivery sees of it. */
-export type JoinedDelivery = Omit<Delivery, "demand">;
+export type JoinedDelivery = Pick<Delivery, "transfers" | "isSettled" | "isExhausted" | "cancel">;
 
 interface Shared {
   readonly delivery: Delivery;
@@ -62,11 +64,39 @@ export class SharedDeliveries {
     };
   }
 
-  /** Says what is wanted of each geometry, for all who show it. */
-  demand(demandOf: (geometry: GeometryDescription) => Demand): void {
+  /** What all of them would take on the GPU, as far as is known; what several share counts for each. */
+  get storedBytes(): number {
+    let bytes = 0;
+    for (const { delivery } of this.#shared.values()) bytes += delivery.storedBytes;
+    return bytes;
+  }
+
+  /** Of all files that were asked for, each once. */
+  transfers(): Readonly<Transfer>[] {
+    const all = new Set<Readonly<Transfer>>();
+    for (const { delivery } of this.#shared.values()) for (const transfer of delivery.transfers) all.add(transfer);
+    return Array.from(all);
+  }
+
+  /**
+   * Says what is wanted of each geometry, for all who show it. Where all of it would
+   * take more than `mostBytes` on the GPU, it gets what matters most, and what
+   * matters less than that is given up.
+   */
+  demand(demandOf: (geometry: GeometryDescription) => Demand, mostBytes = Infinity): void {
+    if (this.storedBytes > mostBytes) {
+      this.#demandWithin(demandOf, mostBytes);
+      return;
+    }
     for (const [geometry, { delivery }] of this.#shared) {
       if (!delivery.isExhausted) delivery.demand(demandOf(geometry));
     }
+  }
+
+  #demandWithin(demandOf: (geometry: GeometryDescription) => Demand, mostBytes: number): void {
+    const demands = Array.from(this.#shared, ([geometry, { delivery }]) => ({ delivery, demand: demandOf(geometry) }));
+    const granted = grantedOf(demands.flatMap(({ delivery, demand }) => delivery.claims(demand)), mostBytes);
+    for (const { delivery, demand } of demands) delivery.demand(demand, granted);
   }
 
   #start(geometry: GeometryDescription): Shared {
@@ -75,7 +105,8 @@ export class SharedDeliveries {
     const errors: DeliveryError[] = [];
     const delivery = deliver(geometry, this.#pool, {
       onStage(patch, stage) {
-        stages.set(patch, stage);
+        if (stage === undefined) stages.delete(patch);
+        else stages.set(patch, stage);
         for (const listener of listeners) listener.onStage(patch, stage);
       },
       onError(error) {

@@ -20,7 +20,7 @@ describe("images that are decoded on the CPU", () => {
       const full = stages.at(-1)?.stage;
       assert.ok(full?.kind === "buffers");
       assert.deepEqual([full.name, full.draws], ["full", [{ primitive: "triangles", first: 0, count: 600 }]]);
-      assert.deepEqual([full.coord.array[4], full.index?.[201], full.normalCode.kind], [2 * 256 + 101, 1, "byteVector"]);
+      assert.deepEqual([site.arrayOf(full.coord)[4], site.arrayOf(full.index)[201], full.normalCode.kind], [2 * 256 + 101, 1, "byteVector"]);
     });
   }
 

@@ -2,128 +2,181 @@
 // comes. The stages are those of buffers.
 
 import type { ImageFile, RecordLayout } from "../decode/classicArrays.ts";
+import type { GridArrays } from "../decode/classicGrid.ts";
 import { DecodeError } from "../decode/decodeError.ts";
-import type { RunJob } from "../decode/jobs.ts";
+import { byteSizeOf } from "../decode/elements.ts";
 import type { PngHeader } from "../decode/png.ts";
 import { checkPng } from "../decode/png.ts";
-import type { BufferStage, DrawRange, IndexArray, VertexArray } from "../decode/stage.ts";
+import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../decode/stage.ts";
 import { withoutStrips } from "../decode/strips.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { largestStoredOf, middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
 import { asDeliveryError } from "./deliveryError.ts";
-import type { StageBuilder } from "./stageBuilder.ts";
+import { Holdings } from "./holdings.ts";
+import type { Part } from "./parts.ts";
+import type { Content } from "./resources.ts";
+import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
 import { drawRangesOf, normalCodeOf, stageNameOf } from "./stageBuilder.ts";
 
 interface Drawn {
-  readonly index: IndexArray | undefined;
+  readonly index: StoredIndex | undefined;
   readonly draws: readonly DrawRange[];
 }
 
-export function sigCpuBuilder(geometry: GeometryDescription, patch: PatchDescription, run: RunJob, signal: AbortSignal): StageBuilder {
-  return new SigCpuBuilder(geometry, patch, run, signal);
+/** What has come of a patch. */
+class Parts {
+  /** Packed, until all are here. */
+  planes: (ImageFile | undefined)[] = [];
+  waitingIndex: ImageFile | undefined;
+  coordHeader: PngHeader | undefined;
+  coord: StoredVertices | undefined;
+  coordPlanes = 0;
+  drawn: Drawn | undefined;
+  normal: StoredVertices | undefined;
+  /** Of a grid that has no other normals. */
+  slope: StoredVertices | undefined;
+  color: StoredVertices | undefined;
+}
+
+export function sigCpuBuilder(geometry: GeometryDescription, patch: PatchDescription, tools: BuilderTools): StageBuilder {
+  return new SigCpuBuilder(geometry, patch, tools);
 }
 
 class SigCpuBuilder implements StageBuilder {
+  readonly isDivisible = false;
   readonly #geometry: GeometryDescription;
   readonly #patch: PatchDescription;
-  readonly #run: RunJob;
-  readonly #signal: AbortSignal;
-  /** Packed, until all are here. */
-  #planes: (ImageFile | undefined)[] = [];
-  #waitingIndex: ImageFile | undefined;
-  #coordHeader: PngHeader | undefined;
-  #coord: VertexArray | undefined;
-  #coordPlanes = 0;
-  #drawn: Drawn | undefined;
-  #normal: VertexArray | undefined;
-  /** Of a grid that has no other normals. */
-  #slope: VertexArray | undefined;
-  #color: VertexArray | undefined;
+  readonly #run: BuilderTools["runJob"];
+  readonly #holdings: Holdings;
+  #here = new Parts();
 
-  constructor(geometry: GeometryDescription, patch: PatchDescription, run: RunJob, signal: AbortSignal) {
+  constructor(geometry: GeometryDescription, patch: PatchDescription, { runJob, storeBytes }: BuilderTools) {
     this.#geometry = geometry;
     this.#patch = patch;
-    this.#run = run;
-    this.#signal = signal;
+    this.#run = runJob;
+    this.#holdings = new Holdings(storeBytes);
   }
 
-  async accept(part: Parameters<StageBuilder["accept"]>[0], content: Parameters<StageBuilder["accept"]>[1]): Promise<void> {
+  async accept(part: Part, content: Content, signal: AbortSignal): Promise<void> {
     if (content.kind !== "bytes") throw new DecodeError("malformed", "is on the GPU already");
+    const here = this.#here;
     const file = { png: content.bytes, first: part.reference.first };
     const header = checkPng(file.png);
     switch (part.role) {
       case "coord":
-        this.#planes[part.plane] = file;
-        if (part.plane === 0) this.#coordHeader = header;
-        await Promise.all([this.#decodeCoords(), this.#decodeIndex()]);
+        here.planes[part.plane] = file;
+        if (part.plane === 0) here.coordHeader = header;
+        await Promise.all([this.#decodeCoords(here, signal), this.#decodeIndex(here, signal)]);
         return;
       case "index":
-        this.#waitingIndex = file;
-        await this.#decodeIndex();
+        here.waitingIndex = file;
+        await this.#decodeIndex(here, signal);
         return;
-      case "normal":
-        this.#normal = await this.#run("classicNormals", { file, code: normalCodeOf(this.#geometry), ...this.#layout(header) }, this.#signal);
+      case "normal": {
+        const normals = await this.#run("classicNormals", { file, code: normalCodeOf(this.#geometry), ...this.#layout(header) }, signal);
+        here.normal = await this.#holdings.storeVertices(normals, signal);
         return;
-      case "color":
-        this.#color = await this.#run("classicColors",
-          { file, components: this.#geometry.colorComponents, ...this.#layout(header) }, this.#signal);
+      }
+      case "color": {
+        const colors = await this.#run("classicColors", { file, components: this.#geometry.colorComponents, ...this.#layout(header) }, signal);
+        here.color = await this.#holdings.storeVertices(colors, signal);
+      }
     }
   }
 
+  get storedBytes(): number {
+    return this.#holdings.byteLength;
+  }
+
+  drop(): void {
+    // What is decoded of several planes together cannot be given up one by one.
+  }
+
+  clear(): void {
+    const { drawn, coord, normal, slope, color } = this.#here;
+    this.#holdings.retire(drawn?.index, coord, normal, slope, color);
+    this.#here = new Parts();
+  }
+
+  sweep(): void {
+    this.#holdings.sweep();
+  }
+
   stage(): BufferStage | undefined {
-    const coord = this.#coord;
+    const here = this.#here;
+    const { coord, color } = here;
     if (coord === undefined) return undefined;
-    const normal = this.#normal ?? this.#slope;
-    const normalCode = this.#normal ? normalCodeOf(this.#geometry) : { kind: "vector" } as const;
-    const color = this.#color;
+    const normal = here.normal ?? here.slope;
+    const normalCode = here.normal ? normalCodeOf(this.#geometry) : { kind: "vector" } as const;
     const name = stageNameOf(this.#patch, {
-      index: this.#drawn, normal: this.#normal, color, coord: Array.from({ length: this.#coordPlanes }),
+      index: here.drawn, normal: here.normal, color, coord: Array.from({ length: here.coordPlanes }),
     });
-    const points = { index: undefined, draws: [{ primitive: "points", first: 0, count: coord.array.length / coord.stride } as const] };
-    if (this.#patch.index === undefined && this.#patch.grid === undefined) this.#drawn ??= withoutStrips(undefined, drawRangesOf(this.#patch));
-    const { index, draws } = (name === "points" ? undefined : this.#drawn) ?? points;
+    const count = coord.bytes.byteLength / byteSizeOf(coord.type) / coord.stride;
+    const points = { index: undefined, draws: [{ primitive: "points", first: 0, count } as const] };
+    const { index, draws } = (name === "points" ? undefined : here.drawn) ?? points;
     return { kind: "buffers", name, index, draws, coord, normal, normalCode, color };
   }
 
   /** A plane is of use only when all above it are here. */
-  async #decodeCoords(): Promise<void> {
-    const header = this.#coordHeader;
-    const missing = Array.from({ length: this.#patch.coord.length }, (_, plane) => this.#planes[plane]).indexOf(undefined);
-    const planes = this.#planes.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
-    if (header === undefined || planes.length <= this.#coordPlanes) return;
+  async #decodeCoords(here: Parts, signal: AbortSignal): Promise<void> {
+    const header = here.coordHeader;
+    const missing = Array.from({ length: this.#patch.coord.length }, (_, plane) => here.planes[plane]).indexOf(undefined);
+    const planes = here.planes.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
+    if (header === undefined || planes.length <= here.coordPlanes) return;
     const planeCount = this.#patch.coord.length;
     const job = {
       planes, planeCount, middleOfMissing: middleOfMissing(this.#geometry, planeCount, planes.length), ...this.#layout(header, planes[0]),
     };
     const grid = this.#patch.grid;
-    const arrays = grid === undefined ? { coord: await this.#run("classicCoords", job, this.#signal) }
+    const arrays = grid === undefined ? { coord: await this.#run("classicCoords", job, signal) }
       : await this.#run("classicGrid", {
           ...job, grid, largestStored: largestStoredOf(this.#geometry, this.#patch), step: storedFrameOf(this.#geometry, this.#patch).step,
-        }, this.#signal);
-    if (planes.length <= this.#coordPlanes) return; // a later one was faster
-    this.#coord = arrays.coord;
-    this.#coordPlanes = planes.length;
-    if ("index" in arrays) {
-      this.#drawn = { index: arrays.index, draws: drawRangesOf(this.#patch) };
-      this.#slope = arrays.normal;
+        }, signal);
+    if ("index" in arrays) await this.#takeGrid(here, arrays, signal);
+    else if (this.#patch.index === undefined) await this.#takeUnindexed(here, signal);
+    const coord = await this.#holdings.storeVertices(arrays.coord, signal);
+    if (planes.length <= here.coordPlanes) {
+      this.#holdings.retire(coord); // a later one was faster
+      return;
     }
-    if (planes.length === planeCount) this.#planes = [];
+    this.#holdings.retire(here.coord);
+    here.coord = coord;
+    here.coordPlanes = planes.length;
+    if (planes.length === planeCount) here.planes = [];
+  }
+
+  async #takeGrid(here: Parts, { index, normal }: GridArrays, signal: AbortSignal): Promise<void> {
+    const slope = await this.#holdings.storeVertices(normal, signal);
+    this.#holdings.retire(here.slope);
+    here.slope = slope;
+    here.drawn ??= { index: await this.#holdings.storeIndex(index, signal), draws: drawRangesOf(this.#patch) };
+  }
+
+  async #takeUnindexed(here: Parts, signal: AbortSignal): Promise<void> {
+    if (here.drawn !== undefined) return;
+    const { index, draws } = withoutStrips(undefined, drawRangesOf(this.#patch));
+    here.drawn = { index: index && await this.#holdings.storeIndex(index, signal), draws };
   }
 
   /** The size of a coordinate image says what the index's columns and rows are. */
-  async #decodeIndex(): Promise<void> {
-    const file = this.#waitingIndex;
-    const header = this.#coordHeader;
+  async #decodeIndex(here: Parts, signal: AbortSignal): Promise<void> {
+    const file = here.waitingIndex;
+    const header = here.coordHeader;
     if (file === undefined || header === undefined) return;
-    this.#waitingIndex = undefined;
+    here.waitingIndex = undefined;
     const { index } = this.#patch;
     try {
-      this.#drawn = await this.#run("classicIndex", {
+      const drawn = await this.#run("classicIndex", {
         file, rowLength: this.#patch.implicitWidth, draws: drawRangesOf(this.#patch),
         isWide: this.#geometry.indexType === "Uint32",
         coordWidth: header.width, coordHeight: header.height, recordCount: this.#layout(header).count,
-      }, this.#signal);
+      }, signal);
+      here.drawn = { index: await this.#holdings.storeIndex(drawn.index, signal), draws: drawn.draws };
     } catch (error) {
+      if (signal.aborted) {
+        here.waitingIndex = file; // the coordinates were given up, not the index
+        throw error;
+      }
       // It may be the coordinates' coming that has led here.
       throw index ? asDeliveryError(error, index.url) : error;
     }

@@ -4,34 +4,52 @@
 
 import { DecodeError } from "../decode/decodeError.ts";
 import type { DecodedImage } from "../decode/image.ts";
-import type { RunJob } from "../decode/jobs.ts";
 import type { TexelRange, TextureStage } from "../decode/stage.ts";
 import { isPairCode } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { middleOfMissing } from "../document/storedFrame.ts";
 import { sigCpuBuilder } from "./sigCpuStage.ts";
-import type { StageBuilder } from "./stageBuilder.ts";
+import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
 import { drawRangesOf, normalCodeOf, stageNameOf } from "./stageBuilder.ts";
 
 /** Which of the two is known when the first file is here. */
-export function sigBuilder(geometry: GeometryDescription, patch: PatchDescription, run: RunJob, signal: AbortSignal): StageBuilder {
+export function sigBuilder(geometry: GeometryDescription, patch: PatchDescription, tools: BuilderTools): StageBuilder {
   let builder: StageBuilder | undefined;
   return {
-    accept(part, content) {
-      builder ??= content.kind === "image" ? sigGpuBuilder(geometry, patch) : sigCpuBuilder(geometry, patch, run, signal);
-      return builder.accept(part, content);
+    accept(part, content, signal) {
+      builder ??= content.kind === "image" ? sigGpuBuilder(geometry, patch) : sigCpuBuilder(geometry, patch, tools);
+      return builder.accept(part, content, signal);
     },
     stage: () => builder?.stage(),
+    get isDivisible() { return builder?.isDivisible ?? true; },
+    get storedBytes() { return builder?.storedBytes ?? 0; },
+    drop(part) { builder?.drop(part); },
+    clear() { builder?.clear(); },
+    sweep() { builder?.sweep(); },
   };
 }
 
 function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
-  const planes: (TexelRange | undefined)[] = [];
-  const here: { index?: TexelRange; normal?: TexelRange; color?: TexelRange } = {};
+  let planes: (TexelRange | undefined)[] = [];
+  let here: Partial<Record<"index" | "normal" | "color", TexelRange | undefined>> = {};
   const normalCode = normalCodeOf(geometry);
   const corners = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
 
   return {
+    isDivisible: true,
+    storedBytes: 0,
+    sweep: () => undefined,
+
+    drop({ role, plane }) {
+      if (role === "coord") planes[plane] = undefined;
+      else if (role !== "patch") here[role] = undefined;
+    },
+
+    clear() {
+      planes = [];
+      here = {};
+    },
+
     accept(part, content) {
       if (content.kind !== "image") throw new DecodeError("malformed", "is no image");
       const { image, channels } = content;

@@ -2,17 +2,38 @@
 // whatever order they come, checks each against the document, and says what can
 // be shown with those that are here. A part that never comes is merely absent.
 
+import type { RunJob } from "../decode/jobs.ts";
 import type { DrawRange, NormalCode, Stage, StageName } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { isPair } from "../document/geometry.ts";
+import type { StoreBytes } from "./holdings.ts";
 import type { Part } from "./parts.ts";
 import type { Content } from "./resources.ts";
 
 export interface StageBuilder {
-  /** Throws, or rejects with, DecodeError where the content does not hold what the document says. */
-  accept(part: Part, content: Content): void | Promise<void>;
+  /**
+   * Throws, or rejects with, DecodeError where the content does not hold what the
+   * document says, or the signal's reason; the part then counts as absent.
+   */
+  accept(part: Part, content: Content, signal: AbortSignal): void | Promise<void>;
   /** Undefined while nothing can be shown. */
   stage(): Stage | undefined;
+  /** Whether parts can be given up one by one; otherwise only all of them, with `clear`. */
+  readonly isDivisible: boolean;
+  /** Of stored arrays; images belong to whoever leases them. */
+  readonly storedBytes: number;
+  /** The part counts as absent from now on; where parts can be given up one by one. */
+  drop(part: Part): void;
+  /** All parts count as absent. */
+  clear(): void;
+  /** Gives back what earlier stages used and the next one does not; they must no longer be drawn. */
+  sweep(): void;
+}
+
+/** What builders work with. */
+export interface BuilderTools {
+  readonly runJob: RunJob;
+  readonly storeBytes: StoreBytes;
 }
 
 export function normalCodeOf({ container, normalEncoding, normalType }: GeometryDescription): NormalCode {

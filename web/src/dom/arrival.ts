@@ -1,9 +1,12 @@
-// The way of an image from its file to the GPU: decoded by the browser beside
-// the main thread, uploaded in strips before frames, and kept nowhere else.
+// The way of images and arrays to the GPU: images are decoded by the browser
+// beside the main thread; both are uploaded in pieces before frames, and kept
+// nowhere else.
 
 import type { DataImage, DecodedImage } from "../decode/image.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
+import type { ArrayUse, ElementArray, StoredBytes } from "../decode/stage.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
+import type { Steps } from "../scheduler/frameWork.ts";
 import { FrameWork } from "../scheduler/frameWork.ts";
 
 /** 240 MB in a second of 60 frames; the time leaves most of a frame to drawing. */
@@ -32,13 +35,24 @@ export class Arrival {
     }
   }
 
+  /** Rejects with the signal's reason; nothing is then left behind. */
+  async storeBytes(array: ElementArray, use: ArrayUse, signal: AbortSignal): Promise<StoredBytes> {
+    const { bytes, steps } = this.#renderer.beginStoring(array, use);
+    await this.#finish(steps, bytes, signal);
+    return bytes;
+  }
+
   async #upload(bitmap: ImageBitmap, signal: AbortSignal): Promise<DecodedImage> {
     const { image, steps } = this.#renderer.beginUpload(bitmap);
+    await this.#finish(steps, image, signal);
+    return image;
+  }
+
+  async #finish(steps: Steps, what: { close(): void }, signal: AbortSignal): Promise<void> {
     try {
       await this.#work.run(steps, signal);
-      return image;
     } catch (error) {
-      image.close();
+      what.close();
       throw error;
     }
   }

@@ -26,6 +26,12 @@ const number: Kind<number> = {
   parse: (text) => (text.trim() !== "" && Number.isFinite(Number(text)) ? Number(text) : undefined),
 };
 
+/** In bytes. */
+const megabytes: Kind<number> = {
+  form: "a number of megabytes",
+  parse: (text) => (text.trim() !== "" && Number(text) >= 0 ? Number(text) * 1e6 : undefined),
+};
+
 function oneOf<const Word extends string>(...words: readonly Word[]): Kind<Word> {
   return {
     form: `one of ${words.join(", ")}`,
@@ -98,10 +104,11 @@ export const viewAttributes = {
   "auto-rotate": attribute(flag, false),
   "auto-rotate-delay": attribute(number, 3000),
   "rotation-per-second": attribute(angle, Math.PI / 6),
-  "touch-action": attribute(oneOf("none", "pan-x", "pan-y"), "none"),
+  "touch-action": attribute(oneOf("auto", "none", "pan-x", "pan-y"), "auto"),
   "disable-zoom": attribute(flag, false),
   "disable-pan": attribute(flag, false),
   exposure: attribute(number, 1),
+  budget: attribute(megabytes, 1e9),
 } as const;
 
 export type ViewSettings = {

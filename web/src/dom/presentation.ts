@@ -14,6 +14,7 @@ import { Lists } from "./lists.ts";
 import { listenForPointing } from "./pointing.ts";
 import { Poster } from "./poster.ts";
 import { Viewer } from "./viewer.ts";
+import { keepTouchAction } from "./touchAction.ts";
 import { sizeOf, watchSize, whenNear } from "./visibility.ts";
 import { keyWords, stageWords, typeWords, viewWords } from "./words.ts";
 
@@ -39,6 +40,7 @@ export class Presentation {
   #shownPose: unknown;
   #shownType: string | undefined;
   #quietTimer: ReturnType<typeof setTimeout> | undefined;
+  readonly #applyTouchAction: () => void;
 
   /** `host` is the element in `x3d` whose shadow root the face fills. */
   constructor(x3d: Element, host: HTMLElement, face: Face, context: WebGL2RenderingContext) {
@@ -58,6 +60,8 @@ export class Presentation {
     this.#settings = this.#readSettings();
     navigator.isInstant = this.#lessMotion.matches;
     this.#lessMotion.addEventListener("change", ({ matches }) => { navigator.isInstant = matches; this.#rotate(); }, { signal });
+    this.#applyTouchAction = keepTouchAction(
+      face.canvas, () => (this.#hands.type === "none" ? "manipulation" : this.#settings["touch-action"]), signal);
     adoptSlotted(x3d, host);
     this.#follow(host);
     this.#apply();
@@ -146,6 +150,7 @@ export class Presentation {
     navigator.turntable.delayMs = settings["auto-rotate-delay"];
     navigator.turntable.radiansPerSecond = settings["rotation-per-second"];
     renderer.setExposure(settings.exposure);
+    this.viewer.setBudget(settings.budget);
     this.poster.reveal = settings.reveal;
     this.#describe();
     this.#rotate();
@@ -171,7 +176,7 @@ export class Presentation {
     canvas.ariaDescription = isStill ? null : keyWords[type];
     canvas.tabIndex = isStill ? -1 : 0;
     canvas.classList.toggle("moves", !isStill);
-    canvas.style.touchAction = isStill ? "auto" : this.#settings["touch-action"];
+    this.#applyTouchAction();
     this.#lists.update();
     if (this.#shownType !== undefined && this.#shownType !== type) this.#face.say(`${typeWords[type]}. ${keyWords[type]}`);
     this.#shownType = type;

@@ -22,6 +22,9 @@ export class Steering {
   #places = new Map<GeometryDescription, PlacedGeometry[]>();
   #weights: ChunkWeights = defaultChunkWeights;
   #view: View | undefined;
+  #mostBytes = Infinity;
+  /** What all deliveries were known to take when they were last steered. */
+  #knownBytes = 0;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isHeld = true;
 
@@ -39,15 +42,25 @@ export class Steering {
     this.steer();
   }
 
+  /** Bytes on the GPU that deliveries may take. */
+  setBudget(mostBytes: number): void {
+    if (mostBytes === this.#mostBytes) return;
+    this.#mostBytes = mostBytes;
+    this.steer();
+  }
+
   /** Asks for nothing before this. */
   begin(): void {
     this.#isHeld = false;
     this.steer();
   }
 
-  /** Soon, if the camera has moved since the last time. */
+  /** Soon, if since the last time the camera has moved, or more has come than may. */
   follow(): void {
-    if (this.#timer !== undefined || isSameView(this.#renderer.view, this.#view)) return;
+    if (this.#timer !== undefined) return;
+    const { storedBytes } = this.#deliveries;
+    const isOverBudget = storedBytes > this.#mostBytes && storedBytes !== this.#knownBytes;
+    if (!isOverBudget && isSameView(this.#renderer.view, this.#view)) return;
     this.#timer = setTimeout(() => { this.steer(); }, steeringIntervalMs);
   }
 
@@ -57,7 +70,8 @@ export class Steering {
     if (this.#isHeld) return;
     this.#view = this.#renderer.view;
     const viewing = viewingOf(this.#view, this.#weights);
-    this.#deliveries.demand((geometry) => demandFor(this.#places.get(geometry) ?? [], viewing));
+    this.#deliveries.demand((geometry) => demandFor(this.#places.get(geometry) ?? [], viewing), this.#mostBytes);
+    this.#knownBytes = this.#deliveries.storedBytes;
     this.#onSteered();
   }
 

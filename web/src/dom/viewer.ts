@@ -87,6 +87,7 @@ export class Viewer {
       readsTextures: () => this.#readsTextures(),
       largestTexture: this.renderer.largestTexture,
       runJob: (name, input, signal) => this.#workers.run(name, input, signal),
+      storeBytes: (array, use, signal) => arrival.storeBytes(array, use, signal),
       download: defaultDownloadOptions,
       // What is no URL is left for the request to fail on.
       resolve: (url) => (URL.canParse(url, document.baseURI) ? new URL(url, document.baseURI).href : url),
@@ -119,6 +120,11 @@ export class Viewer {
     this.#isLoading = true;
     this.#steering.begin();
     this.renderer.requestFrame();
+  }
+
+  /** Of vertex data and textures on the GPU, in bytes. */
+  setBudget(bytes: number): void {
+    this.#steering.setBudget(bytes);
   }
 
   get statistics(): ViewStatistics {
@@ -205,7 +211,7 @@ export class Viewer {
     shape.delivery = this.#deliveries.join(geometry, {
       onStage: (patch, stage) => {
         this.renderer.setStage(element, geometry, patch, stage);
-        shape.stages[patch] = stage.name;
+        shape.stages[patch] = stage?.name ?? "none";
         // A shape is as far as its last patch; with a first picture as soon as any patch shows.
         shape.loading.reach(stageShown(shape.stages));
       },
@@ -266,7 +272,7 @@ export class Viewer {
       const { loading, delivery } = shape;
       if (delivery && shape.isVisible && !loading.isEnded) loading.moveOn(progressOf(delivery.transfers, loading.progress));
     }
-    if (!this.#loading.isEnded) this.#loading.moveOn(progressOf(this.#pool.transfers(), this.#loading.progress));
+    if (!this.#loading.isEnded) this.#loading.moveOn(progressOf(this.#deliveries.transfers(), this.#loading.progress));
     this.#listener.onProgress(this.#loading.progress.totalProgress, this.#loading.stage);
   }
 

@@ -25,6 +25,7 @@ import { chunkWeightsOf } from "../scheduler/priority.ts";
 import type { Scheduler } from "../scheduler/scheduler.ts";
 import type { MaterialMaker, Surroundings } from "./appLook.ts";
 import { appLook } from "./appLook.ts";
+import { ArrayBuffers } from "./arrayBuffers.ts";
 import { BitmapTextures, largestTexture } from "./bitmapTextures.ts";
 import type { SceneHit } from "./scenePicking.ts";
 import { ScenePicker } from "./scenePicking.ts";
@@ -72,7 +73,6 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   readonly description: SceneDescription;
   /** Of all shapes that are seen, as the document tells it, in this object's coordinates. */
   readonly box: Box3;
-  readonly #pool: ResourcePool;
   readonly #deliveries: SharedDeliveries;
   readonly #shapes = new Map<SceneElement, LoadedShape>();
   readonly #firstImage = Promise.withResolvers<undefined>();
@@ -88,19 +88,21 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.description = description;
     for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined); // nobody has to listen
     const textures = new BitmapTextures();
-    this.#pool = new ResourcePool({
+    const buffers = new ArrayBuffers();
+    const pool = new ResourcePool({
       scheduler,
       makeImage: (png, signal) => textures.makeImage(png, signal),
       readsTextures: () => Promise.resolve(!keepsVertices),
       largestTexture,
       runJob,
+      storeBytes: (array) => Promise.resolve(buffers.store(array)),
       download: { ...defaultDownloadOptions, fetch },
       resolve,
       onTransfer: () => { this.#progressTimer ??= setTimeout(() => { this.#tellProgress(); }, progressIntervalMs); },
     });
-    this.#deliveries = new SharedDeliveries(this.#pool);
+    this.#deliveries = new SharedDeliveries(pool);
     const { root, box } = this.#build({
-      look: appLook(makeMaterial, surroundingsOf(this)), geometries: new GeometryPool(), textures,
+      look: appLook(makeMaterial, surroundingsOf(this)), geometries: new GeometryPool(buffers), buffers, textures,
       shared: { pointSize: { value: 1 }, depthRange: { value: new Vector2() } },
     });
     this.box = box;
@@ -123,7 +125,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
 
   /** Its files, as far as they are. */
   get transfers(): readonly Readonly<Transfer>[] {
-    return this.#pool.transfers();
+    return this.#deliveries.transfers();
   }
 
   /**

@@ -7,6 +7,7 @@ import type { DrawRange, Stage, TextureStage } from "../decode/stage.ts";
 import type { GeometryDescription, MaterialDescription, PatchDescription } from "../document/description.ts";
 import { boxAround } from "../document/geometry.ts";
 import { largestStoredOf, middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
+import type { Buffers } from "./buffers.ts";
 import type { Look, MaterialRequest, SceneUniforms, Shading, VertexColors } from "./look.ts";
 import type { DrawnObject } from "./pickDraw.ts";
 import { objectOf, PickDraw } from "./pickDraw.ts";
@@ -38,6 +39,7 @@ export interface Textures {
 export interface PatchSetting {
   readonly look: Look;
   readonly geometries: GeometryPool;
+  readonly buffers: Buffers;
   readonly textures: Textures;
   readonly shared: SceneUniforms;
   readonly geometry: GeometryDescription;
@@ -63,7 +65,7 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
     const uniforms = base ? { ...base, firstNumber: { value: range.first }, isStrip: { value: range.primitive === "triangleStrip" } } : common;
     const request: MaterialRequest = { ...form, shading: shadingOf(stage, range), colors, solid: geometry.solid, uniforms, shared };
     const material = look.makeMaterial(request, setting.material);
-    const pick = new PickDraw(stage, range, shape, { side: material.side, hasNormals: hasNormals(stage), ...form, uniforms });
+    const pick = new PickDraw(stage, range, shape, setting.buffers, { side: material.side, hasNormals: hasNormals(stage), ...form, uniforms });
     return [{ range, shape, material, request, pick }];
   });
   return {

@@ -131,13 +131,12 @@ export class Picker {
       point: new Vector3(...pickedWords.facePoint.map((place) => floats[place] ?? 0)),
       normal: new Vector3().fromArray(floats, pickedWords.faceNormal),
     };
-    if (pick.layout === undefined || pick.range.primitive === "points") return { number, vertex, face };
+    if (!pick.hasContents || pick.range.primitive === "points") return { number, vertex, face };
     if (this.#lastHit !== pick) this.#lastHit?.forget();
     this.#lastHit = pick;
-    const contents = pick.contents(this.#gl);
+    const contents = pick.contents();
     if (contents === undefined) return { number: 0, vertex, face };
-    const { coord, index } = contents;
-    const { coordStride, coordOffset } = pick.layout;
+    const { coord, index, coordStride, coordOffset } = contents;
     const positionOf = (n: number) => new Vector3().fromArray(coord, coordOffset + n * coordStride);
     const found = index ? primitiveIn(index, pick.range.primitive, vertex, point, positionOf)
       : primitiveEndingAt(vertex - pick.range.first, pick.range);

@@ -5,12 +5,14 @@ import {
   Box3, Color, DirectionalLight, Group, LinearSRGBColorSpace, LinearToneMapping, Matrix4, NoToneMapping, PerspectiveCamera, Scene, Vector2,
   WebGLRenderer,
 } from "three";
-import type { Stage } from "../decode/stage.ts";
+import type { ArrayUse, ElementArray, Stage } from "../decode/stage.ts";
 import type { GeometryDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { PlacedViewpoint, Pose } from "../navigation/camera.ts";
 import { applyPose, sphereAround } from "../navigation/camera.ts";
+import type { BufferUpload } from "./buffers.ts";
+import { BufferStore } from "./buffers.ts";
 import type { SceneUniforms } from "./look.ts";
 import { setColor, x3dLook } from "./materials.ts";
 import type { Hit, PickCandidate, Place } from "./picking.ts";
@@ -29,8 +31,9 @@ export interface RenderStatistics {
   readonly textures: number;
   readonly geometries: number;
   readonly programs: number;
-  /** That textures take; those of images only. */
+  /** That vertex data take: images and buffers. */
   readonly textureBytes: number;
+  readonly bufferBytes: number;
 }
 
 /** Where the camera is and what it sees, as plain numbers. */
@@ -78,7 +81,8 @@ export class SceneRenderer {
   readonly #headlight = new DirectionalLight();
   readonly #shared: SceneUniforms = { pointSize: { value: pointSizeInCssPixels }, depthRange: { value: new Vector2() } };
   readonly #textures = new TextureStore();
-  readonly #setting: ShapeSetting = { look: x3dLook, geometries: new GeometryPool(), textures: this.#textures, shared: this.#shared };
+  readonly #buffers: BufferStore;
+  readonly #setting: ShapeSetting;
   readonly #shapes = new Map<SceneElement, ShapeObject>();
   readonly #cameraMan: CameraMan;
   readonly #onFrame: () => void;
@@ -97,6 +101,10 @@ export class SceneRenderer {
     this.#cameraMan = cameraMan;
     this.#onFrame = onFrame;
     this.#renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
+    this.#buffers = new BufferStore(context);
+    this.#setting = {
+      look: x3dLook, geometries: new GeometryPool(this.#buffers), buffers: this.#buffers, textures: this.#textures, shared: this.#shared,
+    };
     this.#picker = new Picker(this.#renderer);
     // The numbers of the document are the numbers of the screen: see materials.ts.
     this.#renderer.outputColorSpace = LinearSRGBColorSpace;
@@ -111,7 +119,7 @@ export class SceneRenderer {
   get statistics(): RenderStatistics {
     const { memory, programs } = this.#renderer.info;
     return { frames: this.#frames, textures: memory.textures, geometries: memory.geometries, programs: programs?.length ?? 0,
-             textureBytes: this.#textures.bytes };
+             textureBytes: this.#textures.bytes, bufferBytes: this.#buffers.bytes };
   }
 
   /** Nothing is drawn, and nothing is on the GPU, until the browser gives the context back. */
@@ -190,8 +198,13 @@ export class SceneRenderer {
     return this.#textures.begin(bitmap, this.#renderer);
   }
 
+  /** The same of an array. */
+  beginStoring(array: ElementArray, use: ArrayUse): BufferUpload {
+    return this.#buffers.begin(array, use);
+  }
+
   /** Replaces what a patch of a shape of the current scene shows. */
-  setStage(element: SceneElement, geometry: GeometryDescription, patch: number, stage: Stage): void {
+  setStage(element: SceneElement, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
     this.#shapes.get(element)?.setStage(geometry, patch, stage);
     this.requestFrame();
   }

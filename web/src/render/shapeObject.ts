@@ -3,12 +3,12 @@
 
 import { Group } from "three";
 import type { Stage } from "../decode/stage.ts";
-import type { GeometryDescription, MaterialDescription, ShapeDescription } from "../document/description.ts";
+import type { GeometryDescription, MaterialDescription, PatchDescription, ShapeDescription } from "../document/description.ts";
 import type { PatchDraws, PatchSetting, PlacedDraw } from "./patchDraws.ts";
 import { drawStage } from "./patchDraws.ts";
 
 /** What all shapes of a scene share. */
-export type ShapeSetting = Pick<PatchSetting, "look" | "geometries" | "textures" | "shared">;
+export type ShapeSetting = Pick<PatchSetting, "look" | "geometries" | "buffers" | "textures" | "shared">;
 
 interface ShownPatch {
   readonly draws: PatchDraws;
@@ -60,15 +60,20 @@ export class ShapeObject {
     for (const { draws } of this.#patches.values()) draws.applyMaterial(material);
   }
 
-  /** The new stage takes the old one's place as a whole; textures that both use stay where they are. */
-  setStage(geometry: GeometryDescription, place: number, stage: Stage): void {
+  /** The new stage takes the old one's place as a whole; textures that both use stay where they are. Undefined: nothing does. */
+  setStage(geometry: GeometryDescription, place: number, stage: Stage | undefined): void {
     const patch = geometry.patches[place];
     if (patch === undefined) throw new RangeError(`no patch ${place}`);
     const before = this.#patches.get(place);
+    this.#patches.delete(place);
+    if (stage !== undefined) this.#show(geometry, patch, place, stage);
+    if (before !== undefined) takeAway(before);
+  }
+
+  #show(geometry: GeometryDescription, patch: PatchDescription, place: number, stage: Stage): void {
     const shown = { draws: drawStage(stage, { ...this.#setting, geometry, patch, material: this.#material }), placed: [] };
     for (const group of this.#groups) hang(shown, group);
     this.#patches.set(place, shown);
-    if (before !== undefined) takeAway(before);
   }
 
   /** Every draw in every place, with the number of its patch. */

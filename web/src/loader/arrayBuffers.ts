@@ -1,0 +1,57 @@
+// Arrays of vertex data as buffers of whatever renderer draws them first. They
+// keep their arrays, as three.js' own attributes do, so that a lost context comes
+// back by itself.
+
+import type { BufferGeometry } from "three";
+import { BufferAttribute, InterleavedBuffer } from "three";
+import type { ElementType } from "../decode/elements.ts";
+import { arrayTypeOf, byteSizeOf } from "../decode/elements.ts";
+import type { ElementArray, StoredBytes } from "../decode/stage.ts";
+import type { Buffers } from "../render/buffers.ts";
+
+interface Kept {
+  readonly array: ElementArray;
+  /** What three.js has been given of it, by how it looks at it: one buffer each. */
+  readonly records: Map<string, InterleavedBuffer>;
+}
+
+export class ArrayBuffers implements Buffers {
+  readonly #kept = new WeakMap<StoredBytes, Kept>();
+
+  store(array: ElementArray): StoredBytes {
+    const bytes = { byteLength: array.byteLength, close: () => { this.#kept.delete(bytes); } };
+    this.#kept.set(bytes, { array, records: new Map() });
+    return bytes;
+  }
+
+  recordsOf(bytes: StoredBytes, type: ElementType, stride: number): InterleavedBuffer {
+    const { records } = this.#keptOf(bytes);
+    const key = `${type} ${stride}`;
+    const known = records.get(key) ?? new InterleavedBuffer(this.#viewOf(bytes, type), stride);
+    records.set(key, known);
+    return known;
+  }
+
+  indexOf(bytes: StoredBytes, type: ElementType): BufferAttribute {
+    return new BufferAttribute(this.#viewOf(bytes, type), 1);
+  }
+
+  read(bytes: StoredBytes, type: ElementType, first: number, count = Infinity): ElementArray {
+    return this.#viewOf(bytes, type).slice(first, first + count);
+  }
+
+  dispose(geometry: BufferGeometry): void {
+    geometry.dispose();
+  }
+
+  #viewOf(bytes: StoredBytes, type: ElementType): ElementArray {
+    const { array } = this.#keptOf(bytes);
+    return new (arrayTypeOf(type))(array.buffer, array.byteOffset, array.byteLength / byteSizeOf(type));
+  }
+
+  #keptOf(bytes: StoredBytes): Kept {
+    const kept = this.#kept.get(bytes);
+    if (kept === undefined) throw new RangeError("the array is closed");
+    return kept;
+  }
+}
