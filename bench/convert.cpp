@@ -1,7 +1,7 @@
 // What `imgeo convert` takes and gives, measured as a user would see it: whole
 // processes, medians of five, peak memory as the kernel counts it. Each site is
-// verified before it is timed. On the first model every effort, and npm's gltfpack (meshoptimizer
-// compiled to WebAssembly) runs beside it, on the same mesh as GLB.
+// verified before it is timed. npm's gltfpack (meshoptimizer compiled to WebAssembly)
+// takes turns with it on the same meshes as GLB; the first model has every effort.
 // Prints Markdown tables for the README.
 //
 //   build/bench/convert MODEL...        (in the repository's root)
@@ -29,18 +29,23 @@ using Json = nlohmann::json;
 constexpr int runs = 5;
 constexpr const char* defaultEffort = "5";
 
-/// The median time and the largest peak.
-Run measure(const std::vector<std::string>& words) {
-  std::vector<double> seconds;
-  Run result;
-  for (int i = 0; i < runs; ++i) {
-    const Run run = runOnce(words);
-    seconds.push_back(run.seconds);
-    result.peakBytes = std::max(result.peakBytes, run.peakBytes);
+/// For each program the median times and the largest peak. They take turns, so that
+/// what else the machine does falls on all alike.
+std::vector<Run> measureInTurns(const std::vector<std::vector<std::string>>& programs) {
+  std::vector<std::vector<Run>> all(programs.size());
+  for (int round = 0; round < runs; ++round)
+    for (std::size_t i = 0; i < programs.size(); ++i)
+      all[i].push_back(runOnce(programs[i]));
+  std::vector<Run> medians;
+  for (std::vector<Run>& of : all) {
+    const auto median = [&](auto member) {
+      std::ranges::nth_element(of, of.begin() + runs / 2, {}, member);
+      return of[runs / 2].*member;
+    };
+    const double seconds = median(&Run::seconds), processorSeconds = median(&Run::processorSeconds);
+    medians.push_back({seconds, processorSeconds, std::ranges::max(of, {}, &Run::peakBytes).peakBytes});
   }
-  std::ranges::sort(seconds);
-  result.seconds = seconds[runs / 2];
-  return result;
+  return medians;
 }
 
 double millions(double number) {
@@ -52,16 +57,23 @@ struct Measured {
   Json report;
 };
 
+std::vector<std::string> convertWords(const std::string& model, const std::string& container,
+                                      const std::string& effort, const fs::path& work) {
+  return {"build/imgeo",        "convert",  model, "-o", work / "site", "--container", container, "-r",
+          work / "report.json", "--effort", effort};
+}
+
+Json reportIn(const fs::path& work) {
+  return Json::parse(asText(readFile(work / "report.json")));
+}
+
 Measured measureConvert(const std::string& model, const std::string& container, const std::string& effort,
                         const fs::path& work) {
-  const std::string site = work / "site", report = work / "report.json";
-  const std::vector<std::string> words{"build/imgeo", "convert", model,  "-o",       site,  "--container",
-                                       container,     "-r",      report, "--effort", effort};
+  const std::vector<std::string> words = convertWords(model, container, effort, work);
   runOnce(words);
-  runOnce({"build/imgeo", "verify", site, model});
-  Measured measured{measure(words), {}};
-  measured.report = Json::parse(asText(readFile(report)));
-  return measured;
+  runOnce({"build/imgeo", "verify", work / "site", model});
+  const Run run = measureInTurns({words})[0];
+  return {run, reportIn(work)};
 }
 
 void printRow(const std::string& name, const std::string& container, const Measured& measured) {
@@ -78,30 +90,42 @@ void printRow(const std::string& name, const std::string& container, const Measu
   std::fflush(stdout);
 }
 
-void compareWithGltfpack(const std::string& model, const Measured& sig, const fs::path& work) {
-  const fs::path glb = work / "model.glb", packed = work / "packed.glb";
+/// The same mesh, welded and with its normals, as GLB to both.
+void compareWithGltfpack(const std::string& model, const fs::path& work) {
+  const std::string name = fs::path(model).filename(), glb = work / "model.glb", packed = work / "packed.glb";
   writePrepared(model, glb, MeshFormat::glb);
   const Json package = Json::parse(asText(readFile("node_modules/gltfpack/package.json")));
-  const double triangles = sig.report["triangles"];
-  fmt::print("\n| {} | time | ratio | peak memory | bytes/triangle |\n|---|--:|--:|--:|--:|\n",
-             fs::path(model).filename().string());
+  const std::vector<std::string> gltfpack{
+      "node", "node_modules/gltfpack/cli.js", "-i", glb, "-o", packed, "-vp", "16", "-vn", "8"};
+  std::vector<std::string> gltfpackCompressed = gltfpack;
+  gltfpackCompressed.push_back("-cc");
+
+  const auto fromGlb = convertWords(glb, "sig", defaultEffort, work),
+             fromModel = convertWords(model, "sig", defaultEffort, work);
+  runOnce(fromGlb);
+  const Json report = reportIn(work);
+  runOnce(gltfpack);
+  const auto size = static_cast<double>(fs::file_size(packed));
+  runOnce(gltfpackCompressed);
+  const auto sizeCompressed = static_cast<double>(fs::file_size(packed));
+
+  const std::vector<Run> measured = measureInTurns({fromGlb, fromModel, gltfpack, gltfpackCompressed});
+  const double triangles = report["triangles"], ours = triangles * report["bytesPerTriangle"].get<double>();
+  fmt::print("\n| {} | time | of imgeo's | processor time | peak memory | bytes/triangle |\n"
+             "|---|--:|--:|--:|--:|--:|\n",
+             name);
   const auto print = [&](const std::string& what, const Run& run, double bytes) {
-    fmt::print("| {} | {:.2f} s | {:.2f} | {:.0f} MB | {:.2f} |\n", what, run.seconds,
-               run.seconds / sig.run.seconds, millions(static_cast<double>(run.peakBytes)),
-               bytes / triangles);
-    std::fflush(stdout);
+    fmt::print("| {} | {:.2f} s | {:.2f} | {:.2f} s | {:.0f} MB | {:.2f} |\n", what, run.seconds,
+               run.seconds / measured[0].seconds, run.processorSeconds,
+               millions(static_cast<double>(run.peakBytes)), bytes / triangles);
   };
-  print("imgeo convert, from gzipped ASCII PLY", sig.run,
-        triangles * sig.report["bytesPerTriangle"].get<double>());
-  for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"-cc"}}) {
-    std::vector<std::string> words{
-        "node", "node_modules/gltfpack/cli.js", "-i", glb, "-o", packed, "-vp", "16", "-vn", "8"};
-    words.insert(words.end(), options.begin(), options.end());
-    const Run run = measure(words);
-    print(fmt::format("gltfpack {} (npm, library.wasm) -vp 16 -vn 8{}, from GLB",
-                      package["version"].get<std::string>(), options.empty() ? "" : " -cc"),
-          run, static_cast<double>(fs::file_size(packed)));
-  }
+  const std::string version =
+      fmt::format("gltfpack {} (npm, library.wasm) `-vp 16 -vn 8", package["version"].get<std::string>());
+  print("imgeo convert, from GLB", measured[0], ours);
+  print("imgeo convert, from " + name, measured[1], ours);
+  print(version + "`, from GLB", measured[2], size);
+  print(version + " -cc`, from GLB", measured[3], sizeCompressed);
+  std::fflush(stdout);
 }
 
 /// What each effort takes and gives, as images.
@@ -124,16 +148,13 @@ int benchmark(const std::vector<std::string>& models) {
   fmt::print("| model | container | triangles | convert | speed | peak memory | index | coord | normal | "
              "document | together |\n"
              "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
-  std::vector<Measured> first;
   for (const std::string& model : models)
-    for (const std::string container : {"sig", "bg"}) {
-      const Measured measured = measureConvert(model, container, defaultEffort, work);
-      printRow(fs::path(model).filename(), container, measured);
-      first.push_back(measured);
-    }
+    for (const std::string container : {"sig", "bg"})
+      printRow(fs::path(model).filename(), container, measureConvert(model, container, defaultEffort, work));
   fmt::print("\nBytes a triangle by role; medians of {} runs on {} threads.\n", runs,
              sysconf(_SC_NPROCESSORS_ONLN));
-  compareWithGltfpack(models.front(), first.front(), work);
+  for (const std::string& model : models)
+    compareWithGltfpack(model, work);
   compareEfforts(models.front(), work);
   fs::remove_all(work);
   return 0;

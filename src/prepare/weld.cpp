@@ -58,16 +58,37 @@ std::span<const float> valuesOf(const NamedAttribute& attribute, std::uint32_t v
       .subspan(std::size_t{vertex} * attribute.components, attribute.components);
 }
 
-Renumbering weldPositions(Mesh& mesh) {
+/// For each position the first that is the same. In the order of memory, so that the slots
+/// of those to come can be fetched ahead: most of the time of a large table goes into waiting.
+std::vector<std::uint32_t> firstAlike(const std::vector<Vec3f>& positions) {
+  constexpr std::size_t ahead = 16;
+  IndexTable table(positions.size());
+  std::vector<std::uint32_t> first(positions.size());
+  for (std::uint32_t i = 0; i < positions.size(); ++i) {
+    if (i + ahead < positions.size())
+      table.prefetch(hashOf(0, positions[i + ahead]));
+    first[i] = table.findOrInsert(hashOf(0, positions[i]), i,
+                                  [&](std::uint32_t other) { return same(positions[other], positions[i]); });
+  }
+  return first;
+}
+
+Renumbering weldPositions(const Mesh& mesh) {
+  const std::vector<std::uint32_t> first = firstAlike(mesh.positions);
+  std::vector<std::uint32_t> numberOfFirst(mesh.positions.size(), IndexTable::none);
   Renumbering numbers(mesh.positions.size());
-  IndexTable table(mesh.positions.size());
   for (const std::uint32_t wedge : mesh.corners) {
     const std::uint32_t old = mesh.wedgePositions[wedge];
     if (numbers.newOf[old] != IndexTable::none)
       continue;
-    const Vec3f& position = mesh.positions[old];
-    numbers.number(old, table, hashOf(0, position),
-                   [&](std::uint32_t other) { return same(mesh.positions[other], position); });
+    std::uint32_t& number = numberOfFirst[first[old]];
+    if (number == IndexTable::none) {
+      number = static_cast<std::uint32_t>(numbers.kept.size());
+      numbers.kept.push_back(old);
+    } else {
+      ++numbers.merged;
+    }
+    numbers.newOf[old] = number;
   }
   return numbers;
 }
