@@ -40,14 +40,6 @@ public:
   /// Begins to fetch the slot of a hash that will be asked for soon.
   void prefetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash & (slots_.size() - 1)], 1); }
 
-  /// The index in the table that `equals`, or `none`.
-  template <typename Equals> std::uint32_t find(std::uint64_t hash, Equals equals) const {
-    const std::size_t mask = slots_.size() - 1;
-    for (std::size_t at = hash & mask;; at = (at + 1) & mask)
-      if (slots_[at] == none || equals(slots_[at]))
-        return slots_[at];
-  }
-
 private:
   std::vector<std::uint32_t> slots_;
 };

@@ -1,9 +1,11 @@
 #pragma once
-// The triangles at a directed edge that have not been taken yet, in constant time
-// however many share it.
+// The triangles at a directed edge that have not been taken yet: nearly at once where
+// vertices have a few, and in logarithmic time however many share a vertex or an edge.
 
-#include "prepare/index_table.h"
+#include "prepare/incidence.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -13,57 +15,73 @@ class EdgeTable {
 public:
   static constexpr std::uint32_t none = UINT32_MAX;
 
-  /// `vertices` are corners of triangles and outlive the table. Triangles with two
-  /// equal corners have no edges here.
-  explicit EdgeTable(std::span<const std::uint32_t> vertices)
-      : vertices_(vertices), table_(vertices.size()), heads_(vertices.size(), none),
-        following_(vertices.size(), none), taken_(vertices.size() / 3) {
-    // From the last to the first, so that a list has the source's order.
-    for (std::size_t triangle = taken_.size(); triangle-- > 0;) {
-      const auto first = static_cast<std::uint32_t>(triangle * 3);
-      const std::uint32_t a = vertices[first], b = vertices[first + 1], c = vertices[first + 2];
-      if (a == b || b == c || c == a)
-        continue;
-      for (std::uint32_t corner = first; corner < first + 3; ++corner) {
-        const std::uint32_t list =
-            table_.findOrInsert(hashOf(corner), corner, [&](std::uint32_t i) { return isSame(i, corner); });
-        following_[corner] = heads_[list];
-        heads_[list] = corner;
+  /// `vertices`, below `vertexCount`, are corners of triangles. Triangles with two equal
+  /// corners have no edges here.
+  EdgeTable(std::span<const std::uint32_t> vertices, std::uint32_t vertexCount)
+      : taken_(vertices.size() / 3) {
+    const Incidence incidence =
+        incidenceOf(vertices.size(), vertexCount, [&](std::size_t corner) { return vertices[corner]; });
+    edges_.reserve(vertices.size());
+    begins_.reserve(vertexCount + 1);
+    for (std::uint32_t from = 0; from < vertexCount; ++from) {
+      begins_.push_back(static_cast<std::uint32_t>(edges_.size()));
+      for (const std::uint32_t corner : incidence.of(from)) {
+        const std::uint32_t first = corner - corner % 3;
+        const std::uint32_t to = vertices[first + (corner + 1) % 3],
+                            third = vertices[first + (corner + 2) % 3];
+        if (from != to && to != third && third != from)
+          edges_.push_back({to, corner});
       }
+      std::sort(edges_.begin() + begins_.back(), edges_.end(), before);
     }
+    begins_.push_back(static_cast<std::uint32_t>(edges_.size()));
   }
 
   /// The corner at `from` of a triangle, not taken yet, that has the edge from -> to; or none.
   std::uint32_t find(std::uint32_t from, std::uint32_t to) {
-    const std::uint32_t list = table_.find(hashOf(from, to), [&](std::uint32_t i) {
-      return vertices_[i] == from && vertices_[afterCorner(i)] == to;
-    });
-    if (list == IndexTable::none)
+    const std::uint32_t end = begins_[from + 1];
+    std::uint32_t at = begins_[from];
+    if (end - at > fewEdges)
+      at = static_cast<std::uint32_t>(
+          std::lower_bound(edges_.begin() + at, edges_.begin() + end, Edge{to, 0}, before) - edges_.begin());
+    else
+      while (at != end && edges_[at].to < to)
+        ++at;
+    if (at == end || edges_[at].to != to)
       return none;
-    std::uint32_t& head = heads_[list];
-    while (head != none && taken_[head / 3])
-      head = following_[head];
-    return head;
+    if (!isTaken(edges_[at].corner / 3))
+      return edges_[at].corner;
+    return findBehind(at, end, to);
   }
 
   bool isTaken(std::uint32_t triangle) const { return taken_[triangle]; }
   void take(std::uint32_t triangle) { taken_[triangle] = true; }
 
 private:
-  static std::uint32_t afterCorner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-  static std::uint64_t hashOf(std::uint32_t from, std::uint32_t to) {
-    return mixHash(0, std::uint64_t{from} << 32 | to);
-  }
-  std::uint64_t hashOf(std::uint32_t corner) const {
-    return hashOf(vertices_[corner], vertices_[afterCorner(corner)]);
-  }
-  bool isSame(std::uint32_t a, std::uint32_t b) const {
-    return vertices_[a] == vertices_[b] && vertices_[afterCorner(a)] == vertices_[afterCorner(b)];
+  struct Edge {
+    std::uint32_t to, corner;
+  };
+  static constexpr std::uint32_t fewEdges = 16;
+
+  /// Those of one edge in the source's order.
+  static bool before(const Edge& a, const Edge& b) {
+    return a.to != b.to ? a.to < b.to : a.corner < b.corner;
   }
 
-  std::span<const std::uint32_t> vertices_;
-  IndexTable table_;
-  std::vector<std::uint32_t> heads_, following_; ///< lists of corners, one an edge
+  /// Of several triangles at one edge: those found to be taken are passed over once.
+  std::uint32_t findBehind(std::uint32_t first, std::uint32_t end, std::uint32_t to) {
+    if (passed_.empty())
+      passed_.resize(edges_.size());
+    std::uint32_t at = first + passed_[first];
+    while (at != end && edges_[at].to == to && isTaken(edges_[at].corner / 3))
+      ++at;
+    passed_[first] = at - first;
+    return at != end && edges_[at].to == to ? edges_[at].corner : none;
+  }
+
+  std::vector<Edge> edges_;           ///< by the vertex that they begin at, then by that they lead to
+  std::vector<std::uint32_t> begins_; ///< by vertex: of its edges; and their end
+  std::vector<std::uint32_t> passed_; ///< by the first of equal edges: how many are taken for certain
   std::vector<bool> taken_;
 };
 

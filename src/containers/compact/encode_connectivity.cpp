@@ -11,8 +11,8 @@ class TriangleGuide {
 public:
   TriangleGuide(std::span<const std::uint32_t> vertices, std::uint32_t vertexCount,
                 std::uint32_t firstTriangle, std::vector<std::uint32_t>& sourceCorner)
-      : vertices_(vertices), edges_(vertices), numbers_(vertexCount, none), latestNodes_(vertexCount, none),
-        nextRoot_(firstTriangle), sourceCorner_(sourceCorner) {
+      : vertices_(vertices), edges_(vertices, vertexCount), numbers_(vertexCount, none),
+        latestNodes_(vertexCount, none), nextRoot_(firstTriangle), sourceCorner_(sourceCorner) {
     sources_.reserve(vertexCount);
     sourceCorner_.clear();
     sourceCorner_.reserve(vertices.size());
