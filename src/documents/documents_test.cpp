@@ -434,17 +434,18 @@ TEST(Documents, AreValidUtf8WhateverTheirNamesAre) {
   EXPECT_EQ(read.graph.title, "a" + r + "(" + r + r + r + r + "z" + r + r);
 }
 
-TEST(Html, HintsAtTheFirstPlanesThenAtTheIndices) {
+TEST(Html, HintsAtTheFirstPlanesAndWholePatchesThenAtTheIndices) {
   SceneDocument document = documentNamed("a");
   document.geometries[0].patches[0].index = {"i.png", 0, 0};
   document.geometries[1].patches[0].coord[0].url = "c.png";
+  document.geometries[1].patches.emplace_back().data = Reference{"d.png", 0, 0};
   const std::string html = writeHtml(document, page);
   std::string hints;
   const std::string hint =
       "<link rel=\"preload\" as=\"fetch\" crossorigin=\"anonymous\" fetchpriority=\"high\" href=\"";
   for (std::size_t at = html.find(hint); at != std::string::npos; at = html.find(hint, at + 1))
     hints += html.substr(at + hint.size(), 5) + " ";
-  EXPECT_EQ(hints, "a.png c.png i.png ");
+  EXPECT_EQ(hints, "a.png c.png d.png i.png ");
 }
 
 TEST(Html, HintsAtNoMoreThanSixteenFiles) {

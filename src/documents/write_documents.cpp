@@ -13,8 +13,8 @@ namespace {
 /// More hints than this compete with what they are to hasten.
 constexpr std::size_t maxPreloads = 16;
 
-/// What the runtime requests first, in its order: the most significant
-/// coordinate bytes of all patches, then their indices.
+/// What the runtime requests first, in its order: all of a patch in compact, or
+/// the most significant coordinate bytes of all patches, then their indices.
 std::vector<std::string> firstRequests(const SceneDocument& document) {
   std::vector<std::string> urls;
   const auto add = [&](const Reference& reference) {
@@ -28,6 +28,8 @@ std::vector<std::string> firstRequests(const SceneDocument& document) {
         visit(patch);
   };
   forEachPatch([&](const PatchDescription& patch) {
+    if (patch.data)
+      add(*patch.data);
     if (!patch.coord.empty())
       add(patch.coord[0]);
   });

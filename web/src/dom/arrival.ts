@@ -18,7 +18,14 @@ const framelessMs = 250;
 
 export class Arrival {
   readonly #renderer: SceneRenderer;
-  readonly #work = new FrameWork({ bytesPerFrame, millisecondsPerFrame, now: () => performance.now(), requestFrame: beforeNextFrame });
+  readonly #work = new FrameWork({
+    bytesPerFrame, millisecondsPerFrame, now: () => performance.now(),
+    // Where there is no picture yet there is none to hold up.
+    requestFrame: (callback) => {
+      if (this.#renderer.isEmpty) setTimeout(callback);
+      else beforeNextFrame(callback);
+    },
+  });
 
   constructor(renderer: SceneRenderer) {
     this.#renderer = renderer;

@@ -69,6 +69,10 @@ export class Viewer {
   readonly #listeners = new AbortController();
   readonly #listener: ViewerListener;
   readonly #logged = new Set<string>();
+  /** Believed of every GPU that has the units for it, until the trial. */
+  #readsTextures: boolean;
+  /** Due with the first picture of textures. Until it has ended nothing is complete. */
+  #trial: "needless" | "due" | "running" | "ended" = "needless";
   #loading: Loading;
   #isLoading = false;
   #progressTimer: ReturnType<typeof setTimeout> | undefined;
@@ -80,11 +84,13 @@ export class Viewer {
     this.#loading = new Loading(x3d);
     this.navigator = new Navigator(() => { this.renderer.requestFrame(); }, () => { listener.onNavigation(); });
     this.renderer = new SceneRenderer(canvas, context, this.navigator, () => { this.#onFrame(); });
+    this.#readsTextures = this.renderer.mayReadTextures;
+    if (!this.#readsTextures) this.#warnOfGpu();
     const arrival = new Arrival(this.renderer);
     this.#pool = new ResourcePool({
       scheduler: this.#scheduler,
       makeImage: (png, signal) => arrival.makeImage(png, signal),
-      readsTextures: () => this.#readsTextures(),
+      readsTextures: () => Promise.resolve(this.#readsTextures),
       largestTexture: this.renderer.largestTexture,
       runJob: (name, input, signal) => this.#workers.run(name, input, signal),
       storeBytes: (array, use, signal) => arrival.storeBytes(array, use, signal),
@@ -109,7 +115,7 @@ export class Viewer {
     const { signal } = this.#listeners;
     // The renderer has heard of it before: its listeners are older.
     this.#canvas.addEventListener("webglcontextlost", () => { this.#loseContext(); }, { signal });
-    this.#canvas.addEventListener("webglcontextrestored", () => { this.#restoreContext(); }, { signal });
+    this.#canvas.addEventListener("webglcontextrestored", () => { this.#deliverAll(); }, { signal });
     watchProtocol(signal, (protocol) => { this.#scheduler.slotCount = slotsFor(protocol); });
     this.#observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
     this.#readDocument();
@@ -119,12 +125,20 @@ export class Viewer {
   load(): void {
     this.#isLoading = true;
     this.#steering.begin();
+    this.#workers.prepare(this.#jobsToCome());
     this.renderer.requestFrame();
   }
 
   /** Of vertex data and textures on the GPU, in bytes. */
   setBudget(bytes: number): void {
     this.#steering.setBudget(bytes);
+  }
+
+  /** Patches whose files are for workers to decode, whatever the GPU can do. */
+  #jobsToCome(): number {
+    const shapes = Array.from(this.#shapes.values());
+    return shapes.reduce((sum, { geometry, isVisible }) =>
+      sum + (isVisible && (geometry?.container === "compact" || geometry?.decode === "cpu") ? geometry.patches.length : 0), 0);
   }
 
   get statistics(): ViewStatistics {
@@ -147,10 +161,26 @@ export class Viewer {
     this.renderer.dispose();
   }
 
-  async #readsTextures(): Promise<boolean> {
+  /**
+   * After the first picture, so that nobody waits for it. The few GPUs that fail show
+   * a wrong shape for as long as this takes; then all is fetched anew, for workers.
+   */
+  async #tryTextures(): Promise<void> {
+    this.#trial = "running";
     const reads = await this.renderer.readsTextures();
-    if (!reads) this.#warn(this.#x3d, "images cannot be read exactly on this GPU; vertices are decoded in workers");
-    return reads;
+    this.#trial = "ended";
+    if (this.#listeners.signal.aborted) return;
+    if (!reads && !this.renderer.isContextLost) {
+      this.#readsTextures = false;
+      this.#warnOfGpu();
+      this.#clear();
+      this.#deliverAll();
+    }
+    this.#onSteered();
+  }
+
+  #warnOfGpu(): void {
+    this.#warn(this.#x3d, "images cannot be read exactly on this GPU; vertices are decoded in workers");
   }
 
   #readDocument(): void {
@@ -211,6 +241,7 @@ export class Viewer {
     shape.delivery = this.#deliveries.join(geometry, {
       onStage: (patch, stage) => {
         this.renderer.setStage(element, geometry, patch, stage);
+        if (stage?.kind === "textures" && this.#trial === "needless") this.#trial = "due";
         shape.stages[patch] = stage?.name ?? "none";
         // A shape is as far as its last patch; with a first picture as soon as any patch shows.
         shape.loading.reach(stageShown(shape.stages));
@@ -231,6 +262,10 @@ export class Viewer {
   /** All that was on the GPU is gone. What is asked for now would come to nothing. */
   #loseContext(): void {
     this.#warn(this.#x3d, "has lost its WebGL context, which the browser took; it comes back with it");
+    this.#clear();
+  }
+
+  #clear(): void {
     for (const [element, shape] of this.#shapes) {
       this.renderer.clearShape(element);
       shape.delivery?.cancel();
@@ -240,7 +275,7 @@ export class Viewer {
   }
 
   /** Everything is fetched once more, from the browser's cache as a rule. Events go on where they were. */
-  #restoreContext(): void {
+  #deliverAll(): void {
     for (const [element, shape] of this.#shapes) {
       if (shape.geometry !== undefined) this.#deliver(shape, shape.geometry, element as Element);
     }
@@ -249,7 +284,7 @@ export class Viewer {
   }
 
   #settle(shape: LoadedShape): void {
-    if (shape.loading.isSettled || !shape.isVisible) return;
+    if (shape.loading.isSettled || !shape.isVisible || this.#trial === "due" || this.#trial === "running") return;
     shape.loading.settle();
     this.renderer.requestFrame(); // events wait for a frame
   }
@@ -289,6 +324,7 @@ export class Viewer {
     for (const { loading } of this.#shapes.values()) loading.onFrame(false);
     this.#loading.onFrame(true);
     this.#steering.follow();
+    if (this.#trial === "due") void this.#tryTextures();
   }
 
   #warn(element: SceneElement, message: string): void {

@@ -24,6 +24,7 @@ import { GeometryPool } from "./stageGeometries.ts";
 import type { TextureUpload } from "./textures.ts";
 import { TextureStore } from "./textures.ts";
 import { readsTextures } from "./textureTest.ts";
+import { vertexSamplers } from "./vertexChunk.ts";
 
 /** What has been drawn and what the GPU holds. */
 export interface RenderStatistics {
@@ -122,6 +123,11 @@ export class SceneRenderer {
              textureBytes: this.#textures.bytes, bufferBytes: this.#buffers.bytes };
   }
 
+  /** No shape shows anything yet. */
+  get isEmpty(): boolean {
+    return Array.from(this.#shapes.values()).every(({ isEmpty }) => isEmpty);
+  }
+
   /** Nothing is drawn, and nothing is on the GPU, until the browser gives the context back. */
   get isContextLost(): boolean {
     return this.#renderer.getContext().isContextLost();
@@ -187,7 +193,12 @@ export class SceneRenderer {
     return this.#renderer.capabilities.maxTextureSize;
   }
 
-  /** Whether vertices may be read from textures; tried out once. */
+  /** Whether shaders of vertices have textures enough. */
+  get mayReadTextures(): boolean {
+    return this.#renderer.capabilities.maxVertexTextures >= vertexSamplers;
+  }
+
+  /** Whether vertices are read from textures as they should be; tried out once. */
   readsTextures(): Promise<boolean> {
     this.#readsTextures ??= readsTextures(this.#renderer, this.#textures);
     return this.#readsTextures;

@@ -49,6 +49,10 @@ export class ShapeObject {
     for (const shown of this.#patches.values()) shown.placed = shown.placed.filter(({ object }) => object.parent !== null);
   }
 
+  get isEmpty(): boolean {
+    return this.#patches.size === 0;
+  }
+
   get isPickable(): boolean {
     return this.#isPickable;
   }

@@ -12,7 +12,6 @@ import { makePickMaterial, pickedTargets, pickedWords } from "./pickMaterial.ts"
 import { makePickTarget } from "./picking.ts";
 import { readPixelSoon } from "./pixelReading.ts";
 import type { TextureStore } from "./textures.ts";
-import { vertexSamplers } from "./vertexChunk.ts";
 
 /**
  * A PNG of 4 x 1 texels, RGBA, with alphas that would be heard of: texel 0 is the
@@ -23,7 +22,6 @@ export const testPng = "iVBORw0KGgoAAAANSUhEUgAAAAQAAAABCAYAAAD5PA/NAAAAHElEQVR4
 
 /** Resolves to whether vertices may be read from textures. Never rejects. */
 export async function readsTextures(renderer: WebGLRenderer, textures: TextureStore): Promise<boolean> {
-  if (renderer.capabilities.maxVertexTextures < vertexSamplers) return false;
   try {
     const words = await readTestVertex(renderer, textures);
     const floats = new Float32Array(words.buffer);

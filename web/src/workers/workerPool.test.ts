@@ -89,6 +89,23 @@ describe("jobs", () => {
     pool.dispose();
   });
 
+  test("find workers that were started for them, no more than are allowed", async () => {
+    const { pool, workers } = fakes({ size: 2, idleMs: 1 });
+    pool.prepare(1);
+    assert.equal(workers.length, 1);
+    pool.prepare(5);
+    assert.equal(workers.length, 2);
+    const job = pool.run("classicNormals", input(1), forever);
+    assert.deepEqual(workers.map(({ asked }) => asked.length), [1, 0]);
+    workers[0]?.answer(output(1));
+    await job;
+    await soon();
+    assert.deepEqual([pool.workerCount, workers.every(({ isEnded }) => isEnded)], [0, true]);
+    const none = fakes({ start: false });
+    none.pool.prepare(2);
+    assert.equal(none.pool.workerCount, 0);
+  });
+
   test("end the workers that have none for a while", async () => {
     const { pool, workers } = fakes({ idleMs: 1 });
     const job = pool.run("classicNormals", input(1), forever);

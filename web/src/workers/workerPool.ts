@@ -71,6 +71,14 @@ export class WorkerPool {
     }) as Promise<OutputOf<Name>>;
   }
 
+  /** Starts workers for as many jobs as are to come, while their input is still on its way. */
+  prepare(jobCount: number): void {
+    while (this.#workers.size < Math.min(jobCount, this.#options.size) && this.#canStart && !this.#isDisposed) {
+      const idle = this.#tryStart();
+      if (idle !== undefined) this.#rest(idle);
+    }
+  }
+
   /** Ends the workers; jobs that are not done never are. */
   dispose(): void {
     this.#isDisposed = true;
@@ -100,12 +108,21 @@ export class WorkerPool {
     if (idle !== undefined) return idle;
     if (!this.#canStart) return "never";
     if (this.#workers.size >= this.#options.size) return "none";
+    return this.#tryStart() ?? "never";
+  }
+
+  #tryStart(): Busy | undefined {
     try {
       return this.#start(this.#options.start());
     } catch {
       this.#canStart = false;
-      return "never";
+      return undefined;
     }
+  }
+
+  /** Until there is a job, or for good. */
+  #rest(busy: Busy): void {
+    busy.idleTimer = setTimeout(() => { this.#end(busy); }, this.#options.idleMs);
   }
 
   #start(worker: JobWorker): Busy {
@@ -129,7 +146,7 @@ export class WorkerPool {
     busy.job = undefined;
     if ("output" in answer) job?.resolve(answer.output);
     else job?.reject(asError(answer));
-    busy.idleTimer = setTimeout(() => { this.#end(busy); }, this.#options.idleMs);
+    this.#rest(busy);
     this.#pump();
   }
 
