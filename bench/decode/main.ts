@@ -98,7 +98,7 @@ try {
     await page.close();
   }
   await server.close();
-  console.log(`\nMedians of ${runs} decodes after the first; ${await describeBrowser()}, ${cpus().length} cores.`);
+  console.log(`\nMedians of ${runs} decodes after the first; ${await describeBrowser(browser)}, ${cpus().length} cores.`);
 } finally {
   await browser.close();
   rmSync(work, { recursive: true, force: true });

@@ -1,20 +1,25 @@
 // Paper section 7.3 repeated: how long bunny, horse and dragon take to load as
-// SIG, as BG and inline, over three lines; then the longest tasks of the main
-// thread on the largest of them, beside three.js with its two compressed formats.
-// Prints Markdown tables.
+// SIG, as BG and inline, over three lines, beside three.js with what its users
+// have; then the longest tasks of the main thread on the largest of them. Prints
+// Markdown tables.
 //
-//   scripts/bench load [MODEL...]
+//   scripts/bench load [--runs N] [MODEL...]
 
 import { mkdtempSync, rmSync } from "node:fs";
 import { cpus, tmpdir } from "node:os";
 import { join } from "node:path";
+import { parseArgs } from "node:util";
 import type { LineOptions } from "../../tests/browser/line.ts";
-import { medianLoad, serve } from "./measure.ts";
-import { prepareModels, type Model } from "./models.ts";
-import { dracoPage, inlinePage, meshoptPage, sitePage, type BenchPage } from "./pages.ts";
+import { launchWarm, medianLoad, serve } from "./measure.ts";
+import { containers, prepareModels, type Container, type Model } from "./models.ts";
+import { dracoPage, inlinePage, lod2Page, meshoptPage, sitePage, type BenchPage } from "./pages.ts";
 import { describeBrowser, longestTasks } from "./tasks.ts";
 
-const loads = Number(process.env.LOADS ?? 5);
+const { values: options, positionals: wanted } = parseArgs({
+  options: { runs: { type: "string", default: "3" } }, allowPositionals: true,
+});
+const runs = Number(options.runs);
+if (!Number.isInteger(runs) || runs < 1) throw new Error(`--runs ${options.runs} is no number of loads`);
 
 const lines: Record<string, LineOptions | undefined> = {
   "unthrottled": undefined,
@@ -26,57 +31,65 @@ function print(...cells: (string | number)[]): void {
   console.log(`| ${cells.join(" | ")} |`);
 }
 
-async function printLoads(models: Model[], work: string): Promise<void> {
-  print("model", "as", "kB", ...Object.keys(lines).map((line) => `${line}: first image / complete`));
-  print("---", "---", "--:", ...Object.keys(lines).map(() => "--:"));
-  for (const model of models) {
-    for (const page of [sitePage(model, "sig"), sitePage(model, "bg"), inlinePage(model, join(work, model.name, "inline"))]) {
-      await printPage(model.name, page);
-    }
-  }
-}
-
-async function printPage(model: string, page: BenchPage): Promise<void> {
+async function withServer(page: BenchPage, use: (server: Awaited<ReturnType<typeof serve>>) => Promise<void>): Promise<void> {
   const server = await serve(page);
   try {
-    const cells: string[] = [];
-    let bytes = 0;
-    for (const line of Object.values(lines)) {
-      const load = await medianLoad(page, server, line, loads);
-      bytes = load.bytes;
-      const seconds = (ms: number): string => (ms / 1000).toFixed(2);
-      cells.push(page.isProgressive ? `${seconds(load.firstImage)} / ${seconds(load.complete)} s` : `${seconds(load.complete)} s`);
-    }
-    print(model, page.name, Math.round(bytes / 1000), ...cells);
+    await use(server);
   } finally {
     await server.close();
   }
 }
 
-async function printTasks(model: Model, work: string): Promise<void> {
+async function pagesOf(model: Model, work: string): Promise<Record<"ours" | "others" | "inline", BenchPage[]>> {
   const directory = (name: string): string => join(work, model.name, name);
-  const pages = [sitePage(model, "sig"), sitePage(model, "bg"), await dracoPage(model, directory("draco")), await meshoptPage(model, directory("meshopt"))];
-  console.log();
-  print(`${model.name}: main thread, unthrottled`, "longest task", "longest on the processor", "tasks over 50 ms");
-  print("---", "--:", "--:", "--:");
-  for (const page of pages) {
-    const server = await serve(page);
-    try {
-      const { longestMs, longestOnProcessorMs, longCount } = await longestTasks(page, server, loads);
-      print(page.name, `${longestMs.toFixed(0)} ms`, `${longestOnProcessorMs.toFixed(0)} ms`, longCount);
-    } finally {
-      await server.close();
-    }
-  }
+  return {
+    ours: (Object.keys(containers) as Container[]).map((container) => sitePage(model, container)),
+    inline: [inlinePage(model, directory("inline"))],
+    others: [await dracoPage(model, directory("draco")), await meshoptPage(model, directory("meshopt")), await lod2Page(model, directory("lod2"))],
+  };
 }
 
+async function printLoads(model: string, page: BenchPage): Promise<void> {
+  await withServer(page, async (server) => {
+    const cells: string[] = [];
+    let sent = 0;
+    for (const line of Object.values(lines)) {
+      const { first, most, final, bytes } = await medianLoad(browser, page, server, line, runs);
+      sent = bytes;
+      const seconds = (ms: number): string => (ms / 1000).toFixed(2);
+      cells.push(first === final ? seconds(final) : [first, most, final].map(seconds).join(" / "));
+    }
+    print(model, page.name, Math.round(sent / 1000), ...cells);
+  });
+}
+
+async function printTasks(page: BenchPage): Promise<void> {
+  await withServer(page, async (server) => {
+    const { longestMs, longestOnProcessorMs, longCount } = await longestTasks(browser, page, server, runs);
+    print(page.name, longestMs.toFixed(0), longestOnProcessorMs.toFixed(0), longCount);
+  });
+}
+
+const browser = await launchWarm();
 const work = mkdtempSync(join(tmpdir(), "imgeo-load-"));
 try {
-  const models = prepareModels(process.argv.slice(2), work);
-  await printLoads(models, work);
-  const largest = models.at(-1);
-  if (largest) await printTasks(largest, work);
-  console.log(`\nMedians of ${loads} cold loads; ${await describeBrowser()}, ${cpus().length} cores; brotli where it helps.`);
+  const models = prepareModels(wanted, work);
+  print("model", "as", "kB", ...Object.keys(lines).map((line) => `${line}: first / 90 % / final image, s`));
+  print("---", "---", "--:", ...Object.keys(lines).map(() => "--:"));
+  let largest: { model: Model; pages: BenchPage[] } | undefined;
+  for (const model of models) {
+    const { ours, inline, others } = await pagesOf(model, work);
+    for (const page of [...ours, ...inline, ...others]) await printLoads(model.name, page);
+    largest = { model, pages: [...ours, ...others] };
+  }
+  if (largest) {
+    console.log();
+    print(`${largest.model.name}: main thread, unthrottled`, "longest task, ms", "longest on the processor, ms", "tasks over 50 ms");
+    print("---", "--:", "--:", "--:");
+    for (const page of largest.pages) await printTasks(page);
+  }
+  console.log(`\nMedians of ${runs} cold loads, one where it takes over 2.5 s; ${await describeBrowser(browser)}, ${cpus().length} cores; brotli where it helps.`);
 } finally {
+  await browser.close();
   rmSync(work, { recursive: true, force: true });
 }

@@ -6,13 +6,15 @@ import { join } from "node:path";
 import { converter, modelDirectory, repository } from "../../tests/browser/paths.ts";
 import { readPly, type PlainMesh } from "../../tests/browser/meshes.ts";
 
+export const containers = { "SIG classic": ["--profile", "classic"], "SIG compact": ["--profile", "compact"], "BG": ["--container", "bg"] } as const;
+export type Container = keyof typeof containers;
+
 export interface Model {
   name: string;
   /** As people have it. */
   source: string;
   /** `imgeo convert`'s sites. */
-  sig: string;
-  bg: string;
+  sites: Record<Container, string>;
   /** The mesh of these sites with its normals, as binary PLY and as GLB: the input of all others. */
   ply: string;
   glb: string;
@@ -37,19 +39,18 @@ export function prepareModels(names: readonly string[], directory: string): Mode
 }
 
 function convertModel(name: string, source: string, directory: string): Model {
-  const model = {
-    name, source,
-    sig: join(directory, "sig"), bg: join(directory, "bg"),
-    ply: join(directory, "mesh.ply"), glb: join(directory, "mesh.glb"),
-  };
   const imgeo = (...words: string[]): void => void execFileSync(converter, words, { stdio: ["ignore", "ignore", "inherit"] });
   mkdirSync(directory, { recursive: true });
-  for (const container of ["sig", "bg"] as const) {
-    imgeo("convert", source, "-o", model[container], "--container", container, "--title", name, "--force");
-  }
+  const siteAs = (container: Container): string => {
+    const site = join(directory, container.replaceAll(" ", "-"));
+    imgeo("convert", source, "-o", site, ...containers[container], "--title", name, "--force");
+    return site;
+  };
+  const sites = { "SIG classic": siteAs("SIG classic"), "SIG compact": siteAs("SIG compact"), "BG": siteAs("BG") };
+  const model = { name, source, sites, ply: join(directory, "mesh.ply"), glb: join(directory, "mesh.glb") };
   // Floats of the source with the normals that convert computes: exact but for them.
-  imgeo("export", model.sig, "-o", model.ply);
-  imgeo("export", model.sig, "-o", model.glb);
+  imgeo("export", sites["SIG classic"], "-o", model.ply);
+  imgeo("export", sites["SIG classic"], "-o", model.glb);
   return model;
 }
 

@@ -8,32 +8,29 @@ import { build } from "esbuild";
 import type { PlainMesh } from "../../tests/browser/meshes.ts";
 import { repository } from "../../tests/browser/paths.ts";
 import { pageOf } from "../../tests/browser/sites.ts";
-import { meshOf, type Model } from "./models.ts";
+import { meshOf, type Container, type Model } from "./models.ts";
 
 export interface BenchPage {
   name: string;
   directory: string;
   contentPolicy: string;
-  /** A picture of the whole model takes at least so many draws. */
-  draws: number;
-  /** The page says by `load` when it is complete; others are with their first picture. */
-  isProgressive: boolean;
+  /** The page says by an event when the model is complete; others are with their first picture. */
+  saysWhenComplete: boolean;
 }
 
 const strict = "default-src 'self'";
 /** What X3DOM (functions of text, data URLs) and decoders in workers (wasm, blobs) need. */
 const lax = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
 
-export function sitePage(model: Model, container: "sig" | "bg"): BenchPage {
-  const draws = pageOf(model[container]).match(/<GeometryPatch/g)?.length ?? 1;
-  return { name: container === "sig" ? "SIG" : "BG", directory: model[container], contentPolicy: strict, draws, isProgressive: true };
+export function sitePage(model: Model, container: Container): BenchPage {
+  return { name: container, directory: model.sites[container], contentPolicy: strict, saysWhenComplete: true };
 }
 
 /** The mesh as text in the page, shown by the newest X3DOM. Six digits hold more than 16 bits, three more than 8. */
 export function inlinePage(model: Model, directory: string): BenchPage {
   mkdirSync(directory, { recursive: true });
   for (const file of ["x3dom.js", "x3dom.css"]) cpSync(join(repository, "node_modules/x3dom-1.8", file), join(directory, file));
-  const html = pageOf(model.sig);
+  const html = pageOf(model.sites["SIG classic"]);
   const viewpoint = /<Viewpoint[^>]*>/.exec(html)?.[0] ?? "";
   const light = /<DirectionalLight[^>]*>/.exec(html)?.[0] ?? "";
   writeFileSync(join(directory, "index.html"), `<!doctype html><html><head><meta charset="utf-8"><title>${model.name}</title>
@@ -41,7 +38,7 @@ export function inlinePage(model: Model, directory: string): BenchPage {
 <style>html, body { margin: 0; height: 100% } x3d { width: 100%; height: 100%; border: 0 }</style></head><body>
 <X3D><Scene>${viewpoint}</Viewpoint>${light}</DirectionalLight><Shape><Appearance><Material></Material></Appearance>
 ${inlineMesh(meshOf(model))}</Shape></Scene></X3D></body></html>`);
-  return { name: "inline X3D", directory, contentPolicy: lax, draws: 1, isProgressive: false };
+  return { name: "inline X3D", directory, contentPolicy: lax, saysWhenComplete: false };
 }
 
 function inlineMesh({ positions, normals, triangles }: PlainMesh): string {
@@ -64,9 +61,21 @@ export async function dracoPage(model: Model, directory: string): Promise<BenchP
 /** three.js with the glTF that gltfpack makes: 16-bit positions, 8-bit normals, meshopt's stronger compression. */
 export async function meshoptPage(model: Model, directory: string): Promise<BenchPage> {
   mkdirSync(directory, { recursive: true });
-  const words = ["-i", model.glb, "-o", join(directory, "mesh.glb"), "-vp", "16", "-vn", "8", "-cc"];
-  execFileSync(process.execPath, [join(repository, "node_modules/gltfpack/cli.js"), ...words], { stdio: ["ignore", "ignore", "inherit"] });
+  gltfpack(model, join(directory, "mesh.glb"));
   return threePage("three.js + meshopt", "meshopt", ["mesh.glb"], directory);
+}
+
+/** The same after a simplification of it to 2 % of its triangles, which is shown as soon as it is there. */
+export async function lod2Page(model: Model, directory: string): Promise<BenchPage> {
+  mkdirSync(directory, { recursive: true });
+  gltfpack(model, join(directory, "mesh.glb"));
+  gltfpack(model, join(directory, "coarse.glb"), "-si", "0.02", "-sa");
+  return threePage("three.js + meshopt, 2 % first", "lod2", ["coarse.glb"], directory);
+}
+
+function gltfpack(model: Model, output: string, ...options: string[]): void {
+  const words = ["-i", model.glb, "-o", output, "-vp", "16", "-vn", "8", "-cc", ...options];
+  execFileSync(process.execPath, [join(repository, "node_modules/gltfpack/cli.js"), ...words], { stdio: ["ignore", "ignore", "inherit"] });
 }
 
 async function threePage(name: string, script: string, preloads: string[], directory: string): Promise<BenchPage> {
@@ -78,5 +87,5 @@ async function threePage(name: string, script: string, preloads: string[], direc
   writeFileSync(join(directory, "index.html"), `<!doctype html><html><head><meta charset="utf-8"><title>${name}</title>
 <link rel="modulepreload" href="page.js">${hints.join("")}<script type="module" src="page.js"></script>
 <style>html, body { margin: 0; height: 100% } canvas { display: block }</style></head><body></body></html>`);
-  return { name, directory, contentPolicy: lax, draws: 1, isProgressive: false };
+  return { name, directory, contentPolicy: lax, saysWhenComplete: true };
 }

@@ -3,8 +3,7 @@
 // the time on the processor is the page's doing where a renderer in software
 // shares the machine.
 
-import type { Browser } from "playwright-core";
-import { launchChromium } from "../../tests/browser/chromium.ts";
+import type { Browser, BrowserContext } from "playwright-core";
 import type { TestServer } from "../../tests/browser/server.ts";
 import { isDone, leastVertices, timeoutMs, viewport } from "./measure.ts";
 import type { BenchPage } from "./pages.ts";
@@ -32,15 +31,15 @@ export interface TraceEvent {
 }
 
 /** The medians of so many cold loads. */
-export async function longestTasks(page: BenchPage, server: TestServer, count: number): Promise<Tasks> {
+export async function longestTasks(browser: Browser, page: BenchPage, server: TestServer, count: number): Promise<Tasks> {
   const runs: Tasks[] = [];
   server.useLine(undefined);
   for (let i = 0; i < count; ++i) {
-    const browser = await launchChromium();
+    const context = await browser.newContext({ viewport });
     try {
-      runs.push(tasksOf(await traceLoad(browser, page, server)));
+      runs.push(tasksOf(await traceLoad(browser, context, page, server)));
     } finally {
-      await browser.close();
+      await context.close();
     }
   }
   const median = (of: (run: Tasks) => number): number => runs.map(of).sort((a, b) => a - b)[Math.floor(count / 2)]!;
@@ -51,12 +50,12 @@ export async function longestTasks(page: BenchPage, server: TestServer, count: n
   };
 }
 
-async function traceLoad(browser: Browser, page: BenchPage, server: TestServer): Promise<TraceEvent[]> {
-  const tab = await browser.newPage({ viewport });
-  await tab.addInitScript(watch, { vertices: leastVertices, draws: page.draws, waitForGpu: false });
+async function traceLoad(browser: Browser, context: BrowserContext, page: BenchPage, server: TestServer): Promise<TraceEvent[]> {
+  const tab = await context.newPage();
+  await tab.addInitScript(watch, { saysWhenComplete: page.saysWhenComplete, leastVertices, takesPictures: false });
   await browser.startTracing(tab, { categories: ["toplevel", "devtools.timeline", "__metadata"] });
   await tab.goto(server.origin, { waitUntil: "commit", timeout: timeoutMs });
-  await tab.waitForFunction(isDone(page), undefined, { timeout: timeoutMs, polling: 50 });
+  await tab.waitForFunction(isDone, undefined, { timeout: timeoutMs, polling: 50 });
   const trace = JSON.parse((await browser.stopTracing()).toString()) as { traceEvents: TraceEvent[] };
   return trace.traceEvents;
 }
@@ -104,17 +103,13 @@ function threadOf({ pid, tid }: TraceEvent): string {
 }
 
 /** The browser and what draws for it, for the foot of a table. */
-export async function describeBrowser(): Promise<string> {
-  const browser = await launchChromium();
-  try {
-    const page = await browser.newPage();
-    const renderer = await page.evaluate(() => {
-      const gl = document.createElement("canvas").getContext("webgl2");
-      const names = gl?.getExtension("WEBGL_debug_renderer_info");
-      return gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "no WebGL 2";
-    });
-    return `Chromium ${browser.version()}, ${renderer}`;
-  } finally {
-    await browser.close();
-  }
+export async function describeBrowser(browser: Browser): Promise<string> {
+  const page = await browser.newPage();
+  const renderer = await page.evaluate(() => {
+    const gl = document.createElement("canvas").getContext("webgl2");
+    const names = gl?.getExtension("WEBGL_debug_renderer_info");
+    return gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "no WebGL 2";
+  });
+  await page.close();
+  return `Chromium ${browser.version()}, ${renderer}`;
 }

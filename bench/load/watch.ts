@@ -1,21 +1,25 @@
-// Runs in a page before its scripts and notes when the model is on the screen.
-// The same for every page: calls to WebGL are what they have in common. A time
-// is taken when the GPU has done its work (a pixel is read back), so that a
-// renderer in software counts for everybody alike.
+// Runs in a page before its scripts and keeps what the screen shows after each
+// frame. The same for every page: calls to WebGL are what they have in common. A
+// time is taken when the GPU has done its work (the picture is read back), so
+// that a renderer in software counts for everybody alike.
 
 export interface Watched {
-  /** Milliseconds from navigation to the first frame with all of the model, in whatever precision; 0 until then. */
-  firstImage: number;
-  /** The page says that everything is there. */
+  /** Milliseconds from navigation to when all of the model had been drawn; 0 until then. */
   complete: number;
+  /** Of each frame that was drawn: when the GPU had drawn it, and every fourth pixel of every fourth line, RGBA. */
+  frames: { at: number; pixels: Uint8Array }[];
 }
 
-/** What makes a draw a part of the model, and how many of them make all of it. */
 export interface Wanted {
-  vertices: number;
-  draws: number;
-  /** Otherwise times are those at which the GPU has been told. */
-  waitForGpu: boolean;
+  /**
+   * The page says by an event when all of the model is there: `load` of <x3d>, or
+   * `model-complete` of the document. Others are complete with their first draw of
+   * so many vertices.
+   */
+  saysWhenComplete: boolean;
+  leastVertices: number;
+  /** Otherwise no picture is taken, and times are those at which the GPU has been told. */
+  takesPictures: boolean;
 }
 
 declare global {
@@ -28,30 +32,36 @@ type Context = WebGLRenderingContext | WebGL2RenderingContext;
 
 /** Self-contained: its text is sent to the browser. */
 export function watch(wanted: Wanted): void {
-  const watched: Watched = { firstImage: 0, complete: 0 };
+  const watched: Watched = { complete: 0, frames: [] };
   window.watched = watched;
-  let drawsOfFrame = 0;
-  let latest: Context | undefined;
+  const sparse = 4;
+  let isDue = false;
+  let hasModel = false;
 
-  const timeWhenDrawn = (gl: Context): number => {
-    if (!wanted.waitForGpu) return performance.now();
+  const takePicture = (gl: Context): void => {
+    const { drawingBufferWidth: width, drawingBufferHeight: height } = gl;
     const bound = gl.getParameter(gl.FRAMEBUFFER_BINDING) as WebGLFramebuffer | null;
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    const all = new Uint32Array(width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(all.buffer));
     gl.bindFramebuffer(gl.FRAMEBUFFER, bound);
-    return performance.now();
+    const at = performance.now();
+    const [columns, rows] = [Math.floor(width / sparse), Math.floor(height / sparse)];
+    const some = new Uint32Array(columns * rows);
+    for (let i = 0; i < some.length; ++i) some[i] = all[Math.floor(i / columns) * sparse * width + (i % columns) * sparse]!;
+    watched.frames.push({ at, pixels: new Uint8Array(some.buffer) });
   };
-  const note = (gl: Context, count: unknown): void => {
-    if (watched.firstImage > 0 || Number(count) < wanted.vertices) return;
-    drawsOfFrame += 1;
-    latest = gl;
+  const note = (gl: Context, count: number): void => {
+    if (gl.getParameter(gl.FRAMEBUFFER_BINDING) !== null) return; // what is drawn for the page's own use
+    hasModel ||= count >= wanted.leastVertices;
+    if (isDue) return;
+    isDue = true;
     // When the frame's draws have all been given, and before the browser takes them.
-    if (drawsOfFrame === 1) {
-      queueMicrotask(() => {
-        if (drawsOfFrame >= wanted.draws) watched.firstImage = timeWhenDrawn(gl);
-        drawsOfFrame = 0;
-      });
-    }
+    queueMicrotask(() => {
+      isDue = false;
+      if (wanted.takesPictures) takePicture(gl);
+      if (hasModel && !wanted.saysWhenComplete && watched.complete === 0) watched.complete = performance.now();
+    });
   };
 
   for (const prototype of [WebGLRenderingContext.prototype, WebGL2RenderingContext.prototype]) {
@@ -59,13 +69,56 @@ export function watch(wanted: Wanted): void {
     for (const [name, place] of [["drawArrays", 2], ["drawElements", 1], ["drawArraysInstanced", 2], ["drawElementsInstanced", 1]] as const) {
       const draw = calls[name];
       if (draw) calls[name] = function (...args) {
-        note(this, args[place]);
+        note(this, Number(args[place]));
         return draw.apply(this, args);
       };
     }
   }
+  const complete = (): void => { watched.complete = performance.now(); };
+  document.addEventListener("model-complete", complete);
   document.addEventListener("load", ({ target }) => {
-    const isScene = target instanceof Element && target.localName.toLowerCase() === "x3d";
-    if (isScene && latest !== undefined) watched.complete = timeWhenDrawn(latest);
+    if (wanted.saysWhenComplete && target instanceof Element && target.localName.toLowerCase() === "x3d") complete();
   }, true);
+}
+
+/** When a page's picture had become what. Milliseconds from navigation. */
+export interface Times {
+  /** 95 % of the model's silhouette are covered. */
+  first: number;
+  /** Nine tenths of the way from nothing to the final picture, in the sum of all channels' differences. */
+  most: number;
+  /** The final picture, but for what nobody sees. */
+  final: number;
+}
+
+/** Runs in the page, when it is complete. */
+export function timesOf(): Times {
+  const { frames } = window.watched;
+  const last = frames.at(-1);
+  if (last === undefined) throw new Error("nothing was drawn");
+  const final = last.pixels;
+  const background = final.slice(0, 3); // the models stand clear of the corner
+  const off = (pixels: Uint8Array, i: number, channel: number): number => Math.abs(pixels[i + channel]! - background[channel]!);
+  const shows = (pixels: Uint8Array, i: number): boolean => Math.max(off(pixels, i, 0), off(pixels, i, 1), off(pixels, i, 2)) > 8;
+  let [covered, whole] = [0, 0];
+  for (let i = 0; i < final.length; i += 4) {
+    if (shows(final, i)) covered += 1;
+    for (let channel = 0; channel < 3; ++channel) whole += off(final, i, channel);
+  }
+  const measured = frames.map(({ at, pixels }) => {
+    let [both, missing] = [0, 0];
+    for (let i = 0; i < final.length; i += 4) {
+      if (shows(final, i) && shows(pixels, i)) both += 1;
+      for (let channel = 0; channel < 3; ++channel) missing += Math.abs(pixels[i + channel]! - final[i + channel]!);
+    }
+    return { at, coverage: both / covered, likeness: 1 - missing / whole };
+  });
+  // From then on: a picture that is lost again has not come to stay.
+  const since = (holds: (frame: (typeof measured)[number]) => boolean): number =>
+    measured[measured.findLastIndex((frame) => !holds(frame)) + 1]!.at;
+  return {
+    first: since(({ coverage }) => coverage >= 0.95),
+    most: since(({ likeness }) => likeness >= 0.9),
+    final: since(({ likeness }) => likeness >= 0.998),
+  };
 }

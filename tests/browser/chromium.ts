@@ -10,6 +10,7 @@ const flags = [
   "--js-flags=--expose-gc", // to see what is let go of
 ].flatMap((line) => line.split(" "));
 
-export async function launchChromium(): Promise<Browser> {
-  return chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: flags });
+export async function launchChromium(...moreFlags: string[]): Promise<Browser> {
+  const args = [...flags, ...moreFlags];
+  return chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args });
 }
