@@ -92,6 +92,8 @@ ConvertOptions optionsFrom(const Arguments& arguments) {
   options.patchVertices = static_cast<std::uint32_t>(arguments.integer("patch-vertices"));
   options.effort = static_cast<int>(arguments.integer("effort"));
   options.title = arguments.text("title");
+  options.outside = arguments.has("outside");
+  options.strict = arguments.has("strict");
   options.force = arguments.has("force");
   return options;
 }

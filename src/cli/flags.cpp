@@ -13,6 +13,10 @@ Flag jsonFlag(const std::string& what) {
   return {.name = "json", .help = "print " + what + " as JSON"};
 }
 
+Flag outsideFlag() {
+  return {.name = "outside", .help = "let the source refer to files outside of its folder"};
+}
+
 Flag positional(const std::string& name, const std::string& valueName, Value value, const std::string& help) {
   return {.name = name,
           .value = value,
@@ -41,7 +45,7 @@ Flag integer(const std::string& name, std::vector<std::string> aliases, std::int
 
 Command convertCommand() {
   Flag input = positional("input", "INPUT", Value::file,
-                          "PLY, OBJ or STL file, gzipped or not; \"-\" reads standard input");
+                          "glTF, GLB, PLY, OBJ or STL file, gzipped or not; \"-\" reads standard input");
   input.aliases = {"-i"};
   Flag output{.name = "output",
               .aliases = {"-o"},
@@ -122,6 +126,9 @@ Command convertCommand() {
            integer("effort", {}, 0, 9, "5", "how hard to compress: 0 fastest, 9 smallest"),
            integer("threads", {}, 0, 1024, "0",
                    "how many threads to use; 0: all. The site is the same with any number"),
+           outsideFlag(),
+           {.name = "strict",
+            .help = "refuse a source of which a part is damaged, instead of leaving that out"},
            {.name = "force", .help = "replace DIR with everything in it, even if it is not a site of ours"},
            report,
            jsonFlag("the report"),
@@ -143,7 +150,8 @@ Command infoCommand() {
       .summary = "say what a site or a mesh file holds, and where its bytes are",
       .text = "PATH is a site's directory, its index.html or scene.x3d, a file of vertex data, or a mesh to "
               "convert.",
-      .flags = {positional("path", "PATH", Value::file, "a site or a file"), jsonFlag("it"), helpFlag()},
+      .flags = {positional("path", "PATH", Value::file, "a site or a file"), outsideFlag(), jsonFlag("it"),
+                helpFlag()},
       .examples = {"imgeo info site", "imgeo info site --json | jq .documentBytes", "imgeo info statue.ply"}};
 }
 
@@ -160,7 +168,7 @@ Command verifyCommand() {
           "of "
           "another program only that it is there. Exits with 0 only if all of that is so, with 3 if not.",
       .flags = {positional("site", "DIR", Value::directory, "the site"),
-                positional("input", "INPUT", Value::file, "the file it was converted from"),
+                positional("input", "INPUT", Value::file, "the file it was converted from"), outsideFlag(),
                 jsonFlag("the result"), helpFlag()},
       .examples = {"imgeo verify site statue.ply",
                    "imgeo verify site statue.ply --json | jq .normalErrorDegrees"}};

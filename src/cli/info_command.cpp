@@ -33,6 +33,7 @@ Json jsonOf(const SiteInfo& info) {
             {"patches", info.patches},
             {"documentBytes", info.documentBytes},
             {"containerBytes", info.containerBytes},
+            {"textureBytes", info.textureBytes},
             {"runtimeBytes", info.runtimeBytes},
             {"bytesPerTriangle", info.bytesPerTriangle}};
   json["geometries"] = Json::array();
@@ -172,7 +173,7 @@ int runInfo(const Arguments& arguments) {
     return print(arguments, inspect(path), printSite);
   if (extension == ".png" || extension == ".bin")
     return print(arguments, inspectGeometryFile(path), printGeometryFile);
-  return print(arguments, inspectSource(path), printSource);
+  return print(arguments, inspectSource(path, arguments.has("outside")), printSource);
 }
 
 } // namespace imgeo::cli

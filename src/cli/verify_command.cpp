@@ -58,7 +58,8 @@ void printText(const VerifyReport& report) {
 } // namespace
 
 int runVerify(const Arguments& arguments) {
-  const VerifyReport report = verify(arguments.text("site"), arguments.text("input"));
+  const VerifyReport report =
+      verify(arguments.text("site"), arguments.text("input"), arguments.has("outside"));
   if (arguments.has("json"))
     printJson(report);
   else

@@ -11,10 +11,16 @@ namespace imgeo {
 Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 Imported readObj(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 Imported readStl(ByteSpan bytes, const std::string& name, const ImportOptions& options);
+Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& options);
+/// Whatever else Assimp reads, in a process of its own.
+Imported readByAssimp(ByteSpan bytes, const std::string& name, const ImportOptions& options);
+bool isReadByAssimp(const std::string& name);
 
 /// True where the bytes can only be this format.
 bool looksLikePly(ByteSpan bytes);
 bool looksLikeStl(ByteSpan bytes);
+bool looksLikeGlb(ByteSpan bytes);
+bool looksLikeGltf(ByteSpan bytes);
 /// True where the first line that says anything begins with a keyword of OBJ.
 bool looksLikeObj(ByteSpan bytes);
 

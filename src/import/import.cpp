@@ -35,6 +35,8 @@ Reader readerFor(ByteSpan bytes, const std::string& name) {
     return readPly;
   if (looksLikeStl(bytes))
     return readStl;
+  if (looksLikeGlb(bytes) || looksLikeGltf(bytes))
+    return readGltf;
   if (looksLikeObj(bytes))
     return readObj;
   if (asText(bytes).starts_with("\xff\xfe") || asText(bytes).starts_with("\xfe\xff"))
@@ -46,7 +48,14 @@ Reader readerFor(ByteSpan bytes, const std::string& name) {
     return readStl;
   if (extension == ".obj")
     return readObj;
-  throw Error(ErrorKind::unsupported, name, "is in no format that imgeo reads, which are PLY, OBJ and STL");
+  if (extension == ".gltf" || extension == ".glb")
+    return readGltf;
+  if (isReadByAssimp(name))
+    return readByAssimp;
+  throw Error(
+      ErrorKind::unsupported, name,
+      "is in no format that imgeo reads, which are glTF, PLY, OBJ, STL and those of Assimp (Collada, FBX, "
+      "3DS ...)");
 }
 
 /// Names of nodes become DEFs, which must differ: "wheel", "wheel-2", ...
@@ -91,17 +100,21 @@ Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOption
     bytes = bytes.subspan(3); // byte order mark
 
   Imported imported = readerFor(bytes, name)(bytes, name, options);
-  const bool hasElements =
-      std::ranges::any_of(imported.scene.meshes, [](const Mesh& mesh) { return !mesh.corners.empty(); });
-  if (!hasElements)
+  const auto hasElements = [&](const PlacedShape& placed) {
+    return !imported.scene.meshes[shapeOf(imported.scene.graph, placed.node).mesh].corners.empty();
+  };
+  if (std::ranges::none_of(placedShapes(imported.scene.graph, name), hasElements))
     throw Error(ErrorKind::malformed, name, "the file has no triangles, lines or points");
   makeNamesUnique(imported.scene.graph);
-  imported.scene.graph.title = stemOf(name);
+  if (imported.scene.graph.title.empty())
+    imported.scene.graph.title = stemOf(name);
   return imported;
 }
 
 Imported importFile(const std::filesystem::path& path, const ImportOptions& options) {
-  return importBytes(readFile(path), path.string(), options);
+  ImportOptions beside = options;
+  beside.folder = path.has_parent_path() ? path.parent_path() : ".";
+  return importBytes(readFile(path), path.string(), beside);
 }
 
 } // namespace imgeo

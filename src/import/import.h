@@ -14,6 +14,12 @@
 // faces and lines; groups are none. Without faces and lines: a point cloud.
 // STL: binary and ASCII; each ASCII solid is a shape, each corner has a position
 // of its own (weld joins them), facet normals are left to the winding.
+// glTF 2.0 and GLB: nodes, meshes (one that several nodes show once), materials,
+// textures, cameras, punctual lights, the authors' extras; compressed by Draco or
+// meshopt, quantised, sparse, instanced. Attributes _NAME are further attributes NAME.
+// What is damaged is left out, with a warning, unless the options are strict.
+// Collada, FBX, 3DS and whatever else Assimp reads: nodes, meshes, materials,
+// textures, cameras and lights, read in a process of its own.
 // Polygons are cut into triangles. Normals are brought to unit length; (0, 0, 1)
 // stands for those without a direction. Everything else is named in a warning.
 // Limits: 2^32 - 1 vertices and corners; OBJ files of 8 GiB; gzipped files, see gzip.h.
@@ -29,9 +35,9 @@
 namespace imgeo {
 
 struct Imported {
-  Scene scene; ///< one shape per object of the source; normals only where the file has them
+  Scene scene;                         ///< normals only where the file has them
   std::vector<std::string> attributes; ///< names of all further attributes of the source, kept or not
-  std::string format;                  ///< "PLY", "OBJ", "STL": for reports
+  std::string format;                  ///< "PLY", "OBJ", "GLB" ...: for reports
   std::vector<std::string> warnings;   ///< one sentence per kind of thing not carried over
 };
 
@@ -44,7 +50,10 @@ struct AttributeChoice {
 };
 
 struct ImportOptions {
-  AttributeChoice attributes; ///< none where nothing is said
+  AttributeChoice attributes;   ///< none where nothing is said
+  std::filesystem::path folder; ///< where relative urls lead; empty: nowhere
+  bool outside = false;         ///< urls may lead out of the folder
+  bool strict = false;          ///< damage is an Error, even where the rest could be read
 };
 
 /// Reads a file of any known format; the format is told from the content first,
@@ -55,8 +64,8 @@ struct ImportOptions {
 /// line (text) or byte (binary).
 Imported importFile(const std::filesystem::path& path, const ImportOptions& options = {});
 
-/// The same for bytes at hand; `name` stands for the file in messages and its
-/// ending helps to tell the format.
+/// The same for bytes at hand, whose relative urls lead to options.folder; `name` stands for the file in
+/// messages and its ending helps to tell the format.
 Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOptions& options = {});
 
 } // namespace imgeo

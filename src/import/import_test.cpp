@@ -28,10 +28,10 @@ TEST(Import, TellsTheFormatFromTheNameWhereTheContentDoesNot) {
 }
 
 TEST(Import, NamesTheFormatsItReadsWhereItKnowsNone) {
-  const Error error = errorOf("glTF....", "a.glb");
+  const Error error = errorOf("BC....", "a.bc");
   EXPECT_EQ(error.kind(), ErrorKind::unsupported);
-  EXPECT_EQ(error.place(), "a.glb");
-  EXPECT_NE(error.message().find("PLY, OBJ and STL"), std::string::npos);
+  EXPECT_EQ(error.place(), "a.bc");
+  EXPECT_NE(error.message().find("glTF, PLY, OBJ, STL"), std::string::npos);
 }
 
 TEST(Import, RefusesAnEmptyFile) {

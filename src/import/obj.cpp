@@ -3,6 +3,7 @@
 // scanners append to their vertices.
 #include "base/error.h"
 #include "import/formats.h"
+#include "import/obj_materials.h"
 #include "import/obj_object.h"
 #include "import/text_scanner.h"
 #include "import/triangulate.h"
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 #include <set>
 #include <span>
 #include <vector>
@@ -28,7 +30,8 @@ constexpr std::size_t kMaxNamedKeywords = 8;
 
 class ObjReader {
 public:
-  ObjReader(ByteSpan bytes, const std::string& name) : scanner_(bytes, name), fileName_(name) {}
+  ObjReader(ByteSpan bytes, const std::string& name, const References& references)
+      : scanner_(bytes, name), fileName_(name), references_(references) {}
 
   Imported read() {
     for (; !scanner_.atEnd(); scanner_.skipLine()) {
@@ -60,15 +63,36 @@ private:
     else if (keyword == "f")
       readFace();
     else if (keyword == "o")
-      content_.objects.push_back({std::string(scanner_.restOfLine()), {}, {}});
+      beginObject(std::string(scanner_.restOfLine()));
     else if (keyword == "l")
       readLineElement();
     else if (keyword == "p")
       ++points_;
-    else if (keyword == "usemtl" || keyword == "mtllib")
-      hasMaterials_ = true;
+    else if (keyword == "usemtl")
+      useMaterial(std::string(scanner_.restOfLine()));
+    else if (keyword == "mtllib")
+      libraries_.emplace_back(scanner_.restOfLine());
     else if (keyword != "g" && keyword != "s" && others_.size() < kMaxNamedKeywords)
       others_.insert(asPrintable(keyword));
+  }
+
+  void beginObject(std::string name) {
+    const ObjObject& last = content_.objects.back();
+    content_.objects.push_back({std::move(name), last.material, last.number + 1, {}, {}});
+    current_ = content_.objects.size() - 1;
+    parts_ = {{last.material, current_}};
+  }
+
+  /// An object's elements of one material are one part of it, wherever they stand.
+  void useMaterial(std::string name) {
+    if (content_.objects[current_].material == name)
+      return;
+    const auto [part, isNew] = parts_.try_emplace(name, content_.objects.size());
+    if (isNew) {
+      const ObjObject& object = content_.objects[current_];
+      content_.objects.push_back({object.name, std::move(name), object.number, {}, {}});
+    }
+    current_ = part->second;
   }
 
   /// The numbers up to the end of the line, at most as many as `out` has room for.
@@ -163,13 +187,13 @@ private:
     readCorners();
     linesTooShort_ += polygon_.size() < 2;
     for (std::size_t i = 1; i < polygon_.size(); ++i)
-      content_.objects.back().lines.insert(content_.objects.back().lines.end(),
-                                           {polygon_[i - 1], polygon_[i]});
+      content_.objects[current_].lines.insert(content_.objects[current_].lines.end(),
+                                              {polygon_[i - 1], polygon_[i]});
   }
 
   void readFace() {
     readCorners();
-    std::vector<ObjCorner>& object = content_.objects.back().triangles;
+    std::vector<ObjCorner>& object = content_.objects[current_].triangles;
     if (polygon_.size() < 3) {
       ++facesTooSmall_;
     } else if (polygon_.size() == 3) {
@@ -185,22 +209,46 @@ private:
   }
 
   void addObjects(Imported& imported) {
+    ObjMaterials materials(imported.scene.graph, references_);
+    for (const std::string& library : libraries_)
+      materials.readLibrary(library);
     ObjMeshBuilder builder(content_);
-    const auto add = [&](const ObjObject& object, Topology topology) {
-      Mesh mesh = builder.build(object, topology);
-      if (mesh.name.empty())
-        mesh.name = stemOf(fileName_);
-      addShape(imported.scene, std::move(mesh), object.name);
-    };
-    for (const ObjObject& object : content_.objects) {
-      if (!object.triangles.empty())
-        add(object, Topology::triangles);
-      if (!object.lines.empty())
-        add(object, Topology::lines);
+    // Parts of one object stand one behind the other, but for those of materials that come back.
+    std::ranges::stable_sort(content_.objects, {}, &ObjObject::number);
+    for (auto first = content_.objects.begin(); first != content_.objects.end();) {
+      const auto last = std::find_if(first, content_.objects.end(),
+                                     [&](const ObjObject& object) { return object.number != first->number; });
+      addObject(std::span(first, last), builder, materials, imported.scene);
+      first = last;
     }
     if (builder.partlyNormals > 0)
       imported.warnings.push_back(fmt::format("The normals of {} left out: some corners have none.",
                                               counted(builder.partlyNormals, "object were", "objects were")));
+    materials.addWarnings(imported.warnings);
+  }
+
+  /// An object of several materials is a group of as many shapes.
+  void addObject(std::span<const ObjObject> parts, ObjMeshBuilder& builder, ObjMaterials& materials,
+                 Scene& scene) {
+    std::vector<std::size_t> shapes;
+    for (const ObjObject& part : parts)
+      for (const Topology topology : {Topology::triangles, Topology::lines}) {
+        if ((topology == Topology::triangles ? part.triangles : part.lines).empty())
+          continue;
+        Mesh mesh = builder.build(part, topology);
+        if (mesh.name.empty())
+          mesh.name = stemOf(fileName_);
+        Shape shape;
+        shape.mesh = scene.meshes.size();
+        if (!part.material.empty())
+          shape.appearance = materials.appearance(part.material);
+        scene.meshes.push_back(std::move(mesh));
+        shapes.push_back(addNode(scene.graph, {parts.size() == 1 ? part.name : "", shape, {}, ""}));
+      }
+    if (parts.size() == 1)
+      std::ranges::copy(shapes, std::back_inserter(scene.graph.roots));
+    else
+      addRoot(scene.graph, {parts.front().name, Group{}, std::move(shapes), ""});
   }
 
   /// A file without faces and lines is a point cloud.
@@ -217,8 +265,6 @@ private:
   }
 
   void addWarnings(std::vector<std::string>& warnings) const {
-    if (hasMaterials_)
-      warnings.emplace_back("The materials of the OBJ file (mtllib, usemtl) are not carried over.");
     if (linesTooShort_ > 0)
       warnings.push_back(fmt::format("{} left out: fewer than two corners.",
                                      counted(linesTooShort_, "line was", "lines were")));
@@ -241,7 +287,10 @@ private:
   std::vector<ObjCorner> polygon_;
   std::vector<Vec3f> ring_;
   std::vector<std::uint32_t> local_;
-  bool hasMaterials_ = false;
+  const References& references_;
+  std::size_t current_ = 0;                           ///< the part that elements go to
+  std::map<std::string, std::size_t> parts_{{"", 0}}; ///< of the current object, by material
+  std::vector<std::string> libraries_;
   std::size_t linesTooShort_ = 0, points_ = 0, facesTooSmall_ = 0, fans_ = 0, colorsClamped_ = 0,
               unusableNormals_ = 0;
   std::set<std::string> others_; ///< some of the keywords that were passed over
@@ -262,10 +311,11 @@ bool looksLikeObj(ByteSpan bytes) {
   return false;
 }
 
-Imported readObj(ByteSpan bytes, const std::string& name, const ImportOptions&) {
+Imported readObj(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
   if (bytes.size() > kMaxObjBytes)
     throw Error(ErrorKind::limit, name, "OBJ files are read up to 8 GiB; binary PLY has no such limit");
-  return ObjReader(bytes, name).read();
+  const References references(options, name);
+  return ObjReader(bytes, name, references).read();
 }
 
 } // namespace imgeo

@@ -16,8 +16,11 @@ struct ObjCorner {
   std::uint32_t position = 0, texCoord = kNone, normal = kNone;
 };
 
+/// An object, or the part of it that has one material.
 struct ObjObject {
   std::string name;
+  std::string material;             ///< empty: none
+  std::size_t number = 0;           ///< of the object in the file
   std::vector<ObjCorner> triangles; ///< three corners each
   std::vector<ObjCorner> lines;     ///< two corners each
 };

@@ -1,3 +1,5 @@
+#include "base/file.h"
+#include "base/testing.h"
 #include "import/error_testing.h"
 
 #include "scene/testing.h"
@@ -137,17 +139,56 @@ TEST(Obj, SaysWhatIsNotCarriedOver) {
     return importBytes(asBytes(text), "m.obj").warnings;
   };
   EXPECT_TRUE(warningsOf("# a comment\n" + kSquare + "s 1\ng top\nf 1 2 3 4\n").empty());
-  EXPECT_EQ(warningsOf(kSquare + "mtllib a.mtl\nusemtl red\nl 1\np 1\np 2\nf 1 2\nf 1 2 3\nparm u 0\n"),
-            (std::vector<std::string>{
-                "The materials of the OBJ file (mtllib, usemtl) are not carried over.",
-                "1 line was left out: fewer than two corners.",
-                "Points of the OBJ file, which has faces or lines, are not carried over (2 statements).",
-                "Statements of the OBJ file that imgeo does not read: parm.",
-                "1 face was left out: fewer than three corners."}));
+  EXPECT_EQ(
+      warningsOf(kSquare + "mtllib a.mtl\nusemtl red\nl 1\np 1\np 2\nf 1 2\nf 1 2 3\nparm u 0\n"),
+      (std::vector<std::string>{
+          "Materials are left out: m.obj: refers to \"a.mtl\", which can only be found beside a file, not "
+          "beside standard input.",
+          "1 material is named but not defined: red.", "1 line was left out: fewer than two corners.",
+          "Points of the OBJ file, which has faces or lines, are not carried over (2 statements).",
+          "Statements of the OBJ file that imgeo does not read: parm.",
+          "1 face was left out: fewer than three corners."}));
   EXPECT_EQ(warningsOf(kSquare + "vn 0 0 0\nf 1//1 2//1 3//1\n").at(0),
             "1 normal was replaced by (0, 0, 1): without direction.");
   EXPECT_EQ(warningsOf(kSquare + "vn 0 0 1\nf 1//1 2//1 3\n").at(0),
             "The normals of 1 object were left out: some corners have none.");
+}
+
+TEST(Obj, TakesMaterialsAndTexturesFromTheFilesThatItNames) {
+  const TemporaryDirectory directory;
+  writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
+  writeFile(directory / "my house.mtl",
+            asBytes("newmtl red brick\nKd 1 0 0\nNs 64\nd 0.75\n"
+                    "newmtl oak\nKd 1 1 1\nmap_Kd -s 2 4 -o 1 0 -clamp on wood.png\n"
+                    "map_Bump bumps.png\n"
+                    "newmtl gold\nKd 1 1 0\nPm 1\nPr 0.25\nmap_Kd lost.png\n"));
+  writeFile(directory / "a.obj",
+            asBytes("mtllib my house.mtl\n" + kSquare +
+                    "o wall\nusemtl red brick\nf 1 2 3\nusemtl oak\nf 1 3 4\nusemtl red brick\n"
+                    "f 2 3 4\no ring\nusemtl gold\nf 1 2 4\n"));
+  const Imported imported = importFile(directory / "a.obj");
+  const SceneGraph& graph = imported.scene.graph;
+  ASSERT_EQ(shapeNodes(graph).size(), 3u);
+  EXPECT_EQ(graph.nodes[graph.roots.at(0)].name, "wall");
+  EXPECT_EQ(graph.nodes[graph.roots.at(0)].children.size(), 2u);
+  EXPECT_EQ(shapeName(graph, 2), "ring");
+  EXPECT_EQ(imported.scene.meshes[0].elementCount(), 2u);
+
+  const Material brick = std::get<Material>(appearanceOf(graph, 0).material);
+  EXPECT_EQ(appearanceOf(graph, 0).name, "red brick");
+  EXPECT_EQ(brick.diffuseColor, (Vec3f{1, 0, 0}));
+  EXPECT_EQ(brick.shininess, 0.5f);
+  EXPECT_EQ(brick.transparency, 0.25f);
+  const TextureUse wood = appearanceOf(graph, 1).textures.at(0);
+  EXPECT_EQ(wood.transform.scale, (Vec2f{2, 4}));
+  EXPECT_EQ(wood.transform.translation, (Vec2f{0.5f, 0}));
+  EXPECT_EQ(graph.textures[wood.texture].boundaryS, Boundary::clamp);
+  EXPECT_EQ(graph.images[graph.textures[wood.texture].image].url, "wood.png");
+  EXPECT_EQ(std::get<PhysicalMaterial>(appearanceOf(graph, 2).material).metallic, 1);
+  EXPECT_TRUE(appearanceOf(graph, 2).textures.empty());
+  ASSERT_EQ(imported.warnings.size(), 2u);
+  EXPECT_NE(imported.warnings[0].find("lost.png"), std::string::npos);
+  EXPECT_NE(imported.warnings[1].find("map_Bump"), std::string::npos);
 }
 
 TEST(Obj, RefusesWithOneSentenceAndALine) {

@@ -141,7 +141,12 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   };
 
   tell(0, "reading");
-  Imported imported = importInput(input, {options.keepAttributes}, report.sourceBytes);
+  Imported imported = importInput(input,
+                                  {.attributes = options.keepAttributes,
+                                   .folder = {},
+                                   .outside = options.outside,
+                                   .strict = options.strict},
+                                  report.sourceBytes);
   requireAttributes(imported, options);
   report.format = imported.format;
   report.warnings = std::move(imported.warnings);

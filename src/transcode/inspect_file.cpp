@@ -7,9 +7,10 @@
 
 namespace imgeo {
 
-SourceInfo inspectSource(const std::filesystem::path& file) {
+SourceInfo inspectSource(const std::filesystem::path& file, bool outside) {
   SourceInfo info;
-  const Imported imported = importInput(file, {}, info.bytes);
+  const Imported imported =
+      importInput(file, {.attributes = {}, .folder = {}, .outside = outside, .strict = false}, info.bytes);
   info.format = imported.format;
   info.warnings = imported.warnings;
   info.attributes = imported.attributes;

@@ -46,7 +46,9 @@ struct ConvertOptions {
   std::uint32_t attributeBits = 0;     ///< SIG: 8, 16 or 24; 0: 16. BG has Float32
   int effort = 5;                      ///< 0 fastest .. 9 smallest
   std::string title;                   ///< empty: the source's name
-  bool force = false;                  ///< replace a directory that is not one of our sites
+  bool outside = false;                ///< the source may refer to files outside of its folder
+  bool strict = false; ///< refuse a source of which something is damaged, instead of leaving that out
+  bool force = false;  ///< replace a directory that is not one of our sites
 };
 
 /// Bytes of one kind of file.
@@ -146,7 +148,7 @@ struct SourceInfo {
   std::vector<std::string> warnings;
 };
 
-SourceInfo inspectSource(const std::filesystem::path& file);
+SourceInfo inspectSource(const std::filesystem::path& file, bool outside = false);
 
 /// One geometry file of a site.
 struct GeometryFileInfo {
@@ -174,7 +176,9 @@ struct VerifyReport {
 /// prepared as `convert` does it (weld, drop unreferenced, computed normals). Of a
 /// site of another program the files' names and normals that the input lacks are not
 /// checked, and its vertices may be off by a twentieth of a step more.
-VerifyReport verify(const std::filesystem::path& site, const std::filesystem::path& input);
+/// `outside`: the input may refer to files outside of its folder.
+VerifyReport verify(const std::filesystem::path& site, const std::filesystem::path& input,
+                    bool outside = false);
 
 struct ExportReport {
   std::string format; ///< "PLY", "OBJ", "GLB"

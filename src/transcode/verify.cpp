@@ -307,9 +307,10 @@ std::optional<Marker> markerOf(const OpenedDocument& document) {
 }
 
 /// The input, with normals computed as they were for our site; for another's only with its own.
-Imported prepared(const fs::path& input, const std::optional<Marker>& marker) {
+Imported prepared(const fs::path& input, const std::optional<Marker>& marker, bool outside) {
   std::uint64_t bytes = 0;
   ImportOptions options;
+  options.outside = outside;
   if (marker)
     options.attributes.names = {marker->attributes.begin(), marker->attributes.end()};
   Imported imported = importInput(input, options, bytes);
@@ -347,13 +348,13 @@ void compareScenes(const OpenedDocument& document, const Scene& input, const std
 
 } // namespace
 
-VerifyReport verify(const fs::path& site, const fs::path& input) {
+VerifyReport verify(const fs::path& site, const fs::path& input, bool outside) {
   VerifyReport report;
   Findings findings(report);
   const OpenedDocument document = openDocument(site);
   const std::optional<Marker> marker = markerOf(document);
   report.isForeign = !marker;
-  const Imported imported = prepared(input, marker);
+  const Imported imported = prepared(input, marker, outside);
 
   // What our readers refuse is here a result, not the end: the one place below
   // main, handlers and fuzz targets that catches an Error.

@@ -19,7 +19,7 @@ _imgeo() {
   (( CURRENT-- ))
   case $command in
     convert) _arguments \
-      '-i[PLY, OBJ or STL file, gzipped or not; "-" reads standard input]:input:_files' \
+      '-i[glTF, GLB, PLY, OBJ or STL file, gzipped or not; "-" reads standard input]:input:_files' \
       '-o[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--output[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--container[sig\: PNG images that the GPU decodes; bg\: typed arrays]:container:(sig bg)' \
@@ -50,6 +50,8 @@ _imgeo() {
       '--title[the page'\''s title; otherwise the input'\''s name]:title: ' \
       '--effort[how hard to compress\: 0 fastest, 9 smallest]:effort: ' \
       '--threads[how many threads to use; 0\: all. The site is the same with any number]:threads: ' \
+      '--outside[let the source refer to files outside of its folder]' \
+      '--strict[refuse a source of which a part is damaged, instead of leaving that out]' \
       '--force[replace DIR with everything in it, even if it is not a site of ours]' \
       '-r[write a report of what was chosen and measured, as JSON]:report:_files' \
       '--report[write a report of what was chosen and measured, as JSON]:report:_files' \
@@ -60,11 +62,13 @@ _imgeo() {
       '--help[print this help]' \
       ':input:_files' ;;
     info) _arguments \
+      '--outside[let the source refer to files outside of its folder]' \
       '--json[print it as JSON]' \
       '-h[print this help]' \
       '--help[print this help]' \
       ':path:_files' ;;
     verify) _arguments \
+      '--outside[let the source refer to files outside of its folder]' \
       '--json[print the result as JSON]' \
       '-h[print this help]' \
       '--help[print this help]' \

@@ -98,10 +98,17 @@ export interface GeometryDescription {
   readonly patches: readonly PatchDescription[];
 }
 
-export type MaterialDescription = Values<typeof nodeFields.Material>;
+/** Phong's model in the numbers of the screen, glTF's metallic-roughness model in linear ones, or a colour that no light changes. */
+export type MaterialDescription =
+  | ({ readonly kind: "phong" } & Values<typeof nodeFields.Material>)
+  | ({ readonly kind: "physical" } & Values<typeof nodeFields.PhysicalMaterial>)
+  | ({ readonly kind: "unlit" } & Values<typeof nodeFields.UnlitMaterial>);
 export type ViewpointDescription = Values<typeof nodeFields.Viewpoint>;
 export type NavigationDescription = Values<typeof nodeFields.NavigationInfo>;
-export type LightDescription = Values<typeof nodeFields.DirectionalLight>;
+export type LightDescription =
+  | ({ readonly kind: "directional" } & Values<typeof nodeFields.DirectionalLight>)
+  | ({ readonly kind: "point" } & Values<typeof nodeFields.PointLight>)
+  | ({ readonly kind: "spot" } & Values<typeof nodeFields.SpotLight>);
 export type TransformDescription = Values<typeof nodeFields.Transform>;
 
 export interface ShapeDescription {

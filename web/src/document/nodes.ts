@@ -50,6 +50,19 @@ const geometryFields = {
   indexType: SFString("Uint16"),
 };
 
+const lightFields = {
+  on: SFBool(true),
+  color: SFColor([1, 1, 1]),
+  intensity: SFFloat(1),
+  ambientIntensity: SFFloat(0),
+};
+
+const placedLightFields = {
+  location: SFVec3f([0, 0, 0]),
+  attenuation: SFVec3f([1, 0, 0]),
+  radius: SFFloat(100),
+};
+
 export const nodeFields = {
   X3D: {
     /** Weights of what files hold, for the order of requests. */
@@ -74,12 +87,14 @@ export const nodeFields = {
     fieldOfView: SFFloat(0.7854),
     centerOfRotation: SFVec3f([0, 0, 0]),
   },
-  DirectionalLight: {
-    on: SFBool(true),
+  DirectionalLight: { ...lightFields, direction: SFVec3f([0, 0, -1]) },
+  PointLight: { ...lightFields, ...placedLightFields },
+  SpotLight: {
+    ...lightFields,
+    ...placedLightFields,
     direction: SFVec3f([0, 0, -1]),
-    color: SFColor([1, 1, 1]),
-    intensity: SFFloat(1),
-    ambientIntensity: SFFloat(0),
+    beamWidth: SFFloat(0.7854),
+    cutOffAngle: SFFloat(1.5708),
   },
   Group: { ...ranked, ...seenObject },
   Switch: { ...ranked, ...seenObject, whichChoice: SFInt32(-1) },
@@ -99,6 +114,17 @@ export const nodeFields = {
     emissiveColor: SFColor([0, 0, 0]),
     ambientIntensity: SFFloat(0.2),
     shininess: SFFloat(0.2),
+    transparency: SFFloat(0),
+  },
+  PhysicalMaterial: {
+    baseColor: SFColor([1, 1, 1]),
+    metallic: SFFloat(1),
+    roughness: SFFloat(1),
+    emissiveColor: SFColor([0, 0, 0]),
+    transparency: SFFloat(0),
+  },
+  UnlitMaterial: {
+    emissiveColor: SFColor([1, 1, 1]),
     transparency: SFFloat(0),
   },
   ImageGeometry: {

@@ -2,7 +2,7 @@
 // children, as a browser passes over unknown tags; what they hold still counts.
 
 import type {
-  Box3, GeometryDescription, GroupDescription, NavigationDescription, NodeDescription, SceneDescription, ShapeDescription,
+  Box3, GeometryDescription, GroupDescription, MaterialDescription, NavigationDescription, NodeDescription, SceneDescription, ShapeDescription,
   TransformDescription,
 } from "./description.ts";
 import type { SceneElement } from "./element.ts";
@@ -71,7 +71,11 @@ function readNode(element: SceneElement, reading: Reading, inherited: Inherited)
       case "switch":
         return [readSwitch(node, reading, inherited)];
       case "directionallight":
-        return [{ kind: "light", light: readFields(node, nodeFields.DirectionalLight, warnings) }];
+        return [{ kind: "light", light: { kind: "directional", ...readFields(node, nodeFields.DirectionalLight, warnings) } }];
+      case "pointlight":
+        return [{ kind: "light", light: { kind: "point", ...readFields(node, nodeFields.PointLight, warnings) } }];
+      case "spotlight":
+        return [{ kind: "light", light: { kind: "spot", ...readFields(node, nodeFields.SpotLight, warnings) } }];
       case "viewpoint":
         return [{ kind: "viewpoint", element, viewpoint: readFields(node, nodeFields.Viewpoint, warnings) }];
       case "navigationinfo": {
@@ -150,16 +154,29 @@ function readShape(element: SceneElement, node: SceneElement, reading: Reading, 
   });
   const material = first(parts, reading, (part) =>
     lowerNameOf(part) !== "appearance" ? undefined
-      : first(childrenOf(part), reading, (child) =>
-          lowerNameOf(child) === "material" ? readFields(child, nodeFields.Material, reading.warnings) : undefined));
+      : first(childrenOf(part), reading, (child) => readMaterial(child, reading.warnings)));
   return {
     kind: "shape", element, geometry,
     visible: inherited.visible && isSeen(values),
     priority: inherited.priority * values.priority * priorityOfGeometry,
     isPickable: values.isPickable,
     box: boxOf(values) ?? (geometry && boxOfGeometry(geometry)),
-    material: material ?? readFields(withoutAttributes, nodeFields.Material, reading.warnings),
+    material: material ?? { kind: "phong", ...readFields(withoutAttributes, nodeFields.Material, reading.warnings) },
   };
+}
+
+/** Undefined for what is no material. */
+function readMaterial(element: SceneElement, warnings: Warning[]): MaterialDescription | undefined {
+  switch (lowerNameOf(element)) {
+    case "material":
+      return { kind: "phong", ...readFields(element, nodeFields.Material, warnings) };
+    case "physicalmaterial":
+      return { kind: "physical", ...readFields(element, nodeFields.PhysicalMaterial, warnings) };
+    case "unlitmaterial":
+      return { kind: "unlit", ...readFields(element, nodeFields.UnlitMaterial, warnings) };
+    default:
+      return undefined;
+  }
 }
 
 const geometryReaders: Readonly<Record<string, typeof readImageGeometry>> = {

@@ -2,9 +2,11 @@
 // so they are made anew whenever the document changes; shapes are kept by their
 // element and hung into the new tree.
 
-import { AmbientLight, Box3, Color, DirectionalLight, Group, Matrix4, Quaternion, Vector3 } from "three";
+import {
+  AmbientLight, Box3, Color, DirectionalLight, Group, Matrix4, PointLight, Quaternion, SpotLight, Vector3,
+} from "three";
 import type {
-  LightDescription, NodeDescription, Rotation, SceneDescription, ShapeDescription, TransformDescription,
+  LightDescription, NodeDescription, Rotation, SceneDescription, ShapeDescription, TransformDescription, Vec3,
 } from "../document/description.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
 import { setColor } from "./materials.ts";
@@ -57,14 +59,42 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
 }
 
 function hangLight(description: LightDescription, parent: Group, ambient: Color): void {
-  const light = new DirectionalLight();
+  const light = lightOf(description);
   setColor(light.color, description.color);
-  light.intensity = description.intensity;
-  // three's light shines from its position to its target.
-  light.position.set(0, 0, 0);
-  light.target.position.set(...description.direction);
-  parent.add(light, light.target);
+  parent.add(light);
+  if (!(light instanceof PointLight)) parent.add(light.target);
   ambient.add(light.color.clone().multiplyScalar(description.ambientIntensity));
+}
+
+function lightOf(description: LightDescription): DirectionalLight | PointLight | SpotLight {
+  if (description.kind === "directional") {
+    const light = new DirectionalLight();
+    light.intensity = description.intensity;
+    // three's light shines from its position to its target.
+    light.position.set(0, 0, 0);
+    light.target.position.set(...description.direction);
+    return light;
+  }
+  const light = description.kind === "point" ? new PointLight() : new SpotLight();
+  light.position.set(...description.location);
+  setFalloff(light, description);
+  if (light instanceof SpotLight && description.kind === "spot") {
+    light.target.position.copy(light.position).add(new Vector3(...description.direction));
+    light.angle = Math.min(description.cutOffAngle, Math.PI / 2);
+    light.penumbra = 1 - Math.min(description.beamWidth / description.cutOffAngle, 1);
+  }
+  return light;
+}
+
+/**
+ * X3D divides by a + b d + c d², three by a power of d: it gets the last of the
+ * three that counts. Beyond `radius` there is no light; three fades towards it.
+ */
+function setFalloff(light: PointLight | SpotLight, { attenuation, radius, intensity }: { attenuation: Vec3; radius: number; intensity: number }): void {
+  const power = attenuation[2] > 0 ? 2 : attenuation[1] > 0 ? 1 : 0;
+  light.decay = power;
+  light.intensity = power === 0 ? intensity / Math.max(attenuation[0], 1) : intensity / (attenuation[power] ?? 1);
+  light.distance = radius;
 }
 
 /** X3D Transform: T C R SR S -SR -C (ISO/IEC 19775-1, 10.4.4). */

@@ -1,0 +1,319 @@
+// Every format that Assimp reads and we do not: its scene -> ours.
+
+#include "import/assimp/files.h"
+#include "import/assimp/materials.h"
+#include "import/formats.h"
+#include "import/isolated.h"
+#include "import/triangulate.h"
+#include "import/unit_normal.h"
+#include "import/warnings.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+
+namespace imgeo {
+
+namespace {
+
+constexpr std::size_t maxNodeDepth = 200;
+
+Vec3d vectorOf(const aiVector3D& v) {
+  return {v.x, v.y, v.z};
+}
+
+Affine3d mapOf(const aiMatrix4x4& m) {
+  return {{m.a1, m.b1, m.c1}, {m.a2, m.b2, m.c2}, {m.a3, m.b3, m.c3}, {m.a4, m.b4, m.c4}};
+}
+
+bool isFinite(const Affine3d& map) {
+  return std::ranges::all_of(std::array{map.x, map.y, map.z, map.translation}, [](Vec3d v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  });
+}
+
+/// Names that importers make up say nothing.
+std::string nameOf(const aiString& name) {
+  const std::string text = name.C_Str();
+  const bool isMadeUp =
+      text.starts_with('$') || text.starts_with('<') || text == "ROOT" || text == "RootNode";
+  return isMadeUp ? "" : text;
+}
+
+/// Reads one aiScene.
+class SceneReader {
+public:
+  SceneReader(const aiScene& source, const std::string& name, const References& references)
+      : source_(source), name_(name), materials_(source, imported_.scene.graph, references) {}
+
+  Imported read(std::string format) {
+    imported_.format = std::move(format);
+    for (unsigned i = 0; i < source_.mNumMeshes; ++i)
+      readMesh(i);
+    for (unsigned i = 0; i < source_.mNumCameras; ++i)
+      cameras_[source_.mCameras[i]->mName.C_Str()] = source_.mCameras[i];
+    for (unsigned i = 0; i < source_.mNumLights; ++i)
+      lights_[source_.mLights[i]->mName.C_Str()] = source_.mLights[i];
+    if (source_.mRootNode)
+      readRoot(*source_.mRootNode);
+    addWarnings();
+    return std::move(imported_);
+  }
+
+private:
+  SceneGraph& graph() { return imported_.scene.graph; }
+
+  /// The root of most formats is nobody's node.
+  void readRoot(const aiNode& root) {
+    const std::size_t node = readNode(root, 1);
+    const Node& read = graph().nodes[node];
+    const bool isNothing =
+        std::holds_alternative<Group>(read.content) && (read.name.empty() || root.mNumMeshes == 0);
+    graph().roots = isNothing ? read.children : std::vector{node};
+  }
+
+  std::size_t readNode(const aiNode& source, std::size_t depth) {
+    if (depth > maxNodeDepth)
+      throw Error(ErrorKind::limit, name_, "its nodes are nested too deeply");
+    Node node;
+    node.name = nameOf(source.mName);
+    const Affine3d map = mapOf(source.mTransformation);
+    if (!isFinite(map))
+      ++lostTransforms_;
+    else if (map != Affine3d{})
+      node.content = transformOf(map);
+    for (unsigned i = 0; i < source.mNumMeshes; ++i)
+      for (const std::size_t shape : shapesOf_.at(source.mMeshes[i]))
+        node.children.push_back(shape);
+    addCamera(source, node);
+    addLight(source, node);
+    for (unsigned i = 0; i < source.mNumChildren; ++i)
+      node.children.push_back(readNode(*source.mChildren[i], depth + 1));
+    return addNode(graph(), std::move(node));
+  }
+
+  /// One shape a kind of element, which nodes then share.
+  void readMesh(unsigned index) {
+    const aiMesh& source = *source_.mMeshes[index];
+    std::vector<std::size_t>& shapes = shapesOf_.emplace_back();
+    for (const Topology topology : allTopologies) {
+      Mesh mesh;
+      mesh.topology = topology;
+      addCorners(source, mesh);
+      if (mesh.corners.empty())
+        continue;
+      addVertices(source, mesh);
+      Shape shape;
+      shape.mesh = imported_.scene.meshes.size();
+      shape.appearance = materials_.appearance(source.mMaterialIndex);
+      shape.solid = materials_.isSolid(source.mMaterialIndex);
+      imported_.scene.meshes.push_back(std::move(mesh));
+      shapes.push_back(addNode(graph(), {nameOf(source.mName), shape, {}, ""}));
+    }
+    skins_ += source.mNumBones > 0;
+    morphTargets_ += source.mNumAnimMeshes > 0;
+    furtherTexCoords_ += source.GetNumUVChannels() > 1;
+    furtherColors_ += source.GetNumColorChannels() > 1;
+  }
+
+  void addCorners(const aiMesh& source, Mesh& mesh) {
+    const std::uint32_t least = cornersPerElement(mesh.topology);
+    std::vector<Vec3f> ring;
+    std::vector<std::uint32_t> places;
+    for (unsigned i = 0; i < source.mNumFaces; ++i) {
+      const aiFace& face = source.mFaces[i];
+      const bool isPolygon = mesh.topology == Topology::triangles && face.mNumIndices > 3;
+      if (face.mNumIndices != least && !isPolygon)
+        continue;
+      for (unsigned c = 0; c < face.mNumIndices; ++c)
+        if (face.mIndices[c] >= source.mNumVertices)
+          throw Error(ErrorKind::malformed, name_,
+                      fmt::format("face {} of a mesh names vertex {} of {}", i, face.mIndices[c],
+                                  source.mNumVertices));
+      if (!isPolygon) {
+        mesh.corners.insert(mesh.corners.end(), face.mIndices, face.mIndices + face.mNumIndices);
+        continue;
+      }
+      ring.clear(), places.clear();
+      for (unsigned c = 0; c < face.mNumIndices; ++c)
+        ring.push_back(Vec3f(vectorOf(source.mVertices[face.mIndices[c]])));
+      fans_ += !triangulate(ring, places);
+      for (const std::uint32_t place : places)
+        mesh.corners.push_back(face.mIndices[place]);
+    }
+  }
+
+  /// Those that the corners use, in the order of their first use.
+  void addVertices(const aiMesh& source, Mesh& mesh) {
+    std::vector<std::uint32_t> local(source.mNumVertices, ~0u);
+    for (std::uint32_t& corner : mesh.corners) {
+      std::uint32_t& number = local[corner];
+      if (number == ~0u) {
+        number = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.wedgePositions.push_back(number);
+        addVertex(source, corner, mesh);
+      }
+      corner = number;
+    }
+    const bool isOpaque = std::ranges::all_of(mesh.colors, [](Rgba8 color) { return color.a == 255; });
+    mesh.colorComponents = isOpaque ? 3 : 4;
+  }
+
+  void addVertex(const aiMesh& source, std::uint32_t vertex, Mesh& mesh) {
+    const aiVector3D& p = source.mVertices[vertex];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      throw Error(ErrorKind::malformed, name_, fmt::format("vertex {} of a mesh is not a number", vertex));
+    mesh.positions.push_back(Vec3f(vectorOf(p)));
+    if (source.HasNormals() && mesh.topology == Topology::triangles) {
+      mesh.normals.push_back(Vec3f(vectorOf(source.mNormals[vertex])));
+      badNormals_ += !makeUnit(mesh.normals.back());
+    }
+    if (source.HasTextureCoords(0)) {
+      const aiVector3D& t = source.mTextureCoords[0][vertex];
+      mesh.texCoords.push_back(std::isfinite(t.x) && std::isfinite(t.y) ? Vec2f{t.x, t.y} : Vec2f{});
+    }
+    if (source.HasVertexColors(0)) {
+      const aiColor4D& color = source.mColors[0][vertex];
+      const auto byte = [](float value) {
+        return value > 0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 1.0f) * 255))
+                         : std::uint8_t{0};
+      };
+      mesh.colors.push_back({byte(color.r), byte(color.g), byte(color.b), byte(color.a)});
+    }
+  }
+
+  void addCamera(const aiNode& source, Node& node) {
+    const auto found = cameras_.find(source.mName.C_Str());
+    if (found == cameras_.end())
+      return;
+    const aiCamera& camera = *found->second;
+    Viewpoint viewpoint;
+    viewpoint.description = nameOf(camera.mName);
+    viewpoint.position = vectorOf(camera.mPosition);
+    const Vec3d back = vectorOf(camera.mLookAt) * -1, right = cross(vectorOf(camera.mUp), back),
+                up = cross(back, right);
+    if (length(right) > 0 && length(up) > 0)
+      viewpoint.orientation =
+          transformOf({right * (1 / length(right)), up * (1 / length(up)), back * (1 / length(back)), {}})
+              .rotation;
+    const double horizontal = std::clamp<double>(camera.mHorizontalFOV, 0.01, 3);
+    const double aspect = camera.mAspect > 1 ? camera.mAspect : 1;
+    viewpoint.fieldOfView = 2 * std::atan(std::tan(horizontal / 2) / aspect);
+    node.children.push_back(addNode(graph(), {"", viewpoint, {}, ""}));
+  }
+
+  void addLight(const aiNode& source, Node& node) {
+    const auto found = lights_.find(source.mName.C_Str());
+    if (found == lights_.end())
+      return;
+    const aiLight& light = *found->second;
+    const aiColor3D& c = light.mColorDiffuse;
+    // Sources have colours beyond 1, X3D an intensity.
+    const float most = std::max({c.r, c.g, c.b});
+    if (!(most > 0) || !std::isfinite(most))
+      return;
+    const Vec3f color{std::max(c.r, 0.0f) / most, std::max(c.g, 0.0f) / most, std::max(c.b, 0.0f) / most};
+    Vec3d attenuation{light.mAttenuationConstant, light.mAttenuationLinear, light.mAttenuationQuadratic};
+    if (!(attenuation.x + attenuation.y + attenuation.z > 0))
+      attenuation = {1, 0, 0};
+    constexpr double farthest = 1e6;
+    const Vec3d position = vectorOf(light.mPosition), direction = vectorOf(light.mDirection);
+    NodeContent content;
+    if (light.mType == aiLightSource_DIRECTIONAL)
+      content = DirectionalLight{direction, color, most, true};
+    else if (light.mType == aiLightSource_POINT)
+      content = PointLight{position, attenuation, farthest, color, most, true};
+    else if (light.mType == aiLightSource_SPOT)
+      content = SpotLight{position,
+                          direction,
+                          light.mAngleInnerCone / 2.0,
+                          light.mAngleOuterCone / 2.0,
+                          attenuation,
+                          farthest,
+                          color,
+                          most,
+                          true};
+    else {
+      ++otherLights_;
+      return;
+    }
+    node.children.push_back(addNode(graph(), {"", content, {}, ""}));
+  }
+
+  void addWarnings() {
+    std::vector<std::string>& warnings = imported_.warnings;
+    const auto add = [&](std::size_t count, const char* singular, const char* plural) {
+      if (count > 0)
+        warnings.push_back(fmt::format("{} not carried over.", counted(count, singular, plural)));
+    };
+    add(source_.mNumAnimations, "animation is", "animations are");
+    add(skins_, "skin is", "skins are");
+    add(morphTargets_, "mesh has morph targets, which are", "meshes have morph targets, which are");
+    add(furtherTexCoords_, "mesh has further texture coordinates, which are",
+        "meshes have further texture coordinates, which are");
+    add(furtherColors_, "mesh has further colours, which are", "meshes have further colours, which are");
+    add(otherLights_, "light of a kind that X3D lacks is", "lights of kinds that X3D lacks are");
+    add(lostTransforms_, "transform that is no number is", "transforms that are no numbers are");
+    warnOfNormals(warnings, badNormals_);
+    warnOfFans(warnings, fans_);
+    materials_.addWarnings(warnings);
+  }
+
+  const aiScene& source_;
+  const std::string& name_;
+  Imported imported_;
+  AssimpMaterials materials_;
+  std::vector<std::vector<std::size_t>> shapesOf_; ///< nodes by mesh
+  std::map<std::string, const aiCamera*> cameras_;
+  std::map<std::string, const aiLight*> lights_;
+  std::size_t skins_ = 0, morphTargets_ = 0, furtherTexCoords_ = 0, furtherColors_ = 0, otherLights_ = 0,
+              lostTransforms_ = 0, fans_ = 0, badNormals_ = 0;
+};
+
+std::string extensionOf(const std::string& name) {
+  std::string extension = std::filesystem::path(name).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  return extension;
+}
+
+Imported readHere(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+  const References references(options, name);
+  Assimp::Importer importer;
+  auto* files = new SourceFiles(bytes, name, references); // the importer deletes it
+  importer.SetIOHandler(files);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false); // nodes, not their parts
+  const aiScene* scene = importer.ReadFile(name, aiProcess_ValidateDataStructure);
+  if (!scene) {
+    std::string reason = importer.GetErrorString();
+    std::ranges::replace(reason, '\n', ' ');
+    throw Error(ErrorKind::malformed, name, fmt::format("Assimp cannot read it: {}", reason));
+  }
+  std::string format = extensionOf(name).substr(1);
+  std::ranges::transform(format, format.begin(),
+                         [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
+  Imported imported = SceneReader(*scene, name, references).read(format);
+  for (const std::string& refused : files->refused())
+    imported.warnings.push_back(fmt::format("Not read: {}.", refused));
+  return imported;
+}
+
+} // namespace
+
+bool isReadByAssimp(const std::string& name) {
+  const std::string extension = extensionOf(name);
+  return !extension.empty() && Assimp::Importer().IsExtensionSupported(extension);
+}
+
+Imported readByAssimp(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+  return readIsolated([&] { return readHere(bytes, name, options); }, name);
+}
+
+} // namespace imgeo

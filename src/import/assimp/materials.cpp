@@ -1,0 +1,174 @@
+#include "import/assimp/materials.h"
+
+#include "base/error.h"
+#include "import/image_type.h"
+#include "import/warnings.h"
+
+#include <algorithm>
+#include <assimp/material.h>
+#include <charconv>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace imgeo {
+
+namespace {
+
+struct Role {
+  aiTextureType type;
+  TextureRole role;
+};
+
+constexpr Role roles[] = {
+    {aiTextureType_DIFFUSE, TextureRole::color},     {aiTextureType_EMISSIVE, TextureRole::emissive},
+    {aiTextureType_NORMALS, TextureRole::normal},    {aiTextureType_AMBIENT, TextureRole::ambient},
+    {aiTextureType_SPECULAR, TextureRole::specular}, {aiTextureType_SHININESS, TextureRole::shininess}};
+
+Vec3f colorOf(const aiMaterial& material, const char* key, unsigned type, unsigned index, Vec3f otherwise) {
+  aiColor3D color;
+  if (material.Get(key, type, index, color) != aiReturn_SUCCESS)
+    return otherwise;
+  const auto channel = [](float value) { return value > 0 ? std::min(value, 1.0f) : 0.0f; };
+  return {channel(color.r), channel(color.g), channel(color.b)};
+}
+
+float numberOf(const aiMaterial& material, const char* key, unsigned type, unsigned index, float otherwise) {
+  ai_real number = otherwise;
+  return material.Get(key, type, index, number) == aiReturn_SUCCESS && std::isfinite(number) ? number
+                                                                                             : otherwise;
+}
+
+Boundary boundaryOf(aiTextureMapMode mode) {
+  return mode == aiTextureMapMode_Mirror                                    ? Boundary::mirroredRepeat
+         : mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal ? Boundary::clamp
+                                                                            : Boundary::repeat;
+}
+
+/// Embedded textures are named by their place: "*3".
+std::optional<std::size_t> embeddedIndex(const std::string& path) {
+  std::size_t index = 0;
+  if (!path.starts_with('*'))
+    return {};
+  const auto [end, fault] = std::from_chars(path.data() + 1, path.data() + path.size(), index);
+  return fault == std::errc{} && end == path.data() + path.size() ? std::optional(index) : std::nullopt;
+}
+
+} // namespace
+
+AnyMaterial AssimpMaterials::materialOf(const aiMaterial& material) const {
+  Material phong;
+  phong.diffuseColor = colorOf(material, AI_MATKEY_COLOR_DIFFUSE, phong.diffuseColor);
+  phong.specularColor = colorOf(material, AI_MATKEY_COLOR_SPECULAR, phong.specularColor) *
+                        std::clamp(numberOf(material, AI_MATKEY_SHININESS_STRENGTH, 1), 0.0f, 1.0f);
+  phong.emissiveColor = colorOf(material, AI_MATKEY_COLOR_EMISSIVE, phong.emissiveColor);
+  phong.shininess =
+      std::clamp(numberOf(material, AI_MATKEY_SHININESS, 128 * phong.shininess) / 128, 0.0f, 1.0f);
+  phong.transparency = 1 - std::clamp(numberOf(material, AI_MATKEY_OPACITY, 1), 0.0f, 1.0f);
+  return phong;
+}
+
+/// A texture's file beside the source; paths of the machine where it was made lead
+/// nowhere here, but the file often came along.
+Bytes AssimpMaterials::bytesOf(const std::string& path) const {
+  if (const aiTexture* texture = source_.GetEmbeddedTexture(path.c_str())) {
+    if (texture->mHeight != 0)
+      throw Error(ErrorKind::unsupported, path, "is an image without a file format");
+    const auto* begin = reinterpret_cast<const std::uint8_t*>(texture->pcData);
+    return Bytes(begin, begin + texture->mWidth);
+  }
+  std::string url = path;
+  std::ranges::replace(url, '\\', '/');
+  const bool isWindowsPath = url.size() > 1 && url[1] == ':';
+  if (!isWindowsPath) {
+    try {
+      return references_.fetch(url);
+    } catch (const Error&) {
+      if (url.find('/') == url.npos)
+        throw;
+    }
+  }
+  return references_.fetch(url.substr(url.rfind('/') + 1));
+}
+
+std::optional<std::size_t> AssimpMaterials::image(const std::string& path) {
+  const auto [found, isNew] = images_.try_emplace(path);
+  if (!isNew)
+    return found->second;
+  try {
+    ImageFile image{embeddedIndex(path) ? "" : path, bytesOf(path)};
+    if (imageType(image.bytes).empty())
+      throw Error(ErrorKind::unsupported, path, "is an image of a kind that browsers do not show");
+    graph_.images.push_back(std::move(image));
+    found->second = graph_.images.size() - 1;
+  } catch (const Error& error) {
+    missing_.push_back(fmt::format("A texture is left out: {}.", error.what()));
+  }
+  return found->second;
+}
+
+void AssimpMaterials::addTexture(const aiMaterial& material, aiTextureType type, TextureRole role,
+                                 Appearance& appearance) {
+  aiString path;
+  aiTextureMapping mapping = aiTextureMapping_UV;
+  unsigned texCoords = 0;
+  aiTextureMapMode modes[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
+  if (material.GetTextureCount(type) == 0 ||
+      material.GetTexture(type, 0, &path, &mapping, &texCoords, nullptr, nullptr, modes) != aiReturn_SUCCESS)
+    return;
+  if (mapping != aiTextureMapping_UV || texCoords != 0) {
+    ++others_["with further or computed texture coordinates"];
+    return;
+  }
+  const std::optional<std::size_t> image = this->image(path.C_Str());
+  if (!image)
+    return;
+  Texture texture;
+  texture.image = *image;
+  texture.boundaryS = boundaryOf(modes[0]);
+  texture.boundaryT = boundaryOf(modes[1]);
+  const auto found = std::ranges::find(graph_.textures, texture);
+  const auto index = static_cast<std::size_t>(found - graph_.textures.begin());
+  if (found == graph_.textures.end())
+    graph_.textures.push_back(texture);
+  appearance.textures.push_back({role, index, {}});
+}
+
+std::optional<std::size_t> AssimpMaterials::appearance(unsigned index) {
+  const auto [found, isNew] = appearances_.try_emplace(index);
+  if (!isNew || index >= source_.mNumMaterials)
+    return found->second;
+  const aiMaterial& material = *source_.mMaterials[index];
+  Appearance appearance;
+  appearance.name = material.GetName().C_Str();
+  if (appearance.name == AI_DEFAULT_MATERIAL_NAME)
+    return {};
+  appearance.material = materialOf(material);
+  for (const Role& role : roles)
+    addTexture(material, role.type, role.role, appearance);
+  const auto isCarried = [](int type) {
+    return std::ranges::any_of(roles, [type](const Role& role) { return role.type == type; });
+  };
+  for (int type = 1; type <= AI_TEXTURE_TYPE_MAX; ++type)
+    if (!isCarried(type) && material.GetTextureCount(static_cast<aiTextureType>(type)) > 0)
+      ++others_[aiTextureTypeToString(static_cast<aiTextureType>(type))];
+  graph_.appearances.push_back(std::move(appearance));
+  return found->second = graph_.appearances.size() - 1;
+}
+
+bool AssimpMaterials::isSolid(unsigned index) const {
+  int isTwoSided = 0;
+  if (index < source_.mNumMaterials)
+    source_.mMaterials[index]->Get(AI_MATKEY_TWOSIDED, isTwoSided);
+  return isTwoSided == 0;
+}
+
+void AssimpMaterials::addWarnings(std::vector<std::string>& warnings) const {
+  std::ranges::copy(missing_, std::back_inserter(warnings));
+  std::vector<std::string> kinds;
+  for (const auto& [kind, count] : others_)
+    kinds.push_back(fmt::format("{} ({})", kind, count));
+  if (!kinds.empty())
+    warnings.push_back(fmt::format("Textures that are not carried over: {}.", fmt::join(kinds, ", ")));
+}
+
+} // namespace imgeo

@@ -1,0 +1,41 @@
+#pragma once
+// Assimp's materials and textures -> appearances.
+
+#include "import/references.h"
+#include "scene/scene.h"
+
+#include <assimp/scene.h>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+class AssimpMaterials {
+public:
+  AssimpMaterials(const aiScene& source, SceneGraph& graph, const References& references)
+      : source_(source), graph_(graph), references_(references) {}
+
+  /// The appearance of a material; read when it is first asked for. Absent for the
+  /// material that Assimp makes where a source has none.
+  std::optional<std::size_t> appearance(unsigned material);
+  bool isSolid(unsigned material) const;
+
+  void addWarnings(std::vector<std::string>& warnings) const;
+
+private:
+  AnyMaterial materialOf(const aiMaterial& material) const;
+  void addTexture(const aiMaterial& material, aiTextureType type, TextureRole role, Appearance& appearance);
+  std::optional<std::size_t> image(const std::string& path);
+  Bytes bytesOf(const std::string& path) const;
+
+  const aiScene& source_;
+  SceneGraph& graph_;
+  const References& references_;
+  std::map<unsigned, std::optional<std::size_t>> appearances_;
+  std::map<std::string, std::optional<std::size_t>> images_;
+  std::vector<std::string> missing_;          ///< one sentence for each image that is left out
+  std::map<std::string, std::size_t> others_; ///< textures of other kinds, by kind
+};
+
+} // namespace imgeo

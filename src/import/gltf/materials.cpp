@@ -1,0 +1,230 @@
+#include "import/gltf/materials.h"
+
+#include "import/image_type.h"
+#include "scene/color.h"
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace imgeo::gltf {
+
+namespace {
+
+const std::set<std::string> knownExtensions{"KHR_materials_unlit", "KHR_materials_emissive_strength",
+                                            "KHR_materials_pbrSpecularGlossiness"};
+
+float unit(double value) {
+  return static_cast<float>(std::clamp(value, 0.0, 1.0));
+}
+
+Vec3f encodedSrgb(Vec3d linear) {
+  const auto encode = [](double v) { return static_cast<float>(srgbOfLinear(std::clamp(v, 0.0, 1.0))); };
+  return {encode(linear.x), encode(linear.y), encode(linear.z)};
+}
+
+/// KHR_materials_pbrSpecularGlossiness is Phong's model in other words.
+Material phongOf(const Value& value) {
+  Material material;
+  const std::vector<double> diffuse = value["diffuseFactor"].reals(4, {1, 1, 1, 1});
+  material.diffuseColor = encodedSrgb({diffuse[0], diffuse[1], diffuse[2]});
+  material.transparency = 1 - unit(diffuse[3]);
+  material.specularColor = encodedSrgb(value["specularFactor"].vec3({1, 1, 1}));
+  material.shininess = unit(value["glossinessFactor"].real(1));
+  return material;
+}
+
+Filter filterOf(std::uint64_t value) {
+  constexpr std::uint64_t nearest = 9728, linear = 9729;
+  return value == nearest ? Filter::nearest : value == linear ? Filter::linear : Filter::standard;
+}
+
+Boundary boundaryOf(std::uint64_t value) {
+  constexpr std::uint64_t clampToEdge = 33071, mirroredRepeat = 33648;
+  return value == clampToEdge      ? Boundary::clamp
+         : value == mirroredRepeat ? Boundary::mirroredRepeat
+                                   : Boundary::repeat;
+}
+
+void readSampler(const Value& value, Texture& texture) {
+  texture.boundaryS = boundaryOf(value["wrapS"].whole(0));
+  texture.boundaryT = boundaryOf(value["wrapT"].whole(0));
+  texture.magnification = filterOf(value["magFilter"].whole(0));
+  const std::uint64_t minification = value["minFilter"].whole(0);
+  // NEAREST, LINEAR, and from 9984 on the four with mip maps: within, then between.
+  constexpr std::uint64_t firstWithMipMaps = 9984, lastWithMipMaps = 9987;
+  texture.minification = filterOf(minification);
+  texture.mipMaps = texture.minification == Filter::standard;
+  if (minification >= firstWithMipMaps && minification <= lastWithMipMaps) {
+    const std::uint64_t kind = minification - firstWithMipMaps;
+    texture.minification = kind % 2 == 0 ? Filter::nearest : Filter::linear;
+    texture.betweenMipMaps = kind / 2 == 0 ? Filter::nearest : Filter::linear;
+  }
+}
+
+} // namespace
+
+std::optional<TextureTransform> textureTransformOf(double a, double b, double c, double d, double x,
+                                                   double y) {
+  // Rows of the matrix, which X3D makes of a rotation, then a scale.
+  const double sizeS = std::hypot(a, c), sizeT = std::hypot(b, d);
+  if (!(sizeS > 0) || !(sizeT > 0) || std::abs(a * b + c * d) > 1e-6 * sizeS * sizeT)
+    return {};
+  TextureTransform transform;
+  const double rotation = std::atan2(-c, a), determinant = a * d - b * c;
+  transform.rotation = static_cast<float>(rotation);
+  transform.scale = {static_cast<float>(sizeS), static_cast<float>(determinant < 0 ? -sizeT : sizeT)};
+  // The translation comes first in X3D: M (t + p) = M t + (x, y).
+  transform.translation = {static_cast<float>((d * x - c * y) / determinant),
+                           static_cast<float>((a * y - b * x) / determinant)};
+  return transform;
+}
+
+TextureTransform MaterialReader::transformOf(const Value& extension) {
+  if (extension.isAbsent())
+    return {};
+  const Vec2<double> offset = extension["offset"].vec2({0, 0}), scale = extension["scale"].vec2({1, 1});
+  const double rotation = extension["rotation"].real(0), cosine = std::cos(rotation),
+               sine = std::sin(rotation);
+  // u' = cos sx u + sin sy v + x, v' = -sin sx u + cos sy v + y, where v is measured
+  // down; X3D measures t = 1 - v up.
+  const double a = cosine * scale.x, b = sine * scale.x, c = -sine * scale.y, d = cosine * scale.y;
+  const double x = offset.x + sine * scale.y, y = 1 - offset.y - cosine * scale.y;
+  const std::optional<TextureTransform> transform = textureTransformOf(a, b, c, d, x, y);
+  losses.skewedTransforms += !transform;
+  return transform.value_or(TextureTransform{});
+}
+
+std::optional<std::size_t> MaterialReader::image(std::size_t index) {
+  const auto [found, isNew] = images_.try_emplace(index);
+  if (!isNew)
+    return found->second;
+  const Value value = document_.array("images")[index];
+  ImageFile image;
+  try {
+    image.url = value["uri"].text();
+    if (const auto view = value.index("bufferView", document_.array("bufferViews"))) {
+      const ByteSpan bytes = document_.view(*view);
+      image.bytes.assign(bytes.begin(), bytes.end());
+    } else {
+      image.bytes = document_.references().fetch(image.url);
+    }
+    if (image.url.starts_with("data:"))
+      image.url = "";
+    if (imageType(image.bytes).empty())
+      value.fail(ErrorKind::unsupported, "is an image of a kind that browsers do not show");
+  } catch (const Error& error) {
+    if (isStrict_)
+      throw;
+    losses.images.push_back(fmt::format("A texture is left out: {}.", error.what()));
+    return {};
+  }
+  graph_.images.push_back(std::move(image));
+  return found->second = graph_.images.size() - 1;
+}
+
+std::optional<std::size_t> MaterialReader::texture(std::size_t index) {
+  const auto [found, isNew] = textures_.try_emplace(index);
+  if (!isNew)
+    return found->second;
+  const Value value = document_.array("textures")[index], images = document_.array("images");
+  std::optional<std::size_t> source = value["extensions"]["EXT_texture_webp"].index("source", images);
+  if (!source)
+    source = value.index("source", images);
+  if (!source) {
+    losses.images.push_back(
+        fmt::format("A texture is left out: {} has no image of a kind that browsers show.", value.place()));
+    return {};
+  }
+  const std::optional<std::size_t> image = this->image(*source);
+  if (!image)
+    return {};
+  Texture texture;
+  texture.name = value["name"].text(document_.array("images")[*source]["name"].text());
+  texture.image = *image;
+  if (const auto sampler = value.index("sampler", document_.array("samplers")))
+    readSampler(document_.array("samplers")[*sampler], texture);
+  graph_.textures.push_back(std::move(texture));
+  return found->second = graph_.textures.size() - 1;
+}
+
+void MaterialReader::addTexture(const Value& info, TextureRole role, Appearance& appearance) {
+  const std::optional<std::size_t> index = info.index("index", document_.array("textures"));
+  if (!index)
+    return;
+  const Value transform = info["extensions"]["KHR_texture_transform"];
+  if (transform["texCoord"].whole(info["texCoord"].whole(0)) != 0) {
+    ++losses.secondTexCoords;
+    return;
+  }
+  if (const std::optional<std::size_t> texture = this->texture(*index))
+    appearance.textures.push_back({role, *texture, transformOf(transform)});
+}
+
+AnyMaterial MaterialReader::materialOf(const Value& value) {
+  const Value extensions = value["extensions"], pbr = value["pbrMetallicRoughness"];
+  const std::vector<double> base = pbr["baseColorFactor"].reals(4, {1, 1, 1, 1});
+  const float transparency = 1 - unit(base[3]);
+  if (extensions.has("KHR_materials_unlit"))
+    return UnlitMaterial{encodedSrgb({base[0], base[1], base[2]}), transparency};
+  const double strength = extensions["KHR_materials_emissive_strength"]["emissiveStrength"].real(1);
+  const Vec3d emissive = value["emissiveFactor"].vec3({0, 0, 0}) * strength;
+  if (extensions.has("KHR_materials_pbrSpecularGlossiness")) {
+    Material material = phongOf(extensions["KHR_materials_pbrSpecularGlossiness"]);
+    material.emissiveColor = encodedSrgb(emissive);
+    return material;
+  }
+  PhysicalMaterial material;
+  material.baseColor = Vec3f(Vec3d{base[0], base[1], base[2]});
+  material.transparency = transparency;
+  material.emissiveColor = Vec3f(emissive);
+  material.metallic = unit(pbr["metallicFactor"].real(1));
+  material.roughness = unit(pbr["roughnessFactor"].real(1));
+  material.normalScale = static_cast<float>(value["normalTexture"]["scale"].real(1));
+  material.occlusionStrength = unit(value["occlusionTexture"]["strength"].real(1));
+  return material;
+}
+
+void MaterialReader::readTextures(const Value& value, Appearance& appearance) {
+  const Value pbr = value["pbrMetallicRoughness"];
+  const bool isPhong = std::holds_alternative<Material>(appearance.material),
+             isUnlit = std::holds_alternative<UnlitMaterial>(appearance.material);
+  const Value glossiness = value["extensions"]["KHR_materials_pbrSpecularGlossiness"];
+  addTexture(isPhong ? glossiness["diffuseTexture"] : pbr["baseColorTexture"], TextureRole::color,
+             appearance);
+  if (isUnlit)
+    return;
+  addTexture(value["emissiveTexture"], TextureRole::emissive, appearance);
+  if (!isPhong)
+    addTexture(pbr["metallicRoughnessTexture"], TextureRole::metallicRoughness, appearance);
+  addTexture(value["normalTexture"], TextureRole::normal, appearance);
+  addTexture(value["occlusionTexture"], TextureRole::occlusion, appearance);
+  if (isPhong)
+    addTexture(glossiness["specularGlossinessTexture"], TextureRole::specular, appearance);
+}
+
+std::size_t MaterialReader::appearance(std::size_t index) {
+  if (const auto found = appearances_.find(index); found != appearances_.end())
+    return found->second;
+  const Value value = document_.array("materials")[index];
+  Appearance appearance;
+  appearance.name = value["name"].text();
+  appearance.material = materialOf(value);
+  readTextures(value, appearance);
+  const std::string alphaMode = value["alphaMode"].text("OPAQUE");
+  appearance.alphaMode = alphaMode == "BLEND"  ? AlphaMode::blend
+                         : alphaMode == "MASK" ? AlphaMode::mask
+                                               : AlphaMode::opaque;
+  appearance.alphaCutoff = static_cast<float>(value["alphaCutoff"].real(0.5));
+  if (const Value extensions = value["extensions"]; extensions.json().is_object())
+    for (const auto& [name, unused] : extensions.json().items())
+      losses.extensions[name] += !knownExtensions.contains(name);
+  graph_.appearances.push_back(std::move(appearance));
+  return appearances_[index] = graph_.appearances.size() - 1;
+}
+
+bool MaterialReader::isSolid(std::size_t material) const {
+  return !document_.array("materials")[material]["doubleSided"].boolean(false);
+}
+
+} // namespace imgeo::gltf

@@ -1,0 +1,157 @@
+#include "import/gltf/materials.h"
+
+#include "base/file.h"
+#include "base/testing.h"
+#include "import/error_testing.h"
+#include "import/gltf/testing.h"
+#include "scene/testing.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace imgeo::testing {
+namespace {
+
+using Json = GltfText::Json;
+
+const std::string png = "\x89PNG\r\n\x1a\n and so on";
+
+Bytes bytesOf(const std::string& text) {
+  return Bytes(text.begin(), text.end());
+}
+
+/// A triangle whose material is `material`.
+GltfText withMaterial(Json material) {
+  GltfText gltf;
+  gltf.show(gltf.addTriangle());
+  gltf.json["materials"] = Json::array({std::move(material)});
+  gltf.json["meshes"][0]["primitives"][0]["material"] = 0;
+  return gltf;
+}
+
+Appearance lookOf(const GltfText& gltf, const ImportOptions& options = {}) {
+  return appearanceOf(read(gltf, options).scene.graph, 0);
+}
+
+TEST(GltfMaterial, IsAPhysicalMaterialWithItsNumbers) {
+  const Appearance look = lookOf(withMaterial(
+      {{"name", "steel"},
+       {"pbrMetallicRoughness",
+        {{"baseColorFactor", {0.5, 0.25, 0, 0.75}}, {"metallicFactor", 0.5}, {"roughnessFactor", 0.25}}},
+       {"emissiveFactor", {0, 0.5, 0}},
+       {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}}},
+       {"alphaMode", "MASK"},
+       {"alphaCutoff", 0.25}}));
+  EXPECT_EQ(look.name, "steel");
+  PhysicalMaterial expected;
+  expected.baseColor = {0.5f, 0.25f, 0};
+  expected.metallic = 0.5f;
+  expected.roughness = 0.25f;
+  expected.emissiveColor = {0, 2, 0};
+  expected.transparency = 0.25f;
+  EXPECT_EQ(look.material, AnyMaterial(expected));
+  EXPECT_EQ(look.alphaMode, AlphaMode::mask);
+  EXPECT_EQ(look.alphaCutoff, 0.25f);
+}
+
+TEST(GltfMaterial, MayBeUnlitOrOfPhongsModel) {
+  const Appearance unlit =
+      lookOf(withMaterial({{"pbrMetallicRoughness", {{"baseColorFactor", {0.214, 1, 0, 1}}}},
+                           {"extensions", {{"KHR_materials_unlit", Json::object()}}}}));
+  EXPECT_NEAR(std::get<UnlitMaterial>(unlit.material).emissiveColor.x, 0.5, 1e-3);
+  const Appearance phong =
+      lookOf(withMaterial({{"extensions",
+                            {{"KHR_materials_pbrSpecularGlossiness",
+                              {{"diffuseFactor", {1, 0, 0, 1}}, {"glossinessFactor", 0.5}}}}}}));
+  EXPECT_EQ(std::get<Material>(phong.material).diffuseColor, (Vec3f{1, 0, 0}));
+  EXPECT_EQ(std::get<Material>(phong.material).shininess, 0.5f);
+}
+
+TEST(GltfTexture, ComesWithItsSamplerFromABufferOrAUrl) {
+  GltfText gltf = withMaterial({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                                {"normalTexture", {{"index", 1}, {"scale", 0.5}}}});
+  gltf.json["images"] = {
+      {{"bufferView", gltf.addView(bytesOf(png))}, {"mimeType", "image/png"}, {"name", "wood"}},
+      {{"uri", GltfText::dataUrl(bytesOf(png + "2"))}}};
+  gltf.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9986}}};
+  gltf.json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 1}}};
+  const SceneGraph graph = read(gltf).scene.graph;
+  const Appearance& look = appearanceOf(graph, 0);
+  ASSERT_EQ(look.textures.size(), 2u);
+  EXPECT_EQ(look.textures[0].role, TextureRole::color);
+  EXPECT_EQ(look.textures[1].role, TextureRole::normal);
+  const Texture& wood = graph.textures[look.textures[0].texture];
+  EXPECT_EQ(wood, (Texture{"wood", 0, Boundary::clamp, Boundary::mirroredRepeat, Filter::nearest,
+                           Filter::nearest, Filter::linear, true}));
+  EXPECT_EQ(graph.images[wood.image].bytes, bytesOf(png));
+  EXPECT_EQ(graph.images[1].bytes, bytesOf(png + "2"));
+  EXPECT_EQ(std::get<PhysicalMaterial>(look.material).normalScale, 0.5f);
+}
+
+TEST(GltfTexture, IsLookedForBesideTheFileAndNowhereElse) {
+  const TemporaryDirectory directory;
+  std::filesystem::create_directories(directory / "scene/maps");
+  writeFile(directory / "scene/maps/a b.png", bytesOf(png));
+  writeFile(directory / "secret.png", bytesOf(png));
+  std::filesystem::create_symlink(directory / "secret.png", directory / "scene/link.png");
+  const auto imported = [&](const std::string& uri, bool outside = false) {
+    GltfText gltf = withMaterial({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    gltf.json["images"] = {{{"uri", uri}}};
+    gltf.json["textures"] = {{{"source", 0}}};
+    writeFile(directory / "scene/a.gltf", asBytes(gltf.text()));
+    ImportOptions options;
+    options.outside = outside;
+    return importFile(directory / "scene/a.gltf", options);
+  };
+  const Imported found = imported("maps/a%20b.png");
+  EXPECT_TRUE(found.warnings.empty());
+  EXPECT_EQ(found.scene.graph.images.at(0).url, "maps/a%20b.png");
+  const auto expectLeftOut = [&](const std::string& uri, const std::string& words) {
+    const Imported left = imported(uri);
+    EXPECT_TRUE(appearanceOf(left.scene.graph, 0).textures.empty()) << uri;
+    ASSERT_EQ(left.warnings.size(), 1u) << uri;
+    EXPECT_NE(left.warnings[0].find(words), std::string::npos) << left.warnings[0];
+  };
+  expectLeftOut("missing.png", "No such file");
+  expectLeftOut("../secret.png", "outside of the folder");
+  expectLeftOut("%2e%2e/secret.png", "outside of the folder");
+  expectLeftOut((directory / "secret.png").string(), "outside of the folder");
+  expectLeftOut("link.png", "outside of the folder");
+  expectLeftOut("https://example.org/a.png", "another host");
+  expectLeftOut("file:///etc/passwd", "another host");
+  expectLeftOut("a.gltf", "kind that browsers do not show");
+  EXPECT_TRUE(imported("../secret.png", true).warnings.empty());
+}
+
+TEST(GltfTexture, IsReadWhereItsTransformSaysInBothMeasures) {
+  Random random(3);
+  const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-5 * (1 + std::abs(a)); };
+  for (int i = 0; i < 200; ++i) {
+    const float rotation = random.between(-3, 3), size = random.between(0.1f, 4), x = random.between(-2, 2),
+                y = random.between(-2, 2);
+    const bool turned = random.once(2);
+    const Vec2f scale = turned ? Vec2f{size, size} : Vec2f{size, random.between(-3, -1)};
+    const float angle = turned ? rotation : 0;
+    GltfText gltf = withMaterial(
+        {{"pbrMetallicRoughness",
+          {{"baseColorTexture",
+            {{"index", 0},
+             {"extensions",
+              {{"KHR_texture_transform",
+                {{"offset", {x, y}}, {"scale", {scale.x, scale.y}}, {"rotation", angle}}}}}}}}}});
+    gltf.json["images"] = {{{"uri", GltfText::dataUrl(bytesOf(png))}}};
+    gltf.json["textures"] = {{{"source", 0}}};
+    const TextureTransform transform = lookOf(gltf).textures.at(0).transform;
+
+    const double u = random.between(0, 1), v = random.between(0, 1); // v down
+    const double gltfU = std::cos(angle) * scale.x * u + std::sin(angle) * scale.y * v + x,
+                 gltfV = -std::sin(angle) * scale.x * u + std::cos(angle) * scale.y * v + y;
+    const double s = u + transform.translation.x, t = 1 - v + transform.translation.y;
+    const double c = std::cos(transform.rotation), n = std::sin(transform.rotation);
+    EXPECT_TRUE(near((c * s - n * t) * transform.scale.x, gltfU)) << i;
+    EXPECT_TRUE(near((n * s + c * t) * transform.scale.y, 1 - gltfV)) << i;
+  }
+}
+
+} // namespace
+} // namespace imgeo::testing

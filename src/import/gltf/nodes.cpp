@@ -1,0 +1,270 @@
+#include "import/gltf/nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace imgeo::gltf {
+
+namespace {
+
+constexpr std::size_t maxNodeDepth = 200;
+/// Lights of glTF reach as far as they can be seen, those of X3D to their radius.
+constexpr double farthest = 1e6;
+
+std::string extrasOf(const Value& value) {
+  const Value extras = value["extras"];
+  return extras.isAbsent() ? "" : extras.json().dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Transform transformOfTrs(Vec3d translation, const std::vector<double>& q, Vec3d scale) {
+  Transform transform;
+  transform.translation = translation;
+  transform.rotation = rotationOfQuaternion(q[0], q[1], q[2], q[3]);
+  transform.scale = scale;
+  return transform;
+}
+
+NodeContent groupUnlessMoved(const Transform& transform) {
+  return transform == Transform{} ? NodeContent(Group{}) : NodeContent(transform);
+}
+
+/// X3D's field of view is along the shorter side, glTF's always vertical.
+double fieldOfViewOf(const Value& perspective) {
+  const double vertical = std::clamp(perspective["yfov"].real(0.7854), 1e-3, std::numbers::pi - 1e-3);
+  const double aspect = perspective["aspectRatio"].real(1);
+  return aspect > 0 && aspect < 1 ? 2 * std::atan(std::tan(vertical / 2) * aspect) : vertical;
+}
+
+} // namespace
+
+template <typename Read> void NodeReader::attempt(const Read& read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    if (isStrict_ || error.kind() == ErrorKind::limit)
+      throw;
+    losses.damage.push_back(fmt::format("Left out: {}.", error.what()));
+  }
+}
+
+void NodeReader::readScene() {
+  const Value nodes = document_.array("nodes"), scenes = document_.array("scenes");
+  visited_.assign(nodes.size(), false);
+  std::vector<std::size_t> roots;
+  const std::optional<std::size_t> chosen = document_.root().index("scene", scenes);
+  losses.otherScenes = std::max<std::size_t>(scenes.size(), 1) - 1;
+  if (scenes.size() > 0) {
+    const Value scene = scenes[chosen.value_or(0)];
+    scene_.graph.title = scene["name"].text();
+    const Value list = scene["nodes"];
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const std::uint64_t node = list[i].whole();
+      if (node >= nodes.size())
+        list[i].fail(ErrorKind::malformed, fmt::format("names node {} of {}", node, nodes.size()));
+      roots.push_back(node);
+    }
+  } else {
+    std::vector<bool> isChild(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t c = 0; c < nodes[i]["children"].size(); ++c)
+        if (const std::uint64_t child = nodes[i]["children"][c].whole(); child < nodes.size())
+          isChild[child] = true;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (!isChild[i])
+        roots.push_back(i);
+  }
+  for (const std::size_t root : roots)
+    if (const std::optional<std::size_t> node = readNode(root, 1))
+      scene_.graph.roots.push_back(*node);
+  const Value meshes = document_.array("meshes");
+  for (std::size_t i = 0; nodes.size() == 0 && i < meshes.size(); ++i)
+    if (const std::optional<std::size_t> node = meshNode(i, ""))
+      scene_.graph.roots.push_back(*node);
+}
+
+NodeContent NodeReader::transformOf(const Value& node) const {
+  if (node.has("matrix")) {
+    const std::vector<double> m = node["matrix"].reals(16, {});
+    const Affine3d map{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
+    return groupUnlessMoved(map == Affine3d{} ? Transform{} : imgeo::transformOf(map));
+  }
+  return groupUnlessMoved(transformOfTrs(
+      node["translation"].vec3({}), node["rotation"].reals(4, {0, 0, 0, 1}), node["scale"].vec3({1, 1, 1})));
+}
+
+std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t depth) {
+  const Value value = document_.array("nodes")[index];
+  if (depth > maxNodeDepth)
+    value.fail(ErrorKind::limit, "is nested too deeply");
+  if (visited_[index]) {
+    attempt([&] { value.fail(ErrorKind::malformed, "is the child of two nodes, or of itself"); });
+    return {};
+  }
+  visited_[index] = true;
+  Node node;
+  node.name = value["name"].text();
+  node.content = transformOf(value);
+  node.extras = extrasOf(value);
+  if (const auto mesh = value.index("mesh", document_.array("meshes"))) {
+    losses.skins += value.has("skin");
+    addInstances(value, *mesh, node.children);
+  }
+  addCamera(value, node.children);
+  addLight(value, node.children);
+  const Value children = value["children"];
+  for (std::size_t i = 0; i < children.size(); ++i) {
+    const std::uint64_t child = children[i].whole();
+    if (child >= visited_.size())
+      attempt([&] {
+        children[i].fail(ErrorKind::malformed, fmt::format("names node {} of {}", child, visited_.size()));
+      });
+    else if (const std::optional<std::size_t> read = readNode(child, depth + 1))
+      node.children.push_back(*read);
+  }
+  // A node without a name that does nothing is its only child.
+  if (node.name.empty() && node.extras.empty() && node.children.size() == 1 &&
+      std::holds_alternative<Group>(node.content))
+    return node.children[0];
+  return addNode(scene_.graph, std::move(node));
+}
+
+/// The node's mesh, or as many of it as EXT_mesh_gpu_instancing says.
+void NodeReader::addInstances(const Value& node, std::size_t mesh, std::vector<std::size_t>& children) {
+  const std::optional<std::size_t> shown = meshNode(mesh, node["name"].text());
+  if (!shown)
+    return;
+  const Value instancing = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+  if (instancing.isAbsent()) {
+    children.push_back(*shown);
+    return;
+  }
+  std::optional<std::size_t> count;
+  const auto accessor = [&](const char* name, std::uint32_t components) {
+    const std::optional<std::size_t> index = instancing.index(name, document_.array("accessors"));
+    std::optional<Accessor> read;
+    if (!index)
+      return read;
+    read = document_.accessor(*index);
+    if (read->components() != components || (count && *count != read->count()))
+      instancing[name].fail(ErrorKind::malformed, "does not fit the other attributes of the instances");
+    count = read->count();
+    return read;
+  };
+  const std::optional<Accessor> translations = accessor("TRANSLATION", 3),
+                                rotations = accessor("ROTATION", 4), scales = accessor("SCALE", 3);
+  document_.spend(instancing, count.value_or(0) * 512);
+  for (std::size_t i = 0; i < count.value_or(0); ++i) {
+    const auto number = [&](const std::optional<Accessor>& from, std::uint32_t component, double otherwise) {
+      const double value = from ? from->real(i, component) : otherwise;
+      if (!std::isfinite(value))
+        instancing.fail(ErrorKind::malformed, fmt::format("instance {} stands nowhere", i));
+      return value;
+    };
+    const auto vector = [&](const std::optional<Accessor>& from, double otherwise) {
+      return Vec3d{number(from, 0, otherwise), number(from, 1, otherwise), number(from, 2, otherwise)};
+    };
+    const Transform transform = transformOfTrs(
+        vector(translations, 0),
+        {number(rotations, 0, 0), number(rotations, 1, 0), number(rotations, 2, 0), number(rotations, 3, 1)},
+        vector(scales, 1));
+    children.push_back(addNode(scene_.graph, {"", groupUnlessMoved(transform), {*shown}, ""}));
+  }
+}
+
+/// A mesh that several nodes show is one node with several parents.
+std::optional<std::size_t> NodeReader::meshNode(std::size_t index, const std::string& nodeName) {
+  if (const auto found = meshNodes_.find(index); found != meshNodes_.end())
+    return found->second;
+  const Value value = document_.array("meshes")[index], primitives = value["primitives"];
+  const std::string meshName = value["name"].text(), name = meshName == nodeName ? "" : meshName;
+  std::vector<std::size_t> shapes;
+  for (std::size_t i = 0; i < primitives.size(); ++i)
+    attempt([&] {
+      if (const auto shape = shapeNode(primitives[i], primitives.size() == 1 ? name : ""))
+        shapes.push_back(*shape);
+    });
+  std::optional<std::size_t>& node = meshNodes_[index];
+  if (primitives.size() == 1 && !shapes.empty())
+    node = shapes[0];
+  else if (!shapes.empty())
+    node = addNode(scene_.graph, {name, Group{}, std::move(shapes), ""});
+  return node;
+}
+
+std::optional<std::size_t> NodeReader::shapeNode(const Value& primitive, const std::string& name) {
+  Shape shape;
+  shape.mesh = meshOf(primitive);
+  if (const auto material = primitive.index("material", document_.array("materials"))) {
+    shape.appearance = materials_.appearance(*material);
+    shape.solid = materials_.isSolid(*material);
+  }
+  return addNode(scene_.graph, {name, shape, {}, ""});
+}
+
+/// Primitives of the same accessors share a mesh, whatever their materials.
+std::size_t NodeReader::meshOf(const Value& primitive) {
+  Json key = primitive.json();
+  if (!key.is_object())
+    primitive.fail(ErrorKind::malformed, "is no object");
+  key.erase("material");
+  key.erase("extras");
+  const std::string text = key.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (const auto found = meshes_.find(text); found != meshes_.end())
+    return found->second;
+  scene_.meshes.push_back(primitives_.read(primitive));
+  return meshes_[text] = scene_.meshes.size() - 1;
+}
+
+void NodeReader::addCamera(const Value& node, std::vector<std::size_t>& children) {
+  const std::optional<std::size_t> index = node.index("camera", document_.array("cameras"));
+  if (!index)
+    return;
+  const Value camera = document_.array("cameras")[*index];
+  const std::string description = camera["name"].text(node["name"].text());
+  if (camera.has("orthographic")) {
+    OrthoViewpoint viewpoint;
+    viewpoint.description = description;
+    viewpoint.position = {};
+    const double x = camera["orthographic"]["xmag"].real(1), y = camera["orthographic"]["ymag"].real(1);
+    viewpoint.min = {-x, -y};
+    viewpoint.max = {x, y};
+    children.push_back(addNode(scene_.graph, {"", viewpoint, {}, extrasOf(camera)}));
+  } else {
+    Viewpoint viewpoint;
+    viewpoint.description = description;
+    viewpoint.position = {};
+    viewpoint.fieldOfView = fieldOfViewOf(camera["perspective"]);
+    children.push_back(addNode(scene_.graph, {"", viewpoint, {}, extrasOf(camera)}));
+  }
+}
+
+/// KHR_lights_punctual: in photometric units, falling off by the square of the distance.
+void NodeReader::addLight(const Value& node, std::vector<std::size_t>& children) {
+  const Value lights = document_.root()["extensions"]["KHR_lights_punctual"]["lights"];
+  const std::optional<std::size_t> index = node["extensions"]["KHR_lights_punctual"].index("light", lights);
+  if (!index)
+    return;
+  const Value light = lights[*index];
+  const Vec3f color = light["color"].vec3f({1, 1, 1});
+  const auto intensity = static_cast<float>(light["intensity"].real(1));
+  const double range = light["range"].real(0), radius = range > 0 ? range : farthest;
+  const Vec3d bySquare{0, 0, 1};
+  const std::string type = light["type"].text();
+  NodeContent content;
+  if (type == "directional") {
+    content = DirectionalLight{{0, 0, -1}, color, intensity, true};
+  } else if (type == "point") {
+    content = PointLight{{}, bySquare, radius, color, intensity, true};
+  } else if (type == "spot") {
+    const double inner = light["spot"]["innerConeAngle"].real(0),
+                 outer = light["spot"]["outerConeAngle"].real(std::numbers::pi / 4);
+    content = SpotLight{{}, {0, 0, -1}, inner, outer, bySquare, radius, color, intensity, true};
+  } else {
+    return attempt([&] { light["type"].fail(ErrorKind::unsupported, "is no light that X3D has"); });
+  }
+  children.push_back(addNode(scene_.graph, {light["name"].text(), content, {}, extrasOf(light)}));
+}
+
+} // namespace imgeo::gltf

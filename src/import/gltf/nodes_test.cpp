@@ -1,0 +1,187 @@
+#include "import/error_testing.h"
+#include "import/gltf/testing.h"
+#include "scene/testing.h"
+
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace imgeo::testing {
+namespace {
+
+Vec3d originOf(const PlacedShape& placed) {
+  return placed.worldFromShape.point({0, 0, 0});
+}
+
+bool warnsOf(const Imported& imported, const std::string& words) {
+  return std::ranges::any_of(imported.warnings,
+                             [&](const std::string& w) { return w.find(words) != w.npos; });
+}
+
+template <typename T> const T* firstOf(const SceneGraph& graph) {
+  for (const std::size_t node : nodesInOrder(graph))
+    if (const T* content = std::get_if<T>(&graph.nodes[node].content))
+      return content;
+  return nullptr;
+}
+
+TEST(GltfNodes, KeepNamesTransformsAndTheirTree) {
+  GltfText gltf;
+  const std::size_t mesh = gltf.addTriangle();
+  gltf.addNode({{"name", "arm"}, {"translation", {1, 0, 0}}, {"children", {1}}});
+  gltf.addNode({{"name", "hand"}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}, {"mesh", mesh}});
+  gltf.json["scenes"] = {{{"name", "robot"}, {"nodes", {0}}}};
+  const Imported imported = read(gltf);
+  const SceneGraph& graph = imported.scene.graph;
+  EXPECT_EQ(imported.format, "glTF");
+  EXPECT_EQ(graph.title, "robot");
+  const Node& arm = graph.nodes[graph.roots.at(0)];
+  EXPECT_EQ(arm.name, "arm");
+  EXPECT_EQ(std::get<Transform>(arm.content).translation, (Vec3d{1, 0, 0}));
+  EXPECT_EQ(graph.nodes[arm.children.at(0)].name, "hand");
+  const std::vector<PlacedShape> placed = placedShapes(graph);
+  ASSERT_EQ(placed.size(), 1u);
+  EXPECT_LE(length(placed[0].worldFromShape.point({1, 0, 0}) - Vec3d{1, 1, 0}), 1e-12);
+}
+
+TEST(GltfNodes, ShareTheMeshThatTheyShow) {
+  GltfText gltf;
+  const std::size_t mesh = gltf.addTriangle();
+  for (int i = 0; i < 100; ++i)
+    gltf.addNode({{"mesh", mesh}, {"translation", {i, 0, 0}}});
+  const Scene scene = read(gltf).scene;
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  EXPECT_EQ(shapeNodes(scene.graph).size(), 1u);
+  const std::vector<PlacedShape> placed = placedShapes(scene.graph);
+  ASSERT_EQ(placed.size(), 100u);
+  EXPECT_EQ(originOf(placed[7]), (Vec3d{7, 0, 0}));
+}
+
+TEST(GltfNodes, ShareAMeshWhereOnlyTheMaterialsDiffer) {
+  GltfText gltf;
+  gltf.addTriangle();
+  gltf.json["materials"] = {{{"name", "red"}}, {{"name", "blue"}, {"doubleSided", true}}};
+  GltfText::Json primitive = gltf.json["meshes"][0]["primitives"][0];
+  primitive["material"] = 0;
+  GltfText::Json other = primitive;
+  other["material"] = 1;
+  gltf.show(gltf.addMesh({primitive, other}));
+  const Scene scene = read(gltf).scene;
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  ASSERT_EQ(shapeNodes(scene.graph).size(), 2u);
+  EXPECT_EQ(appearanceOf(scene.graph, 0).name, "red");
+  EXPECT_EQ(appearanceOf(scene.graph, 1).name, "blue");
+  EXPECT_TRUE(shapeOf(scene.graph, shapeNodes(scene.graph)[0]).solid);
+  EXPECT_FALSE(shapeOf(scene.graph, shapeNodes(scene.graph)[1]).solid);
+}
+
+TEST(GltfNodes, TakeMatricesEvenWhereTheyShear) {
+  GltfText gltf;
+  gltf.addNode(
+      {{"mesh", gltf.addTriangle()}, {"matrix", {1, 0, 0, 0, 0.5, 2, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1}}});
+  const std::vector<PlacedShape> placed = placedShapes(read(gltf).scene.graph);
+  EXPECT_LE(length(placed.at(0).worldFromShape.point({0, 1, 0}) - Vec3d{7.5, 10, 9}), 1e-9);
+}
+
+TEST(GltfNodes, StandAsOftenAsTheyAreInstanced) {
+  GltfText gltf;
+  const std::size_t mesh = gltf.addTriangle();
+  const std::size_t places = gltf.addAccessor<float>({1, 0, 0, 2, 0, 0, 3, 0, 0}, "VEC3", 5126);
+  gltf.addNode({{"mesh", mesh},
+                {"translation", {0, 5, 0}},
+                {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}});
+  const Scene scene = read(gltf).scene;
+  const std::vector<PlacedShape> placed = placedShapes(scene.graph);
+  ASSERT_EQ(placed.size(), 3u);
+  EXPECT_EQ(originOf(placed[2]), (Vec3d{3, 5, 0}));
+  EXPECT_EQ(shapeNodes(scene.graph).size(), 1u);
+}
+
+TEST(GltfNodes, BringTheirCameras) {
+  GltfText gltf;
+  gltf.show(gltf.addTriangle());
+  gltf.json["cameras"] = {
+      {{"name", "door"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.9}, {"znear", 1}}}},
+      {{"type", "perspective"}, {"perspective", {{"yfov", 0.9}, {"aspectRatio", 0.5}, {"znear", 1}}}},
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 2}, {"znear", 0}, {"zfar", 1}}}}};
+  gltf.addNode({{"name", "eye"}, {"camera", 0}, {"translation", {0, 0, 4}}});
+  gltf.addNode({{"camera", 1}});
+  gltf.addNode({{"name", "plan"}, {"camera", 2}});
+  const SceneGraph graph = read(gltf).scene.graph;
+  const Viewpoint* viewpoint = firstOf<Viewpoint>(graph);
+  ASSERT_TRUE(viewpoint);
+  EXPECT_EQ(viewpoint->description, "door");
+  EXPECT_DOUBLE_EQ(viewpoint->fieldOfView, 0.9);
+  EXPECT_EQ(viewpoint->position, Vec3d{});
+  const Viewpoint& narrow = std::get<Viewpoint>(graph.nodes[graph.roots.at(2)].content);
+  EXPECT_NEAR(narrow.fieldOfView, 2 * std::atan(std::tan(0.45) * 0.5), 1e-9);
+  const OrthoViewpoint* plan = firstOf<OrthoViewpoint>(graph);
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan->description, "plan");
+  EXPECT_EQ(plan->max, (Vec2<double>{3, 2}));
+}
+
+TEST(GltfNodes, BringTheirLights) {
+  GltfText gltf;
+  gltf.show(gltf.addTriangle());
+  gltf.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "directional"}, {"intensity", 2}},
+      {{"type", "point"}, {"color", {1, 0.5, 0}}, {"range", 12}},
+      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}}};
+  for (int light = 0; light < 3; ++light)
+    gltf.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
+  const SceneGraph graph = read(gltf).scene.graph;
+  ASSERT_TRUE(firstOf<DirectionalLight>(graph) && firstOf<PointLight>(graph) && firstOf<SpotLight>(graph));
+  EXPECT_EQ(firstOf<DirectionalLight>(graph)->intensity, 2);
+  EXPECT_TRUE(firstOf<DirectionalLight>(graph)->global);
+  EXPECT_EQ(firstOf<PointLight>(graph)->radius, 12);
+  EXPECT_EQ(firstOf<PointLight>(graph)->attenuation, (Vec3d{0, 0, 1}));
+  EXPECT_EQ(firstOf<SpotLight>(graph)->cutOffAngle, 0.5);
+}
+
+TEST(GltfNodes, KeepWhatTheirAuthorsAdded) {
+  GltfText gltf;
+  gltf.addNode(
+      {{"name", "door"}, {"mesh", gltf.addTriangle()}, {"extras", {{"material", "oak"}, {"price", 12}}}});
+  const SceneGraph graph = read(gltf).scene.graph;
+  EXPECT_EQ(graph.nodes[graph.roots.at(0)].extras, R"({"material":"oak","price":12})");
+}
+
+TEST(GltfNodes, SayWhatIsNotCarriedOver) {
+  GltfText gltf;
+  gltf.addNode({{"mesh", gltf.addTriangle()}, {"skin", 0}});
+  gltf.json["meshes"][0]["primitives"][0]["targets"] = GltfText::Json::array({GltfText::Json::object()});
+  gltf.json["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"] = 0;
+  gltf.json["animations"] = GltfText::Json::array({GltfText::Json::object(), GltfText::Json::object()});
+  gltf.json["materials"] = {{{"extensions", {{"KHR_materials_clearcoat", GltfText::Json::object()}}}}};
+  gltf.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const Imported imported = read(gltf);
+  for (const char* words :
+       {"2 animations are", "1 skin is", "morph targets", "JOINTS_0", "KHR_materials_clearcoat (1 material)"})
+    EXPECT_TRUE(warnsOf(imported, words)) << words;
+  EXPECT_EQ(imported.warnings.size(), 5u);
+}
+
+TEST(GltfNodes, ThatGoInCirclesAreLeftOutAndRefusedWhereStrict) {
+  GltfText gltf;
+  const std::size_t mesh = gltf.addTriangle();
+  gltf.addNode({{"mesh", mesh}, {"children", {1}}});
+  gltf.addNode({{"children", {0}}});
+  gltf.json["scenes"] = {{{"nodes", {0}}}};
+  const Imported imported = read(gltf);
+  EXPECT_EQ(placedShapes(imported.scene.graph).size(), 1u);
+  EXPECT_TRUE(warnsOf(imported, "nodes[0]: is the child of two nodes"));
+  EXPECT_THROW(read(gltf, {.attributes = {}, .folder = {}, .outside = false, .strict = true}), Error);
+}
+
+TEST(GltfNodes, NestedWithoutMeasureAreRefused) {
+  GltfText gltf;
+  gltf.addTriangle();
+  for (int i = 0; i < 1000; ++i)
+    gltf.addNode({{"children", {i + 1}}});
+  gltf.addNode({{"mesh", 0}});
+  EXPECT_EQ(errorOf(gltf.text(), "a.gltf").kind(), ErrorKind::limit);
+  EXPECT_EQ(errorOf(std::string(1000, '[') + "\"asset\"", "a.gltf").kind(), ErrorKind::limit);
+}
+
+} // namespace
+} // namespace imgeo::testing

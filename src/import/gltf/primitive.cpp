@@ -1,0 +1,229 @@
+#include "import/gltf/primitive.h"
+
+#include "import/unit_normal.h"
+#include "scene/color.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+namespace imgeo::gltf {
+
+namespace {
+
+constexpr std::uint32_t unset = 0xffffffff;
+
+// The specification's names of modes.
+enum Mode : std::uint64_t { points, lines, lineLoop, lineStrip, triangles, triangleStrip, triangleFan };
+
+Topology topologyOf(std::uint64_t mode) {
+  return mode == points ? Topology::points : mode <= lineStrip ? Topology::lines : Topology::triangles;
+}
+
+/// The corners of separate elements that a mode makes of a run of vertices
+/// (glTF 2.0, 3.7.2.1). What does not make a whole element is left out.
+std::vector<std::uint32_t> separated(std::uint64_t mode, const std::vector<std::uint32_t>& run) {
+  std::vector<std::uint32_t> corners;
+  const std::size_t count = run.size();
+  switch (mode) {
+  case points:
+    return run;
+  case lines:
+    return {run.begin(), run.begin() + static_cast<std::ptrdiff_t>(count / 2 * 2)};
+  case triangles:
+    return {run.begin(), run.begin() + static_cast<std::ptrdiff_t>(count / 3 * 3)};
+  case lineStrip:
+  case lineLoop:
+    for (std::size_t i = 0; i + 1 < count; ++i)
+      corners.insert(corners.end(), {run[i], run[i + 1]});
+    if (mode == lineLoop && count > 2)
+      corners.insert(corners.end(), {run[count - 1], run[0]});
+    return corners;
+  case triangleStrip:
+    for (std::size_t i = 0; i + 2 < count; ++i)
+      corners.insert(corners.end(), {run[i], run[i + 1 + i % 2], run[i + 2 - i % 2]});
+    return corners;
+  default:
+    for (std::size_t i = 0; i + 2 < count; ++i)
+      corners.insert(corners.end(), {run[i + 1], run[i + 2], run[0]});
+    return corners;
+  }
+}
+
+std::uint8_t byteOf(double value) {
+  return value > 0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 1.0) * 255)) : std::uint8_t{0};
+}
+
+} // namespace
+
+const PrimitiveData::Attribute* PrimitiveData::find(const std::string& name) const {
+  const auto found = std::ranges::find(attributes, name, &Attribute::name);
+  return found == attributes.end() ? nullptr : &*found;
+}
+
+void PrimitiveReader::addAccessors(const Value& primitive, PrimitiveData& data) {
+  const Value names = primitive["attributes"];
+  if (!names.json().is_object())
+    names.fail(ErrorKind::malformed, "is missing");
+  std::optional<std::size_t> vertexCount;
+  for (const auto& [name, unused] : names.json().items()) {
+    const std::size_t index = names.index(name.c_str(), document_.array("accessors")).value();
+    const auto accessor = std::make_shared<Accessor>(document_.accessor(index));
+    if (vertexCount && *vertexCount != accessor->count())
+      names[name.c_str()].fail(ErrorKind::malformed, fmt::format("has {} elements, another attribute has {}",
+                                                                 accessor->count(), *vertexCount));
+    vertexCount = accessor->count();
+    data.attributes.push_back({name, accessor->components(), [accessor](std::size_t vertex, std::uint32_t c) {
+                                 return accessor->real(vertex, c);
+                               }});
+  }
+  data.vertexCount = vertexCount.value_or(0);
+  const std::optional<std::size_t> indices = primitive.index("indices", document_.array("accessors"));
+  if (!indices)
+    return;
+  const Accessor accessor = document_.accessor(*indices);
+  if (accessor.components() != 1 || !accessor.isUnsigned())
+    primitive["indices"].fail(ErrorKind::malformed, "are no whole numbers");
+  document_.spend(primitive, accessor.count() * 4);
+  data.indexed = true;
+  data.indices.resize(accessor.count());
+  for (std::size_t i = 0; i < accessor.count(); ++i) {
+    data.indices[i] = accessor.whole(i, 0);
+    if (data.indices[i] >= data.vertexCount)
+      primitive["indices"].fail(ErrorKind::malformed,
+                                fmt::format("name vertex {} of {}", data.indices[i], data.vertexCount));
+  }
+}
+
+PrimitiveData PrimitiveReader::dataOf(const Value& primitive) {
+  const Value draco = primitive["extensions"]["KHR_draco_mesh_compression"];
+  if (!draco.isAbsent())
+    return readDraco(document_, primitive, draco);
+  PrimitiveData data;
+  addAccessors(primitive, data);
+  return data;
+}
+
+/// Numbers the vertices that are used in the order of their first use; returns
+/// them and changes `corners` to the new numbers.
+std::vector<std::uint32_t> PrimitiveReader::compact(std::vector<std::uint32_t>& corners,
+                                                    std::size_t vertexCount) {
+  if (localVertex_.size() < vertexCount)
+    localVertex_.resize(vertexCount, unset);
+  std::vector<std::uint32_t> vertices;
+  for (std::uint32_t& corner : corners) {
+    std::uint32_t& local = localVertex_[corner];
+    if (local == unset) {
+      local = static_cast<std::uint32_t>(vertices.size());
+      vertices.push_back(corner);
+    }
+    corner = local;
+  }
+  for (const std::uint32_t vertex : vertices)
+    localVertex_[vertex] = unset;
+  return vertices;
+}
+
+Mesh PrimitiveReader::read(const Value& primitive) {
+  std::uint64_t mode = primitive["mode"].whole(triangles);
+  if (mode > triangleFan)
+    primitive["mode"].fail(ErrorKind::malformed, "is no mode that glTF has");
+  const PrimitiveData data = dataOf(primitive);
+  if (data.isTriangles)
+    mode = triangles;
+  std::vector<std::uint32_t> run = data.indices;
+  const std::size_t drawn = data.indexed ? data.indices.size() : data.vertexCount;
+  document_.spend(primitive, std::uint64_t{drawn} * 40); // its corners and their vertices
+  if (!data.indexed)
+    for (std::size_t i = 0; i < data.vertexCount; ++i)
+      run.push_back(static_cast<std::uint32_t>(i));
+  Mesh mesh;
+  mesh.topology = topologyOf(mode);
+  mesh.corners = separated(mode, run);
+  const std::vector<std::uint32_t> vertices = compact(mesh.corners, data.vertexCount);
+  for (std::uint32_t i = 0; i < vertices.size(); ++i)
+    mesh.wedgePositions.push_back(i);
+  addVertices(primitive, data, vertices, mesh);
+  addNamedAttributes(primitive, data, vertices, mesh);
+  losses.morphTargets += primitive["targets"].size() > 0;
+  return mesh;
+}
+
+void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& data,
+                                  const std::vector<std::uint32_t>& vertices, Mesh& mesh) {
+  const auto attribute = [&](const char* name, std::uint32_t least, std::uint32_t most) {
+    const PrimitiveData::Attribute* found = data.find(name);
+    if (found && (found->components < least || found->components > most))
+      primitive["attributes"][name].fail(ErrorKind::malformed,
+                                         "has a number of components that it cannot have");
+    return found;
+  };
+  const auto vec3 = [](const PrimitiveData::Attribute& from, std::uint32_t vertex) {
+    return Vec3f(Vec3d{from.number(vertex, 0), from.number(vertex, 1), from.number(vertex, 2)});
+  };
+  const PrimitiveData::Attribute *positions = attribute("POSITION", 3, 3),
+                                 *normals = attribute("NORMAL", 3, 3),
+                                 *texCoords = attribute("TEXCOORD_0", 2, 2),
+                                 *colors = attribute("COLOR_0", 3, 4);
+  if (!positions)
+    primitive["attributes"].fail(ErrorKind::malformed, "has no POSITION");
+  for (const std::uint32_t vertex : vertices) {
+    const Vec3f position = vec3(*positions, vertex);
+    if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z))
+      primitive["attributes"]["POSITION"].fail(ErrorKind::malformed,
+                                               fmt::format("of vertex {} is not a number", vertex));
+    mesh.positions.push_back(position);
+    if (normals) {
+      mesh.normals.push_back(vec3(*normals, vertex));
+      losses.badNormals += !makeUnit(mesh.normals.back());
+    }
+    if (texCoords) {
+      const Vec2f texCoord{static_cast<float>(texCoords->number(vertex, 0)),
+                           static_cast<float>(1 - texCoords->number(vertex, 1))}; // glTF measures v down
+      if (!std::isfinite(texCoord.x) || !std::isfinite(texCoord.y))
+        primitive["attributes"]["TEXCOORD_0"].fail(ErrorKind::malformed,
+                                                   fmt::format("of vertex {} is not a number", vertex));
+      mesh.texCoords.push_back(texCoord);
+    }
+    if (colors) { // linear in glTF
+      const auto channel = [&](std::uint32_t c) { return byteOf(srgbOfLinear(colors->number(vertex, c))); };
+      const std::uint8_t alpha =
+          colors->components == 4 ? byteOf(colors->number(vertex, 3)) : std::uint8_t{255};
+      mesh.colors.push_back({channel(0), channel(1), channel(2), alpha});
+    }
+  }
+  const bool isOpaque = std::ranges::all_of(mesh.colors, [](Rgba8 color) { return color.a == 255; });
+  mesh.colorComponents = isOpaque ? 3 : 4;
+}
+
+/// "_NAME" is an attribute of the author's own. The others that glTF defines serve
+/// skins, and textures beyond the first coordinates.
+void PrimitiveReader::addNamedAttributes(const Value& primitive, const PrimitiveData& data,
+                                         const std::vector<std::uint32_t>& vertices, Mesh& mesh) {
+  for (const PrimitiveData::Attribute& attribute : data.attributes) {
+    const std::string& name = attribute.name;
+    if (name == "POSITION" || name == "NORMAL" || name == "TEXCOORD_0" || name == "COLOR_0")
+      continue;
+    const bool isOwn = name.starts_with("_") && attribute.components <= 4;
+    const std::string ownName = isOwn ? name.substr(1) : "";
+    if (!ownName.empty())
+      ownAttributes.insert(ownName);
+    if (!isOwn || ownName.empty() || !choice_.has(ownName)) {
+      losses.attributes.insert(name);
+      continue;
+    }
+    NamedAttribute named{ownName, attribute.components, {}};
+    for (const std::uint32_t vertex : vertices)
+      for (std::uint32_t c = 0; c < attribute.components; ++c) {
+        named.values.push_back(static_cast<float>(attribute.number(vertex, c)));
+        if (!std::isfinite(named.values.back()))
+          primitive["attributes"][name.c_str()].fail(ErrorKind::malformed,
+                                                     fmt::format("of vertex {} is not a number", vertex));
+      }
+    mesh.namedAttributes.push_back(std::move(named));
+  }
+}
+
+} // namespace imgeo::gltf

@@ -1,0 +1,64 @@
+#pragma once
+// glTF's JSON, read with types and bounds; every fault names its place.
+
+#include "base/affine.h"
+#include "base/error.h"
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace imgeo::gltf {
+
+using Json = nlohmann::json;
+
+/// A value of the document and where it stands: "scene.gltf, meshes[2].primitives[0]".
+class Value {
+public:
+  /// `separator` stands between the place and the name of a member.
+  Value(const Json& json, std::string place, const char* separator = ".")
+      : json_(&json), place_(std::move(place)), separator_(separator) {}
+
+  [[noreturn]] void fail(ErrorKind kind, const std::string& message) const {
+    throw Error(kind, place_, message);
+  }
+  const Json& json() const { return *json_; }
+  const std::string& place() const { return place_; }
+
+  bool has(const char* name) const { return json_->is_object() && json_->contains(name); }
+  /// A member of an object; a null value, of which nothing can be read, where it is absent.
+  Value operator[](const char* name) const;
+  /// An element of an array, which has so many.
+  Value operator[](std::size_t index) const;
+  /// Elements of an array; 0 for what is absent.
+  std::size_t size() const;
+  bool isAbsent() const { return json_->is_null(); }
+
+  // Each gives the fallback where the value is absent and throws for another type.
+  std::string text(const std::string& fallback = "") const;
+  bool boolean(bool fallback) const;
+  double real(double fallback) const; ///< finite and within single precision
+  std::uint64_t whole(std::uint64_t fallback) const;
+  /// A number that must be there.
+  std::uint64_t whole() const;
+  /// Exactly `count` finite numbers.
+  std::vector<double> reals(std::size_t count, std::vector<double> fallback) const;
+  Vec3d vec3(Vec3d fallback) const;
+  Vec3f vec3f(Vec3f fallback) const { return Vec3f(vec3(Vec3d(fallback))); }
+  Vec2<double> vec2(Vec2<double> fallback) const;
+
+  /// An index into the root's array `name`; absent where there is none. Throws
+  /// Error{malformed} for one out of range.
+  std::optional<std::size_t> index(const char* member, const Value& array) const;
+
+private:
+  const Json* json_;
+  std::string place_;
+  const char* separator_;
+};
+
+/// Parses the text of a document. Throws Error{malformed, limit} naming `name`.
+Json parseJson(std::string_view text, const std::string& name);
+
+} // namespace imgeo::gltf

@@ -1,0 +1,59 @@
+#pragma once
+// MTL files (Wavefront Technologies, Advanced Visualizer manual, appendix B4; the
+// extensions for physically based materials of Neil Trevett and others, 2017).
+
+#include "import/references.h"
+#include "scene/scene.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+class TextScanner;
+
+class ObjMaterials {
+public:
+  ObjMaterials(SceneGraph& graph, const References& references) : graph_(graph), references_(references) {}
+
+  /// Reads what an mtllib statement names: one file, or several. What cannot be read
+  /// becomes a warning.
+  void readLibrary(const std::string& files);
+
+  /// The appearance of a material; absent where no library defines it.
+  std::optional<std::size_t> appearance(const std::string& name);
+
+  void addWarnings(std::vector<std::string>& warnings) const;
+
+private:
+  struct Map {
+    TextureRole role = TextureRole::color;
+    std::string file;
+    TextureTransform transform;
+    bool clamps = false;
+    friend bool operator==(const Map&, const Map&) = default;
+  };
+  struct Definition {
+    Material material;
+    std::optional<float> metallic, roughness; ///< where there is one: a physical material
+    std::vector<Map> maps;
+  };
+
+  void readFile(const std::string& file);
+  void readLine(TextScanner& scanner, Definition& definition);
+  static Map readMap(TextScanner& scanner, TextureRole role);
+  Appearance appearanceOf(const std::string& name, const Definition& definition);
+  std::optional<std::size_t> image(const std::string& file);
+
+  SceneGraph& graph_;
+  const References& references_;
+  std::map<std::string, Definition> definitions_;
+  std::map<std::string, std::optional<std::size_t>> appearances_;
+  std::map<std::string, std::optional<std::size_t>> images_;
+  std::vector<std::string> missing_;
+  std::set<std::string> undefined_, others_;
+};
+
+} // namespace imgeo

@@ -1,0 +1,126 @@
+#include "import/references.h"
+
+#include "base/error.h"
+#include "base/file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fmt/format.h>
+
+namespace imgeo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+int hexDigit(char c) {
+  return c >= '0' && c <= '9'   ? c - '0'
+         : c >= 'a' && c <= 'f' ? c - 'a' + 10
+         : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                : -1;
+}
+
+/// RFC 3986: a letter, then letters, digits and "+-.", then a colon.
+bool hasScheme(std::string_view url) {
+  const std::size_t colon = url.find(':');
+  return colon != url.npos && colon > 0 && std::isalpha(static_cast<unsigned char>(url[0])) &&
+         std::ranges::all_of(url.substr(0, colon), [](unsigned char c) {
+           return std::isalnum(c) || c == '+' || c == '-' || c == '.';
+         });
+}
+
+/// The url as far as messages need it.
+std::string shortened(std::string_view url) {
+  return std::string(url.substr(0, 60)) + (url.size() > 60 ? "..." : "");
+}
+
+Bytes dataOf(std::string_view url, const std::string& place) {
+  const std::size_t comma = url.find(',');
+  if (comma == url.npos)
+    throw Error(ErrorKind::malformed, place, "a data: url has no comma");
+  const std::string_view data = url.substr(comma + 1);
+  if (url.substr(0, comma).ends_with(";base64"))
+    return base64Decoded(data, place);
+  const std::string text = percentDecoded(data);
+  return Bytes(text.begin(), text.end());
+}
+
+} // namespace
+
+std::string percentDecoded(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const int high = text[i] == '%' && i + 2 < text.size() ? hexDigit(text[i + 1]) : -1,
+              low = high >= 0 ? hexDigit(text[i + 2]) : -1;
+    decoded += low >= 0 ? static_cast<char>(high * 16 + low) : text[i];
+    i += low >= 0 ? 2 : 0;
+  }
+  return decoded;
+}
+
+Bytes base64Decoded(std::string_view text, const std::string& place) {
+  static constexpr auto values = [] {
+    std::array<std::int8_t, 256> table{};
+    table.fill(-1);
+    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (std::size_t i = 0; i < letters.size(); ++i)
+      table[static_cast<unsigned char>(letters[i])] = static_cast<std::int8_t>(i);
+    table['-'] = 62, table['_'] = 63; // the url-safe alphabet
+    return table;
+  }();
+  Bytes decoded;
+  decoded.reserve(text.size() / 4 * 3);
+  std::uint32_t bits = 0, count = 0;
+  for (const char c : text) {
+    if (c == '=' || c == ' ' || c == '\n' || c == '\r' || c == '\t')
+      continue;
+    const int value = values[static_cast<unsigned char>(c)];
+    if (value < 0)
+      throw Error(ErrorKind::malformed, place, "base64 data has a character that stands for nothing");
+    bits = bits << 6 | static_cast<std::uint32_t>(value);
+    count += 6;
+    if (count >= 8) {
+      count -= 8;
+      decoded.push_back(static_cast<std::uint8_t>(bits >> count));
+    }
+  }
+  return decoded;
+}
+
+fs::path References::fileOf(std::string_view url) const {
+  const auto refuse = [&](const char* why) {
+    throw Error(ErrorKind::unsupported, sourceName_,
+                fmt::format("refers to \"{}\", {}", shortened(url), why));
+  };
+  if (hasScheme(url) || url.starts_with("//"))
+    refuse("which is on another host; imgeo reads local files alone");
+  if (folder_.empty())
+    refuse("which can only be found beside a file, not beside standard input");
+  const std::string name = percentDecoded(url.substr(0, url.find_first_of("?#")));
+  if (name.empty() || name.find('\0') != name.npos)
+    refuse("which names no file");
+  fs::path file = folder_ / name;
+  std::error_code none;
+  if (!fs::exists(file, none)) // exporters write names with % and # as they are
+    if (const fs::path asWritten = folder_ / std::string(url); fs::exists(asWritten, none))
+      file = asWritten;
+  const fs::path folder = fs::weakly_canonical(folder_, none), real = fs::weakly_canonical(file, none);
+  const bool isInside =
+      std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end();
+  if (!isInside && !allowsOutside_)
+    refuse("which lies outside of the folder of the source; --outside allows that");
+  return file;
+}
+
+Bytes References::fetch(std::string_view url) const {
+  if (url.starts_with("data:"))
+    return dataOf(url, sourceName_);
+  const fs::path file = fileOf(url);
+  std::error_code none;
+  if (fs::exists(file, none) && !fs::is_regular_file(file, none))
+    throw Error(ErrorKind::io, file.string(), "is no file");
+  return readFile(file);
+}
+
+} // namespace imgeo
