@@ -199,7 +199,8 @@ window.app = {
   },
 
   async inspect() {
-    const loader = new ImgeoLoader().setMaterial(({ diffuseColor }) => new MeshToonMaterial({ color: new Color().setRGB(...diffuseColor) }));
+    const loader = new ImgeoLoader().setMaterial((material) =>
+      new MeshToonMaterial({ color: new Color().setRGB(...material.kind === "phong" ? material.diffuseColor : material.emissiveColor) }));
     const object = loaded = await loader.loadAsync("scene.x3d");
     object.castShadow = true; // before all has come: it must hold for what comes
     await object.complete;

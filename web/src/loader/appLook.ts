@@ -5,7 +5,8 @@
 
 import type { Camera, Material, Sphere, WebGLRenderer } from "three";
 import {
-  Color, DoubleSide, FrontSide, MeshBasicMaterial, MeshDepthMaterial, MeshDistanceMaterial, MeshStandardMaterial, Points, SRGBColorSpace,
+  Color, DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshDepthMaterial, MeshDistanceMaterial, MeshStandardMaterial,
+  Points, SRGBColorSpace,
 } from "three";
 import type { MaterialDescription } from "../document/description.ts";
 import { farnessDefine, shadeByFarnessIn } from "../render/farness.ts";
@@ -20,20 +21,22 @@ import { readVerticesIn, srgbColorsDefine, vertexDefinesOf } from "../render/ver
  */
 export type MaterialMaker = (material: MaterialDescription, shading: Shading) => Material;
 
-/** A physically based reading of X3D's: its shininess as roughness, by the width of the highlight. */
-export function standardMaterialOf({ diffuseColor, emissiveColor, shininess, transparency }: MaterialDescription, shading: Shading): Material {
-  const color = new Color().setRGB(...diffuseColor, SRGBColorSpace);
-  const opacity = 1 - transparency;
-  const transparent = transparency > 0;
-  if (shading === "unlit" || shading === "distance") {
-    const emissive = new Color().setRGB(...emissiveColor, SRGBColorSpace);
+/** X3D's and glTF's physical material is three's own; of X3D's other one, a reading with its shininess as roughness, by the width of the highlight. */
+export function standardMaterialOf(description: MaterialDescription, shading: Shading): Material {
+  const opacity = 1 - description.transparency;
+  const transparent = description.transparency > 0;
+  const colorSpace = description.kind === "physical" ? LinearSRGBColorSpace : SRGBColorSpace;
+  const emissive = new Color().setRGB(...description.emissiveColor, colorSpace);
+  const color = description.kind === "unlit" ? emissive
+    : new Color().setRGB(...(description.kind === "physical" ? description.baseColor : description.diffuseColor), colorSpace);
+  if (shading === "unlit" || shading === "distance" || description.kind === "unlit") {
     return new MeshBasicMaterial({ color: emissive.getHex() === 0 ? color : emissive, opacity, transparent });
   }
   return new MeshStandardMaterial({
-    color, opacity, transparent,
-    emissive: new Color().setRGB(...emissiveColor, SRGBColorSpace),
-    roughness: Math.sqrt(2 / (shininess * 128 + 2)), // as of Blinn's exponent, Walter et al. 2007
-    metalness: 0,
+    color, opacity, transparent, emissive,
+    ...(description.kind === "physical" ? { roughness: description.roughness, metalness: description.metallic }
+      // As of Blinn's exponent, Walter et al. 2007.
+      : { roughness: Math.sqrt(2 / (description.shininess * 128 + 2)), metalness: 0 }),
   });
 }
 

@@ -5,24 +5,30 @@
 // light adds up in those numbers, as X3D's equations are written and as X3DOM
 // draws them. A grey of 0.5 that faces the headlight is 128 on the screen.
 // (three.js by default lights in linear space and divides by pi; hence a chunk
-// of our own, and `outputColorSpace` linear in the renderer.)
+// of our own, and `outputColorSpace` linear in the renderer.) The colours of a
+// PhysicalMaterial are linear, and so is its light: physicalLighting.ts.
 
 import type { Color, Material } from "three";
 import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshPhongMaterial } from "three";
 import type { MaterialDescription, Vec3 } from "../document/description.ts";
 import { farnessDefine, shadeByFarnessIn } from "./farness.ts";
 import type { Look, MaterialRequest, VertexColors } from "./look.ts";
-import { readVerticesIn, replaceEach, vertexDefinesOf } from "./vertexChunk.ts";
+import { displayedOf, physicalDefine, physicalLighting, physicalOutput } from "./physicalLighting.ts";
+import { readVerticesIn, replaceEach, srgbColorsDefine, vertexDefinesOf } from "./vertexChunk.ts";
 
 const x3dLighting = /* glsl */ `
 varying vec3 vViewPosition;
-uniform float ambientIntensity;
-
 struct X3dMaterial {
   vec3 diffuseColor;
   vec3 specularColor;
   float shininess;
 };
+
+#ifdef ${physicalDefine}
+${physicalLighting}
+#else
+
+uniform float ambientIntensity;
 
 void directX3d(const in IncidentLight light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
                const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
@@ -38,33 +44,44 @@ void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 norma
   reflected.indirectDiffuse += light * material.diffuseColor * ambientIntensity;
 }
 
+#endif
+
 #define RE_Direct directX3d
 #define RE_IndirectDiffuse ambientX3d
 `;
 
 const materialFromUniforms = "X3dMaterial material = X3dMaterial(diffuseColor.rgb, specular, shininess);";
 
-type PatchMaterial = (MeshPhongMaterial | MeshBasicMaterial) & { userData: { ambientIntensity?: { value: number } } };
+/** Uniforms of a lit material. */
+interface LitUniforms {
+  readonly ambientIntensity: { value: number };
+  readonly metallic: { value: number };
+  readonly roughness: { value: number };
+}
+
+type LitMaterial = MeshPhongMaterial & { userData: { lit?: LitUniforms } };
+type PatchMaterial = LitMaterial | MeshBasicMaterial;
 
 /** Pages look as X3D says. */
 export const x3dLook: Look = { makeMaterial, applyMaterial, prepare: () => undefined };
 
 function makeMaterial(request: MaterialRequest, description: MaterialDescription): PatchMaterial {
   const { shading, colors, solid, uniforms, shared } = request;
-  const ambientIntensity = { value: 0 };
+  const lit: LitUniforms = { ambientIntensity: { value: 0 }, metallic: { value: 1 }, roughness: { value: 1 } };
   const material: PatchMaterial = shading === "unlit" || shading === "distance" ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
   material.side = solid ? FrontSide : DoubleSide;
   material.vertexColors = colors !== "none";
   material.defines = { ...vertexDefinesOf(request, shading === "smooth"), ...(shading === "distance" && { [farnessDefine]: "" }) };
-  material.userData.ambientIntensity = ambientIntensity;
+  material.userData.lit = lit;
   material.onBeforeCompile = (shader) => {
-    Object.assign(shader.uniforms, uniforms, { depthRange: shared.depthRange, ambientIntensity });
+    Object.assign(shader.uniforms, uniforms, { depthRange: shared.depthRange, ...lit });
     readVerticesIn(shader);
     shadeByFarnessIn(shader);
     shader.fragmentShader = replaceEach(shader.fragmentShader, [
       ["#include <lights_phong_pars_fragment>", x3dLighting],
       ["#include <lights_phong_fragment>", materialFromUniforms],
+      ["#include <colorspace_fragment>", physicalOutput],
     ]);
   };
   // The text of `onBeforeCompile` is the same for all, so programs are shared as they should be.
@@ -73,28 +90,60 @@ function makeMaterial(request: MaterialRequest, description: MaterialDescription
   return material;
 }
 
-/** Colours of vertices stand in for the diffuse colour. */
+/** Colours of vertices stand in for the diffuse colour; glTF multiplies them with its base colour. */
 function applyMaterial(material: Material, description: MaterialDescription, colors: VertexColors): void {
-  const { diffuseColor, specularColor, emissiveColor, ambientIntensity, shininess, transparency } = description;
   const hasColors = colors !== "none";
-  if (material instanceof MeshPhongMaterial) {
-    setColor(material.color, hasColors ? [1, 1, 1] : diffuseColor);
-    setColor(material.specular, specularColor);
-    setColor(material.emissive, emissiveColor);
-    material.shininess = shininess * 128;
-  } else if (material instanceof MeshBasicMaterial) {
-    // X3D shows unlit points in the emissive colour. Scans without one would be black on black.
-    const isDark = emissiveColor.every((channel) => channel === 0);
-    setColor(material.color, hasColors ? [1, 1, 1] : isDark ? diffuseColor : emissiveColor);
-  }
-  const ambient = (material as PatchMaterial).userData.ambientIntensity;
-  if (ambient) ambient.value = ambientIntensity;
-  material.opacity = 1 - transparency;
-  const isTransparent = transparency > 0 || colors === "rgba";
+  if (material instanceof MeshPhongMaterial) applyLit(material, description, hasColors);
+  else if (material instanceof MeshBasicMaterial) setColor(material.color, hasColors ? [1, 1, 1] : unlitColorOf(description));
+  material.opacity = 1 - description.transparency;
+  const isTransparent = description.transparency > 0 || colors === "rgba";
   if (material.transparent !== isTransparent) {
     material.transparent = isTransparent;
     material.needsUpdate = true;
   }
+}
+
+/** X3D shows unlit points in the emissive colour. Scans without one would be black on black. */
+function unlitColorOf(description: MaterialDescription): Vec3 {
+  const { emissiveColor } = description;
+  const isDark = emissiveColor.every((channel) => channel === 0);
+  switch (description.kind) {
+    case "phong":
+      return isDark ? description.diffuseColor : emissiveColor;
+    case "physical":
+      return displayedOf(isDark ? description.baseColor : emissiveColor);
+    case "unlit":
+      return emissiveColor;
+  }
+}
+
+function applyLit(material: LitMaterial, description: MaterialDescription, hasColors: boolean): void {
+  setPhysical(material, description.kind === "physical");
+  const { lit } = material.userData;
+  if (description.kind === "physical") {
+    setColor(material.color, description.baseColor);
+    if (lit) lit.metallic.value = description.metallic;
+    if (lit) lit.roughness.value = description.roughness;
+  } else {
+    const phong = description.kind === "phong" ? description : unlitAsPhong;
+    setColor(material.color, hasColors && description.kind === "phong" ? [1, 1, 1] : phong.diffuseColor);
+    setColor(material.specular, phong.specularColor);
+    material.shininess = phong.shininess * 128;
+    if (lit) lit.ambientIntensity.value = phong.ambientIntensity;
+  }
+  setColor(material.emissive, description.emissiveColor);
+}
+
+/** What no light changes reflects none. */
+const unlitAsPhong = { diffuseColor: [0, 0, 0], specularColor: [0, 0, 0], shininess: 0, ambientIntensity: 0 } as const;
+
+/** Another program where the kind has changed. */
+function setPhysical(material: LitMaterial, isPhysical: boolean): void {
+  const defines = material.defines ?? {};
+  if (isPhysical === (physicalDefine in defines)) return;
+  const others = Object.entries(defines).filter(([name]) => name !== physicalDefine && name !== srgbColorsDefine);
+  material.defines = { ...Object.fromEntries(others), ...(isPhysical && { [physicalDefine]: "", [srgbColorsDefine]: "" }) };
+  material.needsUpdate = true;
 }
 
 export function setColor(color: Color, [red, green, blue]: Vec3): void {

@@ -93,7 +93,7 @@ function lightOf(description: LightDescription): DirectionalLight | PointLight |
 function setFalloff(light: PointLight | SpotLight, { attenuation, radius, intensity }: { attenuation: Vec3; radius: number; intensity: number }): void {
   const power = attenuation[2] > 0 ? 2 : attenuation[1] > 0 ? 1 : 0;
   light.decay = power;
-  light.intensity = power === 0 ? intensity / Math.max(attenuation[0], 1) : intensity / (attenuation[power] ?? 1);
+  light.intensity = power === 0 ? intensity / Math.max(attenuation[0], 1) : intensity / attenuation[power];
   light.distance = radius;
 }
 

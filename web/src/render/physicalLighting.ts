@@ -1,0 +1,75 @@
+// PhysicalMaterial: the metallic-roughness model of glTF 2.0, appendix B (Lambert
+// below Schlick's Fresnel term and the GGX distribution, Walter et al. 2007), with
+// height-correlated Smith visibility (Heitz 2014). Colours and light are linear;
+// the result is encoded for the screen.
+//
+// A light of intensity 1 that a white, rough surface faces makes it white, as with
+// X3D's Material, so the factor 1/pi of all reflectances is left out. Metals mirror
+// what surrounds them and nothing else; without any surroundings they would be
+// black, so they stand in a grey room (Karis 2014, "Physically based shading on
+// mobile", for its share).
+
+import type { Vec3 } from "../document/description.ts";
+
+export const physicalDefine = "PHYSICAL";
+
+/** The body of directX3d and ambientX3d for this model. */
+export const physicalLighting = /* glsl */ `
+uniform float metallic;
+uniform float roughness;
+
+const float radianceOfRoom = 0.3;
+
+vec3 mirroredColor(const in X3dMaterial material) {
+  return mix(vec3(0.04), material.diffuseColor, metallic);
+}
+
+void directX3d(const in IncidentLight light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
+               const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
+  float NL = dot(normal, light.direction);
+  if (NL <= 0.0) return;
+  vec3 halfway = normalize(light.direction + viewDirection);
+  float NV = max(dot(normal, viewDirection), 1e-4);
+  float NH = max(dot(normal, halfway), 0.0);
+  float VH = max(dot(viewDirection, halfway), 0.0);
+  float alpha = max(roughness * roughness, 1e-3);
+  float alpha2 = alpha * alpha;
+  float spread = (NH * alpha2 - NH) * NH + 1.0;
+  float distribution = alpha2 / (spread * spread);
+  float visibility = 0.5 / (NL * sqrt(NV * NV * (1.0 - alpha2) + alpha2) + NV * sqrt(NL * NL * (1.0 - alpha2) + alpha2));
+  vec3 fresnel = mix(mirroredColor(material), vec3(1.0), pow(1.0 - VH, 5.0));
+  reflected.directDiffuse += light.color * NL * (1.0 - fresnel) * (1.0 - metallic) * material.diffuseColor;
+  reflected.directSpecular += light.color * NL * fresnel * distribution * visibility;
+}
+
+vec3 shareOfRoom(const in X3dMaterial material, float NV) {
+  const vec4 c0 = vec4(-1.0, -0.0275, -0.572, 0.022);
+  const vec4 c1 = vec4(1.0, 0.0425, 1.04, -0.04);
+  vec4 r = roughness * c0 + c1;
+  float a004 = min(r.x * r.x, exp2(-9.28 * NV)) * r.x + r.y;
+  vec2 ab = vec2(-1.04, 1.04) * a004 + r.zw;
+  return mirroredColor(material) * ab.x + ab.y;
+}
+
+void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
+                const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
+  reflected.indirectDiffuse += light * (1.0 - metallic) * material.diffuseColor;
+  float NV = clamp(dot(normal, viewDirection), 0.0, 1.0);
+  reflected.indirectSpecular += (light + radianceOfRoom * metallic) * shareOfRoom(material, NV);
+}
+`;
+
+/** Instead of three's encoding, which stays off for the materials beside it. */
+export const physicalOutput = /* glsl */ `
+#include <colorspace_fragment>
+#ifdef ${physicalDefine}
+  gl_FragColor = sRGBTransferOETF(vec4(clamp(gl_FragColor.rgb, 0.0, 1.0), gl_FragColor.a));
+#endif
+`;
+
+/** Linear -> what the screen gets (IEC 61966-2-1). */
+export function displayedOf(linear: Vec3): Vec3 {
+  const [red, green, blue] = linear.map((channel) =>
+    channel <= 0.0031308 ? 12.92 * channel : 1.055 * channel ** (1 / 2.4) - 0.055);
+  return [red ?? 0, green ?? 0, blue ?? 0];
+}
