@@ -41,7 +41,7 @@ export function readPixelSoon(gl: WebGL2RenderingContext, attachments: number): 
 const pollMs = 2;
 
 /** Of a lost context every fence has passed. */
-function untilPassed(gl: WebGL2RenderingContext, fence: WebGLSync | null): Promise<void> {
+export function untilPassed(gl: WebGL2RenderingContext, fence: WebGLSync | null): Promise<void> {
   return new Promise((resolve) => {
     const look = () => {
       if (fence === null || gl.isContextLost() || gl.clientWaitSync(fence, 0, 0) !== gl.TIMEOUT_EXPIRED) resolve();

@@ -17,6 +17,7 @@ import type { SceneUniforms } from "./look.ts";
 import { setColor, x3dLook } from "./materials.ts";
 import type { Hit, PickCandidate, Place } from "./picking.ts";
 import { Picker } from "./picking.ts";
+import { Pace } from "./pace.ts";
 import { buildGraph } from "./sceneGraph.ts";
 import type { ShapeSetting } from "./shapeObject.ts";
 import { ShapeObject } from "./shapeObject.ts";
@@ -32,6 +33,8 @@ export interface RenderStatistics {
   readonly textures: number;
   readonly geometries: number;
   readonly programs: number;
+  /** More has come than the last frame shows. */
+  readonly isFrameDue: boolean;
   /** That vertex data take: images and buffers. */
   readonly textureBytes: number;
   readonly bufferBytes: number;
@@ -88,6 +91,7 @@ export class SceneRenderer {
   readonly #cameraMan: CameraMan;
   readonly #onFrame: () => void;
   readonly #picker: Picker;
+  readonly #pace: Pace;
   #root = new Group();
   #sphere = sphereAround(new Box3());
   #size = { width: 0, height: 0 };
@@ -106,6 +110,7 @@ export class SceneRenderer {
     this.#setting = {
       look: x3dLook, geometries: new GeometryPool(this.#buffers), buffers: this.#buffers, textures: this.#textures, shared: this.#shared,
     };
+    this.#pace = new Pace(context);
     this.#picker = new Picker(this.#renderer);
     // The numbers of the document are the numbers of the screen: see materials.ts.
     this.#renderer.outputColorSpace = LinearSRGBColorSpace;
@@ -119,8 +124,11 @@ export class SceneRenderer {
 
   get statistics(): RenderStatistics {
     const { memory, programs } = this.#renderer.info;
-    return { frames: this.#frames, textures: memory.textures, geometries: memory.geometries, programs: programs?.length ?? 0,
-             textureBytes: this.#textures.bytes, bufferBytes: this.#buffers.bytes };
+    return {
+      frames: this.#frames, isFrameDue: this.#pace.isAsked,
+      textures: memory.textures, geometries: memory.geometries, programs: programs?.length ?? 0,
+      textureBytes: this.#textures.bytes, bufferBytes: this.#buffers.bytes,
+    };
   }
 
   /** No shape shows anything yet. */
@@ -217,7 +225,7 @@ export class SceneRenderer {
   /** Replaces what a patch of a shape of the current scene shows. */
   setStage(element: SceneElement, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
     this.#shapes.get(element)?.setStage(geometry, patch, stage);
-    this.requestFrame();
+    this.#pace.ask(() => { this.requestFrame(); });
   }
 
   /** Takes away what a shape shows, for when its geometry has become another. */
@@ -317,10 +325,13 @@ export class SceneRenderer {
     cancelAnimationFrame(this.#frameRequest);
     this.#frameRequest = 0;
     this.#picked = undefined;
+    this.#pace.begin();
     if (!this.#hasArea || this.isContextLost) return;
-    applyPose(this.#camera, this.#cameraMan.advance(performance.now()), this.#aspect, this.#sphere, this.#cameraMan.clearance);
+    const begunAt = performance.now();
+    applyPose(this.#camera, this.#cameraMan.advance(begunAt), this.#aspect, this.#sphere, this.#cameraMan.clearance);
     this.#shared.depthRange.value.set(this.#camera.near, this.#camera.far);
     this.#renderer.render(this.#scene, this.#camera);
+    this.#pace.end(begunAt);
     this.#drawnCamera.copy(this.#camera, false);
     this.#frames += 1;
     this.#onFrame();

@@ -14,8 +14,8 @@ const besideThis = (): URL => new URL("./imgeo-worker.js", import.meta.url);
 
 export function pageWorkers(url: string | URL = besideThis()): WorkerPool {
   return new WorkerPool({
-    // One core is the page's.
-    size: Math.min(4, Math.max(1, navigator.hardwareConcurrency - 1)),
+    // One core is the page's; but while it waits, two workers share what there is.
+    size: Math.min(4, Math.max(2, navigator.hardwareConcurrency - 1)),
     idleMs,
     start: () => new Worker(url, { type: "module", name: "imgeo" }),
     runHere: async (message) =>
