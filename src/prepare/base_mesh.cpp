@@ -1,0 +1,275 @@
+#include "prepare/base_mesh.h"
+
+#include "base/parallel.h"
+#include "prepare/index_table.h"
+#include "prepare/simplify.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <span>
+#include <utility>
+
+namespace imgeo {
+
+namespace {
+
+/// Numbers positions in the order in which they come.
+class PositionTable {
+public:
+  explicit PositionTable(std::size_t capacity) : table_(capacity) { positions.reserve(capacity); }
+
+  std::uint32_t numberOf(const Vec3u& position) {
+    const auto next = static_cast<std::uint32_t>(positions.size());
+    const std::uint64_t hash = mixHash(mixHash(position.x, position.y), position.z);
+    const std::uint32_t number =
+        table_.findOrInsert(hash, next, [&](std::uint32_t i) { return positions[i] == position; });
+    if (number == next)
+      positions.push_back(position);
+    return number;
+  }
+
+  std::vector<Vec3u> positions;
+
+private:
+  IndexTable table_;
+};
+
+/// Positions by their numbers in all patches together, and which of them several have.
+struct CommonPositions {
+  std::vector<std::vector<std::uint32_t>> numbers; ///< per patch and position
+  std::vector<bool> isShared;                      ///< per number
+};
+
+template <typename AnyPatch>
+CommonPositions commonPositions(const std::vector<AnyPatch>& patches, PositionTable& table) {
+  CommonPositions common;
+  std::vector<std::uint32_t> owners;
+  for (std::uint32_t part = 0; part < patches.size(); ++part) {
+    std::vector<std::uint32_t>& numbers = common.numbers.emplace_back();
+    for (const Vec3u& position : patches[part].positions) {
+      const std::uint32_t number = table.numberOf(position);
+      if (number == owners.size()) {
+        owners.push_back(part);
+        common.isShared.push_back(false);
+      }
+      common.isShared[number] = common.isShared[number] || owners[number] != part;
+      numbers.push_back(number);
+    }
+  }
+  return common;
+}
+
+template <typename AnyPatch> std::size_t positionCountOf(const std::vector<AnyPatch>& patches) {
+  std::size_t count = 0;
+  for (const AnyPatch& patch : patches)
+    count += patch.positions.size();
+  return count;
+}
+
+/// A patch's triangles over its positions, but for degenerate ones.
+std::vector<std::uint32_t> cornersOf(const Patch& patch) {
+  std::vector<std::uint32_t> corners;
+  corners.reserve(patch.corners.size());
+  for (std::size_t corner = 0; corner < patch.corners.size(); corner += 3) {
+    const std::uint32_t a = patch.wedgePositions[patch.corners[corner]],
+                        b = patch.wedgePositions[patch.corners[corner + 1]],
+                        c = patch.wedgePositions[patch.corners[corner + 2]];
+    if (a != b && b != c && c != a)
+      corners.insert(corners.end(), {a, b, c});
+  }
+  return corners;
+}
+
+double areaOf(const std::vector<Vec3u>& positions, const std::vector<std::uint32_t>& corners) {
+  double area = 0;
+  for (std::size_t corner = 0; corner < corners.size(); corner += 3) {
+    const Vec3d a(positions[corners[corner]]), b(positions[corners[corner + 1]]),
+        c(positions[corners[corner + 2]]);
+    area += length(cross(b - a, c - a)) / 2;
+  }
+  return area;
+}
+
+/// Sums of directed edges in which opposite ones cancel out. Of a surface's triangles: its border.
+class EdgeSum {
+public:
+  void add(std::uint32_t from, std::uint32_t to, int count = 1) {
+    if (from != to)
+      terms_.push_back({std::min(from, to), std::max(from, to), from < to ? count : -count});
+  }
+  template <typename NumberOf> void addTriangles(std::span<const std::uint32_t> corners, NumberOf numberOf) {
+    for (std::size_t corner = 0; corner < corners.size(); corner += 3)
+      for (std::size_t i = 0; i < 3; ++i)
+        add(numberOf(corners[corner + i]), numberOf(corners[corner + (i + 1) % 3]));
+  }
+
+  /// Calls visit(a, b, count) for each edge that is left, `count` times from a to b.
+  template <typename Visit> void visit(Visit visit) {
+    std::ranges::sort(terms_, {}, [](const Term& term) { return std::pair(term.a, term.b); });
+    for (std::size_t begin = 0, end = 0; begin < terms_.size(); begin = end) {
+      int count = 0;
+      for (end = begin;
+           end < terms_.size() && terms_[end].a == terms_[begin].a && terms_[end].b == terms_[begin].b; ++end)
+        count += terms_[end].count;
+      if (count != 0)
+        visit(terms_[begin].a, terms_[begin].b, count);
+    }
+  }
+
+private:
+  struct Term {
+    std::uint32_t a, b;
+    int count;
+  };
+  std::vector<Term> terms_;
+};
+
+/// A part of a base before it is joined to the others.
+struct Part {
+  SimplifiedTriangles triangles;
+  double areaBefore = 0;
+  std::size_t triangleCountBefore = 0;
+};
+
+Part partOf(const Patch& patch, const std::vector<bool>& isFixed, double percent) {
+  const std::vector<std::uint32_t> corners = cornersOf(patch);
+  EdgeSum border;
+  for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+    const std::uint32_t from = corners[corner], to = corners[corner % 3 == 2 ? corner - 2 : corner + 1];
+    if (isFixed[from] && isFixed[to])
+      border.add(from, to);
+  }
+  std::size_t fixedEdges = 0;
+  border.visit([&](std::uint32_t, std::uint32_t, int) { ++fixedEdges; });
+  Part part;
+  part.areaBefore = areaOf(patch.positions, corners);
+  part.triangleCountBefore = corners.size() / 3;
+  // At least half of what is asked for is left to what no border holds.
+  const double wanted = percent / 100 * static_cast<double>(part.triangleCountBefore);
+  const double least = wanted / 2 + static_cast<double>(fixedEdges);
+  part.triangles =
+      simplify(patch.positions, corners, isFixed, static_cast<std::size_t>(std::max(wanted, least)));
+  return part;
+}
+
+/// Joins the parts; positions that two of them have become one.
+BaseMesh join(const std::vector<Part>& parts, const std::vector<Patch>& patches) {
+  BaseMesh base;
+  base.partCount = static_cast<std::uint32_t>(parts.size());
+  std::size_t count = 0;
+  for (const Part& part : parts)
+    count += part.triangles.positions.size();
+  PositionTable table(count);
+  const auto hasColors = [](const Patch& patch) { return !patch.colors.empty(); };
+  const bool isColored = std::ranges::any_of(patches, hasColors);
+  for (std::uint32_t number = 0; number < parts.size(); ++number) {
+    const SimplifiedTriangles& triangles = parts[number].triangles;
+    const Patch& patch = patches[number];
+    std::vector<std::uint32_t> wedges(isColored ? patch.positions.size() : 0);
+    for (std::uint32_t wedge = 0; wedge < patch.wedgeCount() && isColored; ++wedge)
+      wedges[patch.wedgePositions[wedge]] = wedge;
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t i = 0; i < triangles.positions.size(); ++i) {
+      numbers.push_back(table.numberOf(triangles.positions[i]));
+      if (isColored && numbers.back() == base.colors.size())
+        base.colors.push_back(hasColors(patch) ? patch.colors[wedges[triangles.sources[i]]]
+                                               : Rgba8{255, 255, 255, 255});
+    }
+    for (std::size_t corner = 0; corner < triangles.corners.size(); corner += 3) {
+      const std::uint32_t a = numbers[triangles.corners[corner]], b = numbers[triangles.corners[corner + 1]],
+                          c = numbers[triangles.corners[corner + 2]];
+      if (a == b || b == c || c == a)
+        continue;
+      base.corners.insert(base.corners.end(), {a, b, c});
+      base.parts.push_back(number);
+    }
+    if (isColored)
+      base.colorComponents = std::max(base.colorComponents, patch.colorComponents);
+  }
+  base.positions = std::move(table.positions);
+  return base;
+}
+
+/// Drops positions that no triangle uses.
+void dropUnused(BaseMesh& base) {
+  constexpr std::uint32_t none = UINT32_MAX;
+  std::vector<std::uint32_t> numbers(base.positions.size(), none), kept;
+  for (std::uint32_t& corner : base.corners) {
+    if (numbers[corner] == none) {
+      numbers[corner] = static_cast<std::uint32_t>(kept.size());
+      kept.push_back(corner);
+    }
+    corner = numbers[corner];
+  }
+  base.positions = gather(base.positions, kept);
+  base.colors = gather(base.colors, kept);
+}
+
+} // namespace
+
+std::optional<BaseMesh> baseOf(const PatchedMesh& mesh, double percent) {
+  std::size_t elementCount = 0;
+  for (const Patch& patch : mesh.patches)
+    elementCount += patch.elementCount();
+  if (mesh.patches.empty() || mesh.patches[0].topology != Topology::triangles ||
+      elementCount < leastTrianglesOfBase || !(percent > 0))
+    return std::nullopt;
+  PositionTable table(positionCountOf(mesh.patches));
+  const CommonPositions common = commonPositions(mesh.patches, table);
+  std::vector<Part> parts(mesh.patches.size());
+  parallelFor(parts.size(), [&](std::size_t i) {
+    std::vector<bool> isFixed;
+    for (const std::uint32_t number : common.numbers[i])
+      isFixed.push_back(common.isShared[number]);
+    parts[i] = partOf(mesh.patches[i], isFixed, percent);
+  });
+  double areaBefore = 0, area = 0;
+  for (const Part& part : parts) {
+    areaBefore += part.areaBefore;
+    area += areaOf(part.triangles.positions, part.triangles.corners);
+  }
+  BaseMesh base = join(parts, mesh.patches);
+  dropUnused(base);
+  if (4 * base.triangleCount() > elementCount || 2 * area < areaBefore || base.corners.empty())
+    return std::nullopt;
+  return base;
+}
+
+PatchTriangles trianglesOf(const Patch& patch) {
+  return {patch.positions, cornersOf(patch)};
+}
+
+bool meetsAtBorders(const BaseMesh& base, const std::vector<PatchTriangles>& patches) {
+  if (base.partCount != patches.size())
+    return false;
+  PositionTable table(positionCountOf(patches) + base.positions.size());
+  const CommonPositions common = commonPositions(patches, table);
+  std::vector<std::uint32_t> numbersOfBase;
+  for (const Vec3u& position : base.positions)
+    numbersOfBase.push_back(table.numberOf(position));
+  std::vector<EdgeSum> differences(patches.size());
+  for (std::size_t triangle = 0; triangle < base.triangleCount(); ++triangle)
+    differences[base.parts[triangle]].addTriangles(std::span(base.corners).subspan(3 * triangle, 3),
+                                                   [&](std::uint32_t i) { return numbersOfBase[i]; });
+  bool meets = true;
+  for (std::size_t part = 0; part < patches.size(); ++part) {
+    EdgeSum border;
+    border.addTriangles(patches[part].corners,
+                        [&](std::uint32_t position) { return common.numbers[part][position]; });
+    // Under a map of vertices an edge of the mesh's own border becomes another or none.
+    std::size_t ownBorder = 0, changed = 0;
+    border.visit([&](std::uint32_t a, std::uint32_t b, int times) {
+      if (common.isShared[a] && common.isShared[b])
+        differences[part].add(a, b, -times);
+      else
+        ownBorder += static_cast<std::size_t>(std::abs(times));
+    });
+    differences[part].visit([&](std::uint32_t, std::uint32_t, int times) {
+      changed += static_cast<std::size_t>(std::abs(times));
+    });
+    meets = meets && changed <= ownBorder;
+  }
+  return meets;
+}
+
+} // namespace imgeo

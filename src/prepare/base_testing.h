@@ -1,0 +1,61 @@
+#pragma once
+// Mixtures of a base's parts and whole patches. Header-only and for tests alone.
+
+#include "prepare/base_mesh.h"
+#include "scene/testing.h"
+
+#include <gtest/gtest.h>
+#include <map>
+#include <tuple>
+
+namespace imgeo::testing {
+
+using PointKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;
+
+inline PointKey keyOf(const Vec3u& point) {
+  return {point.x, point.y, point.z};
+}
+
+/// Directed edges between lattice points, opposite ones cancelling out; each that is
+/// left is a crack.
+class EdgeBalance {
+public:
+  void add(const Vec3u& a, const Vec3u& b, const Vec3u& c) {
+    for (const auto& [from, to] : {std::pair(keyOf(a), keyOf(b)), {keyOf(b), keyOf(c)}, {keyOf(c), keyOf(a)}})
+      if (from != to)
+        counts_[std::minmax(from, to)] += from < to ? 1 : -1;
+  }
+  std::size_t cracks() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(counts_, [](const auto& entry) { return entry.second != 0; }));
+  }
+
+private:
+  std::map<std::pair<PointKey, PointKey>, int> counts_;
+};
+
+/// Of a mesh without borders: whatever patches have come, no edge is left open.
+inline void expectClosedMixtures(const BaseMesh& base, const std::vector<PatchTriangles>& patches) {
+  Random random(static_cast<std::uint32_t>(patches.size()));
+  for (int mixture = 0; mixture < 6; ++mixture) {
+    std::vector<bool> hasCome;
+    for (std::size_t part = 0; part < patches.size(); ++part)
+      hasCome.push_back(mixture > 1 ? random.once(2) : mixture == 1);
+    EdgeBalance edges;
+    for (std::size_t triangle = 0; triangle < base.triangleCount(); ++triangle)
+      if (!hasCome[base.parts[triangle]]) {
+        const std::uint32_t* corners = &base.corners[3 * triangle];
+        edges.add(base.positions[corners[0]], base.positions[corners[1]], base.positions[corners[2]]);
+      }
+    for (std::size_t part = 0; part < patches.size(); ++part)
+      for (std::size_t corner = 0; hasCome[part] && corner < patches[part].corners.size(); corner += 3) {
+        const auto at = [&](std::size_t i) {
+          return patches[part].positions[patches[part].corners[corner + i]];
+        };
+        edges.add(at(0), at(1), at(2));
+      }
+    EXPECT_EQ(edges.cracks(), 0u) << "mixture " << mixture << " of " << patches.size() << " patches";
+  }
+}
+
+} // namespace imgeo::testing

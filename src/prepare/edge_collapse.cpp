@@ -1,0 +1,225 @@
+#include "prepare/edge_collapse.h"
+
+#include <algorithm>
+#include <queue>
+
+namespace imgeo {
+
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+
+/// What an edge costs, as it was when both ends had these versions.
+struct Candidate {
+  float cost = 0;
+  std::uint32_t from = 0, to = 0, versions = 0;
+
+  /// The least cost is on top of a heap; equal ones in the order of their vertices.
+  friend bool operator<(const Candidate& a, const Candidate& b) {
+    if (a.cost != b.cost)
+      return a.cost > b.cost;
+    return a.from != b.from ? a.from > b.from : a.to > b.to;
+  }
+};
+
+class EdgeCollapse {
+public:
+  EdgeCollapse(CollapsingSurface& surface, std::size_t triangleCount)
+      : vertices_(surface.vertices), corners_(surface.corners), wanted_(triangleCount),
+        triangleCount_(corners_.size() / 3), first_(vertices_.size(), none), last_(vertices_.size(), none),
+        next_(corners_.size(), none), isGone_(triangleCount_), isBorder_(vertices_.size()),
+        versions_(vertices_.size()), marks_(vertices_.size()) {
+    for (std::uint32_t corner = 0; corner < corners_.size(); ++corner)
+      append(corners_[corner], corner, corner);
+    holdBorders();
+  }
+
+  void run() {
+    for (std::uint32_t vertex = 0; vertex < vertices_.size(); ++vertex)
+      for (const std::uint32_t neighbour : neighboursOf(vertex))
+        if (vertex < neighbour)
+          offer(vertex, neighbour);
+    while (triangleCount_ > wanted_ && !heap_.empty()) {
+      const Candidate candidate = heap_.top();
+      heap_.pop();
+      if (candidate.versions == versions_[candidate.from] + versions_[candidate.to])
+        collapse(candidate.from, candidate.to);
+    }
+    keepTriangles();
+  }
+
+private:
+  static std::uint32_t afterCorner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+  static std::uint32_t beforeCorner(std::uint32_t corner) {
+    return corner % 3 == 0 ? corner + 2 : corner - 1;
+  }
+
+  void append(std::uint32_t vertex, std::uint32_t begin, std::uint32_t end) {
+    if (first_[vertex] == none)
+      first_[vertex] = begin;
+    else
+      next_[last_[vertex]] = begin;
+    last_[vertex] = end;
+  }
+
+  /// Calls visit(corner) for each corner of a triangle that is left.
+  template <typename Visit> void visitCorners(std::uint32_t vertex, Visit visit) const {
+    for (std::uint32_t corner = first_[vertex]; corner != none; corner = next_[corner])
+      if (!isGone_[corner / 3])
+        visit(corner);
+  }
+
+  /// Valid until the next call.
+  const std::vector<std::uint32_t>& neighboursOf(std::uint32_t vertex) {
+    neighbours_.clear();
+    ++mark_;
+    visitCorners(vertex, [&](std::uint32_t corner) {
+      for (const std::uint32_t other : {corners_[afterCorner(corner)], corners_[beforeCorner(corner)]})
+        if (marks_[other] != mark_) {
+          marks_[other] = mark_;
+          neighbours_.push_back(other);
+        }
+    });
+    return neighbours_;
+  }
+
+  std::uint32_t trianglesAt(std::uint32_t a, std::uint32_t b) const {
+    std::uint32_t count = 0;
+    visitCorners(a, [&](std::uint32_t corner) {
+      count += corners_[afterCorner(corner)] == b || corners_[beforeCorner(corner)] == b;
+    });
+    return count;
+  }
+
+  /// A border is held by planes through its edges that stand on their triangles.
+  void holdBorders() {
+    for (std::uint32_t corner = 0; corner < corners_.size(); ++corner) {
+      const std::uint32_t a = corners_[corner], b = corners_[afterCorner(corner)];
+      if (trianglesAt(a, b) != 1)
+        continue;
+      isBorder_[a] = isBorder_[b] = true;
+      const Vec3d edge = vertices_[b].place - vertices_[a].place;
+      const Vec3d normal = cross(edge, vertices_[corners_[beforeCorner(corner)]].place - vertices_[a].place);
+      const Vec3d across = cross(edge, normal);
+      const double size = length(across);
+      if (!(size > 0))
+        continue;
+      constexpr double holdOfBorders = 3;
+      for (const std::uint32_t vertex : {a, b})
+        vertices_[vertex].quadric.addPlane(across * (1 / size), vertices_[a].place,
+                                           holdOfBorders * dot(edge, edge));
+    }
+  }
+
+  /// Where the vertex is to be that two become.
+  Vec3d placeFor(std::uint32_t a, std::uint32_t b, const Quadric& quadric) const {
+    if (vertices_[a].isFixed)
+      return vertices_[a].place;
+    if (vertices_[b].isFixed)
+      return vertices_[b].place;
+    return quadric.bestPlace((vertices_[a].place + vertices_[b].place) * 0.5);
+  }
+
+  void offer(std::uint32_t a, std::uint32_t b) {
+    if (vertices_[a].isFixed && vertices_[b].isFixed)
+      return;
+    Quadric quadric = vertices_[a].quadric;
+    quadric += vertices_[b].quadric;
+    const Vec3d edge = vertices_[b].place - vertices_[a].place;
+    // On a plane, where nothing costs anything, short edges go first.
+    constexpr double costOfLength = 1e-5;
+    const double cost = std::max(0.0, quadric.errorAt(placeFor(a, b, quadric))) +
+                        costOfLength * quadric.weight() * dot(edge, edge);
+    heap_.push({static_cast<float>(cost), std::min(a, b), std::max(a, b), versions_[a] + versions_[b]});
+  }
+
+  /// Two vertices may become one where all that both are joined to are the third
+  /// corners of their edge's triangles, and where this ties no two borders together.
+  bool keepsTopology(std::uint32_t a, std::uint32_t b) {
+    neighboursOf(b);
+    std::uint32_t shared = 0;
+    visitCorners(a, [&](std::uint32_t corner) {
+      const std::uint32_t u = corners_[afterCorner(corner)], v = corners_[beforeCorner(corner)];
+      if (u != b && v != b)
+        return;
+      ++shared;
+      marks_[u == b ? v : u] = 0;
+    });
+    bool isTied = isBorder_[a] && isBorder_[b] && shared != 1;
+    visitCorners(a, [&](std::uint32_t corner) {
+      isTied = isTied || marks_[corners_[afterCorner(corner)]] == mark_ ||
+               marks_[corners_[beforeCorner(corner)]] == mark_;
+    });
+    return !isTied;
+  }
+
+  /// Whether a triangle around `vertex`, but for those at `other`, would turn over.
+  bool turnsOver(std::uint32_t vertex, std::uint32_t other, Vec3d place) const {
+    bool turns = false;
+    visitCorners(vertex, [&](std::uint32_t corner) {
+      const std::uint32_t u = corners_[afterCorner(corner)], v = corners_[beforeCorner(corner)];
+      if (turns || u == other || v == other)
+        return;
+      const Vec3d pu = vertices_[u].place, pv = vertices_[v].place;
+      const Vec3d before = cross(pu - vertices_[vertex].place, pv - vertices_[vertex].place);
+      const Vec3d after = cross(pu - place, pv - place);
+      constexpr double leastCosine = 0.2;
+      turns = dot(before, after) < leastCosine * length(before) * length(after);
+    });
+    return turns;
+  }
+
+  void collapse(std::uint32_t from, std::uint32_t to) {
+    if (vertices_[from].isFixed)
+      std::swap(from, to);
+    Quadric quadric = vertices_[to].quadric;
+    quadric += vertices_[from].quadric;
+    const Vec3d place = placeFor(from, to, quadric);
+    if (!keepsTopology(from, to) || turnsOver(from, to, place) || turnsOver(to, from, place))
+      return;
+    visitCorners(from, [&](std::uint32_t corner) {
+      if (corners_[afterCorner(corner)] == to || corners_[beforeCorner(corner)] == to) {
+        isGone_[corner / 3] = true;
+        --triangleCount_;
+      } else {
+        corners_[corner] = to;
+      }
+    });
+    append(to, first_[from], last_[from]);
+    first_[from] = none;
+    vertices_[to].place = place;
+    vertices_[to].quadric = quadric;
+    isBorder_[to] = isBorder_[to] || isBorder_[from];
+    ++versions_[to];
+    ++versions_[from];
+    for (const std::uint32_t neighbour : neighboursOf(to))
+      offer(to, neighbour);
+  }
+
+  void keepTriangles() {
+    std::size_t kept = 0;
+    for (std::size_t corner = 0; corner < corners_.size(); ++corner)
+      if (!isGone_[corner / 3])
+        corners_[kept++] = corners_[corner];
+    corners_.resize(kept);
+  }
+
+  std::vector<CollapsingSurface::Vertex>& vertices_;
+  std::vector<std::uint32_t>& corners_;
+  std::size_t wanted_, triangleCount_;
+  std::vector<std::uint32_t> first_, last_, next_; ///< lists of corners, one a vertex
+  std::vector<bool> isGone_;                       ///< per triangle
+  std::vector<bool> isBorder_;                     ///< per vertex
+  std::vector<std::uint32_t> versions_;            ///< how often a vertex has changed
+  std::vector<std::uint32_t> marks_, neighbours_;
+  std::uint32_t mark_ = 0;
+  std::priority_queue<Candidate> heap_;
+};
+
+} // namespace
+
+void collapseEdges(CollapsingSurface& surface, std::size_t triangleCount) {
+  EdgeCollapse(surface, triangleCount).run();
+}
+
+} // namespace imgeo

@@ -1,0 +1,164 @@
+#include "prepare/simplify.h"
+
+#include "prepare/edge_collapse.h"
+#include "prepare/surface_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace imgeo {
+
+namespace {
+
+/// Cells for each triangle that is wanted, where there are many more to begin with.
+/// Fewer are faster and coarser: docs/decisions/compact.md.
+constexpr std::size_t cellsPerTriangle = 1;
+
+/// Lattice positions <-> places within -1 .. 1, where numbers have their digits to spare.
+class UnitFrame {
+public:
+  explicit UnitFrame(std::span<const Vec3u> positions) {
+    for (const Vec3u& position : positions)
+      box_.add(Vec3d(position));
+    center_ = box_.center();
+    scale_ = std::max(1.0, box_.longestEdge() / 2);
+  }
+
+  Vec3d placeOf(const Vec3u& position) const { return (Vec3d(position) - center_) * (1 / scale_); }
+
+  /// Within the box of the positions.
+  Vec3u nearest(Vec3d place) const {
+    const Vec3d position = place * scale_ + center_;
+    Vec3u nearest;
+    for (int axis = 0; axis < 3; ++axis)
+      nearest[axis] = static_cast<std::uint32_t>(
+          std::clamp(std::floor(position[axis] + 0.5), box_.min[axis], box_.max[axis]));
+    return nearest;
+  }
+
+private:
+  Box3d box_;
+  Vec3d center_;
+  double scale_ = 1;
+};
+
+/// A triangle as its vertices in ascending order, and whether it goes round that way.
+struct FoldedTriangle {
+  std::array<std::uint32_t, 3> vertices{};
+  bool isTurned = false;
+  std::uint32_t place = 0;
+
+  FoldedTriangle(const std::uint32_t* corners, std::uint32_t at)
+      : vertices{corners[0], corners[1], corners[2]}, place(at) {
+    const auto put = [&](std::size_t i, std::size_t j) {
+      if (vertices[i] > vertices[j]) {
+        std::swap(vertices[i], vertices[j]);
+        isTurned = !isTurned;
+      }
+    };
+    put(0, 1), put(1, 2), put(0, 1);
+  }
+};
+
+/// Drops triangles in pairs that have come to lie back to back.
+void dropFolds(std::vector<std::uint32_t>& corners) {
+  std::vector<FoldedTriangle> triangles;
+  triangles.reserve(corners.size() / 3);
+  for (std::uint32_t at = 0; at < corners.size(); at += 3)
+    triangles.emplace_back(&corners[at], at);
+  std::ranges::sort(triangles, [](const FoldedTriangle& a, const FoldedTriangle& b) {
+    return a.vertices != b.vertices ? a.vertices < b.vertices : a.place < b.place;
+  });
+  std::vector<bool> isKept(triangles.size());
+  for (std::size_t begin = 0, end = 0; begin < triangles.size(); begin = end) {
+    std::ptrdiff_t sum = 0;
+    for (end = begin; end < triangles.size() && triangles[end].vertices == triangles[begin].vertices; ++end)
+      sum += triangles[end].isTurned ? -1 : 1;
+    for (std::size_t i = begin; i < end && sum != 0; ++i)
+      if (triangles[i].isTurned == (sum < 0)) {
+        isKept[triangles[i].place / 3] = true;
+        sum += sum < 0 ? 1 : -1;
+      }
+  }
+  std::size_t kept = 0;
+  for (std::size_t corner = 0; corner < corners.size(); ++corner)
+    if (isKept[corner / 3])
+      corners[kept++] = corners[corner];
+  corners.resize(kept);
+}
+
+/// One vertex a cell, in the middle of its vertices, with the planes of all their triangles.
+CollapsingSurface surfaceOf(std::span<const Vec3d> places, std::span<const std::uint32_t> corners,
+                            const std::vector<bool>& isFixed, const SurfaceCells& cells) {
+  CollapsingSurface surface;
+  surface.vertices.resize(cells.count);
+  std::vector<std::uint32_t> members(cells.count);
+  for (std::uint32_t vertex = 0; vertex < places.size(); ++vertex) {
+    CollapsingSurface::Vertex& cell = surface.vertices[cells.ofVertex[vertex]];
+    if (members[cells.ofVertex[vertex]]++ == 0)
+      cell.source = vertex;
+    cell.place += places[vertex];
+    cell.isFixed = cell.isFixed || isFixed[vertex];
+  }
+  for (std::uint32_t cell = 0; cell < cells.count; ++cell)
+    surface.vertices[cell].place = surface.vertices[cell].place * (1.0 / members[cell]);
+
+  for (std::size_t corner = 0; corner < corners.size(); corner += 3) {
+    const Vec3d a = places[corners[corner]];
+    const Vec3d normal = cross(places[corners[corner + 1]] - a, places[corners[corner + 2]] - a);
+    const double size = length(normal);
+    const std::uint32_t u = cells.ofVertex[corners[corner]], v = cells.ofVertex[corners[corner + 1]],
+                        w = cells.ofVertex[corners[corner + 2]];
+    if (size > 0)
+      for (const std::uint32_t cell : {u, v, w})
+        surface.vertices[cell].quadric.addPlane(normal * (1 / size), a, size);
+    if (u != v && v != w && w != u)
+      surface.corners.insert(surface.corners.end(), {u, v, w});
+  }
+  if (cells.count < places.size())
+    dropFolds(surface.corners);
+  return surface;
+}
+
+/// The vertices that are in use, on the lattice.
+SimplifiedTriangles resultOf(const CollapsingSurface& surface, const UnitFrame& frame,
+                             std::span<const Vec3u> positions) {
+  constexpr std::uint32_t none = UINT32_MAX;
+  SimplifiedTriangles result;
+  std::vector<std::uint32_t> numbers(surface.vertices.size(), none);
+  for (const std::uint32_t vertex : surface.corners) {
+    if (numbers[vertex] == none) {
+      numbers[vertex] = static_cast<std::uint32_t>(result.positions.size());
+      const CollapsingSurface::Vertex& from = surface.vertices[vertex];
+      result.positions.push_back(from.isFixed ? positions[from.source] : frame.nearest(from.place));
+      result.sources.push_back(from.source);
+    }
+    result.corners.push_back(numbers[vertex]);
+  }
+  return result;
+}
+
+} // namespace
+
+SimplifiedTriangles simplify(std::span<const Vec3u> positions, std::span<const std::uint32_t> corners,
+                             const std::vector<bool>& isFixed, std::size_t triangleCount) {
+  const UnitFrame frame(positions);
+  std::vector<Vec3d> places;
+  places.reserve(positions.size());
+  for (const Vec3u& position : positions)
+    places.push_back(frame.placeOf(position));
+  const std::size_t cellCount = cellsPerTriangle * triangleCount;
+  const SurfaceCells cells = positions.size() > 2 * cellCount
+                                 ? gatherInCells(places, corners, isFixed, cellCount)
+                                 : separateCells(positions.size());
+  CollapsingSurface surface = surfaceOf(places, corners, isFixed, cells);
+  if (cells.count < positions.size())
+    for (CollapsingSurface::Vertex& vertex : surface.vertices)
+      if (!vertex.isFixed)
+        vertex.place = vertex.quadric.bestPlace(vertex.place);
+  collapseEdges(surface, triangleCount);
+  return resultOf(surface, frame, positions);
+}
+
+} // namespace imgeo

@@ -1,0 +1,75 @@
+#include "prepare/surface_cells.h"
+
+#include "prepare/index_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace imgeo {
+
+namespace {
+
+/// The sums of the triangle normals around each vertex, and twice the surface's area.
+struct Normals {
+  std::vector<Vec3d> sums;
+  double doubleArea = 0;
+};
+
+Normals normalsOf(std::span<const Vec3d> places, std::span<const std::uint32_t> corners) {
+  Normals normals{std::vector<Vec3d>(places.size()), 0};
+  for (std::size_t corner = 0; corner < corners.size(); corner += 3) {
+    const Vec3d a = places[corners[corner]];
+    const Vec3d normal = cross(places[corners[corner + 1]] - a, places[corners[corner + 2]] - a);
+    normals.doubleArea += length(normal);
+    for (std::size_t i = 0; i < 3; ++i)
+      normals.sums[corners[corner + i]] += normal;
+  }
+  return normals;
+}
+
+/// A cell and an octant as one number; places are within -1 .. 1.
+std::uint64_t keyOf(Vec3d place, Vec3d normal, double cellsPerUnit) {
+  std::uint64_t key = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto cell = static_cast<std::uint64_t>((place[axis] + 1) * cellsPerUnit);
+    key = key << 20 | std::min<std::uint64_t>(cell, 0xfffff);
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    key = key << 1 | std::uint64_t{normal[axis] < 0};
+  return key;
+}
+
+} // namespace
+
+SurfaceCells separateCells(std::size_t vertexCount) {
+  SurfaceCells cells{std::vector<std::uint32_t>(vertexCount), static_cast<std::uint32_t>(vertexCount)};
+  std::iota(cells.ofVertex.begin(), cells.ofVertex.end(), 0u);
+  return cells;
+}
+
+SurfaceCells gatherInCells(std::span<const Vec3d> places, std::span<const std::uint32_t> corners,
+                           const std::vector<bool>& isFixed, std::size_t cellCount) {
+  const Normals normals = normalsOf(places, corners);
+  const double area = normals.doubleArea / 2;
+  const double cellsPerUnit = area > 0 ? std::sqrt(static_cast<double>(cellCount) / area) : 1;
+
+  SurfaceCells cells{std::vector<std::uint32_t>(places.size()), 0};
+  std::vector<std::uint64_t> keys; // per cell
+  keys.reserve(places.size());
+  IndexTable table(places.size());
+  for (std::size_t vertex = 0; vertex < places.size(); ++vertex) {
+    const std::uint64_t key =
+        isFixed[vertex] ? ~std::uint64_t{vertex} : keyOf(places[vertex], normals.sums[vertex], cellsPerUnit);
+    const std::uint32_t cell =
+        table.findOrInsert(mixHash(0, key), cells.count, [&](std::uint32_t i) { return keys[i] == key; });
+    if (cell == cells.count) {
+      keys.push_back(key);
+      ++cells.count;
+    }
+    cells.ofVertex[vertex] = cell;
+  }
+  return cells;
+}
+
+} // namespace imgeo

@@ -1,0 +1,29 @@
+#pragma once
+// Vertices gathered in cells: Rossignac and Borrel, "Multi-resolution 3D
+// approximations for rendering complex scenes", 1993, as the first step that
+// Shaffer and Garland put before edge collapse ("Efficient adaptive simplification
+// of massive meshes", 2001): linear time for most of the way.
+
+#include "base/vec.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace imgeo {
+
+struct SurfaceCells {
+  std::vector<std::uint32_t> ofVertex;
+  std::uint32_t count = 0;
+};
+
+/// Every vertex in a cell of its own.
+SurfaceCells separateCells(std::size_t vertexCount);
+
+/// About `cellCount` cells of equal size. Vertices share one where the surface also
+/// faces the same octant, so that both sides of a thin wall stay apart; those with
+/// `isFixed` have one each. Places are within -1 .. 1.
+SurfaceCells gatherInCells(std::span<const Vec3d> places, std::span<const std::uint32_t> corners,
+                           const std::vector<bool>& isFixed, std::size_t cellCount);
+
+} // namespace imgeo
