@@ -26,9 +26,12 @@ void check(const imgeo::compact::CompactPatch& patch) {
     require(wedge < patch.wedgeCount());
   for (const Attribute& attribute : patch.attributes)
     require(attribute.values.size() == patch.wedgeCount());
+  require(patch.parts.size() == (patch.partCount > 0 ? patch.elementCount() : 0));
+  for (const std::uint32_t part : patch.parts)
+    require(part < patch.partCount);
   const CompactPatch again = decodePatchBytes(encodePatchBytes(patch, 0).bytes, 0, "again");
   require(again.positions.size() == patch.positions.size() && again.wedgeCount() == patch.wedgeCount() &&
-          again.corners.size() == patch.corners.size());
+          again.corners.size() == patch.corners.size() && again.partCount == patch.partCount);
 }
 
 } // namespace

@@ -57,6 +57,15 @@ MaxError maxErrorFrom(const std::string& text) {
   return error;
 }
 
+double basePercentFrom(const std::string& text) {
+  double percent = 0;
+  const char* end = text.data() + text.size();
+  const auto [last, fault] = std::from_chars(text.data(), end, percent);
+  if (fault != std::errc{} || last != end || !std::isfinite(percent))
+    throw Error(ErrorKind::usage, "--base", fmt::format("\"{}\" is no number of percent", text));
+  return percent;
+}
+
 ConvertOptions optionsFrom(const Arguments& arguments) {
   ConvertOptions options;
   options.container = chosen(arguments, "container", {Container::sig, Container::bg});
@@ -78,6 +87,8 @@ ConvertOptions optionsFrom(const Arguments& arguments) {
   takeBits("color-bits", options.colorBits);
   if (!arguments.text("max-error").empty())
     options.maxError = maxErrorFrom(arguments.text("max-error"));
+  if (!arguments.text("base").empty())
+    options.basePercent = basePercentFrom(arguments.text("base"));
   options.coordType =
       chosen<std::optional<ElementType>>(arguments, "coord-type",
                                          {std::nullopt, ElementType::uint8, ElementType::int8,

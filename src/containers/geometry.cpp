@@ -13,7 +13,7 @@ const char* nameOf(Profile profile) {
 }
 
 const char* nameOf(Role role) {
-  constexpr const char* names[] = {"index", "coord", "normal", "texCoord", "color", "attribute", "patch"};
+  constexpr const char* names[] = {"index", "coord", "normal", "texCoord", "color", "attribute", "patch", "base"};
   return names[static_cast<std::size_t>(role)];
 }
 

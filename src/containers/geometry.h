@@ -21,7 +21,7 @@ enum class Profile : std::uint8_t { classic, compact };
 const char* nameOf(Profile profile); ///< "classic", "compact"
 
 /// What a file holds; also its row in `info`.
-enum class Role : std::uint8_t { index, coord, normal, texCoord, color, attribute, patch };
+enum class Role : std::uint8_t { index, coord, normal, texCoord, color, attribute, patch, base };
 
 /// "index", "coord", ...: the names the documents use.
 const char* nameOf(Role role);
@@ -108,6 +108,7 @@ struct GeometryDescription {
   NormalEncoding normalEncoding = NormalEncoding::rgb;
   std::vector<AttributeDescription> attributes;
   std::vector<PatchDescription> patches;
+  std::optional<Reference> base; ///< compact: what stands in for the patches until they are there
   friend bool operator==(const GeometryDescription&, const GeometryDescription&) = default;
 };
 

@@ -119,6 +119,9 @@ void addReference(PatchDescription& patch, Role role, std::size_t attribute, con
   case Role::patch:
     patch.data = reference;
     break;
+  case Role::base:
+    assert(false); // of a geometry, not of a patch
+    break;
   }
 }
 

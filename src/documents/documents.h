@@ -19,6 +19,7 @@ struct SceneDocument {
 struct PageOptions {
   std::string runtimeUrl;    ///< the ES module, relative
   std::string stylesheetUrl; ///< relative
+  std::string workerUrl{};   ///< its workers' module, which the page decodes a base with; relative
 };
 
 /// `scene.x3d`: the scene as XML, readable by a person.

@@ -98,6 +98,8 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
               {"colorType", nameOf(geometry.colorType)}};
   else if (geometry.indexType != ElementType::uint16)
     stored = {{"indexType", nameOf(geometry.indexType)}};
+  if (geometry.base)
+    stored.push_back({"base", url(*geometry.base, geometry.container)});
   if (hasNormalsInCoords(geometry))
     stored.push_back({"normalAsSphericalCoordinates", "true"});
   else if (geometry.normalEncoding != NormalEncoding::rgb)

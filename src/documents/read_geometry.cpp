@@ -235,6 +235,8 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   geometry.container = container;
   if (container == Container::sig)
     geometry.profile = profileOf(fields);
+  if (const std::string base = fields.text("base"); geometry.profile == Profile::compact && !base.empty())
+    geometry.base = referenceOf(fields, base, container);
   geometry.texCoordMin = fields.vec2("texCoordMin", {0, 0});
   geometry.texCoordSize = fields.vec2("texCoordSize", {1, 1});
   geometry.normalEncoding = normalEncodingOf(fields);

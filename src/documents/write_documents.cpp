@@ -13,8 +13,9 @@ namespace {
 /// More hints than this compete with what they are to hasten.
 constexpr std::size_t maxPreloads = 16;
 
-/// What the runtime requests first, in its order: all of a patch in compact, or
-/// the most significant coordinate bytes of all patches, then their indices.
+/// What the runtime requests first, in its order: bases, of geometries without one all
+/// of each patch in compact or the most significant coordinate bytes of all patches,
+/// then their indices. Patches behind a base would only take its share of the line.
 std::vector<std::string> firstRequests(const SceneDocument& document) {
   std::vector<std::string> urls;
   const auto add = [&](const Reference& reference) {
@@ -22,11 +23,21 @@ std::vector<std::string> firstRequests(const SceneDocument& document) {
       urls.push_back(reference.url);
   };
   const std::vector<std::size_t> shapes = shapeNodes(document.graph);
-  const auto forEachPatch = [&](auto visit) {
+  const auto forEachGeometry = [&](auto visit) {
     for (const std::size_t node : shapes)
-      for (const PatchDescription& patch : document.geometries.at(shapeOf(document.graph, node).mesh).patches)
-        visit(patch);
+      visit(document.geometries.at(shapeOf(document.graph, node).mesh));
   };
+  const auto forEachPatch = [&](auto visit) {
+    forEachGeometry([&](const GeometryDescription& geometry) {
+      for (const PatchDescription& patch : geometry.patches)
+        if (!geometry.base)
+          visit(patch);
+    });
+  };
+  forEachGeometry([&](const GeometryDescription& geometry) {
+    if (geometry.base)
+      add(*geometry.base);
+  });
   forEachPatch([&](const PatchDescription& patch) {
     if (patch.data)
       add(*patch.data);
@@ -71,6 +82,9 @@ std::string writeX3d(const SceneDocument& document) {
 
 std::string writeHtml(const SceneDocument& document, const PageOptions& options) {
   std::string head = link("stylesheet", options.stylesheetUrl) + link("modulepreload", options.runtimeUrl);
+  const auto hasBase = [](const GeometryDescription& geometry) { return geometry.base.has_value(); };
+  if (std::ranges::any_of(document.geometries, hasBase) && !options.workerUrl.empty())
+    head += link("modulepreload", options.workerUrl);
   for (const std::string& url : firstRequests(document))
     head += link("preload", url, " as=\"fetch\" crossorigin=\"anonymous\" fetchpriority=\"high\"");
   head += "    <script type=\"module\" src=" + quoteAttribute(options.runtimeUrl) + "></script>\n";

@@ -86,12 +86,13 @@ void writeX3domPage(const SceneDocument& document, const X3domRelease& release, 
 /// The documents of a site with our runtime, and it.
 void writePage(const SceneDocument& document, const fs::path& site) {
   const Runtime runtime = runtimeOfSite();
-  const std::string runtimeUrl = fmt::format("{}/{}", runtimeFolder, runtime.module.name);
+  const auto urlOf = [](const RuntimeFile& file) { return fmt::format("{}/{}", runtimeFolder, file.name); };
   fs::create_directory(site / runtimeFolder);
   for (const RuntimeFile& file : {runtime.module, runtime.worker})
     writeFile(site / runtimeFolder / file.name, asBytes(file.text));
   writeFile(site / sceneName, asBytes(writeX3d(document)));
-  writeFile(site / pageName, asBytes(writeHtml(document, {runtimeUrl, stylesheetName})));
+  writeFile(site / pageName,
+            asBytes(writeHtml(document, {urlOf(runtime.module), stylesheetName, urlOf(runtime.worker)})));
 }
 
 /// Scans have slivers, a few of which any lattice flattens; more than one element in

@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "base/parallel.h"
+#include "containers/compact/base.h"
 #include "containers/compact/compact.h"
 #include "containers/normals.h"
 #include "containers/stored_coords.h"
@@ -97,6 +98,9 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
                                options.layout,       options.attributeBits, options.profile,
                                options.texCoordBits, options.colorBits};
   result.geometry = describe(patched, encoding);
+  if (options.profile == Profile::compact && options.primitives == Primitives::triangles)
+    if (const std::optional<BaseMesh> base = baseOf(patched, options.basePercent.value_or(0)))
+      result.base = encodeBase(*base, result.geometry, options.colorBits);
   std::vector<PatchDescription> descriptions(patched.patches.size());
   std::vector<ElementCounts> elements(patched.patches.size());
   std::vector<double> normalErrors(patched.patches.size());

@@ -36,6 +36,7 @@ private:
 /// What became of a mesh, counted as it is drawn.
 struct EncodedMesh {
   GeometryDescription geometry;
+  Bytes base; ///< payload of the geometry's base, which has no file yet; empty: there is none
   ElementCounts elements;
   std::size_t vertices = 0;
   ElementCounts collapsed;       ///< those that lost their area or length on the lattice

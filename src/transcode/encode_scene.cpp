@@ -1,5 +1,6 @@
 #include "transcode/encode_scene.h"
 
+#include "containers/compact/base.h"
 #include "containers/named_attributes.h"
 #include "import/image_type.h"
 #include "transcode/site.h"
@@ -110,6 +111,29 @@ void writeTextures(SceneGraph& graph, ContentFiles& files) {
   }
 }
 
+/// The bases of all geometries as one file, in which each knows its place.
+class Bases {
+public:
+  void add(GeometryDescription& geometry, const Bytes& payload) {
+    if (payload.empty())
+      return;
+    geometry.base = Reference{"", static_cast<std::uint32_t>(payloads_.size()), 0};
+    payloads_.insert(payloads_.end(), payload.begin(), payload.end());
+  }
+  void write(std::vector<GeometryDescription>& geometries, ContentFiles& files) const {
+    if (payloads_.empty())
+      return;
+    const EncodedFile file = baseFile(payloads_);
+    const std::string url = files.write(file.bytes, file.extension);
+    for (GeometryDescription& geometry : geometries)
+      if (geometry.base)
+        geometry.base->url = url;
+  }
+
+private:
+  Bytes payloads_;
+};
+
 /// What a report says of the attributes of a geometry, which are those of others, too.
 void addAttributes(std::vector<AttributeReport>& reports, const GeometryDescription& geometry) {
   for (const AttributeDescription& attribute : geometry.attributes) {
@@ -141,12 +165,14 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteCont
   document.graph = std::move(scene.graph);
   std::vector<std::optional<std::size_t>> geometryOf(scene.meshes.size());
   Looks looks(document.graph);
+  Bases bases;
   for (const std::size_t node : shapeNodes(document.graph)) {
     Shape& shape = std::get<Shape>(document.graph.nodes[node].content);
     std::optional<std::size_t>& geometry = geometryOf[shape.mesh];
     if (!geometry) {
       EncodedMesh encoded = encodeMesh(std::move(scene.meshes[shape.mesh]), options, content.geometry, done);
       addEncoded(report, encoded);
+      bases.add(encoded.geometry, encoded.base);
       geometry = document.geometries.size();
       document.geometries.push_back(std::move(encoded.geometry));
     }
@@ -154,6 +180,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteCont
     shape.appearance = looks.lookFor(shape, drawsSurface(document.geometries[*geometry]));
   }
   report.lattice = document.geometries.front().lattice;
+  bases.write(document.geometries, content.geometry);
   writeTextures(document.graph, content.textures);
   addDefaults(document);
   return document;

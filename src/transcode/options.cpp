@@ -210,6 +210,12 @@ ConvertOptions resolved(ConvertOptions options) {
   if (options.normalBits == 0)
     options.normalBits = defaultNormalBits(options);
   requireCoords(options);
+  if (options.basePercent && options.profile != Profile::compact)
+    refuse("--base", "only compact has a base; classic shows its first bytes");
+  if (options.basePercent && !(*options.basePercent >= 0 && *options.basePercent <= 25))
+    refuse("--base", fmt::format("{} is not within 0..25", *options.basePercent));
+  if (!options.basePercent)
+    options.basePercent = 2;
   if (options.profile == Profile::compact)
     options = resolvedCompact(options);
   else

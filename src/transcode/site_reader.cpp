@@ -29,12 +29,16 @@ OpenedDocument openDocument(const fs::path& site) {
 std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene) {
   std::vector<NamedFile> files;
   std::set<std::string> seen;
-  for (const GeometryDescription& geometry : scene.geometries)
+  const auto add = [&](Role role, const Reference& reference) {
+    if (seen.insert(reference.url).second)
+      files.push_back({reference.url, role});
+  };
+  for (const GeometryDescription& geometry : scene.geometries) {
+    if (geometry.base)
+      add(Role::base, *geometry.base);
     for (const PatchDescription& patch : geometry.patches)
-      visitReferences(patch, [&](Role role, const Reference& reference) {
-        if (seen.insert(reference.url).second)
-          files.push_back({reference.url, role});
-      });
+      visitReferences(patch, add);
+  }
   return files;
 }
 

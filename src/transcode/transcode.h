@@ -44,6 +44,8 @@ struct ConvertOptions {
   std::uint32_t patchVertices = 65535; ///< 256..4,194,304; above 65,535 with 32-bit indices
   AttributeChoice keepAttributes;      ///< further attributes of vertices
   std::uint32_t attributeBits = 0;     ///< SIG: 8, 16 or 24; 0: 16. BG has Float32
+  /// Compact: a base of so many percent of the triangles, 0..25; 0: none. Nothing: 2.
+  std::optional<double> basePercent;
   int effort = 5;                      ///< 0 fastest .. 9 smallest
   std::string title;                   ///< empty: the source's name
   bool outside = false;                ///< the source may refer to files outside of its folder

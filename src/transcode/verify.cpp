@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "containers/compact/base.h"
 #include "containers/named_attributes.h"
 #include "containers/normals.h"
 #include "containers/stored_coords.h"
@@ -245,10 +246,24 @@ void checkPositions(const GeometryDescription& geometry, const std::vector<Vec3u
                  bound);
 }
 
+/// The base, if there is one, must be whole and leave no crack beside any patch.
+void checkBase(const OpenedDocument& document, const GeometryDescription& geometry,
+               const std::vector<IndexedPatch>& patches, Findings& findings) {
+  if (!geometry.base)
+    return;
+  const BaseMesh base = decodeBase(geometry, fetchFrom(document));
+  std::vector<PatchTriangles> triangles;
+  for (const IndexedPatch& patch : patches)
+    triangles.push_back({patch.positions, patch.indices});
+  if (!meetsAtBorders(base, triangles))
+    findings.add("The base does not meet the patches at their borders.");
+}
+
 void compareMesh(const OpenedDocument& document, const GeometryDescription& geometry, const Mesh& mesh,
                  const std::optional<Marker>& marker, VerifyReport& report, Findings& findings) {
   std::vector<IndexedPatch> patches = decodePatches(document, geometry);
   checkBoxes(patches, geometry, findings);
+  checkBase(document, geometry, patches, findings);
   if (!marker && mesh.normals.empty())
     for (IndexedPatch& patch : patches)
       patch.normals.clear(); // computed, who knows how

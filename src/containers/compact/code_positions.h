@@ -21,7 +21,8 @@ inline constexpr std::size_t choice = 0, first = choice + 8 * 16 * 4, second = f
 struct VertexContext {
   Slope slope;
   std::uint32_t agreement = 0;
-  std::uint32_t mask = 0; ///< axes on the grid
+  std::uint32_t mask = 0;  ///< axes on the grid
+  std::uint32_t shift = 0; ///< of residuals
 
   /// Axes on the grid first, of the others the surface's dominant one last.
   std::array<int, 3> order() const {
@@ -37,13 +38,23 @@ struct VertexContext {
   }
 };
 
+/// Which residuals of a base are of steps coarser than the lattice's.
+struct CoarseResiduals {
+  std::uint32_t shift = 0;
+  const std::vector<bool>* isExact = nullptr; ///< per vertex, where there is a shift
+
+  std::uint32_t shiftOf(std::uint32_t vertex) const { return shift > 0 && !(*isExact)[vertex] ? shift : 0; }
+};
+
 template <typename Coder> class PositionCoder {
 public:
-  /// `positions` are those of an encoder, or room for a decoder's. All are kept by reference.
+  /// `positions` are those of an encoder, which become what a decoder gets of them, or
+  /// room for a decoder's. All are kept by reference.
   PositionCoder(Coder& coder, const Connectivity& connectivity, std::uint32_t bits,
-                const std::optional<Grid>& grid, std::uint32_t normalShift, std::vector<Vec3u>& positions)
+                const std::optional<Grid>& grid, std::uint32_t normalShift, CoarseResiduals residuals,
+                std::vector<Vec3u>& positions)
       : coder_(coder), connectivity_(connectivity), bits_(bits), maximum_((std::int64_t{1} << bits) - 1),
-        grid_(grid), positions_(positions),
+        grid_(grid), residuals_(residuals), positions_(positions),
         sums_(connectivity.across.empty() ? 0 : positions.size(), normalShift),
         masks_(grid ? positions.size() : 0) {}
 
@@ -70,6 +81,7 @@ private:
     const Candidates candidates = candidatesFor(vertex, across, connectivity_, positions_, bits_);
     VertexContext context;
     context.agreement = candidates.agreement();
+    context.shift = residuals_.shiftOf(vertex);
     if (across != none)
       context.slope =
           Slope(sums_[connectivity_.vertex[before(across)]], sums_[connectivity_.vertex[after(across)]]);
@@ -143,15 +155,25 @@ private:
                              : positionModels::first + numberModels * context.agreement;
         else if (offGrid == 1)
           models = positionModels::second + numberModels * length;
-        const SignedNumber residual = codeSigned(coder, models, coordinate - expected);
+        const SignedNumber residual =
+            codeSigned(coder, models, stepsBetween(expected, coordinate, context.shift));
         ++offGrid;
         length = residual.length;
         longest = std::max(longest, length);
-        coordinate = expected + residual.value;
+        coordinate = expected + (std::int64_t{residual.value} << context.shift);
       }
       coder.require(coordinate >= 0 && coordinate <= maximum_, "a coordinate lies outside of the lattice");
       position[axis] = static_cast<std::uint32_t>(coordinate);
     }
+  }
+
+  /// From one coordinate to about another, without leaving the lattice.
+  std::int64_t stepsBetween(std::int64_t from, std::int64_t to, std::uint32_t shift) const {
+    if (shift == 0)
+      return to - from;
+    std::int64_t steps = (to - from + (std::int64_t{1} << (shift - 1))) >> shift;
+    steps -= from + (steps << shift) > maximum_;
+    return steps + (from + (steps << shift) < 0);
   }
 
   /// The last coordinate at which the plane of the surface passes through the other two.
@@ -171,6 +193,7 @@ private:
   std::uint32_t bits_;
   std::int64_t maximum_;
   const std::optional<Grid>& grid_;
+  CoarseResiduals residuals_;
   std::vector<Vec3u>& positions_;
   NormalSums sums_;
   std::vector<std::uint8_t> masks_;

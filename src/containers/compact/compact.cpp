@@ -72,6 +72,7 @@ IndexedPatch decodeCompact(const PatchDescription& patch, const GeometryDescript
     if (!condition)
       throw Error(ErrorKind::malformed, data.url, message);
   };
+  require(decoded.partCount == 0, "a base stands where a patch should");
   require(decoded.positionBits == geometry.lattice.bits,
           "the positions have other bits than the node states");
   require(patch.vertexCount == 0 || patch.vertexCount == decoded.wedgeCount(),

@@ -58,6 +58,11 @@ struct CompactPatch {
   std::vector<std::uint32_t> wedgePositions; ///< wedge -> vertex
   std::vector<std::uint32_t> corners;        ///< corner -> wedge, cornersPerElement(topology) an element
   std::vector<Attribute> attributes;
+  /// Of a base, per triangle: the part that it belongs to, below `partCount`. Empty in a patch.
+  std::vector<std::uint32_t> parts;
+  std::uint32_t partCount = 0; ///< 0: no base
+  /// Of a base: positions that one part alone has come back in steps of about 2^residualShift.
+  std::uint32_t residualShift = 0;
 
   std::size_t wedgeCount() const { return wedgePositions.size(); }
   std::size_t elementCount() const { return corners.size() / cornersPerElement(topology); }

@@ -2,6 +2,7 @@
 #include "containers/compact/code_positions.h"
 #include "containers/compact/code_values.h"
 #include "containers/compact/header.h"
+#include "containers/compact/parts.h"
 #include "containers/compact/patch_coding.h"
 
 #include <numeric>
@@ -59,6 +60,15 @@ Connectivity decodeConnectivity(const Header& header, Streams& streams) {
   return points;
 }
 
+Parts decodeParts(const Header& header, const Connectivity& connectivity, Streams& streams) {
+  if (!header.hasParts())
+    return {};
+  return streams.next(partModels::count, [&](RangeDecoder& decoder) {
+    return codeParts(decoder, connectivity, header.partCount,
+                     std::vector<std::uint32_t>(header.elementCount));
+  });
+}
+
 Wedges decodeWedges(const Header& header, const Connectivity& connectivity, Streams& streams) {
   if (!header.hasSeams())
     return plainWedges(connectivity);
@@ -96,17 +106,21 @@ CompactPatch decodePatchBytes(ByteSpan payload, std::size_t first, const std::st
   patch.topology = header.topology;
   patch.positionBits = header.positionBits;
   const Connectivity connectivity = decodeConnectivity(header, streams);
+  Parts parts = decodeParts(header, connectivity, streams);
   patch.positions.resize(header.vertexCount);
   const NormalSums sums = streams.next(
       header.grid ? positionModels::countWithGrid : positionModels::count, [&](RangeDecoder& decoder) {
         return PositionCoder(decoder, connectivity, header.positionBits, header.grid, header.normalShift,
-                             patch.positions)
+                             {header.residualShift, &parts.isShared}, patch.positions)
             .run();
       });
   Wedges wedges = decodeWedges(header, connectivity, streams);
   const Surface surface{header.topology, connectivity, wedges, patch.positions, sums, header.normalShift};
   for (const AttributeType& type : header.attributes)
     patch.attributes.push_back({type, decodeValues(surface, type, streams)});
+  patch.parts = std::move(parts.ofTriangle);
+  patch.partCount = header.partCount;
+  patch.residualShift = header.residualShift;
   patch.corners = std::move(wedges.ofCorner);
   patch.wedgePositions = std::move(wedges.vertex);
   return patch;

@@ -2,6 +2,7 @@
 #include "containers/compact/code_positions.h"
 #include "containers/compact/code_values.h"
 #include "containers/compact/header.h"
+#include "containers/compact/parts.h"
 #include "containers/compact/patch_coding.h"
 #include "containers/stored.h"
 #include "containers/unit_vectors.h"
@@ -103,13 +104,16 @@ public:
     header_.wedgeCount = static_cast<std::uint32_t>(patch.wedgeCount());
     header_.elementCount = static_cast<std::uint32_t>(patch.elementCount());
     header_.grid = grid;
+    header_.partCount = patch.partCount;
+    header_.residualShift = patch.residualShift;
   }
 
   PatchBytes run() {
     if (header_.hasConnectivity())
       addStream(ordered_.bytes);
+    const Parts parts = encodeParts();
     std::vector<Vec3u> positions = orderedPositions();
-    const NormalSums sums = encodePositions(positions);
+    const NormalSums sums = encodePositions(positions, {header_.residualShift, &parts.isShared});
     const Wedges wedges = encodeWedges();
     const Surface surface{patch_.topology,    ordered_.connectivity, wedges, positions, sums,
                           header_.normalShift};
@@ -138,10 +142,22 @@ private:
     return positions;
   }
 
-  NormalSums encodePositions(std::vector<Vec3u>& positions) {
+  Parts encodeParts() {
+    if (!header_.hasParts())
+      return {};
+    std::vector<std::uint32_t> parts;
+    for (std::size_t corner = 0; corner < ordered_.sourceCorner.size(); corner += 3)
+      parts.push_back(patch_.parts[ordered_.sourceCorner[corner] / 3]);
+    RangeEncoder encoder(partModels::count);
+    Parts coded = codeParts(encoder, ordered_.connectivity, header_.partCount, std::move(parts));
+    addStream(encoder.finish());
+    return coded;
+  }
+
+  NormalSums encodePositions(std::vector<Vec3u>& positions, CoarseResiduals residuals) {
     RangeEncoder encoder(header_.grid ? positionModels::countWithGrid : positionModels::count);
     NormalSums sums = PositionCoder(encoder, ordered_.connectivity, header_.positionBits, header_.grid,
-                                    header_.normalShift, positions)
+                                    header_.normalShift, residuals, positions)
                           .run();
     addStream(encoder.finish());
     return sums;

@@ -11,7 +11,7 @@ namespace imgeo::compact {
 namespace {
 
 constexpr std::uint8_t signature[] = {'I', 'G', 'C', 1};
-constexpr std::uint8_t gridFlag = 1;
+constexpr std::uint8_t gridFlag = 1, partsFlag = 2;
 
 /// Takes numbers off a payload.
 class FieldReader {
@@ -84,7 +84,8 @@ void appendHeader(Bytes& out, const Header& header) {
   out.push_back(static_cast<std::uint8_t>(header.topology));
   out.push_back(static_cast<std::uint8_t>(header.positionBits));
   out.push_back(static_cast<std::uint8_t>(header.normalShift));
-  out.push_back(header.grid ? gridFlag : 0);
+  out.push_back(
+      static_cast<std::uint8_t>((header.grid ? gridFlag : 0) | (header.hasParts() ? partsFlag : 0)));
   appendLittle(out, header.vertexCount);
   appendLittle(out, header.wedgeCount);
   appendLittle(out, header.elementCount);
@@ -95,6 +96,10 @@ void appendHeader(Bytes& out, const Header& header) {
   for (int axis = 0; axis < 3 && header.grid; ++axis) {
     appendLittle(out, header.grid->origin[axis]);
     appendLittle(out, header.grid->step[axis]);
+  }
+  if (header.hasParts()) {
+    appendLittle(out, header.partCount);
+    appendLittle(out, header.residualShift);
   }
   for (const std::uint32_t length : header.streamLengths)
     appendLittle(out, length);
@@ -115,7 +120,7 @@ PlacedHeader readHeader(ByteSpan payload, std::size_t first, const std::string& 
   header.topology = static_cast<Topology>(reader.takeByte(1, 3, "elements"));
   header.positionBits = reader.takeByte(1, 30, "position bits");
   header.normalShift = reader.takeByte(0, 30, "normals");
-  const std::uint8_t flags = reader.takeByte(0, gridFlag, "flags");
+  const std::uint8_t flags = reader.takeByte(0, gridFlag | partsFlag, "flags");
   const std::uint64_t corners = cornersPerElement(header.topology);
   header.vertexCount = reader.takeCount(1, maxPatchCount, "vertices");
   header.wedgeCount = reader.takeCount(header.vertexCount, maxPatchCount, "wedges");
@@ -131,6 +136,12 @@ PlacedHeader readHeader(ByteSpan payload, std::size_t first, const std::string& 
   if (flags & gridFlag) {
     reader.require(header.positionBits <= 16, "grid lines");
     header.grid = takeGrid(reader);
+  }
+  if (flags & partsFlag) {
+    reader.require(header.topology == Topology::triangles, "parts");
+    header.partCount = reader.takeCount(1, header.elementCount, "parts");
+    header.residualShift = reader.take<std::uint32_t>();
+    reader.require(header.residualShift < header.positionBits, "parts");
   }
   std::uint64_t total = 0;
   for (std::size_t i = 0; i < header.streamCount(); ++i) {

@@ -14,13 +14,15 @@ struct Header {
   std::uint32_t vertexCount = 0, wedgeCount = 0, elementCount = 0;
   std::vector<AttributeType> attributes;
   std::optional<Grid> grid;
+  std::uint32_t partCount = 0, residualShift = 0; ///< of a base; 0: a patch
   std::vector<std::uint32_t> streamLengths;
 
   bool hasConnectivity() const { return topology != Topology::points; }
   bool hasSeams() const { return wedgeCount > vertexCount; }
-  /// Connectivity, positions, wedges and attributes, as far as the above calls for them.
+  bool hasParts() const { return partCount > 0; }
+  /// Connectivity, parts, positions, wedges and attributes, as far as the above calls for them.
   std::size_t streamCount() const {
-    return std::size_t{1} + hasConnectivity() + hasSeams() + attributes.size();
+    return std::size_t{1} + hasConnectivity() + hasParts() + hasSeams() + attributes.size();
   }
 };
 

@@ -97,6 +97,18 @@ inline Mesh star(std::uint32_t triangles) {
   return mesh;
 }
 
+/// Three parts, whose common positions are exact where others are not.
+inline CompactPatch baseOf(const Mesh& mesh) {
+  CompactPatch base = patchOf(mesh, 16, {8, 12, 8, NormalMode::derivedArea});
+  base.partCount = 3;
+  base.residualShift = 6;
+  for (std::size_t corner = 0; corner < base.corners.size(); corner += 3) {
+    const Vec3u& at = base.positions[base.wedgePositions[base.corners[corner]]];
+    base.parts.push_back(at.x < 30000 ? 0 : at.y < 30000 ? 1 : 2);
+  }
+  return base;
+}
+
 struct Sample {
   std::string name;
   CompactPatch patch;
@@ -149,6 +161,8 @@ inline std::vector<Sample> samples() {
   samples.push_back({"others", patchOf(torus(5, 7), 16)});
   addOther(samples.back().patch, 1, 24, 1);
   addOther(samples.back().patch, 4, 3, 2);
+  samples.push_back({"base", baseOf(sphere(12, 16))});
+  samples.push_back({"base-colors", baseOf(colored(grid(6), 3))});
   return samples;
 }
 

@@ -59,19 +59,6 @@ void addTexCoords(CompactPatch& patch, const std::vector<Vec2f>& texCoords,
   patch.attributes.push_back(std::move(attribute));
 }
 
-void addColors(CompactPatch& patch, const std::vector<Rgba8>& colors, std::uint32_t components,
-               std::uint32_t bits) {
-  Attribute attribute{typeOf(AttributeKind::color, components, bits), {}};
-  for (const Rgba8& color : colors) {
-    Value value{{quantiseShare(color.r / 255.0, bits), quantiseShare(color.g / 255.0, bits),
-                 quantiseShare(color.b / 255.0, bits)}};
-    if (components == 4)
-      value[3] = quantiseShare(color.a / 255.0, bits);
-    attribute.values.push_back(value);
-  }
-  patch.attributes.push_back(std::move(attribute));
-}
-
 void addNamed(CompactPatch& patch, const NamedAttribute& named, const AttributeDescription& description) {
   Attribute attribute{typeOf(AttributeKind::other, named.components, 8 * description.bytes), {}};
   for (std::size_t wedge = 0; wedge < named.count(); ++wedge) {
@@ -105,7 +92,7 @@ CompactPatch quantiseInOrder(const Patch& patch, const GeometryDescription& geom
   if (!patch.texCoords.empty())
     addTexCoords(quantised, patch.texCoords, geometry, bits.texCoord);
   if (!patch.colors.empty())
-    addColors(quantised, patch.colors, geometry.colorComponents, bits.color);
+    quantised.attributes.push_back(colorAttribute(patch.colors, geometry.colorComponents, bits.color));
   for (std::size_t i = 0; i < patch.namedAttributes.size(); ++i)
     addNamed(quantised, patch.namedAttributes[i], geometry.attributes.at(i));
   return quantised;
@@ -139,6 +126,18 @@ Primitive primitiveOf(Topology topology) {
 }
 
 } // namespace
+
+Attribute colorAttribute(const std::vector<Rgba8>& colors, std::uint32_t components, std::uint32_t bits) {
+  Attribute attribute{typeOf(AttributeKind::color, components, bits), {}};
+  for (const Rgba8& color : colors) {
+    Value value{{quantiseShare(color.r / 255.0, bits), quantiseShare(color.g / 255.0, bits),
+                 quantiseShare(color.b / 255.0, bits)}};
+    if (components == 4)
+      value[3] = quantiseShare(color.a / 255.0, bits);
+    attribute.values.push_back(value);
+  }
+  return attribute;
+}
 
 std::vector<Draw> drawsOf(const CompactPatch& patch) {
   return {{primitiveOf(patch.topology), static_cast<std::uint32_t>(patch.corners.size())}};

@@ -19,6 +19,9 @@ struct AttributeBits {
 /// node's box, colours over 0 .. 255, both to the nearest.
 CompactPatch quantise(const Patch& patch, const GeometryDescription& geometry, const AttributeBits& bits);
 
+/// Colours, one a wedge, as `quantise` has them.
+Attribute colorAttribute(const std::vector<Rgba8>& colors, std::uint32_t components, std::uint32_t bits);
+
 /// What is drawn of a patch: all its elements.
 std::vector<Draw> drawsOf(const CompactPatch& patch);
 

@@ -27,6 +27,8 @@ template <typename Visit> void visitNumbers(const CompactPatch& patch, Visit vis
     visit("wedgePositions", std::int64_t{position});
   for (const std::uint32_t wedge : patch.corners)
     visit("corners", std::int64_t{wedge});
+  for (const std::uint32_t part : patch.parts)
+    visit("parts", std::int64_t{part});
 }
 
 Json jsonOf(const CompactPatch& patch, std::size_t first) {
@@ -37,6 +39,8 @@ Json jsonOf(const CompactPatch& patch, std::size_t first) {
             {"wedgePositions", Json::array()},
             {"corners", Json::array()},
             {"attributes", Json::array()}};
+  if (patch.partCount > 0)
+    json["partCount"] = patch.partCount;
   visitNumbers(patch, [&](const char* name, std::int64_t number) { json[name].push_back(number); });
   for (const Attribute& attribute : patch.attributes) {
     const AttributeType& type = attribute.type;

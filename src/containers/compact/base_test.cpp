@@ -1,0 +1,86 @@
+#include "containers/compact/base.h"
+
+#include "base/error.h"
+#include "prepare/base_testing.h"
+#include "prepare/weld.h"
+
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using namespace testing;
+
+struct EncodedBase {
+  PatchedMesh patched;
+  BaseMesh base;
+  GeometryDescription geometry;
+  Bytes payload;
+
+  FetchFile fetch() const {
+    return [this](const std::string&) { return baseFile(payload).bytes; };
+  }
+  std::vector<PatchTriangles> triangles() const {
+    std::vector<PatchTriangles> triangles;
+    for (const Patch& patch : patched.patches)
+      triangles.push_back(trianglesOf(patch));
+    return triangles;
+  }
+};
+
+EncodedBase encoded(Mesh mesh, std::uint32_t maxWedges) {
+  weld(mesh);
+  EncodedBase result;
+  result.patched = cutIntoPatches(mesh, latticeFor(boxOf(mesh), 16), maxWedges);
+  result.base = baseOf(result.patched, 2).value();
+  EncodeOptions options;
+  options.profile = Profile::compact;
+  result.geometry = describe(result.patched, options);
+  result.geometry.patches.resize(result.patched.patches.size());
+  result.geometry.base = Reference{"base.png", 0, 0};
+  result.payload = encodeBase(result.base, result.geometry, 8);
+  return result;
+}
+
+TEST(CompactBase, ComesBackClosedAgainstPatches) {
+  const EncodedBase mesh = encoded(sphere(100, 100), 3000);
+  ASSERT_GT(mesh.patched.patches.size(), 3u);
+  const BaseMesh back = decodeBase(mesh.geometry, mesh.fetch());
+  EXPECT_EQ(back.triangleCount(), mesh.base.triangleCount());
+  EXPECT_EQ(back.positions.size(), mesh.base.positions.size());
+  EXPECT_TRUE(meetsAtBorders(back, mesh.triangles()));
+  expectClosedMixtures(back, mesh.triangles());
+}
+
+TEST(CompactBase, MovesVerticesByLittle) {
+  const EncodedBase mesh = encoded(sphere(100, 100), 65535);
+  const BaseMesh back = decodeBase(mesh.geometry, mesh.fetch());
+  const double radius = mesh.patched.lattice.maximum() / 2.0;
+  for (const Vec3u& position : back.positions)
+    EXPECT_NEAR(length(Vec3d(position) - Vec3d{radius, radius, radius}), radius, 0.02 * radius);
+}
+
+TEST(CompactBase, TakesAFewBytesATriangle) {
+  const EncodedBase mesh = encoded(sphere(200, 200), 65535);
+  EXPECT_LT(static_cast<double>(mesh.payload.size()), 1.5 * static_cast<double>(mesh.base.triangleCount()));
+}
+
+TEST(CompactBase, StandsBehindOthersInAFile) {
+  EncodedBase mesh = encoded(sphere(100, 100), 3000);
+  const Bytes one = mesh.payload;
+  mesh.payload.insert(mesh.payload.end(), one.begin(), one.end());
+  mesh.geometry.base->first = static_cast<std::uint32_t>(one.size());
+  EXPECT_EQ(decodeBase(mesh.geometry, mesh.fetch()).triangleCount(), mesh.base.triangleCount());
+}
+
+TEST(CompactBase, IsRefusedWhereItIsNotTheNodes) {
+  EncodedBase mesh = encoded(sphere(100, 100), 3000);
+  mesh.geometry.patches.emplace_back();
+  EXPECT_THROW(decodeBase(mesh.geometry, mesh.fetch()), Error);
+  mesh.geometry.patches.pop_back();
+  mesh.geometry.lattice.bits = 15;
+  EXPECT_THROW(decodeBase(mesh.geometry, mesh.fetch()), Error);
+}
+
+} // namespace
+} // namespace imgeo
