@@ -3,10 +3,10 @@
 
 import { classicColors, classicCoords, classicIndex, classicNormals } from "./classicArrays.ts";
 import { classicGrid } from "./classicGrid.ts";
-import { compactPatch, compactPayload } from "./compact/jobs.ts";
+import { compactBase, compactPatch, compactPayload } from "./compact/jobs.ts";
 
 export const jobs = {
-  classicCoords, classicIndex, classicNormals, classicColors, classicGrid, compactPayload, compactPatch,
+  classicCoords, classicIndex, classicNormals, classicColors, classicGrid, compactPayload, compactPatch, compactBase,
 } as const;
 
 export type JobName = keyof typeof jobs;

@@ -13,11 +13,12 @@ export interface DrawRange {
 }
 
 /**
- * How far a patch is, as events name it: vertices alone, a surface shaded by its
- * own slope, one shaded by its normals, and all there is.
+ * How far a patch is, as events name it: vertices alone, a coarse shape that stands
+ * in for it, a surface shaded by its own slope, one shaded by its normals, and all
+ * there is.
  */
-export type StageName = "points" | "surface" | "shaded" | "full";
-export const stageNames: readonly StageName[] = ["points", "surface", "shaded", "full"];
+export type StageName = "points" | "base" | "surface" | "shaded" | "full";
+export const stageNames: readonly StageName[] = ["points", "base", "surface", "shaded", "full"];
 
 interface StageHead {
   readonly name: StageName;

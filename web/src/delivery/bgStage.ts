@@ -30,7 +30,7 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
     isDivisible: false,
 
     async accept(part, content, signal) {
-      if (content.kind !== "bytes" || part.role === "patch") throw new DecodeError("malformed", "is no typed array");
+      if (content.kind !== "bytes" || part.role === "patch" || part.role === "base") throw new DecodeError("malformed", "is no typed array");
       const range = rangeOf(geometry, patch, part.role, part.reference);
       const present = here;
       if (part.role === "index") {

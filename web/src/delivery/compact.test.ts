@@ -2,16 +2,17 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { readPatchHeader } from "../decode/compact/header.ts";
 import { decodePatch } from "../decode/compact/patch.ts";
+import { baseBuffersOf } from "../decode/compact/baseBuffers.ts";
 import { buffersOf } from "../decode/compact/patchBuffers.ts";
 import { readPayload, readVector, readVectorFile, vectorNames } from "../decode/compact/vectors.testing.ts";
 import { pngWithTexels } from "../decode/png.testing.ts";
 import { storedFrameOf } from "../document/storedFrame.ts";
-import { geometryOf, held, record, siteOf, soon } from "./delivery.testing.ts";
+import { everything, geometryOf, held, record, siteOf, soon } from "./delivery.testing.ts";
 
 const secondFirst = (readVector("second") as { first: number }).first;
 
 /** A geometry of patches that begin at bytes of files, as documents describe them. */
-function geometryFor(patches: readonly (readonly [file: string, first: number])[], changes: Record<string, string> = {}) {
+function geometryFor(patches: readonly (readonly [file: string, first: number])[], changes: Record<string, string> = {}, base = "") {
   const { header } = readPatchHeader(readPayload(patches[0]?.[0] ?? ""), patches[0]?.[1] ?? 0);
   const markup = patches.map(([file, first]) => {
     const { index, vertexCount, topology } = buffersOf(decodePatch(readPayload(file), first));
@@ -19,14 +20,19 @@ function geometryFor(patches: readonly (readonly [file: string, first: number])[
                      primType: topology.toUpperCase(), data: `${file}.png#${first}`, ...changes };
     return `<GeometryPatch ${Object.entries(fields).map(([name, value]) => `${name}="${value}"`).join(" ")}/>`;
   });
-  return geometryOf(`<ImageGeometry profile="compact" positionBits="${changes.positionBits ?? header.positionBits}">${markup.join("")}</ImageGeometry>`);
+  return geometryOf(`<ImageGeometry profile="compact" positionBits="${changes.positionBits ?? header.positionBits}" base="${base}">${markup.join("")}</ImageGeometry>`);
 }
 
+const hasParts = (name: string) => readPatchHeader(readPayload(name), 0).header.partCount > 0;
 const filesOf = (...names: string[]) => Object.fromEntries(names.map((name) => [`${name}.png`, readVectorFile(name)]));
+
+async function until(condition: () => boolean): Promise<void> {
+  while (!condition()) await soon();
+}
 
 describe("a geometry of compact", () => {
   test("becomes whole stages of buffers, whatever it holds", async () => {
-    for (const name of vectorNames().filter((name) => name !== "second")) {
+    for (const name of vectorNames().filter((name) => name !== "second" && !hasParts(name))) {
       const site = siteOf(filesOf(name));
       const { stages, errors, settled } = record(geometryFor([[name, 0]]), site.pool);
       await settled;
@@ -73,6 +79,74 @@ describe("a geometry of compact", () => {
     await settled;
     assert.deepEqual(stages.map(({ patch }) => patch), [3]);
     assert.deepEqual(errors.map(({ url, kind }) => `${url} ${kind}`).sort(), ["cone.png malformed", "sphere.png malformed", "torus.png http"]);
+  });
+
+  test("is shown by its base, of one file, part by part until the patches are there", async () => {
+    const { promise, release } = held(readVectorFile("sphere"));
+    const site = siteOf({ ...filesOf("base", "fine", "soup"), "sphere.png": promise });
+    const { stages, errors, settled } = record(geometryFor([["sphere", 0], ["soup", 0], ["soup", 0]], {}, "base.png#0"), site.pool);
+    await until(() => stages.some(({ stage }) => stage.name === "full"));
+    release();
+    await settled;
+    assert.deepEqual(errors, []);
+    assert.deepEqual(site.asked, ["base.png", "sphere.png", "soup.png"]);
+    const parts = baseBuffersOf(decodePatch(readPayload("base"), 0));
+    for (const patch of [0, 1, 2]) {
+      const [first, last, ...others] = stages.filter((one) => one.patch === patch).map(({ stage }) => stage);
+      assert.deepEqual([first?.name, last?.name, others.length], ["base", "full", 0]);
+      assert.ok(first?.kind === "buffers");
+      assert.deepEqual([first.index, first.coord, first.normal].map((stored) => site.arrayOf(stored)),
+                       [parts[patch]?.index, parts[patch]?.coord.array, parts[patch]?.normal?.array]);
+      assert.deepEqual(first.draws, [{ primitive: "triangles", first: 0, count: parts[patch]?.index?.length }]);
+    }
+  });
+
+  test("goes back to its base where there is no room for a patch", async () => {
+    const site = siteOf(filesOf("base", "sphere"));
+    const { stages, delivery, settled } = record(geometryFor([["sphere", 0], ["sphere", 0], ["sphere", 0]], {}, "base.png"), site.pool);
+    await settled;
+    const held = site.arrays.size;
+    const claims = delivery.claims(everything);
+    assert.deepEqual(claims.map((each) => each.length), [2, 2, 2]);
+    const all = claims.flat();
+    const bytes = all.reduce((sum, claim) => sum + claim.bytes, 0);
+    assert.equal(bytes, Array.from(site.arrays.values(), (array) => array.byteLength).reduce((sum, length) => sum + length, 0));
+    stages.length = 0;
+    delivery.demand(everything, new Set(all.filter((claim) => claim !== claims[1]?.[1])));
+    assert.deepEqual(stages.map(({ patch, stage }) => [patch, stage?.name]), [[1, "base"]]);
+    assert.equal(site.arrays.size, held - 3);
+    delivery.claims(everything);
+    delivery.demand(everything);
+    await until(() => stages.length === 2);
+    assert.deepEqual([stages[1]?.patch, stages[1]?.stage?.name], [1, "full"]);
+    delivery.cancel();
+    assert.equal(site.arrays.size, 0);
+  });
+
+  test("does not go back to a base that comes late", async () => {
+    const { promise, release } = held(readVectorFile("base"));
+    const site = siteOf({ ...filesOf("sphere"), "base.png": promise });
+    const { stages, settled } = record(geometryFor([["sphere", 0], ["sphere", 0], ["sphere", 0]], {}, "base.png"), site.pool);
+    await until(() => stages.length === 3);
+    release();
+    await settled;
+    assert.deepEqual(stages.map(({ stage }) => stage.name), ["full", "full", "full"]);
+  });
+
+  test("does without a base that is missing or not its own", async () => {
+    for (const [base, kind, patches] of [["none.png", "http", 3], ["sphere.png", "malformed", 3], ["base.png", "malformed", 2], ["base-colors.png#7", "malformed", 3]] as const) {
+      const geometry = geometryFor(Array.from({ length: patches }, () => ["soup", 0] as const), {}, base);
+      const { stages, errors, settled } = record(geometry, siteOf(filesOf("soup", "sphere", "base", "base-colors")).pool);
+      await settled;
+      assert.deepEqual([errors.length, errors[0]?.kind, errors[0]?.url], [1, kind, base.replace(/#.*/, "")]);
+      assert.deepEqual(stages.map(({ stage }) => stage.name), Array.from({ length: patches }, () => "full"));
+    }
+  });
+
+  test("refuses a base in the place of a patch", async () => {
+    const { stages, errors, settled } = record(geometryFor([["base", 0]]), siteOf(filesOf("base")).pool);
+    await settled;
+    assert.deepEqual([stages.length, errors[0]?.kind], [0, "malformed"]);
   });
 
   test("says nothing more once it is cancelled", async () => {

@@ -13,7 +13,7 @@ import { bytesPerTexel, partsOf } from "./parts.ts";
 import type { Transfer } from "./progress.ts";
 import type { Content, ContentKind, Lease, ResourcePool } from "./resources.ts";
 import { bgBuilder } from "./bgStage.ts";
-import { compactBuilder } from "./compactStage.ts";
+import { BaseParts, compactBuilder } from "./compactStage.ts";
 import { sigBuilder } from "./sigStage.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
 
@@ -65,6 +65,8 @@ interface Need {
 
 interface Patch {
   readonly place: number;
+  /** The newest that the listener knows. */
+  stage: Stage | undefined;
   readonly builder: StageBuilder;
   /** In the order of their use. */
   readonly needs: readonly Need[];
@@ -96,11 +98,13 @@ class GeometryDelivery implements Delivery {
   constructor(geometry: GeometryDescription, pool: ResourcePool, listener: DeliveryListener) {
     this.#pool = pool;
     this.#listener = listener;
+    const base = new BaseParts(geometry, pool.runHere);
     this.#patches = geometry.patches.map((patch, place) => ({
       place,
-      builder: builderOf(geometry, patch, pool),
+      builder: builderOf(geometry, place, patch, base, pool),
       needs: needsOf(geometry, patch, pool.largestTexture),
       claims: [],
+      stage: undefined,
     }));
     this.#needs = this.#patches.flatMap(({ needs }) => needs);
   }
@@ -177,11 +181,12 @@ class GeometryDelivery implements Delivery {
   }
 
   /** Gives up what is here: the listener first lets go of it. */
-  #evict({ place, builder, needs }: Patch, evicted: readonly Need[]): void {
+  #evict(patch: Patch, evicted: readonly Need[]): void {
+    const { builder, needs } = patch;
     if (evicted.length === 0) return;
     if (!builder.isDivisible || evicted.length === needs.filter(({ state }) => state === "here").length) builder.clear();
     else for (const { part } of evicted) builder.drop(part);
-    this.#listener.onStage(place, builder.stage());
+    this.#show(patch);
     for (const need of evicted) {
       this.#release(need);
       need.state = "absent";
@@ -201,8 +206,7 @@ class GeometryDelivery implements Delivery {
       if (isOver()) return;
       need.state = "here";
       this.#note(patch, need, content);
-      const stage = builder.stage();
-      if (stage !== undefined) this.#listener.onStage(patch.place, stage);
+      this.#show(patch);
       builder.sweep();
     } catch (error) {
       if (isOver()) return;
@@ -215,11 +219,22 @@ class GeometryDelivery implements Delivery {
     if (this.isSettled) this.#listener.onSettled();
   }
 
+  /** A base that comes after its patch changes nothing. */
+  #show(patch: Patch): void {
+    const stage = patch.builder.stage();
+    if (stage === patch.stage) return;
+    patch.stage = stage;
+    this.#listener.onStage(patch.place, stage);
+  }
+
   /** What it takes on the GPU is known now, and stays known when it has gone. */
   #note({ builder, needs }: Patch, need: Need, content: Content): void {
     this.#storedBytes = undefined;
     if (content.kind === "image") {
       need.storedBytes = content.image.width * content.image.height * bytesPerTexel;
+    } else if (builder.isDivisible && needs.every(isSeparate)) {
+      const others = needs.filter((other) => other !== need && other.state === "here");
+      need.storedBytes = builder.storedBytes - others.reduce((sum, { storedBytes }) => sum + storedBytes, 0);
     } else if (needs.every(({ state }) => state !== "absent" && state !== "asked")) {
       // Arrays of a patch are one claim: it does not matter which of its files they are counted for.
       needs.forEach((each, place) => { each.storedBytes = place === 0 ? builder.storedBytes : 0; });
@@ -233,24 +248,24 @@ class GeometryDelivery implements Delivery {
   }
 }
 
-function builderOf(geometry: GeometryDescription, patch: PatchDescription, pool: ResourcePool): StageBuilder {
+function builderOf(geometry: GeometryDescription, place: number, patch: PatchDescription, base: BaseParts, pool: ResourcePool): StageBuilder {
   switch (geometry.container) {
     case "bg": return bgBuilder(geometry, patch, pool);
-    case "compact": return compactBuilder(geometry, patch, pool);
+    case "compact": return compactBuilder(geometry, patch, place, base, pool);
     case "sig": return sigBuilder(geometry, patch, pool);
   }
 }
 
 function needsOf(geometry: GeometryDescription, patch: PatchDescription, largestTexture: number): Need[] {
-  const kind = contentKindOf(geometry, patch, largestTexture);
+  const kindOfPatch = contentKindOf(geometry, patch, largestTexture);
   return partsOf(geometry, patch).sort((a, b) => useOf(a) - useOf(b)).map((part): Need => ({
-    part, kind, lease: undefined, transfer: undefined, aborter: new AbortController(), state: "absent", storedBytes: part.storedBytes,
+    part, kind: part.role === "base" ? "base" : kindOfPatch, lease: undefined, transfer: undefined, aborter: new AbortController(), state: "absent", storedBytes: part.storedBytes,
   }));
 }
 
 /** What each is of no use without comes before it. */
 function useOf({ role, plane }: Part): number {
-  return plane > 0 ? 4 + plane : ["patch", "coord", "index", "normal", "color"].indexOf(role);
+  return plane > 0 ? 5 + plane : ["base", "patch", "coord", "index", "normal", "color"].indexOf(role);
 }
 
 function claimsOf({ place, builder, needs }: Patch, priorityOf: Demand): PatchClaim[] {
@@ -261,9 +276,9 @@ function claimsOf({ place, builder, needs }: Patch, priorityOf: Demand): PatchCl
     return [{ need, priority: priority ?? 0 }];
   });
   if (wanted.length === 0) return [];
-  if (builder.isDivisible && wanted.every(({ need }) => isImage(need))) {
+  if (builder.isDivisible && wanted.every(({ need }) => isSeparate(need))) {
     return wanted.map(({ need, priority }) => ({
-      needs: [need], key: need.part.reference.url, bytes: need.storedBytes, priority, isHeld: need.state !== "absent",
+      needs: [need], key: isImage(need) ? need.part.reference.url : need, bytes: need.storedBytes, priority, isHeld: need.state !== "absent",
     }));
   }
   return [{
@@ -277,6 +292,11 @@ function claimsOf({ place, builder, needs }: Patch, priorityOf: Demand): PatchCl
 
 function isImage({ kind }: Need): boolean {
   return kind === "texture" || kind === "either";
+}
+
+/** Of use, and room on the GPU, for itself. */
+function isSeparate(need: Need): boolean {
+  return isImage(need) || need.kind === "payload" || need.kind === "base";
 }
 
 /** Where the vertices of a patch are to be decoded, and so what its files are to become. */

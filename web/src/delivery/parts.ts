@@ -9,8 +9,8 @@ import type { Chunk } from "../scheduler/priority.ts";
 export type PartRole = "index" | "coord" | "normal" | "color";
 
 export interface Part {
-  /** `patch`: all of it. */
-  readonly role: PartRole | "patch";
+  /** `patch`: all of it. `base`: what stands in for it, and for others. */
+  readonly role: PartRole | "patch" | "base";
   /** Which byte plane, for `coord` of images. */
   readonly plane: number;
   readonly reference: Reference;
@@ -23,7 +23,9 @@ export interface Part {
 
 /** Texture coordinates are not asked for: nothing that the document can say yet uses them. */
 export function partsOf(geometry: GeometryDescription, patch: PatchDescription): Part[] {
-  if (geometry.container === "compact") return patch.data ? [compactPart(patch, patch.data)] : [];
+  if (geometry.container === "compact") {
+    return [...(geometry.base ? [basePart(geometry, patch, geometry.base)] : []), ...(patch.data ? [compactPart(patch, patch.data)] : [])];
+  }
   const corners = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
   const vertices = patch.vertexCount;
   const part = (role: PartRole, reference: Reference | undefined, elements: number, plane = 0): Part[] =>
@@ -42,10 +44,24 @@ export function partsOf(geometry: GeometryDescription, patch: PatchDescription):
   ];
 }
 
-function compactPart({ draws, vertexCount }: PatchDescription, reference: Reference): Part {
+function compactPart(patch: PatchDescription, reference: Reference): Part {
+  return { role: "patch", plane: 0, reference, chunk: { type: "patch", plane: 0 }, ...compactSizes(patch) };
+}
+
+/** What a base has of its patches' triangles, and bytes, roughly. */
+const shareOfBase = 0.03;
+
+function basePart({ patches }: GeometryDescription, patch: PatchDescription, reference: Reference): Part {
+  return {
+    role: "base", plane: 0, reference, chunk: { type: "base", plane: 0 },
+    expectedBytes: shareOfBase * patches.reduce((sum, each) => sum + compactSizes(each).expectedBytes, 0),
+    storedBytes: shareOfBase * compactSizes(patch).storedBytes,
+  };
+}
+
+function compactSizes({ draws, vertexCount }: PatchDescription): Pick<Part, "expectedBytes" | "storedBytes"> {
   const corners = draws.reduce((sum, draw) => sum + draw.count, 0);
   return {
-    role: "patch", plane: 0, reference, chunk: { type: "patch", plane: 0 },
     expectedBytes: 2 * vertexCount + corners / 6,
     storedBytes: 12 * vertexCount + 2 * corners, // words of positions, bytes of normals, short indices
   };

@@ -16,8 +16,11 @@ export type Content =
   | { readonly kind: "image" } & DataImage
   | { readonly kind: "bytes" | "payload"; readonly bytes: Uint8Array<ArrayBuffer> };
 
-/** What a file is to become: a texture, its own bytes, or either, as the view decides; or the payload of compact that it carries. */
-export type ContentKind = "texture" | "bytes" | "either" | "payload";
+/**
+ * What a file is to become: a texture, its own bytes, or either, as the view decides; or the
+ * payload of compact that it carries, unpacked in a worker, or here, since all wait for a base.
+ */
+export type ContentKind = "texture" | "bytes" | "either" | "payload" | "base";
 
 export interface ResourceRequest {
   readonly kind: ContentKind;
@@ -48,6 +51,8 @@ export interface DeliveryOptions {
   /** Texels of the longest edge that a texture may have. */
   readonly largestTexture: number;
   readonly runJob: RunJob;
+  /** The same on the main thread, for what is small and must not wait for a worker; where it is not given, it waits. */
+  readonly runHere?: RunJob;
   readonly storeBytes: StoreBytes;
   readonly download: DownloadOptions;
   /** The absolute URL of one that the document writes. */
@@ -71,6 +76,10 @@ export class ResourcePool {
 
   get runJob(): RunJob {
     return this.#options.runJob;
+  }
+
+  get runHere(): RunJob {
+    return this.#options.runHere ?? this.#options.runJob;
   }
 
   get storeBytes(): StoreBytes {
@@ -232,7 +241,11 @@ class Resource {
   }
 
   async #contentOf(kind: ContentKind, bytes: Uint8Array<ArrayBuffer>): Promise<Content> {
-    if (kind === "payload") return { kind, bytes: await this.#options.runJob("compactPayload", bytes, this.#aborter.signal) };
+    if (kind === "payload" || kind === "base") {
+      const { runJob, runHere = runJob } = this.#options;
+      const run = kind === "base" ? runHere : runJob;
+      return { kind: "payload", bytes: await run("compactPayload", bytes, this.#aborter.signal) };
+    }
     const isTexture = kind === "texture" || (kind === "either" && await this.#options.readsTextures());
     if (!isTexture) return { kind: "bytes", bytes };
     return { kind: "image", ...await this.#options.makeImage(bytes, this.#aborter.signal) };

@@ -42,7 +42,7 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
 
     drop({ role, plane }) {
       if (role === "coord") planes[plane] = undefined;
-      else if (role !== "patch") here[role] = undefined;
+      else if (role !== "patch" && role !== "base") here[role] = undefined;
     },
 
     clear() {
@@ -67,7 +67,7 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
       if (isPairs) checkHolds(range, texelsOf(image) / 2 + records, image.width);
       else checkHolds(range, records, patch.index === undefined ? patch.implicitWidth : image.width);
       if (part.role === "coord") planes[part.plane] = range;
-      else if (part.role !== "patch") here[part.role] = range;
+      else if (part.role !== "patch" && part.role !== "base") here[part.role] = range;
     },
 
     stage(): TextureStage | undefined {

@@ -33,6 +33,8 @@ export interface StageBuilder {
 /** What builders work with. */
 export interface BuilderTools {
   readonly runJob: RunJob;
+  /** The same without waiting for a worker. */
+  readonly runHere: RunJob;
   readonly storeBytes: StoreBytes;
 }
 

@@ -96,6 +96,8 @@ export interface GeometryDescription {
   readonly texCoordType: ElementType;
   readonly colorType: ElementType;
   readonly patches: readonly PatchDescription[];
+  /** SIG compact: what stands in for the patches until they are here, from this byte of its file's pixels on. */
+  readonly base: Reference | undefined;
 }
 
 /** Phong's model in the numbers of the screen, glTF's metallic-roughness model in linear ones, or a colour that no light changes. */

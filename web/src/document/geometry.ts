@@ -33,6 +33,7 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
     colorComponents: values.numColorComponents === 4 ? 4 : 3,
     decode: choiceOf(element, "decode", values.decode, decodePlaces, "auto", warnings),
     // The bytes of an image are its only element type; indices are made of two or three.
+    base: container === "compact" && values.base !== "" ? referenceOf(values.base, container) : undefined,
     coordType: "Uint8", normalType: "Uint8", texCoordType: "Uint8", colorType: "Uint8",
     patches: readPatches(element, container, warnings).map((patch) => withGrid(element, patch, mode, warnings)),
   };
@@ -52,6 +53,7 @@ export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): 
     texCoordType: typeOf("texCoordType"),
     colorType: typeOf("colorType"),
     patches: readPatches(element, "bg", warnings),
+    base: undefined,
   };
   if (!values.normalAsSphericalCoordinates) return geometry;
   if (geometry.coordType.endsWith("16")) return withNormalsInCoords(geometry);
@@ -85,7 +87,7 @@ export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "sp
 }
 
 /** What only images have. */
-type ImageFields = "numColorComponents" | "decode" | "profile" | "implicitMeshMode";
+type ImageFields = "numColorComponents" | "decode" | "profile" | "base" | "implicitMeshMode";
 
 function commonOf(element: SceneElement, values: Omit<Values<typeof nodeFields.ImageGeometry>, ImageFields>,
                   warnings: Warning[]) {

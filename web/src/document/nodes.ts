@@ -132,6 +132,7 @@ export const nodeFields = {
     numColorComponents: SFInt32(3),
     decode: SFString("auto"),
     profile: SFString("classic"),
+    base: SFString(""),
     implicitMeshMode: SFString("SIG"),
   },
   BinaryGeometry: {

@@ -93,6 +93,7 @@ export class Viewer {
       readsTextures: () => Promise.resolve(this.#readsTextures),
       largestTexture: this.renderer.largestTexture,
       runJob: (name, input, signal) => this.#workers.run(name, input, signal),
+      runHere: (name, input, signal) => this.#workers.runHere(name, input, signal),
       storeBytes: (array, use, signal) => arrival.storeBytes(array, use, signal),
       download: defaultDownloadOptions,
       // What is no URL is left for the request to fail on.
@@ -234,6 +235,7 @@ export class Viewer {
       shape.loading.settle();
       return;
     }
+    if (geometry.base !== undefined) this.#workers.prepareHere();
     if (!this.renderer.isContextLost) this.#deliver(shape, geometry, element);
   }
 

@@ -7,6 +7,7 @@ import type { Orbit } from "../navigation/orbit.ts";
 export const stageWords: Readonly<Record<StageName | "none", string>> = {
   none: "nothing is shown yet",
   points: "the shape is shown as points",
+  base: "a coarse shape is shown, all of it is coming",
   surface: "the surface is shown",
   shaded: "the shape is shown, details are coming",
   full: "all of it is shown",

@@ -22,6 +22,8 @@ export interface BufferContents {
 
 export class PickDraw {
   readonly range: DrawRange;
+  /** It stands in for what is to come, whose numbers it does not have. */
+  readonly isStandIn: boolean;
   /** Triangles in the draws of the patch before this one. */
   readonly trianglesBefore: number;
   /** Undefined for vertices from images. */
@@ -35,6 +37,7 @@ export class PickDraw {
 
   constructor(stage: Stage, range: DrawRange, geometry: BufferGeometry, buffers: Buffers, request: Omit<PickMaterialRequest, "primitive">) {
     this.range = range;
+    this.isStandIn = stage.name === "base";
     this.#geometry = geometry;
     this.#request = { ...request, primitive: range.primitive };
     this.#stage = stage.kind === "buffers" ? stage : undefined;

@@ -21,9 +21,9 @@ export interface Hit {
   /** What is drawn there. */
   readonly object: Object3D;
   readonly patch: number;
-  /** Of the patch's triangles in the order of its draws; in a strip each further element makes one. Undefined for points and lines. */
+  /** Of the patch's triangles in the order of its draws; in a strip each further element makes one. Undefined for points, lines and bases. */
   readonly triangle: number | undefined;
-  /** Record number, in the patch, of the primitive's vertex that is nearest to the place. */
+  /** Record number, in the patch, of the primitive's vertex that is nearest to the place; -1 in a base. */
   readonly vertex: number;
   readonly position: Vector3;
   /** Of length 1, as it is shaded, on the side that is seen; undefined for points and lines without normals. */
@@ -116,8 +116,9 @@ export class Picker {
     if (faceNormal !== undefined && faceNormal.dot(ray.direction) > 0) faceNormal.negate();
     const onFace = faceNormal && intersection(ray, face.point.clone().applyMatrix4(worldFromStored), faceNormal);
     return {
-      element, object, patch, vertex,
-      triangle: cornersOf(pick.range) === 3 ? pick.trianglesBefore + number : undefined,
+      element, object, patch,
+      vertex: pick.isStandIn ? -1 : vertex,
+      triangle: cornersOf(pick.range) === 3 && !pick.isStandIn ? pick.trianglesBefore + number : undefined,
       position: onFace ?? stored.applyMatrix4(worldFromStored),
       normal: worldNormalOf(new Vector3().fromArray(floats, pickedWords.normal), worldFromStored) ?? faceNormal,
     };

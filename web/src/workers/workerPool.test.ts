@@ -32,6 +32,7 @@ function fakes({ size = 2, idleMs = 1000, start = true, broken = false } = {}) {
       workers.push(fake);
       return worker;
     },
+    prepareHere: () => undefined,
     runHere: (message) => {
       here.push(message);
       return runJob(message);

@@ -20,6 +20,8 @@ export interface WorkerPoolOptions {
   /** May throw. */
   readonly start: () => JobWorker;
   readonly runHere: (message: JobMessage) => Promise<unknown>;
+  /** Fetches what `runHere` needs, ahead of whatever else is asked for. */
+  readonly prepareHere: () => void;
   /** A worker without work ends after so long. */
   readonly idleMs: number;
 }
@@ -77,6 +79,19 @@ export class WorkerPool {
       const idle = this.#tryStart();
       if (idle !== undefined) this.#rest(idle);
     }
+  }
+
+  /** There will be jobs for `runHere`. */
+  prepareHere(): void {
+    this.#options.prepareHere();
+  }
+
+  /** The same at once, and here, with what a worker would do it with. */
+  async runHere<Name extends JobName>(name: Name, input: InputOf<Name>, signal: AbortSignal): Promise<OutputOf<Name>> {
+    signal.throwIfAborted();
+    const output = await this.#options.runHere({ name, input });
+    signal.throwIfAborted();
+    return output as OutputOf<Name>;
   }
 
   /** Ends the workers; jobs that are not done never are. */

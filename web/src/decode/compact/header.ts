@@ -34,12 +34,18 @@ export interface PatchHeader {
   readonly wedgeCount: number;
   readonly elementCount: number;
   readonly attributes: readonly AttributeType[];
+  /** Of a base: how many patches it stands in for; 0: it is a patch. */
+  readonly partCount: number;
+  /** Of a base: positions that one part alone has come in residuals of 2^residualShift. */
+  readonly residualShift: number;
 }
 
 /** Views of the payload. */
 export interface PatchStreams {
   /** Undefined in points. */
   readonly connectivity: Uint8Array | undefined;
+  /** Undefined but in a base. */
+  readonly parts: Uint8Array | undefined;
   readonly positions: Uint8Array;
   /** Undefined where each vertex is one wedge. */
   readonly wedges: Uint8Array | undefined;
@@ -50,6 +56,8 @@ export const largestCount = 2 ** 20;
 const mostAttributes = 16;
 const magic = [0x49, 0x47, 0x43]; // IGC
 const version = 1;
+const gridFlag = 1;
+const partsFlag = 2;
 
 export function cornersPerElement(topology: Topology): 1 | 2 | 3 {
   return topology === "triangles" ? 3 : topology === "lines" ? 2 : 1;
@@ -73,7 +81,8 @@ export function readPatchHeader(payload: Uint8Array, start: number): ReadPatchHe
   const topology = topologies[within("topology", reader.byte(), 1, 3)] ?? "points";
   const positionBits = within("bits of a position", reader.byte(), 1, 30);
   const normalShift = within("shift of normals", reader.byte(), 0, 30);
-  const hasGrid = within("flags", reader.byte(), 0, 1) === 1;
+  const flags = within("flags", reader.byte(), 0, gridFlag | partsFlag);
+  const hasGrid = (flags & gridFlag) !== 0;
   const vertexCount = readCount(reader, "vertices", 1);
   const wedgeCount = readCount(reader, "wedges", vertexCount);
   const elementCount = readCount(reader, "elements", Math.ceil(wedgeCount / cornersPerElement(topology)));
@@ -85,14 +94,21 @@ export function readPatchHeader(payload: Uint8Array, start: number): ReadPatchHe
   const attributes = Array.from({ length: attributeCount }, () => readAttributeType(reader));
   if (hasGrid) within("bits of a position on a grid", positionBits, 1, 16);
   const grid = hasGrid ? readGrid(reader) : undefined;
-  const header = { topology, positionBits, normalShift, grid, vertexCount, wedgeCount, elementCount, attributes };
+  let partCount = 0;
+  let residualShift = 0;
+  if ((flags & partsFlag) !== 0) {
+    if (topology !== "triangles") throw new DecodeError("malformed", `holds parts of ${topology}`);
+    partCount = readCount(reader, "parts", 1, elementCount);
+    residualShift = within("shift of residuals", reader.number(), 0, positionBits - 1);
+  }
+  const header = { topology, positionBits, normalShift, grid, vertexCount, wedgeCount, elementCount, attributes, partCount, residualShift };
   return { header, streams: readStreams(reader, header), end: reader.at };
 }
 
-function readCount(reader: FieldReader, what: string, least: number): number {
+function readCount(reader: FieldReader, what: string, least: number, most = largestCount): number {
   const count = reader.number();
   if (count > largestCount) throw new DecodeError("limit", `holds a patch of ${count} ${what}; ${largestCount} are allowed`);
-  return within(`number of ${what}`, count, least, largestCount);
+  return within(`number of ${what}`, count, least, most);
 }
 
 function readAttributeType(reader: FieldReader): AttributeType {
@@ -117,13 +133,15 @@ function readGrid(reader: FieldReader): Grid {
 
 function readStreams(reader: FieldReader, header: PatchHeader): PatchStreams {
   const hasConnectivity = header.topology !== "points";
+  const hasParts = header.partCount > 0;
   const hasWedges = header.wedgeCount > header.vertexCount;
-  const count = Number(hasConnectivity) + 1 + Number(hasWedges) + header.attributes.length;
+  const count = Number(hasConnectivity) + Number(hasParts) + 1 + Number(hasWedges) + header.attributes.length;
   const lengths = Array.from({ length: count }, () => reader.number());
   const streams = lengths.map((length) => reader.bytes(length)).values();
   const next = () => streams.next().value ?? new Uint8Array();
   return {
     connectivity: hasConnectivity ? next() : undefined,
+    parts: hasParts ? next() : undefined,
     positions: next(),
     wedges: hasWedges ? next() : undefined,
     attributes: header.attributes.map(next),

@@ -18,10 +18,13 @@ interface Expected {
   readonly positions: number[];
   readonly wedgePositions: number[];
   readonly corners: number[];
+  /** Of a base. */
+  readonly parts?: number[];
+  readonly partCount?: number;
   readonly attributes: { readonly kind: number; readonly components: number; readonly bits: number; readonly mode: number; readonly values: number[] }[];
 }
 
-function expectedOf({ header, coordinates, connectivity, wedges: { wedge, seams }, attributes }: CompactPatch, first: number): Expected {
+function expectedOf({ header, coordinates, connectivity, wedges: { wedge, seams }, attributes, parts }: CompactPatch, first: number): Expected {
   const running = Array.from({ length: header.wedgeCount }, (_, w) => w);
   return {
     first,
@@ -30,6 +33,7 @@ function expectedOf({ header, coordinates, connectivity, wedges: { wedge, seams 
     positions: Array.from(coordinates.subarray(0, 3 * header.vertexCount)),
     wedgePositions: seams ? Array.from(seams.corner, (corner) => connectivity.vertex[corner]!) : running,
     corners: header.topology === "points" ? running : Array.from(wedge),
+    ...(parts && { parts: Array.from(parts.part), partCount: header.partCount }),
     attributes: attributes.map((values, place) => {
       const { kind, components, bits, isUniform, isDerived } = header.attributes[place]!;
       return { kind: ["normal", "texCoord", "color", "other"].indexOf(kind), components, bits,
@@ -40,9 +44,9 @@ function expectedOf({ header, coordinates, connectivity, wedges: { wedge, seams 
 
 /** FNV-1a over every number that decodes, as four little-endian bytes each. */
 function sumOf(patch: CompactPatch): number {
-  const { positions, wedgePositions, corners, attributes } = expectedOf(patch, 0);
+  const { positions, wedgePositions, corners, parts = [], attributes } = expectedOf(patch, 0);
   let hash = 2166136261;
-  for (const number of [positions, wedgePositions, corners, ...attributes.map(({ values }) => values)].flat()) {
+  for (const number of [positions, wedgePositions, corners, parts, ...attributes.map(({ values }) => values)].flat()) {
     for (let shift = 0; shift < 32; shift += 8) hash = Math.imul(hash ^ number >>> shift & 255, 16777619);
   }
   return hash >>> 0;

@@ -9,6 +9,8 @@ import { readPatchHeader } from "./header.ts";
 import { decodeLines } from "./lines.ts";
 import type { DecodedShape } from "./neighbours.ts";
 import { decodeNormals } from "./normals.ts";
+import type { Parts } from "./parts.ts";
+import { decodeParts } from "./parts.ts";
 import { decodePositions } from "./positions.ts";
 import { decodeTexCoords } from "./texCoords.ts";
 import { decodeValues } from "./values.ts";
@@ -18,6 +20,8 @@ import { decodeWedges } from "./wedges.ts";
 export interface CompactPatch extends DecodedShape {
   /** In the order of the header's attributes: its components of each wedge. */
   readonly attributes: readonly Int32Array[];
+  /** Of a base. */
+  readonly parts: Parts | undefined;
 }
 
 /**
@@ -27,12 +31,13 @@ export interface CompactPatch extends DecodedShape {
 export function decodePatch(payload: Uint8Array, start: number): CompactPatch {
   const { header, streams } = readPatchHeader(payload, start);
   const connectivity = connectivityOf(header, streams);
-  const positions = decodePositions(streams.positions, header, connectivity);
+  const parts = streams.parts && decodeParts(streams.parts, header, connectivity);
+  const positions = decodePositions(streams.positions, header, connectivity, parts);
   const wedges: Wedges = streams.wedges ? decodeWedges(streams.wedges, header, connectivity)
     : { wedge: connectivity.vertex, seams: undefined };
   const shape: DecodedShape = { header, connectivity, wedges, ...positions };
   const attributes = header.attributes.map((type, place) => decodeAttribute(streams.attributes[place]!, type, shape));
-  return { ...shape, attributes };
+  return { ...shape, attributes, parts };
 }
 
 function connectivityOf(header: PatchHeader, { connectivity }: PatchStreams): Connectivity {

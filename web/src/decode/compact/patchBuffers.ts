@@ -27,6 +27,16 @@ const mostShortVertices = 65535;
 /** Of each kind of attribute the first is shown. */
 export function buffersOf(patch: CompactPatch): PatchBuffers {
   const { header, wedges } = patch;
+  return {
+    ...verticesOf(patch),
+    index: header.topology === "points" ? undefined
+      : indexOf(header.topology === "triangles" ? orderForVertexCache(wedges.wedge, header.wedgeCount) : wedges.wedge, header.wedgeCount),
+  };
+}
+
+/** All but the index. */
+export function verticesOf(patch: CompactPatch): Omit<PatchBuffers, "index"> {
+  const { header } = patch;
   const attribute = <Array>(kind: AttributeType["kind"], make: (values: Int32Array, type: AttributeType) => Array) => {
     const place = header.attributes.findIndex((type) => type.kind === kind);
     return place < 0 ? undefined : make(patch.attributes[place]!, header.attributes[place]!);
@@ -35,8 +45,6 @@ export function buffersOf(patch: CompactPatch): PatchBuffers {
     topology: header.topology,
     positionBits: header.positionBits,
     vertexCount: header.wedgeCount,
-    index: header.topology === "points" ? undefined
-      : indexOf(header.topology === "triangles" ? orderForVertexCache(wedges.wedge, header.wedgeCount) : wedges.wedge, header.wedgeCount),
     coord: coordOf(patch),
     normal: attribute("normal", (values, { bits }) => {
       const array = bits <= 8 ? new Int8Array(4 * header.wedgeCount) : new Int16Array(4 * header.wedgeCount);
@@ -47,7 +55,7 @@ export function buffersOf(patch: CompactPatch): PatchBuffers {
   };
 }
 
-function indexOf(corners: Int32Array, vertexCount: number): IndexArray {
+export function indexOf(corners: Int32Array, vertexCount: number): IndexArray {
   return vertexCount <= mostShortVertices ? Uint16Array.from(corners) : Uint32Array.from(corners);
 }
 

@@ -6,6 +6,7 @@ import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
 import { after, before } from "./connectivity.ts";
 import type { Grid, PatchHeader } from "./header.ts";
+import type { Parts } from "./parts.ts";
 import { dominantAxis, NormalSums } from "./normalSums.ts";
 import { lengthInBits, numberModels, RangeDecoder } from "./rangeDecoder.ts";
 
@@ -28,9 +29,9 @@ export interface Positions {
 }
 
 /** Safe for untrusted bytes. Throws DecodeError. */
-export function decodePositions(stream: Uint8Array, header: PatchHeader, connectivity: Connectivity): Positions {
+export function decodePositions(stream: Uint8Array, header: PatchHeader, connectivity: Connectivity, parts: Parts | undefined): Positions {
   const decoder = new RangeDecoder(stream, header.grid ? modelCountWithGrid : modelCount);
-  const positions = new PositionDecoder(decoder, header, connectivity).run();
+  const positions = new PositionDecoder(decoder, header, connectivity, parts).run();
   decoder.finish();
   return positions;
 }
@@ -52,6 +53,9 @@ class PositionDecoder {
   readonly #largest: number;
   readonly #grid: Grid | undefined;
   readonly #masks: Uint8Array;
+  /** In a base: the vertices whose residuals are of steps of the lattice, and what others' are multiplied by. */
+  readonly #isExact: Uint8Array | undefined;
+  readonly #residualStep: number;
   /** With one vertex more, the middle of the lattice, that the first one is predicted from. */
   readonly #coordinates: Int32Array;
   readonly #sums: NormalSums;
@@ -65,7 +69,7 @@ class PositionDecoder {
   readonly #guess = new Int32Array(3);
   readonly #slope = new Int32Array(3);
 
-  constructor(decoder: RangeDecoder, header: PatchHeader, connectivity: Connectivity) {
+  constructor(decoder: RangeDecoder, header: PatchHeader, connectivity: Connectivity, parts: Parts | undefined) {
     const { vertexCount, positionBits, grid } = header;
     this.#decoder = decoder;
     this.#connectivity = connectivity;
@@ -73,6 +77,8 @@ class PositionDecoder {
     this.#largest = 2 ** positionBits - 1;
     this.#grid = grid;
     this.#masks = new Uint8Array(grid ? vertexCount : 0);
+    this.#isExact = parts?.isShared;
+    this.#residualStep = 2 ** header.residualShift;
     this.#coordinates = new Int32Array(3 * (vertexCount + 1));
     this.#coordinates.fill(2 ** (positionBits - 1), 3 * vertexCount);
     this.#sums = new NormalSums(header.topology === "triangles" ? vertexCount : 0, this.#coordinates, header.normalShift, false);
@@ -193,6 +199,7 @@ class PositionDecoder {
     const coordinates = this.#coordinates;
     const guess = this.#guess;
     const grid = this.#grid;
+    const step = this.#isExact?.[x] === 0 ? this.#residualStep : 1;
     let mask = 0;
     if (grid) this.#masks[x] = mask = decoder.tree(maskModels + 8 * maskContext, 3);
     this.#choose();
@@ -213,7 +220,7 @@ class PositionDecoder {
         const residual = decoder.signed(models);
         length = lengthInBits(Math.abs(residual));
         largest = Math.max(largest, length);
-        value = this.#clamp(expected) + residual;
+        value = this.#clamp(expected) + residual * step;
       }
       if (value < 0 || value > this.#largest) throw new DecodeError("malformed", "holds a vertex beside its lattice");
       coordinates[3 * x + axis] = value;

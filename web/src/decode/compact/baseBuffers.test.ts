@@ -1,0 +1,41 @@
+// The parts of a base against the vectors' plain numbers.
+
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { baseBuffersOf } from "./baseBuffers.ts";
+import { decodePatch } from "./patch.ts";
+import { readPayload, readVector } from "./vectors.testing.ts";
+
+interface Expected {
+  readonly positions: number[];
+  readonly wedgePositions: number[];
+  readonly corners: number[];
+  readonly parts: number[];
+  readonly partCount: number;
+}
+
+describe("the parts of a base", () => {
+  for (const name of ["base", "base-colors"]) {
+    test(`of "${name}" have the triangles of the whole, each once, over vertices of their own`, () => {
+      const { positions, wedgePositions, corners, parts, partCount } = readVector(name) as Expected;
+      const placeOf = (w: number) => positions.slice(3 * wedgePositions[w]!, 3 * wedgePositions[w]! + 3).join();
+      const expected = Array.from({ length: partCount }, (_, part) => parts.flatMap((p, t) =>
+        p === part ? [corners.slice(3 * t, 3 * t + 3).map(placeOf).join(" ")] : []));
+      const buffers = baseBuffersOf(decodePatch(readPayload(name), 0));
+      assert.equal(buffers.length, partCount);
+      assert.deepEqual(buffers.map((part) => {
+        if (part === undefined) return [];
+        const { coord: { array, stride }, vertexCount, normal, color } = part;
+        for (const vertices of [part.coord, normal, color]) if (vertices) assert.equal(vertices.array.length, vertexCount * vertices.stride);
+        const index = Array.from(part.index!);
+        assert.deepEqual(new Set(index), new Set(Array.from({ length: vertexCount }, (_, n) => n)));
+        return Array.from({ length: index.length / 3 }, (_, t) => index.slice(3 * t, 3 * t + 3)
+          .map((n) => Array.from(array.subarray(n * stride, n * stride + 3)).join()).join(" "));
+      }), expected);
+    });
+  }
+
+  test("are not those of a patch", () => {
+    assert.throws(() => baseBuffersOf(decodePatch(readPayload("sphere"), 0)), /a patch where a base should be/);
+  });
+});

@@ -1,0 +1,52 @@
+// Which part of a base each triangle belongs to: docs/formats/compact.md, "Parts".
+
+import { DecodeError } from "../decodeError.ts";
+import type { Connectivity } from "./connectivity.ts";
+import type { PatchHeader } from "./header.ts";
+import { numberModels, RangeDecoder } from "./rangeDecoder.ts";
+
+const sameModels = 0;
+const otherModels = sameModels + 4;
+const partModels = otherModels + 4;
+const modelCount = partModels + numberModels;
+
+export interface Parts {
+  /** Per triangle. */
+  readonly part: Int32Array;
+  /** Per vertex: 1 where several parts have it. */
+  readonly isShared: Uint8Array;
+}
+
+/** Safe for untrusted bytes. Throws DecodeError. */
+export function decodeParts(stream: Uint8Array, header: PatchHeader, { vertex, across }: Connectivity): Parts {
+  const decoder = new RangeDecoder(stream, modelCount);
+  const part = new Int32Array(header.elementCount);
+  const isShared = new Uint8Array(header.vertexCount);
+  const latest = new Int32Array(header.vertexCount).fill(-1);
+  for (let t = 0; t < part.length; ++t) {
+    const c = 3 * t;
+    const o = across[t]!;
+    const guess = o >= 0 ? part[Math.floor(o / 3)]! : t > 0 ? part[t - 1]! : 0;
+    let other = -1;
+    let differing = 0;
+    for (let i = 2; i >= 0; --i) {
+      const there = latest[vertex[c + i]!]!;
+      if (there < 0 || there === guess) continue;
+      differing += 1;
+      if (other < 0) other = there;
+    }
+    let here = guess;
+    if (decoder.bit(sameModels + differing) === 0) {
+      here = other >= 0 && decoder.bit(otherModels + differing) === 1 ? other : decoder.number(partModels);
+      if (here >= header.partCount) throw new DecodeError("malformed", "names a part that there is not");
+    }
+    part[t] = here;
+    for (let i = 0; i < 3; ++i) {
+      const v = vertex[c + i]!;
+      if (latest[v]! >= 0 && latest[v] !== here) isShared[v] = 1;
+      latest[v] = here;
+    }
+  }
+  decoder.finish();
+  return { part, isShared };
+}
