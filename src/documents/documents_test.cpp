@@ -448,6 +448,20 @@ TEST(Html, HintsAtTheFirstPlanesAndWholePatchesThenAtTheIndices) {
   EXPECT_EQ(hints, "a.png c.png d.png i.png ");
 }
 
+TEST(Html, HintsAtABaseAndWhatDecodesItInThePlaceOfItsPatches) {
+  SceneDocument document = documentNamed("a");
+  document.geometries[0].profile = Profile::compact;
+  document.geometries[0].base = Reference{"base.png", 7, 0};
+  document.geometries[0].patches[0].data = Reference{"patch.png", 0, 0};
+  const std::string html = writeHtml(document, {"r.js", "s.css", "w.js"});
+  const std::size_t worker = html.find("<link rel=\"modulepreload\" href=\"w.js\">");
+  EXPECT_LT(worker, html.find("fetchpriority=\"high\" href=\"base.png\">"));
+  EXPECT_EQ(html.find("href=\"patch.png\""), html.npos);
+  EXPECT_NE(html.find("base=\"base.png#7\""), html.npos);
+  document.geometries[0].base.reset();
+  EXPECT_EQ(writeHtml(document, {"r.js", "s.css", "w.js"}).find("w.js"), html.npos);
+}
+
 TEST(Html, HintsAtNoMoreThanSixteenFiles) {
   SceneDocument document = documentNamed("a");
   for (int i = 0; i < 100; ++i) {
