@@ -222,6 +222,29 @@ async function spoken({ page }: View): Promise<string> {
   return page.evaluate(() => document.querySelector("imgeo-view")!.shadowRoot!.querySelector("[role=status]")!.textContent);
 }
 
+test("who has lost the scene on a phone finds it again", async () => {
+  const size = { width: 640, height: 844 }; // `touch` counts from the middle of the usual picture
+  await withScene(siteOfGenerated("trefoil"), { size, hasTouch: true }, async (view) => {
+    const { page } = view;
+    const start = await view.picture();
+    const buttons = page.getByRole("button");
+    assert.equal(await buttons.count(), 0);
+    await touch(view, [[[0, 0]], [[60, 0]], [[90, 10]]]);
+    await touch(view, [[[-20, 0], [20, 0]], [[-60, 0], [60, 0]], [[-150, 0], [150, 0]]]);
+    await until("the ways back are there", async () => (await buttons.allTextContents()).join() === "Show all,Start");
+    const orbit = (): Promise<{ theta: number; radius: number }> =>
+      page.evaluate(() => document.querySelector<ViewElement>("x3d")!.getCameraOrbit());
+    const near = await orbit();
+    await page.getByRole("button", { name: "Show all" }).tap();
+    await settle(page);
+    const all = await orbit();
+    assert.ok(all.radius > 3 * near.radius && Math.abs(all.theta - near.theta) < 1e-6, "all is shown from the same side");
+    await page.getByRole("button", { name: "Start" }).tap();
+    assertSamePicture("found again", await view.picture(), start, { mean: 0.001 });
+    assert.equal(await buttons.count(), 0);
+  });
+});
+
 describe("what a document does not allow", () => {
   test("is not to be had by key", async () => {
     await withScene(siteWith("only-walk", "", '<NavigationInfo type="WALK">'), {}, async (view) => {

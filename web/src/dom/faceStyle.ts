@@ -27,9 +27,9 @@ export const viewStyle = sheetOf(`
   .hotspots > .out-of-view { visibility: hidden; }
 
   .controls { position: absolute; inset: auto 12px 12px auto; display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 8px; max-width: calc(100% - 24px); }
-  select { min-height: 44px; max-width: 100%; padding: 0 12px; border: 1px solid color-mix(in srgb, CanvasText 30%, transparent); border-radius: 8px;
+  select, button { min-height: 44px; max-width: 100%; padding: 0 12px; border: 1px solid color-mix(in srgb, CanvasText 30%, transparent); border-radius: 8px;
            font: 0.9375rem system-ui, sans-serif; color: CanvasText; background: color-mix(in srgb, Canvas 88%, transparent); cursor: pointer; }
-  select:focus-visible { outline: 2px solid Highlight; outline-offset: 2px; }
+  select:focus-visible, button:focus-visible { outline: 2px solid Highlight; outline-offset: 2px; }
 
   .message { position: absolute; inset: 0; display: grid; place-content: center; margin: 0; padding: 1em;
              text-align: center; font: 1rem/1.5 system-ui, sans-serif; background: Canvas; color: CanvasText; }

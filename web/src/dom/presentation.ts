@@ -16,6 +16,7 @@ import { Poster } from "./poster.ts";
 import { Viewer } from "./viewer.ts";
 import { keepTouchAction } from "./touchAction.ts";
 import { sizeOf, watchSize, whenNear } from "./visibility.ts";
+import { WaysBack } from "./waysBack.ts";
 import { keyWords, stageWords, typeWords, viewWords } from "./words.ts";
 
 /** So long after the last movement the view is described. */
@@ -31,6 +32,7 @@ export class Presentation {
   readonly #face: Face;
   readonly #hands: Hands;
   readonly #lists: Lists;
+  readonly #waysBack: WaysBack;
   readonly #hotspots: Hotspots;
   readonly #listeners = new AbortController();
   readonly #warned = new Set<string>();
@@ -57,6 +59,7 @@ export class Presentation {
     const { navigator } = this.viewer;
     this.#hands = new Hands(navigator, this.#limits);
     this.#lists = new Lists(face.controls, navigator, signal);
+    this.#waysBack = new WaysBack(face.controls, navigator, signal);
     this.#settings = this.#readSettings();
     navigator.isInstant = this.#lessMotion.matches;
     this.#lessMotion.addEventListener("change", ({ matches }) => { navigator.isInstant = matches; this.#rotate(); }, { signal });
@@ -190,6 +193,7 @@ export class Presentation {
     const { navigator, renderer } = this.viewer;
     const { view } = renderer;
     if (view !== undefined) this.#hotspots.place(view, this.#size.width, this.#size.height);
+    this.#waysBack.update();
     if (navigator.pose === this.#shownPose) return;
     const isFirst = this.#shownPose === undefined;
     this.#shownPose = navigator.pose;

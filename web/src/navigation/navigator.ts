@@ -61,6 +61,11 @@ export class Navigator {
     return this.#pose;
   }
 
+  /** At the bound viewpoint, or where all is framed at first. */
+  get isAtHome(): boolean {
+    return this.#pose === this.#home;
+  }
+
   /** Why the pose last changed. */
   get source(): ChangeSource {
     return this.#source;
