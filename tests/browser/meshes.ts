@@ -11,6 +11,8 @@ export interface PlainMesh {
   colors?: Uint8Array;
   triangles: Uint32Array;
   lines?: Uint32Array;
+  /** Further numbers, one a vertex, by the names of PLY's properties. */
+  numbers?: Readonly<Record<string, Float32Array>>;
 }
 
 type Point = [number, number, number];
@@ -157,17 +159,18 @@ export function areaWeightedNormals({ positions, triangles }: PlainMesh): Float3
 }
 
 /** Binary little-endian PLY. */
-export function writePly({ positions, normals, colors, triangles, lines = new Uint32Array(0) }: PlainMesh): Buffer {
+export function writePly({ positions, normals, colors, triangles, lines = new Uint32Array(0), numbers = {} }: PlainMesh): Buffer {
   const count = positions.length / 3;
   const properties = [
     ...["x", "y", "z"].map((name) => `float ${name}`),
     ...(normals ? ["nx", "ny", "nz"].map((name) => `float ${name}`) : []),
     ...(colors ? ["red", "green", "blue"].map((name) => `uchar ${name}`) : []),
+    ...Object.keys(numbers).map((name) => `float ${name}`),
   ].map((property) => `property ${property}\n`);
   const faces = triangles.length ? `element face ${triangles.length / 3}\nproperty list uchar int vertex_indices\n` : "";
   const edges = lines.length ? `element edge ${lines.length / 2}\nproperty int vertex1\nproperty int vertex2\n` : "";
   const header = `ply\nformat binary_little_endian 1.0\nelement vertex ${count}\n${properties.join("")}${faces}${edges}end_header\n`;
-  const recordBytes = 12 + (normals ? 12 : 0) + (colors ? 3 : 0);
+  const recordBytes = 12 + (normals ? 12 : 0) + (colors ? 3 : 0) + 4 * Object.keys(numbers).length;
   const body = Buffer.alloc(count * recordBytes + (triangles.length / 3) * 13 + lines.length * 4);
   let at = 0;
   for (let i = 0; i < count; ++i) {
@@ -175,6 +178,7 @@ export function writePly({ positions, normals, colors, triangles, lines = new Ui
       floats?.subarray(3 * i, 3 * i + 3).forEach((value) => (at = body.writeFloatLE(value, at)));
     }
     colors?.subarray(3 * i, 3 * i + 3).forEach((value) => (at = body.writeUInt8(value, at)));
+    for (const values of Object.values(numbers)) at = body.writeFloatLE(values[i]!, at);
   }
   for (let t = 0; t < triangles.length; t += 3) {
     at = body.writeUInt8(3, at);
@@ -184,7 +188,13 @@ export function writePly({ positions, normals, colors, triangles, lines = new Ui
   return Buffer.concat([Buffer.from(header), body]);
 }
 
-/** Reads what writePly writes. */
+/** With a number for each vertex, how high it lies, and a vector of three, how far it is from the middle. */
+export function withNumbers(mesh: PlainMesh): PlainMesh {
+  const axis = (n: number): Float32Array => mesh.positions.filter((_, i) => i % 3 === n);
+  return { ...mesh, numbers: { height: axis(1), away_0: axis(0), away_1: axis(1), away_2: axis(2) } };
+}
+
+/** Reads what writePly writes, further numbers apart. */
 export function readPly(bytes: Buffer): PlainMesh {
   const headerBytes = bytes.indexOf("end_header\n") + "end_header\n".length;
   const header = bytes.toString("latin1", 0, headerBytes);

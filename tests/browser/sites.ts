@@ -3,7 +3,7 @@
 import { execFileSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
-import { coil, pointSpiral, sphere, trefoil, withColors, withoutNormals, writePly, type PlainMesh } from "./meshes.ts";
+import { coil, pointSpiral, sphere, trefoil, withColors, withNumbers, withoutNormals, writePly, type PlainMesh } from "./meshes.ts";
 import { converter, outputDirectory } from "./paths.ts";
 
 const generators = {
@@ -11,6 +11,7 @@ const generators = {
   /** More vertices than 16 bits name. */
   "trefoil-large": () => trefoil(2000, 34),
   "trefoil-colors": () => withColors(trefoil()),
+  "trefoil-numbers": () => withNumbers(trefoil()),
   "trefoil-plain": () => withoutNormals(trefoil()),
   sphere: () => sphere(),
   "sphere-large": () => sphere(96),

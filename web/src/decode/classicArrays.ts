@@ -23,9 +23,12 @@ export interface RecordLayout {
   readonly rowLength: number;
 }
 
-export interface CoordJob extends RecordLayout {
+interface PlanesJob extends RecordLayout {
   /** The byte planes that are here, most significant first. */
   readonly planes: readonly ImageFile[];
+}
+
+export interface CoordJob extends PlanesJob {
   /** The byte planes that there will be. */
   readonly planeCount: number;
   /** Added to every coordinate in place of the bytes that are not here. */
@@ -35,7 +38,7 @@ export interface CoordJob extends RecordLayout {
 /** Stored integers; in Float32 where bytes are missing or there are more than two. */
 export async function classicCoords(job: CoordJob): Promise<VertexArray> {
   const { planes, planeCount, middleOfMissing, count } = job;
-  const sums = await sumsOf(job, 3);
+  const sums = await sumsOf(job, 3, 3);
   const isWhole = planes.length === planeCount;
   const array = isWhole && planeCount === 1 ? new Uint8Array(count * 4)
     : isWhole && planeCount === 2 ? new Uint16Array(count * 4) : new Float32Array(count * 3);
@@ -47,21 +50,36 @@ export async function classicCoords(job: CoordJob): Promise<VertexArray> {
   return { array, components: 3, stride, offset: 0 };
 }
 
-/** The bytes that are here put together, three numbers a record, of which `channels` count. */
-export async function sumsOf({ planes, count, rowLength }: CoordJob, channels: 1 | 3): Promise<Float64Array> {
+/** The bytes that are here put together, `stride` numbers a record, of which the first `channels` count. */
+export async function sumsOf({ planes, count, rowLength }: PlanesJob, channels: 1 | 2 | 3 | 4, stride: number): Promise<Float64Array> {
   const images = await Promise.all(planes.map((plane) => imageOf(plane, channels)));
-  const sums = new Float64Array(count * 3);
+  const sums = new Float64Array(count * stride);
   for (const image of images) {
     const { data } = image;
     const texelOf = placesOf(image, { count, rowLength });
     for (let record = 0; record < count; ++record) {
       const at = texelOf(record) * image.channels;
       for (let axis = 0; axis < channels; ++axis) {
-        sums[3 * record + axis] = (sums[3 * record + axis] ?? 0) * 256 + (data[at + axis] ?? 0);
+        sums[stride * record + axis] = (sums[stride * record + axis] ?? 0) * 256 + (data[at + axis] ?? 0);
       }
     }
   }
   return sums;
+}
+
+export interface ValueJob extends PlanesJob {
+  readonly components: 1 | 2 | 3 | 4;
+  /** By component: the box over which stored integers are spread. */
+  readonly min: readonly number[];
+  readonly size: readonly number[];
+}
+
+/** The numbers themselves, of an attribute of which all planes are here. */
+export async function classicValues({ components, min, size, ...job }: ValueJob): Promise<VertexArray> {
+  const sums = await sumsOf(job, components, components);
+  const largest = 256 ** job.planes.length - 1;
+  const array = Float32Array.from(sums, (stored, i) => (min[i % components] ?? 0) + (size[i % components] ?? 0) * stored / largest);
+  return { array, components, stride: components, offset: 0 };
 }
 
 export interface IndexJob {

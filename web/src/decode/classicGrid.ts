@@ -25,7 +25,7 @@ type Vector = [number, number, number];
 export async function classicGrid({ grid, largestStored, step, ...job }: GridJob): Promise<GridArrays> {
   const { columns, rows } = grid;
   const isHeights = grid.kind === "heightMap";
-  const sums = await sumsOf(job, isHeights ? 1 : 3);
+  const sums = await sumsOf(job, isHeights ? 1 : 3, 3);
   const shift = 256 ** (job.planeCount - job.planes.length);
   const array = new Float32Array(columns * rows * 3);
   for (let record = 0; record < columns * rows; ++record) {

@@ -76,6 +76,17 @@ export interface TextureStage extends StageHead {
   readonly normalCode: NormalCode;
   readonly color: TexelRange | undefined;
   readonly colorComponents: 3 | 4;
+  /** Of the attribute that colours the geometry, its first byte planes; undefined until there are any. */
+  readonly value: ValuePlanes | undefined;
+}
+
+/** Numbers in byte planes, most significant first. */
+export interface ValuePlanes {
+  /** Those that are here. */
+  readonly planes: readonly TexelRange[];
+  readonly planeCount: number;
+  /** Added to every stored number in place of the bytes that are not here. */
+  readonly middleOfMissing: number;
 }
 
 export type ElementArray = Int8Array<ArrayBuffer> | Uint8Array<ArrayBuffer> | Int16Array<ArrayBuffer>
@@ -122,6 +133,8 @@ export interface BufferStage extends StageHead {
   readonly normal: StoredVertices | undefined;
   readonly normalCode: NormalCode;
   readonly color: StoredVertices | undefined;
+  /** Of the attribute that colours the geometry, as numbers. */
+  readonly value: StoredVertices | undefined;
 }
 
 export type Stage = TextureStage | BufferStage;

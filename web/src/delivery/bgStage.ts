@@ -9,7 +9,7 @@ import type { GeometryDescription, PatchDescription, Reference } from "../docume
 import { hasNormalsInCoords } from "../document/geometry.ts";
 import { Holdings } from "./holdings.ts";
 import type { PartRole } from "./parts.ts";
-import { componentsOf } from "./parts.ts";
+import { componentsOf, typeOf } from "./parts.ts";
 import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
 import { drawRangesOf, normalCodeOf, stageNameOf } from "./stageBuilder.ts";
 
@@ -18,6 +18,7 @@ interface Here {
   coord?: StoredVertices;
   normal?: StoredVertices;
   color?: StoredVertices;
+  value?: StoredVertices;
 }
 
 export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription, { storeBytes }: BuilderTools): StageBuilder {
@@ -52,12 +53,12 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
     },
 
     stage(): BufferStage | undefined {
-      const { coord, normal, color, index } = here;
+      const { coord, normal, color, value, index } = here;
       if (coord === undefined) return undefined;
-      const name = stageNameOf(patch, { index, normal, color, coord: [coord] });
+      const name = stageNameOf(patch, { index, normal, color, coord: [coord], value: value ? [value] : [] });
       const points = { stored: undefined, draws: [{ primitive: "points", first: 0, count: countOf(coord) } as const] };
       const { stored, draws } = index ?? points;
-      return { kind: "buffers", name, index: stored, draws, coord, normal, normalCode, color };
+      return { kind: "buffers", name, index: stored, draws, coord, normal, normalCode, color, value };
     },
 
     get storedBytes() { return holdings.byteLength; },
@@ -65,7 +66,7 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
     clear() {
       // Normals in coordinates are those of the coordinates.
       const normal = hasNormalsInCoords(geometry, patch) ? undefined : here.normal;
-      holdings.retire(here.index?.stored, here.coord, normal, here.color);
+      holdings.retire(here.index?.stored, here.coord, normal, here.color, here.value);
       here = {};
     },
     sweep: () => { holdings.sweep(); },
@@ -95,7 +96,7 @@ function drawRangesFor(patch: PatchDescription, available: number): readonly Dra
 function rangeOf(geometry: GeometryDescription, patch: PatchDescription, role: PartRole,
                  reference: Reference): ElementRange {
   return {
-    type: geometry[`${role}Type`],
+    type: typeOf(geometry, role),
     byteOffset: reference.first,
     byteStride: reference.stride,
     components: componentsOf(geometry, role),

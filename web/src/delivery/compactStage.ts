@@ -55,7 +55,7 @@ export function compactBuilder(geometry: GeometryDescription, patch: PatchDescri
     const { index, coord, normal, color } = buffers;
     const some = (array: VertexArray | undefined) => array && holdings.storeVertices(array, signal);
     return {
-      kind: "buffers", name, draws, normalCode: { kind: "vector" },
+      kind: "buffers", name, draws, normalCode: { kind: "vector" }, value: undefined,
       index: index && await holdings.storeIndex(index, signal),
       coord: await holdings.storeVertices(coord, signal), normal: await some(normal), color: await some(color),
     };

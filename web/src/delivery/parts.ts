@@ -1,17 +1,17 @@
 // The files that a patch needs.
 
 import { byteSizeOf } from "../decode/elements.ts";
-import type { GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
+import type { ElementType, GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
 import { hasNormalsInCoords, isPair } from "../document/geometry.ts";
 import type { Chunk } from "../scheduler/priority.ts";
 
 /** What a file may hold of a patch. */
-export type PartRole = "index" | "coord" | "normal" | "color";
+export type PartRole = "index" | "coord" | "normal" | "color" | "value";
 
 export interface Part {
   /** `patch`: all of it. `base`: what stands in for it, and for others. */
   readonly role: PartRole | "patch" | "base";
-  /** Which byte plane, for `coord` of images. */
+  /** Which byte plane, for `coord` and `value` of images. */
   readonly plane: number;
   readonly reference: Reference;
   /** What it is to the order of requests. */
@@ -34,13 +34,14 @@ export function partsOf(geometry: GeometryDescription, patch: PatchDescription):
       expectedBytes: elements * (geometry.container === "sig" ? sigBytes[role] : reference.stride || bytesOf(geometry, role)),
       storedBytes: geometry.container === "sig" ? bytesPerTexel * texelsOf(patch, role, elements)
         : elements * (reference.stride || bytesOf(geometry, role)),
-      chunk: { type: plane > 0 ? "refinement" : role, plane },
+      chunk: role === "value" ? { type: "color", plane } : { type: plane > 0 ? "refinement" : role, plane },
     }];
   return [
     ...patch.coord.flatMap((plane, place) => part("coord", plane, vertices, place)),
     ...part("index", patch.index, corners),
     ...(hasNormalsInCoords(geometry, patch) ? [] : part("normal", patch.normal, vertices)),
     ...part("color", patch.color, vertices),
+    ...patch.value.flatMap((plane, place) => part("value", plane, vertices, place)),
   ];
 }
 
@@ -77,7 +78,12 @@ function texelsOf({ implicitWidth }: PatchDescription, role: PartRole, elements:
 export const bytesPerTexel = 4;
 
 function bytesOf(geometry: GeometryDescription, role: PartRole): number {
-  return byteSizeOf(geometry[`${role}Type`]) * componentsOf(geometry, role);
+  return byteSizeOf(typeOf(geometry, role)) * componentsOf(geometry, role);
+}
+
+/** Of the elements of typed arrays. */
+export function typeOf(geometry: GeometryDescription, role: PartRole): ElementType {
+  return role === "value" ? "Float32" : geometry[`${role}Type`];
 }
 
 /** The numbers of one element in typed arrays. */
@@ -87,8 +93,9 @@ export function componentsOf(geometry: GeometryDescription, role: PartRole): 1 |
     case "coord": return 3;
     case "normal": return isPair(geometry.normalEncoding) ? 2 : 3;
     case "color": return geometry.colorComponents;
+    case "value": return geometry.value?.components ?? 1;
   }
 }
 
 /** What a vertex (a corner, for the index) weighs in an image, roughly: only for the bar before servers tell sizes. */
-const sigBytes = { index: 0.7, coord: 2, normal: 2.2, color: 2 } as const;
+const sigBytes = { index: 0.7, coord: 2, normal: 2.2, color: 2, value: 0.7 } as const;

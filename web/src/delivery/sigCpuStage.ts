@@ -36,6 +36,9 @@ class Parts {
   /** Of a grid that has no other normals. */
   slope: StoredVertices | undefined;
   color: StoredVertices | undefined;
+  /** Packed, until all are here. */
+  valuePlanes: (ImageFile | undefined)[] = [];
+  value: StoredVertices | undefined;
 }
 
 export function sigCpuBuilder(geometry: GeometryDescription, patch: PatchDescription, tools: BuilderTools): StageBuilder {
@@ -80,7 +83,11 @@ class SigCpuBuilder implements StageBuilder {
       case "color": {
         const colors = await this.#run("classicColors", { file, components: this.#geometry.colorComponents, ...this.#layout(header) }, signal);
         here.color = await this.#holdings.storeVertices(colors, signal);
+        return;
       }
+      case "value":
+        here.valuePlanes[part.plane] = file;
+        await this.#decodeValues(here, header, signal);
     }
   }
 
@@ -93,8 +100,8 @@ class SigCpuBuilder implements StageBuilder {
   }
 
   clear(): void {
-    const { drawn, coord, normal, slope, color } = this.#here;
-    this.#holdings.retire(drawn?.index, coord, normal, slope, color);
+    const { drawn, coord, normal, slope, color, value } = this.#here;
+    this.#holdings.retire(drawn?.index, coord, normal, slope, color, value);
     this.#here = new Parts();
   }
 
@@ -104,17 +111,18 @@ class SigCpuBuilder implements StageBuilder {
 
   stage(): BufferStage | undefined {
     const here = this.#here;
-    const { coord, color } = here;
+    const { coord, color, value } = here;
     if (coord === undefined) return undefined;
     const normal = here.normal ?? here.slope;
     const normalCode = here.normal ? normalCodeOf(this.#geometry) : { kind: "vector" } as const;
     const name = stageNameOf(this.#patch, {
       index: here.drawn, normal: here.normal, color, coord: Array.from({ length: here.coordPlanes }),
+      value: value ? this.#patch.value : [],
     });
     const count = coord.bytes.byteLength / byteSizeOf(coord.type) / coord.stride;
     const points = { index: undefined, draws: [{ primitive: "points", first: 0, count } as const] };
     const { index, draws } = (name === "points" ? undefined : here.drawn) ?? points;
-    return { kind: "buffers", name, index, draws, coord, normal, normalCode, color };
+    return { kind: "buffers", name, index, draws, coord, normal, normalCode, color, value };
   }
 
   /** A plane is of use only when all above it are here. */
@@ -143,6 +151,17 @@ class SigCpuBuilder implements StageBuilder {
     here.coord = coord;
     here.coordPlanes = planes.length;
     if (planes.length === planeCount) here.planes = [];
+  }
+
+  /** When all planes are here. */
+  async #decodeValues(here: Parts, header: PngHeader, signal: AbortSignal): Promise<void> {
+    const { value: attribute } = this.#geometry;
+    const planes = here.valuePlanes.filter((plane) => plane !== undefined);
+    if (attribute === undefined || planes.length < this.#patch.value.length) return;
+    here.valuePlanes = [];
+    const { components, min, size } = attribute;
+    const values = await this.#run("classicValues", { planes, components, min, size, ...this.#layout(header, planes[0]) }, signal);
+    here.value = await this.#holdings.storeVertices(values, signal);
   }
 
   async #takeGrid(here: Parts, { index, normal }: GridArrays, signal: AbortSignal): Promise<void> {

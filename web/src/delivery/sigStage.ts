@@ -8,6 +8,7 @@ import type { TexelRange, TextureStage } from "../decode/stage.ts";
 import { isPairCode } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { middleOfMissing } from "../document/storedFrame.ts";
+import type { Part } from "./parts.ts";
 import { sigCpuBuilder } from "./sigCpuStage.ts";
 import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
 import { drawRangesOf, normalCodeOf, stageNameOf } from "./stageBuilder.ts";
@@ -31,9 +32,20 @@ export function sigBuilder(geometry: GeometryDescription, patch: PatchDescriptio
 
 function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
   let planes: (TexelRange | undefined)[] = [];
+  let values: (TexelRange | undefined)[] = [];
   let here: Partial<Record<"index" | "normal" | "color", TexelRange | undefined>> = {};
   const normalCode = normalCodeOf(geometry);
   const corners = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
+
+  function channelsOf(role: Part["role"]): number {
+    switch (role) {
+      case "coord": return patch.grid?.kind === "heightMap" ? 1 : 3;
+      case "normal": return isPairCode(normalCode) ? 1 : 3;
+      case "color": return geometry.colorComponents;
+      case "value": return geometry.value?.components ?? 1;
+      default: return 3;
+    }
+  }
 
   return {
     isDivisible: true,
@@ -42,11 +54,13 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
 
     drop({ role, plane }) {
       if (role === "coord") planes[plane] = undefined;
+      else if (role === "value") values[plane] = undefined;
       else if (role !== "patch" && role !== "base") here[role] = undefined;
     },
 
     clear() {
       planes = [];
+      values = [];
       here = {};
     },
 
@@ -55,8 +69,7 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
       const { image, channels } = content;
       const range = { image, first: part.reference.first };
       const isPairs = part.role === "normal" && isPairCode(normalCode);
-      const isHeights = part.role === "coord" && patch.grid?.kind === "heightMap";
-      const needed = isPairs || isHeights ? 1 : part.role === "color" ? geometry.colorComponents : 3;
+      const needed = channelsOf(part.role);
       if (channels < needed) throw new DecodeError("malformed", `has ${channels} channels where ${needed} are needed`);
       if (part.role === "index") {
         checkHolds(range, corners, patch.implicitWidth);
@@ -67,16 +80,16 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
       if (isPairs) checkHolds(range, texelsOf(image) / 2 + records, image.width);
       else checkHolds(range, records, patch.index === undefined ? patch.implicitWidth : image.width);
       if (part.role === "coord") planes[part.plane] = range;
+      else if (part.role === "value") values[part.plane] = range;
       else if (part.role !== "patch" && part.role !== "base") here[part.role] = range;
     },
 
     stage(): TextureStage | undefined {
-      // A plane is of use only when all above it are here.
-      const missing = Array.from({ length: patch.coord.length }, (_, plane) => planes[plane]).indexOf(undefined);
-      const coord = planes.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
+      const coord = firstOf(planes);
+      const value = firstOf(values);
       const first = coord[0];
       if (first === undefined) return undefined;
-      const name = stageNameOf(patch, { index: here.index, normal: here.normal, color: here.color, coord });
+      const name = stageNameOf(patch, { index: here.index, normal: here.normal, color: here.color, coord, value });
       const points = { primitive: "points", first: 0, count: patch.vertexCount || texelsOf(first.image) - first.first } as const;
       return {
         kind: "textures",
@@ -93,9 +106,19 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
         normalCode,
         color: here.color,
         colorComponents: geometry.colorComponents,
+        value: value.length === 0 ? undefined : {
+          planes: value, planeCount: patch.value.length, middleOfMissing: (256 ** (patch.value.length - value.length) - 1) / 2,
+        },
       };
     },
   };
+}
+
+/** A plane is of use only when all above it are here. */
+function firstOf(planes: readonly (TexelRange | undefined)[]): TexelRange[] {
+  const whole = Array.from(planes); // without holes
+  const missing = whole.indexOf(undefined);
+  return whole.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
 }
 
 function texelsOf(image: DecodedImage): number {

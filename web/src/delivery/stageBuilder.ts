@@ -59,11 +59,14 @@ export interface Inventory {
   readonly coord: readonly unknown[];
   readonly normal: unknown;
   readonly color: unknown;
+  /** Planes, or its only array. */
+  readonly value: readonly unknown[];
 }
 
 export function stageNameOf(patch: PatchDescription, here: Inventory): StageName {
   const lacks = (part: "index" | "normal" | "color") => patch[part] !== undefined && here[part] === undefined;
   if (lacks("index")) return "points";
   if (lacks("normal")) return "surface";
-  return lacks("color") || here.coord.length < patch.coord.length ? "shaded" : "full";
+  const isWhole = here.coord.length === patch.coord.length && here.value.length === patch.value.length;
+  return lacks("color") || !isWhole ? "shaded" : "full";
 }

@@ -53,6 +53,27 @@ export interface PatchDescription {
   readonly color: Reference | undefined;
   /** SIG compact: all of it in one file, from this byte of its pixels on. */
   readonly data: Reference | undefined;
+  /** Of all further attributes, one after the other: each has `files`. */
+  readonly attributes: readonly Reference[];
+  /** Of the attribute that colours the geometry. */
+  readonly value: readonly Reference[];
+}
+
+/** A further attribute of vertices. */
+export interface AttributeDescription {
+  readonly name: string;
+  readonly components: 1 | 2 | 3 | 4;
+  /** Files that it has in each patch: byte planes, most significant first, or one array. */
+  readonly files: number;
+  /** By component: the box that stored integers are spread over, or that numbers lie in. */
+  readonly min: readonly number[];
+  readonly size: readonly number[];
+}
+
+/** The colours that values have: the first at the range's begin, the last at its end. */
+export interface ColorMapDescription {
+  readonly colors: readonly Vec3[];
+  readonly range: Vec2;
 }
 
 /** What an image geometry's texels mean: vertices and indices, or a surface over their grid. */
@@ -95,6 +116,9 @@ export interface GeometryDescription {
   readonly normalType: ElementType;
   readonly texCoordType: ElementType;
   readonly colorType: ElementType;
+  readonly attributes: readonly AttributeDescription[];
+  /** The one whose values come with the vertices, and colour them. */
+  readonly value: AttributeDescription | undefined;
   readonly patches: readonly PatchDescription[];
   /** SIG compact: what stands in for the patches until they are here, from this byte of its file's pixels on. */
   readonly base: Reference | undefined;
@@ -129,6 +153,8 @@ export interface ShapeDescription {
   /** Tight, in the shape's own coordinates; undefined where neither the shape nor its geometry has one. */
   readonly box: Box3 | undefined;
   readonly material: MaterialDescription;
+  /** In place of the material's diffuse colour. */
+  readonly colorMap: ColorMapDescription | undefined;
   /** Undefined where the shape has no geometry that we can show; the same object for shapes that USE one. */
   readonly geometry: GeometryDescription | undefined;
 }

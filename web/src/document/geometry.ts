@@ -8,6 +8,7 @@ import type {
   Warning,
 } from "./description.ts";
 import { decodePlaces, elementTypes, meshModes, normalEncodings, profiles } from "./description.ts";
+import { readAttributes } from "./attributes.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
@@ -29,6 +30,7 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
     : choiceOf(element, "implicitMeshMode", values.implicitMeshMode, meshModes, "sig", warnings);
   return {
     ...commonOf(element, values, warnings),
+    attributes: readAttributes(element, container, warnings),
     container,
     colorComponents: values.numColorComponents === 4 ? 4 : 3,
     decode: choiceOf(element, "decode", values.decode, decodePlaces, "auto", warnings),
@@ -45,6 +47,7 @@ export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): 
     choiceOf(element, field, values[field], elementTypes, nodeFields.BinaryGeometry[field].defaultValue as ElementType, warnings);
   const geometry: GeometryDescription = {
     ...commonOf(element, values, warnings),
+    attributes: readAttributes(element, "bg", warnings),
     container: "bg",
     colorComponents: values.rgbaColors ? 4 : 3,
     decode: "auto",
@@ -94,7 +97,7 @@ function commonOf(element: SceneElement, values: Omit<Values<typeof nodeFields.I
   const { position, size, positionBits, solid, texCoordMin, texCoordSize } = values;
   const indexType = choiceOf(element, "indexType", values.indexType, elementTypes, "Uint16", warnings);
   const normalEncoding = choiceOf(element, "normalEncoding", values.normalEncoding, normalEncodings, "rgb", warnings);
-  return { position, size, positionBits, solid, texCoordMin, texCoordSize, indexType, normalEncoding };
+  return { position, size, positionBits, solid, texCoordMin, texCoordSize, indexType, normalEncoding, value: undefined };
 }
 
 /** The one of `choices` that the text names, without regard to case. */
@@ -165,6 +168,8 @@ function patchOf(element: SceneElement, values: PatchValues, container: Containe
     texCoord: reference(values.texCoord),
     color: reference(values.color),
     data: reference(values.data),
+    attributes: values.attrib.map((url) => referenceOf(url, container)),
+    value: [],
   };
 }
 

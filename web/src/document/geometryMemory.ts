@@ -2,11 +2,13 @@
 // to the next: a geometry that did not change, and one that several shapes USE,
 // is one and the same object, so that comparing geometries is comparing objects.
 
+import { withValues } from "./attributes.ts";
 import type { GeometryDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 
 export class GeometryMemory {
   readonly #known = new WeakMap<SceneElement, GeometryDescription>();
+  readonly #withValues = new WeakMap<GeometryDescription, Map<string, GeometryDescription>>();
   #touched = new WeakSet<SceneElement>();
 
   /** Says that the element, or something in it, may have changed. */
@@ -22,5 +24,14 @@ export class GeometryMemory {
     if (known !== undefined && JSON.stringify(known) === JSON.stringify(fresh)) return known;
     this.#known.set(element, fresh);
     return fresh;
+  }
+
+  /** The geometry with the values of its attribute of that name; as it is where it has none. */
+  withValues(geometry: GeometryDescription, name: string): GeometryDescription {
+    const byName = this.#withValues.get(geometry) ?? new Map<string, GeometryDescription>();
+    this.#withValues.set(geometry, byName);
+    const known = byName.get(name) ?? withValues(geometry, name) ?? geometry;
+    byName.set(name, known);
+    return known;
   }
 }

@@ -9,6 +9,7 @@ import {
   MFColor, MFFloat, MFInt32, MFString, optional, Priority, SFBool, SFColor, SFFloat, SFInt32, SFRotation, SFString, SFVec2f,
   SFVec3f,
 } from "./fieldTypes.ts";
+import { ColorMap } from "./colorMaps.ts";
 
 /** True: becomes the one that counts (set_bind is X3D's event, bind X3DOM's field). */
 const bindable = { set_bind: SFBool(false), bind: SFBool(false) };
@@ -34,6 +35,7 @@ const patchFields = {
   texCoord: SFString(""),
   color: SFString(""),
   data: SFString(""),
+  attrib: MFString([]),
 };
 
 const geometryFields = {
@@ -107,7 +109,24 @@ export const nodeFields = {
     center: SFVec3f([0, 0, 0]),
     scaleOrientation: SFRotation([0, 0, 1, 0]),
   },
-  Shape: { ...ranked, ...boundedObject, ...seenObject, isPickable: SFBool(true) },
+  Shape: {
+    ...ranked,
+    ...boundedObject,
+    ...seenObject,
+    isPickable: SFBool(true),
+    /** The attribute of the geometry whose values colour it. */
+    colorBy: SFString(""),
+    colorMap: ColorMap("viridis"),
+    /** Absent: what the attribute's numbers lie in. */
+    colorRange: optional(SFVec2f([0, 1])),
+  },
+  FloatVertexAttribute: {
+    name: SFString(""),
+    numComponents: SFInt32(4),
+    valueBits: SFInt32(16),
+    valueMin: MFFloat([]),
+    valueSize: MFFloat([]),
+  },
   Material: {
     diffuseColor: SFColor([0.8, 0.8, 0.8]),
     specularColor: SFColor([0, 0, 0]),

@@ -5,6 +5,7 @@ import type {
   Box3, GeometryDescription, GroupDescription, MaterialDescription, NavigationDescription, NodeDescription, SceneDescription, ShapeDescription,
   TransformDescription,
 } from "./description.ts";
+import { colorMapOf } from "./attributes.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
@@ -146,7 +147,7 @@ function readShape(element: SceneElement, node: SceneElement, reading: Reading, 
   const values = readFields(node, nodeFields.Shape, reading.warnings);
   const parts = childrenOf(node);
   let priorityOfGeometry = 1;
-  const geometry = first(parts, reading, (part) => {
+  const plain = first(parts, reading, (part) => {
     const read = readGeometry(part, reading);
     // Beside the geometry, not in it: with another priority it is the same geometry.
     if (read) priorityOfGeometry = readFields(part, { priority: nodeFields.ImageGeometry.priority }, []).priority;
@@ -155,8 +156,10 @@ function readShape(element: SceneElement, node: SceneElement, reading: Reading, 
   const material = first(parts, reading, (part) =>
     lowerNameOf(part) !== "appearance" ? undefined
       : first(childrenOf(part), reading, (child) => readMaterial(child, reading.warnings)));
+  const geometry = plain && values.colorBy !== "" ? reading.geometries.withValues(plain, values.colorBy) : plain;
   return {
     kind: "shape", element, geometry,
+    colorMap: colorMapOf(node, values, geometry, reading.warnings),
     visible: inherited.visible && isSeen(values),
     priority: inherited.priority * values.priority * priorityOfGeometry,
     isPickable: values.isPickable,

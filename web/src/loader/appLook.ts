@@ -11,6 +11,7 @@ import {
 import type { MaterialDescription } from "../document/description.ts";
 import { farnessDefine, shadeByFarnessIn } from "../render/farness.ts";
 import type { Look, MaterialRequest, Shading } from "../render/look.ts";
+import { colorByValueIn } from "../render/valueColors.ts";
 import { readVerticesIn, srgbColorsDefine, vertexDefinesOf } from "../render/vertexChunk.ts";
 
 /**
@@ -112,12 +113,14 @@ function readVertices<Any extends Material>(material: Any, request: MaterialRequ
   material.defines = {
     ...material.defines, ...vertexDefinesOf(request, readsNormals), [srgbColorsDefine]: "",
     ...(request.shading === "distance" && { [farnessDefine]: "" }),
+    ...request.valueDefines,
   };
   material.onBeforeCompile = (shader, renderer) => {
     own(shader, renderer);
     Object.assign(shader.uniforms, request.uniforms, { depthRange: request.shared.depthRange });
     readVerticesIn(shader);
     shadeByFarnessIn(shader);
+    colorByValueIn(shader);
   };
   material.customProgramCacheKey = () => `imgeo ${ownKey}`;
   return material;

@@ -33,6 +33,8 @@ export interface MaterialRequest extends VertexForm {
   readonly colors: VertexColors;
   /** False: both sides are seen. */
   readonly solid: boolean;
+  /** As valueDefinesOf says it. */
+  readonly valueDefines: Readonly<Record<string, string>>;
   readonly uniforms: VertexUniforms;
   readonly shared: SceneUniforms;
 }

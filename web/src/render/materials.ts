@@ -14,6 +14,7 @@ import type { MaterialDescription, Vec3 } from "../document/description.ts";
 import { farnessDefine, shadeByFarnessIn } from "./farness.ts";
 import type { Look, MaterialRequest, VertexColors } from "./look.ts";
 import { displayedOf, physicalDefine, physicalLighting, physicalOutput } from "./physicalLighting.ts";
+import { colorByValueIn } from "./valueColors.ts";
 import { readVerticesIn, replaceEach, srgbColorsDefine, vertexDefinesOf } from "./vertexChunk.ts";
 
 const x3dLighting = /* glsl */ `
@@ -72,12 +73,13 @@ function makeMaterial(request: MaterialRequest, description: MaterialDescription
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
   material.side = solid ? FrontSide : DoubleSide;
   material.vertexColors = colors !== "none";
-  material.defines = { ...vertexDefinesOf(request, shading === "smooth"), ...(shading === "distance" && { [farnessDefine]: "" }) };
+  material.defines = { ...vertexDefinesOf(request, shading === "smooth"), ...request.valueDefines, ...(shading === "distance" && { [farnessDefine]: "" }) };
   material.userData.lit = lit;
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms, { depthRange: shared.depthRange, ...lit });
     readVerticesIn(shader);
     shadeByFarnessIn(shader);
+    colorByValueIn(shader);
     shader.fragmentShader = replaceEach(shader.fragmentShader, [
       ["#include <lights_phong_pars_fragment>", x3dLighting],
       ["#include <lights_phong_fragment>", materialFromUniforms],

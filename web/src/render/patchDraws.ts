@@ -12,6 +12,8 @@ import type { Look, MaterialRequest, SceneUniforms, Shading, VertexColors } from
 import type { DrawnObject } from "./pickDraw.ts";
 import { objectOf, PickDraw } from "./pickDraw.ts";
 import type { GeometryPool } from "./stageGeometries.ts";
+import type { ColorMapUniforms } from "./valueColors.ts";
+import { valueDefinesOf, valueUniformsOf } from "./valueColors.ts";
 import type { ImageVertexUniforms, VertexForm, VertexUniforms } from "./vertexChunk.ts";
 import { gridDefinesOf, normalDefinesOf } from "./vertexChunk.ts";
 
@@ -45,6 +47,7 @@ export interface PatchSetting {
   readonly geometry: GeometryDescription;
   readonly patch: PatchDescription;
   readonly material: MaterialDescription;
+  readonly colorMap: ColorMapUniforms;
 }
 
 export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
@@ -55,7 +58,11 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
   // Places the lattice: stored integers -> the shape's coordinates.
   const matrix = new Matrix4().makeScale(...step).setPosition(...origin);
   const form = vertexFormOf(stage);
-  const common: VertexUniforms = { pointSize: shared.pointSize, latticeStep: { value: step } };
+  const valueDefines = valueDefinesOf(stage, geometry.value);
+  const common: VertexUniforms = {
+    pointSize: shared.pointSize, latticeStep: { value: step }, ...setting.colorMap,
+    ...valueUniformsOf(stage, geometry.value, (image) => setting.textures.textureOf(image)),
+  };
   const base = stage.kind === "textures" ? imageUniformsOf(stage, setting.textures, common, largestStoredOf(geometry, patch)) : undefined;
   const draws = setting.geometries.acquire(stage).flatMap((shape, place) => {
     const range = stage.draws[place];
@@ -63,7 +70,7 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
     shape.boundingBox = box;
     shape.boundingSphere = sphere;
     const uniforms = base ? { ...base, firstNumber: { value: range.first }, isStrip: { value: range.primitive === "triangleStrip" } } : common;
-    const request: MaterialRequest = { ...form, shading: shadingOf(stage, range), colors, solid: geometry.solid, uniforms, shared };
+    const request: MaterialRequest = { ...form, shading: shadingOf(stage, range), colors, solid: geometry.solid, valueDefines, uniforms, shared };
     const material = look.makeMaterial(request, setting.material);
     const pick = new PickDraw(stage, range, shape, setting.buffers, { side: material.side, hasNormals: hasNormals(stage), ...form, uniforms });
     return [{ range, shape, material, request, pick }];

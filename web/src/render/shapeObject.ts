@@ -6,6 +6,7 @@ import type { Stage } from "../decode/stage.ts";
 import type { GeometryDescription, MaterialDescription, PatchDescription, ShapeDescription } from "../document/description.ts";
 import type { PatchDraws, PatchSetting, PlacedDraw } from "./patchDraws.ts";
 import { drawStage } from "./patchDraws.ts";
+import { makeColorMapUniforms, setColorMap } from "./valueColors.ts";
 
 /** What all shapes of a scene share. */
 export type ShapeSetting = Pick<PatchSetting, "look" | "geometries" | "buffers" | "textures" | "shared">;
@@ -20,6 +21,7 @@ export class ShapeObject {
   readonly #setting: ShapeSetting;
   readonly #groups: Group[] = [];
   readonly #patches = new Map<number, ShownPatch>();
+  readonly #colorMap = makeColorMapUniforms();
   #material: MaterialDescription;
   #isPickable: boolean;
 
@@ -27,6 +29,7 @@ export class ShapeObject {
     this.#setting = setting;
     this.#material = shape.material;
     this.#isPickable = shape.isPickable;
+    setColorMap(this.#colorMap, shape.colorMap);
   }
 
   /** The group for the shape's place number `place`, 0, 1, 2 …, which its caller hangs into the scene. */
@@ -58,7 +61,8 @@ export class ShapeObject {
   }
 
   /** Takes over what a changed document says, the geometry apart. */
-  setShape({ material, isPickable }: ShapeDescription): void {
+  setShape({ material, isPickable, colorMap }: ShapeDescription): void {
+    setColorMap(this.#colorMap, colorMap);
     this.#isPickable = isPickable;
     this.#material = material;
     for (const { draws } of this.#patches.values()) draws.applyMaterial(material);
@@ -75,7 +79,7 @@ export class ShapeObject {
   }
 
   #show(geometry: GeometryDescription, patch: PatchDescription, place: number, stage: Stage): void {
-    const shown = { draws: drawStage(stage, { ...this.#setting, geometry, patch, material: this.#material }), placed: [] };
+    const shown = { draws: drawStage(stage, { ...this.#setting, geometry, patch, material: this.#material, colorMap: this.#colorMap }), placed: [] };
     for (const group of this.#groups) hang(shown, group);
     this.#patches.set(place, shown);
   }

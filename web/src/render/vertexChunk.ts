@@ -48,8 +48,8 @@ export interface ImageVertexUniforms extends VertexUniforms {
   colorHasAlpha: IUniform<boolean>;
 }
 
-/** Samplers that the image body declares, and so texture units that a vertex shader must have. */
-export const vertexSamplers = 7;
+/** Samplers that the image body and values declare, and so texture units that a vertex shader must have. */
+export const vertexSamplers = 10;
 
 /** Defined in materials that read images, and in those that read normals from them. */
 export const imageVerticesDefine = "IMAGE_VERTICES";
@@ -299,11 +299,16 @@ Vertex readVertex() {
 /** Defined in materials that light in linear space: colours of vertices are sRGB, as everything that people see in files. */
 export const srgbColorsDefine = "SRGB_VERTEX_COLORS";
 
+/** Makes an sRGB colour, a variable of GLSL, linear (IEC 61966-2-1). */
+export function toLinearChunk(color: string): string {
+  return `${color} = mix(pow((${color} + 0.055) / 1.055, vec3(2.4)), ${color} / 12.92, vec3(lessThanEqual(${color}, vec3(0.04045))));`;
+}
+
 const colorChunk = /* glsl */ `
 #if defined(USE_COLOR) || defined(USE_COLOR_ALPHA)
   vColor = vertex.color;
   #ifdef ${srgbColorsDefine}
-    vColor.rgb = mix(pow((vColor.rgb + 0.055) / 1.055, vec3(2.4)), vColor.rgb / 12.92, vec3(lessThanEqual(vColor.rgb, vec3(0.04045))));
+    ${toLinearChunk("vColor.rgb")}
   #endif
 #endif
 `;

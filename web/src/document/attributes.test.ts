@@ -1,0 +1,74 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { shapesOf } from "./description.ts";
+import { elementsOf } from "./elements.testing.ts";
+import { GeometryMemory } from "./geometryMemory.ts";
+import { readScene } from "./readScene.ts";
+
+const geometry = `<ImageGeometry>
+  <FloatVertexAttribute name="heat" numComponents="1" valueBits="16" valueMin="-2" valueSize="5"/>
+  <FloatVertexAttribute name="flow" numComponents="2" valueBits="24" valueMin="-3 0" valueSize="1 4"/>
+  <GeometryPatch coord="c.png" attrib='"h1.png#9" "h0.png" "f2.png" "f1.png" "f0.png"'/></ImageGeometry>`;
+
+function read(fields: string, node = geometry) {
+  const scene = readScene(elementsOf(`<X3D><Shape ${fields}>${node}</Shape></X3D>`));
+  const [shape] = shapesOf(scene.root);
+  assert.ok(shape?.geometry);
+  return { shape, geometry: shape.geometry, messages: scene.warnings.map(({ message }) => message) };
+}
+
+describe("a shape's colorBy", () => {
+  test("brings the files of the attribute that it names, and the range of its numbers", () => {
+    const heat = read(`colorBy="heat"`);
+    assert.equal(heat.geometry.value?.name, "heat");
+    assert.deepEqual(heat.geometry.patches[0]?.value.map(({ url, first }) => `${url} ${first}`), ["h1.png 9", "h0.png 0"]);
+    assert.deepEqual(heat.shape.colorMap?.range, [-2, 3]);
+    const flow = read(`colorBy="flow"`);
+    assert.deepEqual(flow.geometry.patches[0]?.value.map(({ url }) => url), ["f2.png", "f1.png", "f0.png"]);
+    assert.deepEqual(flow.shape.colorMap?.range, [0, 5]); // of the length of (-3 … -2, 0 … 4)
+  });
+
+  test("of typed arrays brings one file", () => {
+    const { geometry } = read(`colorBy="flow"`, `<BinaryGeometry coord="c.bin"><FloatVertexAttribute name="heat" numComponents="1"/>
+      <FloatVertexAttribute name="flow" numComponents="3"/><GeometryPatch attrib="h.bin f.bin#4+16"/></BinaryGeometry>`);
+    assert.deepEqual(geometry.patches[0]?.value, [{ url: "f.bin", first: 4, stride: 16 }]);
+  });
+
+  test("that is absent, or names nothing that there is, colours nothing", () => {
+    assert.deepEqual(read("").geometry.patches[0]?.value, []);
+    assert.deepEqual(read("").messages, []);
+    const unknown = read(`colorBy="cold"`);
+    assert.equal(unknown.shape.colorMap, undefined);
+    assert.deepEqual(unknown.messages, [`colorBy="cold" is no attribute of the geometry`]);
+    assert.equal(read(`colorBy="heat"`, `<ImageGeometry profile="compact" data="p.png"><FloatVertexAttribute name="heat"/></ImageGeometry>`).shape.colorMap, undefined);
+  });
+
+  test("makes one geometry of one attribute, however often the document is read", () => {
+    const scene = elementsOf(`<X3D><Shape colorBy="heat">${geometry.replace("<ImageGeometry", `<ImageGeometry DEF="g"`)}</Shape>
+      <Shape colorBy="heat" colorMap="gray"><ImageGeometry USE="g"/></Shape><Shape colorBy="flow"><ImageGeometry USE="g"/></Shape></X3D>`);
+    const memory = new GeometryMemory();
+    const [first, second, third] = shapesOf(readScene(scene, memory).root);
+    assert.equal(first?.geometry, second?.geometry);
+    assert.notEqual(first?.geometry, third?.geometry);
+    assert.equal(shapesOf(readScene(scene, memory).root)[0]?.geometry, first?.geometry);
+  });
+
+  test("takes its colours from a map by name or from a list", () => {
+    const colors = (text: string) => read(`colorBy="heat" colorMap="${text}"`);
+    assert.deepEqual(colors("gray").shape.colorMap?.colors, [[0, 0, 0], [1, 1, 1]]);
+    assert.deepEqual(colors("1 0 0, 0 1 0, 0 0 1").shape.colorMap?.colors, [[1, 0, 0], [0, 1, 0], [0, 0, 1]]);
+    const viridis = read(`colorBy="heat"`).shape.colorMap?.colors;
+    assert.equal(viridis?.length, 10);
+    for (const wrong of ["rainbows", "1 0 0", "1 0 0 1", "1 0 0 1 0 x"]) {
+      assert.equal(colors(wrong).messages.length, 1, wrong);
+      assert.deepEqual(colors(wrong).shape.colorMap?.colors, viridis);
+    }
+  });
+});
+
+describe("a FloatVertexAttribute", () => {
+  test("of numbers that are not read is told of", () => {
+    assert.equal(read("", geometry.replace(`valueBits="16"`, `valueBits="12"`)).messages.length, 1);
+    assert.equal(read("", geometry.replace(`numComponents="2"`, `numComponents="5"`)).messages.length, 1);
+  });
+});

@@ -1,0 +1,54 @@
+// Further attributes of vertices (FloatVertexAttribute), and the one that colours a
+// shape: `colorBy` names it, and its values are laid over a map of colours.
+
+import type { AttributeDescription, ColorMapDescription, GeometryDescription, Reference } from "./description.ts";
+import type { SceneElement } from "./element.ts";
+import { childrenOf, lowerNameOf } from "./element.ts";
+import type { Values, Warning } from "./nodes.ts";
+import { nodeFields, readFields } from "./nodes.ts";
+
+export function readAttributes(element: SceneElement, container: GeometryDescription["container"], warnings: Warning[]): AttributeDescription[] {
+  if (container === "compact") return []; // theirs lie in the patches' files, and are not read
+  const elements = childrenOf(element).filter((child) => lowerNameOf(child) === "floatvertexattribute");
+  return elements.map((child) => {
+    const { name, numComponents, valueBits, valueMin, valueSize } = readFields(child, nodeFields.FloatVertexAttribute, warnings);
+    const components = ([1, 2, 3, 4] as const).find((count) => count === numComponents) ?? 4;
+    const files = container === "sig" ? valueBits / 8 : 1;
+    if (components !== numComponents || ![1, 2, 3].includes(files)) {
+      warnings.push({ element: child, message: `numComponents="${numComponents}" valueBits="${valueBits}" are no numbers that are read` });
+    }
+    const each = (values: readonly number[], missing: number) => Array.from({ length: components }, (_, c) => values[c] ?? missing);
+    return { name, components, files, min: each(valueMin, 0), size: each(valueSize, 1) };
+  });
+}
+
+/** The files of an attribute among all that a patch has, which stand one after the other. */
+function filesOf(attributes: readonly AttributeDescription[], attribute: AttributeDescription, references: readonly Reference[]): readonly Reference[] {
+  const first = attributes.slice(0, attributes.indexOf(attribute)).reduce((sum, { files }) => sum + files, 0);
+  return references.slice(first, first + attribute.files);
+}
+
+/** The geometry with the values of one of its attributes beside its vertices; undefined where it has none of the name. */
+export function withValues(geometry: GeometryDescription, name: string): GeometryDescription | undefined {
+  const value = geometry.attributes.find((attribute) => attribute.name === name);
+  if (value === undefined) return undefined;
+  const patches = geometry.patches.map((patch) => ({ ...patch, value: filesOf(geometry.attributes, value, patch.attributes) }));
+  return { ...geometry, value, patches };
+}
+
+/** Of several components the length counts. */
+function rangeOf({ components, min, size }: AttributeDescription): readonly [number, number] {
+  const least = min[0] ?? 0;
+  if (components === 1) return [least, least + (size[0] ?? 0)];
+  return [0, Math.hypot(...min.map((low, c) => Math.max(Math.abs(low), Math.abs(low + (size[c] ?? 0)))))];
+}
+
+export function colorMapOf(element: SceneElement, values: Values<typeof nodeFields.Shape>, geometry: GeometryDescription | undefined,
+                           warnings: Warning[]): ColorMapDescription | undefined {
+  if (values.colorBy === "") return undefined;
+  if (geometry?.value === undefined) {
+    if (geometry !== undefined) warnings.push({ element, message: `colorBy="${values.colorBy}" is no attribute of the geometry` });
+    return undefined;
+  }
+  return { colors: values.colorMap, range: values.colorRange ?? rangeOf(geometry.value) };
+}
