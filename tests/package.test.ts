@@ -14,7 +14,12 @@ const app = join(work, "app");
 let packed: string[] = [];
 
 function run(directory: string, program: string, ...words: string[]): string {
-  return execFileSync(program, words, { cwd: directory, encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
+  try {
+    return execFileSync(program, words, { cwd: directory, encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
+  } catch (error) {
+    const { stdout, stderr } = error as { stdout: string; stderr: string };
+    throw new Error(`${words.join(" ")}: ${stdout}${stderr}`, { cause: error });
+  }
 }
 
 before(() => {
@@ -34,9 +39,10 @@ after(() => { rmSync(work, { recursive: true, force: true }); });
 
 const users: Record<string, string> = {
   "loader.ts": `
-    import { Scene, MeshToonMaterial, type Object3D } from "three";
+    import { Color, Scene, MeshToonMaterial, type Object3D } from "three";
     import { ImgeoLoader, type ImgeoScene } from "imgeo/loader";
-    const loader = new ImgeoLoader().setPath("statue/").setMaterial(({ diffuseColor }) => new MeshToonMaterial({ color: diffuseColor[0] }));
+    const loader = new ImgeoLoader().setPath("statue/").setMaterial((material) =>
+      new MeshToonMaterial({ color: new Color(...(material.kind === "phong" ? material.diffuseColor : [1, 1, 1])) }));
     const statue: ImgeoScene = await loader.loadAsync("scene.x3d", ({ loaded }) => { console.log(loaded); });
     const object: Object3D = statue;
     statue.addEventListener("change", () => { console.log(statue.box.min.x); });
