@@ -54,6 +54,16 @@ describe("a material of X3D 4", () => {
       assertColor(await colorOf(view, '<Material diffuseColor="0.2 0.4 0.6"></Material>'), [51, 102, 153], "Phong's");
       const [red, green] = await colorOf(view, '<PhysicalMaterial baseColor="1 0.2 0.2" metallic="1" roughness="1"></PhysicalMaterial>');
       assert.ok(red > 100 && red > 1.5 * green, `a metal is ${red} ${green}: it shows its colour in the room around it`);
+
+      // Geometry in the document, larger than what came in files and around it.
+      await view.page.evaluate(() => {
+        document.querySelector("scene")!.insertAdjacentHTML("beforeend", `<Shape id="box"><Appearance>
+          <UnlitMaterial emissiveColor="1 0 1"></UnlitMaterial></Appearance><Box size="2.5 2.5 2.5"></Box></Shape>`);
+      });
+      await view.promise("complete", "#box");
+      const asked = view.server.requests.length;
+      assertColor(await colorOf(view, '<Material diffuseColor="0 1 0"></Material>'), [255, 0, 255], "the box");
+      assert.equal(view.server.requests.length, asked);
     });
   });
 

@@ -214,6 +214,7 @@ class Resource {
 
   #download(url: string): Promise<{ bytes: Uint8Array<ArrayBuffer>; leave: () => void }> {
     const { transfer } = this;
+    if (url.startsWith("data:")) return Promise.resolve({ bytes: bytesOfDataUrl(url), leave: () => undefined });
     const { scheduler, download, resolve, onTransfer } = this.#options;
     const listener = {
       onState: (state: Transfer["state"]) => { transfer.state = state; },
@@ -250,4 +251,9 @@ class Resource {
     if (!isTexture) return { kind: "bytes", bytes };
     return { kind: "image", ...await this.#options.makeImage(bytes, this.#aborter.signal) };
   }
+}
+
+/** Of "data:…;base64,…": nothing is asked of the network, nor of the page's content policy. */
+function bytesOfDataUrl(url: string): Uint8Array<ArrayBuffer> {
+  return Uint8Array.from(atob(url.slice(url.indexOf(",") + 1)), (character) => character.charCodeAt(0));
 }

@@ -16,11 +16,12 @@ export class GeometryMemory {
     this.#touched.add(element);
   }
 
-  /** What `read` makes of the element, which is called only where that is not known. */
-  recall(element: SceneElement, read: () => GeometryDescription): GeometryDescription {
+  /** What `read` makes of the element, which is called only where that is not known; undefined for what is no geometry. */
+  recall(element: SceneElement, read: () => GeometryDescription | undefined): GeometryDescription | undefined {
     const known = this.#known.get(element);
     if (known !== undefined && !this.#touched.delete(element)) return known;
     const fresh = read();
+    if (fresh === undefined) return undefined;
     if (known !== undefined && JSON.stringify(known) === JSON.stringify(fresh)) return known;
     this.#known.set(element, fresh);
     return fresh;

@@ -11,6 +11,7 @@ import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import { boxAround, boxOf, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
 import { GeometryMemory } from "./geometryMemory.ts";
+import { readInlineGeometry } from "./inlineGeometry.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
@@ -187,9 +188,13 @@ const geometryReaders: Readonly<Record<string, typeof readImageGeometry>> = {
 };
 
 /** Undefined for what is no geometry. */
-function readGeometry(element: SceneElement, { geometries, warnings }: Reading): GeometryDescription | undefined {
+function readGeometry(element: SceneElement, { geometries, warnings, defined }: Reading): GeometryDescription | undefined {
   const read = geometryReaders[lowerNameOf(element)];
-  return read && geometries.recall(element, () => read(element, warnings));
+  const resolve = (part: SceneElement) => {
+    const name = attributeOf(part, "USE");
+    return name === undefined ? part : defined.get(name);
+  };
+  return geometries.recall(element, () => read?.(element, warnings) ?? readInlineGeometry(element, resolve, warnings));
 }
 
 const withoutAttributes: SceneElement = {

@@ -1,0 +1,114 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import type { GeometryDescription, Reference } from "./description.ts";
+import { shapesOf } from "./description.ts";
+import { elementsOf } from "./elements.testing.ts";
+import { readScene } from "./readScene.ts";
+
+interface Triangles {
+  readonly geometry: GeometryDescription;
+  readonly positions: number[];
+  readonly normals: number[];
+}
+
+function bytesOf(reference: Reference | undefined): ArrayBuffer {
+  assert.ok(reference);
+  assert.ok(reference.url.startsWith("data:"));
+  return Uint8Array.from(atob(reference.url.slice(reference.url.indexOf(",") + 1)), (character) => character.charCodeAt(0)).buffer;
+}
+
+function read(markup: string): { geometry: GeometryDescription | undefined; warnings: number } {
+  const scene = readScene(elementsOf(`<X3D><Scene><Shape>${markup}</Shape></Scene></X3D>`));
+  return { geometry: shapesOf(scene.root)[0]?.geometry, warnings: scene.warnings.length };
+}
+
+function trianglesOf(markup: string): Triangles {
+  const { geometry, warnings } = read(markup);
+  assert.ok(geometry, markup);
+  assert.equal(warnings, 0, markup);
+  const [patch] = geometry.patches;
+  return {
+    geometry,
+    positions: [...new Float32Array(bytesOf(patch?.coord[0]))],
+    normals: [...new Float32Array(bytesOf(patch?.normal))],
+  };
+}
+
+/** Of what closed triangles enclose that face outwards. */
+function volumeOf(positions: number[]): number {
+  let volume = 0;
+  for (let i = 0; i < positions.length; i += 9) {
+    const [ax = 0, ay = 0, az = 0, bx = 0, by = 0, bz = 0, cx = 0, cy = 0, cz = 0] = positions.slice(i, i + 9);
+    volume += (ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)) / 6;
+  }
+  return volume;
+}
+
+const square = '<Coordinate point="0 0 0, 1 0 0, 1 1 0, 0 1 0"/>';
+
+describe("geometry in the document", () => {
+  for (const [markup, volume, size] of [
+    ['<Box size="1 2 3"/>', 6, [1, 2, 3]],
+    ["<Sphere/>", 4 / 3 * Math.PI, [2, 2, 2]],
+    ['<Cylinder radius="0.5" height="3"/>', 0.75 * Math.PI, [1, 3, 1]],
+    ['<Cone bottomRadius="1" height="3"/>', Math.PI, [2, 3, 2]],
+  ] as const) {
+    test(`${markup} is closed, faces outwards and has its size`, () => {
+      const { geometry, positions, normals } = trianglesOf(markup);
+      assert.ok(Math.abs(volumeOf(positions) / volume - 1) < 0.01, `${volumeOf(positions)} instead of ${volume}`);
+      const box = geometry.patches[0]?.box;
+      box?.max.forEach((edge, axis) => { assert.ok(Math.abs(edge - (box.min[axis] ?? 0) - (size[axis] ?? 0)) < 1e-5); });
+      for (let i = 0; i < normals.length; i += 3) {
+        const outwards = normals.slice(i, i + 3).reduce((sum, value, axis) => sum + value * (positions[i + axis] ?? 0), 0);
+        assert.ok(outwards > 0 && Math.abs(Math.hypot(...normals.slice(i, i + 3)) - 1) < 1e-5);
+      }
+    });
+  }
+
+  test("has the same triangles from every node that states them", () => {
+    const two = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0];
+    for (const markup of [
+      `<IndexedFaceSet coordIndex="0 1 2 3 -1">${square}</IndexedFaceSet>`,
+      `<IndexedFaceSet ccw="false" coordIndex="3 2 1 0">${square}</IndexedFaceSet>`,
+      `<IndexedTriangleSet index="0 1 2 0 2 3">${square}</IndexedTriangleSet>`,
+      `<IndexedTriangleFanSet index="0 1 2 3 -1">${square}</IndexedTriangleFanSet>`,
+      `<TriangleFanSet fanCount="4">${square}</TriangleFanSet>`,
+      '<TriangleSet><Coordinate point="0 0 0 1 0 0 1 1 0 0 0 0 1 1 0 0 1 0"/></TriangleSet>',
+    ]) {
+      const { positions, normals } = trianglesOf(markup);
+      // The polygon that was turned begins elsewhere: compare what they enclose with a point behind them.
+      const raised = (numbers: readonly number[]) => volumeOf(numbers.map((value, i) => i % 3 === 2 ? value + 1 : value));
+      assert.equal(positions.length, two.length, markup);
+      assert.ok(Math.abs(raised(positions) - raised(two)) < 1e-6, markup);
+      assert.ok(normals.every((value, i) => Math.abs(value - (i % 3 === 2 ? 1 : 0)) < 1e-6), markup);
+    }
+    assert.deepEqual(trianglesOf(`<IndexedTriangleStripSet index="0 1 3 2">${square}</IndexedTriangleStripSet>`).positions,
+      [0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]);
+  });
+
+  test("has edges where faces turn by more than creaseAngle", () => {
+    const roof = (angle: number) => trianglesOf(`<IndexedFaceSet creaseAngle="${angle}" coordIndex="0 3 2 1 -1 1 2 5 4">
+      <Coordinate point="0 0 0 1 0 0 1 0 1 0 0 1 1 -1 0 1 -1 1"/></IndexedFaceSet>`).normals;
+    const distinct = (normals: number[]) => new Set(normals.flatMap((_, i) => i % 3 === 0 ? [normals.slice(i, i + 3).join()] : [])).size;
+    assert.equal(distinct(roof(0.5)), 2);
+    assert.equal(distinct(roof(2)), 3); // those of the edge are between
+  });
+
+  test("draws lines and points, in colours of vertices or of lines", () => {
+    const draws = (markup: string) => read(markup).geometry?.patches[0]?.draws;
+    assert.deepEqual(draws(`<IndexedLineSet coordIndex="0 1 2 -1 3 0">${square}</IndexedLineSet>`), [{ primitive: "lines", count: 6 }]);
+    assert.deepEqual(draws(`<LineSet vertexCount="2 2">${square}</LineSet>`), [{ primitive: "lines", count: 4 }]);
+    assert.deepEqual(draws(`<PointSet>${square}</PointSet>`), [{ primitive: "points", count: 4 }]);
+    const { geometry } = read(`<IndexedLineSet colorPerVertex="false" coordIndex="0 1 -1 2 3">${square}<ColorRGBA color="1 0 0 1 0 1 0 0.5"/></IndexedLineSet>`);
+    assert.deepEqual([...new Uint8Array(bytesOf(geometry?.patches[0]?.color))], [255, 0, 0, 255, 255, 0, 0, 255, 0, 255, 0, 128, 0, 255, 0, 128]);
+  });
+
+  test("finds parts that it USEs, and says where there are none", () => {
+    const scene = readScene(elementsOf(`<X3D><Scene><Shape><PointSet><Coordinate DEF="C" point="1 2 3"/></PointSet></Shape>
+      <Shape><PointSet><Coordinate USE="C"/></PointSet></Shape></Scene></X3D>`));
+    assert.ok(shapesOf(scene.root).every(({ geometry }) => geometry?.patches[0]?.vertexCount === 1));
+    assert.equal(read(`<IndexedFaceSet coordIndex="0 1 9">${square}</IndexedFaceSet>`).warnings, 1);
+    assert.equal(read("<TriangleSet/>").geometry, undefined);
+    assert.equal(read("<Text string='\"a\"'/>").geometry, undefined);
+  });
+});

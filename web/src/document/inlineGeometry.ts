@@ -1,0 +1,187 @@
+// Geometry that stands in the document -> GeometryDescription: its arrays become
+// BG in data: URLs, so that everything behind the document treats it like any
+// other, and what has not changed is the same text.
+
+import type { Box3, GeometryDescription, Reference, Warning } from "./description.ts";
+import type { SceneElement } from "./element.ts";
+import { childrenOf, lowerNameOf } from "./element.ts";
+import type { Corner, Drawn, VertexData } from "./facets.ts";
+import { drawn, fansOf, linesOf, withCreasedNormals } from "./facets.ts";
+import type { Vec3 } from "./fieldTypes.ts";
+import type { Values } from "./nodes.ts";
+import { nodeFields, readFields } from "./nodes.ts";
+import type { Solid } from "./solids.ts";
+import { box, round, sphere } from "./solids.ts";
+
+/** The element that a USE names, or the element itself; undefined where there is none. */
+export type Resolve = (element: SceneElement) => SceneElement | undefined;
+
+type Fields = Values<typeof nodeFields.InlineGeometry>;
+
+/** Runs of vertices, a polygon or line each. */
+type Runs = readonly (readonly Corner[])[];
+
+const solids: Readonly<Record<string, (element: SceneElement, warnings: Warning[]) => Solid>> = {
+  box: (element, warnings) => box(readFields(element, nodeFields.Box, warnings).size),
+  sphere: (element, warnings) => sphere(readFields(element, nodeFields.Sphere, warnings).radius),
+  cylinder: (element, warnings) => {
+    const values = readFields(element, nodeFields.Cylinder, warnings);
+    return round(values.radius, values.radius, values.height, values);
+  },
+  cone: (element, warnings) => {
+    const values = readFields(element, nodeFields.Cone, warnings);
+    return round(0, values.bottomRadius, values.height, { ...values, top: false });
+  },
+};
+
+const runReaders: Readonly<Record<string, (fields: Fields, data: VertexData) => Runs>> = {
+  indexedfaceset: (fields, data) => indexedRuns(fields, data),
+  indexedlineset: (fields, data) => indexedRuns(fields, data),
+  triangleset: (fields, data) => byVertex(fields, data, triplesOf(numbersTo(data.positions.length / 3))),
+  indexedtriangleset: (fields, data) => byVertex(fields, data, triplesOf(fields.index.filter((vertex) => vertex >= 0))),
+  trianglestripset: (fields, data) => byVertex(fields, data, counted(fields.stripCount).flatMap(strip)),
+  indexedtrianglestripset: (fields, data) => byVertex(fields, data, between(fields.index).flatMap(strip)),
+  trianglefanset: (fields, data) => byVertex(fields, data, counted(fields.fanCount)),
+  indexedtrianglefanset: (fields, data) => byVertex(fields, data, between(fields.index)),
+  lineset: (fields, data) => byVertex(fields, data, counted(fields.vertexCount)),
+  pointset: (fields, data) => byVertex(fields, data, numbersTo(data.positions.length / 3).map((vertex) => [vertex])),
+};
+
+const primitives: Readonly<Record<string, Drawn["primitive"]>> = { indexedlineset: "lines", lineset: "lines", pointset: "points" };
+
+/** Undefined for nodes that are none of the geometries we draw, and for those without elements. */
+export function readInlineGeometry(element: SceneElement, resolve: Resolve, warnings: Warning[]): GeometryDescription | undefined {
+  const name = lowerNameOf(element);
+  const solid = solids[name]?.(element, warnings);
+  const fields = readFields(element, nodeFields.InlineGeometry, solid ? [] : warnings);
+  if (solid) return describe(drawn("triangles", solid.data, fansOf(solid.faces)), fields.solid);
+  const readRuns = runReaders[name];
+  if (readRuns === undefined) return undefined;
+  const data = vertexDataOf(element, resolve, warnings);
+  const primitive = primitives[name] ?? "triangles";
+  const arrays = drawnOf(primitive, data, readRuns(fields, data), fields, name === "indexedfaceset");
+  if (arrays === undefined) warnings.push({ element, message: "it names vertices that it lacks; nothing is drawn" });
+  return describe(arrays, fields.solid);
+}
+
+function drawnOf(primitive: Drawn["primitive"], data: VertexData, runs: Runs, fields: Fields, isCreased: boolean): Drawn | undefined {
+  if (primitive === "points") return drawn(primitive, data, runs.flat());
+  if (primitive === "lines") return drawn(primitive, data, linesOf(runs));
+  const faces = fields.ccw ? runs : runs.map((run) => run.toReversed());
+  if (data.normals.length > 0) return drawn(primitive, data, fansOf(faces));
+  // Triangles of one number are smooth, faces have edges unless creaseAngle says otherwise.
+  const angle = isCreased ? fields.creaseAngle : fields.normalPerVertex ? Math.PI : 0;
+  const creased = withCreasedNormals(data, faces, angle);
+  return drawn(primitive, creased.data, fansOf(creased.faces));
+}
+
+function vertexDataOf(element: SceneElement, resolve: Resolve, warnings: Warning[]): VertexData {
+  const part = (...names: string[]): SceneElement | undefined => {
+    const child = childrenOf(element).find((candidate) => names.includes(lowerNameOf(candidate)));
+    return child && resolve(child);
+  };
+  const [coordinate, normal, texCoord, color] = [part("coordinate"), part("normal"), part("texturecoordinate"), part("color", "colorrgba")];
+  return {
+    positions: coordinate ? readFields(coordinate, nodeFields.Coordinate, warnings).point : [],
+    normals: normal ? readFields(normal, nodeFields.Normal, warnings).vector : [],
+    texCoords: texCoord ? readFields(texCoord, nodeFields.TextureCoordinate, warnings).point : [],
+    colors: color ? readFields(color, nodeFields.Color, warnings).color : [],
+    colorComponents: color && lowerNameOf(color) === "colorrgba" ? 4 : 3,
+  };
+}
+
+/** Runs of coordIndex between its -1s, with the indices of attributes beside it (ISO/IEC 19775-1, 11.2.2.4). */
+function indexedRuns(fields: Fields, data: VertexData): Runs {
+  const { coordIndex, normalIndex, colorIndex, texCoordIndex } = fields;
+  const runs: Corner[][] = [[]];
+  const beside = (index: readonly number[], perVertex: boolean, at: number, position: number) => {
+    const place = perVertex ? at : runs.length - 1;
+    return index.length > 0 ? index[place] ?? -1 : perVertex ? position : place;
+  };
+  coordIndex.forEach((position, at) => {
+    if (position < 0) {
+      runs.push([]);
+      return;
+    }
+    runs.at(-1)?.push({
+      position,
+      normal: data.normals.length > 0 ? beside(normalIndex, fields.normalPerVertex, at, position) : -1,
+      texCoord: data.texCoords.length > 0 ? beside(texCoordIndex, true, at, position) : -1,
+      color: data.colors.length > 0 ? beside(colorIndex, fields.colorPerVertex, at, position) : -1,
+    });
+  });
+  return runs;
+}
+
+/** Corners all of whose values have the vertex's number, or the face's. */
+function byVertex(fields: Fields, data: VertexData, runs: readonly (readonly number[])[]): Runs {
+  return runs.map((run, face) => run.map((position) => ({
+    position,
+    normal: data.normals.length === 0 ? -1 : fields.normalPerVertex ? position : face,
+    texCoord: data.texCoords.length === 0 ? -1 : position,
+    color: data.colors.length === 0 ? -1 : fields.colorPerVertex ? position : face,
+  })));
+}
+
+function numbersTo(count: number): number[] {
+  return Array.from({ length: count }, (_, number) => number);
+}
+
+function triplesOf(vertices: readonly number[]): number[][] {
+  return numbersTo(Math.floor(vertices.length / 3)).map((triple) => vertices.slice(3 * triple, 3 * triple + 3));
+}
+
+/** Consecutive vertices, so many a run. */
+function counted(counts: readonly number[]): number[][] {
+  let next = 0;
+  return counts.map((count) => numbersTo(Math.max(count, 0)).map(() => next++));
+}
+
+function between(index: readonly number[]): number[][] {
+  const runs: number[][] = [[]];
+  for (const vertex of index) {
+    if (vertex < 0) runs.push([]);
+    else runs.at(-1)?.push(vertex);
+  }
+  return runs;
+}
+
+function strip(run: readonly number[]): number[][] {
+  return run.slice(2).map((last, i) => {
+    const [first, second] = [run[i] ?? 0, run[i + 1] ?? 0];
+    return i % 2 === 0 ? [first, second, last] : [first, last, second];
+  });
+}
+
+function describe(arrays: Drawn | undefined, solid: boolean): GeometryDescription | undefined {
+  if (arrays === undefined || arrays.positions.length === 0) return undefined;
+  const { positions, normals, texCoords, colors, colorComponents, primitive } = arrays;
+  const count = positions.length / 3;
+  return {
+    container: "bg", position: [0, 0, 0], size: [1, 1, 1], positionBits: 0, solid,
+    texCoordMin: [0, 0], texCoordSize: [1, 1], colorComponents, normalEncoding: "rgb", decode: "auto", base: undefined,
+    indexType: "Uint32", coordType: "Float32", normalType: "Float32", texCoordType: "Float32", colorType: "Uint8",
+    patches: [{
+      box: boxAroundAll(positions), vertexCount: count, draws: [{ primitive, count }], implicitWidth: 1, implicitHeight: 1, grid: undefined,
+      index: undefined, coord: [dataReference(positions)], normal: normals && dataReference(normals),
+      texCoord: texCoords && dataReference(texCoords), color: colors && dataReference(colors), data: undefined,
+    }],
+  };
+}
+
+function boxAroundAll(positions: Float32Array): Box3 {
+  const edge = (choose: (...values: number[]) => number, start: number): Vec3 => {
+    const corner: [number, number, number] = [start, start, start];
+    positions.forEach((value, i) => { corner[i % 3] = choose(corner[i % 3] ?? start, value); });
+    return corner;
+  };
+  return { min: edge(Math.min, Infinity), max: edge(Math.max, -Infinity) };
+}
+
+/** Typed arrays are little-endian there, as they are on every machine with a browser. */
+function dataReference(array: Float32Array | Uint8Array): Reference {
+  const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+  let text = "";
+  for (let at = 0; at < bytes.length; at += 0x8000) text += String.fromCharCode(...bytes.subarray(at, at + 0x8000));
+  return { url: `data:application/octet-stream;base64,${btoa(text)}`, first: 0, stride: 0 };
+}
