@@ -159,12 +159,12 @@ function describe(arrays: Drawn | undefined, solid: boolean): GeometryDescriptio
   const count = positions.length / 3;
   return {
     container: "bg", position: [0, 0, 0], size: [1, 1, 1], positionBits: 0, solid,
-    texCoordMin: [0, 0], texCoordSize: [1, 1], colorComponents, normalEncoding: "rgb", decode: "auto", base: undefined,
+    texCoordMin: [0, 0], texCoordSize: [1, 1], colorComponents, normalEncoding: "rgb", decode: "auto", base: undefined, attributes: [], value: undefined,
     indexType: "Uint32", coordType: "Float32", normalType: "Float32", texCoordType: "Float32", colorType: "Uint8",
     patches: [{
       box: boxAroundAll(positions), vertexCount: count, draws: [{ primitive, count }], implicitWidth: 1, implicitHeight: 1, grid: undefined,
       index: undefined, coord: [dataReference(positions)], normal: normals && dataReference(normals),
-      texCoord: texCoords && dataReference(texCoords), color: colors && dataReference(colors), data: undefined,
+      texCoord: texCoords && dataReference(texCoords), color: colors && dataReference(colors), attributes: [], value: [], data: undefined,
     }],
   };
 }
