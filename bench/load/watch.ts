@@ -6,8 +6,10 @@
 export interface Watched {
   /** Milliseconds from navigation to when all of the model had been drawn; 0 until then. */
   complete: number;
-  /** Of each frame that was drawn: when the GPU had drawn it, and every fourth pixel of every fourth line, RGBA. */
+  /** Of each frame that was drawn: when the GPU had drawn it, and every second pixel of every second line, RGBA. */
   frames: { at: number; pixels: Uint8Array }[];
+  /** Of these pictures. */
+  columns: number;
 }
 
 export interface Wanted {
@@ -32,9 +34,9 @@ type Context = WebGLRenderingContext | WebGL2RenderingContext;
 
 /** Self-contained: its text is sent to the browser. */
 export function watch(wanted: Wanted): void {
-  const watched: Watched = { complete: 0, frames: [] };
+  const watched: Watched = { complete: 0, frames: [], columns: 0 };
   window.watched = watched;
-  const sparse = 4;
+  const sparse = 2;
   let isDue = false;
   let hasModel = false;
 
@@ -49,6 +51,7 @@ export function watch(wanted: Wanted): void {
     const [columns, rows] = [Math.floor(width / sparse), Math.floor(height / sparse)];
     const some = new Uint32Array(columns * rows);
     for (let i = 0; i < some.length; ++i) some[i] = all[Math.floor(i / columns) * sparse * width + (i % columns) * sparse]!;
+    watched.columns = columns;
     watched.frames.push({ at, pixels: new Uint8Array(some.buffer) });
   };
   const note = (gl: Context, count: number): void => {
@@ -83,7 +86,7 @@ export function watch(wanted: Wanted): void {
 
 /** When a page's picture had become what. Milliseconds from navigation. */
 export interface Times {
-  /** 95 % of the model's silhouette are covered. */
+  /** 95 % of the model's silhouette are covered, or have a pixel beside them that is. */
   first: number;
   /** Nine tenths of the way from nothing to the final picture, in the sum of all channels' differences. */
   most: number;
@@ -93,13 +96,16 @@ export interface Times {
 
 /** Runs in the page, when it is complete. */
 export function timesOf(): Times {
-  const { frames } = window.watched;
+  const { frames, columns } = window.watched;
   const last = frames.at(-1);
   if (last === undefined) throw new Error("nothing was drawn");
   const final = last.pixels;
   const background = final.slice(0, 3); // the models stand clear of the corner
   const off = (pixels: Uint8Array, i: number, channel: number): number => Math.abs(pixels[i + channel]! - background[channel]!);
   const shows = (pixels: Uint8Array, i: number): boolean => Math.max(off(pixels, i, 0), off(pixels, i, 1), off(pixels, i, 2)) > 8;
+  // Of one picture in another: who simplifies a shape moves its outline by a hair, and would miss much of a thin leg.
+  const isCovered = (pixels: Uint8Array, i: number): boolean =>
+    [0, -4, 4, -4 * columns, 4 * columns].some((away) => i + away >= 0 && i + away < pixels.length && shows(pixels, i + away));
   let [covered, whole] = [0, 0];
   for (let i = 0; i < final.length; i += 4) {
     if (shows(final, i)) covered += 1;
@@ -108,7 +114,7 @@ export function timesOf(): Times {
   const measured = frames.map(({ at, pixels }) => {
     let [both, missing] = [0, 0];
     for (let i = 0; i < final.length; i += 4) {
-      if (shows(final, i) && shows(pixels, i)) both += 1;
+      if (shows(final, i) && isCovered(pixels, i)) both += 1;
       for (let channel = 0; channel < 3; ++channel) missing += Math.abs(pixels[i + channel]! - final[i + channel]!);
     }
     return { at, coverage: both / covered, likeness: 1 - missing / whole };

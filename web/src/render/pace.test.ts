@@ -42,14 +42,14 @@ describe("frames that only refine", () => {
     mock.restoreAll();
   });
 
-  test("leave a slow GPU as much time as they take, and lose no change", async () => {
+  test("leave a slow GPU two thirds of its time, and lose no change", async () => {
     const { frames, ask } = renderer(100);
     for (let ms = 0; ms < 1000; ms += 10) {
       ask();
       await pass(10);
     }
-    assert.ok(frames.length >= 4 && frames.length <= 6, `${frames.length} frames in a second`);
-    frames.slice(1).forEach((at, i) => { assert.ok(at - (frames[i] ?? 0) >= 200); });
+    assert.ok(frames.length >= 3 && frames.length <= 4, `${frames.length} frames in a second`);
+    frames.slice(1).forEach((at, i) => { assert.ok(at - (frames[i] ?? 0) >= 300); });
     const before = frames.length;
     ask();
     await pass(1000);

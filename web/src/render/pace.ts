@@ -1,13 +1,15 @@
 // Frames that only make the picture finer, at a pace that the GPU can hold. A
 // scene of many patches changes many times a second while it arrives; a GPU that
 // takes longer than a frame for it would draw all of these and have no time left
-// for what they wait for. So after such a frame it rests for as long as that took.
+// for what they wait for. So after such a frame it rests twice as long as that
+// took. The last change of all waits for nobody.
 
 import { untilPassed } from "./pixelReading.ts";
 
 /** Frames of up to this many milliseconds need no rest after them. */
 const quickFrameMs = 16;
-const longestRestMs = 500;
+const restPerFrame = 2;
+const longestRestMs = 2000;
 
 export class Pace {
   readonly #gl: WebGL2RenderingContext;
@@ -51,5 +53,5 @@ async function restAfter(gl: WebGL2RenderingContext, begunAt: number): Promise<v
   await untilPassed(gl, fence);
   gl.deleteSync(fence);
   const took = performance.now() - begunAt;
-  if (took > quickFrameMs) await new Promise((resolve) => { setTimeout(resolve, Math.min(took, longestRestMs)); });
+  if (took > quickFrameMs) await new Promise((resolve) => { setTimeout(resolve, Math.min(restPerFrame * took, longestRestMs)); });
 }
