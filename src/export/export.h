@@ -41,7 +41,7 @@ Bytes writeObj(const Scene& scene);
 /// Binary glTF 2.0: the scene's nodes below which something is seen, with their
 /// transforms; a mesh that several shapes show is stored once. Each wedge is a vertex
 /// with POSITION, NORMAL, TEXCOORD_0 (v measured down, as glTF has it), COLOR_0
-/// (linear, 16 bits a channel). Physical and unlit materials are kept; others become
+/// (linear, 16 bits a channel) and, of further attributes, _NAME. Physical and unlit materials are kept; others become
 /// rough dielectrics of their diffuse and emissive colour. Textures come along where
 /// their image is at hand. Viewpoints and lights are left out.
 Bytes writeGlb(const Scene& scene);

@@ -5,6 +5,7 @@
 
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace imgeo {
@@ -249,6 +250,31 @@ TEST(ExportedGlb, CarriesTheMaterial) {
   EXPECT_NEAR(color.g, 0, 1e-6);
   EXPECT_NEAR(color.b, 0.2140, 1e-4); // 0.5 in sRGB
   EXPECT_NEAR(color.a, 0.75, 1e-6);
+}
+
+TEST(ExportedGlb, CarriesNamedAttributesAsItsOwn) {
+  testing::Random random(8);
+  Mesh mesh = testing::torus(4, 5);
+  for (std::uint32_t components = 1; components <= 4; ++components) {
+    NamedAttribute attribute{fmt::format("field{}", components), components, {}};
+    for (std::size_t i = 0; i < mesh.wedgeCount() * components; ++i)
+      attribute.values.push_back(random.between(-5, 5));
+    mesh.namedAttributes.push_back(attribute);
+  }
+  const Bytes glb = writeGlb(sceneOf({mesh}));
+  EXPECT_NE(asText(glb).find("\"_field3\""), std::string::npos); // glTF 2.0, 3.7.2.1: an underscore first
+  const Imported read = importBytes(glb, "a.glb", {.attributes = {.all = true, .names = {}}});
+  const Mesh& back = read.scene.meshes.at(0);
+  ASSERT_EQ(back.namedAttributes.size(), 4u);
+  for (std::size_t a = 0; a < 4; ++a) { // corner by corner: the reader numbers wedges anew
+    const NamedAttribute &found = back.namedAttributes[a], &written = mesh.namedAttributes[a];
+    EXPECT_EQ(found.name, written.name);
+    ASSERT_EQ(found.components, a + 1);
+    for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner)
+      for (std::size_t c = 0; c <= a; ++c)
+        EXPECT_EQ(found.values[back.corners[corner] * (a + 1) + c],
+                  written.values[mesh.corners[corner] * (a + 1) + c]);
+  }
 }
 
 TEST(ExportedGlb, HoldsMoreVerticesThanSixteenBitsCount) {

@@ -103,6 +103,14 @@ std::size_t addColors(Arrays& arrays, const Mesh& mesh) {
   return accessor;
 }
 
+std::size_t addNamed(Arrays& arrays, const NamedAttribute& attribute) {
+  constexpr const char* types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+  arrays.begin();
+  for (const float value : attribute.values)
+    appendLittle(arrays.bytes, value);
+  return arrays.end(arrayBuffer, floatType, types[attribute.components - 1], attribute.count());
+}
+
 /// 65,535 itself is no index: it restarts primitives.
 std::size_t addIndices(Arrays& arrays, const Mesh& mesh) {
   const bool shorts = mesh.wedgeCount() <= 65535;
@@ -125,6 +133,8 @@ Json primitiveOf(Arrays& arrays, const Mesh& mesh) {
     attributes["TEXCOORD_0"] = addTexCoords(arrays, mesh);
   if (!mesh.colors.empty())
     attributes["COLOR_0"] = addColors(arrays, mesh);
+  for (const NamedAttribute& attribute : mesh.namedAttributes)
+    attributes["_" + attribute.name] = addNamed(arrays, attribute);
   constexpr int modes[] = {0, 1, 4}; // POINTS, LINES, TRIANGLES
   return {{"attributes", attributes},
           {"indices", addIndices(arrays, mesh)},

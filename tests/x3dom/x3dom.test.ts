@@ -71,6 +71,8 @@ for (const container of containers) {
       ["many patches of strips with colours", "trefoil-colors", [...patches, "--primitives", "strips"]],
       ["computed normals", "trefoil-plain", []],
     ];
+    cases.push(["triangles without an index", "trefoil", ["--index", "off"]]);
+    cases.push(["many patches of strips with colours without an index", "trefoil-colors", [...patches, "--index", "off", "--primitives", "strips"]]);
     if (container === "sig") cases.push(["positions of three bytes", "sphere", ["--position-bits", "20"]]);
     if (container === "bg") {
       for (const layout of ["separate", "interleaved"]) {
