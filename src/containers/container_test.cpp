@@ -6,6 +6,7 @@
 #include "containers/testing.h"
 #include "containers/unit_vectors.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace imgeo {
@@ -104,6 +105,43 @@ TEST(Containers, GiveBackEveryMeshAtEveryPrecision) {
         expectEqualWithinSteps(encode(mesh, primitive, indexed, bits, options));
       }
     }
+}
+
+/// A mesh with normals, texture coordinates, colours and two further attributes.
+Mesh richMesh(std::uint32_t seed) {
+  Random random(seed);
+  Mesh mesh = testing::torus(3 + random.below(9), 3 + random.below(9));
+  mesh.colorComponents = 3 + random.below(2);
+  for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
+    mesh.colors.push_back(random.color());
+    if (mesh.colorComponents == 4)
+      mesh.colors.back().a = static_cast<std::uint8_t>(random.bits());
+  }
+  for (const char* name : {"heat", "flow"})
+    mesh.namedAttributes.push_back(testing::randomAttribute(random, name, mesh.wedgeCount()));
+  return mesh;
+}
+
+TEST(Containers, GiveBackEveryAttributeOfEveryPrimitiveAtEveryPrecision) {
+  using enum Primitive;
+  std::uint32_t seed = 0;
+  for (const Container container : {Container::sig, Container::bg})
+    for (const Primitive primitive : {points, lines, lineStrip, triangles, triangleStrip})
+      for (const bool indexed : {true, false})
+        for (std::uint32_t bits = 8; bits <= 32; ++bits) {
+          EncodeOptions options;
+          options.container = container;
+          options.effort = 0;
+          options.attributeBits = 8 * (1 + ++seed % 3);
+          SCOPED_TRACE(fmt::format("container {}, primitive {}, {} bits, {}, seed {}", int(container),
+                                   int(primitive), bits, indexed ? "indexed" : "without an index", seed));
+          const Encoded encoded = encode(richMesh(seed), primitive, indexed, bits, options);
+          EXPECT_FALSE(encoded.source.normals.empty() || encoded.source.texCoords.empty() ||
+                       encoded.source.colors.empty());
+          EXPECT_EQ(encoded.source.namedAttributes.size(), 2u);
+          EXPECT_EQ(encoded.source.draws.front().primitive, primitive);
+          expectEqualWithinSteps(encoded);
+        }
 }
 
 /// Every BG of coordinates of so many bits.

@@ -1,3 +1,4 @@
+#include "base/parallel.h"
 #include "import/error_testing.h"
 #include "import/ply_testing.h"
 
@@ -425,7 +426,11 @@ protected:
 };
 
 TEST_F(LongPly, IsReadAsAShortOne) {
-  expectEqual(onlyMesh(text, "m.ply"), mesh);
+  for (const std::size_t threads : {1u, 2u, 3u}) {
+    limitThreads(threads);
+    expectEqual(onlyMesh(text, "m.ply"), mesh);
+  }
+  limitThreads(0);
   expectEqual(onlyMesh(text.substr(0, text.size() - 1), "m.ply"), mesh); // without its last line feed
 }
 

@@ -203,13 +203,22 @@ TEST(RoundTrip, SitesAreTheSameWhateverTheThreads) {
   testing::writeMesh(directory / "input.ply", testing::torus(120, 60));
   ConvertOptions options;
   options.patchVertices = 500;
-  convert(directory / "input.ply", directory / "all", options);
-  for (const std::size_t threads : {1u, 2u, 3u}) {
-    limitThreads(threads);
-    convert(directory / "input.ply", directory / "few", options);
-    limitThreads(0);
-    EXPECT_EQ(testing::contentsOf(directory / "all"), testing::contentsOf(directory / "few")) << threads;
-  }
+  const auto expectSame = [&](const std::string& what) {
+    convert(directory / "input.ply", directory / "all", options);
+    for (const std::size_t threads : {1u, 2u, 3u}) {
+      limitThreads(threads);
+      convert(directory / "input.ply", directory / "few", options);
+      limitThreads(0);
+      EXPECT_EQ(testing::contentsOf(directory / "all"), testing::contentsOf(directory / "few"))
+          << what << " on " << threads;
+    }
+  };
+  expectSame("classic");
+  options.container = Container::bg;
+  expectSame("bg");
+  options.container = Container::sig;
+  options.profile = Profile::compact;
+  expectSame("compact");
 }
 
 TEST(RoundTrip, WhatProgressThrowsLeavesTheOldSite) {
