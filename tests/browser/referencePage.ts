@@ -108,6 +108,9 @@ void main() {
   #ifdef HAS_NORMALS
   vec3 normal = normalize(vNormal);
   vec3 towardsEye = normalize(-vPlace);
+  #ifdef HAS_NO_BACK
+  if (dot(normal, towardsEye) < 0.0) normal = -normal;
+  #endif
   vec3 light = emissiveColor + ambient * vColor;
   for (int i = 0; i < LIGHTS; ++i) {
     float facing = dot(normal, towardsLight[i]);
@@ -138,7 +141,8 @@ function materialOf(patch: Patch, { material, lights, headlight }: ReferenceScen
     vertexShader,
     fragmentShader,
     side: FrontSide,
-    defines: { LIGHTS: shining.length, ...(patch.normals && { HAS_NORMALS: "" }), ...(patch.colors && { HAS_COLORS: "" }) },
+    defines: { LIGHTS: shining.length, ...(patch.normals && { HAS_NORMALS: "" }), ...(patch.colors && { HAS_COLORS: "" }),
+               ...(patch.points.length && { HAS_NO_BACK: "" }) },
     uniforms: {
       diffuseColor: value(new Vector3(...material.diffuseColor)),
       specularColor: value(new Vector3(...material.specularColor)),

@@ -133,6 +133,24 @@ export async function classicNormals({ file, code, ...layout }: NormalJob): Prom
   return { array, components: 2, stride: 4, offset: 0 };
 }
 
+export interface TexCoordJob extends RecordLayout {
+  readonly file: ImageFile;
+}
+
+/** Words: red and blue are the bytes of u, green and alpha those of v. */
+export async function classicTexCoords({ file, ...layout }: TexCoordJob): Promise<VertexArray> {
+  const image = await imageOf(file, 4);
+  const texelOf = placesOf(image, layout);
+  const { data, channels } = image;
+  const array = new Uint16Array(layout.count * 2);
+  for (let record = 0; record < layout.count; ++record) {
+    const at = texelOf(record) * channels;
+    array[2 * record] = 256 * (data[at] ?? 0) + (data[at + 2] ?? 0);
+    array[2 * record + 1] = 256 * (data[at + 1] ?? 0) + (data[at + 3] ?? 0);
+  }
+  return { array, components: 2, stride: 2, offset: 0 };
+}
+
 export interface ColorJob extends RecordLayout {
   readonly file: ImageFile;
   readonly components: 3 | 4;

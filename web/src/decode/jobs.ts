@@ -1,12 +1,12 @@
 // What can be computed away from the main thread: pure functions from plain data
 // and bytes to plain data and arrays, by name.
 
-import { classicColors, classicCoords, classicIndex, classicNormals, classicValues } from "./classicArrays.ts";
+import { classicColors, classicCoords, classicIndex, classicNormals, classicTexCoords, classicValues } from "./classicArrays.ts";
 import { classicGrid } from "./classicGrid.ts";
 import { compactBase, compactPatch, compactPayload } from "./compact/jobs.ts";
 
 export const jobs = {
-  classicCoords, classicIndex, classicNormals, classicColors, classicValues, classicGrid, compactPayload, compactPatch, compactBase,
+  classicCoords, classicIndex, classicNormals, classicColors, classicTexCoords, classicValues, classicGrid, compactPayload, compactPatch, compactBase,
 } as const;
 
 export type JobName = keyof typeof jobs;

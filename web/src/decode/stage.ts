@@ -76,6 +76,7 @@ export interface TextureStage extends StageHead {
   readonly normalCode: NormalCode;
   readonly color: TexelRange | undefined;
   readonly colorComponents: 3 | 4;
+  readonly texCoord: TexelRange | undefined;
   /** Of the attribute that colours the geometry, its first byte planes; undefined until there are any. */
   readonly value: ValuePlanes | undefined;
 }
@@ -135,6 +136,7 @@ export interface BufferStage extends StageHead {
   readonly color: StoredVertices | undefined;
   /** Of the attribute that colours the geometry, as numbers. */
   readonly value: StoredVertices | undefined;
+  readonly texCoord: StoredVertices | undefined;
 }
 
 export type Stage = TextureStage | BufferStage;

@@ -17,6 +17,7 @@ interface Here {
   index?: { readonly stored: StoredIndex | undefined; readonly draws: readonly DrawRange[] };
   coord?: StoredVertices;
   normal?: StoredVertices;
+  texCoord?: StoredVertices;
   color?: StoredVertices;
   value?: StoredVertices;
 }
@@ -53,12 +54,12 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
     },
 
     stage(): BufferStage | undefined {
-      const { coord, normal, color, value, index } = here;
+      const { coord, normal, texCoord, color, value, index } = here;
       if (coord === undefined) return undefined;
       const name = stageNameOf(patch, { index, normal, color, coord: [coord], value: value ? [value] : [] });
       const points = { stored: undefined, draws: [{ primitive: "points", first: 0, count: countOf(coord) } as const] };
       const { stored, draws } = index ?? points;
-      return { kind: "buffers", name, index: stored, draws, coord, normal, normalCode, color, value };
+      return { kind: "buffers", name, index: stored, draws, coord, normal, normalCode, color, texCoord, value };
     },
 
     get storedBytes() { return holdings.byteLength; },
@@ -66,7 +67,7 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
     clear() {
       // Normals in coordinates are those of the coordinates.
       const normal = hasNormalsInCoords(geometry, patch) ? undefined : here.normal;
-      holdings.retire(here.index?.stored, here.coord, normal, here.color, here.value);
+      holdings.retire(here.index?.stored, here.coord, normal, here.texCoord, here.color, here.value);
       here = {};
     },
     sweep: () => { holdings.sweep(); },

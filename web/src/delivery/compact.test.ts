@@ -113,12 +113,12 @@ describe("a geometry of compact", () => {
     assert.equal(bytes, Array.from(site.arrays.values(), (array) => array.byteLength).reduce((sum, length) => sum + length, 0));
     stages.length = 0;
     delivery.demand(everything, new Set(all.filter((claim) => claim !== claims[1]?.[1])));
-    assert.deepEqual(stages.map(({ patch, stage }) => [patch, stage?.name]), [[1, "base"]]);
+    assert.deepEqual(stages.map(({ patch, stage }) => [patch, stage.name]), [[1, "base"]]);
     assert.equal(site.arrays.size, held - 3);
     delivery.claims(everything);
     delivery.demand(everything);
     await until(() => stages.length === 2);
-    assert.deepEqual([stages[1]?.patch, stages[1]?.stage?.name], [1, "full"]);
+    assert.deepEqual([stages[1]?.patch, stages[1]?.stage.name], [1, "full"]);
     delivery.cancel();
     assert.equal(site.arrays.size, 0);
   });

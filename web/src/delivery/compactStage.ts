@@ -52,15 +52,15 @@ export function compactBuilder(geometry: GeometryDescription, patch: PatchDescri
   let standIn: BufferStage | undefined;
   let full: BufferStage | undefined;
   const store = async (name: StageName, buffers: PatchBuffers, draws: readonly DrawRange[], signal: AbortSignal): Promise<BufferStage> => {
-    const { index, coord, normal, color } = buffers;
+    const { index, coord, normal, color, texCoord } = buffers;
     const some = (array: VertexArray | undefined) => array && holdings.storeVertices(array, signal);
     return {
       kind: "buffers", name, draws, normalCode: { kind: "vector" }, value: undefined,
       index: index && await holdings.storeIndex(index, signal),
-      coord: await holdings.storeVertices(coord, signal), normal: await some(normal), color: await some(color),
+      coord: await holdings.storeVertices(coord, signal), normal: await some(normal), color: await some(color), texCoord: await some(texCoord),
     };
   };
-  const retire = (stage: BufferStage | undefined) => { holdings.retire(stage?.index, stage?.coord, stage?.normal, stage?.color); };
+  const retire = (stage: BufferStage | undefined) => { holdings.retire(stage?.index, stage?.coord, stage?.normal, stage?.color, stage?.texCoord); };
   const drop = (role: string) => {
     retire(role === "base" ? standIn : full);
     if (role === "base") standIn = undefined;

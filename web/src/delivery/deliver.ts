@@ -265,7 +265,7 @@ function needsOf(geometry: GeometryDescription, patch: PatchDescription, largest
 
 /** What each is of no use without comes before it. */
 function useOf({ role, plane }: Part): number {
-  return plane > 0 ? 5 + plane : ["base", "patch", "coord", "index", "normal", "color", "value"].indexOf(role);
+  return plane > 0 ? 6 + plane : ["base", "patch", "coord", "index", "normal", "texCoord", "color", "value"].indexOf(role);
 }
 
 function claimsOf({ place, builder, needs }: Patch, priorityOf: Demand): PatchClaim[] {

@@ -49,6 +49,7 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
     largestTexture: 4096,
     runJob: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
     runHere: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
+    makePicture: () => Promise.reject(new Error("no pictures here")),
     storeBytes: (array, _, signal) => {
       signal.throwIfAborted();
       const stored = { byteLength: array.byteLength, close: () => { assert.ok(arrays.delete(stored), "closed twice"); } };

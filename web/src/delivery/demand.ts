@@ -23,12 +23,14 @@ export interface PlacedGeometry {
   readonly spheres: readonly Sphere[];
   /** Of each patch, in the scene: the distance between two values of the first byte. */
   readonly coarseSteps: readonly number[];
+  /** A texture is laid over it. */
+  readonly isTextured: boolean;
 }
 
-export function placeGeometry(geometry: GeometryDescription, sceneFromShape: Matrix, content: number): PlacedGeometry {
+export function placeGeometry(geometry: GeometryDescription, sceneFromShape: Matrix, content: number, isTextured = false): PlacedGeometry {
   const scale = scaleOf(sceneFromShape);
   return {
-    geometry, content,
+    geometry, content, isTextured,
     spheres: geometry.patches.map((patch) =>
       sphereOf(patch.box ?? boxAround(geometry.position, geometry.size), sceneFromShape)),
     coarseSteps: geometry.patches.map((patch) =>
@@ -56,9 +58,17 @@ export function demandFor(places: readonly PlacedGeometry[], viewing: Viewing): 
   };
 }
 
+/** How soon a texture is wanted that is laid over a geometry in these places; undefined where it is seen in none. */
+export function textureDemandFor(places: readonly PlacedGeometry[], { camera, weights }: Viewing): number | undefined {
+  const priorities = places.flatMap(({ spheres, content }) => spheres.map((sphere) =>
+    priorityOf(content, { type: "texture", plane: 0 }, camera ? viewOf(sphere, camera) : unknownView, weights)));
+  return priorities.length > 0 ? Math.max(...priorities) : undefined;
+}
+
 function demandAt(placed: PlacedGeometry, { camera, weights }: Viewing): Demand {
   const views = placed.spheres.map((sphere) => (camera ? viewOf(sphere, camera) : unknownView));
   return (place, part) => {
+    if (part.chunk.type === "texCoord" && !placed.isTextured) return undefined;
     const view = views[place] ?? unknownView;
     const patch = placed.geometry.patches[place];
     const coarseStep = placed.coarseSteps[place] ?? Infinity;

@@ -6,7 +6,7 @@ import { hasNormalsInCoords, isPair } from "../document/geometry.ts";
 import type { Chunk } from "../scheduler/priority.ts";
 
 /** What a file may hold of a patch. */
-export type PartRole = "index" | "coord" | "normal" | "color" | "value";
+export type PartRole = "index" | "coord" | "normal" | "texCoord" | "color" | "value";
 
 export interface Part {
   /** `patch`: all of it. `base`: what stands in for it, and for others. */
@@ -21,7 +21,6 @@ export interface Part {
   readonly storedBytes: number;
 }
 
-/** Texture coordinates are not asked for: nothing that the document can say yet uses them. */
 export function partsOf(geometry: GeometryDescription, patch: PatchDescription): Part[] {
   if (geometry.container === "compact") {
     return [...(geometry.base ? [basePart(geometry, patch, geometry.base)] : []), ...(patch.data ? [compactPart(patch, patch.data)] : [])];
@@ -40,6 +39,7 @@ export function partsOf(geometry: GeometryDescription, patch: PatchDescription):
     ...patch.coord.flatMap((plane, place) => part("coord", plane, vertices, place)),
     ...part("index", patch.index, corners),
     ...(hasNormalsInCoords(geometry, patch) ? [] : part("normal", patch.normal, vertices)),
+    ...part("texCoord", patch.texCoord, vertices),
     ...part("color", patch.color, vertices),
     ...patch.value.flatMap((plane, place) => part("value", plane, vertices, place)),
   ];
@@ -92,10 +92,11 @@ export function componentsOf(geometry: GeometryDescription, role: PartRole): 1 |
     case "index": return 1;
     case "coord": return 3;
     case "normal": return isPair(geometry.normalEncoding) ? 2 : 3;
+    case "texCoord": return 2;
     case "color": return geometry.colorComponents;
     case "value": return geometry.value?.components ?? 1;
   }
 }
 
 /** What a vertex (a corner, for the index) weighs in an image, roughly: only for the bar before servers tell sizes. */
-const sigBytes = { index: 0.7, coord: 2, normal: 2.2, color: 2, value: 0.7 } as const;
+const sigBytes = { index: 0.7, coord: 2, normal: 2.2, texCoord: 3, color: 2, value: 0.7 } as const;

@@ -3,8 +3,9 @@
 // aborted or its image is given back. Bytes go sooner: when all who hold a lease
 // have taken of them what they need.
 
-import type { DataImage } from "../decode/image.ts";
+import type { DataImage, DecodedImage } from "../decode/image.ts";
 import type { RunJob } from "../decode/jobs.ts";
+import type { SamplingDescription } from "../document/description.ts";
 import { Backlog } from "../scheduler/backlog.ts";
 import type { DownloadOptions } from "../scheduler/download.ts";
 import { downloadInSlot } from "../scheduler/download.ts";
@@ -14,13 +15,23 @@ import type { Transfer } from "./progress.ts";
 
 export type Content =
   | { readonly kind: "image" } & DataImage
+  | { readonly kind: "picture" } & Picture
   | { readonly kind: "bytes" | "payload"; readonly bytes: Uint8Array<ArrayBuffer> };
 
 /**
  * What a file is to become: a texture, its own bytes, or either, as the view decides; or the
  * payload of compact that it carries, unpacked in a worker, or here, since all wait for a base.
  */
-export type ContentKind = "texture" | "bytes" | "either" | "payload" | "base";
+export type ContentKind = "texture" | "bytes" | "either" | "payload" | "base" | "picture";
+
+/** An image that is looked at, in any format that the browser knows; where textures are read from. */
+export interface Picture {
+  readonly image: DecodedImage;
+  readonly hasAlpha: boolean;
+}
+
+/** Brings a picture to where it can be laid over a surface. Rejects with DecodeError, or with the signal's reason. */
+export type MakePicture = (bytes: Uint8Array<ArrayBuffer>, sampling: SamplingDescription, signal: AbortSignal) => Promise<Picture>;
 
 export interface ResourceRequest {
   readonly kind: ContentKind;
@@ -30,6 +41,8 @@ export interface ResourceRequest {
   readonly priority: number;
   /** What the file is likely to weigh, until the server says. */
   readonly expectedBytes: number;
+  /** Of a picture. */
+  readonly sampling?: SamplingDescription;
 }
 
 export interface Lease {
@@ -54,6 +67,7 @@ export interface DeliveryOptions {
   /** The same on the main thread, for what is small and must not wait for a worker; where it is not given, it waits. */
   readonly runHere?: RunJob;
   readonly storeBytes: StoreBytes;
+  readonly makePicture: MakePicture;
   readonly download: DownloadOptions;
   /** The absolute URL of one that the document writes. */
   readonly resolve: (url: string) => string;
@@ -92,7 +106,7 @@ export class ResourcePool {
 
   lease(request: ResourceRequest): Lease {
     const { scheduler, resolve } = this.#options;
-    const key = `${request.kind} ${resolve(request.url)}`;
+    const key = `${request.kind} ${resolve(request.url)} ${JSON.stringify(request.sampling)}`;
     const resource = this.#resources.get(key) ?? this.#start(key, request);
     const leased = { priority: request.priority, isFinished: false };
     resource.add(leased);
@@ -192,15 +206,15 @@ class Resource {
     this.#aborter.abort();
     this.#leave();
     this.#content?.then(
-      (content) => { if (content.kind === "image") content.image.close(); },
+      (content) => { if ("image" in content) content.image.close(); },
       () => undefined, // whoever held a lease has been told
     );
   }
 
-  async #fetch({ kind, url }: ResourceRequest): Promise<Content> {
+  async #fetch(request: ResourceRequest): Promise<Content> {
     const { transfer } = this;
     try {
-      const content = await this.#decode(kind, await this.#download(url));
+      const content = await this.#decode(request, await this.#download(request.url));
       transfer.state = "ready";
       return content;
     } catch (error) {
@@ -230,18 +244,19 @@ class Resource {
     });
   }
 
-  async #decode(kind: ContentKind, { bytes, leave }: { bytes: Uint8Array<ArrayBuffer>; leave: () => void }): Promise<Content> {
+  async #decode(request: ResourceRequest, { bytes, leave }: { bytes: Uint8Array<ArrayBuffer>; leave: () => void }): Promise<Content> {
     this.#leave = leave;
     try {
-      const content = await this.#contentOf(kind, bytes);
-      this.#hasBytes = content.kind !== "image";
+      const content = await this.#contentOf(request, bytes);
+      this.#hasBytes = !("image" in content);
       return content;
     } finally {
       if (!this.#hasBytes || this.isUnused) leave();
     }
   }
 
-  async #contentOf(kind: ContentKind, bytes: Uint8Array<ArrayBuffer>): Promise<Content> {
+  async #contentOf({ kind, sampling }: ResourceRequest, bytes: Uint8Array<ArrayBuffer>): Promise<Content> {
+    if (kind === "picture" && sampling !== undefined) return { kind, ...await this.#options.makePicture(bytes, sampling, this.#aborter.signal) };
     if (kind === "payload" || kind === "base") {
       const { runJob, runHere = runJob } = this.#options;
       const run = kind === "base" ? runHere : runJob;

@@ -29,6 +29,7 @@ function deliveriesOf() {
     readsTextures: () => Promise.resolve(true),
     largestTexture: 2048,
     runJob: () => Promise.reject(new Error("no jobs here")),
+    makePicture: () => Promise.reject(new Error("no pictures here")),
     storeBytes: ({ byteLength }) => Promise.resolve({ byteLength, close: () => undefined }),
     download: { fetch: (url, init) => fetchFile(url as string, init?.signal ?? new AbortController().signal), silenceMs: 1000, retries: 0, backoffMs: 1 },
     resolve: (url) => url,

@@ -35,6 +35,7 @@ class Parts {
   normal: StoredVertices | undefined;
   /** Of a grid that has no other normals. */
   slope: StoredVertices | undefined;
+  texCoord: StoredVertices | undefined;
   color: StoredVertices | undefined;
   /** Packed, until all are here. */
   valuePlanes: (ImageFile | undefined)[] = [];
@@ -80,6 +81,11 @@ class SigCpuBuilder implements StageBuilder {
         here.normal = await this.#holdings.storeVertices(normals, signal);
         return;
       }
+      case "texCoord": {
+        const texCoords = await this.#run("classicTexCoords", { file, ...this.#layout(header) }, signal);
+        here.texCoord = await this.#holdings.storeVertices(texCoords, signal);
+        return;
+      }
       case "color": {
         const colors = await this.#run("classicColors", { file, components: this.#geometry.colorComponents, ...this.#layout(header) }, signal);
         here.color = await this.#holdings.storeVertices(colors, signal);
@@ -100,8 +106,8 @@ class SigCpuBuilder implements StageBuilder {
   }
 
   clear(): void {
-    const { drawn, coord, normal, slope, color, value } = this.#here;
-    this.#holdings.retire(drawn?.index, coord, normal, slope, color, value);
+    const { drawn, coord, normal, slope, texCoord, color, value } = this.#here;
+    this.#holdings.retire(drawn?.index, coord, normal, slope, texCoord, color, value);
     this.#here = new Parts();
   }
 
@@ -111,7 +117,7 @@ class SigCpuBuilder implements StageBuilder {
 
   stage(): BufferStage | undefined {
     const here = this.#here;
-    const { coord, color, value } = here;
+    const { coord, texCoord, color, value } = here;
     if (coord === undefined) return undefined;
     const normal = here.normal ?? here.slope;
     const normalCode = here.normal ? normalCodeOf(this.#geometry) : { kind: "vector" } as const;
@@ -122,7 +128,7 @@ class SigCpuBuilder implements StageBuilder {
     const count = coord.bytes.byteLength / byteSizeOf(coord.type) / coord.stride;
     const points = { index: undefined, draws: [{ primitive: "points", first: 0, count } as const] };
     const { index, draws } = (name === "points" ? undefined : here.drawn) ?? points;
-    return { kind: "buffers", name, index, draws, coord, normal, normalCode, color, value };
+    return { kind: "buffers", name, index, draws, coord, normal, normalCode, color, texCoord, value };
   }
 
   /** A plane is of use only when all above it are here. */

@@ -33,7 +33,7 @@ export function sigBuilder(geometry: GeometryDescription, patch: PatchDescriptio
 function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
   let planes: (TexelRange | undefined)[] = [];
   let values: (TexelRange | undefined)[] = [];
-  let here: Partial<Record<"index" | "normal" | "color", TexelRange | undefined>> = {};
+  let here: Partial<Record<"index" | "normal" | "texCoord" | "color", TexelRange | undefined>> = {};
   const normalCode = normalCodeOf(geometry);
   const corners = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
 
@@ -41,6 +41,7 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
     switch (role) {
       case "coord": return patch.grid?.kind === "heightMap" ? 1 : 3;
       case "normal": return isPairCode(normalCode) ? 1 : 3;
+      case "texCoord": return 4;
       case "color": return geometry.colorComponents;
       case "value": return geometry.value?.components ?? 1;
       default: return 3;
@@ -106,6 +107,7 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
         normalCode,
         color: here.color,
         colorComponents: geometry.colorComponents,
+        texCoord: here.texCoord,
         value: value.length === 0 ? undefined : {
           planes: value, planeCount: patch.value.length, middleOfMissing: (256 ** (patch.value.length - value.length) - 1) / 2,
         },

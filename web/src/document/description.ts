@@ -129,6 +129,51 @@ export type MaterialDescription =
   | ({ readonly kind: "phong" } & Values<typeof nodeFields.Material>)
   | ({ readonly kind: "physical" } & Values<typeof nodeFields.PhysicalMaterial>)
   | ({ readonly kind: "unlit" } & Values<typeof nodeFields.UnlitMaterial>);
+
+/** What alpha means: AUTO blends where there is any. */
+export interface AlphaDescription {
+  readonly mode: "AUTO" | "OPAQUE" | "MASK" | "BLEND";
+  /** Of MASK: what has less is not seen. */
+  readonly cutoff: number;
+}
+
+export type WrapMode = "repeat" | "clamp" | "mirror";
+
+/** How a texture is read between and beyond its texels. */
+export interface SamplingDescription {
+  readonly wrapS: WrapMode;
+  readonly wrapT: WrapMode;
+  /** False: seen large, its texels are squares. */
+  readonly isSmooth: boolean;
+  readonly hasMipmaps: boolean;
+  readonly anisotropy: number;
+}
+
+/** 3 x 3, column by column. */
+export type TextureMatrix = readonly [number, number, number, number, number, number, number, number, number];
+
+export interface TextureDescription {
+  readonly url: string;
+  readonly sampling: SamplingDescription;
+  /** From a vertex's texture coordinates to the image's. */
+  readonly transform: TextureMatrix;
+}
+
+/** X3D's PointProperties, in CSS pixels. */
+export interface PointDescription {
+  readonly size: number;
+  readonly least: number;
+  readonly most: number;
+  /** At distance r points are 1 / (a + b r + c r^2) as large. */
+  readonly attenuation: Vec3;
+}
+
+export interface AppearanceDescription {
+  readonly material: MaterialDescription;
+  readonly alpha: AlphaDescription;
+  readonly texture: TextureDescription | undefined;
+  readonly points: PointDescription | undefined;
+}
 export type ViewpointDescription = Values<typeof nodeFields.Viewpoint>;
 export type NavigationDescription = Values<typeof nodeFields.NavigationInfo>;
 export type LightDescription =
@@ -152,7 +197,7 @@ export interface ShapeDescription {
   readonly isPickable: boolean;
   /** Tight, in the shape's own coordinates; undefined where neither the shape nor its geometry has one. */
   readonly box: Box3 | undefined;
-  readonly material: MaterialDescription;
+  readonly appearance: AppearanceDescription;
   /** In place of the material's diffuse colour. */
   readonly colorMap: ColorMapDescription | undefined;
   /** Undefined where the shape has no geometry that we can show; the same object for shapes that USE one. */

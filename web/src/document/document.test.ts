@@ -106,14 +106,14 @@ describe("a scene", () => {
       <Shape DEF="s"><Appearance DEF="a"><Material diffuseColor="1 0 0"/></Appearance>${patches}</Shape>
       <Shape USE="s"/><Shape><Appearance USE="a"/></Shape>`);
     const shapes = shapesOf(scene.root);
-    assert.deepEqual(shapes.map(({ material }) => material.kind === "phong" && material.diffuseColor), [[1, 0, 0], [1, 0, 0], [1, 0, 0]]);
+    assert.deepEqual(shapes.map(({ appearance: { material } }) => material.kind === "phong" && material.diffuseColor), [[1, 0, 0], [1, 0, 0], [1, 0, 0]]);
     assert.ok(shapes[0]?.geometry);
     assert.equal(shapes[1]?.geometry, shapes[0].geometry); // the same object: it is delivered once
     assert.equal(new Set(shapes.map((shape) => shape.element)).size, 3);
   });
 
   test("knows the three kinds of material, and lights with and without a place", () => {
-    const materialIn = (markup: string) => shapesOf(sceneOf(`<Shape><Appearance>${markup}</Appearance></Shape>`).root)[0]?.material;
+    const materialIn = (markup: string) => shapesOf(sceneOf(`<Shape><Appearance>${markup}</Appearance></Shape>`).root)[0]?.appearance.material;
     assert.equal(materialIn("")?.kind, "phong");
     assert.deepEqual(materialIn('<PhysicalMaterial baseColor="1 0.5 0" metallic="0"/>'), {
       kind: "physical", baseColor: [1, 0.5, 0], metallic: 0, roughness: 1, emissiveColor: [0, 0, 0], transparency: 0,

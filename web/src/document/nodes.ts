@@ -146,6 +146,27 @@ export const nodeFields = {
     emissiveColor: SFColor([1, 1, 1]),
     transparency: SFFloat(0),
   },
+  Appearance: { alphaMode: SFString("AUTO"), alphaCutoff: SFFloat(0.5) },
+  TextureProperties: {
+    boundaryModeS: SFString("REPEAT"),
+    boundaryModeT: SFString("REPEAT"),
+    magnificationFilter: SFString("DEFAULT"),
+    minificationFilter: SFString("DEFAULT"),
+    anisotropicDegree: SFFloat(1),
+  },
+  TextureTransform: {
+    translation: SFVec2f([0, 0]),
+    rotation: SFFloat(0),
+    scale: SFVec2f([1, 1]),
+    center: SFVec2f([0, 0]),
+  },
+  PointProperties: {
+    pointSizeScaleFactor: SFFloat(1),
+    /** Absent: no bound. X3D's defaults, 1 and 1, would let no factor have an effect. */
+    pointSizeMinValue: optional(SFFloat(1)),
+    pointSizeMaxValue: optional(SFFloat(1)),
+    attenuation: SFVec3f([1, 0, 0]),
+  },
   ImageGeometry: {
     ...geometryFields,
     numColorComponents: SFInt32(3),
@@ -188,7 +209,7 @@ export const nodeFields = {
   TextureCoordinate: { point: MFFloat([]) },
   Color: { color: MFFloat([]) },
   GeometryPatch: { ...boundedObject, ...patchFields, recordCount: SFInt32(0) },
-  ImageTexture: { containerField: SFString(""), url: MFString([]) },
+  ImageTexture: { containerField: SFString(""), url: MFString([]), repeatS: SFBool(true), repeatT: SFBool(true) },
 } as const;
 
 /** A node's values by field name. */

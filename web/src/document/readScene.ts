@@ -2,10 +2,11 @@
 // children, as a browser passes over unknown tags; what they hold still counts.
 
 import type {
-  Box3, GeometryDescription, GroupDescription, MaterialDescription, NavigationDescription, NodeDescription, SceneDescription, ShapeDescription,
+  Box3, GeometryDescription, GroupDescription, NavigationDescription, NodeDescription, SceneDescription, ShapeDescription,
   TransformDescription,
 } from "./description.ts";
 import { colorMapOf } from "./attributes.ts";
+import { readAppearance } from "./appearance.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
@@ -154,9 +155,9 @@ function readShape(element: SceneElement, node: SceneElement, reading: Reading, 
     if (read) priorityOfGeometry = readFields(part, { priority: nodeFields.ImageGeometry.priority }, []).priority;
     return read;
   });
-  const material = first(parts, reading, (part) =>
-    lowerNameOf(part) !== "appearance" ? undefined
-      : first(childrenOf(part), reading, (child) => readMaterial(child, reading.warnings)));
+  const nodesIn = (part: SceneElement) => childrenOf(part).flatMap((child) => withUse(child, reading, [], (used) => [used]));
+  const appearance = first(parts, reading, (part) =>
+    lowerNameOf(part) === "appearance" ? readAppearance(part, nodesIn, reading.warnings) : undefined);
   const geometry = plain && values.colorBy !== "" ? reading.geometries.withValues(plain, values.colorBy) : plain;
   return {
     kind: "shape", element, geometry,
@@ -165,22 +166,8 @@ function readShape(element: SceneElement, node: SceneElement, reading: Reading, 
     priority: inherited.priority * values.priority * priorityOfGeometry,
     isPickable: values.isPickable,
     box: boxOf(values) ?? (geometry && boxOfGeometry(geometry)),
-    material: material ?? { kind: "phong", ...readFields(withoutAttributes, nodeFields.Material, reading.warnings) },
+    appearance: appearance ?? readAppearance(undefined, nodesIn, reading.warnings),
   };
-}
-
-/** Undefined for what is no material. */
-function readMaterial(element: SceneElement, warnings: Warning[]): MaterialDescription | undefined {
-  switch (lowerNameOf(element)) {
-    case "material":
-      return { kind: "phong", ...readFields(element, nodeFields.Material, warnings) };
-    case "physicalmaterial":
-      return { kind: "physical", ...readFields(element, nodeFields.PhysicalMaterial, warnings) };
-    case "unlitmaterial":
-      return { kind: "unlit", ...readFields(element, nodeFields.UnlitMaterial, warnings) };
-    default:
-      return undefined;
-  }
 }
 
 const geometryReaders: Readonly<Record<string, typeof readImageGeometry>> = {

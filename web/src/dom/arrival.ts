@@ -3,8 +3,11 @@
 // nowhere else.
 
 import type { DataImage, DecodedImage } from "../decode/image.ts";
+import { decodePicture } from "../decode/picture.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
 import type { ArrayUse, ElementArray, StoredBytes } from "../decode/stage.ts";
+import type { Picture } from "../delivery/resources.ts";
+import type { SamplingDescription } from "../document/description.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { Steps } from "../scheduler/frameWork.ts";
 import { FrameWork } from "../scheduler/frameWork.ts";
@@ -42,6 +45,17 @@ export class Arrival {
     }
   }
 
+  /** The same of a picture, in any format that the browser knows; its first row is the lowest, as texture coordinates count. */
+  async makePicture(bytes: Uint8Array<ArrayBuffer>, sampling: SamplingDescription, signal: AbortSignal): Promise<Picture> {
+    const { bitmap, hasAlpha } = await decodePicture(bytes, this.#renderer.largestTexture);
+    try {
+      signal.throwIfAborted();
+      return { image: await this.#upload(bitmap, signal, sampling), hasAlpha };
+    } finally {
+      bitmap.close();
+    }
+  }
+
   /** Rejects with the signal's reason; nothing is then left behind. */
   async storeBytes(array: ElementArray, use: ArrayUse, signal: AbortSignal): Promise<StoredBytes> {
     const { bytes, steps } = this.#renderer.beginStoring(array, use);
@@ -49,8 +63,8 @@ export class Arrival {
     return bytes;
   }
 
-  async #upload(bitmap: ImageBitmap, signal: AbortSignal): Promise<DecodedImage> {
-    const { image, steps } = this.#renderer.beginUpload(bitmap);
+  async #upload(bitmap: ImageBitmap, signal: AbortSignal, sampling?: SamplingDescription): Promise<DecodedImage> {
+    const { image, steps } = this.#renderer.beginUpload(bitmap, sampling);
     await this.#finish(steps, image, signal);
     return image;
   }

@@ -2,8 +2,10 @@
 // needs, and how soon, when the scene or the view has changed.
 
 import type { PlacedGeometry, Viewing } from "../delivery/demand.ts";
-import { demandFor, placeGeometry } from "../delivery/demand.ts";
+import { demandFor, placeGeometry, textureDemandFor } from "../delivery/demand.ts";
 import type { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
+import type { TextureDeliveries } from "../delivery/textureDeliveries.ts";
+import { pictureKeyOf } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription, SceneDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
@@ -18,8 +20,9 @@ const steeringIntervalMs = 100;
 export class Steering {
   readonly #renderer: SceneRenderer;
   readonly #deliveries: SharedDeliveries;
+  readonly #textures: TextureDeliveries;
   readonly #onSteered: () => void;
-  #places = new Map<GeometryDescription, PlacedGeometry[]>();
+  #places: Places = { geometries: new Map(), pictures: new Map() };
   #weights: ChunkWeights = defaultChunkWeights;
   #view: View | undefined;
   #mostBytes = Infinity;
@@ -29,9 +32,10 @@ export class Steering {
   #isHeld = true;
 
   /** `onSteered` is called when files may have been added to those that are wanted, or taken from them. */
-  constructor(renderer: SceneRenderer, deliveries: SharedDeliveries, onSteered: () => void) {
+  constructor(renderer: SceneRenderer, deliveries: SharedDeliveries, textures: TextureDeliveries, onSteered: () => void) {
     this.#renderer = renderer;
     this.#deliveries = deliveries;
+    this.#textures = textures;
     this.#onSteered = onSteered;
   }
 
@@ -70,7 +74,8 @@ export class Steering {
     if (this.#isHeld) return;
     this.#view = this.#renderer.view;
     const viewing = viewingOf(this.#view, this.#weights);
-    this.#deliveries.demand((geometry) => demandFor(this.#places.get(geometry) ?? [], viewing), this.#mostBytes);
+    this.#deliveries.demand((geometry) => demandFor(this.#places.geometries.get(geometry) ?? [], viewing), this.#mostBytes - this.#textures.storedBytes);
+    this.#textures.demand((key) => textureDemandFor(this.#places.pictures.get(key) ?? [], viewing));
     this.#knownBytes = this.#deliveries.storedBytes;
     this.#onSteered();
   }
@@ -81,20 +86,32 @@ export class Steering {
   }
 }
 
-/** Where each geometry is seen: a shape stands in as many places as it is met with in the tree. */
-function placesIn(scene: SceneDescription, renderer: SceneRenderer): Map<GeometryDescription, PlacedGeometry[]> {
+interface Places {
+  readonly geometries: Map<GeometryDescription, PlacedGeometry[]>;
+  /** By their keys. */
+  readonly pictures: Map<string, PlacedGeometry[]>;
+}
+
+/** Where each geometry and picture is seen: a shape stands in as many places as it is met with in the tree. */
+function placesIn(scene: SceneDescription, renderer: SceneRenderer): Places {
   const met = new Map<SceneElement, number>();
-  const places = new Map<GeometryDescription, PlacedGeometry[]>();
-  for (const { element, geometry, visible, priority } of shapesOf(scene.root)) {
+  const places: Places = { geometries: new Map(), pictures: new Map() };
+  for (const { element, geometry, visible, priority, appearance: { texture } } of shapesOf(scene.root)) {
     const place = met.get(element) ?? 0;
     met.set(element, place + 1);
     const matrix = renderer.sceneFromShape(element, place);
     if (geometry === undefined || matrix === undefined || !visible) continue;
-    const known = places.get(geometry) ?? [];
-    known.push(placeGeometry(geometry, matrix, priority));
-    places.set(geometry, known);
+    const placed = placeGeometry(geometry, matrix, priority, texture !== undefined);
+    note(places.geometries, geometry, placed);
+    if (texture !== undefined) note(places.pictures, pictureKeyOf(texture), placed);
   }
   return places;
+}
+
+function note<Key>(places: Map<Key, PlacedGeometry[]>, key: Key, placed: PlacedGeometry): void {
+  const known = places.get(key) ?? [];
+  known.push(placed);
+  places.set(key, known);
 }
 
 function viewingOf(view: View | undefined, weights: ChunkWeights): Viewing {

@@ -8,7 +8,9 @@ import { progressOf } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resources.ts";
 import type { JoinedDelivery } from "../delivery/sharedDeliveries.ts";
 import { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
-import type { GeometryDescription, ShapeDescription } from "../document/description.ts";
+import type { JoinedTexture } from "../delivery/textureDeliveries.ts";
+import { pictureKeyOf, TextureDeliveries } from "../delivery/textureDeliveries.ts";
+import type { GeometryDescription, ShapeDescription, TextureDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { GeometryMemory } from "../document/geometryMemory.ts";
@@ -51,6 +53,8 @@ interface LoadedShape {
   readonly loading: Loading;
   readonly stages: (StageName | "none")[];
   delivery: JoinedDelivery | undefined;
+  /** What is laid over it. */
+  texture: { readonly key: string; readonly joined: JoinedTexture } | undefined;
 }
 
 export class Viewer {
@@ -61,6 +65,7 @@ export class Viewer {
   readonly #scheduler = new Scheduler(slotsFor(""));
   readonly #pool: ResourcePool;
   readonly #deliveries: SharedDeliveries;
+  readonly #textures: TextureDeliveries;
   readonly #workers = pageWorkers();
   readonly #geometries = new GeometryMemory();
   readonly #shapes = new Map<SceneElement, LoadedShape>();
@@ -94,6 +99,7 @@ export class Viewer {
       largestTexture: this.renderer.largestTexture,
       runJob: (name, input, signal) => this.#workers.run(name, input, signal),
       runHere: (name, input, signal) => this.#workers.runHere(name, input, signal),
+      makePicture: (bytes, sampling, signal) => arrival.makePicture(bytes, sampling, signal),
       storeBytes: (array, use, signal) => arrival.storeBytes(array, use, signal),
       download: defaultDownloadOptions,
       // What is no URL is left for the request to fail on.
@@ -101,7 +107,8 @@ export class Viewer {
       onTransfer: () => { this.#progressSoon(); },
     });
     this.#deliveries = new SharedDeliveries(this.#pool);
-    this.#steering = new Steering(this.renderer, this.#deliveries, () => { this.#onSteered(); });
+    this.#textures = new TextureDeliveries(this.#pool);
+    this.#steering = new Steering(this.renderer, this.#deliveries, this.#textures, () => { this.#onSteered(); });
     this.#observer = new MutationObserver((all) => {
       const records = all.filter(({ target }) => isOfScene(target, x3d));
       if (records.length === 0) return;
@@ -154,6 +161,7 @@ export class Viewer {
     this.#steering.stop();
     for (const shape of this.#shapes.values()) {
       shape.delivery?.cancel();
+      shape.texture?.joined.cancel();
       shape.loading.abandon();
     }
     this.#shapes.clear();
@@ -203,6 +211,7 @@ export class Viewer {
     }
     this.navigator.setScene({ ...this.renderer.setScene(scene), navigation: scene.navigation });
     for (const shape of begun) this.#begin(shape);
+    for (const { element, appearance } of described.values()) this.#followTexture(element as Element, appearance.texture);
     const visible = new Set(places.filter((shape) => shape.visible).map(({ element }) => element));
     for (const [element, shape] of this.#shapes) shape.isVisible = visible.has(element);
     const isLoading = Array.from(this.#shapes.values()).some(({ isVisible, loading }) => isVisible && !loading.isSettled);
@@ -210,7 +219,10 @@ export class Viewer {
     this.#steering.setScene(scene, (problem) => { this.#warn(this.#x3d, `chunkPriority: ${problem}`); });
     for (const { element, message } of scene.warnings) this.#warn(element, message);
     // Last, so that files that old and new shapes share are not fetched again.
-    for (const [, shape] of gone) shape.delivery?.cancel();
+    for (const [, shape] of gone) {
+      shape.delivery?.cancel();
+      shape.texture?.joined.cancel();
+    }
   }
 
   /** The geometry that this is, or is a part of, may have changed. */
@@ -229,7 +241,7 @@ export class Viewer {
   #begin({ element: described, geometry, visible }: ShapeDescription): void {
     const element = described as Element;
     const stages = geometry?.patches.map(() => "none" as const) ?? [];
-    const shape: LoadedShape = { geometry, stages, isVisible: visible, loading: new Loading(element), delivery: undefined };
+    const shape: LoadedShape = { geometry, stages, isVisible: visible, loading: new Loading(element), delivery: undefined, texture: undefined };
     this.#shapes.set(element, shape);
     if (geometry === undefined) {
       shape.loading.settle();
@@ -253,10 +265,25 @@ export class Viewer {
     });
   }
 
+  /** A picture in another's place: the renderer lets go of the old one before it is closed. */
+  #followTexture(element: Element, texture: TextureDescription | undefined): void {
+    const shape = this.#shapes.get(element);
+    const key = texture && pictureKeyOf(texture);
+    if (shape === undefined || shape.texture?.key === key || this.renderer.isContextLost) return;
+    this.renderer.setPicture(element, undefined);
+    const before = shape.texture;
+    shape.texture = texture && key !== undefined ? { key, joined: this.#textures.join(texture, {
+      onPicture: (picture) => { this.renderer.setPicture(element, picture); },
+      onError: (error) => { this.#fail(shape, element, error); },
+      onSettled: () => { this.#settle(shape); },
+    }) } : undefined;
+    before?.joined.cancel();
+  }
+
   /** Shapes from which this view needs nothing (more) are complete, even if they could be finer. */
   #onSteered(): void {
     for (const shape of this.#shapes.values()) {
-      if (shape.delivery?.isSettled === true) this.#settle(shape);
+      this.#settle(shape);
     }
     this.#progressSoon();
   }
@@ -270,8 +297,11 @@ export class Viewer {
   #clear(): void {
     for (const [element, shape] of this.#shapes) {
       this.renderer.clearShape(element);
+      this.renderer.setPicture(element, undefined);
       shape.delivery?.cancel();
       shape.delivery = undefined;
+      shape.texture?.joined.cancel();
+      shape.texture = undefined;
       shape.stages.fill("none");
     }
   }
@@ -281,13 +311,15 @@ export class Viewer {
     for (const [element, shape] of this.#shapes) {
       if (shape.geometry !== undefined) this.#deliver(shape, shape.geometry, element as Element);
     }
-    this.#steering.steer();
+    this.#readDocument(); // textures too
     this.renderer.requestFrame();
   }
 
-  #settle(shape: LoadedShape): void {
-    if (shape.loading.isSettled || !shape.isVisible || this.#trial === "due" || this.#trial === "running") return;
-    shape.loading.settle();
+  /** Where nothing of it is on its way. */
+  #settle({ loading, isVisible, delivery, texture }: LoadedShape): void {
+    if (loading.isSettled || !isVisible || this.#trial === "due" || this.#trial === "running") return;
+    if (delivery?.isSettled !== true || texture?.joined.isSettled === false) return;
+    loading.settle();
     this.renderer.requestFrame(); // events wait for a frame
   }
 
@@ -306,10 +338,10 @@ export class Viewer {
     clearTimeout(this.#progressTimer);
     this.#progressTimer = undefined;
     for (const shape of this.#shapes.values()) {
-      const { loading, delivery } = shape;
-      if (delivery && shape.isVisible && !loading.isEnded) loading.moveOn(progressOf(delivery.transfers, loading.progress));
+      const { loading, delivery, texture } = shape;
+      if (delivery && shape.isVisible && !loading.isEnded) loading.moveOn(progressOf([...delivery.transfers, ...texture?.joined.transfers ?? []], loading.progress));
     }
-    if (!this.#loading.isEnded) this.#loading.moveOn(progressOf(this.#deliveries.transfers(), this.#loading.progress));
+    if (!this.#loading.isEnded) this.#loading.moveOn(progressOf([...this.#deliveries.transfers(), ...this.#textures.transfers()], this.#loading.progress));
     this.#listener.onProgress(this.#loading.progress.totalProgress, this.#loading.stage);
   }
 

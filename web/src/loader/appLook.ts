@@ -12,6 +12,7 @@ import type { MaterialDescription } from "../document/description.ts";
 import { farnessDefine, shadeByFarnessIn } from "../render/farness.ts";
 import type { Look, MaterialRequest, Shading } from "../render/look.ts";
 import { colorByValueIn } from "../render/valueColors.ts";
+import { primitiveDefinesOf, shapePointsIn } from "../render/points.ts";
 import { readVerticesIn, srgbColorsDefine, vertexDefinesOf } from "../render/vertexChunk.ts";
 
 /**
@@ -41,9 +42,6 @@ export function standardMaterialOf(description: MaterialDescription, shading: Sh
   });
 }
 
-/** Points are that wide, in CSS pixels. */
-const pointSize = 2;
-
 /** What a scene is in the app that it is hung into. */
 export interface Surroundings {
   readonly castShadow: boolean;
@@ -55,7 +53,7 @@ export interface Surroundings {
 export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings): Look {
   const shadowMaterials = new WeakMap<Material, ShadowMaterials>();
   return {
-    makeMaterial(request, description) {
+    makeMaterial(request, { material: description }) {
       const material = makeMaterial(description, request.shading);
       material.side = request.solid ? FrontSide : DoubleSide;
       material.vertexColors = request.colors !== "none";
@@ -66,7 +64,7 @@ export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings)
       shadowMaterials.set(material, shadowMaterialsOf(material, request));
       return readVertices(material, request, request.shading === "smooth" && !("flatShading" in material && material.flatShading === true));
     },
-    applyMaterial: () => undefined, // the document is read once
+    applyAppearance: () => undefined, // the document is read once
     prepare(object, request, material) {
       object.castShadow = surroundings.castShadow;
       object.receiveShadow = surroundings.receiveShadow;
@@ -81,7 +79,7 @@ export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings)
 
   /** Points are as large in every app, and those that stand for a surface are darker the farther they are in the scene. */
   function measure(renderer: WebGLRenderer, camera: Camera, { shared }: MaterialRequest): void {
-    shared.pointSize.value = pointSize * renderer.getPixelRatio();
+    shared.pixelRatio.value = renderer.getPixelRatio();
     const { center, radius } = surroundings.sphere;
     const ahead = -center.applyMatrix4(camera.matrixWorldInverse).z;
     shared.depthRange.value.set(Math.max(ahead - radius, 0), ahead + radius);
@@ -111,7 +109,7 @@ function readVertices<Any extends Material>(material: Any, request: MaterialRequ
   const own = material.onBeforeCompile.bind(material);
   const ownKey = material.customProgramCacheKey();
   material.defines = {
-    ...material.defines, ...vertexDefinesOf(request, readsNormals), [srgbColorsDefine]: "",
+    ...material.defines, ...vertexDefinesOf(request, readsNormals), ...primitiveDefinesOf(request.primitive), [srgbColorsDefine]: "",
     ...(request.shading === "distance" && { [farnessDefine]: "" }),
     ...request.valueDefines,
   };
@@ -119,6 +117,7 @@ function readVertices<Any extends Material>(material: Any, request: MaterialRequ
     own(shader, renderer);
     Object.assign(shader.uniforms, request.uniforms, { depthRange: request.shared.depthRange });
     readVerticesIn(shader);
+    shapePointsIn(shader);
     shadeByFarnessIn(shader);
     colorByValueIn(shader);
   };

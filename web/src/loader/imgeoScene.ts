@@ -95,6 +95,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       readsTextures: () => Promise.resolve(!keepsVertices),
       largestTexture,
       runJob,
+      makePicture: () => Promise.reject(new Error("no pictures are asked for")),
       storeBytes: (array) => Promise.resolve(buffers.store(array)),
       download: { ...defaultDownloadOptions, fetch },
       resolve,
@@ -103,7 +104,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.#deliveries = new SharedDeliveries(pool);
     const { root, box } = this.#build({
       look: appLook(makeMaterial, surroundingsOf(this)), geometries: new GeometryPool(buffers), buffers, textures,
-      shared: { pointSize: { value: 1 }, depthRange: { value: new Vector2() } },
+      shared: { pixelRatio: { value: 1 }, depthRange: { value: new Vector2() } },
     });
     this.box = box;
     this.add(root);

@@ -2,17 +2,24 @@
 // three.js apps as those say (loader/appLook.ts). Where their vertices come from
 // is the same for all.
 
-import type { Material, Vector2 } from "three";
-import type { MaterialDescription } from "../document/description.ts";
+import type { Material, Texture, Vector2 } from "three";
+import type { AppearanceDescription } from "../document/description.ts";
+import type { DrawRange } from "../decode/stage.ts";
 import type { DrawnObject } from "./pickDraw.ts";
 import type { VertexForm, VertexUniforms } from "./vertexChunk.ts";
 
 export interface Look {
-  makeMaterial(request: MaterialRequest, description: MaterialDescription): Material;
+  makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, picture: ShownPicture | undefined): Material;
   /** Changes a material of this look in place. */
-  applyMaterial(material: Material, description: MaterialDescription, colors: VertexColors): void;
+  applyAppearance(material: Material, appearance: AppearanceDescription, colors: VertexColors, picture: ShownPicture | undefined): void;
   /** Gives an object what it needs besides its material. */
   prepare(object: DrawnObject, request: MaterialRequest, material: Material): void;
+}
+
+/** A texture that is laid over a surface. */
+export interface ShownPicture {
+  readonly texture: Texture;
+  readonly hasAlpha: boolean;
 }
 
 /** Unlit for points and lines, by distance for points that stand in for a surface, flat where there are no normals (yet). */
@@ -23,12 +30,14 @@ export type VertexColors = "none" | "rgb" | "rgba";
 
 /** Uniforms that everything in a scene shares. */
 export interface SceneUniforms {
-  readonly pointSize: { value: number };
+  /** Device pixels in a CSS pixel. */
+  readonly pixelRatio: { value: number };
   /** Distances along the view between which the scene lies. */
   readonly depthRange: { value: Vector2 };
 }
 
 export interface MaterialRequest extends VertexForm {
+  readonly primitive: DrawRange["primitive"];
   readonly shading: Shading;
   readonly colors: VertexColors;
   /** False: both sides are seen. */

@@ -10,12 +10,13 @@
 
 import type { Color, Material } from "three";
 import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshPhongMaterial } from "three";
-import type { MaterialDescription, Vec3 } from "../document/description.ts";
+import type { AppearanceDescription, MaterialDescription, Vec3 } from "../document/description.ts";
 import { farnessDefine, shadeByFarnessIn } from "./farness.ts";
-import type { Look, MaterialRequest, VertexColors } from "./look.ts";
+import type { Look, MaterialRequest, ShownPicture, VertexColors } from "./look.ts";
 import { displayedOf, physicalDefine, physicalLighting, physicalOutput } from "./physicalLighting.ts";
+import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
 import { colorByValueIn } from "./valueColors.ts";
-import { readVerticesIn, replaceEach, srgbColorsDefine, vertexDefinesOf } from "./vertexChunk.ts";
+import { readVerticesIn, replaceEach, srgbColorsDefine, toLinearChunk, vertexDefinesOf } from "./vertexChunk.ts";
 
 const x3dLighting = /* glsl */ `
 varying vec3 vViewPosition;
@@ -51,6 +52,17 @@ void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 norma
 #define RE_IndirectDiffuse ambientX3d
 `;
 
+// Pictures have the numbers of the screen.
+const mapChunk = /* glsl */ `
+#ifdef USE_MAP
+  vec4 texel = texture2D(map, vMapUv);
+  #ifdef ${srgbColorsDefine}
+    ${toLinearChunk("texel.rgb")}
+  #endif
+  diffuseColor *= texel;
+#endif
+`;
+
 const materialFromUniforms = "X3dMaterial material = X3dMaterial(diffuseColor.rgb, specular, shininess);";
 
 /** Uniforms of a lit material. */
@@ -64,45 +76,63 @@ type LitMaterial = MeshPhongMaterial & { userData: { lit?: LitUniforms } };
 type PatchMaterial = LitMaterial | MeshBasicMaterial;
 
 /** Pages look as X3D says. */
-export const x3dLook: Look = { makeMaterial, applyMaterial, prepare: () => undefined };
+export const x3dLook: Look = { makeMaterial, applyAppearance, prepare: () => undefined };
 
-function makeMaterial(request: MaterialRequest, description: MaterialDescription): PatchMaterial {
+function makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, picture: ShownPicture | undefined): PatchMaterial {
   const { shading, colors, solid, uniforms, shared } = request;
   const lit: LitUniforms = { ambientIntensity: { value: 0 }, metallic: { value: 1 }, roughness: { value: 1 } };
   const material: PatchMaterial = shading === "unlit" || shading === "distance" ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
   material.side = solid ? FrontSide : DoubleSide;
   material.vertexColors = colors !== "none";
-  material.defines = { ...vertexDefinesOf(request, shading === "smooth"), ...request.valueDefines, ...(shading === "distance" && { [farnessDefine]: "" }) };
+  material.defines = {
+    ...vertexDefinesOf(request, shading === "smooth"), ...primitiveDefinesOf(request.primitive),
+    ...request.valueDefines, ...(shading === "distance" && { [farnessDefine]: "" }),
+  };
   material.userData.lit = lit;
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms, { depthRange: shared.depthRange, ...lit });
     readVerticesIn(shader);
+    shapePointsIn(shader);
     shadeByFarnessIn(shader);
     colorByValueIn(shader);
     shader.fragmentShader = replaceEach(shader.fragmentShader, [
       ["#include <lights_phong_pars_fragment>", x3dLighting],
       ["#include <lights_phong_fragment>", materialFromUniforms],
       ["#include <colorspace_fragment>", physicalOutput],
+      ["#include <map_fragment>", mapChunk],
     ]);
   };
   // The text of `onBeforeCompile` is the same for all, so programs are shared as they should be.
   material.customProgramCacheKey = () => "imgeo";
-  applyMaterial(material, description, colors);
+  applyAppearance(material, appearance, colors, picture);
   return material;
 }
 
-/** Colours of vertices stand in for the diffuse colour; glTF multiplies them with its base colour. */
-function applyMaterial(material: Material, description: MaterialDescription, colors: VertexColors): void {
+/** Colours of vertices stand in for the diffuse colour; glTF multiplies them with its base colour. A texture is multiplied by what is there (X3D 4). */
+function applyAppearance(material: Material, appearance: AppearanceDescription, colors: VertexColors, picture: ShownPicture | undefined): void {
+  const description = appearance.material;
   const hasColors = colors !== "none";
   if (material instanceof MeshPhongMaterial) applyLit(material, description, hasColors);
   else if (material instanceof MeshBasicMaterial) setColor(material.color, hasColors ? [1, 1, 1] : unlitColorOf(description));
-  material.opacity = 1 - description.transparency;
-  const isTransparent = description.transparency > 0 || colors === "rgba";
-  if (material.transparent !== isTransparent) {
-    material.transparent = isTransparent;
-    material.needsUpdate = true;
-  }
+  applyAlpha(material, appearance, colors === "rgba" || picture?.hasAlpha === true);
+  const texture = picture?.texture ?? null;
+  const shown = material as PatchMaterial;
+  if ((shown.map === null) !== (texture === null)) material.needsUpdate = true;
+  shown.map = texture;
+  if (!(shown instanceof MeshPhongMaterial)) return;
+  const emissiveMap = description.kind === "unlit" ? texture : null;
+  if ((shown.emissiveMap === null) !== (emissiveMap === null)) material.needsUpdate = true;
+  shown.emissiveMap = emissiveMap;
+}
+
+function applyAlpha(material: Material, { alpha: { mode, cutoff }, material: { transparency } }: AppearanceDescription, hasAlpha: boolean): void {
+  const blends = mode === "BLEND" || (mode === "AUTO" && (transparency > 0 || hasAlpha));
+  material.opacity = mode === "OPAQUE" ? 1 : 1 - transparency;
+  material.alphaTest = mode === "MASK" ? cutoff : 0;
+  if (material.transparent === blends) return;
+  material.transparent = blends;
+  material.needsUpdate = true;
 }
 
 /** X3D shows unlit points in the emissive colour. Scans without one would be black on black. */

@@ -1,14 +1,14 @@
 // A stage -> three.js objects, one per draw.
 
 import type { BufferGeometry, Material, Texture } from "three";
-import { Box3, Matrix4, Sphere, Vector3 } from "three";
+import { Box3, Matrix3, Matrix4, Sphere, Vector3 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
 import type { DrawRange, Stage, TextureStage } from "../decode/stage.ts";
-import type { GeometryDescription, MaterialDescription, PatchDescription } from "../document/description.ts";
+import type { AppearanceDescription, GeometryDescription, PatchDescription, PointDescription } from "../document/description.ts";
 import { boxAround } from "../document/geometry.ts";
 import { largestStoredOf, middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
 import type { Buffers } from "./buffers.ts";
-import type { Look, MaterialRequest, SceneUniforms, Shading, VertexColors } from "./look.ts";
+import type { Look, MaterialRequest, SceneUniforms, Shading, ShownPicture, VertexColors } from "./look.ts";
 import type { DrawnObject } from "./pickDraw.ts";
 import { objectOf, PickDraw } from "./pickDraw.ts";
 import type { GeometryPool } from "./stageGeometries.ts";
@@ -27,7 +27,7 @@ export interface PlacedDraw {
 export interface PatchDraws {
   /** For one more place in the scene. */
   place(): PlacedDraw[];
-  applyMaterial(description: MaterialDescription): void;
+  applyAppearance(appearance: AppearanceDescription, picture: ShownPicture | undefined): void;
   /** Frees what this stage alone uses; its objects must have left the scene. */
   dispose(): void;
 }
@@ -46,7 +46,8 @@ export interface PatchSetting {
   readonly shared: SceneUniforms;
   readonly geometry: GeometryDescription;
   readonly patch: PatchDescription;
-  readonly material: MaterialDescription;
+  readonly appearance: AppearanceDescription;
+  readonly picture: ShownPicture | undefined;
   readonly colorMap: ColorMapUniforms;
 }
 
@@ -60,9 +61,11 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
   const form = vertexFormOf(stage);
   const valueDefines = valueDefinesOf(stage, geometry.value);
   const common: VertexUniforms = {
-    pointSize: shared.pointSize, latticeStep: { value: step }, ...setting.colorMap,
+    ...appearanceUniformsOf(geometry, setting.appearance), pixelRatio: shared.pixelRatio, latticeStep: { value: step }, ...setting.colorMap,
     ...valueUniformsOf(stage, geometry.value, (image) => setting.textures.textureOf(image)),
   };
+  // Without texture coordinates there is nowhere to lay it.
+  const pictureFor = (picture: ShownPicture | undefined) => (form.hasTexCoords ? picture : undefined);
   const base = stage.kind === "textures" ? imageUniformsOf(stage, setting.textures, common, largestStoredOf(geometry, patch)) : undefined;
   const draws = setting.geometries.acquire(stage).flatMap((shape, place) => {
     const range = stage.draws[place];
@@ -70,8 +73,8 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
     shape.boundingBox = box;
     shape.boundingSphere = sphere;
     const uniforms = base ? { ...base, firstNumber: { value: range.first }, isStrip: { value: range.primitive === "triangleStrip" } } : common;
-    const request: MaterialRequest = { ...form, shading: shadingOf(stage, range), colors, solid: geometry.solid, valueDefines, uniforms, shared };
-    const material = look.makeMaterial(request, setting.material);
+    const request: MaterialRequest = { ...form, primitive: range.primitive, shading: shadingOf(stage, range), colors, solid: geometry.solid, valueDefines, uniforms, shared };
+    const material = look.makeMaterial(request, setting.appearance, pictureFor(setting.picture));
     const pick = new PickDraw(stage, range, shape, setting.buffers, { side: material.side, hasNormals: hasNormals(stage), ...form, uniforms });
     return [{ range, shape, material, request, pick }];
   });
@@ -81,8 +84,12 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
       look.prepare(object, request, material);
       return { object, pick };
     }),
-    applyMaterial(description) {
-      for (const { material } of draws) look.applyMaterial(material, description, colors);
+    applyAppearance(appearance, picture) {
+      const { pointSizes, attenuation, textureTransform } = appearanceUniformsOf(geometry, appearance);
+      common.pointSizes.value = pointSizes.value;
+      common.attenuation.value = attenuation.value;
+      common.textureTransform.value.copy(textureTransform.value);
+      for (const { material } of draws) look.applyAppearance(material, appearance, colors, pictureFor(picture));
     },
     dispose() {
       for (const { material, pick } of draws) {
@@ -94,10 +101,26 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
   };
 }
 
+/** Of points that no PointProperties tell about, in CSS pixels. */
+export const usualPointSize = 2;
+const usualPoints: PointDescription = { size: usualPointSize, least: 0, most: Infinity, attenuation: [1, 0, 0] };
+const largestPoint = 1e6;
+
+function appearanceUniformsOf({ texCoordMin, texCoordSize }: GeometryDescription, { points = usualPoints, texture }: AppearanceDescription):
+  Pick<VertexUniforms, "pointSizes" | "attenuation" | "texCoordFrame" | "textureTransform"> {
+  return {
+    pointSizes: { value: [points.size, points.least, Math.min(points.most, largestPoint)] },
+    attenuation: { value: points.attenuation },
+    texCoordFrame: { value: [...texCoordMin, ...texCoordSize] },
+    textureTransform: { value: new Matrix3().fromArray(texture?.transform ?? [1, 0, 0, 0, 1, 0, 0, 0, 1]) },
+  };
+}
+
 function vertexFormOf(stage: Stage): VertexForm {
   const areImages = stage.kind === "textures";
   return {
     areImages,
+    hasTexCoords: stage.texCoord !== undefined,
     gridDefines: areImages ? gridDefinesOf(stage.grid, stage.normal !== undefined) : {},
     normalDefines: normalDefinesOf(stage.normalCode, !areImages && stage.normal?.components === 1),
   };
@@ -141,7 +164,7 @@ function storedBoundsOf(geometry: GeometryDescription, patch: PatchDescription):
 }
 
 function imageUniformsOf(stage: TextureStage, textures: Textures, common: VertexUniforms, largestStored: number): ImageVertexUniforms {
-  const { index, coord, normal, color } = stage;
+  const { index, coord, normal, color, texCoord } = stage;
   const texture = (range: { image: DecodedImage } | undefined) => ({ value: range ? textures.textureOf(range.image) : null });
   const first = (range: { first: number } | undefined) => range?.first ?? 0;
   return {
@@ -153,7 +176,8 @@ function imageUniformsOf(stage: TextureStage, textures: Textures, common: Vertex
     coordImage3: texture(coord[3]),
     normalImage: texture(normal),
     colorImage: texture(color),
-    firstTexels: { value: [first(index), first(normal), first(color)] },
+    texCoordImage: texture(texCoord),
+    firstTexels: { value: [first(index), first(normal), first(color), first(texCoord)] },
     coordFirstTexels: { value: [first(coord[0]), first(coord[1]), first(coord[2]), first(coord[3])] },
     coordPlanes: { value: stage.coordPlanes },
     middleOfMissing: { value: stage.middleOfMissing },

@@ -9,6 +9,7 @@
 import type { Side } from "three";
 import { GLSL3, ShaderMaterial } from "three";
 import type { DrawRange } from "../decode/stage.ts";
+import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
 import type { VertexForm, VertexUniforms } from "./vertexChunk.ts";
 import { imageVerticesDefine, readVerticesIn, vertexDefinesOf } from "./vertexChunk.ts";
 
@@ -111,6 +112,7 @@ export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
   const isLine = primitive === "lines" || primitive === "lineStrip";
   const shader = { vertexShader, fragmentShader };
   readVerticesIn(shader);
+  shapePointsIn(shader);
   return new ShaderMaterial({
     ...shader, side,
     glslVersion: GLSL3,
@@ -118,6 +120,7 @@ export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
       PRIMITIVE_CORNERS: primitive === "points" ? 1 : isLine ? 2 : 3,
       ...(primitive === "lineStrip" && { IS_LINE_STRIP: "" }),
       ...vertexDefinesOf(request, hasNormals),
+      ...primitiveDefinesOf(primitive),
     },
     uniforms: { ...uniforms, drawNumber: { value: 0 }, hasNormals: { value: hasNormals } },
   }) as PickMaterial;

@@ -5,8 +5,9 @@ import {
   Box3, Color, DirectionalLight, Group, LinearSRGBColorSpace, LinearToneMapping, Matrix4, NoToneMapping, PerspectiveCamera, Scene, Vector2,
   WebGLRenderer,
 } from "three";
+import type { DecodedImage } from "../decode/image.ts";
 import type { ArrayUse, ElementArray, Stage } from "../decode/stage.ts";
-import type { GeometryDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
+import type { GeometryDescription, SamplingDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { PlacedViewpoint, Pose } from "../navigation/camera.ts";
@@ -15,6 +16,7 @@ import type { BufferUpload } from "./buffers.ts";
 import { BufferStore } from "./buffers.ts";
 import type { SceneUniforms } from "./look.ts";
 import { setColor, x3dLook } from "./materials.ts";
+import { usualPointSize } from "./patchDraws.ts";
 import type { Hit, PickCandidate, Place } from "./picking.ts";
 import { Picker } from "./picking.ts";
 import { Pace } from "./pace.ts";
@@ -69,7 +71,11 @@ export interface BuiltScene {
   readonly viewpoints: readonly PlacedViewpoint[];
 }
 
-const pointSizeInCssPixels = 2;
+/** An image on the GPU that is looked at. */
+export interface Picture {
+  readonly image: DecodedImage;
+  readonly hasAlpha: boolean;
+}
 
 /** The canvas' WebGL2 context; null where the browser has none to give. */
 export function contextOf(canvas: HTMLCanvasElement): WebGL2RenderingContext | null {
@@ -83,7 +89,7 @@ export class SceneRenderer {
   /** As it stood for the last frame. */
   readonly #drawnCamera = new PerspectiveCamera();
   readonly #headlight = new DirectionalLight();
-  readonly #shared: SceneUniforms = { pointSize: { value: pointSizeInCssPixels }, depthRange: { value: new Vector2() } };
+  readonly #shared: SceneUniforms = { pixelRatio: { value: 1 }, depthRange: { value: new Vector2() } };
   readonly #textures = new TextureStore();
   readonly #buffers: BufferStore;
   readonly #setting: ShapeSetting;
@@ -213,8 +219,8 @@ export class SceneRenderer {
   }
 
   /** Begins to bring an image to the GPU; stages may use it when all steps have been taken. */
-  beginUpload(bitmap: ImageBitmap): TextureUpload {
-    return this.#textures.begin(bitmap, this.#renderer);
+  beginUpload(bitmap: ImageBitmap, sampling?: SamplingDescription): TextureUpload {
+    return this.#textures.begin(bitmap, this.#renderer, sampling);
   }
 
   /** The same of an array. */
@@ -228,6 +234,13 @@ export class SceneRenderer {
     this.#pace.ask(() => { this.requestFrame(); });
   }
 
+  /** Lays a picture over a shape; undefined: none. */
+  setPicture(element: SceneElement, picture: Picture | undefined): void {
+    const shown = picture && { texture: this.#textures.textureOf(picture.image), hasAlpha: picture.hasAlpha };
+    this.#shapes.get(element)?.setPicture(shown);
+    this.requestFrame();
+  }
+
   /** Takes away what a shape shows, for when its geometry has become another. */
   clearShape(element: SceneElement): void {
     this.#shapes.get(element)?.clear();
@@ -238,7 +251,7 @@ export class SceneRenderer {
   setSize(width: number, height: number, pixelRatio: number): void {
     this.#size = { width, height };
     if (!this.#hasArea) return;
-    this.#shared.pointSize.value = pointSizeInCssPixels * pixelRatio;
+    this.#shared.pixelRatio.value = pixelRatio;
     this.#renderer.setSize(width, height, false);
   }
 
@@ -311,7 +324,8 @@ export class SceneRenderer {
 
   /** How far, in device pixels, a vertex may be from what it covers. */
   get #pickSlack(): number {
-    return 1 + Math.ceil(this.#shared.pointSize.value / 2);
+    const largest = Array.from(this.#shapes.values()).reduce((most, { largestPoint }) => Math.max(most, largestPoint), usualPointSize);
+    return 1 + Math.ceil((largest * this.#shared.pixelRatio.value) / 2);
   }
 
   *#pickCandidates(): Generator<PickCandidate> {

@@ -3,13 +3,17 @@
 
 import { Group } from "three";
 import type { Stage } from "../decode/stage.ts";
-import type { GeometryDescription, MaterialDescription, PatchDescription, ShapeDescription } from "../document/description.ts";
+import type { AppearanceDescription, GeometryDescription, PatchDescription, ShapeDescription } from "../document/description.ts";
+import type { ShownPicture } from "./look.ts";
 import type { PatchDraws, PatchSetting, PlacedDraw } from "./patchDraws.ts";
 import { drawStage } from "./patchDraws.ts";
 import { makeColorMapUniforms, setColorMap } from "./valueColors.ts";
 
 /** What all shapes of a scene share. */
 export type ShapeSetting = Pick<PatchSetting, "look" | "geometries" | "buffers" | "textures" | "shared">;
+
+/** In CSS pixels; GPUs draw none that are larger. */
+const largestPoint = 1024;
 
 interface ShownPatch {
   readonly draws: PatchDraws;
@@ -22,12 +26,13 @@ export class ShapeObject {
   readonly #groups: Group[] = [];
   readonly #patches = new Map<number, ShownPatch>();
   readonly #colorMap = makeColorMapUniforms();
-  #material: MaterialDescription;
+  #appearance: AppearanceDescription;
+  #picture: ShownPicture | undefined;
   #isPickable: boolean;
 
   constructor(setting: ShapeSetting, shape: ShapeDescription) {
     this.#setting = setting;
-    this.#material = shape.material;
+    this.#appearance = shape.appearance;
     this.#isPickable = shape.isPickable;
     setColorMap(this.#colorMap, shape.colorMap);
   }
@@ -61,11 +66,29 @@ export class ShapeObject {
   }
 
   /** Takes over what a changed document says, the geometry apart. */
-  setShape({ material, isPickable, colorMap }: ShapeDescription): void {
+  setShape({ appearance, isPickable, colorMap }: ShapeDescription): void {
     setColorMap(this.#colorMap, colorMap);
     this.#isPickable = isPickable;
-    this.#material = material;
-    for (const { draws } of this.#patches.values()) draws.applyMaterial(material);
+    this.#appearance = appearance;
+    this.#applyAppearance();
+  }
+
+  /** What is laid over its surface, where it has texture coordinates; undefined: nothing. */
+  setPicture(picture: ShownPicture | undefined): void {
+    this.#picture = picture;
+    this.#applyAppearance();
+  }
+
+  /** What its points may be wide, in CSS pixels. */
+  get largestPoint(): number {
+    const { points } = this.#appearance;
+    if (points === undefined) return 0;
+    const [a, b, c] = points.attenuation;
+    return b === 0 && c === 0 ? Math.min(points.size / a, points.most) : Math.min(points.most, largestPoint);
+  }
+
+  #applyAppearance(): void {
+    for (const { draws } of this.#patches.values()) draws.applyAppearance(this.#appearance, this.#picture);
   }
 
   /** The new stage takes the old one's place as a whole; textures that both use stay where they are. Undefined: nothing does. */
@@ -79,7 +102,8 @@ export class ShapeObject {
   }
 
   #show(geometry: GeometryDescription, patch: PatchDescription, place: number, stage: Stage): void {
-    const shown = { draws: drawStage(stage, { ...this.#setting, geometry, patch, material: this.#material, colorMap: this.#colorMap }), placed: [] };
+    const draws = drawStage(stage, { ...this.#setting, geometry, patch, appearance: this.#appearance, colorMap: this.#colorMap, picture: this.#picture });
+    const shown = { draws, placed: [] };
     for (const group of this.#groups) hang(shown, group);
     this.#patches.set(place, shown);
   }

@@ -57,7 +57,7 @@ function emptyGeometryOf({ primitive, count }: DrawRange): BufferGeometry {
   return geometry;
 }
 
-function attributesOf({ coord, normal, normalCode, color, value }: BufferStage, buffers: Buffers): Readonly<Record<string, InterleavedBufferAttribute>> {
+function attributesOf({ coord, normal, normalCode, color, texCoord, value }: BufferStage, buffers: Buffers): Readonly<Record<string, InterleavedBufferAttribute>> {
   const attributeOf = ({ bytes, type, components, stride, offset }: StoredVertices, isSpread: boolean) =>
     new InterleavedBufferAttribute(buffers.recordsOf(bytes, type, stride), components, offset, isSpread && type !== "Float32");
   return {
@@ -65,5 +65,6 @@ function attributesOf({ coord, normal, normalCode, color, value }: BufferStage, 
     ...(normal && { normal: attributeOf(normal, !isPairCode(normalCode)) }),
     ...(color && { color: attributeOf(color, true) }),
     ...(value && { vertexValue: attributeOf(value, false) }),
+    ...(texCoord && { uv: attributeOf(texCoord, true) }),
   };
 }

@@ -3,10 +3,12 @@
 // of an image is kept here when it is on the GPU.
 
 import {
-  Box2, ClampToEdgeWrapping, DataTexture, NearestFilter, NoColorSpace, RGBAFormat, Texture, UnsignedByteType, Vector2,
+  Box2, ClampToEdgeWrapping, DataTexture, LinearFilter, LinearMipmapLinearFilter, MirroredRepeatWrapping, NearestFilter, NoColorSpace,
+  RepeatWrapping, RGBAFormat, Texture, UnsignedByteType, Vector2,
   type WebGLRenderer,
 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
+import type { SamplingDescription } from "../document/description.ts";
 
 /** An image on its way to the GPU. */
 export interface TextureUpload {
@@ -36,11 +38,12 @@ export class TextureStore {
     return texture;
   }
 
-  /** The bitmap may be closed after the last step. */
-  begin(bitmap: ImageBitmap, renderer: WebGLRenderer): TextureUpload {
+  /** The bitmap may be closed after the last step. Without `sampling` texels are data, read one by one. */
+  begin(bitmap: ImageBitmap, renderer: WebGLRenderer, sampling?: SamplingDescription): TextureUpload {
     const { width, height } = bitmap;
     const texture = emptyTexture(width, height);
-    const bytes = width * height * bytesPerTexel;
+    if (sampling !== undefined) sampleAs(texture, sampling);
+    const bytes = width * height * bytesPerTexel * (texture.generateMipmaps ? 4 / 3 : 1);
     this.#bytes += bytes;
     const image = {
       width, height,
@@ -55,16 +58,19 @@ export class TextureStore {
   }
 }
 
+/** Mipmaps are made with the last strip. */
 function* strips(from: Texture, to: Texture, width: number, height: number, renderer: WebGLRenderer): Generator<number, void, void> {
+  const { generateMipmaps } = to;
+  renderer.initTexture(to);
   const rows = Math.max(1, Math.floor(bytesPerStep / (width * bytesPerTexel)));
   for (let first = 0; first < height; first += rows) {
     const strip = new Box2(new Vector2(0, first), new Vector2(width, Math.min(first + rows, height)));
+    to.generateMipmaps = generateMipmaps && first + rows >= height;
     renderer.copyTextureToTexture(from, to, strip, strip.min);
     yield width * (strip.max.y - strip.min.y) * bytesPerTexel;
   }
 }
 
-/** Its memory is allocated with the first strip. */
 function emptyTexture(width: number, height: number): Texture {
   const texture = new DataTexture(null, width, height, RGBAFormat, UnsignedByteType);
   texture.source.dataReady = false;
@@ -76,4 +82,16 @@ function emptyTexture(width: number, height: number): Texture {
   texture.generateMipmaps = false;
   texture.needsUpdate = true;
   return texture;
+}
+
+const wrappings = { repeat: RepeatWrapping, clamp: ClampToEdgeWrapping, mirror: MirroredRepeatWrapping } as const;
+
+/** The colours of pictures are shown by their numbers, as those of materials are (materials.ts). */
+function sampleAs(texture: Texture, { wrapS, wrapT, isSmooth, hasMipmaps, anisotropy }: SamplingDescription): void {
+  texture.wrapS = wrappings[wrapS];
+  texture.wrapT = wrappings[wrapT];
+  texture.magFilter = isSmooth ? LinearFilter : NearestFilter;
+  texture.minFilter = hasMipmaps ? LinearMipmapLinearFilter : isSmooth ? LinearFilter : NearestFilter;
+  texture.generateMipmaps = hasMipmaps;
+  texture.anisotropy = anisotropy;
 }

@@ -8,14 +8,23 @@
 // the lattice. It is the same for all patches of a mesh, on purpose: vertices
 // that patches share then go through the same arithmetic, and no crack opens.
 
-import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "three";
+import type { IUniform, Matrix3, Texture, WebGLProgramParametersWithUniforms } from "three";
 import type { Grid, NormalCode } from "../decode/stage.ts";
 import { isPairCode } from "../decode/stage.ts";
 import type { Vec3 } from "../document/description.ts";
 
 /** What both bodies read, as uniforms. */
 export interface VertexUniforms extends Record<string, IUniform> {
-  pointSize: IUniform<number>;
+  /** Device pixels in a CSS pixel. */
+  pixelRatio: IUniform<number>;
+  /** In CSS pixels: the size of a point, and its bounds. */
+  pointSizes: IUniform<Vec3>;
+  /** At distance r points are 1 / (a + b r + c r^2) as large. */
+  attenuation: IUniform<Vec3>;
+  /** Where stored texture coordinates 0 and 1 lie: origin and extent. */
+  texCoordFrame: IUniform<[number, number, number, number]>;
+  /** From there to the picture. */
+  textureTransform: IUniform<Matrix3>;
   /** Along each axis, in the shape's coordinates. */
   latticeStep: IUniform<Vec3>;
 }
@@ -29,8 +38,9 @@ export interface ImageVertexUniforms extends VertexUniforms {
   coordImage3: IUniform<Texture | null>;
   normalImage: IUniform<Texture | null>;
   colorImage: IUniform<Texture | null>;
-  /** First texels: index, normal, colour. */
-  firstTexels: IUniform<[number, number, number]>;
+  texCoordImage: IUniform<Texture | null>;
+  /** First texels: index, normal, colour, texture coordinates. */
+  firstTexels: IUniform<[number, number, number, number]>;
   coordFirstTexels: IUniform<[number, number, number, number]>;
   coordPlanes: IUniform<number>;
   middleOfMissing: IUniform<number>;
@@ -49,7 +59,7 @@ export interface ImageVertexUniforms extends VertexUniforms {
 }
 
 /** Samplers that the image body and values declare, and so texture units that a vertex shader must have. */
-export const vertexSamplers = 10;
+export const vertexSamplers = 11;
 
 /** Defined in materials that read images, and in those that read normals from them. */
 export const imageVerticesDefine = "IMAGE_VERTICES";
@@ -59,6 +69,7 @@ const imageNormalsDefine = "IMAGE_NORMALS";
 export interface VertexForm {
   /** They come from images, not from buffers. */
   readonly areImages: boolean;
+  readonly hasTexCoords: boolean;
   /** As gridDefinesOf says it. */
   readonly gridDefines: Readonly<Record<string, string>>;
   /** As normalDefinesOf says it. */
@@ -66,10 +77,11 @@ export interface VertexForm {
 }
 
 /** What a material must define to read vertices of this form. */
-export function vertexDefinesOf({ areImages, gridDefines, normalDefines }: VertexForm, readsNormals: boolean): Record<string, string> {
+export function vertexDefinesOf({ areImages, hasTexCoords, gridDefines, normalDefines }: VertexForm, readsNormals: boolean): Record<string, string> {
   return {
     ...(areImages && { [imageVerticesDefine]: "" }),
     ...(areImages && readsNormals && { [imageNormalsDefine]: "" }),
+    ...(hasTexCoords && { HAS_TEX_COORDS: "" }),
     ...gridDefines,
     ...(readsNormals && normalDefines),
   };
@@ -103,14 +115,24 @@ const ownNormalsChunk = /* glsl */ `
 `;
 
 const readVertexChunk = /* glsl */ `
-uniform float pointSize;
+uniform float pixelRatio;
+uniform vec3 pointSizes;
+uniform vec3 attenuation;
 uniform vec3 latticeStep;
+uniform vec4 texCoordFrame;
+uniform mat3 textureTransform;
 
 struct Vertex {
   vec3 position;
   vec3 normal;
   vec4 color;
+  vec2 texCoord;
 };
+
+float pointSizeAt(float distance) {
+  float size = pointSizes.x / max(dot(attenuation, vec3(1.0, distance, distance * distance)), 1e-6);
+  return clamp(size, pointSizes.y, pointSizes.z) * pixelRatio;
+}
 
 #if defined(OCTAHEDRAL_NORMALS)
 
@@ -133,8 +155,8 @@ vec3 unitOf(vec2 pair) {
 
 #ifdef ${imageVerticesDefine}
 
-uniform sampler2D indexImage, coordImage0, coordImage1, coordImage2, coordImage3, normalImage, colorImage;
-uniform ivec3 firstTexels;
+uniform sampler2D indexImage, coordImage0, coordImage1, coordImage2, coordImage3, normalImage, colorImage, texCoordImage;
+uniform ivec4 firstTexels;
 uniform ivec4 coordFirstTexels;
 uniform int coordPlanes;
 uniform float middleOfMissing;
@@ -260,11 +282,21 @@ vec3 readNormal(int record) {
   #endif
 }
 
+// Words: red and blue are the bytes of u, green and alpha those of v.
+vec2 readTexCoord(int record) {
+  #ifdef HAS_TEX_COORDS
+    vec4 bytes = texelOf(texCoordImage, firstTexels.w, recordTexel(record)) * 255.0;
+    return (bytes.rg * 256.0 + bytes.ba) / 65535.0;
+  #else
+    return vec2(0.0);
+  #endif
+}
+
 Vertex readVertex() {
   int record = recordNumber(gl_VertexID);
   vec4 color = texelOf(colorImage, firstTexels.z, recordTexel(record));
   if (!colorHasAlpha) color.a = 1.0;
-  return Vertex(storedPosition(record), readNormal(record), color);
+  return Vertex(storedPosition(record), readNormal(record), color, readTexCoord(record));
 }
 
 #else
@@ -290,7 +322,11 @@ Vertex readVertex() {
   #else
     vec4 vertexColor = vec4(1.0);
   #endif
-  return Vertex(position, readNormal(), vertexColor);
+  #ifdef HAS_TEX_COORDS
+    return Vertex(position, readNormal(), vertexColor, uv);
+  #else
+    return Vertex(position, readNormal(), vertexColor, vec2(0.0));
+  #endif
 }
 
 #endif
@@ -313,12 +349,26 @@ const colorChunk = /* glsl */ `
 #endif
 `;
 
+/** Where a point has its size. */
+export const pointSizeChunk = "gl_PointSize = pointSizeAt(length(mvPosition.xyz));";
+
+const texCoordChunk = /* glsl */ `
+#ifdef USE_MAP
+  vMapUv = (textureTransform * vec3(texCoordFrame.xy + texCoordFrame.zw * vertex.texCoord, 1.0)).xy;
+#endif
+#ifdef USE_EMISSIVEMAP
+  vEmissiveMapUv = (textureTransform * vec3(texCoordFrame.xy + texCoordFrame.zw * vertex.texCoord, 1.0)).xy;
+#endif
+`;
+
 /** Makes a built-in material's shaders read their vertices here, for use in `onBeforeCompile`. */
 export function readVerticesIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
   shader.fragmentShader = ownNormalsChunk + shader.fragmentShader;
   shader.vertexShader = ownNormalsChunk + replaceEach(shader.vertexShader, [
     ["#include <common>", `#include <common>\n${readVertexChunk}`],
-    ["void main() {", "void main() {\n  Vertex vertex = readVertex();\n  gl_PointSize = pointSize;"],
+    ["void main() {", "void main() {\n  Vertex vertex = readVertex();"],
+    ["#include <uv_vertex>", texCoordChunk],
+    ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}`],
     ["#include <color_vertex>", colorChunk],
     // Normals are the shape's own; the normal matrix takes the lattice's steps out of them again.
     ["#include <beginnormal_vertex>", "vec3 objectNormal = vertex.normal * latticeStep;"],

@@ -1,0 +1,225 @@
+// What an Appearance says besides the material: textures, laid over surfaces of
+// every container, and points with a size. Pixels are compared with the texels and
+// sizes that the document names: a quad that faces the headlight shows the
+// numbers of its picture.
+
+import assert from "node:assert/strict";
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { describe, test } from "node:test";
+import { savePicture } from "./compare.ts";
+import { pictureSize, until, withPage, type View } from "./harness.ts";
+import { outputDirectory } from "./paths.ts";
+import { encodePng, type Picture } from "./png.ts";
+import { sceneOf, shapeIn } from "./scenes.ts";
+import { gate } from "./server.ts";
+import { siteOf } from "./sites.ts";
+
+/** A text PLY. */
+function plyOf(name: string, properties: string, rows: string[], faces: string[] = []): string {
+  mkdirSync(outputDirectory, { recursive: true });
+  const path = join(outputDirectory, `${name}.ply`);
+  const listed = properties.split(" ").map((property) => `property ${property.replace(":", " ")}\n`).join("");
+  const ends = faces.length > 0 ? `element face ${faces.length}\nproperty list uchar int vertex_indices\n` : "";
+  writeFileSync(path, `ply\nformat ascii 1.0\nelement vertex ${rows.length}\n${listed}${ends}end_header\n${[...rows, ...faces].join("\n")}\n`);
+  return path;
+}
+
+/** From -1 to 1, with texture coordinates from 0 to `most`. */
+const quad = (most: number): string => plyOf(`quad${most}`, "float:x float:y float:z float:nx float:ny float:nz float:s float:t",
+  [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => `${x} ${y} 0 0 0 1 ${((x! + 1) / 2) * most} ${((y! + 1) / 2) * most}`), ["3 0 1 2", "3 0 2 3"]);
+
+const [columns, rows] = [4, 2];
+/** By column and row from the top. */
+const texel = (column: number, row: number): [number, number, number] => [40 + 60 * column, 200 - 90 * row, 30 + 17 * column + 100 * row];
+const picture: Picture = {
+  width: columns, height: rows, channels: 3,
+  data: Uint8Array.from(Array.from({ length: rows }, (_, row) => Array.from({ length: columns }, (_, column) => texel(column, row))).flat(2)),
+};
+
+/** The texel that texture coordinates name, the first row being the highest. */
+const texelAt = (s: number, t: number): [number, number, number] => texel(Math.min(columns - 1, Math.floor(s * columns)), rows - 1 - Math.min(rows - 1, Math.floor(t * rows)));
+
+interface Case {
+  what: string;
+  site: string;
+  most: number;
+  appearance: string;
+  /** From the quad's texture coordinates to the picture's. */
+  expected: (s: number, t: number) => [number, number, number];
+  change?: (shape: string) => string;
+  /** 0..255 */
+  tolerance?: number;
+}
+
+const nearest = '<TextureProperties magnificationFilter="NEAREST_PIXEL" minificationFilter="NEAREST_PIXEL"></TextureProperties>';
+const white = '<Material diffuseColor="1 1 1" ambientIntensity="0"></Material>';
+const image = (attributes = "", inside = nearest): string => `<ImageTexture url="picture.png" ${attributes}>${inside}</ImageTexture>`;
+const wrapped = (value: number): number => value - Math.floor(value);
+const clamped = (value: number): number => Math.min(0.999, Math.max(0, value));
+const mirrored = (value: number): number => (Math.floor(value) % 2 === 0 ? wrapped(value) : 0.999999 - wrapped(value));
+const properties = (s: string, t: string): string => nearest.replace("<TextureProperties", `<TextureProperties boundaryModeS="${s}" boundaryModeT="${t}"`);
+
+const cases = (): Case[] => [
+  ...([[], ["--container", "bg"], ["--container", "bg", "--coord-type", "float32"], ["--profile", "compact"]]).map((options): Case => ({
+    what: options.join(" ") || "sig", site: siteOf(quad(1), ...options), most: 1, appearance: white + image(), expected: texelAt,
+  })),
+  { what: "on the CPU", site: siteOf(quad(1)), most: 1, appearance: white + image(), expected: texelAt,
+    change: (shape) => shape.replace(/<ImageGeometry/i, '$& decode="cpu"') },
+  { what: "repeated", site: siteOf(quad(3)), most: 3, appearance: white + image(), expected: (s, t) => texelAt(wrapped(s), wrapped(t)) },
+  { what: "held at the border", site: siteOf(quad(3)), most: 3, appearance: white + image("", properties("CLAMP_TO_EDGE", "REPEAT")),
+    expected: (s, t) => texelAt(clamped(s), wrapped(t)) },
+  { what: "mirrored", site: siteOf(quad(3)), most: 3, appearance: white + image("", properties("REPEAT", "MIRRORED_REPEAT")),
+    expected: (s, t) => texelAt(wrapped(s), mirrored(t)) },
+  { what: "moved, turned and scaled", site: siteOf(quad(1)), most: 1,
+    appearance: `${white}${image()}<TextureTransform translation="0.25 0.5" rotation="1.5707963" scale="2 0.5" center="0.5 0.25"></TextureTransform>`,
+    expected: (s, t) => {
+      const [x, y] = [s + 0.25 + 0.5, t + 0.5 + 0.25]; // T, C
+      return texelAt(wrapped(-y * 2 - 0.5), wrapped(x * 0.5 - 0.25)); // R, S, -C
+    } },
+  { what: "of a physical material", site: siteOf(quad(1)), most: 1,
+    appearance: `<PhysicalMaterial metallic="0" roughness="1">${image('containerField="baseTexture"')}</PhysicalMaterial>`, expected: texelAt,
+    tolerance: 12 }, // a twenty-fifth of the light is mirrored instead
+
+  { what: "unlit", site: siteOf(quad(1)), most: 1,
+    appearance: `<UnlitMaterial>${image('containerField="emissiveTexture"')}</UnlitMaterial>`, expected: texelAt },
+  { what: "multiplied by the material", site: siteOf(quad(1)), most: 1,
+    appearance: `<Material diffuseColor="0.5 1 0" ambientIntensity="0">${image('containerField="diffuseTexture"')}</Material>`,
+    expected: (s, t) => { const [r, g] = texelAt(s, t); return [r / 2, g, 0]; } },
+];
+
+const perRow = 4;
+const placeOf = (n: number): [number, number] => [2.5 * (n % perRow) - 3.75, 2.5 - 2.5 * Math.floor(n / perRow)];
+const distance = 14;
+
+/** The pixel of a point of the plane z = 0. */
+function pixelAt(x: number, y: number): [number, number] {
+  const scale = pictureSize.height / 2 / Math.tan(0.7854 / 2) / distance;
+  return [Math.floor(pictureSize.width / 2 + x * scale), Math.floor(pictureSize.height / 2 - y * scale)];
+}
+
+const colorAt = ({ data, channels, width }: Picture, [x, y]: [number, number]): number[] => [...data.subarray((y * width + x) * channels, (y * width + x) * channels + 3)];
+
+const viewpoint = (z: number): string => `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo><Background skyColor="0 0 0"></Background><Viewpoint position="0 0 ${z}" fieldOfView="0.7854"></Viewpoint>`;
+
+function texturedScene(): { directory: string; all: Case[] } {
+  const all = cases();
+  const shapes = all.map(({ site, appearance, change = (shape) => shape }, n) => {
+    const [x, y] = placeOf(n);
+    const shape = change(shapeIn(site, `q${n}`)).replace(/<Appearance[\s\S]*<\/Appearance>/i, `<Appearance>${appearance}</Appearance>`);
+    const inFolder = shape.replaceAll(/(["'])geometry\//g, `$1q${n}/geometry/`); // compact's too
+    return `<Transform translation="${x} ${y} 0">${inFolder}</Transform>`;
+  });
+  const directory = sceneOf("textures", Object.fromEntries(all.map(({ site }, n) => [`q${n}`, site])), viewpoint(distance) + shapes.join("\n"));
+  writeFileSync(join(directory, "picture.png"), encodePng(picture));
+  return { directory, all };
+}
+
+describe("a texture", () => {
+  test("is laid over surfaces of every container as X3D says, asked for once, last, and fetched with the coordinates that it needs", async () => {
+    const { directory, all } = texturedScene();
+    const { closed, open } = gate();
+    await withPage(directory, { server: (server) => server.when(/picture\.png$/, { hold: closed }) }, async (view) => {
+      await until("all but the picture is shown", async () => (await view.events("first-image", "shape")).length === all.length);
+      await until("the picture is asked for", () => view.server.requestsOf(/picture\.png$/).length > 0);
+      assert.deepEqual(await view.events("load"), []); // which awaits it
+      open();
+      await view.promise("complete");
+      const shown = await view.picture();
+      savePicture("textures", shown);
+      for (const [n, { what, most, expected, tolerance = 2 }] of all.entries()) {
+        const [x, y] = placeOf(n);
+        let compared = 0;
+        for (let step = 0; step < 121; ++step) {
+          const [u, v] = [(step % 11 + 0.52) / 11, (Math.floor(step / 11) + 0.52) / 11];
+          const found = colorAt(shown, pixelAt(x + 2 * u - 1, y + 2 * v - 1));
+          const wanted = expected(u * most, v * most);
+          // Which texel a pixel on a border shows is nobody's promise.
+          const isInside = [-0.02, 0.02].every((away) => [[away, away], [away, -away]].every(([a, b]) => expected((u + a!) * most, (v + b!) * most).join() === wanted.join()));
+          if (!isInside) continue;
+          compared += 1;
+          assert.ok(wanted.every((channel, i) => Math.abs(channel - found[i]!) <= tolerance), `${what}, at ${u.toFixed(2)} ${v.toFixed(2)}: ${found.join()} instead of ${wanted.join()}`);
+        }
+        assert.ok(compared >= 20, `${what}: ${compared} places`);
+      }
+      assert.equal(view.server.requestsOf(/picture\.png$/).length, 3); // once for each way of wrapping
+    });
+  });
+
+  test("that does not come costs its shape the texture and nothing else; without one its coordinates are not fetched", async () => {
+    const site = siteOf(quad(1));
+    const plain = sceneOf("untextured", { q: site }, viewpoint(distance) + shapeIn(site, "q"));
+    let without = 0;
+    await withPage(plain, {}, async (view) => {
+      await view.promise("complete");
+      without = view.server.requestsOf(/geometry/).length;
+    });
+    const shape = shapeIn(site, "q").replace(/<Appearance[\s\S]*<\/Appearance>/i, `<Appearance>${white}${image()}</Appearance>`);
+    const directory = sceneOf("texture-missing", { q: site }, viewpoint(distance) + shape);
+    await withPage(directory, { expectedErrors: /404|imgeo/ }, async (view) => {
+      await view.promise("complete");
+      assert.equal(view.server.requestsOf(/geometry/).length, without + 1);
+      const [error] = await view.events("error", "shape");
+      assert.deepEqual([error?.detail.type, error?.detail.url], ["http", "picture.png"]);
+      assert.deepEqual(colorAt(await view.picture(), pixelAt(0.3, 0.3)), [255, 255, 255]);
+    });
+  });
+});
+
+describe("points", () => {
+  /** Two points, the second farther and with a normal that looks away. */
+  const cloud = (): string => siteOf(plyOf("two-points", "float:x float:y float:z float:nx float:ny float:nz", ["-1 0 0 0 0 1", "2 0 -10 0 0 -1"]));
+
+  async function shown(properties: string, check: (view: View, picture: Picture) => Promise<void>): Promise<void> {
+    const site = cloud();
+    const shape = shapeIn(site, "cloud").replace(/<Appearance[\s\S]*<\/Appearance>/i,
+      `<Appearance><Material diffuseColor="1 1 1" ambientIntensity="0"></Material>${properties}</Appearance>`);
+    await withPage(sceneOf("points-sized", { cloud: site }, viewpoint(10) + shape), {}, async (view) => {
+      await view.promise("complete");
+      await check(view, await view.picture());
+    });
+  }
+
+  const scale = pictureSize.height / 2 / Math.tan(0.7854 / 2);
+  const near: [number, number] = [pictureSize.width / 2 - scale / 10, pictureSize.height / 2];
+  const far: [number, number] = [pictureSize.width / 2 + (2 * scale) / 20, pictureSize.height / 2];
+  const isLit = (picture: Picture, [x, y]: [number, number], right: number, down: number): boolean =>
+    colorAt(picture, [Math.floor(x + right), Math.floor(y + down)])[0]! > 100;
+  const hitAt = (view: View, [x, y]: [number, number], right: number, down: number): Promise<boolean> => view.page.evaluate(([px, py]) =>
+    (document.querySelector("x3d") as unknown as { positionAndNormalFromPoint: (x: number, y: number) => unknown }).positionAndNormalFromPoint(px!, py!) !== null,
+  [x + right, y + down]);
+
+  async function assertDisc(view: View, picture: Picture, at: [number, number], diameter: number): Promise<void> {
+    const inside = diameter / 2 - 1.5;
+    const outside = diameter / 2 + 1.5;
+    const diagonal = Math.SQRT1_2;
+    for (const [right, down] of [[0, 0], [1, 0], [0, 1], [-1, 0], [0, -1], [diagonal, diagonal], [-diagonal, diagonal]] as const) {
+      assert.ok(isLit(picture, at, right * inside, down * inside), `dark at ${right} ${down} of a point of ${diameter}`);
+      assert.ok(await hitAt(view, at, right * inside, down * inside), `not hit at ${right} ${down} of a point of ${diameter}`);
+      if (right === 0 && down === 0) continue;
+      assert.ok(!isLit(picture, at, right * outside, down * outside), `lit beyond ${right} ${down} of a point of ${diameter}`);
+      assert.ok(!(await hitAt(view, at, right * outside, down * outside)), `hit beyond ${right} ${down} of a point of ${diameter}`);
+    }
+  }
+
+  test("are round, of the size in pixels that PointProperties say, hit where they are drawn, and lit from both sides", async () => {
+    await shown('<PointProperties pointSizeScaleFactor="24"></PointProperties>', async (view, picture) => {
+      savePicture("points-24", picture);
+      await assertDisc(view, picture, near, 24);
+      await assertDisc(view, picture, far, 24);
+    });
+  });
+
+  test("grow smaller with distance, within bounds", async () => {
+    // At distances of about 10 and 20.
+    await shown('<PointProperties pointSizeScaleFactor="40" attenuation="0 0.1 0"></PointProperties>', async (view, picture) => {
+      savePicture("points-far", picture);
+      await assertDisc(view, picture, near, 40 / (0.1 * Math.hypot(10, 1)));
+      await assertDisc(view, picture, far, 40 / (0.1 * Math.hypot(20, 2)));
+    });
+    await shown('<PointProperties pointSizeScaleFactor="40" attenuation="0 0.1 0" pointSizeMinValue="28" pointSizeMaxValue="30"></PointProperties>', async (view, picture) => {
+      await assertDisc(view, picture, near, 30);
+      await assertDisc(view, picture, far, 28);
+    });
+  });
+});

@@ -1,0 +1,40 @@
+// Pictures that are looked at: whatever the browser can decode, in its own way
+// with colours.
+
+import { DecodeError } from "./decodeError.ts";
+
+export interface DecodedPicture {
+  readonly bitmap: ImageBitmap;
+  readonly hasAlpha: boolean;
+}
+
+/** Larger ones are made smaller. Rejects with DecodeError. */
+export async function decodePicture(bytes: Uint8Array<ArrayBuffer>, largestEdge: number): Promise<DecodedPicture> {
+  const options: ImageBitmapOptions = { premultiplyAlpha: "none", imageOrientation: "flipY" };
+  let bitmap: ImageBitmap;
+  try {
+    bitmap = await createImageBitmap(new Blob([bytes]), options);
+  } catch {
+    throw new DecodeError("unsupported", "is no picture that this browser can show");
+  }
+  const edge = Math.max(bitmap.width, bitmap.height);
+  if (edge <= largestEdge) return { bitmap, hasAlpha: mayHaveAlpha(bytes) };
+  const resizeWidth = Math.max(1, Math.floor((bitmap.width * largestEdge) / edge));
+  const smaller = await createImageBitmap(bitmap, { resizeWidth, resizeQuality: "high" });
+  bitmap.close();
+  return { bitmap: smaller, hasAlpha: mayHaveAlpha(bytes) };
+}
+
+const [pngColorType, grayWithAlpha, rgba] = [25, 4, 6];
+
+/** Told by the format: PNG's header (or a colour that is see-through), WebP's flags; no JPEG has any. Anything else may. */
+export function mayHaveAlpha(bytes: Uint8Array): boolean {
+  const text = (from: number, length: number) => String.fromCharCode(...bytes.subarray(from, from + length));
+  if (text(1, 3) === "PNG") {
+    const type = bytes[pngColorType];
+    return type === grayWithAlpha || type === rgba || text(33, 1024).includes("tRNS");
+  }
+  if (bytes[0] === 0xff && bytes[1] === 0xd8) return false;
+  if (text(8, 4) === "WEBP") return text(12, 4) === "VP8X" ? ((bytes[20] ?? 0) & 0x10) !== 0 : text(12, 4) === "VP8L";
+  return true;
+}
