@@ -13,7 +13,7 @@ export function inputsOf(model: Model, directory: string): Inputs {
   const run = (program: string, ...words: string[]): void => void execFileSync(program, words, { stdio: ["ignore", "ignore", "inherit"] });
   const site = join(directory, "compact");
   // Of the mesh with its normals: Draco and gltfpack are given them, and must keep them.
-  run(converter, "convert", model.ply, "-o", site, "--profile", "compact", "--force");
+  run(converter, "convert", model.ply, "-o", site, "--profile", "compact", "--base", "0", "--force");
   const geometry = join(site, "geometry");
   const drc = join(directory, "mesh.drc");
   run("draco_encoder", "-i", model.ply, "-o", drc, "-qp", "16", "-qn", "8", "-cl", "10");
