@@ -20,6 +20,14 @@ struct LinkEdge {
   bool used = false;
 };
 
+/// Where a path may begin; the first is that of the largest key, then of the first edge.
+struct Start {
+  std::uint64_t key;
+  std::uint32_t edge;
+
+  bool operator<(const Start& other) const { return key != other.key ? key > other.key : edge < other.edge; }
+};
+
 class FanWalk {
 public:
   FanWalk(std::span<const std::uint32_t> cornerVertices, std::size_t vertexCount)
@@ -54,8 +62,8 @@ private:
   void processVertex(std::uint32_t vertex) {
     collectLink(vertex);
     orderStarts();
-    for (const std::uint32_t start : starts_)
-      for (std::uint32_t edge = start; edge != none; edge = followingEdge(edge)) {
+    for (const Start& start : starts_)
+      for (std::uint32_t edge = start.edge; edge != none; edge = followingEdge(edge)) {
         if (link_[edge].used)
           break;
         emit(link_[edge]);
@@ -92,16 +100,13 @@ private:
   /// rings); of each, nearest to the vertices numbered last, whose indices are
   /// then likely to come again.
   void orderStarts() {
-    starts_.resize(link_.size());
-    for (std::uint32_t i = 0; i < starts_.size(); ++i)
-      starts_[i] = i;
-    const auto key = [&](std::uint32_t edge) {
+    starts_.clear();
+    for (std::uint32_t edge = 0; edge < link_.size(); ++edge) {
       const std::uint32_t vertex = link_[edge].from;
       const std::uint64_t recency = numbers_[vertex] == none ? 0 : std::uint64_t{numbers_[vertex]} + 1;
-      return std::uint64_t{!entered_[vertex]} << 33 | recency;
-    };
-    std::stable_sort(starts_.begin(), starts_.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return key(a) > key(b); });
+      starts_.push_back({std::uint64_t{!entered_[vertex]} << 33 | recency, edge});
+    }
+    std::sort(starts_.begin(), starts_.end());
   }
 
   std::uint32_t followingEdge(std::uint32_t edge) {
@@ -129,7 +134,7 @@ private:
   std::vector<std::uint32_t> firstFrom_; ///< by vertex: first link edge that leaves it; none between vertices
   std::vector<bool> entered_;            ///< by vertex: a link edge ends there; false between vertices
   std::vector<LinkEdge> link_;
-  std::vector<std::uint32_t> starts_;
+  std::vector<Start> starts_;
   std::vector<std::uint32_t> result_;
 };
 

@@ -155,6 +155,22 @@ public:
   explicit Compactor(std::size_t capacity) : table_(capacity) { kept.reserve(capacity); }
 
   std::uint32_t numberOf(std::uint32_t value) {
+    // Most values have come a moment ago.
+    Recent& recent = recent_[value % recentCount];
+    if (recent.value != value || recent.number == IndexTable::none)
+      recent = {value, find(value)};
+    return recent.number;
+  }
+
+  std::vector<std::uint32_t> kept;
+
+private:
+  struct Recent {
+    std::uint32_t value = 0, number = IndexTable::none;
+  };
+  static constexpr std::uint32_t recentCount = 1 << 12;
+
+  std::uint32_t find(std::uint32_t value) {
     const auto next = static_cast<std::uint32_t>(kept.size());
     const std::uint32_t number =
         table_.findOrInsert(mixHash(0, value), next, [&](std::uint32_t i) { return kept[i] == value; });
@@ -163,10 +179,8 @@ public:
     return number;
   }
 
-  std::vector<std::uint32_t> kept;
-
-private:
   IndexTable table_;
+  std::vector<Recent> recent_{recentCount};
 };
 
 Patch makePatch(const Mesh& mesh, const std::vector<Vec3u>& lattice, Elements elements,
