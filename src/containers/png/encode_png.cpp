@@ -46,7 +46,7 @@ struct Effort {
   int level, levelOfLarge; ///< for images that do, where parsing takes the longer the longer its matches are
   std::span<const Filter> filters;
   int probeLevel = 1;                            ///< filters are compared at this level
-  std::size_t probeBytes = std::size_t{1} << 16; ///< and on so much of an image
+  std::size_t probeBytes = std::size_t{1} << 15; ///< and on so much of an image
 };
 
 /// Records of a patch fill no more than this; what is larger holds indices.
