@@ -2,7 +2,7 @@
 // mapping and colour space hold for the scene as they hold for plain buffers.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
 import { build } from "esbuild";
@@ -12,11 +12,11 @@ import { until, withPage, type PageOptions, type View } from "./harness.ts";
 import type { AppRequest, PlainBuffers } from "./loaderPage.ts";
 import { readPly } from "./meshes.ts";
 import { outputDirectory, repository } from "./paths.ts";
-import { decodePng, type Picture } from "./png.ts";
+import { decodePng, encodePng, type Picture } from "./png.ts";
 import { lookOf, patchOfInput } from "./reference.ts";
 import { gate } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
-import { meshFile, pageOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
+import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
 
 const bundles = { "app.js": "tests/browser/loaderPage.ts", "worker.js": "web/src/workers/worker.ts" };
 const directory = join(outputDirectory, "loader");
@@ -101,6 +101,41 @@ describe("a scene in somebody's own app looks as plain buffers do there", () => 
         const usesWorker = keepsVertices || options.includes("compact");
         assert.equal(server.requestsOf(/^\/worker\.js$/).length > 0, usesWorker);
       });
+    });
+  }
+});
+
+test("a texture lies over a surface, the right way round", async () => {
+  mkdirSync(outputDirectory, { recursive: true });
+  const quad = join(outputDirectory, "textured.ply");
+  const corners = [[-3, -3], [3, -3], [3, 3], [-3, 3]].map(([x, y]) => `${x} ${y} 0 0 0 1 ${(x! + 3) / 6} ${(y! + 3) / 6}`);
+  const properties = ["x", "y", "z", "nx", "ny", "nz", "s", "t"].map((name) => `property float ${name}\n`).join("");
+  writeFileSync(quad, `ply\nformat ascii 1.0\nelement vertex 4\n${properties}element face 2\nproperty list uchar int vertex_indices\nend_header\n${corners.join("\n")}\n3 0 1 2\n3 0 2 3\n`);
+  // Red on the left, blue on the right.
+  const picture = encodePng({ width: 2, height: 1, channels: 3, data: Uint8Array.from([230, 20, 20, 20, 20, 230]) });
+  const nearest = '<TextureProperties magnificationFilter="NEAREST_PIXEL" minificationFilter="NEAREST_PIXEL"/>';
+  const textured = (xml: Buffer): string => xml.toString().replace(/<Appearance[\s\S]*?<\/Appearance>/,
+    `<Appearance><Material diffuseColor="1 1 1"/><ImageTexture url="two.png">${nearest}</ImageTexture></Appearance>`);
+  for (const options of [["--profile", "classic"], ["--profile", "compact"], ["--container", "bg"]]) {
+    await withApp(siteOf(quad, ...options), {}, async ({ page, server }) => {
+      server.put("/two.png", picture);
+      server.when(/^\/scene\.x3d$/, { replace: textured });
+      await page.evaluate(() => window.app.load());
+      const seen = await draw(page, "directional", "scene");
+      const colored = (channel: 0 | 2, left: number, right: number): number => {
+        let count = 0;
+        for (let y = 0; y < seen.height; ++y) {
+          for (let x = left; x < right; ++x) {
+            const at = (y * seen.width + x) * seen.channels;
+            if (seen.data[at + channel]! > 3 * seen.data[at + 2 - channel]!) count += 1;
+          }
+        }
+        return count;
+      };
+      const middle = seen.width / 2;
+      const [red, blue] = [colored(0, 0, seen.width), colored(2, 0, seen.width)];
+      assert.ok(red > 5000 && blue > 5000, `${red} red pixels and ${blue} blue ones`);
+      assert.ok(colored(0, 0, middle) > 0.8 * red && colored(2, middle, seen.width) > 0.8 * blue, "the picture is the other way round");
     });
   }
 });

@@ -8,9 +8,9 @@ import {
   Color, DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshDepthMaterial, MeshDistanceMaterial, MeshStandardMaterial,
   Points, SRGBColorSpace,
 } from "three";
-import type { MaterialDescription } from "../document/description.ts";
+import type { AppearanceDescription, MaterialDescription } from "../document/description.ts";
 import { farnessDefine, shadeByFarnessIn } from "../render/farness.ts";
-import type { Look, MaterialRequest, Shading } from "../render/look.ts";
+import type { Look, MaterialRequest, Shading, ShownPicture } from "../render/look.ts";
 import { colorByValueIn } from "../render/valueColors.ts";
 import { primitiveDefinesOf, shapePointsIn } from "../render/points.ts";
 import { readVerticesIn, srgbColorsDefine, vertexDefinesOf } from "../render/vertexChunk.ts";
@@ -53,18 +53,20 @@ export interface Surroundings {
 export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings): Look {
   const shadowMaterials = new WeakMap<Material, ShadowMaterials>();
   return {
-    makeMaterial(request, { material: description }) {
-      const material = makeMaterial(description, request.shading);
+    makeMaterial(request, appearance, picture) {
+      const material = makeMaterial(appearance.material, request.shading);
       material.side = request.solid ? FrontSide : DoubleSide;
       material.vertexColors = request.colors !== "none";
       if (request.colors === "rgba") material.transparent = true;
       if ("flatShading" in material && request.shading === "flat") material.flatShading = true;
       // Colours of vertices stand in for the diffuse colour, as X3D has it.
       if (material.vertexColors && "color" in material && material.color instanceof Color) material.color.set(0xffffff);
+      layPicture(material, appearance, picture);
       shadowMaterials.set(material, shadowMaterialsOf(material, request));
       return readVertices(material, request, request.shading === "smooth" && !("flatShading" in material && material.flatShading === true));
     },
-    applyAppearance: () => undefined, // the document is read once
+    // The document is read once, so only its pictures come later.
+    applyAppearance: (material, appearance, _, picture) => { layPicture(material, appearance, picture); },
     prepare(object, request, material) {
       object.castShadow = surroundings.castShadow;
       object.receiveShadow = surroundings.receiveShadow;
@@ -84,6 +86,15 @@ export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings)
     const ahead = -center.applyMatrix4(camera.matrixWorldInverse).z;
     shared.depthRange.value.set(Math.max(ahead - radius, 0), ahead + radius);
   }
+}
+
+/** Over the material's own colour. A material with a map of the app's keeps it until then. */
+function layPicture(material: Material, { alpha: { mode, cutoff } }: AppearanceDescription, picture: ShownPicture | undefined): void {
+  if (picture === undefined || !("map" in material) || material.map === picture.texture) return;
+  material.map = picture.texture;
+  if (mode === "MASK") material.alphaTest = cutoff;
+  if (mode === "BLEND" || (mode === "AUTO" && picture.hasAlpha)) material.transparent = true;
+  material.needsUpdate = true;
 }
 
 interface ShadowMaterials {

@@ -1,11 +1,15 @@
-// Images of vertex data as textures of whatever renderer draws them first. They
+// Images of vertex data, and pictures, as textures of whatever renderer draws them first. They
 // keep their bitmaps, as three.js' own textures do, so that a lost context comes
 // back by itself.
 
-import { NearestFilter, NoColorSpace, Texture } from "three";
+import { NearestFilter, NoColorSpace, SRGBColorSpace, Texture } from "three";
 import type { DataImage, DecodedImage } from "../decode/image.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
+import { decodePicture } from "../decode/picture.ts";
+import type { Picture } from "../delivery/resources.ts";
+import type { SamplingDescription } from "../document/description.ts";
 import type { Textures } from "../render/patchDraws.ts";
+import { sampleAs } from "../render/textures.ts";
 
 /** Texels of the longest edge: a renderer that can do less is not in use any more, and we are asked before there is one. */
 export const largestTexture = 4096;
@@ -22,11 +26,25 @@ export class BitmapTextures implements Textures {
   /** Rejects with DecodeError, or with the signal's reason; nothing is then left behind. */
   async makeImage(png: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DataImage> {
     const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, largestTexture);
+    return { image: this.#keep(bitmap, dataTextureOf(bitmap), signal), channels };
+  }
+
+  /** The same for what is looked at. */
+  async makePicture(bytes: Uint8Array<ArrayBuffer>, sampling: SamplingDescription, signal: AbortSignal): Promise<Picture> {
+    const { bitmap, hasAlpha } = await decodePicture(bytes, largestTexture);
+    const texture = new Texture(bitmap);
+    texture.flipY = false; // the bitmap is already
+    texture.colorSpace = SRGBColorSpace;
+    sampleAs(texture, sampling);
+    texture.needsUpdate = true;
+    return { image: this.#keep(bitmap, texture, signal), hasAlpha };
+  }
+
+  #keep(bitmap: ImageBitmap, texture: Texture, signal: AbortSignal): DecodedImage {
     if (signal.aborted) {
       bitmap.close();
       throw signal.reason;
     }
-    const texture = textureOf(bitmap);
     const image = {
       width: bitmap.width, height: bitmap.height,
       close: () => {
@@ -36,12 +54,12 @@ export class BitmapTextures implements Textures {
       },
     };
     this.#textures.set(image, texture);
-    return { image, channels };
+    return image;
   }
 }
 
 /** Bytes reach the shader as they are in the file. */
-function textureOf(bitmap: ImageBitmap): Texture {
+function dataTextureOf(bitmap: ImageBitmap): Texture {
   const texture = new Texture(bitmap);
   texture.colorSpace = NoColorSpace;
   texture.minFilter = NearestFilter;

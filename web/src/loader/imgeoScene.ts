@@ -5,12 +5,15 @@ import { Group, Sphere, Vector2 } from "three";
 import type { RunJob } from "../decode/jobs.ts";
 import type { DeliveryListener } from "../delivery/deliver.ts";
 import type { PlacedGeometry } from "../delivery/demand.ts";
-import { demandFor, placeGeometry } from "../delivery/demand.ts";
+import { demandFor, placeGeometry, textureDemandFor } from "../delivery/demand.ts";
+import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { Progress, Transfer } from "../delivery/progress.ts";
 import { noProgress, progressOf } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resources.ts";
 import type { JoinedDelivery } from "../delivery/sharedDeliveries.ts";
 import { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
+import type { JoinedTexture } from "../delivery/textureDeliveries.ts";
+import { pictureKeyOf, TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription, GroupDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
@@ -58,6 +61,7 @@ export interface SceneSources {
 interface LoadedShape {
   readonly object: ShapeObject;
   readonly delivery: JoinedDelivery | undefined;
+  readonly picture: JoinedTexture | undefined;
   /** Patches of which nothing is shown yet. */
   readonly missing: Set<number>;
 }
@@ -74,6 +78,8 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   /** Of all shapes that are seen, as the document tells it, in this object's coordinates. */
   readonly box: Box3;
   readonly #deliveries: SharedDeliveries;
+  readonly #pictures: TextureDeliveries;
+  readonly #textures: BitmapTextures;
   readonly #shapes = new Map<SceneElement, LoadedShape>();
   readonly #firstImage = Promise.withResolvers<undefined>();
   readonly #complete = Promise.withResolvers<undefined>();
@@ -95,13 +101,15 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       readsTextures: () => Promise.resolve(!keepsVertices),
       largestTexture,
       runJob,
-      makePicture: () => Promise.reject(new Error("no pictures are asked for")),
+      makePicture: (bytes, sampling, signal) => textures.makePicture(bytes, sampling, signal),
       storeBytes: (array) => Promise.resolve(buffers.store(array)),
       download: { ...defaultDownloadOptions, fetch },
       resolve,
       onTransfer: () => { this.#progressTimer ??= setTimeout(() => { this.#tellProgress(); }, progressIntervalMs); },
     });
     this.#deliveries = new SharedDeliveries(pool);
+    this.#pictures = new TextureDeliveries(pool);
+    this.#textures = textures;
     const { root, box } = this.#build({
       look: appLook(makeMaterial, surroundingsOf(this)), geometries: new GeometryPool(buffers), buffers, textures,
       shared: { pixelRatio: { value: 1 }, depthRange: { value: new Vector2() } },
@@ -126,7 +134,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
 
   /** Its files, as far as they are. */
   get transfers(): readonly Readonly<Transfer>[] {
-    return this.#deliveries.transfers();
+    return [...this.#deliveries.transfers(), ...this.#pictures.transfers()];
   }
 
   /**
@@ -141,6 +149,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   /** Ends its requests; what it shows stays. */
   abort(): void {
     this.#deliveries.demand(() => () => undefined);
+    this.#pictures.demand(() => undefined);
     const reason = new DOMException("the loading of the scene was aborted", "AbortError");
     this.#firstImage.reject(reason);
     this.#complete.reject(reason);
@@ -153,7 +162,10 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.abort();
     // Textures leave the draws before their images close.
     for (const { object } of this.#shapes.values()) object.dispose();
-    for (const { delivery } of this.#shapes.values()) delivery?.cancel();
+    for (const { delivery, picture } of this.#shapes.values()) {
+      delivery?.cancel();
+      picture?.cancel();
+    }
     this.#shapes.clear();
     this.#picker.dispose();
     this.removeFromParent();
@@ -189,8 +201,8 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   }
 
   #begin(shape: ShapeDescription, object: ShapeObject): LoadedShape {
-    const { geometry } = shape;
-    if (geometry === undefined || !shape.visible) return { object, delivery: undefined, missing: new Set() };
+    const { geometry, appearance: { texture } } = shape;
+    if (geometry === undefined || !shape.visible) return { object, delivery: undefined, picture: undefined, missing: new Set() };
     const missing = new Set(geometry.patches.keys());
     const listener: DeliveryListener = {
       onStage: (patch, stage) => {
@@ -200,27 +212,42 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
         this.dispatchEvent({ type: "change" });
         this.#advance();
       },
-      onError: (error) => {
-        this.#error ??= error;
-        this.dispatchEvent({ type: "error", url: error.url, error });
-      },
+      onError: (error) => { this.#fail(error); },
       onSettled: () => {
         missing.clear();
         this.#advance();
       },
     };
-    return { object, delivery: this.#deliveries.join(geometry, listener), missing };
+    const picture = texture && this.#pictures.join(texture, {
+      onPicture: ({ image, hasAlpha }) => {
+        object.setPicture({ texture: this.#textures.textureOf(image), hasAlpha });
+        this.dispatchEvent({ type: "change" });
+      },
+      onError: (error) => { this.#fail(error); },
+      onSettled: () => { this.#advance(); },
+    });
+    return { object, delivery: this.#deliveries.join(geometry, listener), picture, missing };
+  }
+
+  #fail(error: DeliveryError): void {
+    this.#error ??= error;
+    this.dispatchEvent({ type: "error", url: error.url, error });
   }
 
   /** Everything that is seen, coarse before fine. */
   #demand(): void {
-    const placed = new Map<GeometryDescription, PlacedGeometry[]>();
-    for (const { geometry, visible, priority } of shapesOf(this.description.root)) {
+    const geometries = new Map<GeometryDescription, PlacedGeometry[]>();
+    const pictures = new Map<string, PlacedGeometry[]>();
+    for (const { geometry, visible, priority, appearance: { texture } } of shapesOf(this.description.root)) {
       if (geometry === undefined || !visible) continue;
-      placed.set(geometry, [...(placed.get(geometry) ?? []), placeGeometry(geometry, nowhere, priority)]);
+      const placed = placeGeometry(geometry, nowhere, priority, texture !== undefined);
+      geometries.set(geometry, [...(geometries.get(geometry) ?? []), placed]);
+      if (texture) pictures.set(pictureKeyOf(texture), [...(pictures.get(pictureKeyOf(texture)) ?? []), placed]);
     }
     const weights = chunkWeightsOf(this.description.chunkPriority, (problem) => { console.warn(`imgeo: chunkPriority: ${problem}`); });
-    this.#deliveries.demand((geometry) => demandFor(placed.get(geometry) ?? [], { camera: undefined, weights }));
+    const viewing = { camera: undefined, weights };
+    this.#deliveries.demand((geometry) => demandFor(geometries.get(geometry) ?? [], viewing));
+    this.#pictures.demand((key) => textureDemandFor(pictures.get(key) ?? [], viewing));
   }
 
   /** Keeps the promises that can be kept. */
@@ -229,7 +256,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     if (shapes.some(({ missing }) => missing.size > 0)) return;
     if (this.#error !== undefined && !this.#hasPicture) this.#firstImage.reject(this.#error);
     else this.#firstImage.resolve(undefined);
-    if (!shapes.every(({ delivery }) => delivery?.isSettled ?? true)) return;
+    if (shapes.some(({ delivery, picture }) => delivery?.isSettled === false || picture?.isSettled === false)) return;
     this.#tellProgress();
     this.#complete.resolve(undefined);
   }

@@ -86,8 +86,8 @@ function emptyTexture(width: number, height: number): Texture {
 
 const wrappings = { repeat: RepeatWrapping, clamp: ClampToEdgeWrapping, mirror: MirroredRepeatWrapping } as const;
 
-/** The colours of pictures are shown by their numbers, as those of materials are (materials.ts). */
-function sampleAs(texture: Texture, { wrapS, wrapT, isSmooth, hasMipmaps, anisotropy }: SamplingDescription): void {
+/** Pages show the colours of pictures by their numbers, as those of materials (materials.ts). */
+export function sampleAs(texture: Texture, { wrapS, wrapT, isSmooth, hasMipmaps, anisotropy }: SamplingDescription): void {
   texture.wrapS = wrappings[wrapS];
   texture.wrapT = wrappings[wrapT];
   texture.magFilter = isSmooth ? LinearFilter : NearestFilter;
