@@ -1,0 +1,68 @@
+// The models of Behr et al. 2012 (section 4.3, Table 1), where they are: what a site of
+// them takes at most.
+
+#include "base/testing.h"
+#include "transcode/transcode.h"
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PaperModel {
+  std::string file;
+  std::uint64_t imageBytes;   ///< SIG PNG, indexed, at the highest effort; the paper needs 1.7 times that
+  std::uint64_t stripIndices; ///< the paper's
+};
+
+class PaperModels : public ::testing::TestWithParam<PaperModel> {
+protected:
+  void SetUp() override {
+    const char* shared = std::getenv("IMGEO_SHARED");
+    model_ = fs::path(shared ? shared : "../shared") / "models" / GetParam().file;
+    if (!fs::exists(model_))
+      GTEST_SKIP() << model_ << " is not there";
+  }
+
+  /// The bytes of the site's geometry files, all or those of one role.
+  std::uint64_t bytesOf(const ConvertOptions& options, const std::string& role = "") {
+    std::uint64_t bytes = 0;
+    for (const RoleBytes& of : convert(model_, directory_ / "site", options).roles)
+      if (role.empty() ? of.role == "index" || of.role == "coord" || of.role == "normal" : of.role == role)
+        bytes += of.bytes;
+    return bytes;
+  }
+
+private:
+  testing::TemporaryDirectory directory_;
+  fs::path model_;
+};
+
+/// 8 tries less than 9, in a fifth of its time: 9 is never larger.
+TEST_P(PaperModels, AreImagesOfFewBytes) {
+  ConvertOptions options;
+  options.effort = 8;
+  EXPECT_LE(bytesOf(options), GetParam().imageBytes);
+}
+
+TEST_P(PaperModels, AreStripsOfNoMoreIndicesThanThePapers) {
+  ConvertOptions options;
+  options.container = Container::bg;
+  options.primitives = Primitives::strips;
+  const std::uint64_t indices = bytesOf(options, "index") / 2;
+  EXPECT_GT(indices, 0u);
+  EXPECT_LE(indices, GetParam().stripIndices);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTable1, PaperModels,
+                         ::testing::Values(PaperModel{"stanford-bunny.obj", 245'000, 89'611},
+                                           PaperModel{"horse.ply", 345'000, 128'659}),
+                         [](const auto& info) {
+                           return info.param.file.substr(0, info.param.file.find_first_of("-."));
+                         });
+
+} // namespace
+} // namespace imgeo
