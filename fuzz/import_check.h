@@ -35,7 +35,7 @@ inline void requireGraph(const Scene& scene) {
       require(use.texture < graph.textures.size());
   for (const Texture& texture : graph.textures)
     require(texture.image < graph.images.size());
-  require(!placedShapes(graph).empty());
+  require(graph.isComplete || !placedShapes(graph).empty());
 }
 
 inline int importOrRefuse(ByteSpan bytes, const std::string& name) {

@@ -690,7 +690,6 @@ TEST(ReadScene, RefusesGeometryThatNoLatticeStandsFor) {
   EXPECT_EQ(kindOfReading(geometry("", "\"a\" \"b\" \"c\" \"d\" \"e\"")), ErrorKind::unsupported);
   EXPECT_EQ(kindOfReading(geometry("primType='TRIANGLEFAN' vertexCount='3'", "a")), ErrorKind::unsupported);
   EXPECT_EQ(kindOfReading(geometry("", "")), ErrorKind::malformed);
-  EXPECT_EQ(kindOfReading("<X3D><Scene><Shape><Box/></Shape></Scene></X3D>"), ErrorKind::unsupported);
   EXPECT_EQ(kindOfReading("<X3D><Scene><Transform><Shape/></Transform></Scene></X3D>"), ErrorKind::malformed);
 }
 

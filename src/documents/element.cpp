@@ -48,8 +48,12 @@ void ElementWriter::close(const Element& element) {
 }
 
 void ElementWriter::leaf(const Element& element) {
+  leaf(element, "");
+}
+
+void ElementWriter::leaf(const Element& element, std::string_view content) {
   startTag(element);
-  text_ += "</" + element.name + ">\n";
+  text_ += escapeText(content) + "</" + element.name + ">\n";
 }
 
 std::string number(double value) {

@@ -30,6 +30,7 @@ public:
   void open(const Element& element);
   void close(const Element& element);
   void leaf(const Element& element); ///< opened and closed: HTML knows no self-closing elements here
+  void leaf(const Element& element, std::string_view content); ///< with text in it
 
   const std::string& text() const { return text_; }
 

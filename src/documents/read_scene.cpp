@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
 namespace imgeo {
 
@@ -72,13 +73,19 @@ private:
     } else if (std::ranges::any_of(nodeNames, is)) {
       const std::string use = fields.text("USE");
       return use.empty() ? readNodeElement(fields, depth) : defined(fields, use);
+    } else if (const std::string use = fields.text("USE"); !use.empty()) {
+      if (const auto found = defined_.find(use); found != defined_.end())
+        return found->second;
     } else if (hasElements(fields.node())) {
-      fail(fields.node(), ErrorKind::unsupported, "shapes inside of this element cannot be read back");
+      return add(fields, Group{},
+                 readChildren(fields.node(), depth + 1)); // whatever it is, shapes may stand in it
     }
     return {};
   }
 
-  std::size_t defined(const Fields& fields, const std::string& use) const {
+  std::optional<std::size_t> defined(const Fields& fields, const std::string& use) const {
+    if (passedOver_.contains(use))
+      return {};
     const auto found = defined_.find(use);
     if (found == defined_.end())
       fields.fail(ErrorKind::malformed,
@@ -194,8 +201,10 @@ private:
       document_.graph.background = Background{Vec3f(Vec3d{colors[0], colors[1], colors[2]})};
   }
 
-  std::size_t readShape(const Fields& fields) {
+  /// Nothing where its geometry stands in the document.
+  std::optional<std::size_t> readShape(const Fields& fields) {
     std::optional<Shape> shape;
+    bool isInline = false;
     std::optional<std::size_t> appearance;
     for (const pugi::xml_node& child : fields.node().children()) {
       if (child.type() != pugi::node_element)
@@ -208,8 +217,12 @@ private:
         shape = readGeometryOf(fields, Fields(source_, child));
       } else if (!std::string_view(child.name()).starts_with("Metadata") &&
                  !std::string_view(child.name()).starts_with("metadata")) {
-        fail(child, ErrorKind::unsupported, "this is no geometry that lies in containers");
+        isInline = true;
       }
+    }
+    if (!shape && isInline) {
+      passedOver_.insert(fields.text("DEF"));
+      return {};
     }
     if (!shape)
       fail(fields.node(), ErrorKind::malformed, "a Shape has no geometry");
@@ -249,6 +262,7 @@ private:
   std::vector<std::size_t> heights_;           ///< by node: how deep the nodes below it go
   std::vector<bool> isJoinable_;               ///< by geometry: it is its only patch, and nothing can USE it
   std::map<std::string, std::size_t> defined_; ///< nodes by their DEF
+  std::set<std::string> passedOver_;           ///< DEFs of Shapes whose geometry stands in the document
   std::map<std::string, Shape> definedGeometries_;
 };
 

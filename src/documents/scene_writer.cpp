@@ -2,7 +2,11 @@
 
 #include "documents/appearance_element.h"
 #include "documents/field_text.h"
+#include "documents/find_x3d.h"
 #include "documents/geometry_element.h"
+#include "documents/page_markup.h"
+
+#include <algorithm>
 
 namespace imgeo {
 
@@ -35,10 +39,6 @@ Element contentElement(const SpotLight& light, const Attributes& names) {
   return nodeElement("SpotLight", light, names);
 }
 
-Element elementOf(const Node& node, const Attributes& names) {
-  return std::visit([&](const auto& content) { return contentElement(content, names); }, node.content);
-}
-
 /// A name for something that has none and is used more than once.
 std::string wishFor(const std::string& name, std::size_t uses, const char* otherwise) {
   return !name.empty() || uses < 2 ? name : otherwise;
@@ -58,10 +58,10 @@ Attributes SceneWriter::Names::defOrUse(std::size_t index) {
   return {{wasWritten ? "USE" : "DEF", names_[index]}};
 }
 
-SceneWriter::SceneWriter(const SceneDocument& document, std::size_t level)
+SceneWriter::SceneWriter(const SceneDocument& document, std::size_t level, Medium medium)
     : document_(document), writer_(level), nodeNames_(document.graph.nodes.size()),
       appearanceNames_(document.graph.appearances.size()), textureNames_(document.graph.textures.size()),
-      geometryNames_(2 * document.geometries.size()) {
+      medium_(medium), geometryNames_(2 * document.geometries.size()) {
   giveNames();
 }
 
@@ -96,22 +96,44 @@ void SceneWriter::giveNames() {
     geometryNames_[i] = geometryUses[i] < 2 ? "" : table_.take("geometry");
 }
 
+/// Whether the source brings an element of its own.
+bool SceneWriter::hasOther(std::string_view element) const {
+  return std::ranges::any_of(document_.graph.nodes, [&](const Node& node) {
+    const OtherNode* other = std::get_if<OtherNode>(&node.content);
+    return other && other->element == element;
+  });
+}
+
 void SceneWriter::writeHead() {
   const SceneGraph& graph = document_.graph;
-  if (!graph.title.empty() || !graph.info.empty()) {
+  if ((!graph.title.empty() || !graph.info.empty()) && !hasOther("WorldInfo")) {
     Attributes fields{{"title", graph.title}};
     if (!graph.info.empty())
       fields.push_back({"info", strings(graph.info)});
     writer_.leaf({"WorldInfo", {fields}});
   }
-  writer_.leaf({"NavigationInfo", {{{"headlight", fieldText(graph.headlight)}}}});
+  if (!hasOther("NavigationInfo"))
+    writer_.leaf({"NavigationInfo", {{{"headlight", fieldText(graph.headlight)}}}});
   if (graph.background)
     writer_.leaf({"Background", {{{"skyColor", numbers(graph.background->skyColor)}}}});
+}
+
+/// What an X3D file says of itself; HTML has a head of its own.
+void SceneWriter::writeHeader() {
+  const std::vector<std::size_t>& header = document_.graph.header;
+  if (header.empty() || medium_ == Medium::page)
+    return;
+  const Element head{"head", {}};
+  writer_.open(head);
+  for (const std::size_t node : header)
+    writeNode(node);
+  writer_.close(head);
 }
 
 std::string SceneWriter::write() {
   const Element x3d{"X3D", {{{"profile", "Interchange"}, {"version", "4.0"}}}}, scene{"Scene", {}};
   writer_.open(x3d);
+  writeHeader();
   writer_.open(scene);
   writeHead();
   for (const std::size_t root : document_.graph.roots)
@@ -127,8 +149,63 @@ void SceneWriter::writeExtras(const Node& node) {
                   {{{"containerField", "metadata"}, {"name", "extras"}, {"value", strings({node.extras})}}}});
 }
 
+void SceneWriter::writeParts(const Node& node) {
+  writeExtras(node);
+  for (const std::size_t child : node.children)
+    writeNode(child);
+}
+
+Attributes SceneWriter::furtherFields(const Node& node) const {
+  Attributes fields;
+  for (const FieldText& field : node.fields) {
+    if (medium_ == Medium::file) {
+      fields.push_back({field.name, field.value});
+      continue;
+    }
+    if (!isInertInPage(field.name))
+      continue;
+    const bool isUrl = sameName(field.name, "url") || field.name.ends_with("Url");
+    const std::string value = isUrl ? pageUrls(field.value) : field.value;
+    if (!isUrl || !value.empty())
+      fields.push_back({field.name, value});
+  }
+  return fields;
+}
+
+/// A page has a Group where it may not have an element that others stand in.
+Element SceneWriter::otherElement(const OtherNode& other, const Node& node, const Attributes& names) const {
+  const bool isWritten = medium_ == Medium::file || mayStandInPage(other.element);
+  Element element{isWritten ? other.element : "Group", {names}};
+  if (!isWritten)
+    return element;
+  for (Attribute& field : furtherFields(node)) {
+    if (field.name == "url" && other.image)
+      field.value = strings({document_.graph.images.at(*other.image).url});
+    element.groups.back().push_back(std::move(field));
+  }
+  return element;
+}
+
+Element SceneWriter::elementOf(const Node& node, const Attributes& names) const {
+  if (const OtherNode* other = std::get_if<OtherNode>(&node.content))
+    return otherElement(*other, node, names);
+  Element element = std::visit(
+      [&](const auto& content) {
+        if constexpr (std::is_same_v<decltype(content), const OtherNode&>)
+          return Element{};
+        else
+          return contentElement(content, names);
+      },
+      node.content);
+  std::ranges::move(furtherFields(node), std::back_inserter(element.groups.back()));
+  return element;
+}
+
 void SceneWriter::writeNode(std::size_t index) {
   const Node& node = document_.graph.nodes[index];
+  const OtherNode* other = std::get_if<OtherNode>(&node.content);
+  if (other && medium_ == Medium::page && node.children.empty() && !mayStandInPage(other->element))
+    return;
   const Attributes names = nodeNames_.defOrUse(index);
   if (isUse(names))
     return writer_.leaf({elementOf(node, {}).name, {names}});
@@ -136,11 +213,9 @@ void SceneWriter::writeNode(std::size_t index) {
     return writeShape(node, names);
   const Element element = elementOf(node, names);
   if (node.children.empty() && node.extras.empty())
-    return writer_.leaf(element);
+    return writer_.leaf(element, other && medium_ == Medium::file ? other->text : "");
   writer_.open(element);
-  writeExtras(node);
-  for (const std::size_t child : node.children)
-    writeNode(child);
+  writeParts(node);
   writer_.close(element);
 }
 
@@ -170,9 +245,10 @@ void SceneWriter::writeGeometryOf(const Shape& shape) {
 
 void SceneWriter::writeShape(const Node& node, const Attributes& names) {
   const Shape& shape = std::get<Shape>(node.content);
-  const Element element{"Shape", {names, boxAttributes(document_.geometries.at(shape.mesh).box)}};
+  const Element element{"Shape",
+                        {names, furtherFields(node), boxAttributes(document_.geometries.at(shape.mesh).box)}};
   writer_.open(element);
-  writeExtras(node);
+  writeParts(node);
   writeAppearanceOf(shape);
   writeGeometryOf(shape);
   writer_.close(element);

@@ -11,10 +11,13 @@
 
 namespace imgeo {
 
+/// A page runs what stands in it, a file does not (page_markup.h).
+enum class Medium : std::uint8_t { page, file };
+
 class SceneWriter {
 public:
   /// `document` outlives the writer; `level` is the element's indent.
-  SceneWriter(const SceneDocument& document, std::size_t level);
+  SceneWriter(const SceneDocument& document, std::size_t level, Medium medium);
   virtual ~SceneWriter() = default;
   SceneWriter(const SceneWriter&) = delete;
   SceneWriter& operator=(const SceneWriter&) = delete;
@@ -26,6 +29,10 @@ protected:
   /// Writes what stands for a Shape node; `names` is its DEF, if it has one.
   virtual void writeShape(const Node& node, const Attributes& names);
   void writeExtras(const Node& node);
+  /// Extras and children: of an X3D source's Shape, what it has besides its geometry.
+  void writeParts(const Node& node);
+  /// The further fields of a node's element, as far as they may stand in this medium.
+  Attributes furtherFields(const Node& node) const;
 
   /// Names that elements have, given when they are first written.
   class Names {
@@ -47,11 +54,16 @@ protected:
 
 private:
   void giveNames();
+  void writeHeader();
+  Element elementOf(const Node& node, const Attributes& names) const;
+  Element otherElement(const OtherNode& other, const Node& node, const Attributes& names) const;
+  bool hasOther(std::string_view element) const;
   void writeHead();
   void writeNode(std::size_t index);
   void writeAppearanceOf(const Shape& shape);
   void writeGeometryOf(const Shape& shape);
 
+  const Medium medium_;
   Names geometryNames_; ///< two for each: solid and not
 };
 

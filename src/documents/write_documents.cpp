@@ -77,7 +77,7 @@ constexpr const char* xmlDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"
 } // namespace
 
 std::string writeX3d(const SceneDocument& document) {
-  return xmlDeclaration + SceneWriter(document, 0).write();
+  return xmlDeclaration + SceneWriter(document, 0, Medium::file).write();
 }
 
 std::string writeHtml(const SceneDocument& document, const PageOptions& options) {
@@ -88,11 +88,11 @@ std::string writeHtml(const SceneDocument& document, const PageOptions& options)
   for (const std::string& url : firstRequests(document))
     head += link("preload", url, " as=\"fetch\" crossorigin=\"anonymous\" fetchpriority=\"high\"");
   head += "    <script type=\"module\" src=" + quoteAttribute(options.runtimeUrl) + "></script>\n";
-  return page(document, head, SceneWriter(document, 2).write());
+  return page(document, head, SceneWriter(document, 2, Medium::page).write());
 }
 
 std::string writeX3domX3d(const SceneDocument& document) {
-  return xmlDeclaration + x3domElement(document, 0);
+  return xmlDeclaration + x3domElement(document, 0, Medium::file);
 }
 
 std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom,
@@ -104,7 +104,7 @@ std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3do
                            link("stylesheet", stylesheetUrl) +
                            "    <script src=" + quoteAttribute(x3dom.scriptUrl) + checked(x3dom.scriptSum) +
                            "></script>\n";
-  return page(document, head, x3domElement(document, 2));
+  return page(document, head, x3domElement(document, 2, Medium::page));
 }
 
 std::string_view pageStylesheet() {

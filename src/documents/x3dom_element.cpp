@@ -27,8 +27,8 @@ Vec2<std::uint32_t> implicitMeshSizeOf(const SceneDocument& document) {
 
 class X3domWriter : public SceneWriter {
 public:
-  X3domWriter(const SceneDocument& document, std::size_t level)
-      : SceneWriter(document, level), sampling_(table_.take("exactTexels")),
+  X3domWriter(const SceneDocument& document, std::size_t level, Medium medium)
+      : SceneWriter(document, level, medium), sampling_(table_.take("exactTexels")),
         shiningNames_(document.graph.appearances.size()), implicitMeshSize_(implicitMeshSizeOf(document)) {}
 
 private:
@@ -42,11 +42,11 @@ private:
       if (look.empty())
         look = table_.take(names.empty() ? "look" : names[0].value + "-look");
     }
-    const Element group{"Group", {names, boxAttributes(geometry.box)}};
+    const Element group{"Group", {names, furtherFields(node), boxAttributes(geometry.box)}};
     writer_.open(group);
     writeExtras(node);
     for (const PatchDescription& patch : geometry.patches)
-      writePatch({"", shape, {}, ""}, {}, geometry, patch);
+      writePatch({"", shape, node.children, "", {}}, {}, geometry, patch);
     writer_.close(group);
   }
 
@@ -87,9 +87,9 @@ private:
     const bool isSig = geometry.container == Container::sig;
     if (isSig)
       names.push_back({"isPickable", "false"}); // the shader that picks images does not compile
-    const Element element{"Shape", {names, boxAttributes(patch.box)}};
+    const Element element{"Shape", {names, furtherFields(node), boxAttributes(patch.box)}};
     writer_.open(element);
-    writeExtras(node);
+    writeParts(node);
     writeAppearanceOf(shape, shines(patch));
     if (isSig)
       writeImages(geometry, patch, shape.solid);
@@ -214,8 +214,8 @@ private:
 
 } // namespace
 
-std::string x3domElement(const SceneDocument& document, std::size_t level) {
-  return X3domWriter(document, level).write();
+std::string x3domElement(const SceneDocument& document, std::size_t level, Medium medium) {
+  return X3domWriter(document, level, medium).write();
 }
 
 } // namespace imgeo

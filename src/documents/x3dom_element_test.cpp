@@ -91,13 +91,13 @@ TEST(X3domElement, ReadsBackAsTheSameScene) {
 }
 
 TEST(X3domElement, HasOneImplicitMeshForThePage) {
-  const std::string text = x3domElement(images(), 0);
+  const std::string text = x3domElement(images(), 0, Medium::file);
   EXPECT_EQ(countOf(text, "implicitMeshSize=\"256 20\""), 4u);
   EXPECT_EQ(countOf(text, "implicitMeshSize"), 4u);
 }
 
 TEST(X3domElement, LetsNoTexelBeFilteredOrScaled) {
-  const std::string text = x3domElement(images(), 0);
+  const std::string text = x3domElement(images(), 0, Medium::file);
   const std::size_t textures = countOf(text, "<ImageTexture ");
   EXPECT_EQ(textures, 4u + 4 + 4 + 3);
   EXPECT_EQ(
@@ -109,7 +109,7 @@ TEST(X3domElement, LetsNoTexelBeFilteredOrScaled) {
 
 TEST(X3domElement, GivesTheGroupTheNameAndItsShapesOneLook) {
   for (const SceneDocument& document : {images(), arrays()}) {
-    const std::string text = x3domElement(document, 0);
+    const std::string text = x3domElement(document, 0, Medium::file);
     EXPECT_EQ(countOf(text, "<Group DEF=\"statue\""), 1u);
     EXPECT_EQ(countOf(text, "<Appearance DEF=\"statue-look\">"), 1u);
     EXPECT_EQ(countOf(text, "<Appearance USE=\"statue-look\">"), 1u);
@@ -122,19 +122,19 @@ TEST(X3domElement, TakesNoNameThatAShapeHas) {
   SceneDocument document = images();
   document.graph.nodes[1].name = "statue-look";
   document.graph.nodes[2].name = "exactTexels";
-  const std::string text = x3domElement(document, 0);
+  const std::string text = x3domElement(document, 0, Medium::file);
   EXPECT_EQ(countOf(text, "DEF=\"statue-look\""), 1u);
   EXPECT_EQ(countOf(text, "<Appearance USE=\"statue-look_2\">"), 1u);
   EXPECT_EQ(countOf(text, "<TextureProperties DEF=\"exactTexels_2\""), 1u);
 }
 
 TEST(X3domElement, IsLitOnlyWhereThereAreNormals) {
-  EXPECT_EQ(countOf(x3domElement(images(), 0), "lit=\"false\""), 1u);
-  EXPECT_EQ(countOf(x3domElement(images(), 0), "emissiveColor"), 1u);
+  EXPECT_EQ(countOf(x3domElement(images(), 0, Medium::file), "lit=\"false\""), 1u);
+  EXPECT_EQ(countOf(x3domElement(images(), 0, Medium::file), "emissiveColor"), 1u);
 }
 
 TEST(X3domElement, StatesAStrideAsAQuery) {
-  const std::string text = x3domElement(arrays(), 0);
+  const std::string text = x3domElement(arrays(), 0, Medium::file);
   EXPECT_EQ(countOf(text, "coord=\"[a-d]c0.png\\?\\+8\""), 4u);
   EXPECT_EQ(countOf(text, "normal=\"[a-d]n.png\\?\\+4\""), 3u);
   EXPECT_EQ(countOf(text, "index=\"[a-d]i.png\""), 4u);

@@ -12,6 +12,7 @@ Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& o
 Imported readObj(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 Imported readStl(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& options);
+Imported readX3d(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 /// Whatever else Assimp reads, in a process of its own.
 Imported readByAssimp(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 bool isReadByAssimp(const std::string& name);
@@ -21,6 +22,7 @@ bool looksLikePly(ByteSpan bytes);
 bool looksLikeStl(ByteSpan bytes);
 bool looksLikeGlb(ByteSpan bytes);
 bool looksLikeGltf(ByteSpan bytes);
+bool looksLikeX3d(ByteSpan bytes);
 /// True where the first line that says anything begins with a keyword of OBJ.
 bool looksLikeObj(ByteSpan bytes);
 

@@ -9,6 +9,7 @@
 #include <cctype>
 #include <fmt/format.h>
 #include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,25 +38,24 @@ Reader readerFor(ByteSpan bytes, const std::string& name) {
     return readStl;
   if (looksLikeGlb(bytes) || looksLikeGltf(bytes))
     return readGltf;
+  if (looksLikeX3d(bytes))
+    return readX3d;
+  const std::string extension = lowerCase(withoutGz(name).extension());
+  static const std::map<std::string_view, Reader> readers{{".ply", readPly},  {".stl", readStl},
+                                                          {".obj", readObj},  {".gltf", readGltf},
+                                                          {".glb", readGltf}, {".x3d", readX3d}};
+  const auto reader = readers.find(extension);
+  if (reader == readers.end() && isReadByAssimp(name)) // also text in UTF-16, and some that looks like OBJ
+    return readByAssimp;
   if (looksLikeObj(bytes))
     return readObj;
   if (asText(bytes).starts_with("\xff\xfe") || asText(bytes).starts_with("\xfe\xff"))
     throw Error(ErrorKind::unsupported, name, "is text in UTF-16; imgeo reads ASCII and UTF-8");
-  const std::string extension = lowerCase(withoutGz(name).extension());
-  if (extension == ".ply")
-    return readPly;
-  if (extension == ".stl")
-    return readStl;
-  if (extension == ".obj")
-    return readObj;
-  if (extension == ".gltf" || extension == ".glb")
-    return readGltf;
-  if (isReadByAssimp(name))
-    return readByAssimp;
-  throw Error(
-      ErrorKind::unsupported, name,
-      "is in no format that imgeo reads, which are glTF, PLY, OBJ, STL and those of Assimp (Collada, FBX, "
-      "3DS ...)");
+  if (reader != readers.end())
+    return reader->second;
+  throw Error(ErrorKind::unsupported, name,
+              "is in no format that imgeo reads, which are X3D, glTF, PLY, OBJ, STL and those of Assimp "
+              "(Collada, FBX, 3DS ...)");
 }
 
 /// Names of nodes become DEFs, which must differ: "wheel", "wheel-2", ...
@@ -69,6 +69,10 @@ void makeNamesUnique(SceneGraph& graph) {
     while (!next.try_emplace(name, 2).second)
       name = fmt::format("{}-{}", wanted, next[wanted]++);
   }
+}
+
+std::string withoutFullStop(const std::string& sentence) {
+  return sentence.ends_with('.') ? sentence.substr(0, sentence.size() - 1) : sentence;
 }
 
 } // namespace
@@ -103,8 +107,11 @@ Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOption
   const auto hasElements = [&](const PlacedShape& placed) {
     return !imported.scene.meshes[shapeOf(imported.scene.graph, placed.node).mesh].corners.empty();
   };
-  if (std::ranges::none_of(placedShapes(imported.scene.graph, name), hasElements))
-    throw Error(ErrorKind::malformed, name, "the file has no triangles, lines or points");
+  if (!imported.scene.graph.isComplete &&
+      std::ranges::none_of(placedShapes(imported.scene.graph, name), hasElements))
+    throw Error(ErrorKind::malformed, name,
+                "the file has no triangles, lines or points" +
+                    (imported.warnings.empty() ? "" : "; " + withoutFullStop(imported.warnings[0])));
   makeNamesUnique(imported.scene.graph);
   if (imported.scene.graph.title.empty())
     imported.scene.graph.title = stemOf(name);

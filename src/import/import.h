@@ -18,6 +18,8 @@
 // textures, cameras, punctual lights, the authors' extras; compressed by Draco or
 // meshopt, quantised, sparse, instanced. Attributes _NAME are further attributes NAME.
 // What is damaged is left out, with a warning, unless the options are strict.
+// X3D in XML: the sets of faces, triangles, lines and points and elevation grids are
+// meshes; everything else is a node that goes through as it is.
 // Collada, FBX, 3DS and whatever else Assimp reads: nodes, meshes, materials,
 // textures, cameras and lights, read in a process of its own.
 // Polygons are cut into triangles. Normals are brought to unit length; (0, 0, 1)
@@ -53,6 +55,7 @@ struct ImportOptions {
   AttributeChoice attributes;   ///< none where nothing is said
   std::filesystem::path folder; ///< where relative urls lead; empty: nowhere
   bool outside = false;         ///< urls may lead out of the folder
+  std::size_t inlineBytes = 0;  ///< geometry of an X3D document whose text is no longer than this stays in it
   bool strict = false;          ///< damage is an Error, even where the rest could be read
 };
 

@@ -26,7 +26,13 @@ void members(auto& archive, auto& v, const OrthoViewpoint*) {
   archive(v.description, v.position, v.orientation, v.min, v.max, v.centerOfRotation);
 }
 void members(auto& archive, auto& v, const Node*) {
-  archive(v.name, v.content, v.children, v.extras);
+  archive(v.name, v.content, v.children, v.extras, v.fields);
+}
+void members(auto& archive, auto& v, const FieldText*) {
+  archive(v.name, v.value);
+}
+void members(auto& archive, auto& v, const OtherNode*) {
+  archive(v.element, v.text, v.image);
 }
 void members(auto& archive, auto& v, const Texture*) {
   archive(v.name, v.image, v.boundaryS, v.boundaryT, v.magnification, v.minification, v.betweenMipMaps,
@@ -39,7 +45,8 @@ void members(auto& archive, auto& v, const Appearance*) {
   archive(v.name, v.material, v.textures, v.alphaMode, v.alphaCutoff);
 }
 void members(auto& archive, auto& v, const SceneGraph*) {
-  archive(v.title, v.info, v.nodes, v.roots, v.appearances, v.textures, v.images, v.background, v.headlight);
+  archive(v.title, v.info, v.nodes, v.roots, v.header, v.appearances, v.textures, v.images, v.background, v.headlight,
+          v.isComplete);
 }
 void members(auto& archive, auto& v, const Imported*) {
   archive(v.scene.graph, v.scene.meshes, v.attributes, v.format, v.warnings);

@@ -86,14 +86,30 @@ struct SpotLight {
   friend bool operator==(const SpotLight&, const SpotLight&) = default;
 };
 
-using NodeContent =
-    std::variant<Group, Transform, Shape, Viewpoint, OrthoViewpoint, DirectionalLight, PointLight, SpotLight>;
+/// An attribute of an element of X3D, as its source has it.
+struct FieldText {
+  std::string name, value;
+  friend bool operator==(const FieldText&, const FieldText&) = default;
+};
+
+/// An element of X3D that goes through as it is: its attributes are Node::fields,
+/// what stands in it is Node::children.
+struct OtherNode {
+  std::string element;
+  std::string text;                 ///< its character data: a Script's
+  std::optional<std::size_t> image; ///< index into SceneGraph::images: what its url leads to
+  friend bool operator==(const OtherNode&, const OtherNode&) = default;
+};
+
+using NodeContent = std::variant<Group, Transform, Shape, Viewpoint, OrthoViewpoint, DirectionalLight,
+                                 PointLight, SpotLight, OtherNode>;
 
 struct Node {
   std::string name; ///< becomes its DEF; of several nodes of one name the later get a number
   NodeContent content;
-  std::vector<std::size_t> children; ///< of Groups and Transforms: indices into SceneGraph::nodes
-  std::string extras;                ///< what the source's author has added, as JSON; may be empty
+  std::vector<std::size_t> children;  ///< indices into SceneGraph::nodes; of Shapes those of X3D sources
+  std::string extras;                 ///< what the source's author has added, as JSON; may be empty
+  std::vector<FieldText> fields = {}; ///< further attributes of its element in an X3D source
   friend bool operator==(const Node&, const Node&) = default;
 };
 
@@ -108,12 +124,15 @@ struct SceneGraph {
   std::string title;
   std::vector<std::string> info; ///< X3D WorldInfo: who made the source, whose it is
   std::vector<Node> nodes;
-  std::vector<std::size_t> roots; ///< indices into `nodes`, in document order
+  std::vector<std::size_t> roots;  ///< indices into `nodes`, in document order
+  std::vector<std::size_t> header; ///< the nodes of an X3D source's <head>
   std::vector<Appearance> appearances;
   std::vector<Texture> textures;
   std::vector<ImageFile> images;
   std::optional<Background> background;
   bool headlight = true; ///< X3D NavigationInfo
+  /// An X3D document: what it lacks it lacks on purpose, and nothing is added to it.
+  bool isComplete = false;
   friend bool operator==(const SceneGraph&, const SceneGraph&) = default;
 };
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "documents/page_markup.h"
 #include "transcode/encode_scene.h"
 #include "transcode/marker.h"
 #include "transcode/options.h"
@@ -108,6 +109,15 @@ void warnOfCollapsed(ConvertReport& report) {
   warn(Topology::lines, "length");
 }
 
+void warnOfPage(const SceneGraph& graph, ConvertReport& report) {
+  std::vector<std::string> elements;
+  for (const auto& [element, count] : leftOutOfPage(graph))
+    elements.push_back(fmt::format("{} ({})", element, count));
+  if (!elements.empty())
+    report.warnings.push_back(
+        fmt::format("{} alone has what does not go into a page: {}", sceneName, fmt::join(elements, ", ")));
+}
+
 /// Bytes by role, in the order in which `inspect` lists the roles.
 std::vector<RoleBytes> sumByRole(const std::vector<SiteFile>& files) {
   std::vector<RoleBytes> roles;
@@ -146,6 +156,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
                                   {.attributes = options.keepAttributes,
                                    .folder = {},
                                    .outside = options.outside,
+                                   .inlineBytes = inlineBytes,
                                    .strict = options.strict},
                                   report.sourceBytes);
   requireAttributes(imported, options);
@@ -175,6 +186,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
         tell(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
       });
   warnOfCollapsed(report);
+  warnOfPage(document.graph, report);
   Marker marker{generator,
                 input == "-" ? "" : input.filename().string(),
                 options.container,

@@ -75,6 +75,45 @@ Box3d worldBoxOf(const SceneDocument& document) {
   return whole;
 }
 
+/// The map back; the determinant is not 0.
+Affine3d inverseOf(const Affine3d& map) {
+  const Vec3d a = cross(map.y, map.z), b = cross(map.z, map.x), c = cross(map.x, map.y);
+  const double scale = 1 / map.determinant();
+  Affine3d back{Vec3d{a.x, b.x, c.x} * scale, Vec3d{a.y, b.y, c.y} * scale, Vec3d{a.z, b.z, c.z} * scale, {}};
+  back.translation = back.direction(map.translation) * -1;
+  return back;
+}
+
+/// Lets viewpoints turn around the middle of what is seen, which their sources say
+/// nothing of. One that stands in several places does so for the first.
+class Aiming {
+public:
+  Aiming(SceneGraph& graph, Vec3d center) : graph_(graph), center_(center), isSeen_(graph.nodes.size()) {}
+
+  void aim(std::size_t index, const Affine3d& worldFromParent) {
+    if (isSeen_[index])
+      return;
+    isSeen_[index] = true;
+    Node& node = graph_.nodes[index];
+    if (worldFromParent.determinant() != 0) {
+      const Vec3d center = inverseOf(worldFromParent).point(center_);
+      if (Viewpoint* viewpoint = std::get_if<Viewpoint>(&node.content))
+        viewpoint->centerOfRotation = center;
+      if (OrthoViewpoint* viewpoint = std::get_if<OrthoViewpoint>(&node.content))
+        viewpoint->centerOfRotation = center;
+    }
+    const Transform* transform = std::get_if<Transform>(&node.content);
+    const Affine3d worldFromNode = transform ? worldFromParent * affineOf(*transform) : worldFromParent;
+    for (const std::size_t child : node.children)
+      aim(child, worldFromNode);
+  }
+
+private:
+  SceneGraph& graph_;
+  Vec3d center_;
+  std::vector<bool> isSeen_;
+};
+
 /// Puts the nodes that a page needs and the source lacks before its own.
 void addDefaults(SceneDocument& document) {
   SceneGraph& graph = document.graph;
@@ -86,13 +125,17 @@ void addDefaults(SceneDocument& document) {
     hasLight |= std::holds_alternative<DirectionalLight>(content) ||
                 std::holds_alternative<PointLight>(content) || std::holds_alternative<SpotLight>(content);
   }
+  const Box3d whole = worldBoxOf(document);
+  Aiming aiming(graph, whole.center());
+  for (const std::size_t root : graph.roots)
+    aiming.aim(root, {});
   const auto addFirst = [&](NodeContent content) {
     graph.roots.insert(graph.roots.begin(), addNode(graph, {"", std::move(content), {}, ""}));
   };
   if (!hasLight)
     addFirst(keyLight);
   if (!hasViewpoint)
-    addFirst(viewpointFor(worldBoxOf(document)));
+    addFirst(viewpointFor(whole));
   if (!graph.background)
     graph.background = sky;
 }
@@ -104,6 +147,9 @@ void writeTextures(SceneGraph& graph, ContentFiles& files) {
     if (const auto& appearance = shapeOf(graph, node).appearance)
       for (const TextureUse& use : graph.appearances[*appearance].textures)
         images.insert(graph.textures[use.texture].image);
+  for (const std::size_t node : nodesInOrder(graph))
+    if (const OtherNode* other = std::get_if<OtherNode>(&graph.nodes[node].content); other && other->image)
+      images.insert(*other->image);
   for (const std::size_t index : images) {
     ImageFile& image = graph.images[index];
     image.url = files.write(image.bytes, imageType(image.bytes));
@@ -177,12 +223,15 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteCont
       document.geometries.push_back(std::move(encoded.geometry));
     }
     shape.mesh = *geometry;
-    shape.appearance = looks.lookFor(shape, drawsSurface(document.geometries[*geometry]));
+    if (!document.graph.isComplete)
+      shape.appearance = looks.lookFor(shape, drawsSurface(document.geometries[*geometry]));
   }
-  report.lattice = document.geometries.front().lattice;
+  if (!document.geometries.empty())
+    report.lattice = document.geometries.front().lattice;
   bases.write(document.geometries, content.geometry);
   writeTextures(document.graph, content.textures);
-  addDefaults(document);
+  if (!document.graph.isComplete)
+    addDefaults(document);
   return document;
 }
 

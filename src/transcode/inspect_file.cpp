@@ -9,8 +9,9 @@ namespace imgeo {
 
 SourceInfo inspectSource(const std::filesystem::path& file, bool outside) {
   SourceInfo info;
-  const Imported imported =
-      importInput(file, {.attributes = {}, .folder = {}, .outside = outside, .strict = false}, info.bytes);
+  ImportOptions options;
+  options.outside = outside;
+  const Imported imported = importInput(file, options, info.bytes);
   info.format = imported.format;
   info.warnings = imported.warnings;
   info.attributes = imported.attributes;

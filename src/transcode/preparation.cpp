@@ -66,7 +66,7 @@ PreparationReport prepareScene(Scene& scene, NormalWeighting weighting, const st
     isEmpty.push_back(mesh.elementCount() == 0);
   removeShapes(scene.graph, isEmpty);
   const std::size_t shapesLeft = shapeNodes(scene.graph).size();
-  if (shapesLeft == 0)
+  if (shapesLeft == 0 && !scene.graph.isComplete)
     throw Error(ErrorKind::malformed, place,
                 "holds no triangles, lines or points, so there is nothing to show");
   if (const std::size_t dropped = shapesBefore - shapesLeft)

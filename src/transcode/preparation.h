@@ -14,6 +14,10 @@
 
 namespace imgeo {
 
+/// Geometry of X3D documents stays in them where its text is no longer than this:
+/// docs/decisions/scenes.md has the measurement.
+inline constexpr std::size_t inlineBytes = 1024;
+
 /// Imports a file, or standard input for "-", and says how long it is.
 Imported importInput(const std::filesystem::path& input, const ImportOptions& options, std::uint64_t& bytes);
 

@@ -43,17 +43,14 @@ std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene) {
 }
 
 std::vector<std::string> textureFilesOf(const SceneDocument& scene) {
-  const SceneGraph& graph = scene.graph;
   std::vector<std::string> urls;
   std::set<std::string> seen;
-  for (const std::size_t node : shapeNodes(graph))
-    if (const auto& appearance = shapeOf(graph, node).appearance)
-      for (const TextureUse& use : graph.appearances[*appearance].textures) {
-        const std::string& url = graph.images[graph.textures[use.texture].image].url;
-        const bool isElsewhere = url.empty() || url.find(':') != url.npos || url.starts_with("//");
-        if (!isElsewhere && seen.insert(url).second)
-          urls.push_back(url);
-      }
+  for (const ImageFile& image : scene.graph.images) {
+    const bool isElsewhere =
+        image.url.empty() || image.url.find(':') != image.url.npos || image.url.starts_with("//");
+    if (!isElsewhere && seen.insert(image.url).second)
+      urls.push_back(image.url);
+  }
   return urls;
 }
 

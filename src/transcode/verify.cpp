@@ -326,6 +326,7 @@ Imported prepared(const fs::path& input, const std::optional<Marker>& marker, bo
   std::uint64_t bytes = 0;
   ImportOptions options;
   options.outside = outside;
+  options.inlineBytes = inlineBytes;
   if (marker)
     options.attributes.names = {marker->attributes.begin(), marker->attributes.end()};
   Imported imported = importInput(input, options, bytes);

@@ -1,0 +1,131 @@
+#include "import/x3d/faces.h"
+
+#include "import/triangulate.h"
+#include "import/unit_normal.h"
+
+#include <cmath>
+#include <span>
+#include <unordered_map>
+
+namespace imgeo::x3d {
+
+namespace {
+
+struct CornerHash {
+  std::size_t operator()(const Corner& corner) const {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const std::uint32_t part : {corner.position, corner.normal, corner.texCoord, corner.color})
+      hash = (hash ^ part) * 0x100000001b3;
+    return hash ^ hash >> 32;
+  }
+};
+
+class WedgeBuilder {
+public:
+  WedgeBuilder(const VertexData& data, Mesh& mesh)
+      : data_(data), mesh_(mesh), localPosition_(data.positions.size(), none) {}
+
+  void addCorner(const Corner& corner) {
+    const auto [wedge, isNew] =
+        wedges_.try_emplace(corner, static_cast<std::uint32_t>(mesh_.wedgePositions.size()));
+    if (isNew)
+      addWedge(corner);
+    mesh_.corners.push_back(wedge->second);
+  }
+
+private:
+  void addWedge(const Corner& corner) {
+    std::uint32_t& local = localPosition_[corner.position];
+    if (local == none) {
+      local = static_cast<std::uint32_t>(mesh_.positions.size());
+      mesh_.positions.push_back(data_.positions[corner.position]);
+    }
+    mesh_.wedgePositions.push_back(local);
+    if (corner.normal != none)
+      mesh_.normals.push_back(data_.normals[corner.normal]);
+    if (corner.texCoord != none)
+      mesh_.texCoords.push_back(data_.texCoords[corner.texCoord]);
+    if (corner.color != none)
+      mesh_.colors.push_back(data_.colors[corner.color]);
+  }
+
+  const VertexData& data_;
+  Mesh& mesh_;
+  std::vector<std::uint32_t> localPosition_;
+  std::unordered_map<Corner, std::uint32_t, CornerHash> wedges_;
+};
+
+/// Newell's normal, of unit length; zero for a face without area.
+Vec3d faceNormal(const VertexData& data, std::span<const Corner> face) {
+  Vec3d sum;
+  for (std::size_t i = 0; i < face.size(); ++i)
+    sum = sum + cross(Vec3d(data.positions[face[i].position]),
+                      Vec3d(data.positions[face[(i + 1) % face.size()].position]));
+  const double size = length(sum);
+  return size > 0 ? sum * (1 / size) : Vec3d{};
+}
+
+} // namespace
+
+void addCreasedNormals(VertexData& data, Faces& faces, double creaseAngle) {
+  std::vector<Vec3d> normals;
+  std::vector<std::uint32_t> firstOf(data.positions.size() + 1); // faces around each position, as one list
+  for (const Corner& corner : faces.corners)
+    ++firstOf[corner.position + 1];
+  for (std::size_t i = 1; i < firstOf.size(); ++i)
+    firstOf[i] += firstOf[i - 1];
+  std::vector<std::uint32_t> around(faces.corners.size()), next(firstOf.begin(), firstOf.end() - 1);
+  std::size_t begin = 0;
+  for (const std::size_t end : faces.ends) {
+    const std::span<const Corner> face(faces.corners.data() + begin, end - begin);
+    for (const Corner& corner : face)
+      around[next[corner.position]++] = static_cast<std::uint32_t>(normals.size());
+    normals.push_back(faceNormal(data, face));
+    begin = end;
+  }
+  const double least = std::cos(std::min(creaseAngle, 3.1415926535)) - 1e-9;
+  std::size_t corner = 0;
+  for (std::size_t face = 0; face < faces.ends.size(); ++face)
+    for (; corner < faces.ends[face]; ++corner) {
+      const std::uint32_t position = faces.corners[corner].position;
+      Vec3d sum;
+      for (std::uint32_t i = firstOf[position]; i < firstOf[position + 1]; ++i)
+        if (dot(normals[around[i]], normals[face]) >= least || around[i] == face)
+          sum = sum + normals[around[i]];
+      Vec3f normal(sum);
+      makeUnit(normal);
+      if (data.normals.empty() || data.normals.back() != normal)
+        data.normals.push_back(normal);
+      faces.corners[corner].normal = static_cast<std::uint32_t>(data.normals.size() - 1);
+    }
+}
+
+Mesh meshOf(const VertexData& data, const Faces& faces, std::size_t& fans) {
+  Mesh mesh;
+  mesh.topology = faces.topology;
+  mesh.colorComponents = data.colorComponents;
+  WedgeBuilder builder(data, mesh);
+  if (faces.topology != Topology::triangles) {
+    for (const Corner& corner : faces.corners)
+      builder.addCorner(corner);
+    return mesh;
+  }
+  std::vector<Vec3f> ring;
+  std::vector<std::uint32_t> places;
+  std::size_t begin = 0;
+  for (const std::size_t end : faces.ends) {
+    const std::span<const Corner> face(faces.corners.data() + begin, end - begin);
+    begin = end;
+    if (face.size() < 3)
+      continue;
+    ring.clear(), places.clear();
+    for (const Corner& corner : face)
+      ring.push_back(data.positions[corner.position]);
+    fans += !triangulate(ring, places);
+    for (const std::uint32_t place : places)
+      builder.addCorner(face[place]);
+  }
+  return mesh;
+}
+
+} // namespace imgeo::x3d

@@ -1,0 +1,335 @@
+#include "import/x3d/geometry.h"
+
+#include "import/unit_normal.h"
+#include "import/x3d/faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+#include <numbers>
+
+namespace imgeo::x3d {
+
+namespace {
+
+using Indices = std::vector<std::int32_t>;
+
+/// Reads the vertex data of one geometry node and gives corners their attributes.
+class GeometryReader {
+public:
+  GeometryReader(const Source& source, pugi::xml_node node) : source_(source), node_(node) {}
+
+  std::optional<Geometry> read() {
+    static const std::map<std::string_view, void (GeometryReader::*)()> readers{
+        {"IndexedFaceSet", &GeometryReader::readIndexedFaces},
+        {"TriangleSet", &GeometryReader::readTriangles},
+        {"TriangleStripSet", &GeometryReader::readStrips},
+        {"TriangleFanSet", &GeometryReader::readFans},
+        {"IndexedTriangleSet", &GeometryReader::readTriangles},
+        {"IndexedTriangleStripSet", &GeometryReader::readStrips},
+        {"IndexedTriangleFanSet", &GeometryReader::readFans},
+        {"ElevationGrid", &GeometryReader::readElevationGrid},
+        {"IndexedLineSet", &GeometryReader::readIndexedLines},
+        {"LineSet", &GeometryReader::readLines},
+        {"PointSet", &GeometryReader::readPoints}};
+    const auto reader = readers.find(node_.name());
+    if (reader == readers.end())
+      return {};
+    readData();
+    (this->*reader->second)();
+    if (faces_.corners.empty())
+      return {};
+    return finished();
+  }
+
+private:
+  [[noreturn]] void fail(ErrorKind kind, const std::string& message) const {
+    source_.fail(node_, kind, message);
+  }
+
+  Indices integers(const char* field) const { return source_.integers(node_, field); }
+
+  /// The first child of one of the names, or what it USEs.
+  pugi::xml_node part(std::initializer_list<const char*> names) const {
+    for (const pugi::xml_node& child : node_.children())
+      for (const char* name : names)
+        if (std::string_view(child.name()) == name)
+          return source_.resolved(child);
+    return {};
+  }
+
+  std::vector<double> tuples(pugi::xml_node from, const char* field, std::size_t size) const {
+    std::vector<double> values = source_.reals(from, field);
+    if (values.size() % size != 0)
+      source_.fail(from, ErrorKind::malformed,
+                   fmt::format("{} has {} numbers, which are not {} each", field, values.size(), size));
+    return values;
+  }
+
+  std::vector<Vec3f> vectors(pugi::xml_node from, const char* field) const {
+    const std::vector<double> values = tuples(from, field, 3);
+    std::vector<Vec3f> vectors;
+    for (std::size_t i = 0; i < values.size(); i += 3)
+      vectors.push_back(Vec3f(Vec3d{values[i], values[i + 1], values[i + 2]}));
+    return vectors;
+  }
+
+  void readData() {
+    data_.positions = vectors(part({"Coordinate", "CoordinateDouble"}), "point");
+    data_.normals = vectors(part({"Normal"}), "vector");
+    for (Vec3f& normal : data_.normals)
+      makeUnit(normal);
+    pugi::xml_node texCoord = part({"TextureCoordinate", "MultiTextureCoordinate"});
+    if (std::string_view(texCoord.name()) == "MultiTextureCoordinate")
+      texCoord = source_.resolved(texCoord.child("TextureCoordinate"));
+    const std::vector<double> points = tuples(texCoord, "point", 2);
+    for (std::size_t i = 0; i < points.size(); i += 2)
+      data_.texCoords.push_back({static_cast<float>(points[i]), static_cast<float>(points[i + 1])});
+    const pugi::xml_node color = part({"Color", "ColorRGBA"});
+    const std::size_t components = std::string_view(color.name()) == "ColorRGBA" ? 4 : 3;
+    const std::vector<double> colors = tuples(color, "color", components);
+    const auto byte = [](double value) {
+      return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 1.0) * 255));
+    };
+    for (std::size_t i = 0; i < colors.size(); i += components)
+      data_.colors.push_back({byte(colors[i]), byte(colors[i + 1]), byte(colors[i + 2]),
+                              components == 4 ? byte(colors[i + 3]) : std::uint8_t{255}});
+    const bool isOpaque = std::ranges::all_of(data_.colors, [](Rgba8 c) { return c.a == 255; });
+    data_.colorComponents = isOpaque ? 3 : 4;
+  }
+
+  /// A face is a run of vertices: places in `coordIndex` or, without one, in the Coordinate.
+  void addFace(std::initializer_list<std::uint32_t> vertices) {
+    for (const std::uint32_t vertex : vertices)
+      faces_.corners.push_back({vertex, none, none, none});
+    faces_.ends.push_back(faces_.corners.size());
+  }
+
+  /// What an attribute's index says for a corner: its own index, or the vertex's.
+  static std::uint32_t lookUp(const Indices& index, std::size_t at, std::uint32_t vertex) {
+    if (index.empty())
+      return vertex;
+    return at < index.size() && index[at] >= 0 ? static_cast<std::uint32_t>(index[at]) : none;
+  }
+
+  // 11.2.2.4: values belong to vertices, or one to each face.
+  void readIndexedFaces() { readRuns(Topology::triangles); }
+  void readIndexedLines() { readRuns(Topology::lines); }
+
+  /// Runs of coordIndex between the -1s, with indices of attributes beside it.
+  void readRuns(Topology topology) {
+    const Indices coordIndex = integers("coordIndex"), normalIndex = integers("normalIndex"),
+                  colorIndex = integers("colorIndex"), texCoordIndex = integers("texCoordIndex");
+    const bool normalPerVertex = source_.boolean(node_, "normalPerVertex", true),
+               colorPerVertex = source_.boolean(node_, "colorPerVertex", true);
+    std::uint32_t face = 0;
+    for (std::size_t at = 0; at < coordIndex.size(); ++at) {
+      if (coordIndex[at] < 0) {
+        if (faces_.corners.size() > (faces_.ends.empty() ? 0 : faces_.ends.back()))
+          faces_.ends.push_back(faces_.corners.size());
+        ++face;
+        continue;
+      }
+      const auto vertex = static_cast<std::uint32_t>(coordIndex[at]);
+      Corner corner{vertex, none, none, none};
+      if (!data_.normals.empty())
+        corner.normal = normalPerVertex ? lookUp(normalIndex, at, vertex) : lookUp(normalIndex, face, face);
+      if (!data_.texCoords.empty())
+        corner.texCoord = lookUp(texCoordIndex, at, vertex);
+      if (!data_.colors.empty())
+        corner.color = colorPerVertex ? lookUp(colorIndex, at, vertex) : lookUp(colorIndex, face, face);
+      faces_.corners.push_back(corner);
+    }
+    if (faces_.corners.size() > (faces_.ends.empty() ? 0 : faces_.ends.back()))
+      faces_.ends.push_back(faces_.corners.size());
+    isCreased_ = topology == Topology::triangles;
+    if (topology == Topology::lines)
+      breakIntoLines();
+  }
+
+  /// Runs of corners -> the corners of single lines.
+  void breakIntoLines() {
+    Faces lines{Topology::lines, {}, {}};
+    std::size_t begin = 0;
+    for (const std::size_t end : faces_.ends) {
+      for (std::size_t i = begin; i + 1 < end; ++i)
+        lines.corners.insert(lines.corners.end(), {faces_.corners[i], faces_.corners[i + 1]});
+      begin = end;
+    }
+    faces_ = std::move(lines);
+  }
+
+  /// The vertices of runs: of `index` between its -1s, or as many of the Coordinate's as each count says.
+  std::vector<std::vector<std::uint32_t>> runs(const char* countField) const {
+    std::vector<std::vector<std::uint32_t>> runs;
+    if (node_.attribute("index") || std::string_view(node_.name()).starts_with("Indexed")) {
+      runs.emplace_back();
+      for (const std::int32_t vertex : integers("index"))
+        if (vertex < 0)
+          runs.emplace_back();
+        else
+          runs.back().push_back(static_cast<std::uint32_t>(vertex));
+      return runs;
+    }
+    std::uint64_t next = 0;
+    for (const std::int32_t count : integers(countField)) {
+      if (count < 0 || next + static_cast<std::uint64_t>(count) > data_.positions.size())
+        fail(ErrorKind::malformed, fmt::format("{} counts more vertices than there are", countField));
+      runs.emplace_back();
+      for (std::int32_t i = 0; i < count; ++i)
+        runs.back().push_back(static_cast<std::uint32_t>(next++));
+    }
+    return runs;
+  }
+
+  void readTriangles() {
+    std::vector<std::uint32_t> vertices;
+    if (std::string_view(node_.name()) == "IndexedTriangleSet") {
+      for (const std::int32_t vertex : integers("index"))
+        if (vertex >= 0) // some writers separate triangles
+          vertices.push_back(static_cast<std::uint32_t>(vertex));
+    } else {
+      for (std::uint32_t i = 0; i < data_.positions.size(); ++i)
+        vertices.push_back(i);
+    }
+    for (std::size_t i = 0; i + 2 < vertices.size(); i += 3)
+      addFace({vertices[i], vertices[i + 1], vertices[i + 2]});
+    addVertexAttributes();
+  }
+
+  void readStrips() {
+    for (const std::vector<std::uint32_t>& run : runs("stripCount"))
+      for (std::size_t i = 0; i + 2 < run.size(); ++i)
+        addFace({run[i], run[i + 1 + i % 2], run[i + 2 - i % 2]});
+    addVertexAttributes();
+  }
+
+  void readFans() {
+    for (const std::vector<std::uint32_t>& run : runs("fanCount"))
+      for (std::size_t i = 1; i + 1 < run.size(); ++i)
+        addFace({run[0], run[i], run[i + 1]});
+    addVertexAttributes();
+  }
+
+  void readLines() {
+    for (const std::vector<std::uint32_t>& run : runs("vertexCount")) {
+      for (const std::uint32_t vertex : run)
+        faces_.corners.push_back({vertex, none, none, none});
+      faces_.ends.push_back(faces_.corners.size());
+    }
+    addVertexAttributes();
+    breakIntoLines();
+  }
+
+  void readPoints() {
+    for (std::uint32_t i = 0; i < data_.positions.size(); ++i)
+      addFace({i});
+    addVertexAttributes();
+    faces_.topology = Topology::points;
+  }
+
+  /// Attributes of nodes whose vertices all have one number, or one value a face.
+  void addVertexAttributes() {
+    const bool normalPerVertex = source_.boolean(node_, "normalPerVertex", true),
+               colorPerVertex = source_.boolean(node_, "colorPerVertex", true);
+    std::size_t at = 0;
+    for (std::uint32_t face = 0; face < faces_.ends.size(); ++face)
+      for (; at < faces_.ends[face]; ++at) {
+        Corner& corner = faces_.corners[at];
+        if (!data_.normals.empty())
+          corner.normal = normalPerVertex ? corner.position : face;
+        if (!data_.texCoords.empty())
+          corner.texCoord = corner.position;
+        if (!data_.colors.empty())
+          corner.color = colorPerVertex ? corner.position : face;
+      }
+    isCreased_ = !normalPerVertex;
+  }
+
+  /// 13.3.4: heights over a grid in x and z, seen from above.
+  void readElevationGrid() {
+    const std::vector<double> heights = source_.reals(node_, "height");
+    const double columnsField = source_.real(node_, "xDimension", 0),
+                 rowsField = source_.real(node_, "zDimension", 0);
+    if (!(columnsField >= 0 && rowsField >= 0 &&
+          columnsField * rowsField <= static_cast<double>(heights.size())))
+      fail(ErrorKind::malformed,
+           fmt::format("has {} heights and needs {} x {}", heights.size(), columnsField, rowsField));
+    const auto columns = static_cast<std::uint32_t>(columnsField),
+               rows = static_cast<std::uint32_t>(rowsField);
+    if (columns < 2 || rows < 2)
+      return;
+    const double stepX = source_.real(node_, "xSpacing", 1), stepZ = source_.real(node_, "zSpacing", 1);
+    const bool hasTexCoords = !data_.texCoords.empty();
+    for (std::uint32_t z = 0; z < rows; ++z)
+      for (std::uint32_t x = 0; x < columns; ++x) {
+        data_.positions.push_back(Vec3f(Vec3d{stepX * x, heights[std::size_t{z} * columns + x], stepZ * z}));
+        if (!hasTexCoords)
+          data_.texCoords.push_back({static_cast<float>(x) / static_cast<float>(columns - 1),
+                                     static_cast<float>(z) / static_cast<float>(rows - 1)});
+      }
+    for (std::uint32_t z = 0; z + 1 < rows; ++z)
+      for (std::uint32_t x = 0; x + 1 < columns; ++x) {
+        const std::uint32_t corner = z * columns + x;
+        addFace({corner, corner + columns, corner + columns + 1, corner + 1});
+      }
+    addVertexAttributes();
+    isCreased_ = true;
+  }
+
+  void requireInRange() const {
+    const auto require = [&](std::uint32_t index, std::size_t count, const char* what) {
+      if (index >= count)
+        fail(ErrorKind::malformed, index == none ? fmt::format("has corners without a {}", what)
+                                                 : fmt::format("names {} {} of {}", what, index, count));
+    };
+    for (const Corner& corner : faces_.corners) {
+      require(corner.position, data_.positions.size(), "position");
+      if (!data_.normals.empty())
+        require(corner.normal, data_.normals.size(), "normal");
+      if (!data_.texCoords.empty())
+        require(corner.texCoord, data_.texCoords.size(), "texture coordinate");
+      if (!data_.colors.empty())
+        require(corner.color, data_.colors.size(), "colour");
+    }
+  }
+
+  Geometry finished() {
+    requireInRange();
+    const bool isSurface = faces_.topology == Topology::triangles;
+    if (isSurface && !source_.boolean(node_, "ccw", true))
+      turnOver();
+    // Smooth all over is what normals become later, without a wedge a face.
+    const double creaseAngle = source_.real(node_, "creaseAngle", 0);
+    if (isSurface && isCreased_ && data_.normals.empty() && creaseAngle < std::numbers::pi)
+      addCreasedNormals(data_, faces_, std::max(creaseAngle, 0.0));
+    Geometry geometry;
+    geometry.solid = source_.boolean(node_, "solid", true);
+    geometry.mesh = meshOf(data_, faces_, geometry.fans);
+    return geometry;
+  }
+
+  void turnOver() {
+    std::size_t begin = 0;
+    for (const std::size_t end : faces_.ends) {
+      std::reverse(faces_.corners.begin() + static_cast<std::ptrdiff_t>(begin),
+                   faces_.corners.begin() + static_cast<std::ptrdiff_t>(end));
+      begin = end;
+    }
+  }
+
+  const Source& source_;
+  pugi::xml_node node_;
+  VertexData data_;
+  Faces faces_;
+  bool isCreased_ = false; ///< its faces meet in edges unless creaseAngle says otherwise
+};
+
+} // namespace
+
+std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node) {
+  return GeometryReader(source, node).read();
+}
+
+} // namespace imgeo::x3d

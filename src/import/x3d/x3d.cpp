@@ -1,0 +1,308 @@
+// X3D in its XML encoding (ISO/IEC 19776-1): geometry becomes meshes, and everything
+// else stays the element that it was.
+
+#include "import/formats.h"
+#include "import/image_type.h"
+#include "import/references.h"
+#include "import/warnings.h"
+#include "import/x3d/geometry.h"
+#include "scene/mf_string.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <set>
+
+namespace imgeo {
+
+namespace {
+
+using namespace x3d;
+
+constexpr std::size_t maxNodeDepth = 250;
+
+/// What DEF and USE say goes through the graph.
+bool isOwn(std::string_view field) {
+  return field == "DEF" || field == "USE";
+}
+
+std::vector<FieldText> fieldsOf(pugi::xml_node element,
+                                std::initializer_list<std::string_view> without = {}) {
+  std::vector<FieldText> fields;
+  for (const pugi::xml_attribute& attribute : element.attributes())
+    if (const std::string_view name = attribute.name();
+        !isOwn(name) && std::ranges::find(without, name) == without.end())
+      fields.push_back({std::string(name), attribute.value()});
+  return fields;
+}
+
+class SceneReader {
+public:
+  SceneReader(const Source& source, const References& references, const ImportOptions& options)
+      : source_(source), references_(references), isStrict_(options.strict),
+        inlineBytes_(options.inlineBytes) {}
+
+  Imported read() {
+    imported_.format = "X3D";
+    SceneGraph& graph = imported_.scene.graph;
+    graph.isComplete = true;
+    for (const pugi::xml_node& child : source_.root().children())
+      if (std::string_view(child.name()) == "head")
+        for (const pugi::xml_node& element : child.children())
+          addTo(graph.header, element);
+      else if (std::string_view(child.name()) == "Scene")
+        for (const pugi::xml_node& element : child.children())
+          addTo(graph.roots, element);
+    addTitle();
+    addWarnings();
+    return std::move(imported_);
+  }
+
+private:
+  void addTo(std::vector<std::size_t>& list, pugi::xml_node element) {
+    if (const std::optional<std::size_t> node = readElement(element))
+      list.push_back(*node);
+  }
+
+  /// Reads something that may stay as it is, or be left out: a sentence where it is,
+  /// an Error if strict.
+  template <typename Read> auto attempt(const char* otherwise, const Read& read) -> decltype(read()) {
+    try {
+      return read();
+    } catch (const Error& error) {
+      if (isStrict_ || error.kind() == ErrorKind::limit)
+        throw;
+      imported_.warnings.push_back(fmt::format("{}: {}.", otherwise, error.what()));
+      return {};
+    }
+  }
+
+  std::optional<std::size_t> readElement(pugi::xml_node element) {
+    if (element.type() != pugi::node_element)
+      return {};
+    if (const pugi::xml_attribute use = element.attribute("USE"))
+      return used(element, use.value());
+    return define(element, readNode(element));
+  }
+
+  std::size_t define(pugi::xml_node element, std::size_t node) {
+    if (const pugi::xml_attribute def = element.attribute("DEF")) {
+      imported_.scene.graph.nodes[node].name = def.value();
+      defined_[def.value()] = node;
+    }
+    return node;
+  }
+
+  std::optional<std::size_t> used(pugi::xml_node element, const std::string& name) {
+    if (const auto found = defined_.find(name); found != defined_.end())
+      return found->second;
+    const pugi::xml_node target = source_.resolved(element);
+    const bool isAround = reading_.contains(target.internal_object());
+    if (target && !isAround) // it stands in a geometry that has been moved out, or further on
+      return define(target, readNode(target));
+    return attempt("Left out", [&]() -> std::optional<std::size_t> {
+      source_.fail(element, ErrorKind::malformed,
+                   fmt::format("USE=\"{}\" names {}", name, isAround ? "what it stands in" : "no DEF"));
+    });
+  }
+
+  std::size_t readNode(pugi::xml_node element) {
+    if (reading_.size() >= maxNodeDepth)
+      source_.fail(element, ErrorKind::limit, "nodes are nested too deeply");
+    reading_.insert(element.internal_object());
+    const std::size_t node = readPlainNode(element);
+    reading_.erase(element.internal_object());
+    return node;
+  }
+
+  std::size_t readPlainNode(pugi::xml_node element) {
+    const std::string_view name = element.name();
+    if (name == "Shape")
+      if (const std::optional<std::size_t> shape = readShape(element))
+        return *shape;
+    Node node;
+    if (name == "Transform") {
+      node.content = readTransform(element);
+      node.fields = fieldsOf(element, {"translation", "rotation", "scale", "scaleOrientation", "center"});
+    } else if (name == "Group") {
+      node.content = Group{};
+      node.fields = fieldsOf(element);
+    } else {
+      node.content = otherNode(element);
+      node.fields = fieldsOf(element);
+    }
+    addChildren(element, node, {});
+    return addNode(imported_.scene.graph, std::move(node));
+  }
+
+  void addChildren(pugi::xml_node element, Node& node, pugi::xml_node without) {
+    for (const pugi::xml_node& child : element.children())
+      if (child != without)
+        addTo(node.children, child);
+  }
+
+  OtherNode otherNode(pugi::xml_node element) {
+    OtherNode other{element.name(), element.text().get(), {}};
+    const pugi::xml_attribute url = element.attribute("url");
+    if (!url)
+      return other;
+    if (other.element == "ImageTexture")
+      other.image = attempt("A texture is left as it is", [&] { return image(parseStrings(url.value())); });
+    else if (other.element != "Script")
+      ++notCopied_[other.element];
+    return other;
+  }
+
+  /// The first of several urls that leads to an image.
+  std::optional<std::size_t> image(const std::vector<std::string>& urls) {
+    for (std::size_t i = 0; i < urls.size(); ++i) {
+      if (const auto found = images_.find(urls[i]); found != images_.end())
+        return found->second;
+      if (urls[i].starts_with("http:") || urls[i].starts_with("https:")) {
+        ++remoteImages_;
+        continue;
+      }
+      try {
+        ImageFile file{urls[i].starts_with("data:") ? "" : urls[i], references_.fetch(urls[i])};
+        if (imageType(file.bytes).empty())
+          throw Error(ErrorKind::unsupported, urls[i], "is an image of a kind that browsers do not show");
+        std::vector<ImageFile>& images = imported_.scene.graph.images;
+        images.push_back(std::move(file));
+        return images_[urls[i]] = images.size() - 1;
+      } catch (const Error&) {
+        if (i + 1 == urls.size())
+          throw;
+      }
+    }
+    return {};
+  }
+
+  Transform readTransform(pugi::xml_node element) const {
+    const auto vector = [&](const char* field, Vec3d fallback) {
+      const std::vector<double> v = source_.reals(element, field);
+      return v.size() < 3 ? fallback : Vec3d{v[0], v[1], v[2]};
+    };
+    const auto rotation = [&](const char* field) {
+      const std::vector<double> v = source_.reals(element, field);
+      return v.size() < 4 ? Rotation{} : Rotation{{v[0], v[1], v[2]}, v[3]};
+    };
+    Transform transform;
+    transform.translation = vector("translation", {});
+    transform.rotation = rotation("rotation");
+    transform.scale = vector("scale", {1, 1, 1});
+    transform.scaleOrientation = rotation("scaleOrientation");
+    transform.center = vector("center", {});
+    return transform;
+  }
+
+  /// A Shape whose geometry becomes a mesh; nothing for any other.
+  std::optional<std::size_t> readShape(pugi::xml_node element) {
+    for (const pugi::xml_node& child : element.children()) {
+      if (child.type() != pugi::node_element)
+        continue;
+      const std::optional<Shape> shape = movedOut(source_.resolved(child));
+      if (!shape)
+        continue;
+      Node node;
+      node.content = *shape;
+      node.fields = fieldsOf(element, {"bboxCenter", "bboxSize"});
+      addChildren(element, node, child);
+      return addNode(imported_.scene.graph, std::move(node));
+    }
+    return {};
+  }
+
+  /// Whether a geometry is shorter where it is, and pages draw it from there.
+  bool staysInline(pugi::xml_node node) const {
+    static const std::set<std::string_view> drawn{"IndexedFaceSet",
+                                                  "TriangleSet",
+                                                  "TriangleStripSet",
+                                                  "TriangleFanSet",
+                                                  "IndexedTriangleSet",
+                                                  "IndexedTriangleStripSet",
+                                                  "IndexedTriangleFanSet",
+                                                  "IndexedLineSet",
+                                                  "LineSet",
+                                                  "PointSet"};
+    if (!drawn.contains(node.name()) || !source_.boolean(node, "convex", true))
+      return false;
+    std::size_t bytes = textBytesOf(node);
+    for (const pugi::xml_node& child : node.children())
+      if (child.type() == pugi::node_element)
+        bytes += textBytesOf(source_.resolved(child));
+    return bytes <= inlineBytes_;
+  }
+
+  static std::size_t textBytesOf(pugi::xml_node element) {
+    std::size_t bytes = std::string_view(element.name()).size();
+    for (const pugi::xml_attribute& attribute : element.attributes())
+      bytes += std::string_view(attribute.name()).size() + std::string_view(attribute.value()).size();
+    return bytes;
+  }
+
+  /// The mesh of a geometry node, once however often it is USEd.
+  std::optional<Shape> movedOut(pugi::xml_node node) {
+    const auto [found, isNew] = moved_.try_emplace(node.internal_object());
+    if (!isNew || !node || staysInline(node))
+      return found->second;
+    std::optional<Geometry> geometry =
+        attempt("A geometry is left as it is", [&] { return readGeometry(source_, node); });
+    if (!geometry || geometry->mesh.corners.empty())
+      return {};
+    fans_ += geometry->fans;
+    std::vector<Mesh>& meshes = imported_.scene.meshes;
+    meshes.push_back(std::move(geometry->mesh));
+    found->second = Shape{meshes.size() - 1, {}, geometry->solid};
+    return found->second;
+  }
+
+  void addTitle() {
+    SceneGraph& graph = imported_.scene.graph;
+    for (const std::size_t index : nodesInOrder(graph))
+      if (const OtherNode* other = std::get_if<OtherNode>(&graph.nodes[index].content))
+        if (other->element == "WorldInfo" && graph.title.empty())
+          for (const FieldText& field : graph.nodes[index].fields)
+            if (field.name == "title")
+              graph.title = field.value;
+  }
+
+  void addWarnings() {
+    std::vector<std::string>& warnings = imported_.warnings;
+    if (remoteImages_ > 0)
+      warnings.push_back(
+          fmt::format("{} left on other hosts.", counted(remoteImages_, "texture is", "textures are")));
+    std::vector<std::string> others;
+    for (const auto& [element, count] : notCopied_)
+      others.push_back(fmt::format("{} ({})", element, count));
+    if (!others.empty())
+      warnings.push_back(
+          fmt::format("Files named by these nodes are not copied: {}.", fmt::join(others, ", ")));
+    warnOfFans(warnings, fans_);
+  }
+
+  const Source& source_;
+  const References& references_;
+  bool isStrict_;
+  std::size_t inlineBytes_;
+  Imported imported_;
+  std::map<std::string, std::size_t> defined_;
+  std::set<pugi::xml_node_struct*> reading_; ///< elements that are not yet read to their end
+  std::map<pugi::xml_node_struct*, std::optional<Shape>> moved_;
+  std::map<std::string, std::size_t> images_;
+  std::map<std::string, std::size_t> notCopied_; ///< nodes with urls, by element
+  std::size_t remoteImages_ = 0, fans_ = 0;
+};
+
+} // namespace
+
+bool looksLikeX3d(ByteSpan bytes) {
+  const std::string_view beginning = asText(bytes).substr(0, 4096);
+  return beginning.starts_with("<") && beginning.find("<X3D") != beginning.npos &&
+         beginning.find("<html") == beginning.npos;
+}
+
+Imported readX3d(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+  const Source source(asText(bytes), name);
+  return SceneReader(source, References(options, name), options).read();
+}
+
+} // namespace imgeo

@@ -1,0 +1,209 @@
+#include "base/file.h"
+#include "base/testing.h"
+#include "import/error_testing.h"
+#include "scene/testing.h"
+
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+Imported readScene(const std::string& scene, const ImportOptions& options = {}) {
+  return importBytes(asBytes("<X3D version='4.0'><Scene>" + scene + "</Scene></X3D>"), "a.x3d", options);
+}
+
+Mesh meshOf(const std::string& geometry) {
+  const Imported imported = readScene("<Shape>" + geometry + "</Shape>");
+  EXPECT_EQ(imported.scene.meshes.size(), 1u) << geometry;
+  return imported.scene.meshes.at(0);
+}
+
+/// Corner positions, element by element.
+std::vector<Vec3f> cornersOf(const Mesh& mesh) {
+  std::vector<Vec3f> corners;
+  for (std::size_t i = 0; i < mesh.corners.size(); ++i)
+    corners.push_back(mesh.cornerPosition(i));
+  return corners;
+}
+
+const std::string square = "<Coordinate point='0 0 0, 1 0 0, 1 1 0, 0 1 0'/>";
+const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{1, 1, 0}, d{0, 1, 0};
+
+TEST(X3d, ReadsEveryKindOfSurface) {
+  const std::vector<Vec3f> two{a, b, c, a, c, d};
+  EXPECT_EQ(cornersOf(meshOf("<IndexedFaceSet coordIndex='0 1 2 3 -1'>" + square + "</IndexedFaceSet>")),
+            two);
+  EXPECT_EQ(cornersOf(meshOf("<IndexedTriangleSet index='0 1 2 0 2 3'>" + square + "</IndexedTriangleSet>")),
+            two);
+  EXPECT_EQ(
+      cornersOf(meshOf("<IndexedTriangleFanSet index='0 1 2 3'>" + square + "</IndexedTriangleFanSet>")),
+      two);
+  EXPECT_EQ(cornersOf(meshOf("<TriangleFanSet fanCount='4'>" + square + "</TriangleFanSet>")), two);
+  EXPECT_EQ(cornersOf(meshOf("<IndexedTriangleStripSet index='0 1 3 2 -1'>" + square +
+                             "</IndexedTriangleStripSet>")),
+            (std::vector<Vec3f>{a, b, d, b, c, d}));
+  EXPECT_EQ(cornersOf(meshOf("<TriangleStripSet stripCount='3'>" + square + "</TriangleStripSet>")),
+            (std::vector<Vec3f>{a, b, c}));
+  EXPECT_EQ(cornersOf(meshOf("<TriangleSet>" + square + "</TriangleSet>")), (std::vector<Vec3f>{a, b, c}));
+  EXPECT_EQ(cornersOf(meshOf("<ElevationGrid xDimension='2' zDimension='2' zSpacing='2' height='1 2 3 4'/>")),
+            (std::vector<Vec3f>{{0, 1, 0}, {0, 3, 2}, {1, 4, 2}, {0, 1, 0}, {1, 4, 2}, {1, 2, 0}}));
+}
+
+TEST(X3d, ReadsLinesAndPoints) {
+  const Mesh lines = meshOf("<IndexedLineSet coordIndex='0 1 2 -1 3 0'>" + square + "</IndexedLineSet>");
+  EXPECT_EQ(lines.topology, Topology::lines);
+  EXPECT_EQ(cornersOf(lines), (std::vector<Vec3f>{a, b, b, c, d, a}));
+  EXPECT_EQ(cornersOf(meshOf("<LineSet vertexCount='2 2'>" + square + "</LineSet>")),
+            (std::vector<Vec3f>{a, b, c, d}));
+  const Mesh points =
+      meshOf("<PointSet>" + square + "<ColorRGBA color='1 0 0 1 0 1 0 0.5 0 0 1 1 1 1 1 1'/></PointSet>");
+  EXPECT_EQ(points.topology, Topology::points);
+  EXPECT_EQ(points.colors.at(1), (Rgba8{0, 255, 0, 128}));
+  EXPECT_EQ(points.colorComponents, 4u);
+}
+
+TEST(X3d, TurnsFacesThatAreClockwise) {
+  EXPECT_EQ(
+      cornersOf(meshOf("<IndexedFaceSet ccw='false' coordIndex='0 1 2'>" + square + "</IndexedFaceSet>")),
+      (std::vector<Vec3f>{c, b, a}));
+}
+
+TEST(X3d, TakesAttributesByVertexOrByFace) {
+  const std::string two = "coordIndex='0 1 2 -1 0 2 3 -1' creaseAngle='3.2'";
+  const std::string colors = "<Color color='1 0 0 0 0 1'/>";
+  const Mesh byFace =
+      meshOf("<IndexedFaceSet " + two + " colorPerVertex='false'>" + square + colors + "</IndexedFaceSet>");
+  EXPECT_EQ(byFace.colors.at(byFace.corners[0]), (Rgba8{255, 0, 0, 255}));
+  EXPECT_EQ(byFace.colors.at(byFace.corners[3]), (Rgba8{0, 0, 255, 255}));
+  EXPECT_EQ(byFace.positions.size(), 4u);
+  const Mesh byIndex = meshOf("<IndexedFaceSet " + two + " colorIndex='1 1 1 -1 0 0 0'>" + square + colors +
+                              "</IndexedFaceSet>");
+  EXPECT_EQ(byIndex.colors.at(byIndex.corners[0]), (Rgba8{0, 0, 255, 255}));
+  EXPECT_TRUE(byIndex.normals.empty()); // smooth all over: computed with those of every other format
+}
+
+TEST(X3d, HasEdgesWhereFacesTurnByMoreThanTheCreaseAngle) {
+  const std::string roof = "<Coordinate point='0 0 0 1 0 0 1 0 1 0 0 1 1 -1 0 1 -1 1'/></IndexedFaceSet>";
+  const std::string faces = "coordIndex='0 3 2 1 -1 1 2 5 4'";
+  const Mesh creased = meshOf("<IndexedFaceSet creaseAngle='0.5' " + faces + ">" + roof);
+  EXPECT_EQ(creased.positions.size(), 6u);
+  EXPECT_EQ(creased.wedgeCount(), 8u);
+  EXPECT_EQ(creased.normals.at(creased.corners[0]), (Vec3f{0, 1, 0}));
+  const Mesh smooth = meshOf("<IndexedFaceSet creaseAngle='2' " + faces + ">" + roof);
+  EXPECT_EQ(smooth.wedgeCount(), 6u);
+}
+
+TEST(X3d, SharesAMeshThatIsUsedAndFindsDataThatIsUsed) {
+  const Imported imported =
+      readScene("<Shape DEF='S'><IndexedFaceSet DEF='G' coordIndex='0 1 2'><Coordinate DEF='C' point='0 0 0 "
+                "1 0 0 1 1 0'/>"
+                "</IndexedFaceSet></Shape><Transform translation='1 2 3'><Shape USE='S'/></Transform>"
+                "<Shape><IndexedFaceSet USE='G'/></Shape>"
+                "<Shape><TriangleSet><Coordinate USE='C'/></TriangleSet></Shape>");
+  EXPECT_EQ(imported.scene.meshes.size(), 2u);
+  const std::vector<PlacedShape> placed = placedShapes(imported.scene.graph);
+  ASSERT_EQ(placed.size(), 4u);
+  EXPECT_EQ(placed[1].node, placed[0].node);
+  EXPECT_EQ(placed[1].worldFromShape.translation, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(shapeOf(imported.scene.graph, placed[2].node).mesh, 0u);
+}
+
+TEST(X3d, KeepsEverythingElseAsItIs) {
+  const Imported imported = readScene(
+      "<Viewpoint DEF='V' description='a &amp; b' fieldOfView='1'/><Switch whichChoice='1' id='s'><Group/>"
+      "<Shape class='x'><Appearance><Material diffuseColor='1 0 0'/></Appearance><TriangleSet>" +
+      square +
+      "</TriangleSet></Shape></Switch><Shape><Box size='1 2 3'/></Shape><ROUTE fromNode='V' toNode='V'/>");
+  const SceneGraph& graph = imported.scene.graph;
+  ASSERT_EQ(graph.roots.size(), 4u);
+  const Node& viewpoint = graph.nodes[graph.roots[0]];
+  EXPECT_EQ(viewpoint.name, "V");
+  EXPECT_EQ(viewpoint.fields, (std::vector<FieldText>{{"description", "a & b"}, {"fieldOfView", "1"}}));
+  const Node& choice = graph.nodes[graph.roots[1]];
+  EXPECT_EQ(std::get<OtherNode>(choice.content).element, "Switch");
+  const Node& shape = graph.nodes[choice.children.at(1)];
+  EXPECT_TRUE(std::holds_alternative<Shape>(shape.content));
+  EXPECT_EQ(shape.fields, (std::vector<FieldText>{{"class", "x"}}));
+  EXPECT_EQ(std::get<OtherNode>(graph.nodes[shape.children.at(0)].content).element, "Appearance");
+  EXPECT_EQ(std::get<OtherNode>(graph.nodes[graph.roots[2]].content).element, "Shape");
+}
+
+TEST(X3d, LeavesGeometryThatIsShortAsTextWhereItIs) {
+  const std::string shape = "<Shape><TriangleSet>" + square + "</TriangleSet></Shape>";
+  ImportOptions options;
+  options.inlineBytes = 200;
+  const Imported small = readScene(shape, options);
+  EXPECT_TRUE(small.scene.meshes.empty());
+  EXPECT_EQ(std::get<OtherNode>(small.scene.graph.nodes[small.scene.graph.roots.at(0)].content).element,
+            "Shape");
+  EXPECT_EQ(readScene("<Shape><IndexedFaceSet convex='false' coordIndex='0 1 2'>" + square +
+                          "</IndexedFaceSet></Shape>",
+                      options)
+                .scene.meshes.size(),
+            1u);
+  options.inlineBytes = 20;
+  EXPECT_EQ(readScene(shape, options).scene.meshes.size(), 1u);
+}
+
+TEST(X3d, TakesTexturesFromItsOwnFolderAlone) {
+  const testing::TemporaryDirectory directory;
+  std::filesystem::create_directory(directory / "in");
+  writeFile(directory / "in/wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
+  writeFile(directory / "out.png", asBytes("\x89PNG\r\n\x1a\n..."));
+  const auto read = [&](const std::string& url) {
+    const std::string scene = "<X3D><Scene><Shape><Appearance><ImageTexture url='" + url +
+                              "'/></Appearance><TriangleSet>" + square +
+                              "</TriangleSet></Shape></Scene></X3D>";
+    writeFile(directory / "in/a.x3d", asBytes(scene));
+    return importFile(directory / "in/a.x3d");
+  };
+  EXPECT_EQ(read("\"lost.png\" \"wood.png\"").scene.graph.images.size(), 1u);
+  const Imported outside = read("../out.png");
+  EXPECT_TRUE(outside.scene.graph.images.empty());
+  ASSERT_EQ(outside.warnings.size(), 1u);
+  EXPECT_NE(outside.warnings[0].find("outside"), std::string::npos) << outside.warnings[0];
+  EXPECT_TRUE(read("http://example.org/a.png").scene.graph.images.empty());
+}
+
+TEST(X3d, LeavesWhatIsDamagedAsItIsUnlessStrict) {
+  const std::string damaged = "<Shape><TriangleSet>" + square +
+                              "</TriangleSet></Shape>"
+                              "<Shape><IndexedFaceSet coordIndex='0 1 9'>" +
+                              square +
+                              "</IndexedFaceSet></Shape>"
+                              "<Group USE='nothing'/>";
+  const Imported imported = readScene(damaged);
+  EXPECT_EQ(imported.scene.meshes.size(), 1u);
+  ASSERT_EQ(imported.warnings.size(), 2u);
+  EXPECT_NE(imported.warnings[0].find("position 9 of 4"), std::string::npos) << imported.warnings[0];
+  EXPECT_NE(imported.warnings[1].find("nothing"), std::string::npos);
+  ImportOptions strict;
+  strict.strict = true;
+  EXPECT_THROW(readScene(damaged, strict), Error);
+}
+
+TEST(X3d, RefusesBombsAndCircles) {
+  const auto kindOf = [](const std::string& text) {
+    try {
+      importBytes(asBytes(text), "a.x3d");
+    } catch (const Error& error) {
+      return error.kind();
+    }
+    return ErrorKind::usage;
+  };
+  EXPECT_EQ(kindOf("<!DOCTYPE X3D [<!ENTITY a 'aaaa'>]><X3D><Scene/></X3D>"), ErrorKind::unsupported);
+  EXPECT_EQ(kindOf("<X3D><Scene><Shape></Scene></X3D>"), ErrorKind::malformed);
+  std::string deep = "<X3D><Scene>";
+  for (int i = 0; i < 100000; ++i)
+    deep += "<Group>";
+  for (int i = 0; i < 100000; ++i)
+    deep += "</Group>";
+  EXPECT_EQ(kindOf(deep + "</Scene></X3D>"), ErrorKind::limit);
+  const Imported circle =
+      readScene("<Group DEF='A'><Group DEF='B'><Group USE='A'/></Group></Group><Shape><TriangleSet>" +
+                square + "</TriangleSet></Shape>");
+  EXPECT_EQ(circle.warnings.size(), 1u);
+}
+
+} // namespace
+} // namespace imgeo
