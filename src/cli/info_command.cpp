@@ -1,9 +1,11 @@
+#include "base/file.h"
 #include "cli/commands.h"
 #include "cli/element_counts.h"
 #include "cli/terminal.h"
 #include "transcode/transcode.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -163,13 +165,23 @@ int print(const Arguments& arguments, const Info& info, void (*asText)(const Inf
   return 0;
 }
 
+/// Whether an X3D file is a site's and not a source: its geometry lies in containers.
+bool namesContainers(const std::filesystem::path& file) {
+  const Bytes bytes = readFile(file);
+  std::string text(asText(bytes));
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text.find("<imagegeometry") != text.npos || text.find("<binarygeometry") != text.npos;
+}
+
 } // namespace
 
 int runInfo(const Arguments& arguments) {
   const std::filesystem::path path = arguments.text("path");
   std::error_code none;
   const std::string extension = path.extension();
-  if (std::filesystem::is_directory(path, none) || extension == ".html" || extension == ".x3d")
+  if (std::filesystem::is_directory(path, none) || extension == ".html" ||
+      (extension == ".x3d" && namesContainers(path)))
     return print(arguments, inspect(path), printSite);
   if (extension == ".png" || extension == ".bin")
     return print(arguments, inspectGeometryFile(path), printGeometryFile);

@@ -35,6 +35,32 @@ std::vector<FieldText> fieldsOf(pugi::xml_node element,
   return fields;
 }
 
+/// Geometries that our runtime draws from the document.
+bool isDrawnInPages(std::string_view element) {
+  static const std::set<std::string_view> drawn{"Box",
+                                                "Cone",
+                                                "Cylinder",
+                                                "IndexedFaceSet",
+                                                "IndexedLineSet",
+                                                "IndexedTriangleFanSet",
+                                                "IndexedTriangleSet",
+                                                "IndexedTriangleStripSet",
+                                                "LineSet",
+                                                "PointSet",
+                                                "Sphere",
+                                                "TriangleFanSet",
+                                                "TriangleSet",
+                                                "TriangleStripSet",
+                                                "ImageGeometry",
+                                                "BinaryGeometry"};
+  return drawn.contains(element);
+}
+
+/// What stands in a Shape besides its geometry.
+bool isShapePart(std::string_view element) {
+  return element == "Appearance" || element.starts_with("Metadata");
+}
+
 class SceneReader {
 public:
   SceneReader(const Source& source, const References& references, const ImportOptions& options)
@@ -208,22 +234,15 @@ private:
       addChildren(element, node, child);
       return addNode(imported_.scene.graph, std::move(node));
     }
+    for (const pugi::xml_node& child : element.children())
+      if (child.type() == pugi::node_element && !isShapePart(child.name()) && !isDrawnInPages(child.name()))
+        ++notDrawn_[child.name()];
     return {};
   }
 
   /// Whether a geometry is shorter where it is, and pages draw it from there.
   bool staysInline(pugi::xml_node node) const {
-    static const std::set<std::string_view> drawn{"IndexedFaceSet",
-                                                  "TriangleSet",
-                                                  "TriangleStripSet",
-                                                  "TriangleFanSet",
-                                                  "IndexedTriangleSet",
-                                                  "IndexedTriangleStripSet",
-                                                  "IndexedTriangleFanSet",
-                                                  "IndexedLineSet",
-                                                  "LineSet",
-                                                  "PointSet"};
-    if (!drawn.contains(node.name()) || !source_.boolean(node, "convex", true))
+    if (!isDrawnInPages(node.name()) || !source_.boolean(node, "convex", true))
       return false;
     std::size_t bytes = textBytesOf(node);
     for (const pugi::xml_node& child : node.children())
@@ -270,12 +289,15 @@ private:
     if (remoteImages_ > 0)
       warnings.push_back(
           fmt::format("{} left on other hosts.", counted(remoteImages_, "texture is", "textures are")));
-    std::vector<std::string> others;
-    for (const auto& [element, count] : notCopied_)
-      others.push_back(fmt::format("{} ({})", element, count));
-    if (!others.empty())
-      warnings.push_back(
-          fmt::format("Files named by these nodes are not copied: {}.", fmt::join(others, ", ")));
+    const auto addList = [&](const char* what, const std::map<std::string, std::size_t>& counts) {
+      std::vector<std::string> elements;
+      for (const auto& [element, count] : counts)
+        elements.push_back(fmt::format("{} ({})", element, count));
+      if (!elements.empty())
+        warnings.push_back(fmt::format("{}: {}.", what, fmt::join(elements, ", ")));
+    };
+    addList("Files named by these nodes are not copied", notCopied_);
+    addList("Geometry that stays as it is and that imgeo's pages do not draw", notDrawn_);
     warnOfFans(warnings, fans_);
   }
 
@@ -289,6 +311,7 @@ private:
   std::map<pugi::xml_node_struct*, std::optional<Shape>> moved_;
   std::map<std::string, std::size_t> images_;
   std::map<std::string, std::size_t> notCopied_; ///< nodes with urls, by element
+  std::map<std::string, std::size_t> notDrawn_;  ///< geometries, by element
   std::size_t remoteImages_ = 0, fans_ = 0;
 };
 

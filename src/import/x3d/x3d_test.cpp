@@ -145,6 +145,15 @@ TEST(X3d, LeavesGeometryThatIsShortAsTextWhereItIs) {
   EXPECT_EQ(readScene(shape, options).scene.meshes.size(), 1u);
 }
 
+TEST(X3d, SaysWhichGeometryPagesDoNotDraw) {
+  const Imported imported =
+      readScene("<Shape><Text string='a'/></Shape><Shape><Appearance/><Extrusion/></Shape>"
+                "<Shape><Sphere/></Shape><Shape><Extrusion/></Shape>");
+  EXPECT_EQ(imported.warnings,
+            std::vector<std::string>{
+                "Geometry that stays as it is and that imgeo's pages do not draw: Extrusion (2), Text (1)."});
+}
+
 TEST(X3d, TakesTexturesFromItsOwnFolderAlone) {
   const testing::TemporaryDirectory directory;
   std::filesystem::create_directory(directory / "in");
