@@ -59,7 +59,8 @@ struct Measured {
 
 std::vector<std::string> convertWords(const std::string& model, const std::string& container,
                                       const std::string& effort, const fs::path& work) {
-  return {"build/imgeo",        "convert",  model, "-o", work / "site", "--container", container, "-r",
+  return {"build/imgeo",        "convert",  model,         "-o",      work / "site",
+          "--profile",          "classic",  "--container", container, "-r",
           work / "report.json", "--effort", effort};
 }
 

@@ -73,7 +73,7 @@ async function sideBySide(browser: Browser, panels: { png: Buffer; caption: stri
 const site = mkdtempSync(join(tmpdir(), "imgeo-screenshot-"));
 const browser = await launchChromium();
 try {
-  execFileSync(converter, ["convert", model, "-o", site, "--force"], { stdio: ["ignore", "ignore", "inherit"] });
+  execFileSync(converter, ["convert", model, "-o", site, "--profile", "classic", "--force"], { stdio: ["ignore", "ignore", "inherit"] });
   const ranks = ranksOfFiles(readFileSync(join(site, "index.html"), "utf8"));
   const bytesUpTo = (rank: number): number =>
     [...ranks].reduce((sum, [url, own]) => sum + (own <= rank ? statSync(join(site, url)).size : 0), 0);

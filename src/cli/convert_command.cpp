@@ -69,7 +69,8 @@ double basePercentFrom(const std::string& text) {
 ConvertOptions optionsFrom(const Arguments& arguments) {
   ConvertOptions options;
   options.container = chosen(arguments, "container", {Container::sig, Container::bg});
-  options.profile = chosen(arguments, "profile", {Profile::classic, Profile::compact});
+  options.profile = chosen<std::optional<Profile>>(arguments, "profile",
+                                                   {std::nullopt, Profile::compact, Profile::classic});
   options.target = chosen(arguments, "target", {Target::web, Target::x3dom});
   options.x3domUrl = arguments.text("x3dom-url");
   options.primitives =
@@ -120,7 +121,9 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
   json["output"] = arguments.text("output");
   json["format"] = report.format;
   json["sourceBytes"] = report.sourceBytes;
-  for (const char* name : {"container", "profile", "target", "primitives", "index"})
+  json["container"] = arguments.text("container");
+  json["profile"] = nameOf(report.profile);
+  for (const char* name : {"target", "primitives", "index"})
     json[name] = arguments.text(name);
   if (!report.x3domUrl.empty())
     json["x3dom"] = {{"version", report.x3domVersion}, {"url", report.x3domUrl}};
@@ -192,7 +195,7 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   const bool onlyPoints = report.elements.points == report.elements.sum();
   printLine("container",
             fmt::format("{}, profile {}, target {}, {}{}", isSig ? "sig (PNG images)" : "bg (typed arrays)",
-                        arguments.text("profile"), arguments.text("target"),
+                        nameOf(report.profile), arguments.text("target"),
                         onlyPoints ? "points" : arguments.text("primitives"),
                         onlyPoints || arguments.text("index") == "on" ? "" : " without index"));
   if (!report.x3domUrl.empty())

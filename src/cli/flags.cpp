@@ -70,10 +70,11 @@ Command convertCommand() {
       .flags =
           {input,
            output,
-           choice("container", {"sig", "bg"}, "sig: PNG images that the GPU decodes; bg: typed arrays"),
-           choice("profile", {"classic", "compact"},
-                  "of sig. classic: the layout that X3DOM 1.7 reads as well, refined byte by byte; "
-                  "compact: a third of its bytes, decoded by workers"),
+           choice("container", {"sig", "bg"}, "sig: PNG images; bg: typed arrays"),
+           choice("profile", {"auto", "compact", "classic"},
+                  "of sig. compact: a coarse shape first, then patches, decoded by workers; classic: three "
+                  "times its bytes, refined byte by byte, decoded by the GPU, and by X3DOM 1.7 as well; "
+                  "auto: compact, but classic where anything else asked for is classic's alone"),
            choice("target", {"web", "x3dom"},
                   "web: a page with its own runtime; x3dom: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)"),
            {.name = "x3dom-url",
@@ -138,8 +139,8 @@ Command convertCommand() {
            jsonFlag("the report"),
            {.name = "verbose", .aliases = {"-v"}, .help = "list every file that was written"},
            helpFlag()},
-      .examples = {"imgeo convert statue.ply -o site",
-                   "imgeo convert statue.ply -o site --profile compact --max-error 0.01%",
+      .examples = {"imgeo convert statue.ply -o site", "imgeo convert statue.ply -o site --max-error 0.01%",
+                   "imgeo convert statue.ply -o site --profile classic --primitives strips",
                    "imgeo convert statue.ply.gz -o site --container bg --normal-bits 16",
                    "imgeo convert cloud.ply -o site -vp 20 --title \"The cave\"",
                    "imgeo convert scan.ply -o site --keep-attributes intensity",

@@ -141,6 +141,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   StagedSite site(directory, options.force);
 
   ConvertReport report;
+  report.profile = *options.profile;
   report.normalBits = options.normalBits;
   report.texCoordBits = options.texCoordBits;
   report.colorBits = options.colorBits;
@@ -190,7 +191,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   Marker marker{generator,
                 input == "-" ? "" : input.filename().string(),
                 options.container,
-                options.profile,
+                *options.profile,
                 options.primitives,
                 report.normalsComputed,
                 options.normalWeighting,

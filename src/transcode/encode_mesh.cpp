@@ -95,7 +95,7 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
 
   const EncodeOptions encoding{options.container,    options.normalBits,    options.effort,
                                options.target,       options.normals,       options.coordType,
-                               options.layout,       options.attributeBits, options.profile,
+                               options.layout,       options.attributeBits, *options.profile,
                                options.texCoordBits, options.colorBits};
   result.geometry = describe(patched, encoding);
   if (options.profile == Profile::compact && options.primitives == Primitives::triangles)

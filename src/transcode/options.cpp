@@ -149,6 +149,15 @@ void requireMaxError(const ConvertOptions& options) {
     refuse("--max-error", "chooses bits for images; bg has --position-bits and --coord-type");
 }
 
+/// What compact has not, and classic and BG have.
+bool isClassicsAlone(const ConvertOptions& options) {
+  const bool isPlain =
+      options.normals == NormalEncoding::spherical || options.normals == NormalEncoding::palette;
+  return options.container == Container::bg || options.target == Target::x3dom ||
+         options.primitives == Primitives::strips || !options.indexed || isPlain ||
+         options.positionBits > 30 || options.patchVertices > compact::maxPatchCount;
+}
+
 /// Compact has its own way with normals, its own order, and is for our runtime.
 ConvertOptions resolvedCompact(ConvertOptions options) {
   if (options.container == Container::bg)
@@ -156,9 +165,9 @@ ConvertOptions resolvedCompact(ConvertOptions options) {
   if (options.target == Target::x3dom)
     refuse("--profile", "X3DOM reads no compact images; it reads classic ones");
   if (options.primitives == Primitives::strips)
-    refuse("--primitives", "compact holds triangles, lines and points, and no strips");
+    refuse("--primitives", "compact holds triangles, lines and points; strips are --profile classic's");
   if (!options.indexed)
-    refuse("--index", "compact always has an index");
+    refuse("--index", "compact always has an index; --profile classic need not");
   if (options.normals == NormalEncoding::rgb)
     options.normals = NormalEncoding::octahedral;
   if (options.normals != NormalEncoding::octahedral && options.normals != NormalEncoding::derived)
@@ -200,6 +209,8 @@ bool hasStatedError(const ConvertOptions& options) {
 }
 
 ConvertOptions resolved(ConvertOptions options) {
+  if (!options.profile)
+    options.profile = isClassicsAlone(options) ? Profile::classic : Profile::compact;
   if (options.maxError)
     requireMaxError(options);
   if (options.positionBits == 0)

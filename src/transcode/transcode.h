@@ -27,7 +27,7 @@ struct MaxError {
 
 struct ConvertOptions {
   Container container = Container::sig;
-  Profile profile = Profile::classic;
+  std::optional<Profile> profile; ///< nothing: compact, unless what else is asked for is classic's alone
   Target target = Target::web;
   std::string x3domUrl; ///< target x3dom: the folder of x3dom.js and x3dom.css; empty: a public copy
   Primitives primitives = Primitives::triangles; ///< point clouds are always points
@@ -70,6 +70,7 @@ struct AttributeReport {
 struct ConvertReport {
   std::string format; ///< of the source
   std::uint64_t sourceBytes = 0;
+  Profile profile = Profile::classic;
   ElementCounts elements; ///< as they are drawn
   std::size_t vertices = 0, patches = 0;
   WeldReport weld;

@@ -22,6 +22,7 @@ public:
                        NormalEncoding normals = NormalEncoding::rgb) {
     testing::writeMesh(directory_ / "input.ply", mesh);
     ConvertOptions options;
+    options.profile = Profile::classic;
     options.container = container;
     options.normals = normals;
     options.patchVertices = 300;

@@ -16,8 +16,8 @@ import { pageOf, shapeIn, siteOfGenerated, withShapes } from "./sites.ts";
 /** A site of a trefoil inside a Transform, with the files of a sphere in other/. */
 function twoMeshSite(): string {
   const directory = join(outputDirectory, "sites", "changes");
-  cpSync(siteOfGenerated("trefoil"), directory, { recursive: true });
-  cpSync(siteOfGenerated("sphere"), join(directory, "other"), { recursive: true });
+  cpSync(siteOfGenerated("trefoil", "--profile", "classic"), directory, { recursive: true });
+  cpSync(siteOfGenerated("sphere", "--profile", "classic"), join(directory, "other"), { recursive: true });
   return directory;
 }
 
@@ -25,7 +25,7 @@ const inTransform = (html: string): string => withShapes(html, (shape) => `<Tran
 
 /** The sphere's Shape, its files in other/. */
 function sphereShape(): string {
-  const html = pageOf(siteOfGenerated("sphere"));
+  const html = pageOf(siteOfGenerated("sphere", "--profile", "classic"));
   const shape = shapeIn(html).replace(/<Shape/i, `<Shape id="sphere"`);
   return [...ranksOfFiles(html).keys()].reduce((text, url) => text.replaceAll(url, `other/${url}`), shape);
 }
@@ -146,7 +146,7 @@ describe("a change in the document shows", () => {
   });
 
   test("a scene that leaves the page gives everything back", async () => {
-    await withPage(siteOfGenerated("trefoil"), {}, async (view) => {
+    await withPage(siteOfGenerated("trefoil", "--profile", "classic"), {}, async (view) => {
       await view.promise("complete");
       const isReleased = await view.page.evaluate(async () => {
         const context = document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.getContext("webgl2")!;

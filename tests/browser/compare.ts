@@ -52,6 +52,9 @@ export const boundsOfQuantised: Bounds = { mean: 0.01 };
 /** The bounds against plain buffers that hold the float input. */
 export const boundsOfInput: Bounds = { mean: 0.05, offShare: 0.0001 };
 
+/** The same of compact, whose normals of 8 bits are up to a degree off, those of classic 0.4. */
+export const boundsOfCompact: Bounds = { mean: 0.1, offShare: 0.0001 };
+
 export function isWithin(difference: Difference, bounds: Bounds): boolean {
   return difference.mean <= bounds.mean && difference.offShare <= (bounds.offShare ?? 1);
 }

@@ -45,7 +45,7 @@ const cases: { mesh: GeneratedMesh; options: string[] }[] = [
 describe("decoded on the CPU, the picture is that of the GPU and of plain buffers", () => {
   for (const { mesh, options } of cases) {
     test([mesh, ...options].join(" "), async () => {
-      const site = siteOfGenerated(mesh, ...options);
+      const site = siteOfGenerated(mesh, "--profile", "classic", ...options);
       const gpu = await shown(site, {});
       const cpu = await shown(site, { server: cpuServer });
       assertSamePicture(`cpu and gpu ${mesh} ${options.join("")}`, cpu.picture, gpu.picture, { mean: 0.0005 });
@@ -56,7 +56,7 @@ describe("decoded on the CPU, the picture is that of the GPU and of plain buffer
   }
 
   test("with the first coordinate byte alone", async () => {
-    const site = siteOfGenerated("trefoil-colors");
+    const site = siteOfGenerated("trefoil-colors", "--profile", "classic");
     const pictures: Picture[] = [];
     for (const decode of [undefined, cpuServer]) {
       const { closed } = gate();
@@ -84,7 +84,7 @@ function readWrongValues(): void {
 }
 
 describe("images are decoded on the CPU of themselves", () => {
-  const site = (): string => siteOfGenerated("trefoil-colors");
+  const site = (): string => siteOfGenerated("trefoil-colors", "--profile", "classic");
 
   async function assertFallsBack(name: string, before: () => void): Promise<void> {
     const messages: string[] = [];
@@ -143,7 +143,7 @@ describe("images are decoded on the CPU of themselves", () => {
 });
 
 test("the page decodes by itself where it may start no workers", async () => {
-  const site = siteOfGenerated("trefoil-colors");
+  const site = siteOfGenerated("trefoil-colors", "--profile", "classic");
   const expected = await referencePicture(pageOf(site), decodeSite(site));
   for (const before of [
     () => { window.Worker = function () { throw new DOMException("not here", "SecurityError"); } as unknown as typeof Worker; },
@@ -155,7 +155,7 @@ test("the page decodes by itself where it may start no workers", async () => {
 });
 
 test("a file that is wrong is named, and the rest is shown", async () => {
-  const site = siteOfGenerated("trefoil-colors");
+  const site = siteOfGenerated("trefoil-colors", "--profile", "classic");
   const [normal] = [...ranksOfFiles(pageOf(site))].find(([, rank]) => rank === 2)!;
   const server = (server: View["server"]): void => {
     cpuServer(server);

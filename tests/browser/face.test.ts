@@ -15,7 +15,7 @@ import { pageOf, siteOfGenerated, variantOf } from "./sites.ts";
 
 /** The page with attributes on its <x3d>, elements in it, and more around it. */
 function siteWith(name: string, { attributes = "", inside = "", before = "", after = "" }): string {
-  return variantOf(siteOfGenerated("trefoil"), name, (page) => page
+  return variantOf(siteOfGenerated("trefoil", "--profile", "classic"), name, (page) => page
     .replace(/<X3D/i, `<X3D ${attributes}`)
     .replace(/<\/X3D>/i, (end) => `${inside}${end}${after}`)
     .replace(/<body[^>]*>/i, (start) => `${start}${before}`));
@@ -118,7 +118,7 @@ describe("attributes of <x3d>", () => {
   });
 
   test("set the exposure", async () => {
-    await withScene(siteOfGenerated("trefoil"), {}, async (view) => {
+    await withScene(siteOfGenerated("trefoil", "--profile", "classic"), {}, async (view) => {
       const before = await view.picture();
       await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("exposure", "0.5"); });
       const after = await view.picture();
@@ -214,7 +214,7 @@ function redPng(): Buffer {
 }
 
 describe("loading", () => {
-  const below = (loading: string): string => variantOf(siteOfGenerated("trefoil"), `below-${loading}`, (page) => page
+  const below = (loading: string): string => variantOf(siteOfGenerated("trefoil", "--profile", "classic"), `below-${loading}`, (page) => page
     .replace(/<link rel="preload"[^>]*>/g, "").replace(/<X3D/i, `<div id="tall"></div><X3D loading="${loading}"`));
   const tall = (): void => {
     const sheet = new CSSStyleSheet();
@@ -238,7 +238,7 @@ describe("loading", () => {
 
   test('="eager" does not wait', async () => {
     await withPage(below("eager"), { before: tall }, async (view) => {
-      await until("all files are asked for", () => view.server.requestsOf(/geometry/).length === ranksOfFiles(pageOf(siteOfGenerated("trefoil"))).size);
+      await until("all files are asked for", () => view.server.requestsOf(/geometry/).length === ranksOfFiles(pageOf(siteOfGenerated("trefoil", "--profile", "classic"))).size);
     });
   });
 });
@@ -322,7 +322,7 @@ describe("people who do not see the picture, or use no mouse", () => {
 
   test("hear how far it has come", async () => {
     const { closed, open } = gate();
-    await withPage(siteOfGenerated("trefoil"), { server: (server) => server.when((path) => path.startsWith("/geometry/"), { hold: closed }) }, async (view) => {
+    await withPage(siteOfGenerated("trefoil", "--profile", "classic"), { server: (server) => server.when((path) => path.startsWith("/geometry/"), { hold: closed }) }, async (view) => {
       const bar = view.page.getByRole("progressbar", { name: "Loading" });
       await until("the bar is there", async () => (await bar.count()) === 1);
       assert.deepEqual([await bar.getAttribute("aria-valuemin"), await bar.getAttribute("aria-valuenow"), await bar.getAttribute("aria-valuemax")], ["0", "0", "100"]);
@@ -364,7 +364,7 @@ test("a page puts its own progress into the slot", async () => {
 });
 
 test("toBlob gives the picture as a file", async () => {
-  await withScene(siteOfGenerated("trefoil"), {}, async (view) => {
+  await withScene(siteOfGenerated("trefoil", "--profile", "classic"), {}, async (view) => {
     const shown = await view.picture();
     const bytes = await view.page.evaluate(async () => {
       const blob = await document.querySelector<ViewElement>("x3d")!.toBlob();

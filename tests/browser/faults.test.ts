@@ -16,8 +16,8 @@ import { pageOf, siteOfGenerated } from "./sites.ts";
 /** A site of two shapes, #good and #bad; the files of #bad lie in bad/. */
 function twoShapeSite(): string {
   const directory = join(outputDirectory, "sites", "faults");
-  cpSync(siteOfGenerated("trefoil"), directory, { recursive: true });
-  cpSync(siteOfGenerated("sphere"), join(directory, "bad"), { recursive: true });
+  cpSync(siteOfGenerated("trefoil", "--profile", "classic"), directory, { recursive: true });
+  cpSync(siteOfGenerated("sphere", "--profile", "classic"), join(directory, "bad"), { recursive: true });
   return directory;
 }
 
@@ -29,13 +29,13 @@ function shapeOf(html: string, id: string, prefix: string): string {
 
 function twoShapes(html: Buffer): string {
   const good = shapeOf(html.toString(), "good", "");
-  const bad = shapeOf(pageOf(siteOfGenerated("sphere")), "bad", "bad/");
+  const bad = shapeOf(pageOf(siteOfGenerated("sphere", "--profile", "classic")), "bad", "bad/");
   // Large enough that its second byte is seen, and so asked for.
   return html.toString().replace(/<Shape[\s\S]*<\/Shape>/i, () => `<Transform scale="2 2 2">${bad}</Transform>\n${good}`);
 }
 
 function badFile(rank: number): string {
-  const [url] = [...ranksOfFiles(pageOf(siteOfGenerated("sphere")))].find(([, other]) => other === rank) ?? [];
+  const [url] = [...ranksOfFiles(pageOf(siteOfGenerated("sphere", "--profile", "classic")))].find(([, other]) => other === rank) ?? [];
   assert.ok(url);
   return `/bad/${url}`;
 }
@@ -80,7 +80,7 @@ async function assertReported(view: View, url: string): Promise<void> {
 
 async function goodAlone(): Promise<Picture> {
   let seen: Picture | undefined;
-  await withPage(siteOfGenerated("trefoil"), {}, async (view) => {
+  await withPage(siteOfGenerated("trefoil", "--profile", "classic"), {}, async (view) => {
     await view.promise("complete");
     seen = await view.picture();
   });

@@ -10,7 +10,7 @@ import { firstHit, minus, rayThrough, type Vec3 } from "./rays.ts";
 import { lookOf, referencePicture } from "./reference.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 
-const site = (): string => siteOfGenerated("trefoil");
+const site = (): string => siteOfGenerated("trefoil", "--profile", "classic");
 
 /** A page that shows the example from above its front. */
 function pageWith(example: GridExample, attributes = ""): string {

@@ -61,7 +61,7 @@ const memoryOf = (view: View): Promise<Memory> => view.page.evaluate(() => (wind
 
 describe("a scene that has loaded", () => {
   test("keeps no decoded image", async () => {
-    await withPage(siteOfGenerated("trefoil-colors", "--patch-vertices", "1000"), {}, async (view) => {
+    await withPage(siteOfGenerated("trefoil-colors", "--profile", "classic", "--patch-vertices", "1000"), {}, async (view) => {
       await view.promise("complete");
       await settle(view.page);
       const { live } = await view.observed();
@@ -73,10 +73,10 @@ describe("a scene that has loaded", () => {
 
 describe("vertex data", () => {
   for (const [what, mesh, options, attribute] of [
-    ["of images", "trefoil-colors", [], ""],
+    ["of images", "trefoil-colors", ["--profile", "classic"], ""],
     ["of arrays", "trefoil-colors", ["--container", "bg", "--layout", "separate"], ""],
     ["of arrays of records", "trefoil-colors", ["--container", "bg", "--layout", "interleaved"], ""],
-    ["of images that workers decode", "trefoil-colors", [], 'decode="cpu"'],
+    ["of images that workers decode", "trefoil-colors", ["--profile", "classic"], 'decode="cpu"'],
     ["of compact", "trefoil-colors", ["--profile", "compact"], ""],
   ] as const) {
     test(`${what} are not kept in JavaScript`, async () => {
@@ -135,7 +135,7 @@ describe("a budget", () => {
 
   for (const container of ["sig", "bg"]) {
     test(`holds what is seen, gives up what is not, and comes to rest: ${container}`, async () => {
-      const site = siteOfGenerated("trefoil", "--patch-vertices", "700", "--container", container);
+      const site = siteOfGenerated("trefoil", "--profile", "classic", "--patch-vertices", "700", "--container", container);
       let all = 0;
       const expected = await pictures(scene(site, `id="${container}"`), async (view) => { all = (await memoryOf(view)).gpuBytes; });
       const budget = 0.6 * all;
@@ -166,7 +166,7 @@ test("an image of many texels comes to the GPU in strips", async () => {
     };
   };
   // 36,864 vertices and 73,728 triangles: an index of 221,184 texels.
-  await withPage(siteOfGenerated("sphere-large"), { before }, async (view) => {
+  await withPage(siteOfGenerated("sphere-large", "--profile", "classic"), { before }, async (view) => {
     await view.promise("complete");
     const uploads = await view.page.evaluate(() => (window as unknown as { uploads: number[] }).uploads);
     assert.ok(Math.max(...uploads) <= 2 ** 18, `a piece of ${Math.max(...uploads)} bytes`);

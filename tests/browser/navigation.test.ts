@@ -16,7 +16,7 @@ const side = '<Transform rotation="0 1 0 1.5707963"><Viewpoint id="side" descrip
 
 /** The site with more viewpoints behind its own, and another NavigationInfo. */
 function siteWith(name: string, viewpoints: string, navigation?: string): string {
-  return variantOf(siteOfGenerated("trefoil-colors"), name, (page) => page
+  return variantOf(siteOfGenerated("trefoil-colors", "--profile", "classic"), name, (page) => page
     .replace(/<\/Viewpoint>/i, (end) => `${end}${viewpoints}`)
     .replace(/<NavigationInfo[^>]*>/i, (own) => navigation ?? own));
 }
@@ -32,7 +32,7 @@ async function withScene(site: string, options: PageOptions, use: (view: View) =
 
 /** The picture of the page when that viewpoint is its only one. */
 async function pictureFrom(viewpoint: string): Promise<Picture> {
-  const site = variantOf(siteOfGenerated("trefoil-colors"), "one-view", (page) => page.replace(/<Viewpoint[\s\S]*<\/Viewpoint>/i, viewpoint));
+  const site = variantOf(siteOfGenerated("trefoil-colors", "--profile", "classic"), "one-view", (page) => page.replace(/<Viewpoint[\s\S]*<\/Viewpoint>/i, viewpoint));
   let seen: Picture | undefined;
   await withScene(site, {}, async (view) => {
     seen = await view.picture();
@@ -93,7 +93,7 @@ describe("a viewpoint is chosen by", () => {
   });
 
   test("no list where there is only one", async () => {
-    await withScene(siteOfGenerated("trefoil-colors"), {}, async ({ page }) => {
+    await withScene(siteOfGenerated("trefoil-colors", "--profile", "classic"), {}, async ({ page }) => {
       assert.equal(await page.getByRole("combobox").count(), 0);
     });
   });
@@ -273,10 +273,10 @@ describe("what a document does not allow", () => {
 });
 
 test("the page says which way is up: a statue seen from above stays upright when it is turned", async () => {
-  await withScene(siteOfGenerated("trefoil-colors"), {}, async (view) => {
+  await withScene(siteOfGenerated("trefoil-colors", "--profile", "classic"), {}, async (view) => {
     const orbit = async (): Promise<number> => view.page.evaluate(() => document.querySelector<ViewElement>("x3d")!.getCameraOrbit().phi);
     const before = await orbit();
-    assert.ok(before < Math.PI / 2 - 0.1, pageOf(siteOfGenerated("trefoil-colors")));
+    assert.ok(before < Math.PI / 2 - 0.1, pageOf(siteOfGenerated("trefoil-colors", "--profile", "classic")));
     await drag(view, 150, 0);
     assert.ok(Math.abs((await orbit()) - before) < 1e-6);
   });

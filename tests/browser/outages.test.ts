@@ -12,7 +12,7 @@ import { gate, startServer } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 
-const site = (): string => siteOfGenerated("trefoil", "--patch-vertices", "1000");
+const site = (): string => siteOfGenerated("trefoil", "--profile", "classic", "--patch-vertices", "1000");
 
 async function undisturbed(): Promise<Picture> {
   let seen: Picture | undefined;
@@ -153,7 +153,7 @@ describe("a lost WebGL context", () => {
 
 test("ten thousand shapes, one without its files, are all shown but that one, and the page follows the keyboard", async () => {
   const side = 100;
-  const small = siteOfGenerated("sphere-small");
+  const small = siteOfGenerated("sphere-small", "--profile", "classic");
   const [whole, broken] = [shapeIn(small, "small", 'id="NAME"'), shapeIn(small, "missing", 'id="NAME"')];
   const shapes = Array.from({ length: side * side }, (_, place) => {
     const shape = (place === 4321 ? broken : whole).replace("NAME", `s${place}`);

@@ -8,6 +8,7 @@ import type { ImgeoView, ShapePointerEvent } from "../../web/src/dom/index.ts";
 import { pictureSize, settle, until, withPage, type View } from "./harness.ts";
 import { dot, firstHit, minus, rayThrough, vectorAt, type RayHit, type Vec3 } from "./rays.ts";
 import { lookOf } from "./reference.ts";
+import { decodeCompactSite } from "./compactDecoder.ts";
 import { decodeSite, type PlainPatch } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 
@@ -96,11 +97,13 @@ const layouts: string[][] = ["int16", "float32"].map((type) =>
   ["--container", "bg", "--layout", "interleaved", "--coord-type", type]);
 
 describe("a click tells the triangle, vertex, place and normal that the pixel shows", () => {
-  for (const options of [...sites, ...layouts, ["--position-bits", "24"], ["--container", "bg", "--normal-bits", "32", "--position-bits", "8"]]) {
+  for (const options of [...sites, ...layouts, ["--position-bits", "24"], ["--container", "bg", "--normal-bits", "32", "--position-bits", "8"],
+                         ["--profile", "compact", "--patch-vertices", "1000"]]) {
     test(options.join(" "), async () => {
-      const site = siteOfGenerated("trefoil", ...options);
+      const isCompact = options.includes("compact");
+      const site = siteOfGenerated("trefoil", ...(isCompact ? [] : ["--profile", "classic"]), ...options);
       // From here a third byte plane would not be seen, so it has not been asked for.
-      const patches = decodeSite(site, 2);
+      const patches = isCompact ? decodeCompactSite(site) : decodeSite(site, 2);
       await withSite(site, async (view) => {
         let hits = 0;
         for (const { x, y } of pixels) {
@@ -128,7 +131,7 @@ const withoutNormalFiles = (html: string): string => html.replaceAll(/ normal=("
 describe("a surface without normals tells that of the triangle", () => {
   for (const container of ["sig", "bg"]) {
     test(container, async () => {
-      const site = siteOfGenerated("trefoil", "--container", container);
+      const site = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
       const patches = decodeSite(site).map(({ positions, triangles, lines, points }) => ({ positions, triangles, lines, points }));
       await withSite(site, async (view) => {
         let hits = 0;
@@ -168,7 +171,7 @@ function projected(patch: PlainPatch, vertices: Iterable<number>, viewpoint: Par
 describe("a point is hit where it is drawn", () => {
   for (const container of ["sig", "bg"]) {
     test(container, async () => {
-      const site = siteOfGenerated("points", "--container", container);
+      const site = siteOfGenerated("points", "--profile", "classic", "--container", container);
       const [patch] = decodeSite(site);
       const points = projected(patch!, patch!.points, lookOf(pageOf(site)).viewpoint);
       await withSite(site, async (view) => {
@@ -200,7 +203,7 @@ describe("a point is hit where it is drawn", () => {
 describe("a line is hit where it is drawn, at its nearer end", () => {
   for (const container of ["sig", "bg"]) {
     test(container, async () => {
-      const site = siteOfGenerated("coil", "--container", container);
+      const site = siteOfGenerated("coil", "--profile", "classic", "--container", container);
       const [patch] = decodeSite(site);
       const { viewpoint } = lookOf(pageOf(site));
       const ends = projected(patch!, patch!.lines, viewpoint);
@@ -241,7 +244,7 @@ describe("a line is hit where it is drawn, at its nearer end", () => {
 });
 
 /** A pixel that shows the shape, one that does not, and the site. */
-const site = (): string => siteOfGenerated("trefoil");
+const site = (): string => siteOfGenerated("trefoil", "--profile", "classic");
 const onShape = pixels.find(({ x, y }) => expectedAt(site(), decodeSite(site()), x, y))!;
 const nearby = { x: onShape.x + 2, y: onShape.y + 1 };
 const offShape = { x: 3, y: pictureSize.height - 3 };

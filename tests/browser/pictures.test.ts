@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
-import { assertSamePicture, boundsOfInput, boundsOfQuantised, difference, isWithin } from "./compare.ts";
+import { assertSamePicture, boundsOfCompact, boundsOfInput, boundsOfQuantised, difference, isWithin } from "./compare.ts";
 import { withPage, type PageOptions } from "./harness.ts";
 import { readObj, readPly } from "./meshes.ts";
 import { modelDirectory } from "./paths.ts";
@@ -64,7 +64,7 @@ const cases: { mesh: GeneratedMesh; options: string[] }[] = [
 describe("the final picture is that of plain buffers with the quantised mesh", () => {
   for (const { mesh, options } of cases) {
     test([mesh, ...options].join(" "), async () => {
-      const site = siteOfGenerated(mesh, ...options);
+      const site = siteOfGenerated(mesh, "--profile", "classic", ...options);
       const expected = await referencePicture(pageOf(site), decodeSite(site));
       assertSamePicture(`quantised ${mesh} ${options.join("")}`, await finalPicture(site), expected, boundsOfQuantised);
     });
@@ -73,12 +73,13 @@ describe("the final picture is that of plain buffers with the quantised mesh", (
 
 describe("the final picture is that of plain buffers with the input", () => {
   for (const mesh of ["trefoil", "trefoil-colors", "trefoil-plain"] as const) {
-    for (const container of ["sig", "bg"]) {
-      test(`${mesh} --container ${container}`, async () => {
-        const site = siteOfGenerated(mesh, "--container", container);
+    for (const options of [["--profile", "compact"], ["--profile", "classic"], ["--container", "bg"]]) {
+      test([mesh, ...options].join(" "), async () => {
+        const site = siteOfGenerated(mesh, ...options);
         const input = patchOfInput(readPly(readFileSync(meshFile(mesh))));
         const expected = await referencePicture(pageOf(site), [input]);
-        assertSamePicture(`input ${mesh} ${container}`, await finalPicture(site), expected, boundsOfInput);
+        const bounds = options.includes("compact") ? boundsOfCompact : boundsOfInput;
+        assertSamePicture(`input ${mesh} ${options.join("")}`, await finalPicture(site), expected, bounds);
       });
     }
   }
@@ -86,7 +87,7 @@ describe("the final picture is that of plain buffers with the input", () => {
   const bunny = join(modelDirectory, "stanford-bunny.obj");
   for (const container of ["sig", "bg"]) {
     test(`bunny --container ${container}`, { skip: existsSync(bunny) ? false : `${bunny} is not here` }, async () => {
-      const site = siteOf(bunny, "--container", container);
+      const site = siteOf(bunny, "--profile", "classic", "--container", container);
       const expected = await referencePicture(pageOf(site), [patchOfInput(readObj(readFileSync(bunny, "utf8")))]);
       assertSamePicture(`input bunny ${container}`, await finalPicture(site), expected, boundsOfInput);
     });
@@ -102,7 +103,7 @@ describe("a wrong mesh is seen", () => {
   }
 
   test("byte planes swapped", async () => {
-    const site = siteOfGenerated("trefoil");
+    const site = siteOfGenerated("trefoil", "--profile", "classic");
     const [high, low] = [fileOfRank(site, 0), fileOfRank(site, 4)];
     const swapped = (html: Buffer): string =>
       html.toString().replaceAll(/coord=.*/gi, (coord) => coord.replace(high, "\n").replace(low, high).replace("\n", low));
@@ -111,7 +112,7 @@ describe("a wrong mesh is seen", () => {
 
   for (const container of ["sig", "bg"] as const) {
     test(`one index off, ${container}`, async () => {
-      const site = siteOfGenerated("trefoil", "--container", container);
+      const site = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
       const index = `/${fileOfRank(site, 1)}`;
       const corner = mostVisibleCorner(site);
       const replace = container === "sig" ? otherIndexInImage(corner) : otherIndexInArray(corner);

@@ -8,8 +8,8 @@ import { ranksIn, sceneOf, shapeIn } from "./scenes.ts";
 import { gate } from "./server.ts";
 import { siteOfGenerated } from "./sites.ts";
 
-const knot = (): string => siteOfGenerated("trefoil", "--patch-vertices", "1000");
-const ball = (): string => siteOfGenerated("sphere", "--patch-vertices", "2000");
+const knot = (): string => siteOfGenerated("trefoil", "--profile", "classic", "--patch-vertices", "1000");
+const ball = (): string => siteOfGenerated("sphere", "--profile", "classic", "--patch-vertices", "2000");
 
 /** The knot at the left, the ball at the right, each about 6 and 2 across. */
 function twoShapes(viewpoint: string, { knotIs = "", ballIs = "", x3dIs = "" } = {}): string {

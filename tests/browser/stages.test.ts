@@ -28,7 +28,7 @@ async function answered(view: View, paths: string[]): Promise<void> {
 }
 
 describe("the first coordinate byte", () => {
-  const site = (): string => siteOfGenerated("trefoil-colors", "--patch-vertices", "1000");
+  const site = (): string => siteOfGenerated("trefoil-colors", "--profile", "classic", "--patch-vertices", "1000");
 
   async function blankPicture(): Promise<Picture> {
     let blank: Picture | undefined;
@@ -107,7 +107,7 @@ describe("borders between patches are watertight", () => {
       .replace(/<Viewpoint[^>]*>/i, `<Viewpoint position="0 0 0" orientation="0.6 0.8 0 0.7" fieldOfView="1.8">`)
       .replace(/<ImageGeometry/i, `<ImageGeometry solid="false"`);
 
-  const site = (): string => siteOfGenerated("sphere", "--patch-vertices", "1000");
+  const site = (): string => siteOfGenerated("sphere", "--profile", "classic", "--patch-vertices", "1000");
 
   function litPixels({ width, height, channels, data }: Picture): Uint8Array {
     return new Uint8Array(width * height).map((_, i) => (data[i * channels]! > 250 ? 1 : 0));
@@ -158,7 +158,7 @@ describe("borders between patches are watertight", () => {
 });
 
 describe("files are asked for", () => {
-  const site = (): string => siteOfGenerated("trefoil", "--patch-vertices", "300");
+  const site = (): string => siteOfGenerated("trefoil", "--profile", "classic", "--patch-vertices", "300");
 
   test("once each, first coordinate bytes first, then index, normals and the rest", async () => {
     await withPage(site(), {}, async (view) => {

@@ -61,7 +61,7 @@ describe("a Transform places shape and normals", () => {
   for (const [name, { markup, matrix }] of Object.entries(transforms)) {
     for (const container of ["sig", "bg"]) {
       test(`${name}, ${container}`, async () => {
-        const site = siteOfGenerated("trefoil-colors", "--container", container);
+        const site = siteOfGenerated("trefoil-colors", "--profile", "classic", "--container", container);
         const page = withShapes(pageOf(site), markup);
         const seen = await pictureOf(variantOf(site, "placed", () => page));
         const expected = await referencePicture(page, placed(decodeSite(site), matrix));
@@ -73,7 +73,7 @@ describe("a Transform places shape and normals", () => {
 
 for (const container of ["sig", "bg"]) {
   test(`a decode box that is no cube stretches the shape and leaves its normals alone, ${container}`, async () => {
-    const original = siteOfGenerated("trefoil", "--container", container);
+    const original = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
     const site = variantOf(original, "stretched", (page) =>
       page.replaceAll(/ bbox(Center|Size)="[^"]*"/g, "").replace(/ size="[^"]*"/, ' size="3 6 4"'));
     assertSamePicture(`no cube ${container}`, await pictureOf(site), await referencePicture(pageOf(site), decodeSite(site)), boundsOfQuantised);
@@ -120,7 +120,7 @@ describe("USE of", () => {
   for (const [name, { used, full }] of Object.entries(twice)) {
     for (const container of ["sig", "bg"]) {
       test(`${name} shows it again, downloads and stores nothing again, ${container}`, async () => {
-        const original = siteOfGenerated("trefoil", "--container", container);
+        const original = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
         const site = variantOf(original, "used", (page) => withShapes(page, used));
         const expected = await pictureOf(variantOf(original, "full", (page) => withShapes(page, full)));
         await withPage(site, {}, async (view) => {
@@ -141,7 +141,7 @@ describe("USE of", () => {
   }
 
   test("a Shape outlives the Shape that defines it no longer than a moment", async () => {
-    const site = variantOf(siteOfGenerated("trefoil"), "orphan", (page) => withShapes(page, twice["a Shape"]!.used));
+    const site = variantOf(siteOfGenerated("trefoil", "--profile", "classic"), "orphan", (page) => withShapes(page, twice["a Shape"]!.used));
     await withPage(site, {}, async (view) => {
       await view.promise("complete");
       await view.page.evaluate(() => { document.querySelector("shape")!.remove(); });
@@ -155,7 +155,7 @@ describe("USE of", () => {
 
 async function emptySceneTextures(): Promise<number> {
   let count = -1;
-  const site = variantOf(siteOfGenerated("trefoil"), "empty", (page) => withShapes(page, () => ""));
+  const site = variantOf(siteOfGenerated("trefoil", "--profile", "classic"), "empty", (page) => withShapes(page, () => ""));
   await withPage(site, {}, async (view) => {
     await view.promise("complete");
     await view.picture();

@@ -11,7 +11,7 @@ import { gate } from "./server.ts";
 import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 
-const site = (): string => siteOfGenerated("trefoil-colors");
+const site = (): string => siteOfGenerated("trefoil-colors", "--profile", "classic");
 
 async function withCompletePage(options: PageOptions, use: (view: View) => Promise<void>): Promise<void> {
   await withPage(site(), options, async (view) => {

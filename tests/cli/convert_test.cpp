@@ -22,13 +22,53 @@ TEST_F(Convert, SaysWhatItChose) {
   const Outcome outcome = run({"convert", input_, "-o", site_});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "") << "silent where standard error is no terminal";
-  for (const char* words : {"sig (PNG images)", "profile classic", "target web", "16 bits: step",
-                            "rgb, 8 bits: off by at most 0.39 degrees; computed", "800 triangles",
-                            "1 of at most 65,535 vertices", "coord", "bytes a triangle", "memory"})
+  for (const char* words : {"sig (PNG images)", "profile compact", "target web", "16 bits: step",
+                            "octahedral, 8 bits: off by at most 0.96 degrees; computed", "800 triangles",
+                            "1 of at most 65,535 vertices", "patch", "bytes a triangle", "memory"})
     EXPECT_NE(outcome.out.find(words), std::string::npos) << words << " is not in:\n" << outcome.out;
   EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos) << "colours are for terminals";
   EXPECT_EQ(namesIn(site_), (std::vector<std::string>{"geometry", "imgeo.css", "imgeo.json", "index.html",
                                                       "runtime", "scene.x3d"}));
+}
+
+TEST_F(Convert, IsCompactUnlessWhatIsAskedForIsClassics) {
+  const auto profileOf = [&](std::vector<std::string> options) {
+    std::vector<std::string> line{"convert", input_, "-o", site_, "--json"};
+    line.insert(line.end(), options.begin(), options.end());
+    const Outcome outcome = run(line);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return Json::parse(outcome.out)["profile"].get<std::string>();
+  };
+  EXPECT_EQ(profileOf({}), "compact");
+  EXPECT_EQ(profileOf({"--primitives", "points"}), "compact");
+  EXPECT_EQ(profileOf({"--profile", "classic"}), "classic");
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{"--target", "x3dom"},
+                                             {"--primitives", "strips"},
+                                             {"--index", "off"},
+                                             {"--normals", "palette"},
+                                             {"-vp", "32"}})
+    EXPECT_EQ(profileOf(options), "classic") << options[0];
+}
+
+TEST_F(Convert, PutsABaseBeforeLargeMeshes) {
+  write(input_, gridPly(80)); // 12,800 triangles
+  const auto bytesOf = [&](std::vector<std::string> options) {
+    std::vector<std::string> line{"convert", input_, "-o", site_, "--patch-vertices", "3000", "--json"};
+    line.insert(line.end(), options.begin(), options.end());
+    EXPECT_EQ(run(line).code, 0);
+    EXPECT_EQ(run({"verify", site_, input_}).code, 0);
+    std::size_t bytes = 0;
+    const Json info = Json::parse(run({"info", site_, "--json"}).out);
+    for (const Json& file : info["files"])
+      bytes += file["role"] == "base" ? file["bytes"].get<std::size_t>() : 0;
+    return bytes;
+  };
+  const std::size_t standard = bytesOf({});
+  EXPECT_GT(standard, 100u);
+  EXPECT_EQ(bytesOf({"--base", "2"}), standard);
+  EXPECT_NE(bytesOf({"--base", "10"}), standard);
+  EXPECT_EQ(bytesOf({"--base", "0"}), 0u);
 }
 
 TEST_F(Convert, WritesTheSameReportToAFileAndAsJson) {
@@ -81,8 +121,8 @@ TEST_F(Convert, StoresNormalsAsItIsTold) {
     EXPECT_EQ(geometry["normalBits"], report["normalBits"]);
     return report["normalErrorDegrees"].get<double>();
   };
-  EXPECT_NEAR(bound({"--normals", "rgb"}), 0.389, 0.001);
-  EXPECT_NEAR(bound({"--normals", "octahedral"}), 0.639, 0.001);
+  EXPECT_NEAR(bound({"--normals", "rgb", "--profile", "classic"}), 0.389, 0.001);
+  EXPECT_NEAR(bound({"--normals", "octahedral", "--profile", "classic"}), 0.639, 0.001);
   EXPECT_NEAR(bound({"--normals", "spherical"}), 0.789, 0.001);
   EXPECT_LT(bound({"--normals", "palette"}), 12);
   EXPECT_NEAR(bound({"--normals", "octahedral", "--container", "bg"}), 0.639, 0.001);
@@ -233,8 +273,8 @@ TEST_F(Convert, KeepsTheAttributesThatAreNamed) {
       "property list uchar int vertex_indices\nend_header\n0 0 0 0.5 1\n1 0 0 1.5 2\n0 1 0 -3 9\n3 0 1 2\n");
   EXPECT_NE(run({"info", input_}).out.find("heat, label"), std::string::npos);
   for (const std::string container : {"sig", "bg"}) {
-    const Outcome outcome = run({"convert", input_, "-o", site_, "--container", container,
-                                 "--keep-attributes", "label,heat", "--json"});
+    const Outcome outcome = run({"convert", input_, "-o", site_, "--profile", "classic", "--container",
+                                 container, "--keep-attributes", "label,heat", "--json"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(Json::parse(outcome.out)["attributes"].size(), 2);
     EXPECT_EQ(run({"verify", site_, input_}).code, 0);

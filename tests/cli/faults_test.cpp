@@ -124,7 +124,7 @@ TEST_F(Faults, OptionsThatCannotBeHonoured) {
   const auto refuse = [&](const std::string& words, const std::vector<std::string>& options) {
     expectRefusal("mesh.ply", gridPly(3), 1, words, options);
   };
-  refuse("--normal-bits", {"--container", "sig", "--normal-bits", "16"});
+  refuse("--normal-bits", {"--profile", "classic", "--normal-bits", "16"});
   refuse("--normal-bits", {"--container", "bg", "-vn", "12"});
   refuse("--normals", {"--normals", "cube"});
   refuse("--normals", {"--container", "bg", "--normals", "palette"});
@@ -133,7 +133,8 @@ TEST_F(Faults, OptionsThatCannotBeHonoured) {
   refuse("--normal-bits", {"--container", "bg", "--normals", "octahedral", "-vn", "32"});
   refuse("--normal-bits", {"--container", "bg", "--normals", "octahedral", "-vn", "8", "-vp", "8"});
   refuse("--normals", {"--target", "x3dom", "--normals", "octahedral"});
-  refuse("--normals", {"--container", "bg", "--normals", "spherical", "--coord-type", "int16", "--target", "x3dom"});
+  refuse("--normals",
+         {"--container", "bg", "--normals", "spherical", "--coord-type", "int16", "--target", "x3dom"});
   refuse("--coord-type", {"--coord-type", "uint16"});
   refuse("--coord-type", {"--container", "bg", "--coord-type", "float64"});
   refuse("--coord-type", {"--container", "bg", "--coord-type", "int8", "--target", "x3dom"});
@@ -147,15 +148,20 @@ TEST_F(Faults, OptionsThatCannotBeHonoured) {
   refuse("--position-bits", {"-qp", "33"});
   refuse("--position-bits", {"--position-bits", "abc"});
   refuse("--position-bits", {"--position-bits", "16.5"});
-  refuse("--texcoord-bits", {"-vt", "12"});
-  refuse("--color-bits", {"-vc", "5"});
+  refuse("--texcoord-bits", {"-vt", "12", "--profile", "classic"});
+  refuse("--color-bits", {"-vc", "5", "--profile", "classic"});
   refuse("--profile", {"--profile", "dense"});
   refuse("--profile", {"--profile", "compact", "--container", "bg"});
   refuse("--profile", {"--profile", "compact", "--target", "x3dom"});
   refuse("--primitives", {"--profile", "compact", "--primitives", "strips"});
   refuse("--index", {"--profile", "compact", "--index", "off"});
   refuse("--normals", {"--profile", "compact", "--normals", "palette"});
-  refuse("--normals", {"--normals", "derived"});
+  refuse("--normals", {"--normals", "derived", "--profile", "classic"});
+  refuse("--base", {"--base", "26"});
+  refuse("--base", {"--base", "-1"});
+  refuse("--base", {"--base", "2%"});
+  refuse("--base", {"--base", "2", "--profile", "classic"});
+  refuse("--base", {"--base", "2", "--container", "bg"});
   refuse("--normal-bits", {"--profile", "compact", "--normal-bits", "17"});
   refuse("--position-bits", {"--profile", "compact", "--position-bits", "31"});
   refuse("--max-error", {"--max-error", "0"});

@@ -9,7 +9,7 @@ _imgeo() {
     "convert -i") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "convert -o"|"convert --output") COMPREPLY=($(compgen -d -- "$word")); return ;;
     "convert --container") COMPREPLY=($(compgen -W "sig bg" -- "$word")); return ;;
-    "convert --profile") COMPREPLY=($(compgen -W "classic compact" -- "$word")); return ;;
+    "convert --profile") COMPREPLY=($(compgen -W "auto compact classic" -- "$word")); return ;;
     "convert --target") COMPREPLY=($(compgen -W "web x3dom" -- "$word")); return ;;
     "convert --x3dom-url") COMPREPLY=(); return ;;
     "convert --primitives") COMPREPLY=($(compgen -W "triangles strips points" -- "$word")); return ;;

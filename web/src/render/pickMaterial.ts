@@ -38,7 +38,7 @@ void main() {
   #include <begin_vertex>
   #include <project_vertex>
   vPosition = transformed;
-  vNormal = hasNormals ? objectNormal : vec3(0.0);
+  vNormal = hasNormals ? objectNormal / max(length(objectNormal), 1e-30) : vec3(0.0); // as materials do before they interpolate
   // Of vertices behind an index buffer, WebGL tells the shader no more than the
   // number of the primitive's last one; picking.ts finds the rest.
   element = gl_VertexID;

@@ -1,0 +1,175 @@
+// Compact: a coarse shape first, without a hole in any mixture with patches that
+// have come; then patch by patch, in the order of what is seen; and every file for
+// itself where one is no use.
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { describe, test } from "node:test";
+import { assertSamePicture, boundsOfCompact, difference } from "./compare.ts";
+import { pictureSize, until, withPage, type View } from "./harness.ts";
+import { readPly } from "./meshes.ts";
+import type { Picture } from "./png.ts";
+import { patchOfInput, referencePicture } from "./reference.ts";
+import { gate, type Behaviour } from "./server.ts";
+import { tagsOf } from "./siteDecoder.ts";
+import { meshFile, pageOf, siteOfGenerated } from "./sites.ts";
+
+/** A closed surface of 136,000 triangles in several patches, with a base. */
+const site = (): string => siteOfGenerated("trefoil-large", "--profile", "compact", "--patch-vertices", "20000");
+
+function filesOf(directory: string): { base: string; patches: string[] } {
+  const tags = tagsOf(pageOf(directory));
+  const base = tags.find(({ name }) => name === "imagegeometry")?.attributes.base;
+  assert.ok(base, "there is a base");
+  return { base, patches: tags.flatMap(({ attributes: { data } }) => (data ? [data] : [])) };
+}
+
+const isPath = (url: string) => (path: string): boolean => path === `/${url}`;
+
+/** For each pixel whether the mesh is there: it is darker than what lies behind. */
+function foreground({ width, height, channels, data }: Picture): boolean[] {
+  const background = [0, 1, 2].map((channel) => data[(height - 2) * width * channels + channel]!);
+  return Array.from({ length: width * height }, (_, pixel) =>
+    background.some((shade, channel) => Math.abs(data[pixel * channels + channel]! - shade) > 12));
+}
+
+/** Pixels from which the mesh reaches at least `margin` pixels to all sides. */
+function inner(isMesh: readonly boolean[], margin: number): number[] {
+  const { width, height } = pictureSize;
+  return isMesh.flatMap((_, pixel) => {
+    const [x, y] = [pixel % width, Math.floor(pixel / width)];
+    for (let dy = -margin; dy <= margin; ++dy) {
+      for (let dx = -margin; dx <= margin; ++dx) {
+        const [ax, ay] = [x + dx, y + dy];
+        if (ax < 0 || ay < 0 || ax >= width || ay >= height || !isMesh[ay * width + ax]) return [];
+      }
+    }
+    return [pixel];
+  });
+}
+
+/** What the first test has seen of the whole shape. */
+let wholePicture: Picture | undefined;
+
+/** Nothing shines through where the whole shape has something behind and around. */
+function assertNoHoles(picture: Picture, full: Picture | undefined, what: string): void {
+  assert.ok(full, "the test of mixtures comes first");
+  const inside = inner(foreground(full), 4);
+  assert.ok(inside.length > 5000, `${inside.length} pixels lie inside`);
+  const isMesh = foreground(picture);
+  assert.equal(inside.filter((pixel) => !isMesh[pixel]).length, 0, `${what} has holes`);
+}
+
+const stages = async (view: View): Promise<unknown[]> =>
+  [...await view.events("first-image", "x3d"), ...await view.events("refine", "x3d")].map(({ detail }) => detail.stage);
+
+describe("a base", () => {
+  test("shows the whole shape, and no background through any mixture with patches", async () => {
+    const { base, patches } = filesOf(site());
+    assert.ok(patches.length >= 4 && patches.length <= 6, `${patches.length} patches, all of which are asked for at once`);
+    const gates = patches.map(gate);
+    const server = (server: View["server"]): void => {
+      patches.forEach((url, place) => { server.when(isPath(url), { hold: gates[place]!.closed }); });
+    };
+    await withPage(site(), { server }, async (view) => {
+      await view.promise("firstImage");
+      assert.deepEqual(await stages(view), ["base"]);
+      const mixtures = [await view.picture()];
+      for (const place of [1, 3]) {
+        gates[place]!.open();
+        await until("the patch is here", () => view.server.requests.some(({ path, status }) => isPath(patches[place]!)(path) && status === 200));
+        const seen = mixtures.at(-1)!;
+        await until("the patch is shown", async () => {
+          const picture = await view.picture();
+          if (difference(picture, seen).mean === 0) return false;
+          mixtures.push(picture);
+          return true;
+        });
+      }
+      for (const { open } of gates) open();
+      await view.promise("complete");
+      const full = await view.picture();
+      assert.equal((await stages(view)).at(-1), "full");
+      assert.equal(view.server.requestsOf(new RegExp(base)).length, 1);
+      const input = patchOfInput(readPly(readFileSync(meshFile("trefoil-large"))));
+      assertSamePicture("input compact", full, await referencePicture(pageOf(site()), [input]), boundsOfCompact);
+      for (const [place, mixture] of mixtures.entries()) {
+        assertNoHoles(mixture, full, `mixture ${place}`);
+        assert.ok(difference(mixture, full).mean > 0, `mixture ${place} is complete`);
+      }
+      wholePicture = full;
+    });
+  });
+});
+
+describe("a file of compact that is no use", () => {
+  const flipped = (body: Buffer): Buffer => {
+    const changed = Buffer.from(body);
+    changed[changed.length >> 1]! ^= 0x10;
+    return changed;
+  };
+  const faults: [string, Behaviour, RegExp][] = [
+    ["missing", { status: 404 }, /http/], ["cut short", { truncateTo: 900 }, /truncated|malformed/],
+    ["with a bit turned over", { replace: flipped }, /malformed/],
+  ];
+
+  test("costs its patch alone, which its base stands in for, and is named", async () => {
+    const { patches } = filesOf(site());
+    const server = (server: View["server"]): void => {
+      faults.forEach(([, behaviour], place) => { server.when(isPath(patches[place]!), behaviour); });
+    };
+    await withPage(site(), { server, expectedErrors: /Failed to load resource|imgeo/ }, async (view) => {
+      await until("all have been reported", async () => (await view.events("error", "x3d")).length === faults.length);
+      await until("the scene is loaded", async () => (await view.events("load", "x3d")).length === 1);
+      const errors = await view.events("error", "shape");
+      for (const [place, [what, , kind]] of faults.entries()) {
+        const error = errors.find(({ detail }) => detail.url === patches[place]);
+        assert.match(String(error?.detail.type), kind, what);
+      }
+      assertNoHoles(await view.picture(), wholePicture, "the shape");
+    });
+  });
+
+  test("leaves all patches where it is the base", async () => {
+    const { base } = filesOf(site());
+    const server = (server: View["server"]): void => { server.when(isPath(base), { status: 404 }); };
+    await withPage(site(), { server, expectedErrors: /Failed to load resource|imgeo/ }, async (view) => {
+      await until("the scene is loaded", async () => (await view.events("load", "x3d")).length === 1);
+      assert.deepEqual((await view.events("error", "shape")).map(({ detail }) => detail.url), [base]);
+      assert.equal((await stages(view)).at(-1), "full");
+    });
+  });
+});
+
+describe("patches of compact", () => {
+  test("come in the order of what is seen, after the base", async () => {
+    const { base, patches } = filesOf(site());
+    // From near one side: what lies beside the view comes last.
+    const near = (html: Buffer): string => html.toString().replace(/<Viewpoint[\s\S]*?<\/Viewpoint>/i,
+      '<Viewpoint position="2.2 0 1.2" orientation="0 0 1 0" fieldOfView="0.6" centerOfRotation="2.2 0 0"></Viewpoint>');
+    await withPage(site(), { server: (server) => server.when(/^\/$/, { replace: near }) }, async (view) => {
+      await view.promise("complete");
+      const asked = view.asked.filter((path) => path === base || patches.includes(path));
+      assert.equal(asked[0], base);
+      assert.deepEqual(new Set(asked.slice(1)), new Set(patches));
+      const seen = await view.page.evaluate(() => Array.from(document.querySelectorAll("geometrypatch"), (patch) => {
+        const [x = 0, y = 0, z = 0] = (patch.getAttribute("bboxCenter") ?? "").split(" ").map(Number);
+        return { url: patch.getAttribute("data") ?? "", away: Math.hypot(x - 2.2, y, z - 1.2) };
+      }));
+      const nearest = seen.reduce((best, one) => (one.away < best.away ? one : best));
+      assert.ok(asked.indexOf(nearest.url) <= Math.ceil(patches.length / 2), `${nearest.url} is number ${asked.indexOf(nearest.url)}`);
+    });
+  });
+
+  test("are given back when their shape leaves the document", async () => {
+    await withPage(site(), {}, async (view) => {
+      await view.promise("complete");
+      const count = (): Promise<{ geometries: number }> =>
+        view.page.evaluate(() => (document.querySelector("imgeo-view") as unknown as { statistics: { geometries: number } }).statistics);
+      assert.ok((await count()).geometries >= filesOf(site()).patches.length);
+      await view.page.evaluate(() => { document.querySelector("shape")?.remove(); });
+      await until("nothing is left", async () => (await count()).geometries === 0);
+      assert.ok(!foreground(await view.picture()).includes(true));
+    });
+  });
+});

@@ -1,0 +1,44 @@
+// Sites of compact -> plain float buffers, in the order in which the page draws
+// them. By the runtime's own decoder, which vectors/ and the C++ reader check:
+// here it is what becomes of its numbers that is looked at.
+
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { decodePatch } from "../../web/src/decode/compact/patch.ts";
+import { buffersOf } from "../../web/src/decode/compact/patchBuffers.ts";
+import type { VertexArray } from "../../web/src/decode/stage.ts";
+import { decodePng } from "./png.ts";
+import { numbersOf, tagsOf, type PlainPatch } from "./siteDecoder.ts";
+
+/** All patches of the only geometry of the site, which have triangles. */
+export function decodeCompactSite(directory: string): PlainPatch[] {
+  const tags = tagsOf(readFileSync(join(directory, "index.html"), "utf8"));
+  const node = tags.find(({ name }) => name === "imagegeometry")?.attributes ?? {};
+  const bits = Number(node.positionbits);
+  const bytes = Math.ceil(bits / 8);
+  const position = numbersOf(node.position, [0, 0, 0]);
+  const size = numbersOf(node.size, [1, 1, 1]);
+  const place = (stored: number, axis: number): number =>
+    position[axis]! - size[axis]! / 2 + (stored * 2 ** (8 * bytes - bits) * size[axis]!) / (256 ** bytes - 1);
+  return tags.filter(({ name }) => name === "geometrypatch").map(({ attributes }) => {
+    const [url, first] = attributes.data!.split("#");
+    const { data } = decodePng(readFileSync(join(directory, url!)));
+    const { coord, normal, index, vertexCount } = buffersOf(decodePatch(data, Number(first ?? 0)));
+    return {
+      positions: Float32Array.from({ length: 3 * vertexCount }, (_, i) => place(numberAt(coord, i), i % 3)),
+      ...(normal && { normals: unitVectors(Float32Array.from({ length: 3 * vertexCount }, (_, i) => numberAt(normal, i))) }),
+      triangles: Uint32Array.from(index!), lines: new Uint32Array(), points: new Uint32Array(),
+    };
+  });
+}
+
+function numberAt({ array, stride, offset }: VertexArray, i: number): number {
+  return array[Math.floor(i / 3) * stride + offset + (i % 3)]!;
+}
+
+function unitVectors(vectors: Float32Array<ArrayBuffer>): Float32Array<ArrayBuffer> {
+  return vectors.map((component, i) => {
+    const first = i - (i % 3);
+    return component / Math.hypot(vectors[first]!, vectors[first + 1]!, vectors[first + 2]!);
+  });
+}
