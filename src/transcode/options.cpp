@@ -153,8 +153,10 @@ void requireMaxError(const ConvertOptions& options) {
 bool isClassicsAlone(const ConvertOptions& options) {
   const bool isPlain =
       options.normals == NormalEncoding::spherical || options.normals == NormalEncoding::palette;
+  // Attributes that a page shows as colours are files of their own.
+  const bool keepsAttributes = options.keepAttributes.all || !options.keepAttributes.names.empty();
   return options.container == Container::bg || options.target == Target::x3dom ||
-         options.primitives == Primitives::strips || !options.indexed || isPlain ||
+         options.primitives == Primitives::strips || !options.indexed || isPlain || keepsAttributes ||
          options.positionBits > 30 || options.patchVertices > compact::maxPatchCount;
 }
 

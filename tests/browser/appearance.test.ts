@@ -61,29 +61,29 @@ const mirrored = (value: number): number => (Math.floor(value) % 2 === 0 ? wrapp
 const properties = (s: string, t: string): string => nearest.replace("<TextureProperties", `<TextureProperties boundaryModeS="${s}" boundaryModeT="${t}"`);
 
 const cases = (): Case[] => [
-  ...([[], ["--container", "bg"], ["--container", "bg", "--coord-type", "float32"], ["--profile", "compact"]]).map((options): Case => ({
-    what: options.join(" ") || "sig", site: siteOf(quad(1), ...options), most: 1, appearance: white + image(), expected: texelAt,
+  ...([["--profile", "classic"], ["--container", "bg"], ["--container", "bg", "--coord-type", "float32"], ["--profile", "compact"]]).map((options): Case => ({
+    what: options.join(" "), site: siteOf(quad(1), ...options), most: 1, appearance: white + image(), expected: texelAt,
   })),
-  { what: "on the CPU", site: siteOf(quad(1)), most: 1, appearance: white + image(), expected: texelAt,
+  { what: "on the CPU", site: siteOf(quad(1), "--profile", "classic"), most: 1, appearance: white + image(), expected: texelAt,
     change: (shape) => shape.replace(/<ImageGeometry/i, '$& decode="cpu"') },
-  { what: "repeated", site: siteOf(quad(3)), most: 3, appearance: white + image(), expected: (s, t) => texelAt(wrapped(s), wrapped(t)) },
-  { what: "held at the border", site: siteOf(quad(3)), most: 3, appearance: white + image("", properties("CLAMP_TO_EDGE", "REPEAT")),
+  { what: "repeated", site: siteOf(quad(3), "--profile", "classic"), most: 3, appearance: white + image(), expected: (s, t) => texelAt(wrapped(s), wrapped(t)) },
+  { what: "held at the border", site: siteOf(quad(3), "--profile", "classic"), most: 3, appearance: white + image("", properties("CLAMP_TO_EDGE", "REPEAT")),
     expected: (s, t) => texelAt(clamped(s), wrapped(t)) },
-  { what: "mirrored", site: siteOf(quad(3)), most: 3, appearance: white + image("", properties("REPEAT", "MIRRORED_REPEAT")),
+  { what: "mirrored", site: siteOf(quad(3), "--profile", "classic"), most: 3, appearance: white + image("", properties("REPEAT", "MIRRORED_REPEAT")),
     expected: (s, t) => texelAt(wrapped(s), mirrored(t)) },
-  { what: "moved, turned and scaled", site: siteOf(quad(1)), most: 1,
+  { what: "moved, turned and scaled", site: siteOf(quad(1), "--profile", "classic"), most: 1,
     appearance: `${white}${image()}<TextureTransform translation="0.25 0.5" rotation="1.5707963" scale="2 0.5" center="0.5 0.25"></TextureTransform>`,
     expected: (s, t) => {
       const [x, y] = [s + 0.25 + 0.5, t + 0.5 + 0.25]; // T, C
       return texelAt(wrapped(-y * 2 - 0.5), wrapped(x * 0.5 - 0.25)); // R, S, -C
     } },
-  { what: "of a physical material", site: siteOf(quad(1)), most: 1,
+  { what: "of a physical material", site: siteOf(quad(1), "--profile", "classic"), most: 1,
     appearance: `<PhysicalMaterial metallic="0" roughness="1">${image('containerField="baseTexture"')}</PhysicalMaterial>`, expected: texelAt,
     tolerance: 12 }, // a twenty-fifth of the light is mirrored instead
 
-  { what: "unlit", site: siteOf(quad(1)), most: 1,
+  { what: "unlit", site: siteOf(quad(1), "--profile", "classic"), most: 1,
     appearance: `<UnlitMaterial>${image('containerField="emissiveTexture"')}</UnlitMaterial>`, expected: texelAt },
-  { what: "multiplied by the material", site: siteOf(quad(1)), most: 1,
+  { what: "multiplied by the material", site: siteOf(quad(1), "--profile", "classic"), most: 1,
     appearance: `<Material diffuseColor="0.5 1 0" ambientIntensity="0">${image('containerField="diffuseTexture"')}</Material>`,
     expected: (s, t) => { const [r, g] = texelAt(s, t); return [r / 2, g, 0]; } },
 ];
@@ -147,7 +147,7 @@ describe("a texture", () => {
   });
 
   test("that does not come costs its shape the texture and nothing else; without one its coordinates are not fetched", async () => {
-    const site = siteOf(quad(1));
+    const site = siteOf(quad(1), "--profile", "classic");
     const plain = sceneOf("untextured", { q: site }, viewpoint(distance) + shapeIn(site, "q"));
     let without = 0;
     await withPage(plain, {}, async (view) => {

@@ -224,7 +224,7 @@ async function spoken({ page }: View): Promise<string> {
 
 test("who has lost the scene on a phone finds it again", async () => {
   const size = { width: 640, height: 844 }; // `touch` counts from the middle of the usual picture
-  await withScene(siteOfGenerated("trefoil"), { size, hasTouch: true }, async (view) => {
+  await withScene(siteOfGenerated("trefoil", "--profile", "classic"), { size, hasTouch: true }, async (view) => {
     const { page } = view;
     const start = await view.picture();
     const buttons = page.getByRole("button");

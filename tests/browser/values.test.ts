@@ -83,7 +83,7 @@ describe("a shape coloured by an attribute", () => {
 
   test("without a colorBy is as it would be without attributes, which are not asked for", async () => {
     const pictures: Picture[] = [];
-    for (const site of [keeping(), siteOfGenerated("trefoil-numbers")]) {
+    for (const site of [keeping(), siteOfGenerated("trefoil-numbers", "--profile", "classic")]) {
       await withPage(site, {}, async (view) => {
         await view.promise("complete");
         pictures.push(await view.picture());
