@@ -107,6 +107,24 @@ describe("attributes of <x3d>", () => {
     });
   });
 
+  test("leave fingers to a page that scrolls, until the view is engaged", async () => {
+    const touchAction = (view: View): Promise<string> => view.page.evaluate(() =>
+      getComputedStyle(document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!).touchAction);
+    await withScene(siteWith("scrolls-by-itself", { after: '<div id="tall"></div>' }), {}, async (view) => {
+      assert.equal(await touchAction(view), "none"); // there is nothing to scroll
+      await view.page.evaluate(() => {
+        const sheet = new CSSStyleSheet();
+        sheet.replaceSync("#tall { height: 3000px } html, body { height: auto !important; overflow: auto !important } x3d { height: 480px !important }");
+        document.adoptedStyleSheets.push(sheet);
+      });
+      await until("the page may scroll", async () => (await touchAction(view)) === "pan-y");
+      await focusView(view);
+      assert.equal(await touchAction(view), "none");
+      await view.page.keyboard.press("Escape");
+      assert.equal(await touchAction(view), "pan-y");
+    });
+  });
+
   test("that are malformed are named on the console and change nothing", async () => {
     const lines: string[] = [];
     await withPage(siteWith("malformed", { attributes: 'camera-orbit="left" exposure="high"' }), {}, async (view) => {

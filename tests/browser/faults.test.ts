@@ -12,6 +12,7 @@ import { encodePng, type Picture } from "./png.ts";
 import type { Behaviour } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
+import type { ResourceEntry } from "../../web/src/dom/loading.ts";
 
 /** A site of two shapes, #good and #bad; the files of #bad lie in bad/. */
 function twoShapeSite(): string {
@@ -74,6 +75,14 @@ async function assertReported(view: View, url: string): Promise<void> {
     assert.ok(url.endsWith(String(detail.url).replace(/^\.?\//, "")), `${String(detail.url)} is not ${url}`);
     assert.equal(detail.element, "shape");
   }
+  const resources = await view.page.evaluate(() => (document.querySelector("#bad") as unknown as { resources: ResourceEntry[] }).resources);
+  for (const { url: each, state, error, tries, loadedBytes, totalBytes } of resources) {
+    const isIt = url.endsWith(each.replace(/^\.?\//, ""));
+    assert.deepEqual([state, error !== null], isIt ? ["failed", true] : ["ready", false], each);
+    assert.equal(tries, view.server.requests.filter(({ path }) => path === `/${each}`).length, each);
+    assert.equal(loadedBytes, totalBytes, each);
+  }
+  assert.ok(resources.length > 1);
   assert.equal((await view.events("load", "shape#good")).length, 1);
   assert.deepEqual(await view.events("load", "shape#bad"), []);
 }

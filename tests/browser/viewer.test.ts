@@ -6,10 +6,11 @@ import { describe, test } from "node:test";
 import { assertSamePicture, boundsOfQuantised, difference } from "./compare.ts";
 import { center, covered, focusView, touch } from "./gestures.ts";
 import { settle, until, withPage, type PageOptions, type View } from "./harness.ts";
+import type { Picture } from "./png.ts";
 import { referencePicture } from "./reference.ts";
 import { gate } from "./server.ts";
 import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
-import { pageOf, siteOfGenerated } from "./sites.ts";
+import { pageOf, siteOfGenerated, variantOf } from "./sites.ts";
 
 const site = (): string => siteOfGenerated("trefoil-colors", "--profile", "classic");
 
@@ -172,3 +173,40 @@ test("a browser without WebGL2 says so in words", async () => {
 async function shownText({ page }: View): Promise<string> {
   return page.evaluate(() => document.querySelector("imgeo-view")?.shadowRoot?.textContent ?? "");
 }
+
+test("programs are compiled while the first files are on their way", async () => {
+  const { closed, open } = gate();
+  const before = (): void => {
+    const counts = { links: 0 };
+    Object.assign(window, { counts });
+    const gl = WebGL2RenderingContext.prototype as unknown as Record<string, (...args: unknown[]) => void>;
+    const link = gl.linkProgram;
+    gl.linkProgram = function (...args) {
+      counts.links += 1;
+      link?.apply(this, args);
+    };
+  };
+  await withPage(site(), { before, server: (server) => server.when(/^\/geometry\//, { hold: closed }) }, async (view) => {
+    const links = (): Promise<number> => view.page.evaluate(() => (window as unknown as { counts: { links: number } }).counts.links);
+    // Points, a surface by its slope, one by its normals, and that with colours.
+    await until("four programs are on their way", async () => (await links()) === 4);
+    open();
+    await view.promise("complete");
+    assert.ok((await links()) <= 5, `${await links()} programs`); // the trial of the GPU has one of its own
+  });
+});
+
+test("what nothing in the document bounds is framed when its vertices are here", async () => {
+  const whole = siteOfGenerated("trefoil", "--container", "bg", "--coord-type", "float32");
+  const unplaced = (page: string): string => page.replace(/<Viewpoint[^>]*><\/Viewpoint>/i, "");
+  const unbounded = (page: string): string => unplaced(page).replaceAll(/\sbbox(Center|Size)="[^"]*"/gi, "");
+  const pictures: Picture[] = [];
+  for (const [name, change] of Object.entries({ unplaced, unbounded })) {
+    await withPage(variantOf(whole, name, change), {}, async (view) => {
+      await view.promise("complete");
+      pictures.push(await view.picture());
+    });
+  }
+  assert.ok(covered(pictures[0]!) > 20_000);
+  assertSamePicture("unbounded", pictures[1]!, pictures[0]!, { mean: 0.1 });
+});

@@ -2,7 +2,7 @@
 // document, so they are checked against the bytes before anything is viewed.
 
 import { DecodeError } from "./decodeError.ts";
-import type { ElementArray, IndexArray, VertexArray } from "./stage.ts";
+import type { Bounds, ElementArray, IndexArray, VertexArray } from "./stage.ts";
 
 const arrayTypes = {
   Int8: Int8Array, Uint8: Uint8Array, Int16: Int16Array, Uint16: Uint16Array,
@@ -60,6 +60,20 @@ export function vertexArrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRang
     stride: stride / size,
     offset: byteOffset / size,
   };
+}
+
+/** Around three components of each group that are numbers; undefined where none are. */
+export function boundsOf({ array, stride, offset }: VertexArray): Bounds | undefined {
+  const min: [number, number, number] = [Infinity, Infinity, Infinity];
+  const max: [number, number, number] = [-Infinity, -Infinity, -Infinity];
+  for (let at = offset; at + 2 < array.length; at += stride) {
+    for (let axis = 0; axis < 3; ++axis) {
+      const value = array[at + axis] ?? NaN;
+      if (value < (min[axis] ?? 0)) min[axis] = value;
+      if (value > (max[axis] ?? 0)) max[axis] = value;
+    }
+  }
+  return min.every((value, axis) => value <= (max[axis] ?? NaN) && Number.isFinite(value) && Number.isFinite(max[axis])) ? { min, max } : undefined;
 }
 
 /** The last group may end without its padding; buffers want it. */

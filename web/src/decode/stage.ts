@@ -125,11 +125,20 @@ export interface StoredIndex {
   readonly type: ElementType;
 }
 
+type Triple = readonly [number, number, number];
+
+export interface Bounds {
+  readonly min: Triple;
+  readonly max: Triple;
+}
+
 /** Vertices in buffers (BG). Coordinates are integers as stored, the rest is spread over its range. */
 export interface BufferStage extends StageHead {
   readonly kind: "buffers";
   readonly index: StoredIndex | undefined;
   readonly coord: StoredVertices;
+  /** Around the coordinates, where the document does not tell. */
+  readonly bounds?: Bounds | undefined;
   /** Of two numbers of 8 bits also one 16-bit word, the first number its low byte. */
   readonly normal: StoredVertices | undefined;
   readonly normalCode: NormalCode;

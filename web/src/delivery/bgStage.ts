@@ -2,11 +2,11 @@
 
 import { DecodeError } from "../decode/decodeError.ts";
 import type { ElementRange } from "../decode/elements.ts";
-import { byteSizeOf, countIn, indexArrayOf, vertexArrayOf } from "../decode/elements.ts";
-import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../decode/stage.ts";
+import { boundsOf, byteSizeOf, countIn, indexArrayOf, vertexArrayOf } from "../decode/elements.ts";
+import type { Bounds, BufferStage, DrawRange, StoredIndex, StoredVertices } from "../decode/stage.ts";
 import { withoutStrips } from "../decode/strips.ts";
 import type { GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
-import { hasNormalsInCoords } from "../document/geometry.ts";
+import { hasNormalsInCoords, isUnbounded } from "../document/geometry.ts";
 import { Holdings } from "./holdings.ts";
 import type { PartRole } from "./parts.ts";
 import { componentsOf, typeOf } from "./parts.ts";
@@ -16,6 +16,7 @@ import { drawRangesOf, normalCodeOf, stageNameOf } from "./stageBuilder.ts";
 interface Here {
   index?: { readonly stored: StoredIndex | undefined; readonly draws: readonly DrawRange[] };
   coord?: StoredVertices;
+  bounds?: Bounds | undefined;
   normal?: StoredVertices;
   texCoord?: StoredVertices;
   color?: StoredVertices;
@@ -46,6 +47,7 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
       const stored = await holdings.storeVertices(vertices, signal);
       present[part.role] = stored;
       if (part.role !== "coord") return;
+      if (isUnbounded(geometry, patch)) present.bounds = boundsOf(vertices);
       if (hasNormalsInCoords(geometry, patch)) present.normal = fourthElementOf(stored);
       if (patch.index !== undefined) return;
       // Strips without an index get one, since buffers are drawn as separate triangles.
@@ -54,12 +56,12 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
     },
 
     stage(): BufferStage | undefined {
-      const { coord, normal, texCoord, color, value, index } = here;
+      const { coord, bounds, normal, texCoord, color, value, index } = here;
       if (coord === undefined) return undefined;
       const name = stageNameOf(patch, { index, normal, color, coord: [coord], value: value ? [value] : [] });
       const points = { stored: undefined, draws: [{ primitive: "points", first: 0, count: countOf(coord) } as const] };
       const { stored, draws } = index ?? points;
-      return { kind: "buffers", name, index: stored, draws, coord, normal, normalCode, color, texCoord, value };
+      return { kind: "buffers", name, index: stored, draws, coord, bounds, normal, normalCode, color, texCoord, value };
     },
 
     get storedBytes() { return holdings.byteLength; },

@@ -211,6 +211,7 @@ class GeometryDelivery implements Delivery {
     } catch (error) {
       if (isOver()) return;
       need.state = "failed";
+      lease.fail(error);
       this.#storedBytes = undefined;
       this.#report(need.part.reference.url, error);
     } finally {

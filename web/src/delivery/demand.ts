@@ -2,7 +2,7 @@
 // paper section 5.4 put together, and "closer objects get higher precision".
 
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
-import { boxAround } from "../document/geometry.ts";
+import { boxAround, isUnbounded } from "../document/geometry.ts";
 import { storedFrameOf } from "../document/storedFrame.ts";
 import type { ChunkWeights } from "../scheduler/priority.ts";
 import { priorityOf } from "../scheduler/priority.ts";
@@ -27,12 +27,15 @@ export interface PlacedGeometry {
   readonly isTextured: boolean;
 }
 
+/** Around what may lie wherever it likes: it counts as before the camera, and as large. */
+const anywhere: Sphere = { center: [0, 0, 0], radius: 1e12 };
+
 export function placeGeometry(geometry: GeometryDescription, sceneFromShape: Matrix, content: number, isTextured = false): PlacedGeometry {
   const scale = scaleOf(sceneFromShape);
   return {
     geometry, content, isTextured,
     spheres: geometry.patches.map((patch) =>
-      sphereOf(patch.box ?? boxAround(geometry.position, geometry.size), sceneFromShape)),
+      (isUnbounded(geometry, patch) ? anywhere : sphereOf(patch.box ?? boxAround(geometry.position, geometry.size), sceneFromShape))),
     coarseSteps: geometry.patches.map((patch) =>
       Math.max(...storedFrameOf(geometry, patch).step) * 256 ** (patch.coord.length - 1) * scale),
   };

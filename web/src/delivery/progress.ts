@@ -9,6 +9,10 @@ export interface Transfer {
   loadedBytes: number;
   /** An estimate until the server says, exact once settled. */
   totalBytes: number;
+  /** Requests sent for it so far. */
+  tries: number;
+  /** Why it has failed. */
+  error: string | undefined;
 }
 
 export function isSettled({ state }: Pick<Transfer, "state">): boolean {

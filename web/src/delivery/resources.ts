@@ -50,6 +50,8 @@ export interface Lease {
   /** Rejects with RequestError, DecodeError, or an AbortError after the last release. To be asked for before `finish`. */
   readonly content: Promise<Content>;
   setPriority(priority: number): void;
+  /** The content is not what it should be. */
+  fail(error: unknown): void;
   /** The content is not looked at again. An image stays until it is released; whoever asks for bytes later gets them anew. */
   finish(): void;
   release(): void;
@@ -120,6 +122,9 @@ export class ResourcePool {
         resource.reconsider();
         scheduler.reorder();
       },
+      fail(error) {
+        resource.fail(error);
+      },
       finish() {
         leased.isFinished = true;
         if (resource.dropBytes()) forget();
@@ -160,7 +165,7 @@ class Resource {
     this.#options = options;
     this.#backlog = backlog;
     this.#priority = request.priority;
-    this.transfer = { url: request.url, state: "waiting", loadedBytes: 0, totalBytes: request.expectedBytes };
+    this.transfer = { url: request.url, state: "waiting", loadedBytes: 0, totalBytes: request.expectedBytes, tries: 0, error: undefined };
     this.#content = this.#fetch(request);
   }
 
@@ -194,6 +199,11 @@ class Resource {
     return this.#leases.delete(lease);
   }
 
+  fail(error: unknown): void {
+    this.transfer.state = "failed";
+    this.transfer.error = error instanceof Error ? error.message : String(error);
+  }
+
   /** Where nobody needs them any more; false where there are none to drop. */
   dropBytes(): boolean {
     if (!this.#hasBytes || !Array.from(this.#leases).every(({ isFinished }) => isFinished)) return false;
@@ -218,7 +228,7 @@ class Resource {
       transfer.state = "ready";
       return content;
     } catch (error) {
-      transfer.state = "failed";
+      this.fail(error);
       throw error;
     } finally {
       transfer.totalBytes = transfer.loadedBytes;
@@ -231,7 +241,10 @@ class Resource {
     if (url.startsWith("data:")) return Promise.resolve({ bytes: bytesOfDataUrl(url), leave: () => undefined });
     const { scheduler, download, resolve, onTransfer } = this.#options;
     const listener = {
-      onState: (state: Transfer["state"]) => { transfer.state = state; },
+      onState: (state: Transfer["state"]) => {
+        transfer.state = state;
+        if (state === "loading") transfer.tries += 1;
+      },
       onBytes: (loadedBytes: number, totalBytes: number | undefined) => {
         transfer.loadedBytes = loadedBytes;
         transfer.totalBytes = Math.max(totalBytes ?? transfer.totalBytes, loadedBytes);

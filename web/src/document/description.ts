@@ -207,6 +207,8 @@ export interface ShapeDescription {
 export interface GroupDescription {
   readonly kind: "group";
   readonly visible: boolean;
+  /** Around its children, in their coordinates, where the document tells. */
+  readonly box: Box3 | undefined;
   /** Undefined for a plain Group. */
   readonly transform: TransformDescription | undefined;
   readonly children: readonly NodeDescription[];

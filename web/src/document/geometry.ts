@@ -84,6 +84,11 @@ export function hasNormalsInCoords(geometry: GeometryDescription, patch: PatchDe
     patch.normal.stride === place.stride;
 }
 
+/** Whether nothing tells where a patch lies before its coordinates are here: floats need not lie in the decode box. */
+export function isUnbounded({ container, coordType }: Pick<GeometryDescription, "container" | "coordType">, { box }: PatchDescription): boolean {
+  return container === "bg" && coordType === "Float32" && box === undefined;
+}
+
 /** Whether normals are two numbers: octahedral x and y, or spherical phi and theta. */
 export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "spherical" {
   return encoding === "octahedral" || encoding === "spherical";

@@ -98,10 +98,11 @@ export const nodeFields = {
     beamWidth: SFFloat(0.7854),
     cutOffAngle: SFFloat(1.5708),
   },
-  Group: { ...ranked, ...seenObject },
-  Switch: { ...ranked, ...seenObject, whichChoice: SFInt32(-1) },
+  Group: { ...ranked, ...boundedObject, ...seenObject },
+  Switch: { ...ranked, ...boundedObject, ...seenObject, whichChoice: SFInt32(-1) },
   Transform: {
     ...ranked,
+    ...boundedObject,
     ...seenObject,
     translation: SFVec3f([0, 0, 0]),
     rotation: SFRotation([0, 0, 1, 0]),

@@ -10,7 +10,7 @@ import { readAppearance } from "./appearance.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
-import { boxAround, boxOf, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
+import { boxAround, boxOf, isUnbounded, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
 import { GeometryMemory } from "./geometryMemory.ts";
 import { readInlineGeometry } from "./inlineGeometry.ts";
 import type { Warning } from "./nodes.ts";
@@ -40,7 +40,7 @@ export function readScene(x3d: SceneElement, geometries = new GeometryMemory()):
     navigation: undefined, skyColor: undefined,
   };
   const root: GroupDescription = {
-    kind: "group", visible: true, transform: undefined, children: readChildren(x3d, reading, { visible: true, priority: 1 }),
+    kind: "group", visible: true, box: undefined, transform: undefined, children: readChildren(x3d, reading, { visible: true, priority: 1 }),
   };
   const { skyColor, warnings } = reading;
   const navigation = reading.navigation ?? readFields(withoutAttributes, nodeFields.NavigationInfo, warnings);
@@ -99,9 +99,11 @@ interface GroupFields {
   readonly visible: boolean;
   readonly render: boolean;
   readonly priority: number;
+  readonly bboxCenter: Vec3;
+  readonly bboxSize: Vec3;
 }
 
-function isSeen({ visible, render }: Omit<GroupFields, "priority">): boolean {
+function isSeen({ visible, render }: Pick<GroupFields, "visible" | "render">): boolean {
   return visible && render;
 }
 
@@ -112,7 +114,7 @@ function within(fields: GroupFields, inherited: Inherited): Inherited {
 
 function readGroup(node: SceneElement, fields: GroupFields, reading: Reading, inherited: Inherited,
                    transform?: TransformDescription): GroupDescription {
-  return { kind: "group", visible: isSeen(fields), transform, children: readChildren(node, reading, within(fields, inherited)) };
+  return { kind: "group", visible: isSeen(fields), box: boxOf(fields), transform, children: readChildren(node, reading, within(fields, inherited)) };
 }
 
 /** One of its children is seen, or none; the others stay in the scene, so that choosing them shows at once what they have. */
@@ -121,9 +123,9 @@ function readSwitch(node: SceneElement, reading: Reading, inherited: Inherited):
   const children = childrenOf(node).map((child, place): GroupDescription => {
     const visible = place === fields.whichChoice;
     const own = within(fields, { ...inherited, visible: inherited.visible && visible });
-    return { kind: "group", visible, transform: undefined, children: readNode(child, reading, own) };
+    return { kind: "group", box: undefined, visible, transform: undefined, children: readNode(child, reading, own) };
   });
-  return { kind: "group", visible: isSeen(fields), transform: undefined, children };
+  return { kind: "group", box: undefined, visible: isSeen(fields), transform: undefined, children };
 }
 
 /** Reads `element`, or what its USE names; `nothing` where that leads nowhere or in a circle. */
@@ -197,8 +199,9 @@ function first<Result>(elements: SceneElement[], reading: Reading,
   return undefined;
 }
 
-/** The union of the patches' boxes; the decode box, which holds them all, where one of them has none. */
-function boxOfGeometry(geometry: NonNullable<ShapeDescription["geometry"]>): Box3 {
+/** The union of the patches' boxes; undefined where only vertices can tell; the decode box, which holds them all, where one of them has none. */
+function boxOfGeometry(geometry: NonNullable<ShapeDescription["geometry"]>): Box3 | undefined {
+  if (geometry.patches.some((patch) => isUnbounded(geometry, patch))) return undefined;
   const boxes = geometry.patches.map((patch) => patch.box);
   const known = boxes.filter((box) => box !== undefined);
   if (known.length === 0 || known.length < boxes.length) return boxAround(geometry.position, geometry.size);

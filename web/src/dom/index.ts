@@ -5,7 +5,7 @@ import { ImgeoView } from "./imgeoView.ts";
 
 export { ImgeoView };
 export type { BlobOptions, ViewElement, ViewpointEntry } from "./imgeoView.ts";
-export type { ErrorDetail, Loadable, ProgressDetail } from "./loading.ts";
+export type { ErrorDetail, Loadable, ProgressDetail, ResourceEntry } from "./loading.ts";
 export type { SurfacePoint } from "./imgeoView.ts";
 export type { ShapeEventProperties, ShapePointerEvent, Vector3D } from "./shapeEvents.ts";
 export type { ViewStatistics } from "./viewer.ts";

@@ -4,7 +4,7 @@
 
 import type { StageName } from "../decode/stage.ts";
 import { stageNames } from "../decode/stage.ts";
-import type { Progress } from "../delivery/progress.ts";
+import type { Progress, Transfer } from "../delivery/progress.ts";
 import { noProgress } from "../delivery/progress.ts";
 
 export interface ProgressDetail extends Progress {
@@ -32,6 +32,22 @@ export interface Loadable {
   readonly complete: Promise<undefined>;
   /** What has failed so far, in order; of the scene, of all its shapes. */
   readonly errors: readonly ErrorDetail[];
+  /** Every file that has been asked for, as far as it is now; of the scene, those of all its shapes. */
+  readonly resources: readonly ResourceEntry[];
+}
+
+/** A file that an element needs. */
+export interface ResourceEntry {
+  /** As the document names it. */
+  readonly url: string;
+  readonly state: Transfer["state"];
+  readonly loadedBytes: number;
+  /** An estimate until the server says, exact in the end. */
+  readonly totalBytes: number;
+  /** Requests sent for it so far. */
+  readonly tries: number;
+  /** Why it is of no use; null while it may be. */
+  readonly error: string | null;
 }
 
 /** The loading of one element, from its start to `load`. */
@@ -48,12 +64,13 @@ export class Loading {
   readonly #errors: ErrorDetail[] = [];
 
   /** Puts fresh promises, and an empty list of errors, on the element. */
-  constructor(element: Element) {
+  constructor(element: Element, transfers: () => readonly Readonly<Transfer>[] = () => []) {
     this.#element = element;
-    const properties: Loadable = { firstImage: this.#firstImage.promise, complete: this.#complete.promise, errors: this.#errors };
+    const properties: Omit<Loadable, "resources"> = { firstImage: this.#firstImage.promise, complete: this.#complete.promise, errors: this.#errors };
     for (const [name, value] of Object.entries(properties)) {
-      Object.defineProperty(element, name, { value: value as unknown, configurable: true, enumerable: true });
+      Object.defineProperty(element, name, { value: value, configurable: true, enumerable: true });
     }
+    Object.defineProperty(element, "resources", { get: () => transfers().map(entryOf), configurable: true, enumerable: true });
     // Nobody has to listen; a rejection must not show up as an unhandled one.
     for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined);
   }
@@ -137,6 +154,10 @@ export class Loading {
   #send(name: string, detail: object): void {
     this.#element.dispatchEvent(new CustomEvent(name, { detail, bubbles: false }));
   }
+}
+
+function entryOf({ url, state, loadedBytes, totalBytes, tries, error }: Readonly<Transfer>): ResourceEntry {
+  return { url, state, loadedBytes, totalBytes, tries, error: error ?? null };
 }
 
 function rankOf(stage: StageName | "none"): number {

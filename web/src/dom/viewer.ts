@@ -1,9 +1,10 @@
 // Joins a document to a picture: reads the scene, starts and ends deliveries as
 // shapes come and go, hands stages to the renderer, and tells the page.
 
-import type { StageName } from "../decode/stage.ts";
+import type { Stage, StageName } from "../decode/stage.ts";
 import { stageNames } from "../decode/stage.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
+import type { Transfer } from "../delivery/progress.ts";
 import { progressOf } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resources.ts";
 import type { JoinedDelivery } from "../delivery/sharedDeliveries.ts";
@@ -15,6 +16,7 @@ import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { GeometryMemory } from "../document/geometryMemory.ts";
 import { readScene } from "../document/readScene.ts";
+import type { NavigatedScene } from "../navigation/navigator.ts";
 import { Navigator } from "../navigation/navigator.ts";
 import type { RenderStatistics } from "../render/sceneRenderer.ts";
 import { SceneRenderer } from "../render/sceneRenderer.ts";
@@ -80,13 +82,16 @@ export class Viewer {
   #trial: "needless" | "due" | "running" | "ended" = "needless";
   #loading: Loading;
   #isLoading = false;
+  #built: NavigatedScene | undefined;
   #progressTimer: ReturnType<typeof setTimeout> | undefined;
+
+  readonly #transfers = (): Readonly<Transfer>[] => [...this.#deliveries.transfers(), ...this.#textures.transfers()];
 
   constructor(x3d: Element, canvas: HTMLCanvasElement, context: WebGL2RenderingContext, listener: ViewerListener) {
     this.#x3d = x3d;
     this.#canvas = canvas;
     this.#listener = listener;
-    this.#loading = new Loading(x3d);
+    this.#loading = new Loading(x3d, this.#transfers);
     this.navigator = new Navigator(() => { this.renderer.requestFrame(); }, () => { listener.onNavigation(); });
     this.renderer = new SceneRenderer(canvas, context, this.navigator, () => { this.#onFrame(); });
     this.#readsTextures = this.renderer.mayReadTextures;
@@ -209,13 +214,14 @@ export class Viewer {
       this.#shapes.delete(element);
       shape.loading.abandon();
     }
-    this.navigator.setScene({ ...this.renderer.setScene(scene), navigation: scene.navigation });
+    this.#built = { ...this.renderer.setScene(scene), navigation: scene.navigation };
+    this.navigator.setScene(this.#built);
     for (const shape of begun) this.#begin(shape);
     for (const { element, appearance } of described.values()) this.#followTexture(element as Element, appearance.texture);
     const visible = new Set(places.filter((shape) => shape.visible).map(({ element }) => element));
     for (const [element, shape] of this.#shapes) shape.isVisible = visible.has(element);
     const isLoading = Array.from(this.#shapes.values()).some(({ isVisible, loading }) => isVisible && !loading.isSettled);
-    if (isLoading && this.#loading.isEnded) this.#loading = new Loading(this.#x3d);
+    if (isLoading && this.#loading.isEnded) this.#loading = new Loading(this.#x3d, this.#transfers);
     this.#steering.setScene(scene, (problem) => { this.#warn(this.#x3d, `chunkPriority: ${problem}`); });
     for (const { element, message } of scene.warnings) this.#warn(element, message);
     // Last, so that files that old and new shapes share are not fetched again.
@@ -241,7 +247,8 @@ export class Viewer {
   #begin({ element: described, geometry, visible }: ShapeDescription): void {
     const element = described as Element;
     const stages = geometry?.patches.map(() => "none" as const) ?? [];
-    const shape: LoadedShape = { geometry, stages, isVisible: visible, loading: new Loading(element), delivery: undefined, texture: undefined };
+    const loading = new Loading(element, () => transfersOf(shape));
+    const shape: LoadedShape = { geometry, stages, isVisible: visible, loading, delivery: undefined, texture: undefined };
     this.#shapes.set(element, shape);
     if (geometry === undefined) {
       shape.loading.settle();
@@ -254,7 +261,7 @@ export class Viewer {
   #deliver(shape: LoadedShape, geometry: GeometryDescription, element: Element): void {
     shape.delivery = this.#deliveries.join(geometry, {
       onStage: (patch, stage) => {
-        this.renderer.setStage(element, geometry, patch, stage);
+        this.#setStage(element, geometry, patch, stage);
         if (stage?.kind === "textures" && this.#trial === "needless") this.#trial = "due";
         shape.stages[patch] = stage?.name ?? "none";
         // A shape is as far as its last patch; with a first picture as soon as any patch shows.
@@ -263,6 +270,12 @@ export class Viewer {
       onError: (error) => { this.#fail(shape, element, error); },
       onSettled: () => { this.#settle(shape); },
     });
+  }
+
+  #setStage(element: Element, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
+    const { sphere } = this.renderer;
+    this.renderer.setStage(element, geometry, patch, stage);
+    if (this.renderer.sphere !== sphere && this.#built !== undefined) this.navigator.setScene({ ...this.#built, sphere: this.renderer.sphere });
   }
 
   /** A picture in another's place: the renderer lets go of the old one before it is closed. */
@@ -338,10 +351,10 @@ export class Viewer {
     clearTimeout(this.#progressTimer);
     this.#progressTimer = undefined;
     for (const shape of this.#shapes.values()) {
-      const { loading, delivery, texture } = shape;
-      if (delivery && shape.isVisible && !loading.isEnded) loading.moveOn(progressOf([...delivery.transfers, ...texture?.joined.transfers ?? []], loading.progress));
+      const { loading, delivery } = shape;
+      if (delivery && shape.isVisible && !loading.isEnded) loading.moveOn(progressOf(transfersOf(shape), loading.progress));
     }
-    if (!this.#loading.isEnded) this.#loading.moveOn(progressOf([...this.#deliveries.transfers(), ...this.#textures.transfers()], this.#loading.progress));
+    if (!this.#loading.isEnded) this.#loading.moveOn(progressOf(this.#transfers(), this.#loading.progress));
     this.#listener.onProgress(this.#loading.progress.totalProgress, this.#loading.stage);
   }
 
@@ -371,6 +384,11 @@ export class Viewer {
     this.#logged.add(message);
     console[level](`imgeo: ${message}`);
   }
+}
+
+function transfersOf({ delivery, texture }: LoadedShape): readonly Readonly<Transfer>[] {
+  const own = delivery?.transfers ?? [];
+  return texture === undefined ? own : [...own, ...texture.joined.transfers];
 }
 
 /** Not what the runtime and the page have put into the view itself. */

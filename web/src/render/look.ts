@@ -44,6 +44,6 @@ export interface MaterialRequest extends VertexForm {
   readonly solid: boolean;
   /** As valueDefinesOf says it. */
   readonly valueDefines: Readonly<Record<string, string>>;
-  readonly uniforms: VertexUniforms;
+  readonly uniforms: Partial<VertexUniforms>;
   readonly shared: SceneUniforms;
 }

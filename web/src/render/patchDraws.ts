@@ -54,12 +54,11 @@ export interface PatchSetting {
 export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
   const { geometry, patch, shared, look } = setting;
   const colors = colorsOf(stage);
-  const { box, sphere } = storedBoundsOf(geometry, patch);
+  const { box, sphere } = storedBoundsOf(geometry, patch, stage);
   const { origin, step } = storedFrameOf(geometry, patch);
   // Places the lattice: stored integers -> the shape's coordinates.
   const matrix = new Matrix4().makeScale(...step).setPosition(...origin);
   const form = vertexFormOf(stage);
-  const valueDefines = valueDefinesOf(stage, geometry.value);
   const common: VertexUniforms = {
     ...appearanceUniformsOf(geometry, setting.appearance), pixelRatio: shared.pixelRatio, latticeStep: { value: step }, ...setting.colorMap,
     ...valueUniformsOf(stage, geometry.value, (image) => setting.textures.textureOf(image)),
@@ -73,7 +72,7 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
     shape.boundingBox = box;
     shape.boundingSphere = sphere;
     const uniforms = base ? { ...base, firstNumber: { value: range.first }, isStrip: { value: range.primitive === "triangleStrip" } } : common;
-    const request: MaterialRequest = { ...form, primitive: range.primitive, shading: shadingOf(stage, range), colors, solid: geometry.solid, valueDefines, uniforms, shared };
+    const request = materialRequestOf(stage, range, geometry, uniforms, shared);
     const material = look.makeMaterial(request, setting.appearance, pictureFor(setting.picture));
     const pick = new PickDraw(stage, range, shape, setting.buffers, { side: material.side, hasNormals: hasNormals(stage), ...form, uniforms });
     return [{ range, shape, material, request, pick }];
@@ -116,6 +115,14 @@ function appearanceUniformsOf({ texCoordMin, texCoordSize }: GeometryDescription
   };
 }
 
+/** What a draw needs of a material. */
+export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
+  stage: Stage, range: DrawRange, { solid, value }: GeometryDescription, uniforms: Uniforms, shared: SceneUniforms,
+): Omit<MaterialRequest, "uniforms"> & { readonly uniforms: Uniforms } {
+  return { ...vertexFormOf(stage), primitive: range.primitive, shading: shadingOf(stage, range), colors: colorsOf(stage), solid,
+           valueDefines: valueDefinesOf(stage, value), uniforms, shared };
+}
+
 function vertexFormOf(stage: Stage): VertexForm {
   const areImages = stage.kind === "textures";
   return {
@@ -153,9 +160,9 @@ function placedObject(draw: DrawRange, shape: BufferGeometry, material: Material
 }
 
 /** The patch's bounds among stored integers; the sphere is wide enough for its coarsest stage. */
-function storedBoundsOf(geometry: GeometryDescription, patch: PatchDescription): { box: Box3; sphere: Sphere } {
+function storedBoundsOf(geometry: GeometryDescription, patch: PatchDescription, stage: Stage): { box: Box3; sphere: Sphere } {
   const { origin, step } = storedFrameOf(geometry, patch);
-  const { min, max } = patch.box ?? boxAround(geometry.position, geometry.size);
+  const { min, max } = (stage.kind === "buffers" ? stage.bounds : undefined) ?? patch.box ?? boxAround(geometry.position, geometry.size);
   const stored = (point: readonly [number, number, number]) => new Vector3(
     (point[0] - origin[0]) / step[0], (point[1] - origin[1]) / step[1], (point[2] - origin[2]) / step[2]);
   const box = new Box3(stored(min), stored(max));

@@ -38,3 +38,12 @@ test("a scene's box is that of what is seen, where it stands", () => {
   const { box: { min, max } } = buildGraph(scene, () => new Group());
   assert.deepEqual([min.toArray(), max.toArray()], [[8, -1, -4], [12, 1, 4]]);
 });
+
+test("the box that a group tells stands for those of its children, and lets them be passed over together", () => {
+  const scene = readScene(elementsOf(`<X3D><Transform translation="10 0 0" scale="2 1 1" bboxCenter="1 0 0" bboxSize="4 2 2">
+    <Shape bboxCenter="0 0 0" bboxSize="90 90 90"/><Group bboxCenter="0 0 0" bboxSize="1 1 1"><Shape/></Group></Transform>
+    <Group visible="false" bboxCenter="0 0 0" bboxSize="500 1 1"><Shape/></Group></X3D>`));
+  const { box: { min, max }, bounded } = buildGraph(scene, () => new Group());
+  assert.deepEqual([min.toArray(), max.toArray()], [[8, -1, -1], [16, 1, 1]]);
+  assert.deepEqual(bounded.map(({ box }) => [box.min.x, box.max.x]), [[8, 16], [9, 11]]);
+});

@@ -15,20 +15,30 @@ export interface BuiltGraph {
   readonly root: Group;
   /** Of the boxes of all shapes that are seen, in the scene's coordinates. */
   readonly box: Box3;
+  /** What may be passed over as a whole when it is out of the view. */
+  readonly bounded: readonly BoundedGroup[];
   /** In document order. */
   readonly viewpoints: readonly PlacedViewpoint[];
+}
+
+/** A group that is seen, with its box in the scene's coordinates. */
+export interface BoundedGroup {
+  readonly group: Group;
+  readonly box: Box3;
 }
 
 export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescription) => Group): BuiltGraph {
   const box = new Box3();
   const viewpoints: PlacedViewpoint[] = [];
+  const bounded: BoundedGroup[] = [];
   const root = new Group();
   const ambient = new Color(0, 0, 0);
-  hang(scene.root, root, new Matrix4(), true);
+  hang(scene.root, root, new Matrix4(), true, true);
   if (ambient.r + ambient.g + ambient.b > 0) root.add(new AmbientLight(ambient));
-  return { root, box, viewpoints };
+  return { root, box, bounded, viewpoints };
 
-  function hang(node: NodeDescription, parent: Group, sceneFromParent: Matrix4, isSeen: boolean): void {
+  /** `counts`: no group around it has told its box. */
+  function hang(node: NodeDescription, parent: Group, sceneFromParent: Matrix4, isSeen: boolean, counts: boolean): void {
     switch (node.kind) {
       case "light":
         if (node.light.on) hangLight(node.light, parent, ambient);
@@ -40,9 +50,7 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
         const group = groupOf(node);
         group.visible = node.visible;
         parent.add(group);
-        if (node.box && isSeen && node.visible) {
-          box.union(new Box3(new Vector3(...node.box.min), new Vector3(...node.box.max)).applyMatrix4(sceneFromParent));
-        }
+        if (node.box && isSeen && node.visible && counts) box.union(boxIn(sceneFromParent, node.box));
         return;
       }
       case "group": {
@@ -52,10 +60,20 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
         if (node.transform) group.matrix.copy(matrixOf(node.transform));
         parent.add(group);
         const sceneFromGroup = sceneFromParent.clone().multiply(group.matrix);
-        for (const child of node.children) hang(child, group, sceneFromGroup, isSeen && node.visible);
+        const isGroupSeen = isSeen && node.visible;
+        const own = isGroupSeen && node.box ? boxIn(sceneFromGroup, node.box) : undefined;
+        if (own !== undefined) {
+          bounded.push({ group, box: own });
+          if (counts) box.union(own);
+        }
+        for (const child of node.children) hang(child, group, sceneFromGroup, isGroupSeen, counts && own === undefined);
       }
     }
   }
+}
+
+function boxIn(sceneFromBox: Matrix4, { min, max }: { min: Vec3; max: Vec3 }): Box3 {
+  return new Box3(new Vector3(...min), new Vector3(...max)).applyMatrix4(sceneFromBox);
 }
 
 function hangLight(description: LightDescription, parent: Group, ambient: Color): void {

@@ -2,11 +2,11 @@
 
 import type { Object3D, Sphere } from "three";
 import {
-  Box3, Color, DirectionalLight, Group, LinearSRGBColorSpace, LinearToneMapping, Matrix4, NoToneMapping, PerspectiveCamera, Scene, Vector2,
+  Box3, Color, DirectionalLight, Frustum, Group, LinearSRGBColorSpace, LinearToneMapping, Matrix4, NoToneMapping, PerspectiveCamera, Scene, Vector2, Vector3,
   WebGLRenderer,
 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
-import type { ArrayUse, ElementArray, Stage } from "../decode/stage.ts";
+import type { ArrayUse, Bounds, ElementArray, Stage } from "../decode/stage.ts";
 import type { GeometryDescription, SamplingDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
@@ -20,9 +20,11 @@ import { usualPointSize } from "./patchDraws.ts";
 import type { Hit, PickCandidate, Place } from "./picking.ts";
 import { Picker } from "./picking.ts";
 import { Pace } from "./pace.ts";
+import type { BoundedGroup } from "./sceneGraph.ts";
 import { buildGraph } from "./sceneGraph.ts";
 import type { ShapeSetting } from "./shapeObject.ts";
 import { ShapeObject } from "./shapeObject.ts";
+import { objectsToCome } from "./stagesToCome.ts";
 import { GeometryPool } from "./stageGeometries.ts";
 import type { TextureUpload } from "./textures.ts";
 import { TextureStore } from "./textures.ts";
@@ -100,12 +102,16 @@ export class SceneRenderer {
   readonly #pace: Pace;
   #root = new Group();
   #sphere = sphereAround(new Box3());
+  #box = new Box3();
+  #bounded: readonly BoundedGroup[] = [];
   #size = { width: 0, height: 0 };
   #frames = 0;
   /** What `pick` has found since the scene last changed. */
   #picked: { readonly x: number; readonly y: number; readonly hit: Hit | undefined } | undefined;
   #frameRequest = 0;
   #readsTextures: Promise<boolean> | undefined;
+  /** They keep their programs alive. */
+  readonly #compiled = new Map<string, Object3D>();
 
   /** `onFrame` is called after each frame that has been drawn. */
   constructor(canvas: HTMLCanvasElement, context: WebGL2RenderingContext, cameraMan: CameraMan, onFrame: () => void) {
@@ -175,7 +181,7 @@ export class SceneRenderer {
       this.#shapes.delete(element);
     }
     const places = new Map<SceneElement, number>();
-    const { root, box, viewpoints } = buildGraph(description, (shape) => {
+    const { root, box, bounded, viewpoints } = buildGraph(description, (shape) => {
       const place = places.get(shape.element) ?? 0;
       places.set(shape.element, place + 1);
       return this.#objectOf(shape).groupAt(place);
@@ -197,7 +203,11 @@ export class SceneRenderer {
       this.#scene.background = new Color();
       setColor(this.#scene.background, skyColor);
     }
+    this.#box = box;
+    this.#bounded = bounded;
     this.#sphere = sphereAround(box);
+    for (const object of this.#shapes.values()) for (const bounds of object.bounds()) this.#grow(object, bounds);
+    this.#compileAhead(description);
     this.requestFrame();
     return { sphere: this.#sphere, viewpoints };
   }
@@ -230,8 +240,22 @@ export class SceneRenderer {
 
   /** Replaces what a patch of a shape of the current scene shows. */
   setStage(element: SceneElement, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
-    this.#shapes.get(element)?.setStage(geometry, patch, stage);
+    const object = this.#shapes.get(element);
+    object?.setStage(geometry, patch, stage);
     this.#pace.ask(() => { this.requestFrame(); });
+    if (object !== undefined && stage?.kind === "buffers" && stage.bounds !== undefined) this.#grow(object, stage.bounds);
+  }
+
+  /** Around all that is seen, in the scene's coordinates. Grows when vertices tell of a box that the document does not. */
+  get sphere(): Sphere {
+    return this.#sphere;
+  }
+
+  #grow(object: ShapeObject, { min, max }: Bounds): void {
+    for (const group of object.groups) {
+      const box = new Box3(new Vector3(...min), new Vector3(...max)).applyMatrix4(group.matrixWorld);
+      if (!this.#box.containsBox(box)) this.#sphere = sphereAround(this.#box.union(box));
+    }
   }
 
   /** Lays a picture over a shape; undefined: none. */
@@ -306,6 +330,18 @@ export class SceneRenderer {
     this.#renderer.forceContextLoss();
   }
 
+  /** Programs for what is to come, without waiting for them. */
+  #compileAhead(description: SceneDescription): void {
+    if (this.isContextLost) return;
+    const fresh = new Group();
+    for (const [key, object] of objectsToCome(description, x3dLook, this.#shared)) {
+      if (this.#compiled.has(key)) continue;
+      this.#compiled.set(key, object);
+      fresh.add(object);
+    }
+    if (fresh.children.length > 0) void this.#renderer.compileAsync(fresh, this.#camera, this.#scene);
+  }
+
   get #aspect(): number {
     return this.#size.width / this.#size.height;
   }
@@ -344,12 +380,21 @@ export class SceneRenderer {
     const begunAt = performance.now();
     applyPose(this.#camera, this.#cameraMan.advance(begunAt), this.#aspect, this.#sphere, this.#cameraMan.clearance);
     this.#shared.depthRange.value.set(this.#camera.near, this.#camera.far);
+    this.#passOver();
     this.#renderer.render(this.#scene, this.#camera);
     this.#pace.end(begunAt);
     this.#drawnCamera.copy(this.#camera, false);
     this.#frames += 1;
     this.#onFrame();
     if (this.#cameraMan.isMoving) this.requestFrame();
+  }
+
+  /** Groups that tell where they end are not looked into when they are out of the view. */
+  #passOver(): void {
+    if (this.#bounded.length === 0) return;
+    this.#camera.updateMatrixWorld();
+    const frustum = new Frustum().setFromProjectionMatrix(new Matrix4().multiplyMatrices(this.#camera.projectionMatrix, this.#camera.matrixWorldInverse));
+    for (const { group, box } of this.#bounded) group.visible = frustum.intersectsBox(box);
   }
 
   #objectOf(shape: ShapeDescription): ShapeObject {

@@ -2,7 +2,7 @@
 // group for each place where the shape stands in the scene.
 
 import { Group } from "three";
-import type { Stage } from "../decode/stage.ts";
+import type { Bounds, Stage } from "../decode/stage.ts";
 import type { AppearanceDescription, GeometryDescription, PatchDescription, ShapeDescription } from "../document/description.ts";
 import type { ShownPicture } from "./look.ts";
 import type { PatchDraws, PatchSetting, PlacedDraw } from "./patchDraws.ts";
@@ -16,6 +16,7 @@ export type ShapeSetting = Pick<PatchSetting, "look" | "geometries" | "buffers" 
 const largestPoint = 1024;
 
 interface ShownPatch {
+  readonly stage: Stage;
   readonly draws: PatchDraws;
   /** The draws in every place. */
   placed: PlacedDraw[];
@@ -46,6 +47,16 @@ export class ShapeObject {
     this.#groups[place] = group;
     for (const shown of this.#patches.values()) hang(shown, group);
     return group;
+  }
+
+  /** One for each place. */
+  get groups(): readonly Group[] {
+    return this.#groups;
+  }
+
+  /** Of patches of which the document does not tell any. */
+  *bounds(): Generator<Bounds> {
+    for (const { stage } of this.#patches.values()) if (stage.kind === "buffers" && stage.bounds) yield stage.bounds;
   }
 
   /** From now on the shape stands in so many places. */
@@ -103,7 +114,7 @@ export class ShapeObject {
 
   #show(geometry: GeometryDescription, patch: PatchDescription, place: number, stage: Stage): void {
     const draws = drawStage(stage, { ...this.#setting, geometry, patch, appearance: this.#appearance, colorMap: this.#colorMap, picture: this.#picture });
-    const shown = { draws, placed: [] };
+    const shown = { stage, draws, placed: [] };
     for (const group of this.#groups) hang(shown, group);
     this.#patches.set(place, shown);
   }

@@ -1,0 +1,67 @@
+// What the shader programs of a scene will be, from its document alone. They are
+// compiled while the first files are on their way: a driver takes a good part of a
+// second for them, and a page that draws with a program that is not ready waits.
+
+import { BufferGeometry, type Object3D, Texture } from "three";
+import type { DrawRange, TexelRange, TextureStage } from "../decode/stage.ts";
+import type { GeometryDescription, PatchDescription, SceneDescription } from "../document/description.ts";
+import { shapesOf } from "../document/description.ts";
+import { isPair } from "../document/geometry.ts";
+import type { Look, SceneUniforms, ShownPicture } from "./look.ts";
+import { materialRequestOf } from "./patchDraws.ts";
+import { objectOf } from "./pickDraw.ts";
+
+const nowhere: TexelRange = { image: { width: 1, height: 1, close: () => undefined }, first: 0 };
+const noPicture: ShownPicture = { texture: new Texture(), hasAlpha: false };
+
+/** An object for each program, by what makes it differ from others. Of images on the GPU only: buffers need no less, but tell it later. */
+export function objectsToCome(scene: SceneDescription, look: Look, shared: SceneUniforms): Map<string, Object3D> {
+  const objects = new Map<string, Object3D>();
+  const geometry = new BufferGeometry();
+  for (const { geometry: described, appearance, visible } of shapesOf(scene.root)) {
+    if (described?.container !== "sig" || described.decode === "cpu" || !visible) continue;
+    const { texture, material: { kind, transparency }, alpha } = appearance;
+    for (const stage of stagesToCome(described, texture !== undefined)) {
+      for (const range of stage.draws) {
+        const request = materialRequestOf(stage, range, described, {}, shared);
+        const picture = texture && request.hasTexCoords ? noPicture : undefined;
+        const key = JSON.stringify([{ ...request, shared: undefined }, kind, transparency > 0, alpha, picture !== undefined]);
+        if (objects.has(key)) continue;
+        objects.set(key, objectOf(range, geometry, look.makeMaterial(request, appearance, picture)));
+      }
+    }
+  }
+  return objects;
+}
+
+/** Patches of one geometry hardly differ; the first speaks for all. */
+function stagesToCome(geometry: GeometryDescription, isTextured: boolean): TextureStage[] {
+  const [patch] = geometry.patches;
+  if (patch === undefined || patch.coord.length === 0) return [];
+  const surface: TextureStage = { ...bareStage(geometry, patch), name: "surface", draws: patch.draws.map(drawn), index: patch.index && nowhere };
+  const stages = [surface];
+  if (patch.index !== undefined) stages.push({ ...surface, name: "points", draws: [{ primitive: "points", first: 0, count: 1 }], index: undefined });
+  let stage = surface;
+  const add = (part: "normal" | "texCoord" | "color", isThere: boolean) => {
+    if (!isThere) return;
+    stage = { ...stage, name: "shaded", [part]: nowhere };
+    stages.push(stage);
+  };
+  add("normal", patch.normal !== undefined);
+  add("texCoord", isTextured && patch.texCoord !== undefined);
+  add("color", patch.color !== undefined);
+  return stages;
+}
+
+function drawn({ primitive }: PatchDescription["draws"][number]): DrawRange {
+  return { primitive, first: 0, count: 1 };
+}
+
+function bareStage({ normalEncoding, indexType, colorComponents }: GeometryDescription, patch: PatchDescription): Omit<TextureStage, "name" | "draws" | "index"> {
+  return {
+    kind: "textures", grid: patch.grid, isIndexWide: indexType === "Uint32", implicitWidth: patch.implicitWidth,
+    coord: [nowhere], coordPlanes: patch.coord.length, middleOfMissing: 0,
+    normal: undefined, normalCode: isPair(normalEncoding) ? { kind: normalEncoding, bits: 8 } : { kind: "byteVector" },
+    color: undefined, colorComponents, texCoord: undefined, value: undefined,
+  };
+}
