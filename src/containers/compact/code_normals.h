@@ -4,7 +4,9 @@
 
 #include "containers/compact/code_attributes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace imgeo::compact {
 
@@ -88,9 +90,10 @@ Value codeNormal(Coder& coder, OctahedronPoint point, std::int64_t radius, const
   return valueOf(point, radius);
 }
 
+/// Of all wedges, or of the first `limit` for an encoder that wants to know what they take.
 template <typename Coder>
-void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type,
-                 std::vector<Value>& values) {
+void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type, std::vector<Value>& values,
+                 std::uint32_t limit = std::numeric_limits<std::uint32_t>::max()) {
   const Wedges& wedges = surface.wedges;
   const std::int64_t radius = (std::int64_t{1} << (type.bits - 1)) - 1;
   std::vector<bool> repeats(wedges.count());
@@ -101,7 +104,8 @@ void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type
   const NormalSums ofWedges =
       hasTriangles && !ofVertices ? sumsOfWedges(surface, repeats, type.isUniform()) : NormalSums(0, 0);
   const NormalSums& sums = ofVertices ? surface.normalSums : ofWedges;
-  for (std::uint32_t wedge = 0; wedge < wedges.count(); ++wedge) {
+  const std::uint32_t end = std::min(static_cast<std::uint32_t>(wedges.count()), limit);
+  for (std::uint32_t wedge = 0; wedge < end; ++wedge) {
     if (repeats[wedge]) {
       values[wedge] = values[wedges.previous[wedge]];
       continue;

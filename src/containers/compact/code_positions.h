@@ -107,13 +107,14 @@ private:
   }
 
   /// What the models would charge least for.
-  std::uint32_t cheapest(const Candidates& candidates, const VertexContext& context, Vec3u position) {
+  std::uint32_t cheapest(const Candidates& candidates, const VertexContext& context, Vec3u position) const {
     std::uint32_t best = 0;
     float least = std::numeric_limits<float>::infinity();
     for (std::uint32_t i = 0; i < candidates.count && candidates.count > 1; ++i) {
-      CostMeter meter(coder_);
+      CostMeter meter(coder_, least);
       codeChoice(meter, candidates, context, i);
-      codeCoordinates(meter, candidates.places[i], context, position);
+      Vec3u coded = position;
+      codeCoordinates(meter, candidates.places[i], context, coded);
       if (meter.cost() < least)
         least = meter.cost(), best = i;
     }
@@ -135,6 +136,9 @@ private:
     const std::array<int, 3> order = context.order();
     std::uint32_t steps = 0, offGrid = 0, length = 0, longest = 0;
     for (std::size_t turn = 0; turn < 3; ++turn) {
+      if constexpr (requires { coder.isSpent(); })
+        if (coder.isSpent())
+          return;
       const int axis = order[turn];
       std::int64_t expected = std::clamp<std::int64_t>(guess[axis], 0, maximum_), coordinate = position[axis];
       if (context.mask >> axis & 1) {

@@ -154,7 +154,7 @@ private:
     std::uint32_t best = 0;
     float least = std::numeric_limits<float>::infinity();
     for (std::uint32_t i = 0; i < guesses.count && guesses.count > 1; ++i) {
-      CostMeter meter(coder_);
+      CostMeter meter(coder_, least);
       codeChoice(meter, guesses, latest, i);
       codeValue(meter, guesses.values[i], value);
       if (meter.cost() < least)

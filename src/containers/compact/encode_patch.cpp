@@ -135,12 +135,7 @@ private:
     streams_.insert(streams_.end(), stream.begin(), stream.end());
   }
 
-  std::vector<Vec3u> orderedPositions() const {
-    std::vector<Vec3u> positions;
-    for (const std::uint32_t vertex : ordered_.sourceVertex)
-      positions.push_back(patch_.positions[vertex]);
-    return positions;
-  }
+  std::vector<Vec3u> orderedPositions() const { return gather(patch_.positions, ordered_.sourceVertex); }
 
   Parts encodeParts() {
     if (!header_.hasParts())
@@ -180,6 +175,7 @@ private:
 
   EncodedAttribute encodeAttribute(const Surface& surface, const Attribute& attribute) const {
     std::vector<Value> values;
+    values.reserve(surface.wedges.count());
     for (const std::uint32_t corner : surface.wedges.corner)
       values.push_back(attribute.values[sourceWedge(corner)]);
     if (attribute.type.kind == AttributeKind::normal)
@@ -191,23 +187,34 @@ private:
 
   EncodedAttribute encodeNormals(const Surface& surface, const AttributeType& type,
                                  const std::vector<Value>& values) const {
-    const auto encode = [&](const AttributeType& as, std::vector<Value> coded) {
+    const auto encode = [&](const AttributeType& as) {
+      std::vector<Value> coded = values;
       RangeEncoder encoder(attributeModels::count);
       codeNormals(encoder, surface, as, coded);
       return as.isDerived()
                  ? EncodedAttribute{as, {}, largestAngle(values, coded) + octahedronErrorBound(as.bits)}
                  : EncodedAttribute{as, encoder.finish(), octahedronErrorBound(as.bits)};
     };
-    const EncodedAttribute given = encode(type, values);
     if (effort_ == 0 || patch_.topology != Topology::triangles)
-      return given;
+      return encode(type);
     AttributeType other = type;
     other.mode = static_cast<NormalMode>(static_cast<unsigned>(type.mode) ^ 1u); // area, uniform
-    const EncodedAttribute tried = encode(other, values);
+    if (!type.isDerived() && effort_ < effortOfWholeTrials)
+      return encode(sampleSize(surface, other, values) < sampleSize(surface, type, values) ? other : type);
+    EncodedAttribute given = encode(type), tried = encode(other);
     const bool isBetter =
         type.isDerived() ? tried.normalError < given.normalError : tried.bytes.size() < given.bytes.size();
     return isBetter ? tried : given;
   }
+
+  /// What the first normals take: below the efforts that try all of them, enough to choose a mode.
+  static std::size_t sampleSize(const Surface& surface, const AttributeType& as, std::vector<Value> values) {
+    RangeEncoder encoder(attributeModels::count);
+    codeNormals(encoder, surface, as, values, sampledNormals);
+    return encoder.finish().size();
+  }
+  static constexpr std::uint32_t sampledNormals = 4096;
+  static constexpr int effortOfWholeTrials = 7;
 
   const CompactPatch& patch_;
   const Ordered& ordered_;

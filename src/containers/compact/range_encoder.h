@@ -82,9 +82,11 @@ class CostMeter {
 public:
   static constexpr bool encodes = true;
 
-  explicit CostMeter(const RangeEncoder& encoder) : models_(encoder.models()) {}
+  /// What costs `limit` is of no use any more.
+  explicit CostMeter(const RangeEncoder& encoder, float limit) : models_(encoder.models()), limit_(limit) {}
 
   float cost() const { return cost_; }
+  bool isSpent() const { return cost_ >= limit_; }
 
   bool bit(std::size_t model, bool value) {
     const std::uint32_t p = models_[model].probability();
@@ -102,7 +104,7 @@ private:
   static float costOf(std::uint32_t probability);
 
   const Models& models_;
-  float cost_ = 0;
+  float limit_, cost_ = 0;
 };
 
 } // namespace imgeo::compact
