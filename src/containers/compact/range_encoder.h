@@ -6,6 +6,7 @@
 #include "containers/compact/models.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 namespace imgeo::compact {
@@ -100,10 +101,15 @@ public:
   void require(bool, const char*) const {}
 
 private:
-  /// -log2 of a probability in 1/65536.
-  static float costOf(std::uint32_t probability);
+  /// -log2 of probabilities in 1/4096.
+  using Costs = std::array<float, 4096>;
+  static const Costs& costsOfProbabilities();
+
+  /// Of a probability in 1/65536.
+  float costOf(std::uint32_t probability) const { return costs_[std::min(probability >> 4, 4095u)]; }
 
   const Models& models_;
+  const Costs& costs_ = costsOfProbabilities();
   float limit_, cost_ = 0;
 };
 
