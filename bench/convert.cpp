@@ -57,37 +57,40 @@ struct Measured {
   Json report;
 };
 
-std::vector<std::string> convertWords(const std::string& model, const std::string& container,
+/// `form`: classic or compact, profiles of SIG, or bg.
+std::vector<std::string> convertWords(const std::string& model, const std::string& form,
                                       const std::string& effort, const fs::path& work) {
-  return {"build/imgeo",        "convert",  model,         "-o",      work / "site",
-          "--profile",          "classic",  "--container", container, "-r",
-          work / "report.json", "--effort", effort};
+  return {"build/imgeo", "convert",     model,
+          "-o",          work / "site", form == "bg" ? "--container" : "--profile",
+          form,          "-r",          work / "report.json",
+          "--effort",    effort};
 }
 
 Json reportIn(const fs::path& work) {
   return Json::parse(asText(readFile(work / "report.json")));
 }
 
-Measured measureConvert(const std::string& model, const std::string& container, const std::string& effort,
+Measured measureConvert(const std::string& model, const std::string& form, const std::string& effort,
                         const fs::path& work) {
-  const std::vector<std::string> words = convertWords(model, container, effort, work);
+  const std::vector<std::string> words = convertWords(model, form, effort, work);
   runOnce(words);
   runOnce({"build/imgeo", "verify", work / "site", model});
   const Run run = measureInTurns({words})[0];
   return {run, reportIn(work)};
 }
 
-void printRow(const std::string& name, const std::string& container, const Measured& measured) {
+void printRow(const std::string& name, const std::string& form, const Measured& measured) {
   const double triangles = measured.report["triangles"];
   std::map<std::string, double> bytes;
   for (const Json& role : measured.report["roles"])
     bytes[role["role"]] += role["bytes"].get<double>();
   const auto each = [&](const std::string& role) { return bytes[role] / triangles; };
-  fmt::print("| {} | {} | {:.0f} | {:.2f} s | {:.2f} M/s | {:.0f} MB | {:.2f} | {:.2f} | {:.2f} | {:.3f} | "
-             "**{:.2f}** |\n",
-             name, container, triangles, measured.run.seconds, millions(triangles / measured.run.seconds),
-             millions(static_cast<double>(measured.run.peakBytes)), each("index"), each("coord"),
-             each("normal"), each("document"), measured.report["bytesPerTriangle"].get<double>());
+  fmt::print(
+      "| {} | {} | {:.0f} | {:.2f} s | {:.2f} M/s | {:.0f} MB | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | "
+      "**{:.2f}** |\n",
+      name, form, triangles, measured.run.seconds, millions(triangles / measured.run.seconds),
+      millions(static_cast<double>(measured.run.peakBytes)), each("index"), each("coord"), each("normal"),
+      each("patch") + each("base"), each("document"), measured.report["bytesPerTriangle"].get<double>());
   std::fflush(stdout);
 }
 
@@ -101,8 +104,11 @@ void compareWithGltfpack(const std::string& model, const fs::path& work) {
   std::vector<std::string> gltfpackCompressed = gltfpack;
   gltfpackCompressed.push_back("-cc");
 
-  const auto fromGlb = convertWords(glb, "sig", defaultEffort, work),
-             fromModel = convertWords(model, "sig", defaultEffort, work);
+  const auto fromGlb = convertWords(glb, "classic", defaultEffort, work),
+             fromModel = convertWords(model, "classic", defaultEffort, work),
+             compact = convertWords(glb, "compact", defaultEffort, work);
+  runOnce(compact);
+  const double compactBytes = reportIn(work)["bytesPerTriangle"];
   runOnce(fromGlb);
   const Json report = reportIn(work);
   runOnce(gltfpack);
@@ -110,7 +116,8 @@ void compareWithGltfpack(const std::string& model, const fs::path& work) {
   runOnce(gltfpackCompressed);
   const auto sizeCompressed = static_cast<double>(fs::file_size(packed));
 
-  const std::vector<Run> measured = measureInTurns({fromGlb, fromModel, gltfpack, gltfpackCompressed});
+  const std::vector<Run> measured =
+      measureInTurns({fromGlb, fromModel, compact, gltfpack, gltfpackCompressed});
   const double triangles = report["triangles"], ours = triangles * report["bytesPerTriangle"].get<double>();
   fmt::print("\n| {} | time | of imgeo's | processor time | peak memory | bytes/triangle |\n"
              "|---|--:|--:|--:|--:|--:|\n",
@@ -122,19 +129,20 @@ void compareWithGltfpack(const std::string& model, const fs::path& work) {
   };
   const std::string version =
       fmt::format("gltfpack {} (npm, library.wasm) `-vp 16 -vn 8", package["version"].get<std::string>());
-  print("imgeo convert, from GLB", measured[0], ours);
-  print("imgeo convert, from " + name, measured[1], ours);
-  print(version + "`, from GLB", measured[2], size);
-  print(version + " -cc`, from GLB", measured[3], sizeCompressed);
+  print("imgeo convert --profile classic, from GLB", measured[0], ours);
+  print("imgeo convert --profile classic, from " + name, measured[1], ours);
+  print("imgeo convert --profile compact, from GLB", measured[2], triangles * compactBytes);
+  print(version + "`, from GLB", measured[3], size);
+  print(version + " -cc`, from GLB", measured[4], sizeCompressed);
   std::fflush(stdout);
 }
 
-/// What each effort takes and gives, as images.
+/// What each effort takes and gives, as images of classic.
 void compareEfforts(const std::string& model, const fs::path& work) {
   fmt::print("\n| {}, --effort | time | bytes/triangle | peak memory, bytes/triangle |\n|---|--:|--:|--:|\n",
              fs::path(model).filename().string());
   for (int effort = 0; effort <= 9; ++effort) {
-    const Measured measured = measureConvert(model, "sig", std::to_string(effort), work);
+    const Measured measured = measureConvert(model, "classic", std::to_string(effort), work);
     const double triangles = measured.report["triangles"];
     fmt::print("| {} | {:.2f} s | {:.3f} | {:.0f} |\n", effort, measured.run.seconds,
                measured.report["bytesPerTriangle"].get<double>(),
@@ -146,12 +154,12 @@ void compareEfforts(const std::string& model, const fs::path& work) {
 int benchmark(const std::vector<std::string>& models) {
   std::string pattern = (fs::temp_directory_path() / "imgeo-bench-XXXXXX").string();
   const fs::path work = mkdtemp(pattern.data());
-  fmt::print("| model | container | triangles | convert | speed | peak memory | index | coord | normal | "
-             "document | together |\n"
-             "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+  fmt::print("| model | form | triangles | convert | speed | peak memory | index | coord | normal | "
+             "patch and base | document | together |\n"
+             "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
   for (const std::string& model : models)
-    for (const std::string container : {"sig", "bg"})
-      printRow(fs::path(model).filename(), container, measureConvert(model, container, defaultEffort, work));
+    for (const std::string form : {"compact", "classic", "bg"})
+      printRow(fs::path(model).filename(), form, measureConvert(model, form, defaultEffort, work));
   fmt::print("\nBytes a triangle by role; medians of {} runs on {} threads.\n", runs,
              sysconf(_SC_NPROCESSORS_ONLN));
   for (const std::string& model : models)
