@@ -1,7 +1,9 @@
 #include "run.h"
 
+#include <cmath>
 #include <csignal>
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace imgeo {
@@ -69,6 +71,38 @@ TEST_F(Convert, PutsABaseBeforeLargeMeshes) {
   EXPECT_EQ(bytesOf({"--base", "2"}), standard);
   EXPECT_NE(bytesOf({"--base", "10"}), standard);
   EXPECT_EQ(bytesOf({"--base", "0"}), 0u);
+}
+
+TEST_F(Convert, MakesPointsAndLinesSmallerThanClassicDoes) {
+  std::string points = "ply\nformat ascii 1.0\nelement vertex 3000\nproperty float x\nproperty float y\n"
+                       "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+                       "end_header\n",
+              lines = "";
+  for (int i = 0; i < 3000; ++i) {
+    const double angle = 0.02 * i, radius = 1 + 0.3 * std::sin(7.3 * i);
+    const std::string place = std::to_string(radius * std::cos(angle)) + " " +
+                              std::to_string(radius * std::sin(angle)) + " " + std::to_string(0.001 * i);
+    points += place + " " + std::to_string(i % 256) + " 80 " + std::to_string(i % 7) + "\n";
+    lines +=
+        "v " + place + "\n" + (i > 0 ? "l " + std::to_string(i) + " " + std::to_string(i + 1) + "\n" : "");
+  }
+  for (const auto& [name, text] :
+       {std::pair<std::string, std::string>{"cloud.ply", points}, {"wire.obj", lines}}) {
+    const std::string input = directory_ / name;
+    write(input, text);
+    std::map<std::string, std::size_t> bytes;
+    for (const std::string profile : {"compact", "classic"}) {
+      ASSERT_EQ(run({"convert", input, "-o", site_, "--profile", profile}).code, 0);
+      EXPECT_EQ(run({"verify", site_, input}).code, 0);
+      const Json info = Json::parse(run({"info", site_, "--json"}).out);
+      for (const Json& file : info["files"])
+        if (file["path"].get<std::string>().starts_with("geometry/"))
+          bytes[profile] += file["bytes"].get<std::size_t>();
+    }
+    EXPECT_LT(bytes["compact"], bytes["classic"]) << name;
+    RecordProperty(name + " compact", static_cast<int>(bytes["compact"]));
+    RecordProperty(name + " classic", static_cast<int>(bytes["classic"]));
+  }
 }
 
 TEST_F(Convert, WritesTheSameReportToAFileAndAsJson) {

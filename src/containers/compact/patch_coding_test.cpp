@@ -3,7 +3,9 @@
 #include "base/error.h"
 #include "containers/compact/patch_samples.h"
 
+#include <array>
 #include <gtest/gtest.h>
+#include <utility>
 
 namespace imgeo::compact {
 namespace {
@@ -62,6 +64,100 @@ TEST(Compact, GivesBackRandomMeshes) {
     if (HasFailure())
       return;
   }
+}
+
+/// A patch of triangles over `vertexCount` random points, all of which they use.
+CompactPatch patchOver(std::uint32_t vertexCount, std::vector<std::uint32_t> corners) {
+  testing::Random random(vertexCount);
+  CompactPatch patch;
+  for (std::uint32_t i = 0; i < vertexCount; ++i) {
+    patch.positions.push_back({random.bits() >> 16, random.bits() >> 16, random.bits() >> 16});
+    patch.wedgePositions.push_back(i);
+  }
+  patch.corners = std::move(corners);
+  return patch;
+}
+
+struct Hostile {
+  const char* name;
+  CompactPatch patch;
+  double mostBytes; ///< a triangle, positions and all
+};
+
+std::vector<Hostile> hostilePatches() {
+  std::vector<Hostile> patches;
+  std::vector<std::uint32_t> corners;
+  const auto add = [&](const char* name, std::uint32_t vertexCount, double mostBytes) {
+    patches.push_back({name, patchOver(vertexCount, std::exchange(corners, {})), mostBytes});
+  };
+  const auto addTriangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    corners.insert(corners.end(), {a, b, c});
+  };
+  testing::Random random(1);
+  for (std::uint32_t i = 0; i < 60'000; ++i)
+    addTriangle(0, 1 + i, 1 + (i + 1) % 60'000);
+  add("a vertex of 60,000 triangles", 60'001, 6.4);
+  for (std::uint32_t i = 0; i < 20'000; ++i)
+    addTriangle(3 * i, 3 * i + 1, 3 * i + 2);
+  add("20,000 triangles on their own", 60'000, 19);
+  for (std::uint32_t i = 0; i < 15'000; ++i)
+    for (const auto& [a, b, c] : {std::array{0u, 1u, 2u}, {0u, 2u, 3u}, {0u, 3u, 1u}, {1u, 3u, 2u}})
+      addTriangle(4 * i + a, 4 * i + b, 4 * i + c);
+  add("15,000 tetrahedra", 60'000, 6.4);
+  for (std::uint32_t i = 0; i < 60'000; ++i)
+    addTriangle(i % 50'000, random.below(50'000), random.below(50'000));
+  add("triangles between any vertices", 50'000, 9.8);
+  for (std::uint32_t edge = 0; edge < 2'000; ++edge)
+    for (std::uint32_t i = 0; i < 20; ++i)
+      addTriangle(22 * edge, 22 * edge + 1, 22 * edge + 2 + i);
+  add("20 triangles at every edge", 44'000, 8.2);
+  for (std::uint32_t i = 0; i < 60'000; ++i)
+    addTriangle(0, 1, 2 + i % 30'000);
+  add("60,000 triangles at one edge", 30'002, 7.5);
+  for (std::uint32_t i = 0; i < 40'000; ++i)
+    addTriangle(i % 3, (i + 1) % 3, (i + 2) % 3);
+  add("one triangle, 40,000 times", 3, 0.75);
+  for (std::uint32_t i = 0; i < 40'000; ++i)
+    addTriangle(i, i, (i + 1) % 40'000);
+  add("triangles without area", 40'000, 6.4);
+  for (std::uint32_t y = 0; y < 150; ++y)
+    for (std::uint32_t x = 0; x < 150; ++x) {
+      const std::uint32_t at = y * 151 + x;
+      addTriangle(at, at + 1, at + 152);
+      addTriangle(at, at + 151, at + 152); // the other way around
+    }
+  add("neighbours of opposite orientation", 151 * 151, 5.1);
+  return patches;
+}
+
+TEST(Compact, GivesBackWhatNoSurfaceIs) {
+  for (const Hostile& hostile : hostilePatches()) {
+    SCOPED_TRACE(hostile.name);
+    expectComesBack(hostile.patch);
+    const double bytes = static_cast<double>(encodePatchBytes(hostile.patch, 0).bytes.size());
+    EXPECT_LT(bytes / static_cast<double>(hostile.patch.elementCount()), hostile.mostBytes);
+    // Words for coordinates and for indices: what no coding at all would take.
+    const auto plain =
+        6.0 * static_cast<double>(hostile.patch.positions.size() + hostile.patch.elementCount());
+    EXPECT_LT(bytes, plain);
+  }
+}
+
+TEST(Compact, EncodesTheSameBytesEveryTime) {
+  const CompactPatch patch = testing::patchOf(imgeo::testing::randomMesh(7), 16);
+  EXPECT_EQ(encodePatchBytes(patch, 5).bytes, encodePatchBytes(patch, 5).bytes);
+}
+
+TEST(Compact, IsNotLargerWithMoreEffort) {
+  for (const testing::Sample& sample : testing::samples())
+    EXPECT_LE(encodePatchBytes(sample.patch, 9).bytes.size(), encodePatchBytes(sample.patch, 0).bytes.size())
+        << sample.name;
+}
+
+TEST(Compact, IsRefusedWhenAnyOfItsEndIsMissing) {
+  const Bytes bytes = encodePatchBytes(testing::samples()[3].patch, 0).bytes;
+  for (std::size_t length = 0; length < bytes.size(); ++length)
+    EXPECT_THROW(decodePatchBytes(ByteSpan(bytes).first(length), 0, "x.png"), Error) << length;
 }
 
 } // namespace
