@@ -54,12 +54,12 @@ function shapes(count: number, directory: string): Input {
   }
   const source = join(directory, "shapes.obj");
   writeFileSync(source, lines.join("\n"));
-  const siteOf = (container: string): string => {
+  const siteOf = (container: string, ...options: string[]): string => {
     const site = join(directory, container);
-    execFileSync(converter, ["convert", source, "-o", site, "--container", container], { stdio: ["ignore", "ignore", "inherit"] });
+    execFileSync(converter, ["convert", source, "-o", site, "--container", container, ...options], { stdio: ["ignore", "ignore", "inherit"] });
     return site;
   };
-  return { name: `${count} shapes`, sites: { sig: siteOf("sig"), bg: siteOf("bg") } };
+  return { name: `${count} shapes`, sites: { sig: siteOf("sig", "--profile", "classic"), bg: siteOf("bg") } };
 }
 
 interface Measured {

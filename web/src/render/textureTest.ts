@@ -27,7 +27,8 @@ export async function readsTextures(renderer: WebGLRenderer, textures: TextureSt
     const floats = new Float32Array(words.buffer);
     const [hx, hy, hz, , lx, ly, lz] = testTexels;
     const expected = [256 * hx + lx, 256 * hy + ly, 256 * hz + lz];
-    const normal = [1, -1, 51 / 127.5 - 1];
+    const stored = [1, -1, 51 / 127.5 - 1];
+    const normal = stored.map((value) => value / Math.hypot(...stored)); // as the picking pass gives it
     const isPlace = expected.every((value, axis) => floats[pickedWords.position + axis] === value);
     const isNormal = normal.every((value, axis) => Math.abs((floats[pickedWords.normal + axis] ?? NaN) - value) < 1e-6);
     return words[pickedWords.drawNumber] === 1 && isPlace && isNormal;
