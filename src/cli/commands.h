@@ -10,6 +10,7 @@ int runConvert(const Arguments& arguments);
 int runInfo(const Arguments& arguments);
 int runVerify(const Arguments& arguments);
 int runExport(const Arguments& arguments);
+int runSample(const Arguments& arguments);
 int runServe(const Arguments& arguments);
 int runCompletion(const Arguments& arguments);
 int runManual(const Arguments& arguments);

@@ -8,8 +8,9 @@
 
 namespace imgeo::cli {
 
-int runExport(const Arguments& arguments) {
-  const ExportReport report = exportSite(arguments.text("site"), arguments.text("output"));
+namespace {
+
+int print(const Arguments& arguments, const ExportReport& report) {
   if (arguments.has("json")) {
     const nlohmann::ordered_json json{{"format", report.format},
                                       {"shapes", report.shapes},
@@ -25,6 +26,17 @@ int runExport(const Arguments& arguments) {
              listed(report.elements), grouped(report.vertices), report.shapes,
              report.shapes == 1 ? "shape" : "shapes", byteSize(report.bytes));
   return 0;
+}
+
+} // namespace
+
+int runExport(const Arguments& arguments) {
+  return print(arguments, exportSite(arguments.text("site"), arguments.text("output")));
+}
+
+int runSample(const Arguments& arguments) {
+  const auto seats = static_cast<std::uint32_t>(arguments.integer("seats"));
+  return print(arguments, writeSampleHall(seats, arguments.text("output")));
 }
 
 } // namespace imgeo::cli

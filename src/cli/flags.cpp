@@ -197,6 +197,25 @@ Command exportCommand() {
           .examples = {"imgeo export site -o statue.ply", "imgeo export old/statue.x3d -o statue.glb"}};
 }
 
+Command sampleCommand() {
+  Flag what =
+      positional("sample", "SAMPLE", Value::choice, "hall: rows of seats, stairs, columns, trusses, signs");
+  what.choices = {"hall"};
+  Flag output{.name = "output",
+              .aliases = {"-o"},
+              .value = Value::file,
+              .valueName = "FILE",
+              .help = "the GLB file to write",
+              .required = true};
+  return {.name = "sample",
+          .usage = "hall [--seats N] -o FILE",
+          .summary = "write a generated scene to try things with",
+          .text = "All seats are one mesh in many places, so that the file stays small.",
+          .flags = {what, integer("seats", {}, 1, 100000, "1000", "how many seats the hall has"), output,
+                    jsonFlag("what was written"), helpFlag()},
+          .examples = {"imgeo sample hall --seats 2000 -o hall.glb && imgeo convert hall.glb -o site"}};
+}
+
 Command serveCommand() {
   Flag host{.name = "host",
             .value = Value::text,
@@ -238,9 +257,9 @@ Command manualCommand() {
 } // namespace
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all{convertCommand(), infoCommand(),  verifyCommand(),
-                                        exportCommand(),  serveCommand(), completionCommand(),
-                                        manualCommand()};
+  static const std::vector<Command> all{convertCommand(),    infoCommand(),   verifyCommand(),
+                                        exportCommand(),     sampleCommand(), serveCommand(),
+                                        completionCommand(), manualCommand()};
   return all;
 }
 

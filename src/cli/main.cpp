@@ -31,6 +31,8 @@ int run(const Arguments& arguments) {
     return runVerify(arguments);
   if (name == "export")
     return runExport(arguments);
+  if (name == "sample")
+    return runSample(arguments);
   if (name == "serve")
     return runServe(arguments);
   if (name == "completion")

@@ -43,7 +43,7 @@ Bytes writeObj(const Scene& scene);
 /// with POSITION, NORMAL, TEXCOORD_0 (v measured down, as glTF has it), COLOR_0
 /// (linear, 16 bits a channel) and, of further attributes, _NAME. Physical and unlit materials are kept; others become
 /// rough dielectrics of their diffuse and emissive colour. Textures come along where
-/// their image is at hand. Viewpoints and lights are left out.
+/// their image is at hand. Viewpoints become cameras; lights are left out.
 Bytes writeGlb(const Scene& scene);
 
 } // namespace imgeo

@@ -294,5 +294,23 @@ TEST(ExportedGlb, IsMadeOfWholeWordsAsItsHeaderSays) {
   EXPECT_EQ(20 + json + 8 + loadLittle<std::uint32_t>(&glb[20 + json]), glb.size());
 }
 
+TEST(Glb, KeepsViewpoints) {
+  Scene scene = sceneOf({testing::sphere(4, 6)});
+  Viewpoint viewpoint;
+  viewpoint.description = "Door";
+  viewpoint.position = {1, 2, 3};
+  viewpoint.orientation = {{0, 1, 0}, 0.5};
+  viewpoint.fieldOfView = 1.25;
+  addRoot(scene.graph, {"", viewpoint, {}, ""});
+  const Imported read = importBytes(exportScene(scene, MeshFormat::glb), "a.glb");
+  for (const Node& node : read.scene.graph.nodes)
+    if (const Viewpoint* back = std::get_if<Viewpoint>(&node.content)) {
+      EXPECT_EQ(back->description, "Door");
+      EXPECT_EQ(back->fieldOfView, 1.25);
+      return;
+    }
+  ADD_FAILURE() << "the viewpoint is lost";
+}
+
 } // namespace
 } // namespace imgeo

@@ -154,10 +154,10 @@ public:
 
   Arrays arrays;
   Json nodes = Json::array(), meshes = Json::array(), materials = Json::array(), roots = Json::array();
-  Json images = Json::array(), samplers = Json::array(), textures = Json::array();
+  Json images = Json::array(), samplers = Json::array(), textures = Json::array(), cameras = Json::array();
 
 private:
-  /// The glTF node of a node below which something is seen.
+  /// The glTF node of a viewpoint, or of a node below which something is seen.
   std::optional<std::size_t> addNode(std::size_t index) {
     const Node& node = scene_.graph.nodes[index];
     Json json = Json::object();
@@ -165,6 +165,8 @@ private:
       json["name"] = node.name;
     if (const Shape* shape = std::get_if<Shape>(&node.content)) {
       json["mesh"] = meshOf(*shape, node.name);
+    } else if (const Viewpoint* viewpoint = std::get_if<Viewpoint>(&node.content)) {
+      addCamera(json, *viewpoint);
     } else {
       Json children = Json::array();
       for (const std::size_t child : node.children)
@@ -178,6 +180,19 @@ private:
     }
     nodes.push_back(std::move(json));
     return nodes.size() - 1;
+  }
+
+  /// glTF's camera looks along -z of its node, as X3D's viewpoint does.
+  void addCamera(Json& json, const Viewpoint& viewpoint) {
+    Transform place;
+    place.translation = viewpoint.position;
+    place.rotation = viewpoint.orientation;
+    addTransform(json, place);
+    json["camera"] = cameras.size();
+    Json camera{{"type", "perspective"}, {"perspective", {{"yfov", viewpoint.fieldOfView}, {"znear", 0.01}}}};
+    if (!viewpoint.description.empty())
+      camera["name"] = viewpoint.description;
+    cameras.push_back(std::move(camera));
   }
 
   static void addTransform(Json& json, const Transform& transform) {
@@ -290,6 +305,8 @@ Bytes writeGlb(const Scene& scene) {
     root["images"] = gltf.images;
     root["samplers"] = gltf.samplers;
   }
+  if (!gltf.cameras.empty())
+    root["cameras"] = gltf.cameras;
   root["accessors"] = arrays.accessors;
   root["bufferViews"] = arrays.views;
   root["buffers"] = Json::array({{{"byteLength", arrays.bytes.size()}}});

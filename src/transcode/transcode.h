@@ -195,4 +195,8 @@ struct ExportReport {
 /// containers. Throws Error; {usage} for an ending that stands for no format.
 ExportReport exportSite(const std::filesystem::path& site, const std::filesystem::path& output);
 
+/// Writes a generated hall (transcode/sample_hall.h) as GLB, and counts its shapes as
+/// often as they are seen. Throws Error{usage} for another ending.
+ExportReport writeSampleHall(std::uint32_t seats, const std::filesystem::path& output);
+
 } // namespace imgeo

@@ -21,7 +21,7 @@ void expectGolden(const std::string& name, const std::vector<std::string>& words
 
 TEST(Help, IsAsItWasReviewed) {
   expectGolden("help.txt", {"--help"});
-  for (const std::string command : {"convert", "info", "verify", "export", "serve", "completion", "manual"})
+  for (const std::string command : {"convert", "info", "verify", "export", "sample", "serve", "completion", "manual"})
     expectGolden("help-" + command + ".txt", {command, "--help"});
 }
 
@@ -32,7 +32,7 @@ TEST(Help, CompletionsAndManualAreAsTheyWereReviewed) {
 }
 
 TEST(Help, EveryLineFitsATerminal) {
-  for (const std::string command : {"convert", "info", "verify", "export", "serve", "completion", "manual"}) {
+  for (const std::string command : {"convert", "info", "verify", "export", "sample", "serve", "completion", "manual"}) {
     std::istringstream lines(run({command, "--help"}).out);
     bool examples = false;
     for (std::string line; std::getline(lines, line);) {

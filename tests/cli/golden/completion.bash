@@ -2,7 +2,7 @@ _imgeo() {
   local word="${COMP_WORDS[COMP_CWORD]}" before="${COMP_WORDS[COMP_CWORD-1]}"
   COMPREPLY=()
   if [[ $COMP_CWORD -eq 1 ]]; then
-    COMPREPLY=($(compgen -W "convert info verify export serve completion manual --help --version" -- "$word"))
+    COMPREPLY=($(compgen -W "convert info verify export sample serve completion manual --help --version" -- "$word"))
     return
   fi
   case "${COMP_WORDS[1]} $before" in
@@ -32,6 +32,8 @@ _imgeo() {
     "convert --threads") COMPREPLY=(); return ;;
     "convert -r"|"convert --report") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "export -o"|"export --output") COMPREPLY=($(compgen -f -- "$word")); return ;;
+    "sample --seats") COMPREPLY=(); return ;;
+    "sample -o"|"sample --output") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "serve --port") COMPREPLY=(); return ;;
     "serve --host") COMPREPLY=(); return ;;
   esac
@@ -40,6 +42,7 @@ _imgeo() {
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    sample) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--seats --output --json --help" -- "$word")); else COMPREPLY=($(compgen -W "hall" -- "$word")); fi ;;
     serve) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--port --host --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     completion) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--help" -- "$word")); else COMPREPLY=($(compgen -W "bash zsh fish" -- "$word")); fi ;;
     manual) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;

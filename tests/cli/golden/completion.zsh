@@ -6,6 +6,7 @@ _imgeo() {
     'info:say what a site or a mesh file holds, and where its bytes are'
     'verify:read a site back and prove that it equals its input'
     'export:write the mesh that a site holds as PLY, OBJ or GLB'
+    'sample:write a generated scene to try things with'
     'serve:serve a directory over HTTP until Ctrl-C'
     'completion:print a completion script for bash, zsh or fish'
     'manual:print the manual page'
@@ -82,6 +83,14 @@ _imgeo() {
       '-h[print this help]' \
       '--help[print this help]' \
       ':site:_files -/' ;;
+    sample) _arguments \
+      '--seats[how many seats the hall has]:seats: ' \
+      '-o[the GLB file to write]:output:_files' \
+      '--output[the GLB file to write]:output:_files' \
+      '--json[print what was written as JSON]' \
+      '-h[print this help]' \
+      '--help[print this help]' \
+      ':sample:(hall)' ;;
     serve) _arguments \
       '--port[the port to listen on; 0\: any that is free]:port: ' \
       '--host[the address to listen on; 0.0.0.0 for every network]:host: ' \
