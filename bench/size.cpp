@@ -24,7 +24,7 @@ constexpr std::array roles{"connectivity", "positions", "seams", "normals", "tex
 
 struct Site {
   std::map<std::string, std::uint64_t> streams;
-  std::uint64_t files = 0;    ///< geometry files, the base apart
+  std::uint64_t files = 0;    ///< geometry files, without a base
   std::uint64_t together = 0; ///< and the geometry nodes
   std::size_t triangles = 0;
 };
@@ -48,8 +48,8 @@ void addStreams(const fs::path& file, Site& site) {
 
 Site measureSite(const std::string& model, int bits, const fs::path& work) {
   const std::string directory = work / "site", report = work / "report.json";
-  runOnce({"build/imgeo", "convert", model, "-o", directory, "--profile", "compact", "--effort", "9", "-vp",
-           std::to_string(bits), "-vn", "8", "-r", report});
+  runOnce({"build/imgeo", "convert", model, "-o", directory, "--profile", "compact", "--base", "0",
+           "--effort", "9", "-vp", std::to_string(bits), "-vn", "8", "-r", report});
   runOnce({"build/imgeo", "verify", directory, model});
   const Json json = Json::parse(asText(readFile(report)));
   Site site;
