@@ -37,16 +37,17 @@ const paths: Record<string, { container: "sig" | "bg"; decode: string }> = {
   "BG": { container: "bg", decode: "" },
 };
 
-/** So many shapes with files of their own, as an OBJ's objects. */
+/** So many shapes, each with bumps of its own: what is the same would be one file. As an OBJ's objects. */
 function shapes(count: number, directory: string): Input {
   mkdirSync(directory, { recursive: true });
   const { positions, triangles } = sphere(6);
   const side = Math.ceil(Math.sqrt(count));
   const lines: string[] = [];
   for (let n = 0; n < count; ++n) {
-    const [x, y, radius] = [3 * (n % side), 3 * Math.floor(n / side), 0.8 + (n % 7) / 10];
+    const [x, y] = [3 * (n % side), 3 * Math.floor(n / side)];
     lines.push(`o shape${n}`);
     for (let i = 0; i < positions.length; i += 3) {
+      const radius = 1 + 0.2 * Math.sin(n + i * (1 + n / count));
       lines.push(`v ${x + radius * positions[i]!} ${y + radius * positions[i + 1]!} ${radius * positions[i + 2]!}`);
     }
     const first = (n * positions.length) / 3 + 1;
