@@ -118,7 +118,8 @@ Mesh richMesh(std::uint32_t seed) {
       mesh.colors.back().a = static_cast<std::uint8_t>(random.bits());
   }
   for (const char* name : {"heat", "flow"})
-    mesh.namedAttributes.push_back(testing::randomAttribute(random, name, mesh.wedgeCount()));
+    mesh.namedAttributes.push_back(
+        testing::randomAttribute(random, name, static_cast<std::uint32_t>(mesh.wedgeCount())));
   return mesh;
 }
 

@@ -53,7 +53,7 @@ struct AttributeChoice {
 
 struct ImportOptions {
   AttributeChoice attributes;   ///< none where nothing is said
-  std::filesystem::path folder; ///< where relative urls lead; empty: nowhere
+  std::filesystem::path folder{}; ///< where relative urls lead; empty: nowhere
   bool outside = false;         ///< urls may lead out of the folder
   std::size_t inlineBytes = 0;  ///< geometry of an X3D document whose text is no longer than this stays in it
   bool strict = false;          ///< damage is an Error, even where the rest could be read

@@ -80,7 +80,7 @@ private:
     const ObjObject& last = content_.objects.back();
     content_.objects.push_back({std::move(name), last.material, last.number + 1, {}, {}});
     current_ = content_.objects.size() - 1;
-    parts_ = {{last.material, current_}};
+    parts_ = {{content_.objects[current_].material, current_}};
   }
 
   /// An object's elements of one material are one part of it, wherever they stand.

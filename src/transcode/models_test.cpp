@@ -63,8 +63,8 @@ TEST_P(PaperModels, AreStripsOfNoMoreIndicesThanThePapers) {
 INSTANTIATE_TEST_SUITE_P(OfTable1, PaperModels,
                          ::testing::Values(PaperModel{"stanford-bunny.obj", 245'000, 89'611},
                                            PaperModel{"horse.ply", 345'000, 128'659}),
-                         [](const auto& info) {
-                           return info.param.file.substr(0, info.param.file.find_first_of("-."));
+                         [](const auto& model) {
+                           return model.param.file.substr(0, model.param.file.find_first_of("-."));
                          });
 
 } // namespace

@@ -21,8 +21,9 @@ TEST(EdgeTable, FindsEveryEdgeUntilItsTriangleIsTaken) {
       continue;
     table.take(corner / 3);
     EXPECT_EQ(table.find(from, to), EdgeTable::none);
-    if (to != 0)
+    if (to != 0) {
       EXPECT_EQ(table.find(to, from), EdgeTable::none) << "has the other direction";
+    }
     table = EdgeTable(corners, count + 1);
   }
 }

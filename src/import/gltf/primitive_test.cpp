@@ -87,13 +87,13 @@ TEST(GltfPrimitive, TakesColoursFromLinearToThoseOfScreens) {
 TEST(GltfPrimitive, ReadsInterleavedAndSparseAccessors) {
   GltfText gltf;
   Bytes interleaved;
-  for (const float value : {0, 0, 0, 9, 1, 0, 0, 9, 0, 1, 0, 9})
+  for (const float value : {0.f, 0.f, 0.f, 9.f, 1.f, 0.f, 0.f, 9.f, 0.f, 1.f, 0.f, 9.f})
     appendLittle(interleaved, value);
   const std::size_t view = gltf.addView(interleaved);
   gltf.json["bufferViews"][view]["byteStride"] = 16;
   Bytes where, values;
   appendLittle(where, std::uint16_t{2});
-  for (const float value : {5, 6, 7})
+  for (const float value : {5.f, 6.f, 7.f})
     appendLittle(values, value);
   gltf.json["accessors"].push_back(
       {{"bufferView", view},

@@ -30,7 +30,9 @@ Source::Source(std::string_view text, const std::string& name) : text_(text), na
   const pugi::xml_parse_result result =
       document_.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!result) {
-    const auto line = 1 + std::count(text.begin(), text.begin() + result.offset, '\n');
+    // pugixml ends its copy of the text with a zero, and may fail behind it.
+    const std::string_view read = text.substr(0, static_cast<std::size_t>(result.offset));
+    const auto line = 1 + std::ranges::count(read, '\n');
     throw Error(ErrorKind::malformed, fmt::format("{}:{}", name, line),
                 std::string("not well-formed: ") + result.description());
   }
