@@ -151,9 +151,7 @@ void compareEfforts(const std::string& model, const fs::path& work) {
   }
 }
 
-int benchmark(const std::vector<std::string>& models) {
-  std::string pattern = (fs::temp_directory_path() / "imgeo-bench-XXXXXX").string();
-  const fs::path work = mkdtemp(pattern.data());
+void benchmark(const std::vector<std::string>& models, const fs::path& work) {
   fmt::print("| model | form | triangles | convert | speed | peak memory | index | coord | normal | "
              "patch and base | document | together |\n"
              "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
@@ -165,17 +163,11 @@ int benchmark(const std::vector<std::string>& models) {
   for (const std::string& model : models)
     compareWithGltfpack(model, work);
   compareEfforts(models.front(), work);
-  fs::remove_all(work);
-  return 0;
 }
 
 } // namespace
 } // namespace imgeo
 
 int main(int count, char** words) {
-  if (count < 2) {
-    fmt::print(stderr, "usage: build/bench/convert MODEL...\n");
-    return 1;
-  }
-  return imgeo::benchmark({words + 1, words + count});
+  return imgeo::runInFolder(count, words, "convert", imgeo::benchmark);
 }

@@ -48,24 +48,16 @@ void printModel(const std::string& model, const fs::path& work) {
   print("gltfpack -cz", gltfpack, fs::file_size(packed));
 }
 
-int benchmark(const std::vector<std::string>& models) {
-  std::string pattern = (fs::temp_directory_path() / "imgeo-encode-XXXXXX").string();
-  const fs::path work = mkdtemp(pattern.data());
+void benchmark(const std::vector<std::string>& models, const fs::path& work) {
   fmt::print("| model | | s / million triangles | of Draco's | peak memory, bytes / triangle | bytes |\n"
              "|---|---|--:|--:|--:|--:|\n");
   for (const std::string& model : models)
     printModel(model, work);
-  fs::remove_all(work);
-  return 0;
 }
 
 } // namespace
 } // namespace imgeo
 
 int main(int count, char** words) {
-  if (count < 2) {
-    fmt::print(stderr, "usage: build/bench/encode MODEL...\n");
-    return 1;
-  }
-  return imgeo::benchmark({words + 1, words + count});
+  return imgeo::runInFolder(count, words, "encode", imgeo::benchmark);
 }

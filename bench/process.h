@@ -73,4 +73,19 @@ inline void writePrepared(const std::string& model, const std::filesystem::path&
     std::exit(1);
 }
 
+/// The whole of a benchmark's main: calls measure(models, folder) with the models that the command line
+/// names and an empty folder of its own, which is gone afterwards.
+template <typename Measure>
+int runInFolder(int count, char** words, const std::string& program, const Measure& measure) {
+  if (count < 2) {
+    fmt::print(stderr, "usage: build/bench/{} MODEL...\n", program);
+    return 1;
+  }
+  std::string pattern = (std::filesystem::temp_directory_path() / "imgeo-bench-XXXXXX").string();
+  const std::filesystem::path folder = mkdtemp(pattern.data());
+  measure(std::vector<std::string>(words + 1, words + count), folder);
+  std::filesystem::remove_all(folder);
+  return 0;
+}
+
 } // namespace imgeo

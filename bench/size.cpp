@@ -109,9 +109,7 @@ std::string printModel(const std::string& model, const fs::path& work) {
   return summary;
 }
 
-int benchmark(const std::vector<std::string>& models) {
-  std::string pattern = (fs::temp_directory_path() / "imgeo-size-XXXXXX").string();
-  const fs::path work = mkdtemp(pattern.data());
+void benchmark(const std::vector<std::string>& models, const fs::path& work) {
   fmt::print(
       "| model | triangles | bits | {} | files | with nodes | Draco | ratio | gltfpack + brotli | ratio |\n"
       "|---|--:|--:|{}--:|--:|--:|--:|--:|--:|\n",
@@ -122,17 +120,11 @@ int benchmark(const std::vector<std::string>& models) {
     summary += printModel(model, work);
   fmt::print("\ndraco_encoder -cl 10 -qn 8 -qt 12; gltfpack -cz -vn 8 -vt 12 -kv, then brotli 11.\n\n{}",
              summary);
-  fs::remove_all(work);
-  return 0;
 }
 
 } // namespace
 } // namespace imgeo
 
 int main(int count, char** words) {
-  if (count < 2) {
-    fmt::print(stderr, "usage: build/bench/size MODEL...\n");
-    return 1;
-  }
-  return imgeo::benchmark({words + 1, words + count});
+  return imgeo::runInFolder(count, words, "size", imgeo::benchmark);
 }

@@ -30,6 +30,6 @@ test("no tracked file names a path of one machine or a package registry", () => 
 
 test("such paths and hosts are found", () => {
   const hosts = ["registry", "npmjs.org"].join(".");
-  const bad = ["fine: docs/work/home", `cmake -S ${["", "home", "me", "imgeo"].join("/")}`, `https://${hosts}/three`];
+  const bad = ["fine: docs/images/home", `cmake -S ${["", "home", "me", "imgeo"].join("/")}`, `https://${hosts}/three`];
   assert.deepEqual(findForbidden("x", bad.join("\n")), ["x:2: names a path of one machine", "x:3: names a package registry"]);
 });

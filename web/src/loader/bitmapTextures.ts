@@ -2,14 +2,14 @@
 // keep their bitmaps, as three.js' own textures do, so that a lost context comes
 // back by itself.
 
-import { NearestFilter, NoColorSpace, SRGBColorSpace, Texture } from "three";
+import { SRGBColorSpace, Texture } from "three";
 import type { DataImage, DecodedImage } from "../decode/image.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
 import { decodePicture } from "../decode/picture.ts";
 import type { Picture } from "../delivery/resources.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import type { Textures } from "../render/patchDraws.ts";
-import { sampleAs } from "../render/textures.ts";
+import { readAsData, sampleAs } from "../render/textures.ts";
 
 /** Texels of the longest edge: a renderer that can do less is not in use any more, and we are asked before there is one. */
 export const largestTexture = 4096;
@@ -58,13 +58,9 @@ export class BitmapTextures implements Textures {
   }
 }
 
-/** Bytes reach the shader as they are in the file. */
 function dataTextureOf(bitmap: ImageBitmap): Texture {
   const texture = new Texture(bitmap);
-  texture.colorSpace = NoColorSpace;
-  texture.minFilter = NearestFilter;
-  texture.magFilter = NearestFilter;
-  texture.generateMipmaps = false;
+  readAsData(texture);
   texture.flipY = false;
   texture.premultiplyAlpha = false;
   texture.needsUpdate = true;

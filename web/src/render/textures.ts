@@ -74,14 +74,17 @@ function* strips(from: Texture, to: Texture, width: number, height: number, rend
 function emptyTexture(width: number, height: number): Texture {
   const texture = new DataTexture(null, width, height, RGBAFormat, UnsignedByteType);
   texture.source.dataReady = false;
+  readAsData(texture);
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** Texels reach the shader one by one, as they are in the file. */
+export function readAsData(texture: Texture): void {
   texture.colorSpace = NoColorSpace;
   texture.minFilter = NearestFilter;
   texture.magFilter = NearestFilter;
-  texture.wrapS = ClampToEdgeWrapping;
-  texture.wrapT = ClampToEdgeWrapping;
   texture.generateMipmaps = false;
-  texture.needsUpdate = true;
-  return texture;
 }
 
 const wrappings = { repeat: RepeatWrapping, clamp: ClampToEdgeWrapping, mirror: MirroredRepeatWrapping } as const;
