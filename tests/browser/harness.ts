@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { after } from "node:test";
-import type { Browser, Page } from "playwright-core";
+import type { Browser, BrowserContext, Page } from "playwright-core";
 import { launchChromium } from "./chromium.ts";
 import { observe, type Observed, type ObservedEvent } from "./observe.ts";
 import { decodePng, type Picture } from "./png.ts";
@@ -56,6 +56,25 @@ export interface View {
   picture: () => Promise<Picture>;
 }
 
+type Device = Required<Pick<PageOptions, "deviceScaleFactor" | "hasTouch" | "motion">>;
+
+const contexts = new Map<string, Promise<BrowserContext>>();
+
+/** The context of all pages on such a device, as making one costs more than most
+ *  pages; each test's server is an origin of its own, so that nothing is shared. */
+function contextFor(device: Device): Promise<BrowserContext> {
+  const key = JSON.stringify(device);
+  const known = contexts.get(key) ?? openContext(device);
+  contexts.set(key, known);
+  return known;
+}
+
+async function openContext({ deviceScaleFactor, hasTouch, motion }: Device): Promise<BrowserContext> {
+  // Less motion: the bar does not fade while pictures are taken.
+  const reducedMotion = motion ? "no-preference" : "reduce";
+  return (await browser()).newContext({ viewport: pictureSize, deviceScaleFactor, hasTouch, reducedMotion });
+}
+
 /** Opens a page of `directory`, calls `use`, closes everything, and asserts that
  *  nothing went wrong that was not expected. */
 export async function withPage(
@@ -65,22 +84,19 @@ export async function withPage(
 ): Promise<void> {
   const server = await startServer(directory);
   options.server?.(server);
-  const { size = pictureSize, deviceScaleFactor = 1, hasTouch = false } = options;
-  // Less motion: the bar does not fade while pictures are taken.
-  const reducedMotion = options.motion ? ("no-preference" as const) : ("reduce" as const);
-  const shown = { viewport: size, deviceScaleFactor, hasTouch, reducedMotion };
-  const context = await (await browser()).newContext(shown);
+  const { size = pictureSize, deviceScaleFactor = 1, hasTouch = false, motion = false } = options;
+  const page = await (await contextFor({ deviceScaleFactor, hasTouch, motion })).newPage();
   try {
-    await context.addInitScript(observe);
-    if (options.before) await context.addInitScript(options.before);
-    const page = await context.newPage();
+    await page.setViewportSize(size);
+    await page.addInitScript(observe);
+    if (options.before) await page.addInitScript(options.before);
     const view = watch(page, server);
     await page.goto(server.origin + (options.path ?? ""), { waitUntil: "commit" });
     await use(view);
     assert.deepEqual(view.errors.filter((message) => options.expectedErrors?.test(message) !== true), []);
     if (options.isCrossOrigin !== true) assert.deepEqual(view.foreignRequests, []);
   } finally {
-    await context.close();
+    await page.close();
     await server.close();
   }
 }

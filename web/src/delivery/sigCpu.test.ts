@@ -1,6 +1,8 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { pngWithTexels } from "../decode/png.testing.ts";
+import { partsOf } from "./parts.ts";
+import { sigCpuBuilder } from "./sigCpuStage.ts";
 import { geometryOf, held, record, records, sigPatch, siteOf, soon } from "./delivery.testing.ts";
 
 describe("images that are decoded on the CPU", () => {
@@ -56,6 +58,37 @@ describe("images that are decoded on the CPU", () => {
       await settled;
       assert.deepEqual([errors, stages.at(-1)?.stage.name], [[], "full"]);
     }
+  });
+
+  test("of a grid take slopes with the positions they are of, whichever job ends first", async () => {
+    const files = ["a.png", "b.png"].map((_, plane) => pngWithTexels(8, 8, 3, (n, channel) => (plane ? 40 * n * n : 9 * n + 70 * channel) % 256));
+    const geometry = geometryOf('<ImageGeometry implicitMeshMode="geometryImage" implicitMeshSize="8 8" coord=\'"a.png" "b.png"\' decode="cpu"/>');
+    const patch = geometry.patches[0] ?? assert.fail("no patch");
+    const bytesOf = async (order: readonly number[]): Promise<unknown> => {
+      const site = siteOf({});
+      const gates = files.map(() => held(new Uint8Array(0)));
+      let begun = 0;
+      const builder = sigCpuBuilder(geometry, patch, {
+        storeBytes: site.pool.storeBytes,
+        runHere: site.pool.runHere,
+        runJob: async (name, input, signal) => {
+          await gates[begun++]?.promise;
+          return site.pool.runJob(name, input, signal);
+        },
+      });
+      const { signal } = new AbortController();
+      const accepted = partsOf(geometry, patch).map((part) =>
+        builder.accept(part, { kind: "bytes", bytes: files[part.plane] ?? assert.fail("no such plane") }, signal));
+      for (const job of order) {
+        gates[job]?.release();
+        await accepted[job];
+      }
+      const stage = builder.stage() ?? assert.fail("no stage");
+      builder.sweep();
+      assert.equal(site.arrays.size, 3, "index, positions and slopes are left");
+      return [stage.kind === "buffers" && [stage.coord, stage.normal, stage.index].map((stored) => site.arrayOf(stored))];
+    };
+    assert.deepEqual(await bytesOf([1, 0]), await bytesOf([0, 1]));
   });
 
   test("name the file that is wrong, whichever it was that led to it", async () => {

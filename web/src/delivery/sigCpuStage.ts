@@ -7,7 +7,7 @@ import { DecodeError } from "../decode/decodeError.ts";
 import { byteSizeOf } from "../decode/elements.ts";
 import type { PngHeader } from "../decode/png.ts";
 import { checkPng } from "../decode/png.ts";
-import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../decode/stage.ts";
+import type { BufferStage, DrawRange, IndexArray, StoredIndex, StoredVertices } from "../decode/stage.ts";
 import { withoutStrips } from "../decode/strips.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { largestStoredOf, middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
@@ -22,6 +22,9 @@ interface Drawn {
   readonly index: StoredIndex | undefined;
   readonly draws: readonly DrawRange[];
 }
+
+/** Only grids have the others. */
+type CoordArrays = Pick<GridArrays, "coord"> & Partial<GridArrays>;
 
 /** What has come of a patch. */
 class Parts {
@@ -142,19 +145,24 @@ class SigCpuBuilder implements StageBuilder {
       planes, planeCount, middleOfMissing: middleOfMissing(this.#geometry, planeCount, planes.length), ...this.#layout(header, planes[0]),
     };
     const grid = this.#patch.grid;
-    const arrays = grid === undefined ? { coord: await this.#run("classicCoords", job, signal) }
+    const arrays: CoordArrays = grid === undefined ? { coord: await this.#run("classicCoords", job, signal) }
       : await this.#run("classicGrid", {
           ...job, grid, largestStored: largestStoredOf(this.#geometry, this.#patch), step: storedFrameOf(this.#geometry, this.#patch).step,
         }, signal);
-    if ("index" in arrays) await this.#takeGrid(here, arrays, signal);
-    else if (this.#patch.index === undefined) await this.#takeUnindexed(here, signal);
+    const drawn = await this.#drawnWithoutFile(here, arrays.index, signal);
+    const slope = arrays.normal && await this.#holdings.storeVertices(arrays.normal, signal);
     const coord = await this.#holdings.storeVertices(arrays.coord, signal);
+    // Jobs of fewer and of more planes may end in any order. What was stored
+    // meanwhile is taken all at once, so that slopes are those of the positions.
+    if (here.drawn === undefined) here.drawn = drawn;
+    else this.#holdings.retire(drawn?.index);
     if (planes.length <= here.coordPlanes) {
-      this.#holdings.retire(coord); // a later one was faster
+      this.#holdings.retire(coord, slope);
       return;
     }
-    this.#holdings.retire(here.coord);
+    this.#holdings.retire(here.coord, here.slope);
     here.coord = coord;
+    here.slope = slope;
     here.coordPlanes = planes.length;
     if (planes.length === planeCount) here.planes = [];
   }
@@ -170,17 +178,12 @@ class SigCpuBuilder implements StageBuilder {
     here.value = await this.#holdings.storeVertices(values, signal);
   }
 
-  async #takeGrid(here: Parts, { index, normal }: GridArrays, signal: AbortSignal): Promise<void> {
-    const slope = await this.#holdings.storeVertices(normal, signal);
-    this.#holdings.retire(here.slope);
-    here.slope = slope;
-    here.drawn ??= { index: await this.#holdings.storeIndex(index, signal), draws: drawRangesOf(this.#patch) };
-  }
-
-  async #takeUnindexed(here: Parts, signal: AbortSignal): Promise<void> {
-    if (here.drawn !== undefined) return;
-    const { index, draws } = withoutStrips(undefined, drawRangesOf(this.#patch));
-    here.drawn = { index: index && await this.#holdings.storeIndex(index, signal), draws };
+  /** What is drawn where no file says it: a grid, or records in their order. Undefined where one does, or it is known. */
+  async #drawnWithoutFile(here: Parts, gridIndex: IndexArray | undefined, signal: AbortSignal): Promise<Drawn | undefined> {
+    if (here.drawn !== undefined || this.#patch.index !== undefined) return undefined;
+    const { index, draws } = gridIndex ? { index: gridIndex, draws: drawRangesOf(this.#patch) }
+      : withoutStrips(undefined, drawRangesOf(this.#patch));
+    return { index: index && await this.#holdings.storeIndex(index, signal), draws };
   }
 
   /** The size of a coordinate image says what the index's columns and rows are. */
