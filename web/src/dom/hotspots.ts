@@ -3,7 +3,7 @@
 // where they are, and whether the surface under them faces the camera, comes
 // from here.
 
-import type { View } from "../render/sceneRenderer.ts";
+import type { View } from "../render/view.ts";
 
 type Point = readonly [number, number, number];
 

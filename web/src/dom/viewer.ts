@@ -1,17 +1,13 @@
-// Joins a document to a picture: reads the scene, starts and ends deliveries as
-// shapes come and go, hands stages to the renderer, and tells the page.
+// Joins a document to a picture: reads the scene whenever the document changes,
+// says what to load of it, and tells the page.
 
-import type { Stage, StageName } from "../decode/stage.ts";
-import { stageNames } from "../decode/stage.ts";
+import type { StageName } from "../decode/stage.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { Transfer } from "../delivery/progress.ts";
 import { progressOf } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resources.ts";
-import type { JoinedDelivery } from "../delivery/sharedDeliveries.ts";
 import { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
-import type { JoinedTexture } from "../delivery/textureDeliveries.ts";
-import { pictureKeyOf, TextureDeliveries } from "../delivery/textureDeliveries.ts";
-import type { GeometryDescription, ShapeDescription, TextureDescription } from "../document/description.ts";
+import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { GeometryMemory } from "../document/geometryMemory.ts";
@@ -26,8 +22,9 @@ import { slotsFor } from "../scheduler/slots.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
 import { Arrival } from "./arrival.ts";
 import { viewTag } from "./faceStyle.ts";
-import { leastStage, Loading } from "./loading.ts";
+import { Loading } from "./loading.ts";
 import { watchProtocol } from "./protocol.ts";
+import { ShapeLoads, stageShown } from "./shapeLoads.ts";
 import { Steering } from "./steering.ts";
 
 /** The bar moves no more often than people can see. */
@@ -48,17 +45,6 @@ export interface ViewerListener {
   onNavigation(): void;
 }
 
-interface LoadedShape {
-  readonly geometry: GeometryDescription | undefined;
-  /** In any of its places. */
-  isVisible: boolean;
-  readonly loading: Loading;
-  readonly stages: (StageName | "none")[];
-  delivery: JoinedDelivery | undefined;
-  /** What is laid over it. */
-  texture: { readonly key: string; readonly joined: JoinedTexture } | undefined;
-}
-
 export class Viewer {
   readonly renderer: SceneRenderer;
   readonly navigator: Navigator;
@@ -70,7 +56,7 @@ export class Viewer {
   readonly #textures: TextureDeliveries;
   readonly #workers = pageWorkers();
   readonly #geometries = new GeometryMemory();
-  readonly #shapes = new Map<SceneElement, LoadedShape>();
+  readonly #shapes: ShapeLoads;
   readonly #steering: Steering;
   readonly #observer: MutationObserver;
   readonly #listeners = new AbortController();
@@ -113,6 +99,14 @@ export class Viewer {
     });
     this.#deliveries = new SharedDeliveries(this.#pool);
     this.#textures = new TextureDeliveries(this.#pool);
+    this.#shapes = new ShapeLoads(this.renderer, this.#deliveries, this.#textures, {
+      onStage: (stage) => {
+        this.#followSphere();
+        if (stage?.kind === "textures" && this.#trial === "needless") this.#trial = "due";
+      },
+      onError: (error, element, loading) => { this.#fail(error, element, loading); },
+      maySettle: () => this.#trial !== "due" && this.#trial !== "running",
+    });
     this.#steering = new Steering(this.renderer, this.#deliveries, this.#textures, () => { this.#onSteered(); });
     this.#observer = new MutationObserver((all) => {
       const records = all.filter(({ target }) => isOfScene(target, x3d));
@@ -138,20 +132,13 @@ export class Viewer {
   load(): void {
     this.#isLoading = true;
     this.#steering.begin();
-    this.#workers.prepare(this.#jobsToCome());
+    this.#workers.prepare(this.#shapes.jobsToCome);
     this.renderer.requestFrame();
   }
 
   /** Of vertex data and textures on the GPU, in bytes. */
   setBudget(bytes: number): void {
     this.#steering.setBudget(bytes);
-  }
-
-  /** Patches whose files are for workers to decode, whatever the GPU can do. */
-  #jobsToCome(): number {
-    const shapes = Array.from(this.#shapes.values());
-    return shapes.reduce((sum, { geometry, isVisible }) =>
-      sum + (isVisible && (geometry?.container === "compact" || geometry?.decode === "cpu") ? geometry.patches.length : 0), 0);
   }
 
   get statistics(): ViewStatistics {
@@ -164,12 +151,7 @@ export class Viewer {
     this.#listeners.abort();
     this.#observer.disconnect();
     this.#steering.stop();
-    for (const shape of this.#shapes.values()) {
-      shape.delivery?.cancel();
-      shape.texture?.joined.cancel();
-      shape.loading.abandon();
-    }
-    this.#shapes.clear();
+    this.#shapes.dispose();
     this.#loading.abandon();
     this.#workers.dispose();
     this.renderer.dispose();
@@ -187,7 +169,7 @@ export class Viewer {
     if (!reads && !this.renderer.isContextLost) {
       this.#readsTextures = false;
       this.#warnOfGpu();
-      this.#clear();
+      this.#shapes.clear();
       this.#deliverAll();
     }
     this.#onSteered();
@@ -201,34 +183,20 @@ export class Viewer {
     const scene = readScene(this.#x3d, this.#geometries);
     const places = shapesOf(scene.root);
     const described = new Map(places.map((shape) => [shape.element, shape]));
-    const isShown = (shape: ShapeDescription | undefined) => {
-      const loaded = shape && this.#shapes.get(shape.element);
-      return loaded !== undefined && loaded.geometry === shape?.geometry;
-    };
-    const gone = Array.from(this.#shapes).filter(([element]) => !isShown(described.get(element)));
-    const begun = Array.from(described.values()).filter((shape) => !isShown(shape));
-
-    // The renderer lets go of textures before the pool closes their images.
-    for (const [element, shape] of gone) {
-      this.renderer.clearShape(element);
-      this.#shapes.delete(element);
-      shape.loading.abandon();
-    }
+    const leave = this.#shapes.keep(described);
     this.#built = { ...this.renderer.setScene(scene), navigation: scene.navigation };
     this.navigator.setScene(this.#built);
-    for (const shape of begun) this.#begin(shape);
-    for (const { element, appearance } of described.values()) this.#followTexture(element as Element, appearance.texture);
-    const visible = new Set(places.filter((shape) => shape.visible).map(({ element }) => element));
-    for (const [element, shape] of this.#shapes) shape.isVisible = visible.has(element);
-    const isLoading = Array.from(this.#shapes.values()).some(({ isVisible, loading }) => isVisible && !loading.isSettled);
-    if (isLoading && this.#loading.isEnded) this.#loading = new Loading(this.#x3d, this.#transfers);
+    for (const shape of described.values()) {
+      if (this.#shapes.has(shape)) continue;
+      this.#shapes.begin(shape);
+      if (shape.geometry?.base !== undefined) this.#workers.prepareHere();
+    }
+    for (const { element, appearance } of described.values()) this.#shapes.followTexture(element as Element, appearance.texture);
+    this.#shapes.setVisible(new Set(places.filter((shape) => shape.visible).map(({ element }) => element)));
+    if (this.#shapes.isLoading && this.#loading.isEnded) this.#loading = new Loading(this.#x3d, this.#transfers);
     this.#steering.setScene(scene, (problem) => { this.#warn(this.#x3d, `chunkPriority: ${problem}`); });
     for (const { element, message } of scene.warnings) this.#warn(element, message);
-    // Last, so that files that old and new shapes share are not fetched again.
-    for (const [, shape] of gone) {
-      shape.delivery?.cancel();
-      shape.texture?.joined.cancel();
-    }
+    leave(); // last, so that files that old and new shapes share are not fetched again
   }
 
   /** The geometry that this is, or is a part of, may have changed. */
@@ -244,102 +212,36 @@ export class Viewer {
     this.navigator.bind(element, element.getAttribute(attribute)?.trim().toLowerCase() === "true");
   }
 
-  #begin({ element: described, geometry, visible }: ShapeDescription): void {
-    const element = described as Element;
-    const stages = geometry?.patches.map(() => "none" as const) ?? [];
-    const loading = new Loading(element, () => transfersOf(shape));
-    const shape: LoadedShape = { geometry, stages, isVisible: visible, loading, delivery: undefined, texture: undefined };
-    this.#shapes.set(element, shape);
-    if (geometry === undefined) {
-      shape.loading.settle();
-      return;
-    }
-    if (geometry.base !== undefined) this.#workers.prepareHere();
-    if (!this.renderer.isContextLost) this.#deliver(shape, geometry, element);
-  }
-
-  #deliver(shape: LoadedShape, geometry: GeometryDescription, element: Element): void {
-    shape.delivery = this.#deliveries.join(geometry, {
-      onStage: (patch, stage) => {
-        this.#setStage(element, geometry, patch, stage);
-        if (stage?.kind === "textures" && this.#trial === "needless") this.#trial = "due";
-        shape.stages[patch] = stage?.name ?? "none";
-        // A shape is as far as its last patch; with a first picture as soon as any patch shows.
-        shape.loading.reach(stageShown(shape.stages));
-      },
-      onError: (error) => { this.#fail(shape, element, error); },
-      onSettled: () => { this.#settle(shape); },
-    });
-  }
-
-  #setStage(element: Element, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
+  /** The scene reaches as far as what has come of it. */
+  #followSphere(): void {
     const { sphere } = this.renderer;
-    this.renderer.setStage(element, geometry, patch, stage);
-    if (this.renderer.sphere !== sphere && this.#built !== undefined) this.navigator.setScene({ ...this.#built, sphere: this.renderer.sphere });
+    if (this.#built === undefined || this.#built.sphere === sphere) return;
+    this.#built = { ...this.#built, sphere };
+    this.navigator.setScene(this.#built);
   }
 
-  /** A picture in another's place: the renderer lets go of the old one before it is closed. */
-  #followTexture(element: Element, texture: TextureDescription | undefined): void {
-    const shape = this.#shapes.get(element);
-    const key = texture && pictureKeyOf(texture);
-    if (shape === undefined || shape.texture?.key === key || this.renderer.isContextLost) return;
-    this.renderer.setPicture(element, undefined);
-    const before = shape.texture;
-    shape.texture = texture && key !== undefined ? { key, joined: this.#textures.join(texture, {
-      onPicture: (picture) => { this.renderer.setPicture(element, picture); },
-      onError: (error) => { this.#fail(shape, element, error); },
-      onSettled: () => { this.#settle(shape); },
-    }) } : undefined;
-    before?.joined.cancel();
-  }
-
-  /** Shapes from which this view needs nothing (more) are complete, even if they could be finer. */
   #onSteered(): void {
-    for (const shape of this.#shapes.values()) {
-      this.#settle(shape);
-    }
+    this.#shapes.settle();
     this.#progressSoon();
   }
 
   /** All that was on the GPU is gone. What is asked for now would come to nothing. */
   #loseContext(): void {
     this.#warn(this.#x3d, "has lost its WebGL context, which the browser took; it comes back with it");
-    this.#clear();
-  }
-
-  #clear(): void {
-    for (const [element, shape] of this.#shapes) {
-      this.renderer.clearShape(element);
-      this.renderer.setPicture(element, undefined);
-      shape.delivery?.cancel();
-      shape.delivery = undefined;
-      shape.texture?.joined.cancel();
-      shape.texture = undefined;
-      shape.stages.fill("none");
-    }
+    this.#shapes.clear();
   }
 
   /** Everything is fetched once more, from the browser's cache as a rule. Events go on where they were. */
   #deliverAll(): void {
-    for (const [element, shape] of this.#shapes) {
-      if (shape.geometry !== undefined) this.#deliver(shape, shape.geometry, element as Element);
-    }
+    this.#shapes.deliverAll();
     this.#readDocument(); // textures too
     this.renderer.requestFrame();
   }
 
-  /** Where nothing of it is on its way. */
-  #settle({ loading, isVisible, delivery, texture }: LoadedShape): void {
-    if (loading.isSettled || !isVisible || this.#trial === "due" || this.#trial === "running") return;
-    if (delivery?.isSettled !== true || texture?.joined.isSettled === false) return;
-    loading.settle();
-    this.renderer.requestFrame(); // events wait for a frame
-  }
-
-  #fail(shape: LoadedShape, element: Element, error: DeliveryError): void {
+  #fail(error: DeliveryError, element: Element, loading: Loading): void {
     this.#logOnce("error", error.message);
     const detail = { type: error.kind, url: error.url, element, message: error.message };
-    shape.loading.fail(detail, error);
+    loading.fail(detail, error);
     this.#loading.fail(detail, error);
   }
 
@@ -350,10 +252,7 @@ export class Viewer {
   #tellProgress(): void {
     clearTimeout(this.#progressTimer);
     this.#progressTimer = undefined;
-    for (const shape of this.#shapes.values()) {
-      const { loading, delivery } = shape;
-      if (delivery && shape.isVisible && !loading.isEnded) loading.moveOn(progressOf(transfersOf(shape), loading.progress));
-    }
+    this.#shapes.tellProgress();
     if (!this.#loading.isEnded) this.#loading.moveOn(progressOf(this.#transfers(), this.#loading.progress));
     this.#listener.onProgress(this.#loading.progress.totalProgress, this.#loading.stage);
   }
@@ -362,13 +261,12 @@ export class Viewer {
     this.#listener.onFrame();
     if (!this.#isLoading) return;
     this.#tellProgress(); // all of it before `load`
-    // Not what is hidden: that is fetched when it is shown.
-    const awaited = Array.from(this.#shapes.values()).filter(({ isVisible }) => isVisible).map(({ loading }) => loading);
+    const { awaited } = this.#shapes;
     // Asked for only now: until a frame has shown the end, further shapes may join.
     if (awaited.every((loading) => loading.isSettled)) this.#loading.settle();
     // Shapes of which nothing will come do not hold the scene back.
     this.#loading.reach(stageShown(awaited.filter(({ stage, isSettled }) => stage !== "none" || !isSettled).map(({ stage }) => stage)));
-    for (const { loading } of this.#shapes.values()) loading.onFrame(false);
+    this.#shapes.onFrame();
     this.#loading.onFrame(true);
     this.#steering.follow();
     if (this.#trial === "due") void this.#tryTextures();
@@ -386,20 +284,10 @@ export class Viewer {
   }
 }
 
-function transfersOf({ delivery, texture }: LoadedShape): readonly Readonly<Transfer>[] {
-  const own = delivery?.transfers ?? [];
-  return texture === undefined ? own : [...own, ...texture.joined.transfers];
-}
-
 /** Not what the runtime and the page have put into the view itself. */
 function isOfScene(node: Node, x3d: Element): boolean {
   for (let inner: Node | null = node; inner !== null && inner !== x3d; inner = inner.parentNode) {
     if (inner.parentNode === x3d) return inner.nodeName.toLowerCase() !== viewTag;
   }
   return true;
-}
-
-function stageShown(stages: readonly (StageName | "none")[]): StageName | "none" {
-  const least = leastStage(stages);
-  return least === "none" && stages.some((stage) => stage !== "none") ? (stageNames[0] ?? "none") : least;
 }

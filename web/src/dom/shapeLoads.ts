@@ -1,0 +1,213 @@
+// The loading of a scene's shapes: what each has asked for, what of it is on the
+// screen, and what its element says of that.
+
+import type { Stage, StageName } from "../decode/stage.ts";
+import { stageNames } from "../decode/stage.ts";
+import type { DeliveryError } from "../delivery/deliveryError.ts";
+import type { Transfer } from "../delivery/progress.ts";
+import { progressOf } from "../delivery/progress.ts";
+import type { JoinedDelivery, SharedDeliveries } from "../delivery/sharedDeliveries.ts";
+import type { JoinedTexture, TextureDeliveries } from "../delivery/textureDeliveries.ts";
+import { pictureKeyOf } from "../delivery/textureDeliveries.ts";
+import type { GeometryDescription, ShapeDescription, TextureDescription } from "../document/description.ts";
+import type { SceneElement } from "../document/element.ts";
+import type { SceneRenderer } from "../render/sceneRenderer.ts";
+import { leastStage, Loading } from "./loading.ts";
+
+interface LoadedShape {
+  readonly geometry: GeometryDescription | undefined;
+  /** In any of its places. */
+  isVisible: boolean;
+  readonly loading: Loading;
+  readonly stages: (StageName | "none")[];
+  delivery: JoinedDelivery | undefined;
+  /** What is laid over it. */
+  texture: { readonly key: string; readonly joined: JoinedTexture } | undefined;
+}
+
+export interface ShapeLoadsListener {
+  /** A patch shows another stage. */
+  onStage(stage: Stage | undefined): void;
+  onError(error: DeliveryError, element: Element, loading: Loading): void;
+  /** Whether shapes of which nothing is on its way may be complete. */
+  maySettle(): boolean;
+}
+
+/** Ends what was begun for shapes that are gone. */
+export type Leave = () => void;
+
+export class ShapeLoads {
+  readonly #renderer: SceneRenderer;
+  readonly #deliveries: SharedDeliveries;
+  readonly #textures: TextureDeliveries;
+  readonly #listener: ShapeLoadsListener;
+  readonly #shapes = new Map<SceneElement, LoadedShape>();
+
+  constructor(renderer: SceneRenderer, deliveries: SharedDeliveries, textures: TextureDeliveries, listener: ShapeLoadsListener) {
+    this.#renderer = renderer;
+    this.#deliveries = deliveries;
+    this.#textures = textures;
+    this.#listener = listener;
+  }
+
+  /** Its geometry is what its element shows already. */
+  has({ element, geometry }: ShapeDescription): boolean {
+    const loaded = this.#shapes.get(element);
+    return loaded !== undefined && loaded.geometry === geometry;
+  }
+
+  /**
+   * Takes away all shapes but these. The files that they alone have asked for are
+   * given up when what comes back is called: after those of new shapes are asked for.
+   */
+  keep(described: ReadonlyMap<SceneElement, ShapeDescription>): Leave {
+    const gone = Array.from(this.#shapes).filter(([element]) => {
+      const shape = described.get(element);
+      return shape === undefined || !this.has(shape);
+    });
+    // The renderer lets go of textures before the pool closes their images.
+    for (const [element, { loading }] of gone) {
+      this.#renderer.clearShape(element);
+      this.#shapes.delete(element);
+      loading.abandon();
+    }
+    return () => {
+      for (const [, { delivery, texture }] of gone) {
+        delivery?.cancel();
+        texture?.joined.cancel();
+      }
+    };
+  }
+
+  begin({ element: described, geometry, visible }: ShapeDescription): void {
+    const element = described as Element;
+    const stages = geometry?.patches.map(() => "none" as const) ?? [];
+    const loading = new Loading(element, () => transfersOf(shape));
+    const shape: LoadedShape = { geometry, stages, isVisible: visible, loading, delivery: undefined, texture: undefined };
+    this.#shapes.set(element, shape);
+    if (geometry === undefined) shape.loading.settle();
+    else if (!this.#renderer.isContextLost) this.#deliver(shape, geometry, element);
+  }
+
+  /** A picture in another's place: the renderer lets go of the old one before it is closed. */
+  followTexture(element: Element, texture: TextureDescription | undefined): void {
+    const shape = this.#shapes.get(element);
+    const key = texture && pictureKeyOf(texture);
+    if (shape === undefined || shape.texture?.key === key || this.#renderer.isContextLost) return;
+    this.#renderer.setPicture(element, undefined);
+    const before = shape.texture;
+    shape.texture = texture && key !== undefined ? { key, joined: this.#textures.join(texture, {
+      onPicture: (picture) => { this.#renderer.setPicture(element, picture); },
+      onError: (error) => { this.#fail(shape, element, error); },
+      onSettled: () => { this.#settle(shape); },
+    }) } : undefined;
+    before?.joined.cancel();
+  }
+
+  /** The elements that are seen in one of their places. */
+  setVisible(visible: ReadonlySet<SceneElement>): void {
+    for (const [element, shape] of this.#shapes) shape.isVisible = visible.has(element);
+  }
+
+  /** Something that is seen is still to come. */
+  get isLoading(): boolean {
+    for (const { isVisible, loading } of this.#shapes.values()) if (isVisible && !loading.isSettled) return true;
+    return false;
+  }
+
+  /** Patches whose files are for workers to decode, whatever the GPU can do. */
+  get jobsToCome(): number {
+    let sum = 0;
+    for (const { geometry, isVisible } of this.#shapes.values()) {
+      if (isVisible && (geometry?.container === "compact" || geometry?.decode === "cpu")) sum += geometry.patches.length;
+    }
+    return sum;
+  }
+
+  /** Loadings of what is seen: what is hidden is fetched when it is shown. */
+  get awaited(): readonly Loading[] {
+    return Array.from(this.#shapes.values()).filter(({ isVisible }) => isVisible).map(({ loading }) => loading);
+  }
+
+  /** Shapes from which this view needs nothing (more) are complete, even if they could be finer. */
+  settle(): void {
+    for (const shape of this.#shapes.values()) this.#settle(shape);
+  }
+
+  tellProgress(): void {
+    for (const shape of this.#shapes.values()) {
+      const { loading, delivery } = shape;
+      if (delivery && shape.isVisible && !loading.isEnded) loading.moveOn(progressOf(transfersOf(shape), loading.progress));
+    }
+  }
+
+  onFrame(): void {
+    for (const { loading } of this.#shapes.values()) loading.onFrame(false);
+  }
+
+  /** Lets go of everything, but not of the shapes. */
+  clear(): void {
+    for (const [element, shape] of this.#shapes) {
+      this.#renderer.clearShape(element);
+      this.#renderer.setPicture(element, undefined);
+      shape.delivery?.cancel();
+      shape.delivery = undefined;
+      shape.texture?.joined.cancel();
+      shape.texture = undefined;
+      shape.stages.fill("none");
+    }
+  }
+
+  /** Asks for it once more; textures are for who reads the document. Events go on where they were. */
+  deliverAll(): void {
+    for (const [element, shape] of this.#shapes) {
+      if (shape.geometry !== undefined) this.#deliver(shape, shape.geometry, element as Element);
+    }
+  }
+
+  dispose(): void {
+    for (const { delivery, texture, loading } of this.#shapes.values()) {
+      delivery?.cancel();
+      texture?.joined.cancel();
+      loading.abandon();
+    }
+    this.#shapes.clear();
+  }
+
+  #deliver(shape: LoadedShape, geometry: GeometryDescription, element: Element): void {
+    shape.delivery = this.#deliveries.join(geometry, {
+      onStage: (patch, stage) => {
+        this.#renderer.setStage(element, geometry, patch, stage);
+        this.#listener.onStage(stage);
+        shape.stages[patch] = stage?.name ?? "none";
+        // A shape is as far as its last patch; with a first picture as soon as any patch shows.
+        shape.loading.reach(stageShown(shape.stages));
+      },
+      onError: (error) => { this.#fail(shape, element, error); },
+      onSettled: () => { this.#settle(shape); },
+    });
+  }
+
+  /** Where nothing of it is on its way. */
+  #settle({ loading, isVisible, delivery, texture }: LoadedShape): void {
+    if (loading.isSettled || !isVisible || !this.#listener.maySettle()) return;
+    if (delivery?.isSettled !== true || texture?.joined.isSettled === false) return;
+    loading.settle();
+    this.#renderer.requestFrame(); // events wait for a frame
+  }
+
+  #fail({ loading }: LoadedShape, element: Element, error: DeliveryError): void {
+    this.#listener.onError(error, element, loading);
+  }
+}
+
+function transfersOf({ delivery, texture }: LoadedShape): readonly Readonly<Transfer>[] {
+  const own = delivery?.transfers ?? [];
+  return texture === undefined ? own : [...own, ...texture.joined.transfers];
+}
+
+/** How far something is whose parts are at these stages: with a first picture as soon as any of them shows. */
+export function stageShown(stages: readonly (StageName | "none")[]): StageName | "none" {
+  const least = leastStage(stages);
+  return least === "none" && stages.some((stage) => stage !== "none") ? (stageNames[0] ?? "none") : least;
+}

@@ -1,0 +1,148 @@
+// What of a scene is drawn: the shapes of its document by their elements, hung
+// into the groups that place them, and how far they reach.
+
+import type { Camera, Object3D, Sphere } from "three";
+import { Box3, Frustum, Group, Matrix4, Vector3 } from "three";
+import type { Bounds, Stage } from "../decode/stage.ts";
+import type { GeometryDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
+import { shapesOf } from "../document/description.ts";
+import type { SceneElement } from "../document/element.ts";
+import type { PlacedViewpoint } from "../navigation/camera.ts";
+import { sphereAround } from "../navigation/camera.ts";
+import type { ShownPicture } from "./look.ts";
+import type { PickCandidate } from "./picking.ts";
+import type { BoundedGroup } from "./sceneGraph.ts";
+import { buildGraph } from "./sceneGraph.ts";
+import type { ShapeSetting } from "./shapeObject.ts";
+import { ShapeObject } from "./shapeObject.ts";
+
+/** What the scene has in it, in the scene's coordinates. */
+export interface BuiltScene {
+  /** Around all that is seen. */
+  readonly sphere: Sphere;
+  /** In document order. */
+  readonly viewpoints: readonly PlacedViewpoint[];
+}
+
+export class SceneShapes {
+  readonly #scene: Object3D;
+  readonly #setting: ShapeSetting;
+  readonly #shapes = new Map<SceneElement, ShapeObject>();
+  #root = new Group();
+  #sphere = sphereAround(new Box3());
+  #box = new Box3();
+  #bounded: readonly BoundedGroup[] = [];
+
+  /** What is drawn hangs in `scene`. */
+  constructor(scene: Object3D, setting: ShapeSetting) {
+    this.#scene = scene;
+    this.#setting = setting;
+  }
+
+  /** No shape shows anything yet. */
+  get isEmpty(): boolean {
+    for (const { isEmpty } of this.#shapes.values()) if (!isEmpty) return false;
+    return true;
+  }
+
+  /** Around all that is seen, in the scene's coordinates. Grows when vertices tell of a box that the document does not. */
+  get sphere(): Sphere {
+    return this.#sphere;
+  }
+
+  /** What points may be wide, in CSS pixels; 0 where no shape says. */
+  get largestPoint(): number {
+    let largest = 0;
+    for (const { largestPoint } of this.#shapes.values()) largest = Math.max(largest, largestPoint);
+    return largest;
+  }
+
+  /** What puts a shape into its place number `place`: 16 numbers, column by column. */
+  sceneFromShape(element: SceneElement, place: number): readonly number[] | undefined {
+    return this.#shapes.get(element)?.groupAt(place).matrixWorld.elements;
+  }
+
+  /** Shows this scene from now on. Shapes that are gone give back what they hold on the GPU. */
+  setScene(description: SceneDescription): BuiltScene {
+    const shapes = new Map(shapesOf(description.root).map((shape) => [shape.element, shape]));
+    for (const [element, object] of this.#shapes) {
+      if (shapes.has(element)) continue;
+      object.dispose();
+      this.#shapes.delete(element);
+    }
+    const places = new Map<SceneElement, number>();
+    const { root, box, bounded, viewpoints } = buildGraph(description, (shape) => {
+      const place = places.get(shape.element) ?? 0;
+      places.set(shape.element, place + 1);
+      return this.#objectOf(shape).groupAt(place);
+    });
+    for (const [element, shape] of shapes) {
+      const object = this.#objectOf(shape);
+      object.keepPlaces(places.get(element) ?? 0);
+      object.setShape(shape);
+    }
+    this.#root.removeFromParent();
+    this.#root = root;
+    this.#scene.add(root);
+    root.updateMatrixWorld();
+    this.#box = box;
+    this.#bounded = bounded;
+    this.#sphere = sphereAround(box);
+    for (const object of this.#shapes.values()) for (const bounds of object.bounds()) this.#grow(object, bounds);
+    return { sphere: this.#sphere, viewpoints };
+  }
+
+  /** Replaces what a patch of a shape shows. */
+  setStage(element: SceneElement, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
+    const object = this.#shapes.get(element);
+    object?.setStage(geometry, patch, stage);
+    if (object !== undefined && stage?.kind === "buffers" && stage.bounds !== undefined) this.#grow(object, stage.bounds);
+  }
+
+  setPicture(element: SceneElement, picture: ShownPicture | undefined): void {
+    this.#shapes.get(element)?.setPicture(picture);
+  }
+
+  /** Takes away what a shape shows. */
+  clearShape(element: SceneElement): void {
+    this.#shapes.get(element)?.clear();
+  }
+
+  /** What is drawn and may be picked. */
+  *pickCandidates(): Generator<PickCandidate> {
+    for (const [element, object] of this.#shapes) {
+      if (!object.isPickable) continue;
+      for (const placed of object.placedDraws()) if (isShown(placed.object)) yield { ...placed, element };
+    }
+  }
+
+  /** Before a frame: groups that tell where they end are not looked into when they are out of the view. */
+  passOver(camera: Camera): void {
+    if (this.#bounded.length === 0) return;
+    camera.updateMatrixWorld();
+    const frustum = new Frustum().setFromProjectionMatrix(new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
+    for (const { group, box } of this.#bounded) group.visible = frustum.intersectsBox(box);
+  }
+
+  dispose(): void {
+    for (const object of this.#shapes.values()) object.dispose();
+    this.#shapes.clear();
+  }
+
+  #grow(object: ShapeObject, { min, max }: Bounds): void {
+    for (const group of object.groups) {
+      const box = new Box3(new Vector3(...min), new Vector3(...max)).applyMatrix4(group.matrixWorld);
+      if (!this.#box.containsBox(box)) this.#sphere = sphereAround(this.#box.union(box));
+    }
+  }
+
+  #objectOf(shape: ShapeDescription): ShapeObject {
+    const object = this.#shapes.get(shape.element) ?? new ShapeObject(this.#setting, shape);
+    this.#shapes.set(shape.element, object);
+    return object;
+  }
+}
+
+function isShown(object: Object3D | null): boolean {
+  return object === null || (object.visible && isShown(object.parent));
+}
