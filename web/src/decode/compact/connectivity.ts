@@ -14,6 +14,11 @@ export interface Connectivity {
   readonly behind: Int32Array;
   /** Per vertex: the corner opposite of the edge on its other side. */
   readonly second: Int32Array;
+  /**
+   * Of triangles, per place on the boundary, in the order of their making: how many triangles and
+   * places there were when all around it were decoded. Between two of these come a place's own.
+   */
+  readonly fans: Int32Array;
   /** Per vertex, lines: the other end of the line that brought it. */
   readonly from: Int32Array;
 }
@@ -22,7 +27,7 @@ const nothing = new Int32Array();
 
 /** What points have. */
 export const unconnected: Connectivity = {
-  vertex: nothing, across: nothing, closing: nothing, ahead: nothing, behind: nothing, second: nothing, from: nothing,
+  vertex: nothing, across: nothing, closing: nothing, ahead: nothing, behind: nothing, second: nothing, fans: nothing, from: nothing,
 };
 
 /** The corners of a corner's triangle after and before it, in its orientation. */

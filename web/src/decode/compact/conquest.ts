@@ -63,15 +63,19 @@ class Conquest {
 
   run(): Connectivity {
     const nodes = this.#nodes;
+    const fans = new Int32Array(2 * 3 * this.#triangleCount);
     let pivot = 0;
+    let place = 0;
     while (this.#triangle < this.#triangleCount) {
       this.#takeRoot();
       for (; pivot < this.#node; pivot += nodeSize) {
         while (this.#triangle < this.#triangleCount && nodes[pivot + previousField]! >= 0) this.#crossEdgeTo(pivot);
+        fans[place++] = this.#triangle;
+        fans[place++] = this.#node / nodeSize;
       }
     }
     if (this.#newVertex < this.#vertexCount) throw new DecodeError("malformed", "holds fewer vertices than its header states");
-    return this.#out;
+    return { ...this.#out, fans: fans.subarray(0, place) };
   }
 
   /** A triangle that shares no edge with the boundary. */

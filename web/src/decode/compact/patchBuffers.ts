@@ -26,12 +26,7 @@ const mostShortVertices = 65535;
 
 /** Of each kind of attribute the first is shown. */
 export function buffersOf(patch: CompactPatch): PatchBuffers {
-  const { header, wedges } = patch;
-  return {
-    ...verticesOf(patch),
-    index: header.topology === "points" ? undefined
-      : indexOf(header.topology === "triangles" ? orderForVertexCache(wedges.wedge, header.wedgeCount) : wedges.wedge, header.wedgeCount),
-  };
+  return { ...verticesOf(patch), index: patch.header.topology === "points" ? undefined : orderedIndexOf(patch) };
 }
 
 /** All but the index. */
@@ -55,8 +50,19 @@ export function verticesOf(patch: CompactPatch): Omit<PatchBuffers, "index"> {
   };
 }
 
+function orderedIndexOf({ header, wedges: { wedge }, connectivity: { fans } }: CompactPatch): IndexArray {
+  if (header.topology !== "triangles") return indexOf(wedge, header.wedgeCount);
+  return orderForVertexCache(wedge, fans, emptyIndex(wedge.length, header.wedgeCount));
+}
+
 export function indexOf(corners: Int32Array, vertexCount: number): IndexArray {
-  return vertexCount <= mostShortVertices ? Uint16Array.from(corners) : Uint32Array.from(corners);
+  const index = emptyIndex(corners.length, vertexCount);
+  index.set(corners);
+  return index;
+}
+
+function emptyIndex(length: number, vertexCount: number): IndexArray {
+  return vertexCount <= mostShortVertices ? new Uint16Array(length) : new Uint32Array(length);
 }
 
 function coordOf({ header, coordinates, connectivity, wedges: { seams } }: CompactPatch): VertexArray {
@@ -86,11 +92,15 @@ function sharesOf(values: Int32Array, { components, bits }: AttributeType): Vert
 function interleaved(values: Int32Array, components: 2 | 3 | 4, array: ElementArray, factor: number): VertexArray {
   const count = values.length / components;
   const stride = array.length / count;
-  if (stride === components && factor === 1) {
+  if (factor !== 1) {
+    for (let n = 0; n < count; ++n) {
+      for (let i = 0; i < components; ++i) array[stride * n + i] = Math.round(values[components * n + i]! * factor);
+    }
+  } else if (stride === components) {
     array.set(values);
   } else {
     for (let n = 0; n < count; ++n) {
-      for (let i = 0; i < components; ++i) array[stride * n + i] = Math.round(values[components * n + i]! * factor);
+      for (let i = 0; i < components; ++i) array[stride * n + i] = values[components * n + i]!;
     }
   }
   return { array, components, stride, offset: 0 };
