@@ -68,7 +68,9 @@ function checkSum({ type, data }: { type: string; data: Uint8Array }): void {
 async function inflate(packed: readonly Uint8Array<ArrayBuffer>[], length: number): Promise<Uint8Array> {
   const bytes = new Uint8Array(length);
   let filled = 0;
-  const reader = new Blob([...packed]).stream().pipeThrough(new DecompressionStream("deflate")).getReader();
+  const { writable, readable } = new DecompressionStream("deflate");
+  const reader = readable.getReader();
+  feed(writable, packed).catch(() => undefined); // the reader is told the same
   try {
     for (let part = await reader.read(); !part.done; part = await reader.read()) {
       if (filled + part.value.length > length) throw new DecodeError("malformed", "holds more than its texels");
@@ -82,6 +84,12 @@ async function inflate(packed: readonly Uint8Array<ArrayBuffer>[], length: numbe
   }
   if (filled < length) throw new DecodeError("truncated", "does not hold all of its texels");
   return bytes;
+}
+
+async function feed(stream: WritableStream<BufferSource>, parts: readonly Uint8Array<ArrayBuffer>[]): Promise<void> {
+  const writer = stream.getWriter();
+  for (const part of parts) await writer.write(part);
+  await writer.close();
 }
 
 /** Undoes the five filters of PNG, row by row: a byte is told relative to those left of it, above it, and left above it. */
