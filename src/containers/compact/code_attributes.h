@@ -9,8 +9,9 @@
 namespace imgeo::compact {
 
 namespace attributeModels {
-inline constexpr std::size_t repeat = 0, choice = repeat + 1, flip = choice + 24, first = flip + 1,
-                             second = first + numberModels, count = second + 93 * numberModels;
+inline constexpr std::size_t repeat = 0, choice = repeat + 1, exact = choice + 24, flip = exact + 2,
+                             first = flip + 1, second = first + numberModels,
+                             count = second + 93 * numberModels;
 }
 
 /// What attributes are predicted from.

@@ -75,12 +75,13 @@ inline NormalSums sumsOfWedges(const Surface& surface, const std::vector<bool>& 
   return sums;
 }
 
+/// A normal that is not where it is expected.
 template <typename Coder>
-Value codeNormal(Coder& coder, OctahedronPoint point, std::int64_t radius, const Value& value) {
+Value codeOtherNormal(Coder& coder, OctahedronPoint point, std::int64_t radius, const Value& value) {
   const auto at = [&](int axis) { return value[static_cast<std::uint32_t>(axis)]; };
-  const SignedNumber du = codeSigned(coder, attributeModels::first, at(point.u) - point.atU);
+  const SignedNumber du = codeSmall(coder, attributeModels::first, at(point.u) - point.atU);
   const std::size_t models = attributeModels::second + numberModels * std::min(du.length, 7u);
-  const SignedNumber dv = codeSigned(coder, models, at(point.v) - point.atV);
+  const SignedNumber dv = codeSmall(coder, models, at(point.v) - point.atV);
   point.atU += du.value;
   point.atV += dv.value;
   const std::int64_t rest = radius - std::abs(point.atU) - std::abs(point.atV);
@@ -105,6 +106,7 @@ void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type
       hasTriangles && !ofVertices ? sumsOfWedges(surface, repeats, type.isUniform()) : NormalSums(0, 0);
   const NormalSums& sums = ofVertices ? surface.normalSums : ofWedges;
   const std::uint32_t end = std::min(static_cast<std::uint32_t>(wedges.count()), limit);
+  bool isExact = false; // as the one before was
   for (std::uint32_t wedge = 0; wedge < end; ++wedge) {
     if (repeats[wedge]) {
       values[wedge] = values[wedges.previous[wedge]];
@@ -116,8 +118,9 @@ void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type
     else if (wedge > 0)
       direction = {values[wedge - 1][0], values[wedge - 1][1], values[wedge - 1][2]};
     const OctahedronPoint point = octahedronPoint(direction, radius);
-    values[wedge] =
-        type.isDerived() ? valueOf(point, radius) : codeNormal(coder, point, radius, values[wedge]);
+    const Value expected = valueOf(point, radius);
+    isExact = type.isDerived() || coder.bit(attributeModels::exact + isExact, values[wedge] == expected);
+    values[wedge] = isExact ? expected : codeOtherNormal(coder, point, radius, values[wedge]);
   }
 }
 

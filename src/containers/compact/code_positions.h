@@ -147,7 +147,7 @@ private:
             positionModels::line +
             numberModels * ((turn * 4 + std::min(steps, 3u)) * 8 + context.agreement / 2);
         const std::int64_t moved =
-            codeSigned(coder, models, nearestGridLine(*grid_, axis, coordinate) - line).value;
+            codeSmall(coder, models, nearestGridLine(*grid_, axis, coordinate) - line).value;
         steps += static_cast<std::uint32_t>(std::min<std::int64_t>(std::abs(moved), 7));
         coordinate = gridLine(*grid_, axis, line + moved);
       } else {

@@ -199,8 +199,10 @@ private:
       return encode(type);
     AttributeType other = type;
     other.mode = static_cast<NormalMode>(static_cast<unsigned>(type.mode) ^ 1u); // area, uniform
-    if (!type.isDerived() && effort_ < effortOfWholeTrials)
-      return encode(sampleSize(surface, other, values) < sampleSize(surface, type, values) ? other : type);
+    if (!type.isDerived() && effort_ < effortOfWholeTrials) {
+      const std::size_t size = sampleSize(surface, type, values);
+      return encode(size > smallSample && sampleSize(surface, other, values) < size ? other : type);
+    }
     EncodedAttribute given = encode(type), tried = encode(other);
     const bool isBetter =
         type.isDerived() ? tried.normalError < given.normalError : tried.bytes.size() < given.bytes.size();
@@ -214,6 +216,7 @@ private:
     return encoder.finish().size();
   }
   static constexpr std::uint32_t sampledNormals = 4096;
+  static constexpr std::size_t smallSample = sampledNormals / 16; ///< half a bit a normal: the mode is right
   static constexpr int effortOfWholeTrials = 7;
 
   const CompactPatch& patch_;

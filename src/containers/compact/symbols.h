@@ -42,17 +42,32 @@ struct SignedNumber {
   std::uint32_t length = 0; ///< of its absolute value, in bits: a context for what follows
 };
 
-/// -(2^30 - 1) .. 2^30 - 1.
-template <typename Coder> SignedNumber codeSigned(Coder& coder, std::size_t models, std::int64_t value = 0) {
+/// A number whose length `codeLength(magnitude's length)` codes.
+template <typename Coder, typename CodeLength>
+SignedNumber codeSignedBy(Coder& coder, std::int64_t value, CodeLength codeLength) {
   const auto magnitude = static_cast<std::uint32_t>(value < 0 ? -value : value);
-  const std::uint32_t length =
-      codeClass(coder, models, static_cast<std::uint32_t>(std::bit_width(magnitude)));
+  const std::uint32_t length = codeLength(static_cast<std::uint32_t>(std::bit_width(magnitude)));
   if (length == 0)
     return {};
   const std::uint32_t leading = 1u << (length - 1);
   const std::uint32_t rest = coder.raw(length, (magnitude & (leading - 1)) << 1 | std::uint32_t{value < 0});
   const auto decoded = static_cast<std::int32_t>(leading | rest >> 1);
   return {rest & 1 ? -decoded : decoded, length};
+}
+
+/// -(2^30 - 1) .. 2^30 - 1.
+template <typename Coder> SignedNumber codeSigned(Coder& coder, std::size_t models, std::int64_t value = 0) {
+  return codeSignedBy(coder, value, [&](std::uint32_t length) { return codeClass(coder, models, length); });
+}
+
+/// The same of one that is 0 more often than not: a question for each bit of its length, and one more.
+template <typename Coder> SignedNumber codeSmall(Coder& coder, std::size_t models, std::int64_t value = 0) {
+  return codeSignedBy(coder, value, [&](std::uint32_t length) {
+    std::uint32_t i = 0;
+    while (i < 30 && !coder.bit(models + i, i == length))
+      ++i;
+    return i;
+  });
 }
 
 } // namespace imgeo::compact

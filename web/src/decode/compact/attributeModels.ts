@@ -5,7 +5,8 @@ import { numberModels } from "./rangeDecoder.ts";
 
 export const repeatModel = 0;
 export const choiceModels = repeatModel + 1;
-export const flipModel = choiceModels + 24;
+export const exactModels = choiceModels + 24;
+export const flipModel = exactModels + 2;
 export const firstModels = flipModel + 1;
 export const secondModels = firstModels + numberModels;
 export const attributeModelCount = secondModels + 93 * numberModels;

@@ -2,7 +2,7 @@
 // (docs/formats/compact.md, "Normals").
 
 import { DecodeError } from "../decodeError.ts";
-import { attributeModelCount, firstModels, flipModel, repeatModel, secondModels } from "./attributeModels.ts";
+import { attributeModelCount, exactModels, firstModels, flipModel, repeatModel, secondModels } from "./attributeModels.ts";
 import type { AttributeType } from "./header.ts";
 import type { DecodedShape } from "./neighbours.ts";
 import { decodeRepeats } from "./neighbours.ts";
@@ -28,6 +28,8 @@ class NormalDecoder {
   readonly #normals: Int32Array;
   /** Undefined in points and lines: a normal is expected to be the one before. */
   readonly #sums: Int32Array | undefined;
+  /** 1 where the one before was where it was expected. */
+  #isExact: 0 | 1 = 0;
 
   constructor(decoder: RangeDecoder | undefined, type: AttributeType, shape: DecodedShape, repeats: Uint8Array) {
     this.#decoder = decoder;
@@ -68,18 +70,26 @@ class NormalDecoder {
     let u = this.#project(axis === 0 ? y : axis === 1 ? z : x, length);
     let v = this.#project(axis === 0 ? z : axis === 1 ? x : y, length);
     const isNegative = (axis === 0 ? x : axis === 1 ? y : z) < 0;
-    if (decoder) {
-      const residual = decoder.signed(firstModels);
+    let isFlipped = false;
+    if (decoder && !this.#isExpected(decoder)) {
+      const residual = decoder.small(firstModels);
       u += residual;
-      v += decoder.signed(secondModels + numberModels * Math.min(lengthInBits(Math.abs(residual)), 7));
+      v += decoder.small(secondModels + numberModels * Math.min(lengthInBits(Math.abs(residual)), 7));
+      const left = this.#radius - Math.abs(u) - Math.abs(v);
+      if (left < 0) throw new DecodeError("malformed", "holds a normal beside its octahedron");
+      isFlipped = left > 0 && decoder.bit(flipModel) === 1;
     }
     const rest = this.#radius - Math.abs(u) - Math.abs(v);
-    if (rest < 0) throw new DecodeError("malformed", "holds a normal beside its octahedron");
-    const isFlipped = decoder !== undefined && rest > 0 && decoder.bit(flipModel) === 1;
     const first = 3 * w;
     normals[first + (axis === 2 ? 0 : axis + 1)] = u;
     normals[first + (axis === 0 ? 2 : axis - 1)] = v;
     normals[first + axis] = isNegative !== isFlipped ? -rest : rest;
+  }
+
+  /** Most normals are. */
+  #isExpected(decoder: RangeDecoder): boolean {
+    this.#isExact = decoder.bit(exactModels + this.#isExact);
+    return this.#isExact === 1;
   }
 
   /** A component on the octahedron, rounded to the nearest. */

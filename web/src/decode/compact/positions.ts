@@ -59,7 +59,7 @@ class PositionDecoder {
   /** With one vertex more, the middle of the lattice, that the first one is predicted from. */
   readonly #coordinates: Int32Array;
   readonly #sums: NormalSums;
-  /** Candidates, each of three vertices a, b, c and meaning a + b - c. */
+  /** x, y, z of each candidate. */
   readonly #candidates = new Int32Array(3 * 4);
   #candidateCount = 0;
   #candidateSet = 0;
@@ -148,20 +148,15 @@ class PositionDecoder {
     this.#addCandidate(a, b, c, 0);
   }
 
+  /** a + b - c. */
   #addCandidate(a: number, b: number, c: number, flag: number): void {
-    const place = 3 * this.#candidateCount++;
-    this.#candidates[place] = a;
-    this.#candidates[place + 1] = b;
-    this.#candidates[place + 2] = c;
-    this.#candidateSet += flag;
-  }
-
-  /** One coordinate of a candidate. */
-  #candidate(i: number, axis: number): number {
     const coordinates = this.#coordinates;
     const candidates = this.#candidates;
-    return coordinates[3 * candidates[3 * i]! + axis]! + coordinates[3 * candidates[3 * i + 1]! + axis]!
-      - coordinates[3 * candidates[3 * i + 2]! + axis]!;
+    const place = 3 * this.#candidateCount++;
+    candidates[place] = coordinates[3 * a]! + coordinates[3 * b]! - coordinates[3 * c]!;
+    candidates[place + 1] = coordinates[3 * a + 1]! + coordinates[3 * b + 1]! - coordinates[3 * c + 1]!;
+    candidates[place + 2] = coordinates[3 * a + 2]! + coordinates[3 * b + 2]! - coordinates[3 * c + 2]!;
+    this.#candidateSet += flag;
   }
 
   /** The surface's normal at an edge, small enough to multiply with; gives its dominant axis. */
@@ -180,18 +175,21 @@ class PositionDecoder {
 
   #choose(): void {
     const decoder = this.#decoder;
+    const candidates = this.#candidates;
+    const guess = this.#guess;
     const last = this.#candidateCount - 1;
     this.#agreement = 0;
     let chosen = 0;
     if (last > 0) {
-      const apart = Math.max(Math.abs(this.#candidate(1, 0) - this.#candidate(0, 0)),
-                             Math.abs(this.#candidate(1, 1) - this.#candidate(0, 1)),
-                             Math.abs(this.#candidate(1, 2) - this.#candidate(0, 2)));
+      const apart = Math.max(Math.abs(candidates[3]! - candidates[0]!), Math.abs(candidates[4]! - candidates[1]!),
+                             Math.abs(candidates[5]! - candidates[2]!));
       this.#agreement = 1 + Math.min(14, lengthInBits(apart));
       const models = choiceModels + (this.#candidateSet * 16 + this.#agreement) * 4;
       while (chosen < last && decoder.bit(models + chosen) === 0) ++chosen;
     }
-    for (let axis = 0; axis < 3; ++axis) this.#guess[axis] = this.#candidate(chosen, axis);
+    guess[0] = candidates[3 * chosen]!;
+    guess[1] = candidates[3 * chosen + 1]!;
+    guess[2] = candidates[3 * chosen + 2]!;
   }
 
   #decode(x: number, dominant: 0 | 1 | 2, maskContext: number): void {
@@ -210,7 +208,7 @@ class PositionDecoder {
       const axis = orders[3 * (3 * mask + dominant) + j]!;
       let value: number;
       if (grid && (mask & 1 << axis) !== 0) {
-        const residual = decoder.signed(gridModels + numberModels * ((j * 4 + Math.min(steps, 3)) * 8 + (this.#agreement >> 1)));
+        const residual = decoder.small(gridModels + numberModels * ((j * 4 + Math.min(steps, 3)) * 8 + (this.#agreement >> 1)));
         steps += Math.abs(residual);
         value = lineOf(grid, axis, nearestLine(grid, axis, this.#clamp(guess[axis]!)) + residual);
       } else {

@@ -13,6 +13,7 @@ interface Call {
 function randomCall(random: TestRandom): Call {
   const models = 32 * random.below(4);
   const value = random.below(2 ** random.below(31));
+  const signed = random.below(2) === 1 ? -value : value;
   const calls: (() => Call)[] = [
     () => ({ encode: (encoder) => { encoder.bit(models + 31, value % 3 === 0); },
              check: (decoder) => { assert.equal(decoder.bit(models + 31), Number(value % 3 === 0)); } }),
@@ -25,11 +26,10 @@ function randomCall(random: TestRandom): Call {
              check: (decoder) => { assert.equal(decoder.tree(models, 4), value % 16); } }),
     () => ({ encode: (encoder) => { encoder.number(models, value); },
              check: (decoder) => { assert.equal(decoder.number(models), value); } }),
-    () => {
-      const signed = random.below(2) === 1 ? -value : value;
-      return { encode: (encoder) => { encoder.signed(models, signed); },
-               check: (decoder) => { assert.ok(decoder.signed(models) === signed); } };
-    },
+    () => ({ encode: (encoder) => { encoder.signed(models, signed); },
+             check: (decoder) => { assert.ok(decoder.signed(models) === signed); } }),
+    () => ({ encode: (encoder) => { encoder.small(models, signed); },
+             check: (decoder) => { assert.ok(decoder.small(models) === signed); } }),
   ];
   return calls[random.below(calls.length)]!();
 }
@@ -80,7 +80,8 @@ describe("a stream", () => {
   });
 
   test("ends every attempt to read on", () => {
-    const calls: ((decoder: RangeDecoder) => void)[] = [(decoder) => decoder.bit(0), (decoder) => decoder.raw(1), (decoder) => decoder.signed(0)];
+    const calls: ((decoder: RangeDecoder) => void)[] = [(decoder) => decoder.bit(0), (decoder) => decoder.raw(1), (decoder) => decoder.signed(0),
+      (decoder) => decoder.small(0)];
     for (const call of calls) {
       for (const byte of [0, 0x55, 0xff]) {
         const decoder = new RangeDecoder(new Uint8Array(1000).fill(byte), 32);

@@ -44,16 +44,21 @@ export class TestEncoder {
   }
 
   number(models: number, value: number): void {
-    const length = value === 0 ? 0 : Math.floor(Math.log2(value)) + 1;
+    const length = lengthOf(value);
     this.#length(models, length);
     if (length > 0) this.raw(length - 1, value - 2 ** (length - 1));
   }
 
   signed(models: number, value: number): void {
-    const magnitude = Math.abs(value);
-    const length = magnitude === 0 ? 0 : Math.floor(Math.log2(magnitude)) + 1;
+    const length = lengthOf(value);
     this.#length(models, length);
-    if (length > 0) this.raw(length, 2 * (magnitude - 2 ** (length - 1)) + Number(value < 0));
+    this.#rest(length, value);
+  }
+
+  small(models: number, value: number): void {
+    const length = lengthOf(value);
+    for (let place = 0; place < Math.min(length + 1, 30); ++place) this.bit(models + place, place === length);
+    this.#rest(length, value);
   }
 
   finish(): Uint8Array<ArrayBuffer> {
@@ -68,6 +73,10 @@ export class TestEncoder {
     if (length >= 15) this.tree(models + 16, 4, length - 15);
   }
 
+  #rest(length: number, value: number): void {
+    if (length > 0) this.raw(length, 2 * (Math.abs(value) - 2 ** (length - 1)) + Number(value < 0));
+  }
+
   #shiftOut(): void {
     this.#front.push(Math.floor(this.#low / 65536));
     this.#low = this.#low % 65536 * 256;
@@ -80,6 +89,11 @@ export class TestEncoder {
     for (; this.#front[digit] === 255; --digit) this.#front[digit] = 0;
     this.#front[digit] = this.#front[digit]! + 1;
   }
+}
+
+/** In bits. */
+function lengthOf(value: number): number {
+  return value === 0 ? 0 : Math.floor(Math.log2(Math.abs(value))) + 1;
 }
 
 /** Numbers that look random and are the same every time: Marsaglia, "Xorshift RNGs", 2003. */
