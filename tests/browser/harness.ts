@@ -2,9 +2,10 @@
 
 import assert from "node:assert/strict";
 import { after } from "node:test";
-import type { Browser, BrowserContext, Page } from "playwright-core";
+import type { Browser, Page } from "playwright-core";
 import { launchChromium } from "./chromium.ts";
 import { observe, type Observed, type ObservedEvent } from "./observe.ts";
+import { outputDirectory } from "./paths.ts";
 import { decodePng, type Picture } from "./png.ts";
 import { startServer, type TestServer } from "./server.ts";
 
@@ -58,21 +59,34 @@ export interface View {
 
 type Device = Required<Pick<PageOptions, "deviceScaleFactor" | "hasTouch" | "motion">>;
 
-const contexts = new Map<string, Promise<BrowserContext>>();
+const openers = new Map<string, Promise<Page>>();
 
-/** The context of all pages on such a device, as making one costs more than most
- *  pages; each test's server is an origin of its own, so that nothing is shared. */
-function contextFor(device: Device): Promise<BrowserContext> {
+/**
+ * A blank page on such a device. A context of its own, and two renderer processes
+ * (Chromium starts one for the blank page and one for its first address), would cost
+ * more than most tests; a page that another opens lives in the opener's process. Each
+ * test's server is an origin of its own, so that nothing else is shared.
+ */
+async function openPage(device: Device): Promise<Page> {
   const key = JSON.stringify(device);
-  const known = contexts.get(key) ?? openContext(device);
-  contexts.set(key, known);
-  return known;
+  const known = openers.get(key) ?? openOpener(device);
+  openers.set(key, known);
+  const opener = await known;
+  const [page] = await Promise.all([opener.waitForEvent("popup"), opener.evaluate(() => { window.open("about:blank"); })]);
+  return page;
 }
 
-async function openContext({ deviceScaleFactor, hasTouch, motion }: Device): Promise<BrowserContext> {
+/** Of the site, not the origin, of all the tests' servers: what it opens need not change processes. */
+async function openOpener({ deviceScaleFactor, hasTouch, motion }: Device): Promise<Page> {
   // Less motion: the bar does not fade while pictures are taken.
   const reducedMotion = motion ? "no-preference" : "reduce";
-  return (await browser()).newContext({ viewport: pictureSize, deviceScaleFactor, hasTouch, reducedMotion });
+  const context = await (await browser()).newContext({ viewport: pictureSize, deviceScaleFactor, hasTouch, reducedMotion });
+  const page = await context.newPage();
+  const server = await startServer(outputDirectory);
+  server.put("/", "<!doctype html>");
+  await page.goto(server.origin);
+  await server.close();
+  return page;
 }
 
 /** Opens a page of `directory`, calls `use`, closes everything, and asserts that
@@ -85,7 +99,7 @@ export async function withPage(
   const server = await startServer(directory);
   options.server?.(server);
   const { size = pictureSize, deviceScaleFactor = 1, hasTouch = false, motion = false } = options;
-  const page = await (await contextFor({ deviceScaleFactor, hasTouch, motion })).newPage();
+  const page = await openPage({ deviceScaleFactor, hasTouch, motion });
   try {
     await page.setViewportSize(size);
     await page.addInitScript(observe);
