@@ -209,11 +209,14 @@ describe("walking and flying", () => {
     });
   });
 
-  /** Long enough for some frames. */
+  /** For a quarter of a second, and some frames however slow they are. */
   async function hold({ page }: View, key: string): Promise<void> {
     const keys = key.split("+").filter((part) => part !== "");
     for (const part of keys.length ? keys : ["+"]) await page.keyboard.down(part);
-    await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 250)));
+    await page.evaluate(async () => {
+      const end = performance.now() + 250;
+      for (let frames = 0; frames < 8 || performance.now() < end; ++frames) await new Promise(requestAnimationFrame);
+    });
     for (const part of (keys.length ? keys : ["+"]).reverse()) await page.keyboard.up(part);
   }
 });
