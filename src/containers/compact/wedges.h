@@ -8,7 +8,7 @@
 namespace imgeo::compact {
 
 namespace wedgeModels {
-inline constexpr std::size_t same = 0, made = same + 9, step = made + 3, wedge = step + 16,
+inline constexpr std::size_t split = 0, same = split + 3, made = same + 9, step = made + 3, wedge = step + 16,
                              count = wedge + numberModels;
 }
 
@@ -32,20 +32,25 @@ public:
       : coder_(coder), connectivity_(connectivity), wedgeCount_(wedgeCount), sourceWedge_(sourceWedge),
         start_(connectivity.vertexCount, none), made_(connectivity.vertexCount, none),
         latest_(connectivity.vertexCount, none), extra_(connectivity.vertexCount, 0),
-        numbers_(Coder::encodes ? wedgeCount : 0, none) {
+        isSplit_(connectivity.vertexCount), numbers_(Coder::encodes ? wedgeCount : 0, none) {
     out_.ofCorner.reserve(connectivity.vertex.size());
+    if constexpr (Coder::encodes)
+      findSplits();
   }
 
   Wedges run() {
     const std::size_t perElement = connectivity_.across.empty() ? 2 : 3;
-    std::uint32_t differing = 0;
+    std::uint32_t differing = 0, splits = 0;
     for (std::uint32_t corner = 0; corner < connectivity_.vertex.size(); ++corner) {
       if (corner % perElement == 0)
-        differing = 0;
+        differing = splits = 0;
       const std::uint32_t vertex = connectivity_.vertex[corner];
-      std::uint32_t wedge = none;
-      if (start_[vertex] == none) {
+      std::uint32_t wedge = start_[vertex];
+      if (wedge == none) {
         wedge = make(corner);
+        isSplit_[vertex] = coder_.bit(wedgeModels::split + splits, isSplit_[vertex]);
+      } else if (!isSplit_[vertex]) {
+        // All its corners have the same.
       } else if (const std::uint32_t guess = guessAt(corner); codeIsSame(corner, guess, differing)) {
         wedge = guess;
       } else {
@@ -54,12 +59,25 @@ public:
       }
       out_.ofCorner.push_back(wedge);
       latest_[vertex] = wedge;
+      splits += isSplit_[vertex];
     }
     coder_.require(out_.count() == wedgeCount_, "there are fewer wedges than the header states");
     return std::move(out_);
   }
 
 private:
+  /// Which vertices have several wedges, for an encoder.
+  void findSplits() {
+    std::vector<std::uint32_t> firsts(connectivity_.vertexCount, none);
+    for (std::uint32_t corner = 0; corner < connectivity_.vertex.size(); ++corner) {
+      const std::uint32_t vertex = connectivity_.vertex[corner], wedge = sourceWedge_(corner);
+      if (firsts[vertex] == none)
+        firsts[vertex] = wedge;
+      else if (firsts[vertex] != wedge)
+        isSplit_[vertex] = true;
+    }
+  }
+
   /// The wedge that continues over the edge behind; the latest of the vertex where there is none.
   std::uint32_t guessAt(std::uint32_t corner) const {
     const std::uint32_t vertex = connectivity_.vertex[corner];
@@ -141,6 +159,7 @@ private:
   std::vector<std::uint32_t> start_, made_,
       latest_;                         ///< per vertex: its first wedge, the newest, the last met
   std::vector<std::uint32_t> extra_;   ///< per vertex: wedges beyond the first
+  std::vector<bool> isSplit_;          ///< per vertex: it has several wedges
   std::vector<std::uint32_t> numbers_; ///< source wedge -> wedge
 };
 

@@ -104,10 +104,21 @@ function sumsOf(type: AttributeType, shape: DecodedShape, repeats: Uint8Array): 
   const { header, connectivity: { vertex }, wedges: { wedge, seams }, coordinates, normalSums } = shape;
   if (!type.isUniform && seams === undefined) return normalSums;
   const sums = new NormalSums(header.wedgeCount, coordinates, header.normalShift, type.isUniform);
-  const target = Int32Array.from({ length: header.wedgeCount }, (_, w) => w);
-  for (let w = 0; seams && w < repeats.length; ++w) if (repeats[w] === 1) target[w] = target[seams.previous[w]!]!;
+  const target = new Int32Array(header.wedgeCount);
+  for (let w = 0; w < target.length; ++w) target[w] = repeats[w] === 1 ? target[seams!.previous[w]!]! : w;
+  // Without a split and without other weights a wedge has what its vertex has.
+  const isSplit = type.isUniform ? undefined : seams?.isSplit;
   for (let c = 0; c < vertex.length; c += 3) {
-    sums.add(vertex[c]!, vertex[c + 1]!, vertex[c + 2]!, target[wedge[c]!]!, target[wedge[c + 1]!]!, target[wedge[c + 2]!]!);
+    const va = vertex[c]!;
+    const vb = vertex[c + 1]!;
+    const vc = vertex[c + 2]!;
+    if (isSplit && (isSplit[va]! | isSplit[vb]! | isSplit[vc]!) === 0) continue;
+    sums.add(va, vb, vc, target[wedge[c]!]!, target[wedge[c + 1]!]!, target[wedge[c + 2]!]!);
   }
-  return sums.sums;
+  const all = sums.sums;
+  for (let w = 0; isSplit && w < header.wedgeCount; ++w) {
+    const v = vertex[seams!.corner[w]!]!;
+    if (isSplit[v] === 0) for (let axis = 0; axis < 3; ++axis) all[3 * w + axis] = normalSums[3 * v + axis]!;
+  }
+  return all;
 }

@@ -8,7 +8,8 @@ import { after, before } from "./connectivity.ts";
 import type { PatchHeader } from "./header.ts";
 import { numberModels, RangeDecoder } from "./rangeDecoder.ts";
 
-const sameModels = 0;
+const splitModels = 0;
+const sameModels = splitModels + 3;
 const madeModels = sameModels + 9;
 const stepModels = madeModels + 3;
 const wedgeModels = stepModels + 16;
@@ -27,6 +28,8 @@ export interface Seams {
   readonly corner: Int32Array;
   /** Per wedge: the one made before it at its vertex, or -1. */
   readonly previous: Int32Array;
+  /** Per vertex: 1 where it may have several. */
+  readonly isSplit: Uint8Array;
 }
 
 /** Safe for untrusted bytes. Throws DecodeError. */
@@ -53,6 +56,7 @@ class WedgeDecoder {
   readonly #newest: Int32Array;
   readonly #latest: Int32Array;
   readonly #extra: Int32Array;
+  readonly #isSplit: Uint8Array;
   #count = 0;
 
   constructor(decoder: RangeDecoder, { topology, vertexCount, wedgeCount }: PatchHeader, { vertex, across, closing }: Connectivity) {
@@ -69,31 +73,38 @@ class WedgeDecoder {
     this.#newest = new Int32Array(vertexCount);
     this.#latest = new Int32Array(vertexCount);
     this.#extra = new Int32Array(vertexCount);
+    this.#isSplit = new Uint8Array(vertexCount);
   }
 
   run(): Wedges {
     const vertex = this.#vertex;
+    const wedge = this.#wedge;
+    const first = this.#first;
+    const isSplit = this.#isSplit;
     const corners = this.#isTriangles ? 3 : 2;
-    let differ = 0; // corners of this element that their guess was wrong for
-    for (let c = 0; c < vertex.length; ++c) {
-      const i = c % corners;
-      if (i === 0) differ = 0;
-      const v = vertex[c]!;
-      let w: number;
-      if (this.#first[v]! < 0) {
-        w = this.#make(c, v);
-      } else {
-        w = this.#guess(c, i, v);
-        if (this.#decoder.bit(sameModels + Math.min(this.#extra[v]!, 2) * 3 + differ) === 0) {
-          ++differ;
-          w = this.#decoder.bit(madeModels + Math.min(this.#extra[v]!, 2)) === 1 ? this.#make(c, v) : this.#other(v, w);
+    for (let element = 0; element < vertex.length; element += corners) {
+      let splits = 0; // of this element's corners so far
+      let differ = 0; // those that their guess was wrong for
+      for (let i = 0; i < corners; ++i) {
+        const c = element + i;
+        const v = vertex[c]!;
+        if (first[v]! < 0) {
+          wedge[c] = this.#make(c, v);
+          isSplit[v] = this.#decoder.bit(splitModels + splits);
+        } else if (isSplit[v] === 0) {
+          wedge[c] = first[v]!;
+        } else {
+          const guess = this.#guess(c, i, v);
+          const isSame = this.#decoder.bit(sameModels + Math.min(this.#extra[v]!, 2) * 3 + differ) === 1;
+          wedge[c] = isSame ? guess : this.#differing(c, v, guess);
+          if (!isSame) ++differ;
         }
+        this.#latest[v] = wedge[c]!;
+        splits += isSplit[v]!;
       }
-      this.#wedge[c] = w;
-      this.#latest[v] = w;
     }
     if (this.#count < this.#corner.length) throw new DecodeError("malformed", "holds fewer wedges than its header states");
-    return { wedge: this.#wedge, seams: { corner: this.#corner, previous: this.#previous } };
+    return { wedge: this.#wedge, seams: { corner: this.#corner, previous: this.#previous, isSplit } };
   }
 
   /** The wedge that the neighbour across an edge has here. */
@@ -110,10 +121,11 @@ class WedgeDecoder {
   }
 
   /** Another wedge of a vertex than the one that was guessed. */
-  #other(v: number, guess: number): number {
+  #differing(c: number, v: number, guess: number): number {
     const decoder = this.#decoder;
     const ring = this.#ring;
     const extra = this.#extra[v]!;
+    if (decoder.bit(madeModels + Math.min(extra, 2)) === 1) return this.#make(c, v);
     if (extra === 0) throw new DecodeError("malformed", "names another wedge of a vertex that has one");
     const steps = extra === 1 ? 0 : decoder.tree(stepModels, 4);
     let w = guess;
