@@ -151,7 +151,8 @@ describe("a change in the document shows", () => {
       const isReleased = await view.page.evaluate(async () => {
         const context = document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.getContext("webgl2")!;
         document.querySelector("x3d")!.remove();
-        await new Promise((resolve) => setTimeout(resolve, 100));
+        const end = performance.now() + 20_000;
+        while (!context.isContextLost() && performance.now() < end) await new Promise((resolve) => setTimeout(resolve, 10));
         return context.isContextLost();
       });
       assert.ok(isReleased, "the WebGL context is still held");

@@ -96,7 +96,8 @@ describe("the order of requests", () => {
       await view.page.locator("imgeo-view canvas").focus();
       // Shifts the scene to the left, until only the ball at the right of it is seen.
       for (let step = 0; step < 11; ++step) await view.page.keyboard.press("Shift+ArrowLeft");
-      await new Promise((resolve) => setTimeout(resolve, 500));
+      await settle(view.page);
+      await new Promise((resolve) => setTimeout(resolve, 500)); // the queue is told some times a second, not at each frame
       open();
       await view.promise("complete");
       assertBefore(order(view).slice(6), isOf("ball"), isOf("knot"));

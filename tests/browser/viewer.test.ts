@@ -80,7 +80,8 @@ describe("the picture fits its place", () => {
     const size = { width: 420, height: 600 };
     await withCompletePage({}, async (view) => {
       await view.page.setViewportSize(size);
-      await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 100)));
+      await until("the canvas has the new size", () => view.page.evaluate((width) =>
+        document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.width === width, size.width));
       const expected = await referencePicture(pageOf(site()), decodeSite(site()), size);
       assertSamePicture("resized", await view.picture(), expected, boundsOfQuantised);
     });
