@@ -7,6 +7,7 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <map>
 
 namespace imgeo {
 namespace {
@@ -310,6 +311,46 @@ TEST(Glb, KeepsViewpoints) {
       return;
     }
   ADD_FAILURE() << "the viewpoint is lost";
+}
+
+TEST(Glb, KeepsLightsThatItHasWordsFor) {
+  Scene scene = sceneOf({testing::sphere(4, 6)});
+  const Vec3d bySquare{0, 0, 1};
+  addRoot(scene.graph, {"sun", DirectionalLight{{1, -2, 0.5}, {1, 0.5f, 0.25f}, 2, true}, {}, ""});
+  addRoot(scene.graph, {"lamp", PointLight{{1, 2, 3}, bySquare, 12, {0, 1, 0}, 3, true}, {}, ""});
+  addRoot(scene.graph,
+          {"spot", SpotLight{{4, 5, 6}, {0, -1, 0}, 0.3, 0.5, bySquare, 9, {1, 1, 1}, 4, true}, {}, ""});
+  addRoot(scene.graph, {"near", DirectionalLight{}, {}, ""}); // of its group alone
+  addRoot(scene.graph, {"even", PointLight{}, {}, ""});       // does not fall off
+  const Imported read = importBytes(exportScene(scene, MeshFormat::glb), "a.glb");
+  std::map<std::string, NodeContent> lights;
+  for (const Node& node : read.scene.graph.nodes)
+    if (const Transform* place = std::get_if<Transform>(&node.content)) {
+      NodeContent light = read.scene.graph.nodes.at(node.children.at(0)).content;
+      const Affine3d map = affineOf(*place);
+      if (auto* sun = std::get_if<DirectionalLight>(&light))
+        sun->direction = map.direction(sun->direction);
+      if (auto* lamp = std::get_if<PointLight>(&light))
+        lamp->location = map.point(lamp->location);
+      if (auto* spot = std::get_if<SpotLight>(&light)) {
+        spot->location = map.point(spot->location);
+        spot->direction = map.direction(spot->direction);
+      }
+      lights[node.name] = light;
+    }
+  ASSERT_EQ(lights.size(), 3u);
+  const auto& sun = std::get<DirectionalLight>(lights.at("sun"));
+  EXPECT_LT(length(sun.direction - Vec3d{1, -2, 0.5} * (1 / length(Vec3d{1, -2, 0.5}))), 1e-7);
+  EXPECT_EQ(sun.color, (Vec3f{1, 0.5f, 0.25f}));
+  EXPECT_EQ(sun.intensity, 2);
+  const auto& lamp = std::get<PointLight>(lights.at("lamp"));
+  EXPECT_LT(length(lamp.location - Vec3d{1, 2, 3}), 1e-7);
+  EXPECT_EQ(lamp.radius, 12);
+  const auto& spot = std::get<SpotLight>(lights.at("spot"));
+  EXPECT_LT(length(spot.location - Vec3d{4, 5, 6}), 1e-7);
+  EXPECT_LT(length(spot.direction - Vec3d{0, -1, 0}), 1e-7);
+  EXPECT_EQ(spot.beamWidth, 0.3);
+  EXPECT_EQ(spot.cutOffAngle, 0.5);
 }
 
 } // namespace

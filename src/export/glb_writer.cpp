@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <tuple>
 
@@ -141,6 +142,52 @@ Json primitiveOf(Arrays& arrays, const Mesh& mesh) {
           {"mode", modes[cornersPerElement(mesh.topology) - 1]}};
 }
 
+/// A map that turns -z to a direction and moves the origin.
+Affine3d facing(Vec3d direction, Vec3d origin) {
+  const double size = length(direction);
+  if (size == 0)
+    return {.translation = origin};
+  const Vec3d z = direction * (-1 / size),
+              aside = cross(std::abs(z.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}, z);
+  const Vec3d x = aside * (1 / length(aside));
+  return {x, cross(z, x), z, origin};
+}
+
+struct PlacedLight {
+  Json json; ///< of KHR_lights_punctual
+  Affine3d place;
+};
+
+/// What glTF can say of a light: it shines on everything and, but for a directional
+/// one, falls off by the square of the distance.
+std::optional<PlacedLight> lightOf(const NodeContent& content) {
+  const auto common = [](const char* type, const auto& light) {
+    return Json{{"type", type},
+                {"color", {light.color.x, light.color.y, light.color.z}},
+                {"intensity", light.intensity}};
+  };
+  const auto placed = [&](const char* type, const auto& light) {
+    Json json = common(type, light);
+    json["range"] = light.radius;
+    return json;
+  };
+  const auto isOfGltf = [](const auto& light) {
+    return light.global && light.attenuation == Vec3d{0, 0, 1} && light.radius > 0;
+  };
+  if (const auto* sun = std::get_if<DirectionalLight>(&content); sun && sun->global)
+    return PlacedLight{common("directional", *sun), facing(sun->direction, {})};
+  if (const auto* lamp = std::get_if<PointLight>(&content); lamp && isOfGltf(*lamp))
+    return PlacedLight{placed("point", *lamp), {.translation = lamp->location}};
+  if (const auto* spot = std::get_if<SpotLight>(&content); spot && isOfGltf(*spot)) {
+    Json json = placed("spot", *spot);
+    const double outer = std::min(spot->cutOffAngle, std::numbers::pi / 2);
+    // The inner angle has to be the smaller one.
+    json["spot"] = {{"innerConeAngle", std::min(spot->beamWidth, outer * 0.999)}, {"outerConeAngle", outer}};
+    return PlacedLight{std::move(json), facing(spot->direction, spot->location)};
+  }
+  return {};
+}
+
 /// Collects the lists of a glTF file. A mesh's arrays are written once, however
 /// many shapes show it in whatever materials.
 class GltfBuilder {
@@ -155,9 +202,10 @@ public:
   Arrays arrays;
   Json nodes = Json::array(), meshes = Json::array(), materials = Json::array(), roots = Json::array();
   Json images = Json::array(), samplers = Json::array(), textures = Json::array(), cameras = Json::array();
+  Json lights = Json::array();
 
 private:
-  /// The glTF node of a viewpoint, or of a node below which something is seen.
+  /// The glTF node of a viewpoint, of a light, or of a node below which something is seen.
   std::optional<std::size_t> addNode(std::size_t index) {
     const Node& node = scene_.graph.nodes[index];
     Json json = Json::object();
@@ -167,6 +215,10 @@ private:
       json["mesh"] = meshOf(*shape, node.name);
     } else if (const Viewpoint* viewpoint = std::get_if<Viewpoint>(&node.content)) {
       addCamera(json, *viewpoint);
+    } else if (const std::optional<PlacedLight> light = lightOf(node.content)) {
+      addMatrix(json, light->place);
+      json["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
+      lights.push_back(light->json);
     } else {
       Json children = Json::array();
       for (const std::size_t child : node.children)
@@ -195,8 +247,9 @@ private:
     cameras.push_back(std::move(camera));
   }
 
-  static void addTransform(Json& json, const Transform& transform) {
-    const Affine3d map = affineOf(transform);
+  static void addTransform(Json& json, const Transform& transform) { addMatrix(json, affineOf(transform)); }
+
+  static void addMatrix(Json& json, const Affine3d& map) {
     if (map == Affine3d{})
       return;
     Json matrix = Json::array();
@@ -307,6 +360,10 @@ Bytes writeGlb(const Scene& scene) {
   }
   if (!gltf.cameras.empty())
     root["cameras"] = gltf.cameras;
+  if (!gltf.lights.empty()) {
+    root["extensionsUsed"].push_back("KHR_lights_punctual");
+    root["extensions"]["KHR_lights_punctual"]["lights"] = gltf.lights;
+  }
   root["accessors"] = arrays.accessors;
   root["bufferViews"] = arrays.views;
   root["buffers"] = Json::array({{{"byteLength", arrays.bytes.size()}}});
