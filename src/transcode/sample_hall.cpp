@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t seatsPerRow = 40;
 constexpr double seatWidth = 0.55, rowDepth = 0.95, rowRise = 0.16, aisleWidth = 1.6;
-constexpr double firstRow = 5, bayLength = 4, halfWidth = 14, wall = 0.3;
+constexpr double firstRow = 5, bayLength = 4, halfWidth = 14, wall = 0.3, landing = 4;
 
 Mesh seatMesh() {
   SurfaceBuilder seat;
@@ -72,7 +72,7 @@ struct Size {
   double back, height, backFloor; ///< where the rows end, the roof is, and the last row stands
 };
 
-/// Walls around, with a doorway at the back, and a stage.
+/// Walls around, with a doorway at the back and a landing before it, and a stage.
 Mesh wallsMesh(const Size& size) {
   SurfaceBuilder walls;
   walls.mesh.name = "walls";
@@ -86,7 +86,11 @@ Mesh wallsMesh(const Size& size) {
   walls.addBox({door, -0.2, size.back}, {halfWidth, size.height, size.back + wall});
   walls.addBox({-door, lintel, size.back}, {door, size.height, size.back + wall});
   walls.addBox({-door, -0.2, size.back}, {door, size.backFloor, size.back + wall});
+  walls.addBox({-door - 1, size.backFloor - 0.2, size.back + wall},
+               {door + 1, size.backFloor, size.back + landing});
   walls.addBox({-8, 0, -3.5}, {8, 0.9, 1.5});
+  for (const int step : {1, 2, 3})
+    walls.addBox({6, 0, 1.5 + 0.3 * (3 - step)}, {8, 0.225 * step, 1.5 + 0.3 * (4 - step)});
   return std::move(walls.mesh);
 }
 
@@ -124,13 +128,12 @@ public:
     addViewpoint("From the door", {0, backFloor + 1.7, size.back + 2.5}, {{1, 0, 0}, -0.1});
     addViewpoint("From the stage", {0, 2.6, -1}, {{0, 1, 0}, std::numbers::pi});
     addViewpoint("Beside a seat", {2.5, 3, firstRow + 2}, {{0, 1, 0}, 2.2});
-    addRoot(graph(),
-            {"ceilingLight", DirectionalLight{{-0.3, -1, -0.4}, {1, 0.96f, 0.9f}, 0.6f, true}, {}, ""});
+    addLights();
 
-    addRoot(graph(), {"stairs", shapeOf(stairsMesh(rows), {0.35f, 0.3f, 0.27f}, 0), {}, ""});
-    addRoot(graph(), {"walls", shapeOf(wallsMesh(size), {0.75f, 0.73f, 0.68f}, 0), {}, ""});
+    addRoot(graph(), {"stairs", shapeOf(stairsMesh(rows), {0.16f, 0.13f, 0.11f}, 0), {}, ""});
+    addRoot(graph(), {"walls", shapeOf(wallsMesh(size), {0.36f, 0.34f, 0.3f}, 0), {}, ""});
     addSeats(seats);
-    addAlong("columns", shapeOf(columnMesh(size.height), {0.8f, 0.78f, 0.74f}, 0), size.back,
+    addAlong("columns", shapeOf(columnMesh(size.height), {0.45f, 0.43f, 0.39f}, 0), size.back,
              {-halfWidth + 0.6, halfWidth - 0.6}, 0);
     addAlong("trusses", shapeOf(trussMesh(), {0.35f, 0.36f, 0.38f}, 0.9f), size.back, {0}, size.height - 1.4);
     addSigns(rows);
@@ -165,9 +168,20 @@ private:
     addRoot(graph(), {"", viewpoint, {}, ""});
   }
 
+  /// The ceiling's, and what floor and walls throw back: nothing is black that no lamp shines on.
+  void addLights() {
+    const auto add = [&](const char* name, Vec3d direction, Vec3f color, float intensity) {
+      addRoot(graph(), {name, DirectionalLight{direction, color, intensity, true}, {}, ""});
+    };
+    add("ceilingLight", {-0.25, -1, -0.3}, {1, 0.95f, 0.86f}, 0.8f);
+    add("floorLight", {0, 1, 0}, {1, 0.9f, 0.8f}, 0.25f);
+    add("leftLight", {1, -0.2, 0.3}, {0.9f, 0.95f, 1}, 0.3f);
+    add("rightLight", {-1, -0.2, 0.5}, {1, 0.95f, 0.9f}, 0.2f);
+  }
+
   void addSeats(std::uint32_t seats) {
     const std::size_t seat =
-        addNode(graph(), {"seat", shapeOf(seatMesh(), {0.45f, 0.05f, 0.06f}, 0), {}, ""});
+        addNode(graph(), {"seat", shapeOf(seatMesh(), {0.3f, 0.03f, 0.035f}, 0), {}, ""});
     for (std::uint32_t first = 0; first < seats; first += seatsPerRow) {
       const std::uint32_t row = first / seatsPerRow;
       Transform place;
