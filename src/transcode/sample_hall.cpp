@@ -88,7 +88,7 @@ Mesh wallsMesh(const Size& size) {
   walls.addBox({-door, -0.2, size.back}, {door, size.backFloor, size.back + wall});
   walls.addBox({-door - 1, size.backFloor - 0.2, size.back + wall},
                {door + 1, size.backFloor, size.back + landing});
-  walls.addBox({-8, 0, -3.5}, {8, 0.9, 1.5});
+  walls.addBox({-8, 0, -4}, {8, 0.9, 1.5});
   for (const int step : {1, 2, 3})
     walls.addBox({6, 0, 1.5 + 0.3 * (3 - step)}, {8, 0.225 * step, 1.5 + 0.3 * (4 - step)});
   return std::move(walls.mesh);

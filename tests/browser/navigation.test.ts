@@ -199,10 +199,10 @@ describe("walking and flying", () => {
     await withScene(walking(), {}, async (view) => {
       await focusView(view);
       const start = await bare(view);
-      for (const key of ["ArrowUp", "ArrowRight", "Shift+ArrowUp", "Shift+ArrowLeft", "f", "PageUp", "e", "ArrowLeft", "+", "w", "ArrowDown"]) {
+      for (const key of ["ArrowUp", "ArrowRight", "Shift+ArrowUp", "Shift+ArrowLeft", "f", "PageUp", "r", "e", "ArrowLeft", "+", "w", "ArrowDown"]) {
         const before = await bare(view);
         await hold(view, key);
-        if (!/^[efw]$/.test(key)) assert.ok(difference(before, await bare(view)).mean > 0.2, `${key} does nothing`);
+        if (!/^[efwr]$/.test(key)) assert.ok(difference(before, await bare(view)).mean > 0.2, `${key} does nothing`);
       }
       await view.page.keyboard.press("r");
       assertSamePicture("back from a walk", await bare(view), start, { mean: 0.001 });

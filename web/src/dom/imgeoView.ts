@@ -94,6 +94,11 @@ export class ImgeoView extends HTMLElement {
     return { ...orbit, toString: () => `${orbit.theta}rad ${orbit.phi}rad ${orbit.radius}m` };
   }
 
+  /** Where the eye is, in the scene's coordinates. */
+  getCameraPosition(): Vector3D {
+    return vector3DOf(this.#presentation?.viewer.navigator.pose.position ?? { x: 0, y: 0, z: 0 });
+  }
+
   /** The picture as a file. Rejects where there is none. */
   async toBlob({ mimeType = "image/png", qualityArgument }: BlobOptions = {}): Promise<Blob> {
     const canvas = this.#canvas;
@@ -144,7 +149,7 @@ export class ImgeoView extends HTMLElement {
 }
 
 /** What <x3d> can do too, since that is the element that pages know. */
-const lentMethods = ["play", "pause", "dismissPoster", "bindViewpoint", "resetView", "showAll", "getCameraOrbit", "toBlob",
+const lentMethods = ["play", "pause", "dismissPoster", "bindViewpoint", "resetView", "showAll", "getCameraOrbit", "getCameraPosition", "toBlob",
   "positionAndNormalFromPoint"] as const;
 const lentProperties = ["statistics", "viewpoints", "paused"] as const;
 

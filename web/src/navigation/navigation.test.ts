@@ -3,6 +3,8 @@ import { describe, test } from "node:test";
 import { Matrix4, Quaternion, Sphere, Vector3 } from "three";
 import { nodeFields, type Values } from "../document/nodes.ts";
 import { BindingStack } from "./bindingStack.ts";
+import type { WorldBox } from "./boxWorld.testing.ts";
+import { lookAround } from "./boxWorld.testing.ts";
 import type { PlacedViewpoint, Pose } from "./camera.ts";
 import { forwardOf, poseFraming, poseOfViewpoint, turned } from "./camera.ts";
 import { poseBetween } from "./journey.ts";
@@ -245,12 +247,34 @@ describe("the navigator", () => {
     samePose(navigator.advance(0), sidePose);
   });
 
+  /** A frame, after which it is told what it asks for. */
+  function advance(navigator: Navigator, ms: number, boxes: readonly WorldBox[]): void {
+    navigator.advance(ms);
+    const { lookout } = navigator;
+    if (lookout) navigator.learn(lookout, lookAround(lookout, boxes));
+  }
+
+  test("walks on a floor by wheel and by two fingers too, and not on from where it is led elsewhere", () => {
+    const floor = { min: [-20, -4, -20], max: [20, -3, 20] } as const;
+    const { navigator } = navigating({ type: ["WALK"], speed: 2, transitionTime: 0 });
+    navigator.zoom(Math.exp(-0.1));
+    navigator.pan(0.1, -0.05);
+    for (let ms = 0; ms < 2000; ms += 20) advance(navigator, ms, [floor]);
+    near(navigator.pose.position, [-0.2, -1.4, 9.7], 1e-3);
+    assert.equal(navigator.isMoving, false);
+    assert.equal(navigator.lookout, undefined);
+    navigator.zoom(Math.exp(-0.2));
+    navigator.bind(side.element);
+    for (let ms = 2000; ms < 2200; ms += 20) advance(navigator, ms, [floor]);
+    samePose(navigator.pose, sidePose);
+  });
+
   test("walks while a key is held, as fast as the document says, and stands still after", () => {
     const { navigator } = navigating({ type: ["WALK"], speed: 2 });
     navigator.advance(0);
     navigator.move({ ...standingStill, forward: 1 });
     navigator.advance(1000); // the first frame only starts the clock
-    for (let ms = 1050; ms <= 2000; ms += 50) navigator.advance(ms);
+    for (let ms = 1050; ms <= 2000; ms += 50) advance(navigator, ms, []);
     near(navigator.pose.position, [0, 0, 8], 1e-6);
     navigator.move(standingStill);
     assert.equal(navigator.isMoving, false);

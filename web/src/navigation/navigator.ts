@@ -16,6 +16,9 @@ import type { CameraSetting } from "./orbit.ts";
 import { poseWith, poseWithin, unsetCamera } from "./orbit.ts";
 import { isStandingStill, looked, standingStill, stepped, travelled } from "./travel.ts";
 import { Turntable } from "./turntable.ts";
+import type { Avatar } from "./footing.ts";
+import type { Lookout, Surroundings } from "./surroundings.ts";
+import { Walker } from "./walker.ts";
 
 /** What the navigator must know of a scene. */
 export interface NavigatedScene {
@@ -38,6 +41,7 @@ export class Navigator {
   readonly #onMove: () => void;
   readonly #onNavigation: () => void;
   readonly #viewpoints = new BindingStack<SceneElement>();
+  readonly #walker = new Walker();
   #scene: NavigatedScene | undefined;
   #home = poseFraming(new Sphere(new Vector3(), 1));
   #homeKey = "";
@@ -80,6 +84,7 @@ export class Navigator {
     if (!this.allowedTypes.includes(type) || type === this.#type) return;
     this.#type = type;
     this.#motion = standingStill;
+    this.#walker.stop();
     this.#onNavigation();
   }
 
@@ -151,14 +156,14 @@ export class Navigator {
   /** Multiplies the distance to the centre; who walks or flies goes as far ahead. */
   zoom(factor: number): void {
     if (this.#type === "examine") this.#moveTo(zoomed(this.#pose, factor, this.#sphere));
-    else this.#moveTo(stepped(this.#pose, -Math.log(factor) * this.#speed, 0, 0, this.#type === "walk"));
+    else this.#step(-Math.log(factor) * this.#speed, 0, 0);
   }
 
   /** Shares of the view's shorter side by which the scene follows the hand. */
   pan(right: number, up: number): void {
-    const isWalking = this.#type === "walk";
     if (this.#type === "examine") this.#moveTo(panned(this.#pose, right, up));
-    else this.#moveTo(stepped(this.#pose, isWalking ? -up * this.#speed : 0, -right * this.#speed, isWalking ? 0 : -up * this.#speed, isWalking));
+    else if (this.#type === "walk") this.#step(-up * this.#speed, -right * this.#speed, 0);
+    else this.#step(0, -right * this.#speed, -up * this.#speed);
   }
 
   /** Moves on and on like this, until it is told otherwise; for walking and flying. */
@@ -186,9 +191,9 @@ export class Navigator {
     if (this.#journey !== undefined) {
       this.#pose = this.#journey.poseAt(nowMs);
       if (this.#pose === this.#journey.to) this.#journey = undefined;
-    } else if (!isStandingStill(this.#motion)) {
+    } else if (!isStandingStill(this.#motion) || this.#walker.isMoving) {
       this.#source = "user-interaction";
-      this.#pose = travelled(this.#pose, this.#motion, Math.max(seconds, 0), this.#speed, this.#type === "walk");
+      this.#travel(Math.max(seconds, 0));
     } else if (this.#isTurning) {
       this.#source = "automatic";
       this.#pose = turned(this.#pose, this.turntable.radiansPerSecond * Math.max(seconds, 0), 0);
@@ -199,13 +204,22 @@ export class Navigator {
 
   /** Half of the distance that an avatar keeps from things (ISO/IEC 19775-1, 23.4.4); who examines keeps none. */
   get clearance(): number {
-    const [distance = 0] = this.#scene?.navigation.avatarSize ?? [];
-    return this.#type === "walk" || this.#type === "fly" ? Math.max(distance, 0) / 2 : 0;
+    return this.#type === "walk" || this.#type === "fly" ? this.#avatar.radius / 2 : 0;
+  }
+
+  /** From where whoever draws is to look around, for somebody who walks. Undefined where nobody does. */
+  get lookout(): Lookout | undefined {
+    return this.#type === "walk" ? this.#walker.lookoutFor(this.#pose, this.#avatar, this.#speed) : undefined;
+  }
+
+  /** What was seen from there. */
+  learn(lookout: Lookout, surroundings: Surroundings): void {
+    this.#walker.learn(lookout, surroundings);
   }
 
   /** Whether the next frame will differ from the last without anybody doing anything. */
   get isMoving(): boolean {
-    return this.#journey !== undefined || !isStandingStill(this.#motion) || this.#isTurning;
+    return this.#journey !== undefined || !isStandingStill(this.#motion) || this.#walker.isMoving || this.#isTurning;
   }
 
   get #isTurning(): boolean {
@@ -216,9 +230,40 @@ export class Navigator {
     return this.#scene?.sphere ?? new Sphere(new Vector3(), 1);
   }
 
-  /** Lengths a second; where the document is silent, a third of the scene's radius. */
+  /** Lengths a second; where the document is silent, a third of the scene's radius, and on a floor no more than two bodies'. */
   get #speed(): number {
-    return this.#scene?.navigation.speed ?? this.#sphere.radius / 3;
+    const usual = this.#sphere.radius / 3;
+    return this.#scene?.navigation.speed ?? (this.#walker.isOnFloor ? Math.min(usual, 2 * this.#avatar.height) : usual);
+  }
+
+  get #avatar(): Avatar {
+    const [radius = 0.25, height = 1.6, step = 0.75] = this.#scene?.navigation.avatarSize ?? [];
+    // Nobody is so thin that his way is cut into more than a few paces.
+    const least = Math.max(height / 100, this.#sphere.radius * 1e-6);
+    return { radius: Math.max(radius, least), height: Math.max(height, 0), step: Math.max(step, 0) };
+  }
+
+  /** By lengths in the scene, ahead, aside and up. */
+  #step(forward: number, right: number, up: number): void {
+    const isWalking = this.#type === "walk";
+    const pose = stepped(this.#pose, forward, right, up, isWalking);
+    if (isWalking) this.#walker.push(pose.position.clone().sub(this.#pose.position), this.#speed);
+    this.#moveTo(isWalking ? this.#pose : pose);
+  }
+
+  /** As keys that are held, and a walk that is not over, lead in this time. */
+  #travel(seconds: number): void {
+    if (this.#type !== "walk") {
+      this.#pose = travelled(this.#pose, this.#motion, seconds, this.#speed, false);
+      return;
+    }
+    const standing = this.#pose;
+    const wanted = travelled(standing, this.#motion, seconds, this.#speed, true);
+    const way = wanted.position.clone().sub(standing.position);
+    if (way.lengthSq() > 0) this.#walker.push(way, this.#speed);
+    const looksAbout = this.#motion.turn !== 0 || this.#motion.look !== 0;
+    const facing = looksAbout ? { ...wanted, position: standing.position, center: wanted.center.clone().sub(way) } : standing;
+    this.#pose = this.#walker.walk(facing, seconds);
   }
 
   #moveTo(pose: Pose): void {
@@ -235,6 +280,7 @@ export class Navigator {
     const isInstant = this.isInstant || transitionType[0]?.toUpperCase() === "TELEPORT" || transitionTime <= 0;
     this.#source = source;
     this.turntable.rest();
+    this.#walker.stop();
     this.#journey = isInstant ? undefined : new Journey(this.#pose, pose, transitionTime * 1000);
     if (isInstant) this.#pose = pose;
     this.#onMove();
@@ -257,6 +303,7 @@ export class Navigator {
       this.#travelTo(this.#home, "none");
     } else {
       this.#journey = undefined;
+      this.#walker.stop();
       this.#pose = this.#home;
       this.#source = "none";
       this.#onMove();

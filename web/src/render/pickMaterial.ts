@@ -18,7 +18,7 @@ import { imageVerticesDefine, readVerticesIn, vertexDefinesOf } from "./vertexCh
  * none; the three words of a vertex of the face stand in what the others leave.
  */
 export const pickedWords = {
-  drawNumber: 0, element: 1, vertex: 2, position: 4, normal: 8, faceNormal: 12, facePoint: [7, 11, 15],
+  drawNumber: 0, element: 1, vertex: 2, depth: 3, position: 4, normal: 8, faceNormal: 12, facePoint: [7, 11, 15],
 } as const;
 export const pickedTargets = 4;
 
@@ -89,7 +89,7 @@ void main() {
   vec3 w = cornerWeights;
   int nearest = w.x >= w.y && w.x >= w.z ? cornerVertices.x : w.y >= w.z ? cornerVertices.y : cornerVertices.z;
   vec3 normal = gl_FrontFacing || PRIMITIVE_CORNERS != 3 ? vNormal : -vNormal;
-  what = uvec4(drawNumber, uint(element), uint(nearest), 0u);
+  what = uvec4(drawNumber, uint(element), uint(nearest), floatBitsToUint(gl_FragCoord.z));
   uvec3 point = floatBitsToUint(facePoint);
   where = uvec4(floatBitsToUint(vPosition), point.x);
   shadedNormal = uvec4(floatBitsToUint(normal), point.y);

@@ -2,7 +2,7 @@
 // through the same matrices and viewport as the picture's own, so that the pixel
 // is covered exactly as it is on the screen.
 
-import type { Object3D, WebGLRenderer } from "three";
+import type { Camera, Object3D, WebGLRenderer } from "three";
 import {
   Frustum, Matrix3, Matrix4, NearestFilter, PerspectiveCamera, Ray, RGBAIntegerFormat, Scene, Sphere, UnsignedIntType, Vector3,
   WebGLRenderTarget,
@@ -150,9 +150,9 @@ export class Picker {
   }
 }
 
-/** One pixel of what the picking material draws. */
-export function makePickTarget(): WebGLRenderTarget {
-  return new WebGLRenderTarget(1, 1, {
+/** Pixels of what the picking material draws. */
+export function makePickTarget(width = 1, height = 1): WebGLRenderTarget {
+  return new WebGLRenderTarget(width, height, {
     count: pickedTargets, format: RGBAIntegerFormat, type: UnsignedIntType, magFilter: NearestFilter, minFilter: NearestFilter,
   });
 }
@@ -162,8 +162,12 @@ function candidatesNear(camera: PerspectiveCamera, { x, y, width, height }: Plac
                         candidates: Iterable<PickCandidate>): PickCandidate[] {
   const narrow = new PerspectiveCamera().copy(camera, false);
   narrow.setViewOffset(width, height, x - slack, y - slack, 2 * slack + 1, 2 * slack + 1);
-  const frustum = new Frustum().setFromProjectionMatrix(
-    new Matrix4().multiplyMatrices(narrow.projectionMatrix, camera.matrixWorldInverse));
+  return candidatesSeenBy(narrow, candidates);
+}
+
+/** Those whose bounds come into a camera's view. */
+export function candidatesSeenBy({ projectionMatrix, matrixWorldInverse }: Camera, candidates: Iterable<PickCandidate>): PickCandidate[] {
+  const frustum = new Frustum().setFromProjectionMatrix(new Matrix4().multiplyMatrices(projectionMatrix, matrixWorldInverse));
   const sphere = new Sphere();
   return Array.from(candidates).filter(({ object, pick }) =>
     pick.bounds === null || frustum.intersectsSphere(sphere.copy(pick.bounds).applyMatrix4(object.matrixWorld)));

@@ -1,10 +1,11 @@
-// Pixel (0, 0) of the bound framebuffer's targets, four 32-bit words each: at once,
-// which waits for the GPU, or through a pixel pack buffer when a fence says that
-// the GPU is done, which nobody waits for.
+// Pixels of the bound framebuffer's targets, four 32-bit words each: at once, which
+// waits for the GPU, or through a pixel pack buffer when a fence says that the GPU
+// is done, which nobody waits for.
 
 const wordsPerPixel = 4;
 const bytesPerPixel = 16;
 
+/** Pixel (0, 0) of each target. */
 export function readPixel(gl: WebGL2RenderingContext, attachments: number): Uint32Array {
   const words = new Uint32Array(attachments * wordsPerPixel);
   for (let n = 0; n < attachments; ++n) {
@@ -16,18 +17,35 @@ export function readPixel(gl: WebGL2RenderingContext, attachments: number): Uint
 
 /** All zero where the context is lost on the way. The framebuffer is free again when this returns. */
 export function readPixelSoon(gl: WebGL2RenderingContext, attachments: number): Promise<Uint32Array> {
+  return readSoon(gl, Array.from({ length: attachments }, (_, attachment) => ({ attachment, x: 0, y: 0, width: 1, height: 1 })));
+}
+
+/** Pixels of one target. */
+export interface PixelBlock {
+  readonly attachment: number;
+  readonly x: number;
+  readonly y: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+/** The same of blocks, one after the other, each row by row from the bottom. */
+export function readSoon(gl: WebGL2RenderingContext, blocks: readonly PixelBlock[]): Promise<Uint32Array> {
   const buffer = gl.createBuffer();
+  const pixels = blocks.reduce((sum, { width, height }) => sum + width * height, 0);
   gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
-  gl.bufferData(gl.PIXEL_PACK_BUFFER, attachments * bytesPerPixel, gl.STREAM_READ);
-  for (let n = 0; n < attachments; ++n) {
-    gl.readBuffer(gl.COLOR_ATTACHMENT0 + n);
-    gl.readPixels(0, 0, 1, 1, gl.RGBA_INTEGER, gl.UNSIGNED_INT, n * bytesPerPixel);
+  gl.bufferData(gl.PIXEL_PACK_BUFFER, pixels * bytesPerPixel, gl.STREAM_READ);
+  let offset = 0;
+  for (const { attachment, x, y, width, height } of blocks) {
+    gl.readBuffer(gl.COLOR_ATTACHMENT0 + attachment);
+    gl.readPixels(x, y, width, height, gl.RGBA_INTEGER, gl.UNSIGNED_INT, offset);
+    offset += width * height * bytesPerPixel;
   }
   gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
   const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
   gl.flush();
 
-  const words = new Uint32Array(attachments * wordsPerPixel);
+  const words = new Uint32Array(pixels * wordsPerPixel);
   return untilPassed(gl, fence).then(() => {
     gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
     gl.getBufferSubData(gl.PIXEL_PACK_BUFFER, 0, words);

@@ -16,6 +16,7 @@ import type { Hit } from "./picking.ts";
 import type { BuiltScene } from "./sceneShapes.ts";
 import { SceneShapes } from "./sceneShapes.ts";
 import { ScreenPicker } from "./screenPicker.ts";
+import { Surveyor } from "./surveyor.ts";
 import { GeometryPool } from "./stageGeometries.ts";
 import { usualPointSize } from "./patchDraws.ts";
 import { objectsToCome } from "./stagesToCome.ts";
@@ -65,6 +66,7 @@ export class SceneRenderer {
   readonly #cameraMan: CameraMan;
   readonly #onFrame: () => void;
   readonly #picker: ScreenPicker;
+  readonly #surveyor: Surveyor;
   readonly #pace: Pace;
   #size = { width: 0, height: 0 };
   #frames = 0;
@@ -85,6 +87,7 @@ export class SceneRenderer {
     });
     this.#pace = new Pace(context);
     this.#picker = new ScreenPicker(this.#renderer, this.#drawnCamera, () => this.#shapes.pickCandidates());
+    this.#surveyor = new Surveyor(this.#renderer);
     // The numbers of the document are the numbers of the screen: see materials.ts.
     this.#renderer.outputColorSpace = LinearSRGBColorSpace;
     this.#renderer.toneMapping = NoToneMapping;
@@ -246,6 +249,7 @@ export class SceneRenderer {
     cancelAnimationFrame(this.#frameRequest);
     this.#shapes.dispose();
     this.#picker.dispose();
+    this.#surveyor.dispose();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
   }
@@ -292,6 +296,18 @@ export class SceneRenderer {
     this.#drawnCamera.copy(this.#camera, false);
     this.#frames += 1;
     this.#onFrame();
+    void this.#lookAround();
     if (this.#cameraMan.isMoving) this.requestFrame();
+  }
+
+  /** Tells the camera man what he wants to know, when the GPU has drawn it. */
+  async #lookAround(): Promise<void> {
+    const lookout = this.#surveyor.isBusy ? undefined : this.#cameraMan.lookout;
+    if (lookout === undefined) return;
+    const depth = 2 * this.sphere.radius + this.sphere.center.distanceTo(lookout.eye);
+    const surroundings = await this.#surveyor.look(lookout, depth, this.#shapes.drawsAround());
+    if (surroundings === undefined) return;
+    this.#cameraMan.learn(lookout, surroundings);
+    this.requestFrame();
   }
 }

@@ -110,10 +110,16 @@ export class SceneShapes {
 
   /** What is drawn and may be picked. */
   *pickCandidates(): Generator<PickCandidate> {
-    for (const [element, object] of this.#shapes) {
-      if (!object.isPickable) continue;
-      for (const placed of object.placedDraws()) if (isShown(placed.object)) yield { ...placed, element };
-    }
+    for (const [element, object] of this.#shapes) if (object.isPickable) yield* shownDraws(element, object);
+  }
+
+  /** What the document shows, also where the last frame has not looked. */
+  drawsAround(): PickCandidate[] {
+    const passedOver = this.#bounded.filter(({ group }) => !group.visible);
+    for (const { group } of passedOver) group.visible = true;
+    const draws = Array.from(this.#shapes).flatMap(([element, object]) => Array.from(shownDraws(element, object)));
+    for (const { group } of passedOver) group.visible = false;
+    return draws;
   }
 
   /** Before a frame: groups that tell where they end are not looked into when they are out of the view. */
@@ -141,6 +147,10 @@ export class SceneShapes {
     this.#shapes.set(shape.element, object);
     return object;
   }
+}
+
+function* shownDraws(element: SceneElement, object: ShapeObject): Generator<PickCandidate> {
+  for (const placed of object.placedDraws()) if (isShown(placed.object)) yield { ...placed, element };
 }
 
 function isShown(object: Object3D | null): boolean {

@@ -1,6 +1,7 @@
 // Where the camera is, between those who move it and those who draw.
 
 import type { Pose } from "../navigation/camera.ts";
+import type { Lookout, Surroundings } from "../navigation/surroundings.ts";
 
 /** Where the camera is and what it sees, as plain numbers. */
 export interface View {
@@ -21,4 +22,7 @@ export interface CameraMan {
   advance(nowMs: number): Pose;
   /** Another frame is due after this one. */
   readonly isMoving: boolean;
+  /** From where he wants to know what is around. */
+  readonly lookout: Lookout | undefined;
+  learn(lookout: Lookout, surroundings: Surroundings): void;
 }

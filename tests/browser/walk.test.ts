@@ -1,0 +1,96 @@
+// A walk through the hall that the tool generates: in by the door, down its stairs,
+// onto the stage, and nowhere through anything.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdirSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
+import { focusView } from "./gestures.ts";
+import { until, withPage, type View } from "./harness.ts";
+import { converter, outputDirectory } from "./paths.ts";
+import { siteOf, variantOf } from "./sites.ts";
+
+interface Eye { x: number; y: number; z: number }
+
+/** Of the hall's generator. */
+const rowDepth = 0.95, rowRise = 0.16, firstRow = 5, rows = 4;
+const back = firstRow + (rows - 0.5) * rowDepth;
+
+/** Height of the floor in the aisle. */
+function floorAt(z: number): number {
+  return rowRise * Math.min(Math.max(Math.round((z - firstRow) / rowDepth), 0), rows - 1);
+}
+
+/** The hall without what makes drawing it slow: nobody walks through its seats here. */
+function hall(): string {
+  mkdirSync(outputDirectory, { recursive: true });
+  const file = join(outputDirectory, "hall.glb");
+  execFileSync(converter, ["sample", "hall", "--seats", String(rows * 40), "-o", file], { stdio: ["ignore", "ignore", "inherit"] });
+  return variantOf(siteOf(file), "walk", (page) => page
+    .replaceAll(/(DEF="(?:row\d+|trusses|columns)")/g, '$1 visible="false"')
+    .replace(/<\/Scene>/i, (end) => `<Viewpoint description="Before the steps" position="7 2 4"></Viewpoint>${end}`)
+    .replace(/<NavigationInfo[^>]*>/i, '<NavigationInfo type="WALK" avatarSize="0.25 1.6 0.4" speed="5">'));
+}
+
+/** Keeps every place of the eye in the page. */
+function follow(): void {
+  const eyes: unknown[] = [];
+  Object.assign(window, { eyes });
+  document.addEventListener("DOMContentLoaded", () => {
+    const x3d = document.querySelector<ViewElement>("x3d")!;
+    x3d.addEventListener("camera-change", () => eyes.push({ ...x3d.getCameraPosition() }));
+  });
+}
+
+async function eyeIn({ page }: View): Promise<Eye> {
+  return page.evaluate(() => ({ ...document.querySelector<ViewElement>("x3d")!.getCameraPosition() }));
+}
+
+/** Holds a key until the eye is there, and for some frames more, in which nothing may lead it further. */
+async function holdAgainst(view: View, key: string, what: string, isThere: (eye: Eye) => boolean): Promise<Eye> {
+  await view.page.keyboard.down(key);
+  await until(what, async () => isThere(await eyeIn(view)));
+  await view.page.evaluate(async () => { for (let count = 0; count < 8; ++count) await new Promise(requestAnimationFrame); });
+  await view.page.keyboard.up(key);
+  return eyeIn(view);
+}
+
+const near = (actual: number, expected: number, tolerance: number, what: string): void => {
+  assert.ok(Math.abs(actual - expected) <= tolerance, `${what}: ${actual} is not ${expected}`);
+};
+
+test("one walks into the hall, down its stairs and up to the stage, and through nothing", async () => {
+  await withPage(hall(), { before: follow, size: { width: 240, height: 180 } }, async (view) => {
+    await view.promise("complete");
+    await focusView(view);
+    const door = await eyeIn(view);
+    near(door.z, back + 2.5, 1e-6, "the viewpoint before the door");
+    const front = await holdAgainst(view, "ArrowUp", "he is before the stage", ({ y, z }) => z < 1.9 && y < 1.65);
+    near(front.z, 1.5 + 0.25, 0.15, "before the stage");
+    near(front.y, 1.6, 0.05, "on the floor before the stage");
+
+    const eyes = await view.page.evaluate(() => (window as unknown as { eyes: Eye[] }).eyes);
+    const walked = eyes.filter(({ z }) => z < back - 0.3);
+    assert.ok(walked.length > 5, `${walked.length} frames`);
+    for (const { y, z } of walked) {
+      const floor = Math.min(floorAt(z - 0.3), floorAt(z + 0.3));
+      assert.ok(y > floor + 1.6 - rowRise - 0.05, `at ${z} his eye is ${y} above 0, the floor ${floor}`);
+    }
+
+    // From before its steps onto the stage.
+    await view.page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.bindViewpoint("Before the steps"); });
+    const wall = await holdAgainst(view, "ArrowUp", "he is on the stage, before the wall", ({ y, z }) => z < -3.6 && y > 2.45);
+    near(wall.y, 0.9 + 1.6, 0.05, "on the stage");
+    near(wall.z, -4 + 0.25, 0.1, "before the wall");
+
+    const framesOfTen = (): Promise<number> => view.page.evaluate(async () => {
+      const frames = (): number => document.querySelector<ViewElement>("x3d")!.statistics!.frames;
+      const before = frames();
+      for (let count = 0; count < 10; ++count) await new Promise(requestAnimationFrame);
+      return frames() - before;
+    });
+    await until("nothing is drawn for who stands still", async () => await framesOfTen() === 0);
+  });
+});
