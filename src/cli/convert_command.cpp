@@ -98,6 +98,7 @@ ConvertOptions optionsFrom(const Arguments& arguments) {
   options.normals = chosen(arguments, "normals",
                            {NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical,
                             NormalEncoding::palette, NormalEncoding::derived});
+  options.dropped = chosen<Dropped>(arguments, "drop", {{}, {true, false}, {false, true}, {true, true}});
   options.keepAttributes = attributesNamed(arguments.text("keep-attributes"));
   if (!arguments.text("attribute-bits").empty())
     options.attributeBits = static_cast<std::uint32_t>(arguments.integer("attribute-bits"));
@@ -156,7 +157,8 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
                   {"mergedWedges", report.weld.mergedWedges},
                   {"unreferencedPositions", report.weld.unreferencedPositions},
                   {"degenerateElements", report.weld.degenerateElements},
-                  {"duplicateElements", report.weld.duplicateElements}};
+                  {"duplicateElements", report.weld.duplicateElements},
+                  {"drop", arguments.text("drop")}};
   json["roles"] = Json::array();
   for (const RoleBytes& role : report.roles)
     json["roles"].push_back({{"role", role.role}, {"files", role.files}, {"bytes", role.bytes}});
@@ -219,11 +221,15 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   printLine("patches", fmt::format("{} of at most {} vertices", report.patches,
                                    grouped(static_cast<std::uint64_t>(arguments.integer("patch-vertices")))));
   const WeldReport& weld = report.weld;
+  const std::string drop = arguments.text("drop");
   printLine("welding", fmt::format("merged {} positions and {} wedges, dropped {} unreferenced positions",
                                    grouped(weld.mergedPositions), grouped(weld.mergedWedges),
                                    grouped(weld.unreferencedPositions)));
   if (weld.degenerateElements + weld.duplicateElements > 0)
-    printLine("", fmt::format("kept {} degenerate and {} repeated elements", grouped(weld.degenerateElements),
+    printLine("", fmt::format("{} {} degenerate elements, {} {} repeated ones",
+                              drop == "degenerate" || drop == "both" ? "dropped" : "kept",
+                              grouped(weld.degenerateElements),
+                              drop == "repeated" || drop == "both" ? "dropped" : "kept",
                               grouped(weld.duplicateElements)));
 }
 

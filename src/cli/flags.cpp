@@ -115,6 +115,9 @@ Command convertCommand() {
             .value = Value::text,
             .valueName = "PERCENT",
             .help = "compact: a first shape of so many of the triangles in 100, 0..25; 0: none, otherwise 2"},
+           choice("drop", {"none", "degenerate", "repeated", "both"},
+                  "which elements to leave out: those with two corners at one place, those that repeat "
+                  "another, or both"),
            {.name = "keep-attributes",
             .value = Value::text,
             .valueName = "NAMES",

@@ -163,8 +163,9 @@ Vec3u turned(const std::uint32_t* corners, std::uint32_t count) {
   return {c, a, b};
 }
 
-/// Elements are told apart among those of the same least corner, which are few.
-std::size_t countDuplicates(const Mesh& mesh) {
+/// One for each element that repeats an earlier one, zero for the others. Elements
+/// are told apart among those of the same least corner, which are few.
+std::vector<std::uint8_t> findRepeated(const Mesh& mesh) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
   const auto cornersOf = [&](std::size_t element) {
     return turned(mesh.corners.data() + element * count, count);
@@ -176,44 +177,69 @@ std::size_t countDuplicates(const Mesh& mesh) {
   });
   const Incidence byLeast =
       incidenceOf(least.size(), mesh.wedgeCount(), [&](std::size_t element) { return least[element]; });
-  std::atomic<std::size_t> duplicates = 0;
+  std::vector<std::uint8_t> repeated(mesh.elementCount());
   parallelForBlocks(mesh.wedgeCount(), [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint64_t> others;
-    std::size_t found = 0;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> others;
     for (std::size_t first = begin; first < end; ++first) {
       others.clear();
       for (const std::uint32_t element : byLeast.of(static_cast<std::uint32_t>(first))) {
         const Vec3u corners = cornersOf(element);
-        others.push_back(std::uint64_t{corners.y} << 32 | corners.z);
+        others.push_back({std::uint64_t{corners.y} << 32 | corners.z, element});
       }
       std::sort(others.begin(), others.end());
       for (std::size_t i = 1; i < others.size(); ++i)
-        found += others[i] == others[i - 1];
+        repeated[others[i].second] = others[i].first == others[i - 1].first;
     }
-    duplicates += found;
   });
-  return duplicates;
+  return repeated;
 }
 
-std::size_t countDegenerates(const Mesh& mesh) {
+/// One for each element with two corners at one position, zero for the others.
+std::vector<std::uint8_t> findDegenerate(const Mesh& mesh) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
-  std::atomic<std::size_t> degenerates = 0;
+  std::vector<std::uint8_t> degenerate(mesh.elementCount());
   parallelForBlocks(count > 1 ? mesh.elementCount() : 0, [&](std::size_t begin, std::size_t end) {
-    std::size_t found = 0;
     for (std::size_t element = begin; element < end; ++element) {
       const auto at = [&](std::size_t i) {
         return mesh.wedgePositions[mesh.corners[element * count + i % count]];
       };
-      found += at(0) == at(1) || (count > 2 && (at(1) == at(2) || at(2) == at(0)));
+      degenerate[element] = at(0) == at(1) || (count > 2 && (at(1) == at(2) || at(2) == at(0)));
     }
-    degenerates += found;
   });
-  return degenerates;
+  return degenerate;
+}
+
+std::size_t countOf(const std::vector<std::uint8_t>& marks) {
+  return static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
+}
+
+/// Removes the marked elements; says whether there were any.
+bool dropElements(Mesh& mesh, const std::vector<std::uint8_t>& marks) {
+  const std::uint32_t count = cornersPerElement(mesh.topology);
+  auto end = mesh.corners.begin();
+  for (std::size_t element = 0; element < marks.size(); ++element)
+    if (!marks[element])
+      end = std::copy_n(mesh.corners.begin() + static_cast<std::ptrdiff_t>(element * count), count, end);
+  const bool isAny = end != mesh.corners.end();
+  mesh.corners.erase(end, mesh.corners.end());
+  return isAny;
+}
+
+/// Finds them, and drops those that are to be dropped. Of welded meshes.
+void sortOut(Mesh& mesh, const Dropped& dropped, WeldReport& report) {
+  const std::vector<std::uint8_t> degenerate = findDegenerate(mesh), repeated = findRepeated(mesh);
+  report.degenerateElements = countOf(degenerate);
+  report.duplicateElements = countOf(repeated);
+  std::vector<std::uint8_t> marks(mesh.elementCount());
+  for (std::size_t element = 0; element < marks.size(); ++element)
+    marks[element] = (dropped.degenerate && degenerate[element]) || (dropped.repeated && repeated[element]);
+  if (dropElements(mesh, marks))
+    report.unreferencedPositions += weld(mesh).unreferencedPositions;
 }
 
 } // namespace
 
-WeldReport weld(Mesh& mesh) {
+WeldReport weld(Mesh& mesh, const Dropped& dropped) {
   WeldReport report;
   const Renumbering positions = weldPositions(mesh);
   report.mergedPositions = positions.merged;
@@ -231,8 +257,7 @@ WeldReport weld(Mesh& mesh) {
       mesh.corners[corner] = wedges.newOf[mesh.corners[corner]];
   });
 
-  report.degenerateElements = countDegenerates(mesh);
-  report.duplicateElements = countDuplicates(mesh);
+  sortOut(mesh, dropped, report);
   return report;
 }
 

@@ -136,5 +136,58 @@ TEST(Weld, CountsElementsThatRepeatAnotherWhicheverCornerTheyBeginAt) {
   }
 }
 
+/// Each element's corners as values, turned so that the least comes first.
+auto elementsOf(const Mesh& mesh) {
+  const std::uint32_t count = cornersPerElement(mesh.topology);
+  std::vector<std::vector<decltype(valueOf(mesh, 0))>> elements;
+  for (std::size_t element = 0; element < mesh.elementCount(); ++element) {
+    auto& corners = elements.emplace_back();
+    for (std::uint32_t i = 0; i < count; ++i)
+      corners.push_back(valueOf(mesh, element * count + i));
+    auto turned = corners;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      std::rotate(turned.begin(), turned.begin() + 1, turned.end());
+      corners = std::min(corners, turned);
+    }
+  }
+  return elements;
+}
+
+TEST(Weld, DropsDegenerateAndRepeatedElementsWhereItIsToldToAndKeepsTheOrderOfTheRest) {
+  std::size_t degenerates = 0, repeats = 0;
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    Mesh kept = randomMesh(seed);
+    const WeldReport found = weld(kept);
+    degenerates += found.degenerateElements;
+    repeats += found.duplicateElements;
+    for (const Dropped dropped : {Dropped{true, false}, Dropped{false, true}, Dropped{true, true}}) {
+      auto expected = elementsOf(kept);
+      if (dropped.repeated) {
+        std::set<decltype(expected)::value_type> seen;
+        std::erase_if(expected, [&](const auto& corners) { return !seen.insert(corners).second; });
+      }
+      if (dropped.degenerate)
+        std::erase_if(expected, [&](const auto& corners) {
+          std::set<std::tuple<float, float, float>> places;
+          for (const auto& corner : corners)
+            places.insert({std::get<0>(corner), std::get<1>(corner), std::get<2>(corner)});
+          return places.size() < corners.size();
+        });
+      Mesh mesh = randomMesh(seed);
+      const WeldReport report = weld(mesh, dropped);
+      ASSERT_TRUE(isConsistent(mesh)) << seed;
+      EXPECT_TRUE(elementsOf(mesh) == expected) << seed;
+      EXPECT_EQ(report.degenerateElements, found.degenerateElements);
+      EXPECT_EQ(report.duplicateElements, found.duplicateElements);
+      EXPECT_EQ(report.mergedPositions + report.unreferencedPositions + mesh.positions.size(),
+                randomMesh(seed).positions.size());
+      const WeldReport again = weld(mesh);
+      EXPECT_EQ(again.unreferencedPositions + again.mergedPositions + again.mergedWedges, 0u);
+    }
+  }
+  EXPECT_GT(degenerates, 20u);
+  EXPECT_GT(repeats, 20u);
+}
+
 } // namespace
 } // namespace imgeo

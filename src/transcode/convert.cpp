@@ -168,7 +168,8 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   report.importSeconds = step.lapSeconds();
 
   tell(0.2, "preparing");
-  PreparationReport prepared = prepareScene(imported.scene, options.normalWeighting, placeOf(input));
+  PreparationReport prepared =
+      prepareScene(imported.scene, options.dropped, options.normalWeighting, placeOf(input));
   report.weld = prepared.weld;
   report.normalsComputed = prepared.normalsComputed;
   std::ranges::move(prepared.warnings, std::back_inserter(report.warnings));
@@ -197,6 +198,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
                 options.normalWeighting,
                 report.elements,
                 hasStatedError(options) ? report.normalErrorDegrees : 0,
+                options.dropped,
                 {}};
   for (const AttributeReport& attribute : report.attributes)
     marker.attributes.push_back(attribute.name);

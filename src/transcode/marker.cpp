@@ -47,6 +47,10 @@ std::string writeMarker(const Marker& marker) {
   json["triangles"] = marker.elements.triangles;
   json["lines"] = marker.elements.lines;
   json["points"] = marker.elements.points;
+  if (marker.dropped.degenerate)
+    json["droppedDegenerate"] = true;
+  if (marker.dropped.repeated)
+    json["droppedRepeated"] = true;
   if (!marker.attributes.empty())
     json["attributes"] = marker.attributes;
   if (marker.normalErrorDegrees > 0)
@@ -68,6 +72,7 @@ Marker readMarker(std::string_view text, const std::string& name) {
     if (marker.normalsComputed)
       marker.normalWeighting = valueNamed(weightings, normals, name);
     marker.elements = {json.at("triangles"), json.value("lines", std::size_t{0}), json.at("points")};
+    marker.dropped = {json.value("droppedDegenerate", false), json.value("droppedRepeated", false)};
     marker.attributes = json.value("attributes", std::vector<std::string>{});
     marker.normalErrorDegrees = json.value("normalErrorDegrees", 0.0);
     return marker;

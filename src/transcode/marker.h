@@ -3,6 +3,7 @@
 // cannot be read from the document.
 
 #include "prepare/normals.h"
+#include "prepare/weld.h"
 #include "transcode/transcode.h"
 
 #include <string>
@@ -21,6 +22,7 @@ struct Marker {
   ElementCounts elements;                                  ///< as drawn; a strip's length does not tell
   /// By which normals of a palette and of compact may be off; 0: see normalErrorBound.
   double normalErrorDegrees = 0;
+  Dropped dropped;                     ///< elements of the source that were left out
   std::vector<std::string> attributes; ///< further ones that were kept
 };
 

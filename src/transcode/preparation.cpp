@@ -15,8 +15,8 @@ struct MeshReport {
   bool normalsComputed = false;
 };
 
-MeshReport prepareMesh(Mesh& mesh, NormalWeighting weighting) {
-  MeshReport report{weld(mesh), false};
+MeshReport prepareMesh(Mesh& mesh, const Dropped& dropped, NormalWeighting weighting) {
+  MeshReport report{weld(mesh, dropped), false};
   if (mesh.topology == Topology::triangles && mesh.normals.empty() && mesh.elementCount() > 0) {
     computeNormals(mesh, weighting);
     report.normalsComputed = true;
@@ -50,10 +50,11 @@ Imported importInput(const std::filesystem::path& input, const ImportOptions& op
   return imported;
 }
 
-PreparationReport prepareScene(Scene& scene, NormalWeighting weighting, const std::string& place) {
+PreparationReport prepareScene(Scene& scene, const Dropped& dropped, NormalWeighting weighting,
+                               const std::string& place) {
   std::vector<MeshReport> reports(scene.meshes.size());
   parallelFor(scene.meshes.size(),
-              [&](std::size_t i) { reports[i] = prepareMesh(scene.meshes[i], weighting); });
+              [&](std::size_t i) { reports[i] = prepareMesh(scene.meshes[i], dropped, weighting); });
 
   PreparationReport sum;
   for (const MeshReport& report : reports) {
@@ -69,8 +70,8 @@ PreparationReport prepareScene(Scene& scene, NormalWeighting weighting, const st
   if (shapesLeft == 0 && !scene.graph.isComplete)
     throw Error(ErrorKind::malformed, place,
                 "holds no triangles, lines or points, so there is nothing to show");
-  if (const std::size_t dropped = shapesBefore - shapesLeft)
-    sum.warnings.push_back(fmt::format("left out shapes without triangles, lines or points: {}", dropped));
+  if (const std::size_t leftOut = shapesBefore - shapesLeft)
+    sum.warnings.push_back(fmt::format("left out shapes without triangles, lines or points: {}", leftOut));
   return sum;
 }
 

@@ -30,9 +30,10 @@ struct PreparationReport {
   std::vector<std::string> warnings;
 };
 
-/// Welds every mesh, drops what no element uses, gives normals to triangle meshes
+/// Welds every mesh, drops what is to be dropped and what no element uses, gives normals to triangle meshes
 /// that bring none, and drops shapes in which nothing is left to see. Throws
 /// Error{malformed} naming `place` where that leaves an empty scene.
-PreparationReport prepareScene(Scene& scene, NormalWeighting weighting, const std::string& place);
+PreparationReport prepareScene(Scene& scene, const Dropped& dropped, NormalWeighting weighting,
+                               const std::string& place);
 
 } // namespace imgeo

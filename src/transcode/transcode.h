@@ -40,17 +40,18 @@ struct ConvertOptions {
   NormalEncoding normals = NormalEncoding::rgb;
   std::uint32_t normalBits = 0;                  ///< see EncodeOptions; 0: the fewest that cost nothing
   std::uint32_t texCoordBits = 0, colorBits = 0; ///< 0: 12 and 8 in compact, 16 and 8 elsewhere
+  Dropped dropped;                               ///< elements that are left out; otherwise none
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where the source has no normals
   std::uint32_t patchVertices = 65535; ///< 256..4,194,304; above 65,535 with 32-bit indices
   AttributeChoice keepAttributes;      ///< further attributes of vertices
   std::uint32_t attributeBits = 0;     ///< SIG: 8, 16 or 24; 0: 16. BG has Float32
   /// Compact: a base of so many percent of the triangles, 0..25; 0: none. Nothing: 2.
   std::optional<double> basePercent;
-  int effort = 5;                      ///< 0 fastest .. 9 smallest
-  std::string title;                   ///< empty: the source's name
-  bool outside = false;                ///< the source may refer to files outside of its folder
-  bool strict = false; ///< refuse a source of which something is damaged, instead of leaving that out
-  bool force = false;  ///< replace a directory that is not one of our sites
+  int effort = 5;       ///< 0 fastest .. 9 smallest
+  std::string title;    ///< empty: the source's name
+  bool outside = false; ///< the source may refer to files outside of its folder
+  bool strict = false;  ///< refuse a source of which something is damaged, instead of leaving that out
+  bool force = false;   ///< replace a directory that is not one of our sites
 };
 
 /// Bytes of one kind of file.

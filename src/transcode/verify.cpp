@@ -333,7 +333,8 @@ Imported prepared(const fs::path& input, const std::optional<Marker>& marker, bo
   std::vector<bool> hadNormals;
   for (const Mesh& mesh : imported.scene.meshes)
     hadNormals.push_back(!mesh.normals.empty());
-  prepareScene(imported.scene, marker.value_or(Marker{}).normalWeighting, placeOf(input));
+  const Marker made = marker.value_or(Marker{});
+  prepareScene(imported.scene, made.dropped, made.normalWeighting, placeOf(input));
   for (std::size_t i = 0; i < hadNormals.size(); ++i)
     if (!marker && !hadNormals[i])
       imported.scene.meshes[i].normals.clear();

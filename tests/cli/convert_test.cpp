@@ -319,6 +319,27 @@ TEST_F(Convert, KeepsTheAttributesThatAreNamed) {
   }
 }
 
+TEST_F(Convert, DropsElementsThatAddNothingWhereItIsTold) {
+  write(input_,
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n1 1 0\n5 5 5\n3 0 1 2\n3 1 3 2\n3 2 0 1\n3 4 4 1\n");
+  for (const auto& [drop, left] : {std::pair{"none", 4}, {"degenerate", 3}, {"repeated", 3}, {"both", 2}})
+    for (const std::string profile : {"compact", "classic"}) {
+      const Outcome outcome =
+          run({"convert", input_, "-o", site_, "--profile", profile, "--drop", drop, "--json"});
+      ASSERT_EQ(outcome.code, 0) << outcome.err;
+      const Json report = Json::parse(outcome.out);
+      EXPECT_EQ(report["triangles"], left) << drop;
+      EXPECT_EQ(report["weld"]["degenerateElements"], 1);
+      EXPECT_EQ(report["weld"]["duplicateElements"], 1);
+      const Outcome verified = run({"verify", site_, input_});
+      EXPECT_EQ(verified.code, 0) << verified.out;
+    }
+  const std::string told = run({"convert", input_, "-o", site_, "--drop", "degenerate"}).out;
+  EXPECT_NE(told.find("dropped 1 degenerate elements, kept 1 repeated ones"), std::string::npos) << told;
+}
+
 TEST_F(Convert, ServePrintsTheAddressAndStopsOnCtrlC) {
   ASSERT_EQ(run({"convert", input_, "-o", site_}).code, 0);
   const pid_t child = start({"serve", site_, "--port", "0"}, directory_ / "out", directory_ / "err");

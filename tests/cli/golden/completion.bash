@@ -24,6 +24,7 @@ _imgeo() {
     "convert -vc"|"convert --color-bits") COMPREPLY=(); return ;;
     "convert --patch-vertices") COMPREPLY=(); return ;;
     "convert --base") COMPREPLY=(); return ;;
+    "convert --drop") COMPREPLY=($(compgen -W "none degenerate repeated both" -- "$word")); return ;;
     "convert --keep-attributes") COMPREPLY=(); return ;;
     "convert --attribute-bits") COMPREPLY=(); return ;;
     "convert --normal-weighting") COMPREPLY=($(compgen -W "area angle uniform" -- "$word")); return ;;
@@ -38,7 +39,7 @@ _imgeo() {
     "serve --host") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
-    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --container --profile --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --normal-bits --texcoord-bits --color-bits --patch-vertices --base --keep-attributes --attribute-bits --normal-weighting --title --effort --threads --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --container --profile --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --normal-bits --texcoord-bits --color-bits --patch-vertices --base --drop --keep-attributes --attribute-bits --normal-weighting --title --effort --threads --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;

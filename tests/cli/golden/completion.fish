@@ -23,6 +23,7 @@ complete -c imgeo -n '__fish_seen_subcommand_from convert' -l texcoord-bits -o v
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l color-bits -o vc -x -d 'bits of a colour\'s component; compact: 1..8, otherwise 8; classic and bg have 8'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l patch-vertices -x -d 'the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l base -x -d 'compact: a first shape of so many of the triangles in 100, 0..25; 0: none, otherwise 2'
+complete -c imgeo -n '__fish_seen_subcommand_from convert' -l drop -x -a 'none degenerate repeated both' -d 'which elements to leave out: those with two corners at one place, those that repeat another, or both'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l keep-attributes -x -d 'further numbers of PLY\'s vertices to keep: names with commas between, all or none'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l attribute-bits -x -d 'bits of such a number; sig: 8, 16 or 24, otherwise 16; bg holds floats'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l normal-weighting -x -a 'area angle uniform' -d 'how triangles count in normals that the source lacks'

@@ -46,6 +46,7 @@ _imgeo() {
       '--color-bits[bits of a colour'\''s component; compact\: 1..8, otherwise 8; classic and bg have 8]:color-bits: ' \
       '--patch-vertices[the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices]:patch-vertices: ' \
       '--base[compact\: a first shape of so many of the triangles in 100, 0..25; 0\: none, otherwise 2]:base: ' \
+      '--drop[which elements to leave out\: those with two corners at one place, those that repeat another, or both]:drop:(none degenerate repeated both)' \
       '--keep-attributes[further numbers of PLY'\''s vertices to keep\: names with commas between, all or none]:keep-attributes: ' \
       '--attribute-bits[bits of such a number; sig\: 8, 16 or 24, otherwise 16; bg holds floats]:attribute-bits: ' \
       '--normal-weighting[how triangles count in normals that the source lacks]:normal-weighting:(area angle uniform)' \
