@@ -97,9 +97,9 @@ std::vector<Hostile> hostilePatches() {
   for (std::uint32_t i = 0; i < 60'000; ++i)
     addTriangle(0, 1 + i, 1 + (i + 1) % 60'000);
   add("a vertex of 60,000 triangles", 60'001, 6.4);
-  for (std::uint32_t i = 0; i < 20'000; ++i)
+  for (std::uint32_t i = 0; i < 100'000; ++i)
     addTriangle(3 * i, 3 * i + 1, 3 * i + 2);
-  add("20,000 triangles on their own", 60'000, 19);
+  add("100,000 triangles on their own", 300'000, 19);
   for (std::uint32_t i = 0; i < 15'000; ++i)
     for (const auto& [a, b, c] : {std::array{0u, 1u, 2u}, {0u, 2u, 3u}, {0u, 3u, 1u}, {1u, 3u, 2u}})
       addTriangle(4 * i + a, 4 * i + b, 4 * i + c);
