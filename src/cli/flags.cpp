@@ -44,8 +44,9 @@ Flag integer(const std::string& name, std::vector<std::string> aliases, std::int
 }
 
 Command convertCommand() {
-  Flag input = positional("input", "INPUT", Value::file,
-                          "X3D, glTF, GLB, PLY, OBJ or STL file, gzipped or not; \"-\" reads standard input");
+  Flag input =
+      positional("input", "INPUT", Value::file,
+                 "X3D, VRML, glTF, GLB, PLY, OBJ or STL file, gzipped or not; \"-\" reads standard input");
   input.aliases = {"-i"};
   Flag output{.name = "output",
               .aliases = {"-o"},

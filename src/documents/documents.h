@@ -25,6 +25,10 @@ struct PageOptions {
 /// `scene.x3d`: the scene as XML, readable by a person.
 std::string writeX3d(const SceneDocument& document);
 
+/// The document that an Inline shows, whose node it is, as a file of its own beside
+/// the others; of documents that this one inlines the urls are known.
+std::string writeInlinedX3d(const SceneDocument& document, std::size_t inlineNode);
+
 /// `index.html`: the same <X3D> element in an HTML page, with the runtime as one
 /// module and preload hints for the first geometry files. Needs nothing beyond
 /// `default-src 'self'`.
@@ -40,13 +44,19 @@ struct X3domFiles {
 /// The same two documents for X3DOM (docs/formats/x3dom.md), of containers that
 /// were encoded for it.
 std::string writeX3domX3d(const SceneDocument& document);
+std::string writeInlinedX3domX3d(const SceneDocument& document, std::size_t inlineNode);
 std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom,
                            const std::string& stylesheetUrl);
 
 /// The text of the page's stylesheet: the scene fills the window.
 std::string_view pageStylesheet();
 
-/// Reads the <X3D> element of either text back. Safe for untrusted text. Throws
+/// Moves what `more` holds behind what `document` has; returns its top nodes, which
+/// stand nowhere yet.
+std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more);
+
+/// Reads the <X3D> element of either text back. Inlines whose file lies beside the
+/// document have an InlinedDocument, and nothing in it: append() fills it. Safe for untrusted text. Throws
 /// Error{malformed, unsupported, limit} naming `name` and the place.
 SceneDocument readScene(std::string_view text, const std::string& name);
 

@@ -56,6 +56,19 @@ void ElementWriter::leaf(const Element& element, std::string_view content) {
   text_ += escapeText(content) + "</" + element.name + ">\n";
 }
 
+void ElementWriter::comment(std::string_view content) {
+  std::string kept;
+  for (const char c : validText(content)) {
+    if (c == '-' && kept.ends_with('-'))
+      kept += ' ';
+    kept += c;
+  }
+  if (kept.ends_with('-'))
+    kept += ' ';
+  text_.append(2 * level_, ' ');
+  text_ += "<!--" + kept + "-->\n";
+}
+
 std::string number(double value) {
   return fmt::format("{}", value);
 }

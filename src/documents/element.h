@@ -32,6 +32,9 @@ public:
   void leaf(const Element& element); ///< opened and closed: HTML knows no self-closing elements here
   void leaf(const Element& element, std::string_view content); ///< with text in it
 
+  /// Hyphens that would end it sooner are parted.
+  void comment(std::string_view content);
+
   const std::string& text() const { return text_; }
 
 private:

@@ -310,9 +310,9 @@ bool isPageUrl(std::string_view url) {
 
 std::map<std::string, std::size_t> leftOutOfPage(const SceneGraph& graph) {
   std::map<std::string, std::size_t> counts;
-  for (const std::size_t index : nodesInOrder(graph))
+  for (const std::size_t index : nodesOfDocument(graph, graph.roots))
     if (const OtherNode* other = std::get_if<OtherNode>(&graph.nodes[index].content))
-      if (!mayStandInPage(other->element))
+      if (!mayStandInPage(other->element) && other->element != commentElement)
         ++counts[other->element];
   return counts;
 }

@@ -54,7 +54,7 @@ SceneDocument hostileDocument() {
                           {{"url", "\"java\tscript:alert(8)\" \"data:text/html,alert(9)\" \"part.x3d\""}}),
                  addOther(graph, "AudioClip", {{"url", "data:audio/wav,alert(10)"}}),
                  addOther(graph, "DirectionalLight", {{"on", "false"}})};
-  graph.header = {addOther(graph, "meta", {{"http-equiv", "refresh"}, {"content", "0;url=//evil"}})};
+  graph.head.header = {addOther(graph, "meta", {{"http-equiv", "refresh"}, {"content", "0;url=//evil"}})};
   return document;
 }
 

@@ -22,6 +22,11 @@ constexpr std::array nodeNames{"Shape",      "Group",          "Transform",
                                "Viewpoint",  "OrthoViewpoint", "DirectionalLight",
                                "PointLight", "SpotLight"};
 
+/// "0123456789abcdef.x3d": a document that `convert` wrote beside its scene.
+bool isNamedByContent(std::string_view url) {
+  return url.size() == 20 && url.ends_with(".x3d") && url.find_first_not_of("0123456789abcdef") == 16;
+}
+
 bool hasElements(const pugi::xml_node& node) {
   return std::ranges::any_of(node.children(),
                              [](const auto& child) { return child.type() == pugi::node_element; });
@@ -70,6 +75,8 @@ private:
       document_.graph.headlight = fields.boolean("headlight", true);
     } else if (is("Background")) {
       readBackground(fields);
+    } else if (is("Inline")) {
+      return readInline(fields);
     } else if (std::ranges::any_of(nodeNames, is)) {
       const std::string use = fields.text("USE");
       return use.empty() ? readNodeElement(fields, depth) : defined(fields, use);
@@ -81,6 +88,23 @@ private:
                  readChildren(fields.node(), depth + 1)); // whatever it is, shapes may stand in it
     }
     return {};
+  }
+
+  /// One of our own: its document lies beside this one, and is left to who opens files.
+  std::optional<std::size_t> readInline(const Fields& fields) {
+    if (const std::string use = fields.text("USE"); !use.empty())
+      return defined_.contains(use) ? std::optional(defined_.at(use)) : std::nullopt;
+    const std::vector<std::string> urls = fields.strings("url");
+    if (urls.size() != 1 || !isNamedByContent(urls[0]))
+      return {};
+    std::vector<InlinedDocument>& inlined = document_.graph.inlined;
+    const auto found = std::ranges::find(inlined, urls[0], &InlinedDocument::url);
+    const std::size_t index = static_cast<std::size_t>(found - inlined.begin());
+    if (found == inlined.end())
+      inlined.push_back({urls[0], {}});
+    const std::size_t node = add(fields, OtherNode{"Inline", "", {}, index});
+    document_.graph.nodes[node].fields = {{"url", urls[0]}};
+    return node;
   }
 
   std::optional<std::size_t> defined(const Fields& fields, const std::string& use) const {
@@ -266,9 +290,17 @@ private:
   std::map<std::string, Shape> definedGeometries_;
 };
 
-/// pugixml leaves references that it does not know as text; we refuse them.
+/// pugixml leaves references that it does not know as text; we refuse them, but in comments.
 void checkReferences(std::string_view text, const std::string& name, TextSpan span) {
+  std::size_t comment = text.find("<!--", span.begin);
   for (std::size_t at = text.find('&', span.begin); at < span.end; at = text.find('&', at + 1)) {
+    while (comment < at) {
+      const std::size_t end = std::min(text.find("-->", comment), text.size());
+      at = std::max(at, std::min(text.find('&', end), text.size()));
+      comment = text.find("<!--", end);
+    }
+    if (at >= span.end)
+      return;
     const std::string_view rest = text.substr(at + 1, 12);
     const std::string_view entity = rest.substr(0, rest.find(';'));
     const bool known = entity == "amp" || entity == "lt" || entity == "gt" || entity == "quot" ||
@@ -280,6 +312,12 @@ void checkReferences(std::string_view text, const std::string& name, TextSpan sp
 }
 
 } // namespace
+
+std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more) {
+  std::vector<std::size_t> roots = append(document.graph, std::move(more.graph), document.geometries.size());
+  std::ranges::move(more.geometries, std::back_inserter(document.geometries));
+  return roots;
+}
 
 SceneDocument readScene(std::string_view text, const std::string& name) {
   if (text.size() > maxDocumentBytes)

@@ -58,9 +58,12 @@ Attributes SceneWriter::Names::defOrUse(std::size_t index) {
   return {{wasWritten ? "USE" : "DEF", names_[index]}};
 }
 
-SceneWriter::SceneWriter(const SceneDocument& document, std::size_t level, Medium medium)
+SceneWriter::SceneWriter(const SceneDocument& document, std::size_t level, Medium medium,
+                         std::optional<std::size_t> inlineNode)
     : document_(document), writer_(level), nodeNames_(document.graph.nodes.size()),
       appearanceNames_(document.graph.appearances.size()), textureNames_(document.graph.textures.size()),
+      roots_(inlineNode ? document.graph.nodes.at(*inlineNode).children : document.graph.roots),
+      head_(inlineNode ? inlinedDocumentOf(document.graph, *inlineNode).head : document.graph.head),
       medium_(medium), geometryNames_(2 * document.geometries.size()) {
   giveNames();
 }
@@ -70,12 +73,13 @@ void SceneWriter::giveNames() {
   const SceneGraph& graph = document_.graph;
   std::vector<std::size_t> nodeUses(graph.nodes.size()), appearanceUses(graph.appearances.size()),
       textureUses(graph.textures.size()), geometryUses(2 * document_.geometries.size());
-  const std::vector<std::size_t> order = nodesInOrder(graph);
-  for (const std::size_t root : graph.roots)
+  const std::vector<std::size_t> order = nodesOfDocument(graph, roots_);
+  for (const std::size_t root : roots_)
     ++nodeUses[root];
   for (const std::size_t index : order) {
-    for (const std::size_t child : graph.nodes[index].children)
-      ++nodeUses[child];
+    if (!showsDocument(graph.nodes[index]))
+      for (const std::size_t child : graph.nodes[index].children)
+        ++nodeUses[child];
     if (const Shape* shape = std::get_if<Shape>(&graph.nodes[index].content)) {
       ++geometryUses.at(2 * shape->mesh + !shape->solid);
       if (shape->appearance && appearanceUses.at(*shape->appearance)++ == 0)
@@ -106,6 +110,8 @@ bool SceneWriter::hasOther(std::string_view element) const {
 
 void SceneWriter::writeHead() {
   const SceneGraph& graph = document_.graph;
+  if (graph.isComplete)
+    return;
   if ((!graph.title.empty() || !graph.info.empty()) && !hasOther("WorldInfo")) {
     Attributes fields{{"title", graph.title}};
     if (!graph.info.empty())
@@ -120,23 +126,25 @@ void SceneWriter::writeHead() {
 
 /// What an X3D file says of itself; HTML has a head of its own.
 void SceneWriter::writeHeader() {
-  const std::vector<std::size_t>& header = document_.graph.header;
-  if (header.empty() || medium_ == Medium::page)
+  if (head_.header.empty() || medium_ == Medium::page)
     return;
   const Element head{"head", {}};
   writer_.open(head);
-  for (const std::size_t node : header)
+  for (const std::size_t node : head_.header)
     writeNode(node);
   writer_.close(head);
 }
 
 std::string SceneWriter::write() {
-  const Element x3d{"X3D", {{{"profile", "Interchange"}, {"version", "4.0"}}}}, scene{"Scene", {}};
+  Element x3d{"X3D", {{{"profile", "Interchange"}, {"version", "4.0"}}}};
+  if (!head_.fields.empty())
+    x3d.groups = {allowedFields(head_.fields)};
+  const Element scene{"Scene", {}};
   writer_.open(x3d);
   writeHeader();
   writer_.open(scene);
   writeHead();
-  for (const std::size_t root : document_.graph.roots)
+  for (const std::size_t root : roots_)
     writeNode(root);
   writer_.close(scene);
   writer_.close(x3d);
@@ -156,8 +164,12 @@ void SceneWriter::writeParts(const Node& node) {
 }
 
 Attributes SceneWriter::furtherFields(const Node& node) const {
+  return allowedFields(node.fields);
+}
+
+Attributes SceneWriter::allowedFields(const std::vector<FieldText>& all) const {
   Attributes fields;
-  for (const FieldText& field : node.fields) {
+  for (const FieldText& field : all) {
     if (medium_ == Medium::file) {
       fields.push_back({field.name, field.value});
       continue;
@@ -181,6 +193,8 @@ Element SceneWriter::otherElement(const OtherNode& other, const Node& node, cons
   for (Attribute& field : furtherFields(node)) {
     if (field.name == "url" && other.image)
       field.value = strings({document_.graph.images.at(*other.image).url});
+    if (field.name == "url" && other.document)
+      field.value = strings({document_.graph.inlined.at(*other.document).url});
     element.groups.back().push_back(std::move(field));
   }
   return element;
@@ -197,13 +211,25 @@ Element SceneWriter::elementOf(const Node& node, const Attributes& names) const 
           return contentElement(content, names);
       },
       node.content);
-  std::ranges::move(furtherFields(node), std::back_inserter(element.groups.back()));
+  Attributes further = furtherFields(node); // an X3D source's own words come before ours
+  std::erase_if(element.groups.back(), [&](const Attribute& attribute) {
+    return std::ranges::find(further, attribute.name, &Attribute::name) != further.end();
+  });
+  std::ranges::move(further, std::back_inserter(element.groups.back()));
   return element;
+}
+
+/// In a page comments are left out: HTML ends some of them sooner than XML.
+void SceneWriter::writeComment(const OtherNode& comment) {
+  if (medium_ == Medium::file)
+    writer_.comment(comment.text);
 }
 
 void SceneWriter::writeNode(std::size_t index) {
   const Node& node = document_.graph.nodes[index];
   const OtherNode* other = std::get_if<OtherNode>(&node.content);
+  if (other && other->element == commentElement)
+    return writeComment(*other);
   if (other && medium_ == Medium::page && node.children.empty() && !mayStandInPage(other->element))
     return;
   const Attributes names = nodeNames_.defOrUse(index);
@@ -212,7 +238,7 @@ void SceneWriter::writeNode(std::size_t index) {
   if (std::holds_alternative<Shape>(node.content))
     return writeShape(node, names);
   const Element element = elementOf(node, names);
-  if (node.children.empty() && node.extras.empty())
+  if ((node.children.empty() || showsDocument(node)) && node.extras.empty())
     return writer_.leaf(element, other && medium_ == Medium::file ? other->text : "");
   writer_.open(element);
   writeParts(node);

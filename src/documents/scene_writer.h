@@ -6,6 +6,7 @@
 #include "documents/element.h"
 #include "documents/text.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,10 @@ enum class Medium : std::uint8_t { page, file };
 
 class SceneWriter {
 public:
-  /// `document` outlives the writer; `level` is the element's indent.
-  SceneWriter(const SceneDocument& document, std::size_t level, Medium medium);
+  /// `document` outlives the writer; `level` is the element's indent. With an Inline's
+  /// node, the document that it shows is written instead.
+  SceneWriter(const SceneDocument& document, std::size_t level, Medium medium,
+              std::optional<std::size_t> inlineNode = {});
   virtual ~SceneWriter() = default;
   SceneWriter(const SceneWriter&) = delete;
   SceneWriter& operator=(const SceneWriter&) = delete;
@@ -33,6 +36,7 @@ protected:
   void writeParts(const Node& node);
   /// The further fields of a node's element, as far as they may stand in this medium.
   Attributes furtherFields(const Node& node) const;
+  Attributes allowedFields(const std::vector<FieldText>& all) const;
 
   /// Names that elements have, given when they are first written.
   class Names {
@@ -55,6 +59,7 @@ protected:
 private:
   void giveNames();
   void writeHeader();
+  void writeComment(const OtherNode& comment);
   Element elementOf(const Node& node, const Attributes& names) const;
   Element otherElement(const OtherNode& other, const Node& node, const Attributes& names) const;
   bool hasOther(std::string_view element) const;
@@ -63,6 +68,8 @@ private:
   void writeAppearanceOf(const Shape& shape);
   void writeGeometryOf(const Shape& shape);
 
+  const std::vector<std::size_t>& roots_;
+  const DocumentHead& head_;
   const Medium medium_;
   Names geometryNames_; ///< two for each: solid and not
 };

@@ -80,6 +80,10 @@ std::string writeX3d(const SceneDocument& document) {
   return xmlDeclaration + SceneWriter(document, 0, Medium::file).write();
 }
 
+std::string writeInlinedX3d(const SceneDocument& document, std::size_t inlineNode) {
+  return xmlDeclaration + SceneWriter(document, 0, Medium::file, inlineNode).write();
+}
+
 std::string writeHtml(const SceneDocument& document, const PageOptions& options) {
   std::string head = link("stylesheet", options.stylesheetUrl) + link("modulepreload", options.runtimeUrl);
   const auto hasBase = [](const GeometryDescription& geometry) { return geometry.base.has_value(); };
@@ -93,6 +97,10 @@ std::string writeHtml(const SceneDocument& document, const PageOptions& options)
 
 std::string writeX3domX3d(const SceneDocument& document) {
   return xmlDeclaration + x3domElement(document, 0, Medium::file);
+}
+
+std::string writeInlinedX3domX3d(const SceneDocument& document, std::size_t inlineNode) {
+  return xmlDeclaration + x3domElement(document, 0, Medium::file, inlineNode);
 }
 
 std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom,

@@ -27,8 +27,9 @@ Vec2<std::uint32_t> implicitMeshSizeOf(const SceneDocument& document) {
 
 class X3domWriter : public SceneWriter {
 public:
-  X3domWriter(const SceneDocument& document, std::size_t level, Medium medium)
-      : SceneWriter(document, level, medium), sampling_(table_.take("exactTexels")),
+  X3domWriter(const SceneDocument& document, std::size_t level, Medium medium,
+              std::optional<std::size_t> inlineNode)
+      : SceneWriter(document, level, medium, inlineNode), sampling_(table_.take("exactTexels")),
         shiningNames_(document.graph.appearances.size()), implicitMeshSize_(implicitMeshSizeOf(document)) {}
 
 private:
@@ -214,8 +215,9 @@ private:
 
 } // namespace
 
-std::string x3domElement(const SceneDocument& document, std::size_t level, Medium medium) {
-  return X3domWriter(document, level, medium).write();
+std::string x3domElement(const SceneDocument& document, std::size_t level, Medium medium,
+                         std::optional<std::size_t> inlineNode) {
+  return X3domWriter(document, level, medium, inlineNode).write();
 }
 
 } // namespace imgeo

@@ -10,6 +10,7 @@ namespace imgeo {
 /// The element with all its children, indented by `level`, ending in a newline.
 /// A shape of several patches becomes a Group, which takes its DEF, of as many
 /// Shapes, which share its Appearance. The containers were encoded for X3DOM.
-std::string x3domElement(const SceneDocument& document, std::size_t level, Medium medium);
+std::string x3domElement(const SceneDocument& document, std::size_t level, Medium medium,
+                         std::optional<std::size_t> inlineNode = {});
 
 } // namespace imgeo

@@ -13,6 +13,7 @@ Imported readObj(ByteSpan bytes, const std::string& name, const ImportOptions& o
 Imported readStl(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 Imported readX3d(ByteSpan bytes, const std::string& name, const ImportOptions& options);
+Imported readVrml(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 /// Whatever else Assimp reads, in a process of its own.
 Imported readByAssimp(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 bool isReadByAssimp(const std::string& name);
@@ -23,6 +24,7 @@ bool looksLikeStl(ByteSpan bytes);
 bool looksLikeGlb(ByteSpan bytes);
 bool looksLikeGltf(ByteSpan bytes);
 bool looksLikeX3d(ByteSpan bytes);
+bool looksLikeVrml(ByteSpan bytes); ///< any version, and X3D in classic VRML encoding
 /// True where the first line that says anything begins with a keyword of OBJ.
 bool looksLikeObj(ByteSpan bytes);
 

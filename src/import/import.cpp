@@ -40,10 +40,13 @@ Reader readerFor(ByteSpan bytes, const std::string& name) {
     return readGltf;
   if (looksLikeX3d(bytes))
     return readX3d;
+  if (looksLikeVrml(bytes))
+    return readVrml;
   const std::string extension = lowerCase(withoutGz(name).extension());
-  static const std::map<std::string_view, Reader> readers{{".ply", readPly},  {".stl", readStl},
-                                                          {".obj", readObj},  {".gltf", readGltf},
-                                                          {".glb", readGltf}, {".x3d", readX3d}};
+  static const std::map<std::string_view, Reader> readers{
+      {".ply", readPly},    {".stl", readStl},  {".obj", readObj},   {".gltf", readGltf},
+      {".glb", readGltf},   {".x3d", readX3d},  {".x3dz", readX3d},  {".x3dv", readVrml},
+      {".x3dvz", readVrml}, {".wrl", readVrml}, {".vrml", readVrml}, {".wrz", readVrml}};
   const auto reader = readers.find(extension);
   if (reader == readers.end() && isReadByAssimp(name)) // also text in UTF-16, and some that looks like OBJ
     return readByAssimp;
@@ -53,15 +56,16 @@ Reader readerFor(ByteSpan bytes, const std::string& name) {
     throw Error(ErrorKind::unsupported, name, "is text in UTF-16; imgeo reads ASCII and UTF-8");
   if (reader != readers.end())
     return reader->second;
-  throw Error(ErrorKind::unsupported, name,
-              "is in no format that imgeo reads, which are X3D, glTF, PLY, OBJ, STL and those of Assimp "
-              "(Collada, FBX, 3DS ...)");
+  throw Error(
+      ErrorKind::unsupported, name,
+      "is in no format that imgeo reads, which are X3D, VRML, glTF, PLY, OBJ, STL and those of Assimp "
+      "(Collada, FBX, 3DS ...)");
 }
 
 /// Names of nodes become DEFs, which must differ: "wheel", "wheel-2", ...
 void makeNamesUnique(SceneGraph& graph) {
   std::map<std::string, std::size_t> next; // name -> the number to try for its next holder
-  for (const std::size_t index : nodesInOrder(graph)) {
+  for (const std::size_t index : nodesOfDocument(graph, graph.roots)) {
     std::string& name = graph.nodes[index].name;
     if (name.empty())
       continue;
@@ -121,6 +125,8 @@ Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOption
 Imported importFile(const std::filesystem::path& path, const ImportOptions& options) {
   ImportOptions beside = options;
   beside.folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code none;
+  beside.inlinedBy.push_back(std::filesystem::weakly_canonical(path, none));
   return importBytes(readFile(path), path.string(), beside);
 }
 

@@ -18,13 +18,13 @@
 // textures, cameras, punctual lights, the authors' extras; compressed by Draco or
 // meshopt, quantised, sparse, instanced. Attributes _NAME are further attributes NAME.
 // What is damaged is left out, with a warning, unless the options are strict.
-// X3D in XML: the sets of faces, triangles, lines and points and elevation grids are
-// meshes; everything else is a node that goes through as it is.
-// Collada, FBX, 3DS and whatever else Assimp reads: nodes, meshes, materials,
-// textures, cameras and lights, read in a process of its own.
-// Polygons are cut into triangles. Normals are brought to unit length; (0, 0, 1)
-// stands for those without a direction. Everything else is named in a warning.
-// Limits: 2^32 - 1 vertices and corners; OBJ files of 8 GiB; gzipped files, see gzip.h.
+// X3D in XML and in classic VRML, VRML97: the sets of faces, triangles, lines and points and elevation grids
+// are meshes; everything else is a node that goes through as it is. Prototypes are written out where they
+// stand, and files that an Inline names are read too: what they hold are the Inline's children. Collada, FBX,
+// 3DS and whatever else Assimp reads: nodes, meshes, materials, textures, cameras and lights, read in a
+// process of its own. Polygons are cut into triangles. Normals are brought to unit length; (0, 0, 1) stands
+// for those without a direction. Everything else is named in a warning. Limits: 2^32 - 1 vertices and
+// corners; OBJ files of 8 GiB; gzipped files, see gzip.h.
 
 #include "base/bytes.h"
 #include "scene/scene.h"
@@ -52,11 +52,14 @@ struct AttributeChoice {
 };
 
 struct ImportOptions {
-  AttributeChoice attributes;   ///< none where nothing is said
+  AttributeChoice attributes;     ///< none where nothing is said
   std::filesystem::path folder{}; ///< where relative urls lead; empty: nowhere
-  bool outside = false;         ///< urls may lead out of the folder
-  std::size_t inlineBytes = 0;  ///< geometry of an X3D document whose text is no longer than this stays in it
-  bool strict = false;          ///< damage is an Error, even where the rest could be read
+  bool outside = false;           ///< urls may lead out of the folder
+  std::size_t inlineBytes = 0; ///< geometry of an X3D document whose text is no longer than this stays in it
+  bool strict = false;         ///< damage is an Error, even where the rest could be read
+  std::filesystem::path within{}; ///< the folder that urls may not lead out of; empty: `folder`
+  /// The files on whose account this one is read, outermost first: it is inlined by the last.
+  std::vector<std::filesystem::path> inlinedBy{};
 };
 
 /// Reads a file of any known format; the format is told from the content first,

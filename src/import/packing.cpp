@@ -32,7 +32,7 @@ void members(auto& archive, auto& v, const FieldText*) {
   archive(v.name, v.value);
 }
 void members(auto& archive, auto& v, const OtherNode*) {
-  archive(v.element, v.text, v.image);
+  archive(v.element, v.text, v.image, v.document);
 }
 void members(auto& archive, auto& v, const Texture*) {
   archive(v.name, v.image, v.boundaryS, v.boundaryT, v.magnification, v.minification, v.betweenMipMaps,
@@ -44,9 +44,15 @@ void members(auto& archive, auto& v, const ImageFile*) {
 void members(auto& archive, auto& v, const Appearance*) {
   archive(v.name, v.material, v.textures, v.alphaMode, v.alphaCutoff);
 }
+void members(auto& archive, auto& v, const DocumentHead*) {
+  archive(v.fields, v.header);
+}
+void members(auto& archive, auto& v, const InlinedDocument*) {
+  archive(v.url, v.head);
+}
 void members(auto& archive, auto& v, const SceneGraph*) {
-  archive(v.title, v.info, v.nodes, v.roots, v.header, v.appearances, v.textures, v.images, v.background, v.headlight,
-          v.isComplete);
+  archive(v.title, v.info, v.nodes, v.roots, v.head, v.inlined, v.appearances, v.textures, v.images,
+          v.background, v.headlight, v.isComplete);
 }
 void members(auto& archive, auto& v, const Imported*) {
   archive(v.scene.graph, v.scene.meshes, v.attributes, v.format, v.warnings);

@@ -105,7 +105,7 @@ fs::path References::fileOf(std::string_view url) const {
   if (!fs::exists(file, none)) // exporters write names with % and # as they are
     if (const fs::path asWritten = folder_ / std::string(url); fs::exists(asWritten, none))
       file = asWritten;
-  const fs::path folder = fs::weakly_canonical(folder_, none), real = fs::weakly_canonical(file, none);
+  const fs::path folder = fs::weakly_canonical(within_, none), real = fs::weakly_canonical(file, none);
   const bool isInside =
       std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end();
   if (!isInside && !allowsOutside_)

@@ -14,7 +14,8 @@ class References {
 public:
   /// `sourceName` stands for the source in messages.
   References(const ImportOptions& options, std::string sourceName)
-      : folder_(options.folder), allowsOutside_(options.outside), sourceName_(std::move(sourceName)) {}
+      : folder_(options.folder), within_(options.within.empty() ? options.folder : options.within),
+        allowsOutside_(options.outside), sourceName_(std::move(sourceName)) {}
 
   /// The bytes that a url stands for: a data: url's own, or those of a file relative
   /// to the source's folder. Throws Error{unsupported} for other hosts and for files
@@ -22,10 +23,11 @@ public:
   /// allow them, Error{io} for a file that cannot be read.
   Bytes fetch(std::string_view url) const;
 
-private:
+  /// The file that a relative url names, under the same conditions; it may not be there.
   std::filesystem::path fileOf(std::string_view url) const;
 
-  std::filesystem::path folder_;
+private:
+  std::filesystem::path folder_, within_; ///< where urls begin; what they may not lead out of
   bool allowsOutside_ = false;
   std::string sourceName_;
 };

@@ -2,8 +2,10 @@
 
 #include "base/error.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 
 namespace imgeo {
 
@@ -11,15 +13,23 @@ namespace {
 
 constexpr std::size_t maxPlacedShapes = 1'000'000;
 
-void visit(const SceneGraph& graph, std::size_t node, std::vector<bool>& seen,
-           std::vector<std::size_t>& order) {
-  if (seen[node])
-    return;
-  seen[node] = true;
-  order.push_back(node);
-  for (const std::size_t child : graph.nodes[node].children)
-    visit(graph, child, seen, order);
-}
+/// Lists nodes in the order of their first mention.
+struct Visit {
+  const SceneGraph& graph;
+  bool entersInlines = true;
+  std::vector<bool> seen = std::vector<bool>(graph.nodes.size());
+  std::vector<std::size_t> order = {};
+
+  void visit(std::size_t node) {
+    if (seen[node])
+      return;
+    seen[node] = true;
+    order.push_back(node);
+    if (entersInlines || !showsDocument(graph.nodes[node]))
+      for (const std::size_t child : graph.nodes[node].children)
+        visit(child);
+  }
+};
 
 /// Lists the places of the shapes below a node. Nodes below which there are none
 /// are visited once, however often they are USEd.
@@ -66,12 +76,70 @@ std::size_t addRoot(SceneGraph& graph, Node node) {
   return graph.roots.back();
 }
 
+bool showsDocument(const Node& node) {
+  const OtherNode* other = std::get_if<OtherNode>(&node.content);
+  return other && other->document;
+}
+
+const InlinedDocument& inlinedDocumentOf(const SceneGraph& graph, std::size_t node) {
+  assert(showsDocument(graph.nodes.at(node)));
+  return graph.inlined.at(*std::get<OtherNode>(graph.nodes[node].content).document);
+}
+
 std::vector<std::size_t> nodesInOrder(const SceneGraph& graph) {
-  std::vector<bool> seen(graph.nodes.size());
-  std::vector<std::size_t> order;
+  Visit visit{graph};
   for (const std::size_t root : graph.roots)
-    visit(graph, root, seen, order);
-  return order;
+    visit.visit(root);
+  return std::move(visit.order);
+}
+
+std::vector<std::size_t> nodesOfDocument(const SceneGraph& graph, const std::vector<std::size_t>& roots) {
+  Visit visit{graph, false};
+  for (const std::size_t root : roots)
+    visit.visit(root);
+  return std::move(visit.order);
+}
+
+std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_t meshesBefore) {
+  const std::size_t nodes = graph.nodes.size(), appearances = graph.appearances.size(),
+                    textures = graph.textures.size(), images = graph.images.size(),
+                    inlined = graph.inlined.size();
+  const auto shift = [](auto& index, std::size_t by) {
+    if (index)
+      *index += by;
+  };
+  const auto shiftAll = [](std::vector<std::size_t>& indices, std::size_t by) {
+    for (std::size_t& index : indices)
+      index += by;
+  };
+  for (Node& node : more.nodes) {
+    shiftAll(node.children, nodes);
+    if (Shape* shape = std::get_if<Shape>(&node.content)) {
+      shape->mesh += meshesBefore;
+      shift(shape->appearance, appearances);
+    } else if (OtherNode* other = std::get_if<OtherNode>(&node.content)) {
+      shift(other->image, images);
+      shift(other->document, inlined);
+    }
+    graph.nodes.push_back(std::move(node));
+  }
+  for (Appearance& appearance : more.appearances) {
+    for (TextureUse& use : appearance.textures)
+      use.texture += textures;
+    graph.appearances.push_back(std::move(appearance));
+  }
+  for (Texture& texture : more.textures) {
+    texture.image += images;
+    graph.textures.push_back(std::move(texture));
+  }
+  std::ranges::move(more.images, std::back_inserter(graph.images));
+  for (InlinedDocument& document : more.inlined) {
+    shiftAll(document.head.header, nodes);
+    graph.inlined.push_back(std::move(document));
+  }
+  shiftAll(more.roots, nodes);
+  shiftAll(more.head.header, nodes);
+  return std::move(more.roots);
 }
 
 std::vector<std::size_t> shapeNodes(const SceneGraph& graph) {

@@ -92,12 +92,18 @@ struct FieldText {
   friend bool operator==(const FieldText&, const FieldText&) = default;
 };
 
+/// OtherNode::element of a comment.
+inline constexpr const char* commentElement = "#comment";
+
 /// An element of X3D that goes through as it is: its attributes are Node::fields,
-/// what stands in it is Node::children.
+/// what stands in it is Node::children. A comment likewise, which is its text alone.
 struct OtherNode {
   std::string element;
   std::string text;                 ///< its character data: a Script's
   std::optional<std::size_t> image; ///< index into SceneGraph::images: what its url leads to
+  /// Of an Inline, index into SceneGraph::inlined: the document that its url leads to,
+  /// whose top nodes are Node::children.
+  std::optional<std::size_t> document = {};
   friend bool operator==(const OtherNode&, const OtherNode&) = default;
 };
 
@@ -119,13 +125,28 @@ struct Background {
   friend bool operator==(const Background&, const Background&) = default;
 };
 
+/// What an X3D document says of itself.
+struct DocumentHead {
+  std::vector<FieldText> fields;   ///< of <X3D>: its profile, its version
+  std::vector<std::size_t> header; ///< the nodes of its <head>: indices into SceneGraph::nodes
+  friend bool operator==(const DocumentHead&, const DocumentHead&) = default;
+};
+
+/// A document that Inlines of another show.
+struct InlinedDocument {
+  std::string url; ///< where it is written; empty until it is
+  DocumentHead head;
+  friend bool operator==(const InlinedDocument&, const InlinedDocument&) = default;
+};
+
 /// Everything of a scene but its meshes.
 struct SceneGraph {
   std::string title;
   std::vector<std::string> info; ///< X3D WorldInfo: who made the source, whose it is
   std::vector<Node> nodes;
-  std::vector<std::size_t> roots;  ///< indices into `nodes`, in document order
-  std::vector<std::size_t> header; ///< the nodes of an X3D source's <head>
+  std::vector<std::size_t> roots;       ///< indices into `nodes`, in document order
+  DocumentHead head;                    ///< of an X3D source
+  std::vector<InlinedDocument> inlined; ///< each shown by Inlines of one document alone
   std::vector<Appearance> appearances;
   std::vector<Texture> textures;
   std::vector<ImageFile> images;
@@ -146,9 +167,22 @@ std::size_t addNode(SceneGraph& graph, Node node);
 /// The same for a node that stands at the top.
 std::size_t addRoot(SceneGraph& graph, Node node);
 
+/// Whether a node is an Inline whose document is part of the scene.
+bool showsDocument(const Node& node);
+/// The document of one that is.
+const InlinedDocument& inlinedDocumentOf(const SceneGraph& graph, std::size_t node);
+
 /// The nodes below the roots, each once, parents before children, in the order in
 /// which a document first mentions them.
 std::vector<std::size_t> nodesInOrder(const SceneGraph& graph);
+
+/// The same of one document whose top nodes are `roots`, without what its Inlines show.
+std::vector<std::size_t> nodesOfDocument(const SceneGraph& graph, const std::vector<std::size_t>& roots);
+
+/// Moves the nodes, looks, images and inlined documents of `more` behind those of
+/// `graph`, and adds `meshesBefore` to the meshes of its shapes. Returns its roots,
+/// which stand nowhere yet.
+std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_t meshesBefore);
 
 /// The indices of all Shape nodes in that order.
 std::vector<std::size_t> shapeNodes(const SceneGraph& graph);

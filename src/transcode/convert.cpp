@@ -18,6 +18,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <mutex>
+#include <ranges>
+#include <set>
 
 namespace imgeo {
 
@@ -72,10 +74,33 @@ void requireAttributes(const Imported& imported, const ConvertOptions& options) 
 void nameScene(SceneGraph& graph, const std::string& title, bool isWanted) {
   if (isWanted || graph.title.empty())
     graph.title = title;
+  if (graph.isComplete)
+    return;
   // Scripts find shapes by name, and the only object of a file rarely has one.
   const std::vector<std::size_t> shapes = shapeNodes(graph);
   if (shapes.size() == 1 && graph.nodes[shapes[0]].name.empty())
     graph.nodes[shapes[0]].name = graph.title;
+}
+
+std::size_t documentOf(const SceneGraph& graph, std::size_t inlineNode) {
+  return *std::get<OtherNode>(graph.nodes[inlineNode].content).document;
+}
+
+/// The documents that the scene inlines, the innermost first: they are named by their
+/// content, and the url is part of that of the one around.
+void writeInlinedDocuments(SceneDocument& document, Target target, const fs::path& site) {
+  std::vector<std::size_t> firstInlines; // of each document; what stands in it comes behind
+  std::set<std::size_t> seen;
+  for (const std::size_t node : nodesInOrder(document.graph))
+    if (showsDocument(document.graph.nodes[node]) && seen.insert(documentOf(document.graph, node)).second)
+      firstInlines.push_back(node);
+  for (const std::size_t node : firstInlines | std::views::reverse) {
+    const std::string text =
+        target == Target::x3dom ? writeInlinedX3domX3d(document, node) : writeInlinedX3d(document, node);
+    std::string& url = document.graph.inlined[documentOf(document.graph, node)].url;
+    url = contentName(asBytes(text)) + ".x3d";
+    writeFile(site / url, asBytes(text));
+  }
 }
 
 /// The documents of a site for X3DOM, which brings its own runtime.
@@ -181,12 +206,13 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
     elementCount += mesh.elementCount();
   std::mutex doneMutex;
   SiteContent content{{site.path(), geometryFolder}, {site.path(), textureFolder}};
-  const SceneDocument document =
+  SceneDocument document =
       encodeScene(std::move(imported.scene), options, content, report, [&](std::size_t count) {
         const std::lock_guard lock(doneMutex);
         elementsDone += count;
         tell(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
       });
+  writeInlinedDocuments(document, options.target, site.path());
   warnOfCollapsed(report);
   warnOfPage(document.graph, report);
   Marker marker{generator,

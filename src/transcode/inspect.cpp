@@ -80,6 +80,11 @@ SiteInfo inspect(const fs::path& site) {
     return info.files.back().bytes;
   };
   info.documentBytes = add(document.name, "document");
+  std::uint64_t geometryBytes = geometryNodeBytes(document.text);
+  for (const InlinedText& inlined : document.inlined) {
+    info.documentBytes += add(inlined.url, "document");
+    geometryBytes += geometryNodeBytes(inlined.text);
+  }
   for (const std::string& url :
        document.name == sceneName ? std::vector<std::string>{} : pageFilesOf(document.text)) {
     const bool isModule = url.ends_with(".js");
@@ -110,7 +115,7 @@ SiteInfo inspect(const fs::path& site) {
       info.elements.triangles = marker.elements.triangles;
   }
   if (info.elements.triangles > 0)
-    info.bytesPerTriangle = static_cast<double>(info.containerBytes + geometryNodeBytes(document.text)) /
+    info.bytesPerTriangle = static_cast<double>(info.containerBytes + geometryBytes) /
                             static_cast<double>(info.elements.triangles);
   return info;
 }

@@ -11,6 +11,33 @@ namespace imgeo {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr std::size_t maxInlinedDocuments = 1000; // as import has it
+
+/// What is inlined becomes the children of its Inlines, of which those that come so
+/// are looked through too: graph.inlined grows meanwhile.
+void addInlined(OpenedDocument& document) {
+  SceneGraph& graph = document.scene.graph;
+  for (std::size_t index = 0; index < graph.inlined.size(); ++index) {
+    const std::string url = graph.inlined[index].url;
+    const fs::path file = document.root / url;
+    std::error_code none;
+    if (!fs::is_regular_file(file, none))
+      continue;
+    if (index >= maxInlinedDocuments)
+      throw Error(ErrorKind::limit, file.string(), "documents inline one another without end");
+    InlinedText inlined{url, std::string(asText(readFile(file)))};
+    const std::vector<std::size_t> roots = append(document.scene, readScene(inlined.text, file.string()));
+    for (Node& node : graph.nodes)
+      if (const OtherNode* other = std::get_if<OtherNode>(&node.content); other && other->document == index)
+        node.children = roots;
+    document.inlined.push_back(std::move(inlined));
+  }
+}
+
+} // namespace
+
 OpenedDocument openDocument(const fs::path& site) {
   fs::path file = site;
   std::error_code none;
@@ -21,8 +48,9 @@ OpenedDocument openDocument(const fs::path& site) {
     if (!fs::exists(file, none))
       throw Error(ErrorKind::io, site.string(), "is no site: it holds neither index.html nor scene.x3d");
   }
-  OpenedDocument document{file.parent_path(), file.filename(), std::string(asText(readFile(file))), {}};
+  OpenedDocument document{file.parent_path(), file.filename(), std::string(asText(readFile(file))), {}, {}};
   document.scene = readScene(document.text, file.string());
+  addInlined(document);
   return document;
 }
 

@@ -13,15 +13,22 @@
 
 namespace imgeo {
 
+/// A document that another inlines.
+struct InlinedText {
+  std::string url, text;
+};
+
 /// A document and the folder its urls are relative to.
 struct OpenedDocument {
   std::filesystem::path root;
   std::string name; ///< of the document inside `root`
   std::string text;
-  SceneDocument scene;
+  SceneDocument scene;              ///< with that of the documents that it inlines
+  std::vector<InlinedText> inlined; ///< those that are there
 };
 
-/// Opens a site's directory (its index.html, or else its scene.x3d) or a document.
+/// Opens a site's directory (its index.html, or else its scene.x3d) or a document, and
+/// the documents beside it that it inlines, as far as they are there.
 OpenedDocument openDocument(const std::filesystem::path& site);
 
 /// A file that a document names, and what it calls it.

@@ -95,6 +95,8 @@ std::map<std::string, std::vector<double>> namedBounds(const GeometryDescription
 bool checkFiles(const OpenedDocument& document, bool isForeign, Findings& findings) {
   bool whole = true;
   std::vector<std::string> urls = isForeign ? std::vector<std::string>{} : pageFilesOf(document.text);
+  for (const InlinedDocument& inlined : document.scene.graph.inlined)
+    urls.push_back(inlined.url);
   for (const std::string& url : textureFilesOf(document.scene))
     urls.push_back(url);
   for (const NamedFile& file : geometryFilesOf(document.scene))

@@ -1,6 +1,7 @@
 #include "import/x3d/geometry.h"
 
 #include "import/unit_normal.h"
+#include "import/x3d/extrusion.h"
 #include "import/x3d/faces.h"
 
 #include <algorithm>
@@ -14,6 +15,9 @@ namespace imgeo::x3d {
 namespace {
 
 using Indices = std::vector<std::int32_t>;
+
+/// Vertices: the product of two curves may be much longer than both.
+constexpr std::size_t maxExtruded = std::size_t{1} << 22;
 
 /// Reads the vertex data of one geometry node and gives corners their attributes.
 class GeometryReader {
@@ -30,6 +34,7 @@ public:
         {"IndexedTriangleStripSet", &GeometryReader::readStrips},
         {"IndexedTriangleFanSet", &GeometryReader::readFans},
         {"ElevationGrid", &GeometryReader::readElevationGrid},
+        {"Extrusion", &GeometryReader::readExtrusion},
         {"IndexedLineSet", &GeometryReader::readIndexedLines},
         {"LineSet", &GeometryReader::readLines},
         {"PointSet", &GeometryReader::readPoints}};
@@ -275,6 +280,39 @@ private:
         addFace({corner, corner + columns, corner + columns + 1, corner + 1});
       }
     addVertexAttributes();
+    isCreased_ = true;
+  }
+
+  /// As many tuples as a field has, where it is there.
+  template <std::size_t size, typename Tuple>
+  void readTuples(const char* field, std::vector<Tuple>& values) const {
+    if (!node_.attribute(field))
+      return;
+    const std::vector<double> numbers = tuples(node_, field, size);
+    values.clear();
+    for (std::size_t i = 0; i < numbers.size(); i += size)
+      if constexpr (size == 2)
+        values.push_back({numbers[i], numbers[i + 1]});
+      else if constexpr (size == 3)
+        values.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+      else
+        values.push_back({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]});
+    if (values.empty())
+      fail(ErrorKind::malformed, fmt::format("{} is empty", field));
+  }
+
+  void readExtrusion() {
+    Extrusion extrusion;
+    readTuples<2>("crossSection", extrusion.crossSection);
+    readTuples<3>("spine", extrusion.spine);
+    readTuples<2>("scale", extrusion.scale);
+    readTuples<4>("orientation", extrusion.orientation);
+    extrusion.beginCap = source_.boolean(node_, "beginCap", true);
+    extrusion.endCap = source_.boolean(node_, "endCap", true);
+    if (extrusion.spine.size() * extrusion.crossSection.size() > maxExtruded)
+      fail(ErrorKind::unsupported, fmt::format("has more than {} vertices", maxExtruded));
+    data_ = {};
+    extrude(extrusion, data_, faces_);
     isCreased_ = true;
   }
 

@@ -1,7 +1,7 @@
 #pragma once
 // X3D's geometry nodes that are moved into containers -> meshes (ISO/IEC 19775-1,
 // clauses 11 and 13): IndexedFaceSet, the sets of triangles, strips and fans with
-// and without index, ElevationGrid, IndexedLineSet, LineSet, PointSet.
+// and without index, ElevationGrid, Extrusion, IndexedLineSet, LineSet, PointSet.
 
 #include "import/x3d/source.h"
 #include "scene/mesh.h"

@@ -9,41 +9,17 @@ namespace imgeo::x3d {
 
 namespace {
 
-constexpr std::size_t maxDepth = 200;
-
-/// Entities are what XML bombs and the reading of other files are made of; documents
-/// of X3D have none.
-void refuseEntities(std::string_view text, const std::string& name) {
-  const std::size_t doctype = text.find("<!DOCTYPE");
-  if (doctype == text.npos)
-    return;
-  const std::size_t bracket = text.find_first_of("[>", doctype);
-  if (bracket != text.npos && text[bracket] == '[')
-    throw Error(ErrorKind::unsupported, name,
-                "its document type defines entities, which imgeo does not read");
-}
+constexpr std::size_t maxElementDepth = 200;
 
 } // namespace
 
-Source::Source(std::string_view text, const std::string& name) : text_(text), name_(name) {
-  refuseEntities(text, name);
-  const pugi::xml_parse_result result =
-      document_.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
-  if (!result) {
-    // pugixml ends its copy of the text with a zero, and may fail behind it.
-    const std::string_view read = text.substr(0, static_cast<std::size_t>(result.offset));
-    const auto line = 1 + std::ranges::count(read, '\n');
-    throw Error(ErrorKind::malformed, fmt::format("{}:{}", name, line),
-                std::string("not well-formed: ") + result.description());
-  }
-  root_ = document_.document_element();
-  if (std::string_view(root_.name()) != "X3D")
-    throw Error(ErrorKind::malformed, name, "is XML, but its element is no X3D");
-  addDefs(root_, 0);
+Source::Source(Elements elements, std::string_view text, const std::string& name)
+    : elements_(std::move(elements)), text_(text), name_(name) {
+  addDefs(root(), 0);
 }
 
 void Source::addDefs(pugi::xml_node element, std::size_t depth) {
-  if (depth > maxDepth)
+  if (depth > maxElementDepth)
     fail(element, ErrorKind::limit, "elements are nested too deeply");
   if (const pugi::xml_attribute def = element.attribute("DEF"))
     defs_.emplace(def.value(), element);
@@ -61,9 +37,8 @@ pugi::xml_node Source::resolved(pugi::xml_node element) const {
 }
 
 void Source::fail(pugi::xml_node element, ErrorKind kind, const std::string& message) const {
-  const auto offset = std::clamp<std::ptrdiff_t>(element.offset_debug(), 0, std::ssize(text_));
-  const auto line = 1 + std::count(text_.begin(), text_.begin() + offset, '\n');
-  throw Error(kind, fmt::format("{}:{}", name_, line), fmt::format("{}: {}", element.name(), message));
+  throw Error(kind, placeOf(text_, name_, elements_.offsetOf(element)),
+              fmt::format("{}: {}", element.name(), message));
 }
 
 std::vector<double> Source::reals(pugi::xml_node element, const char* field) const {

@@ -2,21 +2,21 @@
 // The elements of an X3D file, with its DEFs: what geometry nodes are read from.
 
 #include "base/error.h"
+#include "import/x3d/elements.h"
 #include "import/x3d/mf_values.h"
 
 #include <map>
-#include <pugixml.hpp>
 #include <string>
 
 namespace imgeo::x3d {
 
 class Source {
 public:
-  /// `text` and `name` outlive the source. Throws Error{malformed, unsupported, limit}.
-  Source(std::string_view text, const std::string& name);
+  /// The elements of `text`, which with `name` outlives the source. Throws Error{limit}.
+  Source(Elements elements, std::string_view text, const std::string& name);
 
   /// <X3D>.
-  pugi::xml_node root() const { return root_; }
+  pugi::xml_node root() const { return elements_.root(); }
   /// The element that a USE names, or the element itself. A null node where there is none.
   pugi::xml_node resolved(pugi::xml_node element) const;
 
@@ -31,10 +31,9 @@ public:
 private:
   void addDefs(pugi::xml_node element, std::size_t depth);
 
+  Elements elements_;
   std::string_view text_;
   const std::string& name_;
-  pugi::xml_document document_;
-  pugi::xml_node root_;
   std::map<std::string_view, pugi::xml_node> defs_; ///< the first of each name
 };
 

@@ -1,15 +1,17 @@
-// X3D in its XML encoding (ISO/IEC 19776-1): geometry becomes meshes, and everything
-// else stays the element that it was.
+// X3D in any of its encodings: geometry becomes meshes, and everything else stays the
+// element that it was.
 
 #include "import/formats.h"
 #include "import/image_type.h"
 #include "import/references.h"
 #include "import/warnings.h"
 #include "import/x3d/geometry.h"
+#include "import/x3d/inlines.h"
+#include "import/x3d/prototypes.h"
+#include "import/x3d/summary.h"
 #include "scene/mf_string.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <set>
 
 namespace imgeo {
@@ -35,27 +37,6 @@ std::vector<FieldText> fieldsOf(pugi::xml_node element,
   return fields;
 }
 
-/// Geometries that our runtime draws from the document.
-bool isDrawnInPages(std::string_view element) {
-  static const std::set<std::string_view> drawn{"Box",
-                                                "Cone",
-                                                "Cylinder",
-                                                "IndexedFaceSet",
-                                                "IndexedLineSet",
-                                                "IndexedTriangleFanSet",
-                                                "IndexedTriangleSet",
-                                                "IndexedTriangleStripSet",
-                                                "LineSet",
-                                                "PointSet",
-                                                "Sphere",
-                                                "TriangleFanSet",
-                                                "TriangleSet",
-                                                "TriangleStripSet",
-                                                "ImageGeometry",
-                                                "BinaryGeometry"};
-  return drawn.contains(element);
-}
-
 /// What stands in a Shape besides its geometry.
 bool isShapePart(std::string_view element) {
   return element == "Appearance" || element.starts_with("Metadata");
@@ -65,21 +46,27 @@ class SceneReader {
 public:
   SceneReader(const Source& source, const References& references, const ImportOptions& options)
       : source_(source), references_(references), isStrict_(options.strict),
-        inlineBytes_(options.inlineBytes) {}
+        inlineBytes_(options.inlineBytes),
+        inlines_(references, options, imported_.scene, imported_.warnings) {}
 
   Imported read() {
-    imported_.format = "X3D";
     SceneGraph& graph = imported_.scene.graph;
     graph.isComplete = true;
+    graph.head.fields = fieldsOf(source_.root());
+    for (const pugi::xml_node& child : source_.root().parent().children())
+      if (child.type() == pugi::node_comment) // whose the document is, as a rule
+        addTo(graph.roots, child);
     for (const pugi::xml_node& child : source_.root().children())
       if (std::string_view(child.name()) == "head")
         for (const pugi::xml_node& element : child.children())
-          addTo(graph.header, element);
+          addTo(graph.head.header, element);
       else if (std::string_view(child.name()) == "Scene")
         for (const pugi::xml_node& element : child.children())
           addTo(graph.roots, element);
+      else if (child.type() == pugi::node_comment)
+        addTo(graph.roots, child);
     addTitle();
-    addWarnings();
+    summary_.addTo(imported_.warnings);
     return std::move(imported_);
   }
 
@@ -103,6 +90,8 @@ private:
   }
 
   std::optional<std::size_t> readElement(pugi::xml_node element) {
+    if (element.type() == pugi::node_comment)
+      return addNode(imported_.scene.graph, {"", OtherNode{commentElement, element.value(), {}}, {}, ""});
     if (element.type() != pugi::node_element)
       return {};
     if (const pugi::xml_attribute use = element.attribute("USE"))
@@ -147,8 +136,8 @@ private:
         return *shape;
     Node node;
     if (name == "Transform") {
-      node.content = readTransform(element);
-      node.fields = fieldsOf(element, {"translation", "rotation", "scale", "scaleOrientation", "center"});
+      node.fields = fieldsOf(element);
+      node.content = readTransform(element, node.fields);
     } else if (name == "Group") {
       node.content = Group{};
       node.fields = fieldsOf(element);
@@ -156,7 +145,10 @@ private:
       node.content = otherNode(element);
       node.fields = fieldsOf(element);
     }
-    addChildren(element, node, {});
+    if (name == "Inline")
+      addInlined(element, node);
+    else
+      addChildren(element, node, {});
     return addNode(imported_.scene.graph, std::move(node));
   }
 
@@ -168,14 +160,50 @@ private:
 
   OtherNode otherNode(pugi::xml_node element) {
     OtherNode other{element.name(), element.text().get(), {}};
+    if (isLeftAtRest(other.element))
+      ++summary_.atRest[other.element];
     const pugi::xml_attribute url = element.attribute("url");
-    if (!url)
+    if (!url || other.element == "Inline")
       return other;
     if (other.element == "ImageTexture")
       other.image = attempt("A texture is left as it is", [&] { return image(parseStrings(url.value())); });
     else if (other.element != "Script")
-      ++notCopied_[other.element];
+      ++summary_.notCopied[other.element];
     return other;
+  }
+
+  static bool isRemote(const std::string& url) {
+    return url.starts_with("http:") || url.starts_with("https:");
+  }
+
+  /// The document of the first of an Inline's urls that leads to one.
+  std::optional<Inlines::Document> inlined(pugi::xml_node element) {
+    const std::vector<std::string> urls = parseStrings(element.attribute("url").value());
+    for (std::size_t i = 0; i < urls.size(); ++i) {
+      if (isRemote(urls[i])) {
+        ++summary_.remoteInlines;
+        return {};
+      }
+      try {
+        return inlines_.read(urls[i]);
+      } catch (const Error& error) {
+        if (error.kind() == ErrorKind::limit || (i + 1 == urls.size() && !error.place().empty()))
+          throw;
+        if (i + 1 == urls.size())
+          source_.fail(element, error.kind(), error.message());
+      }
+    }
+    return {};
+  }
+
+  /// What an Inline shows stands below it.
+  void addInlined(pugi::xml_node element, Node& node) {
+    const std::optional<Inlines::Document> document =
+        attempt("An Inline is left as it is", [&] { return inlined(element); });
+    if (!document)
+      return;
+    std::get<OtherNode>(node.content).document = document->index;
+    node.children = document->roots;
   }
 
   /// The first of several urls that leads to an image.
@@ -183,8 +211,8 @@ private:
     for (std::size_t i = 0; i < urls.size(); ++i) {
       if (const auto found = images_.find(urls[i]); found != images_.end())
         return found->second;
-      if (urls[i].starts_with("http:") || urls[i].starts_with("https:")) {
-        ++remoteImages_;
+      if (isRemote(urls[i])) {
+        ++summary_.remoteImages;
         continue;
       }
       try {
@@ -202,14 +230,27 @@ private:
     return {};
   }
 
-  Transform readTransform(pugi::xml_node element) const {
+  /// Fields that are no numbers count as absent, and leave `fields`.
+  Transform readTransform(pugi::xml_node element, std::vector<FieldText>& fields) {
+    const auto numbers = [&](const char* field, std::size_t count) {
+      std::vector<double> values = attempt("A field is left out", [&] {
+        std::vector<double> read = source_.reals(element, field);
+        if (element.attribute(field) && read.size() < count)
+          source_.fail(element, ErrorKind::malformed,
+                       fmt::format("{} has {} numbers of {}", field, read.size(), count));
+        return read;
+      });
+      if (values.empty())
+        std::erase_if(fields, [&](const FieldText& of) { return of.name == field; });
+      return values;
+    };
     const auto vector = [&](const char* field, Vec3d fallback) {
-      const std::vector<double> v = source_.reals(element, field);
-      return v.size() < 3 ? fallback : Vec3d{v[0], v[1], v[2]};
+      const std::vector<double> v = numbers(field, 3);
+      return v.empty() ? fallback : Vec3d{v[0], v[1], v[2]};
     };
     const auto rotation = [&](const char* field) {
-      const std::vector<double> v = source_.reals(element, field);
-      return v.size() < 4 ? Rotation{} : Rotation{{v[0], v[1], v[2]}, v[3]};
+      const std::vector<double> v = numbers(field, 4);
+      return v.empty() ? Rotation{} : Rotation{{v[0], v[1], v[2]}, v[3]};
     };
     Transform transform;
     transform.translation = vector("translation", {});
@@ -236,13 +277,13 @@ private:
     }
     for (const pugi::xml_node& child : element.children())
       if (child.type() == pugi::node_element && !isShapePart(child.name()) && !isDrawnInPages(child.name()))
-        ++notDrawn_[child.name()];
+        ++summary_.notDrawn[child.name()];
     return {};
   }
 
   /// Whether a geometry is shorter where it is, and pages draw it from there.
   bool staysInline(pugi::xml_node node) const {
-    if (!isDrawnInPages(node.name()) || !source_.boolean(node, "convex", true))
+    if (!isDrawnInPages(node.name()))
       return false;
     std::size_t bytes = textBytesOf(node);
     for (const pugi::xml_node& child : node.children())
@@ -267,7 +308,7 @@ private:
         attempt("A geometry is left as it is", [&] { return readGeometry(source_, node); });
     if (!geometry || geometry->mesh.corners.empty())
       return {};
-    fans_ += geometry->fans;
+    summary_.fans += geometry->fans;
     std::vector<Mesh>& meshes = imported_.scene.meshes;
     meshes.push_back(std::move(geometry->mesh));
     found->second = Shape{meshes.size() - 1, {}, geometry->solid};
@@ -276,7 +317,7 @@ private:
 
   void addTitle() {
     SceneGraph& graph = imported_.scene.graph;
-    for (const std::size_t index : nodesInOrder(graph))
+    for (const std::size_t index : nodesOfDocument(graph, graph.roots))
       if (const OtherNode* other = std::get_if<OtherNode>(&graph.nodes[index].content))
         if (other->element == "WorldInfo" && graph.title.empty())
           for (const FieldText& field : graph.nodes[index].fields)
@@ -284,36 +325,34 @@ private:
               graph.title = field.value;
   }
 
-  void addWarnings() {
-    std::vector<std::string>& warnings = imported_.warnings;
-    if (remoteImages_ > 0)
-      warnings.push_back(
-          fmt::format("{} left on other hosts.", counted(remoteImages_, "texture is", "textures are")));
-    const auto addList = [&](const char* what, const std::map<std::string, std::size_t>& counts) {
-      std::vector<std::string> elements;
-      for (const auto& [element, count] : counts)
-        elements.push_back(fmt::format("{} ({})", element, count));
-      if (!elements.empty())
-        warnings.push_back(fmt::format("{}: {}.", what, fmt::join(elements, ", ")));
-    };
-    addList("Files named by these nodes are not copied", notCopied_);
-    addList("Geometry that stays as it is and that imgeo's pages do not draw", notDrawn_);
-    warnOfFans(warnings, fans_);
-  }
-
   const Source& source_;
   const References& references_;
   bool isStrict_;
   std::size_t inlineBytes_;
   Imported imported_;
+  Inlines inlines_;
   std::map<std::string, std::size_t> defined_;
   std::set<pugi::xml_node_struct*> reading_; ///< elements that are not yet read to their end
   std::map<pugi::xml_node_struct*, std::optional<Shape>> moved_;
   std::map<std::string, std::size_t> images_;
-  std::map<std::string, std::size_t> notCopied_; ///< nodes with urls, by element
-  std::map<std::string, std::size_t> notDrawn_;  ///< geometries, by element
-  std::size_t remoteImages_ = 0, fans_ = 0;
+  Summary summary_;
 };
+
+Imported readElements(Elements elements, ByteSpan bytes, const std::string& name,
+                      const ImportOptions& options) {
+  const PrototypeReport prototypes = writeOutPrototypes(elements, name);
+  const std::string format = elements.format;
+  const Source source(std::move(elements), asText(bytes), name);
+  Imported imported = SceneReader(source, References(options, name), options).read();
+  imported.format = format;
+  if (prototypes.instances + prototypes.prototypes > 0)
+    imported.warnings.push_back(
+        fmt::format("{} of {} written out as the nodes that they stand for.",
+                    counted(prototypes.instances, "instance", "instances"),
+                    counted(prototypes.prototypes, "prototype is", "prototypes are")));
+  warnOfElements(imported.warnings, "Left out of prototypes", prototypes.leftOut);
+  return imported;
+}
 
 } // namespace
 
@@ -323,9 +362,16 @@ bool looksLikeX3d(ByteSpan bytes) {
          beginning.find("<html") == beginning.npos;
 }
 
+bool looksLikeVrml(ByteSpan bytes) {
+  return asText(bytes).starts_with("#VRML V") || asText(bytes).starts_with("#X3D V");
+}
+
 Imported readX3d(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
-  const Source source(asText(bytes), name);
-  return SceneReader(source, References(options, name), options).read();
+  return readElements(parseXml(asText(bytes), name), bytes, name, options);
+}
+
+Imported readVrml(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+  return readElements(parseVrml(asText(bytes), name), bytes, name, options);
 }
 
 } // namespace imgeo

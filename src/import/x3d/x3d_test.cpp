@@ -49,6 +49,34 @@ TEST(X3d, ReadsEveryKindOfSurface) {
             (std::vector<Vec3f>{{0, 1, 0}, {0, 3, 2}, {1, 4, 2}, {0, 1, 0}, {1, 4, 2}, {1, 2, 0}}));
 }
 
+double volumeOf(const Mesh& mesh) {
+  double volume = 0;
+  for (std::size_t i = 0; i < mesh.corners.size(); i += 3)
+    volume += dot(Vec3d(mesh.cornerPosition(i)),
+                  cross(Vec3d(mesh.cornerPosition(i + 1)), Vec3d(mesh.cornerPosition(i + 2)))) /
+              6;
+  return volume;
+}
+
+TEST(X3d, CarriesCrossSectionsAlongSpines) {
+  EXPECT_NEAR(volumeOf(meshOf("<Extrusion/>")), 4, 1e-6);
+  EXPECT_NEAR(volumeOf(meshOf("<Extrusion spine='0 1 0 0 -1 0'/>")), 8, 1e-6);
+  EXPECT_NEAR(
+      volumeOf(meshOf("<Extrusion spine='0 -1 0 0 1 0' scale='1 0.5' orientation='0 1 0 1.5707963'/>")), 4,
+      1e-5);
+  EXPECT_NEAR(volumeOf(meshOf("<Extrusion convex='false' crossSection='0 0 0 3 1 3 1 1 3 1 3 0 0 0'/>")), 5,
+              1e-6);
+  std::string spine;
+  for (int i = 0; i <= 32; ++i)
+    spine += std::to_string(3 * std::cos(i % 32 * 0.19634954)) + " 0 " +
+             std::to_string(-3 * std::sin(i % 32 * 0.19634954)) + " ";
+  const Mesh ring = meshOf("<Extrusion beginCap='false' endCap='false' spine='" + spine +
+                           "' crossSection='0.5 0 0 -0.5 -0.5 0 0 0.5 0.5 0'/>");
+  EXPECT_EQ(ring.elementCount(), 32u * 4 * 2);
+  EXPECT_NEAR(std::abs(volumeOf(ring)), 2 * 3.14159265 * 3 * 0.5, 0.3);
+  EXPECT_EQ(readScene("<Shape><Extrusion spine='0 0 0'/></Shape>").scene.meshes.size(), 0u);
+}
+
 TEST(X3d, ReadsLinesAndPoints) {
   const Mesh lines = meshOf("<IndexedLineSet coordIndex='0 1 2 -1 3 0'>" + square + "</IndexedLineSet>");
   EXPECT_EQ(lines.topology, Topology::lines);
@@ -136,22 +164,22 @@ TEST(X3d, LeavesGeometryThatIsShortAsTextWhereItIs) {
   EXPECT_TRUE(small.scene.meshes.empty());
   EXPECT_EQ(std::get<OtherNode>(small.scene.graph.nodes[small.scene.graph.roots.at(0)].content).element,
             "Shape");
-  EXPECT_EQ(readScene("<Shape><IndexedFaceSet convex='false' coordIndex='0 1 2'>" + square +
-                          "</IndexedFaceSet></Shape>",
-                      options)
-                .scene.meshes.size(),
-            1u);
+  for (const char* drawn :
+       {"<Extrusion/>", "<ElevationGrid xDimension='2' zDimension='2' height='0 0 0 1'/>"})
+    EXPECT_TRUE(readScene("<Shape>" + std::string(drawn) + "</Shape>", options).scene.meshes.empty())
+        << drawn;
   options.inlineBytes = 20;
   EXPECT_EQ(readScene(shape, options).scene.meshes.size(), 1u);
 }
 
 TEST(X3d, SaysWhichGeometryPagesDoNotDraw) {
   const Imported imported =
-      readScene("<Shape><Text string='a'/></Shape><Shape><Appearance/><Extrusion/></Shape>"
-                "<Shape><Sphere/></Shape><Shape><Extrusion/></Shape>");
-  EXPECT_EQ(imported.warnings,
-            std::vector<std::string>{
-                "Geometry that stays as it is and that imgeo's pages do not draw: Extrusion (2), Text (1)."});
+      readScene("<Shape><Text string='a'/></Shape><Shape><Appearance/><NurbsCurve/></Shape>"
+                "<Shape><Sphere/></Shape><Shape><NurbsCurve/></Shape>");
+  EXPECT_EQ(
+      imported.warnings,
+      std::vector<std::string>{
+          "Geometry that stays as it is and that imgeo's pages do not draw: NurbsCurve (2), Text (1)."});
 }
 
 TEST(X3d, TakesTexturesFromItsOwnFolderAlone) {
@@ -189,6 +217,58 @@ TEST(X3d, LeavesWhatIsDamagedAsItIsUnlessStrict) {
   ImportOptions strict;
   strict.strict = true;
   EXPECT_THROW(readScene(damaged, strict), Error);
+}
+
+TEST(X3d, TakesFieldsThatAreNoNumbersForAbsentAndKeepsAbsurdOnes) {
+  const Imported imported =
+      readScene("<Transform scale='NaN 1 1' translation='1 2 3'/><Transform translation='1 2'/>"
+                "<Transform scale='1e30 1e30 1e30'/><Transform scale='0 0 0'/>");
+  const SceneGraph& graph = imported.scene.graph;
+  const auto transformAt = [&](std::size_t root) {
+    return std::get<Transform>(graph.nodes[graph.roots.at(root)].content);
+  };
+  EXPECT_EQ(transformAt(0).scale, (Vec3d{1, 1, 1}));
+  EXPECT_EQ(transformAt(0).translation, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(graph.nodes[graph.roots[0]].fields, (std::vector<FieldText>{{"translation", "1 2 3"}}));
+  EXPECT_EQ(transformAt(2).scale, (Vec3d{1e30, 1e30, 1e30}));
+  EXPECT_EQ(transformAt(3).scale, (Vec3d{}));
+  ASSERT_EQ(imported.warnings.size(), 2u);
+  EXPECT_NE(imported.warnings[0].find("a.x3d:1:"), std::string::npos) << imported.warnings[0];
+  EXPECT_NE(imported.warnings[0].find("Transform: scale holds something that is no number"),
+            std::string::npos);
+}
+
+TEST(X3d, WritesPrototypesOutOfXmlToo) {
+  const Imported imported = readScene(
+      "<ProtoDeclare name='P'><ProtoInterface><field name='c' type='SFColor' accessType='inputOutput' "
+      "value='1 1 1'/>"
+      "</ProtoInterface><ProtoBody><Material><IS><connect nodeField='diffuseColor' "
+      "protoField='c'/></IS></Material>"
+      "</ProtoBody></ProtoDeclare><Shape><Appearance><ProtoInstance name='P' containerField='material'>"
+      "<fieldValue name='c' value='0 1 0'/></ProtoInstance></Appearance></Shape>");
+  const SceneGraph& graph = imported.scene.graph;
+  const Node& look = graph.nodes[graph.nodes[graph.roots.at(0)].children.at(0)];
+  const Node& material = graph.nodes[look.children.at(0)];
+  EXPECT_EQ(std::get<OtherNode>(material.content).element, "Material");
+  EXPECT_EQ(material.fields,
+            (std::vector<FieldText>{{"diffuseColor", "0 1 0"}, {"containerField", "material"}}));
+}
+
+TEST(X3d, KeepsCommentsAndWhatTheDocumentSaysOfItself) {
+  const SceneGraph graph =
+      importBytes(
+          asBytes("<!--of somebody--><X3D profile='Immersive' version='3.1'><head><!--in the head--></head>"
+                  "<Scene><Group><!--within--></Group></Scene></X3D>"),
+          "a.x3d")
+          .scene.graph;
+  EXPECT_EQ(graph.head.fields, (std::vector<FieldText>{{"profile", "Immersive"}, {"version", "3.1"}}));
+  const auto commentOf = [&](std::size_t node) {
+    const OtherNode& other = std::get<OtherNode>(graph.nodes[node].content);
+    return other.element == commentElement ? other.text : "no comment";
+  };
+  EXPECT_EQ(commentOf(graph.roots.at(0)), "of somebody");
+  EXPECT_EQ(commentOf(graph.head.header.at(0)), "in the head");
+  EXPECT_EQ(commentOf(graph.nodes[graph.roots.at(1)].children.at(0)), "within");
 }
 
 TEST(X3d, RefusesBombsAndCircles) {

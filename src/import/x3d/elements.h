@@ -1,0 +1,34 @@
+#pragma once
+// An X3D document as a tree of elements, from either of its encodings: XML
+// (ISO/IEC 19776-1) and classic VRML (19776-2), which VRML97 is the first form of.
+
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+namespace imgeo::x3d {
+
+struct Elements {
+  pugi::xml_document document; ///< its element is <X3D>
+  std::string format;          ///< "X3D", "X3D Classic" or "VRML97": for reports
+  /// Where in the text elements begin, as far as pugixml does not know it.
+  std::unordered_map<pugi::xml_node_struct*, std::size_t> offsets;
+
+  pugi::xml_node root() const { return document.document_element(); }
+  std::size_t offsetOf(pugi::xml_node element) const;
+};
+
+/// Safe for untrusted text: document types with entities are refused. Throws
+/// Error{malformed, unsupported} naming `name` and the line.
+Elements parseXml(std::string_view text, const std::string& name);
+
+/// Safe for untrusted text. Prototypes become ProtoDeclare, ProtoInstance and
+/// ExternProtoDeclare, routes ROUTE, and DEFs that are given again get a number.
+/// Throws Error{malformed, unsupported, limit} naming `name`, line and column.
+Elements parseVrml(std::string_view text, const std::string& name);
+
+/// "hall.wrl:12:3", the line and column of a byte of the text.
+std::string placeOf(std::string_view text, const std::string& name, std::size_t offset);
+
+} // namespace imgeo::x3d

@@ -1,0 +1,63 @@
+#include "import/x3d/summary.h"
+
+#include "import/warnings.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <set>
+
+namespace imgeo::x3d {
+
+bool isDrawnInPages(std::string_view element) {
+  static const std::set<std::string_view> drawn{"Box",
+                                                "Cone",
+                                                "Cylinder",
+                                                "ElevationGrid",
+                                                "Extrusion",
+                                                "IndexedFaceSet",
+                                                "IndexedLineSet",
+                                                "IndexedTriangleFanSet",
+                                                "IndexedTriangleSet",
+                                                "IndexedTriangleStripSet",
+                                                "LineSet",
+                                                "PointSet",
+                                                "Sphere",
+                                                "TriangleFanSet",
+                                                "TriangleSet",
+                                                "TriangleStripSet",
+                                                "ImageGeometry",
+                                                "BinaryGeometry"};
+  return drawn.contains(element);
+}
+
+bool isLeftAtRest(std::string_view element) {
+  static constexpr std::array endings{"Interpolator", "Interpolator2D", "Sequencer", "Sensor",
+                                      "Trigger",      "Chaser",         "Damper",    "Follower"};
+  return element == "ROUTE" || element == "Script" ||
+         std::ranges::any_of(endings, [&](const char* ending) { return element.ends_with(ending); });
+}
+
+void Summary::addTo(std::vector<std::string>& warnings) const {
+  if (remoteImages > 0)
+    warnings.push_back(
+        fmt::format("{} left on other hosts.", counted(remoteImages, "texture is", "textures are")));
+  if (remoteInlines > 0)
+    warnings.push_back(
+        fmt::format("{} left on other hosts.", counted(remoteInlines, "Inline is", "Inlines are")));
+  warnOfElements(warnings, "Files named by these nodes are not copied", notCopied);
+  warnOfElements(warnings, "Geometry that stays as it is and that imgeo's pages do not draw", notDrawn);
+  warnOfElements(warnings, "What moves or answers stays as it is, at rest in imgeo's pages", atRest);
+  warnOfFans(warnings, fans);
+}
+
+void warnOfElements(std::vector<std::string>& warnings, const char* what, const Summary::Counts& counts) {
+  std::vector<std::string> elements;
+  for (const auto& [element, count] : counts)
+    elements.push_back(fmt::format("{} ({})", element, count));
+  if (!elements.empty())
+    warnings.push_back(fmt::format("{}: {}.", what, fmt::join(elements, ", ")));
+}
+
+} // namespace imgeo::x3d

@@ -1,0 +1,55 @@
+#pragma once
+// The words of VRML (ISO/IEC 14772-1, annex A; ISO/IEC 19776-2).
+
+#include "base/error.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace imgeo::x3d {
+
+enum class TokenKind : std::uint8_t { end, word, number, string, openNode, closeNode, openList, closeList };
+
+struct Token {
+  TokenKind kind = TokenKind::end;
+  std::string_view text; ///< of a string what stands between its quotes, backslashes and all
+  std::size_t offset = 0;
+};
+
+class VrmlTokens {
+public:
+  /// `text` and `name` outlive the tokens.
+  VrmlTokens(std::string_view text, const std::string& name);
+
+  const Token& next() const { return next_; }
+  bool nextIs(TokenKind kind) const { return next_.kind == kind; }
+  bool nextIs(std::string_view word) const { return next_.kind == TokenKind::word && next_.text == word; }
+  /// The next token, behind which one then is. Throws Error{malformed} for what is no token.
+  Token take();
+  /// The same where it has to be of this kind; `what` names it where it is not.
+  Token take(TokenKind kind, const char* what);
+
+  /// The comments that were passed since the last call, without their #.
+  std::vector<std::string_view> takeComments() { return std::exchange(comments_, {}); }
+
+  [[noreturn]] void fail(const Token& token, ErrorKind kind, const std::string& message) const;
+  /// Says what should stand here.
+  [[noreturn]] void failExpecting(const std::string& what) const;
+
+private:
+  Token scan();
+  void skipSpace();
+
+  std::string_view text_;
+  const std::string& name_;
+  std::size_t at_ = 0;
+  Token next_;
+  std::vector<std::string_view> comments_;
+};
+
+/// "say \"hello\"" -> say "hello"
+std::string unescaped(std::string_view text);
+
+} // namespace imgeo::x3d
