@@ -20,7 +20,7 @@ _imgeo() {
   (( CURRENT-- ))
   case $command in
     convert) _arguments \
-      '-i[X3D, glTF, GLB, PLY, OBJ or STL file, gzipped or not; "-" reads standard input]:input:_files' \
+      '-i[X3D, VRML, glTF, GLB, PLY, OBJ or STL file, gzipped or not; "-" reads standard input]:input:_files' \
       '-o[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--output[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--container[sig\: PNG images; bg\: typed arrays]:container:(sig bg)' \
