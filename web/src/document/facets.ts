@@ -1,6 +1,8 @@
 // Polygons, lines and points as X3D's geometry nodes state them -> arrays to draw.
 // The same as src/import/x3d/faces.h, for what stands in a page.
 
+import { triangulate } from "./earClipping.ts";
+
 /** Values by number, three a vector or colour. */
 export interface VertexData {
   readonly positions: readonly number[];
@@ -36,6 +38,15 @@ export function fansOf(faces: readonly (readonly Corner[])[]): Corner[] {
     const [first, second] = [face[0], face[i + 1]];
     return first && second ? [first, second, corner] : [];
   }));
+}
+
+/** Polygons that may be concave. */
+export function trianglesOf(positions: readonly number[], faces: readonly (readonly Corner[])[]): Corner[] {
+  return faces.flatMap((face) => {
+    const ring = face.map(({ position }): readonly [number, number, number] =>
+      [positions[3 * position] ?? 0, positions[3 * position + 1] ?? 0, positions[3 * position + 2] ?? 0]);
+    return triangulate(ring).flatMap((place) => face[place] ?? []);
+  });
 }
 
 /** The lines of runs. */

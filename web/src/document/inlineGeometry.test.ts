@@ -52,6 +52,10 @@ describe("geometry in the document", () => {
     ["<Sphere/>", 4 / 3 * Math.PI, [2, 2, 2]],
     ['<Cylinder radius="0.5" height="3"/>', 0.75 * Math.PI, [1, 3, 1]],
     ['<Cone bottomRadius="1" height="3"/>', Math.PI, [2, 3, 2]],
+    ['<Extrusion spine="0 -0.5 0 0 0.5 0"/>', 4, [2, 1, 2]],
+    // Down the other way, and turned a quarter with half of the width at its end.
+    ['<Extrusion spine="0 1 0 0 -1 0"/>', 8, [2, 2, 2]],
+    ['<Extrusion spine="0 -1 0 0 1 0" scale="1 0.5" orientation="0 1 0 1.5707963"/>', 4, [1, 2, 2]],
   ] as const) {
     test(`${markup} is closed, faces outwards and has its size`, () => {
       const { geometry, positions, normals } = trianglesOf(markup);
@@ -84,6 +88,43 @@ describe("geometry in the document", () => {
     }
     assert.deepEqual(trianglesOf(`<IndexedTriangleStripSet index="0 1 3 2">${square}</IndexedTriangleStripSet>`).positions,
       [0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]);
+  });
+
+  test("cuts concave polygons and caps within their outline", () => {
+    const hook = "0 0 0 3 0 0 3 1 0 1 1 0 1 3 0 0 3 0"; // of area 5, in the order of a fan of 7
+    const prism = (positions: number[]) => volumeOf(positions.map((value, i) => i % 3 === 2 ? value + 3 : value));
+    const faces = (convex: boolean) => `<IndexedFaceSet convex="${convex}" coordIndex="4 5 0 1 2 3"><Coordinate point="${hook}"/></IndexedFaceSet>`;
+    const areaOf = (positions: number[]) => Array.from({ length: positions.length / 9 }, (_, i) => {
+      const [ax = 0, ay = 0, , bx = 0, by = 0, , cx = 0, cy = 0] = positions.slice(9 * i, 9 * i + 9);
+      return Math.abs((bx - ax) * (cy - ay) - (cx - ax) * (by - ay)) / 2;
+    }).reduce((sum, area) => sum + area, 0);
+    assert.ok(Math.abs(prism(trianglesOf(faces(false)).positions) - 5) < 1e-6);
+    assert.ok(Math.abs(areaOf(trianglesOf(faces(false)).positions) - 5) < 1e-6);
+    assert.ok(areaOf(trianglesOf(faces(true)).positions) > 6, "a fan overlaps itself");
+    const { positions } = trianglesOf('<Extrusion convex="false" crossSection="0 0 0 3 1 3 1 1 3 1 3 0 0 0"/>');
+    assert.ok(Math.abs(volumeOf(positions) - 5) < 1e-6, `${volumeOf(positions)}`);
+  });
+
+  test("carries a cross-section around a closed spine, smoothly", () => {
+    const points = Array.from({ length: 33 }, (_, i) => [3 * Math.cos(i * Math.PI / 16), 0, -3 * Math.sin(i * Math.PI / 16)]);
+    points[32] = points[0] ?? [];
+    const { positions, normals } = trianglesOf(`<Extrusion beginCap="false" endCap="false" creaseAngle="3.2" spine="${points.flat().join(" ")}"
+      crossSection="0.5 0 0.35 -0.35 0 -0.5 -0.35 -0.35 -0.5 0 -0.35 0.35 0 0.5 0.35 0.35 0.5 0"/>`);
+    assert.ok(Math.abs(Math.abs(volumeOf(positions)) / (2 * Math.PI * 3 * 0.7) - 1) < 0.03, `${volumeOf(positions)}`);
+    const atStart = new Set(positions.flatMap((x, i) => i % 3 === 0 && Math.abs(x - 3.5) < 1e-4 && Math.abs(positions[i + 2] ?? 1) < 1e-4
+      ? [normals.slice(i, i + 3).map((value) => value.toFixed(3)).join()] : []));
+    assert.equal(atStart.size, 1, [...atStart].join(" | "));
+  });
+
+  test("raises a grid of heights, with an attribute for each vertex", () => {
+    const grid = '<ElevationGrid xDimension="3" zDimension="2" xSpacing="2" height="0 1 0 0 1 0"';
+    const { geometry, positions, normals } = trianglesOf(`${grid}/>`);
+    assert.equal(positions.length, 4 * 9);
+    assert.deepEqual(geometry.patches[0]?.box, { min: [0, 0, 0], max: [4, 1, 1] });
+    assert.ok(normals.every((value, i) => i % 3 !== 1 || value > 0.5), "it is seen from above");
+    assert.equal(read('<ElevationGrid xDimension="3" zDimension="3" height="0 1"/>').warnings, 1);
+    assert.deepEqual([...new Uint8Array(bytesOf(read(`${grid}><Color color="1 0 0 1 0 0 1 0 0 0 0 1 0 0 1 0 0 1"/></ElevationGrid>`)
+      .geometry?.patches[0]?.color))].slice(0, 8), [255, 0, 0, 0, 0, 255, 0, 0]);
   });
 
   test("has edges where faces turn by more than creaseAngle", () => {

@@ -5,8 +5,11 @@
 import type { Box3, GeometryDescription, Reference, Warning } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
+import { elevationGrid } from "./elevationGrid.ts";
+import type { Surface } from "./elevationGrid.ts";
+import { extrusion } from "./extrusion.ts";
 import type { Corner, Drawn, VertexData } from "./facets.ts";
-import { drawn, fansOf, linesOf, withCreasedNormals } from "./facets.ts";
+import { drawn, fansOf, linesOf, trianglesOf, withCreasedNormals } from "./facets.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
@@ -47,6 +50,12 @@ const runReaders: Readonly<Record<string, (fields: Fields, data: VertexData) => 
   pointset: (fields, data) => byVertex(fields, data, numbersTo(data.positions.length / 3).map((vertex) => [vertex])),
 };
 
+/** Surfaces that are made of other numbers than their vertices'. */
+const surfaces: Readonly<Record<string, (element: SceneElement, given: VertexData, warnings: Warning[]) => Surface | undefined>> = {
+  elevationgrid: (element, given, warnings) => elevationGrid(readFields(element, nodeFields.ElevationGrid, warnings), given),
+  extrusion: (element, _, warnings) => extrusion(readFields(element, nodeFields.Extrusion, warnings)),
+};
+
 const primitives: Readonly<Record<string, Drawn["primitive"]>> = { indexedlineset: "lines", lineset: "lines", pointset: "points" };
 
 /** Undefined for nodes that are none of the geometries we draw, and for those without elements. */
@@ -55,11 +64,14 @@ export function readInlineGeometry(element: SceneElement, resolve: Resolve, warn
   const solid = solids[name]?.(element, warnings);
   const fields = readFields(element, nodeFields.InlineGeometry, solid ? [] : warnings);
   if (solid) return describe(drawn("triangles", solid.data, fansOf(solid.faces)), fields.solid);
-  const readRuns = runReaders[name];
-  if (readRuns === undefined) return undefined;
-  const data = vertexDataOf(element, resolve, warnings);
-  const primitive = primitives[name] ?? "triangles";
-  const arrays = drawnOf(primitive, data, readRuns(fields, data), fields, name === "indexedfaceset");
+  const readRuns = runReaders[name], readSurface = surfaces[name];
+  if (readRuns === undefined && readSurface === undefined) return undefined;
+  const given = vertexDataOf(element, resolve, warnings);
+  const surface = readSurface?.(element, given, warnings);
+  if (readSurface && !surface) warnings.push({ element, message: "its numbers make no surface; nothing is drawn" });
+  const data = surface?.data ?? given, runs = surface?.faces ?? readRuns?.(fields, given) ?? [];
+  const isCreased = readSurface !== undefined || name === "indexedfaceset";
+  const arrays = drawnOf(primitives[name] ?? "triangles", data, runs, fields, isCreased);
   if (arrays === undefined) warnings.push({ element, message: "it names vertices that it lacks; nothing is drawn" });
   return describe(arrays, fields.solid);
 }
@@ -68,11 +80,12 @@ function drawnOf(primitive: Drawn["primitive"], data: VertexData, runs: Runs, fi
   if (primitive === "points") return drawn(primitive, data, runs.flat());
   if (primitive === "lines") return drawn(primitive, data, linesOf(runs));
   const faces = fields.ccw ? runs : runs.map((run) => run.toReversed());
-  if (data.normals.length > 0) return drawn(primitive, data, fansOf(faces));
+  const cornersOf = fields.convex ? fansOf : (polygons: Runs) => trianglesOf(data.positions, polygons);
+  if (data.normals.length > 0) return drawn(primitive, data, cornersOf(faces));
   // Triangles of one number are smooth, faces have edges unless creaseAngle says otherwise.
   const angle = isCreased ? fields.creaseAngle : fields.normalPerVertex ? Math.PI : 0;
   const creased = withCreasedNormals(data, faces, angle);
-  return drawn(primitive, creased.data, fansOf(creased.faces));
+  return drawn(primitive, creased.data, cornersOf(creased.faces));
 }
 
 function vertexDataOf(element: SceneElement, resolve: Resolve, warnings: Warning[]): VertexData {
