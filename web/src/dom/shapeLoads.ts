@@ -42,6 +42,8 @@ export class ShapeLoads {
   readonly #textures: TextureDeliveries;
   readonly #listener: ShapeLoadsListener;
   readonly #shapes = new Map<SceneElement, LoadedShape>();
+  /** Those that are here and have said all: of ten thousand no frame asks once more. */
+  #isQuiet = false;
 
   constructor(renderer: SceneRenderer, deliveries: SharedDeliveries, textures: TextureDeliveries, listener: ShapeLoadsListener) {
     this.#renderer = renderer;
@@ -85,6 +87,7 @@ export class ShapeLoads {
     const loading = new Loading(element, () => transfersOf(shape));
     const shape: LoadedShape = { geometry, stages, isVisible: visible, loading, delivery: undefined, texture: undefined };
     this.#shapes.set(element, shape);
+    this.#isQuiet = false;
     if (geometry === undefined) shape.loading.settle();
     else if (!this.#renderer.isContextLost) this.#deliver(shape, geometry, element);
   }
@@ -107,6 +110,12 @@ export class ShapeLoads {
   /** The elements that are seen in one of their places. */
   setVisible(visible: ReadonlySet<SceneElement>): void {
     for (const [element, shape] of this.#shapes) shape.isVisible = visible.has(element);
+    this.#isQuiet = false;
+  }
+
+  /** No shape has anything to say that its element has not said. */
+  get isQuiet(): boolean {
+    return this.#isQuiet;
   }
 
   /** Something that is seen is still to come. */
@@ -142,7 +151,11 @@ export class ShapeLoads {
   }
 
   onFrame(): void {
-    for (const { loading } of this.#shapes.values()) loading.onFrame(false);
+    this.#isQuiet = true;
+    for (const { loading, isVisible } of this.#shapes.values()) {
+      loading.onFrame(false);
+      this.#isQuiet &&= loading.isEnded || !isVisible;
+    }
   }
 
   /** Lets go of everything, but not of the shapes. */
@@ -182,6 +195,7 @@ export class ShapeLoads {
         shape.stages[patch] = stage?.name ?? "none";
         // A shape is as far as its last patch; with a first picture as soon as any patch shows.
         shape.loading.reach(stageShown(shape.stages));
+        this.#isQuiet = false;
       },
       onError: (error) => { this.#fail(shape, element, error); },
       onSettled: () => { this.#settle(shape); },
@@ -193,6 +207,7 @@ export class ShapeLoads {
     if (loading.isSettled || !isVisible || !this.#listener.maySettle()) return;
     if (delivery?.isSettled !== true || texture?.joined.isSettled === false) return;
     loading.settle();
+    this.#isQuiet = false;
     this.#renderer.requestFrame(); // events wait for a frame
   }
 

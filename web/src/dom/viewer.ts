@@ -260,6 +260,13 @@ export class Viewer {
   #onFrame(): void {
     this.#listener.onFrame();
     if (!this.#isLoading) return;
+    if (!this.#shapes.isQuiet || !this.#loading.isEnded) this.#tellPage();
+    this.#steering.follow();
+    if (this.#trial === "due") void this.#tryTextures();
+  }
+
+  /** What a frame with everything that has come so far has shown. */
+  #tellPage(): void {
     this.#tellProgress(); // all of it before `load`
     const { awaited } = this.#shapes;
     // Asked for only now: until a frame has shown the end, further shapes may join.
@@ -268,8 +275,6 @@ export class Viewer {
     this.#loading.reach(stageShown(awaited.filter(({ stage, isSettled }) => stage !== "none" || !isSettled).map(({ stage }) => stage)));
     this.#shapes.onFrame();
     this.#loading.onFrame(true);
-    this.#steering.follow();
-    if (this.#trial === "due") void this.#tryTextures();
   }
 
   #warn(element: SceneElement, message: string): void {

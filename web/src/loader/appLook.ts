@@ -53,6 +53,7 @@ export interface Surroundings {
 export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings): Look {
   const shadowMaterials = new WeakMap<Material, ShadowMaterials>();
   return {
+    batching: undefined, // three's Raycaster, and passes with materials of their own, want an object for each place
     makeMaterial(request, appearance, picture) {
       const material = makeMaterial(appearance.material, request.shading);
       material.side = request.solid ? FrontSide : DoubleSide;

@@ -8,7 +8,7 @@ import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
 import { decodePicture } from "../decode/picture.ts";
 import type { Picture } from "../delivery/resources.ts";
 import type { SamplingDescription } from "../document/description.ts";
-import type { Textures } from "../render/patchDraws.ts";
+import type { Textures } from "../render/stageDraws.ts";
 import { readAsData, sampleAs } from "../render/textures.ts";
 
 /** Texels of the longest edge: a renderer that can do less is not in use any more, and we are asked before there is one. */

@@ -111,7 +111,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.#pictures = new TextureDeliveries(pool);
     this.#textures = textures;
     const { root, box } = this.#build({
-      look: appLook(makeMaterial, surroundingsOf(this)), geometries: new GeometryPool(buffers), buffers, textures,
+      look: appLook(makeMaterial, surroundingsOf(this)), geometries: new GeometryPool(buffers), buffers, textures, batches: undefined,
       shared: { pixelRatio: { value: 1 }, depthRange: { value: new Vector2() } },
     });
     this.box = box;
@@ -181,7 +181,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   *#pickCandidates(): Generator<PickCandidate> {
     for (const [element, { object }] of this.#shapes) {
       if (!object.isPickable) continue;
-      for (const placed of object.placedDraws()) if (isShown(placed.object)) yield { ...placed, element };
+      for (const drawn of object.placedDraws()) if (isShown(drawn.group)) yield { ...drawn, element };
     }
   }
 

@@ -44,9 +44,9 @@ export class ScenePicker {
     if (place.x < 0 || place.y < 0 || place.x >= width || place.y >= height) return undefined;
     const hit = lend(renderer, () => picker.pick(camera, place, slack, candidates));
     if (hit === undefined) return undefined;
-    const { object, position, normal, patch, triangle, vertex } = hit;
+    const { group, position, normal, patch, triangle, vertex } = hit;
     return {
-      object: object.parent ?? object, point: position, normal, patch, triangle, vertex,
+      object: group, point: position, normal, patch, triangle, vertex,
       distance: position.distanceTo(camera.getWorldPosition(position.clone())),
     };
   }

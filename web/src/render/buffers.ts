@@ -1,7 +1,9 @@
 // Typed arrays as buffers. Like images they go to the GPU in pieces, so that no
 // single step holds up a frame, and nothing of them is kept here when they are
-// there. three.js would keep its arrays, and delete buffers with whatever geometry
-// is first disposed of; so these are ours, and three.js is only told of them.
+// there. Small ones wait here until a draw wants them as buffers: many of them never
+// are, but become a part of a larger mesh. three.js would keep its arrays, and
+// delete buffers with whatever geometry is first disposed of; so these are ours, and
+// three.js is only told of them.
 
 import type { BufferAttribute, BufferGeometry, InterleavedBuffer } from "three";
 import { GLBufferAttribute } from "three";
@@ -22,13 +24,21 @@ export interface Buffers {
   /** Records of `stride` elements, for three.js. */
   recordsOf(bytes: StoredBytes, type: ElementType, stride: number): InterleavedBuffer;
   indexOf(bytes: StoredBytes, type: ElementType): BufferAttribute;
-  /** `count` elements from number `first` on; all that follow where `count` is undefined. Waits for the GPU. */
+  /** `count` elements from number `first` on; all that follow where `count` is undefined. Waits for the GPU where it has them. */
   read(bytes: StoredBytes, type: ElementType, first: number, count?: number): ElementArray;
   /** Disposes of a geometry that was made of these; they themselves stay. */
   dispose(geometry: BufferGeometry): void;
 }
 
 const bytesPerStep = 2 ** 18;
+
+/** Arrays up to this one are small: a step would bring them to the GPU. */
+const mostBytesKept = bytesPerStep;
+
+interface Kept {
+  readonly array: ElementArray;
+  readonly use: ArrayUse;
+}
 
 /** WebGL's constants. */
 const glTypes: Readonly<Record<ElementType, number>> = {
@@ -37,31 +47,36 @@ const glTypes: Readonly<Record<ElementType, number>> = {
 
 export class BufferStore implements Buffers {
   readonly #gl: WebGL2RenderingContext;
-  readonly #buffers = new WeakMap<StoredBytes, WebGLBuffer>();
+  readonly #buffers = new WeakMap<StoredBytes, WebGLBuffer | Kept>();
   #bytes = 0;
 
   constructor(gl: WebGL2RenderingContext) {
     this.#gl = gl;
   }
 
-  /** Of all buffers that are open. */
+  /** Of all arrays that are open. */
   get bytes(): number {
     return this.#bytes;
   }
 
   begin(array: ElementArray, use: ArrayUse): BufferUpload {
     const gl = this.#gl;
-    const buffer = gl.createBuffer();
     const { byteLength } = array;
     this.#bytes += byteLength;
     const bytes = {
       byteLength,
       close: () => {
+        const held = this.#buffers.get(bytes);
         if (!this.#buffers.delete(bytes)) return;
         this.#bytes -= byteLength;
-        gl.deleteBuffer(buffer);
+        if (held instanceof WebGLBuffer) gl.deleteBuffer(held);
       },
     };
+    if (byteLength <= mostBytesKept) {
+      this.#buffers.set(bytes, { array, use });
+      return { bytes, steps: keeping(byteLength) };
+    }
+    const buffer = gl.createBuffer();
     this.#buffers.set(bytes, buffer);
     return { bytes, steps: pieces(gl, buffer, array, use) };
   }
@@ -80,9 +95,14 @@ export class BufferStore implements Buffers {
 
   read(bytes: StoredBytes, type: ElementType, first: number, count = Infinity): ElementArray {
     const gl = this.#gl;
-    const held = Math.max(0, Math.floor(bytes.byteLength / byteSizeOf(type)) - first);
-    const elements = new (arrayTypeOf(type))(Math.min(held, count));
-    gl.bindBuffer(gl.COPY_READ_BUFFER, this.#bufferOf(bytes));
+    const held = this.#heldOf(bytes);
+    if (!(held instanceof WebGLBuffer)) {
+      const { buffer, byteOffset, byteLength } = held.array;
+      return new (arrayTypeOf(type))(buffer, byteOffset, Math.floor(byteLength / byteSizeOf(type))).subarray(first, first + count);
+    }
+    const length = Math.max(0, Math.floor(bytes.byteLength / byteSizeOf(type)) - first);
+    const elements = new (arrayTypeOf(type))(Math.min(length, count));
+    gl.bindBuffer(gl.COPY_READ_BUFFER, held);
     gl.getBufferSubData(gl.COPY_READ_BUFFER, first * byteSizeOf(type), elements);
     gl.bindBuffer(gl.COPY_READ_BUFFER, null);
     return elements;
@@ -96,10 +116,24 @@ export class BufferStore implements Buffers {
   }
 
   #bufferOf(bytes: StoredBytes): WebGLBuffer {
-    const buffer = this.#buffers.get(bytes);
-    if (buffer === undefined) throw new RangeError("the array is not on the GPU");
+    const held = this.#heldOf(bytes);
+    if (held instanceof WebGLBuffer) return held;
+    const buffer = this.#gl.createBuffer();
+    for (const steps = pieces(this.#gl, buffer, held.array, held.use); steps.next().done !== true;);
+    this.#buffers.set(bytes, buffer);
     return buffer;
   }
+
+  #heldOf(bytes: StoredBytes): WebGLBuffer | Kept {
+    const held = this.#buffers.get(bytes);
+    if (held === undefined) throw new RangeError("the array is closed");
+    return held;
+  }
+}
+
+/** Counts as the step that will be taken when a draw wants it. */
+function* keeping(byteLength: number): Generator<number, void, void> {
+  yield byteLength;
 }
 
 /** Through a target that no vertex array notes, but for the first step. */

@@ -5,15 +5,25 @@
 import type { Material, Texture, Vector2 } from "three";
 import type { AppearanceDescription } from "../document/description.ts";
 import type { DrawRange } from "../decode/stage.ts";
-import type { DrawnObject } from "./pickDraw.ts";
+import type { DrawnObject } from "./drawnObject.ts";
 import type { VertexForm, VertexUniforms } from "./vertexChunk.ts";
 
 export interface Look {
+  /** How draws of several shapes go together; undefined: they do not. */
+  readonly batching: Batching | undefined;
   makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, picture: ShownPicture | undefined): Material;
   /** Changes a material of this look in place. */
   applyAppearance(material: Material, appearance: AppearanceDescription, colors: VertexColors, picture: ShownPicture | undefined): void;
   /** Gives an object what it needs besides its material. */
   prepare(object: DrawnObject, request: MaterialRequest, material: Material): void;
+}
+
+/** What shapes that are drawn together have in common, and what each has of its own. */
+export interface Batching {
+  /** The same for appearances that one material can show; undefined for what is drawn in the order of its distance. */
+  keyOf(request: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription, picture: ShownPicture | undefined): string | undefined;
+  /** The rest of an appearance, for the shader: the field `look` of a place's record. */
+  numbersOf(request: Pick<MaterialRequest, "shading" | "colors">, appearance: AppearanceDescription): readonly number[];
 }
 
 /** A texture that is laid over a surface. */

@@ -11,8 +11,9 @@
 import type { Color, Material } from "three";
 import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshPhongMaterial } from "three";
 import type { AppearanceDescription, MaterialDescription, Vec3 } from "../document/description.ts";
+import { placeColors, placesDefine } from "./batches/placeChunk.ts";
 import { farnessDefine, shadeByFarnessIn } from "./farness.ts";
-import type { Look, MaterialRequest, ShownPicture, VertexColors } from "./look.ts";
+import type { Look, MaterialRequest, Shading, ShownPicture, VertexColors } from "./look.ts";
 import { displayedOf, physicalDefine, physicalLighting, physicalOutput } from "./physicalLighting.ts";
 import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
 import { colorByValueIn } from "./valueColors.ts";
@@ -30,7 +31,11 @@ struct X3dMaterial {
 ${physicalLighting}
 #else
 
-uniform float ambientIntensity;
+#ifdef ${placesDefine}
+  #define ambientIntensity placeEmissive.a
+#else
+  uniform float ambientIntensity;
+#endif
 
 void directX3d(const in IncidentLight light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
                const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
@@ -63,7 +68,13 @@ const mapChunk = /* glsl */ `
 #endif
 `;
 
-const materialFromUniforms = "X3dMaterial material = X3dMaterial(diffuseColor.rgb, specular, shininess);";
+const materialChunk = /* glsl */ `
+#ifdef ${placesDefine}
+  X3dMaterial material = X3dMaterial(diffuseColor.rgb, placeSpecular.rgb, placeSpecular.a);
+#else
+  X3dMaterial material = X3dMaterial(diffuseColor.rgb, specular, shininess);
+#endif
+`;
 
 /** Uniforms of a lit material. */
 interface LitUniforms {
@@ -76,12 +87,12 @@ type LitMaterial = MeshPhongMaterial & { userData: { lit?: LitUniforms } };
 type PatchMaterial = LitMaterial | MeshBasicMaterial;
 
 /** Pages look as X3D says. */
-export const x3dLook: Look = { makeMaterial, applyAppearance, prepare: () => undefined };
+export const x3dLook: Look = { makeMaterial, applyAppearance, prepare: () => undefined, batching: { keyOf, numbersOf } };
 
 function makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, picture: ShownPicture | undefined): PatchMaterial {
   const { shading, colors, solid, uniforms, shared } = request;
   const lit: LitUniforms = { ambientIntensity: { value: 0 }, metallic: { value: 1 }, roughness: { value: 1 } };
-  const material: PatchMaterial = shading === "unlit" || shading === "distance" ? new MeshBasicMaterial()
+  const material: PatchMaterial = isUnlit(shading) ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
   material.side = solid ? FrontSide : DoubleSide;
   material.vertexColors = colors !== "none";
@@ -98,9 +109,10 @@ function makeMaterial(request: MaterialRequest, appearance: AppearanceDescriptio
     colorByValueIn(shader);
     shader.fragmentShader = replaceEach(shader.fragmentShader, [
       ["#include <lights_phong_pars_fragment>", x3dLighting],
-      ["#include <lights_phong_fragment>", materialFromUniforms],
+      ["#include <lights_phong_fragment>", materialChunk],
       ["#include <colorspace_fragment>", physicalOutput],
       ["#include <map_fragment>", mapChunk],
+      ...placeColors,
     ]);
   };
   // The text of `onBeforeCompile` is the same for all, so programs are shared as they should be.
@@ -109,34 +121,65 @@ function makeMaterial(request: MaterialRequest, appearance: AppearanceDescriptio
   return material;
 }
 
-/** Colours of vertices stand in for the diffuse colour; glTF multiplies them with its base colour. A texture is multiplied by what is there (X3D 4). */
+/** A texture is multiplied by what is there (X3D 4). */
 function applyAppearance(material: Material, appearance: AppearanceDescription, colors: VertexColors, picture: ShownPicture | undefined): void {
   const description = appearance.material;
-  const hasColors = colors !== "none";
-  if (material instanceof MeshPhongMaterial) applyLit(material, description, hasColors);
-  else if (material instanceof MeshBasicMaterial) setColor(material.color, hasColors ? [1, 1, 1] : unlitColorOf(description));
-  applyAlpha(material, appearance, colors === "rgba" || picture?.hasAlpha === true);
-  const texture = picture?.texture ?? null;
   const shown = material as PatchMaterial;
-  if ((shown.map === null) !== (texture === null)) material.needsUpdate = true;
-  shown.map = texture;
-  if (!(shown instanceof MeshPhongMaterial)) return;
-  const emissiveMap = description.kind === "unlit" ? texture : null;
-  if ((shown.emissiveMap === null) !== (emissiveMap === null)) material.needsUpdate = true;
-  shown.emissiveMap = emissiveMap;
-}
-
-function applyAlpha(material: Material, { alpha: { mode, cutoff }, material: { transparency } }: AppearanceDescription, hasAlpha: boolean): void {
-  const blends = mode === "BLEND" || (mode === "AUTO" && (transparency > 0 || hasAlpha));
-  material.opacity = mode === "OPAQUE" ? 1 : 1 - transparency;
-  material.alphaTest = mode === "MASK" ? cutoff : 0;
-  if (material.transparent === blends) return;
+  const isLit = shown instanceof MeshPhongMaterial;
+  if (isLit) applyLit(shown, description, litNumbersOf(description, colors !== "none"));
+  else setColor(shown.color, unlitColorOf(description, colors !== "none"));
+  material.opacity = opacityOf(appearance);
+  material.alphaTest = alphaTestOf(appearance);
+  const blends = isBlended(appearance, colors, picture);
+  const texture = picture?.texture ?? null;
+  const emissiveMap = isLit && description.kind === "unlit" ? texture : null;
+  const isOther = material.transparent !== blends || (shown.map === null) !== (texture === null)
+    || (isLit && (shown.emissiveMap === null) !== (emissiveMap === null));
   material.transparent = blends;
-  material.needsUpdate = true;
+  shown.map = texture;
+  if (isLit) shown.emissiveMap = emissiveMap;
+  if (isOther) material.needsUpdate = true;
 }
 
-/** X3D shows unlit points in the emissive colour. Scans without one would be black on black. */
-function unlitColorOf(description: MaterialDescription): Vec3 {
+function isBlended({ alpha: { mode }, material: { transparency } }: AppearanceDescription, colors: VertexColors, picture: ShownPicture | undefined): boolean {
+  return mode === "BLEND" || (mode === "AUTO" && (transparency > 0 || colors === "rgba" || picture?.hasAlpha === true));
+}
+
+function opacityOf({ alpha: { mode }, material: { transparency } }: AppearanceDescription): number {
+  return mode === "OPAQUE" ? 1 : 1 - transparency;
+}
+
+function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number {
+  return mode === "MASK" ? cutoff : 0;
+}
+
+function keyOf({ primitive, colors }: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription,
+               picture: ShownPicture | undefined): string | undefined {
+  if (isBlended(appearance, colors, picture)) return undefined;
+  const { material, points, ...rest } = appearance;
+  const others = Object.entries(material).filter(([name]) => !numbersOfPlaces.has(name));
+  return JSON.stringify([rest, others, picture?.texture.uuid, primitive === "points" && points]);
+}
+
+/** What of a material `numbersOf` tells. */
+const numbersOfPlaces = new Set(["diffuseColor", "baseColor", "specularColor", "shininess", "emissiveColor", "ambientIntensity", "metallic", "roughness", "transparency"]);
+
+function numbersOf({ shading, colors }: { shading: Shading; colors: VertexColors }, appearance: AppearanceDescription): readonly number[] {
+  const { material } = appearance;
+  const opacity = opacityOf(appearance);
+  if (isUnlit(shading)) return [...unlitColorOf(material, colors !== "none"), opacity, 0, 0, 0, 0, 0, 0, 0, 0];
+  const { color, specular, shininess, ambientIntensity, metallic, roughness } = litNumbersOf(material, colors !== "none");
+  const gloss = material.kind === "physical" ? [metallic, roughness, 0, 0] : [...specular, shininess];
+  return [...color, opacity, ...gloss, ...material.emissiveColor, ambientIntensity];
+}
+
+function isUnlit(shading: Shading): boolean {
+  return shading === "unlit" || shading === "distance";
+}
+
+/** X3D shows unlit points in the emissive colour. Scans without one would be black on black. Colours of vertices stand in for it. */
+function unlitColorOf(description: MaterialDescription, hasColors: boolean): Vec3 {
+  if (hasColors) return [1, 1, 1];
   const { emissiveColor } = description;
   const isDark = emissiveColor.every((channel) => channel === 0);
   switch (description.kind) {
@@ -149,25 +192,44 @@ function unlitColorOf(description: MaterialDescription): Vec3 {
   }
 }
 
-function applyLit(material: LitMaterial, description: MaterialDescription, hasColors: boolean): void {
-  setPhysical(material, description.kind === "physical");
-  const { lit } = material.userData;
-  if (description.kind === "physical") {
-    setColor(material.color, description.baseColor);
-    if (lit) lit.metallic.value = description.metallic;
-    if (lit) lit.roughness.value = description.roughness;
-  } else {
-    const phong = description.kind === "phong" ? description : unlitAsPhong;
-    setColor(material.color, hasColors && description.kind === "phong" ? [1, 1, 1] : phong.diffuseColor);
-    setColor(material.specular, phong.specularColor);
-    material.shininess = phong.shininess * 128;
-    if (lit) lit.ambientIntensity.value = phong.ambientIntensity;
+interface LitNumbers {
+  readonly color: Vec3;
+  readonly specular: Vec3;
+  readonly shininess: number;
+  readonly ambientIntensity: number;
+  readonly metallic: number;
+  readonly roughness: number;
+}
+
+/** Colours of vertices stand in for the diffuse colour; glTF multiplies them with its base colour. */
+function litNumbersOf(description: MaterialDescription, hasColors: boolean): LitNumbers {
+  switch (description.kind) {
+    case "physical":
+      return { ...unlitAsPhong, color: description.baseColor, metallic: description.metallic, roughness: description.roughness };
+    case "phong": {
+      const { diffuseColor, specularColor, shininess, ambientIntensity } = description;
+      return { color: hasColors ? [1, 1, 1] : diffuseColor, specular: specularColor, shininess: shininess * 128, ambientIntensity, metallic: 1, roughness: 1 };
+    }
+    case "unlit":
+      return unlitAsPhong;
   }
-  setColor(material.emissive, description.emissiveColor);
 }
 
 /** What no light changes reflects none. */
-const unlitAsPhong = { diffuseColor: [0, 0, 0], specularColor: [0, 0, 0], shininess: 0, ambientIntensity: 0 } as const;
+const unlitAsPhong: LitNumbers = { color: [0, 0, 0], specular: [0, 0, 0], shininess: 0, ambientIntensity: 0, metallic: 1, roughness: 1 };
+
+function applyLit(material: LitMaterial, description: MaterialDescription, numbers: LitNumbers): void {
+  setPhysical(material, description.kind === "physical");
+  const { lit } = material.userData;
+  setColor(material.color, numbers.color);
+  setColor(material.specular, numbers.specular);
+  material.shininess = numbers.shininess;
+  setColor(material.emissive, description.emissiveColor);
+  if (lit === undefined) return;
+  lit.ambientIntensity.value = numbers.ambientIntensity;
+  lit.metallic.value = numbers.metallic;
+  lit.roughness.value = numbers.roughness;
+}
 
 /** Another program where the kind has changed. */
 function setPhysical(material: LitMaterial, isPhysical: boolean): void {

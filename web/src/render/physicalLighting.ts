@@ -10,13 +10,19 @@
 // mobile", for its share).
 
 import type { Vec3 } from "../document/description.ts";
+import { placesDefine } from "./batches/placeChunk.ts";
 
 export const physicalDefine = "PHYSICAL";
 
 /** The body of directX3d and ambientX3d for this model. */
 export const physicalLighting = /* glsl */ `
-uniform float metallic;
-uniform float roughness;
+#ifdef ${placesDefine}
+  #define metallic placeSpecular.r
+  #define roughness placeSpecular.g
+#else
+  uniform float metallic;
+  uniform float roughness;
+#endif
 
 const float radianceOfRoom = 0.3;
 

@@ -1,16 +1,16 @@
 // A draw as the picking pass sees it, and what its buffers hold: of indexed
 // buffers WebGL tells a shader too little, so the rest is looked up where the
-// pointer is. JavaScript keeps no copy of vertex data; what is looked up comes
-// back from the GPU, one patch at a time.
+// pointer is. JavaScript keeps no copy of vertex data but of small meshes; what is
+// looked up comes back from the GPU, one patch at a time.
 
 import type { BufferGeometry, Matrix4, Sphere } from "three";
-import { Line, LineSegments, Mesh, Points } from "three";
 import type { BufferStage, DrawRange, ElementArray, IndexArray, Stage } from "../decode/stage.ts";
 import type { Buffers } from "./buffers.ts";
+import type { DrawnObject } from "./drawnObject.ts";
+import { objectOf } from "./drawnObject.ts";
 import type { PickMaterial, PickMaterialRequest } from "./pickMaterial.ts";
 import { makePickMaterial } from "./pickMaterial.ts";
 
-export type DrawnObject = Mesh | Points | Line;
 export interface BufferContents {
   /** Of the draw alone. */
   readonly index: IndexArray | undefined;
@@ -20,28 +20,45 @@ export interface BufferContents {
   readonly coordOffset: number;
 }
 
+/** What a picking pass draws with: made when the pointer is near for the first time. */
+export interface PickParts {
+  readonly geometry: BufferGeometry;
+  readonly request: Omit<PickMaterialRequest, "primitive">;
+  /** Gives back what was made. */
+  release(): void;
+}
+
+export interface PickDrawSetting {
+  readonly buffers: Buffers;
+  /** Around the stored vertices. */
+  readonly bounds: Sphere;
+  /** Places what is stored in the shape. */
+  readonly shapeFromStored: Matrix4;
+  makeParts(): PickParts;
+}
+
 export class PickDraw {
   readonly range: DrawRange;
   /** It stands in for what is to come, whose numbers it does not have. */
   readonly isStandIn: boolean;
   /** Triangles in the draws of the patch before this one. */
   readonly trianglesBefore: number;
+  readonly bounds: Sphere;
+  readonly shapeFromStored: Matrix4;
   /** Undefined for vertices from images. */
   readonly #stage: BufferStage | undefined;
-  readonly #buffers: Buffers;
-  readonly #geometry: BufferGeometry;
-  readonly #request: PickMaterialRequest;
-  #material: PickMaterial | undefined;
+  readonly #setting: PickDrawSetting;
+  #made: { readonly parts: PickParts; readonly material: PickMaterial } | undefined;
   #contents: BufferContents | undefined;
   #isDisposed = false;
 
-  constructor(stage: Stage, range: DrawRange, geometry: BufferGeometry, buffers: Buffers, request: Omit<PickMaterialRequest, "primitive">) {
+  constructor(stage: Stage, range: DrawRange, setting: PickDrawSetting) {
     this.range = range;
     this.isStandIn = stage.name === "base";
-    this.#geometry = geometry;
-    this.#request = { ...request, primitive: range.primitive };
+    this.bounds = setting.bounds;
+    this.shapeFromStored = setting.shapeFromStored;
+    this.#setting = setting;
     this.#stage = stage.kind === "buffers" ? stage : undefined;
-    this.#buffers = buffers;
     const before = stage.draws.slice(0, stage.draws.indexOf(range));
     this.trianglesBefore = before.reduce((sum, draw) => sum + trianglesOf(draw), 0);
   }
@@ -55,14 +72,10 @@ export class PickDraw {
     return this.#isDisposed;
   }
 
-  get bounds(): Sphere | null {
-    return this.#geometry.boundingSphere;
-  }
-
   /** To be drawn in the picking pass, under this number. */
   objectFor(drawNumber: number, worldFromStored: Matrix4): DrawnObject {
-    const material = this.#material ??= makePickMaterial(this.#request);
-    const object = objectOf(this.range, this.#geometry, material);
+    const { parts, material } = this.#made ??= this.#make();
+    const object = objectOf(this.range, parts.geometry, material);
     object.frustumCulled = false; // whoever picks has done it
     object.matrixAutoUpdate = false;
     object.matrixWorldAutoUpdate = false;
@@ -79,9 +92,10 @@ export class PickDraw {
     if (this.#stage === undefined || this.#isDisposed) return undefined;
     const { index, coord } = this.#stage;
     const { first, count } = this.range;
+    const { buffers } = this.#setting;
     this.#contents ??= {
-      index: index && this.#buffers.read(index.bytes, index.type, first, count) as IndexArray,
-      coord: this.#buffers.read(coord.bytes, coord.type, 0),
+      index: index && buffers.read(index.bytes, index.type, first, count) as IndexArray,
+      coord: buffers.read(coord.bytes, coord.type, 0),
       coordStride: coord.stride,
       coordOffset: coord.offset,
     };
@@ -92,18 +106,23 @@ export class PickDraw {
     this.#contents = undefined;
   }
 
+  /** What it draws with is made anew when it is wanted again. */
+  forgetParts(): void {
+    this.#made?.material.dispose();
+    this.#made?.parts.release();
+    this.#made = undefined;
+  }
+
   dispose(): void {
     this.#isDisposed = true;
     this.#contents = undefined;
-    this.#material?.dispose();
-    this.#material = undefined;
+    this.forgetParts();
   }
-}
 
-export function objectOf(draw: DrawRange, geometry: BufferGeometry, material: Mesh["material"]): DrawnObject {
-  return draw.primitive === "points" ? new Points(geometry, material)
-    : draw.primitive === "lines" ? new LineSegments(geometry, material)
-    : draw.primitive === "lineStrip" ? new Line(geometry, material) : new Mesh(geometry, material);
+  #make(): { parts: PickParts; material: PickMaterial } {
+    const parts = this.#setting.makeParts();
+    return { parts, material: makePickMaterial({ ...parts.request, primitive: this.range.primitive }) };
+  }
 }
 
 export function cornersOf({ primitive }: DrawRange): 1 | 2 | 3 {

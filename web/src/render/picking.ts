@@ -2,7 +2,7 @@
 // through the same matrices and viewport as the picture's own, so that the pixel
 // is covered exactly as it is on the screen.
 
-import type { Camera, Object3D, WebGLRenderer } from "three";
+import type { Camera, Group, WebGLRenderer } from "three";
 import {
   Frustum, Matrix3, Matrix4, NearestFilter, PerspectiveCamera, Ray, RGBAIntegerFormat, Scene, Sphere, UnsignedIntType, Vector3,
   WebGLRenderTarget,
@@ -18,8 +18,8 @@ import { readPixel, readPixelSoon } from "./pixelReading.ts";
 /** What was hit, in the scene's coordinates. */
 export interface Hit {
   readonly element: SceneElement;
-  /** What is drawn there. */
-  readonly object: Object3D;
+  /** Of the shape, in the place that was hit. */
+  readonly group: Group;
   readonly patch: number;
   /** Of the patch's triangles in the order of its draws; in a strip each further element makes one. Undefined for points, lines and bases. */
   readonly triangle: number | undefined;
@@ -33,9 +33,14 @@ export interface Hit {
 export interface PickCandidate {
   readonly element: SceneElement;
   readonly patch: number;
-  /** What is drawn on the screen. */
-  readonly object: Object3D;
+  /** Of the shape, in one of its places. */
+  readonly group: Group;
   readonly pick: PickDraw;
+}
+
+/** With its place among all. */
+export interface NearCandidate extends PickCandidate {
+  readonly worldFromStored: Matrix4;
 }
 
 /** A pixel of a picture, in device pixels from its top left. */
@@ -92,21 +97,20 @@ export class Picker {
   }
 
   /** Leaves the target bound. */
-  #draw(camera: PerspectiveCamera, { x, y, width, height }: Place, candidates: readonly PickCandidate[]): void {
+  #draw(camera: PerspectiveCamera, { x, y, width, height }: Place, candidates: readonly NearCandidate[]): void {
     this.#target ??= makePickTarget();
     // The picture's viewport, pushed so far that the wanted pixel is the target's only one.
     this.#target.viewport.set(-x, y - height + 1, width, height);
-    this.#scene.children = candidates.map(({ pick, object }, place) => pick.objectFor(place + 1, object.matrixWorld));
+    this.#scene.children = candidates.map(({ pick, worldFromStored }, place) => pick.objectFor(place + 1, worldFromStored));
     this.#renderer.setRenderTarget(this.#target);
     this.#renderer.render(this.#scene, camera);
     this.#scene.children = [];
   }
 
-  #hitOf(words: Uint32Array, camera: PerspectiveCamera, place: Place, candidates: readonly PickCandidate[]): Hit | undefined {
+  #hitOf(words: Uint32Array, camera: PerspectiveCamera, place: Place, candidates: readonly NearCandidate[]): Hit | undefined {
     const candidate = candidates[(words[pickedWords.drawNumber] ?? 0) - 1];
     if (candidate === undefined) return undefined;
-    const { element, object, patch, pick } = candidate;
-    const worldFromStored = object.matrixWorld;
+    const { element, group, patch, pick, worldFromStored } = candidate;
     const floats = new Float32Array(words.buffer);
     const stored = new Vector3().fromArray(floats, pickedWords.position);
     const { number, vertex, face } = this.#primitiveOf(words, pick, stored);
@@ -116,7 +120,7 @@ export class Picker {
     if (faceNormal !== undefined && faceNormal.dot(ray.direction) > 0) faceNormal.negate();
     const onFace = faceNormal && intersection(ray, face.point.clone().applyMatrix4(worldFromStored), faceNormal);
     return {
-      element, object, patch,
+      element, group, patch,
       vertex: pick.isStandIn ? -1 : vertex,
       triangle: cornersOf(pick.range) === 3 && !pick.isStandIn ? pick.trianglesBefore + number : undefined,
       position: onFace ?? stored.applyMatrix4(worldFromStored),
@@ -159,18 +163,25 @@ export function makePickTarget(width = 1, height = 1): WebGLRenderTarget {
 
 /** Those whose bounds come within `slack` device pixels of the place. */
 function candidatesNear(camera: PerspectiveCamera, { x, y, width, height }: Place, slack: number,
-                        candidates: Iterable<PickCandidate>): PickCandidate[] {
+                        candidates: Iterable<PickCandidate>): NearCandidate[] {
   const narrow = new PerspectiveCamera().copy(camera, false);
   narrow.setViewOffset(width, height, x - slack, y - slack, 2 * slack + 1, 2 * slack + 1);
   return candidatesSeenBy(narrow, candidates);
 }
 
 /** Those whose bounds come into a camera's view. */
-export function candidatesSeenBy({ projectionMatrix, matrixWorldInverse }: Camera, candidates: Iterable<PickCandidate>): PickCandidate[] {
+export function candidatesSeenBy({ projectionMatrix, matrixWorldInverse }: Camera, candidates: Iterable<PickCandidate>): NearCandidate[] {
   const frustum = new Frustum().setFromProjectionMatrix(new Matrix4().multiplyMatrices(projectionMatrix, matrixWorldInverse));
   const sphere = new Sphere();
-  return Array.from(candidates).filter(({ object, pick }) =>
-    pick.bounds === null || frustum.intersectsSphere(sphere.copy(pick.bounds).applyMatrix4(object.matrixWorld)));
+  const near: NearCandidate[] = [];
+  const worldFromStored = new Matrix4();
+  for (const candidate of candidates) {
+    const { group, pick } = candidate;
+    worldFromStored.multiplyMatrices(group.matrixWorld, pick.shapeFromStored);
+    if (!frustum.intersectsSphere(sphere.copy(pick.bounds).applyMatrix4(worldFromStored))) continue;
+    near.push({ ...candidate, worldFromStored: worldFromStored.clone() });
+  }
+  return near;
 }
 
 /** Undefined for a normal of no length. */

@@ -7,6 +7,7 @@ import type { ArrayUse, ElementArray, Stage } from "../decode/stage.ts";
 import type { GeometryDescription, SamplingDescription, SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { applyPose } from "../navigation/camera.ts";
+import { Batches } from "./batches/batches.ts";
 import type { BufferUpload } from "./buffers.ts";
 import { BufferStore } from "./buffers.ts";
 import type { SceneUniforms } from "./look.ts";
@@ -18,7 +19,7 @@ import { SceneShapes } from "./sceneShapes.ts";
 import { ScreenPicker } from "./screenPicker.ts";
 import { Surveyor } from "./surveyor.ts";
 import { GeometryPool } from "./stageGeometries.ts";
-import { usualPointSize } from "./patchDraws.ts";
+import { usualPointSize } from "./stageDraws.ts";
 import { objectsToCome } from "./stagesToCome.ts";
 import type { TextureUpload } from "./textures.ts";
 import { TextureStore } from "./textures.ts";
@@ -82,8 +83,10 @@ export class SceneRenderer {
     this.#onFrame = onFrame;
     this.#renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
     this.#buffers = new BufferStore(context);
+    const geometries = new GeometryPool(this.#buffers);
     this.#shapes = new SceneShapes(this.#scene, {
-      look: x3dLook, geometries: new GeometryPool(this.#buffers), buffers: this.#buffers, textures: this.#textures, shared: this.#shared,
+      look: x3dLook, geometries, buffers: this.#buffers, textures: this.#textures, shared: this.#shared,
+      batches: new Batches(x3dLook, geometries, this.#buffers),
     });
     this.#pace = new Pace(context);
     this.#picker = new ScreenPicker(this.#renderer, this.#drawnCamera, () => this.#shapes.pickCandidates());
@@ -96,6 +99,7 @@ export class SceneRenderer {
     this.#headlight.target.position.set(0, 0, -1);
     this.#camera.add(this.#headlight, this.#headlight.target);
     this.#scene.add(this.#camera);
+    this.#scene.matrixAutoUpdate = false; // a scene that moved would move all that is in it, in every frame
   }
 
   get statistics(): RenderStatistics {

@@ -9,6 +9,8 @@ import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
 import { sphereAround } from "../navigation/camera.ts";
+import type { Batches } from "./batches/batches.ts";
+import { planOf } from "./batches/plan.ts";
 import type { ShownPicture } from "./look.ts";
 import type { PickCandidate } from "./picking.ts";
 import type { BoundedGroup } from "./sceneGraph.ts";
@@ -27,6 +29,7 @@ export interface BuiltScene {
 export class SceneShapes {
   readonly #scene: Object3D;
   readonly #setting: ShapeSetting;
+  readonly #batches: Batches;
   readonly #shapes = new Map<SceneElement, ShapeObject>();
   #root = new Group();
   #sphere = sphereAround(new Box3());
@@ -34,9 +37,11 @@ export class SceneShapes {
   #bounded: readonly BoundedGroup[] = [];
 
   /** What is drawn hangs in `scene`. */
-  constructor(scene: Object3D, setting: ShapeSetting) {
+  constructor(scene: Object3D, setting: ShapeSetting & { readonly batches: Batches }) {
     this.#scene = scene;
     this.#setting = setting;
+    this.#batches = setting.batches;
+    scene.add(this.#batches.root);
   }
 
   /** No shape shows anything yet. */
@@ -64,7 +69,9 @@ export class SceneShapes {
 
   /** Shows this scene from now on. Shapes that are gone give back what they hold on the GPU. */
   setScene(description: SceneDescription): BuiltScene {
-    const shapes = new Map(shapesOf(description.root).map((shape) => [shape.element, shape]));
+    const everywhere = shapesOf(description.root);
+    const shapes = new Map(everywhere.map((shape) => [shape.element, shape]));
+    const drawingOf = planOf(everywhere);
     for (const [element, object] of this.#shapes) {
       if (shapes.has(element)) continue;
       object.dispose();
@@ -79,7 +86,7 @@ export class SceneShapes {
     for (const [element, shape] of shapes) {
       const object = this.#objectOf(shape);
       object.keepPlaces(places.get(element) ?? 0);
-      object.setShape(shape);
+      object.setShape(shape, shape.geometry ? drawingOf(shape.geometry) : "alone");
     }
     this.#root.removeFromParent();
     this.#root = root;
@@ -89,6 +96,7 @@ export class SceneShapes {
     this.#bounded = bounded;
     this.#sphere = sphereAround(box);
     for (const object of this.#shapes.values()) for (const bounds of object.bounds()) this.#grow(object, bounds);
+    this.#batches.sync(this.#sphere);
     return { sphere: this.#sphere, viewpoints };
   }
 
@@ -124,8 +132,9 @@ export class SceneShapes {
 
   /** Before a frame: groups that tell where they end are not looked into when they are out of the view. */
   passOver(camera: Camera): void {
-    if (this.#bounded.length === 0) return;
     camera.updateMatrixWorld();
+    this.#batches.update(camera);
+    if (this.#bounded.length === 0) return;
     const frustum = new Frustum().setFromProjectionMatrix(new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
     for (const { group, box } of this.#bounded) group.visible = frustum.intersectsBox(box);
   }
@@ -133,6 +142,7 @@ export class SceneShapes {
   dispose(): void {
     for (const object of this.#shapes.values()) object.dispose();
     this.#shapes.clear();
+    this.#batches.dispose();
   }
 
   #grow(object: ShapeObject, { min, max }: Bounds): void {
@@ -150,7 +160,7 @@ export class SceneShapes {
 }
 
 function* shownDraws(element: SceneElement, object: ShapeObject): Generator<PickCandidate> {
-  for (const placed of object.placedDraws()) if (isShown(placed.object)) yield { ...placed, element };
+  for (const drawn of object.placedDraws()) if (isShown(drawn.group)) yield { ...drawn, element };
 }
 
 function isShown(object: Object3D | null): boolean {

@@ -1,25 +1,33 @@
-// A shape on the screen: the draws of each patch's newest stage, hung into a
-// group for each place where the shape stands in the scene.
+// A shape on the screen: the draws of each patch's newest stage, in a group for
+// each place where the shape stands in the scene.
 
 import { Group } from "three";
 import type { Bounds, Stage } from "../decode/stage.ts";
 import type { AppearanceDescription, GeometryDescription, PatchDescription, ShapeDescription } from "../document/description.ts";
+import type { Batches } from "./batches/batches.ts";
+import { BatchedStage, mayBatch } from "./batches/batchedStage.ts";
+import type { DrawnAs } from "./batches/plan.ts";
 import type { ShownPicture } from "./look.ts";
-import type { PatchDraws, PatchSetting, PlacedDraw } from "./patchDraws.ts";
+import type { PatchDraws } from "./patchDraws.ts";
 import { drawStage } from "./patchDraws.ts";
+import type { PickDraw } from "./pickDraw.ts";
+import type { PatchSetting } from "./stageDraws.ts";
 import { makeColorMapUniforms, setColorMap } from "./valueColors.ts";
 
 /** What all shapes of a scene share. */
-export type ShapeSetting = Pick<PatchSetting, "look" | "geometries" | "buffers" | "textures" | "shared">;
+export interface ShapeSetting extends Pick<PatchSetting, "look" | "geometries" | "buffers" | "textures" | "shared"> {
+  /** Undefined: each shape is drawn alone. */
+  readonly batches: Batches | undefined;
+}
 
 /** In CSS pixels; GPUs draw none that are larger. */
 const largestPoint = 1024;
 
 interface ShownPatch {
+  readonly geometry: GeometryDescription;
   readonly stage: Stage;
+  readonly drawnAs: DrawnAs;
   readonly draws: PatchDraws;
-  /** The draws in every place. */
-  placed: PlacedDraw[];
 }
 
 export class ShapeObject {
@@ -28,6 +36,7 @@ export class ShapeObject {
   readonly #patches = new Map<number, ShownPatch>();
   readonly #colorMap = makeColorMapUniforms();
   #appearance: AppearanceDescription;
+  #drawnAs: DrawnAs = "alone";
   #picture: ShownPicture | undefined;
   #isPickable: boolean;
 
@@ -45,7 +54,7 @@ export class ShapeObject {
     const group = new Group();
     group.matrixAutoUpdate = false;
     this.#groups[place] = group;
-    for (const shown of this.#patches.values()) hang(shown, group);
+    for (const { draws } of this.#patches.values()) draws.hang(group);
     return group;
   }
 
@@ -62,10 +71,9 @@ export class ShapeObject {
   /** From now on the shape stands in so many places. */
   keepPlaces(count: number): void {
     for (const group of this.#groups.splice(count)) {
+      for (const { draws } of this.#patches.values()) draws.leave(group);
       group.removeFromParent();
-      group.clear();
     }
-    for (const shown of this.#patches.values()) shown.placed = shown.placed.filter(({ object }) => object.parent !== null);
   }
 
   get isEmpty(): boolean {
@@ -76,12 +84,14 @@ export class ShapeObject {
     return this.#isPickable;
   }
 
-  /** Takes over what a changed document says, the geometry apart. */
-  setShape({ appearance, isPickable, colorMap }: ShapeDescription): void {
+  /** Takes over what a changed document says, the geometry apart; `drawnAs` is how its geometry is drawn from now on. */
+  setShape({ appearance, isPickable, colorMap }: ShapeDescription, drawnAs: DrawnAs): void {
     setColorMap(this.#colorMap, colorMap);
     this.#isPickable = isPickable;
+    const isSame = drawnAs === this.#drawnAs && JSON.stringify(appearance) === JSON.stringify(this.#appearance);
     this.#appearance = appearance;
-    this.#applyAppearance();
+    this.#drawnAs = drawnAs;
+    if (!isSame) this.#applyAppearance();
   }
 
   /** What is laid over its surface, where it has texture coordinates; undefined: nothing. */
@@ -99,7 +109,10 @@ export class ShapeObject {
   }
 
   #applyAppearance(): void {
-    for (const { draws } of this.#patches.values()) draws.applyAppearance(this.#appearance, this.#picture);
+    for (const [place, shown] of this.#patches) {
+      if (this.#drawingOf(shown.stage) === shown.drawnAs) shown.draws.applyAppearance(this.#appearance, this.#picture);
+      else this.setStage(shown.geometry, place, shown.stage);
+    }
   }
 
   /** The new stage takes the old one's place as a whole; textures that both use stay where they are. Undefined: nothing does. */
@@ -107,25 +120,36 @@ export class ShapeObject {
     const patch = geometry.patches[place];
     if (patch === undefined) throw new RangeError(`no patch ${place}`);
     const before = this.#patches.get(place);
-    this.#patches.delete(place);
-    if (stage !== undefined) this.#show(geometry, patch, place, stage);
-    if (before !== undefined) takeAway(before);
+    if (stage === undefined) this.#patches.delete(place);
+    else this.#patches.set(place, this.#show(geometry, patch, stage));
+    before?.draws.dispose();
   }
 
-  #show(geometry: GeometryDescription, patch: PatchDescription, place: number, stage: Stage): void {
-    const draws = drawStage(stage, { ...this.#setting, geometry, patch, appearance: this.#appearance, colorMap: this.#colorMap, picture: this.#picture });
-    const shown = { stage, draws, placed: [] };
-    for (const group of this.#groups) hang(shown, group);
-    this.#patches.set(place, shown);
+  #show(geometry: GeometryDescription, patch: PatchDescription, stage: Stage): ShownPatch {
+    const { batches, ...setting } = this.#setting;
+    const { batching } = setting.look;
+    const drawnAs = this.#drawingOf(stage);
+    const patchSetting = { ...setting, geometry, patch, appearance: this.#appearance, colorMap: this.#colorMap, picture: this.#picture };
+    const draws = batches === undefined || batching === undefined || drawnAs === "alone" ? drawStage(stage, patchSetting)
+      : new BatchedStage(stage, patchSetting, { batches, batching, isMerged: drawnAs === "merged" });
+    for (const group of this.#groups) draws.hang(group);
+    return { geometry, stage, drawnAs, draws };
+  }
+
+  #drawingOf(stage: Stage): DrawnAs {
+    const { look: { batching } } = this.#setting;
+    return batching !== undefined && mayBatch(stage, this.#appearance, this.#picture, batching) ? this.#drawnAs : "alone";
   }
 
   /** Every draw in every place, with the number of its patch. */
-  *placedDraws(): Generator<PlacedDraw & { patch: number }> {
-    for (const [patch, { placed }] of this.#patches) for (const draw of placed) yield { ...draw, patch };
+  *placedDraws(): Generator<{ readonly patch: number; readonly group: Group; readonly pick: PickDraw }> {
+    for (const [patch, { draws: { picks } }] of this.#patches) {
+      for (const pick of picks) for (const group of this.#groups) yield { patch, group, pick };
+    }
   }
 
   clear(): void {
-    for (const shown of this.#patches.values()) takeAway(shown);
+    for (const { draws } of this.#patches.values()) draws.dispose();
     this.#patches.clear();
   }
 
@@ -133,16 +157,4 @@ export class ShapeObject {
     this.clear();
     this.keepPlaces(0);
   }
-}
-
-function hang(shown: ShownPatch, group: Group): void {
-  for (const placed of shown.draws.place()) {
-    group.add(placed.object);
-    shown.placed.push(placed);
-  }
-}
-
-function takeAway({ draws, placed }: ShownPatch): void {
-  for (const { object } of placed) object.removeFromParent();
-  draws.dispose();
 }

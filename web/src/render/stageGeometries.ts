@@ -1,7 +1,7 @@
 // The three.js geometries of a stage, one per draw, shared by everything that
 // shows the stage and freed with the last of it.
 
-import { BufferGeometry, InterleavedBufferAttribute } from "three";
+import { BufferGeometry, InterleavedBufferAttribute, Sphere } from "three";
 import type { BufferStage, DrawRange, Stage, StoredVertices } from "../decode/stage.ts";
 import { isPairCode } from "../decode/stage.ts";
 import type { Buffers } from "./buffers.ts";
@@ -22,6 +22,8 @@ export class GeometryPool {
   /** One for each draw, in order. */
   acquire(stage: Stage): readonly BufferGeometry[] {
     const entry = this.#entries.get(stage) ?? { geometries: geometriesOf(stage, this.#buffers), users: 0 };
+    // Else three.js makes one, of stored numbers that are not here.
+    for (const geometry of entry.geometries) geometry.boundingSphere ??= new Sphere();
     entry.users += 1;
     this.#entries.set(stage, entry);
     return entry.geometries;
@@ -39,11 +41,12 @@ export class GeometryPool {
 
 function geometriesOf(stage: Stage, buffers: Buffers): BufferGeometry[] {
   if (stage.kind === "textures") return stage.draws.map(emptyGeometryOf);
-  const attributes = attributesOf(stage, buffers);
+  const attributes = storedAttributesOf(stage).map(({ name, vertices: { bytes, type, components, stride, offset }, isSpread }) =>
+    ({ name, attribute: new InterleavedBufferAttribute(buffers.recordsOf(bytes, type, stride), components, offset, isSpread) }));
   const index = stage.index && buffers.indexOf(stage.index.bytes, stage.index.type);
   return stage.draws.map(({ first, count }) => {
     const geometry = new BufferGeometry();
-    for (const [name, attribute] of Object.entries(attributes)) geometry.setAttribute(name, attribute);
+    for (const { name, attribute } of attributes) geometry.setAttribute(name, attribute);
     geometry.setIndex(index ?? null);
     geometry.setDrawRange(first, count);
     return geometry;
@@ -57,14 +60,22 @@ function emptyGeometryOf({ primitive, count }: DrawRange): BufferGeometry {
   return geometry;
 }
 
-function attributesOf({ coord, normal, normalCode, color, texCoord, value }: BufferStage, buffers: Buffers): Readonly<Record<string, InterleavedBufferAttribute>> {
-  const attributeOf = ({ bytes, type, components, stride, offset }: StoredVertices, isSpread: boolean) =>
-    new InterleavedBufferAttribute(buffers.recordsOf(bytes, type, stride), components, offset, isSpread && type !== "Float32");
-  return {
-    position: attributeOf(coord, false),
-    ...(normal && { normal: attributeOf(normal, !isPairCode(normalCode)) }),
-    ...(color && { color: attributeOf(color, true) }),
-    ...(value && { vertexValue: attributeOf(value, false) }),
-    ...(texCoord && { uv: attributeOf(texCoord, true) }),
-  };
+/** An attribute of a stage's vertices, by three.js' name for it. */
+export interface StoredAttribute {
+  readonly name: string;
+  readonly vertices: StoredVertices;
+  /** Integers are spread over 0 … 1 or -1 … 1. */
+  readonly isSpread: boolean;
+}
+
+export function storedAttributesOf({ coord, normal, normalCode, color, texCoord, value }: BufferStage): StoredAttribute[] {
+  const attribute = (name: string, vertices: StoredVertices | undefined, isSpread: boolean): StoredAttribute[] =>
+    vertices ? [{ name, vertices, isSpread: isSpread && vertices.type !== "Float32" }] : [];
+  return [
+    ...attribute("position", coord, false),
+    ...attribute("normal", normal, !isPairCode(normalCode)),
+    ...attribute("color", color, true),
+    ...attribute("vertexValue", value, false),
+    ...attribute("uv", texCoord, true),
+  ];
 }

@@ -7,9 +7,11 @@ import type { DrawRange, TexelRange, TextureStage } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription, SceneDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import { isPair } from "../document/geometry.ts";
+import { mayBatch } from "./batches/batchedStage.ts";
+import { planOf } from "./batches/plan.ts";
+import { objectOf } from "./drawnObject.ts";
 import type { Look, SceneUniforms, ShownPicture } from "./look.ts";
-import { materialRequestOf } from "./patchDraws.ts";
-import { objectOf } from "./pickDraw.ts";
+import { materialRequestOf } from "./stageDraws.ts";
 
 const nowhere: TexelRange = { image: { width: 1, height: 1, close: () => undefined }, first: 0 };
 const noPicture: ShownPicture = { texture: new Texture(), hasAlpha: false };
@@ -18,13 +20,16 @@ const noPicture: ShownPicture = { texture: new Texture(), hasAlpha: false };
 export function objectsToCome(scene: SceneDescription, look: Look, shared: SceneUniforms): Map<string, Object3D> {
   const objects = new Map<string, Object3D>();
   const geometry = new BufferGeometry();
-  for (const { geometry: described, appearance, visible } of shapesOf(scene.root)) {
+  const places = shapesOf(scene.root);
+  const drawingOf = planOf(places);
+  for (const { geometry: described, appearance, visible } of places) {
     if (described?.container !== "sig" || described.decode === "cpu" || !visible) continue;
     const { texture, material: { kind, transparency }, alpha } = appearance;
     for (const stage of stagesToCome(described, texture !== undefined)) {
       for (const range of stage.draws) {
-        const request = materialRequestOf(stage, range, described, {}, shared);
-        const picture = texture && request.hasTexCoords ? noPicture : undefined;
+        const picture = texture && stage.texCoord !== undefined ? noPicture : undefined;
+        const isBatched = drawingOf(described) !== "alone" && look.batching !== undefined && mayBatch(stage, appearance, picture, look.batching);
+        const request = materialRequestOf(stage, range, described, {}, shared, isBatched);
         const key = JSON.stringify([{ ...request, shared: undefined }, kind, transparency > 0, alpha, picture !== undefined]);
         if (objects.has(key)) continue;
         objects.set(key, objectOf(range, geometry, look.makeMaterial(request, appearance, picture)));

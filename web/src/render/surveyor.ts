@@ -80,7 +80,7 @@ export class Surveyor {
     target.viewport.set(x, y, width, height);
     target.scissor.copy(target.viewport);
     target.scissorTest = true;
-    this.#scene.children = candidatesSeenBy(camera, surfaces).map(({ pick, object }) => pick.objectFor(1, object.matrixWorld));
+    this.#scene.children = candidatesSeenBy(camera, surfaces).map(({ pick, worldFromStored }) => pick.objectFor(1, worldFromStored));
     this.#renderer.setRenderTarget(target);
     this.#renderer.render(this.#scene, camera);
     this.#scene.children = [];

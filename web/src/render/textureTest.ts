@@ -44,7 +44,7 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
   bitmap.close();
   const texture = { value: textures.textureOf(image) };
   const material = makePickMaterial({
-    primitive: "points", side: FrontSide, hasNormals: true, areImages: true, hasTexCoords: false, gridDefines: {}, normalDefines: {},
+    primitive: "points", side: FrontSide, hasNormals: true, areImages: true, arePlaced: false, hasTexCoords: false, gridDefines: {}, normalDefines: {},
     uniforms: {
       pixelRatio: { value: 1 }, pointSizes: { value: [1, 1, 1] }, attenuation: { value: [1, 0, 0] }, latticeStep: { value: [1, 1, 1] },
       indexImage: texture, coordImage0: texture, coordImage1: texture, coordImage2: { value: null }, coordImage3: { value: null },

@@ -12,6 +12,7 @@ import type { IUniform, Matrix3, Texture, WebGLProgramParametersWithUniforms } f
 import type { Grid, NormalCode } from "../decode/stage.ts";
 import { isPairCode } from "../decode/stage.ts";
 import type { Vec3 } from "../document/description.ts";
+import { placeFragmentChunk, placesDefine, placeVertexChunk } from "./batches/placeChunk.ts";
 
 /** What both bodies read, as uniforms. */
 export interface VertexUniforms extends Record<string, IUniform> {
@@ -58,8 +59,8 @@ export interface ImageVertexUniforms extends VertexUniforms {
   colorHasAlpha: IUniform<boolean>;
 }
 
-/** Samplers that the image body and values declare, and so texture units that a vertex shader must have. */
-export const vertexSamplers = 11;
+/** Samplers that the image body, values and places declare, and so texture units that a vertex shader must have. */
+export const vertexSamplers = 12;
 
 /** Defined in materials that read images, and in those that read normals from them. */
 export const imageVerticesDefine = "IMAGE_VERTICES";
@@ -74,14 +75,17 @@ export interface VertexForm {
   readonly gridDefines: Readonly<Record<string, string>>;
   /** As normalDefinesOf says it. */
   readonly normalDefines: Readonly<Record<string, string>>;
+  /** Each in the place whose number comes with it; otherwise the object's matrix says where. */
+  readonly arePlaced: boolean;
 }
 
 /** What a material must define to read vertices of this form. */
-export function vertexDefinesOf({ areImages, hasTexCoords, gridDefines, normalDefines }: VertexForm, readsNormals: boolean): Record<string, string> {
+export function vertexDefinesOf({ areImages, hasTexCoords, gridDefines, normalDefines, arePlaced }: VertexForm, readsNormals: boolean): Record<string, string> {
   return {
     ...(areImages && { [imageVerticesDefine]: "" }),
     ...(areImages && readsNormals && { [imageNormalsDefine]: "" }),
     ...(hasTexCoords && { HAS_TEX_COORDS: "" }),
+    ...(arePlaced && { [placesDefine]: "" }),
     ...gridDefines,
     ...(readsNormals && normalDefines),
   };
@@ -353,26 +357,30 @@ const colorChunk = /* glsl */ `
 export const pointSizeChunk = "gl_PointSize = pointSizeAt(length(mvPosition.xyz));";
 
 const texCoordChunk = /* glsl */ `
+#if defined(USE_MAP) || defined(USE_EMISSIVEMAP)
+  vec4 frame = texCoordFrameOfPlace();
+  vec2 pictureCoord = (textureTransform * vec3(frame.xy + frame.zw * vertex.texCoord, 1.0)).xy;
+#endif
 #ifdef USE_MAP
-  vMapUv = (textureTransform * vec3(texCoordFrame.xy + texCoordFrame.zw * vertex.texCoord, 1.0)).xy;
+  vMapUv = pictureCoord;
 #endif
 #ifdef USE_EMISSIVEMAP
-  vEmissiveMapUv = (textureTransform * vec3(texCoordFrame.xy + texCoordFrame.zw * vertex.texCoord, 1.0)).xy;
+  vEmissiveMapUv = pictureCoord;
 #endif
 `;
 
 /** Makes a built-in material's shaders read their vertices here, for use in `onBeforeCompile`. */
 export function readVerticesIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
-  shader.fragmentShader = ownNormalsChunk + shader.fragmentShader;
+  shader.fragmentShader = ownNormalsChunk + placeFragmentChunk + shader.fragmentShader;
   shader.vertexShader = ownNormalsChunk + replaceEach(shader.vertexShader, [
-    ["#include <common>", `#include <common>\n${readVertexChunk}`],
+    ["#include <common>", `#include <common>\n${readVertexChunk}${placeVertexChunk}`],
     ["void main() {", "void main() {\n  Vertex vertex = readVertex();"],
     ["#include <uv_vertex>", texCoordChunk],
-    ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}`],
+    ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\nshowPlace();`],
     ["#include <color_vertex>", colorChunk],
-    // Normals are the shape's own; the normal matrix takes the lattice's steps out of them again.
-    ["#include <beginnormal_vertex>", "vec3 objectNormal = vertex.normal * latticeStep;"],
-    ["#include <begin_vertex>", "vec3 transformed = vertex.position;"],
+    // Normals are the shape's own.
+    ["#include <beginnormal_vertex>", "vec3 objectNormal = normalInPlace(vertex.normal);"],
+    ["#include <begin_vertex>", "vec3 transformed = inPlace(vertex.position);"],
   ]);
 }
 

@@ -1,0 +1,139 @@
+// A stage of a patch that is drawn together with others.
+
+import type { Group } from "three";
+import { DoubleSide, FrontSide } from "three";
+import type { DrawRange, Stage } from "../../decode/stage.ts";
+import type { AppearanceDescription } from "../../document/description.ts";
+import { storedFrameOf } from "../../document/storedFrame.ts";
+import type { Batching, ShownPicture } from "../look.ts";
+import type { PatchDraws } from "../patchDraws.ts";
+import { PickDraw } from "../pickDraw.ts";
+import type { PatchSetting } from "../stageDraws.ts";
+import { boundsOf, colorsOf, materialRequestOf, pickRequestOf, shapeFromStoredOf, uniformsOf } from "../stageDraws.ts";
+import type { BatchedDraw, Member } from "./batch.ts";
+import type { Batches } from "./batches.ts";
+import { vertexCountOf } from "./meshColumns.ts";
+
+/** How draws go together. */
+export interface BatchSetting {
+  readonly batches: Batches;
+  readonly batching: Batching;
+  readonly isMerged: boolean;
+}
+
+/** Whether the stage may be drawn so: what blends is drawn in the order of its distance. */
+export function mayBatch(stage: Stage, appearance: AppearanceDescription, picture: ShownPicture | undefined, batching: Batching): boolean {
+  return stage.draws.every((range) => lookKeyOf(stage, range, appearance, picture, batching) !== undefined);
+}
+
+export class BatchedStage implements PatchDraws {
+  readonly picks: readonly PickDraw[];
+  readonly #stage: Stage;
+  readonly #batch: BatchSetting;
+  readonly #members = new Map<Group, readonly Member[]>();
+  #setting: PatchSetting;
+  #draws: readonly BatchedDraw[];
+
+  constructor(stage: Stage, setting: PatchSetting, batch: BatchSetting) {
+    this.#stage = stage;
+    this.#setting = setting;
+    this.#batch = batch;
+    this.#draws = drawsOf(stage, setting, batch);
+    this.picks = stage.draws.filter(isSeen).map((range) => pickOf(stage, range, () => this.#setting));
+  }
+
+  hang(group: Group): void {
+    const { batches } = this.#batch;
+    this.#members.set(group, this.#draws.map((draw) => batches.add(draw, this.#numbersOf(draw), group)));
+  }
+
+  leave(group: Group): void {
+    for (const member of this.#members.get(group) ?? []) this.#batch.batches.remove(member);
+    this.#members.delete(group);
+  }
+
+  /** It must be one that `mayBatch` allows. */
+  applyAppearance(appearance: AppearanceDescription, picture: ShownPicture | undefined): void {
+    this.#setting = { ...this.#setting, appearance, picture };
+    for (const pick of this.picks) pick.forgetParts();
+    const isSame = this.#draws.every(({ ranges: [range], lookKey }) =>
+      range && lookKey === lookKeyOf(this.#stage, range, appearance, picture, this.#batch.batching));
+    if (isSame) {
+      for (const here of this.#members.values()) for (const member of here) this.#batch.batches.setLook(member, this.#numbersOf(member.draw));
+      return;
+    }
+    this.#draws = drawsOf(this.#stage, this.#setting, this.#batch);
+    for (const group of Array.from(this.#members.keys())) {
+      this.leave(group);
+      this.hang(group);
+    }
+  }
+
+  dispose(): void {
+    for (const group of Array.from(this.#members.keys())) this.leave(group);
+    for (const pick of this.picks) pick.dispose();
+  }
+
+  #numbersOf({ request }: BatchedDraw): readonly number[] {
+    return this.#batch.batching.numbersOf(request, this.#setting.appearance);
+  }
+}
+
+function drawsOf(stage: Stage, setting: PatchSetting, { batching, isMerged }: BatchSetting): BatchedDraw[] {
+  const { geometry, patch, appearance, picture, shared } = setting;
+  const uniforms = uniformsOf(stage, setting);
+  const { sphere: bounds } = boundsOf(geometry, patch, stage);
+  return togetherOf(stage, isMerged).flatMap(({ ranges, mayMerge }) => {
+    const [first] = ranges;
+    const lookKey = first && lookKeyOf(stage, first, appearance, picture, batching);
+    if (first === undefined || lookKey === undefined) return [];
+    return [{
+      stage, ranges, bounds, appearance, lookKey,
+      isMerged: isMerged && mayMerge,
+      // Files that several shapes share hold more than this stage's.
+      vertexCount: stage.kind !== "buffers" ? 0 : geometry.container === "bg" ? patch.vertexCount : vertexCountOf(stage),
+      shapeFromStored: shapeFromStoredOf(geometry, patch),
+      step: storedFrameOf(geometry, patch).step,
+      texCoordFrame: [...geometry.texCoordMin, ...geometry.texCoordSize],
+      request: materialRequestOf(stage, first, geometry, uniforms.of(first), shared, true),
+      picture: stage.texCoord !== undefined ? picture : undefined,
+    }];
+  });
+}
+
+/** Draws of one kind of primitive are merged as one; a strip of lines would go on into the next. */
+function togetherOf({ kind, draws }: Stage, isMerged: boolean): { ranges: readonly DrawRange[]; mayMerge: boolean }[] {
+  const seen = draws.filter(isSeen);
+  const mayMerge = ({ primitive }: DrawRange) => isMerged && kind === "buffers" && primitive !== "lineStrip";
+  const primitives = new Set(seen.filter(mayMerge).map(({ primitive }) => primitive));
+  return [
+    ...Array.from(primitives, (primitive) => ({ ranges: seen.filter((range) => range.primitive === primitive), mayMerge: true })),
+    ...seen.filter((range) => !mayMerge(range)).map((range) => ({ ranges: [range], mayMerge: false })),
+  ];
+}
+
+function isSeen({ count }: DrawRange): boolean {
+  return count > 0;
+}
+
+function lookKeyOf(stage: Stage, { primitive }: DrawRange, appearance: AppearanceDescription, picture: ShownPicture | undefined,
+                   batching: Batching): string | undefined {
+  return batching.keyOf({ primitive, colors: colorsOf(stage) }, appearance, stage.texCoord !== undefined ? picture : undefined);
+}
+
+/** The picking pass draws place by place, what the pointer is near. */
+function pickOf(stage: Stage, range: DrawRange, settingNow: () => PatchSetting): PickDraw {
+  const { geometry, patch, buffers, geometries } = settingNow();
+  return new PickDraw(stage, range, {
+    buffers, bounds: boundsOf(geometry, patch, stage).sphere, shapeFromStored: shapeFromStoredOf(geometry, patch),
+    makeParts: () => {
+      const shape = geometries.acquire(stage)[stage.draws.indexOf(range)];
+      if (shape === undefined) throw new RangeError("the draw is not one of its stage");
+      return {
+        geometry: shape,
+        request: pickRequestOf(stage, geometry.solid ? FrontSide : DoubleSide, uniformsOf(stage, settingNow()).of(range)),
+        release: () => { geometries.release(stage); },
+      };
+    },
+  });
+}

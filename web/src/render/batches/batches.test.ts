@@ -1,0 +1,244 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import type { BufferGeometry, DataTexture } from "three";
+import { BufferAttribute, Group, InstancedBufferGeometry, InterleavedBuffer, Matrix4, MeshBasicMaterial, PerspectiveCamera, Sphere, Vector3 } from "three";
+import { arrayTypeOf, elementTypeOf } from "../../decode/elements.ts";
+import type { BufferStage, ElementArray, StoredBytes } from "../../decode/stage.ts";
+import type { AppearanceDescription } from "../../document/description.ts";
+import type { Buffers } from "../buffers.ts";
+import type { DrawnObject } from "../drawnObject.ts";
+import type { Look, MaterialRequest } from "../look.ts";
+import { GeometryPool } from "../stageGeometries.ts";
+import type { BatchedDraw, Member } from "./batch.ts";
+import { Batches } from "./batches.ts";
+import { mostVertices } from "./mergedBatch.ts";
+import { placeFields, texelsPerPlace } from "./placeChunk.ts";
+
+const white = [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0];
+
+const arrays = new WeakMap<StoredBytes, ElementArray>();
+
+const buffers: Buffers = {
+  recordsOf: (bytes, type, stride) => new InterleavedBuffer(new (arrayTypeOf(type))(bytes.byteLength), stride),
+  indexOf: () => new BufferAttribute(new Uint16Array(3), 1),
+  read: (bytes, _, first, count = Infinity) => (arrays.get(bytes) ?? new Uint8Array()).subarray(first, first + count),
+  dispose: (geometry) => { geometry.dispose(); },
+};
+
+function stored(array: ElementArray) {
+  const bytes: StoredBytes = { byteLength: array.byteLength, close: () => undefined };
+  arrays.set(bytes, array);
+  return { bytes, type: elementTypeOf(array) };
+}
+
+/** A triangle whose vertices have three numbers in records of `stride`. */
+function stageOf(first: number, stride = 4, index = [0, 1, 2]): BufferStage {
+  const coord = new Uint16Array(3 * stride).map((_, i) => (i % stride < 3 ? first + i : 7));
+  return {
+    kind: "buffers", name: "full", draws: [{ primitive: "triangles", first: 0, count: 3 }], normalCode: { kind: "vector" },
+    index: stored(new Uint16Array(index)), coord: { ...stored(coord), components: 3, stride, offset: 0 },
+    normal: undefined, color: undefined, value: undefined, texCoord: undefined,
+  };
+}
+
+function drawOf(stage: BufferStage, isMerged: boolean, vertexCount = 3): BatchedDraw {
+  const request = { primitive: "triangles", uniforms: {} } as unknown as MaterialRequest;
+  return {
+    stage, ranges: stage.draws, isMerged, vertexCount, bounds: new Sphere(new Vector3(), 1), shapeFromStored: new Matrix4(), step: [1, 1, 1],
+    texCoordFrame: [0, 0, 1, 1], request, appearance: {} as AppearanceDescription, picture: undefined, lookKey: "",
+  };
+}
+
+class Scene {
+  readonly batches: Batches;
+  #table: (() => DataTexture) | undefined;
+  readonly #camera = new PerspectiveCamera(60, 1, 0.1, 100);
+
+  constructor() {
+    const look: Look = {
+      makeMaterial: ({ uniforms }) => {
+        this.#table = () => uniforms.places?.value as DataTexture;
+        return new MeshBasicMaterial();
+      },
+      applyAppearance: () => undefined, prepare: () => undefined, batching: undefined,
+    };
+    this.batches = new Batches(look, new GeometryPool(buffers), buffers);
+    this.#camera.position.z = 10;
+    this.#camera.updateMatrixWorld();
+  }
+
+  add(draw: BatchedDraw, x: number, scale = 1): Member {
+    const group = new Group();
+    place(group, x, scale);
+    return this.batches.add(draw, white, group);
+  }
+
+  /** What the next frame draws. */
+  frame(): DrawnObject[] {
+    this.batches.sync(new Sphere(new Vector3(), 10));
+    this.batches.update(this.#camera);
+    return (this.batches.root.children as DrawnObject[]).filter(({ visible }) => visible);
+  }
+
+  record({ place: number }: Member): number[] {
+    const numbers = this.#table?.().image.data as Float32Array;
+    return Array.from(numbers.subarray(number * 4 * texelsPerPlace, (number + 1) * 4 * texelsPerPlace));
+  }
+}
+
+function place(group: Group, x: number, scale = 1): void {
+  group.matrix.makeScale(scale, 1, 1).setPosition(x, 0, 0);
+  group.matrixAutoUpdate = false;
+  group.updateMatrixWorld(true);
+}
+
+function placesIn({ geometry }: DrawnObject): number[] {
+  assert.ok(geometry instanceof InstancedBufferGeometry);
+  return Array.from(geometry.getAttribute("place").array.subarray(0, geometry.instanceCount));
+}
+
+function meshIn({ geometry }: { geometry: BufferGeometry }) {
+  const column = (name: string) => Array.from(geometry.getAttribute(name).array);
+  return { index: Array.from(geometry.index?.array ?? []), places: column("place"), coords: (geometry.getAttribute("position") as unknown as { data: InterleavedBuffer }).data.array };
+}
+
+describe("a stage in many places", () => {
+  const draw = drawOf(stageOf(0), false);
+
+  test("is one draw of those that the camera sees", () => {
+    const scene = new Scene();
+    const members = [-90, -2, 0, 2, 90].map((x) => scene.add(draw, x));
+    const [drawn, ...others] = scene.frame();
+    assert.ok(drawn);
+    assert.equal(others.length, 0);
+    assert.deepEqual(placesIn(drawn), members.slice(1, 4).map((member) => member.place));
+  });
+
+  test("is drawn in as many places as there are", () => {
+    const scene = new Scene();
+    for (let n = 0; n < 300; ++n) scene.add(draw, 0);
+    const [drawn] = scene.frame();
+    assert.ok(drawn);
+    assert.equal(new Set(placesIn(drawn)).size, 300);
+  });
+
+  test("follows each place when it is hidden, moved, and gone", () => {
+    const scene = new Scene();
+    const [first, second, third] = [0, 1, 2].map((x) => scene.add(draw, x)) as [Member, Member, Member];
+    const [drawn] = scene.frame();
+    assert.ok(drawn);
+    first.group.visible = false;
+    scene.frame();
+    assert.deepEqual(placesIn(drawn), [second.place, third.place]);
+    const before = scene.record(third);
+    place(second.group, 3);
+    scene.frame();
+    assert.equal(scene.record(second)[placeFields.matrix + 3], 3);
+    assert.deepEqual(scene.record(third), before);
+    scene.batches.remove(second);
+    scene.frame();
+    assert.deepEqual(placesIn(drawn), [third.place]);
+    scene.batches.remove(third);
+    scene.batches.remove(first);
+    assert.deepEqual(scene.frame(), []);
+    scene.frame();
+    assert.equal(scene.batches.root.children.length, 0, "an empty batch stays for a frame, not longer");
+  });
+
+  test("is drawn apart where its place mirrors it, under a mirrored object, by a record that does not mirror", () => {
+    const scene = new Scene();
+    const member = scene.add(draw, 1, -1);
+    scene.add(draw, 0);
+    const [drawn, ...others] = scene.frame().toReversed();
+    assert.ok(drawn);
+    assert.equal(others.length, 1);
+    const mirrored = [drawn, ...others].find(({ matrixWorld }) => matrixWorld.determinant() < 0);
+    assert.ok(mirrored);
+    assert.deepEqual(placesIn(mirrored), [member.place]);
+    assert.deepEqual(scene.record(member).slice(0, 4), [1, 0, 0, -1]);
+    place(member.group, 1, 1);
+    assert.equal(scene.frame().length, 1, "it has joined the others");
+  });
+
+  test("stands in the scene's middle, so that single precision is enough", () => {
+    const scene = new Scene();
+    const member = scene.add(draw, 1e7 + 0.25);
+    scene.batches.sync(new Sphere(new Vector3(1e7, 0, 0), 10));
+    assert.equal(scene.record(member)[placeFields.matrix + 3], 0.25);
+  });
+});
+
+test("10,000 shapes, half of them of one mesh and half of meshes of their own, are five draws", () => {
+  const scene = new Scene();
+  const ball = drawOf(stageOf(0), false);
+  for (let n = 0; n < 5000; ++n) {
+    scene.add(ball, 0);
+    scene.add(drawOf(stageOf(n), true, 50), 0);
+  }
+  assert.equal(scene.frame().length, 5);
+});
+
+describe("small meshes", () => {
+  test("are one mesh, whatever records their vertices come in", () => {
+    const scene = new Scene();
+    const [a, b] = [scene.add(drawOf(stageOf(100), true), 0), scene.add(drawOf(stageOf(200, 3), true), 1)];
+    const [drawn, ...others] = scene.frame();
+    assert.ok(drawn);
+    assert.equal(others.length, 0);
+    const { index, places, coords } = meshIn(drawn);
+    assert.deepEqual(index, [0, 1, 2, 3, 4, 5]);
+    assert.deepEqual(places, [a.place, a.place, a.place, b.place, b.place, b.place]);
+    const vertices = Array.from({ length: 6 }, (_, v) => Array.from(coords.subarray(4 * v, 4 * v + 3)));
+    assert.deepEqual(vertices, [[100, 101, 102], [104, 105, 106], [108, 109, 110], [200, 201, 202], [203, 204, 205], [206, 207, 208]]);
+  });
+
+  test("say in their records whether they are shown, and leave no triangle behind", () => {
+    const scene = new Scene();
+    const members = Array.from({ length: 5 }, (_, n) => scene.add(drawOf(stageOf(10 * n), true), 0)) as [Member, Member, Member, ...Member[]];
+    scene.frame();
+    members[0].group.visible = false;
+    scene.frame();
+    assert.deepEqual(members.map((member) => scene.record(member)[placeFields.isShown]), [0, 1, 1, 1, 1]);
+    scene.batches.remove(members[1]);
+    const [drawn] = scene.frame();
+    assert.ok(drawn);
+    assert.deepEqual(meshIn(drawn).index.slice(0, 9), [0, 1, 2, 0, 0, 0, 6, 7, 8]);
+    scene.batches.remove(members[0]);
+    scene.batches.remove(members[2]);
+    const [packed] = scene.frame();
+    assert.ok(packed);
+    assert.deepEqual(meshIn(packed).places, members.slice(3).flatMap((member) => Array<number>(3).fill(member.place)), "it is written anew");
+  });
+
+  test("do not name the vertices of others, whatever their index says", () => {
+    const scene = new Scene();
+    scene.add(drawOf(stageOf(0, 4, [0, 1, 9]), true), 0);
+    scene.add(drawOf(stageOf(50), true), 0);
+    const [drawn] = scene.frame();
+    assert.ok(drawn);
+    assert.deepEqual(meshIn(drawn).index, [0, 1, 2, 3, 4, 5]);
+  });
+
+  test("are several meshes where 16 bits do not count them, and where some are mirrored", () => {
+    const scene = new Scene();
+    const large = (first: number) => drawOf(stageOf(first), true, Math.ceil(mostVertices / 2));
+    scene.add(large(0), 0);
+    scene.add(large(1), 0);
+    assert.equal(scene.frame().length, 2);
+    scene.add(drawOf(stageOf(2), true), 0);
+    assert.equal(scene.frame().length, 2);
+    scene.add(drawOf(stageOf(3), true), 0, -1);
+    assert.equal(scene.frame().length, 3);
+  });
+
+  test("are not drawn where the camera sees none of them", () => {
+    const scene = new Scene();
+    const [left, right] = [scene.add(drawOf(stageOf(0), true), -90), scene.add(drawOf(stageOf(9), true), -80)];
+    assert.deepEqual(scene.frame(), []);
+    place(right.group, 0);
+    assert.equal(scene.frame().length, 1);
+    right.group.visible = false;
+    left.group.visible = false;
+    assert.deepEqual(scene.frame(), []);
+  });
+});

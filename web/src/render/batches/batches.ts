@@ -1,0 +1,161 @@
+// All that is drawn together in a scene: finds for each draw those that it can be
+// drawn with, and keeps the table of their places true to the groups that they
+// stand in.
+
+import type { Camera } from "three";
+import { Frustum, Group, Matrix4, Sphere, Vector3 } from "three";
+import type { BufferStage, Stage } from "../../decode/stage.ts";
+import type { Buffers } from "../buffers.ts";
+import type { Look, MaterialRequest } from "../look.ts";
+import type { GeometryPool } from "../stageGeometries.ts";
+import type { Batch, BatchedDraw, Member } from "./batch.ts";
+import { InstancedBatch } from "./instancedBatch.ts";
+import { MergedBatch } from "./mergedBatch.ts";
+import { layoutOf } from "./meshColumns.ts";
+import { placeFields } from "./placeChunk.ts";
+import { PlaceTable } from "./placeTable.ts";
+
+export class Batches {
+  /** Hangs in the scene, near what is drawn: records of places count from it, in single precision. */
+  readonly root = new Group();
+  readonly #look: Look;
+  readonly #geometries: GeometryPool;
+  readonly #buffers: Buffers;
+  readonly #table = new PlaceTable();
+  readonly #members = new Set<Member>();
+  /** By what their members have in common; new ones join the last. */
+  readonly #batches = new Map<string, Batch[]>();
+  /** They were empty before the last frame; until the next, others may need their programs. */
+  #empty = new Set<Batch>();
+  readonly #stageNumbers = new WeakMap<Stage, number>();
+  #stageCount = 0;
+
+  constructor(look: Look, geometries: GeometryPool, buffers: Buffers) {
+    this.#look = look;
+    this.#geometries = geometries;
+    this.#buffers = buffers;
+    this.root.matrixAutoUpdate = false;
+  }
+
+  /** From now on the draw is in the group's place too. `look`: the field of that name in a place's record. */
+  add(draw: BatchedDraw, look: readonly number[], group: Group): Member {
+    const member: Member = { draw, group, place: this.#table.allocate(), batch: undefined, isShown: false, isMirrored: false, sphere: new Sphere() };
+    this.#table.write(member.place, placeFields.texCoordFrame, draw.texCoordFrame);
+    this.#table.write(member.place, placeFields.look, look);
+    this.#members.add(member);
+    this.#follow(member, this.#rootFromScene);
+    this.#join(member);
+    return member;
+  }
+
+  /** Another look, for the same material. */
+  setLook({ place }: Member, look: readonly number[]): void {
+    this.#table.write(place, placeFields.look, look);
+  }
+
+  remove(member: Member): void {
+    this.#members.delete(member);
+    member.batch?.remove(member);
+    this.#table.release(member.place);
+  }
+
+  /** The groups have moved, or are shown or hidden; the scene's middle is there now. */
+  sync({ center, radius }: Sphere): void {
+    // A new origin changes every record: not for every move.
+    const origin = new Vector3().setFromMatrixPosition(this.root.matrix);
+    if (radius > 0 && !(origin.distanceTo(center) <= radius)) this.root.matrix.setPosition(center);
+    this.root.updateMatrixWorld(true);
+    const rootFromScene = this.#rootFromScene;
+    for (const member of this.#members) {
+      const { isMirrored } = member;
+      if (this.#follow(member, rootFromScene)) member.batch?.touch();
+      if (member.isMirrored === isMirrored) continue;
+      member.batch?.remove(member);
+      this.#join(member);
+    }
+  }
+
+  /** Before a frame. */
+  update(camera: Camera): void {
+    if (this.#batches.size === 0) return;
+    this.#table.update();
+    const clipFromRoot = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).multiply(this.root.matrixWorld);
+    const frustum = new Frustum().setFromProjectionMatrix(clipFromRoot);
+    const emptyBefore = this.#empty;
+    this.#empty = new Set();
+    for (const [key, batches] of this.#batches) {
+      const kept = batches.filter((batch) => !batch.isEmpty || !emptyBefore.has(batch));
+      for (const batch of batches) {
+        if (!kept.includes(batch)) batch.dispose();
+        else if (batch.isEmpty) this.#empty.add(batch);
+        batch.update(frustum);
+      }
+      if (kept.length === 0) this.#batches.delete(key);
+      else if (kept.length < batches.length) this.#batches.set(key, kept);
+    }
+  }
+
+  dispose(): void {
+    for (const batches of this.#batches.values()) for (const batch of batches) batch.dispose();
+    this.#batches.clear();
+    this.#members.clear();
+    this.#table.dispose();
+  }
+
+  get #rootFromScene(): Matrix4 {
+    return this.root.matrixWorld.clone().invert();
+  }
+
+  /** Whether what its batch knows of it has changed. */
+  #follow(member: Member, rootFromScene: Matrix4): boolean {
+    const { draw: { shapeFromStored, bounds, step }, group, place, sphere } = member;
+    const rootFromStored = new Matrix4().multiplyMatrices(rootFromScene, group.matrixWorld).multiply(shapeFromStored);
+    const [xx, xy, xz, , yx, yy, yz, , zx, zy, zz, , ox, oy, oz] = rootFromStored.elements;
+    member.isShown = group.visible;
+    member.isMirrored = rootFromStored.determinant() < 0;
+    // The object of what is mirrored is mirrored itself, so that three.js knows; its records are not.
+    const turn = member.isMirrored ? -1 : 1;
+    sphere.copy(bounds).applyMatrix4(rootFromStored);
+    return this.#table.write(place, placeFields.matrix, [
+      turn * xx, turn * yx, turn * zx, turn * ox, xy, yy, zy, oy, xz, yz, zz, oz, ...step, member.isShown ? 1 : 0]);
+  }
+
+  #join(member: Member): void {
+    const key = this.#keyOf(member);
+    const batches = this.#batches.get(key) ?? [];
+    this.#batches.set(key, batches);
+    let batch = batches.at(-1);
+    if (batch?.hasRoomFor(member) !== true) {
+      batch = this.#make(member);
+      batches.push(batch);
+    }
+    member.batch = batch;
+    batch.add(member);
+  }
+
+  #make({ draw, isMirrored }: Member): Batch {
+    const request: MaterialRequest = { ...draw.request, uniforms: { ...draw.request.uniforms, places: this.#table.uniform } };
+    const material = this.#look.makeMaterial(request, draw.appearance, draw.picture);
+    const batch = draw.isMerged ? new MergedBatch(draw, material, this.#buffers) : new InstancedBatch(draw, material, this.#geometries);
+    const { object } = batch;
+    object.frustumCulled = false; // `update` knows better
+    object.matrixAutoUpdate = false;
+    if (isMirrored) object.matrix.makeScale(-1, 1, 1);
+    this.#look.prepare(object, request, material);
+    this.root.add(object);
+    object.updateMatrixWorld(true);
+    return batch;
+  }
+
+  /** The same for what one batch can draw. */
+  #keyOf({ draw: { stage, ranges, isMerged, request, lookKey }, isMirrored }: Member): string {
+    const mesh = isMerged ? layoutOf(stage as BufferStage) : `${this.#numberOf(stage)} ${ranges.map((range) => stage.draws.indexOf(range)).join()}`;
+    return JSON.stringify([mesh, request, lookKey, isMirrored], (name, value: unknown) => (name === "uniforms" || name === "shared" ? undefined : value));
+  }
+
+  #numberOf(stage: Stage): number {
+    const number = this.#stageNumbers.get(stage) ?? ++this.#stageCount;
+    this.#stageNumbers.set(stage, number);
+    return number;
+  }
+}

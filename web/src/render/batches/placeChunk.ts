@@ -1,0 +1,95 @@
+// How shaders read the record of a place: where it is, what its vertices' numbers
+// mean, and its colours. The place's number is an attribute: of each instance
+// where a mesh is drawn in many places, of each vertex where many are one mesh.
+
+/** Defined in materials whose draws are of many places. */
+export const placesDefine = "PLACES";
+
+/** Where in a record each field begins, in numbers. */
+export const placeFields = { matrix: 0, step: 12, isShown: 15, texCoordFrame: 16, look: 20 } as const;
+export const texelsPerPlace = 8;
+
+/**
+ * The matrix' three rows; step and whether the place is shown; the frame of texture
+ * coordinates; diffuse and opacity; specular and shininess, or metallic and
+ * roughness; emissive and ambient intensity.
+ */
+export const placeVertexChunk = /* glsl */ `
+#ifdef ${placesDefine}
+  attribute uint place;
+  uniform highp sampler2D places;
+  flat varying vec4 placeDiffuse, placeSpecular, placeEmissive;
+
+  vec4 placeTexel(int n) {
+    int texel = int(place) * ${texelsPerPlace} + n;
+    int width = textureSize(places, 0).x;
+    return texelFetch(places, ivec2(texel % width, texel / width), 0);
+  }
+
+  vec3 inPlace(vec3 stored) {
+    vec4 point = vec4(stored, 1.0);
+    return vec3(dot(placeTexel(0), point), dot(placeTexel(1), point), dot(placeTexel(2), point));
+  }
+
+  // By the cofactors of the matrix without the lattice's steps: its inverse, transposed, but for a
+  // factor, which is positive, as no record mirrors.
+  vec3 normalInPlace(vec3 normal) {
+    mat3 matrix = transpose(mat3(placeTexel(0).xyz, placeTexel(1).xyz, placeTexel(2).xyz));
+    vec3 steps = placeTexel(3).xyz;
+    vec3 x = matrix[0] / steps.x, y = matrix[1] / steps.y, z = matrix[2] / steps.z;
+    return mat3(cross(y, z), cross(z, x), cross(x, y)) * normal;
+  }
+
+  vec4 texCoordFrameOfPlace() {
+    return placeTexel(4);
+  }
+
+  // What is not shown lies beyond the far side of all that is seen.
+  void showPlace() {
+    placeDiffuse = placeTexel(5);
+    placeSpecular = placeTexel(6);
+    placeEmissive = placeTexel(7);
+    if (placeTexel(3).w == 0.0) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+  }
+#else
+  vec3 inPlace(vec3 stored) {
+    return stored;
+  }
+
+  // The normal matrix takes the lattice's steps out of it again.
+  vec3 normalInPlace(vec3 normal) {
+    return normal * latticeStep;
+  }
+
+  vec4 texCoordFrameOfPlace() {
+    return texCoordFrame;
+  }
+
+  void showPlace() {}
+#endif
+`;
+
+/** Before the fragment shader of a material whose colours come from the record. */
+export const placeFragmentChunk = /* glsl */ `
+#ifdef ${placesDefine}
+  flat varying vec4 placeDiffuse, placeSpecular, placeEmissive;
+#endif
+`;
+
+/** In three's fragment shaders: the uniforms of a material, and where they are a place's. */
+export const placeColors: readonly (readonly [string, string])[] = [
+  ["vec4 diffuseColor = vec4( diffuse, opacity );", `
+#ifdef ${placesDefine}
+  vec4 diffuseColor = placeDiffuse;
+#else
+  vec4 diffuseColor = vec4(diffuse, opacity);
+#endif
+`],
+  ["vec3 totalEmissiveRadiance = emissive;", `
+#ifdef ${placesDefine}
+  vec3 totalEmissiveRadiance = placeEmissive.rgb;
+#else
+  vec3 totalEmissiveRadiance = emissive;
+#endif
+`],
+];

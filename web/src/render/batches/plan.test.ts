@@ -1,0 +1,50 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { shapesOf } from "../../document/description.ts";
+import { elementsOf } from "../../document/elements.testing.ts";
+import { readScene } from "../../document/readScene.ts";
+import { leastPlaces, mostMergedVertices, planOf } from "./plan.ts";
+
+function geometry(name: string, vertices: number, profile = "compact"): string {
+  return `<ImageGeometry DEF="${name}" profile="${profile}"><GeometryPatch recordCount="${vertices}"/></ImageGeometry>`;
+}
+
+/** How each of the scene's shapes is drawn. */
+function drawn(shapes: readonly string[]): string[] {
+  const scene = readScene(elementsOf(`<X3D>${shapes.map((inner) => `<Shape>${inner}</Shape>`).join("")}</X3D>`));
+  const places = shapesOf(scene.root);
+  const drawingOf = planOf(places);
+  return places.map(({ geometry: own }) => (own ? drawingOf(own) : "nothing"));
+}
+
+const crowd = Array.from({ length: leastPlaces }, (_, n) => geometry(`small${n}`, 24));
+
+test("a scene of few shapes is drawn one by one, whatever they are", () => {
+  const shapes = [...crowd.slice(2), '<ImageGeometry USE="small3"/>'];
+  assert.deepEqual(new Set(drawn(shapes)), new Set(["alone"]));
+});
+
+test("in a scene of many, small meshes become one, and large ones stand alone", () => {
+  const shapes = [...crowd, geometry("large", mostMergedVertices + 1), geometry("untold", 0)];
+  assert.deepEqual(drawn(shapes), [...crowd.map(() => "merged"), "alone", "alone"]);
+});
+
+test("a mesh is merged as long as all its places together are small, and instanced from then on", () => {
+  const twice = (vertices: number) => [...crowd, geometry("twin", vertices), '<ImageGeometry USE="twin"/>'];
+  assert.deepEqual(drawn(twice(mostMergedVertices / 2)).slice(-2), ["merged", "merged"]);
+  assert.deepEqual(drawn(twice(mostMergedVertices / 2 + 1)).slice(-2), ["instanced", "instanced"]);
+});
+
+test("vertices that the GPU decodes are not merged, as they are in no buffers", () => {
+  const shapes = [...crowd, geometry("image", 24, "classic"), geometry("images", 24, "classic"), '<ImageGeometry USE="images"/>'];
+  assert.deepEqual(drawn(shapes).slice(-3), ["alone", "instanced", "instanced"]);
+});
+
+test("shapes that values colour have maps of their own, and are drawn alone", () => {
+  const valued = '<BinaryGeometry recordCount="24"><FloatVertexAttribute name="heat" numComponents="1"/></BinaryGeometry>';
+  const scene = readScene(elementsOf(`<X3D>${crowd.map((inner) => `<Shape>${inner}</Shape>`).join("")}<Shape colorBy="heat">${valued}</Shape></X3D>`));
+  const places = shapesOf(scene.root);
+  const last = places.at(-1)?.geometry;
+  assert.ok(last?.value, "the test's shape has values");
+  assert.equal(planOf(places)(last), "alone");
+});

@@ -1,0 +1,13 @@
+// The three.js object that draws one kind of primitive.
+
+import type { BufferGeometry } from "three";
+import { Line, LineSegments, Mesh, Points } from "three";
+import type { DrawRange } from "../decode/stage.ts";
+
+export type DrawnObject = Mesh | Points | Line;
+
+export function objectOf({ primitive }: Pick<DrawRange, "primitive">, geometry: BufferGeometry, material: Mesh["material"]): DrawnObject {
+  return primitive === "points" ? new Points(geometry, material)
+    : primitive === "lines" ? new LineSegments(geometry, material)
+    : primitive === "lineStrip" ? new Line(geometry, material) : new Mesh(geometry, material);
+}
