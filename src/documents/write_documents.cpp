@@ -5,6 +5,7 @@
 #include "documents/x3dom_element.h"
 
 #include <algorithm>
+#include <set>
 
 namespace imgeo {
 
@@ -12,6 +13,19 @@ namespace {
 
 /// More hints than this compete with what they are to hasten.
 constexpr std::size_t maxPreloads = 16;
+
+/// The Shapes that a page shows whatever its viewer does: of a LOD and of a Switch only
+/// he knows which child.
+void addShapesForAll(const SceneGraph& graph, std::size_t node, std::set<std::size_t>& seen,
+                     std::vector<std::size_t>& shapes) {
+  const OtherNode* other = std::get_if<OtherNode>(&graph.nodes[node].content);
+  if (!seen.insert(node).second || (other && (other->element == "LOD" || other->element == "Switch")))
+    return;
+  if (std::holds_alternative<Shape>(graph.nodes[node].content))
+    shapes.push_back(node);
+  for (const std::size_t child : graph.nodes[node].children)
+    addShapesForAll(graph, child, seen, shapes);
+}
 
 /// What the runtime requests first, in its order: bases, of geometries without one all
 /// of each patch in compact or the most significant coordinate bytes of all patches,
@@ -22,7 +36,10 @@ std::vector<std::string> firstRequests(const SceneDocument& document) {
     if (urls.size() < maxPreloads && std::ranges::find(urls, reference.url) == urls.end())
       urls.push_back(reference.url);
   };
-  const std::vector<std::size_t> shapes = shapeNodes(document.graph);
+  std::vector<std::size_t> shapes;
+  std::set<std::size_t> seen;
+  for (const std::size_t root : document.graph.roots)
+    addShapesForAll(document.graph, root, seen, shapes);
   const auto forEachGeometry = [&](auto visit) {
     for (const std::size_t node : shapes)
       visit(document.geometries.at(shapeOf(document.graph, node).mesh));

@@ -115,6 +115,17 @@ TEST_F(X3dSite, ChangesNothingButGeometryNodes) {
   EXPECT_EQ(after, before);
 }
 
+TEST_F(X3dSite, HastensNothingThatItsViewerMayNeverSee) {
+  const std::string plate =
+      source.substr(source.find("<IndexedFaceSet"), source.find("</Shape>") - source.find("<IndexedFaceSet"));
+  writeFile(directory_ / "lod.x3d",
+            asBytes("<X3D><Scene><LOD range='5'><Group/><Shape>" + plate + "</Shape></LOD></Scene></X3D>"));
+  convert(directory_ / "lod.x3d", directory_ / "lod", {});
+  const Bytes lod = readFile(directory_ / "lod/index.html");
+  EXPECT_EQ(asText(lod).find("rel=\"preload\""), std::string::npos);
+  EXPECT_NE(page.find("rel=\"preload\""), std::string::npos) << "the plate stands outside of its Switch, too";
+}
+
 TEST_F(X3dSite, StoresAGeometryThatIsUsedOnce) {
   EXPECT_EQ(report.elements.triangles, 2u);
   EXPECT_EQ(inspect(directory_ / "site").geometries.size(), 1u);

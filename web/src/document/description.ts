@@ -189,8 +189,12 @@ export interface ShapeDescription {
    * are the same. It stands in several places where a group around it is USEd.
    */
   readonly element: SceneElement;
+  /** The element of the page that stands for it: itself, or the Inline whose document it is in. */
+  readonly host: SceneElement;
   /** False where it or a group around it is hidden. */
   readonly visible: boolean;
+  /** Whether the scene ends no nearer than it: it is seen, or would be in another level of a LOD. */
+  readonly reaches: boolean;
   /** What the author says of it, of its geometry and of the groups around it, multiplied. */
   readonly priority: number;
   /** False: the pointer goes through it to what lies behind. */
@@ -211,7 +215,30 @@ export interface GroupDescription {
   readonly box: Box3 | undefined;
   /** Undefined for a plain Group. */
   readonly transform: TransformDescription | undefined;
+  /** Of a LOD, whose children these are, one of them visible. */
+  readonly levels?: LevelsDescription;
   readonly children: readonly NodeDescription[];
+}
+
+/** A LOD whose level depends on how far the viewer is from it. */
+export interface LevelsDescription {
+  /** Who this is, as a shape's. */
+  readonly element: SceneElement;
+  readonly center: Vec3;
+  /** Where one level ends and the next begins, ascending. */
+  readonly range: readonly number[];
+  /** The last one is that of all greater distances. */
+  readonly count: number;
+}
+
+/** A document to be shown where an Inline stands. */
+export interface InlineDescription {
+  readonly element: SceneElement;
+  /** The first that leads to a document counts. */
+  readonly urls: readonly string[];
+  /** What is hidden is not asked for. */
+  readonly visible: boolean;
+  readonly priority: number;
 }
 
 export interface LightNodeDescription {
@@ -236,6 +263,8 @@ export interface SceneDescription {
   readonly skyColor: Vec3 | undefined;
   /** Changes to the weights of what files hold, as the author writes them. */
   readonly chunkPriority: string;
+  /** In document order, those in inlined documents too; one that is USEd, and one of a document that is shown twice, once for each place. */
+  readonly inlines: readonly InlineDescription[];
   readonly warnings: readonly Warning[];
 }
 

@@ -2,8 +2,8 @@
 // children, as a browser passes over unknown tags; what they hold still counts.
 
 import type {
-  Box3, GeometryDescription, GroupDescription, NavigationDescription, NodeDescription, SceneDescription, ShapeDescription,
-  TransformDescription,
+  Box3, GeometryDescription, GroupDescription, InlineDescription, NavigationDescription, NodeDescription, SceneDescription,
+  ShapeDescription, TransformDescription,
 } from "./description.ts";
 import { colorMapOf } from "./attributes.ts";
 import { readAppearance } from "./appearance.ts";
@@ -16,6 +16,24 @@ import { readInlineGeometry } from "./inlineGeometry.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
+/** A document that an Inline shows. */
+export interface InlinedDocument {
+  readonly url: string;
+  /** Its <X3D>; the urls in it are absolute. */
+  readonly x3d: SceneElement;
+}
+
+/** What a scene shows beyond what its own elements say. */
+export interface Supplements {
+  /** Undefined while it is not here. */
+  readonly inlined?: (inline: SceneElement) => InlinedDocument | undefined;
+  /** The level of a LOD; undefined while nobody knows how far it is. */
+  readonly levelOf?: (lod: SceneElement) => number | undefined;
+}
+
+/** Documents that inline one another deeper than this are no scene. */
+const mostInlineDepth = 16;
+
 /** What is collected on the way through the tree. */
 interface Reading {
   readonly geometries: GeometryMemory;
@@ -23,6 +41,11 @@ interface Reading {
   /** Elements whose USE is being followed, so that a circle of them ends. */
   readonly following: Set<SceneElement>;
   readonly warnings: Warning[];
+  readonly inlines: InlineDescription[];
+  readonly supplements: Supplements;
+  /** The documents that this one is inlined by, outermost first. */
+  readonly inlinedBy: readonly InlinedDocument[];
+  readonly host: SceneElement | undefined;
   navigation: NavigationDescription | undefined;
   skyColor: Vec3 | undefined;
 }
@@ -30,22 +53,25 @@ interface Reading {
 /** What groups hand down to what stands in them. */
 interface Inherited {
   readonly visible: boolean;
+  /** The same, but that every level of a LOD is seen. */
+  readonly reaches: boolean;
   readonly priority: number;
 }
 
 /** With the same `geometries` as before, geometries that have not changed are the same objects. */
-export function readScene(x3d: SceneElement, geometries = new GeometryMemory()): SceneDescription {
+export function readScene(x3d: SceneElement, geometries = new GeometryMemory(), supplements: Supplements = {}): SceneDescription {
   const reading: Reading = {
     geometries, defined: definedIn(x3d), following: new Set(), warnings: [],
+    inlines: [], supplements, inlinedBy: [], host: undefined,
     navigation: undefined, skyColor: undefined,
   };
   const root: GroupDescription = {
-    kind: "group", visible: true, box: undefined, transform: undefined, children: readChildren(x3d, reading, { visible: true, priority: 1 }),
+    kind: "group", visible: true, box: undefined, transform: undefined, children: readChildren(x3d, reading, { visible: true, reaches: true, priority: 1 }),
   };
-  const { skyColor, warnings } = reading;
+  const { skyColor, inlines, warnings } = reading;
   const navigation = reading.navigation ?? readFields(withoutAttributes, nodeFields.NavigationInfo, warnings);
   const { chunkPriority } = readFields(x3d, nodeFields.X3D, warnings);
-  return { root, navigation, skyColor, chunkPriority, warnings };
+  return { root, navigation, skyColor, chunkPriority, inlines, warnings };
 }
 
 function definedIn(element: SceneElement, defined = new Map<string, SceneElement>()): Map<string, SceneElement> {
@@ -73,6 +99,10 @@ function readNode(element: SceneElement, reading: Reading, inherited: Inherited)
       }
       case "switch":
         return [readSwitch(node, reading, inherited)];
+      case "lod":
+        return [readLevels(node, reading, inherited)];
+      case "inline":
+        return [readInline(element, node, reading, inherited)];
       case "directionallight":
         return [{ kind: "light", light: { kind: "directional", ...readFields(node, nodeFields.DirectionalLight, warnings) } }];
       case "pointlight":
@@ -109,7 +139,8 @@ function isSeen({ visible, render }: Pick<GroupFields, "visible" | "render">): b
 
 /** What a node with these fields hands down. */
 function within(fields: GroupFields, inherited: Inherited): Inherited {
-  return { visible: inherited.visible && isSeen(fields), priority: inherited.priority * fields.priority };
+  const seen = isSeen(fields);
+  return { visible: inherited.visible && seen, reaches: inherited.reaches && seen, priority: inherited.priority * fields.priority };
 }
 
 function readGroup(node: SceneElement, fields: GroupFields, reading: Reading, inherited: Inherited,
@@ -120,12 +151,53 @@ function readGroup(node: SceneElement, fields: GroupFields, reading: Reading, in
 /** One of its children is seen, or none; the others stay in the scene, so that choosing them shows at once what they have. */
 function readSwitch(node: SceneElement, reading: Reading, inherited: Inherited): GroupDescription {
   const fields = readFields(node, nodeFields.Switch, reading.warnings);
-  const children = childrenOf(node).map((child, place): GroupDescription => {
-    const visible = place === fields.whichChoice;
-    const own = within(fields, { ...inherited, visible: inherited.visible && visible });
+  return readChoice(choicesIn(node), fields.whichChoice, false, fields, reading, inherited);
+}
+
+/** Children that are no nodes of their own are none of the choices. */
+function choicesIn(node: SceneElement): SceneElement[] {
+  return childrenOf(node).filter((child) => !lowerNameOf(child).startsWith("metadata"));
+}
+
+/** `allReach`: the scene reaches as far as those that are not chosen. */
+function readChoice(nodes: readonly SceneElement[], choice: number, allReach: boolean, fields: GroupFields, reading: Reading,
+                    inherited: Inherited): GroupDescription {
+  const children = nodes.map((child, place): GroupDescription => {
+    const visible = place === choice;
+    const own = within(fields, { ...inherited, visible: inherited.visible && visible, reaches: inherited.reaches && (visible || allReach) });
     return { kind: "group", box: undefined, visible, transform: undefined, children: readNode(child, reading, own) };
   });
   return { kind: "group", box: undefined, visible: isSeen(fields), transform: undefined, children };
+}
+
+/** A choice that the distance makes. Until it is known the last level is seen, which asks for least. */
+function readLevels(node: SceneElement, reading: Reading, inherited: Inherited): GroupDescription {
+  const fields = readFields(node, nodeFields.LOD, reading.warnings);
+  const nodes = choicesIn(node);
+  const last = nodes.length - 1;
+  const level = Math.min(reading.supplements.levelOf?.(node) ?? last, last);
+  const { center, range } = fields;
+  return { ...readChoice(nodes, level, true, fields, reading, inherited), levels: { element: node, center, range, count: nodes.length } };
+}
+
+/** The document stands where the Inline does, with names of its own; what it says of the whole scene counts for nothing. */
+function readInline(element: SceneElement, node: SceneElement, reading: Reading, inherited: Inherited): GroupDescription {
+  const { load, url, ...fields } = readFields(node, nodeFields.Inline, reading.warnings);
+  const inner = within(fields, inherited);
+  if (load && url.length > 0) reading.inlines.push({ element: node, urls: url, visible: inner.visible, priority: inner.priority });
+  const found = load ? reading.supplements.inlined?.(node) : undefined;
+  const problem = found && problemWith(found, reading);
+  if (problem !== undefined) reading.warnings.push({ element, message: problem });
+  const children = found === undefined || problem !== undefined ? [] : readChildren(found.x3d, {
+    ...reading, defined: definedIn(found.x3d), inlinedBy: [...reading.inlinedBy, found], host: reading.host ?? element,
+    navigation: undefined, skyColor: undefined,
+  }, inner);
+  return { kind: "group", visible: isSeen(fields), box: boxOf(fields), transform: undefined, children };
+}
+
+function problemWith({ url }: InlinedDocument, { inlinedBy }: Reading): string | undefined {
+  if (inlinedBy.some((outer) => outer.url === url)) return `names ${url}, which it stands in itself`;
+  return inlinedBy.length >= mostInlineDepth ? `names ${url}, more than ${mostInlineDepth} documents deep` : undefined;
 }
 
 /** Reads `element`, or what its USE names; `nothing` where that leads nowhere or in a circle. */
@@ -162,9 +234,10 @@ function readShape(element: SceneElement, node: SceneElement, reading: Reading, 
     lowerNameOf(part) === "appearance" ? readAppearance(part, nodesIn, reading.warnings) : undefined);
   const geometry = plain && values.colorBy !== "" ? reading.geometries.withValues(plain, values.colorBy) : plain;
   return {
-    kind: "shape", element, geometry,
+    kind: "shape", element, geometry, host: reading.host ?? element,
     colorMap: colorMapOf(node, values, geometry, reading.warnings),
     visible: inherited.visible && isSeen(values),
+    reaches: inherited.reaches && isSeen(values),
     priority: inherited.priority * values.priority * priorityOfGeometry,
     isPickable: values.isPickable,
     box: boxOf(values) ?? (geometry && boxOfGeometry(geometry)),

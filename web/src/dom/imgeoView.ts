@@ -115,7 +115,7 @@ export class ImgeoView extends HTMLElement {
   /** What is seen at a point of the window, in CSS pixels as events' clientX and clientY; null where no shape is. */
   positionAndNormalFromPoint(x: number, y: number): SurfacePoint | null {
     if (this.#presentation === undefined || this.#canvas === undefined) return null;
-    const hit = this.#presentation.viewer.renderer.pick(...pixelAt(this.#canvas, x, y));
+    const hit = this.#presentation.viewer.pick(...pixelAt(this.#canvas, x, y));
     if (hit === undefined) return null;
     const { position, normal, element } = hit;
     return { position: vector3DOf(position), normal: normal ? vector3DOf(normal) : null, shape: element as Element };

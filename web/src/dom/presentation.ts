@@ -71,7 +71,7 @@ export class Presentation {
     this.poster.show(this.#settings.poster, this.#label);
     x3d.addEventListener("first-image", () => { this.poster.onPicture(); }, { signal });
     x3d.addEventListener("load", () => { face.say("The scene is complete."); }, { signal });
-    listenForPointing(face.canvas, host, this.viewer.renderer, signal);
+    listenForPointing(face.canvas, host, this.viewer, signal);
     listenForMovement(face.canvas, this.#hands, signal);
     watchSize(face.canvas, signal, (width, height, ratio) => {
       this.#size = { width: width / ratio, height: height / ratio };

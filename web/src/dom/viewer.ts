@@ -8,12 +8,16 @@ import { progressOf } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resources.ts";
 import { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
 import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
+import type { InlineDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { GeometryMemory } from "../document/geometryMemory.ts";
 import { readScene } from "../document/readScene.ts";
 import type { NavigatedScene } from "../navigation/navigator.ts";
 import { Navigator } from "../navigation/navigator.ts";
+import { ChosenLevels } from "../render/chosenLevels.ts";
+import type { Hit } from "../render/picking.ts";
+import type { PlacedLevels } from "../render/sceneGraph.ts";
 import type { RenderStatistics } from "../render/sceneRenderer.ts";
 import { SceneRenderer } from "../render/sceneRenderer.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
@@ -22,6 +26,7 @@ import { slotsFor } from "../scheduler/slots.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
 import { Arrival } from "./arrival.ts";
 import { viewTag } from "./faceStyle.ts";
+import { Inlines } from "./inlines.ts";
 import { Loading } from "./loading.ts";
 import { watchProtocol } from "./protocol.ts";
 import { ShapeLoads, stageShown } from "./shapeLoads.ts";
@@ -29,6 +34,9 @@ import { Steering } from "./steering.ts";
 
 /** The bar moves no more often than people can see. */
 const progressIntervalMs = 50;
+
+/** LODs in LODs whose levels are chosen at once; deeper ones after the next frame. */
+const mostNestedLevels = 8;
 
 export interface ViewStatistics extends RenderStatistics {
   /** Requests ever sent, retries included. */
@@ -57,6 +65,8 @@ export class Viewer {
   readonly #workers = pageWorkers();
   readonly #geometries = new GeometryMemory();
   readonly #shapes: ShapeLoads;
+  readonly #inlines: Inlines;
+  readonly #levels = new ChosenLevels();
   readonly #steering: Steering;
   readonly #observer: MutationObserver;
   readonly #listeners = new AbortController();
@@ -68,10 +78,13 @@ export class Viewer {
   #trial: "needless" | "due" | "running" | "ended" = "needless";
   #loading: Loading;
   #isLoading = false;
-  #built: NavigatedScene | undefined;
+  #built: (NavigatedScene & { readonly levels: readonly PlacedLevels[] }) | undefined;
+  #described: readonly InlineDescription[] = [];
+  /** The elements of the page that stand for shapes of inlined documents. */
+  #hosts: ReadonlyMap<SceneElement, SceneElement> = new Map();
   #progressTimer: ReturnType<typeof setTimeout> | undefined;
 
-  readonly #transfers = (): Readonly<Transfer>[] => [...this.#deliveries.transfers(), ...this.#textures.transfers()];
+  readonly #transfers = (): Readonly<Transfer>[] => [...this.#deliveries.transfers(), ...this.#textures.transfers(), ...this.#inlines.transfers];
 
   constructor(x3d: Element, canvas: HTMLCanvasElement, context: WebGL2RenderingContext, listener: ViewerListener) {
     this.#x3d = x3d;
@@ -83,6 +96,8 @@ export class Viewer {
     this.#readsTextures = this.renderer.mayReadTextures;
     if (!this.#readsTextures) this.#warnOfGpu();
     const arrival = new Arrival(this.renderer);
+    // What is no URL is left for the request to fail on.
+    const resolve = (url: string) => (URL.canParse(url, document.baseURI) ? new URL(url, document.baseURI).href : url);
     this.#pool = new ResourcePool({
       scheduler: this.#scheduler,
       makeImage: (png, signal) => arrival.makeImage(png, signal),
@@ -93,8 +108,7 @@ export class Viewer {
       makePicture: (bytes, sampling, signal) => arrival.makePicture(bytes, sampling, signal),
       storeBytes: (array, use, signal) => arrival.storeBytes(array, use, signal),
       download: defaultDownloadOptions,
-      // What is no URL is left for the request to fail on.
-      resolve: (url) => (URL.canParse(url, document.baseURI) ? new URL(url, document.baseURI).href : url),
+      resolve,
       onTransfer: () => { this.#progressSoon(); },
     });
     this.#deliveries = new SharedDeliveries(this.#pool);
@@ -106,6 +120,10 @@ export class Viewer {
       },
       onError: (error, element, loading) => { this.#fail(error, element, loading); },
       maySettle: () => this.#trial !== "due" && this.#trial !== "running",
+    });
+    this.#inlines = new Inlines(this.#pool, resolve, {
+      onChange: () => { this.#readDocument(); },
+      onError: (error, element, loading) => { this.#fail(error, element, loading); },
     });
     this.#steering = new Steering(this.renderer, this.#deliveries, this.#textures, () => { this.#onSteered(); });
     this.#observer = new MutationObserver((all) => {
@@ -131,6 +149,7 @@ export class Viewer {
   /** Asks for files from now on. */
   load(): void {
     this.#isLoading = true;
+    this.#inlines.follow(this.#described);
     this.#steering.begin();
     this.#workers.prepare(this.#shapes.jobsToCome);
     this.renderer.requestFrame();
@@ -146,11 +165,25 @@ export class Viewer {
     return { ...this.renderer.statistics, requests: started, openRequests: running + waiting };
   }
 
+  /** What is seen at a pixel of the canvas' buffer; of an inlined document its Inline. */
+  pick(x: number, y: number): Hit | undefined {
+    return this.#hosted(this.renderer.pick(x, y));
+  }
+
+  async pickSoon(x: number, y: number): Promise<Hit | undefined> {
+    return this.#hosted(await this.renderer.pickSoon(x, y));
+  }
+
+  #hosted(hit: Hit | undefined): Hit | undefined {
+    return hit && { ...hit, element: this.#hosts.get(hit.element) ?? hit.element };
+  }
+
   /** Aborts all requests and frees the GPU. */
   dispose(): void {
     this.#listeners.abort();
     this.#observer.disconnect();
     this.#steering.stop();
+    this.#inlines.dispose();
     this.#shapes.dispose();
     this.#loading.abandon();
     this.#workers.dispose();
@@ -179,8 +212,11 @@ export class Viewer {
     this.#warn(this.#x3d, "images cannot be read exactly on this GPU; vertices are decoded in workers");
   }
 
-  #readDocument(): void {
-    const scene = readScene(this.#x3d, this.#geometries);
+  /** `round`: how often it has been read for the levels of the reading before. */
+  #readDocument(round = 0): void {
+    const scene = readScene(this.#x3d, this.#geometries, {
+      inlined: (inline) => this.#inlines.documentOf(inline), levelOf: (lod) => this.#levels.levelOf(lod),
+    });
     const places = shapesOf(scene.root);
     const described = new Map(places.map((shape) => [shape.element, shape]));
     const leave = this.#shapes.keep(described);
@@ -197,6 +233,16 @@ export class Viewer {
     this.#steering.setScene(scene, (problem) => { this.#warn(this.#x3d, `chunkPriority: ${problem}`); });
     for (const { element, message } of scene.warnings) this.#warn(element, message);
     leave(); // last, so that files that old and new shapes share are not fetched again
+    this.#hosts = new Map(places.filter(({ element, host }) => host !== element).map(({ element, host }) => [element, host]));
+    this.#described = scene.inlines;
+    if (this.#isLoading) this.#inlines.follow(scene.inlines);
+    this.#followLevels(round); // before what has been asked for here is sent
+  }
+
+  /** The scene is another where a LOD shows another level. */
+  #followLevels(round = 0): void {
+    const hasChanged = this.#built !== undefined && this.#levels.follow(this.#built.levels, this.navigator.pose.position);
+    if (hasChanged && round < mostNestedLevels) this.#readDocument(round + 1);
   }
 
   /** The geometry that this is, or is a part of, may have changed. */
@@ -260,7 +306,8 @@ export class Viewer {
   #onFrame(): void {
     this.#listener.onFrame();
     if (!this.#isLoading) return;
-    if (!this.#shapes.isQuiet || !this.#loading.isEnded) this.#tellPage();
+    if (!this.#shapes.isQuiet || !this.#inlines.isQuiet || !this.#loading.isEnded) this.#tellPage();
+    this.#followLevels();
     this.#steering.follow();
     if (this.#trial === "due") void this.#tryTextures();
   }
@@ -268,12 +315,13 @@ export class Viewer {
   /** What a frame with everything that has come so far has shown. */
   #tellPage(): void {
     this.#tellProgress(); // all of it before `load`
-    const { awaited } = this.#shapes;
+    const awaited = [...this.#shapes.awaited, ...this.#inlines.loadings];
     // Asked for only now: until a frame has shown the end, further shapes may join.
     if (awaited.every((loading) => loading.isSettled)) this.#loading.settle();
     // Shapes of which nothing will come do not hold the scene back.
     this.#loading.reach(stageShown(awaited.filter(({ stage, isSettled }) => stage !== "none" || !isSettled).map(({ stage }) => stage)));
     this.#shapes.onFrame();
+    for (const loading of this.#inlines.loadings) loading.onFrame(false);
     this.#loading.onFrame(true);
   }
 

@@ -10,5 +10,6 @@ export function readDocument(text: string, url: string): SceneDescription {
   // In XML names keep their case, in HTML they have lost it.
   const x3d = parsed.querySelector("X3D, x3d");
   if (x3d === null) throw new Error(`${url} has no X3D element`);
-  return readScene(x3d);
+  // What is near and far an app knows for itself: it gets the first level, the finest.
+  return readScene(x3d, undefined, { levelOf: () => 0 });
 }

@@ -6,7 +6,7 @@ import {
   AmbientLight, Box3, Color, DirectionalLight, Group, Matrix4, PointLight, Quaternion, SpotLight, Vector3,
 } from "three";
 import type {
-  LightDescription, NodeDescription, Rotation, SceneDescription, ShapeDescription, TransformDescription, Vec3,
+  LevelsDescription, LightDescription, NodeDescription, Rotation, SceneDescription, ShapeDescription, TransformDescription, Vec3,
 } from "../document/description.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
 import { setColor } from "./materials.ts";
@@ -19,6 +19,12 @@ export interface BuiltGraph {
   readonly bounded: readonly BoundedGroup[];
   /** In document order. */
   readonly viewpoints: readonly PlacedViewpoint[];
+  readonly levels: readonly PlacedLevels[];
+}
+
+/** A LOD in one of its places. */
+export interface PlacedLevels extends LevelsDescription {
+  readonly sceneFromLevels: Matrix4;
 }
 
 /** A group that is seen, with its box in the scene's coordinates. */
@@ -31,11 +37,12 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
   const box = new Box3();
   const viewpoints: PlacedViewpoint[] = [];
   const bounded: BoundedGroup[] = [];
+  const levels: PlacedLevels[] = [];
   const root = new Group();
   const ambient = new Color(0, 0, 0);
   hang(scene.root, root, new Matrix4(), true, true);
   if (ambient.r + ambient.g + ambient.b > 0) root.add(new AmbientLight(ambient));
-  return { root, box, bounded, viewpoints };
+  return { root, box, bounded, viewpoints, levels };
 
   /** `counts`: no group around it has told its box. */
   function hang(node: NodeDescription, parent: Group, sceneFromParent: Matrix4, isSeen: boolean, counts: boolean): void {
@@ -50,7 +57,7 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
         const group = groupOf(node);
         group.visible = node.visible;
         parent.add(group);
-        if (node.box && isSeen && node.visible && counts) box.union(boxIn(sceneFromParent, node.box));
+        if (node.box && node.reaches && counts) box.union(boxIn(sceneFromParent, node.box));
         return;
       }
       case "group": {
@@ -61,6 +68,7 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
         parent.add(group);
         const sceneFromGroup = sceneFromParent.clone().multiply(group.matrix);
         const isGroupSeen = isSeen && node.visible;
+        if (node.levels && isGroupSeen) levels.push({ ...node.levels, sceneFromLevels: sceneFromGroup });
         const own = isGroupSeen && node.box ? boxIn(sceneFromGroup, node.box) : undefined;
         if (own !== undefined) {
           bounded.push({ group, box: own });

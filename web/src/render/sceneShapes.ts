@@ -13,7 +13,7 @@ import type { Batches } from "./batches/batches.ts";
 import { planOf } from "./batches/plan.ts";
 import type { ShownPicture } from "./look.ts";
 import type { PickCandidate } from "./picking.ts";
-import type { BoundedGroup } from "./sceneGraph.ts";
+import type { BoundedGroup, PlacedLevels } from "./sceneGraph.ts";
 import { buildGraph } from "./sceneGraph.ts";
 import type { ShapeSetting } from "./shapeObject.ts";
 import { ShapeObject } from "./shapeObject.ts";
@@ -24,6 +24,7 @@ export interface BuiltScene {
   readonly sphere: Sphere;
   /** In document order. */
   readonly viewpoints: readonly PlacedViewpoint[];
+  readonly levels: readonly PlacedLevels[];
 }
 
 export class SceneShapes {
@@ -78,7 +79,7 @@ export class SceneShapes {
       this.#shapes.delete(element);
     }
     const places = new Map<SceneElement, number>();
-    const { root, box, bounded, viewpoints } = buildGraph(description, (shape) => {
+    const { root, box, bounded, viewpoints, levels } = buildGraph(description, (shape) => {
       const place = places.get(shape.element) ?? 0;
       places.set(shape.element, place + 1);
       return this.#objectOf(shape).groupAt(place);
@@ -97,7 +98,7 @@ export class SceneShapes {
     this.#sphere = sphereAround(box);
     for (const object of this.#shapes.values()) for (const bounds of object.bounds()) this.#grow(object, bounds);
     this.#batches.sync(this.#sphere);
-    return { sphere: this.#sphere, viewpoints };
+    return { sphere: this.#sphere, viewpoints, levels };
   }
 
   /** Replaces what a patch of a shape shows. */
