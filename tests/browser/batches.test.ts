@@ -8,9 +8,9 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { Matrix3, Matrix4, Quaternion, Vector3 } from "three";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
-import { assertSamePicture, boundsOfQuantised } from "./compare.ts";
+import { assertSamePicture, boundsOfQuantised, difference, isWithin } from "./compare.ts";
 import { decodeCompactSite } from "./compactDecoder.ts";
-import { pictureSize, settle, withPage, type View } from "./harness.ts";
+import { pictureSize, settle, until, withPage, type View } from "./harness.ts";
 import { referencePicture } from "./reference.ts";
 import { decodeSite, type PlainPatch } from "./siteDecoder.ts";
 import { pageOf, shapeIn, siteOfGenerated, variantOf, withShapes } from "./sites.ts";
@@ -88,6 +88,19 @@ test("2,500 shapes are a few draws, and each follows its element", async () => {
   });
 });
 
+/** In the page. The context may be asked for again when all have heard that it is lost. */
+async function loseContextForAMoment(): Promise<void> {
+  const canvas = document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!;
+  const loser = canvas.getContext("webgl2")!.getExtension("WEBGL_lose_context")!;
+  const heard = (name: string) => new Promise((resolve) => { canvas.addEventListener(name, () => setTimeout(resolve), { once: true }); });
+  const lost = heard("webglcontextlost");
+  loser.loseContext();
+  await lost;
+  const restored = heard("webglcontextrestored");
+  loser.restoreContext();
+  await restored;
+}
+
 const copies = 12;
 
 /** Turned, stretched, and every third one mirrored. */
@@ -132,7 +145,11 @@ test("what is drawn together looks as if drawn alone: instances of images, and m
   cpSync(buffers, join(site, "other"), { recursive: true });
   await withPage(site, {}, async (view) => {
     await view.promise("complete");
-    assertSamePicture("together", await view.picture(), await referencePicture(page, expected), boundsOfQuantised);
+    const reference = await referencePicture(page, expected);
+    assertSamePicture("together", await view.picture(), reference, boundsOfQuantised);
     assert.ok(await drawsOfFrame(view) <= 6, `${await drawsOfFrame(view)} draws`);
+    await view.page.evaluate(loseContextForAMoment);
+    await until("all is back after its context was lost", async () => isWithin(difference(await view.picture(), reference), boundsOfQuantised));
+    assert.ok(await drawsOfFrame(view) <= 6);
   });
 });

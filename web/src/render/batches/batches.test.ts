@@ -138,11 +138,15 @@ describe("a stage in many places", () => {
     scene.batches.remove(second);
     scene.frame();
     assert.deepEqual(placesIn(drawn), [third.place]);
+    const other = scene.add(drawOf(stageOf(9), false), 90);
     scene.batches.remove(third);
     scene.batches.remove(first);
     assert.deepEqual(scene.frame(), []);
+    assert.equal(scene.batches.root.children.length, 2);
     scene.frame();
-    assert.equal(scene.batches.root.children.length, 0, "an empty batch stays for a frame, not longer");
+    assert.equal(scene.batches.root.children.length, 1, "an empty batch stays for a frame, not longer");
+    scene.batches.remove(other);
+    assert.equal(scene.batches.root.children.length, 0, "the last one not even so long");
   });
 
   test("is drawn apart where its place mirrors it, under a mirrored object, by a record that does not mirror", () => {

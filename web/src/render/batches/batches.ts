@@ -57,6 +57,7 @@ export class Batches {
     this.#members.delete(member);
     member.batch?.remove(member);
     this.#table.release(member.place);
+    if (this.#members.size === 0) this.#disposeBatches(); // of a lost context nothing may be left for the next
   }
 
   /** The groups have moved, or are shown or hidden; the scene's middle is there now. */
@@ -96,10 +97,15 @@ export class Batches {
   }
 
   dispose(): void {
-    for (const batches of this.#batches.values()) for (const batch of batches) batch.dispose();
-    this.#batches.clear();
+    this.#disposeBatches();
     this.#members.clear();
     this.#table.dispose();
+  }
+
+  #disposeBatches(): void {
+    for (const batches of this.#batches.values()) for (const batch of batches) batch.dispose();
+    this.#batches.clear();
+    this.#empty.clear();
   }
 
   get #rootFromScene(): Matrix4 {
