@@ -66,6 +66,21 @@ template <typename AnyPatch> std::size_t positionCountOf(const std::vector<AnyPa
   return count;
 }
 
+/// Per patch and position: whether another patch has it too.
+std::vector<std::vector<bool>> sharedPositions(const std::vector<Patch>& patches) {
+  if (patches.size() == 1) // most small models: there is nothing to look up
+    return {std::vector<bool>(patches[0].positions.size())};
+  PositionTable table(positionCountOf(patches));
+  const CommonPositions common = commonPositions(patches, table);
+  std::vector<std::vector<bool>> isShared;
+  for (const std::vector<std::uint32_t>& numbers : common.numbers) {
+    std::vector<bool>& ofPatch = isShared.emplace_back();
+    for (const std::uint32_t number : numbers)
+      ofPatch.push_back(common.isShared[number]);
+  }
+  return isShared;
+}
+
 /// A patch's triangles over its positions, but for degenerate ones.
 std::vector<std::uint32_t> cornersOf(const Patch& patch) {
   std::vector<std::uint32_t> corners;
@@ -214,15 +229,9 @@ std::optional<BaseMesh> baseOf(const PatchedMesh& mesh, double percent) {
   if (mesh.patches.empty() || mesh.patches[0].topology != Topology::triangles ||
       elementCount < leastTrianglesOfBase || !(percent > 0))
     return std::nullopt;
-  PositionTable table(positionCountOf(mesh.patches));
-  const CommonPositions common = commonPositions(mesh.patches, table);
+  const std::vector<std::vector<bool>> isFixed = sharedPositions(mesh.patches);
   std::vector<Part> parts(mesh.patches.size());
-  parallelFor(parts.size(), [&](std::size_t i) {
-    std::vector<bool> isFixed;
-    for (const std::uint32_t number : common.numbers[i])
-      isFixed.push_back(common.isShared[number]);
-    parts[i] = partOf(mesh.patches[i], isFixed, percent);
-  });
+  parallelFor(parts.size(), [&](std::size_t i) { parts[i] = partOf(mesh.patches[i], isFixed[i], percent); });
   double areaBefore = 0, area = 0;
   for (const Part& part : parts) {
     areaBefore += part.areaBefore;

@@ -51,14 +51,18 @@ inline double octahedronErrorBound(std::uint32_t bits) {
   return std::sqrt(4.5) / ((1 << (bits - 1)) - 1) * 1.001 + 1e-6;
 }
 
-/// The sums of the normals around each wedge and those that repeat it.
-inline NormalSums sumsOfWedges(const Surface& surface, const std::vector<bool>& repeats, bool isUniform) {
+/// The sums of the normals around each of the first `limit` wedges and those that repeat it.
+inline NormalSums sumsOfWedges(const Surface& surface, const std::vector<bool>& repeats, bool isUniform,
+                               std::uint32_t limit) {
   const Wedges& wedges = surface.wedges;
   std::vector<std::uint32_t> repeated(wedges.count());
   for (std::uint32_t wedge = 0; wedge < wedges.count(); ++wedge)
     repeated[wedge] = repeats[wedge] ? repeated[wedges.previous[wedge]] : wedge;
   NormalSums sums(wedges.count(), surface.normalShift);
   for (std::size_t corner = 0; corner < wedges.ofCorner.size(); corner += 3) {
+    const auto wedge = [&](std::size_t i) { return repeated[wedges.ofCorner[corner + i]]; };
+    if (std::min({wedge(0), wedge(1), wedge(2)}) >= limit)
+      continue;
     const auto position = [&](std::size_t i) {
       return surface.positions[surface.connectivity.vertex[corner + i]];
     };
@@ -70,7 +74,7 @@ inline NormalSums sumsOfWedges(const Surface& surface, const std::vector<bool>& 
         normal[axis] = static_cast<std::int32_t>(4096 * n[axis] / size);
     }
     for (std::size_t i = 0; i < 3; ++i)
-      sums.add(repeated[wedges.ofCorner[corner + i]], normal);
+      sums.add(wedge(i), normal);
   }
   return sums;
 }
@@ -102,8 +106,9 @@ void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type
     repeats = codeRepeats(coder, surface, values);
   const bool hasTriangles = surface.topology == Topology::triangles;
   const bool ofVertices = !surface.hasSeams() && !type.isUniform();
-  const NormalSums ofWedges =
-      hasTriangles && !ofVertices ? sumsOfWedges(surface, repeats, type.isUniform()) : NormalSums(0, 0);
+  const NormalSums ofWedges = hasTriangles && !ofVertices
+                                  ? sumsOfWedges(surface, repeats, type.isUniform(), limit)
+                                  : NormalSums(0, 0);
   const NormalSums& sums = ofVertices ? surface.normalSums : ofWedges;
   const std::uint32_t end = std::min(static_cast<std::uint32_t>(wedges.count()), limit);
   bool isExact = false; // as the one before was

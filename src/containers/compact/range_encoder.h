@@ -94,6 +94,15 @@ public:
     cost_ += costOf(value ? p : 65536 - p);
     return value;
   }
+  /// What `codeTree` would cost: an encoder asks for little else.
+  std::uint32_t tree(std::size_t models, std::uint32_t depth, std::uint32_t value) {
+    const std::uint32_t leaf = 1u << depth | value;
+    for (std::uint32_t level = depth; level-- > 0;) {
+      const std::uint32_t p = models_[models + (leaf >> (level + 1))].probability();
+      cost_ += costOf(leaf >> level & 1 ? p : 65536 - p);
+    }
+    return value;
+  }
   std::uint32_t raw(std::uint32_t count, std::uint32_t value) {
     cost_ += static_cast<float>(count);
     return value;
@@ -106,7 +115,10 @@ private:
   static const Costs& costsOfProbabilities();
 
   /// Of a probability in 1/65536.
-  float costOf(std::uint32_t probability) const { return costs_[std::min(probability >> 4, 4095u)]; }
+  float costOf(std::uint32_t probability) const {
+    assert(probability < 65536); // no model is ever certain
+    return costs_[probability >> 4];
+  }
 
   const Models& models_;
   const Costs& costs_ = costsOfProbabilities();

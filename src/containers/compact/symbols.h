@@ -15,6 +15,8 @@ inline constexpr std::size_t numberModels = 32;
 /// 0 .. 2^depth - 1 in models + 1 .. models + 2^depth - 1.
 template <typename Coder>
 std::uint32_t codeTree(Coder& coder, std::size_t models, std::uint32_t depth, std::uint32_t value = 0) {
+  if constexpr (requires { coder.tree(models, depth, value); })
+    return coder.tree(models, depth, value);
   std::uint32_t node = 1;
   for (std::uint32_t level = depth; level-- > 0;)
     node = node << 1 | std::uint32_t{coder.bit(models + node, value >> level & 1)};
