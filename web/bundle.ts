@@ -1,10 +1,11 @@
-// Bundles the runtime and three.js into one ES module, web/dist/imgeo.js, and what
+// Bundles the runtime and what it needs of three.js into one ES module, web/dist/imgeo.js, and what
 // its workers run into another, web/dist/imgeo-worker.js. The `imgeo` tool carries
 // both inside itself and copies them into every site.
 import { build, type BuildOptions } from "esbuild";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
+import { leanThree } from "./leanThree.ts";
 
 function bundleOf(entry: string): BuildOptions & { write?: true } {
   return {
@@ -19,7 +20,7 @@ function bundleOf(entry: string): BuildOptions & { write?: true } {
   };
 }
 
-export const runtimeBundle = bundleOf("dom/index.ts");
+export const runtimeBundle = { ...bundleOf("dom/index.ts"), plugins: [leanThree] };
 export const workerBundle = bundleOf("workers/worker.ts");
 
 if (import.meta.main) {

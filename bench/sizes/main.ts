@@ -9,6 +9,7 @@ import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 import { build, transform, type Plugin } from "esbuild";
 import { repository } from "../../tests/browser/paths.ts";
 import { runtimeBundle, workerBundle } from "../../web/bundle.ts";
+import { leanThree } from "../../web/leanThree.ts";
 
 /** three.js itself is left to the app, but not its add-ons. */
 const withoutThree: Plugin = {
@@ -43,7 +44,7 @@ const loader = `export { ImgeoLoader } from "./web/src/loader/index.ts";`;
 const app = `export { Scene, WebGLRenderer, PerspectiveCamera, DirectionalLight, Mesh, MeshStandardMaterial } from "three";`;
 
 const rows: [name: string, withThree: Buffer | undefined, without: Buffer | undefined][] = [
-  ["imgeo, the element `<x3d>`", await bundled(element), await bundled(element, withoutThree)],
+  ["imgeo, the element `<x3d>`", await bundled(element, leanThree), await bundled(element, withoutThree)],
   ["imgeo, `ImgeoLoader`", await bundled(app + loader), await bundled(loader, withoutThree)],
   ["imgeo's worker, for compact", undefined, await worker()],
   ["three.js itself, in an app", await bundled(app), undefined],
