@@ -54,10 +54,12 @@ export function compactBuilder(geometry: GeometryDescription, patch: PatchDescri
   const store = async (name: StageName, buffers: PatchBuffers, draws: readonly DrawRange[], signal: AbortSignal): Promise<BufferStage> => {
     const { index, coord, normal, color, texCoord } = buffers;
     const some = (array: VertexArray | undefined) => array && holdings.storeVertices(array, signal);
+    const [ownIndex, ownCoord, ownNormal, ownColor, ownTexCoord] = await Promise.all([
+      index && holdings.storeIndex(index, signal), holdings.storeVertices(coord, signal), some(normal), some(color), some(texCoord),
+    ]);
     return {
       kind: "buffers", name, draws, normalCode: { kind: "vector" }, value: undefined,
-      index: index && await holdings.storeIndex(index, signal),
-      coord: await holdings.storeVertices(coord, signal), normal: await some(normal), color: await some(color), texCoord: await some(texCoord),
+      index: ownIndex, coord: ownCoord, normal: ownNormal, color: ownColor, texCoord: ownTexCoord,
     };
   };
   const retire = (stage: BufferStage | undefined) => { holdings.retire(stage?.index, stage?.coord, stage?.normal, stage?.color, stage?.texCoord); };

@@ -3,7 +3,7 @@
 // second for them, and a page that draws with a program that is not ready waits.
 
 import { BufferGeometry, type Object3D, Texture } from "three";
-import type { DrawRange, TexelRange, TextureStage } from "../decode/stage.ts";
+import type { BufferStage, DrawRange, Stage, StoredVertices, TexelRange, TextureStage } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription, SceneDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import { isPair } from "../document/geometry.ts";
@@ -16,14 +16,17 @@ import { materialRequestOf } from "./stageDraws.ts";
 const nowhere: TexelRange = { image: { width: 1, height: 1, close: () => undefined }, first: 0 };
 const noPicture: ShownPicture = { texture: new Texture(), hasAlpha: false };
 
-/** An object for each program, by what makes it differ from others. Of images on the GPU only: buffers need no less, but tell it later. */
+/**
+ * An object for each program, by what makes it differ from others. Of images on the GPU, and of what stands in
+ * for patches of compact: other buffers need no less, but tell it later.
+ */
 export function objectsToCome(scene: SceneDescription, look: Look, shared: SceneUniforms): Map<string, Object3D> {
   const objects = new Map<string, Object3D>();
   const geometry = new BufferGeometry();
   const places = shapesOf(scene.root);
   const drawingOf = planOf(places);
   for (const { geometry: described, appearance, visible } of places) {
-    if (described?.container !== "sig" || described.decode === "cpu" || !visible) continue;
+    if (described === undefined || !visible) continue;
     const { texture, material: { kind, transparency }, alpha } = appearance;
     for (const stage of stagesToCome(described, texture !== undefined)) {
       for (const range of stage.draws) {
@@ -40,11 +43,12 @@ export function objectsToCome(scene: SceneDescription, look: Look, shared: Scene
 }
 
 /** Patches of one geometry hardly differ; the first speaks for all. */
-function stagesToCome(geometry: GeometryDescription, isTextured: boolean): TextureStage[] {
+function stagesToCome(geometry: GeometryDescription, isTextured: boolean): Stage[] {
   const [patch] = geometry.patches;
-  if (patch === undefined || patch.coord.length === 0) return [];
+  if (geometry.base !== undefined) return [baseToCome];
+  if (patch === undefined || patch.coord.length === 0 || geometry.container !== "sig" || geometry.decode === "cpu") return [];
   const surface: TextureStage = { ...bareStage(geometry, patch), name: "surface", draws: patch.draws.map(drawn), index: patch.index && nowhere };
-  const stages = [surface];
+  const stages: Stage[] = [surface];
   if (patch.index !== undefined) stages.push({ ...surface, name: "points", draws: [{ primitive: "points", first: 0, count: 1 }], index: undefined });
   let stage = surface;
   const add = (part: "normal" | "texCoord" | "color", isThere: boolean) => {
@@ -57,6 +61,14 @@ function stagesToCome(geometry: GeometryDescription, isTextured: boolean): Textu
   add("color", patch.color !== undefined);
   return stages;
 }
+
+const nowhereStored: StoredVertices = { bytes: { byteLength: 0, close: () => undefined }, type: "Int8", components: 3, stride: 4, offset: 0 };
+
+/** Without the colours that a base may have too. */
+const baseToCome: BufferStage = {
+  kind: "buffers", name: "base", draws: [{ primitive: "triangles", first: 0, count: 1 }], index: undefined,
+  coord: nowhereStored, normal: nowhereStored, normalCode: { kind: "vector" }, color: undefined, value: undefined, texCoord: undefined,
+};
 
 function drawn({ primitive }: PatchDescription["draws"][number]): DrawRange {
   return { primitive, first: 0, count: 1 };
