@@ -78,6 +78,16 @@ TEST_F(InlineSite, KeepsItsDocumentsApart) {
     EXPECT_NE(page.find(kept), std::string::npos) << kept;
 }
 
+TEST_F(InlineSite, SpeaksX3domInEachOfThem) {
+  ConvertOptions options;
+  options.target = Target::x3dom;
+  convertHall(options);
+  const std::string page = textOf("index.html"),
+                    row = textOf(urlIn(page, page.find("translation=\"0 5 0\""))), seat = textOf(urlIn(row));
+  EXPECT_NE(seat.find("<ImageGeometry"), std::string::npos) << seat;
+  EXPECT_EQ(seat.find("GeometryPatch"), std::string::npos) << seat;
+}
+
 TEST_F(InlineSite, SaysOnceWhatItLeaves) {
   const ConvertReport report = convertHall();
   const auto count = [&](const std::string& part) {

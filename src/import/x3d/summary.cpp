@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <set>
@@ -39,6 +40,19 @@ bool isLeftAtRest(std::string_view element) {
          std::ranges::any_of(endings, [&](const char* ending) { return element.ends_with(ending); });
 }
 
+void Summary::noteScale(Vec3d scale) {
+  // Beyond, single precision cannot hold lengths together with those of the rest.
+  constexpr double least = 1e-15, most = 1e15;
+  bool isFlat = false, isAbsurd = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double size = std::abs(scale[axis]);
+    isFlat |= size == 0;
+    isAbsurd |= size > most || (size > 0 && size < least);
+  }
+  flatTransforms += isFlat;
+  absurdTransforms += isAbsurd;
+}
+
 void Summary::addTo(std::vector<std::string>& warnings) const {
   if (remoteImages > 0)
     warnings.push_back(
@@ -49,6 +63,13 @@ void Summary::addTo(std::vector<std::string>& warnings) const {
   warnOfElements(warnings, "Files named by these nodes are not copied", notCopied);
   warnOfElements(warnings, "Geometry that stays as it is and that imgeo's pages do not draw", notDrawn);
   warnOfElements(warnings, "What moves or answers stays as it is, at rest in imgeo's pages", atRest);
+  if (flatTransforms > 0)
+    warnings.push_back(fmt::format("{} by 0: what stands there is flat, or not seen at all.",
+                                   counted(flatTransforms, "Transform scales", "Transforms scale")));
+  if (absurdTransforms > 0)
+    warnings.push_back(
+        fmt::format("{} by more than 10^15 or less than 10^-15: what stands there cannot be drawn.",
+                    counted(absurdTransforms, "Transform scales", "Transforms scale")));
   warnOfFans(warnings, fans);
 }
 

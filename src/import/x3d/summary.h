@@ -2,6 +2,8 @@
 // What becomes of the nodes of an X3D document that do not become meshes: one
 // sentence per kind.
 
+#include "base/vec.h"
+
 #include <cstddef>
 #include <map>
 #include <string>
@@ -23,6 +25,9 @@ struct Summary {
   Counts notDrawn;  ///< geometries
   Counts atRest;
   std::size_t remoteImages = 0, remoteInlines = 0, fans = 0;
+  std::size_t flatTransforms = 0, absurdTransforms = 0; ///< that scale to nothing, or out of all measure
+
+  void noteScale(Vec3d scale);
 
   void addTo(std::vector<std::string>& warnings) const;
 };

@@ -256,6 +256,7 @@ private:
     transform.translation = vector("translation", {});
     transform.rotation = rotation("rotation");
     transform.scale = vector("scale", {1, 1, 1});
+    summary_.noteScale(transform.scale);
     transform.scaleOrientation = rotation("scaleOrientation");
     transform.center = vector("center", {});
     return transform;

@@ -232,7 +232,9 @@ TEST(X3d, TakesFieldsThatAreNoNumbersForAbsentAndKeepsAbsurdOnes) {
   EXPECT_EQ(graph.nodes[graph.roots[0]].fields, (std::vector<FieldText>{{"translation", "1 2 3"}}));
   EXPECT_EQ(transformAt(2).scale, (Vec3d{1e30, 1e30, 1e30}));
   EXPECT_EQ(transformAt(3).scale, (Vec3d{}));
-  ASSERT_EQ(imported.warnings.size(), 2u);
+  ASSERT_EQ(imported.warnings.size(), 4u);
+  EXPECT_TRUE(imported.warnings[2].starts_with("1 Transform scales by 0")) << imported.warnings[2];
+  EXPECT_TRUE(imported.warnings[3].starts_with("1 Transform scales by more than")) << imported.warnings[3];
   EXPECT_NE(imported.warnings[0].find("a.x3d:1:"), std::string::npos) << imported.warnings[0];
   EXPECT_NE(imported.warnings[0].find("Transform: scale holds something that is no number"),
             std::string::npos);

@@ -3,16 +3,16 @@
 
 import type { Surface } from "./elevationGrid.ts";
 import type { Corner } from "./facets.ts";
+import type { Vec3 } from "./fieldTypes.ts";
 import type { nodeFields, Values } from "./nodes.ts";
-
-type Vector = readonly [number, number, number];
+import { cross, dot, minus, turned, unit } from "./vectors.ts";
 
 /** x, y and z of a cross-section's plane; y is its normal. */
-type Frame = readonly [Vector, Vector, Vector];
+type Frame = readonly [Vec3, Vec3, Vec3];
 
 /** Undefined where the spine or the cross-section has fewer than two points. */
 export function extrusion(values: Values<typeof nodeFields.Extrusion>): Surface | undefined {
-  const spine = vectorsOf(values.spine, 3).map(([x = 0, y = 0, z = 0]): Vector => [x, y, z]);
+  const spine = vectorsOf(values.spine, 3).map(([x = 0, y = 0, z = 0]): Vec3 => [x, y, z]);
   const section = vectorsOf(values.crossSection, 2).map(([x = 0, z = 0]): readonly [number, number] => [x, z]);
   if (spine.length < 2 || section.length < 2) return undefined;
   const scales = vectorsOf(values.scale, 2), turns = vectorsOf(values.orientation, 4);
@@ -28,41 +28,13 @@ export function extrusion(values: Values<typeof nodeFields.Extrusion>): Surface 
   return builder.surface;
 }
 
-const nowhere: Vector = [0, 0, 0];
+const nowhere: Vec3 = [0, 0, 0];
 
 function vectorsOf(numbers: readonly number[], size: number): number[][] {
   return Array.from({ length: Math.floor(numbers.length / size) }, (_, i) => numbers.slice(size * i, size * i + size));
 }
 
-function minus(a: Vector, b: Vector): Vector {
-  return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-}
-
-function cross(a: Vector, b: Vector): Vector {
-  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-}
-
-function dot(a: Vector, b: Vector): number {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/** Undefined for what has no direction. */
-function unit(vector: Vector): Vector | undefined {
-  const length = Math.hypot(...vector);
-  return length > 1e-12 ? [vector[0] / length, vector[1] / length, vector[2] / length] : undefined;
-}
-
-/** Rodrigues' rotation about an axis. */
-function turned(vector: Vector, [x = 0, y = 0, z = 1, angle = 0]: readonly number[]): Vector {
-  const axis = unit([x, y, z]);
-  if (axis === undefined || angle === 0) return vector;
-  const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
-  const [side, along] = [cross(axis, vector), dot(axis, vector) * (1 - cos)];
-  const turn = (i: 0 | 1 | 2) => vector[i] * cos + side[i] * sin + axis[i] * along;
-  return [turn(0), turn(1), turn(2)];
-}
-
-function inFrame([x, y, z]: Frame, point: Vector, at: Vector): number[] {
+function inFrame([x, y, z]: Frame, point: Vec3, at: Vec3): number[] {
   return [0, 1, 2].map((i) => (at[i] ?? 0) + (x[i] ?? 0) * point[0] + (y[i] ?? 0) * point[1] + (z[i] ?? 0) * point[2]);
 }
 
@@ -71,14 +43,14 @@ function isClosed(first: readonly number[] | undefined, last: readonly number[] 
 }
 
 /** The planes across the spine (13.3.5.4): y along it, z out of its bend. */
-function framesAlong(spine: readonly Vector[]): Frame[] {
+function framesAlong(spine: readonly Vec3[]): Frame[] {
   const count = spine.length, closed = count > 2 && isClosed(spine[0], spine[count - 1]);
   const at = (i: number) => spine[closed ? (i + count - 1) % (count - 1) : Math.min(Math.max(i, 0), count - 1)] ?? nowhere;
   const tangents = filled(spine.map((_, i) => unit(minus(at(i + 1), at(i - 1)))));
   const bends = filled(spine.map((_, i) => unit(cross(minus(at(i + 1), at(i)), minus(at(i - 1), at(i))))));
   if (tangents === undefined) return spine.map(() => [[1, 0, 0], [0, 1, 0], [0, 0, 1]]);
   if (bends === undefined) return tangents.map((tangent) => straight(tangent));
-  let before: Vector | undefined;
+  let before: Vec3 | undefined;
   return tangents.map((y, i): Frame => {
     let z = bends[i] ?? nowhere;
     if (before !== undefined && dot(z, before) < 0) z = minus(nowhere, z);
@@ -89,28 +61,28 @@ function framesAlong(spine: readonly Vector[]): Frame[] {
 }
 
 /** What has no direction of its own takes that of what comes before, or else behind. Undefined where nothing has one. */
-function filled(vectors: readonly (Vector | undefined)[]): Vector[] | undefined {
+function filled(vectors: readonly (Vec3 | undefined)[]): Vec3[] | undefined {
   let before = vectors.find((vector) => vector !== undefined);
   if (before === undefined) return undefined;
   return vectors.map((vector) => (before = vector ?? before) ?? nowhere);
 }
 
 /** Of a straight spine: the y axis turned the shortest way onto it. */
-function straight(tangent: Vector): Frame {
-  const up: Vector = [0, 1, 0];
+function straight(tangent: Vec3): Frame {
+  const up: Vec3 = [0, 1, 0];
   const axis = cross(up, tangent), sine = Math.hypot(...axis);
   const turn = sine > 1e-12 ? [...axis, Math.atan2(sine, tangent[1])] : [1, 0, 0, tangent[1] < 0 ? Math.PI : 0];
   return [turned([1, 0, 0], turn), turned(up, turn), turned([0, 0, 1], turn)];
 }
 
 class FaceBuilder {
-  readonly #spine: readonly Vector[];
+  readonly #spine: readonly Vec3[];
   readonly #section: readonly (readonly [number, number])[];
   readonly #positions: number[];
   readonly #texCoords: number[] = [];
   readonly #faces: Corner[][] = [];
 
-  constructor(spine: readonly Vector[], section: readonly (readonly [number, number])[], positions: readonly number[]) {
+  constructor(spine: readonly Vec3[], section: readonly (readonly [number, number])[], positions: readonly number[]) {
     this.#spine = spine;
     this.#section = section;
     this.#positions = [...positions];

@@ -89,6 +89,14 @@ export const nodeFields = {
     fieldOfView: SFFloat(0.7854),
     centerOfRotation: SFVec3f([0, 0, 0]),
   },
+  OrthoViewpoint: {
+    ...bindable,
+    description: SFString(""),
+    position: SFVec3f([0, 0, 10]),
+    orientation: SFRotation([0, 0, 1, 0]),
+    fieldOfView: MFFloat([-1, -1, 1, 1]),
+    centerOfRotation: SFVec3f([0, 0, 0]),
+  },
   DirectionalLight: { ...lightFields, direction: SFVec3f([0, 0, -1]) },
   PointLight: { ...lightFields, ...placedLightFields },
   SpotLight: {

@@ -15,6 +15,7 @@ import { GeometryMemory } from "./geometryMemory.ts";
 import { readInlineGeometry } from "./inlineGeometry.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
+import { asViewpoint } from "./orthoViewpoint.ts";
 
 /** A document that an Inline shows. */
 export interface InlinedDocument {
@@ -111,6 +112,8 @@ function readNode(element: SceneElement, reading: Reading, inherited: Inherited)
         return [{ kind: "light", light: { kind: "spot", ...readFields(node, nodeFields.SpotLight, warnings) } }];
       case "viewpoint":
         return [{ kind: "viewpoint", element, viewpoint: readFields(node, nodeFields.Viewpoint, warnings) }];
+      case "orthoviewpoint":
+        return [{ kind: "viewpoint", element, viewpoint: asViewpoint(readFields(node, nodeFields.OrthoViewpoint, warnings)) }];
       case "navigationinfo": {
         const navigation = readFields(node, nodeFields.NavigationInfo, warnings);
         if (reading.navigation === undefined || navigation.set_bind || navigation.bind) reading.navigation = navigation;

@@ -39,6 +39,15 @@ test("a scene's box is that of what is seen, where it stands", () => {
   assert.deepEqual([min.toArray(), max.toArray()], [[8, -1, -4], [12, 1, 4]]);
 });
 
+test("what absurd scales blow up, shrink to nothing or turn over leaves the rest in view", () => {
+  const shape = '<Shape bboxCenter="0 0 0" bboxSize="2 2 2"/>';
+  const scaled = ["1e30 1e30 1e30", "1e308 1e308 1e308", "0 0 0", "1e-300 1 1", "-1 1 1"].map((scale) => `<Transform scale="${scale}">${shape}</Transform>`);
+  const { box: { min, max } } = buildGraph(readScene(elementsOf(`<X3D>${shape}${scaled.join("")}</X3D>`)), () => new Group());
+  assert.deepEqual([min.toArray(), max.toArray()], [[-1, -1, -1], [1, 1, 1]]);
+  const scene = readScene(elementsOf(`<X3D><Transform scale="NaN 1 1">${shape}</Transform></X3D>`));
+  assert.match(scene.warnings[0]?.message ?? "", /scale="NaN 1 1" is no SFVec3f/);
+});
+
 test("the box that a group tells stands for those of its children, and lets them be passed over together", () => {
   const scene = readScene(elementsOf(`<X3D><Transform translation="10 0 0" scale="2 1 1" bboxCenter="1 0 0" bboxSize="4 2 2">
     <Shape bboxCenter="0 0 0" bboxSize="90 90 90"/><Group bboxCenter="0 0 0" bboxSize="1 1 1"><Shape/></Group></Transform>

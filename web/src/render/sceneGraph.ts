@@ -44,6 +44,10 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
   if (ambient.r + ambient.g + ambient.b > 0) root.add(new AmbientLight(ambient));
   return { root, box, bounded, viewpoints, levels };
 
+  function reachTo(reached: Box3): void {
+    if (isDrawable(reached)) box.union(reached);
+  }
+
   /** `counts`: no group around it has told its box. */
   function hang(node: NodeDescription, parent: Group, sceneFromParent: Matrix4, isSeen: boolean, counts: boolean): void {
     switch (node.kind) {
@@ -57,7 +61,7 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
         const group = groupOf(node);
         group.visible = node.visible;
         parent.add(group);
-        if (node.box && node.reaches && counts) box.union(boxIn(sceneFromParent, node.box));
+        if (node.box && node.reaches && counts) reachTo(boxIn(sceneFromParent, node.box));
         return;
       }
       case "group": {
@@ -72,12 +76,19 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
         const own = isGroupSeen && node.box ? boxIn(sceneFromGroup, node.box) : undefined;
         if (own !== undefined) {
           bounded.push({ group, box: own });
-          if (counts) box.union(own);
+          if (counts) reachTo(own);
         }
         for (const child of node.children) hang(child, group, sceneFromGroup, isGroupSeen, counts && own === undefined);
       }
     }
   }
+}
+
+/** Lengths whose squares single precision still holds: beyond, no GPU draws anything, and the rest must be seen. */
+const farthest = 1e18;
+
+export function isDrawable({ min, max }: Box3): boolean {
+  return [...min.toArray(), ...max.toArray()].every((edge) => Math.abs(edge) < farthest);
 }
 
 function boxIn(sceneFromBox: Matrix4, { min, max }: { min: Vec3; max: Vec3 }): Box3 {

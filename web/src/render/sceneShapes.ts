@@ -14,7 +14,7 @@ import { planOf } from "./batches/plan.ts";
 import type { ShownPicture } from "./look.ts";
 import type { PickCandidate } from "./picking.ts";
 import type { BoundedGroup, PlacedLevels } from "./sceneGraph.ts";
-import { buildGraph } from "./sceneGraph.ts";
+import { buildGraph, isDrawable } from "./sceneGraph.ts";
 import type { ShapeSetting } from "./shapeObject.ts";
 import { ShapeObject } from "./shapeObject.ts";
 
@@ -149,7 +149,7 @@ export class SceneShapes {
   #grow(object: ShapeObject, { min, max }: Bounds): void {
     for (const group of object.groups) {
       const box = new Box3(new Vector3(...min), new Vector3(...max)).applyMatrix4(group.matrixWorld);
-      if (!this.#box.containsBox(box)) this.#sphere = sphereAround(this.#box.union(box));
+      if (isDrawable(box) && !this.#box.containsBox(box)) this.#sphere = sphereAround(this.#box.union(box));
     }
   }
 

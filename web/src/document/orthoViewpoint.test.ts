@@ -1,0 +1,28 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { viewpointsOf } from "./description.ts";
+import { elementsOf } from "./elements.testing.ts";
+import { readScene } from "./readScene.ts";
+import { cross, dot, minus, turned } from "./vectors.ts";
+
+test("an OrthoViewpoint shows what it says, of the same size near and far", () => {
+  const scene = readScene(elementsOf(`<X3D><OrthoViewpoint description="plan" position="1 10 2" orientation="1 0 0 -1.5707963"
+    fieldOfView="-4 -3 8 5" centerOfRotation="1 0 2"/></X3D>`));
+  const viewpoint = viewpointsOf(scene.root)[0]?.viewpoint;
+  assert.ok(viewpoint);
+  assert.equal(viewpoint.description, "plan");
+  const [right, up] = [turned([1, 0, 0], viewpoint.orientation), turned([0, 1, 0], viewpoint.orientation)];
+  const back = cross(right, up);
+  /** Where a point is in the picture, from -1 to 1 over its shorter side. */
+  const seen = (point: readonly [number, number, number]) => {
+    const from = minus(point, viewpoint.position);
+    const half = -dot(from, back) * Math.tan(viewpoint.fieldOfView / 2);
+    return [dot(from, right) / half, dot(from, up) / half];
+  };
+  // It looks down on y = 0; the picture reaches from z = 5 at its bottom to z = -3 at its top, around x = 3.
+  for (const [point, x, y] of [[[3, 0, 5], 0, -1], [[3, 0, -3], 0, 1], [[7, 0, 1], 1, 0]] as const) {
+    const [seenX = 9, seenY = 9] = seen(point);
+    assert.ok(Math.abs(seenX - x) < 1e-3 && Math.abs(seenY - y) < 1e-3, `${seenX} ${seenY}`);
+    assert.ok(Math.abs(Math.hypot(...seen([point[0], 4, point[2]])) - Math.hypot(x, y)) < 0.01);
+  }
+});
