@@ -119,8 +119,8 @@ void appendChunk(Bytes& png, std::string_view type, ByteSpan data) {
   appendBig(png, libdeflate_crc32(0, png.data() + from, png.size() - from));
 }
 
-/// A PNG whose rows are filtered, to be deflated at a level.
-Bytes pngOf(const Image& image, const Bytes& rows, int level) {
+/// A PNG of an image's filtered rows as a zlib stream.
+Bytes pngOf(const Image& image, const Bytes& data) {
   Bytes header;
   appendBig(header, image.width);
   appendBig(header, image.height);
@@ -131,7 +131,6 @@ Bytes pngOf(const Image& image, const Bytes& rows, int level) {
                                                         : 6;
   header.insert(header.end(), {8, colorType, 0, 0, 0}); // depth; deflate, adaptive filters, not interlaced
 
-  const Bytes data = deflate(rows, level);
   Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   png.reserve(png.size() + 4 * 12 + header.size() + image.palette.size() + data.size());
   appendChunk(png, "IHDR", header);
@@ -157,12 +156,15 @@ Bytes encodePng(const Image& image, int effort) {
   const int level = !isRepetitive                           ? search.levelOfDense
                     : image.pixels.size() > largeImageBytes ? search.levelOfLarge
                                                             : search.level;
-  return pngOf(image, filterRows(image, filter), level);
+  return pngOf(image, deflate(filterRows(image, filter), level));
 }
 
 Bytes encodePlainPng(const Image& image) {
   assert(isEncodable(image));
-  return pngOf(image, filterRows(image, Filter::none), 1);
+  const Bytes rows = filterRows(image, Filter::none);
+  const Bytes packed = deflate(rows, 1);
+  // Stored bytes take a reader no time: they may be a little more.
+  return pngOf(image, packed.size() + rows.size() / 256 < rows.size() ? packed : deflate(rows, 0));
 }
 
 } // namespace imgeo

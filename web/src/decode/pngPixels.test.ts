@@ -34,12 +34,12 @@ function filtered({ width, height, channels, texels }: Sample, filterOf: (row: n
   return Uint8Array.from(bytes);
 }
 
-function pngWith(sample: Sample, data: Uint8Array, { colorType = { 1: 0, 3: 2, 4: 6 }[sample.channels], extra = [] as Uint8Array[], parts = 1 } = {}) {
+function pngWith(sample: Sample, data: Uint8Array, { colorType = { 1: 0, 3: 2, 4: 6 }[sample.channels], extra = [] as Uint8Array[], parts = 1, level = 6 } = {}) {
   const header = Buffer.alloc(13);
   header.writeUInt32BE(sample.width, 0);
   header.writeUInt32BE(sample.height, 4);
   header.set([8, colorType, 0, 0, 0], 8);
-  const packed = deflateSync(data);
+  const packed = deflateSync(data, { level });
   const size = Math.ceil(packed.length / parts);
   return joined([
     Uint8Array.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]), chunkOf("IHDR", header), ...extra,
@@ -88,15 +88,25 @@ describe("the texels of a PNG", () => {
     });
   }
 
-  test("are refused whichever byte of their stream is changed, or come back the same", async () => {
-    const png = pngWith(sample, whole);
-    const begin = Buffer.from(png).indexOf("IDAT") + 4;
-    const end = Buffer.from(png).indexOf("IEND") - 8;
-    for (let at = begin; at < end; ++at) {
-      const changed = Uint8Array.from(png);
-      changed[at] = (changed[at] ?? 0) ^ 0x41;
-      const outcome = await decodePixels(changed).catch((error: unknown) => error);
-      if (!(outcome instanceof DecodeError)) assert.deepEqual((outcome as { data: Uint8Array }).data, sample.texels, `byte ${at}`);
-    }
+  for (const [how, level] of [["deflated", 6], ["stored", 0]] as const) {
+    test(`${how}, are refused whichever byte of their stream is changed, or come back the same`, async () => {
+      const png = pngWith(sample, whole, { level });
+      assert.deepEqual((await decodePixels(png)).data, sample.texels);
+      const begin = Buffer.from(png).indexOf("IDAT") + 4;
+      const length = Buffer.from(png).indexOf("IEND") - 8 - begin;
+      for (let at = 0; at < length; ++at) {
+        const changed = png.slice(begin, begin + length);
+        changed[at] = (changed[at] ?? 0) ^ 0x41;
+        // With a sum of its own, so that what is inside has to tell.
+        const outcome = await decodePixels(joined([png.subarray(0, begin - 8), chunkOf("IDAT", changed), png.subarray(begin + length + 4)]))
+          .catch((error: unknown) => error);
+        if (!(outcome instanceof DecodeError)) assert.deepEqual((outcome as { data: Uint8Array }).data, sample.texels, `byte ${at}`);
+      }
+    });
+  }
+
+  test("stored in several blocks come back", async () => {
+    const large = sampleOf(300, 250, 1);
+    assert.deepEqual((await decodePixels(pngWith(large, filtered(large, () => 0), { level: 0 }))).data, large.texels);
   });
 });

@@ -25,7 +25,8 @@ export async function decodePixels(png: Uint8Array<ArrayBuffer>): Promise<Pixels
   for (const chunk of chunks) checkSum(chunk);
   const length = height * (1 + rowLength);
   if (length > png.length * largestDeflateRatio) throw new DecodeError("truncated", "is too short for the size in its header");
-  const filtered = await inflate(packed, length);
+  const [only, ...others] = packed;
+  const filtered = (only && others.length === 0 ? stored(only, length) : undefined) ?? await inflate(packed, length);
   const data = unfiltered(filtered, height, rowLength, isPalette ? 1 : channels);
   return { width, height, channels, data: isPalette ? throughPalette(data, palette) : data };
 }
@@ -62,6 +63,46 @@ function checkSum({ type, data }: { type: string; data: Uint8Array }): void {
   for (const byte of checked) crc = (crcTable[(crc ^ byte) & 255] ?? 0) ^ (crc >>> 8);
   const stored = new DataView(data.buffer, data.byteOffset + data.length, 4).getInt32(0);
   if (~crc !== stored) throw new DecodeError("malformed", `has a damaged ${type} chunk`);
+}
+
+/**
+ * What a zlib stream of stored blocks alone holds, as bytes do that nothing makes smaller (RFC 1950, RFC 1951,
+ * section 3.2.4). Undefined for any other stream, and for one in which anything is wrong.
+ */
+function stored(packed: Uint8Array, length: number): Uint8Array | undefined {
+  const sumLength = 4;
+  if (length > packed.length) return undefined;
+  const view = new DataView(packed.buffer, packed.byteOffset, packed.byteLength);
+  const bytes = new Uint8Array(length);
+  let at = 2;
+  let filled = 0;
+  if (packed.length < at + sumLength || (view.getUint8(0) & 15) !== 8 || (view.getUint8(1) & 32) !== 0 || view.getUint16(0) % 31 !== 0) return undefined;
+  for (let isLast = false; !isLast;) {
+    if (at + 5 + sumLength > packed.length || view.getUint8(at) > 1) return undefined;
+    isLast = view.getUint8(at) === 1;
+    const size = view.getUint16(at + 1, true);
+    const begin = at + 5;
+    at = begin + size;
+    if ((view.getUint16(begin - 2, true) ^ size) !== 0xffff || at + sumLength > packed.length || filled + size > length) return undefined;
+    bytes.set(packed.subarray(begin, at), filled);
+    filled += size;
+  }
+  return filled === length && at + sumLength === packed.length && view.getUint32(at) === adler32(bytes) ? bytes : undefined;
+}
+
+function adler32(bytes: Uint8Array): number {
+  let [a, b] = [1, 0];
+  const run = 2048; // so many cannot overflow 31 bits
+  for (let begin = 0; begin < bytes.length; begin += run) {
+    const end = Math.min(begin + run, bytes.length);
+    for (let n = begin; n < end; ++n) {
+      a += bytes[n] ?? 0;
+      b += a;
+    }
+    a %= 65521;
+    b %= 65521;
+  }
+  return b * 65536 + a;
 }
 
 /** A zlib stream of exactly `length` bytes; no more than that is ever unpacked. */

@@ -82,11 +82,14 @@ describe("a geometry of compact", () => {
   });
 
   test("is shown by its base, of one file, part by part until the patches are there", async () => {
-    const { promise, release } = held(readVectorFile("sphere"));
-    const site = siteOf({ ...filesOf("base", "fine", "soup"), "sphere.png": promise });
+    const sphere = held(readVectorFile("sphere"));
+    const soup = held(readVectorFile("soup"));
+    const site = siteOf({ ...filesOf("base"), "sphere.png": sphere.promise, "soup.png": soup.promise });
     const { stages, errors, settled } = record(geometryFor([["sphere", 0], ["soup", 0], ["soup", 0]], {}, "base.png#0"), site.pool);
+    await until(() => stages.filter(({ stage }) => stage.name === "base").length === 3);
+    soup.release();
     await until(() => stages.some(({ stage }) => stage.name === "full"));
-    release();
+    sphere.release();
     await settled;
     assert.deepEqual(errors, []);
     assert.deepEqual(site.asked, ["base.png", "sphere.png", "soup.png"]);
