@@ -117,9 +117,10 @@ TEST(Vrml, WritesPrototypesOut) {
   EXPECT_TRUE(std::holds_alternative<Transform>(graph.nodes[parts.children.at(0)].content))
       << "a chair on a chair";
   EXPECT_EQ(graph.nodes[second.children.at(3)].name, "Place2-3");
-  for (const Node& node : graph.nodes)
-    if (const OtherNode* other = std::get_if<OtherNode>(&node.content))
-      EXPECT_FALSE(other->element.starts_with("Proto")) << other->element;
+  for (const Node& node : graph.nodes) {
+    const OtherNode* other = std::get_if<OtherNode>(&node.content);
+    EXPECT_FALSE(other && other->element.starts_with("Proto")) << other->element;
+  }
   const std::string all = ::testing::PrintToString(imported.warnings);
   EXPECT_NE(all.find("6 instances of 2 prototypes are written out"), std::string::npos) << all;
   EXPECT_NE(all.find("Left out of prototypes: TimeSensor (1)."), std::string::npos) << all;
