@@ -3,7 +3,7 @@
 
 import { Group } from "three";
 import type { Bounds, Stage } from "../decode/stage.ts";
-import type { AppearanceDescription, GeometryDescription, PatchDescription, ShapeDescription } from "../document/description.ts";
+import type { AppearanceDescription, GeometryDescription, PatchDescription, ShapeDescription, TextureRole } from "../document/description.ts";
 import type { Batches } from "./batches/batches.ts";
 import { BatchedStage, mayBatch } from "./batches/batchedStage.ts";
 import type { DrawnAs } from "./batches/plan.ts";
@@ -37,7 +37,7 @@ export class ShapeObject {
   readonly #colorMap = makeColorMapUniforms();
   #appearance: AppearanceDescription;
   #drawnAs: DrawnAs = "alone";
-  #picture: ShownPicture | undefined;
+  readonly #pictures = new Map<TextureRole, ShownPicture>();
   #isPickable: boolean;
 
   constructor(setting: ShapeSetting, shape: ShapeDescription) {
@@ -95,8 +95,9 @@ export class ShapeObject {
   }
 
   /** What is laid over its surface, where it has texture coordinates; undefined: nothing. */
-  setPicture(picture: ShownPicture | undefined): void {
-    this.#picture = picture;
+  setPicture(role: TextureRole, picture: ShownPicture | undefined): void {
+    if (picture) this.#pictures.set(role, picture);
+    else this.#pictures.delete(role);
     this.#applyAppearance();
   }
 
@@ -110,7 +111,7 @@ export class ShapeObject {
 
   #applyAppearance(): void {
     for (const [place, shown] of this.#patches) {
-      if (this.#drawingOf(shown.stage) === shown.drawnAs) shown.draws.applyAppearance(this.#appearance, this.#picture);
+      if (this.#drawingOf(shown.stage) === shown.drawnAs) shown.draws.applyAppearance(this.#appearance, new Map(this.#pictures));
       else this.setStage(shown.geometry, place, shown.stage);
     }
   }
@@ -129,7 +130,7 @@ export class ShapeObject {
     const { batches, ...setting } = this.#setting;
     const { batching } = setting.look;
     const drawnAs = this.#drawingOf(stage);
-    const patchSetting = { ...setting, geometry, patch, appearance: this.#appearance, colorMap: this.#colorMap, picture: this.#picture };
+    const patchSetting = { ...setting, geometry, patch, appearance: this.#appearance, colorMap: this.#colorMap, pictures: new Map(this.#pictures) };
     const draws = batches === undefined || batching === undefined || drawnAs === "alone" ? drawStage(stage, patchSetting)
       : new BatchedStage(stage, patchSetting, { batches, batching, isMerged: drawnAs === "merged" });
     for (const group of this.#groups) draws.hang(group);
@@ -138,7 +139,7 @@ export class ShapeObject {
 
   #drawingOf(stage: Stage): DrawnAs {
     const { look: { batching } } = this.#setting;
-    return batching !== undefined && mayBatch(stage, this.#appearance, this.#picture, batching) ? this.#drawnAs : "alone";
+    return batching !== undefined && mayBatch(stage, this.#appearance, this.#pictures, batching) ? this.#drawnAs : "alone";
   }
 
   /** Every draw in every place, with the number of its patch. */
@@ -151,6 +152,7 @@ export class ShapeObject {
   clear(): void {
     for (const { draws } of this.#patches.values()) draws.dispose();
     this.#patches.clear();
+    this.#pictures.clear();
   }
 
   dispose(): void {
