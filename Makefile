@@ -7,7 +7,7 @@ PORT  ?= 8080
 export MODEL PORT
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo app test soak check tidy install bench clean
+.PHONY: help build demo app museum test soak check tidy install bench clean
 
 help: ## say what can be made
 	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
@@ -23,6 +23,9 @@ demo: build ## convert a mesh and serve its page [MODEL=statue.ply PORT=8080]
 
 app: build ## convert a mesh and serve an app of three.js that shows it [MODEL=statue.ply PORT=8080]
 	@scripts/demo --three
+
+museum: build ## serve the Stanford dragon as a museum's piece: it turns, has notes, and shows its points [PORT=8080]
+	@scripts/demo --museum
 
 test: build ## run every test: C++, TypeScript and the browser
 	@scripts/test

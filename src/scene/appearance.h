@@ -86,9 +86,8 @@ struct Texture {
 
 /// An image file.
 struct ImageFile {
-  std::string url;       ///< in a document: relative to it. Of a source: what it calls the image
-  Bytes bytes{};         ///< the file as it was found; empty in a document that was read
-  std::string preview{}; ///< url of the same image in few pixels, shown until it is there; may be empty
+  std::string url; ///< in a document: relative to it. Of a source: what it calls the image
+  Bytes bytes;     ///< the file as it was found; empty in a document that was read
   friend bool operator==(const ImageFile&, const ImageFile&) = default;
 };
 

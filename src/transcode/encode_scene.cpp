@@ -2,11 +2,12 @@
 
 #include "containers/compact/base.h"
 #include "containers/named_attributes.h"
+#include "import/image_type.h"
 #include "transcode/site.h"
-#include "transcode/textures.h"
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace imgeo {
 
@@ -139,6 +140,23 @@ void addDefaults(SceneDocument& document) {
     graph.background = sky;
 }
 
+/// Writes the images of what is seen, and no others.
+void writeTextures(SceneGraph& graph, ContentFiles& files) {
+  std::set<std::size_t> images;
+  for (const std::size_t node : shapeNodes(graph))
+    if (const auto& appearance = shapeOf(graph, node).appearance)
+      for (const TextureUse& use : graph.appearances[*appearance].textures)
+        images.insert(graph.textures[use.texture].image);
+  for (const std::size_t node : nodesInOrder(graph))
+    if (const OtherNode* other = std::get_if<OtherNode>(&graph.nodes[node].content); other && other->image)
+      images.insert(*other->image);
+  for (const std::size_t index : images) {
+    ImageFile& image = graph.images[index];
+    image.url = files.write(image.bytes, imageType(image.bytes));
+    image.bytes = {};
+  }
+}
+
 /// The bases of all geometries as one file, in which each knows its place.
 class Bases {
 public:
@@ -211,7 +229,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteCont
   if (!document.geometries.empty())
     report.lattice = document.geometries.front().lattice;
   bases.write(document.geometries, content.geometry);
-  report.textures = writeTextures(document.graph, options, content.textures, report.warnings);
+  writeTextures(document.graph, content.textures);
   if (!document.graph.isComplete)
     addDefaults(document);
   return document;

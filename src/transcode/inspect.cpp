@@ -96,8 +96,6 @@ SiteInfo inspect(const fs::path& site) {
     info.containerBytes += add(file.url, nameOf(file.role));
   for (const std::string& url : textureFilesOf(document.scene))
     info.textureBytes += add(url, "texture");
-  for (const std::string& url : previewFilesOf(document.scene))
-    info.textureBytes += add(url, "preview");
 
   for (const GeometryDescription& geometry : document.scene.geometries) {
     info.geometries.push_back(infoOf(geometry, fetchFrom(document)));
@@ -110,10 +108,9 @@ SiteInfo inspect(const fs::path& site) {
     add(sceneName, "scene");
   if (fs::exists(document.root / markerName, none)) {
     add(markerName, "marker");
+    // A strip's joins count as vertices in the document, not as triangles here.
     const Marker marker =
         readMarker(asText(readFile(document.root / markerName)), (document.root / markerName).string());
-    info.sourceTextureBytes = marker.sourceTextureBytes;
-    // A strip's joins count as vertices in the document, not as triangles here.
     if (marker.primitives == Primitives::strips)
       info.elements.triangles = marker.elements.triangles;
   }

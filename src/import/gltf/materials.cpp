@@ -1,6 +1,6 @@
 #include "import/gltf/materials.h"
 
-#include "images/image_type.h"
+#include "import/image_type.h"
 #include "scene/color.h"
 
 #include <array>

@@ -5,16 +5,14 @@ import type { GeometryDescription } from "../document/description.ts";
 import { priorityOf } from "../scheduler/priority.ts";
 import type { Demand } from "./deliver.ts";
 import { everything, geometryOf, sigFiles, sigGeometry, siteOf, soon } from "./delivery.testing.ts";
-import { demandWithin } from "./demandWithin.ts";
-import { TextureDeliveries } from "./textureDeliveries.ts";
 import { SharedDeliveries } from "./sharedDeliveries.ts";
 
 type Site = ReturnType<typeof siteOf>;
 
 function shownFrom(geometry: GeometryDescription, site: Site) {
-  const deliveries = { geometries: new SharedDeliveries(site.pool), textures: new TextureDeliveries(site.pool) };
+  const deliveries = new SharedDeliveries(site.pool);
   const stages: (string | undefined)[] = [];
-  const joined = deliveries.geometries.join(geometry, {
+  const joined = deliveries.join(geometry, {
     onStage: (patch, stage) => { stages[patch] = stage?.name; },
     onError: ({ message }) => assert.fail(message),
     onSettled: () => undefined,
@@ -25,7 +23,7 @@ function shownFrom(geometry: GeometryDescription, site: Site) {
   /** Steers a few times, as a view that stands still does. */
   const demand = async (priority: Demand, mostBytes: number) => {
     for (let turn = 0; turn < 4; ++turn) {
-      demandWithin(deliveries, () => priority, () => undefined, mostBytes);
+      deliveries.demand(() => priority, mostBytes);
       await rest();
     }
     return stages.map((stage) => stage ?? "none").join(" ");

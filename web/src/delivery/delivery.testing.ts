@@ -26,7 +26,6 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
   const asked: string[] = [];
   const aborted: string[] = [];
   const images = { open: 0 };
-  const pictures = { open: 0 };
   const arrays = new Map<StoredBytes, ElementArray>();
   const scheduler = new Scheduler(slots);
   const answer = async (url: string, signal: AbortSignal): Promise<Response> => {
@@ -50,10 +49,7 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
     largestTexture: 4096,
     runJob: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
     runHere: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
-    makePicture: (png) => {
-      pictures.open += 1;
-      return Promise.resolve({ hasAlpha: false, image: { ...checkPng(png), close: () => { pictures.open -= 1; } } });
-    },
+    makePicture: () => Promise.reject(new Error("no pictures here")),
     storeBytes: (array, _, signal) => {
       signal.throwIfAborted();
       const stored = { byteLength: array.byteLength, close: () => { assert.ok(arrays.delete(stored), "closed twice"); } };
@@ -66,7 +62,7 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
   });
   /** What has been stored. */
   const arrayOf = (stored: { readonly bytes: StoredBytes } | undefined) => arrays.get(stored?.bytes ?? assert.fail("nothing there")) ?? assert.fail("closed");
-  return { asked, aborted, images, pictures, arrays, arrayOf, scheduler, pool };
+  return { asked, aborted, images, arrays, arrayOf, scheduler, pool };
 }
 
 export interface Recording {

@@ -1,9 +1,7 @@
 // Pictures for surfaces, through the same queue as the data of vertices: one for
-// each file and way of sampling, however many shapes show it. A preview, where the
-// document names one, is shown first, and again where the picture has to go.
+// each file and way of sampling, however many shapes show it.
 
-import type { SamplingDescription, TextureDescription } from "../document/description.ts";
-import type { Claim } from "../scheduler/budget.ts";
+import type { TextureDescription } from "../document/description.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
 import { bytesPerTexel } from "./parts.ts";
@@ -11,11 +9,9 @@ import type { Transfer } from "./progress.ts";
 import type { Lease, Picture, ResourcePool } from "./resources.ts";
 
 export interface TextureListener {
-  /** Another picture; undefined: there is none any more. The one before is used no more after this. */
-  onPicture(picture: Picture | undefined): void;
-  /** Once, where the texture is of no use. */
+  onPicture(picture: Picture): void;
   onError(error: DeliveryError): void;
-  /** All that was asked for has come or failed. */
+  /** After either. */
   onSettled(): void;
 }
 
@@ -28,41 +24,24 @@ export interface JoinedTexture {
   cancel(): void;
 }
 
-/** What a file of a texture is: all of it, or what stands in for it. */
-export type TextureChunk = "preview" | "texture";
-
-/** How soon a file of a texture is wanted, by the key of its picture; undefined: not now. */
-export type TextureDemand = (key: string, chunk: TextureChunk) => number | undefined;
-
-/** A file of a texture, and how far it is. */
-interface Source {
-  readonly chunk: TextureChunk;
-  readonly url: string;
-  lease: Lease | undefined;
-  state: "absent" | "asked" | "here" | "failed";
-  picture: Picture | undefined;
-  /** On the GPU: an estimate until it has been there. */
-  storedBytes: number;
-  claim: Claim | undefined;
-}
-
 interface Shared {
-  readonly sampling: SamplingDescription;
-  /** In the order of their use. */
-  readonly sources: readonly Source[];
+  readonly texture: TextureDescription;
   readonly listeners: Set<TextureListener>;
   members: number;
-  shown: Picture | undefined;
-  error: DeliveryError | undefined;
+  lease: Lease | undefined;
+  state: "absent" | "asked" | "here" | "failed";
+  /** For those who join late. */
+  told: ((listener: TextureListener) => void) | undefined;
+  bytes: number;
 }
 
-/** Mipmaps are a third more. Until it is here, a picture counts as one of 512 x 512. */
-const bytesWithMipmaps = (texels: number) => (texels * bytesPerTexel * 4) / 3;
-const expected = { preview: { bytes: 1500, texels: 64 * 64 }, texture: { bytes: 300_000, texels: 512 * 512 } } as const;
+/** Mipmaps are a third more; until it is here, a picture counts as one of 1024 x 1024. */
+const bytesWithMipmaps = (bytes: number) => (bytes * 4) / 3;
+const expectedBytes = 300_000;
 
 /** The same for textures that can share a picture. */
-export function pictureKeyOf({ url, preview, sampling }: TextureDescription): string {
-  return JSON.stringify([url, preview, sampling]);
+export function pictureKeyOf({ url, sampling }: TextureDescription): string {
+  return JSON.stringify([url, sampling]);
 }
 
 export class TextureDeliveries {
@@ -76,20 +55,18 @@ export class TextureDeliveries {
   /** Asks for nothing before `demand`. Never calls the listener before it returns. The last one to cancel ends the delivery. */
   join(texture: TextureDescription, listener: TextureListener): JoinedTexture {
     const key = pictureKeyOf(texture);
-    const shared = this.#shared.get(key) ?? sharedOf(texture);
+    const shared = this.#shared.get(key) ?? { texture, listeners: new Set(), members: 0, lease: undefined, state: "absent", told: undefined, bytes: 0 };
     this.#shared.set(key, shared);
     shared.members += 1;
     let isCancelled = false;
     queueMicrotask(() => {
       if (isCancelled) return;
       shared.listeners.add(listener);
-      if (shared.shown !== undefined) listener.onPicture(shared.shown);
-      if (shared.error !== undefined) listener.onError(shared.error);
-      if (isSettled(shared) && !shared.sources.every(({ state }) => state === "absent")) listener.onSettled();
+      shared.told?.(listener);
     });
     return {
-      get transfers() { return transfersOf(shared); },
-      get isSettled() { return isSettled(shared); },
+      get transfers() { return shared.lease ? [shared.lease.transfer] : []; },
+      get isSettled() { return shared.state !== "asked"; },
       cancel: () => {
         if (isCancelled) return;
         isCancelled = true;
@@ -97,118 +74,60 @@ export class TextureDeliveries {
         shared.members -= 1;
         if (shared.members > 0) return;
         this.#shared.delete(key);
-        for (const source of shared.sources) release(source);
+        shared.lease?.release();
+        shared.lease = undefined;
       },
     };
   }
 
-  /** What all of them would take on the GPU, as far as is known. */
+  /** What those take on the GPU that are here. */
   get storedBytes(): number {
-    let bytes = 0;
-    for (const { sources } of this.#shared.values()) for (const source of sources) if (source.state !== "failed") bytes += source.storedBytes;
-    return bytes;
+    return Array.from(this.#shared.values()).reduce((sum, { bytes }) => sum + bytes, 0);
   }
 
   transfers(): Readonly<Transfer>[] {
-    return Array.from(this.#shared.values()).flatMap(transfersOf);
+    return Array.from(this.#shared.values()).flatMap(({ lease }) => (lease ? [lease.transfer] : []));
   }
 
-  /** What they want, and have, of the GPU: for each in the order of use. */
-  claims(priorityOf: TextureDemand): readonly (readonly Claim[])[] {
-    return Array.from(this.#shared, ([key, shared]) => shared.sources.flatMap((source) => {
-      const isNeedless = source.chunk === "preview" && hasTexture(shared);
-      const priority = isNeedless ? undefined : priorityOf(key, source.chunk);
-      source.claim = source.state === "failed" || (priority === undefined && source.state === "absent") ? undefined
-        : { key: source, bytes: source.storedBytes, priority: priority ?? 0, isHeld: source.state !== "absent" };
-      return source.claim ?? [];
-    }));
-  }
-
-  /**
-   * Asks for what is wanted and aborts what is no longer. What is here stays, but of
-   * claims only what is granted. A preview is not asked for where its picture is here.
-   */
-  demand(priorityOf: TextureDemand, granted?: ReadonlySet<Claim>): void {
+  /** Asks for what is wanted, by the key of its picture, and aborts what is no longer; what is here stays. */
+  demand(priorityOf: (key: string) => number | undefined): void {
     for (const [key, shared] of this.#shared) {
-      const denied = shared.sources.filter(({ claim }) => granted !== undefined && claim !== undefined && !granted.has(claim));
-      const evicted = denied.filter(({ state }) => state === "here");
-      if (evicted.length > 0) {
-        show(shared, evicted);
-        evicted.forEach(release);
-      }
-      for (const source of shared.sources) {
-        if (source.state === "here" || source.state === "failed") continue;
-        const isNeedless = denied.includes(source) || (source.chunk === "preview" && hasTexture(shared));
-        const priority = isNeedless ? undefined : priorityOf(key, source.chunk);
-        if (priority === undefined) release(source);
-        else if (source.lease !== undefined) source.lease.setPriority(priority);
-        else this.#ask(shared, source, priority);
+      if (shared.state === "here" || shared.state === "failed") continue;
+      const priority = priorityOf(key);
+      if (priority === undefined) {
+        shared.lease?.release();
+        shared.lease = undefined;
+        shared.state = "absent";
+      } else if (shared.lease !== undefined) {
+        shared.lease.setPriority(priority);
+      } else {
+        this.#ask(shared, priority);
       }
     }
   }
 
-  #ask(shared: Shared, source: Source, priority: number): void {
-    const { url, chunk } = source;
-    source.lease = this.#pool.lease({ kind: "picture", url, sampling: shared.sampling, priority, expectedBytes: expected[chunk].bytes });
-    source.state = "asked";
-    void this.#await(shared, source, source.lease);
+  #ask(shared: Shared, priority: number): void {
+    const { url, sampling } = shared.texture;
+    shared.lease = this.#pool.lease({ kind: "picture", url, sampling, priority, expectedBytes });
+    shared.state = "asked";
+    void this.#await(shared, shared.lease);
   }
 
-  async #await(shared: Shared, source: Source, lease: Lease): Promise<void> {
-    // Given up in between, or given up and asked for again.
-    const isOver = () => source.lease !== lease;
+  async #await(shared: Shared, lease: Lease): Promise<void> {
+    const isOver = () => shared.lease !== lease;
     try {
       const content = await lease.content;
       if (isOver() || content.kind !== "picture") return;
-      source.storedBytes = bytesWithMipmaps(content.image.width * content.image.height);
-      source.state = "here";
-      source.picture = content;
-      show(shared);
+      const { width, height } = content.image;
+      shared.bytes = bytesWithMipmaps(width * height * bytesPerTexel);
+      shared.state = "here";
+      shared.told = (listener) => { listener.onPicture(content); listener.onSettled(); };
     } catch (error) {
       if (isOver()) return;
-      source.state = "failed";
-      if (source.chunk === "texture") {
-        shared.error = asDeliveryError(error, source.url);
-        for (const listener of shared.listeners) listener.onError(shared.error);
-      }
+      shared.state = "failed";
+      const told = asDeliveryError(error, shared.texture.url);
+      shared.told = (listener) => { listener.onError(told); listener.onSettled(); };
     }
-    if (isSettled(shared)) for (const listener of shared.listeners) listener.onSettled();
+    for (const listener of shared.listeners) shared.told(listener);
   }
-}
-
-function sharedOf({ url, preview, sampling }: TextureDescription): Shared {
-  const source = (chunk: TextureChunk, of: string): Source => ({
-    chunk, url: of, lease: undefined, state: "absent", picture: undefined, storedBytes: bytesWithMipmaps(expected[chunk].texels), claim: undefined,
-  });
-  return {
-    sampling, listeners: new Set(), members: 0, shown: undefined, error: undefined,
-    sources: [...(preview === "" ? [] : [source("preview", preview)]), source("texture", url)],
-  };
-}
-
-function hasTexture({ sources }: Shared): boolean {
-  return sources.some(({ chunk, state }) => chunk === "texture" && state === "here");
-}
-
-function isSettled({ sources }: Shared): boolean {
-  return sources.every(({ state }) => state !== "asked");
-}
-
-function transfersOf({ sources }: Shared): Readonly<Transfer>[] {
-  return sources.flatMap(({ lease }) => (lease ? [lease.transfer] : []));
-}
-
-/** The best that is here, but none of `without`. */
-function show(shared: Shared, without: readonly Source[] = []): void {
-  const best = shared.sources.findLast((source) => source.picture !== undefined && !without.includes(source))?.picture;
-  if (best === shared.shown) return;
-  shared.shown = best;
-  for (const listener of shared.listeners) listener.onPicture(best);
-}
-
-function release(source: Source): void {
-  source.lease?.release();
-  source.lease = undefined;
-  source.picture = undefined;
-  if (source.state !== "failed") source.state = "absent";
 }

@@ -141,8 +141,6 @@ export type WrapMode = "repeat" | "clamp" | "mirror";
 
 /** How a texture is read between and beyond its texels. */
 export interface SamplingDescription {
-  /** Numbers that shading computes with, not colours that people look at. */
-  readonly isData: boolean;
   readonly wrapS: WrapMode;
   readonly wrapT: WrapMode;
   /** False: seen large, its texels are squares. */
@@ -154,17 +152,8 @@ export interface SamplingDescription {
 /** 3 x 3, column by column. */
 export type TextureMatrix = readonly [number, number, number, number, number, number, number, number, number];
 
-/** The part of a material that a texture modulates. `color` is that of diffuseColor, baseColor or an UnlitMaterial's emissiveColor. */
-export const textureRoles = [
-  "color", "emissive", "metallicRoughness", "normal", "occlusion", "ambient", "specular", "shininess",
-] as const;
-export type TextureRole = (typeof textureRoles)[number];
-
 export interface TextureDescription {
-  readonly role: TextureRole;
   readonly url: string;
-  /** Of the same picture in few pixels, shown until it is here; empty: there is none. */
-  readonly preview: string;
   readonly sampling: SamplingDescription;
   /** From a vertex's texture coordinates to the image's. */
   readonly transform: TextureMatrix;
@@ -182,8 +171,7 @@ export interface PointDescription {
 export interface AppearanceDescription {
   readonly material: MaterialDescription;
   readonly alpha: AlphaDescription;
-  /** At most one of each role. */
-  readonly textures: readonly TextureDescription[];
+  readonly texture: TextureDescription | undefined;
   readonly points: PointDescription | undefined;
 }
 export type ViewpointDescription = Values<typeof nodeFields.Viewpoint>;
@@ -267,12 +255,25 @@ export interface ViewpointNodeDescription {
 
 export type NodeDescription = GroupDescription | ShapeDescription | LightNodeDescription | ViewpointNodeDescription;
 
+/** The colour at an angle, in radians, from the zenith or the nadir. */
+export interface Ring {
+  readonly angle: number;
+  readonly color: Vec3;
+}
+
+export interface BackgroundDescription {
+  /** From the zenith on; at least one. */
+  readonly sky: readonly Ring[];
+  /** From the nadir on, before the sky. */
+  readonly ground: readonly Ring[];
+}
+
 export interface SceneDescription {
   readonly root: GroupDescription;
   /** The one that is bound: the first in the document, or the last that says so. */
   readonly navigation: NavigationDescription;
   /** Undefined: nothing behind the scene, the page shows through. */
-  readonly skyColor: Vec3 | undefined;
+  readonly background: BackgroundDescription | undefined;
   /** Changes to the weights of what files hold, as the author writes them. */
   readonly chunkPriority: string;
   /** In document order, those in inlined documents too; one that is USEd, and one of a document that is shown twice, once for each place. */

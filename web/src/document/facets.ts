@@ -83,6 +83,24 @@ export function withCreasedNormals(data: VertexData, faces: readonly (readonly C
   return { data: { ...data, normals }, faces: creased };
 }
 
+/** Where the document has no texture coordinates: over the box, s along its longest side and t along the next (ISO/IEC 19775-1, 13.3.6). */
+export function withSpreadTexCoords(data: VertexData, faces: readonly (readonly Corner[])[]): { data: VertexData; faces: Corner[][] } {
+  const along = (axis: number) => {
+    let [least, most] = [Infinity, -Infinity];
+    for (let at = axis; at < data.positions.length; at += 3) {
+      least = Math.min(least, data.positions[at] ?? 0);
+      most = Math.max(most, data.positions[at] ?? 0);
+    }
+    return { axis, least, extent: most - least };
+  };
+  const [s, t] = [0, 1, 2].map(along).sort((a, b) => b.extent - a.extent || a.axis - b.axis);
+  const texCoords: number[] = [];
+  for (let first = 0; s && t && first < data.positions.length; first += 3) {
+    for (const { axis, least } of [s, t]) texCoords.push(((data.positions[first + axis] ?? 0) - least) / (s.extent || 1));
+  }
+  return { data: { ...data, texCoords }, faces: faces.map((face) => face.map((corner) => ({ ...corner, texCoord: corner.position }))) };
+}
+
 function newellNormal(positions: readonly number[], face: readonly Corner[]): number[] {
   const at = (corner: Corner | undefined, axis: number) => positions[3 * (corner?.position ?? 0) + axis] ?? 0;
   const sum = [0, 0, 0];

@@ -99,13 +99,12 @@ const mfString: FieldType<readonly string[]> = {
   },
 };
 
-/** Colours; only the first is of use to us, so that is what is kept. */
-const firstColor: FieldType<Vec3> = {
+const mfColor: FieldType<readonly Vec3[]> = {
   name: "MFColor",
   parse(text) {
     const numbers = numbersIn(text);
-    if (numbers === undefined || numbers.length < 3 || numbers.length % 3 !== 0) return undefined;
-    return numbers.slice(0, 3) as unknown as Vec3;
+    if (numbers === undefined || numbers.length % 3 !== 0) return undefined;
+    return Array.from({ length: numbers.length / 3 }, (_, i) => numbers.slice(3 * i, 3 * i + 3) as unknown as Vec3);
   },
 };
 
@@ -130,4 +129,4 @@ export const SFRotation = maker(tuple<Rotation>("SFRotation", 4));
 export const MFInt32 = maker(mfInt32);
 export const MFFloat = maker(mfFloat);
 export const MFString = maker(mfString);
-export const MFColor = maker(firstColor);
+export const MFColor = maker(mfColor);

@@ -9,7 +9,7 @@ import { elevationGrid } from "./elevationGrid.ts";
 import type { Surface } from "./elevationGrid.ts";
 import { extrusion } from "./extrusion.ts";
 import type { Corner, Drawn, VertexData } from "./facets.ts";
-import { drawn, fansOf, linesOf, trianglesOf, withCreasedNormals } from "./facets.ts";
+import { drawn, fansOf, linesOf, trianglesOf, withCreasedNormals, withSpreadTexCoords } from "./facets.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
@@ -44,8 +44,8 @@ const runReaders: Readonly<Record<string, (fields: Fields, data: VertexData) => 
   indexedtriangleset: (fields, data) => byVertex(fields, data, triplesOf(fields.index.filter((vertex) => vertex >= 0))),
   trianglestripset: (fields, data) => byVertex(fields, data, counted(fields.stripCount).flatMap(strip)),
   indexedtrianglestripset: (fields, data) => byVertex(fields, data, between(fields.index).flatMap(strip)),
-  trianglefanset: (fields, data) => byVertex(fields, data, counted(fields.fanCount)),
-  indexedtrianglefanset: (fields, data) => byVertex(fields, data, between(fields.index)),
+  trianglefanset: (fields, data) => byVertex(fields, data, counted(fields.fanCount).flatMap(fan)),
+  indexedtrianglefanset: (fields, data) => byVertex(fields, data, between(fields.index).flatMap(fan)),
   lineset: (fields, data) => byVertex(fields, data, counted(fields.vertexCount)),
   pointset: (fields, data) => byVertex(fields, data, numbersTo(data.positions.length / 3).map((vertex) => [vertex])),
 };
@@ -76,10 +76,11 @@ export function readInlineGeometry(element: SceneElement, resolve: Resolve, warn
   return describe(arrays, fields.solid);
 }
 
-function drawnOf(primitive: Drawn["primitive"], data: VertexData, runs: Runs, fields: Fields, isCreased: boolean): Drawn | undefined {
-  if (primitive === "points") return drawn(primitive, data, runs.flat());
-  if (primitive === "lines") return drawn(primitive, data, linesOf(runs));
-  const faces = fields.ccw ? runs : runs.map((run) => run.toReversed());
+function drawnOf(primitive: Drawn["primitive"], given: VertexData, runs: Runs, fields: Fields, isCreased: boolean): Drawn | undefined {
+  if (primitive === "points") return drawn(primitive, given, runs.flat());
+  if (primitive === "lines") return drawn(primitive, given, linesOf(runs));
+  const turned = fields.ccw ? runs : runs.map((run) => run.toReversed());
+  const { data, faces } = given.texCoords.length > 0 ? { data: given, faces: turned } : withSpreadTexCoords(given, turned);
   const cornersOf = fields.convex ? fansOf : (polygons: Runs) => trianglesOf(data.positions, polygons);
   if (data.normals.length > 0) return drawn(primitive, data, cornersOf(faces));
   // Triangles of one number are smooth, faces have edges unless creaseAngle says otherwise.
@@ -157,6 +158,10 @@ function between(index: readonly number[]): number[][] {
     else runs.at(-1)?.push(vertex);
   }
   return runs;
+}
+
+function fan(run: readonly number[]): number[][] {
+  return run.slice(2).map((last, i) => [run[0] ?? 0, run[i + 1] ?? 0, last]);
 }
 
 function strip(run: readonly number[]): number[][] {

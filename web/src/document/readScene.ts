@@ -2,13 +2,13 @@
 // children, as a browser passes over unknown tags; what they hold still counts.
 
 import type {
-  Box3, GeometryDescription, GroupDescription, InlineDescription, NavigationDescription, NodeDescription, SceneDescription,
-  ShapeDescription, TransformDescription,
+  BackgroundDescription, Box3, GeometryDescription, GroupDescription, InlineDescription, NavigationDescription, NodeDescription,
+  SceneDescription, ShapeDescription, TransformDescription,
 } from "./description.ts";
 import { colorMapOf } from "./attributes.ts";
 import { readAppearance } from "./appearance.ts";
 import type { SceneElement } from "./element.ts";
-import { attributeOf, childrenOf, inPlaceOf, lowerNameOf } from "./element.ts";
+import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import { boxAround, boxOf, isUnbounded, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
 import { GeometryMemory } from "./geometryMemory.ts";
@@ -48,7 +48,7 @@ interface Reading {
   readonly inlinedBy: readonly InlinedDocument[];
   readonly host: SceneElement | undefined;
   navigation: NavigationDescription | undefined;
-  skyColor: Vec3 | undefined;
+  background: BackgroundDescription | undefined;
 }
 
 /** What groups hand down to what stands in them. */
@@ -64,15 +64,15 @@ export function readScene(x3d: SceneElement, geometries = new GeometryMemory(), 
   const reading: Reading = {
     geometries, defined: definedIn(x3d), following: new Set(), warnings: [],
     inlines: [], supplements, inlinedBy: [], host: undefined,
-    navigation: undefined, skyColor: undefined,
+    navigation: undefined, background: undefined,
   };
   const root: GroupDescription = {
     kind: "group", visible: true, box: undefined, transform: undefined, children: readChildren(x3d, reading, { visible: true, reaches: true, priority: 1 }),
   };
-  const { skyColor, inlines, warnings } = reading;
+  const { background, inlines, warnings } = reading;
   const navigation = reading.navigation ?? readFields(withoutAttributes, nodeFields.NavigationInfo, warnings);
   const { chunkPriority } = readFields(x3d, nodeFields.X3D, warnings);
-  return { root, navigation, skyColor, chunkPriority, inlines, warnings };
+  return { root, navigation, background, chunkPriority, inlines, warnings };
 }
 
 function definedIn(element: SceneElement, defined = new Map<string, SceneElement>()): Map<string, SceneElement> {
@@ -120,12 +120,20 @@ function readNode(element: SceneElement, reading: Reading, inherited: Inherited)
         return [];
       }
       case "background":
-        reading.skyColor ??= readFields(node, nodeFields.Background, warnings).skyColor;
+        reading.background ??= readBackground(node, warnings);
         return [];
       default:
         return readChildren(node, reading, inherited);
     }
   });
+}
+
+function readBackground(node: SceneElement, warnings: Warning[]): BackgroundDescription {
+  const { skyColor, skyAngle, groundColor, groundAngle } = readFields(node, nodeFields.Background, warnings);
+  // The first colour is at the pole, each further one at its angle.
+  const rings = (colors: readonly Vec3[], angles: readonly number[]) =>
+    colors.slice(0, angles.length + 1).map((color, i) => ({ color, angle: i === 0 ? 0 : angles[i - 1] ?? 0 }));
+  return { sky: rings(skyColor.length > 0 ? skyColor : [[0, 0, 0]], skyAngle), ground: rings(groundColor, groundAngle) };
 }
 
 interface GroupFields {
@@ -193,7 +201,7 @@ function readInline(element: SceneElement, node: SceneElement, reading: Reading,
   if (problem !== undefined) reading.warnings.push({ element, message: problem });
   const children = found === undefined || problem !== undefined ? [] : readChildren(found.x3d, {
     ...reading, defined: definedIn(found.x3d), inlinedBy: [...reading.inlinedBy, found], host: reading.host ?? element,
-    navigation: undefined, skyColor: undefined,
+    navigation: undefined, background: undefined,
   }, inner);
   return { kind: "group", visible: isSeen(fields), box: boxOf(fields), transform: undefined, children };
 }
@@ -232,7 +240,7 @@ function readShape(element: SceneElement, node: SceneElement, reading: Reading, 
     if (read) priorityOfGeometry = readFields(part, { priority: nodeFields.ImageGeometry.priority }, []).priority;
     return read;
   });
-  const nodesIn = (part: SceneElement) => childrenOf(part).flatMap((child) => withUse(child, reading, [], (used) => [inPlaceOf(child, used)]));
+  const nodesIn = (part: SceneElement) => childrenOf(part).flatMap((child) => withUse(child, reading, [], (used) => [used]));
   const appearance = first(parts, reading, (part) =>
     lowerNameOf(part) === "appearance" ? readAppearance(part, nodesIn, reading.warnings) : undefined);
   const geometry = plain && values.colorBy !== "" ? reading.geometries.withValues(plain, values.colorBy) : plain;

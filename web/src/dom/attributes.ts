@@ -107,6 +107,7 @@ export const viewAttributes = {
   "touch-action": attribute(oneOf("auto", "none", "pan-x", "pan-y"), "auto"),
   "disable-zoom": attribute(flag, false),
   "disable-pan": attribute(flag, false),
+  "draw-as": attribute(oneOf("surface", "points"), "surface"),
   exposure: attribute(number, 1),
   budget: attribute(megabytes, 1e9),
 } as const;

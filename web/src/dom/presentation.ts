@@ -17,7 +17,7 @@ import { Viewer } from "./viewer.ts";
 import { keepTouchAction } from "./touchAction.ts";
 import { sizeOf, watchSize, whenNear } from "./visibility.ts";
 import { WaysBack } from "./waysBack.ts";
-import { keyWords, stageWords, typeWords, viewWords } from "./words.ts";
+import { drawingWords, keyWords, stageWords, typeWords, viewWords } from "./words.ts";
 
 /** So long after the last movement the view is described. */
 const quietMs = 700;
@@ -73,6 +73,7 @@ export class Presentation {
     x3d.addEventListener("load", () => { face.say("The scene is complete."); }, { signal });
     listenForPointing(face.canvas, host, this.viewer, signal);
     listenForMovement(face.canvas, this.#hands, signal);
+    face.canvas.addEventListener("keydown", (event) => { this.#toggleDrawing(event); }, { signal });
     watchSize(face.canvas, signal, (width, height, ratio) => {
       this.#size = { width: width / ratio, height: height / ratio };
       this.viewer.renderer.resize(width, height, ratio);
@@ -153,6 +154,7 @@ export class Presentation {
     navigator.turntable.delayMs = settings["auto-rotate-delay"];
     navigator.turntable.radiansPerSecond = settings["rotation-per-second"];
     renderer.setExposure(settings.exposure);
+    renderer.drawAsPoints(settings["draw-as"] === "points");
     this.viewer.setBudget(settings.budget);
     this.poster.reveal = settings.reveal;
     this.#describe();
@@ -183,6 +185,14 @@ export class Presentation {
     this.#lists.update();
     if (this.#shownType !== undefined && this.#shownType !== type) this.#face.say(`${typeWords[type]}. ${keyWords[type]}`);
     this.#shownType = type;
+  }
+
+  /** P: the attribute says how surfaces are drawn, so that pages can follow. */
+  #toggleDrawing({ key, ctrlKey, metaKey, altKey }: KeyboardEvent): void {
+    if (key.toLowerCase() !== "p" || ctrlKey || metaKey || altKey || this.#hands.type === "none") return;
+    const drawing = this.#settings["draw-as"] === "points" ? "surface" : "points";
+    this.#x3d.setAttribute("draw-as", drawing);
+    this.#face.say(drawingWords[drawing]);
   }
 
   #showProgress(share: number, stage: StageName | "none"): void {

@@ -12,13 +12,14 @@ import { noProgress, progressOf } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resources.ts";
 import type { JoinedDelivery } from "../delivery/sharedDeliveries.ts";
 import { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
-import { ShapeTextures } from "../delivery/shapeTextures.ts";
+import type { JoinedTexture } from "../delivery/textureDeliveries.ts";
 import { pictureKeyOf, TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription, GroupDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
 import type { PickCandidate } from "../render/picking.ts";
+import { noAttenuations } from "../render/lightFalloff.ts";
 import { buildGraph } from "../render/sceneGraph.ts";
 import type { ShapeSetting } from "../render/shapeObject.ts";
 import { ShapeObject } from "../render/shapeObject.ts";
@@ -26,7 +27,6 @@ import { GeometryPool } from "../render/stageGeometries.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
 import { chunkWeightsOf } from "../scheduler/priority.ts";
 import type { Scheduler } from "../scheduler/scheduler.ts";
-import { Admission } from "./admission.ts";
 import type { MaterialMaker, Surroundings } from "./appLook.ts";
 import { appLook } from "./appLook.ts";
 import { ArrayBuffers } from "./arrayBuffers.ts";
@@ -62,7 +62,7 @@ export interface SceneSources {
 interface LoadedShape {
   readonly object: ShapeObject;
   readonly delivery: JoinedDelivery | undefined;
-  readonly textures: ShapeTextures;
+  readonly picture: JoinedTexture | undefined;
   /** Patches of which nothing is shown yet. */
   readonly missing: Set<number>;
 }
@@ -94,8 +94,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     super();
     this.description = description;
     for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined); // nobody has to listen
-    const admission = new Admission();
-    const textures = new BitmapTextures(admission);
+    const textures = new BitmapTextures();
     const buffers = new ArrayBuffers();
     const pool = new ResourcePool({
       scheduler,
@@ -104,10 +103,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       largestTexture,
       runJob,
       makePicture: (bytes, sampling, signal) => textures.makePicture(bytes, sampling, signal),
-      storeBytes: async (array, _, signal) => {
-        await admission.admit(array.byteLength, signal);
-        return buffers.store(array);
-      },
+      storeBytes: (array) => Promise.resolve(buffers.store(array)),
       download: { ...defaultDownloadOptions, fetch },
       resolve,
       onTransfer: () => { this.#progressTimer ??= setTimeout(() => { this.#tellProgress(); }, progressIntervalMs); },
@@ -117,7 +113,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.#textures = textures;
     const { root, box } = this.#build({
       look: appLook(makeMaterial, surroundingsOf(this)), geometries: new GeometryPool(buffers), buffers, textures, batches: undefined,
-      shared: { pixelRatio: { value: 1 }, depthRange: { value: new Vector2() } },
+      shared: { pixelRatio: { value: 1 }, depthRange: { value: new Vector2() }, attenuations: { value: noAttenuations() } },
     });
     this.box = box;
     this.add(root);
@@ -167,9 +163,9 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.abort();
     // Textures leave the draws before their images close.
     for (const { object } of this.#shapes.values()) object.dispose();
-    for (const { delivery, textures } of this.#shapes.values()) {
+    for (const { delivery, picture } of this.#shapes.values()) {
       delivery?.cancel();
-      textures.cancel();
+      picture?.cancel();
     }
     this.#shapes.clear();
     this.#picker.dispose();
@@ -206,16 +202,8 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   }
 
   #begin(shape: ShapeDescription, object: ShapeObject): LoadedShape {
-    const { geometry, appearance } = shape;
-    const textures = new ShapeTextures(this.#pictures, {
-      onPicture: (role, picture) => {
-        object.setPicture(role, picture && { texture: this.#textures.textureOf(picture.image), hasAlpha: picture.hasAlpha });
-        this.dispatchEvent({ type: "change" });
-      },
-      onError: (error) => { this.#fail(error); },
-      onSettled: () => { this.#advance(); },
-    });
-    if (geometry === undefined || !shape.visible) return { object, delivery: undefined, textures, missing: new Set() };
+    const { geometry, appearance: { texture } } = shape;
+    if (geometry === undefined || !shape.visible) return { object, delivery: undefined, picture: undefined, missing: new Set() };
     const missing = new Set(geometry.patches.keys());
     const listener: DeliveryListener = {
       onStage: (patch, stage) => {
@@ -231,8 +219,15 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
         this.#advance();
       },
     };
-    textures.follow(appearance.textures);
-    return { object, delivery: this.#deliveries.join(geometry, listener), textures, missing };
+    const picture = texture && this.#pictures.join(texture, {
+      onPicture: ({ image, hasAlpha }) => {
+        object.setPicture({ texture: this.#textures.textureOf(image), hasAlpha });
+        this.dispatchEvent({ type: "change" });
+      },
+      onError: (error) => { this.#fail(error); },
+      onSettled: () => { this.#advance(); },
+    });
+    return { object, delivery: this.#deliveries.join(geometry, listener), picture, missing };
   }
 
   #fail(error: DeliveryError): void {
@@ -244,16 +239,16 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   #demand(): void {
     const geometries = new Map<GeometryDescription, PlacedGeometry[]>();
     const pictures = new Map<string, PlacedGeometry[]>();
-    for (const { geometry, visible, priority, appearance: { textures } } of shapesOf(this.description.root)) {
+    for (const { geometry, visible, priority, appearance: { texture } } of shapesOf(this.description.root)) {
       if (geometry === undefined || !visible) continue;
-      const placed = placeGeometry(geometry, nowhere, priority, textures.length > 0);
+      const placed = placeGeometry(geometry, nowhere, priority, texture !== undefined);
       geometries.set(geometry, [...(geometries.get(geometry) ?? []), placed]);
-      for (const texture of textures) pictures.set(pictureKeyOf(texture), [...(pictures.get(pictureKeyOf(texture)) ?? []), placed]);
+      if (texture) pictures.set(pictureKeyOf(texture), [...(pictures.get(pictureKeyOf(texture)) ?? []), placed]);
     }
     const weights = chunkWeightsOf(this.description.chunkPriority, (problem) => { console.warn(`imgeo: chunkPriority: ${problem}`); });
     const viewing = { camera: undefined, weights };
     this.#deliveries.demand((geometry) => demandFor(geometries.get(geometry) ?? [], viewing));
-    this.#pictures.demand((key, chunk) => textureDemandFor(pictures.get(key) ?? [], chunk, viewing));
+    this.#pictures.demand((key) => textureDemandFor(pictures.get(key) ?? [], viewing));
   }
 
   /** Keeps the promises that can be kept. */
@@ -262,7 +257,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     if (shapes.some(({ missing }) => missing.size > 0)) return;
     if (this.#error !== undefined && !this.#hasPicture) this.#firstImage.reject(this.#error);
     else this.#firstImage.resolve(undefined);
-    if (shapes.some(({ delivery, textures }) => delivery?.isSettled === false || !textures.isSettled)) return;
+    if (shapes.some(({ delivery, picture }) => delivery?.isSettled === false || picture?.isSettled === false)) return;
     this.#tellProgress();
     this.#complete.resolve(undefined);
   }

@@ -11,15 +11,14 @@
 import type { Color, Material } from "three";
 import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshPhongMaterial } from "three";
 import type { AppearanceDescription, MaterialDescription, Vec3 } from "../document/description.ts";
-import { placeColors } from "./batches/placeChunk.ts";
+import { placeColors, placesDefine } from "./batches/placeChunk.ts";
 import { farnessDefine, shadeByFarnessIn } from "./farness.ts";
-import type { Look, MaterialRequest, Shading, ShownPictures, VertexColors } from "./look.ts";
+import { lightsChunk } from "./lightFalloff.ts";
+import type { Look, MaterialRequest, Shading, ShownPicture, VertexColors } from "./look.ts";
 import { displayedOf, physicalDefine, physicalLighting, physicalOutput } from "./physicalLighting.ts";
 import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
 import { colorByValueIn } from "./valueColors.ts";
-import { readVerticesIn, replaceEach, srgbColorsDefine, vertexDefinesOf } from "./vertexChunk.ts";
-import type { OwnMapUniforms } from "./x3dMaps.ts";
-import { layPictures, makeOwnMapUniforms, mapChunks, materialFromMaps, ownMapDeclarations } from "./x3dMaps.ts";
+import { readVerticesIn, replaceEach, srgbColorsDefine, toLinearChunk, vertexDefinesOf } from "./vertexChunk.ts";
 
 const x3dLighting = /* glsl */ `
 varying vec3 vViewPosition;
@@ -27,18 +26,17 @@ struct X3dMaterial {
   vec3 diffuseColor;
   vec3 specularColor;
   float shininess;
-  vec3 ambient;
-  float metallic;
-  float roughness;
 };
-
-uniform float ambientIntensity;
-uniform float metallic;
-uniform float roughness;
 
 #ifdef ${physicalDefine}
 ${physicalLighting}
 #else
+
+#ifdef ${placesDefine}
+  #define ambientIntensity placeEmissive.a
+#else
+  uniform float ambientIntensity;
+#endif
 
 void directX3d(const in IncidentLight light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
                const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
@@ -51,7 +49,7 @@ void directX3d(const in IncidentLight light, const in vec3 position, const in ve
 
 void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
                 const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
-  reflected.indirectDiffuse += light * material.diffuseColor * material.ambient;
+  reflected.indirectDiffuse += light * material.diffuseColor * ambientIntensity;
 }
 
 #endif
@@ -60,8 +58,33 @@ void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 norma
 #define RE_IndirectDiffuse ambientX3d
 `;
 
+// Pictures have the numbers of the screen.
+const mapChunk = /* glsl */ `
+#ifdef USE_MAP
+  vec4 texel = texture2D(map, vMapUv);
+  #ifdef ${srgbColorsDefine}
+    ${toLinearChunk("texel.rgb")}
+  #endif
+  diffuseColor *= texel;
+#endif
+`;
+
+/** Defined where no light changes what is seen. */
+const unlitDefine = "UNLIT";
+
+const materialChunk = /* glsl */ `
+#ifdef ${unlitDefine}
+  totalEmissiveRadiance = diffuseColor.rgb;
+  X3dMaterial material = X3dMaterial(vec3(0.0), vec3(0.0), 1.0);
+#elif defined(${placesDefine})
+  X3dMaterial material = X3dMaterial(diffuseColor.rgb, placeSpecular.rgb, placeSpecular.a);
+#else
+  X3dMaterial material = X3dMaterial(diffuseColor.rgb, specular, shininess);
+#endif
+`;
+
 /** Uniforms of a lit material. */
-interface LitUniforms extends OwnMapUniforms {
+interface LitUniforms {
   readonly ambientIntensity: { value: number };
   readonly metallic: { value: number };
   readonly roughness: { value: number };
@@ -73,9 +96,9 @@ type PatchMaterial = LitMaterial | MeshBasicMaterial;
 /** Pages look as X3D says. */
 export const x3dLook: Look = { makeMaterial, applyAppearance, prepare: () => undefined, batching: { keyOf, numbersOf } };
 
-function makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, pictures: ShownPictures): PatchMaterial {
+function makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, picture: ShownPicture | undefined): PatchMaterial {
   const { shading, colors, solid, uniforms, shared } = request;
-  const lit: LitUniforms = { ambientIntensity: { value: 0 }, metallic: { value: 1 }, roughness: { value: 1 }, ...makeOwnMapUniforms() };
+  const lit: LitUniforms = { ambientIntensity: { value: 0 }, metallic: { value: 1 }, roughness: { value: 1 } };
   const material: PatchMaterial = isUnlit(shading) ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
   material.side = solid ? FrontSide : DoubleSide;
@@ -86,27 +109,28 @@ function makeMaterial(request: MaterialRequest, appearance: AppearanceDescriptio
   };
   material.userData.lit = lit;
   material.onBeforeCompile = (shader) => {
-    Object.assign(shader.uniforms, uniforms, { depthRange: shared.depthRange, ...lit });
+    Object.assign(shader.uniforms, uniforms, { depthRange: shared.depthRange, attenuations: shared.attenuations, ...lit });
     readVerticesIn(shader);
     shapePointsIn(shader);
     shadeByFarnessIn(shader);
     colorByValueIn(shader);
-    shader.fragmentShader = ownMapDeclarations + replaceEach(shader.fragmentShader, [
+    shader.fragmentShader = replaceEach(shader.fragmentShader, [
+      ["#include <lights_pars_begin>", lightsChunk],
       ["#include <lights_phong_pars_fragment>", x3dLighting],
-      ["#include <lights_phong_fragment>", materialFromMaps],
+      ["#include <lights_phong_fragment>", materialChunk],
       ["#include <colorspace_fragment>", physicalOutput],
-      ...mapChunks,
+      ["#include <map_fragment>", mapChunk],
       ...placeColors,
     ]);
   };
   // The text of `onBeforeCompile` is the same for all, so programs are shared as they should be.
   material.customProgramCacheKey = () => "imgeo";
-  applyAppearance(material, appearance, colors, pictures);
+  applyAppearance(material, appearance, colors, picture);
   return material;
 }
 
 /** A texture is multiplied by what is there (X3D 4). */
-function applyAppearance(material: Material, appearance: AppearanceDescription, colors: VertexColors, pictures: ShownPictures): void {
+function applyAppearance(material: Material, appearance: AppearanceDescription, colors: VertexColors, picture: ShownPicture | undefined): void {
   const description = appearance.material;
   const shown = material as PatchMaterial;
   const isLit = shown instanceof MeshPhongMaterial;
@@ -114,14 +138,16 @@ function applyAppearance(material: Material, appearance: AppearanceDescription, 
   else setColor(shown.color, unlitColorOf(description, colors !== "none"));
   material.opacity = opacityOf(appearance);
   material.alphaTest = alphaTestOf(appearance);
-  layPictures(shown, description, pictures, isLit ? shown.userData.lit : undefined);
-  const blends = isBlended(appearance, colors, pictures);
-  if (material.transparent !== blends) material.needsUpdate = true;
+  const blends = isBlended(appearance, colors, picture);
+  const texture = picture?.texture ?? null;
+  const isOther = material.transparent !== blends || (shown.map === null) !== (texture === null);
   material.transparent = blends;
+  shown.map = texture;
+  if (isOther) material.needsUpdate = true;
 }
 
-function isBlended({ alpha: { mode }, material: { transparency } }: AppearanceDescription, colors: VertexColors, pictures: ShownPictures): boolean {
-  return mode === "BLEND" || (mode === "AUTO" && (transparency > 0 || colors === "rgba" || pictures.get("color")?.hasAlpha === true));
+function isBlended({ alpha: { mode }, material: { transparency } }: AppearanceDescription, colors: VertexColors, picture: ShownPicture | undefined): boolean {
+  return mode === "BLEND" || (mode === "AUTO" && (transparency > 0 || colors === "rgba" || picture?.hasAlpha === true));
 }
 
 function opacityOf({ alpha: { mode }, material: { transparency } }: AppearanceDescription): number {
@@ -133,11 +159,11 @@ function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number
 }
 
 function keyOf({ primitive, colors }: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription,
-               pictures: ShownPictures): string | undefined {
-  if (isBlended(appearance, colors, pictures)) return undefined;
+               picture: ShownPicture | undefined): string | undefined {
+  if (isBlended(appearance, colors, picture)) return undefined;
   const { material, points, ...rest } = appearance;
   const others = Object.entries(material).filter(([name]) => !numbersOfPlaces.has(name));
-  return JSON.stringify([rest, others, Array.from(pictures, ([role, { texture }]) => [role, texture.uuid]).sort(), primitive === "points" && points]);
+  return JSON.stringify([rest, others, picture?.texture.uuid, primitive === "points" && points]);
 }
 
 /** What of a material `numbersOf` tells. */
@@ -184,21 +210,20 @@ interface LitNumbers {
 function litNumbersOf(description: MaterialDescription, hasColors: boolean): LitNumbers {
   switch (description.kind) {
     case "physical":
-      return { ...unlitAsPhong, color: description.baseColor, metallic: description.metallic, roughness: description.roughness };
+      return { ...noNumbers, color: description.baseColor, metallic: description.metallic, roughness: description.roughness };
     case "phong": {
       const { diffuseColor, specularColor, shininess, ambientIntensity } = description;
       return { color: hasColors ? [1, 1, 1] : diffuseColor, specular: specularColor, shininess: shininess * 128, ambientIntensity, metallic: 1, roughness: 1 };
     }
     case "unlit":
-      return unlitAsPhong;
+      return { ...noNumbers, color: unlitColorOf(description, hasColors) };
   }
 }
 
-/** What no light changes reflects none. */
-const unlitAsPhong: LitNumbers = { color: [0, 0, 0], specular: [0, 0, 0], shininess: 0, ambientIntensity: 0, metallic: 1, roughness: 1 };
+const noNumbers: LitNumbers = { color: [0, 0, 0], specular: [0, 0, 0], shininess: 0, ambientIntensity: 0, metallic: 1, roughness: 1 };
 
 function applyLit(material: LitMaterial, description: MaterialDescription, numbers: LitNumbers): void {
-  setPhysical(material, description.kind === "physical");
+  setKind(material, description.kind);
   const { lit } = material.userData;
   setColor(material.color, numbers.color);
   setColor(material.specular, numbers.specular);
@@ -210,12 +235,19 @@ function applyLit(material: LitMaterial, description: MaterialDescription, numbe
   lit.roughness.value = numbers.roughness;
 }
 
+/** What a material of a kind defines. */
+const kindDefines: Readonly<Record<MaterialDescription["kind"], readonly string[]>> = {
+  phong: [], physical: [physicalDefine, srgbColorsDefine], unlit: [unlitDefine],
+};
+const allKindDefines = Object.values(kindDefines).flat();
+
 /** Another program where the kind has changed. */
-function setPhysical(material: LitMaterial, isPhysical: boolean): void {
+function setKind(material: LitMaterial, kind: MaterialDescription["kind"]): void {
   const defines = material.defines ?? {};
-  if (isPhysical === (physicalDefine in defines)) return;
-  const others = Object.entries(defines).filter(([name]) => name !== physicalDefine && name !== srgbColorsDefine);
-  material.defines = { ...Object.fromEntries(others), ...(isPhysical && { [physicalDefine]: "", [srgbColorsDefine]: "" }) };
+  const wanted = kindDefines[kind];
+  if (allKindDefines.every((name) => wanted.includes(name) === name in defines)) return;
+  const others = Object.entries(defines).filter(([name]) => !allKindDefines.includes(name));
+  material.defines = { ...Object.fromEntries(others), ...Object.fromEntries(wanted.map((name) => [name, ""])) };
   material.needsUpdate = true;
 }
 

@@ -9,6 +9,7 @@ import type {
   LevelsDescription, LightDescription, NodeDescription, Rotation, SceneDescription, ShapeDescription, TransformDescription, Vec3,
 } from "../document/description.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
+import { noAttenuations } from "./lightFalloff.ts";
 import { setColor } from "./materials.ts";
 
 export interface BuiltGraph {
@@ -20,6 +21,8 @@ export interface BuiltGraph {
   /** In document order. */
   readonly viewpoints: readonly PlacedViewpoint[];
   readonly levels: readonly PlacedLevels[];
+  /** Of the lights that have a place, by the number in their `decay`: see lightFalloff.ts. */
+  readonly attenuations: Vector3[];
 }
 
 /** A LOD in one of its places. */
@@ -40,9 +43,26 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
   const levels: PlacedLevels[] = [];
   const root = new Group();
   const ambient = new Color(0, 0, 0);
+  const attenuations = noAttenuations();
   hang(scene.root, root, new Matrix4(), true, true);
   if (ambient.r + ambient.g + ambient.b > 0) root.add(new AmbientLight(ambient));
-  return { root, box, bounded, viewpoints, levels };
+  return { root, box, bounded, viewpoints, levels, attenuations };
+
+  function hangLight(description: LightDescription, sceneFromLight: Matrix4): void {
+    const light = lightOf(description);
+    setColor(light.color, description.color);
+    if (!(light instanceof DirectionalLight) && description.kind !== "directional") {
+      light.decay = attenuations.length;
+      attenuations.push(new Vector3(...description.attenuation));
+    }
+    const place = new Group();
+    place.matrixAutoUpdate = false;
+    place.matrix.copy(sceneFromLight);
+    place.add(light);
+    if (!(light instanceof PointLight)) place.add(light.target);
+    root.add(place);
+    ambient.add(light.color.clone().multiplyScalar(description.ambientIntensity));
+  }
 
   function reachTo(reached: Box3): void {
     if (isDrawable(reached)) box.union(reached);
@@ -52,7 +72,8 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
   function hang(node: NodeDescription, parent: Group, sceneFromParent: Matrix4, isSeen: boolean, counts: boolean): void {
     switch (node.kind) {
       case "light":
-        if (node.light.on) hangLight(node.light, parent, ambient);
+        // Not into its group: that is passed over when it is out of the view, and shines on.
+        if (node.light.on && isSeen) hangLight(node.light, sceneFromParent);
         return;
       case "viewpoint":
         viewpoints.push({ element: node.element, viewpoint: node.viewpoint, sceneFromViewpoint: sceneFromParent });
@@ -95,14 +116,6 @@ function boxIn(sceneFromBox: Matrix4, { min, max }: { min: Vec3; max: Vec3 }): B
   return new Box3(new Vector3(...min), new Vector3(...max)).applyMatrix4(sceneFromBox);
 }
 
-function hangLight(description: LightDescription, parent: Group, ambient: Color): void {
-  const light = lightOf(description);
-  setColor(light.color, description.color);
-  parent.add(light);
-  if (!(light instanceof PointLight)) parent.add(light.target);
-  ambient.add(light.color.clone().multiplyScalar(description.ambientIntensity));
-}
-
 function lightOf(description: LightDescription): DirectionalLight | PointLight | SpotLight {
   if (description.kind === "directional") {
     const light = new DirectionalLight();
@@ -114,24 +127,14 @@ function lightOf(description: LightDescription): DirectionalLight | PointLight |
   }
   const light = description.kind === "point" ? new PointLight() : new SpotLight();
   light.position.set(...description.location);
-  setFalloff(light, description);
+  light.intensity = description.intensity;
+  light.distance = description.radius;
   if (light instanceof SpotLight && description.kind === "spot") {
     light.target.position.copy(light.position).add(new Vector3(...description.direction));
     light.angle = Math.min(description.cutOffAngle, Math.PI / 2);
     light.penumbra = 1 - Math.min(description.beamWidth / description.cutOffAngle, 1);
   }
   return light;
-}
-
-/**
- * X3D divides by a + b d + c d², three by a power of d: it gets the last of the
- * three that counts. Beyond `radius` there is no light; three fades towards it.
- */
-function setFalloff(light: PointLight | SpotLight, { attenuation, radius, intensity }: { attenuation: Vec3; radius: number; intensity: number }): void {
-  const power = attenuation[2] > 0 ? 2 : attenuation[1] > 0 ? 1 : 0;
-  light.decay = power;
-  light.intensity = power === 0 ? intensity / Math.max(attenuation[0], 1) : intensity / attenuation[power];
-  light.distance = radius;
 }
 
 /** X3D Transform: T C R SR S -SR -C (ISO/IEC 19775-1, 10.4.4). */

@@ -1,17 +1,19 @@
 // Draws a described scene into a canvas, and only when something changed.
 
 import type { Object3D, Sphere } from "three";
-import { Color, DirectionalLight, Group, LinearSRGBColorSpace, LinearToneMapping, Matrix4, NoToneMapping, PerspectiveCamera, Scene, Vector2, WebGLRenderer } from "three";
+import { Color, DirectionalLight, Group, LinearSRGBColorSpace, LinearToneMapping, Matrix4, Mesh, NoToneMapping, PerspectiveCamera, Scene, Vector2, WebGLRenderer } from "three";
 import type { DecodedImage } from "../decode/image.ts";
 import type { ArrayUse, ElementArray, Stage } from "../decode/stage.ts";
-import type { GeometryDescription, SamplingDescription, SceneDescription, TextureRole } from "../document/description.ts";
+import type { GeometryDescription, SamplingDescription, SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { applyPose } from "../navigation/camera.ts";
+import { backdropOf, disposeBackdrop } from "./backdrop.ts";
 import { Batches } from "./batches/batches.ts";
 import type { BufferUpload } from "./buffers.ts";
 import { BufferStore } from "./buffers.ts";
+import { noAttenuations } from "./lightFalloff.ts";
 import type { SceneUniforms } from "./look.ts";
-import { setColor, x3dLook } from "./materials.ts";
+import { x3dLook } from "./materials.ts";
 import { Pace } from "./pace.ts";
 import type { Hit } from "./picking.ts";
 import type { BuiltScene } from "./sceneShapes.ts";
@@ -60,7 +62,7 @@ export class SceneRenderer {
   /** As it stood for the last frame. */
   readonly #drawnCamera = new PerspectiveCamera();
   readonly #headlight = new DirectionalLight();
-  readonly #shared: SceneUniforms = { pixelRatio: { value: 1 }, depthRange: { value: new Vector2() } };
+  readonly #shared: SceneUniforms = { pixelRatio: { value: 1 }, depthRange: { value: new Vector2() }, attenuations: { value: noAttenuations() } };
   readonly #textures = new TextureStore();
   readonly #buffers: BufferStore;
   readonly #shapes: SceneShapes;
@@ -69,6 +71,7 @@ export class SceneRenderer {
   readonly #picker: ScreenPicker;
   readonly #surveyor: Surveyor;
   readonly #pace: Pace;
+  #backdrop: Mesh | undefined;
   #size = { width: 0, height: 0 };
   #frames = 0;
   #drawCalls = 0;
@@ -144,16 +147,19 @@ export class SceneRenderer {
   setScene(description: SceneDescription): BuiltScene {
     const built = this.#shapes.setScene(description);
     this.#headlight.visible = description.navigation.headlight;
-    const { skyColor } = description;
-    // Of the scene, not the renderer's clear colour: that one is lost with the context.
-    this.#scene.background = null;
-    if (skyColor !== undefined) {
-      this.#scene.background = new Color();
-      setColor(this.#scene.background, skyColor);
-    }
+    this.#setBackdrop(description.background && backdropOf(description.background));
     this.#compileAhead(description);
     this.requestFrame();
     return built;
+  }
+
+  #setBackdrop(backdrop: Color | Mesh | undefined): void {
+    if (this.#backdrop) disposeBackdrop(this.#backdrop);
+    this.#backdrop?.removeFromParent();
+    this.#backdrop = backdrop instanceof Mesh ? backdrop : undefined;
+    if (this.#backdrop) this.#scene.add(this.#backdrop);
+    // A colour is the scene's, not the renderer's to clear with: that one is lost with the context.
+    this.#scene.background = backdrop instanceof Color ? backdrop : null;
   }
 
   /** Texels of the longest edge that a texture may have. */
@@ -194,8 +200,8 @@ export class SceneRenderer {
   }
 
   /** Lays a picture over a shape; undefined: none. */
-  setPicture(element: SceneElement, role: TextureRole, picture: Picture | undefined): void {
-    this.#shapes.setPicture(element, role, picture && { texture: this.#textures.textureOf(picture.image), hasAlpha: picture.hasAlpha });
+  setPicture(element: SceneElement, picture: Picture | undefined): void {
+    this.#shapes.setPicture(element, picture && { texture: this.#textures.textureOf(picture.image), hasAlpha: picture.hasAlpha });
     this.requestFrame();
   }
 
@@ -254,6 +260,7 @@ export class SceneRenderer {
     this.#shapes.dispose();
     this.#picker.dispose();
     this.#surveyor.dispose();
+    this.#setBackdrop(undefined);
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
   }

@@ -4,7 +4,7 @@
 import type { Camera, Object3D, Sphere } from "three";
 import { Box3, Frustum, Group, Matrix4, Vector3 } from "three";
 import type { Bounds, Stage } from "../decode/stage.ts";
-import type { GeometryDescription, SceneDescription, ShapeDescription, TextureRole } from "../document/description.ts";
+import type { GeometryDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
@@ -79,7 +79,7 @@ export class SceneShapes {
       this.#shapes.delete(element);
     }
     const places = new Map<SceneElement, number>();
-    const { root, box, bounded, viewpoints, levels } = buildGraph(description, (shape) => {
+    const { root, box, bounded, viewpoints, levels, attenuations } = buildGraph(description, (shape) => {
       const place = places.get(shape.element) ?? 0;
       places.set(shape.element, place + 1);
       return this.#objectOf(shape).groupAt(place);
@@ -89,6 +89,7 @@ export class SceneShapes {
       object.keepPlaces(places.get(element) ?? 0);
       object.setShape(shape, shape.geometry ? drawingOf(shape.geometry) : "alone");
     }
+    this.#setting.shared.attenuations.value = attenuations;
     this.#root.removeFromParent();
     this.#root = root;
     this.#scene.add(root);
@@ -108,8 +109,8 @@ export class SceneShapes {
     if (object !== undefined && stage?.kind === "buffers" && stage.bounds !== undefined) this.#grow(object, stage.bounds);
   }
 
-  setPicture(element: SceneElement, role: TextureRole, picture: ShownPicture | undefined): void {
-    this.#shapes.get(element)?.setPicture(role, picture);
+  setPicture(element: SceneElement, picture: ShownPicture | undefined): void {
+    this.#shapes.get(element)?.setPicture(picture);
   }
 
   /** Takes away what a shape shows. */

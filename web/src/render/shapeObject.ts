@@ -3,7 +3,8 @@
 
 import { Group } from "three";
 import type { Bounds, Stage } from "../decode/stage.ts";
-import type { AppearanceDescription, GeometryDescription, PatchDescription, ShapeDescription, TextureRole } from "../document/description.ts";
+import type { AppearanceDescription, GeometryDescription, PatchDescription, ShapeDescription } from "../document/description.ts";
+import { asPoints } from "./asPoints.ts";
 import type { Batches } from "./batches/batches.ts";
 import { BatchedStage, mayBatch } from "./batches/batchedStage.ts";
 import type { DrawnAs } from "./batches/plan.ts";
@@ -18,6 +19,8 @@ import { makeColorMapUniforms, setColorMap } from "./valueColors.ts";
 export interface ShapeSetting extends Pick<PatchSetting, "look" | "geometries" | "buffers" | "textures" | "shared"> {
   /** Undefined: each shape is drawn alone. */
   readonly batches: Batches | undefined;
+  /** Of surfaces, whether their vertices are drawn instead; ShapeObject.redraw follows a change. */
+  readonly drawing: { asPoints: boolean };
 }
 
 /** In CSS pixels; GPUs draw none that are larger. */
@@ -37,7 +40,7 @@ export class ShapeObject {
   readonly #colorMap = makeColorMapUniforms();
   #appearance: AppearanceDescription;
   #drawnAs: DrawnAs = "alone";
-  readonly #pictures = new Map<TextureRole, ShownPicture>();
+  #picture: ShownPicture | undefined;
   #isPickable: boolean;
 
   constructor(setting: ShapeSetting, shape: ShapeDescription) {
@@ -95,9 +98,8 @@ export class ShapeObject {
   }
 
   /** What is laid over its surface, where it has texture coordinates; undefined: nothing. */
-  setPicture(role: TextureRole, picture: ShownPicture | undefined): void {
-    if (picture) this.#pictures.set(role, picture);
-    else this.#pictures.delete(role);
+  setPicture(picture: ShownPicture | undefined): void {
+    this.#picture = picture;
     this.#applyAppearance();
   }
 
@@ -111,7 +113,7 @@ export class ShapeObject {
 
   #applyAppearance(): void {
     for (const [place, shown] of this.#patches) {
-      if (this.#drawingOf(shown.stage) === shown.drawnAs) shown.draws.applyAppearance(this.#appearance, new Map(this.#pictures));
+      if (this.#drawingOf(shown.stage) === shown.drawnAs) shown.draws.applyAppearance(this.#appearance, this.#picture);
       else this.setStage(shown.geometry, place, shown.stage);
     }
   }
@@ -127,19 +129,21 @@ export class ShapeObject {
   }
 
   #show(geometry: GeometryDescription, patch: PatchDescription, stage: Stage): ShownPatch {
-    const { batches, ...setting } = this.#setting;
+    const { batches, drawing, ...setting } = this.#setting;
     const { batching } = setting.look;
     const drawnAs = this.#drawingOf(stage);
-    const patchSetting = { ...setting, geometry, patch, appearance: this.#appearance, colorMap: this.#colorMap, pictures: new Map(this.#pictures) };
-    const draws = batches === undefined || batching === undefined || drawnAs === "alone" ? drawStage(stage, patchSetting)
-      : new BatchedStage(stage, patchSetting, { batches, batching, isMerged: drawnAs === "merged" });
+    const drawn = drawing.asPoints ? asPoints(stage, patch.vertexCount) : stage;
+    const patchSetting = { ...setting, geometry, patch, appearance: this.#appearance, colorMap: this.#colorMap, picture: this.#picture };
+    const draws = batches === undefined || batching === undefined || drawnAs === "alone" ? drawStage(drawn, patchSetting)
+      : new BatchedStage(drawn, patchSetting, { batches, batching, isMerged: drawnAs === "merged" });
     for (const group of this.#groups) draws.hang(group);
     return { geometry, stage, drawnAs, draws };
   }
 
   #drawingOf(stage: Stage): DrawnAs {
-    const { look: { batching } } = this.#setting;
-    return batching !== undefined && mayBatch(stage, this.#appearance, this.#pictures, batching) ? this.#drawnAs : "alone";
+    const { look: { batching }, drawing } = this.#setting;
+    if (drawing.asPoints) return "alone";
+    return batching !== undefined && mayBatch(stage, this.#appearance, this.#picture, batching) ? this.#drawnAs : "alone";
   }
 
   /** Every draw in every place, with the number of its patch. */
@@ -149,10 +153,14 @@ export class ShapeObject {
     }
   }
 
+  /** Everything anew, as the setting now says. */
+  redraw(): void {
+    for (const [place, { geometry, stage }] of Array.from(this.#patches)) this.setStage(geometry, place, stage);
+  }
+
   clear(): void {
     for (const { draws } of this.#patches.values()) draws.dispose();
     this.#patches.clear();
-    this.#pictures.clear();
   }
 
   dispose(): void {

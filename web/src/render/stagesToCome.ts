@@ -11,7 +11,6 @@ import { mayBatch } from "./batches/batchedStage.ts";
 import { planOf } from "./batches/plan.ts";
 import { objectOf } from "./drawnObject.ts";
 import type { Look, SceneUniforms, ShownPicture } from "./look.ts";
-import { noPictures } from "./look.ts";
 import { materialRequestOf } from "./stageDraws.ts";
 
 const nowhere: TexelRange = { image: { width: 1, height: 1, close: () => undefined }, first: 0 };
@@ -28,16 +27,15 @@ export function objectsToCome(scene: SceneDescription, look: Look, shared: Scene
   const drawingOf = planOf(places);
   for (const { geometry: described, appearance, visible } of places) {
     if (described === undefined || !visible) continue;
-    const { textures, material: { kind, transparency }, alpha } = appearance;
-    const pictures = new Map(textures.map(({ role }) => [role, noPicture]));
-    for (const stage of stagesToCome(described, textures.length > 0)) {
+    const { texture, material: { kind, transparency }, alpha } = appearance;
+    for (const stage of stagesToCome(described, texture !== undefined)) {
       for (const range of stage.draws) {
-        const laid = stage.texCoord !== undefined ? pictures : noPictures;
-        const isBatched = drawingOf(described) !== "alone" && look.batching !== undefined && mayBatch(stage, appearance, laid, look.batching);
+        const picture = texture && stage.texCoord !== undefined ? noPicture : undefined;
+        const isBatched = drawingOf(described) !== "alone" && look.batching !== undefined && mayBatch(stage, appearance, picture, look.batching);
         const request = materialRequestOf(stage, range, described, {}, shared, isBatched);
-        const key = JSON.stringify([{ ...request, shared: undefined }, kind, transparency > 0, alpha, ...laid.keys()]);
+        const key = JSON.stringify([{ ...request, shared: undefined }, kind, transparency > 0, alpha, picture !== undefined]);
         if (objects.has(key)) continue;
-        objects.set(key, objectOf(range, geometry, look.makeMaterial(request, appearance, laid)));
+        objects.set(key, objectOf(range, geometry, look.makeMaterial(request, appearance, picture)));
       }
     }
   }

@@ -1,0 +1,56 @@
+// A piece as a museum shows it (paper, figure 12): notes that stand where they
+// speak of, and points or triangles by a key.
+
+import assert from "node:assert/strict";
+import { cpSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { museumPage } from "../../examples/museum/page.ts";
+import { assertSamePicture, difference } from "./compare.ts";
+import { focusView } from "./gestures.ts";
+import { until, withPage } from "./harness.ts";
+import { heard, listen } from "./heard.ts";
+import { repository } from "./paths.ts";
+import { siteOfGenerated, variantOf } from "./sites.ts";
+
+test("a museum's piece has notes that can be read from everywhere, shows its points, and stays still for who wants that", async () => {
+  const notes = [
+    { name: "Front", text: "Its face.", position: [0, 0, 1.2], normal: [0, 0, 1] },
+    { name: "Back", text: "Its other side.", position: [0, 0, -1.2], normal: [0, 0, -1] },
+  ] as const;
+  const site = variantOf(siteOfGenerated("sphere"), "museum", (page) => museumPage(page, "A ball", "Turn it.", notes));
+  cpSync(join(repository, "examples/museum/museum.css"), join(site, "museum.css"));
+  await withPage(site, { before: listen }, async (view) => {
+    const { page } = view;
+    await view.promise("complete");
+    const opacityOf = (name: string): Promise<string> => page.evaluate((wanted) => {
+      const note = Array.from(document.querySelectorAll<HTMLElement>(".note")).find(({ textContent }) => textContent === wanted);
+      return getComputedStyle(note!).opacity;
+    }, name);
+    await until("the note of the far side has faded", async () => await opacityOf("Front") === "1" && await opacityOf("Back") === "0.25");
+
+    await focusView(view);
+    const focused = async (): Promise<string | undefined> => {
+      await page.keyboard.press("Tab");
+      return page.evaluate(() => document.activeElement?.textContent);
+    };
+    assert.deepEqual([await focused(), await focused()], ["Front", "Back"]); // also the one that has faded
+    await page.keyboard.press("Enter");
+    assert.ok(await page.getByText("Its other side.").isVisible());
+    await page.keyboard.press("Escape");
+    assert.ok(!(await page.getByText("Its other side.").isVisible()));
+
+    await page.evaluate(() => { document.querySelector("x3d")!.setAttribute("camera-orbit", "180deg 90deg auto"); });
+    await until("the other note has faded", async () => await opacityOf("Front") === "0.25" && await opacityOf("Back") === "1");
+
+    await page.evaluate(() => { document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.focus(); });
+    const surface = await view.picture();
+    await page.keyboard.press("p");
+    assert.equal(await page.evaluate(() => document.querySelector("x3d")!.getAttribute("draw-as")), "points");
+    const { offShare } = difference(surface, await view.picture());
+    assert.ok(offShare > 0.02, `points and surface differ in ${offShare} of all pixels`);
+    await page.keyboard.press("p");
+    assertSamePicture("a surface again", await view.picture(), surface, { mean: 0.001 });
+    assert.ok((await heard(view, "camera-change")).every(({ detail }) => detail.source !== "automatic"), "it turns for who wants less motion");
+  });
+});

@@ -1,0 +1,30 @@
+// Where our picture differs from another runtime's, and why.
+
+/** Pictures whose channels differ by no more than this on average, of 255, are the same. */
+export const sameMean = 1;
+
+const otherDiagonal = "X3D leaves open along which diagonal a quad is split; X_ITE takes the other. X3DOM's npm package does not have the node";
+const noFans = "X3DOM's npm package does not draw it";
+const withoutPi = "a light of intensity 1 makes a white surface that faces it white, as with `Material`; X_ITE divides by π. X3DOM does not know the node";
+
+export const explanations: Readonly<Record<string, string>> = {
+  "DirectionalLight-of-its-group": "our lights, and X3DOM's, shine on everything, whatever their `global`",
+  "ElevationGrid": otherDiagonal,
+  "ElevationGrid-ccw": otherDiagonal,
+  "ElevationGrid-colorPerFace": otherDiagonal,
+  "ElevationGrid-creaseAngle": otherDiagonal,
+  "ElevationGrid-texture": otherDiagonal,
+  "Extrusion": "X3DOM's npm package does not have the node",
+  "ImageTexture-colored-material": "a texture is multiplied by the diffuse colour (X3D 4); in X3DOM it stands in for it",
+  "IndexedFaceSet-creaseAngle-between": "edges of up to `creaseAngle` are smooth, others sharp; X3DOM makes all of them smooth",
+  "IndexedTriangleFanSet": noFans,
+  "IndexedTriangleStripSet": "X3DOM does not share normals between strips",
+  "PhysicalMaterial-metallic-0-roughness-0.3": withoutPi,
+  "PhysicalMaterial-metallic-0-roughness-1": withoutPi,
+  "PhysicalMaterial-metallic-1-roughness-0.4": `${withoutPi}. Metal mirrors a grey room, X_ITE's nothing`,
+  "TextureTransform": "textures seen small are filtered otherwise",
+  "Transform-mirror": "a mirror turns triangles round; X3DOM shows their backs",
+  "TriangleFanSet": noFans,
+  "TriangleStripSet": noFans,
+  "UnlitMaterial": "X3DOM does not know the node",
+};

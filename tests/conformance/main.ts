@@ -1,0 +1,109 @@
+// Shows each document of nodes/ in our runtime, in X_ITE and in X3DOM, in the same
+// browser, and compares what is seen. Writes docs/conformance.md and its picture;
+// fails where ours differs from both and nothing in explanations.ts says why.
+//
+//   scripts/conformance [NAME…]      only those documents; pictures go to build/conformance alone
+//   scripts/conformance --check      all of them, the same
+
+import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import type { Browser, Page } from "playwright-core";
+import { launchChromium } from "../browser/chromium.ts";
+import { difference } from "../browser/compare.ts";
+import { repository } from "../browser/paths.ts";
+import { decodePng, encodePng } from "../browser/png.ts";
+import { startServer, type TestServer } from "../browser/server.ts";
+import { explanations, sameMean } from "./explanations.ts";
+import type { Runtime } from "./rivals.ts";
+import { pageOf, runtimes, serveRuntimes, size } from "./rivals.ts";
+import type { Row } from "./sheet.ts";
+import { contactSheet } from "./sheet.ts";
+
+const here = import.meta.dirname;
+const output = join(repository, "build/conformance");
+const table = join(repository, "docs/conformance.md");
+const picture = join(repository, "docs/images/conformance.png");
+
+/** Waits until what is seen has not changed for three pictures in a row. */
+async function stillPicture(page: Page): Promise<Buffer> {
+  let last: Buffer = Buffer.alloc(0);
+  let same = 0;
+  for (const end = Date.now() + 20_000; same < 3 && Date.now() < end;) {
+    await page.waitForTimeout(150);
+    const next = await page.screenshot();
+    same = next.equals(last) ? same + 1 : 0;
+    last = next;
+  }
+  return last;
+}
+
+async function show(page: Page, server: TestServer, runtime: Runtime, name: string): Promise<Buffer> {
+  const scene = readFileSync(join(here, "nodes", `${name}.x3d`), "utf8");
+  const address = `nodes/${runtime}-${name}.html`;
+  server.put(`/${address}`, pageOf(runtime, `/nodes/${name}.x3d`, scene));
+  await page.goto(server.origin + address);
+  if (runtime === "imgeo") await page.waitForFunction(() => (document.querySelector("x3d") as { complete?: unknown } | null)?.complete !== undefined);
+  return stillPicture(page);
+}
+
+async function showAll(browser: Browser, names: readonly string[]): Promise<Row[]> {
+  const server = await startServer(here);
+  await serveRuntimes(server);
+  const rows: Row[] = [];
+  try {
+    for (const name of names) {
+      const pictures: Partial<Record<Runtime, Buffer>> = {};
+      for (const runtime of runtimes) {
+        const page = await browser.newPage({ viewport: size, reducedMotion: "reduce" });
+        pictures[runtime] = await show(page, server, runtime, name);
+        await page.close();
+        writeFileSync(join(output, `${name}-${runtime}.png`), encodePng(decodePng(pictures[runtime])));
+      }
+      rows.push({ name, pictures: pictures as Row["pictures"] });
+      process.stderr.write(`${name}\n`);
+    }
+  } finally {
+    await server.close();
+  }
+  return rows;
+}
+
+/** Mean difference of a colour channel, 0 … 255, between our picture and another's. */
+function meanTo(row: Row, rival: Runtime): number {
+  return difference(decodePng(row.pictures.imgeo), decodePng(row.pictures[rival])).mean;
+}
+
+function lineOf(row: Row): { text: string; isExplained: boolean } {
+  const means = runtimes.slice(1).map((rival) => meanTo(row, rival));
+  const why = explanations[row.name] ?? "";
+  return {
+    text: `| ${row.name} | ${means.map((mean) => mean.toFixed(2)).join(" | ")} | ${why} |`,
+    isExplained: why !== "" || means.every((mean) => mean <= sameMean),
+  };
+}
+
+const words = process.argv.slice(2);
+const wanted = words.filter((word) => word !== "--check");
+const all = readdirSync(join(here, "nodes")).map((file) => file.replace(/\.x3d$/, "")).sort();
+const names = wanted.length > 0 ? all.filter((name) => wanted.includes(name)) : all;
+mkdirSync(output, { recursive: true });
+const browser = await launchChromium();
+try {
+  const rows = await showAll(browser, names);
+  const sheet = await contactSheet(browser, rows);
+  const lines = rows.map(lineOf);
+  writeFileSync(join(output, "sheet.png"), sheet);
+  console.log(lines.map(({ text }) => text).join("\n"));
+  if (words.length === 0) {
+    writeFileSync(picture, sheet);
+    const head = readFileSync(table, "utf8").split(/^\| document/m)[0] ?? "";
+    writeFileSync(table, `${head}| document | X_ITE | X3DOM | where ours differs |\n|---|--:|--:|---|\n${lines.map(({ text }) => text).join("\n")}\n`);
+  }
+  const open = rows.filter((_, i) => lines[i]?.isExplained === false).map(({ name }) => name);
+  if (open.length > 0) {
+    console.error(`differ without an explanation: ${open.join(", ")}`);
+    process.exitCode = 1;
+  }
+} finally {
+  await browser.close();
+}

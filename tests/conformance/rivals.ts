@@ -1,0 +1,55 @@
+// The three runtimes that show a document: ours, X_ITE and X3DOM, each as a page
+// that a server serves beside the document.
+
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { build } from "esbuild";
+import { runtimeBundle } from "../../web/bundle.ts";
+import { repository } from "../browser/paths.ts";
+import type { TestServer } from "../browser/server.ts";
+
+export const runtimes = ["imgeo", "X_ITE", "X3DOM"] as const;
+export type Runtime = (typeof runtimes)[number];
+
+/** Of a picture, in CSS pixels. */
+export const size = { width: 320, height: 240 };
+
+const fill = "margin: 0; border: 0; padding: 0; display: block; width: 100vw; height: 100vh";
+
+/** Puts what the pages need on the server. */
+export async function serveRuntimes(server: TestServer): Promise<void> {
+  server.contentPolicy = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
+  const bundle = await build({ ...runtimeBundle, write: false });
+  server.put("/imgeo.js", Buffer.from(bundle.outputFiles[0]?.contents ?? []));
+  const of = (path: string): Buffer => readFileSync(join(repository, "node_modules", path));
+  server.put("/x_ite.js", of("x_ite/dist/x_ite.min.js"));
+  for (const file of ["x_ite.css", "assets/lib/mikktspace_bg.wasm"]) server.put(`/${file}`, of(`x_ite/dist/${file}`));
+  server.put("/x3dom.js", of("x3dom-1.8/x3dom.js"));
+  server.put("/x3dom.css", of("x3dom-1.8/x3dom.css"));
+}
+
+/** The page in which a runtime shows the document of that path. */
+export function pageOf(runtime: Runtime, path: string, document: string): string {
+  const scene = asHtml(document);
+  switch (runtime) {
+    case "imgeo":
+      return html(`<script type="module" src="/imgeo.js"></script>`, scene.replace("<X3D", `<X3D style="${fill}"`));
+    case "X_ITE":
+      return html(`<script src="/x_ite.js"></script>`,
+        `<x3d-canvas src="${path}" style="${fill}" splashScreen="false" notifications="false" contextMenu="false" update="auto"></x3d-canvas>`);
+    case "X3DOM":
+      return html(`<script src="/x3dom.js"></script><link rel="stylesheet" href="/x3dom.css">`,
+        scene.replace("<X3D", `<X3D style="${fill}" width="${size.width}px" height="${size.height}px" showStat="false" showLog="false"`)
+          // Its light would add up in linear numbers otherwise, which X3D 4 asks of PhysicalMaterial alone.
+          .replace("<Scene>", '<Scene><Environment gammaCorrectionDefault="none"></Environment>'));
+  }
+}
+
+function html(head: string, body: string): string {
+  return `<!doctype html><html><head><meta charset="utf-8"><style>html, body { margin: 0; overflow: hidden }</style>${head}</head><body>${body}</body></html>`;
+}
+
+/** In HTML no element of X3D is empty. */
+function asHtml(document: string): string {
+  return document.replace(/<\?xml[^>]*\?>\s*/, "").replace(/<(\w+)([^<>]*?)\/>/g, "<$1$2></$1>");
+}
