@@ -112,7 +112,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.#pictures = new TextureDeliveries(pool);
     this.#textures = textures;
     const { root, box } = this.#build({
-      look: appLook(makeMaterial, surroundingsOf(this)), geometries: new GeometryPool(buffers), buffers, textures, batches: undefined,
+      look: appLook(makeMaterial, surroundingsOf(this)), geometries: new GeometryPool(buffers), buffers, textures, batches: undefined, drawing: { asPoints: false },
       shared: { pixelRatio: { value: 1 }, depthRange: { value: new Vector2() }, attenuations: { value: noAttenuations() } },
     });
     this.box = box;

@@ -89,7 +89,7 @@ export class SceneRenderer {
     const geometries = new GeometryPool(this.#buffers);
     this.#shapes = new SceneShapes(this.#scene, {
       look: x3dLook, geometries, buffers: this.#buffers, textures: this.#textures, shared: this.#shared,
-      batches: new Batches(x3dLook, geometries, this.#buffers),
+      batches: new Batches(x3dLook, geometries, this.#buffers), drawing: { asPoints: false },
     });
     this.#pace = new Pace(context);
     this.#picker = new ScreenPicker(this.#renderer, this.#drawnCamera, () => this.#shapes.pickCandidates());
@@ -241,6 +241,12 @@ export class SceneRenderer {
   setExposure(exposure: number): void {
     this.#renderer.toneMapping = exposure === 1 ? NoToneMapping : LinearToneMapping;
     this.#renderer.toneMappingExposure = exposure;
+    this.requestFrame();
+  }
+
+  /** Shows surfaces as they are, or their vertices. */
+  drawAsPoints(asPoints: boolean): void {
+    this.#shapes.drawAsPoints(asPoints);
     this.requestFrame();
   }
 

@@ -113,6 +113,13 @@ export class SceneShapes {
     this.#shapes.get(element)?.setPicture(picture);
   }
 
+  /** Surfaces as they are, or their vertices. */
+  drawAsPoints(asPoints: boolean): void {
+    if (asPoints === this.#setting.drawing.asPoints) return;
+    this.#setting.drawing.asPoints = asPoints;
+    for (const object of this.#shapes.values()) object.redraw();
+  }
+
   /** Takes away what a shape shows. */
   clearShape(element: SceneElement): void {
     this.#shapes.get(element)?.clear();
