@@ -2,7 +2,7 @@
 // compiled while the first files are on their way: a driver takes a good part of a
 // second for them, and a page that draws with a program that is not ready waits.
 
-import { BufferGeometry, type Object3D, Texture } from "three";
+import { BufferAttribute, BufferGeometry, type Object3D, Texture } from "three";
 import type { BufferStage, DrawRange, Stage, StoredVertices, TexelRange, TextureStage } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription, SceneDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
@@ -22,7 +22,10 @@ const noPicture: ShownPicture = { texture: new Texture(), hasAlpha: false };
  */
 export function objectsToCome(scene: SceneDescription, look: Look, shared: SceneUniforms): Map<string, Object3D> {
   const objects = new Map<string, Object3D>();
-  const geometry = new BufferGeometry();
+  const bare = new BufferGeometry();
+  // Programs differ by what is in buffers.
+  const one = new BufferAttribute(new Int8Array(3), 3);
+  const inBuffers = new BufferGeometry().setAttribute("position", one).setAttribute("normal", one);
   const places = shapesOf(scene.root);
   const drawingOf = planOf(places);
   for (const { geometry: described, appearance, visible } of places) {
@@ -35,6 +38,7 @@ export function objectsToCome(scene: SceneDescription, look: Look, shared: Scene
         const request = materialRequestOf(stage, range, described, {}, shared, isBatched);
         const key = JSON.stringify([{ ...request, shared: undefined }, kind, transparency > 0, alpha, picture !== undefined]);
         if (objects.has(key)) continue;
+        const geometry = stage.kind === "buffers" ? inBuffers : bare;
         objects.set(key, objectOf(range, geometry, look.makeMaterial(request, appearance, picture)));
       }
     }
