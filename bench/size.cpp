@@ -29,19 +29,18 @@ struct Site {
   std::size_t triangles = 0;
 };
 
-/// What each stream of a patch's file takes.
+/// What each stream of a file of patches takes.
 void addStreams(const fs::path& file, Site& site) {
   const Bytes png = readFile(file), payload = compact::payloadOfImage(png, file);
-  const compact::Header header = compact::readHeader(payload, 0, file).header;
-  auto length = header.streamLengths.begin();
-  if (header.hasConnectivity())
-    site.streams["connectivity"] += *length++;
-  site.streams["positions"] += *length++;
-  if (header.hasSeams())
-    site.streams["seams"] += *length++;
-  for (const compact::AttributeType& type : header.attributes) {
-    constexpr const char* names[] = {"normals", "texCoords", "colors", "other"};
-    site.streams[names[static_cast<std::size_t>(type.kind)]] += *length++;
+  const compact::FileHeader header = compact::readHeader(payload, file).header;
+  constexpr const char* names[] = {"sizes", "connectivity", "parts", "positions", "seams"};
+  constexpr const char* attributes[] = {"normals", "texCoords", "colors", "other"};
+  for (std::size_t i = 0; i < header.streamLengths.size(); ++i) {
+    const bool isAttribute = i >= std::size(names);
+    const char* name =
+        isAttribute ? attributes[static_cast<std::size_t>(header.attributes[i - std::size(names)].kind)]
+                    : names[i];
+    site.streams[name] += header.streamLengths[i];
   }
   site.files += png.size();
 }

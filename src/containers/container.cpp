@@ -87,17 +87,31 @@ EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& g
                                               : encodeBg(patch, geometry, options.layout);
 }
 
-IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescription& geometry,
-                         const FetchFile& fetch) {
+ContainerReader::ContainerReader(FetchFile fetch)
+    : fetch_(std::move(fetch)), compact_(std::make_unique<CompactFiles>(fetch_)) {}
+
+ContainerReader::~ContainerReader() = default;
+
+IndexedPatch ContainerReader::decode(const PatchDescription& patch,
+                                     const GeometryDescription& geometry) const {
   if (geometry.container == Container::bg)
-    return decodeBg(patch, geometry, fetch);
-  return geometry.profile == Profile::classic ? decodeClassic(patch, geometry, fetch)
-                                              : decodeCompact(patch, geometry, fetch);
+    return decodeBg(patch, geometry, fetch_);
+  return geometry.profile == Profile::classic ? decodeClassic(patch, geometry, fetch_)
+                                              : compact_->decode(patch, geometry);
 }
 
-StoredPrecision precisionOf(const GeometryDescription& geometry, const FetchFile& fetch) {
+BaseMesh ContainerReader::decodeBase(const GeometryDescription& geometry) const {
+  return compact_->decodeBase(geometry);
+}
+
+IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescription& geometry,
+                         const FetchFile& fetch) {
+  return ContainerReader(fetch).decode(patch, geometry);
+}
+
+StoredPrecision ContainerReader::precisionOf(const GeometryDescription& geometry) const {
   if (geometry.profile == Profile::compact)
-    return geometry.patches.empty() ? StoredPrecision{} : precisionOfCompact(geometry.patches[0], fetch);
+    return geometry.patches.empty() ? StoredPrecision{} : compact_->precisionOf(geometry.patches[0]);
   const bool isBg = geometry.container == Container::bg;
   const auto bits = [&](auto reference, ElementType type, std::uint32_t inImages) {
     const bool isThere = std::ranges::any_of(

@@ -4,8 +4,10 @@
 
 #include "base/bytes.h"
 #include "containers/geometry.h"
+#include "prepare/base_mesh.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,20 +59,14 @@ struct EncodedPatch {
 /// yet). Throws Error{unsupported} for texture coordinates that X3DOM cannot hold.
 GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& options);
 
-/// Encodes a patch by the node's fields, of SIG and BG. Deterministic. `patch` is one of the
-/// mesh that was described, and has no NaN. Compact: see encodeCompact. Throws Error{limit} for a patch that
-/// draws more than an image holds.
+/// Encodes a patch by the node's fields, of SIG classic and BG. Deterministic. `patch` is one of
+/// the mesh that was described, and has no NaN. Compact: see encodeCompact. Throws Error{limit} for
+/// a patch that draws more than an image holds.
 EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry,
                          const EncodeOptions& options);
 
 /// Gives the bytes of a url; throws Error{io} where there are none.
 using FetchFile = std::function<Bytes(const std::string& url)>;
-
-/// Decodes a patch. Safe for untrusted bytes: sizes and indices are checked
-/// against the description, and limits (containers/limits.h) bound every
-/// allocation. Throws Error naming the url. Normals come back unit length.
-IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescription& geometry,
-                         const FetchFile& fetch);
 
 /// Bits of a component of each attribute; 0 where there is none.
 struct StoredPrecision {
@@ -78,8 +74,34 @@ struct StoredPrecision {
   NormalEncoding normalEncoding = NormalEncoding::rgb;
 };
 
-/// What is stored of a geometry: its node says so, or in compact the header of its first
-/// patch. Safe for untrusted bytes.
-StoredPrecision precisionOf(const GeometryDescription& geometry, const FetchFile& fetch);
+class CompactFiles;
+
+/// Reads the containers of one site. A file that patches of compact share is decoded once,
+/// for patches that are asked for one after the other. Safe to call from any thread.
+class ContainerReader {
+public:
+  explicit ContainerReader(FetchFile fetch);
+  ~ContainerReader();
+
+  /// Decodes a patch. Safe for untrusted bytes: sizes and indices are checked
+  /// against the description, and limits (containers/limits.h) bound every
+  /// allocation. Throws Error naming the url. Normals come back unit length.
+  IndexedPatch decode(const PatchDescription& patch, const GeometryDescription& geometry) const;
+
+  /// Decodes a geometry's base, which it has. The same otherwise.
+  BaseMesh decodeBase(const GeometryDescription& geometry) const;
+
+  /// What is stored of a geometry: its node says so, or in compact the file of its first
+  /// patch. Safe for untrusted bytes.
+  StoredPrecision precisionOf(const GeometryDescription& geometry) const;
+
+private:
+  FetchFile fetch_;
+  std::unique_ptr<CompactFiles> compact_;
+};
+
+/// The same for one patch alone.
+IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescription& geometry,
+                         const FetchFile& fetch);
 
 } // namespace imgeo

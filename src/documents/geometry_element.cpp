@@ -2,7 +2,11 @@
 
 #include "containers/stored_coords.h"
 
+#include <algorithm>
 #include <cassert>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
 
 namespace imgeo {
 
@@ -19,10 +23,29 @@ std::string url(const Reference& reference, Container container) {
 
 } // namespace
 
-Attributes boxAttributes(const Box3d& box) {
+namespace {
+
+/// The nearest number with as few decimals as keep it off by less than a quarter of `step`.
+double shortened(double value, double step) {
+  const int decimals = static_cast<int>(std::ceil(-std::log10(step / 2)));
+  if (decimals < 0 || decimals > 17)
+    return value;
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value + 0.0; // no -0
+}
+
+} // namespace
+
+Attributes boxAttributes(const Box3d& box, const Lattice& lattice) {
   if (box.empty())
     return {};
-  return {{"bboxCenter", numbers(box.center())}, {"bboxSize", numbers(box.size())}};
+  const auto text = [&](Vec3d vector) {
+    for (int axis = 0; axis < 3; ++axis)
+      vector[axis] = shortened(vector[axis], lattice.step);
+    return numbers(vector);
+  };
+  return {{"bboxCenter", text(box.center())}, {"bboxSize", text(box.size())}};
 }
 
 std::string primTypes(const std::vector<Draw>& draws) {
@@ -39,13 +62,33 @@ std::string counts(const std::vector<Draw>& draws) {
   return text;
 }
 
+namespace {
+
+/// What compact says of a patch, but for its box.
+Attributes compactFields(const PatchDescription& patch) {
+  Attributes fields{{"recordCount", std::to_string(patch.vertexCount)}};
+  if (patch.draws !=
+      std::vector<Draw>{{Primitive::triangles, patch.draws.empty() ? 0 : patch.draws[0].count}})
+    fields.push_back({"primType", primTypes(patch.draws)});
+  fields.push_back({"vertexCount", counts(patch.draws)});
+  fields.push_back({"data", url(*patch.data, Container::sig)});
+  return fields;
+}
+
+} // namespace
+
+bool isOwnPatch(const GeometryDescription& geometry) {
+  return geometry.profile == Profile::compact && geometry.patches.size() == 1 && geometry.patches[0].data &&
+         geometry.patches[0].box == geometry.box;
+}
+
 Element patchElement(const PatchDescription& patch, const GeometryDescription& geometry) {
   const Container container = geometry.container;
   Attributes draws{{"recordCount", std::to_string(patch.vertexCount)},
                    {"primType", primTypes(patch.draws)},
                    {"vertexCount", counts(patch.draws)}};
   if (patch.data)
-    return {"GeometryPatch", {boxAttributes(patch.box), draws, {{"data", url(*patch.data, container)}}}};
+    return {"GeometryPatch", {boxAttributes(patch.box, geometry.lattice), compactFields(patch)}};
   if (container == Container::sig)
     draws.push_back({"implicitMeshSize", std::to_string(patch.implicitMeshSize.x) + " " +
                                              std::to_string(patch.implicitMeshSize.y)});
@@ -73,7 +116,7 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
       attributes.push_back(url(plane, container));
   if (!attributes.empty())
     references.push_back({"attrib", strings(attributes)});
-  return {"GeometryPatch", {boxAttributes(patch.box), draws, references}};
+  return {"GeometryPatch", {boxAttributes(patch.box, geometry.lattice), draws, references}};
 }
 
 const char* geometryNodeName(Container container) {
@@ -82,13 +125,15 @@ const char* geometryNodeName(Container container) {
 
 Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names) {
   const DecodeFields decode = decodeFields(geometry);
+  const bool isCompact = geometry.profile == Profile::compact;
   Attributes box{{"position", numbers(decode.position)}, {"size", numbers(decode.size)}};
-  if (geometry.container == Container::sig || geometry.coordType != ElementType::float32 ||
-      geometry.lattice.bits != sourceBits)
+  const bool hasDefaultBits = isCompact && geometry.lattice.bits == 16;
+  if (!hasDefaultBits && (geometry.container == Container::sig ||
+                          geometry.coordType != ElementType::float32 || geometry.lattice.bits != sourceBits))
     box.push_back({"positionBits", std::to_string(geometry.lattice.bits)});
   addUnless(box, "solid", solid, true, "false");
   Attributes stored;
-  if (geometry.profile == Profile::compact)
+  if (isCompact)
     stored = {{"profile", nameOf(geometry.profile)}};
   else if (geometry.container == Container::bg)
     stored = {{"indexType", nameOf(geometry.indexType)},
@@ -109,7 +154,15 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
   if (geometry.colorComponents == 4)
     stored.push_back(geometry.container == Container::bg ? Attribute{"rgbaColors", "true"}
                                                          : Attribute{"numColorComponents", "4"});
-  return {geometryNodeName(geometry.container), {names, box, stored}};
+  Element element{geometryNodeName(geometry.container), {names, box, stored}};
+  if (!isOwnPatch(geometry))
+    return element;
+  // In one line: indentation would be a tenth of what a small shape takes.
+  Attributes all;
+  for (Attributes& group : element.groups)
+    std::ranges::move(group, std::back_inserter(all));
+  std::ranges::move(compactFields(geometry.patches[0]), std::back_inserter(all));
+  return {element.name, {std::move(all)}};
 }
 
 Element attributeElement(const AttributeDescription& attribute, Container container) {

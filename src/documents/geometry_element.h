@@ -9,14 +9,21 @@
 
 namespace imgeo {
 
-Attributes boxAttributes(const Box3d& box);            ///< bboxCenter and bboxSize; none for an empty box
+/// bboxCenter and bboxSize, off by less than half a step of the lattice on which the
+/// vertices are: more digits tell nothing. None for an empty box.
+Attributes boxAttributes(const Box3d& box, const Lattice& lattice);
 std::string primTypes(const std::vector<Draw>& draws); ///< MFString
 std::string counts(const std::vector<Draw>& draws);    ///< MFInt32
+
+/// Whether the geometry's element says what there is to say of its only patch, whose box is
+/// the shape's.
+bool isOwnPatch(const GeometryDescription& geometry);
 
 /// The geometry's element without its patches. `names` is its DEF, if any.
 Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names);
 /// One further attribute of its vertices.
 Element attributeElement(const AttributeDescription& attribute, Container container);
+/// The element of a patch; not where the geometry's element is that of its only patch.
 Element patchElement(const PatchDescription& patch, const GeometryDescription& geometry);
 
 /// "ImageGeometry" or "BinaryGeometry".

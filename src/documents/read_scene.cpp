@@ -272,9 +272,11 @@ private:
         fields.node().children(), [](const auto& child) { return sameName(child.name(), "GeometryPatch"); });
     if (!hasPatches)
       geometry.patches[0].box = geometry.box;
+    // Only X3DOM's words for a patch are those of a shape.
+    const bool isWhole = hasPatches || geometry.profile == Profile::compact;
     document_.geometries.push_back(std::move(geometry));
     const std::string def = fields.text("DEF");
-    isJoinable_.push_back(!hasPatches && def.empty());
+    isJoinable_.push_back(!isWhole && def.empty());
     if (!def.empty())
       definedGeometries_[def] = read;
     return read;

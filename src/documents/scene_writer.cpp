@@ -261,18 +261,21 @@ void SceneWriter::writeGeometryOf(const Shape& shape) {
   if (isUse(names))
     return writer_.leaf({geometryNodeName(geometry.container), {names}});
   const Element node = geometryElement(geometry, shape.solid, names);
+  const bool hasPatchElements = !isOwnPatch(geometry);
+  if (geometry.attributes.empty() && !hasPatchElements)
+    return writer_.leaf(node);
   writer_.open(node);
   for (const AttributeDescription& attribute : geometry.attributes)
     writer_.leaf(attributeElement(attribute, geometry.container));
-  for (const PatchDescription& patch : geometry.patches)
-    writer_.leaf(patchElement(patch, geometry));
+  for (std::size_t i = 0; i < geometry.patches.size() && hasPatchElements; ++i)
+    writer_.leaf(patchElement(geometry.patches[i], geometry));
   writer_.close(node);
 }
 
 void SceneWriter::writeShape(const Node& node, const Attributes& names) {
   const Shape& shape = std::get<Shape>(node.content);
-  const Element element{"Shape",
-                        {names, furtherFields(node), boxAttributes(document_.geometries.at(shape.mesh).box)}};
+  const GeometryDescription& geometry = document_.geometries.at(shape.mesh);
+  const Element element{"Shape", {names, furtherFields(node), boxAttributes(geometry.box, geometry.lattice)}};
   writer_.open(element);
   writeParts(node);
   writeAppearanceOf(shape);

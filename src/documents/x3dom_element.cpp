@@ -43,7 +43,7 @@ private:
       if (look.empty())
         look = table_.take(names.empty() ? "look" : names[0].value + "-look");
     }
-    const Element group{"Group", {names, furtherFields(node), boxAttributes(geometry.box)}};
+    const Element group{"Group", {names, furtherFields(node), boxAttributes(geometry.box, geometry.lattice)}};
     writer_.open(group);
     writeExtras(node);
     for (const PatchDescription& patch : geometry.patches)
@@ -88,7 +88,7 @@ private:
     const bool isSig = geometry.container == Container::sig;
     if (isSig)
       names.push_back({"isPickable", "false"}); // the shader that picks images does not compile
-    const Element element{"Shape", {names, furtherFields(node), boxAttributes(patch.box)}};
+    const Element element{"Shape", {names, furtherFields(node), boxAttributes(patch.box, geometry.lattice)}};
     writer_.open(element);
     writeParts(node);
     writeAppearanceOf(shape, shines(patch));

@@ -5,6 +5,7 @@
 #include "containers/compact/base.h"
 #include "containers/compact/compact.h"
 #include "containers/normals.h"
+#include "containers/stored.h"
 #include "containers/stored_coords.h"
 #include "prepare/collapsed.h"
 #include "prepare/patches.h"
@@ -43,18 +44,40 @@ void nameReferences(PatchDescription& patch, const std::vector<std::string>& url
   });
 }
 
+ElementCounts drawnBy(const PatchDescription& patch) {
+  ElementCounts counts;
+  for (const Draw& draw : patch.draws)
+    counts += elementsOf(draw);
+  return counts;
+}
+
 struct EncodedElements {
   EncodedPatch patch;
   ElementCounts counts; ///< of what it draws
 };
 
+/// Of compact, in integers.
+compact::CompactPatch quantisedAs(Patch patch, const GeometryDescription& geometry,
+                                  const ConvertOptions& options, const EncodeOptions& encoding) {
+  if (options.primitives == Primitives::points)
+    patch.topology = Topology::points;
+  return quantisePatch(patch, geometry, encoding);
+}
+
+EncodedPatch encodeAlone(const compact::CompactPatch& patch, const GeometryDescription& geometry,
+                         int effort) {
+  EncodedCompact encoded = encodeCompact({&patch, 1}, effort);
+  EncodedPatch result{describe(patch, geometry), {}, encoded.normalErrors[0]};
+  result.description.data = addFile(result, std::move(encoded.file));
+  return result;
+}
+
 EncodedElements encodeElements(Patch patch, const GeometryDescription& geometry,
                                const ConvertOptions& options, const EncodeOptions& encoding) {
   EncodedElements encoded;
   if (geometry.profile == Profile::compact) {
-    if (options.primitives == Primitives::points)
-      patch.topology = Topology::points;
-    encoded.patch = encodeCompact(patch, geometry, encoding);
+    encoded.patch =
+        encodeAlone(quantisedAs(std::move(patch), geometry, options, encoding), geometry, encoding.effort);
   } else {
     const IndexedPatch indexed = primitivesOf(patch, options);
     // The joins of strips draw nothing, so strips are walked.
@@ -63,8 +86,7 @@ EncodedElements encodeElements(Patch patch, const GeometryDescription& geometry,
     encoded.patch = encodePatch(indexed, geometry, encoding);
   }
   if (encoded.counts.sum() == 0)
-    for (const Draw& draw : encoded.patch.description.draws)
-      encoded.counts += elementsOf(draw);
+    encoded.counts = drawnBy(encoded.patch.description);
   return encoded;
 }
 
@@ -83,6 +105,19 @@ std::string ContentFiles::write(ByteSpan bytes, const std::string& extension) {
   return url;
 }
 
+namespace {
+
+/// The only patch of a mesh, to be written with others.
+void addSmall(EncodedMesh& mesh, Patch patch, const ConvertOptions& options, const EncodeOptions& encoding) {
+  mesh.small = quantisedAs(std::move(patch), mesh.geometry, options, encoding);
+  mesh.geometry.patches = {describe(*mesh.small, mesh.geometry)};
+  mesh.vertices = mesh.geometry.patches[0].vertexCount;
+  mesh.elements = drawnBy(mesh.geometry.patches[0]);
+  mesh.positionError = positionErrorBound(mesh.geometry);
+}
+
+} // namespace
+
 EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files,
                        const ElementsDone& done) {
   const Box3d box = boxOf(mesh);
@@ -100,7 +135,13 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
   result.geometry = describe(patched, encoding);
   if (options.profile == Profile::compact && options.primitives == Primitives::triangles)
     if (const std::optional<BaseMesh> base = baseOf(patched, options.basePercent.value_or(0)))
-      result.base = encodeBase(*base, result.geometry, options.colorBits);
+      result.base = baseInIntegers(*base, result.geometry, options.colorBits);
+  if (options.profile == Profile::compact && patched.patches.size() == 1 &&
+      patched.patches[0].wedgeCount() <= sharedFileVertices) {
+    addSmall(result, std::move(patched.patches[0]), options, encoding);
+    done(result.small->elementCount());
+    return result;
+  }
   std::vector<PatchDescription> descriptions(patched.patches.size());
   std::vector<ElementCounts> elements(patched.patches.size());
   std::vector<double> normalErrors(patched.patches.size());

@@ -1,6 +1,7 @@
 #pragma once
 // A prepared mesh -> the geometry files of a site.
 
+#include "containers/compact/compact_patch.h"
 #include "containers/container.h"
 #include "transcode/transcode.h"
 
@@ -8,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace imgeo {
@@ -36,7 +38,8 @@ private:
 /// What became of a mesh, counted as it is drawn.
 struct EncodedMesh {
   GeometryDescription geometry;
-  Bytes base; ///< payload of the geometry's base, which has no file yet; empty: there is none
+  std::optional<compact::CompactPatch> base;  ///< the geometry's, which has no file yet
+  std::optional<compact::CompactPatch> small; ///< its only patch, which has none either: many share one
   ElementCounts elements;
   std::size_t vertices = 0;
   ElementCounts collapsed;       ///< those that lost their area or length on the lattice
@@ -47,9 +50,13 @@ struct EncodedMesh {
 /// Called with how many more elements have been written.
 using ElementsDone = std::function<void(std::size_t count)>;
 
-/// Cuts a mesh into patches and writes them, several at a time; a patch's memory
-/// is given back when its files are written, so that the peak is the patches
-/// and not their encodings. `mesh` is used up. Deterministic.
+/// Vertices (wedges) of a patch of compact that shares its file with others, at most; and
+/// of all patches of such a file: docs/decisions/compact.md has the measurement.
+inline constexpr std::size_t sharedFileVertices = 16384;
+
+/// Cuts a mesh into patches and writes them, but for what is to share a file, several at a time; a patch's
+/// memory is given back when its files are written, so that the peak is the patches and not their encodings.
+/// `mesh` is used up. Deterministic.
 EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files,
                        const ElementsDone& done);
 

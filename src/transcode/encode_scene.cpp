@@ -3,11 +3,15 @@
 #include "containers/compact/base.h"
 #include "containers/named_attributes.h"
 #include "import/image_type.h"
+#include "transcode/load_groups.h"
+#include "transcode/patch_files.h"
 #include "transcode/site.h"
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <set>
+#include <utility>
 
 namespace imgeo {
 
@@ -157,27 +161,40 @@ void writeTextures(SceneGraph& graph, ContentFiles& files) {
   }
 }
 
-/// The bases of all geometries as one file, in which each knows its place.
+/// The bases of all geometries, in one file as long as they fit into it.
 class Bases {
 public:
-  void add(GeometryDescription& geometry, const Bytes& payload) {
-    if (payload.empty())
-      return;
-    geometry.base = Reference{"", static_cast<std::uint32_t>(payloads_.size()), 0};
-    payloads_.insert(payloads_.end(), payload.begin(), payload.end());
+  explicit Bases(ContentFiles& files) : files_(files) {}
+
+  /// The base of the geometry with this number.
+  void add(compact::CompactPatch base, std::size_t geometry) {
+    if (!contents_.fits(base, compact::maxPatchCount))
+      close();
+    contents_.add(std::move(base));
+    geometries_.push_back(geometry);
   }
-  void write(std::vector<GeometryDescription>& geometries, ContentFiles& files) const {
-    if (payloads_.empty())
-      return;
-    const EncodedFile file = baseFile(payloads_);
-    const std::string url = files.write(file.bytes, file.extension);
-    for (GeometryDescription& geometry : geometries)
-      if (geometry.base)
-        geometry.base->url = url;
+  void write(std::vector<GeometryDescription>& geometries) {
+    close();
+    for (auto& [geometry, reference] : references_)
+      geometries[geometry].base = std::move(reference);
   }
 
 private:
-  Bytes payloads_;
+  void close() {
+    const FileContents contents = std::exchange(contents_, {});
+    if (contents.patches().empty())
+      return;
+    const EncodedFile file = baseFile(contents.patches());
+    const std::string url = files_.write(file.bytes, file.extension);
+    for (std::size_t number = 0; number < geometries_.size(); ++number)
+      references_.push_back({geometries_[number], {url, static_cast<std::uint32_t>(number), 0}});
+    geometries_.clear();
+  }
+
+  ContentFiles& files_;
+  FileContents contents_;
+  std::vector<std::size_t> geometries_; ///< of the contents
+  std::vector<std::pair<std::size_t, Reference>> references_;
 };
 
 /// What a report says of the attributes of a geometry, which are those of others, too.
@@ -211,15 +228,20 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteCont
   document.graph = std::move(scene.graph);
   std::vector<std::optional<std::size_t>> geometryOf(scene.meshes.size());
   Looks looks(document.graph);
-  Bases bases;
+  Bases bases(content.geometry);
+  const std::vector<std::size_t> groups = loadGroups(document.graph);
+  PatchFiles patchFiles(content.geometry, options.effort);
   for (const std::size_t node : shapeNodes(document.graph)) {
     Shape& shape = std::get<Shape>(document.graph.nodes[node].content);
     std::optional<std::size_t>& geometry = geometryOf[shape.mesh];
     if (!geometry) {
       EncodedMesh encoded = encodeMesh(std::move(scene.meshes[shape.mesh]), options, content.geometry, done);
       addEncoded(report, encoded);
-      bases.add(encoded.geometry, encoded.base);
       geometry = document.geometries.size();
+      if (encoded.base)
+        bases.add(std::move(*encoded.base), *geometry);
+      if (encoded.small)
+        patchFiles.add(std::move(*encoded.small), *geometry, groups[node]);
       document.geometries.push_back(std::move(encoded.geometry));
     }
     shape.mesh = *geometry;
@@ -228,7 +250,12 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteCont
   }
   if (!document.geometries.empty())
     report.lattice = document.geometries.front().lattice;
-  bases.write(document.geometries, content.geometry);
+  for (PatchFiles::Placed& placed : patchFiles.finish()) {
+    document.geometries[placed.geometry].patches[0].data = std::move(placed.data);
+    report.normalErrorDegrees =
+        std::max(report.normalErrorDegrees, placed.normalError * (180 / std::numbers::pi));
+  }
+  bases.write(document.geometries);
   writeTextures(document.graph, content.textures);
   if (!document.graph.isComplete)
     addDefaults(document);

@@ -30,7 +30,7 @@ void count(const PatchDescription& patch, SiteInfo& info) {
   info.vertices += patch.vertexCount;
 }
 
-GeometryInfo infoOf(const GeometryDescription& geometry, const FetchFile& fetch) {
+GeometryInfo infoOf(const GeometryDescription& geometry, const ContainerReader& reader) {
   const bool isBg = geometry.container == Container::bg;
   const auto anyPatch = [&](auto reference) {
     return std::ranges::any_of(geometry.patches,
@@ -44,7 +44,7 @@ GeometryInfo infoOf(const GeometryDescription& geometry, const FetchFile& fetch)
     info.coordType = nameOf(geometry.coordType);
   if (anyPatch(&PatchDescription::index))
     info.indexType = nameOf(geometry.indexType);
-  const StoredPrecision precision = precisionOf(geometry, fetch);
+  const StoredPrecision precision = reader.precisionOf(geometry);
   info.normalBits = precision.normalBits;
   info.texCoordBits = precision.texCoordBits;
   info.colorBits = precision.colorBits;
@@ -97,8 +97,9 @@ SiteInfo inspect(const fs::path& site) {
   for (const std::string& url : textureFilesOf(document.scene))
     info.textureBytes += add(url, "texture");
 
+  const ContainerReader reader(fetchFrom(document));
   for (const GeometryDescription& geometry : document.scene.geometries) {
-    info.geometries.push_back(infoOf(geometry, fetchFrom(document)));
+    info.geometries.push_back(infoOf(geometry, reader));
     info.patches += geometry.patches.size();
     for (const PatchDescription& patch : geometry.patches)
       count(patch, info);

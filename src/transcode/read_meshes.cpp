@@ -59,12 +59,10 @@ void append(Mesh& mesh, const IndexedPatch& patch, const Lattice& lattice, const
     mesh.corners.push_back(narrow<std::uint32_t>(before + corner));
 }
 
-Mesh readMesh(const OpenedDocument& document, const GeometryDescription& geometry) {
-  const std::string place = (document.root / document.name).string();
+Mesh readMesh(const ContainerReader& reader, const GeometryDescription& geometry, const std::string& place) {
   std::vector<IndexedPatch> patches(geometry.patches.size());
-  parallelFor(patches.size(), [&](std::size_t i) {
-    patches[i] = decodePatch(geometry.patches[i], geometry, fetchFrom(document));
-  });
+  parallelFor(patches.size(),
+              [&](std::size_t i) { patches[i] = reader.decode(geometry.patches[i], geometry); });
   Mesh mesh;
   mesh.topology = topologyOf(geometry, place);
   for (IndexedPatch& patch : patches)
@@ -81,8 +79,10 @@ Scene readMeshes(const OpenedDocument& document) {
   Scene scene;
   scene.graph = document.scene.graph;
   std::vector<bool> isEmpty;
+  const std::string place = (document.root / document.name).string();
+  const ContainerReader reader(fetchFrom(document));
   for (const GeometryDescription& geometry : document.scene.geometries) {
-    scene.meshes.push_back(readMesh(document, geometry));
+    scene.meshes.push_back(readMesh(reader, geometry, place));
     isEmpty.push_back(scene.meshes.back().corners.empty());
   }
   for (const std::size_t node : shapeNodes(scene.graph)) {
@@ -92,7 +92,7 @@ Scene readMeshes(const OpenedDocument& document) {
   }
   removeShapes(scene.graph, isEmpty);
   if (shapeNodes(scene.graph).empty())
-    throw Error(ErrorKind::malformed, (document.root / document.name).string(), "draws nothing");
+    throw Error(ErrorKind::malformed, place, "draws nothing");
   return scene;
 }
 

@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
-#include "containers/compact/base.h"
 #include "containers/named_attributes.h"
 #include "containers/normals.h"
 #include "containers/stored_coords.h"
@@ -127,11 +126,10 @@ void checkDocuments(const OpenedDocument& page, Findings& findings) {
     findings.add("{} and {} differ.", pageName, sceneName);
 }
 
-std::vector<IndexedPatch> decodePatches(const OpenedDocument& document, const GeometryDescription& geometry) {
+std::vector<IndexedPatch> decodePatches(const ContainerReader& reader, const GeometryDescription& geometry) {
   std::vector<IndexedPatch> patches(geometry.patches.size());
-  parallelFor(patches.size(), [&](std::size_t i) {
-    patches[i] = decodePatch(geometry.patches[i], geometry, fetchFrom(document));
-  });
+  parallelFor(patches.size(),
+              [&](std::size_t i) { patches[i] = reader.decode(geometry.patches[i], geometry); });
   return patches;
 }
 
@@ -249,11 +247,11 @@ void checkPositions(const GeometryDescription& geometry, const std::vector<Vec3u
 }
 
 /// The base, if there is one, must be whole and leave no crack beside any patch.
-void checkBase(const OpenedDocument& document, const GeometryDescription& geometry,
+void checkBase(const ContainerReader& reader, const GeometryDescription& geometry,
                const std::vector<IndexedPatch>& patches, Findings& findings) {
   if (!geometry.base)
     return;
-  const BaseMesh base = decodeBase(geometry, fetchFrom(document));
+  const BaseMesh base = reader.decodeBase(geometry);
   std::vector<PatchTriangles> triangles;
   for (const IndexedPatch& patch : patches)
     triangles.push_back({patch.positions, patch.indices});
@@ -261,11 +259,11 @@ void checkBase(const OpenedDocument& document, const GeometryDescription& geomet
     findings.add("The base does not meet the patches at their borders.");
 }
 
-void compareMesh(const OpenedDocument& document, const GeometryDescription& geometry, const Mesh& mesh,
+void compareMesh(const ContainerReader& reader, const GeometryDescription& geometry, const Mesh& mesh,
                  const std::optional<Marker>& marker, VerifyReport& report, Findings& findings) {
-  std::vector<IndexedPatch> patches = decodePatches(document, geometry);
+  std::vector<IndexedPatch> patches = decodePatches(reader, geometry);
   checkBoxes(patches, geometry, findings);
-  checkBase(document, geometry, patches, findings);
+  checkBase(reader, geometry, patches, findings);
   if (!marker && mesh.normals.empty())
     for (IndexedPatch& patch : patches)
       patch.normals.clear(); // computed, who knows how
@@ -281,7 +279,7 @@ void compareMesh(const OpenedDocument& document, const GeometryDescription& geom
   const ElementKind kind{topology, isWithoutIndex};
   ElementList input = elementsOf(mesh, quantised, kind);
   const ElementList site = elementsOf(patches, kind);
-  const StoredPrecision precision = precisionOf(geometry, fetchFrom(document));
+  const StoredPrecision precision = reader.precisionOf(geometry);
   roundColors(input.colors, precision.colorBits);
   const AttributeBounds bounds{normalBoundDegrees(geometry, marker.value_or(Marker{})),
                                texCoordBound(geometry, std::max(precision.texCoordBits, 1u)),
@@ -351,6 +349,7 @@ void compareScenes(const OpenedDocument& document, const Scene& input, const std
                                  inInput = placedShapes(input.graph);
   if (inSite.size() != inInput.size())
     return findings.add("The site has {} shapes, the input {}.", inSite.size(), inInput.size());
+  const ContainerReader reader(fetchFrom(document));
   std::set<std::pair<std::size_t, std::size_t>> compared;
   std::size_t misplaced = 0;
   for (std::size_t i = 0; i < inSite.size(); ++i) {
@@ -358,7 +357,7 @@ void compareScenes(const OpenedDocument& document, const Scene& input, const std
                       mesh = shapeOf(input.graph, inInput[i].node).mesh;
     misplaced += !agree(inSite[i].worldFromShape, inInput[i].worldFromShape, boxOf(input.meshes[mesh]));
     if (compared.emplace(geometry, mesh).second)
-      compareMesh(document, document.scene.geometries.at(geometry), input.meshes[mesh], marker, report,
+      compareMesh(reader, document.scene.geometries.at(geometry), input.meshes[mesh], marker, report,
                   findings);
   }
   if (misplaced > 0)

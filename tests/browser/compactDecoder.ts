@@ -4,7 +4,7 @@
 
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { decodePatch } from "../../web/src/decode/compact/patch.ts";
+import { decodePatches } from "../../web/src/decode/compact/patch.ts";
 import { buffersOf } from "../../web/src/decode/compact/patchBuffers.ts";
 import type { VertexArray } from "../../web/src/decode/stage.ts";
 import { decodePng } from "./png.ts";
@@ -14,16 +14,16 @@ import { numbersOf, tagsOf, type PlainPatch } from "./siteDecoder.ts";
 export function decodeCompactSite(directory: string): PlainPatch[] {
   const tags = tagsOf(readFileSync(join(directory, "index.html"), "utf8"));
   const node = tags.find(({ name }) => name === "imagegeometry")?.attributes ?? {};
-  const bits = Number(node.positionbits);
+  const bits = Number(node.positionbits ?? 16);
   const bytes = Math.ceil(bits / 8);
   const position = numbersOf(node.position, [0, 0, 0]);
   const size = numbersOf(node.size, [1, 1, 1]);
   const place = (stored: number, axis: number): number =>
     position[axis]! - size[axis]! / 2 + (stored * 2 ** (8 * bytes - bits) * size[axis]!) / (256 ** bytes - 1);
-  return tags.filter(({ name }) => name === "geometrypatch").map(({ attributes }) => {
+  return tags.filter(({ attributes }) => attributes.data !== undefined).map(({ attributes }) => {
     const [url, first] = attributes.data!.split("#");
     const { data } = decodePng(readFileSync(join(directory, url!)));
-    const { coord, normal, index, vertexCount } = buffersOf(decodePatch(data, Number(first ?? 0)));
+    const { coord, normal, index, vertexCount } = decodePatches(data, buffersOf)[Number(first ?? 0)]!;
     return {
       positions: Float32Array.from({ length: 3 * vertexCount }, (_, i) => place(numberAt(coord, i), i % 3)),
       ...(normal && { normals: unitVectors(Float32Array.from({ length: 3 * vertexCount }, (_, i) => numberAt(normal, i))) }),

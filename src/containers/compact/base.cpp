@@ -32,7 +32,8 @@ std::uint32_t residualShiftFor(const BaseMesh& base, std::uint32_t positionBits)
 
 } // namespace
 
-Bytes encodeBase(const BaseMesh& base, const GeometryDescription& geometry, std::uint32_t colorBits) {
+compact::CompactPatch baseInIntegers(const BaseMesh& base, const GeometryDescription& geometry,
+                                     std::uint32_t colorBits) {
   compact::CompactPatch patch;
   patch.positionBits = geometry.lattice.bits;
   patch.positions = base.positions;
@@ -47,31 +48,22 @@ Bytes encodeBase(const BaseMesh& base, const GeometryDescription& geometry, std:
   patch.attributes.push_back(std::move(normals));
   if (!base.colors.empty())
     patch.attributes.push_back(compact::colorAttribute(base.colors, base.colorComponents, colorBits));
-  return compact::encodePatchBytes(patch, 0).bytes;
+  return patch;
 }
 
-EncodedFile baseFile(const Bytes& payload) {
+EncodedFile baseFile(std::span<const compact::CompactPatch> bases) {
+  const Bytes payload = compact::encodePatches(bases, 0).bytes;
   if (payload.size() > compact::maxPayloadBytes)
     throw Error(ErrorKind::limit, "", "a base does not fit into an image; ask for fewer of its triangles");
   return {Role::base, ".png", compact::imageOfPayload(payload)};
 }
 
-BaseMesh decodeBase(const GeometryDescription& geometry, const FetchFile& fetch) {
-  const Reference& reference = geometry.base.value();
-  const Bytes payload = compact::payloadOfImage(fetch(reference.url), reference.url);
-  compact::CompactPatch patch = compact::decodePatchBytes(payload, reference.first, reference.url);
-  const auto require = [&](bool condition, const char* message) {
-    if (!condition)
-      throw Error(ErrorKind::malformed, reference.url, message);
-  };
-  require(patch.partCount > 0, "a patch stands where a base should");
-  require(patch.partCount == geometry.patches.size(), "the base has other parts than the node has patches");
-  require(patch.positionBits == geometry.lattice.bits, "the positions have other bits than the node states");
+BaseMesh meshOfBase(const compact::CompactPatch& patch) {
   BaseMesh base;
   for (const std::uint32_t wedge : patch.corners)
     base.corners.push_back(patch.wedgePositions[wedge]);
-  base.positions = std::move(patch.positions);
-  base.parts = std::move(patch.parts);
+  base.positions = patch.positions;
+  base.parts = patch.parts;
   base.partCount = patch.partCount;
   return base;
 }

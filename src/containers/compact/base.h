@@ -1,21 +1,24 @@
 #pragma once
-// The base of a geometry <-> bytes of a payload: docs/formats/compact.md, "Base".
+// The bases of geometries <-> a file: docs/formats/compact.md, "Base".
 
-#include "base/bytes.h"
+#include "containers/compact/compact_patch.h"
 #include "containers/container.h"
 #include "prepare/base_mesh.h"
 
+#include <span>
+
 namespace imgeo {
 
-/// The bytes of a base, as the payload of an image holds them behind each other.
-/// What comes back has other numbers; positions of one part alone have moved by a
-/// small share of an edge. Deterministic.
-Bytes encodeBase(const BaseMesh& base, const GeometryDescription& geometry, std::uint32_t colorBits);
+/// A base as files hold it. What comes back of it has other numbers; positions of one part
+/// alone have moved by a small share of an edge.
+compact::CompactPatch baseInIntegers(const BaseMesh& base, const GeometryDescription& geometry,
+                                     std::uint32_t colorBits);
 
-/// The image that holds such payloads. Throws Error{limit} for more than an image holds.
-EncodedFile baseFile(const Bytes& payload);
+/// The file of such bases, whose numbers in it are their places here; as many as
+/// encodeCompact takes. Deterministic. Throws Error{limit} for more than an image holds.
+EncodedFile baseFile(std::span<const compact::CompactPatch> bases);
 
-/// Decodes a geometry's base. Safe for untrusted bytes. Throws Error naming the url.
-BaseMesh decodeBase(const GeometryDescription& geometry, const FetchFile& fetch);
+/// What a decoded base is, without its attributes.
+BaseMesh meshOfBase(const compact::CompactPatch& base);
 
 } // namespace imgeo

@@ -15,10 +15,10 @@ struct EncodedBase {
   PatchedMesh patched;
   BaseMesh base;
   GeometryDescription geometry;
-  Bytes payload;
+  std::vector<compact::CompactPatch> bases;
 
   FetchFile fetch() const {
-    return [this](const std::string&) { return baseFile(payload).bytes; };
+    return [this](const std::string&) { return baseFile(bases).bytes; };
   }
   std::vector<PatchTriangles> triangles() const {
     std::vector<PatchTriangles> triangles;
@@ -38,14 +38,14 @@ EncodedBase encoded(Mesh mesh, std::uint32_t maxWedges) {
   result.geometry = describe(result.patched, options);
   result.geometry.patches.resize(result.patched.patches.size());
   result.geometry.base = Reference{"base.png", 0, 0};
-  result.payload = encodeBase(result.base, result.geometry, 8);
+  result.bases = {baseInIntegers(result.base, result.geometry, 8)};
   return result;
 }
 
 TEST(CompactBase, ComesBackClosedAgainstPatches) {
   const EncodedBase mesh = encoded(sphere(100, 100), 3000);
   ASSERT_GT(mesh.patched.patches.size(), 3u);
-  const BaseMesh back = decodeBase(mesh.geometry, mesh.fetch());
+  const BaseMesh back = ContainerReader(mesh.fetch()).decodeBase(mesh.geometry);
   EXPECT_EQ(back.triangleCount(), mesh.base.triangleCount());
   EXPECT_EQ(back.positions.size(), mesh.base.positions.size());
   EXPECT_TRUE(meetsAtBorders(back, mesh.triangles()));
@@ -54,7 +54,7 @@ TEST(CompactBase, ComesBackClosedAgainstPatches) {
 
 TEST(CompactBase, MovesVerticesByLittle) {
   const EncodedBase mesh = encoded(sphere(100, 100), 65535);
-  const BaseMesh back = decodeBase(mesh.geometry, mesh.fetch());
+  const BaseMesh back = ContainerReader(mesh.fetch()).decodeBase(mesh.geometry);
   const double radius = mesh.patched.lattice.maximum() / 2.0;
   for (const Vec3u& position : back.positions)
     EXPECT_NEAR(length(Vec3d(position) - Vec3d{radius, radius, radius}), radius, 0.02 * radius);
@@ -62,24 +62,25 @@ TEST(CompactBase, MovesVerticesByLittle) {
 
 TEST(CompactBase, TakesAFewBytesATriangle) {
   const EncodedBase mesh = encoded(sphere(200, 200), 65535);
-  EXPECT_LT(static_cast<double>(mesh.payload.size()), 1.5 * static_cast<double>(mesh.base.triangleCount()));
+  EXPECT_LT(static_cast<double>(baseFile(mesh.bases).bytes.size()),
+            1.5 * static_cast<double>(mesh.base.triangleCount()));
 }
 
 TEST(CompactBase, StandsBehindOthersInAFile) {
   EncodedBase mesh = encoded(sphere(100, 100), 3000);
-  const Bytes one = mesh.payload;
-  mesh.payload.insert(mesh.payload.end(), one.begin(), one.end());
-  mesh.geometry.base->first = static_cast<std::uint32_t>(one.size());
-  EXPECT_EQ(decodeBase(mesh.geometry, mesh.fetch()).triangleCount(), mesh.base.triangleCount());
+  mesh.bases.push_back(mesh.bases[0]);
+  mesh.geometry.base->first = 1;
+  EXPECT_EQ(ContainerReader(mesh.fetch()).decodeBase(mesh.geometry).triangleCount(),
+            mesh.base.triangleCount());
 }
 
 TEST(CompactBase, IsRefusedWhereItIsNotTheNodes) {
   EncodedBase mesh = encoded(sphere(100, 100), 3000);
   mesh.geometry.patches.emplace_back();
-  EXPECT_THROW(decodeBase(mesh.geometry, mesh.fetch()), Error);
+  EXPECT_THROW(ContainerReader(mesh.fetch()).decodeBase(mesh.geometry), Error);
   mesh.geometry.patches.pop_back();
   mesh.geometry.lattice.bits = 15;
-  EXPECT_THROW(decodeBase(mesh.geometry, mesh.fetch()), Error);
+  EXPECT_THROW(ContainerReader(mesh.fetch()).decodeBase(mesh.geometry), Error);
 }
 
 } // namespace

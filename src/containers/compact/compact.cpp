@@ -1,7 +1,7 @@
 #include "containers/compact/compact.h"
 
 #include "base/error.h"
-#include "containers/compact/header.h"
+#include "containers/compact/base.h"
 #include "containers/compact/patch_coding.h"
 #include "containers/compact/payload_image.h"
 #include "containers/compact/quantise.h"
@@ -38,6 +38,35 @@ bool hasAttributes(const compact::CompactPatch& patch, const GeometryDescription
   return others == geometry.attributes.size();
 }
 
+/// What a file must be by its document.
+struct Requirement {
+  const std::string& url;
+  void operator()(bool condition, const char* message) const {
+    if (!condition)
+      throw Error(ErrorKind::malformed, url, message);
+  }
+};
+
+/// The one of several that a reference means.
+template <typename Value> const Value& valueAt(const std::vector<Value>& values, const Reference& data) {
+  if (data.first >= values.size())
+    throw Error(ErrorKind::malformed, data.url,
+                "has no patch " + std::to_string(data.first) + " but " + std::to_string(values.size()) +
+                    " patches");
+  return values[data.first];
+}
+
+} // namespace
+
+compact::CompactPatch quantisePatch(const Patch& patch, const GeometryDescription& geometry,
+                                    const EncodeOptions& options) {
+  const compact::AttributeBits bits{options.normalBits, options.texCoordBits, options.colorBits,
+                                    options.normals == NormalEncoding::derived
+                                        ? compact::NormalMode::derivedArea
+                                        : compact::NormalMode::area};
+  return compact::quantise(patch, geometry, bits);
+}
+
 PatchDescription describe(const compact::CompactPatch& patch, const GeometryDescription& geometry) {
   PatchDescription description;
   description.box = boxOf(patch.positions, geometry);
@@ -46,32 +75,24 @@ PatchDescription describe(const compact::CompactPatch& patch, const GeometryDesc
   return description;
 }
 
-} // namespace
-
-EncodedPatch encodeCompact(const Patch& patch, const GeometryDescription& geometry,
-                           const EncodeOptions& options) {
-  const compact::AttributeBits bits{options.normalBits, options.texCoordBits, options.colorBits,
-                                    options.normals == NormalEncoding::derived
-                                        ? compact::NormalMode::derivedArea
-                                        : compact::NormalMode::area};
-  const compact::CompactPatch quantised = compact::quantise(patch, geometry, bits);
-  const auto [payload, normalError] = compact::encodePatchBytes(quantised, options.effort);
-  if (payload.size() > compact::maxPayloadBytes)
+EncodedCompact encodeCompact(std::span<const compact::CompactPatch> patches, int effort) {
+  compact::EncodedPatches encoded = compact::encodePatches(patches, effort);
+  if (encoded.bytes.size() > compact::maxPayloadBytes)
     throw Error(ErrorKind::limit, "", "a patch does not fit into an image; use smaller patches");
-  EncodedPatch encoded{describe(quantised, geometry), {}, normalError};
-  encoded.description.data = addFile(encoded, {Role::patch, ".png", compact::imageOfPayload(payload)});
-  return encoded;
+  return {{Role::patch, ".png", compact::imageOfPayload(encoded.bytes)}, std::move(encoded.normalErrors)};
 }
 
-IndexedPatch decodeCompact(const PatchDescription& patch, const GeometryDescription& geometry,
-                           const FetchFile& fetch) {
+std::shared_ptr<const CompactFiles::Patches> CompactFiles::patchesOf(const std::string& file) {
+  return patches_.get(file, [&](const std::string& url) {
+    return compact::decodePatches(compact::payloadOfImage(fetch_(url), url), url);
+  });
+}
+
+IndexedPatch CompactFiles::decode(const PatchDescription& patch, const GeometryDescription& geometry) {
   const Reference& data = dataOf(patch);
-  const Bytes payload = compact::payloadOfImage(fetch(data.url), data.url);
-  const compact::CompactPatch decoded = compact::decodePatchBytes(payload, data.first, data.url);
-  const auto require = [&](bool condition, const char* message) {
-    if (!condition)
-      throw Error(ErrorKind::malformed, data.url, message);
-  };
+  const auto patches = patchesOf(data.url);
+  const compact::CompactPatch& decoded = valueAt(*patches, data);
+  const Requirement require{data.url};
   require(decoded.partCount == 0, "a base stands where a patch should");
   require(decoded.positionBits == geometry.lattice.bits,
           "the positions have other bits than the node states");
@@ -84,12 +105,24 @@ IndexedPatch decodeCompact(const PatchDescription& patch, const GeometryDescript
   return vertices;
 }
 
-StoredPrecision precisionOfCompact(const PatchDescription& patch, const FetchFile& fetch) {
+BaseMesh CompactFiles::decodeBase(const GeometryDescription& geometry) {
+  const Reference& reference = geometry.base.value();
+  const auto bases = patchesOf(reference.url);
+  const compact::CompactPatch& base = valueAt(*bases, reference);
+  const Requirement require{reference.url};
+  require(base.partCount > 0, "a patch stands where a base should");
+  require(base.partCount == geometry.patches.size(), "the base has other parts than the node has patches");
+  require(base.positionBits == geometry.lattice.bits, "the positions have other bits than the node states");
+  return meshOfBase(base);
+}
+
+StoredPrecision CompactFiles::precisionOf(const PatchDescription& patch) {
   const Reference& data = dataOf(patch);
-  const Bytes payload = compact::payloadOfImage(fetch(data.url), data.url);
+  const auto types = types_.get(data.url, [&](const std::string& url) {
+    return compact::attributesOfPatches(compact::payloadOfImage(fetch_(url), url), url);
+  });
   StoredPrecision precision;
-  for (const compact::AttributeType& type :
-       compact::readHeader(payload, data.first, data.url).header.attributes)
+  for (const compact::AttributeType& type : valueAt(*types, data))
     switch (type.kind) {
     case compact::AttributeKind::normal:
       precision.normalBits = type.bits;

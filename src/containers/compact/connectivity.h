@@ -36,8 +36,8 @@ struct Connectivity {
   std::vector<std::uint32_t> from; ///< lines, per vertex: the other end of the line that brought it
 };
 
-/// Models of the connectivity stream of triangles, and of lines.
-extern const std::size_t triangleModels, lineModels;
+/// Models of the stream of connectivity.
+extern const std::size_t connectivityModels;
 
 Connectivity decodeTriangles(RangeDecoder& decoder, std::uint32_t triangleCount, std::uint32_t vertexCount);
 Connectivity decodeLines(RangeDecoder& decoder, std::uint32_t lineCount, std::uint32_t vertexCount);

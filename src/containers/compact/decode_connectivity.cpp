@@ -7,7 +7,7 @@ namespace {
 struct NoGuide {};
 } // namespace
 
-const std::size_t triangleModels = conquestModels::count, lineModels = lineModelOffsets::count;
+const std::size_t connectivityModels = lineModelOffsets::count;
 
 Connectivity decodeTriangles(RangeDecoder& decoder, std::uint32_t triangleCount, std::uint32_t vertexCount) {
   NoGuide guide;

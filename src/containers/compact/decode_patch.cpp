@@ -1,9 +1,7 @@
 #include "containers/compact/code_normals.h"
-#include "containers/compact/code_positions.h"
 #include "containers/compact/code_values.h"
-#include "containers/compact/header.h"
-#include "containers/compact/parts.h"
 #include "containers/compact/patch_coding.h"
+#include "containers/compact/streams.h"
 
 #include <numeric>
 
@@ -11,119 +9,117 @@ namespace imgeo::compact {
 
 namespace {
 
-/// Hands out the streams of a patch one after the other.
-class Streams {
+class FileDecoder {
 public:
-  Streams(ByteSpan bytes, const std::vector<std::uint32_t>& lengths, const std::string& place)
-      : bytes_(bytes), lengths_(lengths), place_(place) {}
+  FileDecoder(ByteSpan payload, const PlacedHeader& placed, const std::string& place)
+      : header_(placed.header), place_(place),
+        streams_(payload.subspan(placed.streams), placed.header.streamLengths, place) {}
 
-  /// Decodes the next stream by `decode(decoder)` and checks that it ends there.
-  template <typename Decode> auto next(std::size_t modelCount, Decode decode) {
-    RangeDecoder decoder(take(), modelCount, place_);
-    auto result = decode(decoder);
-    decoder.finish();
-    return result;
+  std::vector<CompactPatch> run() {
+    std::vector<CompactPatch> patches;
+    for (const PatchSizes& sizes : decodeSizes())
+      patches.push_back(decodePatch(sizes));
+    streams_.finish();
+    return patches;
   }
-  /// A stream in which nothing stands.
-  void skipEmpty() {
-    if (!take().empty())
-      throw Error(ErrorKind::malformed, place_, "a stream is not as long as what it holds");
+
+  /// Behind them every count is within its limit.
+  std::vector<PatchSizes> decodeSizes() {
+    std::vector<PatchSizes> all;
+    SizeSums sums;
+    for (std::uint32_t i = 0; i < header_.patchCount; ++i) {
+      const PatchSizes& sizes = all.emplace_back(codeSizes(streams_[StreamName::sizes], header_.types));
+      sums.add(sizes.vertexCount, sizes.wedgeCount, sizes.elementCount);
+    }
+    streams_.finish(streamOf(StreamName::sizes));
+    if (!sums.fits())
+      throw Error(ErrorKind::limit, place_,
+                  "a file has at most " + std::to_string(maxPatchCount) + " vertices and elements");
+    return all;
   }
 
 private:
-  ByteSpan take() {
-    const std::uint32_t length = lengths_[next_++];
-    const ByteSpan stream = bytes_.first(length);
-    bytes_ = bytes_.subspan(length);
-    return stream;
+  CompactPatch decodePatch(const PatchSizes& sizes) {
+    const PatchType& type = header_.types[sizes.type];
+    CompactPatch patch;
+    patch.topology = type.topology;
+    patch.positionBits = type.positionBits;
+    const Connectivity connectivity = decodeConnectivity(type.topology, sizes);
+    Parts parts;
+    if (type.isBase)
+      parts = codeParts(streams_[StreamName::parts], connectivity, sizes.partCount,
+                        std::vector<std::uint32_t>(sizes.elementCount));
+    patch.positions.resize(sizes.vertexCount);
+    const NormalSums sums =
+        PositionCoder(streams_[StreamName::positions], connectivity, type.positionBits, sizes.grid,
+                      sizes.normalShift, {sizes.residualShift, &parts.isShared}, patch.positions)
+            .run();
+    Wedges wedges = decodeWedges(connectivity, sizes);
+    const Surface surface{type.topology, connectivity, wedges, patch.positions, sums, sizes.normalShift};
+    for (const std::uint32_t attribute : type.attributes)
+      patch.attributes.push_back({header_.attributes[attribute], decodeValues(surface, attribute)});
+    patch.parts = std::move(parts.ofTriangle);
+    patch.partCount = sizes.partCount;
+    patch.residualShift = sizes.residualShift;
+    patch.corners = std::move(wedges.ofCorner);
+    patch.wedgePositions = std::move(wedges.vertex);
+    return patch;
   }
 
-  ByteSpan bytes_;
-  const std::vector<std::uint32_t>& lengths_;
+  Connectivity decodeConnectivity(Topology topology, const PatchSizes& sizes) {
+    if (topology == Topology::triangles)
+      return decodeTriangles(streams_[StreamName::connectivity], sizes.elementCount, sizes.vertexCount);
+    if (topology == Topology::lines)
+      return decodeLines(streams_[StreamName::connectivity], sizes.elementCount, sizes.vertexCount);
+    Connectivity points;
+    points.vertexCount = sizes.vertexCount;
+    points.vertex.resize(sizes.vertexCount);
+    std::iota(points.vertex.begin(), points.vertex.end(), 0u);
+    return points;
+  }
+
+  Wedges decodeWedges(const Connectivity& connectivity, const PatchSizes& sizes) {
+    if (!sizes.hasSeams())
+      return plainWedges(connectivity);
+    return WedgeCoder(streams_[StreamName::wedges], connectivity, sizes.wedgeCount,
+                      [](std::uint32_t) { return none; })
+        .run();
+  }
+
+  std::vector<Value> decodeValues(const Surface& surface, std::uint32_t attribute) {
+    const AttributeType& type = header_.attributes[attribute];
+    std::vector<Value> values(surface.wedges.count());
+    if (type.isDerived()) {
+      RangeDecoder nothing({}, attributeModels::count, place_);
+      codeNormals(nothing, surface, type, values);
+    } else if (type.kind == AttributeKind::normal) {
+      codeNormals(streams_[streamOfAttribute(attribute)], surface, type, values);
+    } else {
+      ValueCoder(streams_[streamOfAttribute(attribute)], surface, type, values).run();
+    }
+    return values;
+  }
+
+  const FileHeader& header_;
   const std::string& place_;
-  std::size_t next_ = 0;
+  StreamDecoders streams_;
 };
-
-Connectivity decodeConnectivity(const Header& header, Streams& streams) {
-  if (header.topology == Topology::triangles)
-    return streams.next(triangleModels, [&](RangeDecoder& decoder) {
-      return decodeTriangles(decoder, header.elementCount, header.vertexCount);
-    });
-  if (header.topology == Topology::lines)
-    return streams.next(lineModels, [&](RangeDecoder& decoder) {
-      return decodeLines(decoder, header.elementCount, header.vertexCount);
-    });
-  Connectivity points;
-  points.vertexCount = header.vertexCount;
-  points.vertex.resize(header.vertexCount);
-  std::iota(points.vertex.begin(), points.vertex.end(), 0u);
-  return points;
-}
-
-Parts decodeParts(const Header& header, const Connectivity& connectivity, Streams& streams) {
-  if (!header.hasParts())
-    return {};
-  return streams.next(partModels::count, [&](RangeDecoder& decoder) {
-    return codeParts(decoder, connectivity, header.partCount,
-                     std::vector<std::uint32_t>(header.elementCount));
-  });
-}
-
-Wedges decodeWedges(const Header& header, const Connectivity& connectivity, Streams& streams) {
-  if (!header.hasSeams())
-    return plainWedges(connectivity);
-  return streams.next(wedgeModels::count, [&](RangeDecoder& decoder) {
-    return WedgeCoder(decoder, connectivity, header.wedgeCount, [](std::uint32_t) { return none; }).run();
-  });
-}
-
-std::vector<Value> decodeValues(const Surface& surface, const AttributeType& type, Streams& streams) {
-  std::vector<Value> values(surface.wedges.count());
-  const auto decode = [&](RangeDecoder& decoder) {
-    if (type.kind == AttributeKind::normal)
-      codeNormals(decoder, surface, type, values);
-    else
-      ValueCoder(decoder, surface, type, values).run();
-    return true;
-  };
-  if (type.isDerived()) {
-    streams.skipEmpty();
-    RangeDecoder nothing({}, attributeModels::count, std::string());
-    decode(nothing);
-  } else {
-    streams.next(attributeModels::count, decode);
-  }
-  return values;
-}
 
 } // namespace
 
-CompactPatch decodePatchBytes(ByteSpan payload, std::size_t first, const std::string& place) {
-  const auto [header, streamsAt] = readHeader(payload, first, place);
-  Streams streams(payload.subspan(streamsAt), header.streamLengths, place);
+std::vector<CompactPatch> decodePatches(ByteSpan payload, const std::string& place) {
+  return FileDecoder(payload, readHeader(payload, place), place).run();
+}
 
-  CompactPatch patch;
-  patch.topology = header.topology;
-  patch.positionBits = header.positionBits;
-  const Connectivity connectivity = decodeConnectivity(header, streams);
-  Parts parts = decodeParts(header, connectivity, streams);
-  patch.positions.resize(header.vertexCount);
-  const NormalSums sums = streams.next(
-      header.grid ? positionModels::countWithGrid : positionModels::count, [&](RangeDecoder& decoder) {
-        return PositionCoder(decoder, connectivity, header.positionBits, header.grid, header.normalShift,
-                             {header.residualShift, &parts.isShared}, patch.positions)
-            .run();
-      });
-  Wedges wedges = decodeWedges(header, connectivity, streams);
-  const Surface surface{header.topology, connectivity, wedges, patch.positions, sums, header.normalShift};
-  for (const AttributeType& type : header.attributes)
-    patch.attributes.push_back({type, decodeValues(surface, type, streams)});
-  patch.parts = std::move(parts.ofTriangle);
-  patch.partCount = header.partCount;
-  patch.residualShift = header.residualShift;
-  patch.corners = std::move(wedges.ofCorner);
-  patch.wedgePositions = std::move(wedges.vertex);
-  return patch;
+std::vector<std::vector<AttributeType>> attributesOfPatches(ByteSpan payload, const std::string& place) {
+  const PlacedHeader placed = readHeader(payload, place);
+  std::vector<std::vector<AttributeType>> all;
+  for (const PatchSizes& sizes : FileDecoder(payload, placed, place).decodeSizes()) {
+    all.emplace_back();
+    for (const std::uint32_t attribute : placed.header.types[sizes.type].attributes)
+      all.back().push_back(placed.header.attributes[attribute]);
+  }
+  return all;
 }
 
 } // namespace imgeo::compact

@@ -1,42 +1,38 @@
 #include "containers/compact/code_normals.h"
-#include "containers/compact/code_positions.h"
 #include "containers/compact/code_values.h"
-#include "containers/compact/header.h"
-#include "containers/compact/parts.h"
 #include "containers/compact/patch_coding.h"
+#include "containers/compact/streams.h"
 #include "containers/stored.h"
 #include "containers/unit_vectors.h"
 
+#include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace imgeo::compact {
 
 namespace {
 
-/// An order of a patch's corners and vertices, and the bytes that tell it.
+/// An order of a patch's corners and vertices.
 struct Ordered {
   Connectivity connectivity;
   std::vector<std::uint32_t> sourceCorner; ///< corner -> corner of the source
   std::vector<std::uint32_t> sourceVertex; ///< vertex -> vertex of the source
-  Bytes bytes;
 };
 
+/// Finds an order and writes it.
 Ordered orderOf(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices,
-                std::uint32_t firstTriangle) {
+                StreamEncoders& streams) {
   const auto vertexCount = static_cast<std::uint32_t>(patch.positions.size());
   Ordered ordered;
   if (patch.topology == Topology::triangles) {
-    RangeEncoder encoder(triangleModels);
     ordered.connectivity =
-        encodeTriangles(encoder, vertices, vertexCount, firstTriangle, ordered.sourceCorner);
-    ordered.bytes = encoder.finish();
+        encodeTriangles(streams[StreamName::connectivity], vertices, vertexCount, 0, ordered.sourceCorner);
   } else {
     ordered.sourceCorner.resize(vertices.size());
     std::iota(ordered.sourceCorner.begin(), ordered.sourceCorner.end(), 0u);
     if (patch.topology == Topology::lines) {
-      RangeEncoder encoder(lineModels);
-      ordered.connectivity = encodeLines(encoder, vertices, vertexCount);
-      ordered.bytes = encoder.finish();
+      ordered.connectivity = encodeLines(streams[StreamName::connectivity], vertices, vertexCount);
     } else {
       ordered.connectivity.vertexCount = vertexCount;
       ordered.connectivity.vertex.resize(vertexCount);
@@ -85,157 +81,213 @@ double largestAngle(const std::vector<Value>& a, const std::vector<Value>& b) {
   return largest;
 }
 
-/// A stream, and for an attribute its type as it turned out best.
-struct EncodedAttribute {
-  AttributeType type;
-  Bytes bytes;
-  double normalError = 0;
+/// A patch in the order in which it is coded, as a decoder gets it.
+struct CodedPatch {
+  const CompactPatch& source;
+  Ordered ordered;
+  PatchSizes sizes;
+  std::vector<Vec3u> positions;
+  NormalSums normalSums{0, 0};
+  Wedges wedges;
+
+  std::uint32_t sourceWedge(std::uint32_t corner) const {
+    return source.corners[ordered.sourceCorner[corner]];
+  }
+  Surface surface() const {
+    return {source.topology, ordered.connectivity, wedges, positions, normalSums, sizes.normalShift};
+  }
+  /// The values of an attribute of the source.
+  std::vector<Value> valuesOf(const Attribute& attribute) const {
+    std::vector<Value> values;
+    values.reserve(wedges.count());
+    for (const std::uint32_t corner : wedges.corner)
+      values.push_back(attribute.values[sourceWedge(corner)]);
+    return values;
+  }
 };
 
-class PatchEncoder {
+/// Fewer points than this have no use for a grid that takes 24 bytes.
+constexpr std::size_t leastPointsOfGrid = 64;
+
+std::optional<Grid> gridOf(const CompactPatch& patch) {
+  const bool isWorthIt = patch.positionBits <= 16 && patch.positions.size() >= leastPointsOfGrid;
+  return isWorthIt ? findGrid(patch.positions) : std::nullopt;
+}
+
+/// The place of a value in a list, at the end of which it is put where it is missing.
+template <typename T> std::uint32_t placeIn(std::vector<T>& list, const T& value) {
+  const auto found = std::ranges::find(list, value);
+  if (found != list.end())
+    return static_cast<std::uint32_t>(found - list.begin());
+  list.push_back(value);
+  return static_cast<std::uint32_t>(list.size() - 1);
+}
+
+class FileEncoder {
 public:
-  PatchEncoder(const CompactPatch& patch, const Ordered& ordered, const std::optional<Grid>& grid,
-               std::uint32_t normalShift, int effort)
-      : patch_(patch), ordered_(ordered), effort_(effort) {
-    header_.topology = patch.topology;
-    header_.positionBits = patch.positionBits;
-    header_.normalShift = normalShift;
-    header_.vertexCount = static_cast<std::uint32_t>(patch.positions.size());
-    header_.wedgeCount = static_cast<std::uint32_t>(patch.wedgeCount());
-    header_.elementCount = static_cast<std::uint32_t>(patch.elementCount());
-    header_.grid = grid;
-    header_.partCount = patch.partCount;
-    header_.residualShift = patch.residualShift;
+  FileEncoder(std::span<const CompactPatch> patches, int effort) : effort_(effort) {
+    header_.patchCount = static_cast<std::uint32_t>(patches.size());
+    std::vector<std::uint32_t> types;
+    for (const CompactPatch& patch : patches)
+      types.push_back(placeIn(header_.types, typeOf(patch)));
+    streams_ = StreamEncoders(header_.streamCount());
+    coded_.reserve(patches.size());
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      code(patches[i], types[i]);
   }
 
-  PatchBytes run() {
-    if (header_.hasConnectivity())
-      addStream(ordered_.bytes);
-    const Parts parts = encodeParts();
-    std::vector<Vec3u> positions = orderedPositions();
-    const NormalSums sums = encodePositions(positions, {header_.residualShift, &parts.isShared});
-    const Wedges wedges = encodeWedges();
-    const Surface surface{patch_.topology,    ordered_.connectivity, wedges, positions, sums,
-                          header_.normalShift};
-    PatchBytes result;
-    for (const Attribute& attribute : patch_.attributes) {
-      const EncodedAttribute encoded = encodeAttribute(surface, attribute);
-      header_.attributes.push_back(encoded.type);
-      addStream(encoded.bytes);
-      result.normalError = std::max(result.normalError, encoded.normalError);
-    }
+  EncodedPatches run() {
+    EncodedPatches result{{}, std::vector<double>(coded_.size())};
+    for (std::uint32_t place = 0; place < header_.attributes.size(); ++place)
+      encodeAttribute(place, result.normalErrors);
+    const std::vector<Bytes> streams = streams_.finish();
+    for (const Bytes& stream : streams)
+      header_.streamLengths.push_back(static_cast<std::uint32_t>(stream.size()));
     appendHeader(result.bytes, header_);
-    result.bytes.insert(result.bytes.end(), streams_.begin(), streams_.end());
+    for (const Bytes& stream : streams)
+      result.bytes.insert(result.bytes.end(), stream.begin(), stream.end());
     return result;
   }
 
 private:
-  void addStream(const Bytes& stream) {
-    header_.streamLengths.push_back(static_cast<std::uint32_t>(stream.size()));
-    streams_.insert(streams_.end(), stream.begin(), stream.end());
-  }
-
-  std::vector<Vec3u> orderedPositions() const { return gather(patch_.positions, ordered_.sourceVertex); }
-
-  Parts encodeParts() {
-    if (!header_.hasParts())
-      return {};
-    std::vector<std::uint32_t> parts;
-    for (std::size_t corner = 0; corner < ordered_.sourceCorner.size(); corner += 3)
-      parts.push_back(patch_.parts[ordered_.sourceCorner[corner] / 3]);
-    RangeEncoder encoder(partModels::count);
-    Parts coded = codeParts(encoder, ordered_.connectivity, header_.partCount, std::move(parts));
-    addStream(encoder.finish());
-    return coded;
-  }
-
-  NormalSums encodePositions(std::vector<Vec3u>& positions, CoarseResiduals residuals) {
-    RangeEncoder encoder(header_.grid ? positionModels::countWithGrid : positionModels::count);
-    NormalSums sums = PositionCoder(encoder, ordered_.connectivity, header_.positionBits, header_.grid,
-                                    header_.normalShift, residuals, positions)
-                          .run();
-    addStream(encoder.finish());
-    return sums;
-  }
-
-  std::uint32_t sourceWedge(std::uint32_t corner) const {
-    return patch_.corners[ordered_.sourceCorner[corner]];
-  }
-
-  Wedges encodeWedges() {
-    if (!header_.hasSeams())
-      return plainWedges(ordered_.connectivity);
-    RangeEncoder encoder(wedgeModels::count);
-    Wedges wedges = WedgeCoder(encoder, ordered_.connectivity, header_.wedgeCount, [&](std::uint32_t corner) {
-                      return sourceWedge(corner);
-                    }).run();
-    addStream(encoder.finish());
-    return wedges;
-  }
-
-  EncodedAttribute encodeAttribute(const Surface& surface, const Attribute& attribute) const {
-    std::vector<Value> values;
-    values.reserve(surface.wedges.count());
-    for (const std::uint32_t corner : surface.wedges.corner)
-      values.push_back(attribute.values[sourceWedge(corner)]);
-    if (attribute.type.kind == AttributeKind::normal)
-      return encodeNormals(surface, attribute.type, values);
-    RangeEncoder encoder(attributeModels::count);
-    ValueCoder(encoder, surface, attribute.type, values).run();
-    return {attribute.type, encoder.finish()};
-  }
-
-  EncodedAttribute encodeNormals(const Surface& surface, const AttributeType& type,
-                                 const std::vector<Value>& values) const {
-    const auto encode = [&](const AttributeType& as) {
-      std::vector<Value> coded = values;
-      RangeEncoder encoder(attributeModels::count);
-      codeNormals(encoder, surface, as, coded);
-      return as.isDerived()
-                 ? EncodedAttribute{as, {}, largestAngle(values, coded) + octahedronErrorBound(as.bits)}
-                 : EncodedAttribute{as, encoder.finish(), octahedronErrorBound(as.bits)};
-    };
-    if (effort_ == 0 || patch_.topology != Topology::triangles)
-      return encode(type);
-    AttributeType other = type;
-    other.mode = static_cast<NormalMode>(static_cast<unsigned>(type.mode) ^ 1u); // area, uniform
-    if (!type.isDerived() && effort_ < effortOfWholeTrials) {
-      const std::size_t size = sampleSize(surface, type, values);
-      return encode(size > smallSample && sampleSize(surface, other, values) < size ? other : type);
+  /// A patch's attributes of one type are as many of the file's.
+  PatchType typeOf(const CompactPatch& patch) {
+    PatchType type{patch.topology, patch.positionBits, patch.partCount > 0, {}};
+    for (const Attribute& attribute : patch.attributes) {
+      const auto isOther = [&](std::uint32_t place) {
+        return header_.attributes[place] == attribute.type &&
+               std::ranges::find(type.attributes, place) == type.attributes.end();
+      };
+      std::uint32_t place = 0;
+      while (place < header_.attributes.size() && !isOther(place))
+        ++place;
+      if (place == header_.attributes.size())
+        header_.attributes.push_back(attribute.type);
+      type.attributes.push_back(place);
     }
-    EncodedAttribute given = encode(type), tried = encode(other);
-    const bool isBetter =
-        type.isDerived() ? tried.normalError < given.normalError : tried.bytes.size() < given.bytes.size();
-    return isBetter ? tried : given;
+    return type;
   }
 
-  /// What the first normals take: below the efforts that try all of them, enough to choose a mode.
-  static std::size_t sampleSize(const Surface& surface, const AttributeType& as, std::vector<Value> values) {
+  /// All of a patch but its attributes.
+  void code(const CompactPatch& patch, std::uint32_t type) {
+    std::vector<std::uint32_t> vertices;
+    vertices.reserve(patch.corners.size());
+    for (const std::uint32_t wedge : patch.corners)
+      vertices.push_back(patch.wedgePositions[wedge]);
+    CodedPatch coded{patch, orderOf(patch, vertices, streams_), {}, {}, NormalSums(0, 0), {}};
+    coded.sizes = codeSizes(
+        streams_[StreamName::sizes], header_.types,
+        {type, static_cast<std::uint32_t>(patch.positions.size()),
+         static_cast<std::uint32_t>(patch.wedgeCount()), static_cast<std::uint32_t>(patch.elementCount()),
+         normalShiftFor(patch, vertices), gridOf(patch), patch.partCount, patch.residualShift});
+    const Connectivity& connectivity = coded.ordered.connectivity;
+    Parts parts;
+    if (patch.partCount > 0)
+      parts = codeParts(streams_[StreamName::parts], connectivity, patch.partCount, partsOf(coded));
+    coded.positions = gather(patch.positions, coded.ordered.sourceVertex);
+    coded.normalSums =
+        PositionCoder(streams_[StreamName::positions], connectivity, patch.positionBits, coded.sizes.grid,
+                      coded.sizes.normalShift, {patch.residualShift, &parts.isShared}, coded.positions)
+            .run();
+    coded.wedges = codeWedges(coded);
+    coded_.push_back(std::move(coded));
+  }
+
+  static std::vector<std::uint32_t> partsOf(const CodedPatch& coded) {
+    std::vector<std::uint32_t> parts;
+    for (std::size_t corner = 0; corner < coded.ordered.sourceCorner.size(); corner += 3)
+      parts.push_back(coded.source.parts[coded.ordered.sourceCorner[corner] / 3]);
+    return parts;
+  }
+
+  Wedges codeWedges(const CodedPatch& coded) {
+    if (!coded.sizes.hasSeams())
+      return plainWedges(coded.ordered.connectivity);
+    return WedgeCoder(streams_[StreamName::wedges], coded.ordered.connectivity, coded.sizes.wedgeCount,
+                      [&](std::uint32_t corner) { return coded.sourceWedge(corner); })
+        .run();
+  }
+
+  /// Calls visit(patch, values, number of the patch) for all that have an attribute of the header's.
+  template <typename Visit> void forEachWith(std::uint32_t place, Visit visit) const {
+    for (std::size_t i = 0; i < coded_.size(); ++i) {
+      const CodedPatch& coded = coded_[i];
+      const std::vector<std::uint32_t>& places = header_.types[coded.sizes.type].attributes;
+      for (std::size_t attribute = 0; attribute < places.size(); ++attribute)
+        if (places[attribute] == place)
+          visit(coded, coded.valuesOf(coded.source.attributes[attribute]), i);
+    }
+  }
+
+  void encodeAttribute(std::uint32_t place, std::vector<double>& normalErrors) {
+    AttributeType& type = header_.attributes[place];
+    const bool isNormal = type.kind == AttributeKind::normal;
+    if (isNormal && effort_ > 0)
+      type.mode = bestModeOf(place);
+    forEachWith(place, [&](const CodedPatch& coded, std::vector<Value> values, std::size_t i) {
+      if (!isNormal)
+        ValueCoder(streams_[streamOfAttribute(place)], coded.surface(), type, values).run();
+      else if (type.isDerived())
+        normalErrors[i] = std::max(normalErrors[i], derivedError(coded, type, values));
+      else
+        codeNormals(streams_[streamOfAttribute(place)], coded.surface(), type, values);
+      if (isNormal && !type.isDerived())
+        normalErrors[i] = std::max(normalErrors[i], octahedronErrorBound(type.bits));
+    });
+  }
+
+  /// By which normals are off that are not stored.
+  static double derivedError(const CodedPatch& coded, const AttributeType& type,
+                             const std::vector<Value>& values) {
+    std::vector<Value> derived = values;
+    RangeEncoder nothing(attributeModels::count);
+    codeNormals(nothing, coded.surface(), type, derived);
+    return largestAngle(values, derived) + octahedronErrorBound(type.bits);
+  }
+
+  /// That of the two weightings with the smaller stream, or the smaller error of derived normals.
+  NormalMode bestModeOf(std::uint32_t place) const {
+    const AttributeType& given = header_.attributes[place];
+    AttributeType other = given;
+    other.mode = static_cast<NormalMode>(static_cast<unsigned>(given.mode) ^ 1u);
+    const double cost = costOf(place, given);
+    if (!given.isDerived() && effort_ < effortOfWholeTrials && cost <= smallSample)
+      return given.mode;
+    return costOf(place, other) < cost ? other.mode : given.mode;
+  }
+
+  /// Bytes; of derived normals radians. Below the efforts that try all of them, the first
+  /// are enough to choose by.
+  double costOf(std::uint32_t place, const AttributeType& as) const {
+    std::uint32_t left = effort_ < effortOfWholeTrials ? sampledNormals : maxPatchCount;
+    double error = 0;
     RangeEncoder encoder(attributeModels::count);
-    codeNormals(encoder, surface, as, values, sampledNormals);
-    return encoder.finish().size();
+    forEachWith(place, [&](const CodedPatch& coded, std::vector<Value> values, std::size_t) {
+      if (coded.source.topology != Topology::triangles)
+        return;
+      if (as.isDerived()) {
+        error = std::max(error, derivedError(coded, as, values));
+      } else if (left > 0) {
+        codeNormals(encoder, coded.surface(), as, values, left);
+        left -= std::min(left, static_cast<std::uint32_t>(values.size()));
+      }
+    });
+    return as.isDerived() ? error : static_cast<double>(encoder.finish().size());
   }
   static constexpr std::uint32_t sampledNormals = 4096;
-  static constexpr std::size_t smallSample = sampledNormals / 16; ///< half a bit a normal: the mode is right
+  static constexpr double smallSample = sampledNormals / 16; ///< half a bit a normal: the mode is right
   static constexpr int effortOfWholeTrials = 7;
 
-  const CompactPatch& patch_;
-  const Ordered& ordered_;
   int effort_;
-  Header header_;
-  Bytes streams_;
+  FileHeader header_;
+  StreamEncoders streams_{0};
+  std::vector<CodedPatch> coded_;
 };
 
 } // namespace
 
-PatchBytes encodePatchBytes(const CompactPatch& patch, int effort) {
-  std::vector<std::uint32_t> vertices;
-  vertices.reserve(patch.corners.size());
-  for (const std::uint32_t wedge : patch.corners)
-    vertices.push_back(patch.wedgePositions[wedge]);
-  const std::optional<Grid> grid = patch.positionBits <= 16 ? findGrid(patch.positions) : std::nullopt;
-  const Ordered ordered = orderOf(patch, vertices, 0);
-  return PatchEncoder(patch, ordered, grid, normalShiftFor(patch, vertices), effort).run();
+EncodedPatches encodePatches(std::span<const CompactPatch> patches, int effort) {
+  return FileEncoder(patches, effort).run();
 }
 
 } // namespace imgeo::compact

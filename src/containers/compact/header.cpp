@@ -11,45 +11,59 @@ namespace imgeo::compact {
 namespace {
 
 constexpr std::uint8_t signature[] = {'I', 'G', 'C', 1};
-constexpr std::uint8_t gridFlag = 1, partsFlag = 2;
+constexpr std::uint8_t baseFlag = 1;
 
 /// Takes numbers off a payload.
 class FieldReader {
 public:
-  FieldReader(ByteSpan bytes, std::size_t at, const std::string& place)
-      : bytes_(bytes), at_(at), place_(place) {}
+  FieldReader(ByteSpan bytes, const std::string& place) : bytes_(bytes), place_(place) {}
 
-  template <typename T> T take() {
-    if (at_ > bytes_.size() || bytes_.size() - at_ < sizeof(T))
-      throw Error(ErrorKind::truncated, place_, "the image ends before the patch does");
-    at_ += sizeof(T);
-    return loadLittle<T>(&bytes_[at_ - sizeof(T)]);
+  std::uint8_t takeByte() {
+    if (at_ == bytes_.size())
+      throw Error(ErrorKind::truncated, place_, "the image ends before its header does");
+    return bytes_[at_++];
   }
   std::uint8_t takeByte(std::uint32_t least, std::uint32_t most, const char* what) {
-    const auto value = take<std::uint8_t>();
+    const std::uint8_t value = takeByte();
     require(value >= least && value <= most, what);
     return value;
   }
-  /// A count of at most maxPatchCount.
-  std::uint32_t takeCount(std::uint64_t least, std::uint64_t most, const char* what) {
-    const auto value = take<std::uint32_t>();
-    if (value > maxPatchCount)
-      throw Error(ErrorKind::limit, place_,
-                  "a patch has at most " + std::to_string(maxPatchCount) + " " + what);
-    require(value >= least && value <= most, what);
+  /// Seven bits a byte, the least first; below 2^28.
+  std::uint32_t takeNumber() {
+    std::uint32_t value = 0;
+    for (std::uint32_t shift = 0; shift < 28; shift += 7) {
+      const std::uint8_t byte = takeByte();
+      value |= (byte & 127u) << shift;
+      if (byte < 128)
+        return value;
+    }
+    throw Error(ErrorKind::malformed, place_, "the header states a number that is too long");
+  }
+  /// 1 .. `most`.
+  std::uint32_t takeCount(std::uint32_t most, const char* what) {
+    const std::uint32_t value = takeNumber();
+    if (value > most)
+      throw Error(ErrorKind::limit, place_, "a file has at most " + std::to_string(most) + " " + what);
     return value;
   }
   void require(bool condition, const char* what) const {
     if (!condition)
-      throw Error(ErrorKind::malformed, place_, std::string("the patch's header states impossible ") + what);
+      throw Error(ErrorKind::malformed, place_, std::string("the header states impossible ") + what);
   }
   std::size_t at() const { return at_; }
 
 private:
   ByteSpan bytes_;
-  std::size_t at_;
+  std::size_t at_ = 0;
   const std::string& place_;
 };
+
+void appendNumber(Bytes& out, std::uint32_t value) {
+  assert(value < 1u << 28);
+  for (; value >= 128; value >>= 7)
+    out.push_back(static_cast<std::uint8_t>(value | 128));
+  out.push_back(static_cast<std::uint8_t>(value));
+}
 
 AttributeType takeAttribute(FieldReader& reader) {
   struct Range {
@@ -66,91 +80,76 @@ AttributeType takeAttribute(FieldReader& reader) {
   return type;
 }
 
-Grid takeGrid(FieldReader& reader) {
-  Grid grid;
-  for (int axis = 0; axis < 3; ++axis) {
-    grid.origin[axis] = reader.take<std::uint32_t>();
-    grid.step[axis] = reader.take<std::uint32_t>();
-    reader.require(grid.step[axis] >= 2 * 65536 && grid.origin[axis] < grid.step[axis], "grid lines");
+PatchType takeType(FieldReader& reader, std::size_t attributeCount) {
+  PatchType type;
+  type.topology = static_cast<Topology>(reader.takeByte(1, 3, "elements"));
+  type.positionBits = reader.takeByte(1, 30, "position bits");
+  type.isBase = reader.takeByte(0, baseFlag, "flags") == baseFlag;
+  reader.require(!type.isBase || type.topology == Topology::triangles, "parts");
+  const std::uint8_t count = reader.takeByte(0, maxAttributes, "attributes");
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint8_t attribute = reader.takeByte();
+    const bool isNew = std::ranges::find(type.attributes, attribute) == type.attributes.end();
+    reader.require(attribute < attributeCount && isNew, "attributes");
+    type.attributes.push_back(attribute);
   }
-  return grid;
+  return type;
 }
 
 } // namespace
 
-void appendHeader(Bytes& out, const Header& header) {
-  assert(header.streamLengths.size() == header.streamCount());
+void appendHeader(Bytes& out, const FileHeader& header) {
+  assert(header.streamLengths.size() == header.streamCount() &&
+         header.attributes.size() <= maxFileAttributes && header.types.size() <= maxFileTypes &&
+         header.patchCount <= maxFilePatches);
   out.insert(out.end(), std::begin(signature), std::end(signature));
-  out.push_back(static_cast<std::uint8_t>(header.topology));
-  out.push_back(static_cast<std::uint8_t>(header.positionBits));
-  out.push_back(static_cast<std::uint8_t>(header.normalShift));
-  out.push_back(
-      static_cast<std::uint8_t>((header.grid ? gridFlag : 0) | (header.hasParts() ? partsFlag : 0)));
-  appendLittle(out, header.vertexCount);
-  appendLittle(out, header.wedgeCount);
-  appendLittle(out, header.elementCount);
-  appendLittle(out, static_cast<std::uint32_t>(header.attributes.size()));
+  appendNumber(out, static_cast<std::uint32_t>(header.attributes.size()));
   for (const AttributeType& type : header.attributes)
     out.insert(out.end(), {static_cast<std::uint8_t>(type.kind), type.components, type.bits,
                            static_cast<std::uint8_t>(type.mode)});
-  for (int axis = 0; axis < 3 && header.grid; ++axis) {
-    appendLittle(out, header.grid->origin[axis]);
-    appendLittle(out, header.grid->step[axis]);
+  appendNumber(out, static_cast<std::uint32_t>(header.types.size()));
+  for (const PatchType& type : header.types) {
+    out.insert(out.end(),
+               {static_cast<std::uint8_t>(type.topology), static_cast<std::uint8_t>(type.positionBits),
+                type.isBase ? baseFlag : std::uint8_t{0}, static_cast<std::uint8_t>(type.attributes.size())});
+    for (const std::uint32_t attribute : type.attributes)
+      out.push_back(static_cast<std::uint8_t>(attribute));
   }
-  if (header.hasParts()) {
-    appendLittle(out, header.partCount);
-    appendLittle(out, header.residualShift);
-  }
+  appendNumber(out, header.patchCount);
   for (const std::uint32_t length : header.streamLengths)
-    appendLittle(out, length);
+    appendNumber(out, length);
 }
 
-PlacedHeader readHeader(ByteSpan payload, std::size_t first, const std::string& place) {
-  FieldReader reader(payload, first, place);
+PlacedHeader readHeader(ByteSpan payload, const std::string& place) {
+  FieldReader reader(payload, place);
   std::uint8_t begin[4];
   for (std::uint8_t& byte : begin)
-    byte = reader.take<std::uint8_t>();
+    byte = reader.takeByte();
   if (!std::equal(begin, begin + 3, signature))
-    throw Error(ErrorKind::malformed, place, "no patch of compact begins here");
+    throw Error(ErrorKind::malformed, place, "is no image of compact");
   if (begin[3] != signature[3])
     throw Error(ErrorKind::unsupported, place,
                 "compact of version " + std::to_string(begin[3]) + " is not known");
 
-  Header header;
-  header.topology = static_cast<Topology>(reader.takeByte(1, 3, "elements"));
-  header.positionBits = reader.takeByte(1, 30, "position bits");
-  header.normalShift = reader.takeByte(0, 30, "normals");
-  const std::uint8_t flags = reader.takeByte(0, gridFlag | partsFlag, "flags");
-  const std::uint64_t corners = cornersPerElement(header.topology);
-  header.vertexCount = reader.takeCount(1, maxPatchCount, "vertices");
-  header.wedgeCount = reader.takeCount(header.vertexCount, maxPatchCount, "wedges");
-  header.elementCount =
-      reader.takeCount((header.wedgeCount + corners - 1) / corners, maxPatchCount, "elements");
-  if (header.topology == Topology::points)
-    reader.require(header.wedgeCount == header.vertexCount && header.elementCount == header.vertexCount,
-                   "points");
-  const auto attributeCount = reader.take<std::uint32_t>();
-  reader.require(attributeCount <= maxAttributes, "attributes");
+  FileHeader header;
+  const std::uint32_t attributeCount = reader.takeCount(maxFileAttributes, "attributes");
   for (std::uint32_t i = 0; i < attributeCount; ++i)
     header.attributes.push_back(takeAttribute(reader));
-  if (flags & gridFlag) {
-    reader.require(header.positionBits <= 16, "grid lines");
-    header.grid = takeGrid(reader);
-  }
-  if (flags & partsFlag) {
-    reader.require(header.topology == Topology::triangles, "parts");
-    header.partCount = reader.takeCount(1, header.elementCount, "parts");
-    header.residualShift = reader.take<std::uint32_t>();
-    reader.require(header.residualShift < header.positionBits, "parts");
-  }
+  const std::uint32_t typeCount = reader.takeCount(maxFileTypes, "types of patches");
+  for (std::uint32_t i = 0; i < typeCount; ++i)
+    header.types.push_back(takeType(reader, header.attributes.size()));
+  for (const PatchType& type : header.types)
+    reader.require(type.isBase == header.types[0].isBase, "bases beside patches");
+  header.patchCount = reader.takeCount(maxFilePatches, "patches");
+  reader.require(header.patchCount > 0, "patches");
   std::uint64_t total = 0;
   for (std::size_t i = 0; i < header.streamCount(); ++i) {
-    header.streamLengths.push_back(reader.take<std::uint32_t>());
+    header.streamLengths.push_back(reader.takeNumber());
     total += header.streamLengths.back();
   }
   if (total > payload.size() - reader.at())
-    throw Error(ErrorKind::truncated, place, "the image ends before the patch does");
-  return {header, reader.at()};
+    throw Error(ErrorKind::truncated, place, "the image ends before its streams do");
+  return {std::move(header), reader.at()};
 }
 
 } // namespace imgeo::compact

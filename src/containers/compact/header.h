@@ -1,5 +1,5 @@
 #pragma once
-// What stands before the streams of a patch: docs/formats/compact.md, "File".
+// What stands before the streams of a file: docs/formats/compact.md, "File".
 
 #include "base/bytes.h"
 #include "containers/compact/compact_patch.h"
@@ -8,33 +8,42 @@
 
 namespace imgeo::compact {
 
-struct Header {
+/// What patches of a file may have in common.
+struct PatchType {
   Topology topology = Topology::triangles;
-  std::uint32_t positionBits = 16, normalShift = 0;
-  std::uint32_t vertexCount = 0, wedgeCount = 0, elementCount = 0;
-  std::vector<AttributeType> attributes;
-  std::optional<Grid> grid;
-  std::uint32_t partCount = 0, residualShift = 0; ///< of a base; 0: a patch
-  std::vector<std::uint32_t> streamLengths;
+  std::uint32_t positionBits = 16;
+  bool isBase = false;
+  std::vector<std::uint32_t> attributes; ///< places in FileHeader::attributes
+  friend bool operator==(const PatchType&, const PatchType&) = default;
+};
 
-  bool hasConnectivity() const { return topology != Topology::points; }
-  bool hasSeams() const { return wedgeCount > vertexCount; }
-  bool hasParts() const { return partCount > 0; }
-  /// Connectivity, parts, positions, wedges and attributes, as far as the above calls for them.
+/// Each stream holds what it is for of one patch after the other. Those of the
+/// file's attributes follow, one each.
+enum class StreamName : std::uint8_t { sizes, connectivity, parts, positions, wedges, attributes };
+
+struct FileHeader {
+  std::vector<AttributeType> attributes;
+  std::vector<PatchType> types;
+  std::uint32_t patchCount = 0;
+  std::vector<std::uint32_t> streamLengths; ///< 0: no patch has any of it
+
   std::size_t streamCount() const {
-    return std::size_t{1} + hasConnectivity() + hasParts() + hasSeams() + attributes.size();
+    return static_cast<std::size_t>(StreamName::attributes) + attributes.size();
   }
 };
 
-void appendHeader(Bytes& out, const Header& header);
+/// What a file may have at most: of patches, of their types and of attributes. Its vertices,
+/// its wedges and its elements are maxPatchCount each.
+inline constexpr std::uint32_t maxFilePatches = 65536, maxFileTypes = 256, maxFileAttributes = 256;
 
-/// Reads the header of the patch that begins at byte `first` of a payload, and the
-/// place of its first stream. Behind it every count is within its limit and every
-/// stream within the payload. Throws Error{truncated, malformed, unsupported, limit}.
+void appendHeader(Bytes& out, const FileHeader& header);
+
+/// Reads the header of a payload, and the place of its first stream. Behind it every
+/// stream lies within the payload. Throws Error{truncated, malformed, unsupported, limit}.
 struct PlacedHeader {
-  Header header;
+  FileHeader header;
   std::size_t streams = 0;
 };
-PlacedHeader readHeader(ByteSpan payload, std::size_t first, const std::string& place);
+PlacedHeader readHeader(ByteSpan payload, const std::string& place);
 
 } // namespace imgeo::compact

@@ -1,13 +1,15 @@
 #pragma once
 // Lines, one behind the other: docs/formats/compact.md, "Lines". One loop codes both ways.
 
-#include "containers/compact/connectivity.h"
+#include "containers/compact/conquest.h"
 #include "containers/compact/symbols.h"
 
 namespace imgeo::compact {
 
+/// Behind those of triangles, in the same stream.
 namespace lineModelOffsets {
-inline constexpr std::size_t chain = 0, old = 1, vertex = 3, count = vertex + numberModels;
+inline constexpr std::size_t chain = conquestModels::count, old = chain + 1, vertex = old + 2,
+                             count = vertex + numberModels;
 }
 
 /// `Guide` knows an encoder's lines; decoders never call theirs.

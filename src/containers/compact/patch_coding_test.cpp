@@ -43,9 +43,11 @@ std::vector<ElementText> elementsOf(const CompactPatch& patch) {
   return elements;
 }
 
-void expectComesBack(const CompactPatch& patch) {
-  const Bytes bytes = encodePatchBytes(patch, 0).bytes;
-  const CompactPatch back = decodePatchBytes(bytes, 0, "x.png");
+Bytes bytesOf(const CompactPatch& patch, int effort = 0) {
+  return encodePatches({&patch, 1}, effort).bytes;
+}
+
+void expectIs(const CompactPatch& back, const CompactPatch& patch) {
   EXPECT_EQ(back.topology, patch.topology);
   EXPECT_EQ(back.positionBits, patch.positionBits);
   EXPECT_EQ(back.positions.size(), patch.positions.size());
@@ -56,6 +58,17 @@ void expectComesBack(const CompactPatch& patch) {
   EXPECT_EQ(elementsOf(back), elementsOf(patch));
 }
 
+void expectComeBack(std::span<const CompactPatch> patches) {
+  const std::vector<CompactPatch> back = decodePatches(encodePatches(patches, 0).bytes, "x.png");
+  ASSERT_EQ(back.size(), patches.size());
+  for (std::size_t i = 0; i < back.size(); ++i)
+    expectIs(back[i], patches[i]);
+}
+
+void expectComesBack(const CompactPatch& patch) {
+  expectComeBack({&patch, 1});
+}
+
 TEST(Compact, GivesBackRandomMeshes) {
   for (std::uint32_t seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE(seed);
@@ -63,6 +76,43 @@ TEST(Compact, GivesBackRandomMeshes) {
     expectComesBack(testing::patchOf(imgeo::testing::randomMesh(seed), 8 + seed % 23, bits));
     if (HasFailure())
       return;
+  }
+}
+
+TEST(Compact, GivesBackManyPatchesOfAFile) {
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    testing::Random random(seed);
+    std::vector<CompactPatch> patches;
+    for (std::uint32_t i = 0; i <= seed; ++i) {
+      const AttributeBits bits{4 + i % 13, 1 + i % 16, 1 + i % 8, static_cast<NormalMode>(i / 2 % 4)};
+      patches.push_back(testing::patchOf(imgeo::testing::randomMesh(random.below(400)), 8 + i % 5, bits));
+    }
+    expectComeBack(patches);
+    if (HasFailure())
+      return;
+  }
+}
+
+TEST(Compact, TakesLessForPatchesTogetherThanForEachAlone) {
+  std::vector<CompactPatch> patches;
+  std::size_t alone = 0;
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    patches.push_back(testing::patchOf(imgeo::testing::sphere(3 + i % 5, 4 + i % 7), 16));
+    alone += bytesOf(patches.back()).size();
+  }
+  EXPECT_LT(static_cast<double>(encodePatches(patches, 0).bytes.size()), 0.75 * static_cast<double>(alone));
+}
+
+TEST(Compact, TellsTheAttributesOfPatchesWithoutDecodingThem) {
+  for (const testing::Sample& sample : testing::files()) {
+    const auto told = attributesOfPatches(encodePatches(sample.patches, 0).bytes, "x.png");
+    ASSERT_EQ(told.size(), sample.patches.size());
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      ASSERT_EQ(told[i].size(), sample.patches[i].attributes.size());
+      for (std::size_t a = 0; a < told[i].size(); ++a)
+        EXPECT_EQ(told[i][a], sample.patches[i].attributes[a].type);
+    }
   }
 }
 
@@ -134,7 +184,7 @@ TEST(Compact, GivesBackWhatNoSurfaceIs) {
   for (const Hostile& hostile : hostilePatches()) {
     SCOPED_TRACE(hostile.name);
     expectComesBack(hostile.patch);
-    const double bytes = static_cast<double>(encodePatchBytes(hostile.patch, 0).bytes.size());
+    const double bytes = static_cast<double>(bytesOf(hostile.patch).size());
     EXPECT_LT(bytes / static_cast<double>(hostile.patch.elementCount()), hostile.mostBytes);
     // Words for coordinates and for indices: what no coding at all would take.
     const auto plain =
@@ -145,19 +195,19 @@ TEST(Compact, GivesBackWhatNoSurfaceIs) {
 
 TEST(Compact, EncodesTheSameBytesEveryTime) {
   const CompactPatch patch = testing::patchOf(imgeo::testing::randomMesh(7), 16);
-  EXPECT_EQ(encodePatchBytes(patch, 5).bytes, encodePatchBytes(patch, 5).bytes);
+  EXPECT_EQ(bytesOf(patch, 5), bytesOf(patch, 5));
 }
 
 TEST(Compact, IsNotLargerWithMoreEffort) {
-  for (const testing::Sample& sample : testing::samples())
-    EXPECT_LE(encodePatchBytes(sample.patch, 9).bytes.size(), encodePatchBytes(sample.patch, 0).bytes.size())
+  for (const testing::Sample& sample : testing::files())
+    EXPECT_LE(encodePatches(sample.patches, 9).bytes.size(), encodePatches(sample.patches, 0).bytes.size())
         << sample.name;
 }
 
 TEST(Compact, IsRefusedWhenAnyOfItsEndIsMissing) {
-  const Bytes bytes = encodePatchBytes(testing::samples()[3].patch, 0).bytes;
+  const Bytes bytes = bytesOf(testing::samples()[3].patch());
   for (std::size_t length = 0; length < bytes.size(); ++length)
-    EXPECT_THROW(decodePatchBytes(ByteSpan(bytes).first(length), 0, "x.png"), Error) << length;
+    EXPECT_THROW(decodePatches(ByteSpan(bytes).first(length), "x.png"), Error) << length;
 }
 
 } // namespace

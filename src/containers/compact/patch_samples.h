@@ -6,7 +6,10 @@
 #include "containers/testing.h"
 #include "prepare/weld.h"
 
+#include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace imgeo::compact::testing {
 
@@ -109,11 +112,19 @@ inline CompactPatch baseOf(const Mesh& mesh) {
   return base;
 }
 
+/// A file to be.
 struct Sample {
   std::string name;
-  CompactPatch patch;
+  std::vector<CompactPatch> patches;
+
+  Sample(std::string called, CompactPatch only) : name(std::move(called)), patches{std::move(only)} {}
+  Sample(std::string called, std::vector<CompactPatch> all)
+      : name(std::move(called)), patches(std::move(all)) {}
+  CompactPatch& patch() { return patches[0]; }
+  const CompactPatch& patch() const { return patches[0]; }
 };
 
+/// Files of one patch.
 inline std::vector<Sample> samples() {
   using namespace imgeo::testing;
   const auto colored = [](Mesh mesh, std::uint32_t components) {
@@ -159,11 +170,32 @@ inline std::vector<Sample> samples() {
     pointsWithNormals.normals.push_back(random.direction());
   samples.push_back({"points-with-normals", patchOf(pointsWithNormals, 20)});
   samples.push_back({"others", patchOf(torus(5, 7), 16)});
-  addOther(samples.back().patch, 1, 24, 1);
-  addOther(samples.back().patch, 4, 3, 2);
+  addOther(samples.back().patch(), 1, 24, 1);
+  addOther(samples.back().patch(), 4, 3, 2);
   samples.push_back({"base", baseOf(sphere(12, 16))});
   samples.push_back({"base-colors", baseOf(colored(grid(6), 3))});
   return samples;
+}
+
+/// Of one patch and of several.
+inline std::vector<Sample> files() {
+  std::vector<Sample> files = samples();
+  const auto of = [&](std::initializer_list<const char*> names) {
+    std::vector<CompactPatch> patches;
+    for (const char* name : names)
+      patches.push_back(std::ranges::find(files, name, &Sample::name)->patch());
+    return patches;
+  };
+  std::vector<CompactPatch> alike;
+  for (std::uint32_t i = 3; i < 12; ++i)
+    alike.push_back(patchOf(imgeo::testing::sphere(i, i + 1), 12));
+  const auto several = of({"cube", "sphere", "lines", "others", "terrain", "points-with-normals", "torus",
+                           "cube", "torus-plain-colors", "sphere-derived"}),
+             bases = of({"base", "base-colors", "base"});
+  files.emplace_back("alike", std::move(alike));
+  files.emplace_back("several", several);
+  files.emplace_back("bases", bases);
+  return files;
 }
 
 } // namespace imgeo::compact::testing

@@ -1,5 +1,5 @@
 // vectors/compact-1: files and what decodes from them, for readers in any language.
-// NAME.png holds the patch of NAME.json at byte `first` of its pixels. edits.json
+// NAME.png holds the patches of NAME.json. edits.json
 // lists edits of payloads, and what is to come of each: the kind of error, or the
 // FNV-1a sum of what decodes. IMGEO_REWRITE_GOLDEN=1 writes all anew, which is a
 // new version of the format.
@@ -31,9 +31,8 @@ template <typename Visit> void visitNumbers(const CompactPatch& patch, Visit vis
     visit("parts", std::int64_t{part});
 }
 
-Json jsonOf(const CompactPatch& patch, std::size_t first) {
-  Json json{{"first", first},
-            {"topology", static_cast<int>(patch.topology)},
+Json jsonOf(const CompactPatch& patch) {
+  Json json{{"topology", static_cast<int>(patch.topology)},
             {"positionBits", patch.positionBits},
             {"positions", Json::array()},
             {"wedgePositions", Json::array()},
@@ -57,25 +56,34 @@ Json jsonOf(const CompactPatch& patch, std::size_t first) {
   return json;
 }
 
+Json jsonOf(const std::vector<CompactPatch>& patches) {
+  Json json = Json::array();
+  for (const CompactPatch& patch : patches)
+    json.push_back(jsonOf(patch));
+  return json;
+}
+
 /// FNV-1a over every number that decodes, as four little-endian bytes each.
-std::uint32_t sumOf(const CompactPatch& patch) {
+std::uint32_t sumOf(const std::vector<CompactPatch>& patches) {
   std::uint32_t hash = 2166136261u;
   const auto add = [&](std::int64_t number) {
     for (int shift = 0; shift < 32; shift += 8)
       hash = (hash ^ (static_cast<std::uint32_t>(number) >> shift & 255)) * 16777619u;
   };
-  visitNumbers(patch, [&](const char*, std::int64_t number) { add(number); });
-  for (const Attribute& attribute : patch.attributes)
-    for (const Value& value : attribute.values)
-      for (std::uint32_t i = 0; i < attribute.type.components; ++i)
-        add(value[i]);
+  for (const CompactPatch& patch : patches) {
+    visitNumbers(patch, [&](const char*, std::int64_t number) { add(number); });
+    for (const Attribute& attribute : patch.attributes)
+      for (const Value& value : attribute.values)
+        for (std::uint32_t i = 0; i < attribute.type.components; ++i)
+          add(value[i]);
+  }
   return hash;
 }
 
-Json verdictOn(const Bytes& payload, std::size_t first) {
+Json verdictOn(const Bytes& payload) {
   static constexpr const char* names[] = {"io", "truncated", "malformed", "unsupported", "limit", "usage"};
   try {
-    return sumOf(decodePatchBytes(payload, first, "x.png"));
+    return sumOf(decodePatches(payload, "x.png"));
   } catch (const Error& error) {
     return names[static_cast<std::size_t>(error.kind())];
   }
@@ -106,7 +114,7 @@ Json editsOf(const std::string& name, const Bytes& payload, std::uint32_t seed) 
     Json entry{{"file", name}, {"edits", std::move(edits)}};
     if (length)
       entry["length"] = *length;
-    entry["verdict"] = verdictOn(edited(payload, entry), 0);
+    entry["verdict"] = verdictOn(edited(payload, entry));
     entries.push_back(entry);
   };
   testing::Random random(seed);
@@ -127,21 +135,13 @@ Json editsOf(const std::string& name, const Bytes& payload, std::uint32_t seed) 
 void rewrite() {
   Json edits = Json::array();
   std::uint32_t seed = 0;
-  for (const testing::Sample& sample : testing::samples()) {
-    const Bytes payload = encodePatchBytes(sample.patch, 0).bytes;
+  for (const testing::Sample& sample : testing::files()) {
+    const Bytes payload = encodePatches(sample.patches, 0).bytes;
     writeFile(folder / (sample.name + ".png"), imageOfPayload(payload));
-    write(sample.name + ".json", jsonOf(decodePatchBytes(payload, 0, ""), 0));
+    write(sample.name + ".json", jsonOf(decodePatches(payload, "")));
     for (Json& entry : editsOf(sample.name, payload, ++seed))
       edits.push_back(std::move(entry));
   }
-  // Two patches in one file.
-  const std::vector<testing::Sample> samples = testing::samples();
-  Bytes payload = encodePatchBytes(samples[5].patch, 0).bytes;
-  const std::size_t first = payload.size();
-  const Bytes second = encodePatchBytes(samples[1].patch, 0).bytes;
-  payload.insert(payload.end(), second.begin(), second.end());
-  writeFile(folder / "second.png", imageOfPayload(payload));
-  write("second.json", jsonOf(decodePatchBytes(payload, first, ""), first));
   write("edits.json", edits);
 }
 
@@ -161,16 +161,15 @@ TEST_F(Vectors, AreDecodedExactly) {
     const std::string name = entry.path().stem();
     const Json expected = read(name + ".json");
     const Bytes payload = payloadOfImage(readFile(entry.path()), name);
-    const auto first = expected.at("first").get<std::size_t>();
-    EXPECT_EQ(jsonOf(decodePatchBytes(payload, first, name), first), expected) << name;
+    EXPECT_EQ(jsonOf(decodePatches(payload, name)), expected) << name;
     ++count;
   }
   EXPECT_GT(count, 15u);
 }
 
 TEST_F(Vectors, AreWhatIsEncodedToday) {
-  for (const testing::Sample& sample : testing::samples())
-    EXPECT_EQ(imageOfPayload(encodePatchBytes(sample.patch, 0).bytes),
+  for (const testing::Sample& sample : testing::files())
+    EXPECT_EQ(imageOfPayload(encodePatches(sample.patches, 0).bytes),
               readFile(folder / (sample.name + ".png")))
         << sample.name;
 }
@@ -182,7 +181,7 @@ TEST_F(Vectors, AreRefusedOrDecodedAsStatedWhenEdited) {
     const std::string name = entry.at("file");
     if (!payloads.contains(name))
       payloads[name] = payloadOfImage(readFile(folder / (name + ".png")), name);
-    const Json verdict = verdictOn(edited(payloads[name], entry), 0);
+    const Json verdict = verdictOn(edited(payloads[name], entry));
     EXPECT_EQ(verdict, entry.at("verdict")) << entry;
     ++verdicts[verdict.is_string() ? verdict.get<std::string>() : "decoded"];
   }

@@ -3,10 +3,10 @@
 
 import { classicColors, classicCoords, classicIndex, classicNormals, classicTexCoords, classicValues } from "./classicArrays.ts";
 import { classicGrid } from "./classicGrid.ts";
-import { compactBase, compactPatch, compactPayload } from "./compact/jobs.ts";
+import { compactBases, compactPatches } from "./compact/jobs.ts";
 
 export const jobs = {
-  classicCoords, classicIndex, classicNormals, classicColors, classicTexCoords, classicValues, classicGrid, compactPayload, compactPatch, compactBase,
+  classicCoords, classicIndex, classicNormals, classicColors, classicTexCoords, classicValues, classicGrid, compactPatches, compactBases,
 } as const;
 
 export type JobName = keyof typeof jobs;

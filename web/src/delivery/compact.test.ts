@@ -1,29 +1,26 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { readPatchHeader } from "../decode/compact/header.ts";
-import { decodePatch } from "../decode/compact/patch.ts";
 import { baseBuffersOf } from "../decode/compact/baseBuffers.ts";
 import { buffersOf } from "../decode/compact/patchBuffers.ts";
-import { readPayload, readVector, readVectorFile, vectorNames } from "../decode/compact/vectors.testing.ts";
+import { decodeVector, readVectorFile, vectorNames } from "../decode/compact/vectors.testing.ts";
 import { pngWithTexels } from "../decode/png.testing.ts";
 import { storedFrameOf } from "../document/storedFrame.ts";
 import { everything, geometryOf, held, record, siteOf, soon } from "./delivery.testing.ts";
 
-const secondFirst = (readVector("second") as { first: number }).first;
-
-/** A geometry of patches that begin at bytes of files, as documents describe them. */
-function geometryFor(patches: readonly (readonly [file: string, first: number])[], changes: Record<string, string> = {}, base = "") {
-  const { header } = readPatchHeader(readPayload(patches[0]?.[0] ?? ""), patches[0]?.[1] ?? 0);
-  const markup = patches.map(([file, first]) => {
-    const { index, vertexCount, topology } = buffersOf(decodePatch(readPayload(file), first));
+/** A geometry of patches of files, as documents describe them. */
+function geometryFor(patches: readonly (readonly [file: string, number: number])[], changes: Record<string, string> = {}, base = "") {
+  const patchAt = (file: string, number: number) => decodeVector(file)[number] ?? assert.fail("no such patch");
+  const { header } = patchAt(...patches[0] ?? assert.fail("no patches"));
+  const markup = patches.map(([file, number]) => {
+    const { index, vertexCount, topology } = buffersOf(patchAt(file, number));
     const fields = { recordCount: String(vertexCount), vertexCount: String(index?.length ?? vertexCount),
-                     primType: topology.toUpperCase(), data: `${file}.png#${first}`, ...changes };
+                     primType: topology.toUpperCase(), data: `${file}.png#${number}`, ...changes };
     return `<GeometryPatch ${Object.entries(fields).map(([name, value]) => `${name}="${value}"`).join(" ")}/>`;
   });
   return geometryOf(`<ImageGeometry profile="compact" positionBits="${changes.positionBits ?? header.positionBits}" base="${base}">${markup.join("")}</ImageGeometry>`);
 }
 
-const hasParts = (name: string) => readPatchHeader(readPayload(name), 0).header.partCount > 0;
+const hasParts = (name: string) => decodeVector(name).some(({ parts }) => parts);
 const filesOf = (...names: string[]) => Object.fromEntries(names.map((name) => [`${name}.png`, readVectorFile(name)]));
 
 async function until(condition: () => boolean): Promise<void> {
@@ -32,14 +29,14 @@ async function until(condition: () => boolean): Promise<void> {
 
 describe("a geometry of compact", () => {
   test("becomes whole stages of buffers, whatever it holds", async () => {
-    for (const name of vectorNames().filter((name) => name !== "second" && !hasParts(name))) {
+    for (const name of vectorNames().filter((name) => !hasParts(name))) {
       const site = siteOf(filesOf(name));
       const { stages, errors, settled } = record(geometryFor([[name, 0]]), site.pool);
       await settled;
       assert.deepEqual(errors, []);
       const [{ stage } = assert.fail("no stage")] = stages;
       assert.ok(stages.length === 1 && stage.kind === "buffers" && stage.name === "full");
-      const { index, coord, normal, color } = buffersOf(decodePatch(readPayload(name), 0));
+      const { index, coord, normal, color } = buffersOf(decodeVector(name)[0] ?? assert.fail());
       assert.deepEqual([stage.index, stage.coord, stage.normal, stage.color].map((stored) => stored && site.arrayOf(stored)),
                        [index, coord.array, normal?.array, color?.array]);
       const { type, components, stride, offset } = stage.coord;
@@ -47,20 +44,61 @@ describe("a geometry of compact", () => {
     }
   });
 
-  test("asks once for a file of several patches", async () => {
-    const site = siteOf(filesOf("second"));
-    const { stages, errors, settled } = record(geometryFor([["second", secondFirst]]), site.pool);
-    await settled;
-    assert.deepEqual([errors, stages.map(({ patch }) => patch), site.asked], [[], [0], ["second.png"]]);
+  test("asks once for a file of several patches, and decodes it once for all who show one", async () => {
+    const site = siteOf(filesOf("alike"));
+    const numbers = [3, 0, 8];
+    const recordings = numbers.map((number) => record(geometryFor([["alike", number]]), site.pool));
+    await Promise.all(recordings.map(({ settled }) => settled));
+    assert.deepEqual([site.asked, site.jobs], [["alike.png"], ["compactPatches"]]);
+    const patches = decodeVector("alike");
+    for (const [place, { stages: [only, ...others], errors }] of recordings.entries()) {
+      assert.ok(only?.stage.kind === "buffers");
+      assert.deepEqual([errors, others.length], [[], 0]);
+      const { index, coord } = buffersOf(patches[numbers[place] ?? 0] ?? assert.fail());
+      assert.deepEqual([only.stage.index, only.stage.coord].map((stored) => site.arrayOf(stored)), [index, coord.array]);
+    }
     const both = record(geometryFor([["cube", 0], ["cube", 0]]), siteOf(filesOf("cube")).pool);
     await both.settled;
     assert.deepEqual(both.stages.map(({ patch }) => patch), [0, 1]);
   });
 
+  test("fails with the file that it shares, each with an error of its own", async () => {
+    const site = siteOf({ "alike.png": 404 });
+    const recordings = [1, 2].map((number) => record(geometryFor([["alike", number]]), site.pool));
+    await Promise.all(recordings.map(({ settled }) => settled));
+    assert.deepEqual(recordings.map(({ errors, stages }) => [errors.length, errors[0]?.url, errors[0]?.kind, stages.length]),
+                     [[1, "alike.png", "http", 0], [1, "alike.png", "http", 0]]);
+    assert.deepEqual(site.asked, ["alike.png"]);
+  });
+
+  test("is asked for as soon as any who share its file want it, and given up with the last of them", async () => {
+    const { promise, release } = held(readVectorFile("sphere"));
+    const site = siteOf({ ...filesOf("alike", "torus"), "sphere.png": promise }, 1);
+    const wanted = (priority: number) => () => priority;
+    const first = record(geometryFor([["sphere", 0]]), site.pool, wanted(9));
+    const low = record(geometryFor([["alike", 4]]), site.pool, wanted(1));
+    const middle = record(geometryFor([["torus", 0]]), site.pool, wanted(5));
+    const high = record(geometryFor([["alike", 5]]), site.pool, wanted(7));
+    const totals = low.delivery.transfers.map(({ totalBytes }) => totalBytes);
+    high.delivery.cancel();
+    assert.ok((low.delivery.transfers[0]?.totalBytes ?? 0) < (totals[0] ?? 0), "what one waits for is added up");
+    low.delivery.demand(wanted(8));
+    release();
+    await Promise.all([first.settled, low.settled, middle.settled]);
+    assert.deepEqual(site.asked, ["sphere.png", "alike.png", "torus.png"]);
+    const gone = siteOf({ "alike.png": new Promise(() => undefined) });
+    const both = [1, 2].map((number) => record(geometryFor([["alike", number]]), gone.pool));
+    await until(() => gone.asked.length === 1);
+    both[0]?.delivery.cancel();
+    assert.deepEqual(gone.aborted, []);
+    both[1]?.delivery.cancel();
+    assert.deepEqual(gone.aborted, ["alike.png"]);
+  });
+
   for (const [what, changes] of Object.entries({
     "position bits": { positionBits: "15" }, "a number of vertices": { recordCount: "7" },
     "a number of corners": { vertexCount: "3" }, "a primitive": { primType: "LINES" },
-    "a place": { data: "torus.png#4" }, "a place behind its end": { data: "torus.png#99999999" },
+    "a number": { data: "torus.png#1" },
   })) {
     test(`refuses a file that has not ${what} which the document states`, async () => {
       const { stages, errors, settled } = record(geometryFor([["torus", 0]], changes), siteOf(filesOf("torus")).pool);
@@ -93,7 +131,7 @@ describe("a geometry of compact", () => {
     await settled;
     assert.deepEqual(errors, []);
     assert.deepEqual(site.asked, ["base.png", "sphere.png", "soup.png"]);
-    const parts = baseBuffersOf(decodePatch(readPayload("base"), 0));
+    const parts = baseBuffersOf(decodeVector("base")[0] ?? assert.fail());
     for (const patch of [0, 1, 2]) {
       const [first, last, ...others] = stages.filter((one) => one.patch === patch).map(({ stage }) => stage);
       assert.deepEqual([first?.name, last?.name, others.length], ["base", "full", 0]);

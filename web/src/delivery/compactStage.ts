@@ -1,10 +1,9 @@
-// SIG compact: one file holds all of a patch, which a worker decodes, and another a
-// coarse shape of all patches, whose parts stand in for them until they are here.
+// SIG compact: one file holds all of a patch, and of others, which a worker decodes
+// together, and another coarse shapes of all patches, whose parts stand in for them
+// until they are here.
 
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
-import { readPatchHeader } from "../decode/compact/header.ts";
 import { DecodeError } from "../decode/decodeError.ts";
-import type { RunJob } from "../decode/jobs.ts";
 import type { BufferStage, DrawRange, StageName, VertexArray } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { latticeBitsOf } from "../document/storedFrame.ts";
@@ -12,42 +11,8 @@ import { Holdings } from "./holdings.ts";
 import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
 import { drawRangesOf } from "./stageBuilder.ts";
 
-type Payload = Uint8Array<ArrayBuffer>;
-type Parts = readonly (PatchBuffers | undefined)[];
-
-/** The base of a geometry, decoded once for all patches, and kept no longer than its payload. */
-export class BaseParts {
-  readonly #geometry: GeometryDescription;
-  readonly #run: RunJob;
-  readonly #decoded = new WeakMap<Payload, Promise<Parts>>();
-
-  constructor(geometry: GeometryDescription, run: RunJob) {
-    this.#geometry = geometry;
-    this.#run = run;
-  }
-
-  /** Of each patch; undefined where a part has no triangles. */
-  of(payload: Payload, first: number): Promise<Parts> {
-    const parts = this.#decoded.get(payload) ?? this.#decode(payload, first);
-    this.#decoded.set(payload, parts);
-    return parts;
-  }
-
-  async #decode(payload: Payload, first: number): Promise<Parts> {
-    const { end } = readPatchHeader(payload, first);
-    // Whoever gives it up, others wait for it as well; it is a matter of milliseconds.
-    const parts = await this.#run("compactBase", payload.slice(first, end), new AbortController().signal);
-    const { patches } = this.#geometry;
-    if (parts.length !== patches.length) {
-      throw new DecodeError("malformed", `holds ${parts.length} parts for ${patches.length} patches`);
-    }
-    for (const part of parts) if (part) checkBits(part, this.#geometry);
-    return parts;
-  }
-}
-
-export function compactBuilder(geometry: GeometryDescription, patch: PatchDescription, place: number, base: BaseParts,
-                               { runJob, storeBytes }: BuilderTools): StageBuilder {
+export function compactBuilder(geometry: GeometryDescription, patch: PatchDescription, place: number,
+                               { storeBytes }: Pick<BuilderTools, "storeBytes">): StageBuilder {
   const holdings = new Holdings(storeBytes);
   let standIn: BufferStage | undefined;
   let full: BufferStage | undefined;
@@ -71,18 +36,23 @@ export function compactBuilder(geometry: GeometryDescription, patch: PatchDescri
   return {
     isDivisible: true,
     async accept(part, content, signal) {
-      if (content.kind !== "payload") throw new DecodeError("malformed", "is no file of compact");
       const { first } = part.reference;
-      if (part.role === "base") {
-        const buffers = (await base.of(content.bytes, first))[place];
-        const count = buffers?.index?.length ?? 0;
-        standIn = buffers && await store("base", buffers, [{ primitive: "triangles", first: 0, count }], signal);
-        return;
+      if (content.kind === "bases") {
+        const parts = pieceOf(content.bases, first);
+        if (parts.length !== geometry.patches.length) {
+          throw new DecodeError("malformed", `holds ${parts.length} parts for ${geometry.patches.length} patches`);
+        }
+        const buffers = parts[place];
+        if (buffers) checkBits(buffers, geometry);
+        const draws: DrawRange[] = [{ primitive: "triangles", first: 0, count: buffers?.index?.length ?? 0 }];
+        standIn = buffers && await store("base", buffers, draws, signal);
+      } else if (content.kind === "patches") {
+        const buffers = pieceOf(content.patches, first);
+        check(buffers, geometry, patch);
+        full = await store("full", buffers, drawRangesOf(patch), signal);
+      } else {
+        throw new DecodeError("malformed", "is no file of compact");
       }
-      const { end } = readPatchHeader(content.bytes, first);
-      const buffers = await runJob("compactPatch", content.bytes.slice(first, end), signal);
-      check(buffers, geometry, patch);
-      full = await store("full", buffers, drawRangesOf(patch), signal);
     },
     stage: () => full ?? standIn,
     get storedBytes() { return holdings.byteLength; },
@@ -93,6 +63,13 @@ export function compactBuilder(geometry: GeometryDescription, patch: PatchDescri
     },
     sweep: () => { holdings.sweep(); },
   };
+}
+
+/** The one of several that a reference means. */
+function pieceOf<Piece>(pieces: readonly Piece[], first: number): Piece {
+  const piece = pieces[first];
+  if (piece === undefined) throw new DecodeError("malformed", `holds ${pieces.length} patches, of which none has number ${first}`);
+  return piece;
 }
 
 /** What the document says of a patch must be what its file holds: drawing goes by it. */

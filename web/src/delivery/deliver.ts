@@ -13,7 +13,7 @@ import { bytesPerTexel, partsOf } from "./parts.ts";
 import type { Transfer } from "./progress.ts";
 import type { Content, ContentKind, Lease, ResourcePool } from "./resources.ts";
 import { bgBuilder } from "./bgStage.ts";
-import { BaseParts, compactBuilder } from "./compactStage.ts";
+import { compactBuilder } from "./compactStage.ts";
 import { sigBuilder } from "./sigStage.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
 
@@ -98,10 +98,9 @@ class GeometryDelivery implements Delivery {
   constructor(geometry: GeometryDescription, pool: ResourcePool, listener: DeliveryListener) {
     this.#pool = pool;
     this.#listener = listener;
-    const base = new BaseParts(geometry, pool.runHere);
     this.#patches = geometry.patches.map((patch, place) => ({
       place,
-      builder: builderOf(geometry, place, patch, base, pool),
+      builder: builderOf(geometry, place, patch, pool),
       needs: needsOf(geometry, patch, pool.largestTexture),
       claims: [],
       stage: undefined,
@@ -249,10 +248,10 @@ class GeometryDelivery implements Delivery {
   }
 }
 
-function builderOf(geometry: GeometryDescription, place: number, patch: PatchDescription, base: BaseParts, pool: ResourcePool): StageBuilder {
+function builderOf(geometry: GeometryDescription, place: number, patch: PatchDescription, pool: ResourcePool): StageBuilder {
   switch (geometry.container) {
     case "bg": return bgBuilder(geometry, patch, pool);
-    case "compact": return compactBuilder(geometry, patch, place, base, pool);
+    case "compact": return compactBuilder(geometry, patch, place, pool);
     case "sig": return sigBuilder(geometry, patch, pool);
   }
 }
@@ -260,7 +259,7 @@ function builderOf(geometry: GeometryDescription, place: number, patch: PatchDes
 function needsOf(geometry: GeometryDescription, patch: PatchDescription, largestTexture: number): Need[] {
   const kindOfPatch = contentKindOf(geometry, patch, largestTexture);
   return partsOf(geometry, patch).sort((a, b) => useOf(a) - useOf(b)).map((part): Need => ({
-    part, kind: part.role === "base" ? "base" : kindOfPatch, lease: undefined, transfer: undefined, aborter: new AbortController(), state: "absent", storedBytes: part.storedBytes,
+    part, kind: part.role === "base" ? "bases" : kindOfPatch, lease: undefined, transfer: undefined, aborter: new AbortController(), state: "absent", storedBytes: part.storedBytes,
   }));
 }
 
@@ -297,12 +296,12 @@ function isImage({ kind }: Need): boolean {
 
 /** Of use, and room on the GPU, for itself. */
 function isSeparate(need: Need): boolean {
-  return isImage(need) || need.kind === "payload" || need.kind === "base";
+  return isImage(need) || need.kind === "patches" || need.kind === "bases";
 }
 
 /** Where the vertices of a patch are to be decoded, and so what its files are to become. */
 function contentKindOf(geometry: GeometryDescription, patch: PatchDescription, largestTexture: number): ContentKind {
-  if (geometry.container === "compact") return "payload";
+  if (geometry.container === "compact") return "patches";
   if (geometry.container === "bg" || geometry.decode === "cpu") return "bytes";
   if (geometry.decode === "gpu") return "texture";
   const texels = patch.grid ? patch.vertexCount : patch.draws.reduce((sum, draw) => sum + draw.count, 0);

@@ -25,6 +25,7 @@ export type Answer = Uint8Array<ArrayBuffer> | number | Promise<Uint8Array<Array
 export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures = true) {
   const asked: string[] = [];
   const aborted: string[] = [];
+  const done: string[] = [];
   const images = { open: 0 };
   const arrays = new Map<StoredBytes, ElementArray>();
   const scheduler = new Scheduler(slots);
@@ -47,7 +48,10 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
     }),
     readsTextures: () => Promise.resolve(readsTextures),
     largestTexture: 4096,
-    runJob: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
+    runJob: (name, input) => {
+      done.push(name);
+      return (jobs[name] as (input: unknown) => Promise<never>)(input);
+    },
     runHere: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
     makePicture: () => Promise.reject(new Error("no pictures here")),
     storeBytes: (array, _, signal) => {
@@ -62,7 +66,7 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
   });
   /** What has been stored. */
   const arrayOf = (stored: { readonly bytes: StoredBytes } | undefined) => arrays.get(stored?.bytes ?? assert.fail("nothing there")) ?? assert.fail("closed");
-  return { asked, aborted, images, arrays, arrayOf, scheduler, pool };
+  return { asked, aborted, jobs: done, images, arrays, arrayOf, scheduler, pool };
 }
 
 export interface Recording {

@@ -16,6 +16,7 @@ export interface Part {
   readonly reference: Reference;
   /** What it is to the order of requests. */
   readonly chunk: Chunk;
+  /** Of what the patch needs of the file. */
   readonly expectedBytes: number;
   /** What it is likely to take on the GPU, until it is there. */
   readonly storedBytes: number;
@@ -23,7 +24,7 @@ export interface Part {
 
 export function partsOf(geometry: GeometryDescription, patch: PatchDescription): Part[] {
   if (geometry.container === "compact") {
-    return [...(geometry.base ? [basePart(geometry, patch, geometry.base)] : []), ...(patch.data ? [compactPart(patch, patch.data)] : [])];
+    return [...(geometry.base ? [basePart(patch, geometry.base)] : []), ...(patch.data ? [compactPart(patch, patch.data)] : [])];
   }
   const corners = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
   const vertices = patch.vertexCount;
@@ -52,11 +53,11 @@ function compactPart(patch: PatchDescription, reference: Reference): Part {
 /** What a base has of its patches' triangles, and bytes, roughly. */
 const shareOfBase = 0.03;
 
-function basePart({ patches }: GeometryDescription, patch: PatchDescription, reference: Reference): Part {
+function basePart(patch: PatchDescription, reference: Reference): Part {
+  const { expectedBytes, storedBytes } = compactSizes(patch);
   return {
     role: "base", plane: 0, reference, chunk: { type: "base", plane: 0 },
-    expectedBytes: shareOfBase * patches.reduce((sum, each) => sum + compactSizes(each).expectedBytes, 0),
-    storedBytes: shareOfBase * compactSizes(patch).storedBytes,
+    expectedBytes: shareOfBase * expectedBytes, storedBytes: shareOfBase * storedBytes,
   };
 }
 

@@ -3,6 +3,8 @@
 // aborted or its image is given back. Bytes go sooner: when all who hold a lease
 // have taken of them what they need.
 
+import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
+import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { DataImage, DecodedImage } from "../decode/image.ts";
 import type { RunJob } from "../decode/jobs.ts";
 import type { SamplingDescription } from "../document/description.ts";
@@ -16,13 +18,15 @@ import type { Transfer } from "./progress.ts";
 export type Content =
   | { readonly kind: "image" } & DataImage
   | { readonly kind: "picture" } & Picture
-  | { readonly kind: "bytes" | "payload"; readonly bytes: Uint8Array<ArrayBuffer> };
+  | { readonly kind: "bytes"; readonly bytes: Uint8Array<ArrayBuffer> }
+  | { readonly kind: "patches"; readonly patches: readonly PatchBuffers[] }
+  | { readonly kind: "bases"; readonly bases: readonly BaseBuffers[] };
 
 /**
- * What a file is to become: a texture, its own bytes, or either, as the view decides; or the
- * payload of compact that it carries, unpacked in a worker, or here, since all wait for a base.
+ * What a file is to become: a texture, its own bytes, or either, as the view decides; or all the
+ * patches of compact that it holds, decoded in a worker, or the bases, here, since all wait for them.
  */
-export type ContentKind = "texture" | "bytes" | "either" | "payload" | "base" | "picture";
+export type ContentKind = "texture" | "bytes" | "either" | "patches" | "bases" | "picture";
 
 /** An image that is looked at, in any format that the browser knows; where textures are read from. */
 export interface Picture {
@@ -39,7 +43,7 @@ export interface ResourceRequest {
   readonly url: string;
   /** Larger comes first. Of several leases the largest counts. */
   readonly priority: number;
-  /** What the file is likely to weigh, until the server says. */
+  /** What the file is likely to weigh, until the server says; of patches and bases what is wanted of it. */
   readonly expectedBytes: number;
   /** Of a picture. */
   readonly sampling?: SamplingDescription;
@@ -94,10 +98,6 @@ export class ResourcePool {
     return this.#options.runJob;
   }
 
-  get runHere(): RunJob {
-    return this.#options.runHere ?? this.#options.runJob;
-  }
-
   get storeBytes(): StoreBytes {
     return this.#options.storeBytes;
   }
@@ -110,7 +110,7 @@ export class ResourcePool {
     const { scheduler, resolve } = this.#options;
     const key = `${request.kind} ${resolve(request.url)} ${JSON.stringify(request.sampling)}`;
     const resource = this.#resources.get(key) ?? this.#start(key, request);
-    const leased = { priority: request.priority, isFinished: false };
+    const leased = { priority: request.priority, expectedBytes: request.expectedBytes };
     resource.add(leased);
     scheduler.reorder();
     const forget = () => { if (this.#resources.get(key) === resource) this.#resources.delete(key); };
@@ -126,7 +126,7 @@ export class ResourcePool {
         resource.fail(error);
       },
       finish() {
-        leased.isFinished = true;
+        resource.finish(leased);
         if (resource.dropBytes()) forget();
       },
       release: () => {
@@ -146,7 +146,7 @@ export class ResourcePool {
 
 interface Leased {
   readonly priority: number;
-  readonly isFinished: boolean;
+  readonly expectedBytes: number;
 }
 
 class Resource {
@@ -155,6 +155,10 @@ class Resource {
   readonly #backlog: Backlog;
   readonly #aborter = new AbortController();
   readonly #leases = new Set<Leased>();
+  /** Those of them who still look at the content: of files that thousands share, all but the last keep the bytes. */
+  readonly #looking = new Set<Leased>();
+  /** Whoever leases it wants another piece. */
+  readonly #isInPieces: boolean;
   #content: Promise<Content> | undefined;
   /** Gives the room of the bytes back. */
   #leave: () => void = () => undefined;
@@ -165,7 +169,8 @@ class Resource {
     this.#options = options;
     this.#backlog = backlog;
     this.#priority = request.priority;
-    this.transfer = { url: request.url, state: "waiting", loadedBytes: 0, totalBytes: request.expectedBytes, tries: 0, error: undefined };
+    this.#isInPieces = request.kind === "patches" || request.kind === "bases";
+    this.transfer = { url: request.url, state: "waiting", loadedBytes: 0, totalBytes: this.#isInPieces ? 0 : request.expectedBytes, tries: 0, error: undefined };
     this.#content = this.#fetch(request);
   }
 
@@ -190,13 +195,22 @@ class Resource {
 
   add(lease: Leased): void {
     this.#leases.add(lease);
+    this.#looking.add(lease);
+    this.#expect(lease.expectedBytes);
     this.reconsider();
   }
 
   /** False where the lease has been given back before. */
   remove(lease: Leased): boolean {
     this.reconsider();
-    return this.#leases.delete(lease);
+    this.#looking.delete(lease);
+    if (!this.#leases.delete(lease)) return false;
+    this.#expect(-lease.expectedBytes);
+    return true;
+  }
+
+  finish(lease: Leased): void {
+    this.#looking.delete(lease);
   }
 
   fail(error: unknown): void {
@@ -206,7 +220,7 @@ class Resource {
 
   /** Where nobody needs them any more; false where there are none to drop. */
   dropBytes(): boolean {
-    if (!this.#hasBytes || !Array.from(this.#leases).every(({ isFinished }) => isFinished)) return false;
+    if (!this.#hasBytes || this.#looking.size > 0) return false;
     this.#content = undefined;
     this.#leave();
     return true;
@@ -219,6 +233,11 @@ class Resource {
       (content) => { if ("image" in content) content.image.close(); },
       () => undefined, // whoever held a lease has been told
     );
+  }
+
+  /** Sizes are added up until there is a true one. */
+  #expect(bytes: number): void {
+    if (this.#isInPieces && this.transfer.state === "waiting") this.transfer.totalBytes += bytes;
   }
 
   async #fetch(request: ResourceRequest): Promise<Content> {
@@ -270,11 +289,9 @@ class Resource {
 
   async #contentOf({ kind, sampling }: ResourceRequest, bytes: Uint8Array<ArrayBuffer>): Promise<Content> {
     if (kind === "picture" && sampling !== undefined) return { kind, ...await this.#options.makePicture(bytes, sampling, this.#aborter.signal) };
-    if (kind === "payload" || kind === "base") {
-      const { runJob, runHere = runJob } = this.#options;
-      const run = kind === "base" ? runHere : runJob;
-      return { kind: "payload", bytes: await run("compactPayload", bytes, this.#aborter.signal) };
-    }
+    const { runJob, runHere = runJob } = this.#options;
+    if (kind === "patches") return { kind, patches: await runJob("compactPatches", bytes, this.#aborter.signal) };
+    if (kind === "bases") return { kind, bases: await runHere("compactBases", bytes, this.#aborter.signal) };
     const isTexture = kind === "texture" || (kind === "either" && await this.#options.readsTextures());
     if (!isTexture) return { kind: "bytes", bytes };
     return { kind: "image", ...await this.#options.makeImage(bytes, this.#aborter.signal) };

@@ -70,7 +70,6 @@ describe("images that are decoded on the CPU", () => {
       let begun = 0;
       const builder = sigCpuBuilder(geometry, patch, {
         storeBytes: site.pool.storeBytes,
-        runHere: site.pool.runHere,
         runJob: (name, input, signal) => (gates[begun++] ?? assert.fail("a third job")).promise.then(() => site.pool.runJob(name, input, signal)),
       });
       const { signal } = new AbortController();

@@ -33,8 +33,6 @@ export interface StageBuilder {
 /** What builders work with. */
 export interface BuilderTools {
   readonly runJob: RunJob;
-  /** The same without waiting for a worker. */
-  readonly runHere: RunJob;
   readonly storeBytes: StoreBytes;
 }
 

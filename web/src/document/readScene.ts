@@ -234,8 +234,9 @@ function readShape(element: SceneElement, node: SceneElement, reading: Reading, 
   const values = readFields(node, nodeFields.Shape, reading.warnings);
   const parts = childrenOf(node);
   let priorityOfGeometry = 1;
+  const ownBox = boxOf(values);
   const plain = first(parts, reading, (part) => {
-    const read = readGeometry(part, reading);
+    const read = readGeometry(part, reading, ownBox);
     // Beside the geometry, not in it: with another priority it is the same geometry.
     if (read) priorityOfGeometry = readFields(part, { priority: nodeFields.ImageGeometry.priority }, []).priority;
     return read;
@@ -251,7 +252,7 @@ function readShape(element: SceneElement, node: SceneElement, reading: Reading, 
     reaches: inherited.reaches && isSeen(values),
     priority: inherited.priority * values.priority * priorityOfGeometry,
     isPickable: values.isPickable,
-    box: boxOf(values) ?? (geometry && boxOfGeometry(geometry)),
+    box: ownBox ?? (geometry && boxOfGeometry(geometry)),
     appearance: appearance ?? readAppearance(undefined, nodesIn, reading.warnings),
   };
 }
@@ -260,14 +261,21 @@ const geometryReaders: Readonly<Record<string, typeof readImageGeometry>> = {
   imagegeometry: readImageGeometry, binarygeometry: readBinaryGeometry,
 };
 
-/** Undefined for what is no geometry. */
-function readGeometry(element: SceneElement, { geometries, warnings, defined }: Reading): GeometryDescription | undefined {
+/** Undefined for what is no geometry. The shape's box is that of a geometry's only patch which says nothing of its own. */
+function readGeometry(element: SceneElement, { geometries, warnings, defined }: Reading, box: Box3 | undefined): GeometryDescription | undefined {
   const read = geometryReaders[lowerNameOf(element)];
   const resolve = (part: SceneElement) => {
     const name = attributeOf(part, "USE");
     return name === undefined ? part : defined.get(name);
   };
-  return geometries.recall(element, () => read?.(element, warnings) ?? readInlineGeometry(element, resolve, warnings));
+  return geometries.recall(element, () =>
+    withBox(read?.(element, warnings), box) ?? readInlineGeometry(element, resolve, warnings));
+}
+
+function withBox(geometry: GeometryDescription | undefined, box: Box3 | undefined): GeometryDescription | undefined {
+  const [patch, ...others] = geometry?.patches ?? [];
+  if (!geometry || !patch || patch.box || others.length > 0) return geometry;
+  return { ...geometry, patches: [{ ...patch, box }] };
 }
 
 const withoutAttributes: SceneElement = {

@@ -3,8 +3,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { baseBuffersOf } from "./baseBuffers.ts";
-import { decodePatch } from "./patch.ts";
-import { readPayload, readVector } from "./vectors.testing.ts";
+import { decodeVector, readVector } from "./vectors.testing.ts";
 
 interface Expected {
   readonly positions: number[];
@@ -17,11 +16,11 @@ interface Expected {
 describe("the parts of a base", () => {
   for (const name of ["base", "base-colors"]) {
     test(`of "${name}" have the triangles of the whole, each once, over vertices of their own`, () => {
-      const { positions, wedgePositions, corners, parts, partCount } = readVector(name) as Expected;
+      const { positions, wedgePositions, corners, parts, partCount } = (readVector(name) as Expected[])[0]!;
       const placeOf = (w: number) => positions.slice(3 * wedgePositions[w]!, 3 * wedgePositions[w]! + 3).join();
       const expected = Array.from({ length: partCount }, (_, part) => parts.flatMap((p, t) =>
         p === part ? [corners.slice(3 * t, 3 * t + 3).map(placeOf).join(" ")] : []));
-      const buffers = baseBuffersOf(decodePatch(readPayload(name), 0));
+      const buffers = baseBuffersOf(decodeVector(name)[0]!);
       assert.equal(buffers.length, partCount);
       assert.deepEqual(buffers.map((part) => {
         if (part === undefined) return [];
@@ -36,6 +35,6 @@ describe("the parts of a base", () => {
   }
 
   test("are not those of a patch", () => {
-    assert.throws(() => baseBuffersOf(decodePatch(readPayload("sphere"), 0)), /a patch where a base should be/);
+    assert.throws(() => baseBuffersOf(decodeVector("sphere")[0]!), /a patch where a base should be/);
   });
 });

@@ -6,8 +6,11 @@ import type { CompactPatch } from "./patch.ts";
 import type { PatchBuffers } from "./patchBuffers.ts";
 import { indexOf, verticesOf } from "./patchBuffers.ts";
 
-/** Of each part, in order; undefined where one has no triangles. Throws DecodeError for what is no base. */
-export function baseBuffersOf(base: CompactPatch): (PatchBuffers | undefined)[] {
+/** Of each part, in order; undefined where one has no triangles. */
+export type BaseBuffers = (PatchBuffers | undefined)[];
+
+/** Throws DecodeError for what is no base. */
+export function baseBuffersOf(base: CompactPatch): BaseBuffers {
   const { header, parts, wedges: { wedge } } = base;
   if (parts === undefined) throw new DecodeError("malformed", "holds a patch where a base should be");
   const { firsts, triangles } = trianglesByPart(parts.part, header.partCount);

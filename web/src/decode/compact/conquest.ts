@@ -6,7 +6,8 @@
 import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
 import { unconnected } from "./connectivity.ts";
-import { numberModels, RangeDecoder } from "./rangeDecoder.ts";
+import type { RangeDecoder } from "./rangeDecoder.ts";
+import { numberModels } from "./rangeDecoder.ts";
 
 const degreeContexts = 12 * 12 * 8;
 const makeModels = 0;
@@ -17,7 +18,7 @@ const joinModel = holeModels + 4;
 const oldModels = joinModel + 1;
 const nodeModels = oldModels + 3;
 const vertexModels = nodeModels + numberModels;
-const modelCount = vertexModels + numberModels;
+export const triangleModelCount = vertexModels + numberModels;
 
 // A node is a place on the boundary and stands for the edge from the node before
 // to it. A node's number is where its four fields begin.
@@ -27,11 +28,8 @@ const nextField = 2;
 const apexField = 3; // the corner opposite of its edge, in the triangle behind
 
 /** Safe for untrusted bytes. Throws DecodeError. */
-export function decodeTriangles(stream: Uint8Array, triangleCount: number, vertexCount: number): Connectivity {
-  const decoder = new RangeDecoder(stream, modelCount);
-  const connectivity = new Conquest(decoder, triangleCount, vertexCount).run();
-  decoder.finish();
-  return connectivity;
+export function decodeTriangles(decoder: RangeDecoder, triangleCount: number, vertexCount: number): Connectivity {
+  return new Conquest(decoder, triangleCount, vertexCount).run();
 }
 
 class Conquest {

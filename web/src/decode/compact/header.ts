@@ -1,5 +1,4 @@
-// What stands before the streams of a patch: docs/formats/compact.md, "File".
-// All counts are checked here, before anything is allocated for them.
+// What stands before the streams of a file: docs/formats/compact.md, "File".
 
 import { DecodeError } from "../decodeError.ts";
 
@@ -19,96 +18,77 @@ export interface AttributeType {
   readonly isDerived: boolean;
 }
 
-/** The planes on which isosurfaces have their vertices, each axis its own, in 1/65536 lattice steps. */
-export interface Grid {
-  readonly origin: Float64Array;
-  readonly step: Float64Array;
-}
-
-export interface PatchHeader {
+/** What patches of a file may have in common. */
+export interface PatchType {
   readonly topology: Topology;
   readonly positionBits: number;
-  readonly normalShift: number;
-  readonly grid: Grid | undefined;
-  readonly vertexCount: number;
-  readonly wedgeCount: number;
-  readonly elementCount: number;
-  readonly attributes: readonly AttributeType[];
-  /** Of a base: how many patches it stands in for; 0: it is a patch. */
-  readonly partCount: number;
-  /** Of a base: positions that one part alone has come in residuals of 2^residualShift. */
-  readonly residualShift: number;
+  readonly isBase: boolean;
+  /** Places in the file's attributes. */
+  readonly attributes: readonly number[];
 }
 
-/** Views of the payload. */
-export interface PatchStreams {
-  /** Undefined in points. */
-  readonly connectivity: Uint8Array | undefined;
-  /** Undefined but in a base. */
-  readonly parts: Uint8Array | undefined;
+export interface FileHeader {
+  readonly attributes: readonly AttributeType[];
+  readonly types: readonly PatchType[];
+  readonly patchCount: number;
+}
+
+/** Views of the payload; each holds what it is for of one patch after the other, and is empty where none has any of it. */
+export interface FileStreams {
+  readonly sizes: Uint8Array;
+  readonly connectivity: Uint8Array;
+  readonly parts: Uint8Array;
   readonly positions: Uint8Array;
-  /** Undefined where each vertex is one wedge. */
-  readonly wedges: Uint8Array | undefined;
+  readonly wedges: Uint8Array;
+  /** One for each attribute of the header. */
   readonly attributes: readonly Uint8Array[];
 }
 
+/** Of all patches of a file: vertices, wedges and elements each. */
 export const largestCount = 2 ** 20;
+const mostPatches = 65536;
+const mostTypes = 256;
+const mostFileAttributes = 256;
 const mostAttributes = 16;
 const magic = [0x49, 0x47, 0x43]; // IGC
 const version = 1;
-const gridFlag = 1;
-const partsFlag = 2;
 
 export function cornersPerElement(topology: Topology): 1 | 2 | 3 {
   return topology === "triangles" ? 3 : topology === "lines" ? 2 : 1;
 }
 
-export interface ReadPatchHeader {
-  readonly header: PatchHeader;
-  readonly streams: PatchStreams;
-  /** The first byte behind the patch. */
-  readonly end: number;
+/** Safe for untrusted bytes. Throws DecodeError. */
+export function readFileHeader(payload: Uint8Array): { header: FileHeader; streams: FileStreams } {
+  const reader = new FieldReader(payload);
+  const [first, second, third, fileVersion] = [reader.byte(), reader.byte(), reader.byte(), reader.byte()];
+  if (first !== magic[0] || second !== magic[1] || third !== magic[2]) throw new DecodeError("malformed", "is no image of compact");
+  if (fileVersion !== version) throw new DecodeError("unsupported", `is of version ${fileVersion} of compact, not ${version}`);
+  const attributes = Array.from({ length: readCount(reader, "attributes", mostFileAttributes) }, () => readAttributeType(reader));
+  const types = Array.from({ length: readCount(reader, "types of patches", mostTypes) }, () => readPatchType(reader, attributes.length));
+  if (types.some(({ isBase }) => isBase !== types[0]?.isBase)) throw new DecodeError("malformed", "holds bases beside patches");
+  const patchCount = within("number of patches", readCount(reader, "patches", mostPatches), 1, mostPatches);
+  return { header: { attributes, types, patchCount }, streams: readStreams(reader, attributes.length) };
 }
 
-/** Reads the patch at a byte of a payload. Safe for untrusted bytes. Throws DecodeError. */
-export function readPatchHeader(payload: Uint8Array, start: number): ReadPatchHeader {
-  const reader = new FieldReader(payload, start);
-  const [first, second, third, patchVersion] = [reader.byte(), reader.byte(), reader.byte(), reader.byte()];
-  if (first !== magic[0] || second !== magic[1] || third !== magic[2]) {
-    throw new DecodeError("malformed", `holds no patch at byte ${start}`);
-  }
-  if (patchVersion !== version) throw new DecodeError("unsupported", `holds a patch of version ${patchVersion}, not ${version}`);
+function readCount(reader: FieldReader, what: string, most: number): number {
+  const count = reader.number();
+  if (count > most) throw new DecodeError("limit", `holds ${count} ${what}; ${most} are allowed`);
+  return count;
+}
+
+function readPatchType(reader: FieldReader, attributeCount: number): PatchType {
   const topology = topologies[within("topology", reader.byte(), 1, 3)] ?? "points";
   const positionBits = within("bits of a position", reader.byte(), 1, 30);
-  const normalShift = within("shift of normals", reader.byte(), 0, 30);
-  const flags = within("flags", reader.byte(), 0, gridFlag | partsFlag);
-  const hasGrid = (flags & gridFlag) !== 0;
-  const vertexCount = readCount(reader, "vertices", 1);
-  const wedgeCount = readCount(reader, "wedges", vertexCount);
-  const elementCount = readCount(reader, "elements", Math.ceil(wedgeCount / cornersPerElement(topology)));
-  if (topology === "points") {
-    within("number of wedges", wedgeCount, vertexCount, vertexCount);
-    within("number of points", elementCount, vertexCount, vertexCount);
+  const isBase = within("flags", reader.byte(), 0, 1) === 1;
+  if (isBase && topology !== "triangles") throw new DecodeError("malformed", `holds parts of ${topology}`);
+  const count = within("number of attributes", reader.byte(), 0, mostAttributes);
+  const places: number[] = [];
+  while (places.length < count) {
+    const place = within("attribute", reader.byte(), 0, attributeCount - 1);
+    if (places.includes(place)) throw new DecodeError("malformed", "holds an attribute of a patch twice");
+    places.push(place);
   }
-  const attributeCount = within("number of attributes", reader.number(), 0, mostAttributes);
-  const attributes = Array.from({ length: attributeCount }, () => readAttributeType(reader));
-  if (hasGrid) within("bits of a position on a grid", positionBits, 1, 16);
-  const grid = hasGrid ? readGrid(reader) : undefined;
-  let partCount = 0;
-  let residualShift = 0;
-  if ((flags & partsFlag) !== 0) {
-    if (topology !== "triangles") throw new DecodeError("malformed", `holds parts of ${topology}`);
-    partCount = readCount(reader, "parts", 1, elementCount);
-    residualShift = within("shift of residuals", reader.number(), 0, positionBits - 1);
-  }
-  const header = { topology, positionBits, normalShift, grid, vertexCount, wedgeCount, elementCount, attributes, partCount, residualShift };
-  return { header, streams: readStreams(reader, header), end: reader.at };
-}
-
-function readCount(reader: FieldReader, what: string, least: number, most = largestCount): number {
-  const count = reader.number();
-  if (count > largestCount) throw new DecodeError("limit", `holds a patch of ${count} ${what}; ${largestCount} are allowed`);
-  return within(`number of ${what}`, count, least, most);
+  return { topology, positionBits, isBase, attributes: places };
 }
 
 function readAttributeType(reader: FieldReader): AttributeType {
@@ -120,55 +100,30 @@ function readAttributeType(reader: FieldReader): AttributeType {
   return { kind, components, bits, isUniform: (mode & 1) !== 0, isDerived: (mode & 2) !== 0 };
 }
 
-function readGrid(reader: FieldReader): Grid {
-  const origin = new Float64Array(3);
-  const step = new Float64Array(3);
-  for (let axis = 0; axis < 3; ++axis) {
-    origin[axis] = reader.number();
-    step[axis] = within("step of the grid", reader.number(), 131072, 2 ** 32 - 1);
-    within("origin of the grid", origin[axis]!, 0, step[axis]! - 1);
-  }
-  return { origin, step };
+function readStreams(reader: FieldReader, attributeCount: number): FileStreams {
+  const lengths = Array.from({ length: 5 + attributeCount }, () => reader.number());
+  const [sizes, connectivity, parts, positions, wedges, ...attributes] = lengths.map((length) => reader.bytes(length)) as
+    [Uint8Array, Uint8Array, Uint8Array, Uint8Array, Uint8Array, ...Uint8Array[]];
+  return { sizes, connectivity, parts, positions, wedges, attributes };
 }
 
-function readStreams(reader: FieldReader, header: PatchHeader): PatchStreams {
-  const hasConnectivity = header.topology !== "points";
-  const hasParts = header.partCount > 0;
-  const hasWedges = header.wedgeCount > header.vertexCount;
-  const count = Number(hasConnectivity) + Number(hasParts) + 1 + Number(hasWedges) + header.attributes.length;
-  const lengths = Array.from({ length: count }, () => reader.number());
-  const streams = lengths.map((length) => reader.bytes(length)).values();
-  const next = () => streams.next().value ?? new Uint8Array();
-  return {
-    connectivity: hasConnectivity ? next() : undefined,
-    parts: hasParts ? next() : undefined,
-    positions: next(),
-    wedges: hasWedges ? next() : undefined,
-    attributes: header.attributes.map(next),
-  };
-}
-
-function within(what: string, value: number, least: number, most: number): number {
+/** The value, which is refused outside of its range. */
+export function within(what: string, value: number, least: number, most: number): number {
   if (value >= least && value <= most) return value;
   throw new DecodeError("malformed", `has ${value} as ${what}; ${least} to ${most} are allowed`);
 }
 
-/** Takes little-endian numbers off a payload. */
+/** Takes fields off a payload. */
 class FieldReader {
   readonly #payload: Uint8Array;
-  #at: number;
+  #at = 0;
 
-  constructor(payload: Uint8Array, start: number) {
+  constructor(payload: Uint8Array) {
     this.#payload = payload;
-    this.#at = start;
-  }
-
-  get at(): number {
-    return this.#at;
   }
 
   bytes(length: number): Uint8Array {
-    if (this.#payload.length - this.#at < length) throw new DecodeError("truncated", "ends inside a patch");
+    if (this.#payload.length - this.#at < length) throw new DecodeError("truncated", "ends before its streams do");
     this.#at += length;
     return this.#payload.subarray(this.#at - length, this.#at);
   }
@@ -177,9 +132,14 @@ class FieldReader {
     return this.bytes(1)[0]!;
   }
 
-  /** Of 32 bits. */
+  /** Seven bits a byte, the least first; below 2^28. */
   number(): number {
-    const [a, b, c, d] = this.bytes(4);
-    return (a! | b! << 8 | c! << 16 | d! << 24) >>> 0;
+    let value = 0;
+    for (let shift = 0; shift < 28; shift += 7) {
+      const byte = this.byte();
+      value |= (byte & 127) << shift;
+      if (byte < 128) return value;
+    }
+    throw new DecodeError("malformed", "has a number that is too long in its header");
   }
 }

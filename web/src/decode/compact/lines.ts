@@ -3,16 +3,18 @@
 import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
 import { unconnected } from "./connectivity.ts";
-import { numberModels, RangeDecoder } from "./rangeDecoder.ts";
+import { triangleModelCount } from "./conquest.ts";
+import type { RangeDecoder } from "./rangeDecoder.ts";
+import { numberModels } from "./rangeDecoder.ts";
 
-const chainModel = 0;
-const oldModels = 1;
+// Behind those of triangles, in the same stream.
+const chainModel = triangleModelCount;
+const oldModels = chainModel + 1;
 const vertexModels = oldModels + 2;
-const modelCount = vertexModels + numberModels;
+export const connectivityModelCount = vertexModels + numberModels;
 
 /** Safe for untrusted bytes. Throws DecodeError. */
-export function decodeLines(stream: Uint8Array, lineCount: number, vertexCount: number): Connectivity {
-  const decoder = new RangeDecoder(stream, modelCount);
+export function decodeLines(decoder: RangeDecoder, lineCount: number, vertexCount: number): Connectivity {
   const vertex = new Int32Array(2 * lineCount);
   const from = new Int32Array(vertexCount).fill(-1);
   let vertices = 0;
@@ -37,6 +39,5 @@ export function decodeLines(stream: Uint8Array, lineCount: number, vertexCount: 
     vertex[2 * line + 1] = b;
   }
   if (vertices < vertexCount) throw new DecodeError("malformed", "holds fewer vertices than its header states");
-  decoder.finish();
   return { ...unconnected, vertex, from };
 }

@@ -2,9 +2,10 @@
 
 import type { Connectivity } from "./connectivity.ts";
 import { after, before } from "./connectivity.ts";
-import type { PatchHeader, Topology } from "./header.ts";
+import type { Topology } from "./header.ts";
 import type { Positions } from "./positions.ts";
 import type { RangeDecoder } from "./rangeDecoder.ts";
+import type { PatchHeader } from "./sizes.ts";
 import type { Wedges } from "./wedges.ts";
 
 /** What is known of a patch when its attributes come. */

@@ -2,21 +2,22 @@
 // (docs/formats/compact.md, "Normals").
 
 import { DecodeError } from "../decodeError.ts";
-import { attributeModelCount, exactModels, firstModels, flipModel, repeatModel, secondModels } from "./attributeModels.ts";
+import { exactModels, firstModels, flipModel, repeatModel, secondModels } from "./attributeModels.ts";
 import type { AttributeType } from "./header.ts";
 import type { DecodedShape } from "./neighbours.ts";
 import { decodeRepeats } from "./neighbours.ts";
 import { dominantAxis, NormalSums } from "./normalSums.ts";
-import { lengthInBits, numberModels, RangeDecoder } from "./rangeDecoder.ts";
+import type { RangeDecoder } from "./rangeDecoder.ts";
+import { lengthInBits, numberModels } from "./rangeDecoder.ts";
 
 /** x, y, z of each wedge, |x| + |y| + |z| = 2^(bits - 1) - 1. Safe for untrusted bytes. Throws DecodeError. */
-export function decodeNormals(stream: Uint8Array, type: AttributeType, shape: DecodedShape): Int32Array {
-  if (type.isDerived) return new NormalDecoder(undefined, type, shape, new Uint8Array()).run();
-  const decoder = new RangeDecoder(stream, attributeModelCount);
-  const repeats = decodeRepeats(decoder, repeatModel, shape.wedges);
-  const normals = new NormalDecoder(decoder, type, shape, repeats).run();
-  decoder.finish();
-  return normals;
+export function decodeNormals(decoder: RangeDecoder, type: AttributeType, shape: DecodedShape): Int32Array {
+  return new NormalDecoder(decoder, type, shape, decodeRepeats(decoder, repeatModel, shape.wedges)).run();
+}
+
+/** The same of what is not stored: normals are what is predicted. */
+export function deriveNormals(type: AttributeType, shape: DecodedShape): Int32Array {
+  return new NormalDecoder(undefined, type, shape, new Uint8Array()).run();
 }
 
 class NormalDecoder {

@@ -2,13 +2,14 @@
 
 import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
-import type { PatchHeader } from "./header.ts";
-import { numberModels, RangeDecoder } from "./rangeDecoder.ts";
+import type { RangeDecoder } from "./rangeDecoder.ts";
+import { numberModels } from "./rangeDecoder.ts";
+import type { PatchHeader } from "./sizes.ts";
 
 const sameModels = 0;
 const otherModels = sameModels + 4;
 const partModels = otherModels + 4;
-const modelCount = partModels + numberModels;
+export const partModelCount = partModels + numberModels;
 
 export interface Parts {
   /** Per triangle. */
@@ -18,8 +19,7 @@ export interface Parts {
 }
 
 /** Safe for untrusted bytes. Throws DecodeError. */
-export function decodeParts(stream: Uint8Array, header: PatchHeader, { vertex, across }: Connectivity): Parts {
-  const decoder = new RangeDecoder(stream, modelCount);
+export function decodeParts(decoder: RangeDecoder, header: PatchHeader, { vertex, across }: Connectivity): Parts {
   const part = new Int32Array(header.elementCount);
   const isShared = new Uint8Array(header.vertexCount);
   const latest = new Int32Array(header.vertexCount).fill(-1);
@@ -47,6 +47,5 @@ export function decodeParts(stream: Uint8Array, header: PatchHeader, { vertex, a
       latest[v] = here;
     }
   }
-  decoder.finish();
   return { part, isShared };
 }

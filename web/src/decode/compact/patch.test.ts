@@ -4,15 +4,14 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { DecodeError } from "../decodeError.ts";
 import type { CompactPatch } from "./patch.ts";
-import { decodePatch } from "./patch.ts";
+import { decodePatches } from "./patch.ts";
 import { TestRandom } from "./rangeEncoder.testing.ts";
 import { readPayload, readVector, vectorNames } from "./vectors.testing.ts";
 
 const names = vectorNames();
 
-/** What a vector's JSON states. */
+/** What a vector's JSON states of each patch. */
 interface Expected {
-  readonly first: number;
   readonly topology: number;
   readonly positionBits: number;
   readonly positions: number[];
@@ -24,10 +23,9 @@ interface Expected {
   readonly attributes: { readonly kind: number; readonly components: number; readonly bits: number; readonly mode: number; readonly values: number[] }[];
 }
 
-function expectedOf({ header, coordinates, connectivity, wedges: { wedge, seams }, attributes, parts }: CompactPatch, first: number): Expected {
+function expectedOf({ header, coordinates, connectivity, wedges: { wedge, seams }, attributes, parts }: CompactPatch): Expected {
   const running = Array.from({ length: header.wedgeCount }, (_, w) => w);
   return {
-    first,
     topology: ["", "points", "lines", "triangles"].indexOf(header.topology),
     positionBits: header.positionBits,
     positions: Array.from(coordinates.subarray(0, 3 * header.vertexCount)),
@@ -43,14 +41,18 @@ function expectedOf({ header, coordinates, connectivity, wedges: { wedge, seams 
 }
 
 /** FNV-1a over every number that decodes, as four little-endian bytes each. */
-function sumOf(patch: CompactPatch): number {
-  const { positions, wedgePositions, corners, parts = [], attributes } = expectedOf(patch, 0);
+function sumOf(patches: readonly Expected[]): number {
   let hash = 2166136261;
-  for (const number of [positions, wedgePositions, corners, parts, ...attributes.map(({ values }) => values)].flat()) {
-    for (let shift = 0; shift < 32; shift += 8) hash = Math.imul(hash ^ number >>> shift & 255, 16777619);
+  for (const { positions, wedgePositions, corners, parts = [], attributes } of patches) {
+    for (const number of [positions, wedgePositions, corners, parts, ...attributes.map(({ values }) => values)].flat()) {
+      for (let shift = 0; shift < 32; shift += 8) hash = Math.imul(hash ^ number >>> shift & 255, 16777619);
+    }
   }
   return hash >>> 0;
 }
+
+const decode = (payload: Uint8Array) => decodePatches(payload, expectedOf);
+const headersOf = (payload: Uint8Array) => decodePatches(payload, ({ header }) => header);
 
 interface Edit {
   readonly file: string;
@@ -61,17 +63,18 @@ interface Edit {
   readonly verdict: number | DecodeError["kind"];
 }
 
-describe("a patch of compact", () => {
+describe("a file of compact", () => {
   for (const name of names) {
     test(`"${name}" decodes to what its vector states`, () => {
-      const expected = readVector(name) as Expected;
-      assert.deepEqual(expectedOf(decodePatch(readPayload(name), expected.first), expected.first), expected);
+      assert.deepEqual(decode(readPayload(name)), readVector(name));
     });
   }
 
-  test("there are vectors of every topology, with and without a grid, seams and every attribute", () => {
+  test("there are vectors of every topology, of several patches, with and without a grid, seams and every attribute", () => {
     assert.ok(names.length > 15);
-    const headers = names.map((name) => decodePatch(readPayload(name), (readVector(name) as Expected).first).header);
+    const files = names.map((name) => headersOf(readPayload(name)));
+    assert.ok(files.some((headers) => headers.length > 1));
+    const headers = files.flat();
     for (const topology of ["points", "lines", "triangles"]) assert.ok(headers.some((header) => header.topology === topology), topology);
     assert.ok(headers.some(({ grid }) => grid));
     assert.ok(headers.some(({ vertexCount, wedgeCount }) => wedgeCount > vertexCount));
@@ -111,26 +114,27 @@ describe("a patch of compact", () => {
   });
 
   test("is refused with a sentence that names what is wrong", () => {
-    const payload = readPayload("triangle");
+    const payload = readPayload("sphere");
     const at = (place: number, value: number) => { const changed = payload.slice(); changed[place] = value; return changed; };
     for (const [changed, kind, message] of [
-      [at(0, 0), "malformed", /no patch at byte 0/], [at(3, 2), "unsupported", /version 2, not 1/],
-      [at(4, 4), "malformed", /4 as topology; 1 to 3/], [at(5, 31), "malformed", /31 as bits of a position/],
-      [at(11, 1), "limit", /vertices; 1048576 are allowed/], [at(20, 17), "malformed", /17 as number of attributes/],
-      [payload.slice(0, 30), "truncated", /ends inside a patch/],
+      [at(0, 0), "malformed", /no image of compact/], [at(3, 2), "unsupported", /version 2 of compact, not 1/],
+      [at(5, 4), "malformed", /4 as kind of an attribute; 0 to 3/], [at(10, 4), "malformed", /4 as topology; 1 to 3/],
+      [at(11, 31), "malformed", /31 as bits of a position/], [at(13, 17), "malformed", /17 as number of attributes/],
+      [at(14, 1), "malformed", /1 as attribute/], [at(15, 0), "malformed", /0 as number of patches/],
+      [payload.slice(0, 20), "truncated", /ends before its streams do/],
     ] as const) {
-      assert.throws(() => decodePatch(changed, 0), (error) => error instanceof DecodeError && error.kind === kind && message.test(error.message));
+      assert.throws(() => decode(changed), (error) => error instanceof DecodeError && error.kind === kind && message.test(error.message));
     }
   });
 });
 
 function verdictOn(payload: Uint8Array): number | DecodeError["kind"] {
-  let patch: CompactPatch;
+  let patches: readonly Expected[];
   try {
-    patch = decodePatch(payload, 0);
+    patches = decode(payload);
   } catch (error) {
     if (error instanceof DecodeError) return error.kind;
     throw error;
   }
-  return sumOf(patch);
+  return sumOf(patches);
 }

@@ -1,17 +1,18 @@
-// A patch in integers, exactly what the file holds: docs/formats/compact.md.
+// The patches of a file in integers, exactly what it holds: docs/formats/compact.md.
 
-import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
 import { unconnected } from "./connectivity.ts";
 import { decodeTriangles } from "./conquest.ts";
-import type { AttributeType, PatchHeader, PatchStreams } from "./header.ts";
-import { readPatchHeader } from "./header.ts";
+import { readFileHeader } from "./header.ts";
 import { decodeLines } from "./lines.ts";
 import type { DecodedShape } from "./neighbours.ts";
-import { decodeNormals } from "./normals.ts";
+import { decodeNormals, deriveNormals } from "./normals.ts";
 import type { Parts } from "./parts.ts";
 import { decodeParts } from "./parts.ts";
 import { decodePositions } from "./positions.ts";
+import type { PatchHeader, SizedPatch } from "./sizes.ts";
+import { decodeSizes } from "./sizes.ts";
+import { StreamDecoders } from "./streams.ts";
 import { decodeTexCoords } from "./texCoords.ts";
 import { decodeValues } from "./values.ts";
 import type { Wedges } from "./wedges.ts";
@@ -25,29 +26,39 @@ export interface CompactPatch extends DecodedShape {
 }
 
 /**
- * Decodes the patch that begins at a byte of a payload, in time linear in the
- * counts of its header. Safe for untrusted bytes. Throws DecodeError.
+ * What `take` makes of each patch of a payload, decoded in time linear in counts that are
+ * limited. Safe for untrusted bytes. Throws DecodeError.
  */
-export function decodePatch(payload: Uint8Array, start: number): CompactPatch {
-  const { header, streams } = readPatchHeader(payload, start);
+export function decodePatches<Taken>(payload: Uint8Array, take: (patch: CompactPatch) => Taken): Taken[] {
+  const { header, streams } = readFileHeader(payload);
+  const sizes = decodeSizes(streams.sizes, header);
+  const decoders = new StreamDecoders(streams);
+  const taken = sizes.map((patch) => take(decodePatch(patch, decoders)));
+  decoders.finish();
+  return taken;
+}
+
+function decodePatch({ header, type }: SizedPatch, streams: StreamDecoders): CompactPatch {
   const connectivity = connectivityOf(header, streams);
-  const parts = streams.parts && decodeParts(streams.parts, header, connectivity);
+  const parts = type.isBase ? decodeParts(streams.parts, header, connectivity) : undefined;
   const positions = decodePositions(streams.positions, header, connectivity, parts);
-  const wedges: Wedges = streams.wedges ? decodeWedges(streams.wedges, header, connectivity)
+  const wedges: Wedges = header.wedgeCount > header.vertexCount ? decodeWedges(streams.wedges, header, connectivity)
     : { wedge: connectivity.vertex, seams: undefined };
   const shape: DecodedShape = { header, connectivity, wedges, ...positions };
-  const attributes = header.attributes.map((type, place) => decodeAttribute(streams.attributes[place]!, type, shape));
-  return { ...shape, attributes, parts };
+  return { ...shape, attributes: type.attributes.map((place, i) => decodeAttribute(place, i, shape, streams)), parts };
 }
 
-function connectivityOf(header: PatchHeader, { connectivity }: PatchStreams): Connectivity {
-  if (connectivity === undefined) return unconnected;
-  const decode = header.topology === "lines" ? decodeLines : decodeTriangles;
-  return decode(connectivity, header.elementCount, header.vertexCount);
+function connectivityOf({ topology, elementCount, vertexCount }: PatchHeader, streams: StreamDecoders): Connectivity {
+  if (topology === "points") return unconnected;
+  const decode = topology === "lines" ? decodeLines : decodeTriangles;
+  return decode(streams.connectivity, elementCount, vertexCount);
 }
 
-function decodeAttribute(stream: Uint8Array, type: AttributeType, shape: DecodedShape): Int32Array {
-  if (type.isDerived && stream.length > 0) throw new DecodeError("malformed", "holds a stream of what is derived");
-  if (type.kind === "normal") return decodeNormals(stream, type, shape);
-  return type.kind === "texCoord" ? decodeTexCoords(stream, type, shape) : decodeValues(stream, type, shape);
+/** The patch's attribute number i, which is that at a place of the file's. */
+function decodeAttribute(place: number, i: number, shape: DecodedShape, streams: StreamDecoders): Int32Array {
+  const type = shape.header.attributes[i]!;
+  if (type.isDerived) return deriveNormals(type, shape);
+  const decoder = streams.attribute(place);
+  if (type.kind === "normal") return decodeNormals(decoder, type, shape);
+  return type.kind === "texCoord" ? decodeTexCoords(decoder, type, shape) : decodeValues(decoder, type, shape);
 }

@@ -5,21 +5,21 @@
 import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
 import { after, before } from "./connectivity.ts";
-import type { Grid, PatchHeader } from "./header.ts";
 import type { Parts } from "./parts.ts";
 import { dominantAxis, NormalSums } from "./normalSums.ts";
-import { lengthInBits, numberModels, RangeDecoder } from "./rangeDecoder.ts";
+import type { RangeDecoder } from "./rangeDecoder.ts";
+import { lengthInBits, numberModels } from "./rangeDecoder.ts";
+import type { Grid, PatchHeader } from "./sizes.ts";
 
 const choiceModels = 0;
 const firstModels = choiceModels + 8 * 16 * 4;
 const secondModels = firstModels + 16 * numberModels;
 const thirdModels = secondModels + 31 * numberModels;
-const modelCount = thirdModels + 31 * numberModels;
-// With a grid:
-const loneModels = modelCount;
+// Of patches with a grid:
+const loneModels = thirdModels + 31 * numberModels;
 const gridModels = loneModels + 8 * numberModels;
 const maskModels = gridModels + 96 * numberModels;
-const modelCountWithGrid = maskModels + 512 * 8;
+export const positionModelCount = maskModels + 512 * 8;
 
 export interface Positions {
   /** x, y, z of each vertex; what follows them means nothing. */
@@ -29,11 +29,8 @@ export interface Positions {
 }
 
 /** Safe for untrusted bytes. Throws DecodeError. */
-export function decodePositions(stream: Uint8Array, header: PatchHeader, connectivity: Connectivity, parts: Parts | undefined): Positions {
-  const decoder = new RangeDecoder(stream, header.grid ? modelCountWithGrid : modelCount);
-  const positions = new PositionDecoder(decoder, header, connectivity, parts).run();
-  decoder.finish();
-  return positions;
+export function decodePositions(decoder: RangeDecoder, header: PatchHeader, connectivity: Connectivity, parts: Parts | undefined): Positions {
+  return new PositionDecoder(decoder, header, connectivity, parts).run();
 }
 
 /** The order in which coordinates come: axis number j, by 3 (3 mask + dominant axis) + j. */

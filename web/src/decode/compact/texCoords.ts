@@ -2,18 +2,18 @@
 // its own shape (docs/formats/compact.md, "Texture coordinates").
 
 import { DecodeError } from "../decodeError.ts";
-import { attributeModelCount, choiceModels, firstModels, repeatModel, secondModels } from "./attributeModels.ts";
+import { choiceModels, firstModels, repeatModel, secondModels } from "./attributeModels.ts";
 import type { AttributeType } from "./header.ts";
 import type { DecodedShape } from "./neighbours.ts";
 import { decodeRepeats, Neighbours } from "./neighbours.ts";
-import { lengthInBits, numberModels, RangeDecoder } from "./rangeDecoder.ts";
+import type { RangeDecoder } from "./rangeDecoder.ts";
+import { lengthInBits, numberModels } from "./rangeDecoder.ts";
 
 /** Edges are shortened to so many bits, so that products stay exact. */
 const edgeBits = 12;
 
 /** u, v of each wedge, each 0 … 2^bits - 1. Safe for untrusted bytes. Throws DecodeError. */
-export function decodeTexCoords(stream: Uint8Array, type: AttributeType, shape: DecodedShape): Int32Array {
-  const decoder = new RangeDecoder(stream, attributeModelCount);
+export function decodeTexCoords(decoder: RangeDecoder, type: AttributeType, shape: DecodedShape): Int32Array {
   const repeats = decodeRepeats(decoder, repeatModel, shape.wedges);
   const previous = shape.wedges.seams?.previous;
   const texCoords = new Int32Array(2 * shape.header.wedgeCount);
@@ -26,7 +26,6 @@ export function decodeTexCoords(stream: Uint8Array, type: AttributeType, shape: 
       one.decode(w);
     }
   }
-  decoder.finish();
   return texCoords;
 }
 

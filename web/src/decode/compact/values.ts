@@ -2,15 +2,15 @@
 // the encoder chose (docs/formats/compact.md, "Colours and others").
 
 import { DecodeError } from "../decodeError.ts";
-import { attributeModelCount, choiceModels, firstModels, repeatModel, secondModels } from "./attributeModels.ts";
+import { choiceModels, firstModels, repeatModel, secondModels } from "./attributeModels.ts";
 import type { AttributeType } from "./header.ts";
 import type { DecodedShape } from "./neighbours.ts";
 import { decodeRepeats, Neighbours } from "./neighbours.ts";
-import { lengthInBits, numberModels, RangeDecoder } from "./rangeDecoder.ts";
+import type { RangeDecoder } from "./rangeDecoder.ts";
+import { lengthInBits, numberModels } from "./rangeDecoder.ts";
 
 /** `components` of each wedge, each 0 … 2^bits - 1. Safe for untrusted bytes. Throws DecodeError. */
-export function decodeValues(stream: Uint8Array, type: AttributeType, shape: DecodedShape): Int32Array {
-  const decoder = new RangeDecoder(stream, attributeModelCount);
+export function decodeValues(decoder: RangeDecoder, type: AttributeType, shape: DecodedShape): Int32Array {
   const repeats = decodeRepeats(decoder, repeatModel, shape.wedges);
   const previous = shape.wedges.seams?.previous;
   const { components } = type;
@@ -24,7 +24,6 @@ export function decodeValues(stream: Uint8Array, type: AttributeType, shape: Dec
       one.decode(w);
     }
   }
-  decoder.finish();
   return values;
 }
 

@@ -3,6 +3,8 @@
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { inflateSync } from "node:zlib";
+import type { CompactPatch } from "./patch.ts";
+import { decodePatches } from "./patch.ts";
 
 const folder = join(import.meta.dirname, "../../../../vectors/compact-1");
 
@@ -29,6 +31,11 @@ export function readPayload(name: string): Uint8Array<ArrayBuffer> {
     pixels.set(rows.subarray(y * (width + 1) + 1, (y + 1) * (width + 1)), y * width);
   }
   return pixels;
+}
+
+/** The patches of NAME.png. */
+export function decodeVector(name: string): CompactPatch[] {
+  return decodePatches(readPayload(name), (patch) => patch);
 }
 
 /** NAME.png as it stands. */

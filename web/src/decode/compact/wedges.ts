@@ -5,15 +5,16 @@
 import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
 import { after, before } from "./connectivity.ts";
-import type { PatchHeader } from "./header.ts";
-import { numberModels, RangeDecoder } from "./rangeDecoder.ts";
+import type { RangeDecoder } from "./rangeDecoder.ts";
+import { numberModels } from "./rangeDecoder.ts";
+import type { PatchHeader } from "./sizes.ts";
 
 const splitModels = 0;
 const sameModels = splitModels + 3;
 const madeModels = sameModels + 9;
 const stepModels = madeModels + 3;
 const wedgeModels = stepModels + 16;
-const modelCount = wedgeModels + numberModels;
+export const wedgeModelCount = wedgeModels + numberModels;
 const farSteps = 15; // the wedge is named by its number
 
 export interface Wedges {
@@ -33,11 +34,8 @@ export interface Seams {
 }
 
 /** Safe for untrusted bytes. Throws DecodeError. */
-export function decodeWedges(stream: Uint8Array, header: PatchHeader, connectivity: Connectivity): Wedges {
-  const decoder = new RangeDecoder(stream, modelCount);
-  const wedges = new WedgeDecoder(decoder, header, connectivity).run();
-  decoder.finish();
-  return wedges;
+export function decodeWedges(decoder: RangeDecoder, header: PatchHeader, connectivity: Connectivity): Wedges {
+  return new WedgeDecoder(decoder, header, connectivity).run();
 }
 
 class WedgeDecoder {

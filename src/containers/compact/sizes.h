@@ -1,0 +1,91 @@
+#pragma once
+// What the first stream of a file says of each patch: docs/formats/compact.md,
+// "Sizes". One function codes both ways.
+
+#include "containers/compact/header.h"
+#include "containers/compact/symbols.h"
+
+namespace imgeo::compact {
+
+/// One patch's sizes.
+struct PatchSizes {
+  std::uint32_t type = 0; ///< of FileHeader::types
+  std::uint32_t vertexCount = 0, wedgeCount = 0, elementCount = 0;
+  std::uint32_t normalShift = 0;
+  std::optional<Grid> grid;
+  std::uint32_t partCount = 0, residualShift = 0; ///< of a base; 0: a patch
+
+  bool hasSeams() const { return wedgeCount > vertexCount; }
+};
+
+/// The sums over some patches, which are limited for a file.
+struct SizeSums {
+  std::uint64_t vertices = 0, wedges = 0, elements = 0;
+
+  void add(std::uint64_t vertexCount, std::uint64_t wedgeCount, std::uint64_t elementCount) {
+    vertices += vertexCount;
+    wedges += wedgeCount;
+    elements += elementCount;
+  }
+  bool fits() const {
+    return vertices <= maxPatchCount && wedges <= maxPatchCount && elements <= maxPatchCount;
+  }
+};
+
+namespace sizeModels {
+inline constexpr std::size_t type = 0, vertices = type + numberModels, seams = vertices + numberModels,
+                             elements = seams + numberModels, shift = elements + numberModels,
+                             parts = shift + numberModels, residual = parts + numberModels,
+                             grid = residual + numberModels, count = grid + 1;
+}
+
+template <typename Coder> std::uint32_t codeWord(Coder& coder, std::uint32_t value) {
+  const std::uint32_t low = coder.raw(16, value & 0xffff);
+  return low | coder.raw(16, value >> 16) << 16;
+}
+
+template <typename Coder> Grid codeGrid(Coder& coder, Grid grid) {
+  for (int axis = 0; axis < 3; ++axis) {
+    grid.origin[axis] = codeWord(coder, grid.origin[axis]);
+    grid.step[axis] = codeWord(coder, grid.step[axis]);
+    coder.require(grid.step[axis] >= 2 * 65536 && grid.origin[axis] < grid.step[axis],
+                  "a patch states impossible grid lines");
+  }
+  return grid;
+}
+
+/// `sizes` are an encoder's, or anything for a decoder.
+template <typename Coder>
+PatchSizes codeSizes(Coder& coder, const std::vector<PatchType>& types, PatchSizes sizes = {}) {
+  namespace models = sizeModels;
+  sizes.type = codeNumber(coder, models::type, sizes.type);
+  coder.require(sizes.type < types.size(), "a patch is of a type that there is not");
+  const PatchType& type = types[sizes.type];
+  const std::uint32_t seams = sizes.wedgeCount - sizes.vertexCount;
+  sizes.vertexCount = 1 + codeNumber(coder, models::vertices, sizes.vertexCount - 1);
+  if (type.topology == Topology::points) {
+    sizes.wedgeCount = sizes.elementCount = sizes.vertexCount;
+  } else {
+    sizes.wedgeCount = sizes.vertexCount + codeNumber(coder, models::seams, seams);
+    sizes.elementCount = 1 + codeNumber(coder, models::elements, sizes.elementCount - 1);
+    coder.require(sizes.wedgeCount <= std::uint64_t{sizes.elementCount} * cornersPerElement(type.topology),
+                  "a patch has more wedges than corners");
+  }
+  if (type.topology == Topology::triangles) {
+    sizes.normalShift = codeNumber(coder, models::shift, sizes.normalShift);
+    coder.require(sizes.normalShift <= 30, "a patch states impossible normals");
+  }
+  if (type.positionBits <= 16) {
+    const bool hasGrid = coder.bit(models::grid, sizes.grid.has_value());
+    sizes.grid = hasGrid ? std::optional(codeGrid(coder, sizes.grid.value_or(Grid{}))) : std::nullopt;
+  }
+  if (type.isBase) {
+    sizes.partCount = 1 + codeNumber(coder, models::parts, sizes.partCount - 1);
+    sizes.residualShift = codeNumber(coder, models::residual, sizes.residualShift);
+    coder.require(sizes.partCount <= sizes.elementCount && sizes.residualShift < type.positionBits,
+                  "a base states impossible parts");
+  }
+  return sizes;
+}
+
+} // namespace imgeo::compact

@@ -1,0 +1,88 @@
+#pragma once
+// The streams of a file, each with one coder for what all patches have in it. A
+// coder is made when the first patch calls for it.
+
+#include "base/error.h"
+#include "containers/compact/code_attributes.h"
+#include "containers/compact/code_positions.h"
+#include "containers/compact/parts.h"
+#include "containers/compact/sizes.h"
+#include "containers/compact/wedges.h"
+
+#include <optional>
+
+namespace imgeo::compact {
+
+/// Models that a stream has.
+inline std::size_t modelsOf(std::size_t stream) {
+  const std::size_t models[] = {sizeModels::count, connectivityModels, partModels::count,
+                                positionModels::countWithGrid, wedgeModels::count};
+  return stream < std::size(models) ? models[stream] : attributeModels::count;
+}
+
+inline std::size_t streamOf(StreamName name) {
+  return static_cast<std::size_t>(name);
+}
+/// Of the attribute at this place of the header's.
+inline std::size_t streamOfAttribute(std::size_t place) {
+  return streamOf(StreamName::attributes) + place;
+}
+
+class StreamEncoders {
+public:
+  explicit StreamEncoders(std::size_t count) : encoders_(count) {}
+
+  RangeEncoder& operator[](std::size_t stream) {
+    std::optional<RangeEncoder>& encoder = encoders_[stream];
+    return encoder ? *encoder : encoder.emplace(modelsOf(stream));
+  }
+  RangeEncoder& operator[](StreamName name) { return (*this)[streamOf(name)]; }
+
+  /// Of each stream; nothing of those that were not called for.
+  std::vector<Bytes> finish() {
+    std::vector<Bytes> streams;
+    for (std::optional<RangeEncoder>& encoder : encoders_)
+      streams.push_back(encoder ? encoder->finish() : Bytes{});
+    return streams;
+  }
+
+private:
+  std::vector<std::optional<RangeEncoder>> encoders_;
+};
+
+class StreamDecoders {
+public:
+  /// `bytes` begin with the streams, which lie within them; they and `place` outlive the decoders.
+  StreamDecoders(ByteSpan bytes, const std::vector<std::uint32_t>& lengths, const std::string& place)
+      : decoders_(lengths.size()), place_(place) {
+    for (const std::uint32_t length : lengths) {
+      streams_.push_back(bytes.first(length));
+      bytes = bytes.subspan(length);
+    }
+  }
+
+  RangeDecoder& operator[](std::size_t stream) {
+    std::optional<RangeDecoder>& decoder = decoders_[stream];
+    return decoder ? *decoder : decoder.emplace(streams_[stream], modelsOf(stream), place_);
+  }
+  RangeDecoder& operator[](StreamName name) { return (*this)[streamOf(name)]; }
+
+  /// To be called when all that a stream holds is decoded.
+  void finish(std::size_t stream) const {
+    if (decoders_[stream])
+      decoders_[stream]->finish();
+    else if (!streams_[stream].empty())
+      throw Error(ErrorKind::malformed, place_, "a stream is not as long as what it holds");
+  }
+  void finish() const {
+    for (std::size_t stream = 0; stream < decoders_.size(); ++stream)
+      finish(stream);
+  }
+
+private:
+  std::vector<std::optional<RangeDecoder>> decoders_;
+  std::vector<ByteSpan> streams_;
+  const std::string& place_;
+};
+
+} // namespace imgeo::compact

@@ -1,0 +1,53 @@
+#pragma once
+// What was made of the urls that were asked for last.
+
+#include <algorithm>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+namespace imgeo {
+
+/// Keeps a few values, for callers that ask for the same several times in a row. Safe to
+/// call from any thread: others wait for a value that is being made.
+template <typename Value> class Recent {
+public:
+  /// The value of a url, made by make(url) unless it is here. What `make` throws comes through.
+  template <typename Make> std::shared_ptr<const Value> get(const std::string& url, Make make) {
+    const std::shared_ptr<Entry> entry = entryOf(url);
+    const std::lock_guard lock(entry->mutex);
+    if (!entry->value)
+      entry->value = std::make_shared<const Value>(make(url));
+    return entry->value;
+  }
+
+private:
+  struct Entry {
+    std::string url;
+    std::mutex mutex;
+    std::shared_ptr<const Value> value;
+  };
+
+  std::shared_ptr<Entry> entryOf(const std::string& url) {
+    const std::lock_guard lock(mutex_);
+    auto found = std::ranges::find(entries_, url, [](const auto& entry) { return entry->url; });
+    if (found == entries_.end()) {
+      auto entry = std::make_shared<Entry>();
+      entry->url = url;
+      entries_.push_front(std::move(entry));
+      if (entries_.size() > mostEntries)
+        entries_.pop_back();
+    } else {
+      entries_.splice(entries_.begin(), entries_, found);
+    }
+    return entries_.front();
+  }
+
+  static constexpr std::size_t mostEntries = 4;
+  std::mutex mutex_;
+  std::list<std::shared_ptr<Entry>> entries_; ///< the latest first
+};
+
+} // namespace imgeo

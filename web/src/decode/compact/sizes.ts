@@ -1,0 +1,90 @@
+// What the first stream of a file says of each patch: docs/formats/compact.md,
+// "Sizes". All counts are checked here, before anything is allocated for them.
+
+import { DecodeError } from "../decodeError.ts";
+import type { AttributeType, FileHeader, PatchType, Topology } from "./header.ts";
+import { cornersPerElement, largestCount, within } from "./header.ts";
+import { numberModels, RangeDecoder } from "./rangeDecoder.ts";
+
+const typeModels = 0;
+const vertexModels = typeModels + numberModels;
+const seamModels = vertexModels + numberModels;
+const elementModels = seamModels + numberModels;
+const shiftModels = elementModels + numberModels;
+const partModels = shiftModels + numberModels;
+const residualModels = partModels + numberModels;
+const gridModel = residualModels + numberModels;
+const modelCount = gridModel + 1;
+
+/** The planes on which isosurfaces have their vertices, each axis its own, in 1/65536 lattice steps. */
+export interface Grid {
+  readonly origin: Float64Array;
+  readonly step: Float64Array;
+}
+
+export interface PatchHeader {
+  readonly topology: Topology;
+  readonly positionBits: number;
+  readonly normalShift: number;
+  readonly grid: Grid | undefined;
+  readonly vertexCount: number;
+  readonly wedgeCount: number;
+  readonly elementCount: number;
+  readonly attributes: readonly AttributeType[];
+  /** Of a base: how many patches it stands in for; 0: it is a patch. */
+  readonly partCount: number;
+  /** Of a base: positions that one part alone has come in residuals of 2^residualShift. */
+  readonly residualShift: number;
+}
+
+export interface SizedPatch {
+  readonly type: PatchType;
+  readonly header: PatchHeader;
+}
+
+/** Of each patch of a file. Safe for untrusted bytes. Throws DecodeError. */
+export function decodeSizes(stream: Uint8Array, { types, attributes, patchCount }: FileHeader): SizedPatch[] {
+  const decoder = new RangeDecoder(stream, modelCount);
+  const patches = Array.from({ length: patchCount }, (): SizedPatch => {
+    const type = types[within("type of a patch", decoder.number(typeModels), 0, types.length - 1)]!;
+    return { type, header: decodeHeader(decoder, type, type.attributes.map((place) => attributes[place]!)) };
+  });
+  decoder.finish();
+  for (const [what, field] of [["vertices", "vertexCount"], ["wedges", "wedgeCount"], ["elements", "elementCount"]] as const) {
+    const count = patches.reduce((sum, { header }) => sum + header[field], 0);
+    if (count > largestCount) throw new DecodeError("limit", `holds ${count} ${what}; ${largestCount} are allowed`);
+  }
+  return patches;
+}
+
+function decodeHeader(decoder: RangeDecoder, { topology, positionBits, isBase }: PatchType, attributes: readonly AttributeType[]): PatchHeader {
+  const vertexCount = 1 + decoder.number(vertexModels);
+  let wedgeCount = vertexCount;
+  let elementCount = vertexCount;
+  if (topology !== "points") {
+    wedgeCount += decoder.number(seamModels);
+    elementCount = 1 + decoder.number(elementModels);
+    within("number of wedges", wedgeCount, 1, elementCount * cornersPerElement(topology));
+  }
+  const normalShift = topology === "triangles" ? within("shift of normals", decoder.number(shiftModels), 0, 30) : 0;
+  const grid = positionBits <= 16 && decoder.bit(gridModel) === 1 ? decodeGrid(decoder) : undefined;
+  const partCount = isBase ? 1 + decoder.number(partModels) : 0;
+  const residualShift = isBase ? decoder.number(residualModels) : 0;
+  if (isBase) {
+    within("number of parts", partCount, 1, elementCount);
+    within("shift of residuals", residualShift, 0, positionBits - 1);
+  }
+  return { topology, positionBits, normalShift, grid, vertexCount, wedgeCount, elementCount, attributes, partCount, residualShift };
+}
+
+function decodeGrid(decoder: RangeDecoder): Grid {
+  const origin = new Float64Array(3);
+  const step = new Float64Array(3);
+  const word = () => decoder.raw(16) + decoder.raw(16) * 65536;
+  for (let axis = 0; axis < 3; ++axis) {
+    origin[axis] = word();
+    step[axis] = within("step of the grid", word(), 131072, 2 ** 32 - 1);
+    within("origin of the grid", origin[axis]!, 0, step[axis]! - 1);
+  }
+  return { origin, step };
+}

@@ -1,0 +1,63 @@
+// The streams of a file: the decoder of each serves all patches, one after the
+// other, and is made when the first of them calls for it.
+
+import { DecodeError } from "../decodeError.ts";
+import { attributeModelCount } from "./attributeModels.ts";
+import type { FileStreams } from "./header.ts";
+import { connectivityModelCount } from "./lines.ts";
+import { partModelCount } from "./parts.ts";
+import { positionModelCount } from "./positions.ts";
+import { RangeDecoder } from "./rangeDecoder.ts";
+import { wedgeModelCount } from "./wedges.ts";
+
+class Stream {
+  readonly #bytes: Uint8Array;
+  readonly #modelCount: number;
+  #decoder: RangeDecoder | undefined;
+
+  constructor(bytes: Uint8Array, modelCount: number) {
+    this.#bytes = bytes;
+    this.#modelCount = modelCount;
+  }
+
+  get decoder(): RangeDecoder {
+    return this.#decoder ??= new RangeDecoder(this.#bytes, this.#modelCount);
+  }
+
+  finish(): void {
+    if (this.#decoder) this.#decoder.finish();
+    else if (this.#bytes.length > 0) throw new DecodeError("malformed", "holds a stream that nothing reads");
+  }
+}
+
+/** Of all that patches have but their sizes. */
+export class StreamDecoders {
+  readonly #connectivity: Stream;
+  readonly #parts: Stream;
+  readonly #positions: Stream;
+  readonly #wedges: Stream;
+  readonly #attributes: readonly Stream[];
+
+  constructor({ connectivity, parts, positions, wedges, attributes }: FileStreams) {
+    this.#connectivity = new Stream(connectivity, connectivityModelCount);
+    this.#parts = new Stream(parts, partModelCount);
+    this.#positions = new Stream(positions, positionModelCount);
+    this.#wedges = new Stream(wedges, wedgeModelCount);
+    this.#attributes = attributes.map((stream) => new Stream(stream, attributeModelCount));
+  }
+
+  get connectivity(): RangeDecoder { return this.#connectivity.decoder; }
+  get parts(): RangeDecoder { return this.#parts.decoder; }
+  get positions(): RangeDecoder { return this.#positions.decoder; }
+  get wedges(): RangeDecoder { return this.#wedges.decoder; }
+
+  /** Of the attribute at this place of the header's. */
+  attribute(place: number): RangeDecoder {
+    return this.#attributes[place]!.decoder;
+  }
+
+  /** To be called when all patches are decoded. Throws DecodeError where a stream is longer than what is in it. */
+  finish(): void {
+    for (const stream of [this.#connectivity, this.#parts, this.#positions, this.#wedges, ...this.#attributes]) stream.finish();
+  }
+}
