@@ -32,9 +32,8 @@ const { signal } = new AbortController();
 window.files = {};
 window.decoders = {
   async imgeo(files) {
-    const patches = await Promise.all(files.map(async (file) =>
-      workers.run("compactPatch", await workers.run("compactPayload", file, signal), signal)));
-    return sumOf(patches.map(({ vertexCount, index }) => ({ vertices: vertexCount, triangles: (index?.length ?? 0) / 3 })));
+    const patches = await Promise.all(files.map((file) => workers.run("compactPatches", file, signal)));
+    return sumOf(patches.flat().map(({ vertexCount, index }) => ({ vertices: vertexCount, triangles: (index?.length ?? 0) / 3 })));
   },
   async draco(files) {
     const geometries = await Promise.all(files.map((file) => new Promise<BufferGeometry>((resolve, reject) => {
