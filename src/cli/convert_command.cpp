@@ -66,6 +66,19 @@ double basePercentFrom(const std::string& text) {
   return percent;
 }
 
+TextureOptions texturesFrom(const Arguments& arguments) {
+  TextureOptions textures;
+  textures.format =
+      chosen(arguments, "textures",
+             {TextureFormat::keep, TextureFormat::webp, TextureFormat::avif, TextureFormat::png});
+  if (!arguments.text("texture-size").empty())
+    textures.size = static_cast<std::uint32_t>(arguments.integer("texture-size"));
+  if (!arguments.text("texture-quality").empty())
+    textures.quality = static_cast<int>(arguments.integer("texture-quality"));
+  textures.previewEdge = static_cast<std::uint32_t>(arguments.integer("texture-preview"));
+  return textures;
+}
+
 ConvertOptions optionsFrom(const Arguments& arguments) {
   ConvertOptions options;
   options.container = chosen(arguments, "container", {Container::sig, Container::bg});
@@ -102,6 +115,7 @@ ConvertOptions optionsFrom(const Arguments& arguments) {
   options.keepAttributes = attributesNamed(arguments.text("keep-attributes"));
   if (!arguments.text("attribute-bits").empty())
     options.attributeBits = static_cast<std::uint32_t>(arguments.integer("attribute-bits"));
+  options.textures = texturesFrom(arguments);
   options.patchVertices = static_cast<std::uint32_t>(arguments.integer("patch-vertices"));
   options.effort = static_cast<int>(arguments.integer("effort"));
   options.title = arguments.text("title");
@@ -140,6 +154,15 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
                                   {"components", attribute.components},
                                   {"bits", attribute.bits},
                                   {"error", attribute.error}});
+  const TextureReport& textures = report.textures;
+  json["textures"] = {{"format", arguments.text("textures")},
+                      {"files", textures.files},
+                      {"resized", textures.resized},
+                      {"reencoded", textures.reencoded},
+                      {"previews", textures.previews},
+                      {"sourceBytes", textures.sourceBytes},
+                      {"bytes", textures.bytes},
+                      {"previewBytes", textures.previewBytes}};
   json["texCoordBits"] = report.texCoordBits;
   json["colorBits"] = report.colorBits;
   json["patchVertices"] = arguments.integer("patch-vertices");
@@ -190,6 +213,19 @@ std::string positionsOf(const Arguments& arguments, const ConvertReport& report)
                      asFloats ? " as float32" : "", report.positionError);
 }
 
+/// "12 files: 34.1 MB as found, 3.2 MB as written; 2 made smaller, 10 re-encoded; 12 previews of 14 kB"
+std::string texturesOf(const TextureReport& textures) {
+  std::string text =
+      fmt::format("{} {}: {} as found, {} as written", textures.files, textures.files == 1 ? "file" : "files",
+                  byteSize(textures.sourceBytes), byteSize(textures.bytes));
+  if (textures.resized + textures.reencoded > 0)
+    text += fmt::format("; {} made smaller, {} re-encoded", textures.resized, textures.reencoded);
+  if (textures.previews > 0)
+    text += fmt::format("; {} {} of {}", textures.previews, textures.previews == 1 ? "preview" : "previews",
+                        byteSize(textures.previewBytes));
+  return text;
+}
+
 void printChoices(const Arguments& arguments, const ConvertReport& report) {
   const bool isSig = arguments.text("container") == "sig";
   printLine("source", fmt::format("{}, {}: {} from {} vertices", report.format, byteSize(report.sourceBytes),
@@ -218,6 +254,8 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   for (const AttributeReport& attribute : report.attributes)
     printLine("attribute", fmt::format("{}: {} bits, off by at most {:.3g}", attribute.name, attribute.bits,
                                        attribute.error));
+  if (report.textures.files > 0)
+    printLine("textures", texturesOf(report.textures));
   printLine("patches", fmt::format("{} of at most {} vertices", report.patches,
                                    grouped(static_cast<std::uint64_t>(arguments.integer("patch-vertices")))));
   const WeldReport& weld = report.weld;

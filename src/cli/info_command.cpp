@@ -36,6 +36,7 @@ Json jsonOf(const SiteInfo& info) {
             {"documentBytes", info.documentBytes},
             {"containerBytes", info.containerBytes},
             {"textureBytes", info.textureBytes},
+            {"sourceTextureBytes", info.sourceTextureBytes},
             {"runtimeBytes", info.runtimeBytes},
             {"bytesPerTriangle", info.bytesPerTriangle}};
   json["geometries"] = Json::array();
@@ -110,6 +111,9 @@ void printSite(const SiteInfo& info) {
                isFetched(role) ? share(sums[role].bytes) : "");
   fmt::print("{:10} {:>7} {:>14}\n\n", "fetched", "", grouped(fetched));
   fmt::print("The document is {} of what a browser fetches.\n", share(info.documentBytes));
+  if (info.sourceTextureBytes > 0)
+    fmt::print("Textures take {} with their previews; the source's were {}.\n", byteSize(info.textureBytes),
+               byteSize(info.sourceTextureBytes));
   if (info.elements.triangles > 0)
     fmt::print("Geometry takes {:.3f} bytes a triangle, its nodes in the document included.\n",
                info.bytesPerTriangle);

@@ -69,7 +69,9 @@ void writeTexture(ElementWriter& writer, const SceneGraph& graph, std::size_t in
     attributes.push_back({"containerField", containerField});
   if (!names.empty() && names[0].name == "USE")
     return writer.leaf(element);
-  attributes.push_back({"url", strings({graph.images.at(texture.image).url})});
+  const ImageFile& image = graph.images.at(texture.image);
+  attributes.push_back({"url", strings({image.url})});
+  addUnless(attributes, "preview", image.preview, {}, image.preview);
   addUnless(attributes, "repeatS", texture.boundaryS == Boundary::clamp, false, "false");
   addUnless(attributes, "repeatT", texture.boundaryT == Boundary::clamp, false, "false");
   if (!needsProperties(texture))

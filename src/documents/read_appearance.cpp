@@ -48,7 +48,7 @@ std::size_t AppearanceReader::readTexture(const Fields& fields) {
   const std::string url = urls.empty() ? "" : urls[0];
   const auto [image, isNew] = images_.try_emplace(url, graph_.images.size());
   if (isNew)
-    graph_.images.push_back({url, {}});
+    graph_.images.push_back({url, {}, fields.text("preview")});
   texture.image = image->second;
   if (!fields.boolean("repeatS", true))
     texture.boundaryS = Boundary::clamp;

@@ -190,13 +190,18 @@ Element SceneWriter::otherElement(const OtherNode& other, const Node& node, cons
   Element element{isWritten ? other.element : "Group", {names}};
   if (!isWritten)
     return element;
+  const ImageFile* image = other.image ? &document_.graph.images.at(*other.image) : nullptr;
   for (Attribute& field : furtherFields(node)) {
-    if (field.name == "url" && other.image)
-      field.value = strings({document_.graph.images.at(*other.image).url});
+    if (field.name == "preview" && image)
+      continue; // of the image that was found under the source's url
+    if (field.name == "url" && image)
+      field.value = strings({image->url});
     if (field.name == "url" && other.document)
       field.value = strings({document_.graph.inlined.at(*other.document).url});
     element.groups.back().push_back(std::move(field));
   }
+  if (image && !image->preview.empty())
+    element.groups.back().push_back({"preview", image->preview});
   return element;
 }
 

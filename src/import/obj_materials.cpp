@@ -1,7 +1,7 @@
 #include "import/obj_materials.h"
 
 #include "base/error.h"
-#include "import/image_type.h"
+#include "images/image_type.h"
 #include "import/text_scanner.h"
 #include "import/warnings.h"
 #include "scene/color.h"

@@ -39,7 +39,7 @@ void members(auto& archive, auto& v, const Texture*) {
           v.mipMaps);
 }
 void members(auto& archive, auto& v, const ImageFile*) {
-  archive(v.url, v.bytes);
+  archive(v.url, v.bytes, v.preview);
 }
 void members(auto& archive, auto& v, const Appearance*) {
   archive(v.name, v.material, v.textures, v.alphaMode, v.alphaCutoff);

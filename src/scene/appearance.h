@@ -86,8 +86,9 @@ struct Texture {
 
 /// An image file.
 struct ImageFile {
-  std::string url; ///< in a document: relative to it. Of a source: what it calls the image
-  Bytes bytes;     ///< the file as it was found; empty in a document that was read
+  std::string url;       ///< in a document: relative to it. Of a source: what it calls the image
+  Bytes bytes{};         ///< the file as it was found; empty in a document that was read
+  std::string preview{}; ///< url of the same image in few pixels, shown until it is there; may be empty
   friend bool operator==(const ImageFile&, const ImageFile&) = default;
 };
 

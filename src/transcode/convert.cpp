@@ -225,7 +225,8 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
                 report.elements,
                 hasStatedError(options) ? report.normalErrorDegrees : 0,
                 options.dropped,
-                {}};
+                {},
+                report.textures.sourceBytes};
   for (const AttributeReport& attribute : report.attributes)
     marker.attributes.push_back(attribute.name);
   writeFile(site.path() / stylesheetName, asBytes(pageStylesheet()));

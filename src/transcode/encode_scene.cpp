@@ -2,15 +2,14 @@
 
 #include "containers/compact/base.h"
 #include "containers/named_attributes.h"
-#include "import/image_type.h"
 #include "transcode/load_groups.h"
 #include "transcode/patch_files.h"
 #include "transcode/site.h"
+#include "transcode/textures.h"
 
 #include <algorithm>
 #include <map>
 #include <numbers>
-#include <set>
 #include <utility>
 
 namespace imgeo {
@@ -144,23 +143,6 @@ void addDefaults(SceneDocument& document) {
     graph.background = sky;
 }
 
-/// Writes the images of what is seen, and no others.
-void writeTextures(SceneGraph& graph, ContentFiles& files) {
-  std::set<std::size_t> images;
-  for (const std::size_t node : shapeNodes(graph))
-    if (const auto& appearance = shapeOf(graph, node).appearance)
-      for (const TextureUse& use : graph.appearances[*appearance].textures)
-        images.insert(graph.textures[use.texture].image);
-  for (const std::size_t node : nodesInOrder(graph))
-    if (const OtherNode* other = std::get_if<OtherNode>(&graph.nodes[node].content); other && other->image)
-      images.insert(*other->image);
-  for (const std::size_t index : images) {
-    ImageFile& image = graph.images[index];
-    image.url = files.write(image.bytes, imageType(image.bytes));
-    image.bytes = {};
-  }
-}
-
 /// The bases of all geometries, in one file as long as they fit into it.
 class Bases {
 public:
@@ -256,7 +238,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteCont
         std::max(report.normalErrorDegrees, placed.normalError * (180 / std::numbers::pi));
   }
   bases.write(document.geometries);
-  writeTextures(document.graph, content.textures);
+  report.textures = writeTextures(document.graph, options, content.textures, report.warnings);
   if (!document.graph.isComplete)
     addDefaults(document);
   return document;

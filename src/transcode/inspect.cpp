@@ -96,6 +96,8 @@ SiteInfo inspect(const fs::path& site) {
     info.containerBytes += add(file.url, nameOf(file.role));
   for (const std::string& url : textureFilesOf(document.scene))
     info.textureBytes += add(url, "texture");
+  for (const std::string& url : previewFilesOf(document.scene))
+    info.textureBytes += add(url, "preview");
 
   const ContainerReader reader(fetchFrom(document));
   for (const GeometryDescription& geometry : document.scene.geometries) {
@@ -109,9 +111,10 @@ SiteInfo inspect(const fs::path& site) {
     add(sceneName, "scene");
   if (fs::exists(document.root / markerName, none)) {
     add(markerName, "marker");
-    // A strip's joins count as vertices in the document, not as triangles here.
     const Marker marker =
         readMarker(asText(readFile(document.root / markerName)), (document.root / markerName).string());
+    info.sourceTextureBytes = marker.sourceTextureBytes;
+    // A strip's joins count as vertices in the document, not as triangles here.
     if (marker.primitives == Primitives::strips)
       info.elements.triangles = marker.elements.triangles;
   }

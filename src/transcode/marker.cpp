@@ -55,6 +55,8 @@ std::string writeMarker(const Marker& marker) {
     json["attributes"] = marker.attributes;
   if (marker.normalErrorDegrees > 0)
     json["normalErrorDegrees"] = marker.normalErrorDegrees;
+  if (marker.sourceTextureBytes > 0)
+    json["sourceTextureBytes"] = marker.sourceTextureBytes;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -75,6 +77,7 @@ Marker readMarker(std::string_view text, const std::string& name) {
     marker.dropped = {json.value("droppedDegenerate", false), json.value("droppedRepeated", false)};
     marker.attributes = json.value("attributes", std::vector<std::string>{});
     marker.normalErrorDegrees = json.value("normalErrorDegrees", 0.0);
+    marker.sourceTextureBytes = json.value("sourceTextureBytes", std::uint64_t{0});
     return marker;
   } catch (const nlohmann::json::exception&) {
     throw Error(ErrorKind::malformed, name, "is not the marker of a site");

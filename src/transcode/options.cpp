@@ -5,6 +5,7 @@
 #include "containers/limits.h"
 #include "containers/normals.h"
 #include "containers/stored_coords.h"
+#include "images/raster.h"
 #include "prepare/patches.h"
 
 #include <cmath>
@@ -160,6 +161,17 @@ bool isClassicsAlone(const ConvertOptions& options) {
          options.positionBits > 30 || options.patchVertices > compact::maxPatchCount;
 }
 
+void requireTextures(const TextureOptions& textures) {
+  if (textures.size != 0)
+    requireWithin("--texture-size", textures.size, 1, maxRasterEdge);
+  requireWithin("--texture-preview", textures.previewEdge, 0, 256);
+  if (!textures.quality)
+    return;
+  requireWithin("--texture-quality", *textures.quality, 0, 100);
+  if (textures.format == TextureFormat::png)
+    refuse("--texture-quality", "PNG loses nothing; webp and avif have a quality");
+}
+
 /// Compact has its own way with normals, its own order, and is for our runtime.
 ConvertOptions resolvedCompact(ConvertOptions options) {
   if (options.container == Container::bg)
@@ -220,6 +232,7 @@ ConvertOptions resolved(ConvertOptions options) {
   requireWithin("--position-bits", options.positionBits, 8, mostPositionBits(options));
   requireWithin("--patch-vertices", options.patchVertices, 256, maxPatchWedges);
   requireWithin("--effort", options.effort, 0, 9);
+  requireTextures(options.textures);
   if (options.normalBits == 0)
     options.normalBits = defaultNormalBits(options);
   requireCoords(options);

@@ -36,6 +36,19 @@ void addInlined(OpenedDocument& document) {
   }
 }
 
+/// The urls that images have there, each once; not those of other hosts.
+std::vector<std::string> ownFilesOf(const SceneDocument& scene, std::string ImageFile::*member) {
+  std::vector<std::string> urls;
+  std::set<std::string> seen;
+  for (const ImageFile& image : scene.graph.images) {
+    const std::string& url = image.*member;
+    const bool isElsewhere = url.empty() || url.find(':') != url.npos || url.starts_with("//");
+    if (!isElsewhere && seen.insert(url).second)
+      urls.push_back(url);
+  }
+  return urls;
+}
+
 } // namespace
 
 OpenedDocument openDocument(const fs::path& site) {
@@ -71,15 +84,11 @@ std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene) {
 }
 
 std::vector<std::string> textureFilesOf(const SceneDocument& scene) {
-  std::vector<std::string> urls;
-  std::set<std::string> seen;
-  for (const ImageFile& image : scene.graph.images) {
-    const bool isElsewhere =
-        image.url.empty() || image.url.find(':') != image.url.npos || image.url.starts_with("//");
-    if (!isElsewhere && seen.insert(image.url).second)
-      urls.push_back(image.url);
-  }
-  return urls;
+  return ownFilesOf(scene, &ImageFile::url);
+}
+
+std::vector<std::string> previewFilesOf(const SceneDocument& scene) {
+  return ownFilesOf(scene, &ImageFile::preview);
 }
 
 std::vector<std::string> pageFilesOf(std::string_view html) {

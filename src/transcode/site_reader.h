@@ -44,6 +44,9 @@ std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene);
 /// mention; those of other hosts are left out.
 std::vector<std::string> textureFilesOf(const SceneDocument& scene);
 
+/// The same of their previews.
+std::vector<std::string> previewFilesOf(const SceneDocument& scene);
+
 /// The urls of the runtime module and the stylesheet that a page names; those of
 /// other hosts, X3DOM's and absent ones are left out.
 std::vector<std::string> pageFilesOf(std::string_view html);

@@ -25,6 +25,21 @@ struct MaxError {
   bool isPercent = false; ///< of the mesh's longest edge; otherwise in the source's units
 };
 
+/// What images of textures are written as. Data maps (normals, roughness ...) are never lossy.
+enum class TextureFormat : std::uint8_t {
+  keep, ///< as they are; what no browser shows becomes lossless WebP
+  webp,
+  avif, ///< data maps: lossless WebP
+  png,
+};
+
+struct TextureOptions {
+  TextureFormat format = TextureFormat::keep;
+  std::uint32_t size = 0;         ///< the longest edge, in pixels; 0: as large as it is
+  std::optional<int> quality;     ///< 0 .. 100 of lossy ones; nothing: 80 of WebP, 60 of AVIF
+  std::uint32_t previewEdge = 64; ///< of what is shown first of a large image, 0 .. 256; 0: no previews
+};
+
 struct ConvertOptions {
   Container container = Container::sig;
   std::optional<Profile> profile; ///< nothing: compact, unless what else is asked for is classic's alone
@@ -47,6 +62,7 @@ struct ConvertOptions {
   std::uint32_t attributeBits = 0;     ///< SIG: 8, 16 or 24; 0: 16. BG has Float32
   /// Compact: a base of so many percent of the triangles, 0..25; 0: none. Nothing: 2.
   std::optional<double> basePercent;
+  TextureOptions textures;
   int effort = 5;       ///< 0 fastest .. 9 smallest
   std::string title;    ///< empty: the source's name
   bool outside = false; ///< the source may refer to files outside of its folder
@@ -68,6 +84,12 @@ struct AttributeReport {
   double error = 0; ///< by which its numbers may be off
 };
 
+/// What became of the images of textures.
+struct TextureReport {
+  std::size_t files = 0, resized = 0, reencoded = 0, previews = 0;
+  std::uint64_t sourceBytes = 0, bytes = 0, previewBytes = 0; ///< sourceBytes: as they were found
+};
+
 struct ConvertReport {
   std::string format; ///< of the source
   std::uint64_t sourceBytes = 0;
@@ -83,6 +105,7 @@ struct ConvertReport {
   std::uint32_t normalBits = 0, texCoordBits = 0, colorBits = 0; ///< of a stored component
   double normalErrorDegrees = 0;                                 ///< by which stored normals may be off
   std::vector<AttributeReport> attributes;
+  TextureReport textures;
   std::string x3domVersion, x3domUrl; ///< target x3dom: the release that the page is for, and its script
   std::vector<RoleBytes> roles;
   double bytesPerTriangle = 0; ///< as SiteInfo has it
@@ -107,8 +130,8 @@ ConvertReport convert(const std::filesystem::path& input, const std::filesystem:
 
 struct SiteFile {
   std::string path; ///< relative to the site
-  std::string
-      role; ///< "document" (the page), "runtime", a geometry role, "texture", "scene", "style" or "marker"
+  std::string role; ///< "document" (the page), "runtime", a geometry role, "texture", "preview", "scene",
+                    ///< "style", "marker"
   std::uint64_t bytes = 0;
 };
 
@@ -128,8 +151,10 @@ struct SiteInfo {
   std::vector<GeometryInfo> geometries; ///< one a shape
   ElementCounts elements;
   std::size_t vertices = 0, patches = 0;
-  std::uint64_t documentBytes = 0, containerBytes = 0, textureBytes = 0, runtimeBytes = 0;
-  double bytesPerTriangle = 0; ///< containers and the document's geometry nodes; 0 without triangles
+  std::uint64_t documentBytes = 0, containerBytes = 0, runtimeBytes = 0;
+  std::uint64_t textureBytes = 0;       ///< with their previews
+  std::uint64_t sourceTextureBytes = 0; ///< of the images as the source had them; 0: nobody has noted that
+  double bytesPerTriangle = 0;          ///< containers and the document's geometry nodes; 0 without triangles
   std::vector<SiteFile> files;
 };
 

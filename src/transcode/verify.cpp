@@ -98,6 +98,8 @@ bool checkFiles(const OpenedDocument& document, bool isForeign, Findings& findin
     urls.push_back(inlined.url);
   for (const std::string& url : textureFilesOf(document.scene))
     urls.push_back(url);
+  for (const std::string& url : previewFilesOf(document.scene))
+    urls.push_back(url);
   for (const NamedFile& file : geometryFilesOf(document.scene))
     urls.push_back(file.url);
   for (const std::string& url : urls) {

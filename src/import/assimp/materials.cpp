@@ -1,7 +1,7 @@
 #include "import/assimp/materials.h"
 
 #include "base/error.h"
-#include "import/image_type.h"
+#include "images/image_type.h"
 #include "import/warnings.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "import/gltf/materials.h"
 
-#include "import/image_type.h"
+#include "images/image_type.h"
 #include "scene/color.h"
 
 #include <array>

@@ -2,7 +2,7 @@
 // element that it was.
 
 #include "import/formats.h"
-#include "import/image_type.h"
+#include "images/image_type.h"
 #include "import/references.h"
 #include "import/warnings.h"
 #include "import/x3d/geometry.h"

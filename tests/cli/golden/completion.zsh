@@ -49,6 +49,10 @@ _imgeo() {
       '--drop[which elements to leave out\: those with two corners at one place, those that repeat another, or both]:drop:(none degenerate repeated both)' \
       '--keep-attributes[further numbers of PLY'\''s vertices to keep\: names with commas between, all or none]:keep-attributes: ' \
       '--attribute-bits[bits of such a number; sig\: 8, 16 or 24, otherwise 16; bg holds floats]:attribute-bits: ' \
+      '--textures[what images of textures are written as; keep\: as they are, and those that no browser shows (TGA, TIFF, BMP ...) as lossless WebP. Normal maps and other data are never lossy]:textures:(keep webp avif png)' \
+      '--texture-size[the longest edge of a texture in pixels; larger ones are made smaller, none larger]:texture-size: ' \
+      '--texture-quality[of lossy textures; otherwise 80 of webp, 60 of avif]:texture-quality: ' \
+      '--texture-preview[the longest edge of what is shown first of a large texture; 0\: nothing is]:texture-preview: ' \
       '--normal-weighting[how triangles count in normals that the source lacks]:normal-weighting:(area angle uniform)' \
       '--title[the page'\''s title; otherwise the input'\''s name]:title: ' \
       '--effort[how hard to compress\: 0 fastest, 9 smallest]:effort: ' \

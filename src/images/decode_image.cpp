@@ -1,0 +1,117 @@
+#include "images/decode_image.h"
+
+#include "base/error.h"
+#include "images/image_type.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <magick/api.h>
+#include <memory>
+
+namespace imgeo {
+
+namespace {
+
+struct Destroy {
+  void operator()(ImageInfo* info) const { DestroyImageInfo(info); }
+  void operator()(::Image* image) const { DestroyImage(image); }
+};
+using Info = std::unique_ptr<ImageInfo, Destroy>;
+using Decoded = std::unique_ptr<::Image, Destroy>;
+
+/// What GraphicsMagick says of a call.
+class Outcome {
+public:
+  Outcome() { GetExceptionInfo(&info_); }
+  ~Outcome() { DestroyExceptionInfo(&info_); }
+  Outcome(const Outcome&) = delete;
+  Outcome& operator=(const Outcome&) = delete;
+
+  ExceptionInfo* info() { return &info_; }
+  bool isError() const { return info_.severity >= ErrorException; }
+
+private:
+  ExceptionInfo info_;
+};
+
+/// Once a process. Pixels stay in memory, and the library within its one thread.
+void startLibrary() {
+  [[maybe_unused]] static const bool isStarted = [] {
+    Outcome outcome;
+    InitializeMagickEx(nullptr, MAGICK_OPT_NO_SIGNAL_HANDER, outcome.info());
+    SetMagickResourceLimit(PixelsResource, maxRasterPixels);
+    SetMagickResourceLimit(WidthResource, maxRasterEdge);
+    SetMagickResourceLimit(HeightResource, maxRasterEdge);
+    SetMagickResourceLimit(DiskResource, 0);
+    SetMagickResourceLimit(ThreadsResource, 1);
+    return true;
+  }();
+}
+
+/// The first picture of a file of exactly this type: nothing is guessed from its content.
+Info infoFor(const std::string& type) {
+  std::string format = type == ".jpg" ? "JPEG" : type == ".tif" ? "TIFF" : type.substr(1);
+  std::ranges::transform(format, format.begin(), [](char c) { return c >= 'a' && c <= 'z' ? c - 32 : c; });
+  Info info(CloneImageInfo(nullptr));
+  fmt::format_to_n(info->magick, sizeof info->magick - 1, "{}", format);
+  fmt::format_to_n(info->filename, sizeof info->filename - 1, "{}:", format);
+  info->subimage = 0;
+  info->subrange = 1;
+  return info;
+}
+
+void requireSize(const ::Image& image, const std::string& place, std::uint64_t mostPixels) {
+  const auto width = static_cast<std::uint64_t>(image.columns),
+             height = static_cast<std::uint64_t>(image.rows);
+  if (width > maxRasterEdge || height > maxRasterEdge || width * height > mostPixels)
+    throw Error(
+        ErrorKind::limit, place,
+        fmt::format("is an image of {} x {} pixels; more than {} along an edge or {} in all are not decoded",
+                    width, height, maxRasterEdge, mostPixels));
+}
+
+} // namespace
+
+bool hasAlpha(const Raster& raster) {
+  for (std::size_t at = 3; at < raster.pixels.size(); at += 4)
+    if (raster.pixels[at] != 255)
+      return true;
+  return false;
+}
+
+Raster decodeRaster(ByteSpan bytes, const std::string& place, std::uint64_t mostPixels) {
+  const std::string type = imageType(bytes);
+  if (!isDecodable(type))
+    throw Error(ErrorKind::unsupported, place, "is an image of a kind that imgeo does not decode");
+  const auto refuse = [&] {
+    throw Error(ErrorKind::malformed, place,
+                fmt::format("is a {} image that does not decode", type.substr(1)));
+  };
+  startLibrary();
+  const Info info = infoFor(type);
+  Outcome outcome;
+  if (const Decoded header(PingBlob(info.get(), bytes.data(), bytes.size(), outcome.info())); header)
+    requireSize(*header, place, mostPixels);
+  else
+    refuse();
+  Decoded image(BlobToImage(info.get(), bytes.data(), bytes.size(), outcome.info()));
+  if (!image || outcome.isError())
+    refuse();
+  requireSize(*image, place, mostPixels);
+  if (image->orientation > TopLeftOrientation)
+    if (Decoded upright(AutoOrientImage(image.get(), image->orientation, outcome.info())); upright)
+      image = std::move(upright);
+  if (!IsRGBCompatibleColorspace(image->colorspace))
+    TransformColorspace(image.get(), RGBColorspace);
+  Raster raster{static_cast<std::uint32_t>(image->columns), static_cast<std::uint32_t>(image->rows), {}};
+  raster.pixels.resize(std::size_t{4} * raster.width * raster.height);
+  if (DispatchImage(image.get(), 0, 0, image->columns, image->rows, "RGBA", CharPixel, raster.pixels.data(),
+                    outcome.info()) == MagickFail)
+    refuse();
+  if (!image->matte) // nothing is said of alpha then, not even that there is none
+    for (std::size_t at = 3; at < raster.pixels.size(); at += 4)
+      raster.pixels[at] = 255;
+  return raster;
+}
+
+} // namespace imgeo

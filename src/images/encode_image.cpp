@@ -1,0 +1,87 @@
+#include "images/encode_image.h"
+
+#include <avif/avif.h>
+#include <cassert>
+#include <memory>
+#include <new>
+#include <webp/encode.h>
+
+namespace imgeo {
+
+namespace {
+
+/// The raster and the settings are as the library wants them, so that it fails for want
+/// of memory alone.
+void require(bool isDone) {
+  if (!isDone)
+    throw std::bad_alloc();
+}
+
+Bytes encoded(const Raster& raster, const WebPConfig& config) {
+  WebPPicture picture;
+  require(WebPPictureInit(&picture));
+  WebPMemoryWriter writer;
+  WebPMemoryWriterInit(&writer);
+  const std::unique_ptr<WebPPicture, decltype(&WebPPictureFree)> picturesEnd(&picture, WebPPictureFree);
+  const std::unique_ptr<WebPMemoryWriter, decltype(&WebPMemoryWriterClear)> writersEnd(&writer,
+                                                                                       WebPMemoryWriterClear);
+  picture.use_argb = 1;
+  picture.width = static_cast<int>(raster.width);
+  picture.height = static_cast<int>(raster.height);
+  picture.writer = WebPMemoryWrite;
+  picture.custom_ptr = &writer;
+  const int stride = 4 * picture.width;
+  require(hasAlpha(raster) ? WebPPictureImportRGBA(&picture, raster.pixels.data(), stride)
+                           : WebPPictureImportRGBX(&picture, raster.pixels.data(), stride));
+  require(WebPEncode(&config, &picture));
+  return Bytes(writer.mem, writer.mem + writer.size);
+}
+
+} // namespace
+
+Bytes encodeWebp(const Raster& raster, int quality) {
+  WebPConfig config;
+  require(WebPConfigPreset(&config, WEBP_PRESET_DEFAULT, static_cast<float>(quality)));
+  config.use_sharp_yuv = 1; // otherwise red on dark loses its edges
+  return encoded(raster, config);
+}
+
+Bytes encodeLosslessWebp(const Raster& raster) {
+  WebPConfig config;
+  require(WebPConfigInit(&config) && WebPConfigLosslessPreset(&config, 6));
+  config.exact = 1; // also where alpha is 0: data maps keep numbers there
+  return encoded(raster, config);
+}
+
+Bytes encodeAvif(const Raster& raster, int quality) {
+  const std::unique_ptr<avifImage, decltype(&avifImageDestroy)> image(
+      avifImageCreate(static_cast<int>(raster.width), static_cast<int>(raster.height), 8,
+                      AVIF_PIXEL_FORMAT_YUV420),
+      avifImageDestroy);
+  const std::unique_ptr<avifEncoder, decltype(&avifEncoderDestroy)> encoder(avifEncoderCreate(),
+                                                                            avifEncoderDestroy);
+  require(image && encoder);
+  image->colorPrimaries = AVIF_COLOR_PRIMARIES_BT709;
+  image->transferCharacteristics = AVIF_TRANSFER_CHARACTERISTICS_SRGB;
+  image->matrixCoefficients = AVIF_MATRIX_COEFFICIENTS_BT601;
+  image->yuvRange = AVIF_RANGE_FULL;
+  avifRGBImage rgb;
+  avifRGBImageSetDefaults(&rgb, image.get());
+  rgb.ignoreAlpha = !hasAlpha(raster);
+  rgb.pixels = const_cast<std::uint8_t*>(raster.pixels.data()); // only read
+  rgb.rowBytes = 4 * raster.width;
+  require(avifImageRGBToYUV(image.get(), &rgb) == AVIF_RESULT_OK);
+  // As libavif 1.0 maps quality to AV1's quantizers.
+  const int quantizer = ((100 - quality) * AVIF_QUANTIZER_WORST_QUALITY + 50) / 100;
+  encoder->minQuantizer = encoder->maxQuantizer = quantizer;
+  encoder->minQuantizerAlpha = encoder->maxQuantizerAlpha = quantizer;
+  encoder->speed = 6;
+  encoder->maxThreads = 1; // images are encoded side by side
+  avifRWData output = AVIF_DATA_EMPTY;
+  const avifResult result = avifEncoderWrite(encoder.get(), image.get(), &output);
+  const std::unique_ptr<avifRWData, decltype(&avifRWDataFree)> outputsEnd(&output, avifRWDataFree);
+  require(result == AVIF_RESULT_OK);
+  return Bytes(output.data, output.data + output.size);
+}
+
+} // namespace imgeo

@@ -1,0 +1,133 @@
+#include "images/decode_image.h"
+#include "images/encode_image.h"
+#include "images/image_type.h"
+#include "images/resize.h"
+#include "images/testing.h"
+
+#include "base/error.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+namespace imgeo::testing {
+namespace {
+
+int largestDifference(const Raster& a, const Raster& b) {
+  int most = a.width == b.width && a.height == b.height ? 0 : 256;
+  for (std::size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i)
+    most = std::max(most, std::abs(a.pixels[i] - b.pixels[i]));
+  return most;
+}
+
+/// Slow enough in all directions for a lossy encoder to keep.
+Raster smoothRaster() {
+  Raster raster{32, 16, {}};
+  for (std::uint32_t y = 0; y < 16; ++y)
+    for (std::uint32_t x = 0; x < 32; ++x)
+      for (const std::uint32_t value : {4 * x, 8 * y, 128 + 2 * x, 255u})
+        raster.pixels.push_back(static_cast<std::uint8_t>(value));
+  return raster;
+}
+
+Raster rasterOf(std::uint32_t width, std::uint32_t height, Bytes pixels) {
+  return {width, height, std::move(pixels)};
+}
+
+TEST(ImageType, IsToldByTheFirstBytes) {
+  EXPECT_EQ(imageType(asBytes("\x89PNG\r\n\x1a\n...")), ".png");
+  EXPECT_EQ(imageType(asBytes("RIFF....WEBPVP8L")), ".webp");
+  EXPECT_EQ(imageType(asBytes({"II*\0....", 8})), ".tif");
+  EXPECT_EQ(imageType(tgaOf(testRaster(3, 2))), ".tga");
+  for (const char* other :
+       {"", "BM", "P7 ", "<svg xmlns='http://www.w3.org/2000/svg'></svg>", "just some words of a text"})
+    EXPECT_EQ(imageType(asBytes(other)), "") << other;
+}
+
+TEST(DecodeRaster, ReadsWhatBrowsersDoNotShow) {
+  const Raster clear = testRaster(9, 5, true);
+  EXPECT_EQ(decodeRaster(tgaOf(clear), "a.tga"), clear);
+  const Raster gray = decodeRaster(asBytes("P2\n2 1\n255\n7 200\n"), "a.pnm");
+  EXPECT_EQ(gray, rasterOf(2, 1, {7, 7, 7, 255, 200, 200, 200, 255}));
+}
+
+TEST(DecodeRaster, GivesLosslessWebpBackToTheByteAlsoWhereNothingIsSeen) {
+  for (const bool isClear : {false, true}) {
+    const Raster raster = testRaster(17, 11, isClear);
+    EXPECT_EQ(decodeRaster(encodeLosslessWebp(raster), "a.webp"), raster);
+  }
+}
+
+TEST(DecodeRaster, RefusesHugeImagesByTheirHeader) {
+  Bytes bomb = tgaOf(testRaster(1, 1));
+  bomb[2] = 10; // run-length encoded: a few bytes may stand for all of them
+  const auto expectLimit = [&](std::uint8_t widthHigh, std::uint8_t heightHigh) {
+    bomb[13] = widthHigh;
+    bomb[15] = heightHigh;
+    try {
+      decodeRaster(bomb, "bomb.tga");
+      ADD_FAILURE() << "decoded";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::limit);
+      EXPECT_EQ(error.place(), "bomb.tga");
+    }
+  };
+  expectLimit(255, 0);
+  expectLimit(48, 48);
+}
+
+TEST(DecodeRaster, RefusesEveryPrefixOfAFile) {
+  const Bytes whole = encodeLosslessWebp(testRaster(9, 7, true));
+  for (std::size_t size = 0; size < whole.size() - 1; ++size)
+    EXPECT_THROW(decodeRaster({whole.data(), size}, "cut.webp"), Error) << size;
+  const Bytes tga = tgaOf(testRaster(9, 7));
+  for (std::size_t size = 0; size < tga.size(); ++size)
+    EXPECT_THROW(decodeRaster({tga.data(), size}, "cut.tga"), Error) << size;
+}
+
+TEST(EncodeImage, LosesLittleOfSmoothPictures) {
+  const Raster raster = smoothRaster();
+  const Bytes webp = encodeWebp(raster, 90);
+  EXPECT_LE(largestDifference(decodeRaster(webp, "a.webp"), raster), 12);
+  EXPECT_LT(encodeWebp(raster, 10).size(), webp.size());
+  EXPECT_EQ(imageType(encodeAvif(raster, 60)), ".avif");
+  EXPECT_LT(encodeAvif(testRaster(64, 64), 20).size(), encodeAvif(testRaster(64, 64), 90).size());
+}
+
+TEST(Shrunk, AveragesColorsAsLightAndNumbersAsNumbers) {
+  const Raster checkers = rasterOf(2, 1, {0, 0, 0, 255, 255, 255, 255, 255});
+  EXPECT_EQ(shrunk(checkers, {1, 1}, PixelContent::color), rasterOf(1, 1, {188, 188, 188, 255}));
+  EXPECT_EQ(shrunk(checkers, {1, 1}, PixelContent::numbers), rasterOf(1, 1, {128, 128, 128, 255}));
+}
+
+TEST(Shrunk, LetsWhatIsClearAddNoColor) {
+  const Raster raster = rasterOf(2, 1, {255, 0, 0, 0, 0, 0, 255, 255});
+  EXPECT_EQ(shrunk(raster, {1, 1}, PixelContent::color), rasterOf(1, 1, {0, 0, 255, 128}));
+}
+
+TEST(Shrunk, KeepsDirectionsOfLengthOne) {
+  const Raster raster = rasterOf(2, 1, {255, 128, 128, 255, 128, 128, 255, 255}); // along x, along z
+  const Raster mean = shrunk(raster, {1, 1}, PixelContent::directions);
+  EXPECT_NEAR(mean.pixels[0], 127.5 + 127.5 * std::sqrt(0.5), 1);
+  EXPECT_NEAR(mean.pixels[1], 127.5, 1);
+  EXPECT_NEAR(mean.pixels[2], 127.5 + 127.5 * std::sqrt(0.5), 1);
+}
+
+TEST(Shrunk, WeighsPixelsByWhatIsCoveredOfThem) {
+  // 3 -> 2: each covers one and a half.
+  const Raster raster = rasterOf(3, 1, {30, 0, 0, 255, 60, 0, 0, 255, 90, 0, 0, 255});
+  EXPECT_EQ(shrunk(raster, {2, 1}, PixelContent::numbers), rasterOf(2, 1, {40, 0, 0, 255, 80, 0, 0, 255}));
+}
+
+TEST(FittedSize, KeepsProportionsAndEnlargesNothing) {
+  const auto fitted = [](std::uint32_t width, std::uint32_t height, std::uint32_t longest) {
+    const RasterSize size = fittedSize({width, height}, longest);
+    return std::pair(size.width, size.height);
+  };
+  EXPECT_EQ(fitted(4000, 1000, 512), std::pair(512u, 128u));
+  EXPECT_EQ(fitted(3, 4000, 64), std::pair(1u, 64u));
+  EXPECT_EQ(fitted(100, 20, 512), std::pair(100u, 20u));
+}
+
+} // namespace
+} // namespace imgeo::testing

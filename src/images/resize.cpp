@@ -1,0 +1,129 @@
+#include "images/resize.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace imgeo {
+
+namespace {
+
+using Pixel = std::array<float, 4>;
+
+/// IEC 61966-2-1, 0 .. 1.
+float linearOf(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+float encodedOf(float linear) {
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+std::uint8_t byteOf(float share) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * 255));
+}
+
+/// Bytes -> numbers that may be averaged, and back.
+class Averaging {
+public:
+  explicit Averaging(PixelContent content) : content_(content) {
+    for (std::size_t byte = 0; byte < values_.size(); ++byte) {
+      const float share = static_cast<float>(byte) / 255;
+      values_[byte] = content == PixelContent::color        ? linearOf(share)
+                      : content == PixelContent::directions ? 2 * share - 1
+                                                            : share;
+    }
+  }
+
+  Pixel numbersOf(const std::uint8_t* bytes) const {
+    const float alpha = static_cast<float>(bytes[3]) / 255,
+                weight = content_ == PixelContent::color ? alpha : 1;
+    return {values_[bytes[0]] * weight, values_[bytes[1]] * weight, values_[bytes[2]] * weight, alpha};
+  }
+
+  void store(const Pixel& mean, std::uint8_t* bytes) const {
+    const float weight = content_ == PixelContent::color ? mean[3] : 1;
+    Pixel value{};
+    for (std::size_t c = 0; c < 3 && weight > 0; ++c)
+      value[c] = mean[c] / weight;
+    if (content_ == PixelContent::directions) {
+      const float length = std::hypot(value[0], value[1], value[2]);
+      for (std::size_t c = 0; c < 3; ++c)
+        value[c] = length > 0 ? value[c] / length : c == 2 ? 1.0f : 0.0f;
+    }
+    for (std::size_t c = 0; c < 3; ++c)
+      bytes[c] = byteOf(content_ == PixelContent::color        ? encodedOf(value[c])
+                        : content_ == PixelContent::directions ? value[c] / 2 + 0.5f
+                                                               : value[c]);
+    bytes[3] = byteOf(mean[3]);
+  }
+
+private:
+  PixelContent content_;
+  std::array<float, 256> values_{};
+};
+
+/// What a pixel of the smaller edge covers of the larger: `shares` of pixels from `first` on.
+struct Cover {
+  std::size_t first = 0;
+  std::vector<float> shares;
+};
+
+std::vector<Cover> coversOf(std::uint32_t from, std::uint32_t to) {
+  std::vector<Cover> covers(to);
+  const double step = static_cast<double>(from) / to;
+  for (std::uint32_t i = 0; i < to; ++i) {
+    const double begin = i * step, end = std::min<double>((i + 1) * step, from);
+    covers[i].first = static_cast<std::size_t>(begin);
+    for (std::size_t at = covers[i].first; static_cast<double>(at) < end; ++at) {
+      const double least = std::max(begin, static_cast<double>(at)),
+                   most = std::min(end, static_cast<double>(at) + 1);
+      covers[i].shares.push_back(static_cast<float>((most - least) / step));
+    }
+  }
+  return covers;
+}
+
+/// Adds a row, made shorter and weighted, to a row of means.
+void addRow(const std::uint8_t* row, const std::vector<Cover>& covers, float weight,
+            const Averaging& averaging, std::vector<Pixel>& means) {
+  for (std::size_t x = 0; x < covers.size(); ++x)
+    for (std::size_t i = 0; i < covers[x].shares.size(); ++i) {
+      const Pixel numbers = averaging.numbersOf(row + 4 * (covers[x].first + i));
+      for (std::size_t c = 0; c < 4; ++c)
+        means[x][c] += weight * covers[x].shares[i] * numbers[c];
+    }
+}
+
+} // namespace
+
+RasterSize fittedSize(RasterSize size, std::uint32_t longest) {
+  const std::uint32_t edge = std::max(size.width, size.height);
+  if (edge <= longest)
+    return size;
+  const auto scaled = [&](std::uint32_t length) {
+    const double exact = static_cast<double>(length) * longest / edge;
+    return std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::lround(exact)));
+  };
+  return {scaled(size.width), scaled(size.height)};
+}
+
+Raster shrunk(const Raster& raster, RasterSize size, PixelContent content) {
+  assert(size.width > 0 && size.width <= raster.width && size.height > 0 && size.height <= raster.height);
+  const std::vector<Cover> across = coversOf(raster.width, size.width),
+                           down = coversOf(raster.height, size.height);
+  const Averaging averaging(content);
+  Raster smaller{size.width, size.height, Bytes(std::size_t{4} * size.width * size.height)};
+  std::vector<Pixel> means(size.width);
+  for (std::size_t y = 0; y < size.height; ++y) {
+    std::ranges::fill(means, Pixel{});
+    for (std::size_t i = 0; i < down[y].shares.size(); ++i)
+      addRow(&raster.pixels[4 * raster.width * (down[y].first + i)], across, down[y].shares[i], averaging,
+             means);
+    for (std::size_t x = 0; x < size.width; ++x)
+      averaging.store(means[x], &smaller.pixels[4 * (y * size.width + x)]);
+  }
+  return smaller;
+}
+
+} // namespace imgeo
