@@ -48,6 +48,7 @@ interface Case {
   /** From the quad's texture coordinates to the picture's. */
   expected: (s: number, t: number) => [number, number, number];
   change?: (shape: string) => string;
+  alphaMode?: string;
   /** 0..255 */
   tolerance?: number;
 }
@@ -86,10 +87,36 @@ const cases = (): Case[] => [
   { what: "multiplied by the material", site: siteOf(quad(1), "--profile", "classic"), most: 1,
     appearance: `<Material diffuseColor="0.5 1 0" ambientIntensity="0">${image('containerField="diffuseTexture"')}</Material>`,
     expected: (s, t) => { const [r, g] = texelAt(s, t); return [r / 2, g, 0]; } },
+  { what: "that shines", site: siteOf(quad(1), "--profile", "classic"), most: 1,
+    appearance: `<Material diffuseColor="0 0 0" emissiveColor="1 0.5 1">${image('containerField="emissiveTexture"')}</Material>`,
+    expected: (s, t) => { const [r, g, b] = texelAt(s, t); return [r, g / 2, b]; } },
+  { what: "of normals, lit by the headlight and from the upper right", site: siteOf(quad(1), "--container", "bg"), most: 1,
+    appearance: `<Material diffuseColor="0.5 0.5 0.5" ambientIntensity="0">${dataImage("normal.png", "normalTexture")}</Material>`,
+    expected: () => { const grey = 127.5 * (tilted[2] + sideLight * (tilted[0] + tilted[1]) * Math.SQRT1_2); return [grey, grey, grey]; }, tolerance: 4 },
+  { what: "of metallic and roughness", site: siteOf(quad(1), "--profile", "compact"), most: 1,
+    appearance: `<PhysicalMaterial metallic="1" roughness="1">${image('containerField="baseTexture"')}${dataImage("plain.png", "metallicRoughnessTexture")}</PhysicalMaterial>`,
+    expected: texelAt, tolerance: 12 },
+  { what: "with holes", site: siteOf(quad(1), "--profile", "classic"), most: 1,
+    appearance: white + dataImage("holes.png", "texture"), alphaMode: "MASK",
+    expected: (s) => (s < 0.5 ? [0, 0, 0] : [200, 100, 50]) },
 ];
 
-const perRow = 4;
-const placeOf = (n: number): [number, number] => [2.5 * (n % perRow) - 3.75, 2.5 - 2.5 * Math.floor(n / perRow)];
+const dataImage = (url: string, field: string): string => `<ImageTexture url="${url}" containerField="${field}">${nearest}</ImageTexture>`;
+/** What the normal map says all over, and the light that shows which way it means. */
+const tilted = [0.48, 0.36, 0.8] as const;
+const sideLight = 0.4;
+const withSideLight = `<DirectionalLight direction="-1 -1 0" intensity="${sideLight}"></DirectionalLight>`;
+
+/** One row of texels. */
+const rowOf = (channels: 3 | 4, ...data: number[]): Buffer => encodePng({ width: data.length / channels, height: 1, channels, data: Uint8Array.from(data) });
+const dataFiles = {
+  "normal.png": rowOf(3, ...tilted.map((value) => Math.round(127.5 * (value + 1)))),
+  "plain.png": rowOf(3, 0, 255, 0), // rough, and no metal
+  "holes.png": rowOf(4, 200, 100, 50, 0, 200, 100, 50, 255),
+};
+
+const perRow = 6;
+const placeOf = (n: number): [number, number] => [2.5 * (n % perRow) - 6.25, 2.5 - 2.5 * Math.floor(n / perRow)];
 const distance = 14;
 
 /** The pixel of a point of the plane z = 0. */
@@ -102,16 +129,20 @@ const colorAt = ({ data, channels, width }: Picture, [x, y]: [number, number]): 
 
 const viewpoint = (z: number): string => `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo><Background skyColor="0 0 0"></Background><Viewpoint position="0 0 ${z}" fieldOfView="0.7854"></Viewpoint>`;
 
+/** Whether the pointer hits something there. */
+const hitAt = (view: View, place: readonly [number, number]): Promise<boolean> => view.page.evaluate(([x, y]) =>
+  (document.querySelector("x3d") as unknown as { positionAndNormalFromPoint: (x: number, y: number) => unknown }).positionAndNormalFromPoint(x, y) !== null, place);
+
 function texturedScene(): { directory: string; all: Case[] } {
   const all = cases();
-  const shapes = all.map(({ site, appearance, change = (shape) => shape }, n) => {
+  const shapes = all.map(({ site, appearance, alphaMode = "AUTO", change = (shape) => shape }, n) => {
     const [x, y] = placeOf(n);
-    const shape = change(shapeIn(site, `q${n}`)).replace(/<Appearance[\s\S]*<\/Appearance>/i, `<Appearance>${appearance}</Appearance>`);
+    const shape = change(shapeIn(site, `q${n}`)).replace(/<Appearance[\s\S]*<\/Appearance>/i, `<Appearance alphaMode="${alphaMode}">${appearance}</Appearance>`);
     const inFolder = shape.replaceAll(/(["'])geometry\//g, `$1q${n}/geometry/`); // compact's too
     return `<Transform translation="${x} ${y} 0">${inFolder}</Transform>`;
   });
-  const directory = sceneOf("textures", Object.fromEntries(all.map(({ site }, n) => [`q${n}`, site])), viewpoint(distance) + shapes.join("\n"));
-  writeFileSync(join(directory, "picture.png"), encodePng(picture));
+  const directory = sceneOf("textures", Object.fromEntries(all.map(({ site }, n) => [`q${n}`, site])), viewpoint(distance) + withSideLight + shapes.join("\n"));
+  for (const [name, bytes] of Object.entries({ ...dataFiles, "picture.png": encodePng(picture) })) writeFileSync(join(directory, name), bytes);
   return { directory, all };
 }
 
@@ -119,7 +150,7 @@ describe("a texture", () => {
   test("is laid over surfaces of every container as X3D says, asked for once, last, and fetched with the coordinates that it needs", async () => {
     const { directory, all } = texturedScene();
     const { closed, open } = gate();
-    await withPage(directory, { server: (server) => server.when(/picture\.png$/, { hold: closed }) }, async (view) => {
+    await withPage(directory, { server: (server) => server.when(/\/(picture|normal|plain|holes)\.png$/, { hold: closed }) }, async (view) => {
       await until("all but the picture is shown", async () => (await view.events("first-image", "shape")).length === all.length);
       await until("the picture is asked for", () => view.server.requestsOf(/picture\.png$/).length > 0);
       assert.deepEqual(await view.events("load"), []); // which awaits it
@@ -142,6 +173,8 @@ describe("a texture", () => {
         }
         assert.ok(compared >= 20, `${what}: ${compared} places`);
       }
+      const holes = placeOf(all.findIndex(({ what }) => what === "with holes"));
+      assert.deepEqual([await hitAt(view, pixelAt(holes[0] - 0.5, holes[1])), await hitAt(view, pixelAt(holes[0] + 0.5, holes[1]))], [false, true]);
       assert.equal(view.server.requestsOf(/picture\.png$/).length, 3); // once for each way of wrapping
     });
   });
@@ -185,20 +218,16 @@ describe("points", () => {
   const far: [number, number] = [pictureSize.width / 2 + (2 * scale) / 20, pictureSize.height / 2];
   const isLit = (picture: Picture, [x, y]: [number, number], right: number, down: number): boolean =>
     colorAt(picture, [Math.floor(x + right), Math.floor(y + down)])[0]! > 100;
-  const hitAt = (view: View, [x, y]: [number, number], right: number, down: number): Promise<boolean> => view.page.evaluate(([px, py]) =>
-    (document.querySelector("x3d") as unknown as { positionAndNormalFromPoint: (x: number, y: number) => unknown }).positionAndNormalFromPoint(px!, py!) !== null,
-  [x + right, y + down]);
-
   async function assertDisc(view: View, picture: Picture, at: [number, number], diameter: number): Promise<void> {
     const inside = diameter / 2 - 1.5;
     const outside = diameter / 2 + 1.5;
     const diagonal = Math.SQRT1_2;
     for (const [right, down] of [[0, 0], [1, 0], [0, 1], [-1, 0], [0, -1], [diagonal, diagonal], [-diagonal, diagonal]] as const) {
       assert.ok(isLit(picture, at, right * inside, down * inside), `dark at ${right} ${down} of a point of ${diameter}`);
-      assert.ok(await hitAt(view, at, right * inside, down * inside), `not hit at ${right} ${down} of a point of ${diameter}`);
+      assert.ok(await hitAt(view, [at[0] + right * inside, at[1] + down * inside]), `not hit at ${right} ${down} of a point of ${diameter}`);
       if (right === 0 && down === 0) continue;
       assert.ok(!isLit(picture, at, right * outside, down * outside), `lit beyond ${right} ${down} of a point of ${diameter}`);
-      assert.ok(!(await hitAt(view, at, right * outside, down * outside)), `hit beyond ${right} ${down} of a point of ${diameter}`);
+      assert.ok(!(await hitAt(view, [at[0] + right * outside, at[1] + down * outside])), `hit beyond ${right} ${down} of a point of ${diameter}`);
     }
   }
 

@@ -27,6 +27,10 @@ _imgeo() {
     "convert --drop") COMPREPLY=($(compgen -W "none degenerate repeated both" -- "$word")); return ;;
     "convert --keep-attributes") COMPREPLY=(); return ;;
     "convert --attribute-bits") COMPREPLY=(); return ;;
+    "convert --textures") COMPREPLY=($(compgen -W "keep webp avif png" -- "$word")); return ;;
+    "convert --texture-size") COMPREPLY=(); return ;;
+    "convert --texture-quality") COMPREPLY=(); return ;;
+    "convert --texture-preview") COMPREPLY=(); return ;;
     "convert --normal-weighting") COMPREPLY=($(compgen -W "area angle uniform" -- "$word")); return ;;
     "convert --title") COMPREPLY=(); return ;;
     "convert --effort") COMPREPLY=(); return ;;
@@ -39,7 +43,7 @@ _imgeo() {
     "serve --host") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
-    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --container --profile --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --normal-bits --texcoord-bits --color-bits --patch-vertices --base --drop --keep-attributes --attribute-bits --normal-weighting --title --effort --threads --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --container --profile --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --normal-bits --texcoord-bits --color-bits --patch-vertices --base --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --effort --threads --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;

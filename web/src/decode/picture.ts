@@ -8,9 +8,11 @@ export interface DecodedPicture {
   readonly hasAlpha: boolean;
 }
 
-/** Larger ones are made smaller. Rejects with DecodeError. */
-export async function decodePicture(bytes: Uint8Array<ArrayBuffer>, largestEdge: number): Promise<DecodedPicture> {
-  const options: ImageBitmapOptions = { premultiplyAlpha: "none", imageOrientation: "flipY" };
+/** Larger ones are made smaller; of data no number is converted. Rejects with DecodeError. */
+export async function decodePicture(bytes: Uint8Array<ArrayBuffer>, largestEdge: number, isData: boolean): Promise<DecodedPicture> {
+  const options: ImageBitmapOptions = {
+    premultiplyAlpha: "none", imageOrientation: "flipY", colorSpaceConversion: isData ? "none" : "default",
+  };
   let bitmap: ImageBitmap;
   try {
     bitmap = await createImageBitmap(new Blob([bytes]), options);
@@ -20,7 +22,7 @@ export async function decodePicture(bytes: Uint8Array<ArrayBuffer>, largestEdge:
   const edge = Math.max(bitmap.width, bitmap.height);
   if (edge <= largestEdge) return { bitmap, hasAlpha: mayHaveAlpha(bytes) };
   const resizeWidth = Math.max(1, Math.floor((bitmap.width * largestEdge) / edge));
-  const smaller = await createImageBitmap(bitmap, { resizeWidth, resizeQuality: "high" });
+  const smaller = await createImageBitmap(bitmap, { resizeWidth, resizeQuality: "high", premultiplyAlpha: "none" });
   bitmap.close();
   return { bitmap: smaller, hasAlpha: mayHaveAlpha(bytes) };
 }

@@ -5,14 +5,16 @@ import type { GeometryDescription } from "../document/description.ts";
 import { priorityOf } from "../scheduler/priority.ts";
 import type { Demand } from "./deliver.ts";
 import { everything, geometryOf, sigFiles, sigGeometry, siteOf, soon } from "./delivery.testing.ts";
+import { demandWithin } from "./demandWithin.ts";
+import { TextureDeliveries } from "./textureDeliveries.ts";
 import { SharedDeliveries } from "./sharedDeliveries.ts";
 
 type Site = ReturnType<typeof siteOf>;
 
 function shownFrom(geometry: GeometryDescription, site: Site) {
-  const deliveries = new SharedDeliveries(site.pool);
+  const deliveries = { geometries: new SharedDeliveries(site.pool), textures: new TextureDeliveries(site.pool) };
   const stages: (string | undefined)[] = [];
-  const joined = deliveries.join(geometry, {
+  const joined = deliveries.geometries.join(geometry, {
     onStage: (patch, stage) => { stages[patch] = stage?.name; },
     onError: ({ message }) => assert.fail(message),
     onSettled: () => undefined,
@@ -23,7 +25,7 @@ function shownFrom(geometry: GeometryDescription, site: Site) {
   /** Steers a few times, as a view that stands still does. */
   const demand = async (priority: Demand, mostBytes: number) => {
     for (let turn = 0; turn < 4; ++turn) {
-      deliveries.demand(() => priority, mostBytes);
+      demandWithin(deliveries, () => priority, () => undefined, mostBytes);
       await rest();
     }
     return stages.map((stage) => stage ?? "none").join(" ");

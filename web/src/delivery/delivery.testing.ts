@@ -27,6 +27,7 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
   const aborted: string[] = [];
   const done: string[] = [];
   const images = { open: 0 };
+  const pictures = { open: 0 };
   const arrays = new Map<StoredBytes, ElementArray>();
   const scheduler = new Scheduler(slots);
   const answer = async (url: string, signal: AbortSignal): Promise<Response> => {
@@ -53,7 +54,10 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
       return (jobs[name] as (input: unknown) => Promise<never>)(input);
     },
     runHere: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
-    makePicture: () => Promise.reject(new Error("no pictures here")),
+    makePicture: (png) => {
+      pictures.open += 1;
+      return Promise.resolve({ hasAlpha: false, image: { ...checkPng(png), close: () => { pictures.open -= 1; } } });
+    },
     storeBytes: (array, _, signal) => {
       signal.throwIfAborted();
       const stored = { byteLength: array.byteLength, close: () => { assert.ok(arrays.delete(stored), "closed twice"); } };
@@ -66,7 +70,7 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
   });
   /** What has been stored. */
   const arrayOf = (stored: { readonly bytes: StoredBytes } | undefined) => arrays.get(stored?.bytes ?? assert.fail("nothing there")) ?? assert.fail("closed");
-  return { asked, aborted, jobs: done, images, arrays, arrayOf, scheduler, pool };
+  return { asked, aborted, jobs: done, images, pictures, arrays, arrayOf, scheduler, pool };
 }
 
 export interface Recording {

@@ -10,6 +10,7 @@ import type { Camera, Matrix, Sphere, ViewOf } from "../scheduler/view.ts";
 import { scaleOf, sphereOf, unknownView, viewOf } from "../scheduler/view.ts";
 import type { Demand } from "./deliver.ts";
 import type { Part } from "./parts.ts";
+import type { TextureChunk } from "./textureDeliveries.ts";
 
 /** A vertex that moves by less than half of this many device pixels moves unseen. */
 const finestStepInPixels = 0.5;
@@ -61,10 +62,10 @@ export function demandFor(places: readonly PlacedGeometry[], viewing: Viewing): 
   };
 }
 
-/** How soon a texture is wanted that is laid over a geometry in these places; undefined where it is seen in none. */
-export function textureDemandFor(places: readonly PlacedGeometry[], { camera, weights }: Viewing): number | undefined {
+/** How soon a texture, or its preview, is wanted that is laid over a geometry in these places; undefined where it is seen in none. */
+export function textureDemandFor(places: readonly PlacedGeometry[], type: TextureChunk, { camera, weights }: Viewing): number | undefined {
   const priorities = places.flatMap(({ spheres, content }) => spheres.map((sphere) =>
-    priorityOf(content, { type: "texture", plane: 0 }, camera ? viewOf(sphere, camera) : unknownView, weights)));
+    priorityOf(content, { type, plane: 0 }, camera ? viewOf(sphere, camera) : unknownView, weights)));
   return priorities.length > 0 ? Math.max(...priorities) : undefined;
 }
 

@@ -8,7 +8,7 @@ import { deliver } from "./deliver.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import type { Transfer } from "./progress.ts";
 import type { ResourcePool } from "./resources.ts";
-import { grantedOf } from "../scheduler/budget.ts";
+import type { Claim } from "../scheduler/budget.ts";
 
 /** What one of those who share a delivery sees of it. */
 export type JoinedDelivery = Pick<Delivery, "transfers" | "isSettled" | "isExhausted" | "cancel">;
@@ -78,25 +78,16 @@ export class SharedDeliveries {
     return Array.from(all);
   }
 
-  /**
-   * Says what is wanted of each geometry, for all who show it. Where all of it would
-   * take more than `mostBytes` on the GPU, it gets what matters most, and what
-   * matters less than that is given up.
-   */
-  demand(demandOf: (geometry: GeometryDescription) => Demand, mostBytes = Infinity): void {
-    if (this.storedBytes > mostBytes) {
-      this.#demandWithin(demandOf, mostBytes);
-      return;
-    }
-    for (const [geometry, { delivery }] of this.#shared) {
-      if (!delivery.isExhausted) delivery.demand(demandOf(geometry));
-    }
+  /** What they want, and have, of the GPU. */
+  claims(demandOf: (geometry: GeometryDescription) => Demand): readonly (readonly Claim[])[] {
+    return Array.from(this.#shared).flatMap(([geometry, { delivery }]) => delivery.claims(demandOf(geometry)));
   }
 
-  #demandWithin(demandOf: (geometry: GeometryDescription) => Demand, mostBytes: number): void {
-    const demands = Array.from(this.#shared, ([geometry, { delivery }]) => ({ delivery, demand: demandOf(geometry) }));
-    const granted = grantedOf(demands.flatMap(({ delivery, demand }) => delivery.claims(demand)), mostBytes);
-    for (const { delivery, demand } of demands) delivery.demand(demand, granted);
+  /** Says what is wanted of each geometry, for all who show it; of claims what is granted, and the rest is given up. */
+  demand(demandOf: (geometry: GeometryDescription) => Demand, granted?: ReadonlySet<Claim>): void {
+    for (const [geometry, { delivery }] of this.#shared) {
+      if (granted !== undefined || !delivery.isExhausted) delivery.demand(demandOf(geometry), granted);
+    }
   }
 
   #start(geometry: GeometryDescription): Shared {

@@ -1,7 +1,9 @@
 // Pictures for surfaces, through the same queue as the data of vertices: one for
-// each file and way of sampling, however many shapes show it.
+// each file and way of sampling, however many shapes show it. A preview, where the
+// document names one, is shown first, and again where the picture has to go.
 
-import type { TextureDescription } from "../document/description.ts";
+import type { SamplingDescription, TextureDescription } from "../document/description.ts";
+import type { Claim } from "../scheduler/budget.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
 import { bytesPerTexel } from "./parts.ts";
@@ -9,9 +11,11 @@ import type { Transfer } from "./progress.ts";
 import type { Lease, Picture, ResourcePool } from "./resources.ts";
 
 export interface TextureListener {
-  onPicture(picture: Picture): void;
+  /** Another picture; undefined: there is none any more. The one before is used no more after this. */
+  onPicture(picture: Picture | undefined): void;
+  /** Once, where the texture is of no use. */
   onError(error: DeliveryError): void;
-  /** After either. */
+  /** All that was asked for has come or failed. */
   onSettled(): void;
 }
 
@@ -24,24 +28,41 @@ export interface JoinedTexture {
   cancel(): void;
 }
 
-interface Shared {
-  readonly texture: TextureDescription;
-  readonly listeners: Set<TextureListener>;
-  members: number;
+/** What a file of a texture is: all of it, or what stands in for it. */
+export type TextureChunk = "preview" | "texture";
+
+/** How soon a file of a texture is wanted, by the key of its picture; undefined: not now. */
+export type TextureDemand = (key: string, chunk: TextureChunk) => number | undefined;
+
+/** A file of a texture, and how far it is. */
+interface Source {
+  readonly chunk: TextureChunk;
+  readonly url: string;
   lease: Lease | undefined;
   state: "absent" | "asked" | "here" | "failed";
-  /** For those who join late. */
-  told: ((listener: TextureListener) => void) | undefined;
-  bytes: number;
+  picture: Picture | undefined;
+  /** On the GPU: an estimate until it has been there. */
+  storedBytes: number;
+  claim: Claim | undefined;
 }
 
-/** Mipmaps are a third more; until it is here, a picture counts as one of 1024 x 1024. */
-const bytesWithMipmaps = (bytes: number) => (bytes * 4) / 3;
-const expectedBytes = 300_000;
+interface Shared {
+  readonly sampling: SamplingDescription;
+  /** In the order of their use. */
+  readonly sources: readonly Source[];
+  readonly listeners: Set<TextureListener>;
+  members: number;
+  shown: Picture | undefined;
+  error: DeliveryError | undefined;
+}
+
+/** Mipmaps are a third more. Until it is here, a picture counts as one of 512 x 512. */
+const bytesWithMipmaps = (texels: number) => (texels * bytesPerTexel * 4) / 3;
+const expected = { preview: { bytes: 1500, texels: 64 * 64 }, texture: { bytes: 300_000, texels: 512 * 512 } } as const;
 
 /** The same for textures that can share a picture. */
-export function pictureKeyOf({ url, sampling }: TextureDescription): string {
-  return JSON.stringify([url, sampling]);
+export function pictureKeyOf({ url, preview, sampling }: TextureDescription): string {
+  return JSON.stringify([url, preview, sampling]);
 }
 
 export class TextureDeliveries {
@@ -55,18 +76,20 @@ export class TextureDeliveries {
   /** Asks for nothing before `demand`. Never calls the listener before it returns. The last one to cancel ends the delivery. */
   join(texture: TextureDescription, listener: TextureListener): JoinedTexture {
     const key = pictureKeyOf(texture);
-    const shared = this.#shared.get(key) ?? { texture, listeners: new Set(), members: 0, lease: undefined, state: "absent", told: undefined, bytes: 0 };
+    const shared = this.#shared.get(key) ?? sharedOf(texture);
     this.#shared.set(key, shared);
     shared.members += 1;
     let isCancelled = false;
     queueMicrotask(() => {
       if (isCancelled) return;
       shared.listeners.add(listener);
-      shared.told?.(listener);
+      if (shared.shown !== undefined) listener.onPicture(shared.shown);
+      if (shared.error !== undefined) listener.onError(shared.error);
+      if (isSettled(shared) && !shared.sources.every(({ state }) => state === "absent")) listener.onSettled();
     });
     return {
-      get transfers() { return shared.lease ? [shared.lease.transfer] : []; },
-      get isSettled() { return shared.state !== "asked"; },
+      get transfers() { return transfersOf(shared); },
+      get isSettled() { return isSettled(shared); },
       cancel: () => {
         if (isCancelled) return;
         isCancelled = true;
@@ -74,60 +97,118 @@ export class TextureDeliveries {
         shared.members -= 1;
         if (shared.members > 0) return;
         this.#shared.delete(key);
-        shared.lease?.release();
-        shared.lease = undefined;
+        for (const source of shared.sources) release(source);
       },
     };
   }
 
-  /** What those take on the GPU that are here. */
+  /** What all of them would take on the GPU, as far as is known. */
   get storedBytes(): number {
-    return Array.from(this.#shared.values()).reduce((sum, { bytes }) => sum + bytes, 0);
+    let bytes = 0;
+    for (const { sources } of this.#shared.values()) for (const source of sources) if (source.state !== "failed") bytes += source.storedBytes;
+    return bytes;
   }
 
   transfers(): Readonly<Transfer>[] {
-    return Array.from(this.#shared.values()).flatMap(({ lease }) => (lease ? [lease.transfer] : []));
+    return Array.from(this.#shared.values()).flatMap(transfersOf);
   }
 
-  /** Asks for what is wanted, by the key of its picture, and aborts what is no longer; what is here stays. */
-  demand(priorityOf: (key: string) => number | undefined): void {
+  /** What they want, and have, of the GPU: for each in the order of use. */
+  claims(priorityOf: TextureDemand): readonly (readonly Claim[])[] {
+    return Array.from(this.#shared, ([key, shared]) => shared.sources.flatMap((source) => {
+      const isNeedless = source.chunk === "preview" && hasTexture(shared);
+      const priority = isNeedless ? undefined : priorityOf(key, source.chunk);
+      source.claim = source.state === "failed" || (priority === undefined && source.state === "absent") ? undefined
+        : { key: source, bytes: source.storedBytes, priority: priority ?? 0, isHeld: source.state !== "absent" };
+      return source.claim ?? [];
+    }));
+  }
+
+  /**
+   * Asks for what is wanted and aborts what is no longer. What is here stays, but of
+   * claims only what is granted. A preview is not asked for where its picture is here.
+   */
+  demand(priorityOf: TextureDemand, granted?: ReadonlySet<Claim>): void {
     for (const [key, shared] of this.#shared) {
-      if (shared.state === "here" || shared.state === "failed") continue;
-      const priority = priorityOf(key);
-      if (priority === undefined) {
-        shared.lease?.release();
-        shared.lease = undefined;
-        shared.state = "absent";
-      } else if (shared.lease !== undefined) {
-        shared.lease.setPriority(priority);
-      } else {
-        this.#ask(shared, priority);
+      const denied = shared.sources.filter(({ claim }) => granted !== undefined && claim !== undefined && !granted.has(claim));
+      const evicted = denied.filter(({ state }) => state === "here");
+      if (evicted.length > 0) {
+        show(shared, evicted);
+        evicted.forEach(release);
+      }
+      for (const source of shared.sources) {
+        if (source.state === "here" || source.state === "failed") continue;
+        const isNeedless = denied.includes(source) || (source.chunk === "preview" && hasTexture(shared));
+        const priority = isNeedless ? undefined : priorityOf(key, source.chunk);
+        if (priority === undefined) release(source);
+        else if (source.lease !== undefined) source.lease.setPriority(priority);
+        else this.#ask(shared, source, priority);
       }
     }
   }
 
-  #ask(shared: Shared, priority: number): void {
-    const { url, sampling } = shared.texture;
-    shared.lease = this.#pool.lease({ kind: "picture", url, sampling, priority, expectedBytes });
-    shared.state = "asked";
-    void this.#await(shared, shared.lease);
+  #ask(shared: Shared, source: Source, priority: number): void {
+    const { url, chunk } = source;
+    source.lease = this.#pool.lease({ kind: "picture", url, sampling: shared.sampling, priority, expectedBytes: expected[chunk].bytes });
+    source.state = "asked";
+    void this.#await(shared, source, source.lease);
   }
 
-  async #await(shared: Shared, lease: Lease): Promise<void> {
-    const isOver = () => shared.lease !== lease;
+  async #await(shared: Shared, source: Source, lease: Lease): Promise<void> {
+    // Given up in between, or given up and asked for again.
+    const isOver = () => source.lease !== lease;
     try {
       const content = await lease.content;
       if (isOver() || content.kind !== "picture") return;
-      const { width, height } = content.image;
-      shared.bytes = bytesWithMipmaps(width * height * bytesPerTexel);
-      shared.state = "here";
-      shared.told = (listener) => { listener.onPicture(content); listener.onSettled(); };
+      source.storedBytes = bytesWithMipmaps(content.image.width * content.image.height);
+      source.state = "here";
+      source.picture = content;
+      show(shared);
     } catch (error) {
       if (isOver()) return;
-      shared.state = "failed";
-      const told = asDeliveryError(error, shared.texture.url);
-      shared.told = (listener) => { listener.onError(told); listener.onSettled(); };
+      source.state = "failed";
+      if (source.chunk === "texture") {
+        shared.error = asDeliveryError(error, source.url);
+        for (const listener of shared.listeners) listener.onError(shared.error);
+      }
     }
-    for (const listener of shared.listeners) shared.told(listener);
+    if (isSettled(shared)) for (const listener of shared.listeners) listener.onSettled();
   }
+}
+
+function sharedOf({ url, preview, sampling }: TextureDescription): Shared {
+  const source = (chunk: TextureChunk, of: string): Source => ({
+    chunk, url: of, lease: undefined, state: "absent", picture: undefined, storedBytes: bytesWithMipmaps(expected[chunk].texels), claim: undefined,
+  });
+  return {
+    sampling, listeners: new Set(), members: 0, shown: undefined, error: undefined,
+    sources: [...(preview === "" ? [] : [source("preview", preview)]), source("texture", url)],
+  };
+}
+
+function hasTexture({ sources }: Shared): boolean {
+  return sources.some(({ chunk, state }) => chunk === "texture" && state === "here");
+}
+
+function isSettled({ sources }: Shared): boolean {
+  return sources.every(({ state }) => state !== "asked");
+}
+
+function transfersOf({ sources }: Shared): Readonly<Transfer>[] {
+  return sources.flatMap(({ lease }) => (lease ? [lease.transfer] : []));
+}
+
+/** The best that is here, but none of `without`. */
+function show(shared: Shared, without: readonly Source[] = []): void {
+  const best = shared.sources.findLast((source) => source.picture !== undefined && !without.includes(source))?.picture;
+  if (best === shared.shown) return;
+  shared.shown = best;
+  for (const listener of shared.listeners) listener.onPicture(best);
+}
+
+function release(source: Source): void {
+  source.lease?.release();
+  source.lease = undefined;
+  source.picture = undefined;
+  if (source.state !== "failed") source.state = "absent";
 }

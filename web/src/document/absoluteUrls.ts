@@ -12,7 +12,7 @@ export interface WritableElement extends SceneElement {
 const references = ["index", "coord", "normal", "texcoord", "color", "data", "base", "attrib"];
 const urlFields: Readonly<Record<string, readonly string[]>> = {
   imagegeometry: references, binarygeometry: references, geometrypatch: references,
-  imagetexture: ["url"], inline: ["url"], anchor: ["url"], movietexture: ["url"], audioclip: ["url"],
+  imagetexture: ["url", "preview"], inline: ["url"], anchor: ["url"], movietexture: ["url"], audioclip: ["url"],
 };
 
 export function absoluteUrls(element: WritableElement, base: string): void {

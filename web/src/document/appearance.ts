@@ -1,11 +1,10 @@
-// Appearance -> what a shape looks like. A texture of the main colour is read from
-// where X3D has it since version 3, the Appearance, or from the material's own
-// field; of the other textures of X3D 4 we show none.
+// Appearance -> what a shape looks like.
 
 import type {
-  AlphaDescription, AppearanceDescription, MaterialDescription, PointDescription, SamplingDescription, TextureDescription, Warning,
-  WrapMode,
+  AlphaDescription, AppearanceDescription, MaterialDescription, PointDescription, SamplingDescription, TextureDescription, TextureRole,
+  Warning, WrapMode,
 } from "./description.ts";
+import { textureRoles } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, lowerNameOf } from "./element.ts";
 import { nodeFields, readFields } from "./nodes.ts";
@@ -13,20 +12,30 @@ import { nodeFields, readFields } from "./nodes.ts";
 /** The children of an element, with what they USE in their place. */
 export type ChildrenOf = (element: SceneElement) => readonly SceneElement[];
 
-/** By the material's name, the field that a texture of its main colour is in. */
-const colorFields: Readonly<Record<string, string>> = {
-  material: "diffuseTexture", physicalmaterial: "baseTexture", unlitmaterial: "emissiveTexture",
+/** By the material's name, the fields that its textures are in. */
+const textureFields: Readonly<Record<string, Partial<Readonly<Record<TextureRole, string>>>>> = {
+  material: {
+    color: "diffuseTexture", emissive: "emissiveTexture", normal: "normalTexture", occlusion: "occlusionTexture",
+    ambient: "ambientTexture", specular: "specularTexture", shininess: "shininessTexture",
+  },
+  physicalmaterial: {
+    color: "baseTexture", emissive: "emissiveTexture", metallicRoughness: "metallicRoughnessTexture", normal: "normalTexture",
+    occlusion: "occlusionTexture",
+  },
+  unlitmaterial: { color: "emissiveTexture" },
 };
+
+const dataRoles: readonly TextureRole[] = ["metallicRoughness", "normal", "occlusion", "shininess"];
 
 export function readAppearance(element: SceneElement | undefined, childrenOf: ChildrenOf, warnings: Warning[]): AppearanceDescription {
   const parts = element === undefined ? [] : childrenOf(element);
   const named = (name: string) => parts.find((part) => lowerNameOf(part) === name);
-  const material = parts.find((part) => lowerNameOf(part) in colorFields);
+  const material = parts.find((part) => lowerNameOf(part) in textureFields);
   const points = named("pointproperties");
   return {
     material: readMaterial(material, warnings),
     alpha: element ? readAlpha(element, warnings) : automaticAlpha,
-    texture: readColorTexture(parts, material, childrenOf, warnings),
+    textures: readTextures(parts, material, childrenOf, warnings),
     points: points && readPoints(points, warnings),
   };
 }
@@ -51,27 +60,36 @@ function readAlpha(element: SceneElement, warnings: Warning[]): AlphaDescription
   return { mode: mode ?? "AUTO", cutoff: alphaCutoff };
 }
 
-function readColorTexture(parts: readonly SceneElement[], material: SceneElement | undefined, childrenOf: ChildrenOf,
-                          warnings: Warning[]): TextureDescription | undefined {
-  const field = colorFields[material ? lowerNameOf(material) : ""] ?? "";
-  const fieldOf = (texture: SceneElement) => attributeOf(texture, "containerField")?.toLowerCase() ?? "";
+/** A texture of the main colour stands in its material, or where X3D has it since version 3. */
+function readTextures(parts: readonly SceneElement[], material: SceneElement | undefined, childrenOf: ChildrenOf,
+                      warnings: Warning[]): TextureDescription[] {
   const isTexture = (part: SceneElement) => lowerNameOf(part) === "imagetexture";
-  const inMaterial = material && childrenOf(material).find((part) => isTexture(part) && fieldOf(part) === field.toLowerCase());
-  const element = inMaterial ?? parts.find((part) => isTexture(part) && ["", "texture", field.toLowerCase()].includes(fieldOf(part)));
-  if (element === undefined) return undefined;
-  const { url, repeatS, repeatT } = readFields(element, nodeFields.ImageTexture, warnings);
-  const [first] = url;
-  if (first === undefined) return undefined;
-  const properties = childrenOf(element).find((part) => lowerNameOf(part) === "textureproperties");
-  const mapping = inMaterial ? attributeOf(material, `${field}Mapping`) ?? "" : "";
-  return {
-    url: first,
-    sampling: samplingOf(properties, repeatS, repeatT, warnings),
-    transform: matrixOf(transformFor(mapping, parts, childrenOf), warnings),
-  };
+  const inMaterial = material ? childrenOf(material).filter(isTexture) : [];
+  const fields = textureFields[material ? lowerNameOf(material) : "material"] ?? {};
+  return textureRoles.flatMap((role) => {
+    const field = fields[role];
+    if (field === undefined) return [];
+    const isOfField = (texture: SceneElement) => fieldOf(texture) === field.toLowerCase();
+    const within = inMaterial.find(isOfField);
+    const element = within ?? (role === "color" ? parts.find((part) => isTexture(part) && (["", "texture"].includes(fieldOf(part)) || isOfField(part))) : undefined);
+    const mapping = within && material ? attributeOf(material, `${field}Mapping`) ?? "" : "";
+    return element ? readTexture(role, element, matrixOf(transformFor(mapping, parts, childrenOf), warnings), childrenOf, warnings) : [];
+  });
 }
 
-function samplingOf(element: SceneElement | undefined, repeatS: boolean, repeatT: boolean, warnings: Warning[]): SamplingDescription {
+function fieldOf(texture: SceneElement): string {
+  return attributeOf(texture, "containerField")?.toLowerCase() ?? "";
+}
+
+function readTexture(role: TextureRole, element: SceneElement, transform: TextureDescription["transform"], childrenOf: ChildrenOf,
+                     warnings: Warning[]): TextureDescription[] {
+  const { url: [url], preview, repeatS, repeatT } = readFields(element, nodeFields.ImageTexture, warnings);
+  if (url === undefined) return [];
+  const properties = childrenOf(element).find((part) => lowerNameOf(part) === "textureproperties");
+  return [{ role, url, preview, sampling: { ...samplingOf(properties, repeatS, repeatT, warnings), isData: dataRoles.includes(role) }, transform }];
+}
+
+function samplingOf(element: SceneElement | undefined, repeatS: boolean, repeatT: boolean, warnings: Warning[]): Omit<SamplingDescription, "isData"> {
   const wrap = (repeats: boolean): WrapMode => (repeats ? "repeat" : "clamp");
   if (element === undefined) return { wrapS: wrap(repeatS), wrapT: wrap(repeatT), isSmooth: true, hasMipmaps: true, anisotropy: 1 };
   const values = readFields(element, nodeFields.TextureProperties, warnings);

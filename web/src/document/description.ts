@@ -141,6 +141,8 @@ export type WrapMode = "repeat" | "clamp" | "mirror";
 
 /** How a texture is read between and beyond its texels. */
 export interface SamplingDescription {
+  /** Numbers that shading computes with, not colours that people look at. */
+  readonly isData: boolean;
   readonly wrapS: WrapMode;
   readonly wrapT: WrapMode;
   /** False: seen large, its texels are squares. */
@@ -152,8 +154,17 @@ export interface SamplingDescription {
 /** 3 x 3, column by column. */
 export type TextureMatrix = readonly [number, number, number, number, number, number, number, number, number];
 
+/** The part of a material that a texture modulates. `color` is that of diffuseColor, baseColor or an UnlitMaterial's emissiveColor. */
+export const textureRoles = [
+  "color", "emissive", "metallicRoughness", "normal", "occlusion", "ambient", "specular", "shininess",
+] as const;
+export type TextureRole = (typeof textureRoles)[number];
+
 export interface TextureDescription {
+  readonly role: TextureRole;
   readonly url: string;
+  /** Of the same picture in few pixels, shown until it is here; empty: there is none. */
+  readonly preview: string;
   readonly sampling: SamplingDescription;
   /** From a vertex's texture coordinates to the image's. */
   readonly transform: TextureMatrix;
@@ -171,7 +182,8 @@ export interface PointDescription {
 export interface AppearanceDescription {
   readonly material: MaterialDescription;
   readonly alpha: AlphaDescription;
-  readonly texture: TextureDescription | undefined;
+  /** At most one of each role. */
+  readonly textures: readonly TextureDescription[];
   readonly points: PointDescription | undefined;
 }
 export type ViewpointDescription = Values<typeof nodeFields.Viewpoint>;

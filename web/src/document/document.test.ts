@@ -112,12 +112,23 @@ describe("a scene", () => {
     assert.equal(new Set(shapes.map((shape) => shape.element)).size, 3);
   });
 
+  test("takes each texture for the field that it stands in, or is USEd in", () => {
+    const texturesOf = (markup: string) => shapesOf(sceneOf(`<Shape><Appearance>${markup}</Appearance></Shape>`).root)[0]?.appearance.textures
+      .map(({ role, url, preview, sampling: { isData } }) => [role, url, preview, isData].join(" "));
+    assert.deepEqual(texturesOf('<Material/><ImageTexture url="a.png" preview="small.webp"/>'), ["color a.png small.webp false"]);
+    assert.deepEqual(texturesOf(`<PhysicalMaterial><ImageTexture DEF="ORM" url="orm.png" containerField="occlusionTexture"/>
+      <ImageTexture USE="ORM" containerField="metallicRoughnessTexture"/><ImageTexture url="n.png" containerField="normalTexture"/>
+      <ImageTexture url="s.png" containerField="specularTexture"/></PhysicalMaterial><ImageTexture url="a.png"/>`),
+    ["color a.png  false", "metallicRoughness orm.png  true", "normal n.png  true", "occlusion orm.png  true"]);
+    assert.deepEqual(texturesOf('<UnlitMaterial><ImageTexture url="a.png" containerField="emissiveTexture"/></UnlitMaterial>'), ["color a.png  false"]);
+  });
+
   test("knows the three kinds of material, and lights with and without a place", () => {
     const materialIn = (markup: string) => shapesOf(sceneOf(`<Shape><Appearance>${markup}</Appearance></Shape>`).root)[0]?.appearance.material;
     assert.deepEqual(materialIn(""), { kind: "unlit", emissiveColor: [1, 1, 1], transparency: 0 });
     assert.equal(materialIn("<Material/>")?.kind, "phong");
     assert.deepEqual(materialIn('<PhysicalMaterial baseColor="1 0.5 0" metallic="0"/>'), {
-      kind: "physical", baseColor: [1, 0.5, 0], metallic: 0, roughness: 1, emissiveColor: [0, 0, 0], transparency: 0,
+      kind: "physical", baseColor: [1, 0.5, 0], metallic: 0, roughness: 1, emissiveColor: [0, 0, 0], transparency: 0, normalScale: 1, occlusionStrength: 1,
     });
     assert.deepEqual(materialIn('<UnlitMaterial transparency="0.5"/>'), { kind: "unlit", emissiveColor: [1, 1, 1], transparency: 0.5 });
     const lights = sceneOf('<DirectionalLight/><PointLight location="1 2 3"/><SpotLight cutOffAngle="1"/>').root.children;

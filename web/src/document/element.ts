@@ -26,6 +26,17 @@ export function attributeOf(element: SceneElement, name: string): string | undef
   return found === undefined ? undefined : (element.getAttribute(found) ?? undefined);
 }
 
+/** What `user` USEs, in its place: of what the two say of that, `user` counts. */
+export function inPlaceOf(user: SceneElement, used: SceneElement): SceneElement {
+  if (user === used) return used;
+  const field = attributeOf(user, "containerField") ?? null;
+  return {
+    localName: used.localName, children: used.children,
+    getAttribute: (name) => (name === "containerField" ? field : used.getAttribute(name)),
+    getAttributeNames: () => used.getAttributeNames().filter((name) => name.toLowerCase() !== "containerfield"),
+  };
+}
+
 export function childrenOf(element: SceneElement): SceneElement[] {
   return Array.from(element.children);
 }

@@ -145,6 +145,8 @@ export const nodeFields = {
     ambientIntensity: SFFloat(0.2),
     shininess: SFFloat(0.2),
     transparency: SFFloat(0),
+    normalScale: SFFloat(1),
+    occlusionStrength: SFFloat(1),
   },
   PhysicalMaterial: {
     baseColor: SFColor([1, 1, 1]),
@@ -152,6 +154,8 @@ export const nodeFields = {
     roughness: SFFloat(1),
     emissiveColor: SFColor([0, 0, 0]),
     transparency: SFFloat(0),
+    normalScale: SFFloat(1),
+    occlusionStrength: SFFloat(1),
   },
   UnlitMaterial: {
     emissiveColor: SFColor([1, 1, 1]),
@@ -238,7 +242,7 @@ export const nodeFields = {
   TextureCoordinate: { point: MFFloat([]) },
   Color: { color: MFFloat([]) },
   GeometryPatch: { ...boundedObject, ...patchFields, recordCount: SFInt32(0) },
-  ImageTexture: { containerField: SFString(""), url: MFString([]), repeatS: SFBool(true), repeatT: SFBool(true) },
+  ImageTexture: { containerField: SFString(""), url: MFString([]), preview: SFString(""), repeatS: SFBool(true), repeatT: SFBool(true) },
 } as const;
 
 /** A node's values by field name. */

@@ -8,7 +8,7 @@ import type {
 import { colorMapOf } from "./attributes.ts";
 import { readAppearance } from "./appearance.ts";
 import type { SceneElement } from "./element.ts";
-import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
+import { attributeOf, childrenOf, inPlaceOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import { boxAround, boxOf, isUnbounded, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
 import { GeometryMemory } from "./geometryMemory.ts";
@@ -241,7 +241,7 @@ function readShape(element: SceneElement, node: SceneElement, reading: Reading, 
     if (read) priorityOfGeometry = readFields(part, { priority: nodeFields.ImageGeometry.priority }, []).priority;
     return read;
   });
-  const nodesIn = (part: SceneElement) => childrenOf(part).flatMap((child) => withUse(child, reading, [], (used) => [used]));
+  const nodesIn = (part: SceneElement) => childrenOf(part).flatMap((child) => withUse(child, reading, [], (used) => [inPlaceOf(child, used)]));
   const appearance = first(parts, reading, (part) =>
     lowerNameOf(part) === "appearance" ? readAppearance(part, nodesIn, reading.warnings) : undefined);
   const geometry = plain && values.colorBy !== "" ? reading.geometries.withValues(plain, values.colorBy) : plain;

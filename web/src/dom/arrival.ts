@@ -8,6 +8,7 @@ import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
 import type { ArrayUse, ElementArray, StoredBytes } from "../decode/stage.ts";
 import type { Picture } from "../delivery/resources.ts";
 import type { SamplingDescription } from "../document/description.ts";
+import { beforeNextFrame } from "../render/nextFrame.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { Steps } from "../scheduler/frameWork.ts";
 import { FrameWork } from "../scheduler/frameWork.ts";
@@ -15,9 +16,6 @@ import { FrameWork } from "../scheduler/frameWork.ts";
 /** 240 MB in a second of 60 frames; the time leaves most of a frame to drawing. */
 const bytesPerFrame = 4 * 2 ** 20;
 const millisecondsPerFrame = 4;
-
-/** In a page that nobody sees there are no frames, but files come. */
-const framelessMs = 250;
 
 export class Arrival {
   readonly #renderer: SceneRenderer;
@@ -47,7 +45,7 @@ export class Arrival {
 
   /** The same of a picture, in any format that the browser knows; its first row is the lowest, as texture coordinates count. */
   async makePicture(bytes: Uint8Array<ArrayBuffer>, sampling: SamplingDescription, signal: AbortSignal): Promise<Picture> {
-    const { bitmap, hasAlpha } = await decodePicture(bytes, this.#renderer.largestTexture);
+    const { bitmap, hasAlpha } = await decodePicture(bytes, this.#renderer.largestTexture, sampling.isData);
     try {
       signal.throwIfAborted();
       return { image: await this.#upload(bitmap, signal, sampling), hasAlpha };
@@ -77,14 +75,4 @@ export class Arrival {
       throw error;
     }
   }
-}
-
-function beforeNextFrame(callback: (isUnseen: boolean) => void): void {
-  const call = (isUnseen: boolean) => {
-    cancelAnimationFrame(frame);
-    clearTimeout(timer);
-    callback(isUnseen);
-  };
-  const frame = requestAnimationFrame(() => { call(false); });
-  const timer = setTimeout(() => { call(document.hidden); }, framelessMs);
 }

@@ -7,8 +7,8 @@ import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { Transfer } from "../delivery/progress.ts";
 import { progressOf } from "../delivery/progress.ts";
 import type { JoinedDelivery, SharedDeliveries } from "../delivery/sharedDeliveries.ts";
-import type { JoinedTexture, TextureDeliveries } from "../delivery/textureDeliveries.ts";
-import { pictureKeyOf } from "../delivery/textureDeliveries.ts";
+import { ShapeTextures } from "../delivery/shapeTextures.ts";
+import type { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription, ShapeDescription, TextureDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
@@ -22,7 +22,7 @@ interface LoadedShape {
   readonly stages: (StageName | "none")[];
   delivery: JoinedDelivery | undefined;
   /** What is laid over it. */
-  texture: { readonly key: string; readonly joined: JoinedTexture } | undefined;
+  readonly textures: ShapeTextures;
 }
 
 export interface ShapeLoadsListener {
@@ -74,9 +74,9 @@ export class ShapeLoads {
       loading.abandon();
     }
     return () => {
-      for (const [, { delivery, texture }] of gone) {
+      for (const [, { delivery, textures }] of gone) {
         delivery?.cancel();
-        texture?.joined.cancel();
+        textures.cancel();
       }
     };
   }
@@ -85,26 +85,21 @@ export class ShapeLoads {
     const element = described as Element;
     const stages = geometry?.patches.map(() => "none" as const) ?? [];
     const loading = new Loading(element, () => transfersOf(shape));
-    const shape: LoadedShape = { geometry, stages, isVisible: visible, loading, delivery: undefined, texture: undefined };
+    const textures = new ShapeTextures(this.#textures, {
+      onPicture: (role, picture) => { this.#renderer.setPicture(element, role, picture); },
+      onError: (error) => { this.#fail(shape, element, error); },
+      onSettled: () => { this.#settle(shape); },
+    });
+    const shape: LoadedShape = { geometry, stages, isVisible: visible, loading, delivery: undefined, textures };
     this.#shapes.set(element, shape);
     this.#isQuiet = false;
     if (geometry === undefined) shape.loading.settle();
     else if (!this.#renderer.isContextLost) this.#deliver(shape, geometry, element);
   }
 
-  /** A picture in another's place: the renderer lets go of the old one before it is closed. */
-  followTexture(element: Element, texture: TextureDescription | undefined): void {
-    const shape = this.#shapes.get(element);
-    const key = texture && pictureKeyOf(texture);
-    if (shape === undefined || shape.texture?.key === key || this.#renderer.isContextLost) return;
-    this.#renderer.setPicture(element, undefined);
-    const before = shape.texture;
-    shape.texture = texture && key !== undefined ? { key, joined: this.#textures.join(texture, {
-      onPicture: (picture) => { this.#renderer.setPicture(element, picture); },
-      onError: (error) => { this.#fail(shape, element, error); },
-      onSettled: () => { this.#settle(shape); },
-    }) } : undefined;
-    before?.joined.cancel();
+  /** Its textures, as far as they are others than before. */
+  followTextures(element: SceneElement, textures: readonly TextureDescription[]): void {
+    if (!this.#renderer.isContextLost) this.#shapes.get(element)?.textures.follow(textures);
   }
 
   /** The elements that are seen in one of their places. */
@@ -162,11 +157,9 @@ export class ShapeLoads {
   clear(): void {
     for (const [element, shape] of this.#shapes) {
       this.#renderer.clearShape(element);
-      this.#renderer.setPicture(element, undefined);
       shape.delivery?.cancel();
       shape.delivery = undefined;
-      shape.texture?.joined.cancel();
-      shape.texture = undefined;
+      shape.textures.follow([]);
       shape.stages.fill("none");
     }
   }
@@ -179,9 +172,9 @@ export class ShapeLoads {
   }
 
   dispose(): void {
-    for (const { delivery, texture, loading } of this.#shapes.values()) {
+    for (const { delivery, textures, loading } of this.#shapes.values()) {
       delivery?.cancel();
-      texture?.joined.cancel();
+      textures.cancel();
       loading.abandon();
     }
     this.#shapes.clear();
@@ -203,9 +196,9 @@ export class ShapeLoads {
   }
 
   /** Where nothing of it is on its way. */
-  #settle({ loading, isVisible, delivery, texture }: LoadedShape): void {
+  #settle({ loading, isVisible, delivery, textures }: LoadedShape): void {
     if (loading.isSettled || !isVisible || !this.#listener.maySettle()) return;
-    if (delivery?.isSettled !== true || texture?.joined.isSettled === false) return;
+    if (delivery?.isSettled !== true || !textures.isSettled) return;
     loading.settle();
     this.#isQuiet = false;
     this.#renderer.requestFrame(); // events wait for a frame
@@ -216,9 +209,8 @@ export class ShapeLoads {
   }
 }
 
-function transfersOf({ delivery, texture }: LoadedShape): readonly Readonly<Transfer>[] {
-  const own = delivery?.transfers ?? [];
-  return texture === undefined ? own : [...own, ...texture.joined.transfers];
+function transfersOf({ delivery, textures }: LoadedShape): readonly Readonly<Transfer>[] {
+  return [...(delivery?.transfers ?? []), ...textures.transfers];
 }
 
 /** How far something is whose parts are at these stages: with a first picture as soon as any of them shows. */

@@ -3,8 +3,8 @@
 
 import type { PlacedGeometry, Viewing } from "../delivery/demand.ts";
 import { demandFor, placeGeometry, textureDemandFor } from "../delivery/demand.ts";
-import type { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
-import type { TextureDeliveries } from "../delivery/textureDeliveries.ts";
+import type { SceneDeliveries } from "../delivery/demandWithin.ts";
+import { demandWithin, storedBytesOf } from "../delivery/demandWithin.ts";
 import { pictureKeyOf } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription, SceneDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
@@ -20,8 +20,7 @@ const steeringIntervalMs = 100;
 
 export class Steering {
   readonly #renderer: SceneRenderer;
-  readonly #deliveries: SharedDeliveries;
-  readonly #textures: TextureDeliveries;
+  readonly #deliveries: SceneDeliveries;
   readonly #onSteered: () => void;
   #places: Places = { geometries: new Map(), pictures: new Map() };
   #weights: ChunkWeights = defaultChunkWeights;
@@ -33,10 +32,9 @@ export class Steering {
   #isHeld = true;
 
   /** `onSteered` is called when files may have been added to those that are wanted, or taken from them. */
-  constructor(renderer: SceneRenderer, deliveries: SharedDeliveries, textures: TextureDeliveries, onSteered: () => void) {
+  constructor(renderer: SceneRenderer, deliveries: SceneDeliveries, onSteered: () => void) {
     this.#renderer = renderer;
     this.#deliveries = deliveries;
-    this.#textures = textures;
     this.#onSteered = onSteered;
   }
 
@@ -63,7 +61,7 @@ export class Steering {
   /** Soon, if since the last time the camera has moved, or more has come than may. */
   follow(): void {
     if (this.#timer !== undefined) return;
-    const { storedBytes } = this.#deliveries;
+    const storedBytes = storedBytesOf(this.#deliveries);
     const isOverBudget = storedBytes > this.#mostBytes && storedBytes !== this.#knownBytes;
     if (!isOverBudget && isSameView(this.#renderer.view, this.#view)) return;
     this.#timer = setTimeout(() => { this.steer(); }, steeringIntervalMs);
@@ -75,9 +73,9 @@ export class Steering {
     if (this.#isHeld) return;
     this.#view = this.#renderer.view;
     const viewing = viewingOf(this.#view, this.#weights);
-    this.#deliveries.demand((geometry) => demandFor(this.#places.geometries.get(geometry) ?? [], viewing), this.#mostBytes - this.#textures.storedBytes);
-    this.#textures.demand((key) => textureDemandFor(this.#places.pictures.get(key) ?? [], viewing));
-    this.#knownBytes = this.#deliveries.storedBytes;
+    demandWithin(this.#deliveries, (geometry) => demandFor(this.#places.geometries.get(geometry) ?? [], viewing),
+                 (key, chunk) => textureDemandFor(this.#places.pictures.get(key) ?? [], chunk, viewing), this.#mostBytes);
+    this.#knownBytes = storedBytesOf(this.#deliveries);
     this.#onSteered();
   }
 
@@ -97,14 +95,14 @@ interface Places {
 function placesIn(scene: SceneDescription, renderer: SceneRenderer): Places {
   const met = new Map<SceneElement, number>();
   const places: Places = { geometries: new Map(), pictures: new Map() };
-  for (const { element, geometry, visible, priority, appearance: { texture } } of shapesOf(scene.root)) {
+  for (const { element, geometry, visible, priority, appearance: { textures } } of shapesOf(scene.root)) {
     const place = met.get(element) ?? 0;
     met.set(element, place + 1);
     const matrix = renderer.sceneFromShape(element, place);
     if (geometry === undefined || matrix === undefined || !visible) continue;
-    const placed = placeGeometry(geometry, matrix, priority, texture !== undefined);
+    const placed = placeGeometry(geometry, matrix, priority, textures.length > 0);
     note(places.geometries, geometry, placed);
-    if (texture !== undefined) note(places.pictures, pictureKeyOf(texture), placed);
+    for (const texture of textures) note(places.pictures, pictureKeyOf(texture), placed);
   }
   return places;
 }

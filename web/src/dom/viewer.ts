@@ -125,7 +125,7 @@ export class Viewer {
       onChange: () => { this.#readDocument(); },
       onError: (error, element, loading) => { this.#fail(error, element, loading); },
     });
-    this.#steering = new Steering(this.renderer, this.#deliveries, this.#textures, () => { this.#onSteered(); });
+    this.#steering = new Steering(this.renderer, { geometries: this.#deliveries, textures: this.#textures }, () => { this.#onSteered(); });
     this.#observer = new MutationObserver((all) => {
       const records = all.filter(({ target }) => isOfScene(target, x3d));
       if (records.length === 0) return;
@@ -227,7 +227,7 @@ export class Viewer {
       this.#shapes.begin(shape);
       if (shape.geometry?.base !== undefined) this.#workers.prepareHere();
     }
-    for (const { element, appearance } of described.values()) this.#shapes.followTexture(element as Element, appearance.texture);
+    for (const { element, appearance } of described.values()) this.#shapes.followTextures(element, appearance.textures);
     this.#shapes.setVisible(new Set(places.filter((shape) => shape.visible).map(({ element }) => element)));
     if (this.#shapes.isLoading && this.#loading.isEnded) this.#loading = new Loading(this.#x3d, this.#transfers);
     this.#steering.setScene(scene, (problem) => { this.#warn(this.#x3d, `chunkPriority: ${problem}`); });

@@ -3,14 +3,15 @@
 // for everything else there. Only where vertices come from is ours, and it is
 // the same in every pass: what casts a shadow is what is seen.
 
-import type { Camera, Material, Sphere, WebGLRenderer } from "three";
+import type { Camera, Material, Sphere, Texture, WebGLRenderer } from "three";
 import {
   Color, DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshDepthMaterial, MeshDistanceMaterial, MeshStandardMaterial,
   Points, SRGBColorSpace,
 } from "three";
-import type { AppearanceDescription, MaterialDescription } from "../document/description.ts";
+import type { AppearanceDescription, MaterialDescription, TextureRole } from "../document/description.ts";
+import { textureRoles } from "../document/description.ts";
 import { farnessDefine, shadeByFarnessIn } from "../render/farness.ts";
-import type { Look, MaterialRequest, Shading, ShownPicture } from "../render/look.ts";
+import type { Look, MaterialRequest, Shading, ShownPictures } from "../render/look.ts";
 import { colorByValueIn } from "../render/valueColors.ts";
 import { primitiveDefinesOf, shapePointsIn } from "../render/points.ts";
 import { readVerticesIn, srgbColorsDefine, vertexDefinesOf } from "../render/vertexChunk.ts";
@@ -54,7 +55,7 @@ export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings)
   const shadowMaterials = new WeakMap<Material, ShadowMaterials>();
   return {
     batching: undefined, // three's Raycaster, and passes with materials of their own, want an object for each place
-    makeMaterial(request, appearance, picture) {
+    makeMaterial(request, appearance, pictures) {
       const material = makeMaterial(appearance.material, request.shading);
       material.side = request.solid ? FrontSide : DoubleSide;
       material.vertexColors = request.colors !== "none";
@@ -62,12 +63,13 @@ export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings)
       if ("flatShading" in material && request.shading === "flat") material.flatShading = true;
       // Colours of vertices stand in for the diffuse colour, as X3D has it.
       if (material.vertexColors && "color" in material && material.color instanceof Color) material.color.set(0xffffff);
-      layPicture(material, appearance, picture);
-      shadowMaterials.set(material, shadowMaterialsOf(material, request));
+      const shadows = shadowMaterialsOf(material, request);
+      shadowMaterials.set(material, shadows);
+      layPictures(material, shadows, appearance, pictures);
       return readVertices(material, request, request.shading === "smooth" && !("flatShading" in material && material.flatShading === true));
     },
     // The document is read once, so only its pictures come later.
-    applyAppearance: (material, appearance, _, picture) => { layPicture(material, appearance, picture); },
+    applyAppearance: (material, appearance, _, pictures) => { layPictures(material, shadowMaterials.get(material), appearance, pictures); },
     prepare(object, request, material) {
       object.castShadow = surroundings.castShadow;
       object.receiveShadow = surroundings.receiveShadow;
@@ -89,13 +91,45 @@ export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings)
   }
 }
 
-/** Over the material's own colour. A material with a map of the app's keeps it until then. */
-function layPicture(material: Material, { alpha: { mode, cutoff } }: AppearanceDescription, picture: ShownPicture | undefined): void {
-  if (picture === undefined || !("map" in material) || material.map === picture.texture) return;
-  material.map = picture.texture;
-  if (mode === "MASK") material.alphaTest = cutoff;
-  if (mode === "BLEND" || (mode === "AUTO" && picture.hasAlpha)) material.transparent = true;
-  material.needsUpdate = true;
+/** By role, the maps of three's materials that take it; what is there of each is multiplied by the number beside it, as in X3D. */
+const slots: Readonly<Record<TextureRole, readonly string[]>> = {
+  color: ["map"], emissive: ["emissiveMap"], metallicRoughness: ["roughnessMap", "metalnessMap"], normal: ["normalMap"],
+  occlusion: ["aoMap"], ambient: [], specular: ["specularMap"], shininess: [],
+};
+
+/** Over the material's own colour. A material with maps of the app's keeps them until there are others. */
+function layPictures(material: Material, shadows: ShadowMaterials | undefined, { alpha, material: description }: AppearanceDescription,
+                     pictures: ShownPictures): void {
+  for (const role of textureRoles) {
+    const isMain = role === "color" || description.kind !== "unlit";
+    for (const slot of slots[role]) if (isMain) layMap(material, slot, pictures.get(role)?.texture);
+  }
+  if (material instanceof MeshStandardMaterial && description.kind !== "unlit") {
+    material.normalScale.set(description.normalScale, description.normalScale);
+    material.aoMapIntensity = description.occlusionStrength;
+  }
+  const color = pictures.get("color");
+  if (color === undefined) return;
+  if (alpha.mode === "BLEND" || (alpha.mode === "AUTO" && color.hasAlpha)) material.transparent = true;
+  if (alpha.mode !== "MASK") return;
+  // Holes let light through.
+  for (const drawn of [material, shadows?.depth, shadows?.distance]) {
+    if (drawn === undefined) continue;
+    drawn.alphaTest = alpha.cutoff;
+    layMap(drawn, "map", color.texture);
+  }
+}
+
+/** Undefined: none of ours any more. */
+function layMap(material: Material, slot: string, texture: Texture | undefined): void {
+  if (!(slot in material)) return;
+  const maps = material as unknown as Record<string, Texture | null>;
+  const laid = (material.userData.imgeoMaps ??= {}) as Record<string, Texture>;
+  const before = maps[slot] ?? null;
+  if (before === texture || (texture === undefined && (before === null || before !== laid[slot]))) return;
+  maps[slot] = texture ?? null;
+  if (texture) laid[slot] = texture;
+  if ((before === null) !== (texture === undefined)) material.needsUpdate = true;
 }
 
 interface ShadowMaterials {

@@ -2,14 +2,16 @@
 // keep their bitmaps, as three.js' own textures do, so that a lost context comes
 // back by itself.
 
-import { SRGBColorSpace, Texture } from "three";
+import { NoColorSpace, SRGBColorSpace, Texture } from "three";
 import type { DataImage, DecodedImage } from "../decode/image.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
 import { decodePicture } from "../decode/picture.ts";
+import { bytesPerTexel } from "../delivery/parts.ts";
 import type { Picture } from "../delivery/resources.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import type { Textures } from "../render/stageDraws.ts";
 import { readAsData, sampleAs } from "../render/textures.ts";
+import type { Admission } from "./admission.ts";
 
 /** Texels of the longest edge: a renderer that can do less is not in use any more, and we are asked before there is one. */
 export const largestTexture = 4096;
@@ -23,27 +25,36 @@ export class BitmapTextures implements Textures {
     return texture;
   }
 
+  readonly #admission: Admission;
+
+  constructor(admission: Admission) {
+    this.#admission = admission;
+  }
+
   /** Rejects with DecodeError, or with the signal's reason; nothing is then left behind. */
   async makeImage(png: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DataImage> {
     const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, largestTexture);
-    return { image: this.#keep(bitmap, dataTextureOf(bitmap), signal), channels };
+    return { image: await this.#keep(bitmap, dataTextureOf(bitmap), signal), channels };
   }
 
   /** The same for what is looked at. */
   async makePicture(bytes: Uint8Array<ArrayBuffer>, sampling: SamplingDescription, signal: AbortSignal): Promise<Picture> {
-    const { bitmap, hasAlpha } = await decodePicture(bytes, largestTexture);
+    const { bitmap, hasAlpha } = await decodePicture(bytes, largestTexture, sampling.isData);
     const texture = new Texture(bitmap);
     texture.flipY = false; // the bitmap is already
-    texture.colorSpace = SRGBColorSpace;
+    texture.colorSpace = sampling.isData ? NoColorSpace : SRGBColorSpace;
     sampleAs(texture, sampling);
     texture.needsUpdate = true;
-    return { image: this.#keep(bitmap, texture, signal), hasAlpha };
+    return { image: await this.#keep(bitmap, texture, signal), hasAlpha };
   }
 
-  #keep(bitmap: ImageBitmap, texture: Texture, signal: AbortSignal): DecodedImage {
-    if (signal.aborted) {
+  async #keep(bitmap: ImageBitmap, texture: Texture, signal: AbortSignal): Promise<DecodedImage> {
+    try {
+      await this.#admission.admit(bitmap.width * bitmap.height * bytesPerTexel, signal);
+      signal.throwIfAborted();
+    } catch (error) {
       bitmap.close();
-      throw signal.reason;
+      throw error;
     }
     const image = {
       width: bitmap.width, height: bitmap.height,

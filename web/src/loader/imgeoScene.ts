@@ -12,7 +12,7 @@ import { noProgress, progressOf } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resources.ts";
 import type { JoinedDelivery } from "../delivery/sharedDeliveries.ts";
 import { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
-import type { JoinedTexture } from "../delivery/textureDeliveries.ts";
+import { ShapeTextures } from "../delivery/shapeTextures.ts";
 import { pictureKeyOf, TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription, GroupDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
@@ -27,6 +27,7 @@ import { GeometryPool } from "../render/stageGeometries.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
 import { chunkWeightsOf } from "../scheduler/priority.ts";
 import type { Scheduler } from "../scheduler/scheduler.ts";
+import { Admission } from "./admission.ts";
 import type { MaterialMaker, Surroundings } from "./appLook.ts";
 import { appLook } from "./appLook.ts";
 import { ArrayBuffers } from "./arrayBuffers.ts";
@@ -62,7 +63,7 @@ export interface SceneSources {
 interface LoadedShape {
   readonly object: ShapeObject;
   readonly delivery: JoinedDelivery | undefined;
-  readonly picture: JoinedTexture | undefined;
+  readonly textures: ShapeTextures;
   /** Patches of which nothing is shown yet. */
   readonly missing: Set<number>;
 }
@@ -94,7 +95,8 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     super();
     this.description = description;
     for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined); // nobody has to listen
-    const textures = new BitmapTextures();
+    const admission = new Admission();
+    const textures = new BitmapTextures(admission);
     const buffers = new ArrayBuffers();
     const pool = new ResourcePool({
       scheduler,
@@ -103,7 +105,10 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       largestTexture,
       runJob,
       makePicture: (bytes, sampling, signal) => textures.makePicture(bytes, sampling, signal),
-      storeBytes: (array) => Promise.resolve(buffers.store(array)),
+      storeBytes: async (array, _, signal) => {
+        await admission.admit(array.byteLength, signal);
+        return buffers.store(array);
+      },
       download: { ...defaultDownloadOptions, fetch },
       resolve,
       onTransfer: () => { this.#progressTimer ??= setTimeout(() => { this.#tellProgress(); }, progressIntervalMs); },
@@ -163,9 +168,9 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.abort();
     // Textures leave the draws before their images close.
     for (const { object } of this.#shapes.values()) object.dispose();
-    for (const { delivery, picture } of this.#shapes.values()) {
+    for (const { delivery, textures } of this.#shapes.values()) {
       delivery?.cancel();
-      picture?.cancel();
+      textures.cancel();
     }
     this.#shapes.clear();
     this.#picker.dispose();
@@ -202,8 +207,16 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   }
 
   #begin(shape: ShapeDescription, object: ShapeObject): LoadedShape {
-    const { geometry, appearance: { texture } } = shape;
-    if (geometry === undefined || !shape.visible) return { object, delivery: undefined, picture: undefined, missing: new Set() };
+    const { geometry, appearance } = shape;
+    const textures = new ShapeTextures(this.#pictures, {
+      onPicture: (role, picture) => {
+        object.setPicture(role, picture && { texture: this.#textures.textureOf(picture.image), hasAlpha: picture.hasAlpha });
+        this.dispatchEvent({ type: "change" });
+      },
+      onError: (error) => { this.#fail(error); },
+      onSettled: () => { this.#advance(); },
+    });
+    if (geometry === undefined || !shape.visible) return { object, delivery: undefined, textures, missing: new Set() };
     const missing = new Set(geometry.patches.keys());
     const listener: DeliveryListener = {
       onStage: (patch, stage) => {
@@ -219,15 +232,8 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
         this.#advance();
       },
     };
-    const picture = texture && this.#pictures.join(texture, {
-      onPicture: ({ image, hasAlpha }) => {
-        object.setPicture({ texture: this.#textures.textureOf(image), hasAlpha });
-        this.dispatchEvent({ type: "change" });
-      },
-      onError: (error) => { this.#fail(error); },
-      onSettled: () => { this.#advance(); },
-    });
-    return { object, delivery: this.#deliveries.join(geometry, listener), picture, missing };
+    textures.follow(appearance.textures);
+    return { object, delivery: this.#deliveries.join(geometry, listener), textures, missing };
   }
 
   #fail(error: DeliveryError): void {
@@ -239,16 +245,16 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   #demand(): void {
     const geometries = new Map<GeometryDescription, PlacedGeometry[]>();
     const pictures = new Map<string, PlacedGeometry[]>();
-    for (const { geometry, visible, priority, appearance: { texture } } of shapesOf(this.description.root)) {
+    for (const { geometry, visible, priority, appearance: { textures } } of shapesOf(this.description.root)) {
       if (geometry === undefined || !visible) continue;
-      const placed = placeGeometry(geometry, nowhere, priority, texture !== undefined);
+      const placed = placeGeometry(geometry, nowhere, priority, textures.length > 0);
       geometries.set(geometry, [...(geometries.get(geometry) ?? []), placed]);
-      if (texture) pictures.set(pictureKeyOf(texture), [...(pictures.get(pictureKeyOf(texture)) ?? []), placed]);
+      for (const texture of textures) pictures.set(pictureKeyOf(texture), [...(pictures.get(pictureKeyOf(texture)) ?? []), placed]);
     }
     const weights = chunkWeightsOf(this.description.chunkPriority, (problem) => { console.warn(`imgeo: chunkPriority: ${problem}`); });
     const viewing = { camera: undefined, weights };
     this.#deliveries.demand((geometry) => demandFor(geometries.get(geometry) ?? [], viewing));
-    this.#pictures.demand((key) => textureDemandFor(pictures.get(key) ?? [], viewing));
+    this.#pictures.demand((key, chunk) => textureDemandFor(pictures.get(key) ?? [], chunk, viewing));
   }
 
   /** Keeps the promises that can be kept. */
@@ -257,7 +263,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     if (shapes.some(({ missing }) => missing.size > 0)) return;
     if (this.#error !== undefined && !this.#hasPicture) this.#firstImage.reject(this.#error);
     else this.#firstImage.resolve(undefined);
-    if (shapes.some(({ delivery, picture }) => delivery?.isSettled === false || picture?.isSettled === false)) return;
+    if (shapes.some(({ delivery, textures }) => delivery?.isSettled === false || !textures.isSettled)) return;
     this.#tellProgress();
     this.#complete.resolve(undefined);
   }

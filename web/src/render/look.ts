@@ -3,7 +3,7 @@
 // is the same for all.
 
 import type { Material, Texture, Vector2 } from "three";
-import type { AppearanceDescription } from "../document/description.ts";
+import type { AppearanceDescription, TextureRole } from "../document/description.ts";
 import type { DrawRange } from "../decode/stage.ts";
 import type { DrawnObject } from "./drawnObject.ts";
 import type { FalloffUniforms } from "./lightFalloff.ts";
@@ -12,9 +12,9 @@ import type { VertexForm, VertexUniforms } from "./vertexChunk.ts";
 export interface Look {
   /** How draws of several shapes go together; undefined: they do not. */
   readonly batching: Batching | undefined;
-  makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, picture: ShownPicture | undefined): Material;
+  makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, pictures: ShownPictures): Material;
   /** Changes a material of this look in place. */
-  applyAppearance(material: Material, appearance: AppearanceDescription, colors: VertexColors, picture: ShownPicture | undefined): void;
+  applyAppearance(material: Material, appearance: AppearanceDescription, colors: VertexColors, pictures: ShownPictures): void;
   /** Gives an object what it needs besides its material. */
   prepare(object: DrawnObject, request: MaterialRequest, material: Material): void;
 }
@@ -22,7 +22,7 @@ export interface Look {
 /** What shapes that are drawn together have in common, and what each has of its own. */
 export interface Batching {
   /** The same for appearances that one material can show; undefined for what is drawn in the order of its distance. */
-  keyOf(request: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription, picture: ShownPicture | undefined): string | undefined;
+  keyOf(request: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription, pictures: ShownPictures): string | undefined;
   /** The rest of an appearance, for the shader: the field `look` of a place's record. */
   numbersOf(request: Pick<MaterialRequest, "shading" | "colors">, appearance: AppearanceDescription): readonly number[];
 }
@@ -32,6 +32,9 @@ export interface ShownPicture {
   readonly texture: Texture;
   readonly hasAlpha: boolean;
 }
+
+export type ShownPictures = ReadonlyMap<TextureRole, ShownPicture>;
+export const noPictures: ShownPictures = new Map();
 
 /** Unlit for points and lines, by distance for points that stand in for a surface, flat where there are no normals (yet). */
 export type Shading = "unlit" | "distance" | "flat" | "smooth";

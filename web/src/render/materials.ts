@@ -11,14 +11,16 @@
 import type { Color, Material } from "three";
 import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshPhongMaterial } from "three";
 import type { AppearanceDescription, MaterialDescription, Vec3 } from "../document/description.ts";
-import { placeColors, placesDefine } from "./batches/placeChunk.ts";
+import { placeColors } from "./batches/placeChunk.ts";
 import { farnessDefine, shadeByFarnessIn } from "./farness.ts";
 import { lightsChunk } from "./lightFalloff.ts";
-import type { Look, MaterialRequest, Shading, ShownPicture, VertexColors } from "./look.ts";
+import type { Look, MaterialRequest, Shading, ShownPictures, VertexColors } from "./look.ts";
 import { displayedOf, physicalDefine, physicalLighting, physicalOutput } from "./physicalLighting.ts";
 import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
 import { colorByValueIn } from "./valueColors.ts";
-import { readVerticesIn, replaceEach, srgbColorsDefine, toLinearChunk, vertexDefinesOf } from "./vertexChunk.ts";
+import { readVerticesIn, replaceEach, srgbColorsDefine, vertexDefinesOf } from "./vertexChunk.ts";
+import type { OwnMapUniforms } from "./x3dMaps.ts";
+import { layPictures, makeOwnMapUniforms, mapChunks, materialFromMaps, ownMapDeclarations, unlitDefine } from "./x3dMaps.ts";
 
 const x3dLighting = /* glsl */ `
 varying vec3 vViewPosition;
@@ -26,17 +28,18 @@ struct X3dMaterial {
   vec3 diffuseColor;
   vec3 specularColor;
   float shininess;
+  vec3 ambient;
+  float metallic;
+  float roughness;
 };
+
+uniform float ambientIntensity;
+uniform float metallic;
+uniform float roughness;
 
 #ifdef ${physicalDefine}
 ${physicalLighting}
 #else
-
-#ifdef ${placesDefine}
-  #define ambientIntensity placeEmissive.a
-#else
-  uniform float ambientIntensity;
-#endif
 
 void directX3d(const in IncidentLight light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
                const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
@@ -49,7 +52,7 @@ void directX3d(const in IncidentLight light, const in vec3 position, const in ve
 
 void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
                 const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
-  reflected.indirectDiffuse += light * material.diffuseColor * ambientIntensity;
+  reflected.indirectDiffuse += light * material.diffuseColor * material.ambient;
 }
 
 #endif
@@ -58,33 +61,8 @@ void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 norma
 #define RE_IndirectDiffuse ambientX3d
 `;
 
-// Pictures have the numbers of the screen.
-const mapChunk = /* glsl */ `
-#ifdef USE_MAP
-  vec4 texel = texture2D(map, vMapUv);
-  #ifdef ${srgbColorsDefine}
-    ${toLinearChunk("texel.rgb")}
-  #endif
-  diffuseColor *= texel;
-#endif
-`;
-
-/** Defined where no light changes what is seen. */
-const unlitDefine = "UNLIT";
-
-const materialChunk = /* glsl */ `
-#ifdef ${unlitDefine}
-  totalEmissiveRadiance = diffuseColor.rgb;
-  X3dMaterial material = X3dMaterial(vec3(0.0), vec3(0.0), 1.0);
-#elif defined(${placesDefine})
-  X3dMaterial material = X3dMaterial(diffuseColor.rgb, placeSpecular.rgb, placeSpecular.a);
-#else
-  X3dMaterial material = X3dMaterial(diffuseColor.rgb, specular, shininess);
-#endif
-`;
-
 /** Uniforms of a lit material. */
-interface LitUniforms {
+interface LitUniforms extends OwnMapUniforms {
   readonly ambientIntensity: { value: number };
   readonly metallic: { value: number };
   readonly roughness: { value: number };
@@ -96,9 +74,9 @@ type PatchMaterial = LitMaterial | MeshBasicMaterial;
 /** Pages look as X3D says. */
 export const x3dLook: Look = { makeMaterial, applyAppearance, prepare: () => undefined, batching: { keyOf, numbersOf } };
 
-function makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, picture: ShownPicture | undefined): PatchMaterial {
+function makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, pictures: ShownPictures): PatchMaterial {
   const { shading, colors, solid, uniforms, shared } = request;
-  const lit: LitUniforms = { ambientIntensity: { value: 0 }, metallic: { value: 1 }, roughness: { value: 1 } };
+  const lit: LitUniforms = { ambientIntensity: { value: 0 }, metallic: { value: 1 }, roughness: { value: 1 }, ...makeOwnMapUniforms() };
   const material: PatchMaterial = isUnlit(shading) ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
   material.side = solid ? FrontSide : DoubleSide;
@@ -114,23 +92,23 @@ function makeMaterial(request: MaterialRequest, appearance: AppearanceDescriptio
     shapePointsIn(shader);
     shadeByFarnessIn(shader);
     colorByValueIn(shader);
-    shader.fragmentShader = replaceEach(shader.fragmentShader, [
+    shader.fragmentShader = ownMapDeclarations + replaceEach(shader.fragmentShader, [
       ["#include <lights_pars_begin>", lightsChunk],
       ["#include <lights_phong_pars_fragment>", x3dLighting],
-      ["#include <lights_phong_fragment>", materialChunk],
+      ["#include <lights_phong_fragment>", materialFromMaps],
       ["#include <colorspace_fragment>", physicalOutput],
-      ["#include <map_fragment>", mapChunk],
+      ...mapChunks,
       ...placeColors,
     ]);
   };
   // The text of `onBeforeCompile` is the same for all, so programs are shared as they should be.
   material.customProgramCacheKey = () => "imgeo";
-  applyAppearance(material, appearance, colors, picture);
+  applyAppearance(material, appearance, colors, pictures);
   return material;
 }
 
 /** A texture is multiplied by what is there (X3D 4). */
-function applyAppearance(material: Material, appearance: AppearanceDescription, colors: VertexColors, picture: ShownPicture | undefined): void {
+function applyAppearance(material: Material, appearance: AppearanceDescription, colors: VertexColors, pictures: ShownPictures): void {
   const description = appearance.material;
   const shown = material as PatchMaterial;
   const isLit = shown instanceof MeshPhongMaterial;
@@ -138,16 +116,14 @@ function applyAppearance(material: Material, appearance: AppearanceDescription, 
   else setColor(shown.color, unlitColorOf(description, colors !== "none"));
   material.opacity = opacityOf(appearance);
   material.alphaTest = alphaTestOf(appearance);
-  const blends = isBlended(appearance, colors, picture);
-  const texture = picture?.texture ?? null;
-  const isOther = material.transparent !== blends || (shown.map === null) !== (texture === null);
+  layPictures(shown, description, pictures, isLit ? shown.userData.lit : undefined);
+  const blends = isBlended(appearance, colors, pictures);
+  if (material.transparent !== blends) material.needsUpdate = true;
   material.transparent = blends;
-  shown.map = texture;
-  if (isOther) material.needsUpdate = true;
 }
 
-function isBlended({ alpha: { mode }, material: { transparency } }: AppearanceDescription, colors: VertexColors, picture: ShownPicture | undefined): boolean {
-  return mode === "BLEND" || (mode === "AUTO" && (transparency > 0 || colors === "rgba" || picture?.hasAlpha === true));
+function isBlended({ alpha: { mode }, material: { transparency } }: AppearanceDescription, colors: VertexColors, pictures: ShownPictures): boolean {
+  return mode === "BLEND" || (mode === "AUTO" && (transparency > 0 || colors === "rgba" || pictures.get("color")?.hasAlpha === true));
 }
 
 function opacityOf({ alpha: { mode }, material: { transparency } }: AppearanceDescription): number {
@@ -159,11 +135,11 @@ function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number
 }
 
 function keyOf({ primitive, colors }: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription,
-               picture: ShownPicture | undefined): string | undefined {
-  if (isBlended(appearance, colors, picture)) return undefined;
+               pictures: ShownPictures): string | undefined {
+  if (isBlended(appearance, colors, pictures)) return undefined;
   const { material, points, ...rest } = appearance;
   const others = Object.entries(material).filter(([name]) => !numbersOfPlaces.has(name));
-  return JSON.stringify([rest, others, picture?.texture.uuid, primitive === "points" && points]);
+  return JSON.stringify([rest, others, Array.from(pictures, ([role, { texture }]) => [role, texture.uuid]).sort(), primitive === "points" && points]);
 }
 
 /** What of a material `numbersOf` tells. */

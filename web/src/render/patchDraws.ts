@@ -6,7 +6,8 @@ import type { DrawRange, Stage } from "../decode/stage.ts";
 import type { AppearanceDescription } from "../document/description.ts";
 import type { DrawnObject } from "./drawnObject.ts";
 import { objectOf } from "./drawnObject.ts";
-import type { ShownPicture } from "./look.ts";
+import type { ShownPictures } from "./look.ts";
+import { noPictures } from "./look.ts";
 import { PickDraw } from "./pickDraw.ts";
 import type { PatchSetting } from "./stageDraws.ts";
 import { boundsOf, colorsOf, materialRequestOf, pickRequestOf, setAppearance, shapeFromStoredOf, uniformsOf } from "./stageDraws.ts";
@@ -19,7 +20,7 @@ export interface PatchDraws {
   hang(group: Group): void;
   /** Not there any more. */
   leave(group: Group): void;
-  applyAppearance(appearance: AppearanceDescription, picture: ShownPicture | undefined): void;
+  applyAppearance(appearance: AppearanceDescription, pictures: ShownPictures): void;
   /** Takes it out of the scene and frees what this stage alone uses. */
   dispose(): void;
 }
@@ -31,17 +32,18 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
   const shapeFromStored = shapeFromStoredOf(geometry, patch);
   const uniforms = uniformsOf(stage, setting);
   // Without texture coordinates there is nowhere to lay it.
-  const pictureFor = (picture: ShownPicture | undefined) => (stage.texCoord !== undefined ? picture : undefined);
+  const laid = (pictures: ShownPictures) => (stage.texCoord !== undefined ? pictures : noPictures);
+  let shown = { appearance: setting.appearance, pictures: setting.pictures };
   const draws = setting.geometries.acquire(stage).flatMap((shape, place) => {
     const range = stage.draws[place];
     if (range === undefined || range.count === 0) return [];
     shape.boundingBox = box;
     shape.boundingSphere = sphere;
     const request = materialRequestOf(stage, range, geometry, uniforms.of(range), setting.shared);
-    const material = look.makeMaterial(request, setting.appearance, pictureFor(setting.picture));
+    const material = look.makeMaterial(request, setting.appearance, laid(setting.pictures));
     const pick = new PickDraw(stage, range, {
       buffers, bounds: sphere, shapeFromStored,
-      makeParts: () => ({ geometry: shape, request: pickRequestOf(stage, material.side, uniforms.of(range)), release: () => undefined }),
+      makeParts: () => ({ geometry: shape, request: pickRequestOf(stage, material.side, uniforms.of(range), shown.appearance, shown.pictures), release: () => undefined }),
     });
     return [{ range, shape, material, request, pick }];
   });
@@ -62,9 +64,13 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
       objects.set(group, here);
     },
     leave,
-    applyAppearance(appearance, picture) {
+    applyAppearance(appearance, pictures) {
+      shown = { appearance, pictures };
       setAppearance(uniforms.common, geometry, appearance);
-      for (const { material } of draws) look.applyAppearance(material, appearance, colorsOf(stage), pictureFor(picture));
+      for (const { material, pick } of draws) {
+        look.applyAppearance(material, appearance, colorsOf(stage), laid(pictures));
+        pick.forgetParts();
+      }
     },
     dispose() {
       for (const group of Array.from(objects.keys())) leave(group);

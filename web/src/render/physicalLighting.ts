@@ -10,24 +10,15 @@
 // mobile", for its share).
 
 import type { Vec3 } from "../document/description.ts";
-import { placesDefine } from "./batches/placeChunk.ts";
 
 export const physicalDefine = "PHYSICAL";
 
 /** The body of directX3d and ambientX3d for this model. */
 export const physicalLighting = /* glsl */ `
-#ifdef ${placesDefine}
-  #define metallic placeSpecular.r
-  #define roughness placeSpecular.g
-#else
-  uniform float metallic;
-  uniform float roughness;
-#endif
-
 const float radianceOfRoom = 0.3;
 
 vec3 mirroredColor(const in X3dMaterial material) {
-  return mix(vec3(0.04), material.diffuseColor, metallic);
+  return mix(vec3(0.04), material.diffuseColor, material.metallic);
 }
 
 void directX3d(const in IncidentLight light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
@@ -38,20 +29,20 @@ void directX3d(const in IncidentLight light, const in vec3 position, const in ve
   float NV = max(dot(normal, viewDirection), 1e-4);
   float NH = max(dot(normal, halfway), 0.0);
   float VH = max(dot(viewDirection, halfway), 0.0);
-  float alpha = max(roughness * roughness, 1e-3);
+  float alpha = max(material.roughness * material.roughness, 1e-3);
   float alpha2 = alpha * alpha;
   float spread = (NH * alpha2 - NH) * NH + 1.0;
   float distribution = alpha2 / (spread * spread);
   float visibility = 0.5 / (NL * sqrt(NV * NV * (1.0 - alpha2) + alpha2) + NV * sqrt(NL * NL * (1.0 - alpha2) + alpha2));
   vec3 fresnel = mix(mirroredColor(material), vec3(1.0), pow(1.0 - VH, 5.0));
-  reflected.directDiffuse += light.color * NL * (1.0 - fresnel) * (1.0 - metallic) * material.diffuseColor;
+  reflected.directDiffuse += light.color * NL * (1.0 - fresnel) * (1.0 - material.metallic) * material.diffuseColor;
   reflected.directSpecular += light.color * NL * fresnel * distribution * visibility;
 }
 
 vec3 shareOfRoom(const in X3dMaterial material, float NV) {
   const vec4 c0 = vec4(-1.0, -0.0275, -0.572, 0.022);
   const vec4 c1 = vec4(1.0, 0.0425, 1.04, -0.04);
-  vec4 r = roughness * c0 + c1;
+  vec4 r = material.roughness * c0 + c1;
   float a004 = min(r.x * r.x, exp2(-9.28 * NV)) * r.x + r.y;
   vec2 ab = vec2(-1.04, 1.04) * a004 + r.zw;
   return mirroredColor(material) * ab.x + ab.y;
@@ -59,9 +50,9 @@ vec3 shareOfRoom(const in X3dMaterial material, float NV) {
 
 void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
                 const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
-  reflected.indirectDiffuse += light * (1.0 - metallic) * material.diffuseColor;
+  reflected.indirectDiffuse += light * (1.0 - material.metallic) * material.diffuseColor;
   float NV = clamp(dot(normal, viewDirection), 0.0, 1.0);
-  reflected.indirectSpecular += (light + radianceOfRoom * metallic) * shareOfRoom(material, NV);
+  reflected.indirectSpecular += (light + radianceOfRoom * material.metallic) * shareOfRoom(material, NV);
 }
 `;
 

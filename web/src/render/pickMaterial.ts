@@ -6,10 +6,13 @@
 // Four targets of 32-bit unsigned integers, which every WebGL 2 can draw into;
 // floats pass through as their bits.
 
-import type { Side } from "three";
+import type { Side, Texture } from "three";
 import { GLSL3, ShaderMaterial } from "three";
 import type { DrawRange } from "../decode/stage.ts";
+import type { AppearanceDescription } from "../document/description.ts";
+import type { ShownPictures } from "./look.ts";
 import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
+import { alphaMaskDefine, alphaMaskVarying } from "./texCoords.ts";
 import type { VertexForm, VertexUniforms } from "./vertexChunk.ts";
 import { imageVerticesDefine, readVerticesIn, vertexDefinesOf } from "./vertexChunk.ts";
 
@@ -32,8 +35,12 @@ flat varying ivec3 cornerVertices;
 flat varying vec3 facePoint;
 flat varying vec3 faceNormal;
 varying vec3 cornerWeights;
+#ifdef ${alphaMaskDefine}
+  varying vec2 ${alphaMaskVarying};
+#endif
 
 void main() {
+  #include <uv_vertex>
   #include <beginnormal_vertex>
   #include <begin_vertex>
   #include <project_vertex>
@@ -84,8 +91,16 @@ layout(location = 0) out uvec4 what;
 layout(location = 1) out uvec4 where;
 layout(location = 2) out uvec4 shadedNormal;
 layout(location = 3) out uvec4 planeNormal;
+#ifdef ${alphaMaskDefine}
+  uniform sampler2D alphaMask;
+  uniform vec2 alphaFactorAndCutoff;
+  varying vec2 ${alphaMaskVarying};
+#endif
 
 void main() {
+  #ifdef ${alphaMaskDefine}
+    if (texture(alphaMask, ${alphaMaskVarying}).a * alphaFactorAndCutoff.x < alphaFactorAndCutoff.y) discard;
+  #endif
   vec3 w = cornerWeights;
   int nearest = w.x >= w.y && w.x >= w.z ? cornerVertices.x : w.y >= w.z ? cornerVertices.y : cornerVertices.z;
   vec3 normal = gl_FrontFacing || PRIMITIVE_CORNERS != 3 ? vNormal : -vNormal;
@@ -101,14 +116,28 @@ export interface PickMaterialRequest extends VertexForm {
   readonly primitive: DrawRange["primitive"];
   readonly side: Side;
   readonly hasNormals: boolean;
+  readonly alphaMask: AlphaMask | undefined;
   /** Shared with the material that draws the colours. */
   readonly uniforms: VertexUniforms;
 }
 
 export type PickMaterial = ShaderMaterial & { uniforms: { drawNumber: { value: number } } };
 
+/** Where what is drawn has holes: alpha below the cutoff. */
+export interface AlphaMask {
+  readonly texture: Texture;
+  /** Multiplies the texture's alpha. */
+  readonly factor: number;
+  readonly cutoff: number;
+}
+
+export function alphaMaskOf({ alpha: { mode, cutoff }, material: { transparency } }: AppearanceDescription, pictures: ShownPictures): AlphaMask | undefined {
+  const picture = pictures.get("color");
+  return mode === "MASK" && picture ? { texture: picture.texture, factor: 1 - transparency, cutoff } : undefined;
+}
+
 export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
-  const { primitive, side, hasNormals, uniforms } = request;
+  const { primitive, side, hasNormals, alphaMask, uniforms } = request;
   const isLine = primitive === "lines" || primitive === "lineStrip";
   const shader = { vertexShader, fragmentShader };
   readVerticesIn(shader);
@@ -121,7 +150,12 @@ export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
       ...(primitive === "lineStrip" && { IS_LINE_STRIP: "" }),
       ...vertexDefinesOf(request, hasNormals),
       ...primitiveDefinesOf(primitive),
+      ...(alphaMask && { [alphaMaskDefine]: "" }),
     },
-    uniforms: { ...uniforms, drawNumber: { value: 0 }, hasNormals: { value: hasNormals } },
+    uniforms: {
+      ...uniforms, drawNumber: { value: 0 }, hasNormals: { value: hasNormals }, ...(alphaMask && {
+        alphaMask: { value: alphaMask.texture }, alphaFactorAndCutoff: { value: [alphaMask.factor, alphaMask.cutoff] },
+      }),
+    },
   }) as PickMaterial;
 }

@@ -4,7 +4,7 @@ import type { Object3D, Sphere } from "three";
 import { Color, DirectionalLight, Group, LinearSRGBColorSpace, LinearToneMapping, Matrix4, Mesh, NoToneMapping, PerspectiveCamera, Scene, Vector2, WebGLRenderer } from "three";
 import type { DecodedImage } from "../decode/image.ts";
 import type { ArrayUse, ElementArray, Stage } from "../decode/stage.ts";
-import type { GeometryDescription, SamplingDescription, SceneDescription } from "../document/description.ts";
+import type { GeometryDescription, SamplingDescription, SceneDescription, TextureRole } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { applyPose } from "../navigation/camera.ts";
 import { backdropOf, disposeBackdrop } from "./backdrop.ts";
@@ -200,8 +200,8 @@ export class SceneRenderer {
   }
 
   /** Lays a picture over a shape; undefined: none. */
-  setPicture(element: SceneElement, picture: Picture | undefined): void {
-    this.#shapes.setPicture(element, picture && { texture: this.#textures.textureOf(picture.image), hasAlpha: picture.hasAlpha });
+  setPicture(element: SceneElement, role: TextureRole, picture: Picture | undefined): void {
+    this.#shapes.setPicture(element, role, picture && { texture: this.#textures.textureOf(picture.image), hasAlpha: picture.hasAlpha });
     this.requestFrame();
   }
 

@@ -4,7 +4,7 @@
 import type { Camera, Object3D, Sphere } from "three";
 import { Box3, Frustum, Group, Matrix4, Vector3 } from "three";
 import type { Bounds, Stage } from "../decode/stage.ts";
-import type { GeometryDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
+import type { GeometryDescription, SceneDescription, ShapeDescription, TextureRole } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
@@ -109,8 +109,8 @@ export class SceneShapes {
     if (object !== undefined && stage?.kind === "buffers" && stage.bounds !== undefined) this.#grow(object, stage.bounds);
   }
 
-  setPicture(element: SceneElement, picture: ShownPicture | undefined): void {
-    this.#shapes.get(element)?.setPicture(picture);
+  setPicture(element: SceneElement, role: TextureRole, picture: ShownPicture | undefined): void {
+    this.#shapes.get(element)?.setPicture(role, picture);
   }
 
   /** Surfaces as they are, or their vertices. */

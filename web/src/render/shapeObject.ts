@@ -3,7 +3,7 @@
 
 import { Group } from "three";
 import type { Bounds, Stage } from "../decode/stage.ts";
-import type { AppearanceDescription, GeometryDescription, PatchDescription, ShapeDescription } from "../document/description.ts";
+import type { AppearanceDescription, GeometryDescription, PatchDescription, ShapeDescription, TextureRole } from "../document/description.ts";
 import { asPoints } from "./asPoints.ts";
 import type { Batches } from "./batches/batches.ts";
 import { BatchedStage, mayBatch } from "./batches/batchedStage.ts";
@@ -40,7 +40,7 @@ export class ShapeObject {
   readonly #colorMap = makeColorMapUniforms();
   #appearance: AppearanceDescription;
   #drawnAs: DrawnAs = "alone";
-  #picture: ShownPicture | undefined;
+  readonly #pictures = new Map<TextureRole, ShownPicture>();
   #isPickable: boolean;
 
   constructor(setting: ShapeSetting, shape: ShapeDescription) {
@@ -98,8 +98,9 @@ export class ShapeObject {
   }
 
   /** What is laid over its surface, where it has texture coordinates; undefined: nothing. */
-  setPicture(picture: ShownPicture | undefined): void {
-    this.#picture = picture;
+  setPicture(role: TextureRole, picture: ShownPicture | undefined): void {
+    if (picture) this.#pictures.set(role, picture);
+    else this.#pictures.delete(role);
     this.#applyAppearance();
   }
 
@@ -113,7 +114,7 @@ export class ShapeObject {
 
   #applyAppearance(): void {
     for (const [place, shown] of this.#patches) {
-      if (this.#drawingOf(shown.stage) === shown.drawnAs) shown.draws.applyAppearance(this.#appearance, this.#picture);
+      if (this.#drawingOf(shown.stage) === shown.drawnAs) shown.draws.applyAppearance(this.#appearance, new Map(this.#pictures));
       else this.setStage(shown.geometry, place, shown.stage);
     }
   }
@@ -133,7 +134,7 @@ export class ShapeObject {
     const { batching } = setting.look;
     const drawnAs = this.#drawingOf(stage);
     const drawn = drawing.asPoints ? asPoints(stage, patch.vertexCount) : stage;
-    const patchSetting = { ...setting, geometry, patch, appearance: this.#appearance, colorMap: this.#colorMap, picture: this.#picture };
+    const patchSetting = { ...setting, geometry, patch, appearance: this.#appearance, colorMap: this.#colorMap, pictures: new Map(this.#pictures) };
     const draws = batches === undefined || batching === undefined || drawnAs === "alone" ? drawStage(drawn, patchSetting)
       : new BatchedStage(drawn, patchSetting, { batches, batching, isMerged: drawnAs === "merged" });
     for (const group of this.#groups) draws.hang(group);
@@ -143,7 +144,7 @@ export class ShapeObject {
   #drawingOf(stage: Stage): DrawnAs {
     const { look: { batching }, drawing } = this.#setting;
     if (drawing.asPoints) return "alone";
-    return batching !== undefined && mayBatch(stage, this.#appearance, this.#picture, batching) ? this.#drawnAs : "alone";
+    return batching !== undefined && mayBatch(stage, this.#appearance, this.#pictures, batching) ? this.#drawnAs : "alone";
   }
 
   /** Every draw in every place, with the number of its patch. */
@@ -161,6 +162,7 @@ export class ShapeObject {
   clear(): void {
     for (const { draws } of this.#patches.values()) draws.dispose();
     this.#patches.clear();
+    this.#pictures.clear();
   }
 
   dispose(): void {

@@ -2,16 +2,18 @@
 // what its draws need of a material.
 
 import type { Side, Texture } from "three";
-import { Box3, Matrix3, Matrix4, Sphere, Vector3 } from "three";
+import { Box3, Matrix4, Sphere, Vector3 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
 import type { DrawRange, Stage, TextureStage } from "../decode/stage.ts";
 import type { AppearanceDescription, GeometryDescription, PatchDescription, PointDescription } from "../document/description.ts";
 import { boxAround } from "../document/geometry.ts";
 import { largestStoredOf, middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
 import type { Buffers } from "./buffers.ts";
-import type { Look, MaterialRequest, SceneUniforms, Shading, ShownPicture, VertexColors } from "./look.ts";
+import type { Look, MaterialRequest, SceneUniforms, Shading, ShownPictures, VertexColors } from "./look.ts";
 import type { PickMaterialRequest } from "./pickMaterial.ts";
+import { alphaMaskOf } from "./pickMaterial.ts";
 import type { GeometryPool } from "./stageGeometries.ts";
+import { textureTransformsOf } from "./texCoords.ts";
 import type { ColorMapUniforms } from "./valueColors.ts";
 import { valueDefinesOf, valueUniformsOf } from "./valueColors.ts";
 import type { ImageVertexUniforms, VertexForm, VertexUniforms } from "./vertexChunk.ts";
@@ -32,7 +34,7 @@ export interface PatchSetting {
   readonly geometry: GeometryDescription;
   readonly patch: PatchDescription;
   readonly appearance: AppearanceDescription;
-  readonly picture: ShownPicture | undefined;
+  readonly pictures: ShownPictures;
   readonly colorMap: ColorMapUniforms;
 }
 
@@ -76,10 +78,10 @@ export function uniformsOf(stage: Stage, setting: PatchSetting): StageUniforms {
 
 /** Takes over what an appearance says of vertices. */
 export function setAppearance(uniforms: VertexUniforms, geometry: GeometryDescription, appearance: AppearanceDescription): void {
-  const { pointSizes, attenuation, textureTransform } = appearanceUniformsOf(geometry, appearance);
+  const { pointSizes, attenuation, textureTransforms } = appearanceUniformsOf(geometry, appearance);
   uniforms.pointSizes.value = pointSizes.value;
   uniforms.attenuation.value = attenuation.value;
-  uniforms.textureTransform.value.copy(textureTransform.value);
+  uniforms.textureTransforms.value = textureTransforms.value;
 }
 
 /** Of points that no PointProperties tell about, in CSS pixels. */
@@ -87,13 +89,14 @@ export const usualPointSize = 2;
 const usualPoints: PointDescription = { size: usualPointSize, least: 0, most: Infinity, attenuation: [1, 0, 0] };
 const largestPoint = 1e6;
 
-function appearanceUniformsOf({ texCoordMin, texCoordSize }: GeometryDescription, { points = usualPoints, texture }: AppearanceDescription):
-  Pick<VertexUniforms, "pointSizes" | "attenuation" | "texCoordFrame" | "textureTransform"> {
+function appearanceUniformsOf({ texCoordMin, texCoordSize }: GeometryDescription, appearance: AppearanceDescription):
+  Pick<VertexUniforms, "pointSizes" | "attenuation" | "texCoordFrame" | "textureTransforms"> {
+  const { points = usualPoints } = appearance;
   return {
     pointSizes: { value: [points.size, points.least, Math.min(points.most, largestPoint)] },
     attenuation: { value: points.attenuation },
     texCoordFrame: { value: [...texCoordMin, ...texCoordSize] },
-    textureTransform: { value: new Matrix3().fromArray(texture?.transform ?? [1, 0, 0, 0, 1, 0, 0, 0, 1]) },
+    textureTransforms: { value: textureTransformsOf(appearance) },
   };
 }
 
@@ -106,8 +109,10 @@ export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
 }
 
 /** What the picking pass, which draws place by place, needs of its material. */
-export function pickRequestOf(stage: Stage, side: Side, uniforms: VertexUniforms): Omit<PickMaterialRequest, "primitive"> {
-  return { ...vertexFormOf(stage), side, hasNormals: hasNormals(stage), uniforms };
+export function pickRequestOf(stage: Stage, side: Side, uniforms: VertexUniforms, appearance: AppearanceDescription,
+                              pictures: ShownPictures): Omit<PickMaterialRequest, "primitive"> {
+  const alphaMask = stage.texCoord === undefined ? undefined : alphaMaskOf(appearance, pictures);
+  return { ...vertexFormOf(stage), side, hasNormals: hasNormals(stage), uniforms, alphaMask };
 }
 
 function vertexFormOf(stage: Stage): VertexForm {

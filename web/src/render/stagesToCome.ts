@@ -11,6 +11,7 @@ import { mayBatch } from "./batches/batchedStage.ts";
 import { planOf } from "./batches/plan.ts";
 import { objectOf } from "./drawnObject.ts";
 import type { Look, SceneUniforms, ShownPicture } from "./look.ts";
+import { noPictures } from "./look.ts";
 import { materialRequestOf } from "./stageDraws.ts";
 
 const nowhere: TexelRange = { image: { width: 1, height: 1, close: () => undefined }, first: 0 };
@@ -30,16 +31,17 @@ export function objectsToCome(scene: SceneDescription, look: Look, shared: Scene
   const drawingOf = planOf(places);
   for (const { geometry: described, appearance, visible } of places) {
     if (described === undefined || !visible) continue;
-    const { texture, material: { kind, transparency }, alpha } = appearance;
-    for (const stage of stagesToCome(described, texture !== undefined)) {
+    const { textures, material: { kind, transparency }, alpha } = appearance;
+    const pictures = new Map(textures.map(({ role }) => [role, noPicture]));
+    for (const stage of stagesToCome(described, textures.length > 0)) {
       for (const range of stage.draws) {
-        const picture = texture && stage.texCoord !== undefined ? noPicture : undefined;
-        const isBatched = drawingOf(described) !== "alone" && look.batching !== undefined && mayBatch(stage, appearance, picture, look.batching);
+        const laid = stage.texCoord !== undefined ? pictures : noPictures;
+        const isBatched = drawingOf(described) !== "alone" && look.batching !== undefined && mayBatch(stage, appearance, laid, look.batching);
         const request = materialRequestOf(stage, range, described, {}, shared, isBatched);
-        const key = JSON.stringify([{ ...request, shared: undefined }, kind, transparency > 0, alpha, picture !== undefined]);
+        const key = JSON.stringify([{ ...request, shared: undefined }, kind, transparency > 0, alpha, ...laid.keys()]);
         if (objects.has(key)) continue;
         const geometry = stage.kind === "buffers" ? inBuffers : bare;
-        objects.set(key, objectOf(range, geometry, look.makeMaterial(request, appearance, picture)));
+        objects.set(key, objectOf(range, geometry, look.makeMaterial(request, appearance, laid)));
       }
     }
   }

@@ -8,6 +8,7 @@ import {
   BufferGeometry, FrontSide, Matrix3, Matrix4, OrthographicCamera, Points, Scene, type WebGLRenderer,
 } from "three";
 import { decodeWithBrowser } from "../decode/image.ts";
+import { textureRoles } from "../document/description.ts";
 import { makePickMaterial, pickedTargets, pickedWords } from "./pickMaterial.ts";
 import { makePickTarget } from "./picking.ts";
 import { readPixelSoon } from "./pixelReading.ts";
@@ -44,12 +45,12 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
   bitmap.close();
   const texture = { value: textures.textureOf(image) };
   const material = makePickMaterial({
-    primitive: "points", side: FrontSide, hasNormals: true, areImages: true, arePlaced: false, hasTexCoords: false, gridDefines: {}, normalDefines: {},
+    primitive: "points", side: FrontSide, hasNormals: true, areImages: true, arePlaced: false, hasTexCoords: false, alphaMask: undefined, gridDefines: {}, normalDefines: {},
     uniforms: {
       pixelRatio: { value: 1 }, pointSizes: { value: [1, 1, 1] }, attenuation: { value: [1, 0, 0] }, latticeStep: { value: [1, 1, 1] },
       indexImage: texture, coordImage0: texture, coordImage1: texture, coordImage2: { value: null }, coordImage3: { value: null },
       normalImage: texture, colorImage: { value: null }, texCoordImage: { value: null },
-      texCoordFrame: { value: [0, 0, 1, 1] }, textureTransform: { value: new Matrix3() },
+      texCoordFrame: { value: [0, 0, 1, 1] }, textureTransforms: { value: textureRoles.map(() => new Matrix3()) },
       firstTexels: { value: [2, 3, 0, 0] }, coordFirstTexels: { value: [0, 1, 0, 0] }, coordPlanes: { value: 2 },
       middleOfMissing: { value: 0 }, hasIndex: { value: true }, isIndexWide: { value: false }, implicitWidth: { value: 4 },
       gridSize: { value: [0, 0] }, isGridClosed: { value: false }, largestStored: { value: 65535 },

@@ -13,6 +13,7 @@ import type { Grid, NormalCode } from "../decode/stage.ts";
 import { isPairCode } from "../decode/stage.ts";
 import type { Vec3 } from "../document/description.ts";
 import { placeFragmentChunk, placesDefine, placeVertexChunk } from "./batches/placeChunk.ts";
+import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
 
 /** What both bodies read, as uniforms. */
 export interface VertexUniforms extends Record<string, IUniform> {
@@ -24,8 +25,8 @@ export interface VertexUniforms extends Record<string, IUniform> {
   attenuation: IUniform<Vec3>;
   /** Where stored texture coordinates 0 and 1 lie: origin and extent. */
   texCoordFrame: IUniform<[number, number, number, number]>;
-  /** From there to the picture. */
-  textureTransform: IUniform<Matrix3>;
+  /** From there to the pictures, by textureRoles. */
+  textureTransforms: IUniform<readonly Matrix3[]>;
   /** Along each axis, in the shape's coordinates. */
   latticeStep: IUniform<Vec3>;
 }
@@ -123,8 +124,7 @@ uniform float pixelRatio;
 uniform vec3 pointSizes;
 uniform vec3 attenuation;
 uniform vec3 latticeStep;
-uniform vec4 texCoordFrame;
-uniform mat3 textureTransform;
+${texCoordDeclarations}
 
 struct Vertex {
   vec3 position;
@@ -355,19 +355,6 @@ const colorChunk = /* glsl */ `
 
 /** Where a point has its size. */
 export const pointSizeChunk = "gl_PointSize = pointSizeAt(length(mvPosition.xyz));";
-
-const texCoordChunk = /* glsl */ `
-#if defined(USE_MAP) || defined(USE_EMISSIVEMAP)
-  vec4 frame = texCoordFrameOfPlace();
-  vec2 pictureCoord = (textureTransform * vec3(frame.xy + frame.zw * vertex.texCoord, 1.0)).xy;
-#endif
-#ifdef USE_MAP
-  vMapUv = pictureCoord;
-#endif
-#ifdef USE_EMISSIVEMAP
-  vEmissiveMapUv = pictureCoord;
-#endif
-`;
 
 /** Makes a built-in material's shaders read their vertices here, for use in `onBeforeCompile`. */
 export function readVerticesIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {

@@ -4,7 +4,7 @@ import type { Frustum, Group, Matrix4, Sphere } from "three";
 import type { DrawRange, Stage } from "../../decode/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import type { DrawnObject } from "../drawnObject.ts";
-import type { MaterialRequest, ShownPicture } from "../look.ts";
+import type { MaterialRequest, ShownPictures } from "../look.ts";
 
 /** What a shape asks to be drawn of a stage. The same for all its places. */
 export interface BatchedDraw {
@@ -22,7 +22,7 @@ export interface BatchedDraw {
   readonly texCoordFrame: readonly [number, number, number, number];
   readonly request: MaterialRequest;
   readonly appearance: AppearanceDescription;
-  readonly picture: ShownPicture | undefined;
+  readonly pictures: ShownPictures;
   /** The same where one material will do. */
   readonly lookKey: string;
 }

@@ -5,7 +5,8 @@ import { DoubleSide, FrontSide } from "three";
 import type { DrawRange, Stage } from "../../decode/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { storedFrameOf } from "../../document/storedFrame.ts";
-import type { Batching, ShownPicture } from "../look.ts";
+import type { Batching, ShownPictures } from "../look.ts";
+import { noPictures } from "../look.ts";
 import type { PatchDraws } from "../patchDraws.ts";
 import { PickDraw } from "../pickDraw.ts";
 import type { PatchSetting } from "../stageDraws.ts";
@@ -22,8 +23,8 @@ export interface BatchSetting {
 }
 
 /** Whether the stage may be drawn so: what blends is drawn in the order of its distance. */
-export function mayBatch(stage: Stage, appearance: AppearanceDescription, picture: ShownPicture | undefined, batching: Batching): boolean {
-  return stage.draws.every((range) => lookKeyOf(stage, range, appearance, picture, batching) !== undefined);
+export function mayBatch(stage: Stage, appearance: AppearanceDescription, pictures: ShownPictures, batching: Batching): boolean {
+  return stage.draws.every((range) => lookKeyOf(stage, range, appearance, pictures, batching) !== undefined);
 }
 
 export class BatchedStage implements PatchDraws {
@@ -53,11 +54,11 @@ export class BatchedStage implements PatchDraws {
   }
 
   /** It must be one that `mayBatch` allows. */
-  applyAppearance(appearance: AppearanceDescription, picture: ShownPicture | undefined): void {
-    this.#setting = { ...this.#setting, appearance, picture };
+  applyAppearance(appearance: AppearanceDescription, pictures: ShownPictures): void {
+    this.#setting = { ...this.#setting, appearance, pictures };
     for (const pick of this.picks) pick.forgetParts();
     const isSame = this.#draws.every(({ ranges: [range], lookKey }) =>
-      range && lookKey === lookKeyOf(this.#stage, range, appearance, picture, this.#batch.batching));
+      range && lookKey === lookKeyOf(this.#stage, range, appearance, pictures, this.#batch.batching));
     if (isSame) {
       for (const here of this.#members.values()) for (const member of here) this.#batch.batches.setLook(member, this.#numbersOf(member.draw));
       return;
@@ -80,12 +81,12 @@ export class BatchedStage implements PatchDraws {
 }
 
 function drawsOf(stage: Stage, setting: PatchSetting, { batching, isMerged }: BatchSetting): BatchedDraw[] {
-  const { geometry, patch, appearance, picture, shared } = setting;
+  const { geometry, patch, appearance, pictures, shared } = setting;
   const uniforms = uniformsOf(stage, setting);
   const { sphere: bounds } = boundsOf(geometry, patch, stage);
   return togetherOf(stage, isMerged).flatMap(({ ranges, mayMerge }) => {
     const [first] = ranges;
-    const lookKey = first && lookKeyOf(stage, first, appearance, picture, batching);
+    const lookKey = first && lookKeyOf(stage, first, appearance, pictures, batching);
     if (first === undefined || lookKey === undefined) return [];
     return [{
       stage, ranges, bounds, appearance, lookKey,
@@ -96,7 +97,7 @@ function drawsOf(stage: Stage, setting: PatchSetting, { batching, isMerged }: Ba
       step: storedFrameOf(geometry, patch).step,
       texCoordFrame: [...geometry.texCoordMin, ...geometry.texCoordSize],
       request: materialRequestOf(stage, first, geometry, uniforms.of(first), shared, true),
-      picture: stage.texCoord !== undefined ? picture : undefined,
+      pictures: stage.texCoord !== undefined ? pictures : noPictures,
     }];
   });
 }
@@ -116,9 +117,9 @@ function isSeen({ count }: DrawRange): boolean {
   return count > 0;
 }
 
-function lookKeyOf(stage: Stage, { primitive }: DrawRange, appearance: AppearanceDescription, picture: ShownPicture | undefined,
+function lookKeyOf(stage: Stage, { primitive }: DrawRange, appearance: AppearanceDescription, pictures: ShownPictures,
                    batching: Batching): string | undefined {
-  return batching.keyOf({ primitive, colors: colorsOf(stage) }, appearance, stage.texCoord !== undefined ? picture : undefined);
+  return batching.keyOf({ primitive, colors: colorsOf(stage) }, appearance, stage.texCoord !== undefined ? pictures : noPictures);
 }
 
 /** The picking pass draws place by place, what the pointer is near. */
@@ -131,7 +132,7 @@ function pickOf(stage: Stage, range: DrawRange, settingNow: () => PatchSetting):
       if (shape === undefined) throw new RangeError("the draw is not one of its stage");
       return {
         geometry: shape,
-        request: pickRequestOf(stage, geometry.solid ? FrontSide : DoubleSide, uniformsOf(stage, settingNow()).of(range)),
+        request: pickRequestOf(stage, geometry.solid ? FrontSide : DoubleSide, uniformsOf(stage, settingNow()).of(range), settingNow().appearance, settingNow().pictures),
         release: () => { geometries.release(stage); },
       };
     },

@@ -45,7 +45,7 @@ function drawOf(stage: BufferStage, isMerged: boolean, vertexCount = 3): Batched
   const request = { primitive: "triangles", uniforms: {} } as unknown as MaterialRequest;
   return {
     stage, ranges: stage.draws, isMerged, vertexCount, bounds: new Sphere(new Vector3(), 1), shapeFromStored: new Matrix4(), step: [1, 1, 1],
-    texCoordFrame: [0, 0, 1, 1], request, appearance: {} as AppearanceDescription, picture: undefined, lookKey: "",
+    texCoordFrame: [0, 0, 1, 1], request, appearance: {} as AppearanceDescription, pictures: new Map(), lookKey: "",
   };
 }
 

@@ -141,7 +141,7 @@ export class Batches {
 
   #make({ draw, isMirrored }: Member): Batch {
     const request: MaterialRequest = { ...draw.request, uniforms: { ...draw.request.uniforms, places: this.#table.uniform } };
-    const material = this.#look.makeMaterial(request, draw.appearance, draw.picture);
+    const material = this.#look.makeMaterial(request, draw.appearance, draw.pictures);
     const batch = draw.isMerged ? new MergedBatch(draw, material, this.#buffers) : new InstancedBatch(draw, material, this.#geometries);
     const { object } = batch;
     object.frustumCulled = false; // `update` knows better

@@ -1,0 +1,68 @@
+// The textures of one shape: joins what its document names and leaves what it no
+// longer does.
+
+import type { TextureDescription, TextureRole } from "../document/description.ts";
+import type { DeliveryError } from "./deliveryError.ts";
+import type { Transfer } from "./progress.ts";
+import type { Picture } from "./resources.ts";
+import type { JoinedTexture, TextureDeliveries } from "./textureDeliveries.ts";
+import { pictureKeyOf } from "./textureDeliveries.ts";
+
+export interface ShapeTexturesListener {
+  /** Undefined: none of this role any more. The one before is used no more after this. */
+  onPicture(role: TextureRole, picture: Picture | undefined): void;
+  onError(error: DeliveryError): void;
+  onSettled(): void;
+}
+
+interface Followed {
+  readonly key: string;
+  readonly joined: JoinedTexture;
+}
+
+export class ShapeTextures {
+  readonly #deliveries: TextureDeliveries;
+  readonly #listener: ShapeTexturesListener;
+  #followed = new Map<TextureRole, Followed>();
+
+  constructor(deliveries: TextureDeliveries, listener: ShapeTexturesListener) {
+    this.#deliveries = deliveries;
+    this.#listener = listener;
+  }
+
+  get transfers(): readonly Readonly<Transfer>[] {
+    return Array.from(this.#followed.values()).flatMap(({ joined }) => joined.transfers);
+  }
+
+  /** None of them is on its way. */
+  get isSettled(): boolean {
+    return Array.from(this.#followed.values()).every(({ joined }) => joined.isSettled);
+  }
+
+  /** These from now on. New ones are joined before old ones are left: what both show is not fetched again. */
+  follow(textures: readonly TextureDescription[]): void {
+    const before = this.#followed;
+    this.#followed = new Map(textures.map((texture) => {
+      const known = before.get(texture.role);
+      const key = pictureKeyOf(texture);
+      return [texture.role, known?.key === key ? known : { key, joined: this.#join(texture) }];
+    }));
+    const left = Array.from(before).filter(([role, followed]) => this.#followed.get(role) !== followed);
+    for (const [role] of left) this.#listener.onPicture(role, undefined);
+    for (const [, { joined }] of left) joined.cancel();
+  }
+
+  /** No call to the listener follows, until others are followed. Pictures must no longer be used. */
+  cancel(): void {
+    for (const { joined } of this.#followed.values()) joined.cancel();
+    this.#followed.clear();
+  }
+
+  #join(texture: TextureDescription): JoinedTexture {
+    return this.#deliveries.join(texture, {
+      onPicture: (picture) => { this.#listener.onPicture(texture.role, picture); },
+      onError: (error) => { this.#listener.onError(error); },
+      onSettled: () => { this.#listener.onSettled(); },
+    });
+  }
+}

@@ -1,0 +1,110 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { pngOf } from "../decode/png.testing.ts";
+import type { TextureDescription } from "../document/description.ts";
+import { priorityOf } from "../scheduler/priority.ts";
+import { unknownView } from "../scheduler/view.ts";
+import type { Answer } from "./delivery.testing.ts";
+import { held, record, sigFiles, sigGeometry, siteOf, soon } from "./delivery.testing.ts";
+import { demandWithin } from "./demandWithin.ts";
+import { SharedDeliveries } from "./sharedDeliveries.ts";
+import { ShapeTextures } from "./shapeTextures.ts";
+import type { TextureDemand } from "./textureDeliveries.ts";
+import { TextureDeliveries } from "./textureDeliveries.ts";
+
+const [small, large] = [pngOf({ width: 8, height: 8 }), pngOf({ width: 256, height: 256 })];
+const bytesOnGpu = (edge: number) => (edge * edge * 4 * 4) / 3;
+
+function textureOf(url: string, preview = "", role: TextureDescription["role"] = "color"): TextureDescription {
+  const sampling = { isData: false, wrapS: "repeat", wrapT: "repeat", isSmooth: true, hasMipmaps: true, anisotropy: 1 } as const;
+  return { role, url, preview, sampling, transform: [1, 0, 0, 0, 1, 0, 0, 0, 1] };
+}
+
+const wanted: TextureDemand = (_, chunk) => priorityOf(1, { type: chunk, plane: 0 }, unknownView);
+
+/** A shape with these textures, and the width of what it shows of each role. */
+function shapeWith(textures: readonly TextureDescription[], files: Record<string, Answer>, slots = 6) {
+  const site = siteOf(files, slots);
+  const deliveries = { geometries: new SharedDeliveries(site.pool), textures: new TextureDeliveries(site.pool) };
+  const told: string[] = [];
+  const shape = new ShapeTextures(deliveries.textures, {
+    onPicture: (role, picture) => told.push(`${role} ${picture?.image.width ?? "none"}`),
+    onError: ({ url }) => told.push(`no ${url}`),
+    onSettled: () => undefined,
+  });
+  shape.follow(textures);
+  const demand = async (mostBytes = Infinity, priority = wanted) => {
+    for (let turn = 0; turn < 3; ++turn) {
+      await soon(); // who has joined is told in the next microtask
+      demandWithin(deliveries, () => () => undefined, priority, mostBytes);
+      do await soon(); while (!shape.isSettled);
+    }
+    return told.splice(0);
+  };
+  return { site, shape, deliveries, demand };
+}
+
+describe("a texture", () => {
+  test("shows its preview until it is there itself", async () => {
+    const { promise, release } = held(large);
+    const { site, shape, demand } = shapeWith([textureOf("full.png", "small.png")], { "full.png": promise, "small.png": small });
+    const end = demand();
+    while (site.pictures.open === 0) await soon();
+    assert.deepEqual(site.asked, ["small.png", "full.png"]);
+    release();
+    assert.deepEqual(await end, ["color 8", "color 256"]);
+    shape.cancel();
+    await soon();
+    assert.equal(site.pictures.open, 0);
+  });
+
+  test("that does not come leaves the preview, which is no error where it does not come either", async () => {
+    const missing = shapeWith([textureOf("full.png", "small.png")], { "small.png": small }, 1);
+    assert.deepEqual(await missing.demand(), ["color 8", "no full.png"]);
+    const plain = shapeWith([textureOf("full.png", "small.png")], { "full.png": large }, 1);
+    assert.deepEqual(await plain.demand(), ["color 256"]);
+  });
+
+  test("gives way to its preview where room is short, the preview last, and comes back", async () => {
+    const { site, demand } = shapeWith([textureOf("full.png", "small.png")], { "full.png": large, "small.png": small });
+    assert.deepEqual(await demand(), ["color 8", "color 256"]);
+    const both = bytesOnGpu(256) + bytesOnGpu(8);
+    assert.deepEqual(await demand(both), []);
+    assert.deepEqual(await demand(both - 1), ["color 8"]);
+    assert.equal(site.pictures.open, 1);
+    assert.deepEqual(await demand(bytesOnGpu(8) - 1), ["color none"]);
+    assert.equal(site.pictures.open, 0);
+    assert.deepEqual(await demand(), ["color 8", "color 256"]);
+  });
+
+  test("of a shape that is not seen is not asked for; what is here stays", async () => {
+    const { site, demand } = shapeWith([textureOf("full.png", "small.png")], { "full.png": large, "small.png": small });
+    assert.deepEqual(await demand(Infinity, () => undefined), []);
+    assert.deepEqual(site.asked, []);
+    await demand();
+    assert.deepEqual(await demand(Infinity, () => undefined), []);
+    assert.equal(site.pictures.open, 2);
+  });
+
+  test("that several roles show is fetched once, and again for another one alone", async () => {
+    const files = { "a.png": large, "b.png": large };
+    const { site, shape, demand } = shapeWith([textureOf("a.png", "", "occlusion"), textureOf("a.png", "", "metallicRoughness")], files);
+    assert.deepEqual(await demand(), ["occlusion 256", "metallicRoughness 256"]);
+    shape.follow([textureOf("a.png", "", "occlusion"), textureOf("b.png", "", "metallicRoughness")]);
+    assert.deepEqual(await demand(), ["metallicRoughness none", "metallicRoughness 256"]);
+    assert.deepEqual(site.asked, ["a.png", "b.png"]);
+    shape.follow([]);
+    await soon();
+    assert.equal(site.pictures.open, 0);
+  });
+});
+
+test("textures are the last files that a scene asks for, and their previews come with its first shape", async () => {
+  const { site, shape, deliveries } = shapeWith([textureOf("full.png", "small.png")], { ...sigFiles(2), "full.png": large, "small.png": small }, 1);
+  const { settled } = record(sigGeometry(2), site.pool);
+  deliveries.textures.demand(wanted);
+  await settled;
+  while (!shape.isSettled) await soon();
+  const kinds = site.asked.map((name) => ({ a: "coord", s: "preview", i: "index", n: "normal", b: "refinement", f: "texture" })[name[0] ?? ""]);
+  assert.deepEqual(kinds, ["coord", "coord", "preview", "index", "index", "normal", "normal", "refinement", "refinement", "texture"]);
+});
