@@ -33,10 +33,25 @@ export function inPlaceOf(user: SceneElement, used: SceneElement): SceneElement 
   return {
     localName: used.localName, children: used.children,
     getAttribute: (name) => (name === "containerField" ? field : used.getAttribute(name)),
-    getAttributeNames: () => used.getAttributeNames().filter((name) => name.toLowerCase() !== "containerfield"),
+    getAttributeNames: () => [...used.getAttributeNames().filter((name) => name.toLowerCase() !== "containerfield"), ...(field === null ? [] : ["containerField"])],
   };
 }
 
-export function childrenOf(element: SceneElement): SceneElement[] {
-  return Array.from(element.children);
+/** The same for many names of one element, which is asked once for all it has. */
+export function attributesOf(element: SceneElement): (name: string) => string | undefined {
+  const names = element.getAttributeNames();
+  if (names.length === 0) return () => undefined;
+  const values = new Map<string, string>();
+  for (const name of names) {
+    const value = element.getAttribute(name) ?? "";
+    const lower = name.toLowerCase();
+    if (!values.has(lower)) values.set(lower, value);
+    values.set(name, value);
+  }
+  return (name) => values.get(name) ?? values.get(name.toLowerCase());
+}
+
+export function childrenOf({ children }: SceneElement): SceneElement[] {
+  // The iterator of a live collection takes several times as long as its indices.
+  return Array.from({ length: children.length }, (_, place) => children[place]).filter((child) => child !== undefined);
 }

@@ -3,7 +3,7 @@
 // name or default.
 
 import type { SceneElement } from "./element.ts";
-import { attributeOf } from "./element.ts";
+import { attributesOf } from "./element.ts";
 import type { Field } from "./fieldTypes.ts";
 import {
   MFColor, MFFloat, MFInt32, MFString, optional, Priority, SFBool, SFColor, SFFloat, SFInt32, SFRotation, SFString, SFVec2f,
@@ -261,8 +261,9 @@ export function readFields<Fields extends Record<string, Field<unknown>>>(
   element: SceneElement, fields: Fields, warnings: Warning[],
 ): Values<Fields> {
   const values: Record<string, unknown> = {};
+  const textOf = attributesOf(element);
   for (const [name, field] of Object.entries(fields)) {
-    const text = attributeOf(element, name);
+    const text = textOf(name);
     const value = text === undefined ? field.defaultValue : field.type.parse(text);
     if (value === undefined && text !== undefined) {
       warnings.push({ element, message: `${name}="${shortened(text)}" is no ${field.type.name}; its default is used` });

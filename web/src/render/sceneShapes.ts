@@ -162,7 +162,9 @@ export class SceneShapes {
   }
 
   #objectOf(shape: ShapeDescription): ShapeObject {
-    const object = this.#shapes.get(shape.element) ?? new ShapeObject(this.#setting, shape);
+    const known = this.#shapes.get(shape.element);
+    if (known !== undefined) return known;
+    const object = new ShapeObject(this.#setting, shape);
     this.#shapes.set(shape.element, object);
     return object;
   }

@@ -3,6 +3,7 @@
 
 import { Group } from "three";
 import type { Bounds, Stage } from "../decode/stage.ts";
+import { areAlike } from "../document/alike.ts";
 import type { AppearanceDescription, GeometryDescription, PatchDescription, ShapeDescription, TextureRole } from "../document/description.ts";
 import { asPoints } from "./asPoints.ts";
 import type { Batches } from "./batches/batches.ts";
@@ -91,7 +92,7 @@ export class ShapeObject {
   setShape({ appearance, isPickable, colorMap }: ShapeDescription, drawnAs: DrawnAs): void {
     setColorMap(this.#colorMap, colorMap);
     this.#isPickable = isPickable;
-    const isSame = drawnAs === this.#drawnAs && JSON.stringify(appearance) === JSON.stringify(this.#appearance);
+    const isSame = drawnAs === this.#drawnAs && areAlike(appearance, this.#appearance);
     this.#appearance = appearance;
     this.#drawnAs = drawnAs;
     if (!isSame) this.#applyAppearance();
