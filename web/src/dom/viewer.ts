@@ -314,12 +314,12 @@ export class Viewer {
 
   /** What a frame with everything that has come so far has shown. */
   #tellPage(): void {
-    this.#tellProgress(); // all of it before `load`
     const awaited = [...this.#shapes.awaited, ...this.#inlines.loadings];
-    // Asked for only now: until a frame has shown the end, further shapes may join.
-    if (awaited.every((loading) => loading.isSettled)) this.#loading.settle();
     // Shapes of which nothing will come do not hold the scene back.
     this.#loading.reach(stageShown(awaited.filter(({ stage, isSettled }) => stage !== "none" || !isSettled).map(({ stage }) => stage)));
+    this.#tellProgress(); // all of it, and of what is seen, before `load`
+    // Asked for only now: until a frame has shown the end, further shapes may join.
+    if (awaited.every((loading) => loading.isSettled)) this.#loading.settle();
     this.#shapes.onFrame();
     for (const loading of this.#inlines.loadings) loading.onFrame(false);
     this.#loading.onFrame(true);
