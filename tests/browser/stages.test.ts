@@ -21,10 +21,14 @@ function pathsOf(site: string, ranks: (rank: number) => boolean): string[] {
   return [...ranksOfFiles(pageOf(site))].filter(([, rank]) => ranks(rank)).map(([url]) => `/${url}`);
 }
 
-async function answered(view: View, paths: string[]): Promise<void> {
-  const states = (): (string | undefined)[] =>
-    paths.map((path) => view.server.requests.find((request) => request.path === path)?.state);
-  await until("every file that is not held is answered", () => states().every((state) => state === "answered"));
+/** Waits until what these files hold is part of the shapes. */
+async function arrived(view: View, paths: string[]): Promise<void> {
+  await until("every file that is not held has arrived", async () => {
+    const states = await view.page.evaluate(() => Array.from(document.querySelectorAll("x3d shape"), (shape) =>
+      Array.from((shape as unknown as { resources?: Iterable<{ url: string; state: string }> }).resources ?? [], ({ url, state }) => [url, state] as const)).flat());
+    const stateOf = new Map(states);
+    return paths.every((path) => stateOf.get(path.replace(/^\//, "")) === "ready");
+  });
 }
 
 describe("the first coordinate byte", () => {
@@ -47,7 +51,7 @@ describe("the first coordinate byte", () => {
     const { closed, open } = gate();
     await withPage(site(), { server: holding(site(), (rank) => rank > 3, closed) }, async (view) => {
       await view.promise("firstImage");
-      await answered(view, pathsOf(site(), (rank) => rank <= 3));
+      await arrived(view, pathsOf(site(), (rank) => rank <= 3));
       const coarse = await view.picture();
       assert.equal((await view.events("first-image", "x3d")).length, 1);
       assert.equal((await view.events("first-image", "shape")).length, 1);
@@ -79,7 +83,7 @@ describe("the first coordinate byte", () => {
       await view.promise("firstImage");
       const points = silhouette(withoutBar(await view.picture()), withoutBar(blank));
       sendIndex();
-      await answered(view, pathsOf(site(), (rank) => rank === 1));
+      await arrived(view, pathsOf(site(), (rank) => rank === 1));
       const surface = silhouette(withoutBar(await view.picture()), withoutBar(blank));
       const covered = (mask: Uint8Array): number => mask.reduce((sum, pixel) => sum + pixel, 0);
       assert.ok(covered(points) > 500, `${covered(points)} pixels of points`);
@@ -128,7 +132,7 @@ describe("borders between patches are watertight", () => {
         server.when(/^\/$/, { replace: (html) => change(html.toString()) });
       };
       await withPage(site(), { server }, async (view) => {
-        await answered(view, pathsOf(site(), (rank) => rank <= 3));
+        await arrived(view, pathsOf(site(), (rank) => rank <= 3));
         const coarse = litPixels(withoutBar(await view.picture()));
         open();
         await view.promise("complete");
