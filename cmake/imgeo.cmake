@@ -50,3 +50,16 @@ function(imgeo_folder name)
     set_tests_properties(${name} PROPERTIES ENVIRONMENT "IMGEO_SHARED=${PROJECT_SOURCE_DIR}/../shared")
   endif()
 endfunction()
+
+# imgeo_late_library(FOLDER MACRO PREFIX): sources of imgeo_FOLDER may use the headers of
+# a library that pkg_check_modules found as PREFIX, and load it by the name MACRO when
+# they need it (src/base/late_library.h).
+function(imgeo_late_library folder macro prefix)
+  list(GET ${prefix}_LINK_LIBRARIES 0 library)
+  execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${library} OUTPUT_VARIABLE headers COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT headers MATCHES "SONAME +([^ \n]+)")
+    message(FATAL_ERROR "${library} is not a shared library")
+  endif()
+  target_compile_definitions(imgeo_${folder} PRIVATE ${macro}="${CMAKE_MATCH_1}")
+  target_include_directories(imgeo_${folder} SYSTEM PUBLIC ${${prefix}_INCLUDE_DIRS})
+endfunction()

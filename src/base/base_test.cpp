@@ -1,6 +1,7 @@
 #include "base/bytes.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/late_library.h"
 #include "base/parallel.h"
 #include "base/testing.h"
 #include "base/vec.h"
@@ -28,6 +29,26 @@ TEST(Error, HasTheDocumentedExitCodes) {
   for (const ErrorKind kind :
        {ErrorKind::truncated, ErrorKind::malformed, ErrorKind::unsupported, ErrorKind::limit})
     EXPECT_EQ(exitCode(kind), 3);
+}
+
+TEST(LateLibrary, CallsWhatItFindsAndNamesWhatItDoesNot) {
+  struct Maths : LateLibrary {
+    explicit Maths(const char* name, const char* function = "fabs")
+        : LateLibrary(name), fabs(find(function)) {}
+    double (*fabs)(double);
+  };
+  EXPECT_EQ(Maths("libm.so.6").fabs(-3), 3);
+  const auto messageOf = [](const char* name, const char* function) -> std::string {
+    try {
+      const Maths maths(name, function);
+      return "";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::io);
+      return error.what();
+    }
+  };
+  EXPECT_TRUE(messageOf("libnone.so.1", "fabs").starts_with("libnone.so.1: cannot be loaded"));
+  EXPECT_EQ(messageOf("libm.so.6", "cubeRoot"), "libm.so.6: has no function cubeRoot");
 }
 
 TEST(File, ComesBackAsItWasWritten) {

@@ -1,6 +1,7 @@
 #include "images/decode_image.h"
 
 #include "base/error.h"
+#include "base/late_library.h"
 #include "images/image_type.h"
 
 #include <algorithm>
@@ -12,9 +13,29 @@ namespace imgeo {
 
 namespace {
 
+/// What we call of GraphicsMagick, which brings fifty libraries with it.
+struct Magick : LateLibrary {
+  Magick() : LateLibrary(IMGEO_GRAPHICSMAGICK) {}
+
+  decltype(&::AutoOrientImage) autoOrientImage = find("AutoOrientImage");
+  decltype(&::BlobToImage) blobToImage = find("BlobToImage");
+  decltype(&::CloneImageInfo) cloneImageInfo = find("CloneImageInfo");
+  decltype(&::DestroyExceptionInfo) destroyExceptionInfo = find("DestroyExceptionInfo");
+  decltype(&::DestroyImage) destroyImage = find("DestroyImage");
+  decltype(&::DestroyImageInfo) destroyImageInfo = find("DestroyImageInfo");
+  decltype(&::DispatchImage) dispatchImage = find("DispatchImage");
+  decltype(&::GetExceptionInfo) getExceptionInfo = find("GetExceptionInfo");
+  decltype(&::InitializeMagickEx) initializeMagickEx = find("InitializeMagickEx");
+  decltype(&::PingBlob) pingBlob = find("PingBlob");
+  decltype(&::SetMagickResourceLimit) setMagickResourceLimit = find("SetMagickResourceLimit");
+  decltype(&::TransformColorspace) transformColorspace = find("TransformColorspace");
+};
+
+const Magick& magick();
+
 struct Destroy {
-  void operator()(ImageInfo* info) const { DestroyImageInfo(info); }
-  void operator()(::Image* image) const { DestroyImage(image); }
+  void operator()(ImageInfo* info) const { magick().destroyImageInfo(info); }
+  void operator()(::Image* image) const { magick().destroyImage(image); }
 };
 using Info = std::unique_ptr<ImageInfo, Destroy>;
 using Decoded = std::unique_ptr<::Image, Destroy>;
@@ -22,8 +43,8 @@ using Decoded = std::unique_ptr<::Image, Destroy>;
 /// What GraphicsMagick says of a call.
 class Outcome {
 public:
-  Outcome() { GetExceptionInfo(&info_); }
-  ~Outcome() { DestroyExceptionInfo(&info_); }
+  explicit Outcome(const Magick& library) : library_(library) { library.getExceptionInfo(&info_); }
+  ~Outcome() { library_.destroyExceptionInfo(&info_); }
   Outcome(const Outcome&) = delete;
   Outcome& operator=(const Outcome&) = delete;
 
@@ -31,28 +52,36 @@ public:
   bool isError() const { return info_.severity >= ErrorException; }
 
 private:
+  const Magick& library_;
   ExceptionInfo info_;
 };
 
-/// Once a process. Pixels stay in memory, and the library within its one thread.
-void startLibrary() {
-  [[maybe_unused]] static const bool isStarted = [] {
-    Outcome outcome;
-    InitializeMagickEx(nullptr, MAGICK_OPT_NO_SIGNAL_HANDER, outcome.info());
-    SetMagickResourceLimit(PixelsResource, maxRasterPixels);
-    SetMagickResourceLimit(WidthResource, maxRasterEdge);
-    SetMagickResourceLimit(HeightResource, maxRasterEdge);
-    SetMagickResourceLimit(DiskResource, 0);
-    SetMagickResourceLimit(ThreadsResource, 1);
-    return true;
+/// Pixels stay in memory, and the library within its one thread.
+void start(const Magick& library) {
+  Outcome outcome(library);
+  library.initializeMagickEx(nullptr, MAGICK_OPT_NO_SIGNAL_HANDER, outcome.info());
+  library.setMagickResourceLimit(PixelsResource, maxRasterPixels);
+  library.setMagickResourceLimit(WidthResource, maxRasterEdge);
+  library.setMagickResourceLimit(HeightResource, maxRasterEdge);
+  library.setMagickResourceLimit(DiskResource, 0);
+  library.setMagickResourceLimit(ThreadsResource, 1);
+}
+
+/// Loaded and started once a process.
+const Magick& magick() {
+  static const Magick library = [] {
+    const Magick loaded;
+    start(loaded);
+    return loaded;
   }();
+  return library;
 }
 
 /// The first picture of a file of exactly this type: nothing is guessed from its content.
 Info infoFor(const std::string& type) {
   std::string format = type == ".jpg" ? "JPEG" : type == ".tif" ? "TIFF" : type.substr(1);
   std::ranges::transform(format, format.begin(), [](char c) { return c >= 'a' && c <= 'z' ? c - 32 : c; });
-  Info info(CloneImageInfo(nullptr));
+  Info info(magick().cloneImageInfo(nullptr));
   fmt::format_to_n(info->magick, sizeof info->magick - 1, "{}", format);
   fmt::format_to_n(info->filename, sizeof info->filename - 1, "{}:", format);
   info->subimage = 0;
@@ -87,26 +116,25 @@ Raster decodeRaster(ByteSpan bytes, const std::string& place, std::uint64_t most
     throw Error(ErrorKind::malformed, place,
                 fmt::format("is a {} image that does not decode", type.substr(1)));
   };
-  startLibrary();
   const Info info = infoFor(type);
-  Outcome outcome;
-  if (const Decoded header(PingBlob(info.get(), bytes.data(), bytes.size(), outcome.info())); header)
+  Outcome outcome(magick());
+  if (const Decoded header(magick().pingBlob(info.get(), bytes.data(), bytes.size(), outcome.info())); header)
     requireSize(*header, place, mostPixels);
   else
     refuse();
-  Decoded image(BlobToImage(info.get(), bytes.data(), bytes.size(), outcome.info()));
+  Decoded image(magick().blobToImage(info.get(), bytes.data(), bytes.size(), outcome.info()));
   if (!image || outcome.isError())
     refuse();
   requireSize(*image, place, mostPixels);
   if (image->orientation > TopLeftOrientation)
-    if (Decoded upright(AutoOrientImage(image.get(), image->orientation, outcome.info())); upright)
+    if (Decoded upright(magick().autoOrientImage(image.get(), image->orientation, outcome.info())); upright)
       image = std::move(upright);
   if (!IsRGBCompatibleColorspace(image->colorspace))
-    TransformColorspace(image.get(), RGBColorspace);
+    magick().transformColorspace(image.get(), RGBColorspace);
   Raster raster{static_cast<std::uint32_t>(image->columns), static_cast<std::uint32_t>(image->rows), {}};
   raster.pixels.resize(std::size_t{4} * raster.width * raster.height);
-  if (DispatchImage(image.get(), 0, 0, image->columns, image->rows, "RGBA", CharPixel, raster.pixels.data(),
-                    outcome.info()) == MagickFail)
+  if (magick().dispatchImage(image.get(), 0, 0, image->columns, image->rows, "RGBA", CharPixel,
+                             raster.pixels.data(), outcome.info()) == MagickFail)
     refuse();
   if (!image->matte) // nothing is said of alpha then, not even that there is none
     for (std::size_t at = 3; at < raster.pixels.size(); at += 4)

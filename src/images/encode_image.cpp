@@ -1,5 +1,7 @@
 #include "images/encode_image.h"
 
+#include "base/late_library.h"
+
 #include <avif/avif.h>
 #include <cassert>
 #include <memory>
@@ -16,6 +18,20 @@ void require(bool isDone) {
   if (!isDone)
     throw std::bad_alloc();
 }
+
+/// What we call of libavif, which brings seven codecs with it.
+struct Avif : LateLibrary {
+  Avif() : LateLibrary(IMGEO_AVIF) {}
+
+  decltype(&::avifEncoderCreate) encoderCreate = find("avifEncoderCreate");
+  decltype(&::avifEncoderDestroy) encoderDestroy = find("avifEncoderDestroy");
+  decltype(&::avifEncoderWrite) encoderWrite = find("avifEncoderWrite");
+  decltype(&::avifImageCreate) imageCreate = find("avifImageCreate");
+  decltype(&::avifImageDestroy) imageDestroy = find("avifImageDestroy");
+  decltype(&::avifImageRGBToYUV) imageRGBToYUV = find("avifImageRGBToYUV");
+  decltype(&::avifRGBImageSetDefaults) setDefaultsOfRgb = find("avifRGBImageSetDefaults");
+  decltype(&::avifRWDataFree) freeData = find("avifRWDataFree");
+};
 
 Bytes encoded(const Raster& raster, const WebPConfig& config) {
   WebPPicture picture;
@@ -54,23 +70,24 @@ Bytes encodeLosslessWebp(const Raster& raster) {
 }
 
 Bytes encodeAvif(const Raster& raster, int quality) {
-  const std::unique_ptr<avifImage, decltype(&avifImageDestroy)> image(
-      avifImageCreate(static_cast<int>(raster.width), static_cast<int>(raster.height), 8,
-                      AVIF_PIXEL_FORMAT_YUV420),
-      avifImageDestroy);
-  const std::unique_ptr<avifEncoder, decltype(&avifEncoderDestroy)> encoder(avifEncoderCreate(),
-                                                                            avifEncoderDestroy);
+  static const Avif avif; // loaded once a process
+  const std::unique_ptr<avifImage, decltype(avif.imageDestroy)> image(
+      avif.imageCreate(static_cast<int>(raster.width), static_cast<int>(raster.height), 8,
+                       AVIF_PIXEL_FORMAT_YUV420),
+      avif.imageDestroy);
+  const std::unique_ptr<avifEncoder, decltype(avif.encoderDestroy)> encoder(avif.encoderCreate(),
+                                                                            avif.encoderDestroy);
   require(image && encoder);
   image->colorPrimaries = AVIF_COLOR_PRIMARIES_BT709;
   image->transferCharacteristics = AVIF_TRANSFER_CHARACTERISTICS_SRGB;
   image->matrixCoefficients = AVIF_MATRIX_COEFFICIENTS_BT601;
   image->yuvRange = AVIF_RANGE_FULL;
   avifRGBImage rgb;
-  avifRGBImageSetDefaults(&rgb, image.get());
+  avif.setDefaultsOfRgb(&rgb, image.get());
   rgb.ignoreAlpha = !hasAlpha(raster);
   rgb.pixels = const_cast<std::uint8_t*>(raster.pixels.data()); // only read
   rgb.rowBytes = 4 * raster.width;
-  require(avifImageRGBToYUV(image.get(), &rgb) == AVIF_RESULT_OK);
+  require(avif.imageRGBToYUV(image.get(), &rgb) == AVIF_RESULT_OK);
   // As libavif 1.0 maps quality to AV1's quantizers.
   const int quantizer = ((100 - quality) * AVIF_QUANTIZER_WORST_QUALITY + 50) / 100;
   encoder->minQuantizer = encoder->maxQuantizer = quantizer;
@@ -78,8 +95,8 @@ Bytes encodeAvif(const Raster& raster, int quality) {
   encoder->speed = 6;
   encoder->maxThreads = 1; // images are encoded side by side
   avifRWData output = AVIF_DATA_EMPTY;
-  const avifResult result = avifEncoderWrite(encoder.get(), image.get(), &output);
-  const std::unique_ptr<avifRWData, decltype(&avifRWDataFree)> outputsEnd(&output, avifRWDataFree);
+  const avifResult result = avif.encoderWrite(encoder.get(), image.get(), &output);
+  const std::unique_ptr<avifRWData, decltype(avif.freeData)> outputsEnd(&output, avif.freeData);
   require(result == AVIF_RESULT_OK);
   return Bytes(output.data, output.data + output.size);
 }
