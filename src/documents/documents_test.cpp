@@ -5,6 +5,7 @@
 #include "containers/stored_coords.h"
 #include "containers/testing.h"
 #include "documents/appearance_element.h"
+#include "documents/element.h"
 
 #include <gtest/gtest.h>
 #include <map>
@@ -407,6 +408,34 @@ SceneDocument documentNamed(const std::string& name) {
   addRoot(document.graph, {name, Shape{0, {}, true}, {}, ""});
   addRoot(document.graph, {name, Shape{1, {}, true}, {}, ""});
   return document;
+}
+
+TEST(Documents, PutWhatIsAloneInItsParentIntoTheParentsLine) {
+  ElementWriter writer(1);
+  const Element place{"Transform", {{{"translation", "1 2 3"}}}}, shape{"Shape", {{{"USE", "seat"}}}};
+  writer.open(place);
+  writer.open({"Group", {}});
+  writer.leaf(shape);
+  writer.close({"Group", {}});
+  writer.close(place);
+  EXPECT_EQ(writer.text(),
+            "  <Transform translation=\"1 2 3\"><Group><Shape USE=\"seat\"></Shape></Group></Transform>\n");
+
+  ElementWriter twoOrLong(0);
+  twoOrLong.open(place);
+  twoOrLong.leaf(shape);
+  twoOrLong.open({"Group", {}});
+  twoOrLong.leaf({"Shape", {{{"USE", std::string(90, 'x')}}}});
+  twoOrLong.close({"Group", {}});
+  twoOrLong.close(place);
+  EXPECT_EQ(twoOrLong.text(), "<Transform translation=\"1 2 3\">\n"
+                              "  <Shape USE=\"seat\"></Shape>\n"
+                              "  <Group>\n"
+                              "    <Shape USE=\"" +
+                                  std::string(90, 'x') +
+                                  "\"></Shape>\n"
+                                  "  </Group>\n"
+                                  "</Transform>\n");
 }
 
 TEST(Documents, DoNotRunWhatANameSays) {

@@ -36,15 +36,30 @@ void ElementWriter::startTag(const Element& element) {
 }
 
 void ElementWriter::open(const Element& element) {
+  const std::size_t begin = text_.size();
   startTag(element);
+  opened_.push_back({begin, text_.size()});
   text_ += "\n";
   ++level_;
 }
 
+/// Around one short line everything stands in that line: of what is seen in a thousand
+/// places, indentation would be a third.
 void ElementWriter::close(const Element& element) {
   --level_;
-  text_.append(2 * level_, ' ');
-  text_ += "</" + element.name + ">\n";
+  const auto [begin, end] = opened_.back();
+  opened_.pop_back();
+  const std::string endTag = "</" + element.name + ">\n";
+  const std::size_t only = end + 1 + 2 * (level_ + 1), newline = text_.find('\n', end + 1);
+  const bool isTagOfOneLine = text_.find('\n', begin) == end;
+  const bool hasOneLine = newline != std::string::npos && newline + 1 == text_.size();
+  if (isTagOfOneLine && hasOneLine && end - begin + newline - only + endTag.size() - 1 <= lineLength) {
+    text_.erase(newline);
+    text_.erase(end, only - end);
+  } else {
+    text_.append(2 * level_, ' ');
+  }
+  text_ += endTag;
 }
 
 void ElementWriter::leaf(const Element& element) {

@@ -22,7 +22,8 @@ struct Element {
   std::vector<Attributes> groups;
 };
 
-/// Collects the text of nested elements, two spaces a level.
+/// Collects the text of nested elements, two spaces a level. An element with nothing
+/// but one short line in it stands in that line.
 class ElementWriter {
 public:
   explicit ElementWriter(std::size_t level) : level_(level) {}
@@ -38,10 +39,16 @@ public:
   const std::string& text() const { return text_; }
 
 private:
+  /// Where the line of a start tag begins, and where it ends.
+  struct Tag {
+    std::size_t begin, end;
+  };
+
   void startTag(const Element& element);
 
   std::size_t level_;
   std::string text_;
+  std::vector<Tag> opened_;
 };
 
 /// The shortest decimal text that reads back as the same number.

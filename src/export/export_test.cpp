@@ -313,6 +313,32 @@ TEST(Glb, KeepsViewpoints) {
   ADD_FAILURE() << "the viewpoint is lost";
 }
 
+TEST(Glb, HasOneNodeForAMeshAndItsPlaceUnlessBothHaveNames) {
+  Scene scene = sceneOf({testing::sphere(4, 6)});
+  scene.graph.roots.clear();
+  const std::size_t seat = addNode(scene.graph, {"seat", Shape{0, {}, true}, {}, ""});
+  const auto placed = [&](const char* name, double x) {
+    Transform place;
+    place.translation = {x, 0, 0};
+    addRoot(scene.graph, {name, place, {seat}, ""});
+  };
+  placed("", 1);
+  placed("", 2);
+  placed("row", 3);
+  const SceneGraph read = importBytes(exportScene(scene, MeshFormat::glb), "a.glb").scene.graph;
+  std::vector<std::string> names;
+  std::vector<double> places;
+  for (const std::size_t root : read.roots) {
+    names.push_back(read.nodes[root].name);
+    places.push_back(std::get<Transform>(read.nodes[root].content).translation.x);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"seat", "seat-2", "row"}));
+  EXPECT_EQ(places, (std::vector<double>{1, 2, 3}));
+  const Node& inRow = read.nodes[read.nodes[read.roots[2]].children.at(0)];
+  EXPECT_EQ(inRow.name, "seat-3");
+  EXPECT_EQ(inRow.children, read.nodes[read.roots[0]].children) << "one shape stands in all places";
+}
+
 TEST(Glb, KeepsLightsThatItHasWordsFor) {
   Scene scene = sceneOf({testing::sphere(4, 6)});
   const Vec3d bySquare{0, 0, 1};

@@ -213,6 +213,12 @@ private:
       json["name"] = node.name;
     if (const Shape* shape = std::get_if<Shape>(&node.content)) {
       json["mesh"] = meshOf(*shape, node.name);
+    } else if (const Node* placed = onlyShapeOf(node)) {
+      json["mesh"] = meshOf(std::get<Shape>(placed->content), placed->name);
+      if (node.name.empty() && !placed->name.empty())
+        json["name"] = placed->name;
+      if (const Transform* transform = std::get_if<Transform>(&node.content))
+        addTransform(json, *transform);
     } else if (const Viewpoint* viewpoint = std::get_if<Viewpoint>(&node.content)) {
       addCamera(json, *viewpoint);
     } else if (const std::optional<PlacedLight> light = lightOf(node.content)) {
@@ -232,6 +238,17 @@ private:
     }
     nodes.push_back(std::move(json));
     return nodes.size() - 1;
+  }
+
+  /// The shape that is all there is in a Group or Transform: glTF has one node for the
+  /// two, unless each has a name.
+  const Node* onlyShapeOf(const Node& node) const {
+    if (node.children.size() != 1 ||
+        !(std::holds_alternative<Transform>(node.content) || std::holds_alternative<Group>(node.content)))
+      return nullptr;
+    const Node& child = scene_.graph.nodes[node.children[0]];
+    const bool haveBothNames = !node.name.empty() && !child.name.empty();
+    return std::holds_alternative<Shape>(child.content) && !haveBothNames ? &child : nullptr;
   }
 
   /// glTF's camera looks along -z of its node, as X3D's viewpoint does.

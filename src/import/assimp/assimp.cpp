@@ -4,6 +4,7 @@
 #include "import/assimp/materials.h"
 #include "import/formats.h"
 #include "import/isolated.h"
+#include "import/readable.h"
 #include "import/triangulate.h"
 #include "import/unit_normal.h"
 #include "import/warnings.h"
@@ -88,7 +89,7 @@ private:
     if (!isFinite(map))
       ++lostTransforms_;
     else if (map != Affine3d{})
-      node.content = transformOf(map);
+      node.content = readable(transformOf(map));
     for (unsigned i = 0; i < source.mNumMeshes; ++i)
       for (const std::size_t shape : shapesOf_.at(source.mMeshes[i]))
         node.children.push_back(shape);

@@ -1,8 +1,9 @@
 #include "import/gltf/nodes.h"
 
+#include "import/readable.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fmt/format.h>
 #include <numbers>
 
@@ -27,24 +28,8 @@ Transform transformOfTrs(Vec3d translation, const std::vector<double>& q, Vec3d 
   return transform;
 }
 
-/// To eight digits, which is as much as glTF's single precision has: documents are
-/// read by people too.
-double rounded(double value) {
-  return std::strtod(fmt::format("{:.8g}", value).c_str(), nullptr);
-}
-
-Vec3d rounded(Vec3d v) {
-  return {rounded(v.x), rounded(v.y), rounded(v.z)};
-}
-
-Rotation rounded(const Rotation& rotation) {
-  return {rounded(rotation.axis), rounded(rotation.angle)};
-}
-
 NodeContent groupUnlessMoved(Transform transform) {
-  transform.rotation = rounded(transform.rotation);
-  transform.scale = rounded(transform.scale);
-  transform.scaleOrientation = rounded(transform.scaleOrientation);
+  transform = readable(transform);
   return transform == Transform{} ? NodeContent(Group{}) : NodeContent(transform);
 }
 
