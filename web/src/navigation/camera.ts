@@ -105,22 +105,38 @@ export function panned(pose: Pose, right: number, up: number): Pose {
   return { ...pose, position: pose.position.clone().add(shift), center: pose.center.clone().add(shift) };
 }
 
+/** What a camera sees of a scene; lengths in the scene's coordinates. */
+export interface Lens {
+  /** Radians, from the top to the bottom of the view. */
+  readonly fieldOfView: number;
+  readonly near: number;
+  readonly far: number;
+}
+
 /**
- * Sets the camera up for a view of `aspect` (width / height) onto a scene inside
- * `sphere`. From inside, what is nearer than `clearance` need not be seen.
+ * For a view of `aspect` (width / height) onto a scene inside `sphere`. From inside,
+ * what is nearer than `clearance` need not be seen.
  */
-export function applyPose(camera: PerspectiveCamera, pose: Pose, aspect: number, sphere: Sphere, clearance = 0): void {
-  camera.position.copy(pose.position);
-  camera.quaternion.copy(pose.orientation);
+export function lensOf(pose: Pose, aspect: number, sphere: Sphere, clearance: number): Lens {
   const half = Math.tan(pose.fieldOfView / 2);
-  camera.fov = MathUtils.radToDeg(2 * Math.atan(aspect >= 1 ? half : half / aspect));
-  camera.aspect = aspect;
   // Depth is spent on the scene alone; from inside, a ten-thousandth of the depth is near enough,
   // and a hundredth still leaves a room's walls standing whose author says that nobody gets so close.
   const distance = pose.position.distanceTo(sphere.center);
   const radius = Math.max(sphere.radius * 1.01, 1e-9);
-  camera.far = distance + radius;
-  camera.near = Math.max(distance - radius, MathUtils.clamp(clearance, camera.far * 1e-4, camera.far * 1e-2));
+  const far = distance + radius;
+  const near = Math.max(distance - radius, MathUtils.clamp(clearance, far * 1e-4, far * 1e-2));
+  return { fieldOfView: 2 * Math.atan(aspect >= 1 ? half : half / aspect), near, far };
+}
+
+/** Sets the camera up to see so. */
+export function applyPose(camera: PerspectiveCamera, pose: Pose, aspect: number, sphere: Sphere, clearance = 0): void {
+  camera.position.copy(pose.position);
+  camera.quaternion.copy(pose.orientation);
+  const { fieldOfView, near, far } = lensOf(pose, aspect, sphere, clearance);
+  camera.fov = MathUtils.radToDeg(fieldOfView);
+  camera.aspect = aspect;
+  camera.near = near;
+  camera.far = far;
   camera.updateProjectionMatrix();
 }
 

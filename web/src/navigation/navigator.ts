@@ -7,13 +7,14 @@ import type { NavigationDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { BindingStack } from "./bindingStack.ts";
 import type { PlacedViewpoint, Pose } from "./camera.ts";
-import { panned, poseFraming, poseOfViewpoint, poseShowingAll, turned, zoomed } from "./camera.ts";
+import { panned, poseFraming, poseShowingAll, turned, zoomed } from "./camera.ts";
+import { avatarOf, bindViewpoints, boundPoseOf, clearanceOf, homeOf } from "./home.ts";
 import { Journey } from "./journey.ts";
 import type { NavigationType } from "./navigationType.ts";
 import { navigationTypesOf } from "./navigationType.ts";
 import type { Motion } from "./travel.ts";
 import type { CameraSetting } from "./orbit.ts";
-import { poseWith, poseWithin, unsetCamera } from "./orbit.ts";
+import { poseWithin, unsetCamera } from "./orbit.ts";
 import { isStandingStill, looked, standingStill, stepped, travelled } from "./travel.ts";
 import { Turntable } from "./turntable.ts";
 import type { Avatar } from "./footing.ts";
@@ -117,8 +118,7 @@ export class Navigator {
     const isFirst = this.#scene === undefined;
     const before = this.bound;
     this.#scene = scene;
-    const wanted = new Set(scene.viewpoints.filter(({ viewpoint }) => viewpoint.set_bind || viewpoint.bind).map(({ element }) => element));
-    this.#viewpoints.setNodes(scene.viewpoints.map(({ element }) => element), (element) => wanted.has(element));
+    bindViewpoints(this.#viewpoints, scene.viewpoints);
     const typesKey = scene.navigation.type.join(" ");
     if (typesKey !== this.#typesKey) this.#type = navigationTypesOf(scene.navigation.type).first;
     this.#typesKey = typesKey;
@@ -202,9 +202,9 @@ export class Navigator {
     return this.#pose;
   }
 
-  /** Half of the distance that an avatar keeps from things (ISO/IEC 19775-1, 23.4.4); who examines keeps none. */
+  /** What is nearer need not be seen. */
   get clearance(): number {
-    return this.#type === "walk" || this.#type === "fly" ? this.#avatar.radius / 2 : 0;
+    return clearanceOf(this.#type, this.#avatar);
   }
 
   /** From where whoever draws is to look around, for somebody who walks. Undefined where nobody does. */
@@ -237,10 +237,7 @@ export class Navigator {
   }
 
   get #avatar(): Avatar {
-    const [radius = 0.25, height = 1.6, step = 0.75] = this.#scene?.navigation.avatarSize ?? [];
-    // Nobody is so thin that his way is cut into more than a few paces.
-    const least = Math.max(height / 100, this.#sphere.radius * 1e-6);
-    return { radius: Math.max(radius, least), height: Math.max(height, 0), step: Math.max(step, 0) };
+    return avatarOf(this.#scene?.navigation, this.#sphere);
   }
 
   /** By lengths in the scene, ahead, aside and up. */
@@ -288,9 +285,8 @@ export class Navigator {
 
   /** Home is the bound viewpoint or the whole scene, and what the author says of the camera. */
   #followHome(isJourney: boolean): void {
-    const placed = this.viewpoints.find(({ element }) => element === this.bound);
-    const viewpoint = placed && poseOfViewpoint(placed);
-    const home = poseWith(viewpoint ?? poseFraming(this.#sphere), this.#camera, this.#sphere);
+    const viewpoint = boundPoseOf(this.#viewpoints, this.viewpoints);
+    const home = homeOf(viewpoint, this.#camera, this.#sphere);
     const key = JSON.stringify([viewpoint, this.#camera]);
     const isOther = key !== this.#homeKey;
     if (!isOther && JSON.stringify(home) === JSON.stringify(this.#home)) return;

@@ -4,7 +4,7 @@ import type { Vector3 } from "three";
 import { Matrix4 } from "three";
 import type { SceneElement } from "../document/element.ts";
 import { levelAt } from "../document/levels.ts";
-import type { PlacedLevels } from "./sceneGraph.ts";
+import type { PlacedLevels } from "../navigation/placement.ts";
 
 export class ChosenLevels {
   #chosen = new Map<SceneElement, number>();

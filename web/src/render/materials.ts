@@ -1,62 +1,30 @@
-// Materials of X3D with the lighting of X3D (ISO/IEC 19775-1, 17.2.2): for each
-// light, diffuse N.L + specular (N.H)^(128 shininess), plus its ambient share.
-//
-// Colours are not converted: a document's numbers are what the screen gets, and
-// light adds up in those numbers, as X3D's equations are written and as X3DOM
-// draws them. A grey of 0.5 that faces the headlight is 128 on the screen.
-// (three.js by default lights in linear space and divides by pi; hence a chunk
-// of our own, and `outputColorSpace` linear in the renderer.) The colours of a
-// PhysicalMaterial are linear, and so is its light: physicalLighting.ts.
+// Materials of X3D in three.js. (three.js by default lights in linear space and
+// divides by pi; hence a chunk of our own, lighting/x3dLighting.ts, and
+// `outputColorSpace` linear in the renderer.)
 
 import type { Color, Material } from "three";
 import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshPhongMaterial } from "three";
 import type { AppearanceDescription, MaterialDescription, Vec3 } from "../document/description.ts";
+import type { LitNumbers } from "../lighting/materialNumbers.ts";
+import { isBlended, litNumbersOf, opacityOf, unlitColorOf } from "../lighting/materialNumbers.ts";
+import { physicalDefine, physicalOutput } from "../lighting/physicalLighting.ts";
+import { x3dLighting } from "../lighting/x3dLighting.ts";
 import { placeColors } from "./batches/placeChunk.ts";
 import { farnessDefine, shadeByFarnessIn } from "./farness.ts";
 import { lightsChunk } from "./lightFalloff.ts";
 import type { Look, MaterialRequest, Shading, ShownPictures, VertexColors } from "./look.ts";
-import { displayedOf, physicalDefine, physicalLighting, physicalOutput } from "./physicalLighting.ts";
 import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
 import { colorByValueIn } from "./valueColors.ts";
 import { readVerticesIn, replaceEach, srgbColorsDefine, vertexDefinesOf } from "./vertexChunk.ts";
 import type { OwnMapUniforms } from "./x3dMaps.ts";
 import { layPictures, makeOwnMapUniforms, mapChunks, materialFromMaps, ownMapDeclarations, unlitDefine } from "./x3dMaps.ts";
 
-const x3dLighting = /* glsl */ `
+const x3dLightingChunk = /* glsl */ `
 varying vec3 vViewPosition;
-struct X3dMaterial {
-  vec3 diffuseColor;
-  vec3 specularColor;
-  float shininess;
-  vec3 ambient;
-  float metallic;
-  float roughness;
-};
-
 uniform float ambientIntensity;
 uniform float metallic;
 uniform float roughness;
-
-#ifdef ${physicalDefine}
-${physicalLighting}
-#else
-
-void directX3d(const in IncidentLight light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
-               const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
-  float facing = dot(normal, light.direction);
-  if (facing <= 0.0) return;
-  vec3 halfway = normalize(light.direction + viewDirection);
-  reflected.directDiffuse += light.color * material.diffuseColor * facing;
-  reflected.directSpecular += light.color * material.specularColor * pow(max(dot(normal, halfway), 1e-6), material.shininess);
-}
-
-void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
-                const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
-  reflected.indirectDiffuse += light * material.diffuseColor * material.ambient;
-}
-
-#endif
-
+${x3dLighting}
 #define RE_Direct directX3d
 #define RE_IndirectDiffuse ambientX3d
 `;
@@ -94,7 +62,7 @@ function makeMaterial(request: MaterialRequest, appearance: AppearanceDescriptio
     colorByValueIn(shader);
     shader.fragmentShader = ownMapDeclarations + replaceEach(shader.fragmentShader, [
       ["#include <lights_pars_begin>", lightsChunk],
-      ["#include <lights_phong_pars_fragment>", x3dLighting],
+      ["#include <lights_phong_pars_fragment>", x3dLightingChunk],
       ["#include <lights_phong_fragment>", materialFromMaps],
       ["#include <colorspace_fragment>", physicalOutput],
       ...mapChunks,
@@ -117,17 +85,13 @@ function applyAppearance(material: Material, appearance: AppearanceDescription, 
   material.opacity = opacityOf(appearance);
   material.alphaTest = alphaTestOf(appearance);
   layPictures(shown, description, pictures, isLit ? shown.userData.lit : undefined);
-  const blends = isBlended(appearance, colors, pictures);
-  if (material.transparent !== blends) material.needsUpdate = true;
-  material.transparent = blends;
+  const isTransparent = blends(appearance, colors, pictures);
+  if (material.transparent !== isTransparent) material.needsUpdate = true;
+  material.transparent = isTransparent;
 }
 
-function isBlended({ alpha: { mode }, material: { transparency } }: AppearanceDescription, colors: VertexColors, pictures: ShownPictures): boolean {
-  return mode === "BLEND" || (mode === "AUTO" && (transparency > 0 || colors === "rgba" || pictures.get("color")?.hasAlpha === true));
-}
-
-function opacityOf({ alpha: { mode }, material: { transparency } }: AppearanceDescription): number {
-  return mode === "OPAQUE" ? 1 : 1 - transparency;
+function blends(appearance: AppearanceDescription, colors: VertexColors, pictures: ShownPictures): boolean {
+  return isBlended(appearance, colors === "rgba" || pictures.get("color")?.hasAlpha === true);
 }
 
 function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number {
@@ -136,7 +100,7 @@ function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number
 
 function keyOf({ primitive, colors }: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription,
                pictures: ShownPictures): string | undefined {
-  if (isBlended(appearance, colors, pictures)) return undefined;
+  if (blends(appearance, colors, pictures)) return undefined;
   const { material, points, ...rest } = appearance;
   const others = Object.entries(material).filter(([name]) => !numbersOfPlaces.has(name));
   return JSON.stringify([rest, others, Array.from(pictures, ([role, { texture }]) => [role, texture.uuid]).sort(), primitive === "points" && points]);
@@ -157,46 +121,6 @@ function numbersOf({ shading, colors }: { shading: Shading; colors: VertexColors
 function isUnlit(shading: Shading): boolean {
   return shading === "unlit" || shading === "distance";
 }
-
-/** X3D shows unlit points in the emissive colour. Scans without one would be black on black. Colours of vertices stand in for it. */
-function unlitColorOf(description: MaterialDescription, hasColors: boolean): Vec3 {
-  if (hasColors) return [1, 1, 1];
-  const { emissiveColor } = description;
-  const isDark = emissiveColor.every((channel) => channel === 0);
-  switch (description.kind) {
-    case "phong":
-      return isDark ? description.diffuseColor : emissiveColor;
-    case "physical":
-      return displayedOf(isDark ? description.baseColor : emissiveColor);
-    case "unlit":
-      return emissiveColor;
-  }
-}
-
-interface LitNumbers {
-  readonly color: Vec3;
-  readonly specular: Vec3;
-  readonly shininess: number;
-  readonly ambientIntensity: number;
-  readonly metallic: number;
-  readonly roughness: number;
-}
-
-/** Colours of vertices stand in for the diffuse colour; glTF multiplies them with its base colour. */
-function litNumbersOf(description: MaterialDescription, hasColors: boolean): LitNumbers {
-  switch (description.kind) {
-    case "physical":
-      return { ...noNumbers, color: description.baseColor, metallic: description.metallic, roughness: description.roughness };
-    case "phong": {
-      const { diffuseColor, specularColor, shininess, ambientIntensity } = description;
-      return { color: hasColors ? [1, 1, 1] : diffuseColor, specular: specularColor, shininess: shininess * 128, ambientIntensity, metallic: 1, roughness: 1 };
-    }
-    case "unlit":
-      return { ...noNumbers, color: unlitColorOf(description, hasColors) };
-  }
-}
-
-const noNumbers: LitNumbers = { color: [0, 0, 0], specular: [0, 0, 0], shininess: 0, ambientIntensity: 0, metallic: 1, roughness: 1 };
 
 function applyLit(material: LitMaterial, description: MaterialDescription, numbers: LitNumbers): void {
   setKind(material, description.kind);

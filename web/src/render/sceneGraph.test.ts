@@ -4,7 +4,8 @@ import { Group, Vector3 } from "three";
 import { elementsOf } from "../document/elements.testing.ts";
 import { nodeFields } from "../document/nodes.ts";
 import { readScene } from "../document/readScene.ts";
-import { buildGraph, matrixOf } from "./sceneGraph.ts";
+import { matrixOf } from "../navigation/placement.ts";
+import { buildGraph } from "./sceneGraph.ts";
 
 const identity = Object.fromEntries(Object.entries(nodeFields.Transform).map(([name, field]) => [name, field.defaultValue])) as
   Parameters<typeof matrixOf>[0];

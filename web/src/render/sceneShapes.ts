@@ -9,12 +9,14 @@ import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
 import { sphereAround } from "../navigation/camera.ts";
+import type { PlacedLevels } from "../navigation/placement.ts";
+import { isDrawable } from "../navigation/placement.ts";
 import type { Batches } from "./batches/batches.ts";
 import { planOf } from "./batches/plan.ts";
 import type { ShownPicture } from "./look.ts";
 import type { PickCandidate } from "./picking.ts";
-import type { BoundedGroup, PlacedLevels } from "./sceneGraph.ts";
-import { buildGraph, isDrawable } from "./sceneGraph.ts";
+import type { BoundedGroup } from "./sceneGraph.ts";
+import { buildGraph } from "./sceneGraph.ts";
 import type { ShapeSetting } from "./shapeObject.ts";
 import { ShapeObject } from "./shapeObject.ts";
 

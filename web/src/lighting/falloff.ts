@@ -1,0 +1,24 @@
+// How light becomes less with distance and towards the edge of a cone, as X3D says
+// it (ISO/IEC 19775-1, 17.2.2.4): at distance d by 1 / max(a + b d + c d^2, 1), to
+// nothing beyond the radius; between beamWidth and cutOffAngle evenly by angle.
+
+/** GLSL, by a, b, c and the cosines of the angles. */
+export const falloff = /* glsl */ `
+float shareAtDistance(const in float lightDistance, const in float radius, const in vec3 attenuation) {
+  vec3 powers = vec3(1.0, lightDistance, lightDistance * lightDistance);
+  return lightDistance > radius ? 0.0 : 1.0 / max(dot(attenuation, powers), 1.0);
+}
+
+float shareInCone(const in float edgeCosine, const in float beamCosine, const in float cosine) {
+  if (cosine <= edgeCosine) return 0.0;
+  float edge = acos(edgeCosine);
+  float beam = acos(beamCosine);
+  return beam < edge ? clamp((edge - acos(min(cosine, 1.0))) / (edge - beam), 0.0, 1.0) : 1.0;
+}
+`;
+
+/** Of a SpotLight, in radians: where its light ends, and within what it is full. */
+export function coneOf({ cutOffAngle, beamWidth }: { readonly cutOffAngle: number; readonly beamWidth: number }): { edge: number; beam: number } {
+  const edge = Math.min(cutOffAngle, Math.PI / 2);
+  return { edge, beam: edge * Math.min(beamWidth / cutOffAngle, 1) };
+}

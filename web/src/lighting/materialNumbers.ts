@@ -1,0 +1,53 @@
+// What a material's fields are to the equations of light, whoever draws it.
+
+import type { AppearanceDescription, MaterialDescription, Vec3 } from "../document/description.ts";
+import { displayedOf } from "./physicalLighting.ts";
+
+/** `hasAlpha`: colours of vertices or a texture bring some. */
+export function isBlended({ alpha: { mode }, material: { transparency } }: AppearanceDescription, hasAlpha: boolean): boolean {
+  return mode === "BLEND" || (mode === "AUTO" && (transparency > 0 || hasAlpha));
+}
+
+export function opacityOf({ alpha: { mode }, material: { transparency } }: AppearanceDescription): number {
+  return mode === "OPAQUE" ? 1 : 1 - transparency;
+}
+
+/** X3D shows unlit points in the emissive colour. Scans without one would be black on black. Colours of vertices stand in for it. */
+export function unlitColorOf(description: MaterialDescription, hasColors: boolean): Vec3 {
+  if (hasColors) return [1, 1, 1];
+  const { emissiveColor } = description;
+  const isDark = emissiveColor.every((channel) => channel === 0);
+  switch (description.kind) {
+    case "phong":
+      return isDark ? description.diffuseColor : emissiveColor;
+    case "physical":
+      return displayedOf(isDark ? description.baseColor : emissiveColor);
+    case "unlit":
+      return emissiveColor;
+  }
+}
+
+export interface LitNumbers {
+  readonly color: Vec3;
+  readonly specular: Vec3;
+  readonly shininess: number;
+  readonly ambientIntensity: number;
+  readonly metallic: number;
+  readonly roughness: number;
+}
+
+/** Colours of vertices stand in for the diffuse colour; glTF multiplies them with its base colour. */
+export function litNumbersOf(description: MaterialDescription, hasColors: boolean): LitNumbers {
+  switch (description.kind) {
+    case "physical":
+      return { ...noNumbers, color: description.baseColor, metallic: description.metallic, roughness: description.roughness };
+    case "phong": {
+      const { diffuseColor, specularColor, shininess, ambientIntensity } = description;
+      return { color: hasColors ? [1, 1, 1] : diffuseColor, specular: specularColor, shininess: shininess * 128, ambientIntensity, metallic: 1, roughness: 1 };
+    }
+    case "unlit":
+      return { ...noNumbers, color: unlitColorOf(description, hasColors) };
+  }
+}
+
+const noNumbers: LitNumbers = { color: [0, 0, 0], specular: [0, 0, 0], shininess: 0, ambientIntensity: 0, metallic: 1, roughness: 1 };

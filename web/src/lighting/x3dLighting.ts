@@ -1,0 +1,45 @@
+// The lighting of X3D (ISO/IEC 19775-1, 17.2.2) in GLSL, the same text for every
+// pass that lights: for each light, diffuse N.L + specular (N.H)^(128 shininess),
+// plus its ambient share.
+//
+// Colours are not converted: a document's numbers are what the screen gets, and
+// light adds up in those numbers, as X3D's equations are written and as X3DOM
+// draws them. A grey of 0.5 that faces the headlight is 128 on the screen. The
+// colours of a PhysicalMaterial are linear, and so is its light: physicalLighting.ts.
+
+import { physicalDefine, physicalLighting } from "./physicalLighting.ts";
+
+/**
+ * Needs three.js' IncidentLight (color, direction towards it) and ReflectedLight
+ * (direct and indirect, Diffuse and Specular). Directions are of length 1.
+ */
+export const x3dLighting = /* glsl */ `
+struct X3dMaterial {
+  vec3 diffuseColor;
+  vec3 specularColor;
+  float shininess;
+  vec3 ambient;
+  float metallic;
+  float roughness;
+};
+
+#ifdef ${physicalDefine}
+${physicalLighting}
+#else
+
+void directX3d(const in IncidentLight light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
+               const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
+  float facing = dot(normal, light.direction);
+  if (facing <= 0.0) return;
+  vec3 halfway = normalize(light.direction + viewDirection);
+  reflected.directDiffuse += light.color * material.diffuseColor * facing;
+  reflected.directSpecular += light.color * material.specularColor * pow(max(dot(normal, halfway), 1e-6), material.shininess);
+}
+
+void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
+                const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
+  reflected.indirectDiffuse += light * material.diffuseColor * material.ambient;
+}
+
+#endif
+`;
