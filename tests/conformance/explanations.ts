@@ -22,6 +22,7 @@ export const explanations: Readonly<Record<string, string>> = {
   "PhysicalMaterial-metallic-0-roughness-0.3": withoutPi,
   "PhysicalMaterial-metallic-0-roughness-1": withoutPi,
   "PhysicalMaterial-metallic-1-roughness-0.4": `${withoutPi}. Metal mirrors a grey room, X_ITE's nothing`,
+  "PointLight-scaled": "what scales a light scales its radius and its falloff; not in X3DOM",
   "TextureTransform": "textures seen small are filtered otherwise",
   "Transform-mirror": "a mirror turns triangles round; X3DOM shows their backs",
   "TriangleFanSet": noFans,

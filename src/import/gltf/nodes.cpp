@@ -79,7 +79,7 @@ void NodeReader::readScene() {
         roots.push_back(i);
   }
   for (const std::size_t root : roots)
-    if (const std::optional<std::size_t> node = readNode(root, 1))
+    if (const std::optional<std::size_t> node = readNode(root, 1, 1))
       scene_.graph.roots.push_back(*node);
   const Value meshes = document_.array("meshes");
   for (std::size_t i = 0; nodes.size() == 0 && i < meshes.size(); ++i)
@@ -97,7 +97,7 @@ NodeContent NodeReader::transformOf(const Value& node) const {
       node["translation"].vec3({}), node["rotation"].reals(4, {0, 0, 0, 1}), node["scale"].vec3({1, 1, 1})));
 }
 
-std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t depth) {
+std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t depth, double scale) {
   const Value value = document_.array("nodes")[index];
   if (depth > maxNodeDepth)
     value.fail(ErrorKind::limit, "is nested too deeply");
@@ -109,13 +109,15 @@ std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t d
   Node node;
   node.name = value["name"].text();
   node.content = transformOf(value);
+  if (const Transform* transform = std::get_if<Transform>(&node.content))
+    scale *= std::cbrt(std::abs(affineOf(*transform).determinant()));
   node.extras = extrasOf(value);
   if (const auto mesh = value.index("mesh", document_.array("meshes"))) {
     losses.skins += value.has("skin");
     addInstances(value, *mesh, node.children);
   }
   addCamera(value, node.children);
-  addLight(value, node.children);
+  addLight(value, scale, node.children);
   const Value children = value["children"];
   for (std::size_t i = 0; i < children.size(); ++i) {
     const std::uint64_t child = children[i].whole();
@@ -123,7 +125,7 @@ std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t d
       attempt([&] {
         children[i].fail(ErrorKind::malformed, fmt::format("names node {} of {}", child, visited_.size()));
       });
-    else if (const std::optional<std::size_t> read = readNode(child, depth + 1))
+    else if (const std::optional<std::size_t> read = readNode(child, depth + 1, scale))
       node.children.push_back(*read);
   }
   // A node without a name that does nothing is its only child.
@@ -244,7 +246,8 @@ void NodeReader::addCamera(const Value& node, std::vector<std::size_t>& children
 }
 
 /// KHR_lights_punctual: in photometric units, falling off by the square of the distance.
-void NodeReader::addLight(const Value& node, std::vector<std::size_t>& children) {
+/// Its range and falloff are lengths of the scene in glTF, of the node's own coordinates in X3D.
+void NodeReader::addLight(const Value& node, double scale, std::vector<std::size_t>& children) {
   const Value lights = document_.root()["extensions"]["KHR_lights_punctual"]["lights"];
   const std::optional<std::size_t> index = node["extensions"]["KHR_lights_punctual"].index("light", lights);
   if (!index)
@@ -252,8 +255,9 @@ void NodeReader::addLight(const Value& node, std::vector<std::size_t>& children)
   const Value light = lights[*index];
   const Vec3f color = light["color"].vec3f({1, 1, 1});
   const auto intensity = static_cast<float>(light["intensity"].real(1));
-  const double range = light["range"].real(0), radius = range > 0 ? range : farthest;
-  const Vec3d bySquare{0, 0, 1};
+  const double range = light["range"].real(0), unit = scale > 0 && std::isfinite(scale) ? scale : 1,
+               radius = (range > 0 ? range : farthest) / unit;
+  const Vec3d bySquare{0, 0, unit * unit};
   const std::string type = light["type"].text();
   NodeContent content;
   if (type == "directional") {

@@ -25,14 +25,15 @@ public:
   NodeLosses losses;
 
 private:
-  std::optional<std::size_t> readNode(std::size_t index, std::size_t depth);
+  /// `scale`: by how much its parent is larger in the scene.
+  std::optional<std::size_t> readNode(std::size_t index, std::size_t depth, double scale);
   NodeContent transformOf(const Value& node) const;
   void addInstances(const Value& node, std::size_t mesh, std::vector<std::size_t>& children);
   std::optional<std::size_t> meshNode(std::size_t index, const std::string& nodeName);
   std::optional<std::size_t> shapeNode(const Value& primitive, const std::string& name);
   std::size_t meshOf(const Value& primitive);
   void addCamera(const Value& node, std::vector<std::size_t>& children);
-  void addLight(const Value& node, std::vector<std::size_t>& children);
+  void addLight(const Value& node, double scale, std::vector<std::size_t>& children);
   /// Reads something that may be left out: a sentence where it is, an Error if strict.
   template <typename Read> void attempt(const Read& read);
 

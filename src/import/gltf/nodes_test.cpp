@@ -138,6 +138,19 @@ TEST(GltfNodes, BringTheirLights) {
   EXPECT_EQ(firstOf<SpotLight>(graph)->cutOffAngle, 0.5);
 }
 
+TEST(GltfNodes, KeepWhatLightsReachInScaledPlaces) {
+  GltfText gltf;
+  gltf.show(gltf.addTriangle());
+  gltf.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"range", 12}}};
+  const std::size_t lamp =
+      gltf.addNode({{"scale", {2, 2, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  gltf.addNode({{"scale", {2, 2, 2}}, {"children", {lamp}}});
+  const SceneGraph graph = read(gltf).scene.graph;
+  ASSERT_TRUE(firstOf<PointLight>(graph));
+  EXPECT_NEAR(firstOf<PointLight>(graph)->radius, 3, 1e-12);
+  EXPECT_NEAR(firstOf<PointLight>(graph)->attenuation.z, 16, 1e-12);
+}
+
 TEST(GltfNodes, KeepWhatTheirAuthorsAdded) {
   GltfText gltf;
   gltf.addNode(

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Group, Vector3 } from "three";
+import { Group, PointLight, Vector3 } from "three";
 import { elementsOf } from "../document/elements.testing.ts";
 import { nodeFields } from "../document/nodes.ts";
 import { readScene } from "../document/readScene.ts";
@@ -38,6 +38,15 @@ test("a scene's box is that of what is seen, where it stands", () => {
     <Group visible="false">${box("100 100 100")}</Group><Switch whichChoice="1">${box("90 90 90")}${box("1 1 8")}</Switch></Transform></X3D>`));
   const { box: { min, max } } = buildGraph(scene, () => new Group());
   assert.deepEqual([min.toArray(), max.toArray()], [[8, -1, -4], [12, 1, 4]]);
+});
+
+test("a light that is scaled up reaches further, and what lies there is as bright as it was", () => {
+  const scene = readScene(elementsOf(`<X3D><Transform scale="4 4 4"><Transform scale="-1 1 1">
+    <PointLight radius="10" attenuation="1 0.5 0.25"/></Transform></Transform></X3D>`));
+  const { root, attenuations } = buildGraph(scene, () => new Group());
+  const lights: PointLight[] = [];
+  root.traverse((object) => { if (object instanceof PointLight) lights.push(object); });
+  assert.deepEqual(lights.map(({ distance, decay }) => [distance, attenuations[decay]?.toArray()]), [[40, [1, 0.125, 0.015625]]]);
 });
 
 test("what absurd scales blow up, shrink to nothing or turn over leaves the rest in view", () => {

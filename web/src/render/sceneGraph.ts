@@ -47,8 +47,12 @@ export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescri
     const light = lightOf(description);
     setColor(light.color, description.color);
     if (!(light instanceof DirectionalLight) && description.kind !== "directional") {
+      // Its lengths are those of its own coordinates (17.4.2): what is scaled up reaches further.
+      const scale = Math.cbrt(Math.abs(sceneFromLight.determinant())) || 1;
+      light.distance = description.radius * scale;
       light.decay = attenuations.length;
-      attenuations.push(new Vector3(...description.attenuation));
+      const [constant, linear, square] = description.attenuation;
+      attenuations.push(new Vector3(constant, linear / scale, square / scale ** 2));
     }
     const place = new Group();
     place.matrixAutoUpdate = false;
@@ -90,7 +94,6 @@ function lightOf(description: LightDescription): DirectionalLight | PointLight |
   const light = description.kind === "point" ? new PointLight() : new SpotLight();
   light.position.set(...description.location);
   light.intensity = description.intensity;
-  light.distance = description.radius;
   if (light instanceof SpotLight && description.kind === "spot") {
     light.target.position.copy(light.position).add(new Vector3(...description.direction));
     const { edge, beam } = coneOf(description);
