@@ -2,6 +2,7 @@
 
 #include "import/assimp/files.h"
 #include "import/assimp/materials.h"
+#include "import/creased.h"
 #include "import/formats.h"
 #include "import/isolated.h"
 #include "import/readable.h"
@@ -18,6 +19,8 @@
 #include <assimp/postprocess.h>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
+#include <numbers>
 #include <set>
 
 namespace imgeo {
@@ -25,6 +28,9 @@ namespace imgeo {
 namespace {
 
 constexpr std::size_t maxNodeDepth = 200;
+/// Of meshes without normals, edges sharper than this stay sharp: these formats are of
+/// things that were built, and walls that share shading with the next look like cushions.
+constexpr double creaseAngle = 45 * std::numbers::pi / 180;
 
 Vec3d vectorOf(const aiVector3D& v) {
   return {v.x, v.y, v.z};
@@ -111,6 +117,8 @@ private:
       if (mesh.corners.empty())
         continue;
       addVertices(source, mesh);
+      if (topology == Topology::triangles && mesh.normals.empty())
+        mesh = creased(mesh, creaseAngle);
       Shape shape;
       shape.mesh = imported_.scene.meshes.size();
       shape.appearance = materials_.appearance(source.mMaterialIndex);
