@@ -75,7 +75,8 @@ Command convertCommand() {
            choice("profile", {"auto", "compact", "classic"},
                   "of sig. compact: a coarse shape first, then patches, decoded by workers; classic: three "
                   "times its bytes, refined byte by byte, decoded by the GPU, and by X3DOM 1.7 as well; "
-                  "auto: compact, but classic where anything else asked for is classic's alone"),
+                  "auto: compact, but classic with --primitives strips, --index off, --normals palette or "
+                  "spherical, more than 30 position bits, 1048576 patch vertices or 13 attributes to keep"),
            choice("target", {"web", "x3dom"},
                   "web: a page with its own runtime; x3dom: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)"),
            {.name = "x3dom-url",

@@ -49,7 +49,8 @@ Json jsonOf(const SiteInfo& info) {
                                   {"normalEncoding", geometry.normalEncoding},
                                   {"normalBits", geometry.normalBits},
                                   {"texCoordBits", geometry.texCoordBits},
-                                  {"colorBits", geometry.colorBits}});
+                                  {"colorBits", geometry.colorBits},
+                                  {"attributes", geometry.attributes}});
   json["files"] = Json::array();
   for (const SiteFile& file : info.files)
     json["files"].push_back({{"path", file.path}, {"role", file.role}, {"bytes", file.bytes}});
@@ -72,6 +73,8 @@ std::string textOf(const GeometryInfo& geometry) {
   text += geometry.normalEncoding.empty()
               ? ", no normals"
               : fmt::format(", {} normals of {} bits", geometry.normalEncoding, geometry.normalBits);
+  if (!geometry.attributes.empty())
+    text += fmt::format(", further attributes {}", fmt::join(geometry.attributes, ", "));
   return text;
 }
 

@@ -160,17 +160,12 @@ std::vector<RoleBytes> sumByRole(const std::vector<SiteFile>& files) {
 
 ConvertReport convert(const fs::path& input, const fs::path& directory, const ConvertOptions& given,
                       const Progress& progress) {
-  const ConvertOptions options = resolved(given);
+  resolved(given); // says at once what cannot be
   if (input != "-")
     requireOutside(input, directory);
-  StagedSite site(directory, options.force);
+  StagedSite site(directory, given.force);
 
   ConvertReport report;
-  report.profile = *options.profile;
-  report.normalBits = options.normalBits;
-  report.texCoordBits = options.texCoordBits;
-  report.colorBits = options.colorBits;
-  report.normalEncoding = options.normals;
   Stopwatch total, step;
   const auto tell = [&](double share, const std::string& doing) {
     if (progress)
@@ -179,13 +174,19 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
 
   tell(0, "reading");
   Imported imported = importInput(input,
-                                  {.attributes = options.keepAttributes,
+                                  {.attributes = given.keepAttributes,
                                    .folder = {},
-                                   .outside = options.outside,
+                                   .outside = given.outside,
                                    .inlineBytes = inlineBytes,
-                                   .strict = options.strict},
+                                   .strict = given.strict},
                                   report.sourceBytes);
-  requireAttributes(imported, options);
+  requireAttributes(imported, given);
+  const ConvertOptions options = resolvedFor(imported.scene, given);
+  report.profile = *options.profile;
+  report.normalBits = options.normalBits;
+  report.texCoordBits = options.texCoordBits;
+  report.colorBits = options.colorBits;
+  report.normalEncoding = options.normals;
   report.format = imported.format;
   report.warnings = std::move(imported.warnings);
   nameScene(imported.scene.graph, options.title.empty() ? titleFrom(input) : options.title,

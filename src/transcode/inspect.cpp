@@ -50,6 +50,8 @@ GeometryInfo infoOf(const GeometryDescription& geometry, const ContainerReader& 
   info.colorBits = precision.colorBits;
   if (precision.normalBits > 0)
     info.normalEncoding = nameOf(precision.normalEncoding);
+  for (const AttributeDescription& attribute : geometry.attributes)
+    info.attributes.push_back(attribute.name);
   return info;
 }
 

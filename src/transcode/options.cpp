@@ -154,10 +154,8 @@ void requireMaxError(const ConvertOptions& options) {
 bool isClassicsAlone(const ConvertOptions& options) {
   const bool isPlain =
       options.normals == NormalEncoding::spherical || options.normals == NormalEncoding::palette;
-  // Attributes that a page shows as colours are files of their own.
-  const bool keepsAttributes = options.keepAttributes.all || !options.keepAttributes.names.empty();
   return options.container == Container::bg || options.target == Target::x3dom ||
-         options.primitives == Primitives::strips || !options.indexed || isPlain || keepsAttributes ||
+         options.primitives == Primitives::strips || !options.indexed || isPlain ||
          options.positionBits > 30 || options.patchVertices > compact::maxPatchCount;
 }
 
@@ -216,6 +214,27 @@ std::uint32_t positionBitsFor(const Box3d& box, const ConvertOptions& options) {
     if (std::ldexp(1.0, static_cast<int>(bits)) - 1 >= steps)
       return bits;
   refuse("--max-error", fmt::format("takes more than {} bits, the most there are", most));
+}
+
+ConvertOptions resolvedFor(const Scene& scene, const ConvertOptions& given) {
+  ConvertOptions options = resolved(given);
+  if (options.profile != Profile::compact)
+    return options;
+  std::size_t most = 0;
+  for (const Mesh& mesh : scene.meshes)
+    most = std::max(most, mesh.namedAttributes.size());
+  constexpr std::size_t mostNamed =
+      compact::maxAttributes - 3; // beside normals, texture coordinates, colours
+  if (most <= mostNamed)
+    return options;
+  if (given.profile)
+    refuse("--profile",
+           fmt::format("compact holds {} further attributes of a mesh, not {}; classic holds any "
+                       "number, and --keep-attributes says which",
+                       mostNamed, most));
+  options = given;
+  options.profile = Profile::classic;
+  return resolved(options);
 }
 
 bool hasStatedError(const ConvertOptions& options) {

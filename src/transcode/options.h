@@ -10,6 +10,10 @@ namespace imgeo {
 /// container or the target cannot honour.
 ConvertOptions resolved(ConvertOptions options);
 
+/// The same for what is there to convert: where nothing says which profile, classic for more
+/// further attributes than compact holds. Throws Error{usage} where compact was asked for.
+ConvertOptions resolvedFor(const Scene& scene, const ConvertOptions& given);
+
 /// The position bits for a mesh: as stated, or the fewest within the stated error.
 /// Throws Error{usage} for an error that the most bits exceed.
 std::uint32_t positionBitsFor(const Box3d& box, const ConvertOptions& options);

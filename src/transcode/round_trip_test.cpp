@@ -82,6 +82,8 @@ TEST(RoundTrip, CompactGivesBackEveryMeshAtEveryPrecision) {
         options.colorBits = 1 + seed % 8;
         options.patchVertices = seed % 2 ? 256 : 65535;
         options.effort = static_cast<int>(seed % 3);
+        options.keepAttributes.all = seed % 4 > 0;
+        options.attributeBits = 8 * (1 + seed % 3);
         expectRoundTrip(testing::randomMesh(seed), options, fmt::format("seed {} bits {}", seed, bits));
         if (HasFailure())
           return;

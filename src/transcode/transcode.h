@@ -144,6 +144,7 @@ struct GeometryInfo {
   std::string indexType;                                         ///< empty where there is no index
   std::string normalEncoding;                                    ///< empty where there are no normals
   std::uint32_t normalBits = 0, texCoordBits = 0, colorBits = 0; ///< 0: there are none
+  std::vector<std::string> attributes;                           ///< names of the further ones
   friend bool operator==(const GeometryInfo&, const GeometryInfo&) = default;
 };
 

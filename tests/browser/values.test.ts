@@ -37,10 +37,11 @@ const colorMap = `colorMap="${ends.join(", ").replaceAll(",", " ")}"`;
 
 describe("a shape coloured by an attribute", () => {
   const ways: [what: string, options: string[], fields?: string][] = [
-    ["out of two byte planes", []],
+    ["out of patches of compact", ["--patch-vertices", "1000", "--normal-bits", "10"]],
+    ["out of two byte planes", ["--profile", "classic"]],
     ["out of one byte plane and many patches of strips", ["--attribute-bits", "8", "--patch-vertices", "1000", "--primitives", "strips"]],
     ["out of three byte planes, without an index", ["--attribute-bits", "24", "--index", "off"]],
-    ["out of three byte planes, in workers", ["--attribute-bits", "24"], "cpu"],
+    ["out of three byte planes, in workers", ["--profile", "classic", "--attribute-bits", "24"], "cpu"],
     ["out of arrays", ["--container", "bg"]],
   ];
   for (const [what, options, decode] of ways) {
@@ -58,7 +59,7 @@ describe("a shape coloured by an attribute", () => {
   }
 
   test("of three components has those of its length, and others at once when the document says so", async () => {
-    const site = keeping();
+    const site = keeping("--attribute-bits", "24", "--normal-bits", "10");
     await withPage(site, { server: withFields(`colorBy="away" colorMap="gray" colorRange="0.5 4"`) }, async (view) => {
       await view.promise("complete");
       const first = await view.picture();
@@ -83,7 +84,7 @@ describe("a shape coloured by an attribute", () => {
 
   test("without a colorBy is as it would be without attributes, which are not asked for", async () => {
     const pictures: Picture[] = [];
-    for (const site of [keeping(), siteOfGenerated("trefoil-numbers", "--profile", "classic")]) {
+    for (const site of [keeping("--profile", "classic"), siteOfGenerated("trefoil-numbers", "--profile", "classic")]) {
       await withPage(site, {}, async (view) => {
         await view.promise("complete");
         pictures.push(await view.picture());

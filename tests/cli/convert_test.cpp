@@ -306,17 +306,41 @@ TEST_F(Convert, KeepsTheAttributesThatAreNamed) {
       "property float heat\nproperty uchar label\nelement face 1\n"
       "property list uchar int vertex_indices\nend_header\n0 0 0 0.5 1\n1 0 0 1.5 2\n0 1 0 -3 9\n3 0 1 2\n");
   EXPECT_NE(run({"info", input_}).out.find("heat, label"), std::string::npos);
-  for (const std::string container : {"sig", "bg"}) {
-    const Outcome outcome = run({"convert", input_, "-o", site_, "--profile", "classic", "--container",
-                                 container, "--keep-attributes", "label,heat", "--json"});
+  for (const std::vector<std::string> as :
+       {std::vector<std::string>{}, {"--profile", "classic"}, {"--container", "bg"}}) {
+    std::vector<std::string> command{"convert",           input_,       "-o",    site_,
+                                     "--keep-attributes", "label,heat", "--json"};
+    command.insert(command.end(), as.begin(), as.end());
+    const Outcome outcome = run(command);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(Json::parse(outcome.out)["attributes"].size(), 2);
     EXPECT_EQ(run({"verify", site_, input_}).code, 0);
-    EXPECT_NE(run({"info", site_}).out.find("attribute"), std::string::npos);
+    EXPECT_NE(run({"info", site_}).out.find("further attributes heat, label\n"), std::string::npos);
     ASSERT_EQ(run({"export", site_, "-o", directory_ / "out.ply"}).code, 0);
     EXPECT_NE(textOf(directory_ / "out.ply").find("property float heat\nproperty float label\n"),
               std::string::npos);
   }
+}
+
+TEST_F(Convert, KeepsMoreAttributesThanCompactHoldsInClassic) {
+  std::string properties;
+  for (char name = 'a'; name <= 'n'; ++name)
+    properties += std::string("property uchar ") + name + "\n";
+  write(input_,
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n" +
+            properties + "end_header\n0 0 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14\n");
+  const std::vector<std::string> command{"convert", input_, "-o", site_, "--json", "--keep-attributes"};
+  const auto runWith = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), command.begin(), command.end());
+    return run(arguments);
+  };
+  EXPECT_EQ(Json::parse(runWith({"all"}).out)["profile"], "classic");
+  EXPECT_EQ(run({"verify", site_, input_}).code, 0);
+  EXPECT_EQ(Json::parse(runWith({"a,b,c,d,e,f,g,h,i,j,k,l,m"}).out)["profile"], "compact");
+  EXPECT_EQ(run({"verify", site_, input_}).code, 0);
+  const Outcome refused = runWith({"all", "--profile", "compact"});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_NE(refused.err.find("13 further attributes of a mesh, not 14"), std::string::npos) << refused.err;
 }
 
 TEST_F(Convert, DropsElementsThatAddNothingWhereItIsTold) {

@@ -24,7 +24,7 @@ _imgeo() {
       '-o[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--output[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--container[sig\: PNG images; bg\: typed arrays]:container:(sig bg)' \
-      '--profile[of sig. compact\: a coarse shape first, then patches, decoded by workers; classic\: three times its bytes, refined byte by byte, decoded by the GPU, and by X3DOM 1.7 as well; auto\: compact, but classic where anything else asked for is classic'\''s alone]:profile:(auto compact classic)' \
+      '--profile[of sig. compact\: a coarse shape first, then patches, decoded by workers; classic\: three times its bytes, refined byte by byte, decoded by the GPU, and by X3DOM 1.7 as well; auto\: compact, but classic with --primitives strips, --index off, --normals palette or spherical, more than 30 position bits, 1048576 patch vertices or 13 attributes to keep]:profile:(auto compact classic)' \
       '--target[web\: a page with its own runtime; x3dom\: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)]:target:(web x3dom)' \
       '--x3dom-url[target x3dom\: the folder that has x3dom.js and x3dom.css; otherwise npm'\''s by jsdelivr.net]:x3dom-url: ' \
       '--primitives[how patches are drawn, those of lines as lines, line strips or points; a point cloud is always points]:primitives:(triangles strips points)' \

@@ -120,6 +120,12 @@ export interface StoredVertices extends Omit<VertexArray, "array"> {
   readonly type: ElementType;
 }
 
+/** Of the attribute that colours a geometry. */
+export interface StoredValues extends StoredVertices {
+  /** The stored integer that stands for the far side of the attribute's box, as 0 for its near side; undefined: numbers as they are. */
+  readonly largest: number | undefined;
+}
+
 export interface StoredIndex {
   readonly bytes: StoredBytes;
   readonly type: ElementType;
@@ -143,8 +149,7 @@ export interface BufferStage extends StageHead {
   readonly normal: StoredVertices | undefined;
   readonly normalCode: NormalCode;
   readonly color: StoredVertices | undefined;
-  /** Of the attribute that colours the geometry, as numbers. */
-  readonly value: StoredVertices | undefined;
+  readonly value: StoredValues | undefined;
   readonly texCoord: StoredVertices | undefined;
 }
 

@@ -61,7 +61,8 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
       const name = stageNameOf(patch, { index, normal, color, coord: [coord], value: value ? [value] : [] });
       const points = { stored: undefined, draws: [{ primitive: "points", first: 0, count: countOf(coord) } as const] };
       const { stored, draws } = index ?? points;
-      return { kind: "buffers", name, index: stored, draws, coord, bounds, normal, normalCode, color, texCoord, value };
+      return { kind: "buffers", name, index: stored, draws, coord, bounds, normal, normalCode, color, texCoord,
+               value: value && { ...value, largest: undefined } };
     },
 
     get storedBytes() { return holdings.byteLength; },

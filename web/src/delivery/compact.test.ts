@@ -95,6 +95,37 @@ describe("a geometry of compact", () => {
     assert.deepEqual(gone.aborted, ["alike.png"]);
   });
 
+  test("has beside its vertices the values that colour it, and no others", async () => {
+    const patch = decodeVector("others")[0] ?? assert.fail();
+    const plain = geometryFor([["others", 0]]);
+    const box = { files: 0, min: [0], size: [1] };
+    const [bits24, bits3] = [{ ...box, name: "heat", components: 1, bits: 24 }, { ...box, name: "flow", components: 4, bits: 3 }] as const;
+    for (const value of [bits24, bits3]) {
+      const site = siteOf(filesOf("others"));
+      const { stages, errors, settled, delivery } = record({ ...plain, attributes: [bits24, bits3], value }, site.pool);
+      await settled;
+      assert.deepEqual(errors, []);
+      const stage = stages[0]?.stage;
+      assert.ok(stage?.kind === "buffers" && stage.value);
+      const { components, stride, offset, largest } = stage.value;
+      assert.deepEqual([components, largest], [value.components, 2 ** value.bits - 1]);
+      const array = site.arrayOf(stage.value);
+      const values = Array.from({ length: patch.header.wedgeCount * components }, (_, i) => array[Math.floor(i / components) * stride + offset + i % components]);
+      assert.deepEqual(values, Array.from(patch.attributes[value === bits24 ? 2 : 3] ?? assert.fail()));
+      delivery.cancel();
+      assert.equal(site.arrays.size, 0);
+    }
+    for (const value of [{ ...bits24, bits: 16 }, { ...bits24, components: 2 as const }]) {
+      const { stages, errors, settled } = record({ ...plain, attributes: [value, bits3], value }, siteOf(filesOf("others")).pool);
+      await settled;
+      assert.deepEqual([stages.length, errors[0]?.kind], [0, "malformed"]);
+    }
+    const none = { ...plain, attributes: [bits24, bits3, bits24], value: { ...bits24, name: "cold" } };
+    const { stages, errors, settled } = record(none, siteOf(filesOf("others")).pool);
+    await settled;
+    assert.deepEqual([stages.length, errors[0]?.kind], [0, "malformed"]);
+  });
+
   for (const [what, changes] of Object.entries({
     "position bits": { positionBits: "15" }, "a number of vertices": { recordCount: "7" },
     "a number of corners": { vertexCount: "3" }, "a primitive": { primType: "LINES" },

@@ -2,10 +2,10 @@
 // together, and another coarse shapes of all patches, whose parts stand in for them
 // until they are here.
 
-import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
+import type { OtherValues, PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import { DecodeError } from "../decode/decodeError.ts";
 import type { BufferStage, DrawRange, StageName, VertexArray } from "../decode/stage.ts";
-import type { GeometryDescription, PatchDescription } from "../document/description.ts";
+import type { AttributeDescription, GeometryDescription, PatchDescription } from "../document/description.ts";
 import { latticeBitsOf } from "../document/storedFrame.ts";
 import { Holdings } from "./holdings.ts";
 import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
@@ -18,16 +18,20 @@ export function compactBuilder(geometry: GeometryDescription, patch: PatchDescri
   let full: BufferStage | undefined;
   const store = async (name: StageName, buffers: PatchBuffers, draws: readonly DrawRange[], signal: AbortSignal): Promise<BufferStage> => {
     const { index, coord, normal, color, texCoord } = buffers;
+    const value = geometry.value && valuesOf(buffers, geometry, geometry.value);
     const some = (array: VertexArray | undefined) => array && holdings.storeVertices(array, signal);
-    const [ownIndex, ownCoord, ownNormal, ownColor, ownTexCoord] = await Promise.all([
-      index && holdings.storeIndex(index, signal), holdings.storeVertices(coord, signal), some(normal), some(color), some(texCoord),
+    const [ownIndex, ownCoord, ownNormal, ownColor, ownTexCoord, ownValue] = await Promise.all([
+      index && holdings.storeIndex(index, signal), holdings.storeVertices(coord, signal), some(normal), some(color), some(texCoord), some(value?.vertices),
     ]);
     return {
-      kind: "buffers", name, draws, normalCode: { kind: "vector" }, value: undefined,
+      kind: "buffers", name, draws, normalCode: { kind: "vector" },
       index: ownIndex, coord: ownCoord, normal: ownNormal, color: ownColor, texCoord: ownTexCoord,
+      value: value && ownValue && { ...ownValue, largest: 2 ** value.bits - 1 },
     };
   };
-  const retire = (stage: BufferStage | undefined) => { holdings.retire(stage?.index, stage?.coord, stage?.normal, stage?.color, stage?.texCoord); };
+  const retire = (stage: BufferStage | undefined) => {
+    holdings.retire(stage?.index, stage?.coord, stage?.normal, stage?.color, stage?.texCoord, stage?.value);
+  };
   const drop = (role: string) => {
     retire(role === "base" ? standIn : full);
     if (role === "base") standIn = undefined;
@@ -72,9 +76,21 @@ function pieceOf<Piece>(pieces: readonly Piece[], first: number): Piece {
   return piece;
 }
 
+/** Those of the attribute that colours the geometry; undefined in a base that is without. */
+function valuesOf({ others }: PatchBuffers, { attributes }: GeometryDescription, attribute: AttributeDescription): OtherValues | undefined {
+  const values = others[attributes.indexOf(attribute)];
+  if (values !== undefined && values.vertices.components !== attribute.components) {
+    throw new DecodeError("malformed", `has ${values.vertices.components} numbers where "${attribute.name}" has ${attribute.components}`);
+  }
+  return values;
+}
+
 /** What the document says of a patch must be what its file holds: drawing goes by it. */
 function check(buffers: PatchBuffers, geometry: GeometryDescription, { vertexCount, draws }: PatchDescription): void {
   checkBits(buffers, geometry);
+  if (geometry.value && valuesOf(buffers, geometry, geometry.value)?.bits !== geometry.value.bits) {
+    throw new DecodeError("malformed", `holds other values of "${geometry.value.name}" than the document states`);
+  }
   if (vertexCount !== 0 && vertexCount !== buffers.vertexCount) {
     throw new DecodeError("malformed", `holds ${buffers.vertexCount} vertices where the document states ${vertexCount}`);
   }

@@ -131,7 +131,7 @@ class SigCpuBuilder implements StageBuilder {
     const count = coord.bytes.byteLength / byteSizeOf(coord.type) / coord.stride;
     const points = { index: undefined, draws: [{ primitive: "points", first: 0, count } as const] };
     const { index, draws } = (name === "points" ? undefined : here.drawn) ?? points;
-    return { kind: "buffers", name, index, draws, coord, normal, normalCode, color, texCoord, value };
+    return { kind: "buffers", name, index, draws, coord, normal, normalCode, color, texCoord, value: value && { ...value, largest: undefined } };
   }
 
   /** A plane is of use only when all above it are here. */

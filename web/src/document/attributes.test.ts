@@ -34,13 +34,18 @@ describe("a shape's colorBy", () => {
     assert.deepEqual(geometry.patches[0]?.value, [{ url: "f.bin", first: 4, stride: 16 }]);
   });
 
+  test("of compact brings none but its patches', which say of how many bits they must be", () => {
+    const { geometry: { value, patches: [patch] }, shape } = read(`colorBy="heat"`, `<ImageGeometry profile="compact" data="p.png">
+      <FloatVertexAttribute name="heat" numComponents="1" valueBits="24" valueMin="-1" valueSize="3"/></ImageGeometry>`);
+    assert.deepEqual([value?.bits, value?.files, patch?.value, shape.colorMap?.range], [24, 0, [], [-1, 2]]);
+  });
+
   test("that is absent, or names nothing that there is, colours nothing", () => {
     assert.deepEqual(read("").geometry.patches[0]?.value, []);
     assert.deepEqual(read("").messages, []);
     const unknown = read(`colorBy="cold"`);
     assert.equal(unknown.shape.colorMap, undefined);
     assert.deepEqual(unknown.messages, [`colorBy="cold" is no attribute of the geometry`]);
-    assert.equal(read(`colorBy="heat"`, `<ImageGeometry profile="compact" data="p.png"><FloatVertexAttribute name="heat"/></ImageGeometry>`).shape.colorMap, undefined);
   });
 
   test("makes one geometry of one attribute, however often the document is read", () => {

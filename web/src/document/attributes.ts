@@ -8,17 +8,17 @@ import type { Values, Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
 export function readAttributes(element: SceneElement, container: GeometryDescription["container"], warnings: Warning[]): AttributeDescription[] {
-  if (container === "compact") return []; // theirs lie in the patches' files, and are not read
   const elements = childrenOf(element).filter((child) => lowerNameOf(child) === "floatvertexattribute");
   return elements.map((child) => {
     const { name, numComponents, valueBits, valueMin, valueSize } = readFields(child, nodeFields.FloatVertexAttribute, warnings);
     const components = ([1, 2, 3, 4] as const).find((count) => count === numComponents) ?? 4;
-    const files = container === "sig" ? valueBits / 8 : 1;
-    if (components !== numComponents || ![1, 2, 3].includes(files)) {
+    const bits = container === "bg" ? undefined : valueBits;
+    const files = { sig: valueBits / 8, bg: 1, compact: 0 }[container];
+    if (components !== numComponents || (bits !== undefined && ![8, 16, 24].includes(bits))) {
       warnings.push({ element: child, message: `numComponents="${numComponents}" valueBits="${valueBits}" are no numbers that are read` });
     }
     const each = (values: readonly number[], missing: number) => Array.from({ length: components }, (_, c) => values[c] ?? missing);
-    return { name, components, files, min: each(valueMin, 0), size: each(valueSize, 1) };
+    return { name, components, files, bits, min: each(valueMin, 0), size: each(valueSize, 1) };
   });
 }
 

@@ -63,8 +63,10 @@ export interface PatchDescription {
 export interface AttributeDescription {
   readonly name: string;
   readonly components: 1 | 2 | 3 | 4;
-  /** Files that it has in each patch: byte planes, most significant first, or one array. */
+  /** Files that it has in each patch: byte planes, most significant first, or one array; none in compact, whose patches hold it. */
   readonly files: number;
+  /** Bits of a stored integer; undefined: numbers are stored as they are. */
+  readonly bits: number | undefined;
   /** By component: the box that stored integers are spread over, or that numbers lie in. */
   readonly min: readonly number[];
   readonly size: readonly number[];

@@ -5,7 +5,7 @@
 import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "three";
 import { Vector3 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
-import type { Stage } from "../decode/stage.ts";
+import type { Stage, ValuePlanes } from "../decode/stage.ts";
 import { mostMapColors } from "../document/colorMaps.ts";
 import type { AttributeDescription, ColorMapDescription } from "../document/description.ts";
 import { imageVerticesDefine, replaceEach, srgbColorsDefine, toLinearChunk } from "./vertexChunk.ts";
@@ -40,10 +40,20 @@ export function valueDefinesOf(stage: Stage, attribute: AttributeDescription | u
 
 export function valueUniformsOf(stage: Stage, attribute: AttributeDescription | undefined,
                                 textureOf: (image: DecodedImage) => Texture): Record<string, IUniform> {
-  if (attribute === undefined || stage.kind !== "textures" || stage.value === undefined) return {};
-  const { planes, planeCount, middleOfMissing } = stage.value;
+  if (attribute === undefined || stage.value === undefined) return {};
+  if (stage.kind === "buffers") return frameOf(attribute, stage.value.largest);
+  return { ...frameOf(attribute, 256 ** stage.value.planeCount - 1), ...imageUniformsOf(stage.value, textureOf) };
+}
+
+/** What a stored 0 is, and a step. */
+function frameOf({ min, size }: AttributeDescription, largest: number | undefined): Record<string, IUniform> {
+  const four = (values: readonly number[], missing: number) => [0, 1, 2, 3].map((c) => values[c] ?? missing);
+  if (largest === undefined) return { valueMin: { value: four([], 0) }, valueStep: { value: four([], 1) } };
+  return { valueMin: { value: four(min, 0) }, valueStep: { value: four(size.map((extent) => extent / largest), 0) } };
+}
+
+function imageUniformsOf({ planes, planeCount, middleOfMissing }: ValuePlanes, textureOf: (image: DecodedImage) => Texture): Record<string, IUniform> {
   const image = (plane: number) => ({ value: planes[plane] ? textureOf(planes[plane].image) : null });
-  const four = (values: readonly number[]) => [0, 1, 2, 3].map((c) => values[c] ?? 0);
   return {
     valueImage0: image(0),
     valueImage1: image(1),
@@ -51,8 +61,6 @@ export function valueUniformsOf(stage: Stage, attribute: AttributeDescription | 
     valueFirstTexels: { value: [0, 1, 2].map((plane) => planes[plane]?.first ?? 0) },
     valuePlanes: { value: planeCount },
     middleOfMissingValue: { value: middleOfMissing },
-    valueMin: { value: four(attribute.min) },
-    valueStep: { value: four(attribute.size.map((size) => size / (256 ** planeCount - 1))) },
   };
 }
 
@@ -60,6 +68,7 @@ const vertexChunk = /* glsl */ `
 #ifdef VALUE_COMPONENTS
 
 varying float vValue;
+uniform vec4 valueMin, valueStep;
 
 #ifdef ${imageVerticesDefine}
 
@@ -67,7 +76,6 @@ uniform sampler2D valueImage0, valueImage1, valueImage2;
 uniform ivec3 valueFirstTexels;
 uniform int valuePlanes;
 uniform float middleOfMissingValue;
-uniform vec4 valueMin, valueStep;
 
 uvec4 valueBytes(sampler2D image, int first, int n) {
   return uvec4(texelOf(image, first, n) * 255.0 + 0.5);
@@ -86,7 +94,7 @@ vec4 readValues() {
 attribute vec4 vertexValue;
 
 vec4 readValues() {
-  return vertexValue;
+  return valueMin + valueStep * vertexValue;
 }
 
 #endif

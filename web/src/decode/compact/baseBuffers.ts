@@ -30,6 +30,7 @@ export function baseBuffersOf(base: CompactPatch): BaseBuffers {
     return {
       ...vertices, vertexCount: used.length, index: indexOf(corners, used.length),
       coord: gather(vertices.coord, used), normal: some(vertices.normal), color: some(vertices.color), texCoord: some(vertices.texCoord),
+      others: vertices.others.map((other) => ({ ...other, vertices: gather(other.vertices, used) })),
     };
   });
 }

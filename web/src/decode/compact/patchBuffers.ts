@@ -19,12 +19,20 @@ export interface PatchBuffers {
   /** Shares of a type's largest value, as texture coordinates. */
   readonly color: VertexArray | undefined;
   readonly texCoord: VertexArray | undefined;
+  /** Further attributes, in the order of the file. */
+  readonly others: readonly OtherValues[];
+}
+
+/** Integers 0 … 2^bits - 1. */
+export interface OtherValues {
+  readonly bits: number;
+  readonly vertices: VertexArray;
 }
 
 /** An index of 65,535 restarts primitives where it is the largest of its type. */
 const mostShortVertices = 65535;
 
-/** Of each kind of attribute the first is shown. */
+/** Of normals, colours and texture coordinates the first are shown. */
 export function buffersOf(patch: CompactPatch): PatchBuffers {
   return { ...verticesOf(patch), index: patch.header.topology === "points" ? undefined : orderedIndexOf(patch) };
 }
@@ -47,6 +55,7 @@ export function verticesOf(patch: CompactPatch): Omit<PatchBuffers, "index"> {
     }),
     color: attribute("color", sharesOf),
     texCoord: attribute("texCoord", sharesOf),
+    others: header.attributes.flatMap((type, place) => (type.kind === "other" ? [othersOf(patch.attributes[place]!, type)] : [])),
   };
 }
 
@@ -89,7 +98,15 @@ function sharesOf(values: Int32Array, { components, bits }: AttributeType): Vert
   return interleaved(values, components as 2 | 3 | 4, array, largest / (2 ** bits - 1));
 }
 
-function interleaved(values: Int32Array, components: 2 | 3 | 4, array: ElementArray, factor: number): VertexArray {
+function othersOf(values: Int32Array, { components, bits }: AttributeType): OtherValues {
+  const count = values.length / components;
+  const stride = 4 * Math.ceil(components / 4);
+  const array = bits <= 8 ? new Uint8Array(stride * count) : bits <= 16 ? new Uint16Array(components <= 2 ? 2 * count : stride * count)
+    : new Float32Array(components * count);
+  return { bits, vertices: interleaved(values, components as 1 | 2 | 3 | 4, array, 1) };
+}
+
+function interleaved(values: Int32Array, components: 1 | 2 | 3 | 4, array: ElementArray, factor: number): VertexArray {
   const count = values.length / components;
   const stride = array.length / count;
   if (factor !== 1) {
