@@ -2,8 +2,8 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { shapesOf } from "./description.ts";
 import { elementsOf } from "./elements.testing.ts";
-import { GeometryMemory } from "./geometryMemory.ts";
 import { readScene } from "./readScene.ts";
+import { SceneReader } from "./sceneReader.ts";
 
 const geometry = `<ImageGeometry>
   <FloatVertexAttribute name="heat" numComponents="1" valueBits="16" valueMin="-2" valueSize="5"/>
@@ -51,11 +51,13 @@ describe("a shape's colorBy", () => {
   test("makes one geometry of one attribute, however often the document is read", () => {
     const scene = elementsOf(`<X3D><Shape colorBy="heat">${geometry.replace("<ImageGeometry", `<ImageGeometry DEF="g"`)}</Shape>
       <Shape colorBy="heat" colorMap="gray"><ImageGeometry USE="g"/></Shape><Shape colorBy="flow"><ImageGeometry USE="g"/></Shape></X3D>`);
-    const memory = new GeometryMemory();
-    const [first, second, third] = shapesOf(readScene(scene, memory).root);
+    const reader = new SceneReader(scene);
+    const [first, second, third] = shapesOf(reader.read().root);
     assert.equal(first?.geometry, second?.geometry);
     assert.notEqual(first?.geometry, third?.geometry);
-    assert.equal(shapesOf(readScene(scene, memory).root)[0]?.geometry, first?.geometry);
+    reader.touch(scene);
+    for (const shape of scene.children) reader.touch(shape);
+    assert.equal(shapesOf(reader.read().root)[0]?.geometry, first?.geometry);
   });
 
   test("takes its colours from a map by name or from a list", () => {

@@ -4,9 +4,9 @@ import type { GeometryDescription, NodeDescription, SceneDescription, ShapeDescr
 import { shapesOf, viewpointsOf } from "./description.ts";
 import { elementsOf } from "./elements.testing.ts";
 import { referenceOf } from "./geometry.ts";
-import { GeometryMemory } from "./geometryMemory.ts";
 import { nodeFields } from "./nodes.ts";
 import { readScene } from "./readScene.ts";
+import { SceneReader } from "./sceneReader.ts";
 import { middleOfMissing, storedFrameOf } from "./storedFrame.ts";
 
 function sceneOf(markup: string): SceneDescription {
@@ -287,20 +287,20 @@ describe("what is read again", () => {
   const x3d = elementsOf(`<X3D><Shape>${patches}</Shape></X3D>`);
   const element = x3d.children[0]?.children[0];
   assert.ok(element);
-  const geometries = new GeometryMemory();
-  const read = () => shapesOf(readScene(x3d, geometries).root)[0]?.geometry;
+  const reader = new SceneReader(x3d);
+  const read = () => shapesOf(reader.read().root)[0]?.geometry;
   const first = read();
 
   test("is the same object where nothing has changed, even if it might have", () => {
     assert.ok(first);
     assert.equal(read(), first);
-    geometries.touch(element);
+    reader.touch(element);
     assert.equal(read(), first);
   });
 
   test("is another one where something has", () => {
     element.attributes.set("solid", "true");
-    geometries.touch(element);
+    reader.touch(element);
     assert.equal(read()?.solid, true);
     assert.notEqual(read(), first);
     assert.equal(read(), read());

@@ -2,37 +2,77 @@
 // to the next: a geometry that did not change, and one that several shapes USE,
 // is one and the same object, so that comparing geometries is comparing objects.
 
-import { withValues } from "./attributes.ts";
 import type { GeometryDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
+import type { Warning } from "./nodes.ts";
+
+/** The element that a DEF names. */
+export type Lookup = (name: string) => SceneElement | undefined;
+
+/** Makes a geometry of an element, or nothing of what is none. */
+export type ReadGeometry = (element: SceneElement, lookup: Lookup, warnings: Warning[]) => GeometryDescription | undefined;
+
+interface Remembered {
+  readonly geometry: GeometryDescription;
+  readonly warnings: readonly Warning[];
+  /** What parts of it USE. */
+  readonly names: readonly string[];
+  /** In which reading it was made, or found to be as before. */
+  checkedIn: number;
+}
 
 export class GeometryMemory {
-  readonly #known = new WeakMap<SceneElement, GeometryDescription>();
-  readonly #withValues = new WeakMap<GeometryDescription, Map<string, GeometryDescription>>();
+  readonly #known = new WeakMap<SceneElement, Remembered>();
+  readonly #variants = new WeakMap<GeometryDescription, Map<string, GeometryDescription>>();
   #touched = new WeakSet<SceneElement>();
+  #reading = 0;
+
+  /** Another reading of the document begins. */
+  begin(): void {
+    this.#reading += 1;
+  }
 
   /** Says that the element, or something in it, may have changed. */
   touch(element: SceneElement): void {
     this.#touched.add(element);
   }
 
-  /** What `read` makes of the element, which is called only where that is not known; undefined for what is no geometry. */
-  recall(element: SceneElement, read: () => GeometryDescription | undefined): GeometryDescription | undefined {
+  /** What `read` makes of the element, which is called only where that is not known; `lookup` is asked for all that it USEs either way. */
+  recall(element: SceneElement, lookup: Lookup, warnings: Warning[], read: ReadGeometry): GeometryDescription | undefined {
     const known = this.#known.get(element);
-    if (known !== undefined && !this.#touched.delete(element)) return known;
-    const fresh = read();
-    if (fresh === undefined) return undefined;
-    if (known !== undefined && JSON.stringify(known) === JSON.stringify(fresh)) return known;
-    this.#known.set(element, fresh);
-    return fresh;
+    if (known !== undefined && this.#isSure(element, known)) {
+      known.names.forEach(lookup);
+      warnings.push(...known.warnings);
+      return known.geometry;
+    }
+    const names: string[] = [];
+    const own: Warning[] = [];
+    const fresh = read(element, (name) => {
+      names.push(name);
+      return lookup(name);
+    }, own);
+    warnings.push(...own);
+    this.#touched.delete(element);
+    if (fresh === undefined) {
+      this.#known.delete(element);
+      return undefined;
+    }
+    const geometry = known !== undefined && JSON.stringify(known.geometry) === JSON.stringify(fresh) ? known.geometry : fresh;
+    this.#known.set(element, { geometry, warnings: own, names, checkedIn: this.#reading });
+    return geometry;
   }
 
-  /** The geometry with the values of its attribute of that name; as it is where it has none. */
-  withValues(geometry: GeometryDescription, name: string): GeometryDescription {
-    const byName = this.#withValues.get(geometry) ?? new Map<string, GeometryDescription>();
-    this.#withValues.set(geometry, byName);
-    const known = byName.get(name) ?? withValues(geometry, name) ?? geometry;
-    byName.set(name, known);
+  /** What `make` makes of the geometry, which is called once for each key; the geometry itself where that is nothing. */
+  variant(geometry: GeometryDescription, key: string, make: (geometry: GeometryDescription) => GeometryDescription | undefined): GeometryDescription {
+    const variants = this.#variants.get(geometry) ?? new Map<string, GeometryDescription>();
+    this.#variants.set(geometry, variants);
+    const known = variants.get(key) ?? make(geometry) ?? geometry;
+    variants.set(key, known);
     return known;
+  }
+
+  /** What it USEs stands elsewhere, and may have changed there: once a reading it is read anew. */
+  #isSure(element: SceneElement, { names, checkedIn }: Remembered): boolean {
+    return checkedIn === this.#reading || (!this.#touched.has(element) && names.length === 0);
   }
 }

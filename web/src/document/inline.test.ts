@@ -26,7 +26,7 @@ describe("Inline", () => {
     const page = elementsOf(`<X3D><Scene>${shape("own", 'DEF="S"')}<Transform translation="1 0 0"><Inline id="in" url='"a.x3d"'/></Transform>
       <Inline url="lost.x3d"/><Switch whichChoice="-1"><Inline url='"b.x3d"'/></Switch><Inline load="false" url='"c.x3d"'/></Scene></X3D>`);
     const inlined = reader({ "a.x3d": `<X3D><Scene>${shape("inner", 'DEF="S"')}<Shape USE="S"/><NavigationInfo headlight="false"/></Scene></X3D>` });
-    const scene = readScene(page, undefined, { inlined });
+    const scene = readScene(page, { inlined });
     assert.deepEqual(shapesOf(scene.root).map(({ element, host }) => [element.getAttribute("id"), host.getAttribute("id")]),
       [["own", "own"], ["inner", "in"], [null, "in"]]);
     assert.equal(scene.navigation.headlight, true, "of the whole scene it says nothing");
@@ -36,11 +36,11 @@ describe("Inline", () => {
 
   test("ends where documents inline one another in a circle, or too deeply", () => {
     const circle = reader({ "a.x3d": `<X3D><Inline url="b.x3d"/>${shape("a")}</X3D>`, "b.x3d": `<X3D><Inline url="a.x3d"/>${shape("b")}</X3D>` });
-    const scene = readScene(elementsOf('<X3D><Inline url="a.x3d"/></X3D>'), undefined, { inlined: circle });
+    const scene = readScene(elementsOf('<X3D><Inline url="a.x3d"/></X3D>'), { inlined: circle });
     assert.deepEqual(shapesOf(scene.root).map(({ element }) => element.getAttribute("id")), ["b", "a"]);
     assert.deepEqual(scene.warnings.map(({ message }) => message), ["names a.x3d, which it stands in itself"]);
     const chain = reader(Object.fromEntries(Array.from({ length: 40 }, (_, i) => [`${i}`, `<X3D><Inline url="${i + 1}"/></X3D>`])));
-    const deep = readScene(elementsOf('<X3D><Inline url="0"/></X3D>'), undefined, { inlined: chain });
+    const deep = readScene(elementsOf('<X3D><Inline url="0"/></X3D>'), { inlined: chain });
     assert.match(deep.warnings[0]?.message ?? "", /more than 16 documents deep/);
   });
 

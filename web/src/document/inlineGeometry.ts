@@ -61,11 +61,11 @@ const primitives: Readonly<Record<string, Drawn["primitive"]>> = { indexedlinese
 /** Undefined for nodes that are none of the geometries we draw, and for those without elements. */
 export function readInlineGeometry(element: SceneElement, resolve: Resolve, warnings: Warning[]): GeometryDescription | undefined {
   const name = lowerNameOf(element);
-  const solid = solids[name]?.(element, warnings);
+  const readSolid = solids[name], readRuns = runReaders[name], readSurface = surfaces[name];
+  if (!readSolid && !readRuns && !readSurface) return undefined;
+  const solid = readSolid?.(element, warnings);
   const fields = readFields(element, nodeFields.InlineGeometry, solid ? [] : warnings);
   if (solid) return describe(drawn("triangles", solid.data, fansOf(solid.faces)), fields.solid);
-  const readRuns = runReaders[name], readSurface = surfaces[name];
-  if (readRuns === undefined && readSurface === undefined) return undefined;
   const given = vertexDataOf(element, resolve, warnings);
   const surface = readSurface?.(element, given, warnings);
   if (readSurface && !surface) warnings.push({ element, message: "its numbers make no surface; nothing is drawn" });

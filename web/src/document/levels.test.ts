@@ -27,7 +27,7 @@ describe("levels of detail", () => {
   test("are read as a choice, of which nothing but the chosen is seen", () => {
     const x3d = elementsOf(`<X3D><Scene><LOD range="5 50" center="1 2 3"><Shape id="a"><Box/></Shape><Group><Shape id="b"><Box/></Shape></Group>
       <Shape id="c"><Box/></Shape></LOD></Scene></X3D>`);
-    const seenAt = (level: number | undefined) => shapesOf(readScene(x3d, undefined, { levelOf: () => level }).root)
+    const seenAt = (level: number | undefined) => shapesOf(readScene(x3d, { levelOf: () => level }).root)
       .filter(({ visible }) => visible).map(({ element }) => element.getAttribute("id"));
     assert.deepEqual(seenAt(undefined), ["c"]);
     assert.deepEqual([0, 1, 2, 9].map(seenAt), [["a"], ["b"], ["c"], ["c"]]);

@@ -17,8 +17,8 @@ const documentWeight = 2 ** 24;
 const expectedBytes = 30_000;
 
 export interface InlinesListener {
-  /** Something has come: the scene is to be read anew. */
-  onChange(): void;
+  /** Something has come: the Inline is to be read anew. */
+  onChange(inline: SceneElement): void;
   onError(error: DeliveryError, inline: Element, loading: Loading): void;
 }
 
@@ -121,7 +121,7 @@ export class Inlines {
     if (followed.document !== undefined) followed.loading.reach("full");
     else if (failure !== undefined) this.#listener.onError(failure, element, followed.loading);
     followed.loading.settle();
-    this.#listener.onChange();
+    this.#listener.onChange(element);
   }
 
   async #documentAt(url: string, followed: Followed, priority: number): Promise<InlinedDocument> {

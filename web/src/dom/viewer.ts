@@ -11,8 +11,7 @@ import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { InlineDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import { GeometryMemory } from "../document/geometryMemory.ts";
-import { readScene } from "../document/readScene.ts";
+import { SceneReader } from "../document/sceneReader.ts";
 import type { NavigatedScene } from "../navigation/navigator.ts";
 import { Navigator } from "../navigation/navigator.ts";
 import type { PlacedLevels } from "../navigation/placement.ts";
@@ -63,7 +62,7 @@ export class Viewer {
   readonly #deliveries: SharedDeliveries;
   readonly #textures: TextureDeliveries;
   readonly #workers = pageWorkers();
-  readonly #geometries = new GeometryMemory();
+  readonly #reader: SceneReader;
   readonly #shapes: ShapeLoads;
   readonly #inlines: Inlines;
   readonly #levels = new ChosenLevels();
@@ -122,14 +121,23 @@ export class Viewer {
       maySettle: () => this.#trial !== "due" && this.#trial !== "running",
     });
     this.#inlines = new Inlines(this.#pool, resolve, {
-      onChange: () => { this.#readDocument(); },
+      onChange: (inline) => {
+        this.#reader.touch(inline);
+        this.#readDocument();
+      },
       onError: (error, element, loading) => { this.#fail(error, element, loading); },
+    });
+    this.#reader = new SceneReader(x3d, {
+      inlined: (inline) => this.#inlines.documentOf(inline), levelOf: (lod) => this.#levels.levelOf(lod),
     });
     this.#steering = new Steering(this.renderer, { geometries: this.#deliveries, textures: this.#textures }, () => { this.#onSteered(); });
     this.#observer = new MutationObserver((all) => {
       const records = all.filter(({ target }) => isOfScene(target, x3d));
       if (records.length === 0) return;
-      for (const { target } of records) this.#touchAround(target);
+      for (const { target, type } of records) {
+        if (type === "childList") this.#reader.rearrange(target as Element);
+        else this.#reader.touch(target as Element);
+      }
       this.#readDocument();
       for (const { target, attributeName } of records) this.#followBind(target as Element, attributeName);
     });
@@ -214,9 +222,7 @@ export class Viewer {
 
   /** `round`: how often it has been read for the levels of the reading before. */
   #readDocument(round = 0): void {
-    const scene = readScene(this.#x3d, this.#geometries, {
-      inlined: (inline) => this.#inlines.documentOf(inline), levelOf: (lod) => this.#levels.levelOf(lod),
-    });
+    const scene = this.#reader.read();
     const places = shapesOf(scene.root);
     const described = new Map(places.map((shape) => [shape.element, shape]));
     const leave = this.#shapes.keep(described);
@@ -241,15 +247,10 @@ export class Viewer {
 
   /** The scene is another where a LOD shows another level. */
   #followLevels(round = 0): void {
-    const hasChanged = this.#built !== undefined && this.#levels.follow(this.#built.levels, this.navigator.pose.position);
-    if (hasChanged && round < mostNestedLevels) this.#readDocument(round + 1);
-  }
-
-  /** The geometry that this is, or is a part of, may have changed. */
-  #touchAround(changed: Node): void {
-    for (let node: Node | null = changed; node !== null && node !== this.#x3d; node = node.parentNode) {
-      this.#geometries.touch(node as Element);
-    }
+    if (this.#built === undefined || round > mostNestedLevels) return;
+    const changed = this.#levels.follow(this.#built.levels, this.navigator.pose.position);
+    for (const lod of changed) this.#reader.touch(lod);
+    if (changed.length > 0) this.#readDocument(round + 1);
   }
 
   /** set_bind is an event: it counts whenever it is written, even if it reads as before. */

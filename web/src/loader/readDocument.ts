@@ -11,5 +11,5 @@ export function readDocument(text: string, url: string): SceneDescription {
   const x3d = parsed.querySelector("X3D, x3d");
   if (x3d === null) throw new Error(`${url} has no X3D element`);
   // What is near and far an app knows for itself: it gets the first level, the finest.
-  return readScene(x3d, undefined, { levelOf: () => 0 });
+  return readScene(x3d, { levelOf: () => 0 });
 }

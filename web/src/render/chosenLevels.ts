@@ -14,22 +14,22 @@ export class ChosenLevels {
     return this.#chosen.get(lod);
   }
 
-  /** One that stands in several places shows what the nearest of them needs. True where another level is to be seen than before. */
-  follow(placed: readonly PlacedLevels[], viewer: Vector3): boolean {
+  /** One that stands in several places shows what the nearest of them needs. Those of which another level is to be seen than before. */
+  follow(placed: readonly PlacedLevels[], viewer: Vector3): readonly SceneElement[] {
     const nearest = new Map<SceneElement, { levels: PlacedLevels; distance: number }>();
     for (const levels of placed) {
       const distance = distanceFrom(levels, viewer);
       if (distance < (nearest.get(levels.element)?.distance ?? Infinity)) nearest.set(levels.element, { levels, distance });
     }
-    let hasChanged = false;
+    const changed: SceneElement[] = [];
     for (const [element, { levels: { range, count }, distance }] of nearest) {
       const before = this.#chosen.get(element);
       const level = levelAt(distance, range, count, before);
       // Unknown ones show their last.
-      hasChanged ||= level !== (before ?? count - 1);
+      if (level !== (before ?? count - 1)) changed.push(element);
       this.#chosen.set(element, level);
     }
-    return hasChanged;
+    return changed;
   }
 }
 

@@ -1,0 +1,106 @@
+// A Shape -> what it is, for itself: what groups around it hand down is not in it.
+
+import { colorMapOf, withValues } from "./attributes.ts";
+import { readAppearance } from "./appearance.ts";
+import type { Box3, GeometryDescription, ShapeDescription } from "./description.ts";
+import type { SceneElement } from "./element.ts";
+import { attributeOf, childrenOf, inPlaceOf, lowerNameOf } from "./element.ts";
+import type { Vec3 } from "./fieldTypes.ts";
+import { boxAround, boxOf, isUnbounded, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
+import type { GeometryMemory, Lookup } from "./geometryMemory.ts";
+import { readInlineGeometry } from "./inlineGeometry.ts";
+import type { Warning } from "./nodes.ts";
+import { nodeFields, readFields } from "./nodes.ts";
+
+/** What reading a shape needs besides its element. */
+export interface ShapeReading {
+  readonly geometries: GeometryMemory;
+  readonly lookup: Lookup;
+  readonly warnings: Warning[];
+}
+
+/** `element` is the shape's identity, `host` the page's element for it, `node` what describes it: the same but for USE. */
+export function readShape(element: SceneElement, host: SceneElement, node: SceneElement, reading: ShapeReading): ShapeDescription {
+  const { warnings } = reading;
+  const values = readFields(node, nodeFields.Shape, warnings);
+  const parts = childrenOf(node);
+  const ownBox = boxOf(values);
+  const [geometry, priorityOfGeometry] = readGeometryOf(parts, reading, ownBox, values.colorBy);
+  const nodesIn = (part: SceneElement) => childrenOf(part).flatMap((child) => {
+    const used = usedBy(child, reading);
+    return used === undefined ? [] : [inPlaceOf(child, used)];
+  });
+  const appearance = firstOf(parts, reading, (part) => (lowerNameOf(part) === "appearance" ? part : undefined));
+  const isSeen = values.visible && values.render;
+  return {
+    kind: "shape", element, geometry, host,
+    colorMap: colorMapOf(node, values, geometry, warnings),
+    visible: isSeen, reaches: isSeen, priority: values.priority * priorityOfGeometry, isPickable: values.isPickable,
+    box: ownBox ?? (geometry && boxOfGeometry(geometry)),
+    appearance: readAppearance(appearance, nodesIn, warnings),
+  };
+}
+
+/** The geometry of a shape that has these parts, with its priority: beside it, as with another it is the same geometry. */
+function readGeometryOf(parts: readonly SceneElement[], reading: ShapeReading, box: Box3 | undefined,
+                        colorBy: string): readonly [geometry: GeometryDescription | undefined, priority: number] {
+  const { geometries, lookup, warnings } = reading;
+  const found = firstOf(parts, reading, (part) => {
+    const geometry = geometries.recall(part, lookup, warnings, readGeometry);
+    return geometry && { part, geometry };
+  });
+  if (found === undefined) return [undefined, 1];
+  const { priority } = readFields(found.part, { priority: nodeFields.ImageGeometry.priority }, []);
+  const boxed = box === undefined ? found.geometry : geometries.variant(found.geometry, JSON.stringify(box), (plain) => withBox(plain, box));
+  return [colorBy === "" ? boxed : geometries.variant(boxed, colorBy, (plain) => withValues(plain, colorBy)), priority];
+}
+
+const geometryReaders: Readonly<Record<string, typeof readImageGeometry>> = {
+  imagegeometry: readImageGeometry, binarygeometry: readBinaryGeometry,
+};
+
+/** Undefined for what is no geometry. */
+function readGeometry(element: SceneElement, lookup: Lookup, warnings: Warning[]): GeometryDescription | undefined {
+  const resolve = (part: SceneElement) => {
+    const name = attributeOf(part, "USE");
+    return name === undefined ? part : lookup(name);
+  };
+  return geometryReaders[lowerNameOf(element)]?.(element, warnings) ?? readInlineGeometry(element, resolve, warnings);
+}
+
+/** The shape's box is that of a geometry's only patch which says nothing of its own. */
+function withBox(geometry: GeometryDescription, box: Box3): GeometryDescription | undefined {
+  const [patch, ...others] = geometry.patches;
+  if (!patch || patch.box || others.length > 0) return undefined;
+  return { ...geometry, patches: [{ ...patch, box }] };
+}
+
+/** The element, or what its USE names; undefined where that is nothing. */
+function usedBy(element: SceneElement, { lookup, warnings }: ShapeReading): SceneElement | undefined {
+  const name = attributeOf(element, "USE");
+  if (name === undefined) return element;
+  const node = lookup(name);
+  if (node === undefined) warnings.push({ element, message: `USE="${name}" names no DEF of this scene` });
+  return node;
+}
+
+function firstOf<Result>(elements: readonly SceneElement[], reading: ShapeReading,
+                         read: (element: SceneElement) => Result | undefined): Result | undefined {
+  for (const element of elements) {
+    const used = usedBy(element, reading);
+    const result = used && read(used);
+    if (result !== undefined) return result;
+  }
+  return undefined;
+}
+
+/** The union of the patches' boxes; undefined where only vertices can tell; the decode box, which holds them all, where one of them has none. */
+function boxOfGeometry(geometry: GeometryDescription): Box3 | undefined {
+  if (geometry.patches.some((patch) => isUnbounded(geometry, patch))) return undefined;
+  const boxes = geometry.patches.map((patch) => patch.box);
+  const known = boxes.filter((box) => box !== undefined);
+  if (known.length === 0 || known.length < boxes.length) return boxAround(geometry.position, geometry.size);
+  const along = (pick: (box: Box3) => Vec3, choose: (...values: number[]) => number): Vec3 =>
+    [0, 1, 2].map((axis) => choose(...known.map((box) => pick(box)[axis] ?? 0))) as unknown as Vec3;
+  return { min: along((box) => box.min, Math.min), max: along((box) => box.max, Math.max) };
+}
