@@ -104,7 +104,8 @@ Measured measure(const PatchedMesh& mesh, const Order& order, const EncodeOption
 }
 
 void printTable(const std::string& path, const EncodeOptions& options) {
-  const Order orders[] = {{"source", asInSource}, {"strips", asStrips}, {"fans", asTriangles}};
+  const auto strips = [&](const Patch& patch) { return asStrips(patch, options.effort); };
+  const Order orders[] = {{"source", asInSource}, {"strips", strips}, {"fans", asTriangles}};
   bench::visitSurfaces(path, [&](const Mesh& mesh) {
     const double triangles = static_cast<double>(mesh.elementCount());
     const PatchedMesh patches = bench::patchesOf(mesh);

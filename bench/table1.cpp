@@ -121,7 +121,7 @@ void add(const IndexedPatch& patch, const PatchedMesh& mesh, const EncodeOptions
 std::array<Measured, 4> measure(const PatchedMesh& mesh, const EncodeOptions& options) {
   std::array<Measured, 4> rows;
   for (const Patch& patch : mesh.patches) {
-    const IndexedPatch triangles = asTriangles(patch), strips = asStrips(patch);
+    const IndexedPatch triangles = asTriangles(patch), strips = asStrips(patch, options.effort);
     add(withoutIndices(triangles), mesh, options, rows[0]);
     add(withoutIndices(strips), mesh, options, rows[1]);
     add(triangles, mesh, options, rows[2]);

@@ -139,9 +139,9 @@ IndexedPatch asTriangles(const Patch& patch) {
   return drawWedges(patch, Primitive::triangles, inFanOrder(patch));
 }
 
-IndexedPatch asStrips(const Patch& patch) {
+IndexedPatch asStrips(const Patch& patch, int effort) {
   assert(patch.topology == Topology::triangles);
-  Strips strips = makeStrips(inFanOrder(patch), patch.wedgeCount());
+  Strips strips = makeStrips(inFanOrder(patch), patch.wedgeCount(), effort);
   if (strips.strip.empty() && strips.triangles.empty())
     return asTriangles(patch); // all of them degenerate: something has to stand in the patch
   std::vector<Draw> draws;

@@ -144,8 +144,8 @@ TEST(Triangles, ComeInFansOfTheirFirstVertex) {
 }
 
 TEST(Strips, DrawThePatchsTriangles) {
-  for (const Patch& patch : everyKindOfPatch()) {
-    const IndexedPatch result = asStrips(patch);
+  for (int effort = 0; const Patch& patch : everyKindOfPatch()) {
+    const IndexedPatch result = asStrips(patch, effort++ % 10);
     expectWhole(result);
     expectNumberedByFirstUse(result);
     EXPECT_TRUE(trianglesIn(result) == trianglesIn(patch, Degenerate::dropped));
@@ -167,7 +167,7 @@ std::vector<Triangle> withArea(std::vector<Triangle> triangles) {
 TEST(WithoutIndices, TheTrianglesAreTheSame) {
   for (const Patch& patch : everyKindOfPatch()) {
     const std::vector<Triangle> expected = withArea(trianglesIn(patch, Degenerate::dropped));
-    for (const IndexedPatch& arranged : {asTriangles(patch), asStrips(patch)}) {
+    for (const IndexedPatch& arranged : {asTriangles(patch), asStrips(patch, 0)}) {
       const IndexedPatch result = withoutIndices(arranged);
       expectWhole(result);
       EXPECT_TRUE(result.indices.empty());
@@ -179,16 +179,21 @@ TEST(WithoutIndices, TheTrianglesAreTheSame) {
 
 TEST(Strips, TakeFewerIndicesThanTriangles) {
   for (const Patch& patch : {patchOf(testing::grid(50)), patchOf(testing::sphere(50, 50))}) {
-    const double perTriangle =
-        static_cast<double>(asStrips(patch).indices.size()) / static_cast<double>(patch.elementCount());
-    EXPECT_LT(perTriangle, 1.2);
+    const auto perTriangle = [&](int effort) {
+      return static_cast<double>(asStrips(patch, effort).indices.size()) /
+             static_cast<double>(patch.elementCount());
+    };
+    EXPECT_LE(perTriangle(9), perTriangle(5));
+    EXPECT_LT(perTriangle(5), 1.2);
+    EXPECT_LT(perTriangle(5), perTriangle(0));
+    EXPECT_LT(perTriangle(0), 1.3);
   }
 }
 
 TEST(Strips, AreCloseToTheFewestIndicesThatSurfacesAllow) {
   // A vertex of valence v stands in a strip v / 3 times at least: docs/decisions/strips.md.
   for (const Patch& patch : {patchOf(testing::grid(80)), patchOf(testing::torus(100, 60))}) {
-    const IndexedPatch strips = asStrips(patch);
+    const IndexedPatch strips = asStrips(patch, 9);
     EXPECT_LT(static_cast<double>(strips.indices.size()), 1.08 * static_cast<double>(patch.elementCount()));
   }
 }
@@ -203,7 +208,7 @@ TEST(Strips, LeaveLoneTrianglesToADrawOfTheirOwnWhereTheyAreMany) {
       testing::addTriangle(mesh, first, first + 1, first + 2);
     }
     testing::addPlainWedges(mesh);
-    return asStrips(patchOf(mesh));
+    return asStrips(patchOf(mesh), 9);
   };
   const IndexedPatch few = joined(5), many = joined(500);
   ASSERT_EQ(few.draws.size(), 1u);
@@ -216,7 +221,7 @@ TEST(Strips, OfDegenerateTrianglesAloneAreThese) {
   Mesh mesh = testing::grid(1);
   mesh.corners = {0, 1, 1, 2, 2, 3};
   const Patch patch = patchOf(mesh);
-  const IndexedPatch result = asStrips(patch);
+  const IndexedPatch result = asStrips(patch, 9);
   expectWhole(result);
   EXPECT_GT(result.vertexCount(), 0u);
   EXPECT_TRUE(trianglesOf(result).empty());

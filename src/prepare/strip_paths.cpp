@@ -6,15 +6,20 @@
 #include "prepare/dual_graph.h"
 #include "prepare/strip_links.h"
 
+#include <cassert>
+
 namespace imgeo {
 
 namespace {
 
-/// Cools from where paths move freely to where hardly anything dearer is drawn. In
-/// factors, not temperatures: no machine rounds a power differently.
-void anneal(StripLinks& links) {
-  constexpr float hot = 0.65f, cold = 0.37f; // the weight of a quarter of an index
-  constexpr int sweeps = 128;
+/// By effort: time grows as they do.
+constexpr int sweepsAt[] = {2, 3, 4, 5, 6, 8, 16, 32, 64, 128};
+
+/// Cools from where paths move freely to where hardly anything dearer is drawn; a short
+/// search has no time for so hot a beginning. In factors, not temperatures: no machine
+/// rounds a power differently.
+void anneal(StripLinks& links, int sweeps) {
+  const float hot = sweeps < 64 ? 0.5f : 0.65f, cold = 0.37f; // the weight of a quarter of an index
   RepeatableRandom random;
   for (int sweep = 0; sweep < sweeps; ++sweep)
     links.redraw(hot + (cold - hot) * static_cast<float>(sweep) / static_cast<float>(sweeps - 1), random);
@@ -70,9 +75,10 @@ private:
 } // namespace
 
 StripPaths findStripPaths(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> across,
-                          std::size_t vertexCount) {
+                          std::size_t vertexCount, int effort) {
+  assert(effort >= 0 && effort <= 9);
   StripLinks links(corners, across, vertexCount);
-  anneal(links);
+  anneal(links, sweepsAt[effort]);
   links.openRings();
   return PathReader(links, corners, across).run();
 }

@@ -31,9 +31,9 @@ constexpr std::size_t fewestSeparate = 32;
 /// can be; a path of one triangle is a line between any two of its corners.
 class Stitcher {
 public:
-  Stitcher(std::span<const std::uint32_t> corners, std::size_t vertexCount)
+  Stitcher(std::span<const std::uint32_t> corners, std::size_t vertexCount, int effort)
       : corners_(corners), across_(sidesAcross(corners)),
-        paths_(findStripPaths(corners, across_, vertexCount)), tips_(tipsOfPaths(vertexCount)),
+        paths_(findStripPaths(corners, across_, vertexCount, effort)), tips_(tipsOfPaths(vertexCount)),
         trails_(findTrails(tips_, vertexCount)), used_(trails_.count()) {
     for (TrailEnd end = 0; end < 2 * trails_.count(); ++end) {
       const std::uint32_t side = firstSide(pathEnd(end, 0));
@@ -298,8 +298,8 @@ private:
 
 } // namespace
 
-Strips makeStrips(std::span<const std::uint32_t> corners, std::size_t vertexCount) {
-  return Stitcher(corners, vertexCount).run();
+Strips makeStrips(std::span<const std::uint32_t> corners, std::size_t vertexCount, int effort) {
+  return Stitcher(corners, vertexCount, effort).run();
 }
 
 } // namespace imgeo

@@ -21,17 +21,17 @@ namespace imgeo {
 
 namespace {
 
-IndexedPatch arrange(const Patch& patch, Primitives primitives) {
-  if (patch.topology == Topology::points || primitives == Primitives::points)
+IndexedPatch arrange(const Patch& patch, const ConvertOptions& options) {
+  if (patch.topology == Topology::points || options.primitives == Primitives::points)
     return asPoints(patch);
-  const bool asStrip = primitives == Primitives::strips;
+  const bool asStrip = options.primitives == Primitives::strips;
   if (patch.topology == Topology::lines)
     return asStrip ? asLineStrips(patch) : asLines(patch);
-  return asStrip ? asStrips(patch) : asTriangles(patch);
+  return asStrip ? asStrips(patch, options.effort) : asTriangles(patch);
 }
 
 IndexedPatch primitivesOf(const Patch& patch, const ConvertOptions& options) {
-  IndexedPatch arranged = arrange(patch, options.primitives);
+  IndexedPatch arranged = arrange(patch, options);
   return options.indexed ? arranged : withoutIndices(arranged);
 }
 
