@@ -228,8 +228,8 @@ std::string texturesOf(const TextureReport& textures) {
 
 void printChoices(const Arguments& arguments, const ConvertReport& report) {
   const bool isSig = arguments.text("container") == "sig";
-  printLine("source", fmt::format("{}, {}: {} from {} vertices", report.format, byteSize(report.sourceBytes),
-                                  listed(report.elements), grouped(report.vertices)));
+  printLine("source", fmt::format("{}, {}", report.format, byteSize(report.sourceBytes)));
+  printLine("elements", fmt::format("{} of {} vertices", listed(report.elements), grouped(report.vertices)));
   const bool onlyPoints = report.elements.points == report.elements.sum();
   printLine("container",
             fmt::format("{}, profile {}, target {}, {}{}", isSig ? "sig (PNG images)" : "bg (typed arrays)",
@@ -240,8 +240,7 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
     printLine("X3DOM", fmt::format("{}, from {}", report.x3domVersion, report.x3domUrl));
   printLine("positions", positionsOf(arguments, report));
   if (report.collapsed.sum() > 0)
-    printLine("", fmt::format("{} triangles lose their area and {} lines their length",
-                              grouped(report.collapsed.triangles), grouped(report.collapsed.lines)));
+    printLine("", fmt::format("too coarse for {}, without area or length there", listed(report.collapsed)));
   printLine("normals",
             fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", nameOf(report.normalEncoding),
                         report.normalBits, report.normalErrorDegrees,
@@ -263,9 +262,10 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   printLine("welding", fmt::format("merged {} positions and {} wedges, dropped {} unreferenced positions",
                                    grouped(weld.mergedPositions), grouped(weld.mergedWedges),
                                    grouped(weld.unreferencedPositions)));
+  const bool isStrips = arguments.text("primitives") == "strips"; // which draw nothing degenerate
   if (weld.degenerateElements + weld.duplicateElements > 0)
     printLine("", fmt::format("{} {} degenerate elements, {} {} repeated ones",
-                              drop == "degenerate" || drop == "both" ? "dropped" : "kept",
+                              drop == "degenerate" || drop == "both" || isStrips ? "dropped" : "kept",
                               grouped(weld.degenerateElements),
                               drop == "repeated" || drop == "both" ? "dropped" : "kept",
                               grouped(weld.duplicateElements)));

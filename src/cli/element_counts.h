@@ -7,7 +7,7 @@
 
 namespace imgeo::cli {
 
-/// "1,200 triangles, 3 points": the kinds of which there are any; "0 triangles"
+/// "1,200 triangles, 1 point": the kinds of which there are any; "0 triangles"
 /// where there are none.
 std::string listed(const ElementCounts& counts);
 
