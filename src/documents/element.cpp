@@ -29,7 +29,9 @@ void ElementWriter::startTag(const Element& element) {
   }
   text_.append(2 * level_, ' ');
   text_ += "<" + element.name;
-  const std::string separator = length <= lineLength ? " " : "\n" + std::string(2 * level_ + 4, ' ');
+  std::string separator = " ";
+  if (length > lineLength)
+    separator.assign("\n").append(2 * level_ + 4, ' ');
   for (std::size_t i = 0; i < lines.size(); ++i)
     text_ += (i == 0 ? " " : separator) + lines[i];
   text_ += ">";
@@ -93,8 +95,10 @@ std::string number(float value) {
 
 std::string numbers(const std::vector<double>& values) {
   std::string text;
-  for (const double value : values)
-    text += (text.empty() ? "" : " ") + number(value);
+  for (const double value : values) {
+    text += text.empty() ? "" : " ";
+    text += number(value);
+  }
   return text;
 }
 

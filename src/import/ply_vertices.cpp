@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <span>
 
 namespace imgeo {
@@ -36,7 +37,7 @@ PlySlot slotOf(const PlyProperty& property) {
 
 /// "scale" for component 1 of "scale_1"; empty where it is none.
 std::string baseOfComponent(const std::string& name, std::size_t component) {
-  const std::string ending = "_" + std::to_string(component);
+  const std::string ending = fmt::format("_{}", component);
   return name.size() > ending.size() && name.ends_with(ending) ? name.substr(0, name.size() - ending.size())
                                                                : "";
 }
