@@ -19,6 +19,8 @@ export const explanations: Readonly<Record<string, string>> = {
   "IndexedFaceSet-creaseAngle-between": "edges of up to `creaseAngle` are smooth, others sharp; X3DOM makes all of them smooth",
   "IndexedTriangleFanSet": noFans,
   "IndexedTriangleStripSet": "X3DOM does not share normals between strips",
+  "LineProperties": "X3DOM draws all lines one pixel wide",
+  "LineProperties-dashed": "X_ITE's line is solid here, X3DOM's one pixel wide as well",
   "PhysicalMaterial-metallic-0-roughness-0.3": withoutPi,
   "PhysicalMaterial-metallic-0-roughness-1": withoutPi,
   "PhysicalMaterial-metallic-1-roughness-0.4": `${withoutPi}. Metal mirrors a grey room, X_ITE's nothing`,

@@ -10,6 +10,8 @@ export interface DrawRange {
   readonly primitive: "points" | "lines" | "lineStrip" | "triangles" | "triangleStrip";
   readonly first: number;
   readonly count: number;
+  /** Lines that are drawn as surfaces of a width on the screen. */
+  readonly isWide?: boolean;
 }
 
 /**

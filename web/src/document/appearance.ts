@@ -7,6 +7,7 @@ import type {
 import { textureRoles } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, lowerNameOf } from "./element.ts";
+import { readLines } from "./lineProperties.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
 /** The children of an element, with what they USE in their place. */
@@ -32,11 +33,13 @@ export function readAppearance(element: SceneElement | undefined, childrenOf: Ch
   const named = (name: string) => parts.find((part) => lowerNameOf(part) === name);
   const material = parts.find((part) => lowerNameOf(part) in textureFields);
   const points = named("pointproperties");
+  const lines = named("lineproperties");
   return {
     material: readMaterial(material, warnings),
     alpha: element ? readAlpha(element, warnings) : automaticAlpha,
     textures: readTextures(parts, material, childrenOf, warnings),
     points: points && readPoints(points, warnings),
+    lines: lines && readLines(lines, warnings),
   };
 }
 

@@ -181,12 +181,22 @@ export interface PointDescription {
   readonly attenuation: Vec3;
 }
 
+/** X3D's LineProperties, of lines that are not solid and as thin as can be. */
+export interface LineDescription {
+  /** In CSS pixels. */
+  readonly width: number;
+  /** Lengths that are drawn and left out in turn, in widths, an even number of them; none of a solid line. */
+  readonly dashes: readonly number[];
+}
+
 export interface AppearanceDescription {
   readonly material: MaterialDescription;
   readonly alpha: AlphaDescription;
   /** At most one of each role. */
   readonly textures: readonly TextureDescription[];
   readonly points: PointDescription | undefined;
+  /** Undefined: as thin as the GPU draws them. */
+  readonly lines: LineDescription | undefined;
 }
 export type ViewpointDescription = Values<typeof nodeFields.Viewpoint>;
 export type NavigationDescription = Values<typeof nodeFields.NavigationInfo>;

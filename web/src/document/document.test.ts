@@ -138,6 +138,18 @@ describe("a scene", () => {
     assert.deepEqual([point.light.location, point.light.attenuation, point.light.radius], [[1, 2, 3], [1, 0, 0], 100]);
   });
 
+  test("has lines as wide and as broken as LineProperties say, and thin solid ones where they say nothing else", () => {
+    const linesOf = (fields: string) => onlyShape(`<Shape><Appearance><LineProperties ${fields}/></Appearance></Shape>`).appearance.lines;
+    assert.deepEqual(linesOf('linewidthScaleFactor="2.5"'), { width: 2.5, dashes: [] });
+    assert.deepEqual(linesOf('linetype="3"'), { width: 1, dashes: [1, 2] });
+    assert.deepEqual(linesOf('linetype="13" linewidthScaleFactor="1e30"'), { width: 1024, dashes: [14, 3, 4, 3, 4, 3] });
+    for (const fields of ["", 'linewidthScaleFactor="1"', 'linewidthScaleFactor="-4"', 'linetype="2" linewidthScaleFactor="4" applied="false"']) {
+      assert.equal(linesOf(fields), undefined, fields);
+    }
+    const arrows = sceneOf('<Shape><Appearance><LineProperties linetype="6"/></Appearance></Shape>');
+    assert.deepEqual(arrows.warnings.map(({ message }) => message), ["lines of linetype 6 are not drawn so; they are solid"]);
+  });
+
   test("has a shape once for each place where a group around it is USEd", () => {
     const shapes = shapesOf(sceneOf(`<Group DEF="g"><Shape>${patches}</Shape></Group><Transform><Group USE="g"/></Transform>`).root);
     assert.equal(shapes.length, 2);

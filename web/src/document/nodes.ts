@@ -175,6 +175,7 @@ export const nodeFields = {
     scale: SFVec2f([1, 1]),
     center: SFVec2f([0, 0]),
   },
+  LineProperties: { applied: SFBool(true), linetype: SFInt32(1), linewidthScaleFactor: SFFloat(0) },
   PointProperties: {
     pointSizeScaleFactor: SFFloat(1),
     /** Absent: no bound. X3D's defaults, 1 and 1, would let no factor have an effect. */

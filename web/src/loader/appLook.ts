@@ -15,6 +15,7 @@ import type { Look, MaterialRequest, Shading, ShownPictures } from "../render/lo
 import { colorByValueIn } from "../render/valueColors.ts";
 import { primitiveDefinesOf, shapePointsIn } from "../render/points.ts";
 import { readVerticesIn, srgbColorsDefine, vertexDefinesOf } from "../render/vertexChunk.ts";
+import { followViewport } from "../render/wideLineChunk.ts";
 
 /**
  * Makes the material of a shape from X3D's. `shading` says what there is to shade:
@@ -57,7 +58,8 @@ export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings)
     batching: undefined, // three's Raycaster, and passes with materials of their own, want an object for each place
     makeMaterial(request, appearance, pictures) {
       const material = makeMaterial(appearance.material, request.shading);
-      material.side = request.solid ? FrontSide : DoubleSide;
+      material.side = request.solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
+      if (request.wideLineStep > 0) followViewport(material, request.shared.viewport);
       material.vertexColors = request.colors !== "none";
       if (request.colors === "rgba") material.transparent = true;
       if ("flatShading" in material && request.shading === "flat") material.flatShading = true;
@@ -77,8 +79,8 @@ export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings)
       object.customDepthMaterial = depth;
       object.customDistanceMaterial = distance;
       // There are no vertices in JavaScript for a ray, and three does not expect that.
-      if (request.areImages) object.raycast = () => undefined;
-      if (object instanceof Points) object.onBeforeRender = (renderer, _, camera) => { measure(renderer, camera, request); };
+      if (request.areImages || request.wideLineStep > 0) object.raycast = () => undefined;
+      if (object instanceof Points || request.wideLineStep > 0) object.onBeforeRender = (renderer, _, camera) => { measure(renderer, camera, request); };
     },
   };
 

@@ -1,7 +1,7 @@
 // A scene as an Object3D that fills and refines itself while its files come.
 
 import type { Box3, Object3D, Object3DEventMap, PerspectiveCamera, WebGLRenderer } from "three";
-import { Group, Sphere, Vector2 } from "three";
+import { Group, Sphere, Vector2, Vector4 } from "three";
 import type { RunJob } from "../decode/jobs.ts";
 import type { DeliveryListener } from "../delivery/deliver.ts";
 import type { PlacedGeometry } from "../delivery/demand.ts";
@@ -23,6 +23,7 @@ import { noAttenuations } from "../render/lightFalloff.ts";
 import { buildGraph } from "../render/sceneGraph.ts";
 import type { ShapeSetting } from "../render/shapeObject.ts";
 import { ShapeObject } from "../render/shapeObject.ts";
+import { usualPointSize } from "../render/stageDraws.ts";
 import { GeometryPool } from "../render/stageGeometries.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
 import { chunkWeightsOf } from "../scheduler/priority.ts";
@@ -118,7 +119,9 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.#textures = textures;
     const { root, box } = this.#build({
       look: appLook(makeMaterial, surroundingsOf(this)), geometries: new GeometryPool(buffers), buffers, textures, batches: undefined, drawing: { asPoints: false },
-      shared: { pixelRatio: { value: 1 }, depthRange: { value: new Vector2() }, attenuations: { value: noAttenuations() } },
+      shared: {
+        pixelRatio: { value: 1 }, viewport: { value: new Vector4() }, depthRange: { value: new Vector2() }, attenuations: { value: noAttenuations() },
+      },
     });
     this.box = box;
     this.add(root);
@@ -149,7 +152,9 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
    * camera is the one that the picture was drawn with, over the whole canvas.
    */
   pick(renderer: WebGLRenderer, camera: PerspectiveCamera, x: number, y: number): SceneHit | undefined {
-    return this.#picker.pick(renderer, camera, x, y, this.#pickCandidates());
+    let largest = usualPointSize;
+    for (const { object: { largestWidth } } of this.#shapes.values()) largest = Math.max(largest, largestWidth);
+    return this.#picker.pick(renderer, camera, { x, y }, largest, this.#pickCandidates());
   }
 
   /** Ends its requests; what it shows stays. */

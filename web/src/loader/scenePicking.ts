@@ -24,14 +24,11 @@ export interface SceneHit {
   readonly vertex: number;
 }
 
-/** How far, in device pixels, a vertex may be from what it covers: points are a few pixels wide. */
-const slack = 4;
-
 export class ScenePicker {
   #lent: { readonly renderer: WebGLRenderer; readonly picker: Picker } | undefined;
 
-  /** At CSS pixels from the top left of the renderer's canvas. Waits for the GPU. */
-  pick(renderer: WebGLRenderer, camera: PerspectiveCamera, x: number, y: number,
+  /** At CSS pixels from the top left of the renderer's canvas; points and lines are at most `largestWidth` of them wide. Waits for the GPU. */
+  pick(renderer: WebGLRenderer, camera: PerspectiveCamera, { x, y }: { readonly x: number; readonly y: number }, largestWidth: number,
        candidates: Iterable<PickCandidate>): SceneHit | undefined {
     if (this.#lent?.renderer !== renderer) {
       this.dispose();
@@ -42,6 +39,7 @@ export class ScenePicker {
     const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
     const place = { x: Math.floor(x * ratio), y: Math.floor(y * ratio), width, height };
     if (place.x < 0 || place.y < 0 || place.x >= width || place.y >= height) return undefined;
+    const slack = 1 + Math.ceil((largestWidth * ratio) / 2);
     const hit = lend(renderer, () => picker.pick(camera, place, slack, candidates));
     if (hit === undefined) return undefined;
     const { group, position, normal, patch, triangle, vertex } = hit;

@@ -6,8 +6,8 @@ import type { DrawRange } from "../decode/stage.ts";
 
 export type DrawnObject = Mesh | Points | Line;
 
-export function objectOf({ primitive }: Pick<DrawRange, "primitive">, geometry: BufferGeometry, material: Mesh["material"]): DrawnObject {
-  return primitive === "points" ? new Points(geometry, material)
+export function objectOf({ primitive, isWide }: Pick<DrawRange, "primitive" | "isWide">, geometry: BufferGeometry, material: Mesh["material"]): DrawnObject {
+  return isWide ? new Mesh(geometry, material) : primitive === "points" ? new Points(geometry, material)
     : primitive === "lines" ? new LineSegments(geometry, material)
     : primitive === "lineStrip" ? new Line(geometry, material) : new Mesh(geometry, material);
 }

@@ -2,7 +2,7 @@
 // three.js apps as those say (loader/appLook.ts). Where their vertices come from
 // is the same for all.
 
-import type { Material, Texture, Vector2 } from "three";
+import type { Material, Texture, Vector2, Vector4 } from "three";
 import type { AppearanceDescription, TextureRole } from "../document/description.ts";
 import type { DrawRange } from "../decode/stage.ts";
 import type { DrawnObject } from "./drawnObject.ts";
@@ -21,7 +21,7 @@ export interface Look {
 
 /** What shapes that are drawn together have in common, and what each has of its own. */
 export interface Batching {
-  /** The same for appearances that one material can show; undefined for what is drawn in the order of its distance. */
+  /** The same for appearances that one material can show; undefined for wide lines and for what is drawn in the order of its distance. */
   keyOf(request: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription, pictures: ShownPictures): string | undefined;
   /** The rest of an appearance, for the shader: the field `look` of a place's record. */
   numbersOf(request: Pick<MaterialRequest, "shading" | "colors">, appearance: AppearanceDescription): readonly number[];
@@ -46,6 +46,8 @@ export type VertexColors = "none" | "rgb" | "rgba";
 export interface SceneUniforms extends FalloffUniforms {
   /** Device pixels in a CSS pixel. */
   readonly pixelRatio: { value: number };
+  /** Of what is being drawn, in device pixels: origin and size. Wide lines follow it. */
+  readonly viewport: { value: Vector4 };
   /** Distances along the view between which the scene lies. */
   readonly depthRange: { value: Vector2 };
 }

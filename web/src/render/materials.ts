@@ -16,6 +16,8 @@ import type { Look, MaterialRequest, Shading, ShownPictures, VertexColors } from
 import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
 import { colorByValueIn } from "./valueColors.ts";
 import { readVerticesIn, replaceEach, srgbColorsDefine, vertexDefinesOf } from "./vertexChunk.ts";
+import { followViewport } from "./wideLineChunk.ts";
+import { isLine } from "./wideLines.ts";
 import type { OwnMapUniforms } from "./x3dMaps.ts";
 import { layPictures, makeOwnMapUniforms, mapChunks, materialFromMaps, ownMapDeclarations, unlitDefine } from "./x3dMaps.ts";
 
@@ -47,7 +49,8 @@ function makeMaterial(request: MaterialRequest, appearance: AppearanceDescriptio
   const lit: LitUniforms = { ambientIntensity: { value: 0 }, metallic: { value: 1 }, roughness: { value: 1 }, ...makeOwnMapUniforms() };
   const material: PatchMaterial = isUnlit(shading) ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
-  material.side = solid ? FrontSide : DoubleSide;
+  material.side = solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
+  if (request.wideLineStep > 0) followViewport(material, shared.viewport);
   material.vertexColors = colors !== "none";
   material.defines = {
     ...vertexDefinesOf(request, shading === "smooth"), ...primitiveDefinesOf(request.primitive),
@@ -100,8 +103,9 @@ function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number
 
 function keyOf({ primitive, colors }: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription,
                pictures: ShownPictures): string | undefined {
-  if (blends(appearance, colors, pictures)) return undefined;
-  const { material, points, ...rest } = appearance;
+  const { material, points, lines, ...rest } = appearance;
+  const areWide = lines !== undefined && isLine({ primitive }); // each an instance of its own
+  if (areWide || blends(appearance, colors, pictures)) return undefined;
   const others = Object.entries(material).filter(([name]) => !numbersOfPlaces.has(name));
   return JSON.stringify([rest, others, Array.from(pictures, ([role, { texture }]) => [role, texture.uuid]).sort(), primitive === "points" && points]);
 }

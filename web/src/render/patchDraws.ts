@@ -43,7 +43,7 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
     const material = look.makeMaterial(request, setting.appearance, laid(setting.pictures));
     const pick = new PickDraw(stage, range, {
       buffers, bounds: sphere, shapeFromStored,
-      makeParts: () => ({ geometry: shape, request: pickRequestOf(stage, material.side, uniforms.of(range), shown.appearance, shown.pictures), release: () => undefined }),
+      makeParts: () => ({ geometry: shape, request: pickRequestOf(stage, range, material.side, uniforms.of(range), shown.appearance, shown.pictures), release: () => undefined }),
     });
     return [{ range, shape, material, request, pick }];
   });

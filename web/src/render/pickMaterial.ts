@@ -15,6 +15,8 @@ import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
 import { alphaMaskDefine, alphaMaskVarying } from "./texCoords.ts";
 import type { VertexForm, VertexUniforms } from "./vertexChunk.ts";
 import { imageVerticesDefine, readVerticesIn, vertexDefinesOf } from "./vertexChunk.ts";
+import { followViewport, wideLinesDefine } from "./wideLineChunk.ts";
+import { isLine } from "./wideLines.ts";
 
 /**
  * Where in a pixel's words each field begins. Normals are zero where there is
@@ -51,10 +53,16 @@ void main() {
   element = gl_VertexID;
   cornerVertices = ivec3(gl_VertexID);
   cornerWeights = vec3(1.0, 0.0, 0.0);
+  #ifdef ${wideLinesDefine}
+    element = gl_InstanceID;
+    cornerWeights = vec3(1.0 - lineShare, lineShare, 0.0);
+  #endif
   facePoint = transformed;
   faceNormal = vec3(0.0);
   #ifdef ${imageVerticesDefine}
-    #ifdef IS_LINE_STRIP
+    #if defined(${wideLinesDefine})
+      cornerVertices.xy = ivec2(recordNumber(drawnNumber(0)), recordNumber(drawnNumber(1)));
+    #elif defined(IS_LINE_STRIP)
       // A vertex ends one line and begins the next, so even numbers are one corner
       // and odd ones the other; of flat values the line's last vertex counts.
       element = gl_VertexID - 1;
@@ -138,15 +146,14 @@ export function alphaMaskOf({ alpha: { mode, cutoff }, material: { transparency 
 
 export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
   const { primitive, side, hasNormals, alphaMask, uniforms } = request;
-  const isLine = primitive === "lines" || primitive === "lineStrip";
   const shader = { vertexShader, fragmentShader };
   readVerticesIn(shader);
   shapePointsIn(shader);
-  return new ShaderMaterial({
+  const material = new ShaderMaterial({
     ...shader, side,
     glslVersion: GLSL3,
     defines: {
-      PRIMITIVE_CORNERS: primitive === "points" ? 1 : isLine ? 2 : 3,
+      PRIMITIVE_CORNERS: primitive === "points" ? 1 : isLine(request) ? 2 : 3,
       ...(primitive === "lineStrip" && { IS_LINE_STRIP: "" }),
       ...vertexDefinesOf(request, hasNormals),
       ...primitiveDefinesOf(primitive),
@@ -158,4 +165,6 @@ export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
       }),
     },
   }) as PickMaterial;
+  if (request.wideLineStep > 0) followViewport(material, uniforms.viewport);
+  return material;
 }

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { Vector3 } from "three";
-import { faceOf, nearestVertex, primitiveEndingAt, primitiveIn } from "./pickedPrimitive.ts";
+import { faceOf, nearestVertex, primitiveAt, primitiveEndingAt, primitiveIn } from "./pickedPrimitive.ts";
 
 /** A bent strip of four triangles: three squares' corners along x, the last square folded up. */
 const places = [[0, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0], [1, 0, 1], [1, 1, 1]].map((place) => new Vector3(...place));
@@ -34,6 +34,13 @@ describe("the primitive under a point", () => {
     assert.deepEqual(primitiveIn(strip, "lineStrip", 3, new Vector3(0.5, 1, 0), positionOf), { number: 1, vertices: [1, 3] });
     assert.deepEqual(primitiveEndingAt(2, { primitive: "lineStrip", first: 10, count: 4 }), { number: 1, vertices: [11, 12] });
     assert.deepEqual(primitiveEndingAt(5, { primitive: "triangles", first: 10, count: 9 }), { number: 1, vertices: [13, 14, 15] });
+  });
+
+  test("of wide lines has its own number", () => {
+    const range = { primitive: "lines", first: 10, count: 6, isWide: true } as const;
+    assert.deepEqual(primitiveAt(1, range, Uint16Array.from([7, 8, 9, 4, 5, 6])), { number: 1, vertices: [9, 4] });
+    assert.deepEqual(primitiveAt(1, range, undefined), { number: 1, vertices: [12, 13] });
+    assert.deepEqual(primitiveAt(2, { ...range, primitive: "lineStrip" }, Uint16Array.from([7, 8, 9, 4])), { number: 2, vertices: [9, 4] });
   });
 
   test("without area has no normal and still a nearest vertex", () => {

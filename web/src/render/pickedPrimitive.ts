@@ -36,10 +36,16 @@ export function primitiveIn(index: IndexArray, primitive: DrawRange["primitive"]
 }
 
 /** The primitive whose last corner is number `last` of a range without an index. */
-export function primitiveEndingAt(last: number, { primitive, first }: DrawRange): PickedPrimitive {
+export function primitiveEndingAt(last: number, range: DrawRange): PickedPrimitive {
+  const { corners, step } = layoutOf(range.primitive);
+  return primitiveAt((last - corners + 1) / step, range, undefined);
+}
+
+/** The primitive of this number. `index`: of the range, where there is one. */
+export function primitiveAt(number: number, { primitive, first }: DrawRange, index: IndexArray | undefined): PickedPrimitive {
   const { corners, step } = layoutOf(primitive);
-  const number = (last - corners + 1) / step;
-  return { number, vertices: Array.from({ length: corners }, (_, corner) => first + number * step + corner) };
+  const vertexAt = (corner: number) => (index ? index[number * step + corner] ?? 0 : first + number * step + corner);
+  return { number, vertices: Array.from({ length: corners }, (_, corner) => vertexAt(corner)) };
 }
 
 /** Corners of a primitive, and how many elements on the next one ends. */

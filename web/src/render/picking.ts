@@ -11,7 +11,7 @@ import type { SceneElement } from "../document/element.ts";
 import type { PickDraw } from "./pickDraw.ts";
 import { cornersOf } from "./pickDraw.ts";
 import type { Face } from "./pickedPrimitive.ts";
-import { faceOf, nearestVertex, primitiveEndingAt, primitiveIn } from "./pickedPrimitive.ts";
+import { faceOf, nearestVertex, primitiveAt, primitiveEndingAt, primitiveIn } from "./pickedPrimitive.ts";
 import { pickedTargets, pickedWords } from "./pickMaterial.ts";
 import { readPixel, readPixelSoon } from "./pixelReading.ts";
 
@@ -143,7 +143,8 @@ export class Picker {
     if (contents === undefined) return { number: 0, vertex, face };
     const { coord, index, coordStride, coordOffset } = contents;
     const positionOf = (n: number) => new Vector3().fromArray(coord, coordOffset + n * coordStride);
-    const found = index ? primitiveIn(index, pick.range.primitive, vertex, point, positionOf)
+    const found = pick.range.isWide === true ? primitiveAt(number, pick.range, index)
+      : index ? primitiveIn(index, pick.range.primitive, vertex, point, positionOf)
       : primitiveEndingAt(vertex - pick.range.first, pick.range);
     if (found === undefined) return { number: 0, vertex, face };
     return {

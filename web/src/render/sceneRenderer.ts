@@ -1,7 +1,7 @@
 // Draws a described scene into a canvas, and only when something changed.
 
 import type { Object3D, Sphere } from "three";
-import { Color, DirectionalLight, Group, LinearSRGBColorSpace, LinearToneMapping, Matrix4, Mesh, NoToneMapping, PerspectiveCamera, Scene, Vector2, WebGLRenderer } from "three";
+import { Color, DirectionalLight, Group, LinearSRGBColorSpace, LinearToneMapping, Matrix4, Mesh, NoToneMapping, PerspectiveCamera, Scene, Vector2, Vector4, WebGLRenderer } from "three";
 import type { DecodedImage } from "../decode/image.ts";
 import type { ArrayUse, ElementArray, Stage } from "../decode/stage.ts";
 import type { GeometryDescription, SamplingDescription, SceneDescription, TextureRole } from "../document/description.ts";
@@ -62,7 +62,9 @@ export class SceneRenderer {
   /** As it stood for the last frame. */
   readonly #drawnCamera = new PerspectiveCamera();
   readonly #headlight = new DirectionalLight();
-  readonly #shared: SceneUniforms = { pixelRatio: { value: 1 }, depthRange: { value: new Vector2() }, attenuations: { value: noAttenuations() } };
+  readonly #shared: SceneUniforms = {
+    pixelRatio: { value: 1 }, viewport: { value: new Vector4() }, depthRange: { value: new Vector2() }, attenuations: { value: noAttenuations() },
+  };
   readonly #textures = new TextureStore();
   readonly #buffers: BufferStore;
   readonly #shapes: SceneShapes;
@@ -293,7 +295,7 @@ export class SceneRenderer {
 
   /** How far, in device pixels, a vertex may be from what it covers. */
   get #pickSlack(): number {
-    const largest = Math.max(this.#shapes.largestPoint, usualPointSize);
+    const largest = Math.max(this.#shapes.largestWidth, usualPointSize);
     return 1 + Math.ceil((largest * this.#shared.pixelRatio.value) / 2);
   }
 

@@ -58,10 +58,10 @@ export class SceneShapes {
     return this.#sphere;
   }
 
-  /** What points may be wide, in CSS pixels; 0 where no shape says. */
-  get largestPoint(): number {
+  /** What points and lines may be wide, in CSS pixels; 0 where no shape says. */
+  get largestWidth(): number {
     let largest = 0;
-    for (const { largestPoint } of this.#shapes.values()) largest = Math.max(largest, largestPoint);
+    for (const { largestWidth } of this.#shapes.values()) largest = Math.max(largest, largestWidth);
     return largest;
   }
 

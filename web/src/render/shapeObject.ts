@@ -15,6 +15,7 @@ import { drawStage } from "./patchDraws.ts";
 import type { PickDraw } from "./pickDraw.ts";
 import type { PatchSetting } from "./stageDraws.ts";
 import { makeColorMapUniforms, setColorMap } from "./valueColors.ts";
+import { withWideLines } from "./wideLines.ts";
 
 /** What all shapes of a scene share. */
 export interface ShapeSetting extends Pick<PatchSetting, "look" | "geometries" | "buffers" | "textures" | "shared"> {
@@ -30,6 +31,8 @@ const largestPoint = 1024;
 interface ShownPatch {
   readonly geometry: GeometryDescription;
   readonly stage: Stage;
+  /** What is drawn of it. */
+  readonly drawn: Stage;
   readonly drawnAs: DrawnAs;
   readonly draws: PatchDraws;
 }
@@ -105,17 +108,20 @@ export class ShapeObject {
     this.#applyAppearance();
   }
 
-  /** What its points may be wide, in CSS pixels. */
-  get largestPoint(): number {
-    const { points } = this.#appearance;
-    if (points === undefined) return 0;
+  /** What its points and lines may be wide, in CSS pixels. */
+  get largestWidth(): number {
+    const { points, lines } = this.#appearance;
+    const line = lines?.width ?? 0;
+    if (points === undefined) return line;
     const [a, b, c] = points.attenuation;
-    return b === 0 && c === 0 ? Math.min(points.size / a, points.most) : Math.min(points.most, largestPoint);
+    return Math.max(line, b === 0 && c === 0 ? Math.min(points.size / a, points.most) : Math.min(points.most, largestPoint));
   }
 
   #applyAppearance(): void {
-    for (const [place, shown] of this.#patches) {
-      if (this.#drawingOf(shown.stage) === shown.drawnAs) shown.draws.applyAppearance(this.#appearance, new Map(this.#pictures));
+    for (const [place, shown] of Array.from(this.#patches)) {
+      const patch = shown.geometry.patches[place];
+      const isSame = patch !== undefined && this.#drawnOf(shown.stage, patch) === shown.drawn && this.#drawingOf(shown.stage) === shown.drawnAs;
+      if (isSame) shown.draws.applyAppearance(this.#appearance, new Map(this.#pictures));
       else this.setStage(shown.geometry, place, shown.stage);
     }
   }
@@ -131,15 +137,21 @@ export class ShapeObject {
   }
 
   #show(geometry: GeometryDescription, patch: PatchDescription, stage: Stage): ShownPatch {
-    const { batches, drawing, ...setting } = this.#setting;
+    const { batches, ...setting } = this.#setting;
     const { batching } = setting.look;
     const drawnAs = this.#drawingOf(stage);
-    const drawn = drawing.asPoints ? asPoints(stage, patch.vertexCount) : stage;
+    const drawn = this.#drawnOf(stage, patch);
     const patchSetting = { ...setting, geometry, patch, appearance: this.#appearance, colorMap: this.#colorMap, pictures: new Map(this.#pictures) };
     const draws = batches === undefined || batching === undefined || drawnAs === "alone" ? drawStage(drawn, patchSetting)
       : new BatchedStage(drawn, patchSetting, { batches, batching, isMerged: drawnAs === "merged" });
     for (const group of this.#groups) draws.hang(group);
-    return { geometry, stage, drawnAs, draws };
+    return { geometry, stage, drawn, drawnAs, draws };
+  }
+
+  /** The same object for the same stage, as long as nothing else is said of points and lines. */
+  #drawnOf(stage: Stage, { vertexCount }: PatchDescription): Stage {
+    const shown = this.#setting.drawing.asPoints ? asPoints(stage, vertexCount) : stage;
+    return this.#appearance.lines ? withWideLines(shown) : shown;
   }
 
   #drawingOf(stage: Stage): DrawnAs {

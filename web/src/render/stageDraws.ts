@@ -5,8 +5,9 @@ import type { Side, Texture } from "three";
 import { Box3, Matrix4, Sphere, Vector3 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
 import type { DrawRange, Stage, TextureStage } from "../decode/stage.ts";
-import type { AppearanceDescription, GeometryDescription, PatchDescription, PointDescription } from "../document/description.ts";
+import type { AppearanceDescription, GeometryDescription, LineDescription, PatchDescription, PointDescription } from "../document/description.ts";
 import { boxAround } from "../document/geometry.ts";
+import { mostDashes } from "../document/lineProperties.ts";
 import { largestStoredOf, middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
 import type { Buffers } from "./buffers.ts";
 import type { Look, MaterialRequest, SceneUniforms, Shading, ShownPictures, VertexColors } from "./look.ts";
@@ -18,6 +19,7 @@ import type { ColorMapUniforms } from "./valueColors.ts";
 import { valueDefinesOf, valueUniformsOf } from "./valueColors.ts";
 import type { ImageVertexUniforms, VertexForm, VertexUniforms } from "./vertexChunk.ts";
 import { gridDefinesOf, normalDefinesOf } from "./vertexChunk.ts";
+import { lineStepOf } from "./wideLines.ts";
 
 /** Where images are that have become textures. */
 export interface Textures {
@@ -64,7 +66,7 @@ export interface StageUniforms {
 export function uniformsOf(stage: Stage, setting: PatchSetting): StageUniforms {
   const { geometry, patch, shared, textures } = setting;
   const common: VertexUniforms = {
-    ...appearanceUniformsOf(geometry, setting.appearance), pixelRatio: shared.pixelRatio,
+    ...appearanceUniformsOf(geometry, setting.appearance), pixelRatio: shared.pixelRatio, viewport: shared.viewport,
     latticeStep: { value: storedFrameOf(geometry, patch).step }, ...setting.colorMap,
     ...valueUniformsOf(stage, geometry.value, (image) => textures.textureOf(image)),
   };
@@ -78,23 +80,27 @@ export function uniformsOf(stage: Stage, setting: PatchSetting): StageUniforms {
 
 /** Takes over what an appearance says of vertices. */
 export function setAppearance(uniforms: VertexUniforms, geometry: GeometryDescription, appearance: AppearanceDescription): void {
-  const { pointSizes, attenuation, textureTransforms } = appearanceUniformsOf(geometry, appearance);
-  uniforms.pointSizes.value = pointSizes.value;
-  uniforms.attenuation.value = attenuation.value;
-  uniforms.textureTransforms.value = textureTransforms.value;
+  for (const [name, { value }] of Object.entries(appearanceUniformsOf(geometry, appearance))) {
+    const uniform = uniforms[name];
+    if (uniform !== undefined) uniform.value = value;
+  }
 }
 
 /** Of points that no PointProperties tell about, in CSS pixels. */
 export const usualPointSize = 2;
 const usualPoints: PointDescription = { size: usualPointSize, least: 0, most: Infinity, attenuation: [1, 0, 0] };
 const largestPoint = 1e6;
+const usualLines: LineDescription = { width: 1, dashes: [] };
 
 function appearanceUniformsOf({ texCoordMin, texCoordSize }: GeometryDescription, appearance: AppearanceDescription):
-  Pick<VertexUniforms, "pointSizes" | "attenuation" | "texCoordFrame" | "textureTransforms"> {
-  const { points = usualPoints } = appearance;
+  Pick<VertexUniforms, "pointSizes" | "attenuation" | "lineWidth" | "dashes" | "dashCount" | "texCoordFrame" | "textureTransforms"> {
+  const { points = usualPoints, lines: { width, dashes } = usualLines } = appearance;
   return {
     pointSizes: { value: [points.size, points.least, Math.min(points.most, largestPoint)] },
     attenuation: { value: points.attenuation },
+    lineWidth: { value: width },
+    dashes: { value: Array.from({ length: mostDashes }, (_, i) => dashes[i] ?? 0) },
+    dashCount: { value: dashes.length },
     texCoordFrame: { value: [...texCoordMin, ...texCoordSize] },
     textureTransforms: { value: textureTransformsOf(appearance) },
   };
@@ -104,22 +110,23 @@ function appearanceUniformsOf({ texCoordMin, texCoordSize }: GeometryDescription
 export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
   stage: Stage, range: DrawRange, { solid, value }: GeometryDescription, uniforms: Uniforms, shared: SceneUniforms, arePlaced = false,
 ): Omit<MaterialRequest, "uniforms"> & { readonly uniforms: Uniforms } {
-  return { ...vertexFormOf(stage), arePlaced, primitive: range.primitive, shading: shadingOf(stage, range), colors: colorsOf(stage), solid,
+  return { ...vertexFormOf(stage, range), arePlaced, primitive: range.primitive, shading: shadingOf(stage, range), colors: colorsOf(stage), solid,
            valueDefines: valueDefinesOf(stage, value), uniforms, shared };
 }
 
 /** What the picking pass, which draws place by place, needs of its material. */
-export function pickRequestOf(stage: Stage, side: Side, uniforms: VertexUniforms, appearance: AppearanceDescription,
+export function pickRequestOf(stage: Stage, range: DrawRange, side: Side, uniforms: VertexUniforms, appearance: AppearanceDescription,
                               pictures: ShownPictures): Omit<PickMaterialRequest, "primitive"> {
   const alphaMask = stage.texCoord === undefined ? undefined : alphaMaskOf(appearance, pictures);
-  return { ...vertexFormOf(stage), side, hasNormals: hasNormals(stage), uniforms, alphaMask };
+  return { ...vertexFormOf(stage, range), side, hasNormals: hasNormals(stage), uniforms, alphaMask };
 }
 
-function vertexFormOf(stage: Stage): VertexForm {
+function vertexFormOf(stage: Stage, range: DrawRange): VertexForm {
   const areImages = stage.kind === "textures";
   return {
     areImages,
     arePlaced: false,
+    wideLineStep: range.isWide === true ? lineStepOf(range) : 0,
     hasTexCoords: stage.texCoord !== undefined,
     gridDefines: areImages ? gridDefinesOf(stage.grid, stage.normal !== undefined) : {},
     normalDefines: normalDefinesOf(stage.normalCode, !areImages && stage.normal?.components === 1),

@@ -13,6 +13,7 @@ import { objectOf } from "./drawnObject.ts";
 import type { Look, SceneUniforms, ShownPicture } from "./look.ts";
 import { noPictures } from "./look.ts";
 import { materialRequestOf } from "./stageDraws.ts";
+import { withWideLines } from "./wideLines.ts";
 
 const nowhere: TexelRange = { image: { width: 1, height: 1, close: () => undefined }, first: 0 };
 const noPicture: ShownPicture = { texture: new Texture(), hasAlpha: false };
@@ -31,9 +32,10 @@ export function objectsToCome(scene: SceneDescription, look: Look, shared: Scene
   const drawingOf = planOf(places);
   for (const { geometry: described, appearance, visible } of places) {
     if (described === undefined || !visible) continue;
-    const { textures, material: { kind, transparency }, alpha } = appearance;
+    const { textures, material: { kind, transparency }, alpha, lines } = appearance;
     const pictures = new Map(textures.map(({ role }) => [role, noPicture]));
-    for (const stage of stagesToCome(described, textures.length > 0)) {
+    for (const bareStage of stagesToCome(described, textures.length > 0)) {
+      const stage = lines ? withWideLines(bareStage) : bareStage;
       for (const range of stage.draws) {
         const laid = stage.texCoord !== undefined ? pictures : noPictures;
         const isBatched = drawingOf(described) !== "alone" && look.batching !== undefined && mayBatch(stage, appearance, laid, look.batching);

@@ -5,7 +5,7 @@
 // compile the fetch wrong; without this each would show a silent wrong shape.
 
 import {
-  BufferGeometry, FrontSide, Matrix3, Matrix4, OrthographicCamera, Points, Scene, type WebGLRenderer,
+  BufferGeometry, FrontSide, Matrix3, Matrix4, OrthographicCamera, Points, Scene, Vector4, type WebGLRenderer,
 } from "three";
 import { decodeWithBrowser } from "../decode/image.ts";
 import { textureRoles } from "../document/description.ts";
@@ -45,9 +45,10 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
   bitmap.close();
   const texture = { value: textures.textureOf(image) };
   const material = makePickMaterial({
-    primitive: "points", side: FrontSide, hasNormals: true, areImages: true, arePlaced: false, hasTexCoords: false, alphaMask: undefined, gridDefines: {}, normalDefines: {},
+    primitive: "points", side: FrontSide, hasNormals: true, areImages: true, arePlaced: false, hasTexCoords: false, wideLineStep: 0, alphaMask: undefined, gridDefines: {}, normalDefines: {},
     uniforms: {
       pixelRatio: { value: 1 }, pointSizes: { value: [1, 1, 1] }, attenuation: { value: [1, 0, 0] }, latticeStep: { value: [1, 1, 1] },
+      lineWidth: { value: 1 }, dashes: { value: [] }, dashCount: { value: 0 }, viewport: { value: new Vector4() },
       indexImage: texture, coordImage0: texture, coordImage1: texture, coordImage2: { value: null }, coordImage3: { value: null },
       normalImage: texture, colorImage: { value: null }, texCoordImage: { value: null },
       texCoordFrame: { value: [0, 0, 1, 1] }, textureTransforms: { value: textureRoles.map(() => new Matrix3()) },

@@ -8,7 +8,8 @@ import type { DecodedImage } from "../decode/image.ts";
 import type { Stage, ValuePlanes } from "../decode/stage.ts";
 import { mostMapColors } from "../document/colorMaps.ts";
 import type { AttributeDescription, ColorMapDescription } from "../document/description.ts";
-import { imageVerticesDefine, replaceEach, srgbColorsDefine, toLinearChunk } from "./vertexChunk.ts";
+import { imageVerticesDefine, readVertexStatement, replaceEach, srgbColorsDefine, toLinearChunk } from "./vertexChunk.ts";
+import { wideLinesDefine } from "./wideLineChunk.ts";
 
 /** Of a shape; changed in place. */
 export interface ColorMapUniforms extends Record<string, IUniform> {
@@ -81,8 +82,8 @@ uvec4 valueBytes(sampler2D image, int first, int n) {
   return uvec4(texelOf(image, first, n) * 255.0 + 0.5);
 }
 
-vec4 readValues() {
-  int n = recordTexel(recordNumber(gl_VertexID));
+vec4 readValues(int end) {
+  int n = recordTexel(recordNumber(drawnNumber(end)));
   uvec4 stored = valueBytes(valueImage0, valueFirstTexels.x, n);
   if (valuePlanes > 1) stored = (stored << 8) | valueBytes(valueImage1, valueFirstTexels.y, n);
   if (valuePlanes > 2) stored = (stored << 8) | valueBytes(valueImage2, valueFirstTexels.z, n);
@@ -92,15 +93,21 @@ vec4 readValues() {
 #else
 
 attribute vec4 vertexValue;
+#ifdef ${wideLinesDefine}
+  attribute vec4 vertexValueEnd;
+#endif
 
-vec4 readValues() {
+vec4 readValues(int end) {
+  #ifdef ${wideLinesDefine}
+    if (end == 1) return valueMin + valueStep * vertexValueEnd;
+  #endif
   return valueMin + valueStep * vertexValue;
 }
 
 #endif
 
-float readValue() {
-  vec4 values = readValues();
+float valueAt(int end) {
+  vec4 values = readValues(end);
   #if VALUE_COMPONENTS == 1
     return values.x;
   #elif VALUE_COMPONENTS == 2
@@ -109,6 +116,14 @@ float readValue() {
     return length(values.xyz);
   #else
     return length(values);
+  #endif
+}
+
+float readValue() {
+  #ifdef ${wideLinesDefine}
+    return mix(valueAt(0), valueAt(1), lineShare);
+  #else
+    return valueAt(0);
   #endif
 }
 
@@ -146,7 +161,8 @@ const fragmentChunk = /* glsl */ `
 /** For `onBeforeCompile`, behind readVerticesIn and shadeByFarnessIn; does nothing where the material does not define it. */
 export function colorByValueIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
   shader.vertexShader = replaceEach(shader.vertexShader, [
-    ["void main() {", `${vertexChunk}\nvoid main() {\n#ifdef VALUE_COMPONENTS\n  vValue = readValue();\n#endif`],
+    ["void main() {", `${vertexChunk}\nvoid main() {`],
+    [readVertexStatement, `${readVertexStatement}\n#ifdef VALUE_COMPONENTS\n  vValue = readValue();\n#endif`],
   ]);
   shader.fragmentShader = fragmentDeclarations + replaceEach(shader.fragmentShader, [["#include <color_fragment>", fragmentChunk]]);
 }

@@ -8,12 +8,13 @@
 // the lattice. It is the same for all patches of a mesh, on purpose: vertices
 // that patches share then go through the same arithmetic, and no crack opens.
 
-import type { IUniform, Matrix3, Texture, WebGLProgramParametersWithUniforms } from "three";
+import type { IUniform, Matrix3, Texture, Vector4, WebGLProgramParametersWithUniforms } from "three";
 import type { Grid, NormalCode } from "../decode/stage.ts";
 import { isPairCode } from "../decode/stage.ts";
 import type { Vec3 } from "../document/description.ts";
 import { placeFragmentChunk, placesDefine, placeVertexChunk } from "./batches/placeChunk.ts";
 import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
+import { cutDashesChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./wideLineChunk.ts";
 
 /** What both bodies read, as uniforms. */
 export interface VertexUniforms extends Record<string, IUniform> {
@@ -29,6 +30,11 @@ export interface VertexUniforms extends Record<string, IUniform> {
   textureTransforms: IUniform<readonly Matrix3[]>;
   /** Along each axis, in the shape's coordinates. */
   latticeStep: IUniform<Vec3>;
+  /** Of lines that are wide: LineDescription's width and dashes, as many as count. */
+  lineWidth: IUniform<number>;
+  dashes: IUniform<readonly number[]>;
+  dashCount: IUniform<number>;
+  viewport: IUniform<Vector4>;
 }
 
 /** What the image body reads besides. Textures that have not come are null and read as 0. */
@@ -78,15 +84,18 @@ export interface VertexForm {
   readonly normalDefines: Readonly<Record<string, string>>;
   /** Each in the place whose number comes with it; otherwise the object's matrix says where. */
   readonly arePlaced: boolean;
+  /** Of wide lines, how many vertices on the next begins; 0: they are none. */
+  readonly wideLineStep: 0 | 1 | 2;
 }
 
 /** What a material must define to read vertices of this form. */
-export function vertexDefinesOf({ areImages, hasTexCoords, gridDefines, normalDefines, arePlaced }: VertexForm, readsNormals: boolean): Record<string, string> {
+export function vertexDefinesOf({ areImages, hasTexCoords, gridDefines, normalDefines, arePlaced, wideLineStep }: VertexForm, readsNormals: boolean): Record<string, string> {
   return {
     ...(areImages && { [imageVerticesDefine]: "" }),
     ...(areImages && readsNormals && { [imageNormalsDefine]: "" }),
     ...(hasTexCoords && { HAS_TEX_COORDS: "" }),
     ...(arePlaced && { [placesDefine]: "" }),
+    ...(wideLineStep > 0 && { [wideLinesDefine]: `${wideLineStep}` }),
     ...gridDefines,
     ...(readsNormals && normalDefines),
   };
@@ -296,8 +305,17 @@ vec2 readTexCoord(int record) {
   #endif
 }
 
-Vertex readVertex() {
-  int record = recordNumber(gl_VertexID);
+// Of a vertex, or of one end of a wide line.
+int drawnNumber(int end) {
+  #ifdef ${wideLinesDefine}
+    return gl_InstanceID * ${wideLinesDefine} + end;
+  #else
+    return gl_VertexID;
+  #endif
+}
+
+Vertex vertexAt(int end) {
+  int record = recordNumber(drawnNumber(end));
   vec4 color = texelOf(colorImage, firstTexels.z, recordTexel(record));
   if (!colorHasAlpha) color.a = 1.0;
   return Vertex(storedPosition(record), readNormal(record), color, readTexCoord(record));
@@ -305,7 +323,7 @@ Vertex readVertex() {
 
 #else
 
-vec3 readNormal() {
+vec3 unitNormal(vec3 normal) {
   #if defined(NORMAL_WORDS)
     float word = normal.x < 0.0 ? normal.x + 65536.0 : normal.x; // X3DOM's, in records of Int16
     return unitOf(vec2(mod(word, 256.0), floor(word / 256.0)));
@@ -318,19 +336,34 @@ vec3 readNormal() {
   #endif
 }
 
-Vertex readVertex() {
+#if defined(USE_COLOR_ALPHA)
+  #define STORED_COLOR(color) color
+#elif defined(USE_COLOR)
+  #define STORED_COLOR(color) vec4(color, 1.0)
+#else
+  #define STORED_COLOR(color) vec4(1.0)
+#endif
+#ifdef HAS_TEX_COORDS
+  #define STORED_TEX_COORD(uv) uv
+#else
+  #define STORED_TEX_COORD(uv) vec2(0.0)
+#endif
+
+#ifdef ${wideLinesDefine}
+  attribute vec3 positionEnd, normalEnd;
+  attribute vec2 uvEnd;
   #if defined(USE_COLOR_ALPHA)
-    vec4 vertexColor = color;
+    attribute vec4 colorEnd;
   #elif defined(USE_COLOR)
-    vec4 vertexColor = vec4(color, 1.0);
-  #else
-    vec4 vertexColor = vec4(1.0);
+    attribute vec3 colorEnd;
   #endif
-  #ifdef HAS_TEX_COORDS
-    return Vertex(position, readNormal(), vertexColor, uv);
-  #else
-    return Vertex(position, readNormal(), vertexColor, vec2(0.0));
+#endif
+
+Vertex vertexAt(int end) {
+  #ifdef ${wideLinesDefine}
+    if (end == 1) return Vertex(positionEnd, unitNormal(normalEnd), STORED_COLOR(colorEnd), STORED_TEX_COORD(uvEnd));
   #endif
+  return Vertex(position, unitNormal(normal), STORED_COLOR(color), STORED_TEX_COORD(uv));
 }
 
 #endif
@@ -356,14 +389,17 @@ const colorChunk = /* glsl */ `
 /** Where a point has its size. */
 export const pointSizeChunk = "gl_PointSize = pointSizeAt(length(mvPosition.xyz));";
 
+/** The first of a vertex shader. */
+export const readVertexStatement = "Vertex vertex = readVertex();";
+
 /** Makes a built-in material's shaders read their vertices here, for use in `onBeforeCompile`. */
 export function readVerticesIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
-  shader.fragmentShader = ownNormalsChunk + placeFragmentChunk + shader.fragmentShader;
+  shader.fragmentShader = ownNormalsChunk + placeFragmentChunk + dashChunk + replaceEach(shader.fragmentShader, [["void main() {", cutDashesChunk]]);
   shader.vertexShader = ownNormalsChunk + replaceEach(shader.vertexShader, [
-    ["#include <common>", `#include <common>\n${readVertexChunk}${placeVertexChunk}`],
-    ["void main() {", "void main() {\n  Vertex vertex = readVertex();"],
+    ["#include <common>", `#include <common>\n${readVertexChunk}${wideLineChunk}${placeVertexChunk}`],
+    ["void main() {", `void main() {\n  ${readVertexStatement}`],
     ["#include <uv_vertex>", texCoordChunk],
-    ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\nshowPlace();`],
+    ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\nshowPlace();\nwidenLine();`],
     ["#include <color_vertex>", colorChunk],
     // Normals are the shape's own.
     ["#include <beginnormal_vertex>", "vec3 objectNormal = normalInPlace(vertex.normal);"],

@@ -132,7 +132,7 @@ function pickOf(stage: Stage, range: DrawRange, settingNow: () => PatchSetting):
       if (shape === undefined) throw new RangeError("the draw is not one of its stage");
       return {
         geometry: shape,
-        request: pickRequestOf(stage, geometry.solid ? FrontSide : DoubleSide, uniformsOf(stage, settingNow()).of(range), settingNow().appearance, settingNow().pictures),
+        request: pickRequestOf(stage, range, geometry.solid ? FrontSide : DoubleSide, uniformsOf(stage, settingNow()).of(range), settingNow().appearance, settingNow().pictures),
         release: () => { geometries.release(stage); },
       };
     },

@@ -5,7 +5,7 @@ import { InterleavedBuffer, InterleavedBufferAttribute } from "three";
 import { arrayTypeOf, byteSizeOf } from "../../decode/elements.ts";
 import type { BufferStage, DrawRange, ElementArray } from "../../decode/stage.ts";
 import type { Buffers } from "../buffers.ts";
-import { storedAttributesOf } from "../stageGeometries.ts";
+import { storedAttributesOf } from "../storedAttributes.ts";
 import { GrowingArray } from "./growingArray.ts";
 
 const bytesPerWord = 4;
