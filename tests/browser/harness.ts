@@ -126,7 +126,8 @@ function watch(page: Page, server: TestServer): View {
   page.on("pageerror", (error) => errors.push(String(error)));
   page.on("request", (request) => {
     if (request.url().startsWith(server.origin)) asked.push(request.url().slice(server.origin.length));
-    else foreignRequests.push(request.url());
+    // What a page has made for itself, a blob, is of its origin.
+    else if (new URL(request.url()).origin !== new URL(server.origin).origin) foreignRequests.push(request.url());
   });
   const observed = (): Promise<Observed> => page.evaluate(() => window.observed);
   return {

@@ -9,6 +9,8 @@ export interface PlainMesh {
   normals?: Float32Array;
   /** Bytes, three a vertex. */
   colors?: Uint8Array;
+  /** Two a vertex. */
+  texCoords?: Float32Array;
   triangles: Uint32Array;
   lines?: Uint32Array;
   /** Further numbers, one a vertex, by the names of PLY's properties. */
@@ -43,6 +45,27 @@ export function withColors(mesh: PlainMesh): PlainMesh {
     colors[i] = Math.round(127.5 + 127.5 * Math.sin(1.7 * mesh.positions[i]! + 2.1 * (i % 3)));
   }
   return { ...mesh, colors };
+}
+
+/** The same with a picture laid over it from the front, `times` times a side and from `start` on. */
+export function withTexCoords(mesh: PlainMesh, times = 1, start = 0): PlainMesh {
+  const across = [0, 1].map((axis) => mesh.positions.filter((_, i) => i % 3 === axis));
+  const [least, most] = [Math.min, Math.max].map((pick) => across.map((values) => values.reduce((a, b) => pick(a, b))));
+  const texCoords = Float32Array.from({ length: (mesh.positions.length / 3) * 2 }, (_, i) => {
+    const [low, high] = [least![i % 2]!, most![i % 2]!];
+    return start + (times * (across[i % 2]![Math.floor(i / 2)]! - low)) / (high - low);
+  });
+  return { ...mesh, texCoords };
+}
+
+/** OBJ of triangles with normals and texture coordinates, whose material `material` is in `library`. */
+export function writeObj({ positions, normals = new Float32Array(0), texCoords = new Float32Array(0), triangles }: PlainMesh,
+                         library: string, material: string): string {
+  const rows = (word: string, values: Float32Array, each: number): string[] =>
+    Array.from({ length: values.length / each }, (_, i) => `${word} ${values.subarray(each * i, each * (i + 1)).join(" ")}`);
+  const faces = Array.from({ length: triangles.length / 3 }, (_, t) =>
+    `f ${Array.from(triangles.subarray(3 * t, 3 * t + 3), (vertex) => Array(3).fill(vertex + 1).join("/")).join(" ")}`);
+  return [`mtllib ${library}`, `usemtl ${material}`, ...rows("v", positions, 3), ...rows("vt", texCoords, 2), ...rows("vn", normals, 3), ...faces, ""].join("\n");
 }
 
 export function withoutNormals({ positions, triangles }: PlainMesh): PlainMesh {

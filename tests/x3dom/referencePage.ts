@@ -8,13 +8,13 @@ export function referencePage(html: string, mesh: PlainMesh): string {
   const begin = html.search(/<(Group|Shape)\b/);
   const group = html.indexOf("</Group>", begin);
   const end = group > 0 ? group + "</Group>".length : html.indexOf("</Shape>", begin) + "</Shape>".length;
-  const material = /<Material[^>]*><\/Material>/.exec(html.slice(begin, end))?.[0];
-  if (begin < 0 || material === undefined) throw new Error("the page has no shape with a material");
-  const shape = `<Shape><Appearance>${material}</Appearance>${plainNode(mesh)}</Shape>`;
+  const appearance = /<Appearance[\s\S]*?<\/Appearance>/.exec(html.slice(begin, end))?.[0];
+  if (begin < 0 || appearance === undefined) throw new Error("the page has no shape with an appearance");
+  const shape = `<Shape>${appearance}${plainNode(mesh)}</Shape>`;
   return html.slice(0, begin) + shape + html.slice(end);
 }
 
-function plainNode({ positions, normals, colors, triangles, lines = new Uint32Array(0) }: PlainMesh): string {
+function plainNode({ positions, normals, colors, texCoords, triangles, lines = new Uint32Array(0) }: PlainMesh): string {
   const coordinate = `<Coordinate point="${positions.join(" ")}"></Coordinate>`;
   const color = colors ? `<Color color="${Array.from(colors, (byte) => byte / 255).join(" ")}"></Color>` : "";
   if (lines.length > 0) {
@@ -26,5 +26,6 @@ function plainNode({ positions, normals, colors, triangles, lines = new Uint32Ar
   // X3DOM skips words that are no numbers: vertices without triangles have such normals.
   const vectors = normals.map((value) => (Number.isFinite(value) ? value : 0));
   const normal = `<Normal vector="${vectors.join(" ")}"></Normal>`;
-  return `<IndexedTriangleSet index="${triangles.join(" ")}">${coordinate}${normal}${color}</IndexedTriangleSet>`;
+  const texCoord = texCoords ? `<TextureCoordinate point="${texCoords.join(" ")}"></TextureCoordinate>` : "";
+  return `<IndexedTriangleSet index="${triangles.join(" ")}">${coordinate}${normal}${color}${texCoord}</IndexedTriangleSet>`;
 }

@@ -2,12 +2,12 @@
 // the same mesh written inline into the same page.
 
 import assert from "node:assert/strict";
-import { existsSync, readFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
 import { assertSamePicture, difference, isWithin, savePicture, type Bounds } from "../browser/compare.ts";
-import { areaWeightedNormals, readObj, readPly, type PlainMesh } from "../browser/meshes.ts";
-import { modelDirectory } from "../browser/paths.ts";
+import { areaWeightedNormals, readObj, readPly, trefoil, withTexCoords, writeObj, type PlainMesh } from "../browser/meshes.ts";
+import { modelDirectory, outputDirectory } from "../browser/paths.ts";
 import { decodePng, encodePng, type Picture } from "../browser/png.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "../browser/sites.ts";
 import { referencePage } from "./referencePage.ts";
@@ -22,6 +22,21 @@ const patches = ["--patch-vertices", "700"];
 function sourceOf(name: GeneratedMesh): PlainMesh {
   const mesh = readPly(readFileSync(meshFile(name)));
   return mesh.normals || mesh.triangles.length === 0 ? mesh : { ...mesh, normals: areaWeightedNormals(mesh) };
+}
+
+/** An OBJ file of the mesh with a picture of soft stripes on it, in a folder of their own. */
+function texturedFile(name: string, mesh: PlainMesh): string {
+  const folder = join(outputDirectory, name);
+  mkdirSync(folder, { recursive: true });
+  const wave = (x: number): number => Math.round(127.5 + 110 * Math.sin((2 * Math.PI * x) / 32));
+  const data = Uint8Array.from(Array.from({ length: 64 * 64 }, (_, i) => {
+    const [x, y] = [i % 64, Math.floor(i / 64)];
+    return [wave(x), wave(2 * y), 4 * y];
+  }).flat());
+  writeFileSync(join(folder, "stripes.png"), encodePng({ width: 64, height: 64, channels: 3, data }));
+  writeFileSync(join(folder, "stripes.mtl"), "newmtl stripes\nKd 1 1 1\nmap_Kd stripes.png\n");
+  writeFileSync(join(folder, `${name}.obj`), writeObj(mesh, "stripes.mtl", "stripes"));
+  return join(folder, `${name}.obj`);
 }
 
 /** The mesh with its positions on the lattice that convert lays over it. */
@@ -67,7 +82,6 @@ for (const container of containers) {
     const cases: [what: string, mesh: GeneratedMesh, more: string[], bits?: number][] = [
       ["triangles", "trefoil", []],
       ["strips", "trefoil", ["--primitives", "strips"]],
-      ["many patches", "trefoil", patches],
       ["many patches of strips with colours", "trefoil-colors", [...patches, "--primitives", "strips"]],
       ["computed normals", "trefoil-plain", []],
     ];
@@ -92,12 +106,23 @@ for (const container of containers) {
       });
     }
 
+    test("shows a texture on many patches as X3DOM shows it inline", async () => {
+      const mesh = withTexCoords(trefoil());
+      await assertShows("texture", siteOf(texturedFile("texture", mesh), ...options(container), ...patches), container, mesh);
+    });
+
     test("shows positions of 12 bits as X3DOM shows them inline", async () => {
       const site = siteOfGenerated("sphere", ...options(container), "--position-bits", "12");
       await assertShows("sphere-12", site, container, onLattice(sourceOf("sphere"), 12));
     });
 
     if (container === "bg") {
+      test("shows a texture that repeats as X3DOM shows it inline", async () => {
+        const mesh = withTexCoords(trefoil(), 3, -1);
+        const records = ["--coord-type", "float32", "--layout", "interleaved"];
+        await assertShows("texture-repeats", siteOf(texturedFile("texture-repeats", mesh), ...options(container), ...records), container, mesh);
+      });
+
       test("shows positions of 8 bits as uint8 and of 11 as int16 as X3DOM shows them inline", async () => {
         for (const [type, bits] of [["uint8", 8], ["int16", 11]] as const) {
           const site = siteOfGenerated("sphere", ...options(container), "--coord-type", type, "--position-bits", `${bits}`);
