@@ -1,0 +1,115 @@
+// Scenes of many shapes: what of their bytes is the document, what a page asks for
+// until something and until everything is seen, and in which order, from two
+// cameras. Prints Markdown tables; pictures go to build/scenes, and all of them
+// together, where no scene is missing, to docs/images/scenes.png.
+//
+//   scripts/bench scenes [NAME...]
+
+import { execFileSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { launchWarm } from "../load/measure.ts";
+import { converter, repository } from "../../tests/browser/paths.ts";
+import { fileOf, inputs, sitesOf, type Input } from "./inputs.ts";
+import { visit, type AskedFile, type Visit } from "./visit.ts";
+
+const line = { bitsPerSecond: 20e6, roundTripMs: 40 };
+const output = join(repository, "build/scenes");
+
+interface SiteInfo {
+  readonly triangles: number;
+  readonly documentBytes: number;
+  readonly containerBytes: number;
+  readonly textureBytes: number;
+}
+
+interface Measured {
+  readonly input: Input;
+  readonly info: SiteInfo;
+  readonly visits: readonly Visit[];
+}
+
+function print(...cells: (string | number)[]): void {
+  console.log(`| ${cells.join(" | ")} |`);
+}
+
+const whole = (value: number): string => Math.round(value).toLocaleString("en-US");
+const share = (part: number, of: number): string => `${((100 * part) / of).toFixed(1)} %`;
+
+async function measure(input: Input, work: string): Promise<Measured | undefined> {
+  const file = fileOf(input, work);
+  if (file === undefined) return undefined;
+  const sites = sitesOf(input, file, work);
+  const info = JSON.parse(execFileSync(converter, ["info", "--json", sites[0]], { encoding: "utf8" })) as SiteInfo;
+  const visits: Visit[] = [];
+  for (const site of sites) visits.push(await visit(browser, site, line));
+  visits.forEach(({ picture }, place) => { writeFileSync(join(output, `${input.name}-${place + 1}.png`), picture); });
+  // The second copy's document has a camera's attributes more.
+  return { input, info: { ...info, documentBytes: statSync(join(sites[0], "index.html")).size }, visits };
+}
+
+/** Raw, and as sent with brotli; geometry and pictures are the same either way. */
+function printBytes({ input, info, visits }: Measured): void {
+  const { shapes, triangles, documentBytes, runtimeBytes } = visits[0]!;
+  const { containerBytes, textureBytes } = info;
+  // What its containers would take were every place of a mesh stored by itself.
+  const unshared = (containerBytes * triangles) / info.triangles;
+  const page = runtimeBytes + containerBytes + textureBytes;
+  print(input.name, whole(shapes), whole(triangles), whole(info.triangles), whole(info.documentBytes), whole(documentBytes),
+    whole(containerBytes), whole(textureBytes), share(documentBytes, documentBytes + page),
+    share(documentBytes, documentBytes + containerBytes + textureBytes), share(info.documentBytes, info.documentBytes + unshared + textureBytes));
+}
+
+function printLoad({ input, visits }: Measured, place: number): void {
+  const { requests, bytes, firstBytes, firstSeconds, finalSeconds, drawCalls } = visits[place]!;
+  print(input.name, input.cameras[place]!.name, requests, drawCalls, `${whole(firstBytes / 1000)} kB, ${firstSeconds.toFixed(2)} s`,
+    `${whole(bytes / 1000)} kB, ${finalSeconds.toFixed(2)} s`);
+}
+
+function textOf({ role, names, bytes }: AskedFile): string {
+  const some = names.slice(0, 3).map((name) => name.length > 24 ? `${name.slice(0, 23)}…` : name).join(", ");
+  return `${role} (${(bytes / 1000).toFixed(bytes < 10_000 ? 1 : 0)} kB) of ${some}${names.length > 3 ? ` and ${names.length - 3} more` : ""}`;
+}
+
+/** Previews come in one go, and would fill the list. */
+function printOrder({ input, visits }: Measured, place: number): void {
+  const steps = visits[place]!.asked.filter(({ role }) => role !== "preview").map(textOf);
+  console.log(`- **${input.name}, ${input.cameras[place]!.name}**: ${steps.slice(0, 8).join("; ")}${steps.length > 8 ? `; ${steps.length - 8} more` : ""}`);
+}
+
+/** A column a scene, a row a camera. */
+async function sheetOf(all: readonly Measured[]): Promise<Buffer> {
+  const width = 200;
+  const page = await browser.newPage({ viewport: { width: width * all.length, height: 300 } });
+  const pictures = [0, 1].flatMap((place) => all.map(({ visits }) => visits[place]!.picture.toString("base64")));
+  await page.setContent(`<style>body { margin: 0; line-height: 0 }</style>${
+    pictures.map((png) => `<img width="${width}" src="data:image/png;base64,${png}">`).join("")}`);
+  return page.screenshot();
+}
+
+const wanted = process.argv.slice(2);
+mkdirSync(output, { recursive: true });
+const work = mkdtempSync(join(tmpdir(), "imgeo-scenes-"));
+const browser = await launchWarm();
+try {
+  const all: Measured[] = [];
+  for (const input of inputs) {
+    if (wanted.length > 0 && !wanted.includes(input.name)) continue;
+    const measured = await measure(input, work);
+    if (measured) all.push(measured);
+  }
+  print("scene", "shapes", "triangles seen", "stored", "document", "brotli", "geometry", "textures", "document's share of the page", "of the scene's files", "were nothing shared");
+  print("---", ...Array.from({ length: 10 }, () => "--:"));
+  all.forEach(printBytes);
+  console.log();
+  print("scene", "camera", "requests", "draw calls", "until the first picture", "until all is seen");
+  print("---", "---", "--:", "--:", "--:", "--:");
+  for (const measured of all) for (const place of [0, 1]) printLoad(measured, place);
+  console.log();
+  for (const measured of all) for (const place of [0, 1]) printOrder(measured, place);
+  if (all.length === inputs.length) writeFileSync(join(repository, "docs/images/scenes.png"), await sheetOf(all));
+} finally {
+  await browser.close();
+  rmSync(work, { recursive: true, force: true });
+}
