@@ -1,6 +1,7 @@
 #include "prepare/edge_collapse.h"
 
 #include <algorithm>
+#include <bit>
 #include <queue>
 
 namespace imgeo {
@@ -11,15 +12,22 @@ constexpr std::uint32_t none = UINT32_MAX;
 
 /// What an edge costs, as it was when both ends had these versions.
 struct Candidate {
-  float cost = 0;
-  std::uint32_t from = 0, to = 0, versions = 0;
+  std::uint64_t rank = 0; ///< its cost, not below 0, as the bits of a float, before `from`
+  std::uint32_t to = 0, versions = 0;
+
+  Candidate(float cost, std::uint32_t from, std::uint32_t other, std::uint32_t sum)
+      : rank(std::uint64_t{std::bit_cast<std::uint32_t>(cost)} << 32 | from), to(other), versions(sum) {}
+  std::uint32_t from() const { return static_cast<std::uint32_t>(rank); }
 
   /// The least cost is on top of a heap; equal ones in the order of their vertices.
   friend bool operator<(const Candidate& a, const Candidate& b) {
-    if (a.cost != b.cost)
-      return a.cost > b.cost;
-    return a.from != b.from ? a.from > b.from : a.to > b.to;
+    return a.rank != b.rank ? a.rank > b.rank : a.to > b.to;
   }
+};
+
+struct Edge {
+  std::uint32_t a, b;
+  std::uint32_t triangleCount;
 };
 
 class EdgeCollapse {
@@ -31,19 +39,20 @@ public:
         versions_(vertices_.size()), marks_(vertices_.size()) {
     for (std::uint32_t corner = 0; corner < corners_.size(); ++corner)
       append(corners_[corner], corner, corner);
-    holdBorders();
   }
 
   void run() {
-    for (std::uint32_t vertex = 0; vertex < vertices_.size(); ++vertex)
-      for (const std::uint32_t neighbour : neighboursOf(vertex))
-        if (vertex < neighbour)
-          offer(vertex, neighbour);
+    const std::vector<Edge> edges = allEdges();
+    for (const Edge& edge : edges)
+      if (edge.triangleCount == 1)
+        holdBorder(edge);
+    for (const Edge& edge : edges)
+      offer(edge.a, edge.b);
     while (triangleCount_ > wanted_ && !heap_.empty()) {
       const Candidate candidate = heap_.top();
       heap_.pop();
-      if (candidate.versions == versions_[candidate.from] + versions_[candidate.to])
-        collapse(candidate.from, candidate.to);
+      if (candidate.versions == versions_[candidate.from()] + versions_[candidate.to])
+        collapse(candidate.from(), candidate.to);
     }
     keepTriangles();
   }
@@ -83,32 +92,46 @@ private:
     return neighbours_;
   }
 
-  std::uint32_t trianglesAt(std::uint32_t a, std::uint32_t b) const {
-    std::uint32_t count = 0;
-    visitCorners(a, [&](std::uint32_t corner) {
-      count += corners_[afterCorner(corner)] == b || corners_[beforeCorner(corner)] == b;
-    });
-    return count;
+  /// Each once, with a < b.
+  std::vector<Edge> allEdges() {
+    std::vector<Edge> edges;
+    edges.reserve(corners_.size() / 2);
+    std::vector<std::size_t> places(vertices_.size()); // of the edges to higher vertices
+    for (std::uint32_t a = 0; a < vertices_.size(); ++a) {
+      const std::size_t first = edges.size();
+      visitCorners(a, [&](std::uint32_t corner) {
+        for (const std::uint32_t b : {corners_[afterCorner(corner)], corners_[beforeCorner(corner)]})
+          if (a < b) {
+            if (places[b] < first || places[b] >= edges.size() || edges[places[b]].b != b) {
+              places[b] = edges.size();
+              edges.push_back({a, b, 0});
+            }
+            ++edges[places[b]].triangleCount;
+          }
+      });
+    }
+    return edges;
   }
 
   /// A border is held by planes through its edges that stand on their triangles.
-  void holdBorders() {
-    for (std::uint32_t corner = 0; corner < corners_.size(); ++corner) {
-      const std::uint32_t a = corners_[corner], b = corners_[afterCorner(corner)];
-      if (trianglesAt(a, b) != 1)
-        continue;
-      isBorder_[a] = isBorder_[b] = true;
-      const Vec3d edge = vertices_[b].place - vertices_[a].place;
-      const Vec3d normal = cross(edge, vertices_[corners_[beforeCorner(corner)]].place - vertices_[a].place);
-      const Vec3d across = cross(edge, normal);
-      const double size = length(across);
-      if (!(size > 0))
-        continue;
-      constexpr double holdOfBorders = 3;
-      for (const std::uint32_t vertex : {a, b})
-        vertices_[vertex].quadric.addPlane(across * (1 / size), vertices_[a].place,
-                                           holdOfBorders * dot(edge, edge));
-    }
+  void holdBorder(const Edge& edge) {
+    const auto [a, b, one] = edge;
+    isBorder_[a] = isBorder_[b] = true;
+    const Vec3d along = vertices_[b].place - vertices_[a].place;
+    Vec3d normal;
+    visitCorners(a, [&](std::uint32_t corner) {
+      const std::uint32_t u = corners_[afterCorner(corner)], v = corners_[beforeCorner(corner)];
+      if (u == b || v == b)
+        normal = cross(along, vertices_[u == b ? v : u].place - vertices_[a].place);
+    });
+    const Vec3d across = cross(along, normal);
+    const double size = length(across);
+    if (!(size > 0))
+      return;
+    constexpr double holdOfBorders = 3;
+    for (const std::uint32_t vertex : {a, b})
+      vertices_[vertex].quadric.addPlane(across * (1 / size), vertices_[a].place,
+                                         holdOfBorders * dot(along, along));
   }
 
   /// Where the vertex is to be that two become.
@@ -130,7 +153,7 @@ private:
     constexpr double costOfLength = 1e-5;
     const double cost = std::max(0.0, quadric.errorAt(placeFor(a, b, quadric))) +
                         costOfLength * quadric.weight() * dot(edge, edge);
-    heap_.push({static_cast<float>(cost), std::min(a, b), std::max(a, b), versions_[a] + versions_[b]});
+    heap_.emplace(static_cast<float>(cost), std::min(a, b), std::max(a, b), versions_[a] + versions_[b]);
   }
 
   /// Two vertices may become one where all that both are joined to are the third

@@ -204,6 +204,17 @@ Patch makePatch(const Mesh& mesh, const std::vector<Vec3u>& lattice, Elements el
   return patch;
 }
 
+/// Of a mesh that needs no cutting.
+Patch wholePatch(Mesh mesh, std::vector<Vec3u> lattice) {
+  Patch patch;
+  patch.topology = mesh.topology;
+  patch.positions = std::move(lattice);
+  patch.wedgePositions = std::move(mesh.wedgePositions);
+  patch.corners = std::move(mesh.corners);
+  static_cast<VertexAttributes&>(patch) = std::move(static_cast<VertexAttributes&>(mesh));
+  return patch;
+}
+
 } // namespace
 
 Box3d boxOf(const Patch& patch, const Lattice& lattice) {
@@ -221,25 +232,22 @@ Box3d boxOf(const Patch& patch, const Lattice& lattice) {
   return box;
 }
 
-PatchedMesh cutIntoPatches(const Mesh& mesh, const Lattice& lattice, std::uint32_t maxWedges) {
+PatchedMesh cutIntoPatches(Mesh mesh, const Lattice& lattice, std::uint32_t maxWedges) {
   assert(maxWedges >= 3);
   PatchedMesh result;
   result.lattice = lattice;
-  const std::vector<Vec3u> positions = quantise(mesh.positions, lattice);
-
-  std::vector<std::uint32_t> permutation(mesh.elementCount());
-  std::iota(permutation.begin(), permutation.end(), 0u);
-  std::vector<Elements> leaves;
+  std::vector<Vec3u> positions = quantise(mesh.positions, lattice);
   if (mesh.wedgeCount() <= maxWedges && mesh.corners.size() <= maxPatchCorners) {
-    if (!permutation.empty())
-      leaves = {permutation};
+    if (mesh.elementCount() > 0)
+      result.patches.push_back(wholePatch(std::move(mesh), std::move(positions)));
   } else {
-    leaves = cutTree(ElementTable(mesh), permutation, maxWedges);
+    std::vector<std::uint32_t> permutation(mesh.elementCount());
+    std::iota(permutation.begin(), permutation.end(), 0u);
+    const std::vector<Elements> leaves = cutTree(ElementTable(mesh), permutation, maxWedges);
+    result.patches.resize(leaves.size());
+    parallelFor(leaves.size(),
+                [&](std::size_t i) { result.patches[i] = makePatch(mesh, positions, leaves[i], maxWedges); });
   }
-
-  result.patches.resize(leaves.size());
-  parallelFor(leaves.size(),
-              [&](std::size_t i) { result.patches[i] = makePatch(mesh, positions, leaves[i], maxWedges); });
   for (const Patch& patch : result.patches) {
     const Box3d box = boxOf(patch, lattice);
     result.box.add(box.min);

@@ -1,5 +1,7 @@
 #include "prepare/patches.h"
 
+#include "prepare/weld.h"
+
 #include "base/parallel.h"
 #include "scene/testing.h"
 
@@ -55,7 +57,8 @@ void expectWellFormed(const Patch& patch, std::uint32_t maxWedges) {
 
 TEST(Patches, HoldEveryElementOnce) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
-    const Mesh mesh = testing::randomMesh(seed);
+    Mesh mesh = testing::randomMesh(seed);
+    weld(mesh);
     std::multiset<std::vector<double>> expected, found;
     addElements(expected, mesh, quantise(mesh.positions, latticeFor(boxOf(mesh), 16)));
     const std::uint32_t maxWedges = 3 + seed % 50;

@@ -110,9 +110,12 @@ CollapsingSurface surfaceOf(std::span<const Vec3d> places, std::span<const std::
     const double size = length(normal);
     const std::uint32_t u = cells.ofVertex[corners[corner]], v = cells.ofVertex[corners[corner + 1]],
                         w = cells.ofVertex[corners[corner + 2]];
-    if (size > 0)
+    if (size > 0) {
+      Quadric plane;
+      plane.addPlane(normal * (1 / size), a, size);
       for (const std::uint32_t cell : {u, v, w})
-        surface.vertices[cell].quadric.addPlane(normal * (1 / size), a, size);
+        surface.vertices[cell].quadric += plane;
+    }
     if (u != v && v != w && w != u)
       surface.corners.insert(surface.corners.end(), {u, v, w});
   }

@@ -61,7 +61,7 @@ compact::CompactPatch quantisedAs(Patch patch, const GeometryDescription& geomet
                                   const ConvertOptions& options, const EncodeOptions& encoding) {
   if (options.primitives == Primitives::points)
     patch.topology = Topology::points;
-  return quantisePatch(patch, geometry, encoding);
+  return quantisePatch(std::move(patch), geometry, encoding);
 }
 
 EncodedPatch encodeAlone(const compact::CompactPatch& patch, const GeometryDescription& geometry,
@@ -125,8 +125,7 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
       latticeFor(box, options.coordType.value_or(ElementType::uint32), positionBitsFor(box, options));
   EncodedMesh result;
   result.collapsed.of(mesh.topology) = collapsedElements(mesh, lattice);
-  PatchedMesh patched = cutIntoPatches(mesh, lattice, options.patchVertices);
-  mesh = {};
+  PatchedMesh patched = cutIntoPatches(std::move(mesh), lattice, options.patchVertices);
 
   const EncodeOptions encoding{options.container,    options.normalBits,    options.effort,
                                options.target,       options.normals,       options.coordType,

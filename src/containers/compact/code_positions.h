@@ -109,7 +109,7 @@ private:
   /// What the models would charge least for.
   std::uint32_t cheapest(const Candidates& candidates, const VertexContext& context, Vec3u position) const {
     std::uint32_t best = 0;
-    float least = std::numeric_limits<float>::infinity();
+    std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
     for (std::uint32_t i = 0; i < candidates.count && candidates.count > 1; ++i) {
       CostMeter meter(coder_, least);
       codeChoice(meter, candidates, context, i);

@@ -152,7 +152,7 @@ private:
 
   std::uint32_t cheapest(const Guesses& guesses, std::uint32_t latest, Value value) {
     std::uint32_t best = 0;
-    float least = std::numeric_limits<float>::infinity();
+    std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
     for (std::uint32_t i = 0; i < guesses.count && guesses.count > 1; ++i) {
       CostMeter meter(coder_, least);
       codeChoice(meter, guesses, latest, i);

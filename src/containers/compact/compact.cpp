@@ -8,6 +8,7 @@
 #include "containers/stored.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace imgeo {
 
@@ -58,13 +59,13 @@ template <typename Value> const Value& valueAt(const std::vector<Value>& values,
 
 } // namespace
 
-compact::CompactPatch quantisePatch(const Patch& patch, const GeometryDescription& geometry,
+compact::CompactPatch quantisePatch(Patch patch, const GeometryDescription& geometry,
                                     const EncodeOptions& options) {
   const compact::AttributeBits bits{options.normalBits, options.texCoordBits, options.colorBits,
                                     options.normals == NormalEncoding::derived
                                         ? compact::NormalMode::derivedArea
                                         : compact::NormalMode::area};
-  return compact::quantise(patch, geometry, bits);
+  return compact::quantise(std::move(patch), geometry, bits);
 }
 
 PatchDescription describe(const compact::CompactPatch& patch, const GeometryDescription& geometry) {

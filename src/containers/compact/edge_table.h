@@ -2,8 +2,6 @@
 // The triangles at a directed edge that have not been taken yet: nearly at once where
 // vertices have a few, and in logarithmic time however many share a vertex or an edge.
 
-#include "prepare/incidence.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <span>
@@ -13,73 +11,83 @@ namespace imgeo::compact {
 
 class EdgeTable {
 public:
-  static constexpr std::uint32_t none = UINT32_MAX;
+  /// From a vertex to another, along a triangle that has `third` besides.
+  struct Edge {
+    std::uint32_t to, third;
+    std::uint32_t corner; ///< of the triangle, at the edge's begin
+  };
 
   /// `vertices`, below `vertexCount`, are corners of triangles. Triangles with two equal
   /// corners have no edges here.
   EdgeTable(std::span<const std::uint32_t> vertices, std::uint32_t vertexCount)
-      : taken_(vertices.size() / 3) {
-    const Incidence incidence =
-        incidenceOf(vertices.size(), vertexCount, [&](std::size_t corner) { return vertices[corner]; });
-    edges_.reserve(vertices.size());
-    begins_.reserve(vertexCount + 1);
-    for (std::uint32_t from = 0; from < vertexCount; ++from) {
-      begins_.push_back(static_cast<std::uint32_t>(edges_.size()));
-      for (const std::uint32_t corner : incidence.of(from)) {
-        const std::uint32_t first = corner - corner % 3;
-        const std::uint32_t to = vertices[first + (corner + 1) % 3],
-                            third = vertices[first + (corner + 2) % 3];
-        if (from != to && to != third && third != from)
-          edges_.push_back({to, corner});
-      }
-      std::sort(edges_.begin() + begins_.back(), edges_.end(), before);
-    }
-    begins_.push_back(static_cast<std::uint32_t>(edges_.size()));
+      : begins_(vertexCount + 2), taken_(vertices.size() / 3) {
+    // Two places behind its vertex a sum of counts is where the next one's edges begin;
+    // filling moves it on to where they end.
+    visitEdges(vertices, [&](std::uint32_t from, const Edge&) { ++begins_[from + 2]; });
+    for (std::size_t vertex = 2; vertex < begins_.size(); ++vertex)
+      begins_[vertex] += begins_[vertex - 1];
+    edges_.resize(begins_.back());
+    visitEdges(vertices, [&](std::uint32_t from, const Edge& edge) { edges_[begins_[from + 1]++] = edge; });
+    for (std::uint32_t from = 0; from < vertexCount; ++from)
+      if (begins_[from + 1] - begins_[from] > fewEdges)
+        std::sort(edges_.begin() + begins_[from], edges_.begin() + begins_[from + 1], before);
   }
 
-  /// The corner at `from` of a triangle, not taken yet, that has the edge from -> to; or none.
-  std::uint32_t find(std::uint32_t from, std::uint32_t to) {
-    const std::uint32_t end = begins_[from + 1];
-    std::uint32_t at = begins_[from];
-    if (end - at > fewEdges)
-      at = static_cast<std::uint32_t>(
-          std::lower_bound(edges_.begin() + at, edges_.begin() + end, Edge{to, 0}, before) - edges_.begin());
-    else
-      while (at != end && edges_[at].to < to)
-        ++at;
-    if (at == end || edges_[at].to != to)
-      return none;
-    if (!isTaken(edges_[at].corner / 3))
-      return edges_[at].corner;
-    return findBehind(at, end, to);
+  /// The first edge from -> to, in the source's order, whose triangle is not taken yet; or null.
+  const Edge* find(std::uint32_t from, std::uint32_t to) {
+    const std::uint32_t begin = begins_[from], end = begins_[from + 1];
+    if (end - begin > fewEdges)
+      return findAmongMany(begin, end, to);
+    // All are looked at: which one it is nobody can predict, and a wrong guess costs more.
+    std::uint32_t found = end;
+    for (std::uint32_t at = end; at-- > begin;)
+      found = edges_[at].to == to ? at : found;
+    while (found != end && (edges_[found].to != to || isTaken(edges_[found].corner / 3)))
+      ++found;
+    return found != end ? &edges_[found] : nullptr;
   }
 
   bool isTaken(std::uint32_t triangle) const { return taken_[triangle]; }
   void take(std::uint32_t triangle) { taken_[triangle] = true; }
 
 private:
-  struct Edge {
-    std::uint32_t to, corner;
-  };
   static constexpr std::uint32_t fewEdges = 16;
+
+  template <typename Visit>
+  static void visitEdges(std::span<const std::uint32_t> vertices, const Visit& visit) {
+    for (std::uint32_t corner = 0; corner < vertices.size(); corner += 3) {
+      const std::uint32_t a = vertices[corner], b = vertices[corner + 1], c = vertices[corner + 2];
+      if (a == b || b == c || c == a)
+        continue;
+      visit(a, {b, c, corner});
+      visit(b, {c, a, corner + 1});
+      visit(c, {a, b, corner + 2});
+    }
+  }
 
   /// Those of one edge in the source's order.
   static bool before(const Edge& a, const Edge& b) {
     return a.to != b.to ? a.to < b.to : a.corner < b.corner;
   }
 
-  /// Of several triangles at one edge: those found to be taken are passed over once.
-  std::uint32_t findBehind(std::uint32_t first, std::uint32_t end, std::uint32_t to) {
+  /// In a sorted range. Of several triangles at one edge those found to be taken are
+  /// passed over once.
+  const Edge* findAmongMany(std::uint32_t begin, std::uint32_t end, std::uint32_t to) {
     if (passed_.empty())
       passed_.resize(edges_.size());
+    const auto first = static_cast<std::uint32_t>(
+        std::lower_bound(edges_.begin() + begin, edges_.begin() + end, Edge{to, 0, 0}, before) -
+        edges_.begin());
+    if (first == end || edges_[first].to != to)
+      return nullptr;
     std::uint32_t at = first + passed_[first];
     while (at != end && edges_[at].to == to && isTaken(edges_[at].corner / 3))
       ++at;
     passed_[first] = at - first;
-    return at != end && edges_[at].to == to ? edges_[at].corner : none;
+    return at != end && edges_[at].to == to ? &edges_[at] : nullptr;
   }
 
-  std::vector<Edge> edges_;           ///< by the vertex that they begin at, then by that they lead to
+  std::vector<Edge> edges_;           ///< by the vertex that they begin at
   std::vector<std::uint32_t> begins_; ///< by vertex: of its edges; and their end
   std::vector<std::uint32_t> passed_; ///< by the first of equal edges: how many are taken for certain
   std::vector<bool> taken_;

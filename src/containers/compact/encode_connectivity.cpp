@@ -36,11 +36,12 @@ public:
   }
 
   Step stepAcross(const Gate& gate, const std::vector<Node>& nodes) {
-    const std::uint32_t corner = edges_.find(sources_[nodes[gate.k].vertex], sources_[nodes[gate.p].vertex]);
-    if (corner == none)
+    const EdgeTable::Edge* const edge =
+        edges_.find(sources_[nodes[gate.k].vertex], sources_[nodes[gate.p].vertex]);
+    if (!edge)
       return Step::hole;
-    take(corner);
-    targetSource_ = vertices_[before(corner)];
+    take(edge->corner);
+    targetSource_ = edge->third;
     targetVertex_ = numbers_[targetSource_];
     if (targetVertex_ == none)
       return Step::make;

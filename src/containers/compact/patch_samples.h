@@ -15,9 +15,11 @@ namespace imgeo::compact::testing {
 
 using imgeo::testing::Random;
 
-/// A mesh on its lattice, with what it has of attributes.
-inline CompactPatch patchOf(const Mesh& mesh, std::uint32_t bits, const AttributeBits& attributeBits = {}) {
-  const PatchedMesh patched = cutIntoPatches(mesh, latticeFor(boxOf(mesh), bits), 65535);
+/// A mesh on its lattice, welded, with what it has of attributes.
+inline CompactPatch patchOf(Mesh mesh, std::uint32_t bits, const AttributeBits& attributeBits = {}) {
+  const Lattice lattice = latticeFor(boxOf(mesh), bits);
+  weld(mesh);
+  const PatchedMesh patched = cutIntoPatches(std::move(mesh), lattice, 65535);
   return quantise(patched.patches.at(0), describe(patched, {}), attributeBits);
 }
 
@@ -137,10 +139,6 @@ inline std::vector<Sample> samples() {
     }
     return mesh;
   };
-  const auto welded = [](Mesh mesh) {
-    weld(mesh);
-    return mesh;
-  };
   Mesh oneTriangle;
   oneTriangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   addPlainWedges(oneTriangle);
@@ -158,7 +156,7 @@ inline std::vector<Sample> samples() {
   samples.push_back({"cone", patchOf(flatCone(40), 16)});
   samples.push_back({"terrain", patchOf(terrain(12), 16)});
   samples.push_back({"star", patchOf(star(300), 16)});
-  samples.push_back({"soup", patchOf(welded(soup(60, 5)), 16)});
+  samples.push_back({"soup", patchOf(soup(60, 5), 16)});
   samples.push_back({"non-manifold", patchOf(nonManifold(), 16)});
   samples.push_back({"fine", patchOf(sphere(6, 8), 30)});
   samples.push_back({"coarse", patchOf(sphere(20, 20), 8)});

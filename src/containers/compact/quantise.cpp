@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <utility>
 
 namespace imgeo::compact {
 
@@ -41,6 +42,7 @@ double shareOf(const Attribute& attribute, std::size_t wedge, std::uint32_t i) {
 void addNormals(CompactPatch& patch, const std::vector<Vec3f>& normals, const AttributeBits& bits) {
   Attribute attribute{typeOf(AttributeKind::normal, 3, bits.normal), {}};
   attribute.type.mode = bits.normalMode;
+  attribute.values.reserve(normals.size());
   for (const Vec3f& normal : normals)
     attribute.values.push_back(quantiseNormal(normal, bits.normal));
   patch.attributes.push_back(std::move(attribute));
@@ -79,14 +81,13 @@ NamedAttribute namedOf(const Attribute& attribute, const AttributeDescription& d
   return named;
 }
 
-CompactPatch quantiseInOrder(const Patch& patch, const GeometryDescription& geometry,
-                             const AttributeBits& bits) {
+CompactPatch quantiseInOrder(Patch patch, const GeometryDescription& geometry, const AttributeBits& bits) {
   CompactPatch quantised;
   quantised.topology = patch.topology;
   quantised.positionBits = geometry.lattice.bits;
-  quantised.positions = patch.positions;
-  quantised.wedgePositions = patch.wedgePositions;
-  quantised.corners = patch.corners;
+  quantised.positions = std::move(patch.positions);
+  quantised.wedgePositions = std::move(patch.wedgePositions);
+  quantised.corners = std::move(patch.corners);
   if (!patch.normals.empty())
     addNormals(quantised, patch.normals, bits);
   if (!patch.texCoords.empty())
@@ -143,13 +144,12 @@ std::vector<Draw> drawsOf(const CompactPatch& patch) {
   return {{primitiveOf(patch.topology), static_cast<std::uint32_t>(patch.corners.size())}};
 }
 
-CompactPatch quantise(const Patch& patch, const GeometryDescription& geometry, const AttributeBits& bits) {
+CompactPatch quantise(Patch patch, const GeometryDescription& geometry, const AttributeBits& bits) {
   if (patch.topology == Topology::points)
     return quantiseInOrder(separatePoints(patch), geometry, bits);
-  CompactPatch quantised = quantiseInOrder(patch, geometry, bits);
   if (patch.topology == Topology::lines)
-    quantised.corners = alongTrails(patch);
-  return quantised;
+    patch.corners = alongTrails(patch);
+  return quantiseInOrder(std::move(patch), geometry, bits);
 }
 
 IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& geometry) {

@@ -17,7 +17,7 @@ struct AttributeBits {
 /// one behind the other. Normals go to the octahedron's point of octahedronPoint, each coordinate of which
 /// is at most half a step off; texture coordinates to 2^bits points over the
 /// node's box, colours over 0 .. 255, both to the nearest.
-CompactPatch quantise(const Patch& patch, const GeometryDescription& geometry, const AttributeBits& bits);
+CompactPatch quantise(Patch patch, const GeometryDescription& geometry, const AttributeBits& bits);
 
 /// Colours, one a wedge, as `quantise` has them.
 Attribute colorAttribute(const std::vector<Rgba8>& colors, std::uint32_t components, std::uint32_t bits);

@@ -78,15 +78,39 @@ private:
   std::uint32_t held_ = 0;
 };
 
-/// What bits would cost, in bits, if they were written now: for an encoder that chooses.
+/// The binary logarithm of a number of up to 31 bits, in 1/65536: a bit of its fraction
+/// is whether the square of what is left reaches 2.
+constexpr std::uint32_t binaryLogarithm(std::uint32_t number) {
+  const auto whole = static_cast<std::uint32_t>(std::bit_width(number)) - 1;
+  std::uint64_t left = std::uint64_t{number} << (31 - whole); // 1 .. 2, in 1/2^31
+  std::uint32_t logarithm = whole;
+  for (int bit = 0; bit < 16; ++bit) {
+    left = left * left >> 31;
+    const std::uint32_t reachesTwo = left >> 32 & 1;
+    left >>= reachesTwo;
+    logarithm = logarithm << 1 | reachesTwo;
+  }
+  return logarithm;
+}
+
+/// What a bit of a probability costs, which is between i and i + 1 of 4096, in 1/65536 bits.
+inline constexpr std::array<std::uint32_t, 4096> costsOfProbabilities = [] {
+  std::array<std::uint32_t, 4096> costs{};
+  for (std::uint32_t i = 0; i < costs.size(); ++i)
+    costs[i] = (13 << 16) - binaryLogarithm(2 * i + 1);
+  return costs;
+}();
+
+/// What bits would cost, in 1/65536 bits, if they were written now: for an encoder that chooses.
 class CostMeter {
 public:
   static constexpr bool encodes = true;
 
   /// What costs `limit` is of no use any more.
-  explicit CostMeter(const RangeEncoder& encoder, float limit) : models_(encoder.models()), limit_(limit) {}
+  explicit CostMeter(const RangeEncoder& encoder, std::uint32_t limit)
+      : models_(encoder.models()), limit_(limit) {}
 
-  float cost() const { return cost_; }
+  std::uint32_t cost() const { return cost_; }
   bool isSpent() const { return cost_ >= limit_; }
 
   bool bit(std::size_t model, bool value) {
@@ -104,25 +128,20 @@ public:
     return value;
   }
   std::uint32_t raw(std::uint32_t count, std::uint32_t value) {
-    cost_ += static_cast<float>(count);
+    cost_ += count << 16;
     return value;
   }
   void require(bool, const char*) const {}
 
 private:
-  /// -log2 of probabilities in 1/4096.
-  using Costs = std::array<float, 4096>;
-  static const Costs& costsOfProbabilities();
-
   /// Of a probability in 1/65536.
-  float costOf(std::uint32_t probability) const {
+  static std::uint32_t costOf(std::uint32_t probability) {
     assert(probability < 65536); // no model is ever certain
-    return costs_[probability >> 4];
+    return costsOfProbabilities[probability >> 4];
   }
 
   const Models& models_;
-  const Costs& costs_ = costsOfProbabilities();
-  float limit_, cost_ = 0;
+  std::uint32_t limit_, cost_ = 0;
 };
 
 } // namespace imgeo::compact
