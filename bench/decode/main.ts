@@ -15,7 +15,8 @@ import { launchChromium } from "../../tests/browser/chromium.ts";
 import { repository } from "../../tests/browser/paths.ts";
 import { startServer } from "../../tests/browser/server.ts";
 import { meshOf, prepareModels } from "../load/models.ts";
-import { describeBrowser, longestTaskOf, processorMsOf, type TraceEvent } from "../load/tasks.ts";
+import { describeBrowser } from "../load/tasks.ts";
+import { longestTaskMsOf, processorMsOf, traceCategories, type TraceEvent } from "../load/trace.ts";
 import { inputsOf } from "./inputs.ts";
 import type {} from "./page.ts";
 
@@ -61,13 +62,13 @@ async function measure(page: Page, decoder: string, files: readonly Buffer[], tr
   return {
     decoder, bytes, first: first.ms, warm: median(times),
     processor: median(traces.map(processorMsOf)),
-    task: median(traces.map((events) => longestTaskOf(events).longestOnProcessorMs)),
+    task: median(traces.map(longestTaskMsOf)),
   };
 }
 
 async function traceOf(page: Page, decoder: string): Promise<TraceEvent[]> {
   const browser = page.context().browser()!;
-  await browser.startTracing(page, { categories: ["toplevel", "devtools.timeline", "__metadata"] });
+  await browser.startTracing(page, { categories: traceCategories });
   await decode(page, decoder);
   return (JSON.parse((await browser.stopTracing()).toString()) as { traceEvents: TraceEvent[] }).traceEvents;
 }

@@ -3,7 +3,7 @@
 // have; then the longest tasks of the main thread on the largest of them. Prints
 // Markdown tables.
 //
-//   scripts/bench load [--runs N] [MODEL...]
+//   scripts/bench load [--runs N] [--tasks] [MODEL...]     --tasks: the last table alone
 
 import { mkdtempSync, rmSync } from "node:fs";
 import { cpus, tmpdir } from "node:os";
@@ -16,7 +16,7 @@ import { dracoPage, inlinePage, lod2Page, meshoptPage, sitePage, type BenchPage 
 import { describeBrowser, longestTasks } from "./tasks.ts";
 
 const { values: options, positionals: wanted } = parseArgs({
-  options: { runs: { type: "string", default: "3" } }, allowPositionals: true,
+  options: { runs: { type: "string", default: "3" }, tasks: { type: "boolean", default: false } }, allowPositionals: true,
 });
 const runs = Number(options.runs);
 if (!Number.isInteger(runs) || runs < 1) throw new Error(`--runs ${options.runs} is no number of loads`);
@@ -65,8 +65,9 @@ async function printLoads(model: string, page: BenchPage): Promise<void> {
 
 async function printTasks(page: BenchPage): Promise<void> {
   await withServer(page, async (server) => {
-    const { longestMs, longestOnProcessorMs, longCount } = await longestTasks(browser, page, server, runs);
-    print(page.name, longestMs.toFixed(0), longestOnProcessorMs.toFixed(0), longCount);
+    const { longest, longestOfLoading, longestMs } = await longestTasks(browser, page, server, runs);
+    const told = [longest, longestOfLoading].flatMap(({ processorMs, cause }) => [processorMs.toFixed(0), cause]);
+    print(page.name, longestMs.toFixed(0), ...told);
   });
 }
 
@@ -74,18 +75,21 @@ const browser = await launchWarm();
 const work = mkdtempSync(join(tmpdir(), "imgeo-load-"));
 try {
   const models = prepareModels(wanted, work);
-  print("model", "as", "kB", ...Object.keys(lines).map((line) => `${line}: first / 90 % / final image, s`));
-  print("---", "---", "--:", ...Object.keys(lines).map(() => "--:"));
+  if (!options.tasks) {
+    print("model", "as", "kB", ...Object.keys(lines).map((line) => `${line}: first / 90 % / final image, s`));
+    print("---", "---", "--:", ...Object.keys(lines).map(() => "--:"));
+  }
   let largest: { model: Model; pages: BenchPage[] } | undefined;
   for (const model of models) {
     const { ours, inline, others } = await pagesOf(model, work);
-    for (const page of [...ours, ...inline, ...others]) await printLoads(model.name, page);
+    for (const page of options.tasks ? [] : [...ours, ...inline, ...others]) await printLoads(model.name, page);
     largest = { model, pages: [...ours, ...others] };
   }
   if (largest) {
     console.log();
-    print(`${largest.model.name}: main thread, unthrottled`, "longest task, ms", "longest on the processor, ms", "tasks over 50 ms");
-    print("---", "--:", "--:", "--:");
+    print(`${largest.model.name}: main thread, unthrottled`, "longest task, ms", "longest on the processor, ms", "caused by",
+      "longest but for starts, ms", "caused by");
+    print("---", "--:", "--:", "---", "--:", "---");
     for (const page of largest.pages) await printTasks(page);
   }
   console.log(`\nMedians of ${runs} cold loads, one where it takes over 2.5 s; ${await describeBrowser(browser)}, ${cpus().length} cores; brotli where it helps.`);

@@ -19,7 +19,7 @@ import { sphere } from "../../tests/browser/meshes.ts";
 import { converter } from "../../tests/browser/paths.ts";
 import { startServer } from "../../tests/browser/server.ts";
 import { prepareModels } from "../load/models.ts";
-import { longestTaskOf, processorMsOf, type TraceEvent } from "../load/tasks.ts";
+import { longestTaskMsOf, processorMsOf, traceCategories, type TraceEvent } from "../load/trace.ts";
 
 const runs = Number(process.env.RUNS ?? 3);
 const turningMs = 3000;
@@ -81,7 +81,7 @@ async function measure(browser: Browser, site: string, decode: string): Promise<
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 } });
   try {
     const page = await context.newPage();
-    await browser.startTracing(page, { categories: ["toplevel", "devtools.timeline", "__metadata"] });
+    await browser.startTracing(page, { categories: traceCategories });
     const begin = performance.now();
     await page.goto(server.origin, { waitUntil: "commit" });
     await page.waitForFunction(() => "complete" in (document.querySelector("x3d") ?? {}), undefined, { timeout });
@@ -90,7 +90,7 @@ async function measure(browser: Browser, site: string, decode: string): Promise<
     const { traceEvents } = JSON.parse((await browser.stopTracing()).toString()) as { traceEvents: TraceEvent[] };
     const { statistics, frames } = await turn(page);
     return {
-      loadMs, processorMs: processorMsOf(traceEvents), longestTaskMs: longestTaskOf(traceEvents).longestOnProcessorMs,
+      loadMs, processorMs: processorMsOf(traceEvents), longestTaskMs: longestTaskMsOf(traceEvents),
       frameMs: turningMs / frames, gpuBytes: statistics.textureBytes + statistics.bufferBytes, requests: statistics.requests,
     };
   } finally {

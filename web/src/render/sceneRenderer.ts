@@ -282,7 +282,7 @@ export class SceneRenderer {
       this.#compiled.set(key, object);
       fresh.add(object);
     }
-    if (fresh.children.length > 0) void this.#renderer.compileAsync(fresh, this.#camera, this.#scene);
+    if (fresh.children.length > 0) this.#renderer.compile(fresh, this.#camera, this.#scene);
   }
 
   get #aspect(): number {

@@ -1,0 +1,102 @@
+// What Chromium's trace tells of the tasks of a page's main thread: how long each
+// was, and what it was for.
+
+/** An event of Chromium's trace, as far as we read it. */
+export interface TraceEvent {
+  name: string;
+  ph: string;
+  pid: number;
+  tid: number;
+  /** Microseconds; `tdur` on the processor. */
+  ts: number;
+  dur?: number;
+  tdur?: number;
+  args: { name?: string; data?: { url?: string } };
+}
+
+/** Those that this reads. */
+export const traceCategories = ["toplevel", "devtools.timeline", "v8", "__metadata"];
+
+export interface Task {
+  /** From its begin to its end, and on the processor. */
+  ms: number;
+  processorMs: number;
+  /** What most of it was for. */
+  cause: Cause;
+}
+
+/** By the trace's own names. */
+const causes = {
+  "v8.evaluateModule": "start of the module", "EvaluateScript": "start of a script", "FireAnimationFrame": "a frame", "TimerFire": "a timer",
+  "HandlePostMessage": "a worker's answer", "RunMicrotasks": "promises", "FunctionCall": "a callback", "ParseHTML": "the document",
+  "MajorGC": "garbage", "MinorGC": "garbage", "Receive mojo message": "the browser's own",
+} as const;
+export type Cause = (typeof causes)[keyof typeof causes] | "unknown";
+
+/** V8 finds out where functions stand when the inspector that traces wants a stack; nobody else waits for that. */
+const inspectorsEvent = "V8.CollectSourcePositions";
+
+/** Of the main threads of a trace's pages, from a time on. */
+export function mainTasksOf(events: readonly TraceEvent[], from = 0): Task[] {
+  const mainThreads = new Set(events.filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain").map(threadOf));
+  const threads = new Map(Array.from(mainThreads, (thread) => [thread, [] as TraceEvent[]]));
+  for (const event of events) if (event.ph === "X" && event.ts >= from) threads.get(threadOf(event))?.push(event);
+  return Array.from(threads.values()).flatMap((own) => {
+    own.sort(byBegin);
+    return outermostTasks(own).map((task) => taskOf(task, own));
+  });
+}
+
+/** A task appears once for each layer that runs it. */
+function outermostTasks(sorted: readonly TraceEvent[]): TraceEvent[] {
+  let end = 0;
+  return sorted.filter((event) => {
+    if (!event.name.endsWith("RunTask") || event.ts < end) return false;
+    end = endOf(event);
+    return true;
+  });
+}
+
+function taskOf(task: TraceEvent, sorted: readonly TraceEvent[]): Task {
+  let main: TraceEvent | undefined;
+  let inspectors = 0;
+  for (const event of sorted) {
+    if (event.ts < task.ts || endOf(event) > endOf(task)) continue;
+    if (event.name === inspectorsEvent) inspectors += onProcessor(event);
+    if (event.name in causes && (main === undefined || onProcessor(event) > onProcessor(main))) main = event;
+  }
+  return {
+    ms: (task.dur ?? 0) / 1000, processorMs: (onProcessor(task) - inspectors) / 1000,
+    cause: main === undefined ? "unknown" : causes[main.name as keyof typeof causes],
+  };
+}
+
+/** Milliseconds on the processor of the longest of these. */
+export function longestTaskMsOf(events: readonly TraceEvent[]): number {
+  return Math.max(...mainTasksOf(events).map(({ processorMs }) => processorMs));
+}
+
+/** Milliseconds on the processor of all tasks of the pages' main threads and of their workers. */
+export function processorMsOf(events: readonly TraceEvent[]): number {
+  const threads = new Set(events.filter(({ name, args }) =>
+    name === "thread_name" && /^(CrRendererMain|DedicatedWorker thread)/.test(args.name ?? "")).map(threadOf));
+  return Array.from(threads, (thread) => outermostTasks(events.filter((event) => event.ph === "X" && threadOf(event) === thread).toSorted(byBegin)))
+    .flat().reduce((sum, task) => sum + onProcessor(task), 0) / 1000;
+}
+
+/** Outer ones before inner ones. */
+function byBegin(a: TraceEvent, b: TraceEvent): number {
+  return a.ts - b.ts || (b.dur ?? 0) - (a.dur ?? 0);
+}
+
+function endOf({ ts, dur = 0 }: TraceEvent): number {
+  return ts + dur;
+}
+
+function onProcessor({ tdur = 0 }: TraceEvent): number {
+  return tdur;
+}
+
+function threadOf({ pid, tid }: TraceEvent): string {
+  return `${pid}/${tid}`;
+}

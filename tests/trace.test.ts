@@ -1,0 +1,31 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { mainTasksOf, processorMsOf, type TraceEvent } from "../bench/load/trace.ts";
+
+/** Milliseconds; a thread's name where `name` is that. */
+function event(tid: number, name: string, at: number, ms: number, processorMs: number): TraceEvent {
+  return { name, ph: "X", pid: 1, tid, ts: 1000 * at, dur: 1000 * ms, tdur: 1000 * processorMs, args: {} };
+}
+
+const threads: TraceEvent[] = ["CrRendererMain", "DedicatedWorker thread", "Compositor"].map((name, tid) =>
+  ({ name: "thread_name", ph: "M", pid: 1, tid, ts: 0, args: { name } }));
+
+const events = [
+  ...threads,
+  event(0, "ThreadControllerImpl::RunTask", 10, 100, 60), event(0, "SimpleTask::RunTask", 10, 99, 59),
+  event(0, "v8.evaluateModule", 20, 80, 50), event(0, "FunctionCall", 30, 60, 40), event(0, "V8.CollectSourcePositions", 40, 20, 15),
+  event(0, "ThreadControllerImpl::RunTask", 120, 30, 9), event(0, "FireAnimationFrame", 121, 20, 8),
+  event(0, "ThreadControllerImpl::RunTask", 160, 5, 1),
+  event(1, "ThreadControllerImpl::RunTask", 15, 200, 100), event(2, "ThreadControllerImpl::RunTask", 15, 300, 300),
+];
+
+test("a trace tells of each task of the main thread how long it was and what most of it was for", () => {
+  assert.deepEqual(mainTasksOf(events), [
+    { ms: 100, processorMs: 45, cause: "start of the module" }, { ms: 30, processorMs: 9, cause: "a frame" }, { ms: 5, processorMs: 1, cause: "unknown" },
+  ]);
+  assert.deepEqual(mainTasksOf(events, 120_000).map(({ ms }) => ms), [30, 5]);
+});
+
+test("a trace tells what tasks of the page and its workers take of the processor, each counted once", () => {
+  assert.equal(processorMsOf(events), 60 + 9 + 1 + 100);
+});
