@@ -5,9 +5,11 @@ export const sameMean = 1;
 
 const otherDiagonal = "X3D leaves open along which diagonal a quad is split; X_ITE takes the other. X3DOM's npm package does not have the node";
 const noFans = "X3DOM's npm package does not draw it";
+const noTexturesInMaterials = "X3DOM does not know X3D 4's textures of materials";
 const withoutPi = "a light of intensity 1 makes a white surface that faces it white, as with `Material`; X_ITE divides by π. X3DOM does not know the node";
 
 export const explanations: Readonly<Record<string, string>> = {
+  "Appearance-alphaMode-MASK": "X3DOM does not know `alphaMode`",
   "DirectionalLight-of-its-group": "our lights, and X3DOM's, shine on everything, whatever their `global`",
   "ElevationGrid": otherDiagonal,
   "ElevationGrid-ccw": otherDiagonal,
@@ -15,12 +17,19 @@ export const explanations: Readonly<Record<string, string>> = {
   "ElevationGrid-creaseAngle": otherDiagonal,
   "ElevationGrid-texture": otherDiagonal,
   "Extrusion": "X3DOM's npm package does not have the node",
+  "Extrusion-twist": "X3DOM's npm package does not have the node",
+  "Grouping": "X3DOM shows nothing of the document",
   "ImageTexture-colored-material": "a texture is multiplied by the diffuse colour (X3D 4); in X3DOM it stands in for it",
   "IndexedFaceSet-creaseAngle-between": "edges of up to `creaseAngle` are smooth, others sharp; X3DOM makes all of them smooth",
   "IndexedTriangleFanSet": noFans,
   "IndexedTriangleStripSet": "X3DOM does not share normals between strips",
   "LineProperties": "X3DOM draws all lines one pixel wide",
   "LineProperties-dashed": "X_ITE's line is solid here, X3DOM's one pixel wide as well",
+  "Material-diffuseTexture": noTexturesInMaterials,
+  "Material-emissiveTexture": noTexturesInMaterials,
+  "Material-normalTexture": `green points up in the picture, as in glTF; in X_ITE down. ${noTexturesInMaterials}`,
+  "MultiTexture": "of several textures the first is shown; the runtimes mix them differently",
+  "PixelTexture": "pictures written as numbers into the document are not drawn",
   "PhysicalMaterial-metallic-0-roughness-0.3": withoutPi,
   "PhysicalMaterial-metallic-0-roughness-1": withoutPi,
   "PhysicalMaterial-metallic-1-roughness-0.4": `${withoutPi}. Metal mirrors a grey room, X_ITE's nothing`,
@@ -29,5 +38,6 @@ export const explanations: Readonly<Record<string, string>> = {
   "Transform-mirror": "a mirror turns triangles round; X3DOM shows their backs",
   "TriangleFanSet": noFans,
   "TriangleStripSet": noFans,
+  "UnlitMaterial-emissiveTexture": "X3DOM does not know the node",
   "UnlitMaterial": "X3DOM does not know the node",
 };

@@ -23,7 +23,7 @@ export async function serveRuntimes(server: TestServer): Promise<void> {
   server.put("/imgeo.js", Buffer.from(bundle.outputFiles[0]?.contents ?? []));
   const of = (path: string): Buffer => readFileSync(join(repository, "node_modules", path));
   server.put("/x_ite.js", of("x_ite/dist/x_ite.min.js"));
-  for (const file of ["x_ite.css", "assets/lib/mikktspace_bg.wasm"]) server.put(`/${file}`, of(`x_ite/dist/${file}`));
+  for (const file of ["x_ite.css", "assets/lib/mikktspace_bg.wasm", "assets/components/TextComponent.min.js"]) server.put(`/${file}`, of(`x_ite/dist/${file}`));
   server.put("/x3dom.js", of("x3dom-1.8/x3dom.js"));
   server.put("/x3dom.css", of("x3dom-1.8/x3dom.css"));
 }

@@ -29,7 +29,7 @@ const textureFields: Readonly<Record<string, Partial<Readonly<Record<TextureRole
 const dataRoles: readonly TextureRole[] = ["metallicRoughness", "normal", "occlusion", "shininess"];
 
 export function readAppearance(element: SceneElement | undefined, childrenOf: ChildrenOf, warnings: Warning[]): AppearanceDescription {
-  const parts = element === undefined ? [] : childrenOf(element);
+  const parts = element === undefined ? [] : childrenOf(element).flatMap((part) => firstTextureOf(part, childrenOf, warnings));
   const named = (name: string) => parts.find((part) => lowerNameOf(part) === name);
   const material = parts.find((part) => lowerNameOf(part) in textureFields);
   const points = named("pointproperties");
@@ -61,6 +61,13 @@ function readAlpha(element: SceneElement, warnings: Warning[]): AlphaDescription
   const { alphaMode, alphaCutoff } = readFields(element, nodeFields.Appearance, warnings);
   const mode = (["AUTO", "OPAQUE", "MASK", "BLEND"] as const).find((known) => known === alphaMode.trim().toUpperCase());
   return { mode: mode ?? "AUTO", cutoff: alphaCutoff };
+}
+
+/** Of a MultiTexture one texture is shown: how several are mixed X3D 4 has left to materials. */
+function firstTextureOf(part: SceneElement, childrenOf: ChildrenOf, warnings: Warning[]): readonly SceneElement[] {
+  if (lowerNameOf(part) !== "multitexture") return [part];
+  warnings.push({ element: part, message: "of a <MultiTexture> only the first ImageTexture is shown" });
+  return childrenOf(part).filter((texture) => lowerNameOf(texture) === "imagetexture").slice(0, 1);
 }
 
 /** A texture of the main colour stands in its material, or where X3D has it since version 3. */

@@ -198,7 +198,10 @@ export interface AppearanceDescription {
   /** Undefined: as thin as the GPU draws them. */
   readonly lines: LineDescription | undefined;
 }
-export type ViewpointDescription = Values<typeof nodeFields.Viewpoint>;
+export interface ViewpointDescription extends Values<typeof nodeFields.Viewpoint> {
+  /** Width over height of what a view of any shape has to show at least; 1 where nothing is said. */
+  readonly proportion?: number;
+}
 export type NavigationDescription = Values<typeof nodeFields.NavigationInfo>;
 export type LightDescription =
   | ({ readonly kind: "directional" } & Values<typeof nodeFields.DirectionalLight>)

@@ -11,6 +11,7 @@ test("an OrthoViewpoint shows what it says, of the same size near and far", () =
   const viewpoint = viewpointsOf(scene.root)[0]?.viewpoint;
   assert.ok(viewpoint);
   assert.equal(viewpoint.description, "plan");
+  assert.equal(viewpoint.proportion, 1.5);
   const [right, up] = [turned([1, 0, 0], viewpoint.orientation), turned([0, 1, 0], viewpoint.orientation)];
   const back = cross(right, up);
   /** Where a point is in the picture, from -1 to 1 over its shorter side. */

@@ -56,6 +56,15 @@ describe("a viewpoint", () => {
   const poseOf = (changes: Partial<ViewpointDescription>, sceneFromViewpoint = new Matrix4()) =>
     poseOfViewpoint({ viewpoint: { ...fields, ...changes }, sceneFromViewpoint });
 
+  test("shows all of a field of its own proportion in a view of any", () => {
+    for (const [aspect, width, height] of [[1.5, 1.5, 1], [4 / 3, 1.5, 1.125], [3, 3, 1], [0.5, 1.5, 3]] as const) {
+      const camera = new PerspectiveCamera();
+      applyPose(camera, poseOf({ proportion: 1.5 }), aspect, sphere);
+      near(Math.tan(MathUtils.degToRad(camera.fov) / 2), height * Math.tan(0.5));
+      near(height * aspect, width);
+    }
+  });
+
   test("has its field of view along the shorter side", () => {
     const camera = new PerspectiveCamera();
     applyPose(camera, poseOf({}), 2, sphere);

@@ -12,8 +12,10 @@ export interface Pose {
   /** What turning turns around and zooming comes near. */
   readonly center: Vector3;
   readonly up: Vector3;
-  /** Radians, along the shorter side of the view. */
+  /** Radians, along the shorter side of what has to be seen. */
   readonly fieldOfView: number;
+  /** Of what has to be seen, width over height; 1 where it is absent. */
+  readonly proportion?: number | undefined;
 }
 
 export interface PlacedViewpoint {
@@ -35,6 +37,7 @@ export function poseOfViewpoint({ viewpoint, sceneFromViewpoint }: Omit<PlacedVi
     center: new Vector3(...viewpoint.centerOfRotation).applyMatrix4(sceneFromViewpoint),
     up: uprightOf(orientation, new Vector3(0, 1, 0).applyQuaternion(frame)),
     fieldOfView: MathUtils.clamp(viewpoint.fieldOfView, 0.01, 3.1),
+    proportion: viewpoint.proportion,
   };
 }
 
@@ -118,14 +121,17 @@ export interface Lens {
  * what is nearer than `clearance` need not be seen.
  */
 export function lensOf(pose: Pose, aspect: number, sphere: Sphere, clearance: number): Lens {
-  const half = Math.tan(pose.fieldOfView / 2);
+  const proportion = pose.proportion ?? 1;
+  // Of what has to be seen; a view of another shape shows more of one side, never less of the other.
+  const [width, height] = [Math.max(proportion, 1), Math.max(1 / proportion, 1)];
+  const half = Math.tan(pose.fieldOfView / 2) * Math.max(height, width / aspect);
   // Depth is spent on the scene alone; from inside, a ten-thousandth of the depth is near enough,
   // and a hundredth still leaves a room's walls standing whose author says that nobody gets so close.
   const distance = pose.position.distanceTo(sphere.center);
   const radius = Math.max(sphere.radius * 1.01, 1e-9);
   const far = distance + radius;
   const near = Math.max(distance - radius, MathUtils.clamp(clearance, far * 1e-4, far * 1e-2));
-  return { fieldOfView: 2 * Math.atan(aspect >= 1 ? half : half / aspect), near, far };
+  return { fieldOfView: 2 * Math.atan(half), near, far };
 }
 
 /** Sets the camera up to see so. */

@@ -23,6 +23,7 @@ export function poseBetween(from: Pose, to: Pose, share: number): Pose {
     center,
     up: from.up.clone().lerp(to.up, share).normalize(),
     fieldOfView: MathUtils.lerp(from.fieldOfView, to.fieldOfView, share),
+    proportion: MathUtils.lerp(from.proportion ?? 1, to.proportion ?? 1, share),
   };
 }
 
