@@ -1,0 +1,75 @@
+// Draws the picture of docs/decisions/lossless.md: what `build/bench/lossy MODEL
+// --write DIRECTORY` left of a mesh, seen from one place.
+//
+//   scripts/node bench/lossyPicture.ts DIRECTORY NAME_OF_MODEL [OUTPUT.png]
+
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import type { Browser } from "playwright-core";
+import { launchChromium } from "../tests/browser/chromium.ts";
+import { converter, repository } from "../tests/browser/paths.ts";
+import { startServer } from "../tests/browser/server.ts";
+
+const [directory, model, output = join(repository, "docs/images/lossy.png")] = process.argv.slice(2);
+if (directory === undefined || model === undefined) throw new Error("usage: lossyPicture.ts DIRECTORY NAME_OF_MODEL [OUTPUT.png]");
+
+const panel = { width: 300, height: 280 };
+const variants: readonly { file: string; bits?: number; says: string }[] = [
+  { file: "lossless", says: "PNG, 16 bits" },
+  { file: "JPEG80", says: "JPEG 80, second byte only" },
+  { file: "JPEG100-both", says: "JPEG 100, both bytes" },
+  { file: "lossless", bits: 12, says: "PNG, 12 bits" },
+  { file: "WebP80", says: "WebP 80, second byte only" },
+  { file: "WebP100-both", says: "WebP 100, both bytes" },
+];
+
+const viewpoint = /<Viewpoint[\s\S]*?<\/Viewpoint>/;
+
+/** The site's page with `place` for its viewpoint. */
+async function picture(browser: Browser, site: string, place: string): Promise<Buffer> {
+  const server = await startServer(site);
+  const page = await browser.newPage({ viewport: panel, reducedMotion: "reduce" });
+  try {
+    const html = readFileSync(join(site, "index.html"), "utf8");
+    server.put("/index.html", html.replace(viewpoint, () => place));
+    await page.goto(`${server.origin}index.html`);
+    await page.waitForFunction(() => "complete" in (document.querySelector("x3d") ?? {}));
+    await page.evaluate(() => (document.querySelector("x3d") as unknown as { complete: Promise<void> }).complete);
+    return await page.locator("canvas").screenshot();
+  } finally {
+    await page.close();
+    await server.close();
+  }
+}
+
+/** All of them in rows of three, each with what it says. */
+async function together(browser: Browser, pictures: readonly Buffer[]): Promise<Buffer> {
+  const page = await browser.newPage({ viewport: { width: 3 * panel.width, height: 2 * (panel.height + 26) } });
+  await page.setContent(`<style>
+      body { margin: 0; display: grid; grid-template-columns: repeat(3, 1fr); font: 14px sans-serif; background: #edf0f2 }
+      figure { margin: 0 } img { display: block } figcaption { height: 26px; text-align: center }
+    </style>${pictures.map((png, i) =>
+      `<figure><img src="data:image/png;base64,${png.toString("base64")}"><figcaption>${variants[i]!.says}</figcaption></figure>`).join("")}`);
+  return page.screenshot();
+}
+
+const sites = mkdtempSync(join(tmpdir(), "imgeo-lossy-"));
+const browser = await launchChromium();
+try {
+  const pictures: Buffer[] = [];
+  let place = "";
+  for (const { file, bits, says } of variants) {
+    const site = join(sites, says.replaceAll(/\W+/g, "-"));
+    execFileSync(converter, ["convert", join(directory, `${model}-${file}.ply`), "-o", site, "--profile", "classic", "--effort", "0",
+      ...(bits === undefined ? [] : ["--position-bits", `${bits}`])], { stdio: "ignore" });
+    // All from where the first is seen: what is torn out of a mesh widens its box.
+    place ||= viewpoint.exec(readFileSync(join(site, "index.html"), "utf8"))?.[0] ?? "";
+    pictures.push(await picture(browser, site, place));
+  }
+  writeFileSync(output, await together(browser, pictures));
+} finally {
+  await browser.close();
+  rmSync(sites, { recursive: true, force: true });
+}
