@@ -137,6 +137,8 @@ void requireAttributes(const ConvertOptions& options) {
            fmt::format("bg stores attributes as Float32, not in {} bits", options.attributeBits));
   if (options.attributeBits % 8 != 0 || options.attributeBits > 24)
     refuse("--attribute-bits", fmt::format("images hold 8, 16 or 24 bits, not {}", options.attributeBits));
+  if (!isAny && options.attributeBits != 0)
+    refuse("--attribute-bits", "only attributes that --keep-attributes names have bits");
 }
 
 std::uint32_t mostPositionBits(const ConvertOptions& options) {
@@ -168,6 +170,9 @@ void requireTextures(const TextureOptions& textures) {
   requireWithin("--texture-quality", *textures.quality, 0, 100);
   if (textures.format == TextureFormat::png)
     refuse("--texture-quality", "PNG loses nothing; webp and avif have a quality");
+  if (textures.format == TextureFormat::keep && textures.size == 0)
+    refuse("--texture-quality",
+           "textures are kept as they are unless --textures or --texture-size says otherwise");
 }
 
 /// Compact has its own way with normals, its own order, and is for our runtime.

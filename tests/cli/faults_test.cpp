@@ -179,6 +179,9 @@ TEST_F(Faults, OptionsThatCannotBeHonoured) {
   refuse("nor any other", {"--keep-attributes", "heat"});
   refuse("--keep-attributes", {"--target", "x3dom", "--keep-attributes", "all"});
   refuse("--attribute-bits", {"--attribute-bits", "12"});
+  refuse("--attribute-bits", {"--attribute-bits", "8"});
+  refuse("--texture-quality", {"--texture-quality", "50"});
+  refuse("--texture-quality", {"--texture-quality", "50", "--textures", "png"});
   refuse("--attribute-bits", {"--container", "bg", "--attribute-bits", "16"});
   refuse("did you mean --container?", {"--contaner", "bg"});
   refuse("too many", {"another.ply"});
