@@ -6,11 +6,12 @@ import assert from "node:assert/strict";
 import { cpSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { Matrix3, Matrix4, Quaternion, Vector3 } from "three";
+import { Matrix4, Quaternion, Vector3 } from "three";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, boundsOfQuantised, difference, isWithin } from "./compare.ts";
 import { decodeCompactSite } from "./compactDecoder.ts";
 import { pictureSize, settle, until, withPage, type View } from "./harness.ts";
+import { placed } from "./placed.ts";
 import { referencePicture } from "./reference.ts";
 import { decodeSite, type PlainPatch } from "./siteDecoder.ts";
 import { pageOf, shapeIn, siteOfGenerated, variantOf, withShapes } from "./sites.ts";
@@ -111,19 +112,6 @@ function matrixOfCopy(n: number, x: number): { markup: string; matrix: Matrix4 }
   const matrix = new Matrix4().compose(position, new Quaternion().setFromAxisAngle(axis, n), scale);
   const text = (vector: Vector3) => vector.toArray().join(" ");
   return { matrix, markup: `<Transform translation="${text(position)}" rotation="${text(axis)} ${n}" scale="${text(scale)}">` };
-}
-
-/** The patches under a matrix; where it mirrors, triangles turn round so that they face outwards still. */
-function placed(patches: PlainPatch[], matrix: Matrix4): PlainPatch[] {
-  const normalMatrix = new Matrix3().getNormalMatrix(matrix);
-  const each = (numbers: Float32Array, act: (vector: Vector3) => Vector3): Float32Array =>
-    numbers.map((_, i) => act(new Vector3().fromArray(numbers, i - (i % 3))).getComponent(i % 3));
-  return patches.map((patch) => ({
-    ...patch,
-    positions: each(patch.positions, (point) => point.applyMatrix4(matrix)),
-    ...(patch.normals && { normals: each(patch.normals, (normal) => normal.applyMatrix3(normalMatrix).normalize()) }),
-    triangles: matrix.determinant() > 0 ? patch.triangles : patch.triangles.toReversed(),
-  }));
 }
 
 test("what is drawn together looks as if drawn alone: instances of images, and merged buffers", async () => {

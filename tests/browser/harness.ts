@@ -176,15 +176,17 @@ export async function screenshotOf(page: Page): Promise<Picture> {
   }
 }
 
-/** Waits until four frames in a row have drawn nothing, and no view has one to come. */
+/** Waits until four frames in a row have drawn nothing, no view has one to come, and nothing that has come is still being decoded. */
 export async function settle(page: Page): Promise<void> {
   await page.evaluate(async () => {
     const frame = (): Promise<number> => new Promise(requestAnimationFrame);
     const isDue = (): boolean => Array.from(document.querySelectorAll("x3d")).some((x3d) =>
       (x3d as { statistics?: { isFrameDue: boolean } }).statistics?.isFrameDue === true);
+    const isDecoding = (): boolean => Array.from(document.querySelectorAll("x3d shape")).some((shape) =>
+      Array.from((shape as { resources?: Iterable<{ state: string }> }).resources ?? []).some(({ state }) => state === "decoding"));
     const end = performance.now() + 20_000;
     for (let still = 0, draws = -1; still < 4 && performance.now() < end; await frame()) {
-      still = window.observed.draws === draws && !isDue() ? still + 1 : 0;
+      still = window.observed.draws === draws && !isDue() && !isDecoding() ? still + 1 : 0;
       draws = window.observed.draws;
     }
   });

@@ -3,12 +3,13 @@
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { Matrix3, Matrix4, Quaternion, Vector3 } from "three";
+import { Matrix4, Quaternion, Vector3 } from "three";
 import { assertSamePicture, boundsOfQuantised, difference } from "./compare.ts";
 import { withPage } from "./harness.ts";
+import { placed } from "./placed.ts";
 import type { Picture } from "./png.ts";
 import { referencePicture } from "./reference.ts";
-import { decodeSite, ranksOfFiles, type PlainPatch } from "./siteDecoder.ts";
+import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, shapeIn, siteOfGenerated, variantOf, withShapes } from "./sites.ts";
 
 async function pictureOf(site: string): Promise<Picture> {
@@ -19,19 +20,6 @@ async function pictureOf(site: string): Promise<Picture> {
   });
   assert.ok(seen);
   return seen;
-}
-
-/** The patches under a matrix; where it mirrors, triangles turn round so that they face outwards still. */
-function placed(patches: PlainPatch[], matrix: Matrix4): PlainPatch[] {
-  const normalMatrix = new Matrix3().getNormalMatrix(matrix);
-  const each = (numbers: Float32Array, act: (vector: Vector3) => Vector3): Float32Array =>
-    numbers.map((_, i) => act(new Vector3().fromArray(numbers, i - (i % 3))).getComponent(i % 3));
-  return patches.map((patch) => ({
-    ...patch,
-    positions: each(patch.positions, (point) => point.applyMatrix4(matrix)),
-    ...(patch.normals && { normals: each(patch.normals, (normal) => normal.applyMatrix3(normalMatrix).normalize()) }),
-    triangles: matrix.determinant() > 0 ? patch.triangles : patch.triangles.toReversed(),
-  }));
 }
 
 const turn = (x: number, y: number, z: number, angle: number): Matrix4 =>
