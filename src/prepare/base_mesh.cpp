@@ -1,10 +1,12 @@
 #include "prepare/base_mesh.h"
 
 #include "base/parallel.h"
+#include "prepare/base_seams.h"
 #include "prepare/index_table.h"
 #include "prepare/simplify.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <span>
 #include <utility>
@@ -81,18 +83,24 @@ std::vector<std::vector<bool>> sharedPositions(const std::vector<Patch>& patches
   return isShared;
 }
 
-/// A patch's triangles over its positions, but for degenerate ones.
-std::vector<std::uint32_t> cornersOf(const Patch& patch) {
-  std::vector<std::uint32_t> corners;
-  corners.reserve(patch.corners.size());
+/// A patch's triangles over its positions, but for degenerate ones, and which they are.
+struct WholeTriangles {
+  std::vector<std::uint32_t> corners, numbers;
+};
+
+WholeTriangles wholeTrianglesOf(const Patch& patch) {
+  WholeTriangles triangles;
+  triangles.corners.reserve(patch.corners.size());
   for (std::size_t corner = 0; corner < patch.corners.size(); corner += 3) {
     const std::uint32_t a = patch.wedgePositions[patch.corners[corner]],
                         b = patch.wedgePositions[patch.corners[corner + 1]],
                         c = patch.wedgePositions[patch.corners[corner + 2]];
-    if (a != b && b != c && c != a)
-      corners.insert(corners.end(), {a, b, c});
+    if (a == b || b == c || c == a)
+      continue;
+    triangles.corners.insert(triangles.corners.end(), {a, b, c});
+    triangles.numbers.push_back(static_cast<std::uint32_t>(corner / 3));
   }
-  return corners;
+  return triangles;
 }
 
 double areaOf(const std::vector<Vec3u>& positions, const std::vector<std::uint32_t>& corners) {
@@ -141,13 +149,14 @@ private:
 
 /// A part of a base before it is joined to the others.
 struct Part {
-  SimplifiedTriangles triangles;
-  double areaBefore = 0;
+  std::vector<Vec3u> positions;
+  SimplifiedWedges wedges;
+  double area = 0, areaBefore = 0;
   std::size_t triangleCountBefore = 0;
 };
 
 Part partOf(const Patch& patch, const std::vector<bool>& isFixed, double percent) {
-  const std::vector<std::uint32_t> corners = cornersOf(patch);
+  const auto [corners, numbers] = wholeTrianglesOf(patch);
   EdgeSum border;
   for (std::size_t corner = 0; corner < corners.size(); ++corner) {
     const std::uint32_t from = corners[corner], to = corners[corner % 3 == 2 ? corner - 2 : corner + 1];
@@ -162,62 +171,101 @@ Part partOf(const Patch& patch, const std::vector<bool>& isFixed, double percent
   // At least half of what is asked for is left to what no border holds.
   const double wanted = percent / 100 * static_cast<double>(part.triangleCountBefore);
   const double least = wanted / 2 + static_cast<double>(fixedEdges);
-  part.triangles =
+  SimplifiedTriangles triangles =
       simplify(patch.positions, corners, isFixed, static_cast<std::size_t>(std::max(wanted, least)));
+  part.area = areaOf(triangles.positions, triangles.corners);
+  part.wedges = wedgesOf(triangles, patch, numbers);
+  part.positions = std::move(triangles.positions);
   return part;
 }
 
-/// Joins the parts; positions that two of them have become one.
-BaseMesh join(const std::vector<Part>& parts, const std::vector<Patch>& patches) {
-  BaseMesh base;
-  base.partCount = static_cast<std::uint32_t>(parts.size());
-  std::size_t count = 0;
-  for (const Part& part : parts)
-    count += part.triangles.positions.size();
-  PositionTable table(count);
-  const auto hasColors = [](const Patch& patch) { return !patch.colors.empty(); };
-  const bool isColored = std::ranges::any_of(patches, hasColors);
-  for (std::uint32_t number = 0; number < parts.size(); ++number) {
-    const SimplifiedTriangles& triangles = parts[number].triangles;
-    const Patch& patch = patches[number];
-    std::vector<std::uint32_t> wedges(isColored ? patch.positions.size() : 0);
-    for (std::uint32_t wedge = 0; wedge < patch.wedgeCount() && isColored; ++wedge)
-      wedges[patch.wedgePositions[wedge]] = wedge;
-    std::vector<std::uint32_t> numbers;
-    for (std::size_t i = 0; i < triangles.positions.size(); ++i) {
-      numbers.push_back(table.numberOf(triangles.positions[i]));
-      if (isColored && numbers.back() == base.colors.size())
-        base.colors.push_back(hasColors(patch) ? patch.colors[wedges[triangles.sources[i]]]
-                                               : Rgba8{255, 255, 255, 255});
+/// Joins parts: what two of them have at one position becomes one where it is alike.
+class Joint {
+public:
+  explicit Joint(const std::vector<Part>& parts)
+      : positions_(countOf(parts, [](const Part& part) { return part.positions.size(); })),
+        wedges_(countOf(parts, [](const Part& part) { return part.wedges.positions.size(); })) {
+    base_.partCount = static_cast<std::uint32_t>(parts.size());
+  }
+
+  void add(const Part& part, const Patch& patch, std::uint32_t number) {
+    const std::size_t wedgesBefore = base_.wedgePositions.size();
+    std::vector<std::uint32_t> wedges, sources;
+    for (std::size_t wedge = 0; wedge < part.wedges.positions.size(); ++wedge) {
+      const std::uint32_t source = part.wedges.sources[wedge];
+      const std::uint32_t position = positions_.numberOf(part.positions[part.wedges.positions[wedge]]);
+      wedges.push_back(wedgeAt(position, patch.texCoords.empty() ? Vec2f{} : patch.texCoords[source]));
+      if (wedgesBefore + sources.size() < base_.wedgePositions.size())
+        sources.push_back(source);
     }
-    for (std::size_t corner = 0; corner < triangles.corners.size(); corner += 3) {
-      const std::uint32_t a = numbers[triangles.corners[corner]], b = numbers[triangles.corners[corner + 1]],
-                          c = numbers[triangles.corners[corner + 2]];
+    VertexAttributes attributes = gather(patch, sources);
+    attributes.normals.clear();
+    append(base_, wedgesBefore, attributes, sources.size());
+    for (std::size_t corner = 0; corner < part.wedges.corners.size(); corner += 3) {
+      const auto at = [&](std::size_t i) { return wedges[part.wedges.corners[corner + i]]; };
+      const std::uint32_t a = base_.wedgePositions[at(0)], b = base_.wedgePositions[at(1)],
+                          c = base_.wedgePositions[at(2)];
       if (a == b || b == c || c == a)
         continue;
-      base.corners.insert(base.corners.end(), {a, b, c});
-      base.parts.push_back(number);
+      base_.corners.insert(base_.corners.end(), {at(0), at(1), at(2)});
+      base_.parts.push_back(number);
     }
-    if (isColored)
-      base.colorComponents = std::max(base.colorComponents, patch.colorComponents);
   }
-  base.positions = std::move(table.positions);
-  return base;
+
+  BaseMesh finish() {
+    base_.positions = std::move(positions_.positions);
+    return std::move(base_);
+  }
+
+private:
+  template <typename Count> static std::size_t countOf(const std::vector<Part>& parts, Count countIn) {
+    std::size_t count = 0;
+    for (const Part& part : parts)
+      count += countIn(part);
+    return count;
+  }
+
+  std::uint32_t wedgeAt(std::uint32_t position, Vec2f texCoord) {
+    const auto next = static_cast<std::uint32_t>(base_.wedgePositions.size());
+    const std::uint64_t bits = std::uint64_t{std::bit_cast<std::uint32_t>(texCoord.x)} << 32 |
+                               std::bit_cast<std::uint32_t>(texCoord.y);
+    const std::uint32_t wedge =
+        wedges_.findOrInsert(mixHash(mixHash(0, position), bits), next, [&](std::uint32_t i) {
+          return base_.wedgePositions[i] == position && places_[i] == bits;
+        });
+    if (wedge == next) {
+      base_.wedgePositions.push_back(position);
+      places_.push_back(bits);
+    }
+    return wedge;
+  }
+
+  BaseMesh base_;
+  PositionTable positions_;
+  IndexTable wedges_;
+  std::vector<std::uint64_t> places_; ///< in the texture, per wedge
+};
+
+/// Numbers in the order in which they come first; `numbers` become these.
+std::vector<std::uint32_t> keepUsed(std::vector<std::uint32_t>& numbers, std::size_t count) {
+  constexpr std::uint32_t none = UINT32_MAX;
+  std::vector<std::uint32_t> places(count, none), kept;
+  for (std::uint32_t& number : numbers) {
+    if (places[number] == none) {
+      places[number] = static_cast<std::uint32_t>(kept.size());
+      kept.push_back(number);
+    }
+    number = places[number];
+  }
+  return kept;
 }
 
-/// Drops positions that no triangle uses.
+/// Drops wedges and positions that no triangle uses.
 void dropUnused(BaseMesh& base) {
-  constexpr std::uint32_t none = UINT32_MAX;
-  std::vector<std::uint32_t> numbers(base.positions.size(), none), kept;
-  for (std::uint32_t& corner : base.corners) {
-    if (numbers[corner] == none) {
-      numbers[corner] = static_cast<std::uint32_t>(kept.size());
-      kept.push_back(corner);
-    }
-    corner = numbers[corner];
-  }
-  base.positions = gather(base.positions, kept);
-  base.colors = gather(base.colors, kept);
+  const std::vector<std::uint32_t> wedges = keepUsed(base.corners, base.wedgePositions.size());
+  base.wedgePositions = gather(base.wedgePositions, wedges);
+  static_cast<VertexAttributes&>(base) = gather(base, wedges);
+  base.positions = gather(base.positions, keepUsed(base.wedgePositions, base.positions.size()));
 }
 
 } // namespace
@@ -235,9 +283,12 @@ std::optional<BaseMesh> baseOf(const PatchedMesh& mesh, double percent) {
   double areaBefore = 0, area = 0;
   for (const Part& part : parts) {
     areaBefore += part.areaBefore;
-    area += areaOf(part.triangles.positions, part.triangles.corners);
+    area += part.area;
   }
-  BaseMesh base = join(parts, mesh.patches);
+  Joint joint(parts);
+  for (std::uint32_t i = 0; i < parts.size(); ++i)
+    joint.add(parts[i], mesh.patches[i], i);
+  BaseMesh base = joint.finish();
   dropUnused(base);
   if (4 * base.triangleCount() > elementCount || 2 * area < areaBefore || base.corners.empty())
     return std::nullopt;
@@ -245,7 +296,7 @@ std::optional<BaseMesh> baseOf(const PatchedMesh& mesh, double percent) {
 }
 
 PatchTriangles trianglesOf(const Patch& patch) {
-  return {patch.positions, cornersOf(patch)};
+  return {patch.positions, wholeTrianglesOf(patch).corners};
 }
 
 bool meetsAtBorders(const BaseMesh& base, const std::vector<PatchTriangles>& patches) {
@@ -258,8 +309,9 @@ bool meetsAtBorders(const BaseMesh& base, const std::vector<PatchTriangles>& pat
     numbersOfBase.push_back(table.numberOf(position));
   std::vector<EdgeSum> differences(patches.size());
   for (std::size_t triangle = 0; triangle < base.triangleCount(); ++triangle)
-    differences[base.parts[triangle]].addTriangles(std::span(base.corners).subspan(3 * triangle, 3),
-                                                   [&](std::uint32_t i) { return numbersOfBase[i]; });
+    differences[base.parts[triangle]].addTriangles(
+        std::span(base.corners).subspan(3 * triangle, 3),
+        [&](std::uint32_t wedge) { return numbersOfBase[base.wedgePositions[wedge]]; });
   bool meets = true;
   for (std::size_t part = 0; part < patches.size(); ++part) {
     EdgeSum border;

@@ -12,15 +12,16 @@
 
 namespace imgeo {
 
-struct BaseMesh {
-  std::vector<Vec3u> positions;       ///< on the patches' lattice, no two alike
-  std::vector<std::uint32_t> corners; ///< three positions a triangle
-  std::vector<std::uint32_t> parts;   ///< per triangle: the patch that it stands in for
-  std::uint32_t partCount = 0;        ///< patches
-  std::vector<Rgba8> colors;          ///< per position, where the patches have them
-  std::uint32_t colorComponents = 3;
+/// The attributes are those of its wedges, as far as the patches have them, but for normals.
+struct BaseMesh : VertexAttributes {
+  std::vector<Vec3u> positions;              ///< on the patches' lattice, no two alike
+  std::vector<std::uint32_t> wedgePositions; ///< wedge -> position; several where the texture has a seam
+  std::vector<std::uint32_t> corners;        ///< three wedges a triangle
+  std::vector<std::uint32_t> parts;          ///< per triangle: the patch that it stands in for
+  std::uint32_t partCount = 0;               ///< patches
 
   std::size_t triangleCount() const { return parts.size(); }
+  const Vec3u& cornerPosition(std::size_t corner) const { return positions[wedgePositions[corners[corner]]]; }
 };
 
 /// A mesh of about `percent` of the triangles, and one for each edge at which patches

@@ -44,8 +44,8 @@ inline void expectClosedMixtures(const BaseMesh& base, const std::vector<PatchTr
     EdgeBalance edges;
     for (std::size_t triangle = 0; triangle < base.triangleCount(); ++triangle)
       if (!hasCome[base.parts[triangle]]) {
-        const std::uint32_t* corners = &base.corners[3 * triangle];
-        edges.add(base.positions[corners[0]], base.positions[corners[1]], base.positions[corners[2]]);
+        const auto at = [&](std::size_t i) { return base.cornerPosition(3 * triangle + i); };
+        edges.add(at(0), at(1), at(2));
       }
     for (std::size_t part = 0; part < patches.size(); ++part)
       for (std::size_t corner = 0; hasCome[part] && corner < patches[part].corners.size(); corner += 3) {

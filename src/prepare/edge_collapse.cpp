@@ -33,10 +33,10 @@ struct Edge {
 class EdgeCollapse {
 public:
   EdgeCollapse(CollapsingSurface& surface, std::size_t triangleCount)
-      : vertices_(surface.vertices), corners_(surface.corners), wanted_(triangleCount),
-        triangleCount_(corners_.size() / 3), first_(vertices_.size(), none), last_(vertices_.size(), none),
-        next_(corners_.size(), none), isGone_(triangleCount_), isBorder_(vertices_.size()),
-        versions_(vertices_.size()), marks_(vertices_.size()) {
+      : vertices_(surface.vertices), corners_(surface.corners), sources_(surface.sources),
+        wanted_(triangleCount), triangleCount_(corners_.size() / 3), first_(vertices_.size(), none),
+        last_(vertices_.size(), none), next_(corners_.size(), none), isGone_(triangleCount_),
+        isBorder_(vertices_.size()), versions_(vertices_.size()), marks_(vertices_.size()) {
     for (std::uint32_t corner = 0; corner < corners_.size(); ++corner)
       append(corners_[corner], corner, corner);
   }
@@ -210,6 +210,7 @@ private:
     });
     append(to, first_[from], last_[from]);
     first_[from] = none;
+    vertices_[from].became = to;
     vertices_[to].place = place;
     vertices_[to].quadric = quadric;
     isBorder_[to] = isBorder_[to] || isBorder_[from];
@@ -221,14 +222,19 @@ private:
 
   void keepTriangles() {
     std::size_t kept = 0;
-    for (std::size_t corner = 0; corner < corners_.size(); ++corner)
-      if (!isGone_[corner / 3])
-        corners_[kept++] = corners_[corner];
-    corners_.resize(kept);
+    for (std::size_t triangle = 0; triangle < isGone_.size(); ++triangle) {
+      if (isGone_[triangle])
+        continue;
+      std::copy_n(&corners_[3 * triangle], 3, &corners_[3 * kept]);
+      sources_[kept++] = sources_[triangle];
+    }
+    corners_.resize(3 * kept);
+    sources_.resize(kept);
   }
 
   std::vector<CollapsingSurface::Vertex>& vertices_;
   std::vector<std::uint32_t>& corners_;
+  std::vector<std::uint32_t>& sources_;
   std::size_t wanted_, triangleCount_;
   std::vector<std::uint32_t> first_, last_, next_; ///< lists of corners, one a vertex
   std::vector<bool> isGone_;                       ///< per triangle

@@ -15,17 +15,20 @@ struct CollapsingSurface {
   struct Vertex {
     Vec3d place;
     Quadric quadric;
-    std::uint32_t source = 0; ///< whatever the caller wants to know of it
-    bool isFixed = false;     ///< stays where it is
+    std::uint32_t source = 0;    ///< whatever the caller wants to know of it
+    bool isFixed = false;        ///< stays where it is
+    std::uint32_t became = none; ///< the vertex that it is now part of, if it is another
   };
+  static constexpr std::uint32_t none = UINT32_MAX;
 
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> corners; ///< three vertices a triangle, all different
+  std::vector<std::uint32_t> sources; ///< per triangle: whatever the caller wants to know of it
 };
 
 /// Collapses edges until `triangleCount` are left or none can go; two fixed vertices
-/// never become one. Then triangles that are left alone stand in `corners`; vertices
-/// keep their numbers. Edges of the border are held by planes of their own.
+/// never become one. Then triangles that are left alone stand in `corners`, with their
+/// `sources`; vertices keep their numbers. Edges of the border are held by planes of their own.
 void collapseEdges(CollapsingSurface& surface, std::size_t triangleCount);
 
 } // namespace imgeo

@@ -62,7 +62,7 @@ struct FoldedTriangle {
 };
 
 /// Drops triangles in pairs that have come to lie back to back.
-void dropFolds(std::vector<std::uint32_t>& corners) {
+void dropFolds(std::vector<std::uint32_t>& corners, std::vector<std::uint32_t>& sources) {
   std::vector<FoldedTriangle> triangles;
   triangles.reserve(corners.size() / 3);
   for (std::uint32_t at = 0; at < corners.size(); at += 3)
@@ -82,10 +82,14 @@ void dropFolds(std::vector<std::uint32_t>& corners) {
       }
   }
   std::size_t kept = 0;
-  for (std::size_t corner = 0; corner < corners.size(); ++corner)
-    if (isKept[corner / 3])
-      corners[kept++] = corners[corner];
-  corners.resize(kept);
+  for (std::size_t triangle = 0; triangle < isKept.size(); ++triangle) {
+    if (!isKept[triangle])
+      continue;
+    std::copy_n(&corners[3 * triangle], 3, &corners[3 * kept]);
+    sources[kept++] = sources[triangle];
+  }
+  corners.resize(3 * kept);
+  sources.resize(kept);
 }
 
 /// One vertex a cell, in the middle of its vertices, with the planes of all their triangles.
@@ -116,28 +120,36 @@ CollapsingSurface surfaceOf(std::span<const Vec3d> places, std::span<const std::
       for (const std::uint32_t cell : {u, v, w})
         surface.vertices[cell].quadric += plane;
     }
-    if (u != v && v != w && w != u)
-      surface.corners.insert(surface.corners.end(), {u, v, w});
+    if (u == v || v == w || w == u)
+      continue;
+    surface.corners.insert(surface.corners.end(), {u, v, w});
+    surface.sources.push_back(static_cast<std::uint32_t>(corner / 3));
   }
   if (cells.count < places.size())
-    dropFolds(surface.corners);
+    dropFolds(surface.corners, surface.sources);
   return surface;
 }
 
 /// The vertices that are in use, on the lattice.
 SimplifiedTriangles resultOf(const CollapsingSurface& surface, const UnitFrame& frame,
-                             std::span<const Vec3u> positions) {
-  constexpr std::uint32_t none = UINT32_MAX;
+                             std::span<const Vec3u> positions, const SurfaceCells& cells) {
+  constexpr std::uint32_t none = SimplifiedTriangles::none;
   SimplifiedTriangles result;
+  result.triangles = surface.sources;
   std::vector<std::uint32_t> numbers(surface.vertices.size(), none);
   for (const std::uint32_t vertex : surface.corners) {
     if (numbers[vertex] == none) {
       numbers[vertex] = static_cast<std::uint32_t>(result.positions.size());
       const CollapsingSurface::Vertex& from = surface.vertices[vertex];
       result.positions.push_back(from.isFixed ? positions[from.source] : frame.nearest(from.place));
-      result.sources.push_back(from.source);
     }
     result.corners.push_back(numbers[vertex]);
+  }
+  result.ofPosition.reserve(positions.size());
+  for (std::uint32_t vertex : cells.ofVertex) {
+    while (surface.vertices[vertex].became != CollapsingSurface::none)
+      vertex = surface.vertices[vertex].became;
+    result.ofPosition.push_back(numbers[vertex]);
   }
   return result;
 }
@@ -161,7 +173,7 @@ SimplifiedTriangles simplify(std::span<const Vec3u> positions, std::span<const s
       if (!vertex.isFixed)
         vertex.place = vertex.quadric.bestPlace(vertex.place);
   collapseEdges(surface, triangleCount);
-  return resultOf(surface, frame, positions);
+  return resultOf(surface, frame, positions, cells);
 }
 
 } // namespace imgeo

@@ -12,9 +12,13 @@
 namespace imgeo {
 
 struct SimplifiedTriangles {
+  static constexpr std::uint32_t none = UINT32_MAX;
+
   std::vector<Vec3u> positions;
-  std::vector<std::uint32_t> sources; ///< per position: a position of the input that it stands for
-  std::vector<std::uint32_t> corners; ///< three positions a triangle
+  std::vector<std::uint32_t> corners;    ///< three positions a triangle
+  std::vector<std::uint32_t> triangles;  ///< per triangle: that of the input which it was
+  std::vector<std::uint32_t> ofPosition; ///< per position of the input: what it has become; none where
+                                         ///< no triangle is left
 };
 
 /// Simplifies triangles over positions on a lattice to about `triangleCount`, or as

@@ -134,7 +134,7 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
   result.geometry = describe(patched, encoding);
   if (options.profile == Profile::compact && options.primitives == Primitives::triangles)
     if (const std::optional<BaseMesh> base = baseOf(patched, options.basePercent.value_or(0)))
-      result.base = baseInIntegers(*base, result.geometry, options.colorBits);
+      result.base = baseInIntegers(*base, result.geometry, options.texCoordBits, options.colorBits);
   if (options.profile == Profile::compact && patched.patches.size() == 1 &&
       patched.patches[0].wedgeCount() <= sharedFileVertices) {
     addSmall(result, std::move(patched.patches[0]), options, encoding);

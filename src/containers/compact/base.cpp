@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 
 namespace imgeo {
 
@@ -18,36 +17,82 @@ namespace {
 /// than what simplification did.
 constexpr double stepsAnEdge = 16;
 
+/// So many steps are an edge in the texture, which simplification has laid no better.
+constexpr double stepsATextureEdge = 8;
+
+/// What an edge of a triangle measures; lengthOf takes two of its corners.
+template <typename LengthOf> double meanEdge(const BaseMesh& base, LengthOf lengthOf) {
+  double sum = 0;
+  for (std::size_t corner = 0; corner < base.corners.size(); ++corner)
+    sum += lengthOf(corner, corner % 3 == 2 ? corner - 2 : corner + 1);
+  return sum / static_cast<double>(base.corners.size());
+}
+
 /// The largest shift of residuals for the edges between positions of one part.
 std::uint32_t residualShiftFor(const BaseMesh& base, std::uint32_t positionBits) {
-  double sum = 0;
-  for (std::size_t corner = 0; corner < base.corners.size(); ++corner) {
-    const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
-    sum += length(Vec3d(base.positions[base.corners[next]]) - Vec3d(base.positions[base.corners[corner]]));
-  }
-  const double steps = sum / static_cast<double>(base.corners.size()) / stepsAnEdge;
+  const double edge = meanEdge(base, [&](std::size_t a, std::size_t b) {
+    return length(Vec3d(base.cornerPosition(b)) - Vec3d(base.cornerPosition(a)));
+  });
+  const double steps = edge / stepsAnEdge;
   const auto shift = static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint32_t>(steps)));
   return std::min(shift == 0 ? 0 : shift - 1, positionBits - 1);
+}
+
+/// The fewest bits with which steps are small enough.
+std::uint32_t texCoordBitsFor(const BaseMesh& base, const GeometryDescription& geometry, std::uint32_t most) {
+  const double edge = meanEdge(base, [&](std::size_t a, std::size_t b) {
+    const Vec2f from = base.texCoords[base.corners[a]], to = base.texCoords[base.corners[b]];
+    return std::hypot(double{to.x} - from.x, double{to.y} - from.y);
+  });
+  const double steps = stepsATextureEdge * std::max(geometry.texCoordSize.x, geometry.texCoordSize.y) / edge;
+  std::uint32_t bits = 1;
+  while (bits < most && std::ldexp(1.0, static_cast<int>(bits)) < steps)
+    ++bits;
+  return bits;
+}
+
+/// The fewest bits that tell 256 values apart where they lie in the attribute's box.
+std::uint32_t bitsFor(const NamedAttribute& named, const AttributeDescription& description) {
+  double share = 0;
+  for (std::uint32_t c = 0; c < named.components && description.size[c] > 0; ++c) {
+    double least = named.values[c], largest = least;
+    for (std::size_t i = c; i < named.values.size(); i += named.components) {
+      least = std::min(least, double{named.values[i]});
+      largest = std::max(largest, double{named.values[i]});
+    }
+    share = std::max(share, (largest - least) / description.size[c]);
+  }
+  std::uint32_t bits = 8;
+  while (bits < 8 * description.bytes && std::ldexp(share, static_cast<int>(bits)) < 256)
+    ++bits;
+  return bits;
 }
 
 } // namespace
 
 compact::CompactPatch baseInIntegers(const BaseMesh& base, const GeometryDescription& geometry,
-                                     std::uint32_t colorBits) {
+                                     std::uint32_t texCoordBits, std::uint32_t colorBits) {
   compact::CompactPatch patch;
   patch.positionBits = geometry.lattice.bits;
   patch.positions = base.positions;
-  patch.wedgePositions.resize(base.positions.size());
-  std::iota(patch.wedgePositions.begin(), patch.wedgePositions.end(), 0u);
+  patch.wedgePositions = base.wedgePositions;
   patch.corners = base.corners;
   patch.parts = base.parts;
   patch.partCount = base.partCount;
   patch.residualShift = residualShiftFor(base, geometry.lattice.bits);
   compact::Attribute normals{{compact::AttributeKind::normal, 3, 8, compact::NormalMode::derivedArea}, {}};
-  normals.values.resize(base.positions.size()); // whatever they are, they come from the triangles
+  normals.values.resize(base.wedgePositions.size()); // whatever they are, they come from the triangles
   patch.attributes.push_back(std::move(normals));
+  if (!base.texCoords.empty())
+    patch.attributes.push_back(
+        compact::texCoordAttribute(base.texCoords, geometry, texCoordBitsFor(base, geometry, texCoordBits)));
   if (!base.colors.empty())
     patch.attributes.push_back(compact::colorAttribute(base.colors, base.colorComponents, colorBits));
+  for (std::size_t i = 0; i < base.namedAttributes.size(); ++i) {
+    const NamedAttribute& named = base.namedAttributes[i];
+    const AttributeDescription& description = geometry.attributes.at(i);
+    patch.attributes.push_back(compact::namedAttribute(named, description, bitsFor(named, description)));
+  }
   return patch;
 }
 
@@ -60,9 +105,9 @@ EncodedFile baseFile(std::span<const compact::CompactPatch> bases) {
 
 BaseMesh meshOfBase(const compact::CompactPatch& patch) {
   BaseMesh base;
-  for (const std::uint32_t wedge : patch.corners)
-    base.corners.push_back(patch.wedgePositions[wedge]);
   base.positions = patch.positions;
+  base.wedgePositions = patch.wedgePositions;
+  base.corners = patch.corners;
   base.parts = patch.parts;
   base.partCount = patch.partCount;
   return base;

@@ -10,9 +10,10 @@
 namespace imgeo {
 
 /// A base as files hold it. What comes back of it has other numbers; positions of one part
-/// alone have moved by a small share of an edge.
+/// alone have moved by a small share of an edge. Texture coordinates have at most these bits
+/// and no more than such shares need; of further attributes 256 values differ.
 compact::CompactPatch baseInIntegers(const BaseMesh& base, const GeometryDescription& geometry,
-                                     std::uint32_t colorBits);
+                                     std::uint32_t texCoordBits, std::uint32_t colorBits);
 
 /// The file of such bases, whose numbers in it are their places here; as many as
 /// encodeCompact takes. Deterministic. Throws Error{limit} for more than an image holds.

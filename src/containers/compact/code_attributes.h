@@ -22,6 +22,7 @@ struct Surface {
   const std::vector<Vec3u>& positions;
   const NormalSums& normalSums; ///< per vertex; of triangles alone
   std::uint32_t normalShift;
+  bool isBase;
 
   bool hasSeams() const { return wedges.count() > positions.size(); }
 };

@@ -104,6 +104,9 @@ void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type
   std::vector<bool> repeats(wedges.count());
   if (surface.hasSeams() && !type.isDerived())
     repeats = codeRepeats(coder, surface, values);
+  else if (surface.isBase) // whose seams are the texture's alone
+    for (std::uint32_t wedge = 0; wedge < wedges.count(); ++wedge)
+      repeats[wedge] = wedges.previous[wedge] != none;
   const bool hasTriangles = surface.topology == Topology::triangles;
   const bool ofVertices = !surface.hasSeams() && !type.isUniform();
   const NormalSums ofWedges = hasTriangles && !ofVertices

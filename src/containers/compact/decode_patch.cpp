@@ -55,7 +55,8 @@ private:
                       sizes.normalShift, {sizes.residualShift, &parts.isShared}, patch.positions)
             .run();
     Wedges wedges = decodeWedges(connectivity, sizes);
-    const Surface surface{type.topology, connectivity, wedges, patch.positions, sums, sizes.normalShift};
+    const Surface surface{type.topology, connectivity,      wedges,     patch.positions,
+                          sums,          sizes.normalShift, type.isBase};
     for (const std::uint32_t attribute : type.attributes)
       patch.attributes.push_back({header_.attributes[attribute], decodeValues(surface, attribute)});
     patch.parts = std::move(parts.ofTriangle);

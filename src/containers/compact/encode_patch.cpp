@@ -94,7 +94,8 @@ struct CodedPatch {
     return source.corners[ordered.sourceCorner[corner]];
   }
   Surface surface() const {
-    return {source.topology, ordered.connectivity, wedges, positions, normalSums, sizes.normalShift};
+    return {source.topology,   ordered.connectivity, wedges, positions, normalSums,
+            sizes.normalShift, source.partCount > 0};
   }
   /// The values of an attribute of the source.
   std::vector<Value> valuesOf(const Attribute& attribute) const {

@@ -172,6 +172,8 @@ inline std::vector<Sample> samples() {
   addOther(samples.back().patch(), 4, 3, 2);
   samples.push_back({"base", baseOf(sphere(12, 16))});
   samples.push_back({"base-colors", baseOf(colored(grid(6), 3))});
+  samples.push_back({"base-seams", baseOf(torus(8, 6))});
+  addOther(samples.back().patch(), 2, 11, 3);
   return samples;
 }
 

@@ -48,31 +48,6 @@ void addNormals(CompactPatch& patch, const std::vector<Vec3f>& normals, const At
   patch.attributes.push_back(std::move(attribute));
 }
 
-void addTexCoords(CompactPatch& patch, const std::vector<Vec2f>& texCoords,
-                  const GeometryDescription& geometry, std::uint32_t bits) {
-  const auto share = [](float value, float min, float size) {
-    return size > 0 ? (double{value} - min) / size : 0.0;
-  };
-  Attribute attribute{typeOf(AttributeKind::texCoord, 2, bits), {}};
-  for (const Vec2f& texCoord : texCoords)
-    attribute.values.push_back(
-        {{quantiseShare(share(texCoord.x, geometry.texCoordMin.x, geometry.texCoordSize.x), bits),
-          quantiseShare(share(texCoord.y, geometry.texCoordMin.y, geometry.texCoordSize.y), bits)}});
-  patch.attributes.push_back(std::move(attribute));
-}
-
-void addNamed(CompactPatch& patch, const NamedAttribute& named, const AttributeDescription& description) {
-  Attribute attribute{typeOf(AttributeKind::other, named.components, 8 * description.bytes), {}};
-  for (std::size_t wedge = 0; wedge < named.count(); ++wedge) {
-    Value value;
-    for (std::uint32_t i = 0; i < named.components; ++i)
-      value[i] =
-          static_cast<std::int32_t>(storeNumber(named.values[wedge * named.components + i], description, i));
-    attribute.values.push_back(value);
-  }
-  patch.attributes.push_back(std::move(attribute));
-}
-
 NamedAttribute namedOf(const Attribute& attribute, const AttributeDescription& description) {
   NamedAttribute named{description.name, description.components, {}};
   for (const Value& value : attribute.values)
@@ -91,11 +66,14 @@ CompactPatch quantiseInOrder(Patch patch, const GeometryDescription& geometry, c
   if (!patch.normals.empty())
     addNormals(quantised, patch.normals, bits);
   if (!patch.texCoords.empty())
-    addTexCoords(quantised, patch.texCoords, geometry, bits.texCoord);
+    quantised.attributes.push_back(texCoordAttribute(patch.texCoords, geometry, bits.texCoord));
   if (!patch.colors.empty())
     quantised.attributes.push_back(colorAttribute(patch.colors, geometry.colorComponents, bits.color));
-  for (std::size_t i = 0; i < patch.namedAttributes.size(); ++i)
-    addNamed(quantised, patch.namedAttributes[i], geometry.attributes.at(i));
+  for (std::size_t i = 0; i < patch.namedAttributes.size(); ++i) {
+    const AttributeDescription& description = geometry.attributes.at(i);
+    quantised.attributes.push_back(
+        namedAttribute(patch.namedAttributes[i], description, 8 * description.bytes));
+  }
   return quantised;
 }
 
@@ -128,6 +106,16 @@ Primitive primitiveOf(Topology topology) {
 
 } // namespace
 
+Attribute texCoordAttribute(const std::vector<Vec2f>& texCoords, const GeometryDescription& geometry,
+                            std::uint32_t bits) {
+  const Vec2f min = geometry.texCoordMin, size = geometry.texCoordSize;
+  Attribute attribute{typeOf(AttributeKind::texCoord, 2, bits), {}};
+  for (const Vec2f& texCoord : texCoords)
+    attribute.values.push_back({{quantiseShare(texCoordShare(texCoord.x, min.x, size.x), bits),
+                                 quantiseShare(texCoordShare(texCoord.y, min.y, size.y), bits)}});
+  return attribute;
+}
+
 Attribute colorAttribute(const std::vector<Rgba8>& colors, std::uint32_t components, std::uint32_t bits) {
   Attribute attribute{typeOf(AttributeKind::color, components, bits), {}};
   for (const Rgba8& color : colors) {
@@ -135,6 +123,22 @@ Attribute colorAttribute(const std::vector<Rgba8>& colors, std::uint32_t compone
                  quantiseShare(color.b / 255.0, bits)}};
     if (components == 4)
       value[3] = quantiseShare(color.a / 255.0, bits);
+    attribute.values.push_back(value);
+  }
+  return attribute;
+}
+
+Attribute namedAttribute(const NamedAttribute& named, const AttributeDescription& description,
+                         std::uint32_t bits) {
+  Attribute attribute{typeOf(AttributeKind::other, named.components, bits), {}};
+  const std::uint32_t whole = 8 * description.bytes;
+  for (std::size_t wedge = 0; wedge < named.count(); ++wedge) {
+    Value value;
+    for (std::uint32_t i = 0; i < named.components; ++i) {
+      const std::uint32_t stored = storeNumber(named.values[wedge * named.components + i], description, i);
+      value[i] = bits == whole ? static_cast<std::int32_t>(stored)
+                               : quantiseShare(stored / static_cast<double>((1u << whole) - 1), bits);
+    }
     attribute.values.push_back(value);
   }
   return attribute;

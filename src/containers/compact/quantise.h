@@ -19,8 +19,14 @@ struct AttributeBits {
 /// node's box, colours over 0 .. 255, both to the nearest.
 CompactPatch quantise(Patch patch, const GeometryDescription& geometry, const AttributeBits& bits);
 
-/// Colours, one a wedge, as `quantise` has them.
+/// Attributes, one value a wedge, as `quantise` has them.
+Attribute texCoordAttribute(const std::vector<Vec2f>& texCoords, const GeometryDescription& geometry,
+                            std::uint32_t bits);
 Attribute colorAttribute(const std::vector<Rgba8>& colors, std::uint32_t components, std::uint32_t bits);
+
+/// `bits` are 1 .. 8 * description.bytes; with less than that, over the same box.
+Attribute namedAttribute(const NamedAttribute& named, const AttributeDescription& description,
+                         std::uint32_t bits);
 
 /// What is drawn of a patch: all its elements.
 std::vector<Draw> drawsOf(const CompactPatch& patch);

@@ -173,6 +173,21 @@ describe("a geometry of compact", () => {
     }
   });
 
+  test("has the texture and the values of its base, in the bits that this has of them", async () => {
+    const site = siteOf({ ...filesOf("base-seams"), "sphere.png": 404 });
+    const plain = geometryFor([["sphere", 0], ["sphere", 0], ["sphere", 0]], {}, "base-seams.png");
+    const value = { name: "flow", components: 2, bits: 16, files: 0, min: [0, 0], size: [1, 1] } as const;
+    const { stages, settled } = record({ ...plain, attributes: [value], value }, site.pool);
+    await settled;
+    const parts = baseBuffersOf(decodeVector("base-seams")[0] ?? assert.fail());
+    assert.deepEqual(new Set(stages.map(({ patch }) => patch)), new Set(parts.flatMap((part, place) => (part ? [place] : []))));
+    for (const { patch, stage } of stages) {
+      assert.ok(stage.kind === "buffers" && stage.name === "base");
+      assert.deepEqual([site.arrayOf(stage.texCoord), site.arrayOf(stage.value)], [parts[patch]?.texCoord?.array, parts[patch]?.others[0]?.vertices.array]);
+      assert.equal(stage.value?.largest, 2 ** 11 - 1);
+    }
+  });
+
   test("goes back to its base where there is no room for a patch", async () => {
     const site = siteOf(filesOf("base", "sphere"));
     const { stages, delivery, settled } = record(geometryFor([["sphere", 0], ["sphere", 0], ["sphere", 0]], {}, "base.png"), site.pool);

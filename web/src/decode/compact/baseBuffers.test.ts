@@ -14,7 +14,7 @@ interface Expected {
 }
 
 describe("the parts of a base", () => {
-  for (const name of ["base", "base-colors"]) {
+  for (const name of ["base", "base-colors", "base-seams"]) {
     test(`of "${name}" have the triangles of the whole, each once, over vertices of their own`, () => {
       const { positions, wedgePositions, corners, parts, partCount } = (readVector(name) as Expected[])[0]!;
       const placeOf = (w: number) => positions.slice(3 * wedgePositions[w]!, 3 * wedgePositions[w]! + 3).join();
@@ -24,8 +24,8 @@ describe("the parts of a base", () => {
       assert.equal(buffers.length, partCount);
       assert.deepEqual(buffers.map((part) => {
         if (part === undefined) return [];
-        const { coord: { array, stride }, vertexCount, normal, color } = part;
-        for (const vertices of [part.coord, normal, color]) if (vertices) assert.equal(vertices.array.length, vertexCount * vertices.stride);
+        const { coord: { array, stride }, vertexCount, normal, color, texCoord, others } = part;
+        for (const vertices of [part.coord, normal, color, texCoord, ...others.map((other) => other.vertices)]) if (vertices) assert.equal(vertices.array.length, vertexCount * vertices.stride);
         const index = Array.from(part.index!);
         assert.deepEqual(new Set(index), new Set(Array.from({ length: vertexCount }, (_, n) => n)));
         return Array.from({ length: index.length / 3 }, (_, t) => index.slice(3 * t, 3 * t + 3)
@@ -33,6 +33,23 @@ describe("the parts of a base", () => {
       }), expected);
     });
   }
+
+  test("have one normal at each place, whatever seams the texture has", () => {
+    const normals = new Map<string, string>();
+    let seams = 0;
+    for (const part of baseBuffersOf(decodeVector("base-seams")[0]!)) {
+      if (part?.normal === undefined) continue;
+      const { coord, normal } = part;
+      for (let n = 0; n < part.vertexCount; ++n) {
+        const at = ({ array, stride }: typeof coord) => array.subarray(n * stride, n * stride + 3).join();
+        const known = normals.get(at(coord));
+        if (known === undefined) normals.set(at(coord), at(normal));
+        else assert.equal(at(normal), known);
+        seams += Number(known !== undefined);
+      }
+    }
+    assert.ok(seams > 10);
+  });
 
   test("are not those of a patch", () => {
     assert.throws(() => baseBuffersOf(decodeVector("sphere")[0]!), /a patch where a base should be/);

@@ -15,9 +15,10 @@ export function decodeNormals(decoder: RangeDecoder, type: AttributeType, shape:
   return new NormalDecoder(decoder, type, shape, decodeRepeats(decoder, repeatModel, shape.wedges)).run();
 }
 
-/** The same of what is not stored: normals are what is predicted. */
+/** The same of what is not stored: normals are what is predicted, in a base of all triangles around a vertex. */
 export function deriveNormals(type: AttributeType, shape: DecodedShape): Int32Array {
-  return new NormalDecoder(undefined, type, shape, new Uint8Array()).run();
+  const previous = shape.header.partCount > 0 ? shape.wedges.seams?.previous : undefined;
+  return new NormalDecoder(undefined, type, shape, Uint8Array.from(previous ?? [], (w) => Number(w >= 0))).run();
 }
 
 class NormalDecoder {
