@@ -62,6 +62,27 @@ describe("a geometry of compact", () => {
     assert.deepEqual(both.stages.map(({ patch }) => patch), [0, 1]);
   });
 
+  test("that shares a file leaves and comes back alone, for which the file is fetched again, and counts what it takes itself", async () => {
+    const site = siteOf(filesOf("alike"));
+    const recordings = [3, 0, 8].map((number) => record(geometryFor([["alike", number]]), site.pool));
+    await Promise.all(recordings.map(({ settled }) => settled));
+    const stored = () => Array.from(site.arrays.values()).reduce((sum, { byteLength }) => sum + byteLength, 0);
+    const each = recordings.map(({ delivery }) => delivery.storedBytes);
+    const all = each.reduce((sum, bytes) => sum + bytes);
+    assert.equal(stored(), all);
+    const [, { delivery, stages } = assert.fail()] = recordings;
+    delivery.claims(everything);
+    delivery.demand(everything, new Set());
+    assert.deepEqual([stored(), delivery.storedBytes], [all - (each[1] ?? 0), each[1]]);
+    delivery.claims(everything);
+    delivery.demand(everything);
+    await until(() => stages.length === 2);
+    assert.deepEqual([stored(), recordings.map(({ stages: shown }) => shown.length)], [all, [1, 2, 1]]);
+    assert.deepEqual(site.asked, ["alike.png", "alike.png"]);
+    for (const { delivery: one } of recordings) one.cancel();
+    assert.equal(site.arrays.size, 0);
+  });
+
   test("fails with the file that it shares, each with an error of its own", async () => {
     const site = siteOf({ "alike.png": 404 });
     const recordings = [1, 2].map((number) => record(geometryFor([["alike", number]]), site.pool));
