@@ -40,7 +40,7 @@ export function makeFace(root: ShadowRoot): Face {
   return {
     canvas, poster, posterImage, hotspots, controls,
     showProgress(share, words) {
-      const percent = Math.round(share * 100);
+      const percent = Math.floor(share * 100); // 100 is said of what is whole alone
       fill.style.transform = `scaleX(${share})`;
       bar.setAttribute("aria-valuenow", String(percent));
       bar.setAttribute("aria-valuetext", `${percent} %, ${words}`);
