@@ -1,6 +1,6 @@
 // What each way of vertices to the screen costs a page: images that the shader
-// decodes (paper section 5.1), the same images decoded in workers (5.2), and typed
-// arrays (BG). Prints a Markdown table: the time from navigation to `load` and what
+// decodes (paper section 5.1), the same images decoded in workers (5.2), those of
+// compact, and typed arrays (BG). Prints a Markdown table: the time from navigation to `load` and what
 // of it is spent on processors, the longest task of the page, the time of a frame
 // while the scene turns, and the bytes of vertex data on the GPU. The renderer is
 // named; on a software renderer, whose frames run on the same processors, the
@@ -9,16 +9,16 @@
 //   scripts/bench paths [MODEL...]
 
 import { execFileSync } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { cpus, tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { launchChromium } from "../../tests/browser/chromium.ts";
-import { sphere } from "../../tests/browser/meshes.ts";
+import { writeShapes } from "../../tests/browser/generators/shapes.ts";
 import { converter } from "../../tests/browser/paths.ts";
 import { startServer } from "../../tests/browser/server.ts";
-import { prepareModels } from "../load/models.ts";
+import { containers, prepareModels, type Container } from "../load/models.ts";
 import { longestTaskMsOf, processorMsOf, traceCategories, type TraceEvent } from "../load/trace.ts";
 
 const runs = Number(process.env.RUNS ?? 3);
@@ -27,40 +27,27 @@ const timeout = 300_000;
 
 interface Input {
   name: string;
-  /** Of images, and of arrays. */
-  sites: { sig: string; bg: string };
+  sites: Record<Container, string>;
 }
 
-const paths: Record<string, { container: "sig" | "bg"; decode: string }> = {
-  "GPU": { container: "sig", decode: "gpu" },
-  "CPU": { container: "sig", decode: "cpu" },
-  "BG": { container: "bg", decode: "" },
+const paths: Record<string, { container: Container; decode: string }> = {
+  "SIG classic, in the shader": { container: "SIG classic", decode: "gpu" },
+  "SIG classic, in workers": { container: "SIG classic", decode: "cpu" },
+  "SIG compact": { container: "SIG compact", decode: "" },
+  "BG": { container: "BG", decode: "" },
 };
 
-/** So many shapes, each with bumps of its own: what is the same would be one file. As an OBJ's objects. */
+/** So many shapes, no two alike: what is the same would be one file. */
 function shapes(count: number, directory: string): Input {
   mkdirSync(directory, { recursive: true });
-  const { positions, triangles } = sphere(6);
-  const side = Math.ceil(Math.sqrt(count));
-  const lines: string[] = [];
-  for (let n = 0; n < count; ++n) {
-    const [x, y] = [3 * (n % side), 3 * Math.floor(n / side)];
-    lines.push(`o shape${n}`);
-    for (let i = 0; i < positions.length; i += 3) {
-      const radius = 1 + 0.2 * Math.sin(n + i * (1 + n / count));
-      lines.push(`v ${x + radius * positions[i]!} ${y + radius * positions[i + 1]!} ${radius * positions[i + 2]!}`);
-    }
-    const first = (n * positions.length) / 3 + 1;
-    for (let i = 0; i < triangles.length; i += 3) lines.push(`f ${[0, 1, 2].map((corner) => first + triangles[i + corner]!).join(" ")}`);
-  }
   const source = join(directory, "shapes.obj");
-  writeFileSync(source, lines.join("\n"));
-  const siteOf = (container: string, ...options: string[]): string => {
-    const site = join(directory, container);
-    execFileSync(converter, ["convert", source, "-o", site, "--container", container, ...options], { stdio: ["ignore", "ignore", "inherit"] });
+  writeShapes(count, source);
+  const siteAs = (container: Container): string => {
+    const site = join(directory, container.replaceAll(" ", "-"));
+    execFileSync(converter, ["convert", source, "-o", site, ...containers[container]], { stdio: ["ignore", "ignore", "inherit"] });
     return site;
   };
-  return { name: `${count} shapes`, sites: { sig: siteOf("sig", "--profile", "classic"), bg: siteOf("bg") } };
+  return { name: `${count} shapes`, sites: { "SIG classic": siteAs("SIG classic"), "SIG compact": siteAs("SIG compact"), "BG": siteAs("BG") } };
 }
 
 interface Measured {
@@ -128,7 +115,7 @@ try {
   const renderer = await rendererOf(browser);
   const models = prepareModels(process.argv.length > 2 ? process.argv.slice(2) : ["bunny", "dragon"], work);
   const inputs: Input[] = [
-    ...models.map(({ name, sites }) => ({ name, sites: { sig: sites["SIG classic"], bg: sites.BG } })),
+    ...models,
     ...(process.argv.length > 2 ? [] : [shapes(500, join(work, "shapes"))]),
   ];
   console.log("| scene | path | load | on processors | longest task | frame | vertex data on the GPU | requests |");
