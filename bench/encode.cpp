@@ -1,54 +1,100 @@
-// Processor time and peak memory of writing compact at each effort, on one thread, beside
-// Draco and gltfpack on the same mesh: whole processes, medians of three. Ours reads a GLB's
-// equal as PLY, welds it and writes the page too. Prints a Markdown table.
+// Processor time and peak memory of writing compact at the efforts that differ, beside
+// Draco and gltfpack on the same mesh: whole processes, all on one processor, in turns,
+// medians of nine. Ours reads a GLB's equal as PLY, welds it and writes the page too.
+// Prints a Markdown table.
 //
 //   build/bench/encode MODEL...        (in the repository's root, with draco_encoder installed)
 
 #include "bench/process.h"
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <sched.h>
 
 namespace imgeo {
 namespace {
 
 namespace fs = std::filesystem;
 
-Run median(const std::vector<std::string>& words) {
-  std::vector<Run> runs{runOnce(words), runOnce(words), runOnce(words)};
-  std::ranges::sort(runs, {}, &Run::processorSeconds);
-  return runs[1];
+/// Of this process and of all that it starts.
+void stayOnOneProcessor() {
+  cpu_set_t allowed, first;
+  CPU_ZERO(&first);
+  if (sched_getaffinity(0, sizeof allowed, &allowed) == 0)
+    for (int processor = 0; processor < CPU_SETSIZE && CPU_COUNT(&first) == 0; ++processor)
+      if (CPU_ISSET(processor, &allowed))
+        CPU_SET(processor, &first);
+  if (sched_setaffinity(0, sizeof first, &first) != 0) {
+    fmt::print(stderr, "cannot stay on one processor\n");
+    std::exit(1);
+  }
 }
+
+struct Program {
+  std::string name;
+  std::vector<std::string> words;
+  std::function<std::uint64_t()> bytes; ///< that it wrote, once it has run
+  std::vector<Run> runs;
+
+  const Run& median() {
+    std::ranges::sort(runs, {}, &Run::processorSeconds);
+    return runs[runs.size() / 2];
+  }
+};
+
+/// The first of each run of efforts that give the same bytes in the same time.
+constexpr std::array efforts{0, 1, 7, 8, 9};
+constexpr int rounds = 9;
 
 void printModel(const std::string& model, const fs::path& work) {
   const fs::path ply = work / "mesh.ply", glb = work / "mesh.glb";
-  const std::string site = work / "site", report = work / "report.json", out = work / "out";
+  const std::string out = work / "out", packed = work / "packed.glb";
   writePrepared(model, ply, MeshFormat::ply);
   writePrepared(model, glb, MeshFormat::glb);
-  const Run draco = median({"draco_encoder", "-i", ply, "-o", out, "-cl", "10", "-qp", "16", "-qn", "8"});
   double triangles = 0;
-  const auto print = [&](const std::string& what, const Run& run, std::uint64_t bytes) {
-    fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.0f} | {} |\n", fs::path(model).filename().string(), what,
-               run.processorSeconds / triangles * 1e6, run.processorSeconds / draco.processorSeconds,
-               static_cast<double>(run.peakBytes) / triangles, bytes);
-    std::fflush(stdout);
-  };
-  for (int effort = 0; effort <= 9; ++effort) {
-    const Run run = median({"build/imgeo", "convert", ply, "-o", site, "--profile", "compact", "--effort",
-                            std::to_string(effort), "--threads", "1", "-r", report});
-    const auto json = nlohmann::json::parse(asText(readFile(report)));
-    triangles = json["triangles"];
-    print(fmt::format("imgeo, --effort {}", effort), run,
-          static_cast<std::uint64_t>(json["bytesPerTriangle"].get<double>() * triangles + 0.5));
+  std::vector<Program> programs;
+  programs.push_back({"draco_encoder -cl 10",
+                      {"draco_encoder", "-i", ply, "-o", out, "-cl", "10", "-qp", "16", "-qn", "8"},
+                      [&] { return fs::file_size(out); },
+                      {}});
+  for (const int effort : efforts) {
+    const std::string site = work / fmt::format("site{}", effort), report = site + ".json";
+    programs.push_back({fmt::format("imgeo, --effort {}", effort),
+                        {"build/imgeo", "convert", ply, "-o", site, "--profile", "compact", "--effort",
+                         std::to_string(effort), "--threads", "1", "-r", report},
+                        [&triangles, report] {
+                          const auto json = nlohmann::json::parse(asText(readFile(report)));
+                          triangles = json["triangles"];
+                          return static_cast<std::uint64_t>(
+                              json["bytesPerTriangle"].get<double>() * triangles + 0.5);
+                        },
+                        {}});
   }
-  print("draco_encoder -cl 10", draco, fs::file_size(work / "out"));
-  const std::string packed = work / "packed.glb";
-  const Run gltfpack = median({"node", "node_modules/gltfpack/cli.js", "-i", glb, "-o", packed, "-cz", "-vp",
-                               "16", "-vn", "8", "-kv"});
-  print("gltfpack -cz", gltfpack, fs::file_size(packed));
+  programs.push_back({"gltfpack -cz",
+                      {"node", "node_modules/gltfpack/cli.js", "-i", glb, "-o", packed, "-cz", "-vp", "16",
+                       "-vn", "8", "-kv"},
+                      [&] { return fs::file_size(packed); },
+                      {}});
+  for (int round = 0; round < rounds; ++round)
+    for (Program& program : programs)
+      program.runs.push_back(runOnce(program.words));
+  std::vector<std::uint64_t> bytes;
+  for (const Program& program : programs)
+    bytes.push_back(program.bytes());
+  const double draco = programs[0].median().processorSeconds;
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    const Run& run = programs[i].median();
+    fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.0f} | {} |\n", fs::path(model).filename().string(),
+               programs[i].name, run.processorSeconds / triangles * 1e6, run.processorSeconds / draco,
+               static_cast<double>(run.peakBytes) / triangles, bytes[i]);
+  }
+  std::fflush(stdout);
 }
 
 void benchmark(const std::vector<std::string>& models, const fs::path& work) {
+  stayOnOneProcessor();
   fmt::print("| model | | s / million triangles | of Draco's | peak memory, bytes / triangle | bytes |\n"
              "|---|---|--:|--:|--:|--:|\n");
   for (const std::string& model : models)

@@ -20,14 +20,24 @@ struct Ordered {
   std::vector<std::uint32_t> sourceVertex; ///< vertex -> vertex of the source
 };
 
+/// One of several that differ in where a patch begins: each finds other orders, of which
+/// none is the best for all patches.
+struct Attempt {
+  std::uint32_t number = 0, count = 1;
+
+  std::uint32_t firstOf(std::size_t elementCount) const {
+    return static_cast<std::uint32_t>(elementCount * number / count);
+  }
+};
+
 /// Finds an order and writes it.
-Ordered orderOf(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices,
+Ordered orderOf(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices, const Attempt& attempt,
                 StreamEncoders& streams) {
   const auto vertexCount = static_cast<std::uint32_t>(patch.positions.size());
   Ordered ordered;
   if (patch.topology == Topology::triangles) {
-    ordered.connectivity =
-        encodeTriangles(streams[StreamName::connectivity], vertices, vertexCount, 0, ordered.sourceCorner);
+    ordered.connectivity = encodeTriangles(streams[StreamName::connectivity], vertices, vertexCount,
+                                           attempt.firstOf(patch.elementCount()), ordered.sourceCorner);
   } else {
     ordered.sourceCorner.resize(vertices.size());
     std::iota(ordered.sourceCorner.begin(), ordered.sourceCorner.end(), 0u);
@@ -124,9 +134,15 @@ template <typename T> std::uint32_t placeIn(std::vector<T>& list, const T& value
   return static_cast<std::uint32_t>(list.size() - 1);
 }
 
+/// From 7 on 2, 4 and 8.
+constexpr std::uint32_t attemptsOf(int effort) {
+  return effort < 7 ? 1 : 1u << (effort - 6);
+}
+
 class FileEncoder {
 public:
-  FileEncoder(std::span<const CompactPatch> patches, int effort) : effort_(effort) {
+  FileEncoder(std::span<const CompactPatch> patches, int effort, const Attempt& attempt)
+      : effort_(effort), attempt_(attempt) {
     header_.patchCount = static_cast<std::uint32_t>(patches.size());
     std::vector<std::uint32_t> types;
     for (const CompactPatch& patch : patches)
@@ -175,7 +191,7 @@ private:
     vertices.reserve(patch.corners.size());
     for (const std::uint32_t wedge : patch.corners)
       vertices.push_back(patch.wedgePositions[wedge]);
-    CodedPatch coded{patch, orderOf(patch, vertices, streams_), {}, {}, NormalSums(0, 0), {}};
+    CodedPatch coded{patch, orderOf(patch, vertices, attempt_, streams_), {}, {}, NormalSums(0, 0), {}};
     coded.sizes = codeSizes(
         streams_[StreamName::sizes], header_.types,
         {type, static_cast<std::uint32_t>(patch.positions.size()),
@@ -280,6 +296,7 @@ private:
   static constexpr int effortOfWholeTrials = 7;
 
   int effort_;
+  Attempt attempt_;
   FileHeader header_;
   StreamEncoders streams_{0};
   std::vector<CodedPatch> coded_;
@@ -288,7 +305,14 @@ private:
 } // namespace
 
 EncodedPatches encodePatches(std::span<const CompactPatch> patches, int effort) {
-  return FileEncoder(patches, effort).run();
+  const std::uint32_t attempts = attemptsOf(effort);
+  EncodedPatches best;
+  for (std::uint32_t attempt = 0; attempt < attempts; ++attempt) {
+    EncodedPatches encoded = FileEncoder(patches, effort, {attempt, attempts}).run();
+    if (attempt == 0 || encoded.bytes.size() < best.bytes.size())
+      best = std::move(encoded);
+  }
+  return best;
 }
 
 } // namespace imgeo::compact

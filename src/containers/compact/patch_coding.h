@@ -21,8 +21,9 @@ struct EncodedPatches {
 /// whose vertices and wedges are in use and whose values are in their ranges. Each is
 /// coded with what the ones before it have taught. Elements, vertices and wedges of a
 /// patch come back in an order of its own; which these are and how triangles are turned
-/// around is kept. Deterministic. `effort` 0 .. 9: how many predictions are
-/// tried; 0 keeps to the stated mode of normals.
+/// around is kept. Deterministic. `effort` 0 .. 9: how much is tried. 0 keeps to the
+/// stated mode of normals; to 6 the better one of a sample is chosen, and from 7 on that of all; 7, 8 and 9
+/// find 2, 4 and 8 orders of each patch and keep the smallest file.
 EncodedPatches encodePatches(std::span<const CompactPatch> patches, int effort);
 
 /// Decodes the patches of a payload. Safe for untrusted bytes: takes time and memory in

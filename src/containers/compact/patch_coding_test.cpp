@@ -104,6 +104,28 @@ TEST(Compact, TakesLessForPatchesTogetherThanForEachAlone) {
   EXPECT_LT(static_cast<double>(encodePatches(patches, 0).bytes.size()), 0.75 * static_cast<double>(alone));
 }
 
+TEST(Compact, TakesNoMoreBytesForMoreEffort) {
+  std::size_t usual = 0, least = 0;
+  for (const testing::Sample& sample : testing::files()) {
+    SCOPED_TRACE(sample.name);
+    std::size_t before = encodePatches(sample.patches, 5).bytes.size();
+    usual += before;
+    for (const int effort : {7, 8, 9}) {
+      const Bytes bytes = encodePatches(sample.patches, effort).bytes;
+      EXPECT_LE(bytes.size(), before) << effort;
+      before = bytes.size();
+      const std::vector<CompactPatch> back = decodePatches(bytes, "x.png");
+      ASSERT_EQ(back.size(), sample.patches.size());
+      for (std::size_t i = 0; i < back.size(); ++i)
+        if (back[i].partCount == 0) { // positions of bases are rounded
+          EXPECT_EQ(elementsOf(back[i]), elementsOf(sample.patches[i])) << effort;
+        }
+    }
+    least += before;
+  }
+  EXPECT_LT(least, usual);
+}
+
 TEST(Compact, TellsTheAttributesOfPatchesWithoutDecodingThem) {
   for (const testing::Sample& sample : testing::files()) {
     const auto told = attributesOfPatches(encodePatches(sample.patches, 0).bytes, "x.png");

@@ -32,7 +32,7 @@ complete -c imgeo -n '__fish_seen_subcommand_from convert' -l texture-quality -x
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l texture-preview -x -d 'the longest edge of what is shown first of a large texture; 0: nothing is'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l normal-weighting -x -a 'area angle uniform' -d 'how triangles count in normals that the source lacks'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l title -x -d 'the page\'s title; otherwise the input\'s name'
-complete -c imgeo -n '__fish_seen_subcommand_from convert' -l effort -x -d 'how hard to compress: 0 fastest, 9 smallest'
+complete -c imgeo -n '__fish_seen_subcommand_from convert' -l effort -x -d 'how hard to compress: 0 fastest, 9 smallest; in compact 1 to 6 are one'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l threads -x -d 'how many threads to use; 0: all. The site is the same with any number'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l outside -d 'let the source refer to files outside of its folder'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l strict -d 'refuse a source of which a part is damaged, instead of leaving that out'

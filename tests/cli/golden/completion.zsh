@@ -55,7 +55,7 @@ _imgeo() {
       '--texture-preview[the longest edge of what is shown first of a large texture; 0\: nothing is]:texture-preview: ' \
       '--normal-weighting[how triangles count in normals that the source lacks]:normal-weighting:(area angle uniform)' \
       '--title[the page'\''s title; otherwise the input'\''s name]:title: ' \
-      '--effort[how hard to compress\: 0 fastest, 9 smallest]:effort: ' \
+      '--effort[how hard to compress\: 0 fastest, 9 smallest; in compact 1 to 6 are one]:effort: ' \
       '--threads[how many threads to use; 0\: all. The site is the same with any number]:threads: ' \
       '--outside[let the source refer to files outside of its folder]' \
       '--strict[refuse a source of which a part is damaged, instead of leaving that out]' \
