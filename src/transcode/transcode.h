@@ -198,6 +198,7 @@ struct VerifyReport {
   ElementCounts input, site, missing, extra;
   double positionError = 0, positionBound = 0; ///< largest error per axis and step / 2, in the mesh's units
   double normalErrorDegrees = 0, normalBoundDegrees = 0;
+  std::size_t looks = 0;             ///< shapes whose materials were compared
   double attributeError = 0;         ///< of further attributes, in parts of what their rounding allows
   std::vector<std::string> findings; ///< one sentence per bound that is broken
 };
@@ -206,6 +207,8 @@ struct VerifyReport {
 /// prepared as `convert` does it (weld, drop unreferenced, computed normals). Of a
 /// site of another program the files' names and normals that the input lacks are not
 /// checked, and its vertices may be off by a twentieth of a step more.
+/// Shapes are compared with their places and, where the input is no X3D, whose elements
+/// stay as they are, with their materials; lights, viewpoints and pictures are not.
 /// `outside`: the input may refer to files outside of its folder.
 VerifyReport verify(const std::filesystem::path& site, const std::filesystem::path& input,
                     bool outside = false);

@@ -7,6 +7,7 @@
 #include "containers/normals.h"
 #include "containers/stored_coords.h"
 #include "prepare/patches.h"
+#include "transcode/compare_looks.h"
 #include "transcode/element_list.h"
 #include "transcode/foreign_site.h"
 #include "transcode/marker.h"
@@ -353,10 +354,15 @@ void compareScenes(const OpenedDocument& document, const Scene& input, const std
     return findings.add("The site has {} shapes, the input {}.", inSite.size(), inInput.size());
   const ContainerReader reader(fetchFrom(document));
   std::set<std::pair<std::size_t, std::size_t>> compared;
-  std::size_t misplaced = 0;
+  std::size_t misplaced = 0, otherwise = 0;
   for (std::size_t i = 0; i < inSite.size(); ++i) {
-    const std::size_t geometry = shapeOf(siteGraph, inSite[i].node).mesh,
-                      mesh = shapeOf(input.graph, inInput[i].node).mesh;
+    const Shape &siteShape = shapeOf(siteGraph, inSite[i].node),
+                &inputShape = shapeOf(input.graph, inInput[i].node);
+    const std::size_t geometry = siteShape.mesh, mesh = inputShape.mesh;
+    if (marker && inputShape.appearance) {
+      ++report.looks;
+      otherwise += !looksAlike(siteGraph, siteShape, input.graph, inputShape);
+    }
     misplaced += !agree(inSite[i].worldFromShape, inInput[i].worldFromShape, boxOf(input.meshes[mesh]));
     if (compared.emplace(geometry, mesh).second)
       compareMesh(reader, document.scene.geometries.at(geometry), input.meshes[mesh], marker, report,
@@ -364,6 +370,9 @@ void compareScenes(const OpenedDocument& document, const Scene& input, const std
   }
   if (misplaced > 0)
     findings.add("{} of {} shapes stand elsewhere than in the input.", misplaced, inSite.size());
+  if (otherwise > 0)
+    findings.add("{} of {} shapes have other materials than in the input, or other places of textures.",
+                 otherwise, report.looks);
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include "scene/testing.h"
 #include "transcode/testing.h"
 
+#include <algorithm>
 #include <functional>
 #include <gtest/gtest.h>
 
@@ -272,6 +273,36 @@ TEST(Verify, ReadsNoFileOutsideTheSite) {
   site.geometry().patches[0].index->url = "../input.ply";
   site.write();
   expectFinding(site, "is not a file of the site");
+}
+
+TEST(Verify, SeesAnotherMaterialAndAnotherPlaceOfATexture) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path input = directory / "hall.glb", site = directory / "site";
+  writeSampleHall(40, input);
+  convert(input, site, {});
+  const VerifyReport whole = verify(site, input);
+  EXPECT_TRUE(whole.equal);
+  EXPECT_GT(whole.looks, 40u);
+
+  OpenedDocument opened = openDocument(site);
+  const auto verified = [&](const SceneDocument& scene) {
+    const std::vector<std::string> urls = pageFilesOf(opened.text);
+    writeFile(site / pageName, asBytes(writeHtml(scene, {urls.at(0), urls.at(1)})));
+    writeFile(site / sceneName, asBytes(writeX3d(scene)));
+    return verify(site, input).findings;
+  };
+  const auto isTextured = [](const Appearance& look) { return !look.textures.empty(); };
+  SceneDocument red = opened.scene, moved = opened.scene;
+  const auto plain = std::ranges::find_if_not(red.graph.appearances, isTextured);
+  std::get<PhysicalMaterial>(plain->material).baseColor = {1, 0, 0};
+  const auto sign = std::ranges::find_if(moved.graph.appearances, isTextured);
+  sign->textures[0].transform.translation = {0.5f, 0};
+  const std::string sentence = "have other materials than in the input, or other places of textures.";
+  for (const SceneDocument& changed : {red, moved}) {
+    const std::vector<std::string> findings = verified(changed);
+    ASSERT_EQ(findings.size(), 1u);
+    EXPECT_NE(findings[0].find(sentence), std::string::npos) << findings[0];
+  }
 }
 
 } // namespace

@@ -54,7 +54,10 @@ Chunks chunksOf(ByteSpan bytes, const std::string& name) {
 
 void checkVersion(const Value& root) {
   const Value asset = root["asset"];
-  const std::string version = asset["version"].text();
+  // Some files of glTF 1.0 have a number there.
+  const Value stated = asset["version"];
+  const std::string version =
+      !stated.isAbsent() && stated.json().is_number() ? fmt::format("{:.1f}", stated.real(0)) : stated.text();
   if (!version.starts_with("2."))
     asset.fail(ErrorKind::unsupported,
                version.empty() ? "states no version" : "is glTF " + version + "; imgeo reads glTF 2");

@@ -2,6 +2,7 @@
 #include "import/gltf/testing.h"
 #include "scene/testing.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -184,6 +185,13 @@ TEST(GltfNodes, ThatGoInCirclesAreLeftOutAndRefusedWhereStrict) {
   EXPECT_EQ(placedShapes(imported.scene.graph).size(), 1u);
   EXPECT_TRUE(warnsOf(imported, "nodes[0]: is the child of two nodes"));
   EXPECT_THROW(read(gltf, {.attributes = {}, .folder = {}, .outside = false, .strict = true}), Error);
+}
+
+TEST(GltfNodes, OfTheFirstVersionAreRefusedWithItsNumber) {
+  for (const char* version : {"1.0", "\"1.0\"", "1"})
+    EXPECT_NE(std::string(errorOf(fmt::format(R"({{"asset":{{"version":{}}}}})", version), "a.gltf").what())
+                  .find("is glTF 1.0; imgeo reads glTF 2"),
+              std::string::npos);
 }
 
 TEST(GltfNodes, NestedWithoutMeasureAreRefused) {

@@ -1,0 +1,35 @@
+#include "transcode/compare_looks.h"
+
+#include <algorithm>
+
+namespace imgeo {
+
+namespace {
+
+bool isSameMaterial(const AnyMaterial& site, const AnyMaterial& input) {
+  return site == input || site == AnyMaterial(phongOf(input));
+}
+
+/// The site's texture has one of the input beside it, of the same role and in the same place.
+bool isOfInput(const TextureUse& use, const std::vector<TextureUse>& input) {
+  return std::ranges::any_of(input, [&](const TextureUse& other) {
+    return other.role == use.role && other.transform == use.transform;
+  });
+}
+
+} // namespace
+
+bool looksAlike(const SceneGraph& siteGraph, const Shape& inSite, const SceneGraph& inputGraph,
+                const Shape& inInput) {
+  if (!inInput.appearance)
+    return true;
+  if (!inSite.appearance)
+    return false;
+  const Appearance& site = siteGraph.appearances.at(*inSite.appearance);
+  const Appearance& input = inputGraph.appearances.at(*inInput.appearance);
+  return isSameMaterial(site.material, input.material) &&
+         std::ranges::all_of(site.textures,
+                             [&](const TextureUse& use) { return isOfInput(use, input.textures); });
+}
+
+} // namespace imgeo
