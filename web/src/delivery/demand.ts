@@ -50,8 +50,8 @@ export interface Viewing {
 }
 
 /** What is wanted of a geometry that is seen in these places; nothing where it is seen in none. */
-export function demandFor(places: readonly PlacedGeometry[], viewing: Viewing): Demand {
-  const demands = places.map((placed) => demandAt(placed, viewing));
+export function demandFor(places: Iterable<PlacedGeometry>, viewing: Viewing): Demand {
+  const demands = Array.from(places, (placed) => demandAt(placed, viewing));
   return (patch, part) => {
     let most: number | undefined;
     for (const demand of demands) {
@@ -63,8 +63,8 @@ export function demandFor(places: readonly PlacedGeometry[], viewing: Viewing): 
 }
 
 /** How soon a texture, or its preview, is wanted that is laid over a geometry in these places; undefined where it is seen in none. */
-export function textureDemandFor(places: readonly PlacedGeometry[], type: TextureChunk, { camera, weights }: Viewing): number | undefined {
-  const priorities = places.flatMap(({ spheres, content }) => spheres.map((sphere) =>
+export function textureDemandFor(places: Iterable<PlacedGeometry>, type: TextureChunk, { camera, weights }: Viewing): number | undefined {
+  const priorities = Array.from(places).flatMap(({ spheres, content }) => spheres.map((sphere) =>
     priorityOf(content, { type, plane: 0 }, camera ? viewOf(sphere, camera) : unknownView, weights)));
   return priorities.length > 0 ? Math.max(...priorities) : undefined;
 }

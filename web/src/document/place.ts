@@ -20,6 +20,8 @@ export class Place {
   readonly surroundings: Surroundings;
   /** What describes it: the same but for USE. */
   node: SceneElement;
+  /** It is made of all that is in its sources, not of these alone. */
+  readsAllBelow = false;
   /** Undefined where the element is to be read (again). */
   saying: Saying | undefined;
   /** Elements that it was read from, those below it apart. */

@@ -31,6 +31,11 @@ export interface NodeReading extends ShapeReading {
   readonly inlined: (inline: SceneElement) => SceneElement | undefined;
 }
 
+/** What is below other nodes are nodes too. */
+export function isReadAsWhole(node: SceneElement): boolean {
+  return lowerNameOf(node) === "shape";
+}
+
 /** `element` is who says it, `node` what it is: the same but for USE. */
 export function readNode(element: SceneElement, node: SceneElement, reading: NodeReading): Saying {
   const { warnings } = reading;

@@ -14,7 +14,7 @@ import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { Place } from "./place.ts";
 import type { InlinedDocument } from "./readNode.ts";
-import { readNode } from "./readNode.ts";
+import { isReadAsWhole, readNode } from "./readNode.ts";
 import type { Below, Inherited, Said, Saying } from "./said.ts";
 import { joined, warned } from "./said.ts";
 
@@ -85,7 +85,7 @@ export class SceneReader {
     for (const touched of this.#touched) {
       for (let element: SceneElement | undefined = touched; element !== undefined; element = page.parentOf(element)) {
         this.#geometries.touch(element);
-        for (const place of this.#readers.get(element) ?? []) place.forget();
+        for (const place of this.#readers.get(element) ?? []) if (element === touched || place.readsAllBelow) place.forget();
       }
       page.lookAtName(touched);
     }
@@ -135,6 +135,7 @@ export class SceneReader {
       return () => ({ nodes: [], asides: warned(warnings) });
     }
     place.node = node;
+    place.readsAllBelow = isReadAsWhole(node);
     return readNode(element, node, {
       warnings, lookup, geometries: this.#geometries, host: host ?? element,
       childrenOf: (of) => tree.childrenOf(of),

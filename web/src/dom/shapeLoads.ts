@@ -12,6 +12,7 @@ import type { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription, ShapeDescription, TextureDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
+import type { SceneChanges } from "../render/shapeChanges.ts";
 import { leastStage, Loading } from "./loading.ts";
 
 interface LoadedShape {
@@ -21,8 +22,9 @@ interface LoadedShape {
   readonly loading: Loading;
   readonly stages: (StageName | "none")[];
   delivery: JoinedDelivery | undefined;
-  /** What is laid over it. */
+  /** What is laid over it, and what is to be. */
   readonly textures: ShapeTextures;
+  described: readonly TextureDescription[];
 }
 
 export interface ShapeLoadsListener {
@@ -59,29 +61,39 @@ export class ShapeLoads {
   }
 
   /**
-   * Takes away all shapes but these. The files that they alone have asked for are
-   * given up when what comes back is called: after those of new shapes are asked for.
+   * Follows shapes of the scene as they change. The files that only those that are gone
+   * have asked for are given up when what comes back is called: after those of new
+   * shapes are asked for.
    */
-  keep(described: ReadonlyMap<SceneElement, ShapeDescription>): Leave {
-    const gone = Array.from(this.#shapes).filter(([element]) => {
-      const shape = described.get(element);
-      return shape === undefined || !this.has(shape);
-    });
-    // The renderer lets go of textures before the pool closes their images.
-    for (const [element, { loading }] of gone) {
-      this.#renderer.clearShape(element);
-      this.#shapes.delete(element);
-      loading.abandon();
+  follow({ shapes, gone }: SceneChanges): Leave {
+    const ended: LoadedShape[] = [];
+    for (const element of gone) this.#end(element, ended);
+    for (const [element, shape] of shapes) {
+      if (!this.has(shape)) this.#end(element, ended);
+      const loaded = this.#shapes.get(element) ?? this.#begin(shape);
+      loaded.described = shape.appearance.textures;
+      if (!this.#renderer.isContextLost) loaded.textures.follow(loaded.described);
+      if (loaded.isVisible !== shape.visible) this.#isQuiet = false;
+      loaded.isVisible = shape.visible;
     }
     return () => {
-      for (const [, { delivery, textures }] of gone) {
+      for (const { delivery, textures } of ended) {
         delivery?.cancel();
         textures.cancel();
       }
     };
   }
 
-  begin({ element: described, geometry, visible }: ShapeDescription): void {
+  /** The renderer has let go of it already. */
+  #end(element: SceneElement, ended: LoadedShape[]): void {
+    const shape = this.#shapes.get(element);
+    if (shape === undefined) return;
+    this.#shapes.delete(element);
+    shape.loading.abandon();
+    ended.push(shape);
+  }
+
+  #begin({ element: described, geometry, visible }: ShapeDescription): LoadedShape {
     const element = described as Element;
     const stages = geometry?.patches.map(() => "none" as const) ?? [];
     const loading = new Loading(element, () => transfersOf(shape));
@@ -90,22 +102,12 @@ export class ShapeLoads {
       onError: (error) => { this.#fail(shape, element, error); },
       onSettled: () => { this.#settle(shape); },
     });
-    const shape: LoadedShape = { geometry, stages, isVisible: visible, loading, delivery: undefined, textures };
+    const shape: LoadedShape = { geometry, stages, isVisible: visible, loading, delivery: undefined, textures, described: [] };
     this.#shapes.set(element, shape);
     this.#isQuiet = false;
     if (geometry === undefined) shape.loading.settle();
     else if (!this.#renderer.isContextLost) this.#deliver(shape, geometry, element);
-  }
-
-  /** Its textures, as far as they are others than before. */
-  followTextures(element: SceneElement, textures: readonly TextureDescription[]): void {
-    if (!this.#renderer.isContextLost) this.#shapes.get(element)?.textures.follow(textures);
-  }
-
-  /** The elements that are seen in one of their places. */
-  setVisible(visible: ReadonlySet<SceneElement>): void {
-    for (const [element, shape] of this.#shapes) shape.isVisible = visible.has(element);
-    this.#isQuiet = false;
+    return shape;
   }
 
   /** No shape has anything to say that its element has not said. */
@@ -164,9 +166,10 @@ export class ShapeLoads {
     }
   }
 
-  /** Asks for it once more; textures are for who reads the document. Events go on where they were. */
+  /** Asks for it once more. Events go on where they were. */
   deliverAll(): void {
     for (const [element, shape] of this.#shapes) {
+      shape.textures.follow(shape.described);
       if (shape.geometry !== undefined) this.#deliver(shape, shape.geometry, element as Element);
     }
   }

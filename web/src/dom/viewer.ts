@@ -8,8 +8,7 @@ import { progressOf } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resources.ts";
 import { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
 import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
-import type { InlineDescription } from "../document/description.ts";
-import { shapesOf } from "../document/description.ts";
+import type { SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { SceneReader } from "../document/sceneReader.ts";
 import type { NavigatedScene } from "../navigation/navigator.ts";
@@ -78,9 +77,7 @@ export class Viewer {
   #loading: Loading;
   #isLoading = false;
   #built: (NavigatedScene & { readonly levels: readonly PlacedLevels[] }) | undefined;
-  #described: readonly InlineDescription[] = [];
-  /** The elements of the page that stand for shapes of inlined documents. */
-  #hosts: ReadonlyMap<SceneElement, SceneElement> = new Map();
+  #scene: SceneDescription | undefined;
   #progressTimer: ReturnType<typeof setTimeout> | undefined;
 
   readonly #transfers = (): Readonly<Transfer>[] => [...this.#deliveries.transfers(), ...this.#textures.transfers(), ...this.#inlines.transfers];
@@ -157,7 +154,7 @@ export class Viewer {
   /** Asks for files from now on. */
   load(): void {
     this.#isLoading = true;
-    this.#inlines.follow(this.#described);
+    this.#inlines.follow(this.#scene?.inlines ?? []);
     this.#steering.begin();
     this.#workers.prepare(this.#shapes.jobsToCome);
     this.renderer.requestFrame();
@@ -175,15 +172,11 @@ export class Viewer {
 
   /** What is seen at a pixel of the canvas' buffer; of an inlined document its Inline. */
   pick(x: number, y: number): Hit | undefined {
-    return this.#hosted(this.renderer.pick(x, y));
+    return this.renderer.pick(x, y);
   }
 
-  async pickSoon(x: number, y: number): Promise<Hit | undefined> {
-    return this.#hosted(await this.renderer.pickSoon(x, y));
-  }
-
-  #hosted(hit: Hit | undefined): Hit | undefined {
-    return hit && { ...hit, element: this.#hosts.get(hit.element) ?? hit.element };
+  pickSoon(x: number, y: number): Promise<Hit | undefined> {
+    return this.renderer.pickSoon(x, y);
   }
 
   /** Aborts all requests and frees the GPU. */
@@ -222,27 +215,26 @@ export class Viewer {
 
   /** `round`: how often it has been read for the levels of the reading before. */
   #readDocument(round = 0): void {
-    const scene = this.#reader.read();
-    const places = shapesOf(scene.root);
-    const described = new Map(places.map((shape) => [shape.element, shape]));
-    const leave = this.#shapes.keep(described);
-    this.#built = { ...this.renderer.setScene(scene), navigation: scene.navigation };
-    this.navigator.setScene(this.#built);
-    for (const shape of described.values()) {
-      if (this.#shapes.has(shape)) continue;
-      this.#shapes.begin(shape);
-      if (shape.geometry?.base !== undefined) this.#workers.prepareHere();
-    }
-    for (const { element, appearance } of described.values()) this.#shapes.followTextures(element, appearance.textures);
-    this.#shapes.setVisible(new Set(places.filter((shape) => shape.visible).map(({ element }) => element)));
+    const before = this.#scene;
+    const scene = this.#scene = this.#reader.read();
+    if (scene === before) return;
+    const built = this.renderer.setScene(scene);
+    const leave = this.#shapes.follow(built.changes);
+    for (const { geometry } of built.changes.shapes.values()) if (geometry?.base !== undefined) this.#workers.prepareHere();
+    this.#tellNavigator({ ...built, navigation: scene.navigation });
     if (this.#shapes.isLoading && this.#loading.isEnded) this.#loading = new Loading(this.#x3d, this.#transfers);
-    this.#steering.setScene(scene, (problem) => { this.#warn(this.#x3d, `chunkPriority: ${problem}`); });
+    this.#steering.follow(scene.chunkPriority, built.changes, (problem) => { this.#warn(this.#x3d, `chunkPriority: ${problem}`); });
     for (const { element, message } of scene.warnings) this.#warn(element, message);
     leave(); // last, so that files that old and new shapes share are not fetched again
-    this.#hosts = new Map(places.filter(({ element, host }) => host !== element).map(({ element, host }) => [element, host]));
-    this.#described = scene.inlines;
-    if (this.#isLoading) this.#inlines.follow(scene.inlines);
+    if (this.#isLoading && scene.inlines !== before?.inlines) this.#inlines.follow(scene.inlines);
     this.#followLevels(round); // before what has been asked for here is sent
+  }
+
+  #tellNavigator(built: NavigatedScene & { readonly levels: readonly PlacedLevels[] }): void {
+    const before = this.#built;
+    this.#built = built;
+    const isSame = before?.sphere === built.sphere && before.navigation === built.navigation && isSameList(before.viewpoints, built.viewpoints);
+    if (!isSame) this.navigator.setScene(built);
   }
 
   /** The scene is another where a LOD shows another level. */
@@ -281,7 +273,7 @@ export class Viewer {
   /** Everything is fetched once more, from the browser's cache as a rule. Events go on where they were. */
   #deliverAll(): void {
     this.#shapes.deliverAll();
-    this.#readDocument(); // textures too
+    this.#steering.steer();
     this.renderer.requestFrame();
   }
 
@@ -309,7 +301,7 @@ export class Viewer {
     if (!this.#isLoading) return;
     if (!this.#shapes.isQuiet || !this.#inlines.isQuiet || !this.#loading.isEnded) this.#tellPage();
     this.#followLevels();
-    this.#steering.follow();
+    this.#steering.followCamera();
     if (this.#trial === "due") void this.#tryTextures();
   }
 
@@ -336,6 +328,10 @@ export class Viewer {
     this.#logged.add(message);
     console[level](`imgeo: ${message}`);
   }
+}
+
+function isSameList<Item>(a: readonly Item[], b: readonly Item[]): boolean {
+  return a.length === b.length && a.every((item, place) => item === b[place]);
 }
 
 /** Not what the runtime and the page have put into the view itself. */

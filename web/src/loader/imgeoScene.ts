@@ -20,7 +20,7 @@ import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
 import type { PickCandidate } from "../render/picking.ts";
 import { noAttenuations } from "../render/lightFalloff.ts";
-import { buildGraph } from "../render/sceneGraph.ts";
+import { SceneGraph } from "../render/sceneGraph.ts";
 import type { ShapeSetting } from "../render/shapeObject.ts";
 import { ShapeObject } from "../render/shapeObject.ts";
 import { usualPointSize } from "../render/stageDraws.ts";
@@ -190,25 +190,26 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   }
 
   *#pickCandidates(): Generator<PickCandidate> {
-    for (const [element, { object }] of this.#shapes) {
+    for (const { object } of this.#shapes.values()) {
       if (!object.isPickable) continue;
-      for (const drawn of object.placedDraws()) if (isShown(drawn.group)) yield { ...drawn, element };
+      for (const drawn of object.placedDraws()) if (isShown(drawn.group)) yield drawn;
     }
   }
 
   /** Groups for all that the document has, and a delivery for each geometry that is seen. */
-  #build(setting: ShapeSetting): { root: Group; box: Box3 } {
-    const places = new Map<SceneElement, number>();
-    return buildGraph({ ...this.description, root: withoutLights(this.description.root) }, (shape) => {
-      const { element } = shape;
-      const place = places.get(element) ?? 0;
-      places.set(element, place + 1);
-      const loaded = this.#shapes.get(element) ?? this.#begin(shape, new ShapeObject(setting, shape));
-      this.#shapes.set(element, loaded);
-      const group = loaded.object.groupAt(place);
-      group.name = attributeOf(element, "DEF") ?? "";
-      return group;
+  #build(setting: ShapeSetting): SceneGraph {
+    const graph = new SceneGraph({
+      onEnter: (shape, _, group) => {
+        const { element } = shape;
+        const loaded = this.#shapes.get(element) ?? this.#begin(shape, new ShapeObject(setting, shape));
+        this.#shapes.set(element, loaded);
+        group.name = attributeOf(element, "DEF") ?? "";
+        loaded.object.enter(group, shape.host);
+      },
+      onChange: () => undefined, onLeave: () => undefined, // the document is read once
     });
+    graph.follow(withoutLights(this.description.root));
+    return graph;
   }
 
   #begin(shape: ShapeDescription, object: ShapeObject): LoadedShape {

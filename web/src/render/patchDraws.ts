@@ -18,6 +18,8 @@ export interface PatchDraws {
   readonly picks: readonly PickDraw[];
   /** In one more place of the scene, in the group that stands there. */
   hang(group: Group): void;
+  /** The group has moved, or is shown or hidden. */
+  follow(group: Group): void;
   /** Not there any more. */
   leave(group: Group): void;
   applyAppearance(appearance: AppearanceDescription, pictures: ShownPictures): void;
@@ -63,6 +65,7 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
       if (here.length > 0) group.add(...here);
       objects.set(group, here);
     },
+    follow: () => undefined, // objects in it do so by themselves
     leave,
     applyAppearance(appearance, pictures) {
       shown = { appearance, pictures };

@@ -17,6 +17,7 @@ import { readPixel, readPixelSoon } from "./pixelReading.ts";
 
 /** What was hit, in the scene's coordinates. */
 export interface Hit {
+  /** The page's, of the shape. */
   readonly element: SceneElement;
   /** Of the shape, in the place that was hit. */
   readonly group: Group;

@@ -1,104 +1,123 @@
-// SceneDescription -> three.js groups and lights. Groups own nothing on the GPU,
-// so they are made anew whenever the document changes; shapes are kept by their
-// element and hung into the new tree.
+// A scene as three.js' groups, kept true to where its nodes stand. Groups own
+// nothing on the GPU; what shapes show is for who makes their groups.
 
-import type { Box3 } from "three";
-import { AmbientLight, Color, DirectionalLight, Group, Matrix4, PointLight, SpotLight, Vector3 } from "three";
-import type { LightDescription, NodeDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
-import { coneOf } from "../lighting/falloff.ts";
+import type { Object3D, Vector3 } from "three";
+import { Box3, Group } from "three";
+import { areAlike } from "../document/alike.ts";
+import type { GroupDescription, NodeDescription, ShapeDescription } from "../document/description.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
-import type { PlacedLevels } from "../navigation/placement.ts";
-import { boxIn, matrixOf, placementOf } from "../navigation/placement.ts";
-import { noAttenuations } from "./lightFalloff.ts";
-import { setColor } from "./materials.ts";
+import { matrixOf } from "../navigation/matrices.ts";
+import type { PlacedNode, PlacedTreeListener } from "../navigation/placedTree.ts";
+import { PlacedTree } from "../navigation/placedTree.ts";
+import type { PlacedLevels, PlacedLight } from "../navigation/placement.ts";
+import type { SceneLights } from "./sceneLights.ts";
+import { makeLights } from "./sceneLights.ts";
 
-export interface BuiltGraph {
-  readonly root: Group;
-  /** Of the boxes of all shapes that are seen, in the scene's coordinates. */
-  readonly box: Box3;
-  /** What may be passed over as a whole when it is out of the view. */
-  readonly bounded: readonly BoundedGroup[];
-  /** In document order. */
-  readonly viewpoints: readonly PlacedViewpoint[];
-  readonly levels: readonly PlacedLevels[];
-  /** Of the lights that have a place, by the number in their `decay`: see lightFalloff.ts. */
-  readonly attenuations: Vector3[];
+/** Who shows the shapes of a scene, in each place in a group, whose world matrix is up to date. */
+export interface ShapePlaces {
+  /** The shape is in one more place. */
+  onEnter(shape: ShapeDescription, place: PlacedNode, group: Group): void;
+  /** It is described in another way there, or stands elsewhere. */
+  onChange(shape: ShapeDescription, place: PlacedNode, group: Group, before: ShapeDescription): void;
+  onLeave(shape: ShapeDescription, place: PlacedNode, group: Group): void;
 }
 
 /** A group that is seen, with its box in the scene's coordinates. */
 export interface BoundedGroup {
-  readonly group: Group;
+  readonly group: Object3D;
   readonly box: Box3;
 }
 
-export function buildGraph(scene: SceneDescription, groupOf: (shape: ShapeDescription) => Group): BuiltGraph {
-  const { box, lights, viewpoints, levels } = placementOf(scene);
-  const bounded: BoundedGroup[] = [];
-  const root = new Group();
-  const ambient = new Color(0, 0, 0);
-  const attenuations = noAttenuations();
-  hang(scene.root, root, new Matrix4(), true);
-  // Not into their groups: those are passed over when they are out of the view, and lights shine on.
-  for (const { light, sceneFromLight } of lights) hangLight(light, sceneFromLight);
-  if (ambient.r + ambient.g + ambient.b > 0) root.add(new AmbientLight(ambient));
-  return { root, box, bounded, viewpoints, levels, attenuations };
+export class SceneGraph implements PlacedTreeListener {
+  readonly root = new Group();
+  readonly #tree = new PlacedTree(this);
+  readonly #groups = new Map<PlacedNode, Group>();
+  readonly #shapes: ShapePlaces;
+  #placedLights: readonly PlacedLight[] = [];
+  #lights: SceneLights = makeLights([]);
+  #bounded: readonly BoundedGroup[] = [];
 
-  function hangLight(description: LightDescription, sceneFromLight: Matrix4): void {
-    const light = lightOf(description);
-    setColor(light.color, description.color);
-    if (!(light instanceof DirectionalLight) && description.kind !== "directional") {
-      // Its lengths are those of its own coordinates (17.4.2): what is scaled up reaches further.
-      const scale = Math.cbrt(Math.abs(sceneFromLight.determinant())) || 1;
-      light.distance = description.radius * scale;
-      light.decay = attenuations.length;
-      const [constant, linear, square] = description.attenuation;
-      attenuations.push(new Vector3(constant, linear / scale, square / scale ** 2));
-    }
-    const place = new Group();
-    place.matrixAutoUpdate = false;
-    place.matrix.copy(sceneFromLight);
-    place.add(light);
-    if (!(light instanceof PointLight)) place.add(light.target);
-    root.add(place);
-    ambient.add(light.color.clone().multiplyScalar(description.ambientIntensity));
+  constructor(shapes: ShapePlaces) {
+    this.#shapes = shapes;
+    this.root.matrixAutoUpdate = false;
+    this.root.add(this.#lights.root);
   }
 
-  function hang(node: NodeDescription, parent: Group, sceneFromParent: Matrix4, isSeen: boolean): void {
-    if (node.kind === "shape") {
-      const group = groupOf(node);
-      group.visible = node.visible;
-      parent.add(group);
-    } else if (node.kind === "group") {
-      const group = new Group();
-      group.visible = node.visible;
-      group.matrixAutoUpdate = false;
-      if (node.transform) group.matrix.copy(matrixOf(node.transform));
-      parent.add(group);
-      const sceneFromGroup = sceneFromParent.clone().multiply(group.matrix);
-      const isGroupSeen = isSeen && node.visible;
-      if (isGroupSeen && node.box) bounded.push({ group, box: boxIn(sceneFromGroup, node.box) });
-      for (const child of node.children) hang(child, group, sceneFromGroup, isGroupSeen);
-    }
+  /** Of the boxes of all shapes that are seen, in the scene's coordinates. */
+  get box(): Box3 {
+    return this.#tree.root.reach.box ?? new Box3();
+  }
+
+  /** What may be passed over as a whole when it is out of the view. */
+  get bounded(): readonly BoundedGroup[] {
+    return this.#bounded;
+  }
+
+  /** In document order. */
+  get viewpoints(): readonly PlacedViewpoint[] {
+    return this.#tree.root.reach.viewpoints;
+  }
+
+  get levels(): readonly PlacedLevels[] {
+    return this.#tree.root.reach.levels;
+  }
+
+  get attenuations(): Vector3[] {
+    return this.#lights.attenuations;
+  }
+
+  /** Shows this scene from now on. */
+  follow(root: GroupDescription): void {
+    const { reach } = this.#tree.follow(root).root;
+    this.#bounded = reach.bounded.flatMap((node) => {
+      const group = this.#groups.get(node);
+      return group && node.box ? [{ group, box: node.box }] : [];
+    });
+    if (areAlike(reach.lights, this.#placedLights)) return;
+    this.#placedLights = reach.lights;
+    this.#lights.root.removeFromParent();
+    this.#lights = makeLights(reach.lights);
+    this.root.add(this.#lights.root);
+  }
+
+  onEnter(node: PlacedNode): void {
+    const { description, parent } = node;
+    if (description.kind !== "group" && description.kind !== "shape") return;
+    const group = new Group();
+    group.matrixAutoUpdate = false;
+    this.#groups.set(node, group);
+    const around = parent === undefined ? this.root : this.#groups.get(parent);
+    around?.add(group);
+    describe(description, group, true);
+    if (description.kind === "shape") this.#shapes.onEnter(description, node, group);
+  }
+
+  onChange(node: PlacedNode, hasMoved: boolean, before: NodeDescription): void {
+    const { description } = node;
+    const group = this.#groups.get(node);
+    if (group === undefined || (description.kind !== "group" && description.kind !== "shape")) return;
+    describe(description, group, hasMoved);
+    if (description.kind === "shape" && before.kind === "shape") this.#shapes.onChange(description, node, group, before);
+  }
+
+  onLeave(node: PlacedNode): void {
+    const group = this.#groups.get(node);
+    if (group === undefined) return;
+    if (node.description.kind === "shape") this.#shapes.onLeave(node.description, node, group);
+    group.removeFromParent();
+    this.#groups.delete(node);
   }
 }
 
-function lightOf(description: LightDescription): DirectionalLight | PointLight | SpotLight {
-  if (description.kind === "directional") {
-    const light = new DirectionalLight();
-    light.intensity = description.intensity;
-    // three's light shines from its position to its target.
-    light.position.set(0, 0, 0);
-    light.target.position.set(...description.direction);
-    return light;
+function describe(description: GroupDescription | ShapeDescription, group: Group, hasMoved: boolean): void {
+  group.visible = description.visible;
+  if (!hasMoved) return;
+  if (description.kind === "shape") {
+    group.updateMatrixWorld(true);
+    return;
   }
-  const light = description.kind === "point" ? new PointLight() : new SpotLight();
-  light.position.set(...description.location);
-  light.intensity = description.intensity;
-  if (light instanceof SpotLight && description.kind === "spot") {
-    light.target.position.copy(light.position).add(new Vector3(...description.direction));
-    const { edge, beam } = coneOf(description);
-    light.angle = edge;
-    light.penumbra = 1 - beam / edge;
-  }
-  return light;
+  if (description.transform) group.matrix.copy(matrixOf(description.transform));
+  else group.matrix.identity();
+  // Groups below it are told next.
+  if (group.parent) group.matrixWorld.multiplyMatrices(group.parent.matrixWorld, group.matrix);
 }

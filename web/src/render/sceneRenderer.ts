@@ -4,7 +4,7 @@ import type { Object3D, Sphere } from "three";
 import { Color, DirectionalLight, Group, LinearSRGBColorSpace, LinearToneMapping, Matrix4, Mesh, NoToneMapping, PerspectiveCamera, Scene, Vector2, Vector4, WebGLRenderer } from "three";
 import type { DecodedImage } from "../decode/image.ts";
 import type { ArrayUse, ElementArray, Stage } from "../decode/stage.ts";
-import type { GeometryDescription, SamplingDescription, SceneDescription, TextureRole } from "../document/description.ts";
+import type { BackgroundDescription, GeometryDescription, SamplingDescription, SceneDescription, ShapeDescription, TextureRole } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { applyPose } from "../navigation/camera.ts";
 import { backdropOf, disposeBackdrop } from "./backdrop.ts";
@@ -73,6 +73,7 @@ export class SceneRenderer {
   readonly #picker: ScreenPicker;
   readonly #surveyor: Surveyor;
   readonly #pace: Pace;
+  #background: BackgroundDescription | undefined;
   #backdrop: Mesh | undefined;
   #size = { width: 0, height: 0 };
   #frames = 0;
@@ -140,17 +141,13 @@ export class SceneRenderer {
     };
   }
 
-  /** What puts a shape of the current scene into its place number `place`: 16 numbers, column by column. */
-  sceneFromShape(element: SceneElement, place: number): readonly number[] | undefined {
-    return this.#shapes.sceneFromShape(element, place);
-  }
-
   /** Shows this scene from now on. Shapes that are gone give back what they hold on the GPU. */
   setScene(description: SceneDescription): BuiltScene {
     const built = this.#shapes.setScene(description);
     this.#headlight.visible = description.navigation.headlight;
-    this.#setBackdrop(description.background && backdropOf(description.background));
-    this.#compileAhead(description);
+    if (description.background !== this.#background) this.#setBackdrop(description.background && backdropOf(description.background));
+    this.#background = description.background;
+    this.#compileAhead(built.changes.shapes.values());
     this.requestFrame();
     return built;
   }
@@ -207,7 +204,7 @@ export class SceneRenderer {
     this.requestFrame();
   }
 
-  /** Takes away what a shape shows, for when its geometry has become another. */
+  /** Takes away what a shape shows. */
   clearShape(element: SceneElement): void {
     this.#shapes.clearShape(element);
     this.requestFrame();
@@ -274,10 +271,10 @@ export class SceneRenderer {
   }
 
   /** Programs for what is to come, without waiting for them. */
-  #compileAhead(description: SceneDescription): void {
+  #compileAhead(shapes: Iterable<ShapeDescription>): void {
     if (this.isContextLost) return;
     const fresh = new Group();
-    for (const [key, object] of objectsToCome(description, x3dLook, this.#shared)) {
+    for (const [key, object] of objectsToCome(shapes, this.#shapes.plan, x3dLook, this.#shared)) {
       if (this.#compiled.has(key)) continue;
       this.#compiled.set(key, object);
       fresh.add(object);

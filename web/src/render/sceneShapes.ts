@@ -1,22 +1,23 @@
-// What of a scene is drawn: the shapes of its document by their elements, hung
-// into the groups that place them, and how far they reach.
+// What of a scene is drawn: the shapes of its document by their elements, in the
+// groups that place them, and how far they reach.
 
 import type { Camera, Object3D, Sphere } from "three";
-import { Box3, Frustum, Group, Matrix4, Vector3 } from "three";
+import { Box3, Frustum, Matrix4, Vector3 } from "three";
 import type { Bounds, Stage } from "../decode/stage.ts";
 import type { GeometryDescription, SceneDescription, ShapeDescription, TextureRole } from "../document/description.ts";
-import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
 import { sphereAround } from "../navigation/camera.ts";
+import { isDrawable } from "../navigation/matrices.ts";
 import type { PlacedLevels } from "../navigation/placement.ts";
-import { isDrawable } from "../navigation/placement.ts";
 import type { Batches } from "./batches/batches.ts";
-import { planOf } from "./batches/plan.ts";
+import { DrawingPlan } from "./batches/plan.ts";
 import type { ShownPicture } from "./look.ts";
 import type { PickCandidate } from "./picking.ts";
 import type { BoundedGroup } from "./sceneGraph.ts";
-import { buildGraph } from "./sceneGraph.ts";
+import { SceneGraph } from "./sceneGraph.ts";
+import type { SceneChanges } from "./shapeChanges.ts";
+import { ShapeChanges } from "./shapeChanges.ts";
 import type { ShapeSetting } from "./shapeObject.ts";
 import { ShapeObject } from "./shapeObject.ts";
 
@@ -27,24 +28,54 @@ export interface BuiltScene {
   /** In document order. */
   readonly viewpoints: readonly PlacedViewpoint[];
   readonly levels: readonly PlacedLevels[];
+  readonly changes: SceneChanges;
 }
 
 export class SceneShapes {
-  readonly #scene: Object3D;
   readonly #setting: ShapeSetting;
   readonly #batches: Batches;
+  readonly #graph: SceneGraph;
   readonly #shapes = new Map<SceneElement, ShapeObject>();
-  #root = new Group();
+  readonly #plan = new DrawingPlan();
+  #changes = new ShapeChanges();
+  /** Shapes of whose extent the document does not tell all. */
+  readonly #unbounded = new Set<ShapeObject>();
   #sphere = sphereAround(new Box3());
-  #box = new Box3();
   #bounded: readonly BoundedGroup[] = [];
+  /** As the document tells it, and as far as vertices do. */
+  #described = new Box3();
+  #box = new Box3();
 
   /** What is drawn hangs in `scene`. */
   constructor(scene: Object3D, setting: ShapeSetting & { readonly batches: Batches }) {
-    this.#scene = scene;
     this.#setting = setting;
     this.#batches = setting.batches;
-    scene.add(this.#batches.root);
+    this.#graph = new SceneGraph({
+      onEnter: (shape, place, group) => {
+        this.#objectOf(shape).enter(group, shape.host);
+        if (shape.geometry) this.#plan.add(shape.geometry);
+        this.#changes.noteThere(shape, place);
+      },
+      onChange: (shape, place, group, before) => {
+        this.#objectOf(shape).follow(group);
+        if (before.geometry !== shape.geometry) {
+          if (before.geometry) this.#plan.remove(before.geometry);
+          if (shape.geometry) this.#plan.add(shape.geometry);
+        }
+        this.#changes.noteThere(shape, place);
+      },
+      onLeave: (shape, place, group) => {
+        this.#shapes.get(shape.element)?.leave(group);
+        if (shape.geometry) this.#plan.remove(shape.geometry);
+        this.#changes.noteGone(shape, place);
+      },
+    });
+    scene.add(this.#graph.root, this.#batches.root);
+  }
+
+  /** How geometries are drawn in this scene. */
+  get plan(): DrawingPlan {
+    return this.#plan;
   }
 
   /** No shape shows anything yet. */
@@ -65,50 +96,56 @@ export class SceneShapes {
     return largest;
   }
 
-  /** What puts a shape into its place number `place`: 16 numbers, column by column. */
-  sceneFromShape(element: SceneElement, place: number): readonly number[] | undefined {
-    return this.#shapes.get(element)?.groupAt(place).matrixWorld.elements;
+  /** Shows this scene from now on. Shapes that are gone, or have another geometry, give back what they hold on the GPU. */
+  setScene(description: SceneDescription): BuiltScene {
+    this.#graph.follow(description.root);
+    const changes = this.#applyChanges();
+    const { box, bounded, viewpoints, levels, attenuations } = this.#graph;
+    this.#setting.shared.attenuations.value = attenuations;
+    this.#bounded = bounded;
+    if (!box.equals(this.#described)) {
+      this.#described = box.clone();
+      this.#box = box.clone();
+      this.#sphere = sphereAround(box);
+    }
+    for (const object of this.#unbounded) for (const bounds of object.bounds()) this.#grow(object, bounds);
+    this.#batches.sync(this.#sphere);
+    return { sphere: this.#sphere, viewpoints, levels, changes };
   }
 
-  /** Shows this scene from now on. Shapes that are gone give back what they hold on the GPU. */
-  setScene(description: SceneDescription): BuiltScene {
-    const everywhere = shapesOf(description.root);
-    const shapes = new Map(everywhere.map((shape) => [shape.element, shape]));
-    const drawingOf = planOf(everywhere);
-    for (const [element, object] of this.#shapes) {
-      if (shapes.has(element)) continue;
-      object.dispose();
-      this.#shapes.delete(element);
-    }
-    const places = new Map<SceneElement, number>();
-    const { root, box, bounded, viewpoints, levels, attenuations } = buildGraph(description, (shape) => {
-      const place = places.get(shape.element) ?? 0;
-      places.set(shape.element, place + 1);
-      return this.#objectOf(shape).groupAt(place);
-    });
-    for (const [element, shape] of shapes) {
+  /** What the graph has told since the last time. */
+  #applyChanges(): SceneChanges {
+    const changes = this.#changes;
+    this.#changes = new ShapeChanges();
+    const shapes = new Map<SceneElement, ShapeDescription>();
+    const gone: SceneElement[] = [];
+    for (const [element, shape] of changes.shapes) {
       const object = this.#objectOf(shape);
-      object.keepPlaces(places.get(element) ?? 0);
-      object.setShape(shape, shape.geometry ? drawingOf(shape.geometry) : "alone");
+      if (!object.isPlaced) {
+        object.dispose();
+        this.#shapes.delete(element);
+        this.#unbounded.delete(object);
+        gone.push(element);
+        continue;
+      }
+      object.setShape(shape);
+      if (shape.geometry) object.drawAs(this.#plan.drawingOf(shape.geometry));
+      shapes.set(element, { ...shape, visible: object.isVisible });
     }
-    this.#setting.shared.attenuations.value = attenuations;
-    this.#root.removeFromParent();
-    this.#root = root;
-    this.#scene.add(root);
-    root.updateMatrixWorld();
-    this.#box = box;
-    this.#bounded = bounded;
-    this.#sphere = sphereAround(box);
-    for (const object of this.#shapes.values()) for (const bounds of object.bounds()) this.#grow(object, bounds);
-    this.#batches.sync(this.#sphere);
-    return { sphere: this.#sphere, viewpoints, levels };
+    const others = this.#plan.takeChanged();
+    if (others.size > 0) {
+      for (const object of this.#shapes.values()) if (object.geometry && others.has(object.geometry)) object.drawAs(this.#plan.drawingOf(object.geometry));
+    }
+    return { shapes, gone, places: changes.places };
   }
 
   /** Replaces what a patch of a shape shows. */
   setStage(element: SceneElement, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
     const object = this.#shapes.get(element);
     object?.setStage(geometry, patch, stage);
-    if (object !== undefined && stage?.kind === "buffers" && stage.bounds !== undefined) this.#grow(object, stage.bounds);
+    if (object === undefined || stage?.kind !== "buffers" || stage.bounds === undefined) return;
+    this.#unbounded.add(object);
+    this.#grow(object, stage.bounds);
   }
 
   setPicture(element: SceneElement, role: TextureRole, picture: ShownPicture | undefined): void {
@@ -129,14 +166,14 @@ export class SceneShapes {
 
   /** What is drawn and may be picked. */
   *pickCandidates(): Generator<PickCandidate> {
-    for (const [element, object] of this.#shapes) if (object.isPickable) yield* shownDraws(element, object);
+    for (const object of this.#shapes.values()) if (object.isPickable) yield* shownDraws(object);
   }
 
   /** What the document shows, also where the last frame has not looked. */
   drawsAround(): PickCandidate[] {
     const passedOver = this.#bounded.filter(({ group }) => !group.visible);
     for (const { group } of passedOver) group.visible = true;
-    const draws = Array.from(this.#shapes).flatMap(([element, object]) => Array.from(shownDraws(element, object)));
+    const draws = Array.from(this.#shapes.values()).flatMap((object) => Array.from(shownDraws(object)));
     for (const { group } of passedOver) group.visible = false;
     return draws;
   }
@@ -172,8 +209,8 @@ export class SceneShapes {
   }
 }
 
-function* shownDraws(element: SceneElement, object: ShapeObject): Generator<PickCandidate> {
-  for (const drawn of object.placedDraws()) if (isShown(drawn.group)) yield { ...drawn, element };
+function* shownDraws(object: ShapeObject): Generator<PickCandidate> {
+  for (const drawn of object.placedDraws()) if (isShown(drawn.group)) yield drawn;
 }
 
 function isShown(object: Object3D | null): boolean {

@@ -1,10 +1,11 @@
 // A shape on the screen: the draws of each patch's newest stage, in a group for
 // each place where the shape stands in the scene.
 
-import { Group } from "three";
+import type { Group } from "three";
 import type { Bounds, Stage } from "../decode/stage.ts";
 import { areAlike } from "../document/alike.ts";
 import type { AppearanceDescription, GeometryDescription, PatchDescription, ShapeDescription, TextureRole } from "../document/description.ts";
+import type { SceneElement } from "../document/element.ts";
 import { asPoints } from "./asPoints.ts";
 import type { Batches } from "./batches/batches.ts";
 import { BatchedStage, mayBatch } from "./batches/batchedStage.ts";
@@ -12,7 +13,7 @@ import type { DrawnAs } from "./batches/plan.ts";
 import type { ShownPicture } from "./look.ts";
 import type { PatchDraws } from "./patchDraws.ts";
 import { drawStage } from "./patchDraws.ts";
-import type { PickDraw } from "./pickDraw.ts";
+import type { PickCandidate } from "./picking.ts";
 import type { PatchSetting } from "./stageDraws.ts";
 import { makeColorMapUniforms, setColorMap } from "./valueColors.ts";
 import { withWideLines } from "./wideLines.ts";
@@ -39,10 +40,12 @@ interface ShownPatch {
 
 export class ShapeObject {
   readonly #setting: ShapeSetting;
-  readonly #groups: Group[] = [];
+  /** One for each place, with the page's element for it there. */
+  readonly #groups = new Map<Group, SceneElement>();
   readonly #patches = new Map<number, ShownPatch>();
   readonly #colorMap = makeColorMapUniforms();
   #appearance: AppearanceDescription;
+  #geometry: GeometryDescription | undefined;
   #drawnAs: DrawnAs = "alone";
   readonly #pictures = new Map<TextureRole, ShownPicture>();
   #isPickable: boolean;
@@ -50,24 +53,35 @@ export class ShapeObject {
   constructor(setting: ShapeSetting, shape: ShapeDescription) {
     this.#setting = setting;
     this.#appearance = shape.appearance;
+    this.#geometry = shape.geometry;
     this.#isPickable = shape.isPickable;
     setColorMap(this.#colorMap, shape.colorMap);
   }
 
-  /** The group for the shape's place number `place`, 0, 1, 2 …, which its caller hangs into the scene. */
-  groupAt(place: number): Group {
-    const known = this.#groups[place];
-    if (known !== undefined) return known;
-    const group = new Group();
-    group.matrixAutoUpdate = false;
-    this.#groups[place] = group;
+  /** It stands in this group too, from now on; `host` is the page's element for it there. */
+  enter(group: Group, host: SceneElement): void {
+    this.#groups.set(group, host);
     for (const { draws } of this.#patches.values()) draws.hang(group);
-    return group;
+  }
+
+  /** The group has moved, or is shown or hidden. */
+  follow(group: Group): void {
+    for (const { draws } of this.#patches.values()) draws.follow(group);
+  }
+
+  leave(group: Group): void {
+    this.#groups.delete(group);
+    for (const { draws } of this.#patches.values()) draws.leave(group);
   }
 
   /** One for each place. */
   get groups(): readonly Group[] {
-    return this.#groups;
+    return Array.from(this.#groups.keys());
+  }
+
+  /** It stands somewhere. */
+  get isPlaced(): boolean {
+    return this.#groups.size > 0;
   }
 
   /** Of patches of which the document does not tell any. */
@@ -75,12 +89,14 @@ export class ShapeObject {
     for (const { stage } of this.#patches.values()) if (stage.kind === "buffers" && stage.bounds) yield stage.bounds;
   }
 
-  /** From now on the shape stands in so many places. */
-  keepPlaces(count: number): void {
-    for (const group of this.#groups.splice(count)) {
-      for (const { draws } of this.#patches.values()) draws.leave(group);
-      group.removeFromParent();
-    }
+  /** In one of its places. */
+  get isVisible(): boolean {
+    for (const { visible } of this.#groups.keys()) if (visible) return true;
+    return false;
+  }
+
+  get geometry(): GeometryDescription | undefined {
+    return this.#geometry;
   }
 
   get isEmpty(): boolean {
@@ -91,14 +107,22 @@ export class ShapeObject {
     return this.#isPickable;
   }
 
-  /** Takes over what a changed document says, the geometry apart; `drawnAs` is how its geometry is drawn from now on. */
-  setShape({ appearance, isPickable, colorMap }: ShapeDescription, drawnAs: DrawnAs): void {
+  /** Takes over what a changed document says; what shows another geometry than before is taken away. */
+  setShape({ appearance, isPickable, colorMap, geometry }: ShapeDescription): void {
     setColorMap(this.#colorMap, colorMap);
     this.#isPickable = isPickable;
-    const isSame = drawnAs === this.#drawnAs && areAlike(appearance, this.#appearance);
+    if (geometry !== this.#geometry) this.clear();
+    this.#geometry = geometry;
+    const isSame = areAlike(appearance, this.#appearance);
     this.#appearance = appearance;
-    this.#drawnAs = drawnAs;
     if (!isSame) this.#applyAppearance();
+  }
+
+  /** How its geometry is drawn from now on. */
+  drawAs(drawnAs: DrawnAs): void {
+    if (drawnAs === this.#drawnAs) return;
+    this.#drawnAs = drawnAs;
+    this.#applyAppearance();
   }
 
   /** What is laid over its surface, where it has texture coordinates; undefined: nothing. */
@@ -144,7 +168,7 @@ export class ShapeObject {
     const patchSetting = { ...setting, geometry, patch, appearance: this.#appearance, colorMap: this.#colorMap, pictures: new Map(this.#pictures) };
     const draws = batches === undefined || batching === undefined || drawnAs === "alone" ? drawStage(drawn, patchSetting)
       : new BatchedStage(drawn, patchSetting, { batches, batching, isMerged: drawnAs === "merged" });
-    for (const group of this.#groups) draws.hang(group);
+    for (const group of this.#groups.keys()) draws.hang(group);
     return { geometry, stage, drawn, drawnAs, draws };
   }
 
@@ -160,10 +184,10 @@ export class ShapeObject {
     return batching !== undefined && mayBatch(stage, this.#appearance, this.#pictures, batching) ? this.#drawnAs : "alone";
   }
 
-  /** Every draw in every place, with the number of its patch. */
-  *placedDraws(): Generator<{ readonly patch: number; readonly group: Group; readonly pick: PickDraw }> {
+  /** Every draw in every place, with the number of its patch and the page's element. */
+  *placedDraws(): Generator<PickCandidate> {
     for (const [patch, { draws: { picks } }] of this.#patches) {
-      for (const pick of picks) for (const group of this.#groups) yield { patch, group, pick };
+      for (const pick of picks) for (const [group, element] of this.#groups) yield { patch, group, element, pick };
     }
   }
 
@@ -180,6 +204,6 @@ export class ShapeObject {
 
   dispose(): void {
     this.clear();
-    this.keepPlaces(0);
+    this.#groups.clear();
   }
 }

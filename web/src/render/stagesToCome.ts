@@ -1,14 +1,13 @@
-// What the shader programs of a scene will be, from its document alone. They are
+// What the shader programs of shapes will be, from their document alone. They are
 // compiled while the first files are on their way: a driver takes a good part of a
 // second for them, and a page that draws with a program that is not ready waits.
 
 import { BufferAttribute, BufferGeometry, type Object3D, Texture } from "three";
 import type { BufferStage, DrawRange, Stage, StoredVertices, TexelRange, TextureStage } from "../decode/stage.ts";
-import type { GeometryDescription, PatchDescription, SceneDescription } from "../document/description.ts";
-import { shapesOf } from "../document/description.ts";
+import type { GeometryDescription, PatchDescription, ShapeDescription } from "../document/description.ts";
 import { isPair } from "../document/geometry.ts";
 import { mayBatch } from "./batches/batchedStage.ts";
-import { planOf } from "./batches/plan.ts";
+import type { DrawingPlan } from "./batches/plan.ts";
 import { objectOf } from "./drawnObject.ts";
 import type { Look, SceneUniforms, ShownPicture } from "./look.ts";
 import { noPictures } from "./look.ts";
@@ -22,15 +21,13 @@ const noPicture: ShownPicture = { texture: new Texture(), hasAlpha: false };
  * An object for each program, by what makes it differ from others. Of images on the GPU, and of what stands in
  * for patches of compact: other buffers need no less, but tell it later.
  */
-export function objectsToCome(scene: SceneDescription, look: Look, shared: SceneUniforms): Map<string, Object3D> {
+export function objectsToCome(shapes: Iterable<ShapeDescription>, plan: DrawingPlan, look: Look, shared: SceneUniforms): Map<string, Object3D> {
   const objects = new Map<string, Object3D>();
   const bare = new BufferGeometry();
   // Programs differ by what is in buffers.
   const one = new BufferAttribute(new Int8Array(3), 3);
   const inBuffers = new BufferGeometry().setAttribute("position", one).setAttribute("normal", one);
-  const places = shapesOf(scene.root);
-  const drawingOf = planOf(places);
-  for (const { geometry: described, appearance, visible } of places) {
+  for (const { geometry: described, appearance, visible } of shapes) {
     if (described === undefined || !visible) continue;
     const { textures, material: { kind, transparency }, alpha, lines } = appearance;
     const pictures = new Map(textures.map(({ role }) => [role, noPicture]));
@@ -38,7 +35,7 @@ export function objectsToCome(scene: SceneDescription, look: Look, shared: Scene
       const stage = lines ? withWideLines(bareStage) : bareStage;
       for (const range of stage.draws) {
         const laid = stage.texCoord !== undefined ? pictures : noPictures;
-        const isBatched = drawingOf(described) !== "alone" && look.batching !== undefined && mayBatch(stage, appearance, laid, look.batching);
+        const isBatched = plan.drawingOf(described) !== "alone" && look.batching !== undefined && mayBatch(stage, appearance, laid, look.batching);
         const request = materialRequestOf(stage, range, described, {}, shared, isBatched);
         const key = JSON.stringify([{ ...request, shared: undefined }, kind, transparency > 0, alpha, ...laid.keys()]);
         if (objects.has(key)) continue;

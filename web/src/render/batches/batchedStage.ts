@@ -48,6 +48,10 @@ export class BatchedStage implements PatchDraws {
     this.#members.set(group, this.#draws.map((draw) => batches.add(draw, this.#numbersOf(draw), group)));
   }
 
+  follow(group: Group): void {
+    for (const member of this.#members.get(group) ?? []) this.#batch.batches.follow(member);
+  }
+
   leave(group: Group): void {
     for (const member of this.#members.get(group) ?? []) this.#batch.batches.remove(member);
     this.#members.delete(group);

@@ -73,6 +73,16 @@ class Scene {
     return this.batches.add(draw, white, group);
   }
 
+  move(member: Member, x: number): void {
+    place(member.group, x);
+    this.batches.follow(member);
+  }
+
+  hide(member: Member): void {
+    member.group.visible = false;
+    this.batches.follow(member);
+  }
+
   /** What the next frame draws. */
   frame(): DrawnObject[] {
     this.batches.sync(new Sphere(new Vector3(), 10));
@@ -127,11 +137,11 @@ describe("a stage in many places", () => {
     const [first, second, third] = [0, 1, 2].map((x) => scene.add(draw, x)) as [Member, Member, Member];
     const [drawn] = scene.frame();
     assert.ok(drawn);
-    first.group.visible = false;
+    scene.hide(first);
     scene.frame();
     assert.deepEqual(placesIn(drawn), [second.place, third.place]);
     const before = scene.record(third);
-    place(second.group, 3);
+    scene.move(second, 3);
     scene.frame();
     assert.equal(scene.record(second)[placeFields.matrix + 3], 3);
     assert.deepEqual(scene.record(third), before);
@@ -160,7 +170,7 @@ describe("a stage in many places", () => {
     assert.ok(mirrored);
     assert.deepEqual(placesIn(mirrored), [member.place]);
     assert.deepEqual(scene.record(member).slice(0, 4), [1, 0, 0, -1]);
-    place(member.group, 1, 1);
+    scene.move(member, 1);
     assert.equal(scene.frame().length, 1, "it has joined the others");
   });
 
@@ -200,7 +210,7 @@ describe("small meshes", () => {
     const scene = new Scene();
     const members = Array.from({ length: 5 }, (_, n) => scene.add(drawOf(stageOf(10 * n), true), 0)) as [Member, Member, Member, ...Member[]];
     scene.frame();
-    members[0].group.visible = false;
+    scene.hide(members[0]);
     scene.frame();
     assert.deepEqual(members.map((member) => scene.record(member)[placeFields.isShown]), [0, 1, 1, 1, 1]);
     scene.batches.remove(members[1]);
@@ -239,10 +249,10 @@ describe("small meshes", () => {
     const scene = new Scene();
     const [left, right] = [scene.add(drawOf(stageOf(0), true), -90), scene.add(drawOf(stageOf(9), true), -80)];
     assert.deepEqual(scene.frame(), []);
-    place(right.group, 0);
+    scene.move(right, 0);
     assert.equal(scene.frame().length, 1);
-    right.group.visible = false;
-    left.group.visible = false;
+    scene.hide(right);
+    scene.hide(left);
     assert.deepEqual(scene.frame(), []);
   });
 });

@@ -43,7 +43,7 @@ export class Batches {
     this.#table.write(member.place, placeFields.texCoordFrame, draw.texCoordFrame);
     this.#table.write(member.place, placeFields.look, look);
     this.#members.add(member);
-    this.#follow(member, this.#rootFromScene);
+    this.#write(member, this.#rootFromScene);
     this.#join(member);
     return member;
   }
@@ -60,20 +60,20 @@ export class Batches {
     if (this.#members.size === 0) this.#disposeBatches(); // of a lost context nothing may be left for the next
   }
 
-  /** The groups have moved, or are shown or hidden; the scene's middle is there now. */
+  /** Its group has moved, or is shown or hidden. */
+  follow(member: Member): void {
+    this.#followIn(this.#rootFromScene, member);
+  }
+
+  /** The scene's middle is there now. */
   sync({ center, radius }: Sphere): void {
     // A new origin changes every record: not for every move.
     const origin = new Vector3().setFromMatrixPosition(this.root.matrix);
-    if (radius > 0 && !(origin.distanceTo(center) <= radius)) this.root.matrix.setPosition(center);
+    if (!(radius > 0) || origin.distanceTo(center) <= radius) return;
+    this.root.matrix.setPosition(center);
     this.root.updateMatrixWorld(true);
     const rootFromScene = this.#rootFromScene;
-    for (const member of this.#members) {
-      const { isMirrored } = member;
-      if (this.#follow(member, rootFromScene)) member.batch?.touch();
-      if (member.isMirrored === isMirrored) continue;
-      member.batch?.remove(member);
-      this.#join(member);
-    }
+    for (const member of this.#members) this.#followIn(rootFromScene, member);
   }
 
   /** Before a frame. */
@@ -112,8 +112,16 @@ export class Batches {
     return this.root.matrixWorld.clone().invert();
   }
 
+  #followIn(rootFromScene: Matrix4, member: Member): void {
+    const { isMirrored } = member;
+    if (this.#write(member, rootFromScene)) member.batch?.touch();
+    if (member.isMirrored === isMirrored) return;
+    member.batch?.remove(member);
+    this.#join(member);
+  }
+
   /** Whether what its batch knows of it has changed. */
-  #follow(member: Member, rootFromScene: Matrix4): boolean {
+  #write(member: Member, rootFromScene: Matrix4): boolean {
     const { draw: { shapeFromStored, bounds, step }, group, place, sphere } = member;
     const rootFromStored = new Matrix4().multiplyMatrices(rootFromScene, group.matrixWorld).multiply(shapeFromStored);
     const [xx, xy, xz, , yx, yy, yz, , zx, zy, zz, , ox, oy, oz] = rootFromStored.elements;

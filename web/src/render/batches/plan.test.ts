@@ -1,20 +1,27 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import type { ShapeDescription } from "../../document/description.ts";
 import { shapesOf } from "../../document/description.ts";
 import { elementsOf } from "../../document/elements.testing.ts";
 import { readScene } from "../../document/readScene.ts";
-import { leastPlaces, mostMergedVertices, planOf } from "./plan.ts";
+import { DrawingPlan, leastPlaces, mostMergedVertices } from "./plan.ts";
 
 function geometry(name: string, vertices: number, profile = "compact"): string {
   return `<ImageGeometry DEF="${name}" profile="${profile}"><GeometryPatch recordCount="${vertices}"/></ImageGeometry>`;
+}
+
+function planOf(places: readonly ShapeDescription[]): DrawingPlan {
+  const plan = new DrawingPlan();
+  for (const { geometry: own } of places) if (own) plan.add(own);
+  return plan;
 }
 
 /** How each of the scene's shapes is drawn. */
 function drawn(shapes: readonly string[]): string[] {
   const scene = readScene(elementsOf(`<X3D>${shapes.map((inner) => `<Shape>${inner}</Shape>`).join("")}</X3D>`));
   const places = shapesOf(scene.root);
-  const drawingOf = planOf(places);
-  return places.map(({ geometry: own }) => (own ? drawingOf(own) : "nothing"));
+  const plan = planOf(places);
+  return places.map(({ geometry: own }) => (own ? plan.drawingOf(own) : "nothing"));
 }
 
 const crowd = Array.from({ length: leastPlaces }, (_, n) => geometry(`small${n}`, 24));
@@ -46,5 +53,20 @@ test("shapes that values colour have maps of their own, and are drawn alone", ()
   const places = shapesOf(scene.root);
   const last = places.at(-1)?.geometry;
   assert.ok(last?.value, "the test's shape has values");
-  assert.equal(planOf(places)(last), "alone");
+  assert.equal(planOf(places).drawingOf(last), "alone");
+});
+
+test("shapes that come and go are drawn as if those that are left had always been all", () => {
+  const scene = readScene(elementsOf(`<X3D>${[...crowd, geometry("twin", mostMergedVertices / 2), '<ImageGeometry USE="twin"/>']
+    .map((inner) => `<Shape>${inner}</Shape>`).join("")}</X3D>`));
+  const geometries = shapesOf(scene.root).flatMap(({ geometry: own }) => own ?? []);
+  const plan = planOf(shapesOf(scene.root));
+  const twin = geometries.at(-1);
+  assert.ok(twin);
+  plan.add(twin);
+  assert.equal(plan.drawingOf(twin), "instanced");
+  plan.remove(twin);
+  assert.equal(plan.drawingOf(twin), "merged");
+  for (const gone of geometries.slice(0, 3)) plan.remove(gone);
+  assert.equal(plan.drawingOf(twin), "alone");
 });

@@ -3,7 +3,7 @@
 // one by one: what stands in many places is drawn in all of them at once, and
 // small meshes become one large mesh. See docs/decisions/batches.md.
 
-import type { GeometryDescription, ShapeDescription } from "../../document/description.ts";
+import type { GeometryDescription } from "../../document/description.ts";
 
 /** By itself; in all its places at once; or as a part of one mesh with others. */
 export type DrawnAs = "alone" | "instanced" | "merged";
@@ -14,20 +14,61 @@ export const leastPlaces = 16;
 export const mostMergedVertices = 16384;
 
 /**
- * How to draw each geometry of these shapes, a shape for each place. All patches of
- * a geometry are drawn alike: their common vertices go through the same arithmetic.
+ * How to draw each geometry of a scene, by the places where shapes show it. All patches
+ * of a geometry are drawn alike: their common vertices go through the same arithmetic.
  */
-export function planOf(places: readonly ShapeDescription[]): (geometry: GeometryDescription) => DrawnAs {
-  const counts = new Map<GeometryDescription, number>();
-  for (const { geometry } of places) if (geometry) counts.set(geometry, (counts.get(geometry) ?? 0) + 1);
-  const placeCount = Array.from(counts.values()).reduce((sum, count) => sum + count, 0);
-  if (placeCount < leastPlaces) return () => "alone";
-  return (geometry) => {
-    const count = counts.get(geometry) ?? 0;
+export class DrawingPlan {
+  readonly #counts = new Map<GeometryDescription, number>();
+  readonly #told = new Map<GeometryDescription, DrawnAs>();
+  #touched = new Set<GeometryDescription>();
+  #placeCount = 0;
+  #wasCrowd = false;
+
+  add(geometry: GeometryDescription): void {
+    this.#counts.set(geometry, this.#countOf(geometry) + 1);
+    this.#placeCount += 1;
+    this.#touched.add(geometry);
+  }
+
+  remove(geometry: GeometryDescription): void {
+    const count = this.#countOf(geometry) - 1;
+    if (count > 0) this.#counts.set(geometry, count);
+    else this.#counts.delete(geometry);
+    this.#placeCount -= 1;
+    this.#touched.add(geometry);
+  }
+
+  drawingOf(geometry: GeometryDescription): DrawnAs {
+    if (!this.#isCrowd) return "alone";
+    const count = this.#countOf(geometry);
     if (isColoredByValues(geometry)) return "alone"; // each shape has a map of colours
     if (geometry.container !== "sig" && verticesOf(geometry) * count <= mostMergedVertices) return "merged";
     return count > 1 ? "instanced" : "alone";
-  };
+  }
+
+  /** Geometries that are drawn in another way than when this was last called. */
+  takeChanged(): ReadonlySet<GeometryDescription> {
+    const asked = this.#isCrowd === this.#wasCrowd ? this.#touched : new Set([...this.#touched, ...this.#counts.keys()]);
+    const changed = new Set<GeometryDescription>();
+    for (const geometry of asked) {
+      const drawnAs = this.#counts.has(geometry) ? this.drawingOf(geometry) : undefined;
+      if (drawnAs === this.#told.get(geometry)) continue;
+      if (drawnAs === undefined) this.#told.delete(geometry);
+      else this.#told.set(geometry, drawnAs);
+      changed.add(geometry);
+    }
+    this.#wasCrowd = this.#isCrowd;
+    this.#touched = new Set();
+    return changed;
+  }
+
+  get #isCrowd(): boolean {
+    return this.#placeCount >= leastPlaces;
+  }
+
+  #countOf(geometry: GeometryDescription): number {
+    return this.#counts.get(geometry) ?? 0;
+  }
 }
 
 function isColoredByValues({ value }: GeometryDescription): boolean {

@@ -1,0 +1,90 @@
+// What a change of the document costs the page's main thread in a scene of many
+// shapes: 7,000 boxes by USE and 3,000 of sizes and colours of their own, in a
+// Transform each. Prints a Markdown table: of each change the median and the least
+// time from the change until everything has followed it but the picture.
+//
+//   scripts/bench changes          RUNTIME=folder: of another build's imgeo.js
+
+import { cpSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import type { Page } from "playwright-core";
+import { launchChromium } from "../../tests/browser/chromium.ts";
+import { startServer } from "../../tests/browser/server.ts";
+
+const alike = 7000, others = 3000;
+const rounds = 21;
+const timeout = 300_000;
+
+function sceneText(): string {
+  const shapes = Array.from({ length: alike + others }, (_, n) => {
+    const place = `${2 * (n % 100)} ${2 * Math.floor(n / 100)} 0`;
+    const shape = n === 0 ? '<Shape DEF="box"><Appearance><Material></Material></Appearance><Box size="1 1 1"></Box></Shape>'
+      : n < alike ? '<Shape USE="box"></Shape>'
+      : `<Shape><Appearance><Material diffuseColor="${n % 7 / 7} ${n % 11 / 11} 0.5"></Material></Appearance><Box size="1 1 ${1 + n / 10000}"></Box></Shape>`;
+    return `<Transform translation="${place}">${shape}</Transform>`;
+  });
+  return `<X3D style="width:64px;height:48px;display:block" budget="1000"><Scene>${shapes.join("\n")}</Scene></X3D>`;
+}
+
+/** Self-contained: each is called in the page, over and over, and changes something each time. */
+const changes: Record<string, (round: number) => void> = {
+  "a Transform is moved": (round) => { document.querySelectorAll("transform")[5000]!.setAttribute("translation", `100 100 ${round % 2}`); },
+  "a Shape is hidden, or shown": (round) => { document.querySelectorAll("shape")[8000]!.setAttribute("visible", String(round % 2 === 0)); },
+  "a Material is coloured": (round) => { document.querySelectorAll("material")[500]!.setAttribute("diffuseColor", `0.${round % 10} 0 0`); },
+  "a Transform with a Shape is added": (round) => {
+    const added = document.createElement("Transform");
+    added.setAttribute("translation", `${round} 0 2`);
+    added.innerHTML = '<Shape USE="box"></Shape>';
+    document.querySelector("scene")!.append(added);
+  },
+  "one is removed": () => { document.querySelectorAll("transform")[6000]!.remove(); },
+  "one in the middle is inserted": (round) => {
+    const added = document.createElement("Transform");
+    added.innerHTML = '<Shape><Appearance><Material></Material></Appearance><Box></Box></Shape>';
+    added.setAttribute("translation", `${round} 0 4`);
+    document.querySelectorAll("transform")[3000]!.before(added);
+  },
+};
+
+/** Self-contained. MutationObservers are called before whoever waits for what is resolved after the change. */
+async function timesIn(change: (round: number) => void, count: number): Promise<number[]> {
+  const times: number[] = [];
+  for (let round = 0; round < count; ++round) {
+    await new Promise((resolve) => { setTimeout(resolve, 150); });
+    const begun = performance.now();
+    change(round);
+    await Promise.resolve();
+    times.push(performance.now() - begun);
+  }
+  return times;
+}
+
+async function row(page: Page, name: string, change: (round: number) => void): Promise<string> {
+  const times = await page.evaluate<number[]>(`(${timesIn.toString()})(${change.toString()}, ${rounds})`);
+  const sorted = times.sort((a, b) => a - b);
+  return `| ${name} | ${sorted[Math.floor(sorted.length / 2)]!.toFixed(2)} ms | ${sorted[0]!.toFixed(2)} ms |`;
+}
+
+const directory = mkdtempSync(join(tmpdir(), "imgeo-changes-"));
+const runtime = process.env.RUNTIME ?? "web/dist";
+for (const name of ["imgeo.js", "imgeo-worker.js"]) cpSync(join(runtime, name), join(directory, name));
+writeFileSync(join(directory, "index.html"), `<!DOCTYPE html><title>changes</title><script type="module" src="imgeo.js"></script>${sceneText()}`);
+const server = await startServer(directory);
+const browser = await launchChromium();
+try {
+  const page = await browser.newPage();
+  page.setDefaultTimeout(timeout);
+  await page.goto(server.origin);
+  await page.evaluate(async () => {
+    const x3d = document.querySelector("x3d")!;
+    while (x3d.complete === undefined) await new Promise((resolve) => { setTimeout(resolve, 50); });
+    await x3d.complete;
+  });
+  console.log(`| in a scene of ${alike + others} shapes | median | least |\n|---|--:|--:|`);
+  for (const [name, change] of Object.entries(changes)) console.log(await row(page, name, change));
+} finally {
+  await browser.close();
+  await server.close();
+  rmSync(directory, { recursive: true });
+}

@@ -1,0 +1,127 @@
+// Documents that are edited at random, and what is told of them besides, for tests
+// that compare what has followed them with what sees them for the first time.
+
+import type { SceneElement } from "./element.ts";
+import { elementsOf, type TestElement } from "./elements.testing.ts";
+import type { Supplements } from "./readScene.ts";
+import { SceneReader } from "./sceneReader.ts";
+
+/** Numbers that look random and are the same in every run (Marsaglia 2003, xorshift). */
+export class Dice {
+  #state: number;
+
+  constructor(seed: number) {
+    this.#state = seed * 2654435769 + 1;
+  }
+
+  below(count: number): number {
+    this.#state ^= this.#state << 13;
+    this.#state ^= this.#state >>> 17;
+    this.#state ^= this.#state << 5;
+    return (this.#state >>> 0) % count;
+  }
+
+  of<Item>(items: readonly Item[]): Item {
+    const item = items[this.below(items.length)];
+    if (item === undefined) throw new RangeError("nothing to choose from");
+    return item;
+  }
+}
+
+const names = ["A", "B", "C", "D"];
+const geometries = [
+  '<Box size="1 2 3"/>', '<Box size="no"/>', '<PointSet><Coordinate DEF="C" point="1 2 3"/></PointSet>', '<PointSet DEF="E"><Coordinate USE="C"/></PointSet>',
+  '<PointSet USE="E"/>',
+  '<ImageGeometry DEF="B" vertexCount="3" coord="a.png" priority="2"/>', '<ImageGeometry USE="B"/>',
+];
+const snippets = [
+  "<Group/>", "<Transform/>", '<Switch whichChoice="0"/>', "<LOD range='5'/>", "<Unknown/>", '<Viewpoint description="v"/>', "<DirectionalLight/>",
+  '<NavigationInfo speed="3"/>', '<Background skyColor="1 0 0"/>', "<Group USE='A'/>", "<Shape USE='D'/>", "<Inline url='a.x3d'/>", '<MetadataString name="m"/>',
+  '<Shape><Appearance DEF="A"><Material DEF="D"/></Appearance><Box/></Shape>', '<Shape><Appearance USE="A"/><Box/></Shape>',
+  ...geometries.map((geometry) => `<Shape>${geometry}</Shape>`),
+];
+const attributes: Readonly<Record<string, readonly string[]>> = {
+  DEF: names, USE: names, visible: ["true", "false", "perhaps"], priority: ["2", "high"], translation: ["1 2 3", "x"], bboxSize: ["1 1 1", "2 2 2"],
+  whichChoice: ["0", "1", "-1"], diffuseColor: ["1 0 0", "0 1 0"], bind: ["true"], load: ["false"], url: ["a.x3d", "b.x3d"], solid: ["false"],
+  point: ["3 4 5", "6 7 8"],
+};
+const inlinable = {
+  "a.x3d": `<X3D><Group DEF="A"><Shape><Box/></Shape></Group><Group USE="A"/><Inline url="b.x3d"/><NavigationInfo speed="9"/></X3D>`,
+  "b.x3d": `<X3D><LOD range="1"><Shape id="near"/><Shape id="far"/></LOD><Inline url="a.x3d"/></X3D>`,
+};
+
+export class EditedDocument implements Supplements {
+  readonly x3d = elementsOf(`<X3D><Scene>${snippets.join("")}</Scene></X3D>`);
+  readonly reader = new SceneReader(this.x3d, this);
+  readonly #dice: Dice;
+  readonly #documents = Object.entries(inlinable).map(([url, text]) => ({ url, x3d: elementsOf(text) }));
+  readonly #arrived = new Set<SceneElement>();
+  readonly #levels = new Map<SceneElement, number>();
+
+  constructor(dice: Dice) {
+    this.#dice = dice;
+  }
+
+  readonly inlined = (inline: SceneElement) =>
+    (this.#arrived.has(inline) ? this.#documents.find(({ url }) => inline.getAttribute("url")?.includes(url)) : undefined);
+
+  readonly levelOf = (lod: SceneElement) => this.#levels.get(lod);
+
+  edit(): void {
+    const dice = this.#dice;
+    const element = dice.of(elementsIn(this.x3d));
+    const others = elementsIn(this.x3d).slice(2);
+    switch (dice.below(8)) {
+      case 0: case 1: this.#insert(elementsOf(dice.of(snippets)), element); break;
+      case 2: if (others.length > 0) this.#remove(dice.of(others)); break;
+      case 3: if (others.length > 0) this.#move(dice.of(others), element); break;
+      case 4: this.#rearrange(element); break;
+      case 5: this.#supplement(); break;
+      default: this.#set(element);
+    }
+  }
+
+  #insert(element: TestElement, parent: TestElement): void {
+    parent.children.splice(this.#dice.below(parent.children.length + 1), 0, element);
+    this.reader.rearrange(parent);
+  }
+
+  #remove(element: TestElement): void {
+    const parent = elementsIn(this.x3d).find(({ children }) => children.includes(element));
+    if (parent === undefined) return;
+    parent.children.splice(parent.children.indexOf(element), 1);
+    this.reader.rearrange(parent);
+  }
+
+  #move(element: TestElement, parent: TestElement): void {
+    if (elementsIn(element).includes(parent)) return;
+    this.#remove(element);
+    this.#insert(element, parent);
+  }
+
+  #rearrange(element: TestElement): void {
+    element.children.reverse();
+    this.reader.rearrange(element);
+  }
+
+  #supplement(): void {
+    const reached = [this.x3d, ...this.#documents.map(({ x3d }) => x3d)].flatMap(elementsIn);
+    const some = reached.filter(({ localName }) => ["Inline", "LOD"].includes(localName));
+    if (some.length === 0) return;
+    const element = this.#dice.of(some);
+    if (element.localName === "LOD") this.#levels.set(element, this.#dice.below(2));
+    else if (!this.#arrived.delete(element)) this.#arrived.add(element);
+    this.reader.touch(element);
+  }
+
+  #set(element: TestElement): void {
+    const name = element.localName === "Coordinate" ? "point" : this.#dice.of(Object.keys(attributes));
+    const hadName = element.attributes.delete(name);
+    if (!hadName || this.#dice.below(2) === 0) element.attributes.set(name, this.#dice.of(attributes[name] ?? []));
+    this.reader.touch(element);
+  }
+}
+
+export function elementsIn(element: TestElement): TestElement[] {
+  return [element, ...element.children.flatMap(elementsIn)];
+}

@@ -1,0 +1,37 @@
+// Matrices of Transforms, and boxes through them.
+
+import { Box3, Matrix4, Quaternion, Vector3 } from "three";
+import type { Rotation, TransformDescription, Vec3 } from "../document/description.ts";
+
+/** Lengths whose squares single precision still holds: beyond, no GPU draws anything, and the rest must be seen. */
+const farthest = 1e18;
+
+export function isDrawable({ min, max }: Box3): boolean {
+  return [...min.toArray(), ...max.toArray()].every((edge) => Math.abs(edge) < farthest);
+}
+
+export function boxIn(sceneFromBox: Matrix4, { min, max }: { min: Vec3; max: Vec3 }): Box3 {
+  return new Box3(new Vector3(...min), new Vector3(...max)).applyMatrix4(sceneFromBox);
+}
+
+/** X3D Transform: T C R SR S -SR -C (ISO/IEC 19775-1, 10.4.4). */
+export function matrixOf(transform: TransformDescription): Matrix4 {
+  const { translation, center, rotation, scaleOrientation, scale } = transform;
+  const turn = rotationOf(rotation);
+  const axes = rotationOf(scaleOrientation);
+  const move = (vector: readonly [number, number, number], sign: number) =>
+    new Matrix4().makeTranslation(vector[0] * sign, vector[1] * sign, vector[2] * sign);
+  return move(translation, 1)
+    .multiply(move(center, 1))
+    .multiply(turn)
+    .multiply(axes)
+    .multiply(new Matrix4().makeScale(...scale))
+    .multiply(axes.clone().invert())
+    .multiply(move(center, -1));
+}
+
+function rotationOf([x, y, z, angle]: Rotation): Matrix4 {
+  const axis = new Vector3(x, y, z);
+  if (axis.lengthSq() === 0) return new Matrix4();
+  return new Matrix4().makeRotationFromQuaternion(new Quaternion().setFromAxisAngle(axis.normalize(), angle));
+}
