@@ -9,11 +9,12 @@ import { cpSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
+import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { launchChromium } from "../../tests/browser/chromium.ts";
 import { startServer } from "../../tests/browser/server.ts";
 
 const alike = 7000, others = 3000;
-const rounds = 21;
+const rounds = 15;
 const timeout = 300_000;
 
 function sceneText(): string {
@@ -77,7 +78,7 @@ try {
   page.setDefaultTimeout(timeout);
   await page.goto(server.origin);
   await page.evaluate(async () => {
-    const x3d = document.querySelector("x3d")!;
+    const x3d = document.querySelector<Partial<ViewElement> & Element>("x3d")!;
     while (x3d.complete === undefined) await new Promise((resolve) => { setTimeout(resolve, 50); });
     await x3d.complete;
   });
