@@ -29,6 +29,10 @@ function plyOf(name: string, properties: string, rows: string[], faces: string[]
 const quad = (most: number): string => plyOf(`quad${most}`, "float:x float:y float:z float:nx float:ny float:nz float:s float:t",
   [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => `${x} ${y} 0 0 0 1 ${((x! + 1) / 2) * most} ${((y! + 1) / 2) * most}`), ["3 0 1 2", "3 0 2 3"]);
 
+/** White, with an alpha of 0 on its left side and of 1 on its right. */
+const fadingQuad = (): string => plyOf("quad-fading", "float:x float:y float:z float:nx float:ny float:nz uchar:red uchar:green uchar:blue uchar:alpha",
+  [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => `${x} ${y} 0 0 0 1 255 255 255 ${x! < 0 ? 0 : 255}`), ["3 0 1 2", "3 0 2 3"]);
+
 const [columns, rows] = [4, 2];
 /** By column and row from the top. */
 const texel = (column: number, row: number): [number, number, number] => [40 + 60 * column, 200 - 90 * row, 30 + 17 * column + 100 * row];
@@ -99,6 +103,10 @@ const cases = (): Case[] => [
   { what: "with holes", site: siteOf(quad(1), "--profile", "classic"), most: 1,
     appearance: white + dataImage("holes.png", "texture"), alphaMode: "MASK",
     expected: (s) => (s < 0.5 ? [0, 0, 0] : [200, 100, 50]) },
+  ...["classic", "compact"].map((profile): Case => ({
+    what: `whose vertices hide half of it, in ${profile}`, site: siteOf(fadingQuad(), "--profile", profile), most: 1, appearance: white, alphaMode: "MASK",
+    expected: (s) => (s < 0.5 ? [0, 0, 0] : [255, 255, 255]),
+  })),
 ];
 
 const dataImage = (url: string, field: string): string => `<ImageTexture url="${url}" containerField="${field}">${nearest}</ImageTexture>`;
@@ -173,8 +181,11 @@ describe("a texture", () => {
         }
         assert.ok(compared >= 20, `${what}: ${compared} places`);
       }
-      const holes = placeOf(all.findIndex(({ what }) => what === "with holes"));
-      assert.deepEqual([await hitAt(view, pixelAt(holes[0] - 0.5, holes[1])), await hitAt(view, pixelAt(holes[0] + 0.5, holes[1]))], [false, true]);
+      for (const [n, { what, alphaMode }] of all.entries()) {
+        if (alphaMode !== "MASK") continue;
+        const [x, y] = placeOf(n);
+        assert.deepEqual([await hitAt(view, pixelAt(x - 0.5, y)), await hitAt(view, pixelAt(x + 0.5, y))], [false, true], what);
+      }
       assert.equal(view.server.requestsOf(/picture\.png$/).length, 3); // once for each way of wrapping
     });
   });

@@ -10,7 +10,6 @@ import type { Side, Texture } from "three";
 import { GLSL3, ShaderMaterial } from "three";
 import type { DrawRange } from "../decode/stage.ts";
 import type { AppearanceDescription } from "../document/description.ts";
-import type { ShownPictures } from "./look.ts";
 import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
 import { alphaMaskDefine, alphaMaskVarying } from "./texCoords.ts";
 import type { VertexForm, VertexUniforms } from "./vertexChunk.ts";
@@ -27,6 +26,9 @@ export const pickedWords = {
 } as const;
 export const pickedTargets = 4;
 
+/** Where alpha is too little, nothing is hit. */
+const alphaCutoffDefine = "HAS_ALPHA_CUTOFF";
+
 const vertexShader = /* glsl */ `
 #include <common>
 uniform bool hasNormals;
@@ -40,12 +42,18 @@ varying vec3 cornerWeights;
 #ifdef ${alphaMaskDefine}
   varying vec2 ${alphaMaskVarying};
 #endif
+#ifdef USE_COLOR_ALPHA
+  varying float vertexAlpha;
+#endif
 
 void main() {
   #include <uv_vertex>
   #include <beginnormal_vertex>
   #include <begin_vertex>
   #include <project_vertex>
+  #ifdef USE_COLOR_ALPHA
+    vertexAlpha = vertex.color.a;
+  #endif
   vPosition = transformed;
   vNormal = hasNormals ? objectNormal / max(length(objectNormal), 1e-30) : vec3(0.0); // as materials do before they interpolate
   // Of vertices behind an index buffer, WebGL tells the shader no more than the
@@ -99,15 +107,27 @@ layout(location = 0) out uvec4 what;
 layout(location = 1) out uvec4 where;
 layout(location = 2) out uvec4 shadedNormal;
 layout(location = 3) out uvec4 planeNormal;
+#ifdef ${alphaCutoffDefine}
+  uniform vec2 alphaFactorAndCutoff;
+#endif
 #ifdef ${alphaMaskDefine}
   uniform sampler2D alphaMask;
-  uniform vec2 alphaFactorAndCutoff;
   varying vec2 ${alphaMaskVarying};
+#endif
+#ifdef USE_COLOR_ALPHA
+  varying float vertexAlpha;
 #endif
 
 void main() {
-  #ifdef ${alphaMaskDefine}
-    if (texture(alphaMask, ${alphaMaskVarying}).a * alphaFactorAndCutoff.x < alphaFactorAndCutoff.y) discard;
+  #ifdef ${alphaCutoffDefine}
+    float alpha = alphaFactorAndCutoff.x;
+    #ifdef ${alphaMaskDefine}
+      alpha *= texture(alphaMask, ${alphaMaskVarying}).a;
+    #endif
+    #ifdef USE_COLOR_ALPHA
+      alpha *= vertexAlpha;
+    #endif
+    if (alpha < alphaFactorAndCutoff.y) discard;
   #endif
   vec3 w = cornerWeights;
   int nearest = w.x >= w.y && w.x >= w.z ? cornerVertices.x : w.y >= w.z ? cornerVertices.y : cornerVertices.z;
@@ -133,15 +153,17 @@ export type PickMaterial = ShaderMaterial & { uniforms: { drawNumber: { value: n
 
 /** Where what is drawn has holes: alpha below the cutoff. */
 export interface AlphaMask {
-  readonly texture: Texture;
-  /** Multiplies the texture's alpha. */
+  readonly texture: Texture | undefined;
+  /** Whether the vertices' colours have alpha. */
+  readonly isOfVertices: boolean;
+  /** Multiplies the others. */
   readonly factor: number;
   readonly cutoff: number;
 }
 
-export function alphaMaskOf({ alpha: { mode, cutoff }, material: { transparency } }: AppearanceDescription, pictures: ShownPictures): AlphaMask | undefined {
-  const picture = pictures.get("color");
-  return mode === "MASK" && picture ? { texture: picture.texture, factor: 1 - transparency, cutoff } : undefined;
+export function alphaMaskOf({ alpha: { mode, cutoff }, material: { transparency } }: AppearanceDescription, texture: Texture | undefined,
+                            isOfVertices: boolean): AlphaMask | undefined {
+  return mode === "MASK" ? { texture, isOfVertices, factor: 1 - transparency, cutoff } : undefined;
 }
 
 export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
@@ -157,11 +179,13 @@ export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
       ...(primitive === "lineStrip" && { IS_LINE_STRIP: "" }),
       ...vertexDefinesOf(request, hasNormals),
       ...primitiveDefinesOf(primitive),
-      ...(alphaMask && { [alphaMaskDefine]: "" }),
+      ...(alphaMask && { [alphaCutoffDefine]: "" }),
+      ...(alphaMask?.texture && { [alphaMaskDefine]: "" }),
+      ...(alphaMask?.isOfVertices === true && { USE_COLOR_ALPHA: "" }),
     },
     uniforms: {
       ...uniforms, drawNumber: { value: 0 }, hasNormals: { value: hasNormals }, ...(alphaMask && {
-        alphaMask: { value: alphaMask.texture }, alphaFactorAndCutoff: { value: [alphaMask.factor, alphaMask.cutoff] },
+        alphaMask: { value: alphaMask.texture ?? null }, alphaFactorAndCutoff: { value: [alphaMask.factor, alphaMask.cutoff] },
       }),
     },
   }) as PickMaterial;

@@ -117,7 +117,8 @@ export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
 /** What the picking pass, which draws place by place, needs of its material. */
 export function pickRequestOf(stage: Stage, range: DrawRange, side: Side, uniforms: VertexUniforms, appearance: AppearanceDescription,
                               pictures: ShownPictures): Omit<PickMaterialRequest, "primitive"> {
-  const alphaMask = stage.texCoord === undefined ? undefined : alphaMaskOf(appearance, pictures);
+  const texture = stage.texCoord === undefined ? undefined : pictures.get("color")?.texture;
+  const alphaMask = alphaMaskOf(appearance, texture, colorsOf(stage) === "rgba");
   return { ...vertexFormOf(stage, range), side, hasNormals: hasNormals(stage), uniforms, alphaMask };
 }
 
