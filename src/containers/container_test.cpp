@@ -292,6 +292,16 @@ TEST(Containers, RefuseIndicesOf32BitsBeyondTheVertices) {
   }
 }
 
+TEST(Containers, RefuseAnIndexAfterWhichNoNumberOfVerticesIsLeft) {
+  Encoded encoded = encode(testing::grid(256), Primitive::triangles, true, 12, {Container::bg, 8, 0});
+  encoded.patch.description.vertexCount = 0;
+  EXPECT_NO_THROW(encoded.decoded());
+  const std::size_t index = std::stoul(encoded.patch.description.index->url);
+  Bytes& bytes = encoded.patch.files.at(index).bytes;
+  std::fill(bytes.end() - 4, bytes.end(), std::uint8_t{0xff});
+  EXPECT_THROW(encoded.decoded(), Error);
+}
+
 TEST(Containers, FindTheNumberOfVerticesInTheIndicesWhereItIsNotStated) {
   for (const Container container : {Container::sig, Container::bg}) {
     Encoded encoded = encode(testing::torus(5, 7), Primitive::triangles, true, 16, {container});

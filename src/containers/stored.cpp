@@ -70,6 +70,8 @@ std::uint32_t recordCountOf(const PatchDescription& patch, std::span<const std::
     return patch.vertexCount != 0 ? patch.vertexCount : static_cast<std::uint32_t>(drawn);
   }
   const std::uint32_t largest = *std::ranges::max_element(indices);
+  if (patch.vertexCount == 0 && largest == UINT32_MAX) // one more would be 0
+    throw Error(ErrorKind::limit, place, "the patch has too many vertices");
   if (patch.vertexCount == 0)
     return largest + 1;
   if (largest >= patch.vertexCount)
