@@ -59,17 +59,6 @@ std::vector<std::uint32_t> inFanOrder(const Patch& patch) {
   return wedges;
 }
 
-/// Chan, "Closest-point problems simplified on the RAM", 2002: the axis whose
-/// coordinates differ in the highest bit decides the Morton order.
-bool beforeInMortonOrder(Vec3u a, Vec3u b) {
-  const auto lowerHighestBit = [](std::uint32_t x, std::uint32_t y) { return x < y && x < (x ^ y); };
-  int deciding = 0;
-  for (int axis = 1; axis < 3; ++axis)
-    if (lowerHighestBit(a[deciding] ^ b[deciding], a[axis] ^ b[axis]))
-      deciding = axis;
-  return a[deciding] < b[deciding];
-}
-
 /// Fewer lines than this are no strip of their own: a draw takes some twenty bytes
 /// of the document and a call each frame, and saves less than an index a line.
 constexpr std::size_t fewestStripLines = 64;
@@ -159,6 +148,17 @@ IndexedPatch asLines(const Patch& patch) {
 
 IndexedPatch asLineStrips(const Patch& patch) {
   return drawTrails(patch, fewestStripLines);
+}
+
+/// Chan, "Closest-point problems simplified on the RAM", 2002: the axis whose
+/// coordinates differ in the highest bit decides the Morton order.
+bool beforeInMortonOrder(Vec3u a, Vec3u b) {
+  const auto lowerHighestBit = [](std::uint32_t x, std::uint32_t y) { return x < y && x < (x ^ y); };
+  int deciding = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (lowerHighestBit(a[deciding] ^ b[deciding], a[axis] ^ b[axis]))
+      deciding = axis;
+  return a[deciding] < b[deciding];
 }
 
 std::vector<std::uint32_t> mortonOrder(const Patch& patch) {

@@ -50,6 +50,9 @@ IndexedPatch asLines(const Patch& patch);
 /// of its own costs more than a short strip saves.
 IndexedPatch asLineStrips(const Patch& patch);
 
+/// Whether one place comes before another in Morton order, which keeps near ones together.
+bool beforeInMortonOrder(Vec3u a, Vec3u b);
+
 /// The wedges of a patch in the Morton order of their positions.
 std::vector<std::uint32_t> mortonOrder(const Patch& patch);
 

@@ -4,6 +4,7 @@
 #include "containers/named_attributes.h"
 #include "transcode/load_groups.h"
 #include "transcode/patch_files.h"
+#include "transcode/shapes_by_place.h"
 #include "transcode/site.h"
 #include "transcode/textures.h"
 
@@ -202,34 +203,64 @@ void addEncoded(ConvertReport& report, const EncodedMesh& encoded) {
   addAttributes(report.attributes, encoded.geometry);
 }
 
+/// Lets shapes name geometries, which are meshes in the order of their first use, and
+/// returns each geometry's mesh.
+std::vector<std::size_t> numberGeometries(SceneGraph& graph) {
+  std::vector<std::size_t> meshOf;
+  std::map<std::size_t, std::size_t> geometryOf;
+  for (const std::size_t node : shapeNodes(graph)) {
+    Shape& shape = std::get<Shape>(graph.nodes[node].content);
+    const auto [geometry, isNew] = geometryOf.try_emplace(shape.mesh, meshOf.size());
+    if (isNew)
+      meshOf.push_back(shape.mesh);
+    shape.mesh = geometry->second;
+  }
+  return meshOf;
+}
+
+std::vector<Box3d> boxesOf(const std::vector<Mesh>& meshes, const std::vector<std::size_t>& meshOf) {
+  std::vector<Box3d> boxes;
+  for (const std::size_t mesh : meshOf)
+    boxes.push_back(boxOf(meshes[mesh]));
+  return boxes;
+}
+
+void giveLooks(SceneDocument& document) {
+  Looks looks(document.graph);
+  for (const std::size_t node : shapeNodes(document.graph)) {
+    Shape& shape = std::get<Shape>(document.graph.nodes[node].content);
+    shape.appearance = looks.lookFor(shape, drawsSurface(document.geometries[shape.mesh]));
+  }
+}
+
 } // namespace
 
 SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteContent& content,
                           ConvertReport& report, const ElementsDone& done) {
   SceneDocument document;
   document.graph = std::move(scene.graph);
-  std::vector<std::optional<std::size_t>> geometryOf(scene.meshes.size());
-  Looks looks(document.graph);
+  const std::vector<std::size_t> meshOf = numberGeometries(document.graph);
+  document.geometries.resize(meshOf.size());
   Bases bases(content.geometry);
   const std::vector<std::size_t> groups = loadGroups(document.graph);
   PatchFiles patchFiles(content.geometry, options.effort);
-  for (const std::size_t node : shapeNodes(document.graph)) {
-    Shape& shape = std::get<Shape>(document.graph.nodes[node].content);
-    std::optional<std::size_t>& geometry = geometryOf[shape.mesh];
-    if (!geometry) {
-      EncodedMesh encoded = encodeMesh(std::move(scene.meshes[shape.mesh]), options, content.geometry, done);
-      addEncoded(report, encoded);
-      geometry = document.geometries.size();
-      if (encoded.base)
-        bases.add(std::move(*encoded.base), *geometry);
-      if (encoded.small)
-        patchFiles.add(std::move(*encoded.small), *geometry, groups[node]);
-      document.geometries.push_back(std::move(encoded.geometry));
-    }
-    shape.mesh = *geometry;
-    if (!document.graph.isComplete)
-      shape.appearance = looks.lookFor(shape, drawsSurface(document.geometries[*geometry]));
+  std::vector<bool> isEncoded(meshOf.size());
+  for (const std::size_t node : shapesByPlace(document.graph, boxesOf(scene.meshes, meshOf))) {
+    const std::size_t geometry = shapeOf(document.graph, node).mesh;
+    if (isEncoded[geometry])
+      continue;
+    isEncoded[geometry] = true;
+    EncodedMesh encoded =
+        encodeMesh(std::move(scene.meshes[meshOf[geometry]]), options, content.geometry, done);
+    addEncoded(report, encoded);
+    if (encoded.base)
+      bases.add(std::move(*encoded.base), geometry);
+    if (encoded.small)
+      patchFiles.add(std::move(*encoded.small), geometry, groups[node]);
+    document.geometries[geometry] = std::move(encoded.geometry);
   }
+  if (!document.graph.isComplete)
+    giveLooks(document);
   if (!document.geometries.empty())
     report.lattice = document.geometries.front().lattice;
   for (PatchFiles::Placed& placed : patchFiles.finish()) {

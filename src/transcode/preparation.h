@@ -14,7 +14,8 @@
 
 namespace imgeo {
 
-/// Geometry of X3D documents stays in them where its text is no longer than this:
+/// Geometry of X3D documents stays in them where its text is no longer than this, which
+/// is between the best for hosts that compress and for those that do not:
 /// docs/decisions/scenes.md has the measurement.
 inline constexpr std::size_t inlineBytes = 1024;
 
