@@ -115,7 +115,7 @@ private:
 
   /// A border is held by planes through its edges that stand on their triangles.
   void holdBorder(const Edge& edge) {
-    const auto [a, b, one] = edge;
+    const std::uint32_t a = edge.a, b = edge.b; // clang 14 lets no lambda have names of a structured binding
     isBorder_[a] = isBorder_[b] = true;
     const Vec3d along = vertices_[b].place - vertices_[a].place;
     Vec3d normal;
