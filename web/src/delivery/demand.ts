@@ -51,8 +51,10 @@ export interface Viewing {
 
 /** What is wanted of a geometry that is seen in these places; nothing where it is seen in none. */
 export function demandFor(places: Iterable<PlacedGeometry>, viewing: Viewing): Demand {
-  const demands = Array.from(places, (placed) => demandAt(placed, viewing));
+  // Of a geometry of which nothing is asked, nobody looks where its places are.
+  let demands: readonly Demand[] | undefined;
   return (patch, part) => {
+    demands ??= Array.from(places, (placed) => demandAt(placed, viewing));
     let most: number | undefined;
     for (const demand of demands) {
       const priority = demand(patch, part);
@@ -70,9 +72,10 @@ export function textureDemandFor(places: Iterable<PlacedGeometry>, type: Texture
 }
 
 function demandAt(placed: PlacedGeometry, { camera, weights }: Viewing): Demand {
-  const views = placed.spheres.map((sphere) => (camera ? viewOf(sphere, camera) : unknownView));
+  let views: readonly ViewOf[] | undefined;
   return (place, part) => {
     if (part.chunk.type === "texCoord" && !placed.isTextured) return undefined;
+    views ??= placed.spheres.map((sphere) => (camera ? viewOf(sphere, camera) : unknownView));
     const view = views[place] ?? unknownView;
     const patch = placed.geometry.patches[place];
     const coarseStep = placed.coarseSteps[place] ?? Infinity;

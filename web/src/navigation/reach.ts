@@ -21,26 +21,43 @@ export interface Reach {
 const none: readonly never[] = [];
 export const noReach: Reach = { box: undefined, lights: none, viewpoints: none, levels: none, bounded: none };
 
-/** Of these together, and of what the group around them brings itself. */
+/** Of these together, and of what the group around them brings itself. One pass: there may be ten thousand. */
 export function reachOfAll(parts: readonly PlacedNode[], own: Pick<Reach, "box" | "levels" | "bounded">): Reach {
-  const some = parts.map(({ reach }) => reach).filter((reach) => reach !== noReach);
-  return {
-    box: own.box ?? unionOf(some),
-    lights: flat(some.map(({ lights }) => lights)),
-    viewpoints: flat(some.map(({ viewpoints }) => viewpoints)),
-    levels: flat([own.levels, ...some.map(({ levels }) => levels)]),
-    bounded: flat([own.bounded, ...some.map(({ bounded }) => bounded)]),
-  };
-}
-
-/** The only list that has anything in it stays as it is. */
-function flat<Item>(lists: readonly (readonly Item[])[]): readonly Item[] {
-  const some = lists.filter(({ length }) => length > 0);
-  return some.length > 1 ? some.flat() : some[0] ?? none;
-}
-
-function unionOf(some: readonly Reach[]): Box3 | undefined {
   let union: Box3 | undefined;
-  for (const { box } of some) if (box) union = union?.union(box) ?? box.clone();
-  return union;
+  const lights = new Gathered<PlacedLight>(), viewpoints = new Gathered<PlacedViewpoint>();
+  const levels = new Gathered(own.levels), bounded = new Gathered(own.bounded);
+  for (const { reach } of parts) {
+    if (reach === noReach) continue;
+    if (reach.box && own.box === undefined) union = union?.union(reach.box) ?? reach.box.clone();
+    lights.add(reach.lights);
+    viewpoints.add(reach.viewpoints);
+    levels.add(reach.levels);
+    bounded.add(reach.bounded);
+  }
+  return { box: own.box ?? union, lights: lights.all, viewpoints: viewpoints.all, levels: levels.all, bounded: bounded.all };
+}
+
+/** Lists one after the other; the only one that has anything in it stays as it is. */
+class Gathered<Item> {
+  #all: readonly Item[];
+  #own: Item[] | undefined;
+
+  constructor(first: readonly Item[] = none) {
+    this.#all = first;
+  }
+
+  get all(): readonly Item[] {
+    return this.#all;
+  }
+
+  add(list: readonly Item[]): void {
+    if (list.length === 0) return;
+    if (this.#all.length === 0) {
+      this.#all = list;
+      return;
+    }
+    this.#own ??= [...this.#all];
+    for (const item of list) this.#own.push(item);
+    this.#all = this.#own;
+  }
 }
