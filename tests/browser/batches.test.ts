@@ -3,18 +3,20 @@
 // were drawn alone.
 
 import assert from "node:assert/strict";
-import { cpSync } from "node:fs";
+import { cpSync, mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { Matrix4, Quaternion, Vector3 } from "three";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
-import { assertSamePicture, boundsOfQuantised, difference, isWithin } from "./compare.ts";
+import { assertSamePicture, boundsOfQuantised, difference, isWithin, savePicture } from "./compare.ts";
 import { decodeCompactSite } from "./compactDecoder.ts";
 import { pictureSize, settle, until, withPage, type View } from "./harness.ts";
 import { placed } from "./placed.ts";
 import { referencePicture } from "./reference.ts";
 import { decodeSite, type PlainPatch } from "./siteDecoder.ts";
-import { pageOf, shapeIn, siteOfGenerated, variantOf, withShapes } from "./sites.ts";
+import { writePly } from "./meshes.ts";
+import { outputDirectory } from "./paths.ts";
+import { pageOf, shapeIn, siteOf, siteOfGenerated, variantOf, withShapes } from "./sites.ts";
 
 const side = 50;
 const distance = 62;
@@ -141,3 +143,74 @@ test("what is drawn together looks as if drawn alone: instances of images, and m
     assert.ok(await drawsOfFrame(view) <= 6);
   });
 });
+
+/** Of the panes: where they stand along z, and what lies behind how much of whose colour. */
+const panes = Array.from({ length: 24 }, (_, n) => ({
+  // Three stacks of eight, which cover one another in part; no two alike, in no order.
+  z: ((n * 7) % 24) / 8, x: (n % 3) * 1.6 - 1.6 + (n % 5) / 20, y: (n % 4) / 10,
+  color: [(n % 2) * 0.9 + 0.05, ((n * 5) % 7) / 7, ((n * 3) % 5) / 5], transparency: 0.3 + (n % 4) / 8,
+}));
+
+/** Flat squares, every second one with two sides; every third is read from images. */
+function panesMarkup(image: string): string {
+  return panes.map(({ x, y, z, color, transparency }, n) => {
+    const look = `<Appearance><UnlitMaterial emissiveColor="${color.join(" ")}" transparency="${transparency}"></UnlitMaterial></Appearance>`;
+    const square = n % 3 === 2 ? (n === 2 ? image.replace("<ImageGeometry", '<ImageGeometry DEF="pane"') : '<ImageGeometry USE="pane"></ImageGeometry>')
+      : `<IndexedFaceSet solid="false" coordIndex="0 1 2 3 -1"><Coordinate point="-1 -1 0 1 -1 0 1 1 0 -1 1 0"></Coordinate></IndexedFaceSet>`;
+    return `<Transform translation="${x} ${y} ${z}"><Shape id="p${n}">${look}${square}</Shape></Transform>`;
+  }).join("");
+}
+
+test("panes that blend are a few draws, and look from both sides as if each were drawn in its turn", async () => {
+  const away = 12;
+  const images = siteOf(squareFile(), "--profile", "classic");
+  const image = /<ImageGeometry[\s\S]*<\/ImageGeometry>/i.exec(shapeIn(pageOf(images)))?.[0].replace("<ImageGeometry", '<ImageGeometry solid="false"') ?? "";
+  const views = [`<Viewpoint id="front" position="0 0 ${away}" fieldOfView="0.8"></Viewpoint>`,
+    `<Viewpoint id="behind" position="0 0 ${-away}" orientation="0 1 0 ${Math.PI}" fieldOfView="0.8"></Viewpoint>`];
+  const site = variantOf(images, "panes", (page) => withShapes(page, () => panesMarkup(image)).replaceAll(/<Background[^>]*><\/Background>/gi, "")
+    .replaceAll(/<Viewpoint[^>]*><\/Viewpoint>/gi, () => `<Background skyColor="0 0 0"></Background>${views.splice(0).join("")}`));
+  const isImage = (pane: (typeof panes)[number]) => panes.indexOf(pane) % 3 === 2;
+  const turns = panes.toSorted((a, b) => a.z - b.z).filter((pane, n, all) => n === 0 || isImage(pane) !== isImage(all[n - 1]!)).length;
+  await withPage(site, {}, async (view) => {
+    await view.promise("complete");
+    for (const side of [1, -1]) {
+      if (side < 0) await view.page.evaluate(() => { document.querySelector("#behind")!.setAttribute("set_bind", "true"); });
+      const picture = await view.picture();
+      savePicture(`panes${side}`, picture);
+      assert.ok(await drawsOfFrame(view) <= turns + 2, `${await drawsOfFrame(view)} draws`);
+      let compared = 0;
+      for (let n = 0; n < 400; ++n) {
+        const at: Point = [(n % 20) / 4 - 2.4, Math.floor(n / 20) / 10 - 0.87];
+        const wanted = blendedAt(at, side * away);
+        if (wanted === undefined) continue;
+        compared += 1;
+        const scale = pictureSize.height / 2 / Math.tan(0.4) / away;
+        const [x, y] = [Math.floor(pictureSize.width / 2 + side * at[0] * scale), Math.floor(pictureSize.height / 2 - at[1] * scale)];
+        const found = Array.from(picture.data.subarray((y * picture.width + x) * picture.channels, (y * picture.width + x) * picture.channels + 3));
+        assert.ok(wanted.every((channel, i) => Math.abs(channel - found[i]!) <= 3), `side ${side}, at ${at.join()}: ${found.join()} instead of ${wanted.join()}`);
+      }
+      assert.ok(compared > 100, `${compared} places`);
+    }
+  });
+});
+
+/** What the ray from the eye to a point of the plane z = 0 sees, 0 … 255; undefined where it passes near a border. */
+function blendedAt([x, y]: Point, eye: number): number[] | undefined {
+  const farFirst = panes.toSorted((a, b) => (a.z - b.z) * Math.sign(eye));
+  let color = [0, 0, 0];
+  for (const pane of farFirst) {
+    const share = (eye - pane.z) / eye;
+    const off = [Math.abs(x * share - pane.x), Math.abs(y * share - pane.y)];
+    if (off.some((distance) => Math.abs(distance - 1) < 0.04)) return undefined;
+    if (off.some((distance) => distance > 1)) continue;
+    color = color.map((channel, i) => pane.transparency * channel + (1 - pane.transparency) * 255 * pane.color[i]!);
+  }
+  return color;
+}
+
+function squareFile(): string {
+  const path = join(outputDirectory, "pane.ply");
+  mkdirSync(outputDirectory, { recursive: true });
+  writeFileSync(path, writePly({ positions: Float32Array.from([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]), triangles: Uint32Array.from([0, 1, 2, 0, 2, 3]) }));
+  return path;
+}

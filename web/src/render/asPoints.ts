@@ -24,6 +24,6 @@ function pointsOf(stage: Stage, vertexCount: number): Stage {
   return { ...stage, draws, index: undefined, implicitWidth: width };
 }
 
-function isSurface({ primitive }: DrawRange): boolean {
+export function isSurface({ primitive }: Pick<DrawRange, "primitive">): boolean {
   return primitive === "triangles" || primitive === "triangleStrip";
 }

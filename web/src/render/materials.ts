@@ -42,7 +42,7 @@ type LitMaterial = MeshPhongMaterial & { userData: { lit?: LitUniforms } };
 type PatchMaterial = LitMaterial | MeshBasicMaterial;
 
 /** Pages look as X3D says. */
-export const x3dLook: Look = { makeMaterial, applyAppearance, prepare: () => undefined, batching: { keyOf, numbersOf } };
+export const x3dLook: Look = { makeMaterial, applyAppearance, prepare: () => undefined, batching: { keyOf, numbersOf, isBlended: ({ colors }, appearance, pictures) => blends(appearance, colors, pictures) } };
 
 function makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, pictures: ShownPictures): PatchMaterial {
   const { shading, colors, solid, uniforms, shared } = request;
@@ -104,10 +104,9 @@ function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number
 function keyOf({ primitive, colors }: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription,
                pictures: ShownPictures): string | undefined {
   const { material, points, lines, ...rest } = appearance;
-  const areWide = lines !== undefined && isLine({ primitive }); // each an instance of its own
-  if (areWide || blends(appearance, colors, pictures)) return undefined;
+  if (lines !== undefined && isLine({ primitive })) return undefined; // each is an instance of its own
   const others = Object.entries(material).filter(([name]) => !numbersOfPlaces.has(name));
-  return JSON.stringify([rest, others, Array.from(pictures, ([role, { texture }]) => [role, texture.uuid]).sort(), primitive === "points" && points]);
+  return JSON.stringify([blends(appearance, colors, pictures), rest, others, Array.from(pictures, ([role, { texture }]) => [role, texture.uuid]).sort(), primitive === "points" && points]);
 }
 
 /** What of a material `numbersOf` tells. */

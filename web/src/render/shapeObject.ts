@@ -8,8 +8,9 @@ import type { AppearanceDescription, GeometryDescription, PatchDescription, Shap
 import type { SceneElement } from "../document/element.ts";
 import { asPoints } from "./asPoints.ts";
 import type { Batches } from "./batches/batches.ts";
-import { BatchedStage, mayBatch } from "./batches/batchedStage.ts";
-import type { DrawnAs } from "./batches/plan.ts";
+import { BatchedStage, drawnAsOf } from "./batches/batchedStage.ts";
+import type { DrawnAs, Drawing } from "./batches/plan.ts";
+import { alone } from "./batches/plan.ts";
 import type { ShownPicture } from "./look.ts";
 import type { PatchDraws } from "./patchDraws.ts";
 import { drawStage } from "./patchDraws.ts";
@@ -46,7 +47,7 @@ export class ShapeObject {
   readonly #colorMap = makeColorMapUniforms();
   #appearance: AppearanceDescription;
   #geometry: GeometryDescription | undefined;
-  #drawnAs: DrawnAs = "alone";
+  #drawing = alone;
   readonly #pictures = new Map<TextureRole, ShownPicture>();
   #isPickable: boolean;
 
@@ -119,9 +120,9 @@ export class ShapeObject {
   }
 
   /** How its geometry is drawn from now on. */
-  drawAs(drawnAs: DrawnAs): void {
-    if (drawnAs === this.#drawnAs) return;
-    this.#drawnAs = drawnAs;
+  drawAs(drawing: Drawing): void {
+    if (drawing === this.#drawing) return;
+    this.#drawing = drawing;
     this.#applyAppearance();
   }
 
@@ -144,7 +145,7 @@ export class ShapeObject {
   #applyAppearance(): void {
     for (const [place, shown] of Array.from(this.#patches)) {
       const patch = shown.geometry.patches[place];
-      const isSame = patch !== undefined && this.#drawnOf(shown.stage, patch) === shown.drawn && this.#drawingOf(shown.stage) === shown.drawnAs;
+      const isSame = patch !== undefined && this.#drawnOf(shown.stage, patch) === shown.drawn && this.#drawnAsOf(shown.stage) === shown.drawnAs;
       if (isSame) shown.draws.applyAppearance(this.#appearance, new Map(this.#pictures));
       else this.setStage(shown.geometry, place, shown.stage);
     }
@@ -163,7 +164,7 @@ export class ShapeObject {
   #show(geometry: GeometryDescription, patch: PatchDescription, stage: Stage): ShownPatch {
     const { batches, ...setting } = this.#setting;
     const { batching } = setting.look;
-    const drawnAs = this.#drawingOf(stage);
+    const drawnAs = this.#drawnAsOf(stage);
     const drawn = this.#drawnOf(stage, patch);
     const patchSetting = { ...setting, geometry, patch, appearance: this.#appearance, colorMap: this.#colorMap, pictures: new Map(this.#pictures) };
     const draws = batches === undefined || batching === undefined || drawnAs === "alone" ? drawStage(drawn, patchSetting)
@@ -178,10 +179,10 @@ export class ShapeObject {
     return this.#appearance.lines ? withWideLines(shown) : shown;
   }
 
-  #drawingOf(stage: Stage): DrawnAs {
+  #drawnAsOf(stage: Stage): DrawnAs {
     const { look: { batching }, drawing } = this.#setting;
     if (drawing.asPoints) return "alone";
-    return batching !== undefined && mayBatch(stage, this.#appearance, this.#pictures, batching) ? this.#drawnAs : "alone";
+    return batching !== undefined ? drawnAsOf(stage, this.#drawing, this.#appearance, this.#pictures, batching) : "alone";
   }
 
   /** Every draw in every place, with the number of its patch and the page's element. */

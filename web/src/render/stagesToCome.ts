@@ -6,7 +6,7 @@ import { BufferAttribute, BufferGeometry, type Object3D, Texture } from "three";
 import type { BufferStage, DrawRange, Stage, StoredVertices, TexelRange, TextureStage } from "../decode/stage.ts";
 import type { GeometryDescription, PatchDescription, ShapeDescription } from "../document/description.ts";
 import { isPair } from "../document/geometry.ts";
-import { mayBatch } from "./batches/batchedStage.ts";
+import { drawnAsOf } from "./batches/batchedStage.ts";
 import type { DrawingPlan } from "./batches/plan.ts";
 import { objectOf } from "./drawnObject.ts";
 import type { Look, SceneUniforms, ShownPicture } from "./look.ts";
@@ -35,7 +35,7 @@ export function objectsToCome(shapes: Iterable<ShapeDescription>, plan: DrawingP
       const stage = lines ? withWideLines(bareStage) : bareStage;
       for (const range of stage.draws) {
         const laid = stage.texCoord !== undefined ? pictures : noPictures;
-        const isBatched = plan.drawingOf(described) !== "alone" && look.batching !== undefined && mayBatch(stage, appearance, laid, look.batching);
+        const isBatched = look.batching !== undefined && drawnAsOf(stage, plan.drawingOf(described), appearance, laid, look.batching) !== "alone";
         const request = materialRequestOf(stage, range, described, {}, shared, isBatched);
         const key = JSON.stringify([{ ...request, shared: undefined }, kind, transparency > 0, alpha, ...laid.keys()]);
         if (objects.has(key)) continue;

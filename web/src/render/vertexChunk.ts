@@ -12,7 +12,7 @@ import type { IUniform, Matrix3, Texture, Vector4, WebGLProgramParametersWithUni
 import type { Grid, NormalCode } from "../decode/stage.ts";
 import { isPairCode } from "../decode/stage.ts";
 import type { Vec3 } from "../document/description.ts";
-import { placeFragmentChunk, placesDefine, placeVertexChunk } from "./batches/placeChunk.ts";
+import { cutFacesChunk, placeFragmentChunk, placesDefine, placeVertexChunk } from "./batches/placeChunk.ts";
 import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
 import { cutDashesChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./wideLineChunk.ts";
 
@@ -394,7 +394,9 @@ export const readVertexStatement = "Vertex vertex = readVertex();";
 
 /** Makes a built-in material's shaders read their vertices here, for use in `onBeforeCompile`. */
 export function readVerticesIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
-  shader.fragmentShader = ownNormalsChunk + placeFragmentChunk + dashChunk + replaceEach(shader.fragmentShader, [["void main() {", cutDashesChunk]]);
+  shader.fragmentShader = ownNormalsChunk + placeFragmentChunk + dashChunk + replaceEach(shader.fragmentShader, [
+    ["void main() {", cutDashesChunk], ["void main() {", cutFacesChunk],
+  ]);
   shader.vertexShader = ownNormalsChunk + replaceEach(shader.vertexShader, [
     ["#include <common>", `#include <common>\n${readVertexChunk}${wideLineChunk}${placeVertexChunk}`],
     ["void main() {", `void main() {\n  ${readVertexStatement}`],

@@ -1,10 +1,12 @@
 // What is drawn together: members, each of which is a draw of a stage in one place.
 
-import type { Frustum, Group, Matrix4, Sphere } from "three";
+import type { BufferGeometry, Frustum, Group, Material, Matrix4, Sphere } from "three";
 import type { DrawRange, Stage } from "../../decode/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
+import { isSurface } from "../asPoints.ts";
 import type { DrawnObject } from "../drawnObject.ts";
 import type { MaterialRequest, ShownPictures } from "../look.ts";
+import { backFaces, frontFaces } from "./placeChunk.ts";
 
 /** What a shape asks to be drawn of a stage. The same for all its places. */
 export interface BatchedDraw {
@@ -12,6 +14,8 @@ export interface BatchedDraw {
   /** Of one kind of primitive; only one, unless it is to be merged. */
   readonly ranges: readonly DrawRange[];
   readonly isMerged: boolean;
+  /** Drawn in its turn, the farthest first. */
+  readonly isBlended: boolean;
   /** Of the stage; of use where it is merged. */
   readonly vertexCount: number;
   /** Around the stored vertices. */
@@ -40,8 +44,23 @@ export interface Member {
   readonly sphere: Sphere;
 }
 
+/** Members of a batch that one call draws, one after the other. */
+export interface Run {
+  readonly members: readonly Member[];
+  /** Among all runs of a frame. */
+  readonly order: number;
+}
+
+/** What a batch is made of. */
+export interface BatchParts {
+  /** The first of its members. */
+  readonly draw: BatchedDraw;
+  readonly material: Material;
+  /** An object that draws a geometry with the material, where the batch hangs. */
+  readonly hang: (geometry: BufferGeometry) => DrawnObject;
+}
+
 export interface Batch {
-  readonly object: DrawnObject;
   readonly isEmpty: boolean;
   hasRoomFor(member: Member): boolean;
   add(member: Member): void;
@@ -50,5 +69,15 @@ export interface Batch {
   touch(): void;
   /** Before a frame: what of it a camera sees is drawn, as far as that is cheap to tell. */
   update(frustum: Frustum): void;
+  /** The same where it blends: these are drawn. */
+  show(runs: readonly Run[]): void;
   dispose(): void;
+}
+
+/**
+ * What blends and has two sides is drawn twice, its back faces first, as three.js draws such objects:
+ * by what is added to its place's number.
+ */
+export function passesOf({ isBlended, request: { solid, primitive } }: BatchedDraw): readonly number[] {
+  return isBlended && !solid && isSurface({ primitive }) ? [backFaces, frontFaces] : [0];
 }

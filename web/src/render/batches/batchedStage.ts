@@ -13,6 +13,7 @@ import type { PatchSetting } from "../stageDraws.ts";
 import { boundsOf, colorsOf, materialRequestOf, pickRequestOf, shapeFromStoredOf, uniformsOf } from "../stageDraws.ts";
 import type { BatchedDraw, Member } from "./batch.ts";
 import type { Batches } from "./batches.ts";
+import type { DrawnAs, Drawing } from "./plan.ts";
 import { vertexCountOf } from "./meshColumns.ts";
 
 /** How draws go together. */
@@ -22,9 +23,10 @@ export interface BatchSetting {
   readonly isMerged: boolean;
 }
 
-/** Whether the stage may be drawn so: what blends is drawn in the order of its distance. */
-export function mayBatch(stage: Stage, appearance: AppearanceDescription, pictures: ShownPictures, batching: Batching): boolean {
-  return stage.draws.every((range) => lookKeyOf(stage, range, appearance, pictures, batching) !== undefined);
+/** How the stage is drawn, of a geometry that is drawn so. */
+export function drawnAsOf(stage: Stage, drawing: Drawing, appearance: AppearanceDescription, pictures: ShownPictures, batching: Batching): DrawnAs {
+  const mayBatch = stage.draws.every((range) => lookKeyOf(stage, range, appearance, pictures, batching) !== undefined);
+  return !mayBatch ? "alone" : isBlended(stage, appearance, pictures, batching) ? drawing.blended : drawing.opaque;
 }
 
 export class BatchedStage implements PatchDraws {
@@ -57,7 +59,7 @@ export class BatchedStage implements PatchDraws {
     this.#members.delete(group);
   }
 
-  /** It must be one that `mayBatch` allows. */
+  /** It must be one for which `drawnAsOf` is still the same. */
   applyAppearance(appearance: AppearanceDescription, pictures: ShownPictures): void {
     this.#setting = { ...this.#setting, appearance, pictures };
     for (const pick of this.picks) pick.forgetParts();
@@ -95,13 +97,14 @@ function drawsOf(stage: Stage, setting: PatchSetting, { batching, isMerged }: Ba
     return [{
       stage, ranges, bounds, appearance, lookKey,
       isMerged: isMerged && mayMerge,
+      isBlended: isBlended(stage, appearance, pictures, batching),
       // Files that several shapes share hold more than this stage's.
       vertexCount: stage.kind !== "buffers" ? 0 : geometry.container === "bg" ? patch.vertexCount : vertexCountOf(stage),
       shapeFromStored: shapeFromStoredOf(geometry, patch),
       step: storedFrameOf(geometry, patch).step,
       texCoordFrame: [...geometry.texCoordMin, ...geometry.texCoordSize],
       request: materialRequestOf(stage, first, geometry, uniforms.of(first), shared, true),
-      pictures: stage.texCoord !== undefined ? pictures : noPictures,
+      pictures: laidOn(stage, pictures),
     }];
   });
 }
@@ -121,9 +124,18 @@ function isSeen({ count }: DrawRange): boolean {
   return count > 0;
 }
 
+function isBlended(stage: Stage, appearance: AppearanceDescription, pictures: ShownPictures, batching: Batching): boolean {
+  return batching.isBlended({ colors: colorsOf(stage) }, appearance, laidOn(stage, pictures));
+}
+
+/** Without texture coordinates there is nowhere to lay them. */
+function laidOn(stage: Stage, pictures: ShownPictures): ShownPictures {
+  return stage.texCoord !== undefined ? pictures : noPictures;
+}
+
 function lookKeyOf(stage: Stage, { primitive }: DrawRange, appearance: AppearanceDescription, pictures: ShownPictures,
                    batching: Batching): string | undefined {
-  return batching.keyOf({ primitive, colors: colorsOf(stage) }, appearance, stage.texCoord !== undefined ? pictures : noPictures);
+  return batching.keyOf({ primitive, colors: colorsOf(stage) }, appearance, laidOn(stage, pictures));
 }
 
 /** The picking pass draws place by place, what the pointer is near. */

@@ -11,8 +11,8 @@ import type { Look, MaterialRequest } from "../look.ts";
 import { GeometryPool } from "../stageGeometries.ts";
 import type { BatchedDraw, Member } from "./batch.ts";
 import { Batches } from "./batches.ts";
-import { mostVertices } from "./mergedBatch.ts";
-import { placeFields, texelsPerPlace } from "./placeChunk.ts";
+import { mostVertices } from "./mergedMesh.ts";
+import { backFaces, frontFaces, placeFields, texelsPerPlace } from "./placeChunk.ts";
 
 const white = [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0];
 
@@ -41,11 +41,11 @@ function stageOf(first: number, stride = 4, index = [0, 1, 2]): BufferStage {
   };
 }
 
-function drawOf(stage: BufferStage, isMerged: boolean, vertexCount = 3): BatchedDraw {
-  const request = { primitive: "triangles", uniforms: {} } as unknown as MaterialRequest;
+function drawOf(stage: BufferStage, isMerged: boolean, vertexCount = 3, isBlended = false, solid = true): BatchedDraw {
+  const request = { primitive: "triangles", solid, uniforms: {} } as unknown as MaterialRequest;
   return {
-    stage, ranges: stage.draws, isMerged, vertexCount, bounds: new Sphere(new Vector3(), 1), shapeFromStored: new Matrix4(), step: [1, 1, 1],
-    texCoordFrame: [0, 0, 1, 1], request, appearance: {} as AppearanceDescription, pictures: new Map(), lookKey: "",
+    stage, ranges: stage.draws, isMerged, isBlended, vertexCount, bounds: new Sphere(new Vector3(), 1), shapeFromStored: new Matrix4(), step: [1, 1, 1],
+    texCoordFrame: [0, 0, 1, 1], request, appearance: {} as AppearanceDescription, pictures: new Map(), lookKey: isBlended ? "blended" : "",
   };
 }
 
@@ -67,19 +67,19 @@ class Scene {
     this.#camera.updateMatrixWorld();
   }
 
-  add(draw: BatchedDraw, x: number, scale = 1): Member {
+  add(draw: BatchedDraw, x: number, scale = 1, z = 0): Member {
     const group = new Group();
-    place(group, x, scale);
+    place(group, x, scale, z);
     return this.batches.add(draw, white, group);
   }
 
-  move(member: Member, x: number): void {
-    place(member.group, x);
+  move(member: Member, x: number, z = 0): void {
+    place(member.group, x, 1, z);
     this.batches.follow(member);
   }
 
-  hide(member: Member): void {
-    member.group.visible = false;
+  hide(member: Member, isHidden = true): void {
+    member.group.visible = !isHidden;
     this.batches.follow(member);
   }
 
@@ -90,14 +90,21 @@ class Scene {
     return (this.batches.root.children as DrawnObject[]).filter(({ visible }) => visible);
   }
 
+  /** From behind now, or from the front again. */
+  turnCamera(): void {
+    this.#camera.position.z *= -1;
+    this.#camera.lookAt(0, 0, 0);
+    this.#camera.updateMatrixWorld();
+  }
+
   record({ place: number }: Member): number[] {
     const numbers = this.#table?.().image.data as Float32Array;
     return Array.from(numbers.subarray(number * 4 * texelsPerPlace, (number + 1) * 4 * texelsPerPlace));
   }
 }
 
-function place(group: Group, x: number, scale = 1): void {
-  group.matrix.makeScale(scale, 1, 1).setPosition(x, 0, 0);
+function place(group: Group, x: number, scale = 1, z = 0): void {
+  group.matrix.makeScale(scale, 1, 1).setPosition(x, 0, z);
   group.matrixAutoUpdate = false;
   group.updateMatrixWorld(true);
 }
@@ -148,7 +155,9 @@ describe("a stage in many places", () => {
     scene.batches.remove(second);
     scene.frame();
     assert.deepEqual(placesIn(drawn), [third.place]);
-    const other = scene.add(drawOf(stageOf(9), false), 90);
+    const other = scene.add(drawOf(stageOf(9), false), 0);
+    scene.frame();
+    scene.move(other, 90);
     scene.batches.remove(third);
     scene.batches.remove(first);
     assert.deepEqual(scene.frame(), []);
@@ -255,4 +264,70 @@ describe("small meshes", () => {
     scene.hide(left);
     assert.deepEqual(scene.frame(), []);
   });
+});
+
+describe("what blends", () => {
+  /** Which members the next frame draws, in their order, call by call. */
+  function drawnMembers(scene: Scene, members: readonly Member[]): number[][] {
+    const calls = scene.frame().toSorted((a, b) => a.renderOrder - b.renderOrder);
+    return calls.map((call) => placesDrawnBy(call).map((number) => members.findIndex(({ place: own }) => own === number)));
+  }
+
+  /** One number for each triangle, or instance. */
+  function placesDrawnBy(call: DrawnObject): number[] {
+    const { geometry } = call;
+    if (geometry instanceof InstancedBufferGeometry) return placesIn(call);
+    const { index, places } = meshIn(call);
+    const { start, count } = geometry.drawRange;
+    return index.slice(start, start + count).filter((_, corner) => corner % 3 === 0).map((vertex) => places[vertex] ?? -1);
+  }
+
+  const depths = [3, -2, 5, 0, -4];
+
+  for (const isMerged of [false, true]) {
+    test(`is one draw, the farthest first, wherever the camera goes: ${isMerged ? "merged" : "instances"}`, () => {
+      const scene = new Scene();
+      const draw = drawOf(stageOf(0), isMerged, 3, true);
+      const members = depths.map((z) => scene.add(draw, 0, 1, z));
+      assert.deepEqual(drawnMembers(scene, members), [[4, 1, 3, 0, 2]]);
+      scene.turnCamera();
+      assert.deepEqual(drawnMembers(scene, members), [[2, 0, 3, 1, 4]]);
+      scene.turnCamera();
+      const [first, second] = members;
+      assert.ok(first && second);
+      scene.hide(first);
+      scene.move(second, 90);
+      assert.deepEqual(drawnMembers(scene, members), [[4, 3, 2]]);
+      scene.hide(first, false);
+      scene.batches.remove(second);
+      const last = scene.add(draw, 0, 1, 4);
+      assert.deepEqual(drawnMembers(scene, [...members.filter((member) => member !== second), last]), [[3, 2, 0, 4, 1]]);
+    });
+  }
+
+  test("is as many draws as batches take turns, and opaque ones are not among them", () => {
+    const scene = new Scene();
+    const [merged, instances] = [drawOf(stageOf(0), true, 3, true), drawOf(stageOf(9), false, 3, true)];
+    const members = [-4, -3, 1, 2].map((z) => scene.add(merged, 0, 1, z));
+    members.push(...[-2, -1, 4].map((z) => scene.add(instances, 0, 1, z)));
+    assert.deepEqual(drawnMembers(scene, members), [[0, 1], [4, 5], [2, 3], [6]]);
+    scene.add(drawOf(stageOf(0), true), 0);
+    const [opaque] = scene.frame().filter(({ renderOrder }) => renderOrder === 0);
+    assert.equal(opaque?.geometry.index?.count, 3);
+    const far = members.slice(2, 4);
+    far.forEach((member, n) => { scene.move(member, 0, -6 + n); });
+    assert.deepEqual(drawnMembers(scene, members).slice(1), [[2, 3, 0, 1], [4, 5, 6]]);
+  });
+
+  for (const isMerged of [false, true]) {
+    test(`and has two sides is drawn by its back faces, then by its front faces: ${isMerged ? "merged" : "instances"}`, () => {
+      const scene = new Scene();
+      const draw = drawOf(stageOf(0), isMerged, 3, true, false);
+      const [near, far] = [scene.add(draw, 0, 1, 1), scene.add(draw, 0, 1, -1)];
+      const [call, ...others] = scene.frame();
+      assert.ok(call);
+      assert.equal(others.length, 0);
+      assert.deepEqual(placesDrawnBy(call), [far, near].flatMap((member) => [member.place + backFaces, member.place + frontFaces]));
+    });
+  }
 });

@@ -2,16 +2,19 @@
 // drawn with, and keeps the table of their places true to the groups that they
 // stand in.
 
-import type { Camera } from "three";
+import type { BufferGeometry, Camera } from "three";
 import { Frustum, Group, Matrix4, Sphere, Vector3 } from "three";
 import type { BufferStage, Stage } from "../../decode/stage.ts";
 import type { Buffers } from "../buffers.ts";
+import { objectOf } from "../drawnObject.ts";
 import type { Look, MaterialRequest } from "../look.ts";
 import type { GeometryPool } from "../stageGeometries.ts";
 import type { Batch, BatchedDraw, Member } from "./batch.ts";
+import { runsOf } from "./depthOrder.ts";
 import { InstancedBatch } from "./instancedBatch.ts";
 import { MergedBatch } from "./mergedBatch.ts";
 import { layoutOf } from "./meshColumns.ts";
+import { OrderedMergedBatch } from "./orderedMergedBatch.ts";
 import { placeFields } from "./placeChunk.ts";
 import { PlaceTable } from "./placeTable.ts";
 
@@ -23,10 +26,14 @@ export class Batches {
   readonly #buffers: Buffers;
   readonly #table = new PlaceTable();
   readonly #members = new Set<Member>();
+  /** Those that are drawn in the order of their distance. */
+  readonly #blended = new Set<Member>();
   /** By what their members have in common; new ones join the last. */
   readonly #batches = new Map<string, Batch[]>();
   /** They were empty before the last frame; until the next, others may need their programs. */
   #empty = new Set<Batch>();
+  /** Those whose members blend. */
+  readonly #inOrder = new WeakSet<Batch>();
   readonly #stageNumbers = new WeakMap<Stage, number>();
   #stageCount = 0;
 
@@ -43,6 +50,7 @@ export class Batches {
     this.#table.write(member.place, placeFields.texCoordFrame, draw.texCoordFrame);
     this.#table.write(member.place, placeFields.look, look);
     this.#members.add(member);
+    if (draw.isBlended) this.#blended.add(member);
     this.#write(member, this.#rootFromScene);
     this.#join(member);
     return member;
@@ -55,6 +63,7 @@ export class Batches {
 
   remove(member: Member): void {
     this.#members.delete(member);
+    this.#blended.delete(member);
     member.batch?.remove(member);
     this.#table.release(member.place);
     if (this.#members.size === 0) this.#disposeBatches(); // of a lost context nothing may be left for the next
@@ -80,16 +89,21 @@ export class Batches {
   update(camera: Camera): void {
     if (this.#batches.size === 0) return;
     this.#table.update();
-    const clipFromRoot = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).multiply(this.root.matrixWorld);
-    const frustum = new Frustum().setFromProjectionMatrix(clipFromRoot);
+    const viewFromRoot = new Matrix4().multiplyMatrices(camera.matrixWorldInverse, this.root.matrixWorld);
+    const frustum = new Frustum().setFromProjectionMatrix(new Matrix4().multiplyMatrices(camera.projectionMatrix, viewFromRoot));
+    const runs = runsOf(this.#blended, frustum, viewFromRoot);
     const emptyBefore = this.#empty;
     this.#empty = new Set();
     for (const [key, batches] of this.#batches) {
       const kept = batches.filter((batch) => !batch.isEmpty || !emptyBefore.has(batch));
       for (const batch of batches) {
-        if (!kept.includes(batch)) batch.dispose();
-        else if (batch.isEmpty) this.#empty.add(batch);
-        batch.update(frustum);
+        if (!kept.includes(batch)) {
+          batch.dispose();
+          continue;
+        }
+        if (batch.isEmpty) this.#empty.add(batch);
+        if (this.#inOrder.has(batch)) batch.show(runs.get(batch) ?? []);
+        else batch.update(frustum);
       }
       if (kept.length === 0) this.#batches.delete(key);
       else if (kept.length < batches.length) this.#batches.set(key, kept);
@@ -99,6 +113,7 @@ export class Batches {
   dispose(): void {
     this.#disposeBatches();
     this.#members.clear();
+    this.#blended.clear();
     this.#table.dispose();
   }
 
@@ -150,14 +165,21 @@ export class Batches {
   #make({ draw, isMirrored }: Member): Batch {
     const request: MaterialRequest = { ...draw.request, uniforms: { ...draw.request.uniforms, places: this.#table.uniform } };
     const material = this.#look.makeMaterial(request, draw.appearance, draw.pictures);
-    const batch = draw.isMerged ? new MergedBatch(draw, material, this.#buffers) : new InstancedBatch(draw, material, this.#geometries);
-    const { object } = batch;
-    object.frustumCulled = false; // `update` knows better
-    object.matrixAutoUpdate = false;
-    if (isMirrored) object.matrix.makeScale(-1, 1, 1);
-    this.#look.prepare(object, request, material);
-    this.root.add(object);
-    object.updateMatrixWorld(true);
+    material.forceSinglePass = true; // three.js would draw all back faces of the batch before all front faces
+    const hang = (geometry: BufferGeometry) => {
+      const object = objectOf(request, geometry, material);
+      object.frustumCulled = false; // `update` knows better
+      object.matrixAutoUpdate = false;
+      if (isMirrored) object.matrix.makeScale(-1, 1, 1);
+      this.#look.prepare(object, request, material);
+      this.root.add(object);
+      object.updateMatrixWorld(true);
+      return object;
+    };
+    const parts = { draw, material, hang };
+    const batch = !draw.isMerged ? new InstancedBatch(parts, this.#geometries)
+      : draw.isBlended ? new OrderedMergedBatch(parts, this.#buffers) : new MergedBatch(parts, this.#buffers);
+    if (draw.isBlended) this.#inOrder.add(batch);
     return batch;
   }
 

@@ -1,34 +1,31 @@
 // A draw in many places at once: an instance for each that the camera sees.
 
-import type { BufferGeometry, Frustum, Material } from "three";
+import type { BufferGeometry, Frustum } from "three";
 import { InstancedBufferAttribute, InstancedBufferGeometry, Sphere } from "three";
 import type { DrawnObject } from "../drawnObject.ts";
-import { objectOf } from "../drawnObject.ts";
 import type { GeometryPool } from "../stageGeometries.ts";
-import type { Batch, BatchedDraw, Member } from "./batch.ts";
+import type { Batch, BatchParts, Member, Run } from "./batch.ts";
+import { passesOf } from "./batch.ts";
 
 const leastInstances = 16;
 
 export class InstancedBatch implements Batch {
-  readonly object: DrawnObject;
-  readonly #draw: BatchedDraw;
+  readonly #parts: BatchParts;
   readonly #geometries: GeometryPool;
   readonly #shape: BufferGeometry;
-  readonly #material: Material;
+  readonly #passes: readonly number[];
   readonly #members = new Set<Member>();
-  #geometry: InstancedBufferGeometry;
-  #places: InstancedBufferAttribute;
+  /** Those that the last frame has drawn come first. */
+  readonly #calls: InstancedCall[] = [];
 
-  constructor(draw: BatchedDraw, material: Material, geometries: GeometryPool) {
-    const [range] = draw.ranges;
-    const shape = range && geometries.acquire(draw.stage)[draw.stage.draws.indexOf(range)];
-    if (range === undefined || shape === undefined) throw new RangeError("the draw is not one of its stage");
-    this.#draw = draw;
+  constructor(parts: BatchParts, geometries: GeometryPool) {
+    const { stage, ranges: [range] } = parts.draw;
+    const shape = range && geometries.acquire(stage)[stage.draws.indexOf(range)];
+    if (shape === undefined) throw new RangeError("the draw is not one of its stage");
+    this.#parts = parts;
     this.#geometries = geometries;
     this.#shape = shape;
-    this.#material = material;
-    [this.#geometry, this.#places] = instancedOf(shape, leastInstances);
-    this.object = objectOf(range, this.#geometry, material);
+    this.#passes = passesOf(parts.draw);
   }
 
   get isEmpty(): boolean {
@@ -41,10 +38,6 @@ export class InstancedBatch implements Batch {
 
   add(member: Member): void {
     this.#members.add(member);
-    if (this.#members.size <= this.#places.count) return;
-    this.#freeGeometry();
-    [this.#geometry, this.#places] = instancedOf(this.#shape, 2 * this.#places.count);
-    this.object.geometry = this.#geometry;
   }
 
   remove(member: Member): void {
@@ -56,17 +49,59 @@ export class InstancedBatch implements Batch {
   }
 
   update(frustum: Frustum): void {
-    const numbers = this.#places.array;
-    let count = 0;
-    let isOther = false;
-    for (const { place, isShown, sphere } of this.#members) {
-      if (!isShown || !frustum.intersectsSphere(sphere)) continue;
-      isOther ||= numbers[count] !== place;
-      numbers[count] = place;
-      count += 1;
+    const members = Array.from(this.#members).filter(({ isShown, sphere }) => isShown && frustum.intersectsSphere(sphere));
+    this.show(members.length > 0 ? [{ members, order: 0 }] : []);
+  }
+
+  show(runs: readonly Run[]): void {
+    runs.forEach((run, n) => { this.#callAt(n).show(run, this.#passes); });
+    for (const call of this.#calls.slice(runs.length)) call.object.visible = false;
+  }
+
+  dispose(): void {
+    for (const call of this.#calls) call.dispose();
+    this.#parts.material.dispose();
+    this.#geometries.release(this.#parts.draw.stage);
+  }
+
+  #callAt(n: number): InstancedCall {
+    return this.#calls[n] ??= new InstancedCall(this.#shape, this.#parts);
+  }
+}
+
+/** One of its calls, with the numbers of the places that it draws. */
+class InstancedCall {
+  readonly object: DrawnObject;
+  readonly #shape: BufferGeometry;
+  #geometry: InstancedBufferGeometry;
+  #places: InstancedBufferAttribute;
+
+  constructor(shape: BufferGeometry, { hang }: BatchParts) {
+    this.#shape = shape;
+    [this.#geometry, this.#places] = instancedOf(shape, leastInstances);
+    this.object = hang(this.#geometry);
+  }
+
+  show({ members, order }: Run, passes: readonly number[]): void {
+    const count = members.length * passes.length;
+    if (count > this.#places.count) {
+      this.#freeGeometry();
+      [this.#geometry, this.#places] = instancedOf(this.#shape, Math.max(count, 2 * this.#places.count));
+      this.object.geometry = this.#geometry;
     }
+    this.object.visible = true;
+    this.object.renderOrder = order;
     this.#geometry.instanceCount = count;
-    this.object.visible = count > 0;
+    const numbers = this.#places.array;
+    let isOther = false;
+    let at = 0;
+    for (const { place } of members) {
+      for (const pass of passes) {
+        isOther ||= numbers[at] !== place + pass;
+        numbers[at] = place + pass;
+        at += 1;
+      }
+    }
     if (!isOther) return;
     this.#places.clearUpdateRanges();
     this.#places.addUpdateRange(0, count);
@@ -76,8 +111,6 @@ export class InstancedBatch implements Batch {
   dispose(): void {
     this.object.removeFromParent();
     this.#freeGeometry();
-    this.#material.dispose();
-    this.#geometries.release(this.#draw.stage);
   }
 
   /** The stage's buffers stay, that of the places goes. */

@@ -5,6 +5,10 @@
 /** Defined in materials whose draws are of many places. */
 export const placesDefine = "PLACES";
 
+/** Added to a place's number: only back faces are drawn, only front faces. */
+export const backFaces = 2 ** 31;
+export const frontFaces = 2 ** 30;
+
 /** Where in a record each field begins, in numbers. */
 export const placeFields = { matrix: 0, step: 12, isShown: 15, texCoordFrame: 16, look: 20 } as const;
 export const texelsPerPlace = 8;
@@ -19,9 +23,10 @@ export const placeVertexChunk = /* glsl */ `
   attribute uint place;
   uniform highp sampler2D places;
   flat varying vec4 placeDiffuse, placeSpecular, placeEmissive;
+  flat varying uint placeFaces;
 
   vec4 placeTexel(int n) {
-    int texel = int(place) * ${texelsPerPlace} + n;
+    int texel = int(place & ${frontFaces - 1}u) * ${texelsPerPlace} + n;
     int width = textureSize(places, 0).x;
     return texelFetch(places, ivec2(texel % width, texel / width), 0);
   }
@@ -49,6 +54,7 @@ export const placeVertexChunk = /* glsl */ `
     placeDiffuse = placeTexel(5);
     placeSpecular = placeTexel(6);
     placeEmissive = placeTexel(7);
+    placeFaces = place & ${backFaces + frontFaces}u;
     if (placeTexel(3).w == 0.0) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
   }
 #else
@@ -73,6 +79,14 @@ export const placeVertexChunk = /* glsl */ `
 export const placeFragmentChunk = /* glsl */ `
 #ifdef ${placesDefine}
   flat varying vec4 placeDiffuse, placeSpecular, placeEmissive;
+  flat varying uint placeFaces;
+#endif
+`;
+
+/** In place of its beginning. */
+export const cutFacesChunk = /* glsl */ `void main() {
+#ifdef ${placesDefine}
+  if (placeFaces == (gl_FrontFacing ? ${backFaces}u : ${frontFaces}u)) discard;
 #endif
 `;
 

@@ -16,12 +16,12 @@ function planOf(places: readonly ShapeDescription[]): DrawingPlan {
   return plan;
 }
 
-/** How each of the scene's shapes is drawn. */
-function drawn(shapes: readonly string[]): string[] {
+/** How each of the scene's shapes is drawn, as what it `is`. */
+function drawn(shapes: readonly string[], is: "opaque" | "blended" = "opaque"): string[] {
   const scene = readScene(elementsOf(`<X3D>${shapes.map((inner) => `<Shape>${inner}</Shape>`).join("")}</X3D>`));
   const places = shapesOf(scene.root);
   const plan = planOf(places);
-  return places.map(({ geometry: own }) => (own ? plan.drawingOf(own) : "nothing"));
+  return places.map(({ geometry: own }) => (own ? plan.drawingOf(own)[is] : "nothing"));
 }
 
 const crowd = Array.from({ length: leastPlaces }, (_, n) => geometry(`small${n}`, 24));
@@ -34,6 +34,12 @@ test("a scene of few shapes is drawn one by one, whatever they are", () => {
 test("in a scene of many, small meshes become one, and large ones stand alone", () => {
   const shapes = [...crowd, geometry("large", mostMergedVertices + 1), geometry("untold", 0)];
   assert.deepEqual(drawn(shapes), [...crowd.map(() => "merged"), "alone", "alone"]);
+});
+
+test("what blends is never alone in a scene of many: it has its turn among the others", () => {
+  const shapes = [...crowd, geometry("large", mostMergedVertices + 1), geometry("image", 24, "classic")];
+  assert.deepEqual(drawn(shapes, "blended"), [...crowd.map(() => "merged"), "instanced", "instanced"]);
+  assert.deepEqual(new Set(drawn(crowd.slice(1), "blended")), new Set(["alone"]));
 });
 
 test("a mesh is merged as long as all its places together are small, and instanced from then on", () => {
@@ -53,7 +59,7 @@ test("shapes that values colour have maps of their own, and are drawn alone", ()
   const places = shapesOf(scene.root);
   const last = places.at(-1)?.geometry;
   assert.ok(last?.value, "the test's shape has values");
-  assert.equal(planOf(places).drawingOf(last), "alone");
+  assert.deepEqual(planOf(places).drawingOf(last), { opaque: "alone", blended: "alone" });
 });
 
 test("shapes that come and go are drawn as if those that are left had always been all", () => {
@@ -64,9 +70,9 @@ test("shapes that come and go are drawn as if those that are left had always bee
   const twin = geometries.at(-1);
   assert.ok(twin);
   plan.add(twin);
-  assert.equal(plan.drawingOf(twin), "instanced");
+  assert.equal(plan.drawingOf(twin).opaque, "instanced");
   plan.remove(twin);
-  assert.equal(plan.drawingOf(twin), "merged");
+  assert.equal(plan.drawingOf(twin).opaque, "merged");
   for (const gone of geometries.slice(0, 3)) plan.remove(gone);
-  assert.equal(plan.drawingOf(twin), "alone");
+  assert.equal(plan.drawingOf(twin).opaque, "alone");
 });

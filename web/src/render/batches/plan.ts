@@ -8,6 +8,18 @@ import type { GeometryDescription } from "../../document/description.ts";
 /** By itself; in all its places at once; or as a part of one mesh with others. */
 export type DrawnAs = "alone" | "instanced" | "merged";
 
+/** How a geometry is drawn: stages of it that blend, and others. */
+export interface Drawing {
+  readonly opaque: DrawnAs;
+  readonly blended: DrawnAs;
+}
+
+export const alone: Drawing = { opaque: "alone", blended: "alone" };
+const instanced: Drawing = { opaque: "instanced", blended: "instanced" };
+const merged: Drawing = { opaque: "merged", blended: "merged" };
+/** What blends has its turn among others that do, which batches know of. */
+const byItself: Drawing = { opaque: "alone", blended: "instanced" };
+
 /** Scenes of fewer places are drawn one by one, each under its own matrix in double precision. */
 export const leastPlaces = 16;
 /** In all its places together, what is merged has no more vertices than this. */
@@ -19,7 +31,7 @@ export const mostMergedVertices = 16384;
  */
 export class DrawingPlan {
   readonly #counts = new Map<GeometryDescription, number>();
-  readonly #told = new Map<GeometryDescription, DrawnAs>();
+  readonly #told = new Map<GeometryDescription, Drawing>();
   #touched = new Set<GeometryDescription>();
   #placeCount = 0;
   #wasCrowd = false;
@@ -38,12 +50,12 @@ export class DrawingPlan {
     this.#touched.add(geometry);
   }
 
-  drawingOf(geometry: GeometryDescription): DrawnAs {
-    if (!this.#isCrowd) return "alone";
+  drawingOf(geometry: GeometryDescription): Drawing {
+    if (!this.#isCrowd) return alone;
     const count = this.#countOf(geometry);
-    if (isColoredByValues(geometry)) return "alone"; // each shape has a map of colours
-    if (geometry.container !== "sig" && verticesOf(geometry) * count <= mostMergedVertices) return "merged";
-    return count > 1 ? "instanced" : "alone";
+    if (isColoredByValues(geometry)) return alone; // each shape has a map of colours
+    if (geometry.container !== "sig" && verticesOf(geometry) * count <= mostMergedVertices) return merged;
+    return count > 1 ? instanced : byItself;
   }
 
   /** Geometries that are drawn in another way than when this was last called. */
@@ -51,10 +63,10 @@ export class DrawingPlan {
     const asked = this.#isCrowd === this.#wasCrowd ? this.#touched : new Set([...this.#touched, ...this.#counts.keys()]);
     const changed = new Set<GeometryDescription>();
     for (const geometry of asked) {
-      const drawnAs = this.#counts.has(geometry) ? this.drawingOf(geometry) : undefined;
-      if (drawnAs === this.#told.get(geometry)) continue;
-      if (drawnAs === undefined) this.#told.delete(geometry);
-      else this.#told.set(geometry, drawnAs);
+      const drawing = this.#counts.has(geometry) ? this.drawingOf(geometry) : undefined;
+      if (drawing === this.#told.get(geometry)) continue;
+      if (drawing === undefined) this.#told.delete(geometry);
+      else this.#told.set(geometry, drawing);
       changed.add(geometry);
     }
     this.#wasCrowd = this.#isCrowd;

@@ -1,0 +1,32 @@
+// The order in which what blends is drawn: the farthest first, whatever batch it is
+// in. Members of one batch that follow one another are one draw.
+
+import type { Frustum, Matrix4 } from "three";
+import type { Batch, Member, Run } from "./batch.ts";
+
+/** Of what a camera sees, by their batches; `viewFromRoot` leads from where their spheres are to the camera. */
+export function runsOf(members: Iterable<Member>, frustum: Frustum, viewFromRoot: Matrix4): Map<Batch, Run[]> {
+  const [, , xz, , , , yz, , , , zz] = viewFromRoot.elements;
+  const seen: { readonly member: Member; readonly batch: Batch; readonly height: number }[] = [];
+  for (const member of members) {
+    const { batch, isShown, sphere } = member;
+    if (batch === undefined || !isShown || !frustum.intersectsSphere(sphere)) continue;
+    const { x, y, z } = sphere.center;
+    seen.push({ member, batch, height: xz * x + yz * y + zz * z }); // the camera looks down its own -z
+  }
+  seen.sort((a, b) => a.height - b.height);
+  const runs = new Map<Batch, Run[]>();
+  let last: { readonly batch: Batch; readonly members: Member[] } | undefined;
+  let order = 0;
+  for (const { member, batch } of seen) {
+    if (last?.batch !== batch) {
+      last = { batch, members: [] };
+      order += 1;
+      const own = runs.get(batch) ?? [];
+      own.push({ members: last.members, order });
+      runs.set(batch, own);
+    }
+    last.members.push(member);
+  }
+  return runs;
+}

@@ -1,0 +1,103 @@
+// Many small meshes as one: their vertices one after the other, each with the
+// number of its place, and the indices of each mesh together.
+
+import type { BufferGeometry } from "three";
+import { BufferAttribute } from "three";
+import type { BufferStage } from "../../decode/stage.ts";
+import type { Buffers } from "../buffers.ts";
+import type { BatchedDraw, Member } from "./batch.ts";
+import { passesOf } from "./batch.ts";
+import { GrowingArray } from "./growingArray.ts";
+import type { Column } from "./meshColumns.ts";
+import { appendVertices, attributeOf, columnsOf, indicesOf } from "./meshColumns.ts";
+
+/** The largest 16-bit number means another primitive to WebGL. */
+export const mostVertices = 65535;
+
+interface Entry {
+  readonly firstIndex: number;
+  readonly indexCount: number;
+}
+
+export class MergedMesh {
+  readonly #buffers: Buffers;
+  readonly #columns: readonly Column[];
+  readonly #places = new GrowingArray(Uint32Array);
+  readonly #index = new GrowingArray(Uint16Array);
+  readonly #entries = new Map<Member, Entry>();
+  /** Of members that are gone. */
+  #lostIndices = 0;
+
+  /** For draws that are like this one in all that `layoutOf` says. */
+  constructor({ stage }: BatchedDraw, buffers: Buffers) {
+    this.#buffers = buffers;
+    this.#columns = columnsOf(stage as BufferStage);
+  }
+
+  get members(): Iterable<Member> {
+    return this.#entries.keys();
+  }
+
+  get isEmpty(): boolean {
+    return this.#entries.size === 0;
+  }
+
+  /** The share of its indices that belong to nobody, 0 … 1. */
+  get lostShare(): number {
+    return this.#lostIndices === 0 ? 0 : this.#lostIndices / this.#index.length;
+  }
+
+  /** Of all members; those that are gone have left points, which show nothing. */
+  get index(): Uint16Array<ArrayBuffer> {
+    return this.#index.used;
+  }
+
+  indicesOf(member: Member): Uint16Array {
+    const { firstIndex, indexCount } = this.#entries.get(member) ?? { firstIndex: 0, indexCount: 0 };
+    return this.#index.used.subarray(firstIndex, firstIndex + indexCount);
+  }
+
+  hasRoomFor({ draw }: Member): boolean {
+    return this.#places.length + draw.vertexCount * passesOf(draw).length <= mostVertices;
+  }
+
+  add(member: Member): void {
+    const { ranges, vertexCount } = member.draw;
+    const stage = member.draw.stage as BufferStage;
+    const indices = indicesOf(stage, ranges, this.#buffers);
+    const firstIndex = this.#index.length;
+    for (const pass of passesOf(member.draw)) {
+      const firstVertex = this.#places.length;
+      for (const column of this.#columns) appendVertices(column, stage, vertexCount, this.#buffers);
+      this.#places.extend(vertexCount).fill(member.place + pass);
+      const own = this.#index.extend(indices.length);
+      // Whatever a file says, it does not name others' vertices.
+      for (let i = 0; i < indices.length; ++i) own[i] = firstVertex + Math.min(indices[i] ?? 0, vertexCount - 1);
+    }
+    this.#entries.set(member, { firstIndex, indexCount: this.#index.length - firstIndex });
+  }
+
+  remove(member: Member): void {
+    const own = this.indicesOf(member);
+    own.fill(0);
+    this.#lostIndices += own.length;
+    this.#entries.delete(member);
+  }
+
+  /** Without what has been removed. */
+  writeAnew(): void {
+    const members = Array.from(this.#entries.keys());
+    this.#entries.clear();
+    for (const { data } of this.#columns) data.clear();
+    this.#places.clear();
+    this.#index.clear();
+    this.#lostIndices = 0;
+    for (const member of members) this.add(member);
+  }
+
+  /** Valid until it grows: they share its memory. */
+  setVerticesOf(geometry: BufferGeometry): void {
+    for (const column of this.#columns) geometry.setAttribute(column.name, attributeOf(column));
+    geometry.setAttribute("place", new BufferAttribute(this.#places.used, 1));
+  }
+}
