@@ -6,7 +6,7 @@
 // named; on a software renderer, whose frames run on the same processors, the
 // table tells what is allocated and decides nothing else.
 //
-//   scripts/bench paths [MODEL...]
+//   scripts/bench paths [bunny|horse|dragon|shapes...]
 
 import { execFileSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -113,11 +113,8 @@ const work = mkdtempSync(join(tmpdir(), "imgeo-paths-"));
 const browser = await launchChromium();
 try {
   const renderer = await rendererOf(browser);
-  const models = prepareModels(process.argv.length > 2 ? process.argv.slice(2) : ["bunny", "dragon"], work);
-  const inputs: Input[] = [
-    ...models,
-    ...(process.argv.length > 2 ? [] : [shapes(500, join(work, "shapes"))]),
-  ];
+  const scenes = process.argv.length > 2 ? process.argv.slice(2) : ["bunny", "dragon", "shapes"];
+  const inputs = scenes.flatMap((name): Input[] => name === "shapes" ? [shapes(500, join(work, name))] : prepareModels([name], work));
   console.log("| scene | path | load | on processors | longest task | frame | vertex data on the GPU | requests |");
   console.log("|---|---|--:|--:|--:|--:|--:|--:|");
   for (const { name, sites } of inputs) {
