@@ -1,15 +1,19 @@
-// Bundles the runtime and what it needs of three.js into one ES module, web/dist/imgeo.js, and what
-// its workers run into another, web/dist/imgeo-worker.js. The `imgeo` tool carries
-// both inside itself and copies them into every site.
+// Bundles the runtime into the ES modules of web/dist: what a page loads first,
+// imgeo.js, which draws what it can and brings the rest, with three.js in it,
+// imgeo-scene.js; what both need, imgeo-shared.js; and what workers run,
+// imgeo-worker.js. The `imgeo` tool carries them inside itself and copies them into
+// every site.
 import { build, type BuildOptions } from "esbuild";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
 import { leanThree } from "./leanThree.ts";
 
+const sources = join(import.meta.dirname, "src");
+
 function bundleOf(entry: string): BuildOptions & { write?: true } {
   return {
-    entryPoints: [join(import.meta.dirname, "src", entry)],
+    entryPoints: [join(sources, entry)],
     bundle: true,
     format: "esm",
     target: "es2022",
@@ -20,14 +24,25 @@ function bundleOf(entry: string): BuildOptions & { write?: true } {
   };
 }
 
+/** All of it in one module. */
 export const runtimeBundle = { ...bundleOf("dom/index.ts"), plugins: [leanThree] };
 export const workerBundle = bundleOf("workers/worker.ts");
 
+/** As sites have it, in as many modules as it takes to come in parts. */
+export const siteBundle: BuildOptions & { write?: true } = {
+  ...bundleOf("dom/page.ts"),
+  entryPoints: { "imgeo": join(sources, "dom/page.ts"), "imgeo-scene": join(sources, "dom/register.ts") },
+  splitting: true,
+  chunkNames: "imgeo-shared", // there is one: two would be two files of this name, which is an error
+  plugins: [leanThree],
+};
+
 if (import.meta.main) {
-  for (const [name, options] of Object.entries({ "imgeo.js": runtimeBundle, "imgeo-worker.js": workerBundle })) {
-    const outfile = join(import.meta.dirname, "dist", name);
-    await build({ ...options, outfile });
-    const bytes = await readFile(outfile);
+  const outdir = join(import.meta.dirname, "dist");
+  await build({ ...siteBundle, outdir });
+  await build({ ...workerBundle, outfile: join(outdir, "imgeo-worker.js") });
+  for (const name of ["imgeo.js", "imgeo-shared.js", "imgeo-scene.js", "imgeo-worker.js"]) {
+    const bytes = await readFile(join(outdir, name));
     console.log(`web/dist/${name} ${bytes.byteLength} bytes, ${gzipSync(bytes, { level: 9 }).byteLength} gzipped`);
   }
 }

@@ -3,6 +3,10 @@
 // cannot know, since three.js finds its shaders by name and makes its objects
 // whether or not they get work; so they are named here. The text of the other
 // shaders loses comments and indents, as in three.js' own build.
+//
+// Our modules import from three.js' list of all that it has. When a bundler splits a
+// page into parts, whoever imports from that list reaches all of it; so here each
+// name is imported from the file that it is of.
 
 import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -42,6 +46,29 @@ const standIns: Readonly<Record<string, string>> = {
   ...Object.fromEntries(unusedChunks.map((name) => [`${shaders}/ShaderChunk/${name}.glsl.js`, 'export default "";'])),
 };
 
+/** By the names that three.js exports, the files that they are of. */
+function filesByName(): ReadonlyMap<string, string> {
+  const files = new Map<string, string>();
+  for (const list of ["Three.Core.js", "Three.js"]) {
+    const text = readFileSync(join(three, "src", list), "utf8");
+    for (const [, names = "", file = ""] of text.matchAll(/^export \{(.*)\} from '(.*)';$/gm)) {
+      for (const name of names.split(",")) files.set(name.trim(), join(three, "src", file));
+    }
+    for (const [, file = ""] of text.matchAll(/^export \* from '(.*constants\.js)';$/gm)) {
+      const path = join(three, "src", file);
+      for (const [, name = ""] of readFileSync(path, "utf8").matchAll(/^export const (\w+)/gm)) files.set(name, path);
+    }
+  }
+  return files;
+}
+
+/** Of one of our modules. */
+function withNamesFromTheirFiles(module: string, files: ReadonlyMap<string, string>): string {
+  return module.replaceAll(/^import \{([^}]*)\} from "three";$/gm, (statement, names: string) =>
+    names.split(",").map((name) => name.trim()).filter((name) => name !== "")
+      .map((name) => `import { ${name} } from ${JSON.stringify(files.get(name) ?? "three")};`).join(" ") || statement);
+}
+
 export const leanThree: Plugin = {
   name: "lean three.js",
   setup(build) {
@@ -51,6 +78,9 @@ export const leanThree: Plugin = {
     const [notice] = /\/\*\*.*?\*\//s.exec(readFileSync(join(three, "build/three.module.js"), "utf8")) ?? [""];
     build.initialOptions.banner = { js: notice };
     build.onResolve({ filter: /^three$/ }, () => ({ path: join(three, "src/Three.js"), sideEffects: false }));
+    const files = filesByName();
+    build.onLoad({ filter: /web\/src\/.*\.ts$/ }, ({ path }) =>
+      ({ contents: withNamesFromTheirFiles(readFileSync(path, "utf8"), files), loader: "ts" }));
     build.onLoad({ filter: /three\/src\/.*\.js$/ }, ({ path }) => {
       const standIn = standIns[path.slice(join(three, "src/").length)];
       if (standIn !== undefined) return { contents: standIn };

@@ -37,7 +37,7 @@ export function watch(wanted: Wanted): void {
   const watched: Watched = { complete: 0, frames: [], columns: 0 };
   window.watched = watched;
   const sparse = 2;
-  let isDue = false;
+  const due = new Set<Context>();
   let hasModel = false;
 
   const takePicture = (gl: Context): void => {
@@ -54,15 +54,17 @@ export function watch(wanted: Wanted): void {
     watched.columns = columns;
     watched.frames.push({ at, pixels: new Uint8Array(some.buffer) });
   };
+  /** A page may draw into a canvas that it shows later: nobody has seen that yet. */
+  const isSeen = ({ canvas }: Context): boolean => canvas instanceof HTMLCanvasElement && getComputedStyle(canvas).opacity !== "0";
   const note = (gl: Context, count: number): void => {
     if (gl.getParameter(gl.FRAMEBUFFER_BINDING) !== null) return; // what is drawn for the page's own use
     hasModel ||= count >= wanted.leastVertices;
-    if (isDue) return;
-    isDue = true;
+    if (due.has(gl)) return;
+    due.add(gl);
     // When the frame's draws have all been given, and before the browser takes them.
     queueMicrotask(() => {
-      isDue = false;
-      if (wanted.takesPictures) takePicture(gl);
+      due.delete(gl);
+      if (wanted.takesPictures && isSeen(gl)) takePicture(gl);
       if (hasModel && !wanted.saysWhenComplete && watched.complete === 0) watched.complete = performance.now();
     });
   };

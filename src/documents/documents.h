@@ -17,9 +17,10 @@ struct SceneDocument {
 };
 
 struct PageOptions {
-  std::string runtimeUrl;    ///< the ES module, relative
-  std::string stylesheetUrl; ///< relative
-  std::string workerUrl{};   ///< its workers' module, which the page decodes a base with; relative
+  std::string runtimeUrl;               ///< the ES module, relative
+  std::string stylesheetUrl;            ///< relative
+  std::vector<std::string> firstUrls{}; ///< modules that it needs at once; relative
+  std::vector<std::string> laterUrls{}; ///< those that it needs when it has shown what bases it can; relative
 };
 
 /// `scene.x3d`: the scene as XML, readable by a person.
@@ -29,8 +30,8 @@ std::string writeX3d(const SceneDocument& document);
 /// the others; of documents that this one inlines the urls are known.
 std::string writeInlinedX3d(const SceneDocument& document, std::size_t inlineNode);
 
-/// `index.html`: the same <X3D> element in an HTML page, with the runtime as one
-/// module and preload hints for the first geometry files. Needs nothing beyond
+/// `index.html`: the same <X3D> element in an HTML page, with the runtime as
+/// modules and preload hints for the first geometry files. Needs nothing beyond
 /// `default-src 'self'`.
 std::string writeHtml(const SceneDocument& document, const PageOptions& options);
 

@@ -482,13 +482,15 @@ TEST(Html, HintsAtABaseAndWhatDecodesItInThePlaceOfItsPatches) {
   document.geometries[0].profile = Profile::compact;
   document.geometries[0].base = Reference{"base.png", 7, 0};
   document.geometries[0].patches[0].data = Reference{"patch.png", 0, 0};
-  const std::string html = writeHtml(document, {"r.js", "s.css", "w.js"});
-  const std::size_t worker = html.find("<link rel=\"modulepreload\" href=\"w.js\">");
-  EXPECT_LT(worker, html.find("fetchpriority=\"high\" href=\"base.png\">"));
+  const PageOptions options{"r.js", "s.css", {"first.js"}, {"later.js"}};
+  const std::string html = writeHtml(document, options);
+  const std::size_t first = html.find("<link rel=\"modulepreload\" href=\"first.js\">");
+  EXPECT_LT(first, html.find("fetchpriority=\"high\" href=\"base.png\">"));
+  EXPECT_EQ(html.find("later.js"), html.npos);
   EXPECT_EQ(html.find("href=\"patch.png\""), html.npos);
   EXPECT_NE(html.find("base=\"base.png#7\""), html.npos);
   document.geometries[0].base.reset();
-  EXPECT_EQ(writeHtml(document, {"r.js", "s.css", "w.js"}).find("w.js"), html.npos);
+  EXPECT_NE(writeHtml(document, options).find("<link rel=\"modulepreload\" href=\"later.js\">"), html.npos);
 }
 
 TEST(Html, HintsAtNoMoreThanSixteenFiles) {

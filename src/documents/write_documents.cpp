@@ -104,8 +104,12 @@ std::string writeInlinedX3d(const SceneDocument& document, std::size_t inlineNod
 std::string writeHtml(const SceneDocument& document, const PageOptions& options) {
   std::string head = link("stylesheet", options.stylesheetUrl) + link("modulepreload", options.runtimeUrl);
   const auto hasBase = [](const GeometryDescription& geometry) { return geometry.base.has_value(); };
-  if (std::ranges::any_of(document.geometries, hasBase) && !options.workerUrl.empty())
-    head += link("modulepreload", options.workerUrl);
+  for (const std::string& url : options.firstUrls)
+    head += link("modulepreload", url);
+  // A base is shown without them, and would have to share the line.
+  if (std::ranges::none_of(document.geometries, hasBase))
+    for (const std::string& url : options.laterUrls)
+      head += link("modulepreload", url);
   for (const std::string& url : firstRequests(document))
     head += link("preload", url, " as=\"fetch\" crossorigin=\"anonymous\" fetchpriority=\"high\"");
   head += "    <script type=\"module\" src=" + quoteAttribute(options.runtimeUrl) + "></script>\n";

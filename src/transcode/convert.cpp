@@ -114,11 +114,13 @@ void writePage(const SceneDocument& document, const fs::path& site) {
   const Runtime runtime = runtimeOfSite();
   const auto urlOf = [](const RuntimeFile& file) { return fmt::format("{}/{}", runtimeFolder, file.name); };
   fs::create_directory(site / runtimeFolder);
-  for (const RuntimeFile& file : {runtime.module, runtime.worker})
+  for (const RuntimeFile& file : {runtime.page, runtime.shared, runtime.scene, runtime.worker})
     writeFile(site / runtimeFolder / file.name, asBytes(file.text));
   writeFile(site / sceneName, asBytes(writeX3d(document)));
-  writeFile(site / pageName,
-            asBytes(writeHtml(document, {urlOf(runtime.module), stylesheetName, urlOf(runtime.worker)})));
+  writeFile(
+      site / pageName,
+      asBytes(writeHtml(
+          document, {urlOf(runtime.page), stylesheetName, {urlOf(runtime.shared)}, {urlOf(runtime.scene)}})));
 }
 
 /// Scans have slivers, a few of which any lattice flattens; more than one element in

@@ -87,8 +87,7 @@ SiteInfo inspect(const fs::path& site) {
     info.documentBytes += add(inlined.url, "document");
     geometryBytes += geometryNodeBytes(inlined.text);
   }
-  for (const std::string& url :
-       document.name == sceneName ? std::vector<std::string>{} : pageFilesOf(document.text)) {
+  for (const std::string& url : pageFilesOf(document)) {
     const bool isModule = url.ends_with(".js");
     const std::uint64_t bytes = add(url, isModule ? "runtime" : "style");
     if (isModule)

@@ -5,37 +5,52 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <initializer_list>
 
 extern "C" {
 // Placed by runtime_module.S around the bytes of the bundles.
-extern const char imgeoRuntimeBegin[];
-extern const char imgeoRuntimeEnd[];
-extern const char imgeoWorkerBegin[];
-extern const char imgeoWorkerEnd[];
+extern const char imgeoPageBegin[], imgeoPageEnd[];
+extern const char imgeoSharedBegin[], imgeoSharedEnd[];
+extern const char imgeoSceneBegin[], imgeoSceneEnd[];
+extern const char imgeoWorkerBegin[], imgeoWorkerEnd[];
 }
 
 namespace imgeo {
 
-std::string_view bundledRuntime() {
-  return {imgeoRuntimeBegin, imgeoRuntimeEnd};
+namespace {
+
+/// A bundle as a file of a site, which names those that it uses as they are named there.
+RuntimeFile siteFile(const std::string& stem, std::string_view bundle,
+                     std::initializer_list<std::pair<const char*, const RuntimeFile*>> used) {
+  std::string text(bundle);
+  for (const auto& [bundledName, file] : used) {
+    const std::size_t place = text.find(bundledName);
+    assert(place != text.npos && text.find(bundledName, place + 1) == text.npos);
+    text.replace(place, std::string_view(bundledName).size(), file->name);
+  }
+  std::string name = fmt::format("{}-{}.js", stem, contentName(asBytes(text)));
+  return {std::move(name), std::move(text)};
 }
 
-std::string_view bundledWorker() {
-  return {imgeoWorkerBegin, imgeoWorkerEnd};
+} // namespace
+
+RuntimeModules<std::string_view> bundledRuntime() {
+  return {{imgeoPageBegin, imgeoPageEnd},
+          {imgeoSharedBegin, imgeoSharedEnd},
+          {imgeoSceneBegin, imgeoSceneEnd},
+          {imgeoWorkerBegin, imgeoWorkerEnd}};
 }
 
 Runtime runtimeOfSite() {
-  constexpr std::string_view bundledName = "imgeo-worker.js"; // as in web/src/workers/pageWorkers.ts
-  const auto named = [](const char* stem, std::string text) {
-    std::string name = fmt::format("{}-{}.js", stem, contentName(asBytes(text)));
-    return RuntimeFile{std::move(name), std::move(text)};
-  };
-  RuntimeFile worker = named("imgeo-worker", std::string(bundledWorker()));
-  std::string module(bundledRuntime());
-  const std::size_t place = module.find(bundledName);
-  assert(place != module.npos && module.find(bundledName, place + 1) == module.npos);
-  module.replace(place, bundledName.size(), worker.name);
-  return {named("imgeo", std::move(module)), std::move(worker)};
+  // The names are those of web/bundle.ts and of web/src/workers/pageWorkers.ts.
+  const auto [page, shared, scene, worker] = bundledRuntime();
+  Runtime site;
+  site.worker = siteFile("imgeo-worker", worker, {});
+  site.shared = siteFile("imgeo-shared", shared, {});
+  site.scene =
+      siteFile("imgeo-scene", scene, {{"imgeo-shared.js", &site.shared}, {"imgeo-worker.js", &site.worker}});
+  site.page = siteFile("imgeo", page, {{"imgeo-shared.js", &site.shared}, {"imgeo-scene.js", &site.scene}});
+  return site;
 }
 
 } // namespace imgeo

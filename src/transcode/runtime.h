@@ -6,10 +6,16 @@
 
 namespace imgeo {
 
-/// The bundled ES modules as they were when the tool was built: the page's
-/// (web/dist/imgeo.js), and the one that its workers run (imgeo-worker.js).
-std::string_view bundledRuntime();
-std::string_view bundledWorker();
+/// ES modules.
+template <typename Module> struct RuntimeModules {
+  Module page;   ///< what a page loads first: draws what it can, and brings the rest
+  Module shared; ///< what `page` and `scene` both need
+  Module scene;  ///< the rest
+  Module worker; ///< what workers run
+};
+
+/// The modules as they were bundled into web/dist when the tool was built.
+RuntimeModules<std::string_view> bundledRuntime();
 
 /// A file named by what it holds.
 struct RuntimeFile {
@@ -17,11 +23,8 @@ struct RuntimeFile {
   std::string text;
 };
 
-/// The two as a site has them, side by side: the runtime's text names the worker's file.
-struct Runtime {
-  RuntimeFile module;
-  RuntimeFile worker;
-};
+/// The modules as a site has them, side by side: their texts name each other's files.
+using Runtime = RuntimeModules<RuntimeFile>;
 Runtime runtimeOfSite();
 
 } // namespace imgeo

@@ -1,17 +1,10 @@
-// The bytes of the bundles named by IMGEO_RUNTIME_MODULE and IMGEO_WORKER_MODULE,
-// see runtime.h. The assembler takes files in as they are; no compiler has to
-// parse them as arrays.
+// The bytes of the bundles of web/dist, see runtime.h. The assembler takes files in
+// as they are; no compiler has to parse them as arrays.
+#define BUNDLE(begin, end, file) .global begin; .global end; begin: .incbin file; end: .byte 0
+
     .section .rodata
-    .global imgeoRuntimeBegin
-    .global imgeoRuntimeEnd
-    .global imgeoWorkerBegin
-    .global imgeoWorkerEnd
-imgeoRuntimeBegin:
-    .incbin IMGEO_RUNTIME_MODULE
-imgeoRuntimeEnd:
-    .byte 0
-imgeoWorkerBegin:
-    .incbin IMGEO_WORKER_MODULE
-imgeoWorkerEnd:
-    .byte 0
+    BUNDLE(imgeoPageBegin, imgeoPageEnd, IMGEO_PAGE_MODULE)
+    BUNDLE(imgeoSharedBegin, imgeoSharedEnd, IMGEO_SHARED_MODULE)
+    BUNDLE(imgeoSceneBegin, imgeoSceneEnd, IMGEO_SCENE_MODULE)
+    BUNDLE(imgeoWorkerBegin, imgeoWorkerEnd, IMGEO_WORKER_MODULE)
     .section .note.GNU-stack,"",%progbits

@@ -8,22 +8,36 @@ namespace imgeo {
 namespace {
 
 TEST(Runtime, TheToolCarriesTheBundlesByteForByte) {
-  const Bytes module = readFile(IMGEO_RUNTIME_MODULE);
-  EXPECT_FALSE(module.empty());
-  EXPECT_EQ(bundledRuntime(), asText(module));
-  const Bytes worker = readFile(IMGEO_WORKER_MODULE);
-  EXPECT_FALSE(worker.empty());
-  EXPECT_EQ(bundledWorker(), asText(worker));
+  const auto expectSame = [](std::string_view bundled, const char* path) {
+    const Bytes module = readFile(path);
+    EXPECT_FALSE(module.empty());
+    EXPECT_EQ(bundled, asText(module)) << path;
+  };
+  const auto [page, shared, scene, worker] = bundledRuntime();
+  expectSame(page, IMGEO_PAGE_MODULE);
+  expectSame(shared, IMGEO_SHARED_MODULE);
+  expectSame(scene, IMGEO_SCENE_MODULE);
+  expectSame(worker, IMGEO_WORKER_MODULE);
 }
 
-TEST(Runtime, InASiteNamesTheWorkersFileAndBothAreNamedByTheirContent) {
-  const auto [module, worker] = runtimeOfSite();
-  EXPECT_EQ(worker.text, bundledWorker());
-  EXPECT_EQ(worker.name, "imgeo-worker-" + contentName(asBytes(worker.text)) + ".js");
-  EXPECT_EQ(module.name, "imgeo-" + contentName(asBytes(module.text)) + ".js");
-  const std::size_t grown = worker.name.size() - std::string("imgeo-worker.js").size();
-  EXPECT_EQ(module.text.size(), bundledRuntime().size() + grown);
-  EXPECT_NE(module.text.find("\"./" + worker.name + "\""), std::string::npos);
+TEST(Runtime, InASiteModulesNameEachOthersFilesAndAllAreNamedByTheirContent) {
+  const auto [page, shared, scene, worker] = runtimeOfSite();
+  const auto expectNamed = [](const RuntimeFile& file, const std::string& stem) {
+    EXPECT_EQ(file.name, stem + "-" + contentName(asBytes(file.text)) + ".js");
+  };
+  expectNamed(page, "imgeo");
+  expectNamed(shared, "imgeo-shared");
+  expectNamed(scene, "imgeo-scene");
+  expectNamed(worker, "imgeo-worker");
+  EXPECT_EQ(shared.text, bundledRuntime().shared);
+  EXPECT_EQ(worker.text, bundledRuntime().worker);
+  const auto names = [](const RuntimeFile& file, const RuntimeFile& other) {
+    return file.text.find("\"./" + other.name + "\"") != std::string::npos;
+  };
+  EXPECT_TRUE(names(page, shared));
+  EXPECT_TRUE(names(page, scene));
+  EXPECT_TRUE(names(scene, shared));
+  EXPECT_TRUE(names(scene, worker));
 }
 
 } // namespace

@@ -107,6 +107,30 @@ std::vector<std::string> pageFilesOf(std::string_view html) {
   return urls;
 }
 
+std::vector<std::string> pageFilesOf(const OpenedDocument& document) {
+  if (document.name == sceneName)
+    return {};
+  std::vector<std::string> urls = pageFilesOf(document.text);
+  // Read as text too: our modules name others as "./imgeo-....js".
+  constexpr std::string_view name = "\"./imgeo-";
+  for (std::size_t i = 0; i < urls.size(); ++i) {
+    std::error_code none;
+    const fs::path file = fileOf(document, urls[i]);
+    if (!urls[i].ends_with(".js") || !fs::is_regular_file(file, none))
+      continue;
+    const Bytes bytes = readFile(file);
+    const std::string_view text = asText(bytes);
+    for (std::size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1)) {
+      const std::size_t begin = at + std::string_view("\"./").size();
+      const std::string_view other = text.substr(begin, std::min(text.find('"', begin), text.size()) - begin);
+      std::string url = (fs::path(urls[i]).parent_path() / other).string();
+      if (other.ends_with(".js") && std::ranges::find(urls, url) == urls.end())
+        urls.push_back(std::move(url));
+    }
+  }
+  return urls;
+}
+
 fs::path fileOf(const OpenedDocument& document, const std::string& url) {
   const fs::path path = fs::path(url).lexically_normal();
   const bool leaves =

@@ -51,6 +51,10 @@ std::vector<std::string> previewFilesOf(const SceneDocument& scene);
 /// other hosts, X3DOM's and absent ones are left out.
 std::vector<std::string> pageFilesOf(std::string_view html);
 
+/// The same of a site, with the modules that its runtime brings by itself, as far as
+/// they are there; none where the document is no page.
+std::vector<std::string> pageFilesOf(const OpenedDocument& document);
+
 /// The file of a relative url; Error{unsupported} for a url that leaves the
 /// document's folder.
 std::filesystem::path fileOf(const OpenedDocument& document, const std::string& url);

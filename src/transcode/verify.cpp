@@ -94,7 +94,7 @@ std::map<std::string, std::vector<double>> namedBounds(const GeometryDescription
 /// Every file that the page names is there and, in our sites, holds what its name says.
 bool checkFiles(const OpenedDocument& document, bool isForeign, Findings& findings) {
   bool whole = true;
-  std::vector<std::string> urls = isForeign ? std::vector<std::string>{} : pageFilesOf(document.text);
+  std::vector<std::string> urls = isForeign ? std::vector<std::string>{} : pageFilesOf(document);
   for (const InlinedDocument& inlined : document.scene.graph.inlined)
     urls.push_back(inlined.url);
   for (const std::string& url : textureFilesOf(document.scene))

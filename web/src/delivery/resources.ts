@@ -72,6 +72,8 @@ export interface DeliveryOptions {
   readonly runJob: RunJob;
   /** The same on the main thread, for what is small and must not wait for a worker; where it is not given, it waits. */
   readonly runHere?: RunJob;
+  /** Bases that are on their way, or here, for who asks first; undefined for all other URLs. */
+  readonly early?: (url: string) => Promise<FetchedBases> | undefined;
   readonly storeBytes: StoreBytes;
   readonly makePicture: MakePicture;
   readonly download: DownloadOptions;
@@ -79,6 +81,12 @@ export interface DeliveryOptions {
   readonly resolve: (url: string) => string;
   /** Called whenever a transfer has moved. */
   readonly onTransfer: () => void;
+}
+
+/** A file that somebody else has asked for. */
+export interface FetchedBases {
+  readonly byteLength: number;
+  readonly bases: readonly BaseBuffers[];
 }
 
 /** Downloaded bytes that may wait for their decoder, and for their way to the GPU. */
@@ -243,7 +251,8 @@ class Resource {
   async #fetch(request: ResourceRequest): Promise<Content> {
     const { transfer } = this;
     try {
-      const content = await this.#decode(request, await this.#download(request.url));
+      const file = request.kind === "bases" ? this.#options.early?.(this.#options.resolve(request.url)) : undefined;
+      const content = (file && await this.#takeOver(file)) ?? await this.#decode(request, await this.#download(request.url));
       transfer.state = "ready";
       return content;
     } catch (error) {
@@ -252,6 +261,21 @@ class Resource {
     } finally {
       transfer.totalBytes = transfer.loadedBytes;
       this.#options.onTransfer();
+    }
+  }
+
+  /** What was asked for before there was anybody to ask; where it has come to nothing it is asked for again. */
+  async #takeOver(file: Promise<FetchedBases>): Promise<Content | undefined> {
+    const { transfer } = this;
+    transfer.state = "loading";
+    try {
+      const { byteLength, bases } = await file;
+      transfer.tries = 1;
+      transfer.loadedBytes = byteLength;
+      this.#hasBytes = true;
+      return { kind: "bases", bases };
+    } catch {
+      return undefined;
     }
   }
 

@@ -18,8 +18,8 @@ export interface Face {
   showMessage(text: string): void;
 }
 
-/** Fills the shadow root. */
-export function makeFace(root: ShadowRoot): Face {
+/** Fills the shadow root. `first` is a picture in it that stays, before the canvas and behind the rest. */
+export function makeFace(root: ShadowRoot, first?: HTMLCanvasElement): Face {
   root.adoptedStyleSheets = [viewStyle];
   const canvas = document.createElement("canvas");
 
@@ -35,7 +35,13 @@ export function makeFace(root: ShadowRoot): Face {
   const controls = elementOf("div", { class: "controls", part: "default-controls" });
   const spoken = elementOf("p", { class: "spoken", role: "status" });
   const message = elementOf("p", { class: "message", role: "alert", hidden: "" });
-  root.replaceChildren(canvas, hotspots, poster, slotOf("controls", controls), barSlot, spoken, message);
+  const above = [hotspots, poster, slotOf("controls", controls), barSlot, spoken, message];
+  if (first?.parentNode === root) {
+    first.before(canvas);
+    first.after(...above);
+  } else {
+    root.replaceChildren(canvas, ...above);
+  }
 
   return {
     canvas, poster, posterImage, hotspots, controls,

@@ -8,6 +8,8 @@ export const viewTag = "imgeo-view";
 export const viewStyle = sheetOf(`
   :host { position: absolute; inset: 0; display: block; overflow: hidden; contain: strict; }
   canvas { display: block; width: 100%; height: 100%; outline: none; -webkit-tap-highlight-color: transparent; }
+  canvas.first { position: absolute; inset: 0; pointer-events: none; }
+  canvas.covered { opacity: 0; }
   canvas.moves { cursor: grab; }
   canvas.moves:active { cursor: grabbing; }
   canvas:focus-visible { box-shadow: inset 0 0 0 2px Highlight; outline: 2px solid Highlight; outline-offset: -2px; }

@@ -3,8 +3,9 @@
 
 import type { Orbit } from "../navigation/orbit.ts";
 import { orbitOf } from "../navigation/orbit.ts";
-import { contextOf } from "../render/sceneRenderer.ts";
+import { contextOf } from "../render/context.ts";
 import { makeFace } from "./face.ts";
+import { takeLook } from "./lookRegistry.ts";
 import type { Loadable } from "./loading.ts";
 import { Loading } from "./loading.ts";
 import { pixelAt } from "./pointing.ts";
@@ -124,15 +125,17 @@ export class ImgeoView extends HTMLElement {
   connectedCallback(): void {
     const x3d = this.parentElement;
     if (this.#presentation !== undefined || x3d === null) return;
-    const face = makeFace(this.shadowRoot ?? this.attachShadow({ mode: "open" }));
+    const look = takeLook(this);
+    const face = makeFace(this.shadowRoot ?? this.attachShadow({ mode: "open" }), look?.canvas);
     const context = contextOf(face.canvas);
     if (context === null) {
+      look?.end();
       face.showMessage(noWebGl);
       refuse(x3d);
       return;
     }
     this.#canvas = face.canvas;
-    this.#presentation = new Presentation(x3d, this, face, context);
+    this.#presentation = new Presentation(x3d, this, face, context, look);
     lendMembers(this, x3d);
     this.#presentation.start();
   }

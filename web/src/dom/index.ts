@@ -1,7 +1,7 @@
-// The runtime: puts a view into every <x3d> of the page, now and later.
+// The runtime in one module, for those who bundle it themselves.
 
-import { stylePage, viewTag } from "./faceStyle.ts";
 import { ImgeoView } from "./imgeoView.ts";
+import { registerViews } from "./register.ts";
 
 export { ImgeoView };
 export type { BlobOptions, ViewElement, ViewpointEntry } from "./imgeoView.ts";
@@ -10,17 +10,4 @@ export type { SurfacePoint } from "./imgeoView.ts";
 export type { ShapeEventProperties, ShapePointerEvent, Vector3D } from "./shapeEvents.ts";
 export type { ViewStatistics } from "./viewer.ts";
 
-function fillAll(): void {
-  for (const x3d of document.querySelectorAll("x3d")) {
-    const hasView = Array.from(x3d.children).some((child) => child.localName === viewTag);
-    if (!hasView) x3d.append(document.createElement(viewTag));
-  }
-}
-
-if (customElements.get(viewTag) === undefined) {
-  customElements.define(viewTag, ImgeoView);
-  stylePage(document);
-  fillAll();
-  // Also brings a view back where a page has replaced all of an <x3d>'s content.
-  new MutationObserver(fillAll).observe(document, { subtree: true, childList: true });
-}
+registerViews();

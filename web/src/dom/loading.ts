@@ -63,9 +63,11 @@ export class Loading {
   #error: Error | undefined;
   readonly #errors: ErrorDetail[] = [];
 
-  /** Puts fresh promises, and an empty list of errors, on the element. */
-  constructor(element: Element, transfers: () => readonly Readonly<Transfer>[] = () => []) {
+  /** Puts fresh promises, and an empty list of errors, on the element. `shown`: its first image has been seen, and told. */
+  constructor(element: Element, transfers: () => readonly Readonly<Transfer>[] = () => [], shown: StageName | "none" = "none") {
     this.#element = element;
+    this.#stage = this.#shownStage = shown;
+    if (shown !== "none") this.#firstImage.resolve(undefined);
     const properties: Omit<Loadable, "resources"> = { firstImage: this.#firstImage.promise, complete: this.#complete.promise, errors: this.#errors };
     for (const [name, value] of Object.entries(properties)) {
       Object.defineProperty(element, name, { value: value, configurable: true, enumerable: true });

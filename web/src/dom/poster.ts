@@ -22,7 +22,7 @@ export class Poster {
     this.#send = send;
   }
 
-  /** Shows the image at `url`, or what the page has slotted; nothing where there is neither. */
+  /** Shows the image at `url`, or what the page has slotted; nothing where there is neither, or a picture already. */
   show(url: string, alt: string): void {
     const hasOwn = Array.from(this.#host.children).some((child) => child.slot === "poster");
     if (url !== "") this.#face.posterImage.src = url;
@@ -30,7 +30,7 @@ export class Poster {
     this.#face.posterImage.alt = alt;
     const { poster } = this.#face;
     poster.classList.remove("leaving");
-    poster.hidden = url === "" && !hasOwn && this.reveal === "auto";
+    poster.hidden = this.reveal === "auto" && (this.#hasPicture || (url === "" && !hasOwn));
     this.#face.canvas.inert = this.#isCovering;
     this.#tell();
   }

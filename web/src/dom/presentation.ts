@@ -7,6 +7,7 @@ import type { ViewSettings } from "./attributes.ts";
 import { cameraSettingOf, readSettings, viewAttributes } from "./attributes.ts";
 import { listenForMovement } from "./controls.ts";
 import type { Face } from "./face.ts";
+import type { FirstLook } from "./firstLook.ts";
 import type { HandLimits } from "./hands.ts";
 import { Hands } from "./hands.ts";
 import { Hotspots } from "./hotspots.ts";
@@ -43,9 +44,11 @@ export class Presentation {
   #shownType: string | undefined;
   #quietTimer: ReturnType<typeof setTimeout> | undefined;
   readonly #applyTouchAction: () => void;
+  /** Stands before the picture until that shows as much. */
+  #look: FirstLook | undefined;
 
   /** `host` is the element in `x3d` whose shadow root the face fills. */
-  constructor(x3d: Element, host: HTMLElement, face: Face, context: WebGL2RenderingContext) {
+  constructor(x3d: Element, host: HTMLElement, face: Face, context: WebGL2RenderingContext, look?: FirstLook) {
     this.#x3d = x3d;
     this.#face = face;
     this.#hotspots = new Hotspots(host, face.hotspots);
@@ -54,7 +57,7 @@ export class Presentation {
       onProgress: (share, stage) => { this.#showProgress(share, stage); },
       onFrame: () => { this.#onFrame(); },
       onNavigation: () => { this.#describe(); },
-    });
+    }, look?.shown);
     const { signal } = this.#listeners;
     const { navigator } = this.viewer;
     this.#hands = new Hands(navigator, this.#limits);
@@ -68,6 +71,7 @@ export class Presentation {
     adoptSlotted(x3d, host);
     this.#follow(host);
     this.#apply();
+    if (look !== undefined) this.#stayBehind(look);
     this.poster.show(this.#settings.poster, this.#label);
     x3d.addEventListener("first-image", () => { this.poster.onPicture(); }, { signal });
     x3d.addEventListener("load", () => { face.say("The scene is complete."); }, { signal });
@@ -80,6 +84,20 @@ export class Presentation {
     });
   }
 
+  /** The view's own canvas is not seen while the look stands. */
+  #stayBehind(look: FirstLook): void {
+    const { classList } = this.#face.canvas;
+    this.#look = look;
+    look.onEnd = () => {
+      this.#look = undefined;
+      classList.remove("covered");
+      this.#rotate();
+    };
+    if (look.shown.length === 0) return;
+    classList.add("covered");
+    this.poster.onPicture();
+  }
+
   /** Begins to show the document; what is far outside of the window waits to be loaded. */
   start(): void {
     // Known before the first request: what is asked for first depends on what is seen.
@@ -88,6 +106,7 @@ export class Presentation {
     const margin = marginOfLoading[this.#settings.loading];
     if (margin === Infinity) this.viewer.load();
     else whenNear(this.#face.canvas, margin, this.#listeners.signal, () => { this.viewer.load(); });
+    if (this.#look?.shown.length === 0) this.#look.end(); // its files are the viewer's now
   }
 
   /** Turns the scene, from now on. */
@@ -102,6 +121,7 @@ export class Presentation {
   dispose(): void {
     clearTimeout(this.#quietTimer);
     this.#listeners.abort();
+    this.#look?.end();
     this.viewer.dispose();
   }
 
@@ -164,7 +184,7 @@ export class Presentation {
   /** Turns by itself where the page asks for it, there is something to see, and people do not mind motion. */
   #rotate(): void {
     const { turntable } = this.viewer.navigator;
-    const wanted = this.#settings["auto-rotate"] && this.poster.isModelVisible && !this.#lessMotion.matches;
+    const wanted = this.#settings["auto-rotate"] && this.poster.isModelVisible && this.#look === undefined && !this.#lessMotion.matches;
     if (!wanted) turntable.stop();
     else if (turntable.isStopped) turntable.start(true);
   }
@@ -202,6 +222,7 @@ export class Presentation {
   #onFrame(): void {
     const { navigator, renderer } = this.viewer;
     const { view } = renderer;
+    if (this.#look && this.viewer.shows(this.#look.shown)) this.#look.end();
     if (view !== undefined) this.#hotspots.place(view, this.#size.width, this.#size.height);
     this.#waysBack.update();
     if (navigator.pose === this.#shownPose) return;

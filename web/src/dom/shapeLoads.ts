@@ -44,14 +44,18 @@ export class ShapeLoads {
   readonly #textures: TextureDeliveries;
   readonly #listener: ShapeLoadsListener;
   readonly #shapes = new Map<SceneElement, LoadedShape>();
+  /** Those that were on the screen before they were here. */
+  readonly #shownBefore: Set<SceneElement>;
   /** Those that are here and have said all: of ten thousand no frame asks once more. */
   #isQuiet = false;
 
-  constructor(renderer: SceneRenderer, deliveries: SharedDeliveries, textures: TextureDeliveries, listener: ShapeLoadsListener) {
+  constructor(renderer: SceneRenderer, deliveries: SharedDeliveries, textures: TextureDeliveries, listener: ShapeLoadsListener,
+              shownBefore: Iterable<SceneElement>) {
     this.#renderer = renderer;
     this.#deliveries = deliveries;
     this.#textures = textures;
     this.#listener = listener;
+    this.#shownBefore = new Set(shownBefore);
   }
 
   /** Its geometry is what its element shows already. */
@@ -96,7 +100,7 @@ export class ShapeLoads {
   #begin({ element: described, geometry, visible }: ShapeDescription): LoadedShape {
     const element = described as Element;
     const stages = geometry?.patches.map(() => "none" as const) ?? [];
-    const loading = new Loading(element, () => transfersOf(shape));
+    const loading = new Loading(element, () => transfersOf(shape), this.#shownBefore.delete(element) ? "base" : "none");
     const textures = new ShapeTextures(this.#textures, {
       onPicture: (role, picture) => { this.#renderer.setPicture(element, role, picture); },
       onError: (error) => { this.#fail(shape, element, error); },
@@ -119,6 +123,12 @@ export class ShapeLoads {
   get isLoading(): boolean {
     for (const { isVisible, loading } of this.#shapes.values()) if (isVisible && !loading.isSettled) return true;
     return false;
+  }
+
+  /** Whether these patches of a shape have something on the screen, as far as there will be anything. */
+  shows(element: SceneElement, patches: readonly number[]): boolean {
+    const shape = this.#shapes.get(element);
+    return shape === undefined || !shape.isVisible || shape.loading.isSettled || patches.every((patch) => shape.stages[patch] !== "none");
   }
 
   /** Patches whose files are for workers to decode, whatever the GPU can do. */

@@ -23,9 +23,11 @@ import { Scheduler } from "../scheduler/scheduler.ts";
 import { slotsFor } from "../scheduler/slots.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
 import { Arrival } from "./arrival.ts";
-import { viewTag } from "./faceStyle.ts";
+import type { ShownShape } from "./firstLook.ts";
+import { takeBases } from "./lookRegistry.ts";
 import { Inlines } from "./inlines.ts";
 import { Loading } from "./loading.ts";
+import { isOfScene } from "./ownNodes.ts";
 import { watchProtocol } from "./protocol.ts";
 import { ShapeLoads, stageShown } from "./shapeLoads.ts";
 import { Steering } from "./steering.ts";
@@ -70,6 +72,8 @@ export class Viewer {
   readonly #listeners = new AbortController();
   readonly #listener: ViewerListener;
   readonly #logged = new Set<string>();
+  /** By a first look, which has decoded the bases. */
+  readonly #wasShown: boolean;
   /** Believed of every GPU that has the units for it, until the trial. */
   #readsTextures: boolean;
   /** Due with the first picture of textures. Until it has ended nothing is complete. */
@@ -82,11 +86,13 @@ export class Viewer {
 
   readonly #transfers = (): Readonly<Transfer>[] => [...this.#deliveries.transfers(), ...this.#textures.transfers(), ...this.#inlines.transfers];
 
-  constructor(x3d: Element, canvas: HTMLCanvasElement, context: WebGL2RenderingContext, listener: ViewerListener) {
+  /** `shown`: what people see of the scene already, by other means. */
+  constructor(x3d: Element, canvas: HTMLCanvasElement, context: WebGL2RenderingContext, listener: ViewerListener, shown: readonly ShownShape[] = []) {
     this.#x3d = x3d;
     this.#canvas = canvas;
     this.#listener = listener;
-    this.#loading = new Loading(x3d, this.#transfers);
+    this.#wasShown = shown.length > 0;
+    this.#loading = new Loading(x3d, this.#transfers, shown.length > 0 ? "base" : "none");
     this.navigator = new Navigator(() => { this.renderer.requestFrame(); }, () => { listener.onNavigation(); });
     this.renderer = new SceneRenderer(canvas, context, this.navigator, () => { this.#onFrame(); });
     this.#readsTextures = this.renderer.mayReadTextures;
@@ -104,6 +110,7 @@ export class Viewer {
       makePicture: (bytes, sampling, signal) => arrival.makePicture(bytes, sampling, signal),
       storeBytes: (array, use, signal) => arrival.storeBytes(array, use, signal),
       download: defaultDownloadOptions,
+      early: takeBases,
       resolve,
       onTransfer: () => { this.#progressSoon(); },
     });
@@ -116,7 +123,7 @@ export class Viewer {
       },
       onError: (error, element, loading) => { this.#fail(error, element, loading); },
       maySettle: () => this.#trial !== "due" && this.#trial !== "running",
-    });
+    }, shown.map(({ element }) => element));
     this.#inlines = new Inlines(this.#pool, resolve, {
       onChange: (inline) => {
         this.#reader.touch(inline);
@@ -158,6 +165,11 @@ export class Viewer {
     this.#steering.begin();
     this.#workers.prepare(this.#shapes.jobsToCome);
     this.renderer.requestFrame();
+  }
+
+  /** Whether the last frame has at least these. */
+  shows(shapes: readonly ShownShape[]): boolean {
+    return shapes.every(({ element, patches }) => this.#shapes.shows(element, patches));
   }
 
   /** Of vertex data and textures on the GPU, in bytes. */
@@ -220,7 +232,8 @@ export class Viewer {
     if (scene === before) return;
     const built = this.renderer.setScene(scene);
     const leave = this.#shapes.follow(built.changes);
-    for (const { geometry } of built.changes.shapes.values()) if (geometry?.base !== undefined) this.#workers.prepareHere();
+    const hasBase = Array.from(built.changes.shapes.values()).some(({ geometry }) => geometry?.base !== undefined);
+    if (hasBase && !this.#wasShown) this.#workers.prepareHere();
     this.#tellNavigator({ ...built, navigation: scene.navigation });
     if (this.#shapes.isLoading && this.#loading.isEnded) this.#loading = new Loading(this.#x3d, this.#transfers);
     this.#steering.follow(scene.chunkPriority, built.changes, (problem) => { this.#warn(this.#x3d, `chunkPriority: ${problem}`); });
@@ -332,12 +345,4 @@ export class Viewer {
 
 function isSameList<Item>(a: readonly Item[], b: readonly Item[]): boolean {
   return a.length === b.length && a.every((item, place) => item === b[place]);
-}
-
-/** Not what the runtime and the page have put into the view itself. */
-function isOfScene(node: Node, x3d: Element): boolean {
-  for (let inner: Node | null = node; inner !== null && inner !== x3d; inner = inner.parentNode) {
-    if (inner.parentNode === x3d) return inner.nodeName.toLowerCase() !== viewTag;
-  }
-  return true;
 }

@@ -13,7 +13,8 @@ export function whenNear(element: Element, margin: number, signal: AbortSignal, 
   signal.addEventListener("abort", () => { observer.disconnect(); });
 }
 
-function isNear({ left, right, top, bottom, width, height }: DOMRect, margin: number): boolean {
+/** Whether any of it is less than `margin` screens away from the visible part of the page. */
+export function isNear({ left, right, top, bottom, width, height }: DOMRect, margin: number): boolean {
   return width > 0 && height > 0
     && right >= -margin * innerWidth && left <= (1 + margin) * innerWidth
     && bottom >= -margin * innerHeight && top <= (1 + margin) * innerHeight;

@@ -2,6 +2,8 @@
 // it (ISO/IEC 19775-1, 17.2.2.4): at distance d by 1 / max(a + b d + c d^2, 1), to
 // nothing beyond the radius; between beamWidth and cutOffAngle evenly by angle.
 
+import type { Vec3 } from "../document/description.ts";
+
 /** GLSL, by a, b, c and the cosines of the angles. */
 export const falloff = /* glsl */ `
 float shareAtDistance(const in float lightDistance, const in float radius, const in vec3 attenuation) {
@@ -16,6 +18,16 @@ float shareInCone(const in float edgeCosine, const in float beamCosine, const in
   return beam < edge ? clamp((edge - acos(min(cosine, 1.0))) / (edge - beam), 0.0, 1.0) : 1.0;
 }
 `;
+
+export interface Falloff {
+  readonly radius: number;
+  readonly attenuation: Vec3;
+}
+
+/** Lengths are those of a light's own coordinates (17.4.2): what is scaled up reaches further. */
+export function scaledFalloff({ radius, attenuation: [constant, linear, square] }: Falloff, scale: number): Falloff {
+  return { radius: radius * scale, attenuation: [constant, linear / scale, square / scale ** 2] };
+}
 
 /** Of a SpotLight, in radians: where its light ends, and within what it is full. */
 export function coneOf({ cutOffAngle, beamWidth }: { readonly cutOffAngle: number; readonly beamWidth: number }): { edge: number; beam: number } {

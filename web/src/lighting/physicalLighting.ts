@@ -60,7 +60,8 @@ void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 norma
 export const physicalOutput = /* glsl */ `
 #include <colorspace_fragment>
 #ifdef ${physicalDefine}
-  gl_FragColor = sRGBTransferOETF(vec4(clamp(gl_FragColor.rgb, 0.0, 1.0), gl_FragColor.a));
+  gl_FragColor.rgb = clamp(gl_FragColor.rgb, 0.0, 1.0);
+  ${toDisplayedChunk("gl_FragColor.rgb")}
 #endif
 `;
 
@@ -69,4 +70,14 @@ export function displayedOf(linear: Vec3): Vec3 {
   const [red, green, blue] = linear.map((channel) =>
     channel <= 0.0031308 ? 12.92 * channel : 1.055 * channel ** (1 / 2.4) - 0.055);
   return [red ?? 0, green ?? 0, blue ?? 0];
+}
+
+/** Makes an sRGB colour, a variable of GLSL, linear (IEC 61966-2-1). */
+export function toLinearChunk(color: string): string {
+  return `${color} = mix(pow((${color} + 0.055) / 1.055, vec3(2.4)), ${color} / 12.92, vec3(lessThanEqual(${color}, vec3(0.04045))));`;
+}
+
+/** The other way, of a colour in 0 … 1. */
+export function toDisplayedChunk(color: string): string {
+  return `${color} = mix(pow(${color}, vec3(1.0 / 2.4)) * 1.055 - 0.055, ${color} * 12.92, vec3(lessThanEqual(${color}, vec3(0.0031308))));`;
 }

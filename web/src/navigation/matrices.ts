@@ -1,7 +1,8 @@
 // Matrices of Transforms, and boxes through them.
 
 import { Box3, Matrix4, Quaternion, Vector3 } from "three";
-import type { Rotation, TransformDescription, Vec3 } from "../document/description.ts";
+import type { GeometryDescription, PatchDescription, Rotation, TransformDescription, Vec3 } from "../document/description.ts";
+import { storedFrameOf } from "../document/storedFrame.ts";
 
 /** Lengths whose squares single precision still holds: beyond, no GPU draws anything, and the rest must be seen. */
 const farthest = 1e18;
@@ -12,6 +13,17 @@ export function isDrawable({ min, max }: Box3): boolean {
 
 export function boxIn(sceneFromBox: Matrix4, { min, max }: { min: Vec3; max: Vec3 }): Box3 {
   return new Box3(new Vector3(...min), new Vector3(...max)).applyMatrix4(sceneFromBox);
+}
+
+/** How much longer lengths become, on the average of all directions; 1 where they vanish. */
+export function lengthScaleOf(matrix: Matrix4): number {
+  return Math.cbrt(Math.abs(matrix.determinant())) || 1;
+}
+
+/** Places the lattice: stored integers -> the shape's coordinates. */
+export function shapeFromStoredOf(geometry: GeometryDescription, patch: PatchDescription): Matrix4 {
+  const { origin, step } = storedFrameOf(geometry, patch);
+  return new Matrix4().makeScale(...step).setPosition(...origin);
 }
 
 /** X3D Transform: T C R SR S -SR -C (ISO/IEC 19775-1, 10.4.4). */

@@ -4,13 +4,14 @@
 import type { BufferGeometry, Group, Material, Matrix4 } from "three";
 import type { DrawRange, Stage } from "../decode/stage.ts";
 import type { AppearanceDescription } from "../document/description.ts";
+import { shapeFromStoredOf } from "../navigation/matrices.ts";
 import type { DrawnObject } from "./drawnObject.ts";
 import { objectOf } from "./drawnObject.ts";
 import type { ShownPictures } from "./look.ts";
 import { noPictures } from "./look.ts";
 import { PickDraw } from "./pickDraw.ts";
 import type { PatchSetting } from "./stageDraws.ts";
-import { boundsOf, colorsOf, materialRequestOf, pickRequestOf, setAppearance, shapeFromStoredOf, uniformsOf } from "./stageDraws.ts";
+import { boundsOf, colorsOf, materialRequestOf, pickRequestOf, setAppearance, uniformsOf } from "./stageDraws.ts";
 
 /** A stage of a patch on the screen, in all places of its shape. It is drawn by objects of its own, or together with others. */
 export interface PatchDraws {

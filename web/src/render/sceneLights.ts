@@ -3,7 +3,8 @@
 
 import { AmbientLight, Color, DirectionalLight, Group, PointLight, SpotLight, Vector3 } from "three";
 import type { LightDescription } from "../document/description.ts";
-import { coneOf } from "../lighting/falloff.ts";
+import { coneOf, scaledFalloff } from "../lighting/falloff.ts";
+import { lengthScaleOf } from "../navigation/matrices.ts";
 import type { PlacedLight } from "../navigation/placement.ts";
 import { noAttenuations } from "./lightFalloff.ts";
 import { setColor } from "./materials.ts";
@@ -22,12 +23,10 @@ export function makeLights(lights: readonly PlacedLight[]): SceneLights {
     const light = lightOf(description);
     setColor(light.color, description.color);
     if (!(light instanceof DirectionalLight) && description.kind !== "directional") {
-      // Its lengths are those of its own coordinates (17.4.2): what is scaled up reaches further.
-      const scale = Math.cbrt(Math.abs(sceneFromLight.determinant())) || 1;
-      light.distance = description.radius * scale;
+      const { radius, attenuation } = scaledFalloff(description, lengthScaleOf(sceneFromLight));
+      light.distance = radius;
       light.decay = attenuations.length;
-      const [constant, linear, square] = description.attenuation;
-      attenuations.push(new Vector3(constant, linear / scale, square / scale ** 2));
+      attenuations.push(new Vector3(...attenuation));
     }
     const place = new Group();
     place.matrixAutoUpdate = false;

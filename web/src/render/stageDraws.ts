@@ -2,7 +2,7 @@
 // what its draws need of a material.
 
 import type { Side, Texture } from "three";
-import { Box3, Matrix4, Sphere, Vector3 } from "three";
+import { Box3, Sphere, Vector3 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
 import type { DrawRange, Stage, TextureStage } from "../decode/stage.ts";
 import type { AppearanceDescription, GeometryDescription, LineDescription, PatchDescription, PointDescription } from "../document/description.ts";
@@ -38,12 +38,6 @@ export interface PatchSetting {
   readonly appearance: AppearanceDescription;
   readonly pictures: ShownPictures;
   readonly colorMap: ColorMapUniforms;
-}
-
-/** Places the lattice: stored integers -> the shape's coordinates. */
-export function shapeFromStoredOf(geometry: GeometryDescription, patch: PatchDescription): Matrix4 {
-  const { origin, step } = storedFrameOf(geometry, patch);
-  return new Matrix4().makeScale(...step).setPosition(...origin);
 }
 
 /** The patch's bounds among stored integers; the sphere is wide enough for its coarsest stage. */

@@ -8,7 +8,8 @@ import type { DecodedImage } from "../decode/image.ts";
 import type { Stage, ValuePlanes } from "../decode/stage.ts";
 import { mostMapColors } from "../document/colorMaps.ts";
 import type { AttributeDescription, ColorMapDescription } from "../document/description.ts";
-import { imageVerticesDefine, readVertexStatement, replaceEach, srgbColorsDefine, toLinearChunk } from "./vertexChunk.ts";
+import { toLinearChunk } from "../lighting/physicalLighting.ts";
+import { imageVerticesDefine, readVertexStatement, replaceEach, srgbColorsDefine } from "./vertexChunk.ts";
 import { wideLinesDefine } from "./wideLineChunk.ts";
 
 /** Of a shape; changed in place. */

@@ -12,6 +12,7 @@ import type { IUniform, Matrix3, Texture, Vector4, WebGLProgramParametersWithUni
 import type { Grid, NormalCode } from "../decode/stage.ts";
 import { isPairCode } from "../decode/stage.ts";
 import type { Vec3 } from "../document/description.ts";
+import { toLinearChunk } from "../lighting/physicalLighting.ts";
 import { cutFacesChunk, placeFragmentChunk, placesDefine, placeVertexChunk } from "./batches/placeChunk.ts";
 import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
 import { cutDashesChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./wideLineChunk.ts";
@@ -371,11 +372,6 @@ Vertex vertexAt(int end) {
 
 /** Defined in materials that light in linear space: colours of vertices are sRGB, as everything that people see in files. */
 export const srgbColorsDefine = "SRGB_VERTEX_COLORS";
-
-/** Makes an sRGB colour, a variable of GLSL, linear (IEC 61966-2-1). */
-export function toLinearChunk(color: string): string {
-  return `${color} = mix(pow((${color} + 0.055) / 1.055, vec3(2.4)), ${color} / 12.92, vec3(lessThanEqual(${color}, vec3(0.04045))));`;
-}
 
 const colorChunk = /* glsl */ `
 #if defined(USE_COLOR) || defined(USE_COLOR_ALPHA)

@@ -5,11 +5,12 @@
 
 import type { MeshBasicMaterial, MeshPhongMaterial, Texture } from "three";
 import type { MaterialDescription } from "../document/description.ts";
+import { toLinearChunk } from "../lighting/physicalLighting.ts";
 import { placesDefine } from "./batches/placeChunk.ts";
 import type { ShownPictures } from "./look.ts";
 import type { OwnMapRole } from "./texCoords.ts";
 import { ownMapDeclarations, ownMapDefine, ownMapRoles, ownTexel } from "./texCoords.ts";
-import { srgbColorsDefine, toLinearChunk } from "./vertexChunk.ts";
+import { srgbColorsDefine } from "./vertexChunk.ts";
 
 /** Samplers of maps that three.js has no name for. */
 export type OwnMapUniforms = Readonly<Record<`${OwnMapRole}Map`, { value: Texture | null }>>;

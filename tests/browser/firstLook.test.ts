@@ -1,0 +1,97 @@
+// The picture before the runtime is here: it is the one that the runtime then draws
+// of the same base, it follows the document, and nobody sees the change.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { difference, silhouette, silhouetteDifference } from "./compare.ts";
+import { screenshotOf, until, withPage, type View } from "./harness.ts";
+import { decodePng, type Picture } from "./png.ts";
+import { gate } from "./server.ts";
+import { tagsOf } from "./siteDecoder.ts";
+import { pageOf, siteOfGenerated } from "./sites.ts";
+
+declare global {
+  interface Window {
+    /** What the view's own canvas showed when the first look had gone. */
+    takenOver: string | undefined;
+  }
+}
+
+/** A closed surface of several patches, with a base. */
+const site = (): string => siteOfGenerated("trefoil-large", "--profile", "compact", "--patch-vertices", "20000");
+
+/** Runs in the page: waits for the view, and then for the end of the look in it. */
+function watchLook(): void {
+  const prototype = Element.prototype as unknown as Record<"attachShadow", (this: Element, init: ShadowRootInit) => ShadowRoot>;
+  const { attachShadow } = prototype;
+  prototype.attachShadow = function (init) {
+    const root = attachShadow.call(this, init);
+    // Called in the turn of the event loop in which it goes: what has been drawn in it can still be read.
+    new MutationObserver((records) => {
+      const isLook = (node: Node): boolean => node instanceof Element && node.classList.contains("first");
+      if (records.some(({ removedNodes }) => Array.from(removedNodes).some(isLook))) window.takenOver = root.querySelector("canvas")?.toDataURL();
+    }).observe(root, { childList: true });
+    return root;
+  };
+}
+
+const firstImages = async (view: View): Promise<number> => (await view.events("first-image", "x3d")).length;
+
+/** Waits until the look has followed what has just been changed. */
+async function pictureAfter(view: View, change: () => Promise<unknown>): Promise<Picture> {
+  const { draws } = await view.observed();
+  await change();
+  await until("the look has followed", async () => (await view.observed()).draws > draws);
+  return screenshotOf(view.page);
+}
+
+async function pictureOfTakeOver(view: View): Promise<Picture> {
+  await until("the runtime has taken over", async () => view.page.evaluate(() => window.takenOver !== undefined));
+  const url = await view.page.evaluate(() => window.takenOver ?? "");
+  return decodePng(Buffer.from(url.slice(url.indexOf(",") + 1), "base64"));
+}
+
+test("a base is on the screen before the runtime, which takes it over as it is", async () => {
+  const tags = tagsOf(pageOf(site()));
+  const base = tags.find(({ name }) => name === "imagegeometry")?.attributes.base ?? "";
+  const patches = tags.flatMap(({ attributes: { data } }) => (data ? [data] : []));
+  const [runtime, files] = [gate(), gate()];
+  const options = {
+    size: { width: 400, height: 300 }, deviceScaleFactor: 2, before: watchLook,
+    server: (server: View["server"]): void => {
+      server.when(/imgeo-scene-/, { hold: runtime.closed });
+      server.when((path) => patches.includes(path.slice(1)), { hold: files.closed });
+    },
+  };
+  await withPage(site(), options, async (view) => {
+    await until("the first look has drawn", async () => await firstImages(view) === 1);
+    assert.deepEqual((await view.events("first-image")).map(({ target, detail }) => [target, detail.stage]), [["shape", "base"], ["x3d", "base"]]);
+    assert.equal(view.server.requestsOf(/imgeo-scene-/)[0]?.status, 0, "the runtime is not here");
+    const first = await screenshotOf(view.page);
+
+    const red = await pictureAfter(view, () => view.page.evaluate(() => { document.querySelector("material")?.setAttribute("diffuseColor", "0.9 0.1 0.1"); }));
+    assert.ok(difference(first, red).mean > 2, "another colour is seen");
+    const blank: Picture = { ...first, data: Uint8Array.from(first.data, (_, i) => first.data[i % first.channels]!) };
+    assert.equal(silhouetteDifference(silhouette(first, blank), silhouette(red, blank)), 0);
+    const seen = await pictureAfter(view, () => view.page.setViewportSize({ width: 300, height: 320 }));
+    assert.equal(seen.width, 600);
+
+    runtime.open();
+    const taken = await pictureOfTakeOver(view);
+    const empty: Picture = { ...seen, data: Uint8Array.from(seen.data, (_, i) => seen.data[i % seen.channels]!) };
+    assert.ok(silhouetteDifference(silhouette(seen, empty), silhouette(taken, empty)) < 1e-4, "the outline is the same");
+    assert.ok(difference(seen, taken).mean < 0.1, `the runtime draws the same: ${JSON.stringify(difference(seen, taken))}`);
+
+    files.open();
+    await view.promise("complete");
+    assert.equal(await firstImages(view), 1);
+    assert.deepEqual((await view.events("refine", "x3d")).at(-1)?.detail.stage, "full");
+    assert.equal(view.server.requestsOf(new RegExp(base)).length, 1);
+    assert.equal(await view.page.evaluate(() => document.querySelector("imgeo-view")?.shadowRoot?.querySelectorAll("canvas").length), 1);
+    const { resources } = await view.page.evaluate(() => {
+      const { resources: all } = document.querySelector("x3d") as unknown as { resources: { url: string; state: string; tries: number }[] };
+      return { resources: all.map(({ url, state, tries }) => ({ url, state, tries })) };
+    });
+    assert.deepEqual(resources.find(({ url }) => url === base), { url: base, state: "ready", tries: 1 });
+  });
+});

@@ -1,0 +1,176 @@
+// The picture of a scene before the runtime is here: its bases, drawn into a canvas
+// that stands before the view's own until that one shows as much. It follows the
+// document and the size of the element, and goes where it could only show another
+// picture than the runtime will.
+
+import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
+import type { SceneElement } from "../document/element.ts";
+import { readScene } from "../document/readScene.ts";
+import type { EarlyBases } from "../first/earlyBases.ts";
+import { FirstPicture, isShowable } from "../first/picture.ts";
+import type { FirstScene, FirstShape } from "../first/scene.ts";
+import { firstSceneOf } from "../first/scene.ts";
+import { contextOf } from "../render/context.ts";
+import { beforeNextFrame } from "../render/nextFrame.ts";
+import { cameraSettingOf, readSettings } from "./attributes.ts";
+import { isOfScene } from "./ownNodes.ts";
+import { sizeOf, watchSize } from "./visibility.ts";
+
+/** What is seen of a shape. */
+export interface ShownShape {
+  readonly element: SceneElement;
+  /** Patches whose part of the base has triangles. */
+  readonly patches: readonly number[];
+}
+
+interface Wanted {
+  readonly scene: FirstScene;
+  readonly exposure: number;
+}
+
+export class FirstLook {
+  readonly canvas: HTMLCanvasElement;
+  /** Kept when it has been drawn, or has gone. */
+  readonly settled: Promise<unknown>;
+  /** Called when it goes. */
+  onEnd: () => void = () => undefined;
+  readonly #x3d: Element;
+  readonly #early: EarlyBases;
+  readonly #picture: FirstPicture;
+  readonly #bases = new Map<string, readonly BaseBuffers[]>();
+  readonly #settle: () => void;
+  readonly #listeners = new AbortController();
+  readonly #baseOf = ({ base }: FirstShape): BaseBuffers | undefined => this.#bases.get(hrefOf(base.url))?.[base.first];
+  #wanted: Wanted;
+  #state: "waiting" | "decoding" | "drawn" | "ended" = "waiting";
+
+  /** Undefined where the scene cannot be shown so. The canvas is empty at first. */
+  static of(x3d: Element, early: EarlyBases): FirstLook | undefined {
+    const wanted = wantedOf(x3d);
+    if (wanted === undefined) return undefined;
+    for (const { base } of wanted.scene.shapes) early.ask(hrefOf(base.url)); // before anything that takes time
+    const canvas = document.createElement("canvas");
+    canvas.classList.add("first");
+    canvas.ariaHidden = "true";
+    const context = contextOf(canvas);
+    return context === null ? undefined : new FirstLook(x3d, wanted, early, canvas, context);
+  }
+
+  private constructor(x3d: Element, wanted: Wanted, early: EarlyBases, canvas: HTMLCanvasElement, context: WebGL2RenderingContext) {
+    const { promise, resolve } = Promise.withResolvers<undefined>();
+    this.canvas = canvas;
+    this.settled = promise;
+    this.#settle = () => { resolve(undefined); };
+    this.#x3d = x3d;
+    this.#wanted = wanted;
+    this.#early = early;
+    this.#picture = new FirstPicture(context);
+    this.#picture.prepare(wanted.scene);
+    this.#follow();
+    this.#load().catch(() => { this.end(); }); // the runtime says why
+  }
+
+  /** All files are here: it will be drawn with the next frame. */
+  get isDue(): boolean {
+    return this.#state === "decoding";
+  }
+
+  /** Empty until it has been drawn. */
+  get shown(): readonly ShownShape[] {
+    if (this.#state !== "drawn") return [];
+    const shapes = new Map(this.#wanted.scene.shapes.map((shape) => [shape.element, shape])); // one may stand in several places
+    return Array.from(shapes.values(), (shape) => ({
+      element: shape.element, patches: (this.#baseOf(shape) ?? []).flatMap((part, patch) => (part === undefined ? [] : [patch])),
+    }));
+  }
+
+  /** Takes it away and frees its GPU. */
+  end(): void {
+    if (this.#state === "ended") return;
+    this.#state = "ended";
+    this.#listeners.abort();
+    this.canvas.remove();
+    this.#picture.dispose();
+    this.#settle();
+    this.onEnd();
+  }
+
+  async #load(): Promise<void> {
+    const files = Array.from(new Set(this.#wanted.scene.shapes.map(({ base }) => hrefOf(base.url))), (url) => ({ url, file: this.#early.ask(url) }));
+    await Promise.all(files.map(({ file }) => file.arrival));
+    if (this.#state === "waiting") this.#state = "decoding";
+    for (const { url, file } of files) this.#bases.set(url, (await file.content).bases);
+    beforeNextFrame((isUnseen) => {
+      try {
+        if (!isUnseen) this.#drawFirst();
+      } finally {
+        if (this.#state !== "drawn") this.end();
+      }
+    });
+  }
+
+  #drawFirst(): void {
+    if (this.#state !== "decoding") return;
+    const [width, height] = sizeOf(this.canvas);
+    this.#setSize(width, height);
+    if (!this.#draw()) return;
+    this.#state = "drawn";
+    this.#settle();
+    for (const element of [...this.shown.map((shape) => shape.element as Element), this.#x3d]) {
+      element.dispatchEvent(new CustomEvent("first-image", { detail: { stage: "base" }, bubbles: false }));
+    }
+  }
+
+  /** False where it cannot, and has gone. */
+  #draw(): boolean {
+    const { scene, exposure } = this.#wanted;
+    const { width, height } = this.canvas;
+    const isWhole = scene.shapes.every((shape) => isShowable(shape, this.#baseOf(shape)));
+    if (isWhole && width > 0 && height > 0) this.#picture.draw(scene, this.#baseOf, width, height, exposure);
+    else this.end();
+    return this.#state !== "ended";
+  }
+
+  #setSize(width: number, height: number): void {
+    this.canvas.width = width;
+    this.canvas.height = height;
+  }
+
+  #follow(): void {
+    const { signal } = this.#listeners;
+    this.canvas.addEventListener("webglcontextlost", () => { this.end(); }, { signal });
+    const observer = new MutationObserver((records) => {
+      if (records.some(({ target }) => isOfScene(target, this.#x3d))) this.#followDocument();
+    });
+    observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
+    signal.addEventListener("abort", () => { observer.disconnect(); });
+    watchSize(this.canvas, signal, (width, height) => {
+      if (this.#state !== "drawn" || (width === this.canvas.width && height === this.canvas.height)) return;
+      this.#setSize(width, height);
+      this.#draw();
+    });
+  }
+
+  #followDocument(): void {
+    const wanted = this.#x3d.isConnected ? wantedOf(this.#x3d) : undefined;
+    const needsOthers = wanted?.scene.shapes.some(({ base }) => this.#state === "drawn" && !this.#bases.has(hrefOf(base.url)));
+    if (wanted === undefined || needsOthers === true) {
+      this.end();
+      return;
+    }
+    this.#wanted = wanted;
+    if (this.#state === "drawn") this.#draw();
+  }
+}
+
+/** What the document says now; undefined where only the runtime can show it. */
+function wantedOf(x3d: Element): Wanted | undefined {
+  const settings = readSettings(x3d, () => undefined);
+  if (settings["draw-as"] !== "surface" || settings.reveal !== "auto") return undefined;
+  const scene = firstSceneOf(readScene(x3d), cameraSettingOf(settings));
+  return scene && { scene, exposure: settings.exposure };
+}
+
+function hrefOf(url: string): string {
+  return URL.canParse(url, document.baseURI) ? new URL(url, document.baseURI).href : url;
+}

@@ -1,0 +1,19 @@
+// Puts a view into every <x3d> of the page, now and later.
+
+import { stylePage, viewTag } from "./faceStyle.ts";
+import { ImgeoView } from "./imgeoView.ts";
+import { viewIn } from "./ownNodes.ts";
+
+function fillAll(): void {
+  for (const x3d of document.querySelectorAll("x3d")) viewIn(x3d);
+}
+
+/** Once; a second time does nothing. */
+export function registerViews(): void {
+  if (customElements.get(viewTag) !== undefined) return;
+  customElements.define(viewTag, ImgeoView);
+  stylePage(document);
+  fillAll();
+  // Also brings a view back where a page has replaced all of an <x3d>'s content.
+  new MutationObserver(fillAll).observe(document, { subtree: true, childList: true });
+}

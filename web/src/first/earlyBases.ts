@@ -1,0 +1,54 @@
+// Bases that a first look has asked for. The runtime takes them over, so that they
+// are fetched and decoded once; what has failed it asks for anew, and reports.
+
+import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
+import { compactBases } from "../decode/compact/jobs.ts";
+
+/** Of one file. */
+export interface DecodedBases {
+  readonly byteLength: number;
+  readonly bases: readonly BaseBuffers[];
+}
+
+export interface EarlyFile {
+  /** Kept when it is here, decoded or not. */
+  readonly arrival: Promise<unknown>;
+  /** Rejects where the file is of no use. */
+  readonly content: Promise<DecodedBases>;
+}
+
+export class EarlyBases {
+  readonly #fetch: typeof fetch;
+  readonly #files = new Map<string, EarlyFile>();
+
+  constructor(fetchFile: typeof fetch) {
+    this.#fetch = fetchFile;
+  }
+
+  /** The file at an absolute URL, which is asked for once. */
+  ask(url: string): EarlyFile {
+    const known = this.#files.get(url) ?? this.#load(url);
+    this.#files.set(url, known);
+    return known;
+  }
+
+  /** What has been asked for, for one who keeps it: it is not here any more. */
+  take(url: string): Promise<DecodedBases> | undefined {
+    const file = this.#files.get(url);
+    this.#files.delete(url);
+    return file?.content;
+  }
+
+  #load(url: string): EarlyFile {
+    const arrival = this.#download(url);
+    const content = arrival.then(async (bytes) => ({ byteLength: bytes.byteLength, bases: await compactBases(bytes) }));
+    for (const promise of [arrival, content]) promise.catch(() => undefined); // nobody has to look
+    return { arrival, content };
+  }
+
+  async #download(url: string): Promise<Uint8Array<ArrayBuffer>> {
+    const response = await this.#fetch(url);
+    if (!response.ok) throw new Error(`${url}: the server answered ${response.status}`);
+    return new Uint8Array(await response.arrayBuffer());
+  }
+}

@@ -1,0 +1,61 @@
+// The lights of a first scene as its shaders read them, in the coordinates of the
+// view.
+
+import type { Matrix4 } from "three";
+import { Vector3 } from "three";
+import { coneOf, scaledFalloff } from "../lighting/falloff.ts";
+import type { PlacedLight } from "../navigation/placement.ts";
+import { lengthScaleOf } from "../navigation/matrices.ts";
+import type { FirstScene } from "./scene.ts";
+
+/** By the names of the uniforms: the numbers of all lights, one after the other. */
+export interface LightUniforms {
+  readonly lightColors: readonly number[];
+  /** The fourth number is 1 where there is a place, and 0 where light comes from far away. */
+  readonly lightPlaces: readonly number[];
+  readonly lightDirections: readonly number[];
+  readonly lightAttenuations: readonly number[];
+  readonly lightRadii: readonly number[];
+  /** Cosines of the cone's edge and of its beam. */
+  readonly lightCones: readonly number[];
+  readonly ambientLight: readonly [number, number, number];
+}
+
+export function lightCountOf({ lights, headlight }: Pick<FirstScene, "lights" | "headlight">): number {
+  return lights.length + (headlight ? 1 : 0);
+}
+
+export function lightUniformsOf({ lights, headlight }: Pick<FirstScene, "lights" | "headlight">, viewFromScene: Matrix4): LightUniforms {
+  const all = lights.map((light) => numbersOf(light, viewFromScene));
+  if (headlight) all.push({ ...fromFarAway, color: [1, 1, 1], direction: [0, 0, -1] });
+  const ambient = [0, 1, 2].map((channel) => lights.reduce((sum, { light }) => sum + (light.color[channel] ?? 0) * light.ambientIntensity, 0));
+  return {
+    lightColors: all.flatMap(({ color }) => color), lightPlaces: all.flatMap(({ place }) => place),
+    lightDirections: all.flatMap(({ direction }) => direction), lightAttenuations: all.flatMap(({ attenuation }) => attenuation),
+    lightRadii: all.map(({ radius }) => radius), lightCones: all.flatMap(({ cone }) => cone),
+    ambientLight: [ambient[0] ?? 0, ambient[1] ?? 0, ambient[2] ?? 0],
+  };
+}
+
+interface LightNumbers {
+  readonly color: readonly number[];
+  readonly place: readonly number[];
+  readonly direction: readonly number[];
+  readonly attenuation: readonly number[];
+  readonly radius: number;
+  readonly cone: readonly number[];
+}
+
+const fromFarAway = { place: [0, 0, 0, 0], attenuation: [1, 0, 0], radius: 0, cone: [-2, -2] };
+
+function numbersOf({ light, sceneFromLight }: PlacedLight, viewFromScene: Matrix4): LightNumbers {
+  const color = light.color.map((channel) => channel * light.intensity);
+  const viewFromLight = viewFromScene.clone().multiply(sceneFromLight);
+  const directed = (direction: readonly [number, number, number]) => new Vector3(...direction).transformDirection(viewFromLight).toArray();
+  if (light.kind === "directional") return { ...fromFarAway, color, direction: directed(light.direction) };
+  const place = [...new Vector3(...light.location).applyMatrix4(viewFromLight).toArray(), 1];
+  const { radius, attenuation } = scaledFalloff(light, lengthScaleOf(sceneFromLight));
+  if (light.kind === "point") return { color, place, direction: [0, 0, -1], attenuation, radius, cone: [-2, -2] };
+  const { edge, beam } = coneOf(light);
+  return { color, place, direction: directed(light.direction), attenuation, radius, cone: [Math.cos(edge), Math.cos(beam)] };
+}

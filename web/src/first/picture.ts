@@ -1,0 +1,175 @@
+// Draws a first scene into a WebGL context that is its own.
+
+import { Matrix3, Matrix4, Vector3 } from "three";
+import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
+import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
+import { elementTypeOf } from "../decode/elements.ts";
+import type { ElementArray, VertexArray } from "../decode/stage.ts";
+import { latticeBitsOf } from "../document/storedFrame.ts";
+import { isBlended, litNumbersOf } from "../lighting/materialNumbers.ts";
+import { lensOf } from "../navigation/camera.ts";
+import type { LightUniforms } from "./lights.ts";
+import { lightCountOf, lightUniformsOf } from "./lights.ts";
+import type { Program, ProgramKind } from "./program.ts";
+import { attributePlaces, makeProgram } from "./program.ts";
+import type { FirstScene, FirstShape } from "./scene.ts";
+
+/** A base that has come, part by part. */
+export type BaseOf = (shape: FirstShape) => BaseBuffers | undefined;
+
+/** Whether its base holds what the document says of it, and nothing that is seen through. */
+export function isShowable({ geometry, appearance }: FirstShape, base: BaseBuffers | undefined): base is BaseBuffers {
+  const bits = latticeBitsOf(geometry);
+  return base?.length === geometry.patches.length && base.every((part) =>
+    part === undefined || (part.positionBits === bits && !isBlended(appearance, part.color?.components === 4)));
+}
+
+/** A part on the GPU. */
+interface DrawnPart {
+  readonly vertices: WebGLVertexArrayObject;
+  readonly count: number;
+  readonly indexType: number;
+}
+
+export class FirstPicture {
+  readonly #gl: WebGL2RenderingContext;
+  readonly #programs = new Map<string, Program>();
+  readonly #parts = new Map<PatchBuffers, DrawnPart>();
+  readonly #buffers: WebGLBuffer[] = [];
+
+  constructor(gl: WebGL2RenderingContext) {
+    this.#gl = gl;
+  }
+
+  /** Begins to compile what will be needed, as far as that is known before the bases are here. */
+  prepare(scene: FirstScene): void {
+    for (const shape of scene.shapes) this.#programFor(kindOf(shape, scene, { hasNormals: true, hasColors: false }));
+  }
+
+  /** All of it, in device pixels. Every base has come and is showable. */
+  draw(scene: FirstScene, baseOf: BaseOf, width: number, height: number, exposure: number): void {
+    const gl = this.#gl;
+    const { background } = scene;
+    gl.viewport(0, 0, width, height);
+    gl.clearColor(...(background ?? [0, 0, 0]), background ? 1 : 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
+    const { clipFromView, viewFromScene } = camerasOf(scene, width / height);
+    const lights = lightUniformsOf(scene, viewFromScene);
+    for (const shape of scene.shapes) {
+      const viewFromShape = new Matrix4().multiplyMatrices(viewFromScene, shape.sceneFromShape);
+      for (const part of baseOf(shape) ?? []) {
+        if (part === undefined) continue;
+        const program = this.#programFor(kindOf(shape, scene, { hasNormals: part.normal !== undefined, hasColors: part.color !== undefined }));
+        gl.useProgram(program.program);
+        gl.uniformMatrix4fv(program.uniform("clipFromView"), false, clipFromView.elements);
+        gl.uniform1f(program.uniform("exposure"), exposure);
+        setLights(gl, program, lights);
+        setMaterial(gl, program, shape, part.color !== undefined);
+        setPlace(gl, program, viewFromShape, shape);
+        this.#drawPart(part);
+      }
+    }
+  }
+
+  /** Gives everything back, the context too. */
+  dispose(): void {
+    const gl = this.#gl;
+    for (const { vertices } of this.#parts.values()) gl.deleteVertexArray(vertices);
+    for (const buffer of this.#buffers) gl.deleteBuffer(buffer);
+    for (const { program } of this.#programs.values()) gl.deleteProgram(program);
+    gl.getExtension("WEBGL_lose_context")?.loseContext();
+  }
+
+  #programFor(kind: ProgramKind): Program {
+    const key = JSON.stringify(kind);
+    const known = this.#programs.get(key) ?? makeProgram(this.#gl, kind);
+    this.#programs.set(key, known);
+    return known;
+  }
+
+  #drawPart(part: PatchBuffers): void {
+    const gl = this.#gl;
+    const drawn = this.#parts.get(part) ?? this.#store(part);
+    this.#parts.set(part, drawn);
+    gl.bindVertexArray(drawn.vertices);
+    gl.drawElements(gl.TRIANGLES, drawn.count, drawn.indexType, 0);
+  }
+
+  #store({ coord, normal, color, index }: PatchBuffers): DrawnPart {
+    const gl = this.#gl;
+    const vertices = gl.createVertexArray();
+    gl.bindVertexArray(vertices);
+    this.#storeVertices(attributePlaces.position, coord, false);
+    if (normal) this.#storeVertices(attributePlaces.normal, normal, true);
+    if (color) this.#storeVertices(attributePlaces.color, color, true);
+    if (index) this.#upload(gl.ELEMENT_ARRAY_BUFFER, index);
+    return { vertices, count: index?.length ?? 0, indexType: index instanceof Uint32Array ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT };
+  }
+
+  /** `isSpread`: integers stand for 0 … 1 or -1 … 1. */
+  #storeVertices(place: number, { array, components, stride, offset }: VertexArray, isSpread: boolean): void {
+    const gl = this.#gl;
+    const size = array.BYTES_PER_ELEMENT;
+    this.#upload(gl.ARRAY_BUFFER, array);
+    gl.enableVertexAttribArray(place);
+    const isFloat = array instanceof Float32Array;
+    gl.vertexAttribPointer(place, components, glTypes[elementTypeOf(array)], isSpread && !isFloat, stride * size, offset * size);
+  }
+
+  #upload(target: number, array: ElementArray): void {
+    const gl = this.#gl;
+    const buffer = gl.createBuffer();
+    this.#buffers.push(buffer);
+    gl.bindBuffer(target, buffer);
+    gl.bufferData(target, array, gl.STATIC_DRAW);
+  }
+}
+
+/** WebGL's constants. */
+const glTypes = { Int8: 0x1400, Uint8: 0x1401, Int16: 0x1402, Uint16: 0x1403, Int32: 0x1404, Uint32: 0x1405, Float32: 0x1406 } as const;
+
+function kindOf({ geometry, appearance }: FirstShape, scene: FirstScene, parts: Pick<ProgramKind, "hasNormals" | "hasColors">): ProgramKind {
+  return { ...parts, material: appearance.material.kind, isTwoSided: !geometry.solid, lightCount: lightCountOf(scene) };
+}
+
+/** As three.js' camera of the runtime stands and sees. */
+function camerasOf({ pose, sphere, clearance }: FirstScene, aspect: number): { clipFromView: Matrix4; viewFromScene: Matrix4 } {
+  const { fieldOfView, near, far } = lensOf(pose, aspect, sphere, clearance);
+  const top = near * Math.tan(fieldOfView / 2);
+  const sceneFromView = new Matrix4().compose(pose.position, pose.orientation, new Vector3(1, 1, 1));
+  return {
+    clipFromView: new Matrix4().makePerspective(-top * aspect, top * aspect, top, -top, near, far),
+    viewFromScene: sceneFromView.invert(),
+  };
+}
+
+function setPlace(gl: WebGL2RenderingContext, { uniform }: Program, viewFromShape: Matrix4, { sceneFromShape, shapeFromStored, geometry }: FirstShape): void {
+  gl.uniformMatrix4fv(uniform("viewFromStored"), false, new Matrix4().multiplyMatrices(viewFromShape, shapeFromStored).elements);
+  gl.uniformMatrix3fv(uniform("viewFromNormal"), false, new Matrix3().getNormalMatrix(viewFromShape).elements);
+  gl.frontFace(sceneFromShape.determinant() < 0 ? gl.CW : gl.CCW);
+  if (geometry.solid) gl.enable(gl.CULL_FACE);
+  else gl.disable(gl.CULL_FACE);
+}
+
+function setMaterial(gl: WebGL2RenderingContext, { uniform }: Program, { appearance: { material } }: FirstShape, hasColors: boolean): void {
+  const { color, specular, shininess, ambientIntensity, metallic, roughness } = litNumbersOf(material, hasColors);
+  gl.uniform3fv(uniform("color"), color);
+  gl.uniform3fv(uniform("specular"), specular);
+  gl.uniform3fv(uniform("emissive"), material.emissiveColor);
+  gl.uniform1f(uniform("shininess"), shininess);
+  gl.uniform1f(uniform("ambientIntensity"), ambientIntensity);
+  gl.uniform1f(uniform("metallic"), metallic);
+  gl.uniform1f(uniform("roughness"), roughness);
+}
+
+function setLights(gl: WebGL2RenderingContext, { uniform }: Program, lights: LightUniforms): void {
+  gl.uniform3fv(uniform("lightColors"), lights.lightColors);
+  gl.uniform4fv(uniform("lightPlaces"), lights.lightPlaces);
+  gl.uniform3fv(uniform("lightDirections"), lights.lightDirections);
+  gl.uniform3fv(uniform("lightAttenuations"), lights.lightAttenuations);
+  gl.uniform1fv(uniform("lightRadii"), lights.lightRadii);
+  gl.uniform2fv(uniform("lightCones"), lights.lightCones);
+  gl.uniform3fv(uniform("ambientLight"), lights.ambientLight);
+}
