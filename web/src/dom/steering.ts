@@ -37,9 +37,9 @@ export class Steering {
     this.#onSteered = onSteered;
   }
 
-  /** Steers by what the scene is now; `onProblem` is told what cannot be read of its weights. */
+  /** Steers by what the scene is now, its bound viewpoint too; `onProblem` is told what cannot be read of its weights. */
   follow(chunkPriority: string, { places }: SceneChanges, onProblem: (problem: string) => void): void {
-    if (places.size === 0 && chunkPriority === this.#chunkPriority) return;
+    if (places.size === 0 && chunkPriority === this.#chunkPriority && isSameView(this.#renderer.view, this.#view)) return;
     if (chunkPriority !== this.#chunkPriority) this.#weights = chunkWeightsOf(chunkPriority, onProblem);
     this.#chunkPriority = chunkPriority;
     this.#places.follow(places);
