@@ -1,8 +1,8 @@
 // Typed arrays out of container bytes (BG). Counts and offsets come from the
 // document, so they are checked against the bytes before anything is viewed.
 
+import type { Bounds, ElementArray, IndexArray, VertexArray } from "./arrays.ts";
 import { DecodeError } from "./decodeError.ts";
-import type { Bounds, ElementArray, IndexArray, VertexArray } from "./stage.ts";
 
 const arrayTypes = {
   Int8: Int8Array, Uint8: Uint8Array, Int16: Int16Array, Uint16: Uint16Array,

@@ -2,6 +2,7 @@
 // renderer knows nothing of how a stage came about; it only ever replaces a
 // patch's stage by a newer one.
 
+import type { Bounds, VertexArray } from "./arrays.ts";
 import type { ElementType } from "./elements.ts";
 import type { DecodedImage } from "./image.ts";
 
@@ -92,20 +93,6 @@ export interface ValuePlanes {
   readonly middleOfMissing: number;
 }
 
-export type ElementArray = Int8Array<ArrayBuffer> | Uint8Array<ArrayBuffer> | Int16Array<ArrayBuffer>
-  | Uint16Array<ArrayBuffer> | Int32Array<ArrayBuffer> | Uint32Array<ArrayBuffer> | Float32Array<ArrayBuffer>;
-
-/** One group of `stride` elements a vertex, of which `components` from `offset` on count. */
-export interface VertexArray {
-  readonly array: ElementArray;
-  readonly components: 1 | 2 | 3 | 4;
-  /** In elements, as `offset`. */
-  readonly stride: number;
-  readonly offset: number;
-}
-
-export type IndexArray = Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer> | Uint32Array<ArrayBuffer>;
-
 /** Bytes of typed arrays that are where draws read them, and not here any more. */
 export interface StoredBytes {
   readonly byteLength: number;
@@ -131,13 +118,6 @@ export interface StoredValues extends StoredVertices {
 export interface StoredIndex {
   readonly bytes: StoredBytes;
   readonly type: ElementType;
-}
-
-type Triple = readonly [number, number, number];
-
-export interface Bounds {
-  readonly min: Triple;
-  readonly max: Triple;
 }
 
 /** Vertices in buffers (BG). Coordinates are integers as stored, the rest is spread over its range. */

@@ -2,10 +2,11 @@
 // beside the main thread; both are uploaded in pieces before frames, and kept
 // nowhere else.
 
+import type { ElementArray } from "../decode/arrays.ts";
 import type { DataImage, DecodedImage } from "../decode/image.ts";
 import { decodePicture } from "../decode/picture.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
-import type { ArrayUse, ElementArray, StoredBytes } from "../decode/stage.ts";
+import type { ArrayUse, StoredBytes } from "../decode/stage.ts";
 import type { Picture } from "../delivery/resources.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import { beforeNextFrame } from "../render/nextFrame.ts";

@@ -4,9 +4,10 @@
 
 import type { BufferGeometry } from "three";
 import { BufferAttribute, InterleavedBuffer } from "three";
+import type { ElementArray } from "../decode/arrays.ts";
 import type { ElementType } from "../decode/elements.ts";
 import { arrayTypeOf, byteSizeOf } from "../decode/elements.ts";
-import type { ElementArray, StoredBytes } from "../decode/stage.ts";
+import type { StoredBytes } from "../decode/stage.ts";
 import type { Buffers } from "../render/buffers.ts";
 
 interface Kept {

@@ -2,8 +2,9 @@
 
 import type { Object3D, Sphere } from "three";
 import { Color, DirectionalLight, Group, LinearSRGBColorSpace, LinearToneMapping, Matrix4, Mesh, NoToneMapping, PerspectiveCamera, Scene, Vector2, Vector4, WebGLRenderer } from "three";
+import type { ElementArray } from "../decode/arrays.ts";
 import type { DecodedImage } from "../decode/image.ts";
-import type { ArrayUse, ElementArray, Stage } from "../decode/stage.ts";
+import type { ArrayUse, Stage } from "../decode/stage.ts";
 import type { BackgroundDescription, GeometryDescription, SamplingDescription, SceneDescription, ShapeDescription, TextureRole } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { applyPose } from "../navigation/camera.ts";

@@ -3,7 +3,8 @@
 
 import type { Camera, Object3D, Sphere } from "three";
 import { Box3, Frustum, Matrix4, Vector3 } from "three";
-import type { Bounds, Stage } from "../decode/stage.ts";
+import type { Bounds } from "../decode/arrays.ts";
+import type { Stage } from "../decode/stage.ts";
 import type { GeometryDescription, SceneDescription, ShapeDescription, TextureRole } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";

@@ -2,7 +2,8 @@
 // each place where the shape stands in the scene.
 
 import type { Group } from "three";
-import type { Bounds, Stage } from "../decode/stage.ts";
+import type { Bounds } from "../decode/arrays.ts";
+import type { Stage } from "../decode/stage.ts";
 import { areAlike } from "../document/alike.ts";
 import type { AppearanceDescription, GeometryDescription, PatchDescription, ShapeDescription, TextureRole } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";

@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import type { BufferAttribute } from "three";
-import type { BufferStage, DrawRange, ElementArray, IndexArray, StoredBytes } from "../decode/stage.ts";
+import type { ElementArray, IndexArray } from "../decode/arrays.ts";
+import type { BufferStage, DrawRange, StoredBytes } from "../decode/stage.ts";
 import type { Buffers } from "./buffers.ts";
 import { outlineTriangles } from "./wideLineChunk.ts";
 import { wideLineGeometryOf, withWideLines } from "./wideLines.ts";

@@ -4,8 +4,9 @@
 // buffers the ends are laid out one after the other, which needs them here once.
 
 import { BufferAttribute, InstancedBufferGeometry, InstancedInterleavedBuffer, InterleavedBufferAttribute } from "three";
+import type { ElementArray } from "../decode/arrays.ts";
 import { arrayTypeOf, byteSizeOf } from "../decode/elements.ts";
-import type { BufferStage, DrawRange, ElementArray, Stage } from "../decode/stage.ts";
+import type { BufferStage, DrawRange, Stage } from "../decode/stage.ts";
 import { indicesOf } from "./batches/meshColumns.ts";
 import type { Buffers } from "./buffers.ts";
 import type { StoredAttribute } from "./storedAttributes.ts";

@@ -1,7 +1,7 @@
 // A decoded base as what a GPU takes, each part for itself: it goes when its patch comes.
 
+import type { ElementArray, VertexArray } from "../arrays.ts";
 import { DecodeError } from "../decodeError.ts";
-import type { ElementArray, VertexArray } from "../stage.ts";
 import type { CompactPatch } from "./patch.ts";
 import type { PatchBuffers } from "./patchBuffers.ts";
 import { indexOf, verticesOf } from "./patchBuffers.ts";
