@@ -5,7 +5,7 @@
 //
 //   scripts/bench changes          RUNTIME=folder: of another build's imgeo.js
 
-import { cpSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
@@ -69,7 +69,7 @@ async function row(page: Page, name: string, change: (round: number) => void): P
 
 const directory = mkdtempSync(join(tmpdir(), "imgeo-changes-"));
 const runtime = process.env.RUNTIME ?? "web/dist";
-for (const name of ["imgeo.js", "imgeo-worker.js"]) cpSync(join(runtime, name), join(directory, name));
+for (const name of readdirSync(runtime)) cpSync(join(runtime, name), join(directory, name));
 writeFileSync(join(directory, "index.html"), `<!DOCTYPE html><title>changes</title><script type="module" src="imgeo.js"></script>${sceneText()}`);
 const server = await startServer(directory);
 const browser = await launchChromium();
