@@ -3,12 +3,13 @@
 // lists edits of payloads, and what is to come of each: the kind of error, or the
 // FNV-1a sum of what decodes. IMGEO_REWRITE_GOLDEN=1 writes all anew, which is a
 // new version of the format.
-#include "base/error.h"
 #include "base/file.h"
 #include "containers/compact/patch_coding.h"
 #include "containers/compact/patch_samples.h"
 #include "containers/compact/payload_image.h"
+#include "containers/compact/verdict.h"
 
+#include <cctype>
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -19,18 +20,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 const std::filesystem::path folder = IMGEO_VECTORS "/compact-1";
 
-template <typename Visit> void visitNumbers(const CompactPatch& patch, Visit visit) {
-  for (const Vec3u& position : patch.positions)
-    for (int axis = 0; axis < 3; ++axis)
-      visit("positions", std::int64_t{position[axis]});
-  for (const std::uint32_t position : patch.wedgePositions)
-    visit("wedgePositions", std::int64_t{position});
-  for (const std::uint32_t wedge : patch.corners)
-    visit("corners", std::int64_t{wedge});
-  for (const std::uint32_t part : patch.parts)
-    visit("parts", std::int64_t{part});
-}
-
 Json jsonOf(const CompactPatch& patch) {
   Json json{{"topology", static_cast<int>(patch.topology)},
             {"positionBits", patch.positionBits},
@@ -40,7 +29,7 @@ Json jsonOf(const CompactPatch& patch) {
             {"attributes", Json::array()}};
   if (patch.partCount > 0)
     json["partCount"] = patch.partCount;
-  visitNumbers(patch, [&](const char* name, std::int64_t number) { json[name].push_back(number); });
+  testing::visitNumbers(patch, [&](const char* name, std::int64_t number) { json[name].push_back(number); });
   for (const Attribute& attribute : patch.attributes) {
     const AttributeType& type = attribute.type;
     Json& entry = json["attributes"].emplace_back();
@@ -63,30 +52,11 @@ Json jsonOf(const std::vector<CompactPatch>& patches) {
   return json;
 }
 
-/// FNV-1a over every number that decodes, as four little-endian bytes each.
-std::uint32_t sumOf(const std::vector<CompactPatch>& patches) {
-  std::uint32_t hash = 2166136261u;
-  const auto add = [&](std::int64_t number) {
-    for (int shift = 0; shift < 32; shift += 8)
-      hash = (hash ^ (static_cast<std::uint32_t>(number) >> shift & 255)) * 16777619u;
-  };
-  for (const CompactPatch& patch : patches) {
-    visitNumbers(patch, [&](const char*, std::int64_t number) { add(number); });
-    for (const Attribute& attribute : patch.attributes)
-      for (const Value& value : attribute.values)
-        for (std::uint32_t i = 0; i < attribute.type.components; ++i)
-          add(value[i]);
-  }
-  return hash;
-}
-
+/// A number where the payload decodes.
 Json verdictOn(const Bytes& payload) {
-  static constexpr const char* names[] = {"io", "truncated", "malformed", "unsupported", "limit", "usage"};
-  try {
-    return sumOf(decodePatches(payload, "x.png"));
-  } catch (const Error& error) {
-    return names[static_cast<std::size_t>(error.kind())];
-  }
+  const std::string verdict = testing::verdictOn(payload);
+  return std::isdigit(static_cast<unsigned char>(verdict.front())) ? Json(std::stoul(verdict))
+                                                                   : Json(verdict);
 }
 
 /// A payload after [byte, value] pairs and, where "length" stands, cut to it.

@@ -3,55 +3,14 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { DecodeError } from "../decodeError.ts";
-import type { CompactPatch } from "./patch.ts";
 import { decodePatches } from "./patch.ts";
 import { TestRandom } from "./rangeEncoder.testing.ts";
+import { stated, verdictOn } from "./verdict.testing.ts";
 import { readPayload, readVector, vectorNames } from "./vectors.testing.ts";
 
 const names = vectorNames();
 
-/** What a vector's JSON states of each patch. */
-interface Expected {
-  readonly topology: number;
-  readonly positionBits: number;
-  readonly positions: number[];
-  readonly wedgePositions: number[];
-  readonly corners: number[];
-  /** Of a base. */
-  readonly parts?: number[];
-  readonly partCount?: number;
-  readonly attributes: { readonly kind: number; readonly components: number; readonly bits: number; readonly mode: number; readonly values: number[] }[];
-}
-
-function expectedOf({ header, coordinates, connectivity, wedges: { wedge, seams }, attributes, parts }: CompactPatch): Expected {
-  const running = Array.from({ length: header.wedgeCount }, (_, w) => w);
-  return {
-    topology: ["", "points", "lines", "triangles"].indexOf(header.topology),
-    positionBits: header.positionBits,
-    positions: Array.from(coordinates.subarray(0, 3 * header.vertexCount)),
-    wedgePositions: seams ? Array.from(seams.corner, (corner) => connectivity.vertex[corner]!) : running,
-    corners: header.topology === "points" ? running : Array.from(wedge),
-    ...(parts && { parts: Array.from(parts.part), partCount: header.partCount }),
-    attributes: attributes.map((values, place) => {
-      const { kind, components, bits, isUniform, isDerived } = header.attributes[place]!;
-      return { kind: ["normal", "texCoord", "color", "other"].indexOf(kind), components, bits,
-               mode: Number(isUniform) + 2 * Number(isDerived), values: Array.from(values, (value) => value + 0) };
-    }),
-  };
-}
-
-/** FNV-1a over every number that decodes, as four little-endian bytes each. */
-function sumOf(patches: readonly Expected[]): number {
-  let hash = 2166136261;
-  for (const { positions, wedgePositions, corners, parts = [], attributes } of patches) {
-    for (const number of [positions, wedgePositions, corners, parts, ...attributes.map(({ values }) => values)].flat()) {
-      for (let shift = 0; shift < 32; shift += 8) hash = Math.imul(hash ^ number >>> shift & 255, 16777619);
-    }
-  }
-  return hash >>> 0;
-}
-
-const decode = (payload: Uint8Array) => decodePatches(payload, expectedOf);
+const decode = (payload: Uint8Array) => decodePatches(payload, stated);
 const headersOf = (payload: Uint8Array) => decodePatches(payload, ({ header }) => header);
 
 interface Edit {
@@ -127,14 +86,3 @@ describe("a file of compact", () => {
     }
   });
 });
-
-function verdictOn(payload: Uint8Array): number | DecodeError["kind"] {
-  let patches: readonly Expected[];
-  try {
-    patches = decode(payload);
-  } catch (error) {
-    if (error instanceof DecodeError) return error.kind;
-    throw error;
-  }
-  return sumOf(patches);
-}

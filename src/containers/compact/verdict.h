@@ -1,0 +1,57 @@
+#pragma once
+// For tests: what comes of a file of compact, in one word that a reader in any
+// language can be held to (web/src/decode/compact/verdict.testing.ts has the same).
+
+#include "base/bytes.h"
+#include "base/error.h"
+#include "containers/compact/patch_coding.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace imgeo::compact::testing {
+
+/// Calls `visit(name, number)` for all of a patch's numbers but those of its attributes.
+template <typename Visit> void visitNumbers(const CompactPatch& patch, Visit visit) {
+  for (const Vec3u& position : patch.positions)
+    for (int axis = 0; axis < 3; ++axis)
+      visit("positions", std::int64_t{position[axis]});
+  for (const std::uint32_t position : patch.wedgePositions)
+    visit("wedgePositions", std::int64_t{position});
+  for (const std::uint32_t wedge : patch.corners)
+    visit("corners", std::int64_t{wedge});
+  for (const std::uint32_t part : patch.parts)
+    visit("parts", std::int64_t{part});
+}
+
+/// FNV-1a over every number that decodes, as four little-endian bytes each.
+inline std::uint32_t sumOf(const std::vector<CompactPatch>& patches) {
+  std::uint32_t hash = 2166136261u;
+  const auto add = [&](std::int64_t number) {
+    for (int shift = 0; shift < 32; shift += 8)
+      hash = (hash ^ (static_cast<std::uint32_t>(number) >> shift & 255)) * 16777619u;
+  };
+  for (const CompactPatch& patch : patches) {
+    visitNumbers(patch, [&](const char*, std::int64_t number) { add(number); });
+    for (const Attribute& attribute : patch.attributes)
+      for (const Value& value : attribute.values)
+        for (std::uint32_t i = 0; i < attribute.type.components; ++i)
+          add(value[i]);
+  }
+  return hash;
+}
+
+/// The sum of what a payload decodes to, or the kind of its refusal.
+inline std::string verdictOn(ByteSpan payload) {
+  static constexpr std::array names{"io", "truncated", "malformed", "unsupported", "limit", "usage"};
+  try {
+    return std::to_string(sumOf(decodePatches(payload, "x.png")));
+  } catch (const Error& error) {
+    return names.at(static_cast<std::size_t>(error.kind()));
+  }
+}
+
+} // namespace imgeo::compact::testing
