@@ -41,6 +41,10 @@ const picture: Picture = {
   data: Uint8Array.from(Array.from({ length: rows }, (_, row) => Array.from({ length: columns }, (_, column) => texel(column, row))).flat(2)),
 };
 
+/** The same picture as an SFImage: rows from the lowest up. */
+const numbers = [columns, rows, 3, ...Array.from({ length: columns * rows }, (_, n) => texel(n % columns, rows - 1 - Math.floor(n / columns)))
+  .map(([r, g, b]) => `0x${((r << 16) | (g << 8) | b).toString(16)}`)].join(" ");
+
 /** The texel that texture coordinates name, the first row being the highest. */
 const texelAt = (s: number, t: number): [number, number, number] => texel(Math.min(columns - 1, Math.floor(s * columns)), rows - 1 - Math.min(rows - 1, Math.floor(t * rows)));
 
@@ -88,8 +92,8 @@ const cases = (): Case[] => [
 
   { what: "unlit", site: siteOf(quad(1), "--profile", "classic"), most: 1,
     appearance: `<UnlitMaterial>${image('containerField="emissiveTexture"')}</UnlitMaterial>`, expected: texelAt },
-  { what: "multiplied by the material", site: siteOf(quad(1), "--profile", "classic"), most: 1,
-    appearance: `<Material diffuseColor="0.5 1 0" ambientIntensity="0">${image('containerField="diffuseTexture"')}</Material>`,
+  { what: "written as numbers and multiplied by the material", site: siteOf(quad(1), "--profile", "classic"), most: 1,
+    appearance: `<Material diffuseColor="0.5 1 0" ambientIntensity="0"><PixelTexture image="${numbers}" containerField="diffuseTexture">${nearest}</PixelTexture></Material>`,
     expected: (s, t) => { const [r, g] = texelAt(s, t); return [r / 2, g, 0]; } },
   { what: "that shines", site: siteOf(quad(1), "--profile", "classic"), most: 1,
     appearance: `<Material diffuseColor="0 0 0" emissiveColor="1 0.5 1">${image('containerField="emissiveTexture"')}</Material>`,

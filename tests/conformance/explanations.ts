@@ -29,7 +29,7 @@ export const explanations: Readonly<Record<string, string>> = {
   "Material-emissiveTexture": noTexturesInMaterials,
   "Material-normalTexture": `green points up in the picture, as in glTF; in X_ITE down. ${noTexturesInMaterials}`,
   "MultiTexture": "of several textures the first is shown; the runtimes mix them differently",
-  "PixelTexture": "pictures written as numbers into the document are not drawn",
+  "PixelTexture": "X_ITE shows the squares of pictures of few pixels; X3D leaves the filter open",
   "PhysicalMaterial-metallic-0-roughness-0.3": withoutPi,
   "PhysicalMaterial-metallic-0-roughness-1": withoutPi,
   "PhysicalMaterial-metallic-1-roughness-0.4": `${withoutPi}. Metal mirrors a grey room, X_ITE's nothing`,

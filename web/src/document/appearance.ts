@@ -5,10 +5,13 @@ import type {
   Warning, WrapMode,
 } from "./description.ts";
 import { textureRoles } from "./description.ts";
+import { dataUrl } from "./dataUrl.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, lowerNameOf } from "./element.ts";
 import { readLines } from "./lineProperties.ts";
+import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
+import { pngOfPixels } from "./pixelImage.ts";
 
 /** The children of an element, with what they USE in their place. */
 export type ChildrenOf = (element: SceneElement) => readonly SceneElement[];
@@ -66,14 +69,17 @@ function readAlpha(element: SceneElement, warnings: Warning[]): AlphaDescription
 /** Of a MultiTexture one texture is shown: how several are mixed X3D 4 has left to materials. */
 function firstTextureOf(part: SceneElement, childrenOf: ChildrenOf, warnings: Warning[]): readonly SceneElement[] {
   if (lowerNameOf(part) !== "multitexture") return [part];
-  warnings.push({ element: part, message: "of a <MultiTexture> only the first ImageTexture is shown" });
-  return childrenOf(part).filter((texture) => lowerNameOf(texture) === "imagetexture").slice(0, 1);
+  warnings.push({ element: part, message: "of a <MultiTexture> only the first picture is shown" });
+  return childrenOf(part).filter(isTexture).slice(0, 1);
+}
+
+function isTexture(part: SceneElement): boolean {
+  return ["imagetexture", "pixeltexture"].includes(lowerNameOf(part));
 }
 
 /** A texture of the main colour stands in its material, or where X3D has it since version 3. */
 function readTextures(parts: readonly SceneElement[], material: SceneElement | undefined, childrenOf: ChildrenOf,
                       warnings: Warning[]): TextureDescription[] {
-  const isTexture = (part: SceneElement) => lowerNameOf(part) === "imagetexture";
   const inMaterial = material ? childrenOf(material).filter(isTexture) : [];
   const fields = textureFields[material ? lowerNameOf(material) : "material"] ?? {};
   return textureRoles.flatMap((role) => {
@@ -93,10 +99,23 @@ function fieldOf(texture: SceneElement): string {
 
 function readTexture(role: TextureRole, element: SceneElement, transform: TextureDescription["transform"], childrenOf: ChildrenOf,
                      warnings: Warning[]): TextureDescription[] {
-  const { url: [url], preview, repeatS, repeatT } = readFields(element, nodeFields.ImageTexture, warnings);
+  const { url, preview, repeatS, repeatT } = lowerNameOf(element) === "pixeltexture" ? readPixels(element, warnings) : readImage(element, warnings);
   if (url === undefined) return [];
   const properties = childrenOf(element).find((part) => lowerNameOf(part) === "textureproperties");
   return [{ role, url, preview, sampling: { ...samplingOf(properties, repeatS, repeatT, warnings), isData: dataRoles.includes(role) }, transform }];
+}
+
+/** What textures say, wherever their picture is; no url: there is none. */
+type ReadTexture = Pick<Values<typeof nodeFields.ImageTexture>, "preview" | "repeatS" | "repeatT"> & { readonly url: string | undefined };
+
+function readImage(element: SceneElement, warnings: Warning[]): ReadTexture {
+  const { url: [url], ...rest } = readFields(element, nodeFields.ImageTexture, warnings);
+  return { ...rest, url };
+}
+
+function readPixels(element: SceneElement, warnings: Warning[]): ReadTexture {
+  const { image, ...rest } = readFields(element, nodeFields.PixelTexture, warnings);
+  return { ...rest, preview: "", url: image.pixels.length > 0 ? dataUrl("image/png", pngOfPixels(image)) : undefined };
 }
 
 function samplingOf(element: SceneElement | undefined, repeatS: boolean, repeatT: boolean, warnings: Warning[]): Omit<SamplingDescription, "isData"> {

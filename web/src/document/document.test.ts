@@ -116,7 +116,7 @@ describe("a scene", () => {
     const texturesOf = (markup: string) => shapesOf(sceneOf(`<Shape><Appearance>${markup}</Appearance></Shape>`).root)[0]?.appearance.textures
       .map(({ role, url, preview, sampling: { isData } }) => [role, url, preview, isData].join(" "));
     assert.deepEqual(texturesOf('<Material/><ImageTexture url="a.png" preview="small.webp"/>'), ["color a.png small.webp false"]);
-    assert.deepEqual(texturesOf('<Material/><MultiTexture><PixelTexture/><ImageTexture url="a.png"/><ImageTexture url="b.png"/></MultiTexture>'), ["color a.png  false"]);
+    assert.deepEqual(texturesOf('<Material/><MultiTexture><MovieTexture/><ImageTexture url="a.png"/><ImageTexture url="b.png"/></MultiTexture>'), ["color a.png  false"]);
     assert.deepEqual(texturesOf(`<PhysicalMaterial><ImageTexture DEF="ORM" url="orm.png" containerField="occlusionTexture"/>
       <ImageTexture USE="ORM" containerField="metallicRoughnessTexture"/><ImageTexture url="n.png" containerField="normalTexture"/>
       <ImageTexture url="s.png" containerField="specularTexture"/></PhysicalMaterial><ImageTexture url="a.png"/>`),

@@ -2,6 +2,9 @@
 // by white space or commas. Each type says how to read a text; undefined means
 // that the text is not of that type.
 
+import type { PixelImage } from "./pixelImage.ts";
+import { pixelImageOf } from "./pixelImage.ts";
+
 export type Vec2 = readonly [number, number];
 export type Vec3 = readonly [number, number, number];
 /** Axis and angle in radians. */
@@ -99,6 +102,14 @@ const mfString: FieldType<readonly string[]> = {
   },
 };
 
+const sfImage: FieldType<PixelImage> = {
+  name: "SFImage",
+  parse(text) {
+    const numbers = numbersIn(text);
+    return numbers && pixelImageOf(numbers);
+  },
+};
+
 const mfColor: FieldType<readonly Vec3[]> = {
   name: "MFColor",
   parse(text) {
@@ -125,6 +136,7 @@ export const SFString = maker(sfString);
 export const SFVec2f = maker(tuple<Vec2>("SFVec2f", 2));
 export const SFVec3f = maker(tuple<Vec3>("SFVec3f", 3));
 export const SFColor = maker(tuple<Vec3>("SFColor", 3));
+export const SFImage = maker(sfImage);
 export const SFRotation = maker(tuple<Rotation>("SFRotation", 4));
 export const MFInt32 = maker(mfInt32);
 export const MFFloat = maker(mfFloat);

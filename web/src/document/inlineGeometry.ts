@@ -3,6 +3,7 @@
 // other, and what has not changed is the same text.
 
 import type { Box3, GeometryDescription, Reference, Warning } from "./description.ts";
+import { dataUrl } from "./dataUrl.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
 import { elevationGrid } from "./elevationGrid.ts";
@@ -199,7 +200,5 @@ function boxAroundAll(positions: Float32Array): Box3 {
 /** Typed arrays are little-endian there, as they are on every machine with a browser. */
 function dataReference(array: Float32Array | Uint8Array): Reference {
   const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
-  let text = "";
-  for (let at = 0; at < bytes.length; at += 0x8000) text += String.fromCharCode(...bytes.subarray(at, at + 0x8000));
-  return { url: `data:application/octet-stream;base64,${btoa(text)}`, first: 0, stride: 0 };
+  return { url: dataUrl("application/octet-stream", bytes), first: 0, stride: 0 };
 }

@@ -6,10 +6,11 @@ import type { SceneElement } from "./element.ts";
 import { attributesOf } from "./element.ts";
 import type { Field } from "./fieldTypes.ts";
 import {
-  MFColor, MFFloat, MFInt32, MFString, optional, Priority, SFBool, SFColor, SFFloat, SFInt32, SFRotation, SFString, SFVec2f,
+  MFColor, MFFloat, MFInt32, MFString, optional, Priority, SFBool, SFColor, SFFloat, SFImage, SFInt32, SFRotation, SFString, SFVec2f,
   SFVec3f,
 } from "./fieldTypes.ts";
 import { ColorMap } from "./colorMaps.ts";
+import { noPixels } from "./pixelImage.ts";
 
 /** True: becomes the one that counts (set_bind is X3D's event, bind X3DOM's field). */
 const bindable = { set_bind: SFBool(false), bind: SFBool(false) };
@@ -244,6 +245,7 @@ export const nodeFields = {
   Color: { color: MFFloat([]) },
   GeometryPatch: { ...boundedObject, ...patchFields, recordCount: SFInt32(0) },
   ImageTexture: { containerField: SFString(""), url: MFString([]), preview: SFString(""), repeatS: SFBool(true), repeatT: SFBool(true) },
+  PixelTexture: { image: SFImage(noPixels), repeatS: SFBool(true), repeatT: SFBool(true) },
 } as const;
 
 /** A node's values by field name. */

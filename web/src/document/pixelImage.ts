@@ -1,0 +1,106 @@
+// X3D's SFImage (ISO/IEC 19776-1, 5.9): a picture whose pixels stand as numbers in
+// the document. It becomes a PNG, so that it goes the way of every other picture.
+
+/** Rows from the lowest up, as X3D has them; a pixel's components are its bytes, the first the highest. */
+export interface PixelImage {
+  readonly width: number;
+  readonly height: number;
+  /** Intensity; intensity and alpha; red, green, blue; the same and alpha. */
+  readonly components: 1 | 2 | 3 | 4;
+  readonly pixels: readonly number[];
+}
+
+export const noPixels: PixelImage = { width: 0, height: 0, components: 1, pixels: [] };
+
+/** Edges beyond it are no textures anywhere. */
+const largestEdge = 16384;
+
+/** Of the numbers of an SFImage; undefined where they are none: another number of pixels, or pixels that are larger than their components. */
+export function pixelImageOf([width, height, count, ...pixels]: readonly number[]): PixelImage | undefined {
+  if (width === undefined || height === undefined) return undefined;
+  const isEdge = (edge: number) => Number.isInteger(edge) && edge >= 0 && edge <= largestEdge;
+  if (!isEdge(width) || !isEdge(height) || width * height !== pixels.length) return undefined;
+  if (width * height === 0) return noPixels; // "0 0 0": none
+  const components = ([1, 2, 3, 4] as const).find((possible) => possible === count);
+  const end = 256 ** (components ?? 0);
+  const isPixel = (pixel: number) => Number.isInteger(pixel) && pixel >= 0 && pixel < end;
+  return components && pixels.every(isPixel) ? { width, height, components, pixels } : undefined;
+}
+
+const pngColorTypes = { 1: 0, 2: 4, 3: 2, 4: 6 } as const;
+const signature = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
+
+/** Uncompressed: it is read once, and nobody sends it. */
+export function pngOfPixels({ width, height, components, pixels }: PixelImage): Uint8Array {
+  const header = new Uint8Array(13);
+  const numbers = new DataView(header.buffer);
+  numbers.setUint32(0, width);
+  numbers.setUint32(4, height);
+  header.set([8, pngColorTypes[components]], 8);
+  const rows = new Uint8Array(height * (1 + width * components)); // each begins with the number of its filter: none
+  let at = 0;
+  for (let row = height - 1; row >= 0; --row) {
+    ++at;
+    for (let column = 0; column < width; ++column) {
+      const pixel = pixels[row * width + column] ?? 0;
+      for (let shift = 8 * (components - 1); shift >= 0; shift -= 8) rows[at++] = pixel >>> shift;
+    }
+  }
+  return joined([Uint8Array.from(signature), chunk("IHDR", header), chunk("IDAT", storedZlib(rows)), chunk("IEND", new Uint8Array())]);
+}
+
+function chunk(type: string, data: Uint8Array): Uint8Array {
+  const bytes = new Uint8Array(data.length + 12);
+  const numbers = new DataView(bytes.buffer);
+  numbers.setUint32(0, data.length);
+  bytes.set(Array.from(type, (letter) => letter.charCodeAt(0)), 4);
+  bytes.set(data, 8);
+  numbers.setUint32(data.length + 8, crc32(bytes.subarray(4, data.length + 8)));
+  return bytes;
+}
+
+/** RFC 1950 around RFC 1951's stored blocks. */
+function storedZlib(data: Uint8Array): Uint8Array {
+  const largestBlock = 65535;
+  const parts: Uint8Array[] = [Uint8Array.of(0x78, 0x01)];
+  for (let at = 0; at < data.length; at += largestBlock) {
+    const block = data.subarray(at, at + largestBlock);
+    const isLast = at + largestBlock >= data.length;
+    const { length } = block;
+    parts.push(Uint8Array.of(Number(isLast), length & 255, length >> 8, ~length & 255, (~length >> 8) & 255), block);
+  }
+  const sum = new Uint8Array(4);
+  new DataView(sum.buffer).setUint32(0, adler32(data));
+  return joined([...parts, sum]);
+}
+
+function adler32(bytes: Uint8Array): number {
+  let [a, b] = [1, 0];
+  for (const byte of bytes) {
+    a = (a + byte) % 65521;
+    b = (b + a) % 65521;
+  }
+  return b * 65536 + a;
+}
+
+const crcTable = Uint32Array.from({ length: 256 }, (_, byte) => {
+  let rest = byte;
+  for (let bit = 0; bit < 8; ++bit) rest = rest & 1 ? (rest >>> 1) ^ 0xedb88320 : rest >>> 1;
+  return rest;
+});
+
+function crc32(bytes: Uint8Array): number {
+  let rest = 0xffffffff;
+  for (const byte of bytes) rest = (crcTable[(rest ^ byte) & 255] ?? 0) ^ (rest >>> 8);
+  return ~rest >>> 0;
+}
+
+function joined(parts: readonly Uint8Array[]): Uint8Array {
+  const all = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
+  let at = 0;
+  for (const part of parts) {
+    all.set(part, at);
+    at += part.length;
+  }
+  return all;
+}
