@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { mainTasksOf, processorMsOf, type TraceEvent } from "../bench/load/trace.ts";
+import { longestTaskMsOf, mainTasksOf, processorMsOf, type TraceEvent } from "../bench/load/trace.ts";
 
 /** Milliseconds; a thread's name where `name` is that. */
 function event(tid: number, name: string, at: number, ms: number, processorMs: number): TraceEvent {
@@ -28,4 +28,13 @@ test("a trace tells of each task of the main thread how long it was and what mos
 
 test("a trace tells what tasks of the page and its workers take of the processor, each counted once", () => {
   assert.equal(processorMsOf(events), 60 + 9 + 1 + 100);
+});
+
+test("a trace of thirty thousand tasks is read in one go", () => {
+  const many = Array.from({ length: 30_000 }, (_, n) => [event(0, "ThreadControllerImpl::RunTask", n, 0.9, 0.5), event(0, "TimerFire", n + 0.1, 0.5, 0.4)]).flat();
+  const tasks = mainTasksOf([...threads, ...many, event(0, "ThreadControllerImpl::RunTask", 30_000, 9, 7), event(0, "FunctionCall", 30_001, 5, 5)]);
+  assert.equal(tasks.length, 30_001);
+  assert.ok(tasks.slice(0, -1).every(({ processorMs, cause }) => processorMs === 0.5 && cause === "a timer"));
+  assert.deepEqual(tasks.at(-1), { ms: 9, processorMs: 7, cause: "a callback" });
+  assert.equal(longestTaskMsOf([...threads, ...many]), 0.5);
 });

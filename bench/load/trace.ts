@@ -43,7 +43,7 @@ export function mainTasksOf(events: readonly TraceEvent[], from = 0): Task[] {
   for (const event of events) if (event.ph === "X" && event.ts >= from) threads.get(threadOf(event))?.push(event);
   return Array.from(threads.values()).flatMap((own) => {
     own.sort(byBegin);
-    return outermostTasks(own).map((task) => taskOf(task, own));
+    return tasksOf(outermostTasks(own), own);
   });
 }
 
@@ -57,23 +57,27 @@ function outermostTasks(sorted: readonly TraceEvent[]): TraceEvent[] {
   });
 }
 
-function taskOf(task: TraceEvent, sorted: readonly TraceEvent[]): Task {
-  let main: TraceEvent | undefined;
-  let inspectors = 0;
-  for (const event of sorted) {
-    if (event.ts < task.ts || endOf(event) > endOf(task)) continue;
-    if (event.name === inspectorsEvent) inspectors += onProcessor(event);
-    if (event.name in causes && (main === undefined || onProcessor(event) > onProcessor(main))) main = event;
-  }
-  return {
-    ms: (task.dur ?? 0) / 1000, processorMs: (onProcessor(task) - inspectors) / 1000,
-    cause: main === undefined ? "unknown" : causes[main.name as keyof typeof causes],
-  };
+/** Of disjoint tasks in their order: what begins in one stands in one piece of the events, and is looked at once. */
+function tasksOf(tasks: readonly TraceEvent[], sorted: readonly TraceEvent[]): Task[] {
+  let next = 0;
+  return tasks.map((task) => {
+    let main: TraceEvent | undefined;
+    let inspectors = 0;
+    for (let event = sorted[next]; event !== undefined && event.ts < endOf(task); event = sorted[++next]) {
+      if (event.ts < task.ts || endOf(event) > endOf(task)) continue;
+      if (event.name === inspectorsEvent) inspectors += onProcessor(event);
+      if (event.name in causes && (main === undefined || onProcessor(event) > onProcessor(main))) main = event;
+    }
+    return {
+      ms: (task.dur ?? 0) / 1000, processorMs: (onProcessor(task) - inspectors) / 1000,
+      cause: main === undefined ? "unknown" : causes[main.name as keyof typeof causes],
+    };
+  });
 }
 
 /** Milliseconds on the processor of the longest of these. */
 export function longestTaskMsOf(events: readonly TraceEvent[]): number {
-  return Math.max(...mainTasksOf(events).map(({ processorMs }) => processorMs));
+  return mainTasksOf(events).reduce((longest, { processorMs }) => Math.max(longest, processorMs), 0);
 }
 
 /** Milliseconds on the processor of all tasks of the pages' main threads and of their workers. */
