@@ -214,7 +214,7 @@ export class ShapeLoads {
     if (delivery?.isSettled !== true || !textures.isSettled) return;
     loading.settle();
     this.#isQuiet = false;
-    this.#renderer.requestFrame(); // events wait for a frame
+    this.#renderer.requestFrameAtPace(); // events wait for a frame
   }
 
   #fail({ loading }: LoadedShape, element: Element, error: DeliveryError): void {

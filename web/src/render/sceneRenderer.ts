@@ -186,7 +186,7 @@ export class SceneRenderer {
   /** Replaces what a patch of a shape of the current scene shows. */
   setStage(element: SceneElement, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
     this.#shapes.setStage(element, geometry, patch, stage);
-    this.#pace.ask(() => { this.requestFrame(); });
+    this.requestFrameAtPace();
   }
 
   /** Around all that is seen, in the scene's coordinates. Grows when vertices tell of a box that the document does not. */
@@ -197,7 +197,7 @@ export class SceneRenderer {
   /** Lays a picture over a shape; undefined: none. */
   setPicture(element: SceneElement, role: TextureRole, picture: Picture | undefined): void {
     this.#shapes.setPicture(element, role, picture && { texture: this.#textures.textureOf(picture.image), hasAlpha: picture.hasAlpha });
-    this.requestFrame();
+    this.requestFrameAtPace();
   }
 
   /** Takes away what a shape shows. */
@@ -253,6 +253,11 @@ export class SceneRenderer {
   requestFrame(): void {
     this.#picker.forget();
     if (this.#frameRequest === 0) this.#frameRequest = requestAnimationFrame(() => { this.#drawNow(); });
+  }
+
+  /** The same for what nobody has asked for, when the GPU has rested: what comes while a scene loads would keep it busy without an end. */
+  requestFrameAtPace(): void {
+    this.#pace.ask(() => { this.requestFrame(); });
   }
 
   /** Frees the GPU; nothing may be called after. */
