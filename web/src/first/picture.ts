@@ -8,6 +8,7 @@ import { elementTypeOf } from "../decode/elements.ts";
 import { latticeBitsOf } from "../document/storedFrame.ts";
 import { isBlended, litNumbersOf } from "../lighting/materialNumbers.ts";
 import { lensOf } from "../navigation/camera.ts";
+import type { LightScope } from "../navigation/lightScope.ts";
 import type { LightUniforms } from "./lights.ts";
 import { lightCountOf, lightUniformsOf } from "./lights.ts";
 import type { Program, ProgramKind } from "./program.ts";
@@ -56,8 +57,10 @@ export class FirstPicture {
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     const { clipFromView, viewFromScene } = camerasOf(scene, width / height);
-    const lights = lightUniformsOf(scene, viewFromScene);
+    const lightsIn = new Map<LightScope, LightUniforms>();
     for (const shape of scene.shapes) {
+      const lights = lightsIn.get(shape.lightScope) ?? lightUniformsOf(scene, shape.lightScope, viewFromScene);
+      lightsIn.set(shape.lightScope, lights);
       const viewFromShape = new Matrix4().multiplyMatrices(viewFromScene, shape.sceneFromShape);
       for (const part of baseOf(shape) ?? []) {
         if (part === undefined) continue;
