@@ -70,3 +70,21 @@ describe("a document that changes", () => {
     assert.deepEqual(geometryOf().map((geometry, place) => geometry === before[place]), [true, true, true]);
   });
 });
+
+test("groups that USE one another without measure are shown as far as there may be places", () => {
+  const bomb = Array.from({ length: 40 }, (_, i) => `<Group DEF="g${i + 1}"><Group USE="g${i}"/><Group USE="g${i}"/></Group>`);
+  const x3d = elementsOf(`<X3D><Scene><Group DEF="g0"><Shape><Box/></Shape></Group>${bomb.join("")}<Shape><Sphere/></Shape></Scene></X3D>`);
+  const reader = new SceneReader(x3d, {}, 1000);
+  const shown = reader.read();
+  assert.deepEqual(shown.warnings.map(({ message }) => message), ["has more than 1000 nodes in all their places: the rest is left out"]);
+  const count = shapesOf(shown.root).length;
+  assert.ok(count > 300 && count < 1000, `${count} shapes`);
+
+  const scene = x3d.children[0];
+  assert.ok(scene);
+  scene.children.splice(6, 35); // what is left are g0 to g5 and the sphere
+  reader.rearrange(scene);
+  const rest = reader.read();
+  assert.deepEqual(rest.warnings, []);
+  assert.equal(shapesOf(rest.root).length, 1 + 2 + 4 + 8 + 16 + 32 + 1);
+});

@@ -29,12 +29,16 @@ export interface Supplements {
 /** Documents that inline one another deeper than this are no scene. */
 const mostInlineDepth = 16;
 
+/** Groups of groups that are USEd, and documents that inline documents, grow without measure: the rest is left out. */
+const usualMostPlaces = 500_000;
+
 const everything: Inherited = { visible: true, reaches: true, priority: 1 };
 
 /** Unknown nodes are passed over, as a browser passes over unknown tags; what they hold still counts. */
 export class SceneReader {
   readonly #x3d: SceneElement;
   readonly #supplements: Supplements;
+  readonly #mostPlaces: number;
   readonly #page: ElementTree;
   readonly #geometries = new GeometryMemory();
   readonly #inlinedTrees = new WeakMap<SceneElement, ElementTree>();
@@ -44,11 +48,15 @@ export class SceneReader {
   readonly #root: Place;
   readonly #touched = new Set<SceneElement>();
   readonly #rearranged = new Set<SceneElement>();
+  /** How many there are, and those of which some children are left out. */
+  #placeCount = 0;
+  readonly #cutPlaces = new Set<Place>();
   #scene: SceneDescription | undefined;
 
-  constructor(x3d: SceneElement, supplements: Supplements = {}) {
+  constructor(x3d: SceneElement, supplements: Supplements = {}, mostPlaces = usualMostPlaces) {
     this.#x3d = x3d;
     this.#supplements = supplements;
+    this.#mostPlaces = mostPlaces;
     this.#page = new ElementTree(x3d);
     this.#root = new Place(x3d, undefined, { tree: this.#page, host: undefined, inlinedBy: [] });
   }
@@ -69,8 +77,13 @@ export class SceneReader {
     this.#forgetTouched();
     if (this.#scene !== undefined && this.#root.said !== undefined) return this.#scene;
     this.#geometries.begin();
+    this.#ask(this.#root, everything);
+    if (this.#placeCount < this.#mostPlaces) for (const place of this.#cutPlaces) place.askAgain(); // others have left
     const { nodes, asides } = this.#ask(this.#root, everything);
     const warnings: Warning[] = [...asides.warnings];
+    if (this.#cutPlaces.size > 0) {
+      warnings.push({ element: this.#x3d, message: `has more than ${this.#mostPlaces} nodes in all their places: the rest is left out` });
+    }
     const { chunkPriority } = readFields(this.#x3d, nodeFields.X3D, warnings);
     this.#scene = {
       root: { kind: "group", visible: true, box: undefined, transform: undefined, children: nodes },
@@ -103,18 +116,31 @@ export class SceneReader {
     if (known !== undefined) return known;
     const saying = place.saying ??= this.#read(place);
     const [before, now] = [place.takeChildren(), [] as Place[]];
+    this.#cutPlaces.delete(place);
     const below: Below = (elements, inner) => {
-      const said = elements.map((element) => {
-        const child = before.take(element) ?? new Place(element, place, place.surroundingsOf(element));
+      const said: Said[] = [];
+      for (const element of elements) {
+        const child = before.take(element) ?? this.#newPlace(element, place);
+        if (child === undefined) break;
         now.push(child);
-        return this.#ask(child, inner);
-      });
+        said.push(this.#ask(child, inner));
+      }
       return { nodes: said.flatMap(({ nodes }) => nodes), asides: joined(said.map(({ asides }) => asides)) };
     };
     const said = saying(inherited, below);
     for (const child of before.rest()) this.#leave(child);
     place.remember(inherited, said, now);
     return said;
+  }
+
+  /** Undefined where there are too many. */
+  #newPlace(element: SceneElement, parent: Place): Place | undefined {
+    if (this.#placeCount >= this.#mostPlaces) {
+      this.#cutPlaces.add(parent);
+      return undefined;
+    }
+    this.#placeCount += 1;
+    return new Place(element, parent, parent.surroundingsOf(element));
   }
 
   #read(place: Place): Saying {
@@ -183,6 +209,8 @@ export class SceneReader {
   }
 
   #leave(place: Place): void {
+    this.#placeCount -= 1;
+    this.#cutPlaces.delete(place);
     this.#stopListening(place);
     for (const child of place.children) this.#leave(child);
   }

@@ -6,10 +6,8 @@
 import type { Box3 } from "three";
 import { Matrix4 } from "three";
 import { areAlike } from "../document/alike.ts";
-import type { GroupDescription, LightDescription, NodeDescription } from "../document/description.ts";
-import { everywhere, LightScope } from "./lightScope.ts";
+import type { GroupDescription, NodeDescription } from "../document/description.ts";
 import { boxIn, isDrawable, matrixOf } from "./matrices.ts";
-import type { PlacedLight } from "./placement.ts";
 import type { Reach } from "./reach.ts";
 import { noReach, reachOfAll } from "./reach.ts";
 
@@ -19,8 +17,6 @@ interface Within {
   readonly isSeen: boolean;
   /** No group around it has told its box. */
   readonly counts: boolean;
-  /** The innermost that it stands in. */
-  readonly lightScope: LightScope;
 }
 
 /** A node in one of its places. */
@@ -33,8 +29,6 @@ export class PlacedNode {
   children: readonly PlacedNode[] = [];
   /** Of a group that is seen and tells it, in the scene's coordinates. */
   box: Box3 | undefined;
-  /** The innermost that it stands in. Of a group, that of its children. */
-  lightScope = everywhere;
   reach: Reach = noReach;
   /** Undefined where nothing has been told yet. */
   within: Within | undefined;
@@ -64,7 +58,7 @@ export class PlacedTree {
 
   /** Describes the scene from now on. */
   follow(root: GroupDescription): this {
-    this.#follow(this.root, root, { sceneFromNode: this.root.within?.sceneFromNode ?? new Matrix4(), isSeen: true, counts: true, lightScope: everywhere });
+    this.#follow(this.root, root, { sceneFromNode: this.root.within?.sceneFromNode ?? new Matrix4(), isSeen: true, counts: true });
     return this;
   }
 
@@ -75,17 +69,16 @@ export class PlacedTree {
     node.description = description;
     node.within = within;
     if (hasMoved) node.sceneFromNode = placedIn(within.sceneFromNode, description);
-    node.lightScope = scopeOf(node, within.lightScope);
     if (withinBefore === undefined) this.#listener?.onEnter(node);
     else this.#listener?.onChange(node, hasMoved, before);
     node.reach = description.kind === "group" ? this.#followChildren(node, description, within) : reachOf(node, within);
   }
 
-  #followChildren(node: PlacedNode, group: GroupDescription, { isSeen, counts, lightScope: around }: Within): Reach {
+  #followChildren(node: PlacedNode, group: GroupDescription, { isSeen, counts }: Within): Reach {
     const { sceneFromNode } = node;
     const isGroupSeen = isSeen && group.visible;
     node.box = isGroupSeen && group.box ? boxIn(sceneFromNode, group.box) : undefined;
-    const inner: Within = { sceneFromNode, isSeen: isGroupSeen, counts: counts && node.box === undefined, lightScope: node.lightScope };
+    const inner: Within = { sceneFromNode, isSeen: isGroupSeen, counts: counts && node.box === undefined };
     const { kept, gone } = matched(node, group.children);
     for (const child of gone) this.#leave(child);
     node.children = kept;
@@ -93,7 +86,6 @@ export class PlacedTree {
     return reachOfAll(kept, {
       box: counts && node.box && isDrawable(node.box) ? node.box : undefined,
       bounded: node.box ? [node] : [],
-      scopes: node.lightScope === around ? [] : [node.lightScope],
       levels: group.levels && isGroupSeen ? [{ ...group.levels, sceneFromLevels: sceneFromNode }] : [],
     });
   }
@@ -105,13 +97,7 @@ export class PlacedTree {
 }
 
 function isSame(a: Within, b: Within): boolean {
-  return a.sceneFromNode === b.sceneFromNode && a.isSeen === b.isSeen && a.counts === b.counts && a.lightScope === b.lightScope;
-}
-
-/** A group with lights of its own has a scope of its own, the same as long as it has any. What is outermost in a scene is in it all. */
-function scopeOf({ description, lightScope: before, parent }: PlacedNode, around: LightScope): LightScope {
-  if (parent === undefined || description.kind !== "group" || !description.children.some(isScopedLight)) return around;
-  return before.around === around ? before : new LightScope(around);
+  return a.sceneFromNode === b.sceneFromNode && a.isSeen === b.isSeen && a.counts === b.counts;
 }
 
 function transformOf(description: NodeDescription): unknown {
@@ -122,7 +108,7 @@ function placedIn(sceneFromParent: Matrix4, description: NodeDescription): Matri
   return description.kind === "group" && description.transform ? sceneFromParent.clone().multiply(matrixOf(description.transform)) : sceneFromParent;
 }
 
-function reachOf({ description, sceneFromNode }: PlacedNode, { isSeen, counts, lightScope }: Within): Reach {
+function reachOf({ description, sceneFromNode }: PlacedNode, { isSeen, counts }: Within): Reach {
   switch (description.kind) {
     case "shape": {
       const box = description.box && description.reaches && counts ? boxIn(sceneFromNode, description.box) : undefined;
@@ -131,18 +117,10 @@ function reachOf({ description, sceneFromNode }: PlacedNode, { isSeen, counts, l
     case "viewpoint":
       return { ...noReach, viewpoints: [{ element: description.element, viewpoint: description.viewpoint, sceneFromViewpoint: sceneFromNode }] };
     case "light":
-      return description.light.on && isSeen ? { ...noReach, lights: [placedLight(description.light, sceneFromNode, lightScope)] } : noReach;
+      return description.light.on && isSeen ? { ...noReach, lights: [{ light: description.light, sceneFromLight: sceneFromNode }] } : noReach;
     case "group":
       return noReach;
   }
-}
-
-function isScopedLight(description: NodeDescription): boolean {
-  return description.kind === "light" && !description.light.global;
-}
-
-function placedLight(light: LightDescription, sceneFromLight: Matrix4, around: LightScope): PlacedLight {
-  return { light, sceneFromLight, scope: light.global ? everywhere : around };
 }
 
 /** For each description the child that was it before: the same object, the shape of its element, or a group that stood there. */

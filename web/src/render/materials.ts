@@ -12,7 +12,6 @@ import { x3dLighting } from "../lighting/x3dLighting.ts";
 import { placeColors } from "./batches/placeChunk.ts";
 import { farnessDefine, shadeByFarnessIn } from "./farness.ts";
 import { lightsChunk } from "./lightFalloff.ts";
-import { areScoped, scopeLightsIn } from "./lightScopes.ts";
 import type { Look, MaterialRequest, Shading, ShownPictures, VertexColors } from "./look.ts";
 import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
 import { colorByValueIn } from "./valueColors.ts";
@@ -59,8 +58,7 @@ function makeMaterial(request: MaterialRequest, appearance: AppearanceDescriptio
   };
   material.userData.lit = lit;
   material.onBeforeCompile = (shader) => {
-    const { depthRange, attenuations, lightReaches, scopedAmbients } = shared;
-    Object.assign(shader.uniforms, uniforms, { depthRange, attenuations, lightReaches, scopedAmbients, ...lit });
+    Object.assign(shader.uniforms, uniforms, { depthRange: shared.depthRange, attenuations: shared.attenuations, ...lit });
     readVerticesIn(shader);
     shapePointsIn(shader);
     shadeByFarnessIn(shader);
@@ -73,10 +71,9 @@ function makeMaterial(request: MaterialRequest, appearance: AppearanceDescriptio
       ...mapChunks,
       ...placeColors,
     ]);
-    if (areScoped(shared)) scopeLightsIn(shader);
   };
   // The text of `onBeforeCompile` is the same for all, so programs are shared as they should be.
-  material.customProgramCacheKey = () => (areScoped(shared) ? "imgeo, scoped lights" : "imgeo");
+  material.customProgramCacheKey = () => "imgeo";
   applyAppearance(material, appearance, colors, pictures);
   return material;
 }
