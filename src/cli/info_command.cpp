@@ -51,6 +51,8 @@ Json jsonOf(const SiteInfo& info) {
                                   {"texCoordBits", geometry.texCoordBits},
                                   {"colorBits", geometry.colorBits},
                                   {"attributes", geometry.attributes}});
+  json["missing"] = info.missing;
+  json["warnings"] = info.warnings;
   json["files"] = Json::array();
   for (const SiteFile& file : info.files)
     json["files"].push_back({{"path", file.path}, {"role", file.role}, {"bytes", file.bytes}});
@@ -83,6 +85,11 @@ void printGeometries(const std::vector<GeometryInfo>& geometries) {
   for (auto it = geometries.begin(); it != geometries.end(); ++it)
     if (std::find(geometries.begin(), it, *it) == it)
       fmt::print("{}\n", textOf(*it));
+}
+
+void warn(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings)
+    fmt::print(stderr, "imgeo: warning: {}\n", warning);
 }
 
 void printSite(const SiteInfo& info) {
@@ -120,6 +127,9 @@ void printSite(const SiteInfo& info) {
   if (info.elements.triangles > 0)
     fmt::print("Geometry takes {:.3f} bytes a triangle, its nodes in the document included.\n",
                info.bytesPerTriangle);
+  for (const std::string& url : info.missing)
+    warn({fmt::format("{} is named by the document but is no file of the site.", url)});
+  warn(info.warnings);
 }
 
 Json jsonOf(const SourceInfo& info) {
@@ -144,8 +154,7 @@ void printSource(const SourceInfo& info) {
   if (!info.box.empty())
     fmt::print("box {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n", info.box.min.x, info.box.min.y,
                info.box.min.z, info.box.max.x, info.box.max.y, info.box.max.z);
-  for (const std::string& warning : info.warnings)
-    fmt::print(stderr, "imgeo: warning: {}\n", warning);
+  warn(info.warnings);
 }
 
 Json jsonOf(const GeometryFileInfo& info) {

@@ -14,6 +14,8 @@ namespace imgeo {
 struct SceneDocument {
   SceneGraph graph;                            ///< Shape::mesh indexes `geometries`
   std::vector<GeometryDescription> geometries; ///< one per mesh
+  /// Of readScene: what counts as absent, since it is malformed; one sentence each.
+  std::vector<std::string> warnings;
 };
 
 struct PageOptions {
@@ -57,8 +59,10 @@ std::string_view pageStylesheet();
 std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more);
 
 /// Reads the <X3D> element of either text back. Inlines whose file lies beside the
-/// document have an InlinedDocument, and nothing in it: append() fills it. Safe for untrusted text. Throws
-/// Error{malformed, unsupported, limit} naming `name` and the place.
+/// document have an InlinedDocument, and nothing in it: append() fills it. What is wrong in
+/// a node that convert may have carried over (a viewpoint, a material) is a warning, as
+/// in browsers. Safe for untrusted text. Throws Error{malformed, unsupported, limit}
+/// naming `name` and the place.
 SceneDocument readScene(std::string_view text, const std::string& name);
 
 } // namespace imgeo

@@ -5,6 +5,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
 #include <limits>
 
 namespace imgeo {
@@ -36,10 +38,27 @@ template <typename T> std::optional<T> parseNumber(std::string_view word) {
 
 } // namespace
 
+namespace {
+
+/// Where an element begins in its document.
+std::size_t offsetOf(const DocumentText& source, const pugi::xml_node& node) {
+  return source.begin + static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
+}
+
+} // namespace
+
 void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind,
           const std::string& message) {
-  const auto at = source.begin + static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
-  throw Error(kind, placeOf(source.text, source.name, at), message);
+  throw Error(kind, placeOf(source.text, source.name, offsetOf(source, node)), message);
+}
+
+void Fields::object(const std::string& message, const char* consequence) const {
+  if (!warnings_)
+    fail(ErrorKind::malformed, message);
+  // The folder may be one that is still to be moved to its place.
+  const std::string file = std::filesystem::path(source_.name).filename();
+  warnings_->push_back(fmt::format("{}: {}: {}; {}.", placeOf(source_.text, file, offsetOf(source_, node_)),
+                                   validText(node_.name()), message, consequence));
 }
 
 std::string Fields::text(const char* name) const {
@@ -55,8 +74,10 @@ template <typename T> std::vector<T> Fields::parse(const char* name) const {
   std::vector<T> numbers;
   for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) {
     const std::optional<T> number = parseNumber<T>(word);
-    if (!number)
-      fail(ErrorKind::malformed, std::string(name) + " holds a word that is no number of its kind");
+    if (!number) {
+      objectToField(std::string(name) + " holds a word that is no number of its kind");
+      return {};
+    }
     numbers.push_back(*number);
   }
   return numbers;
@@ -64,10 +85,10 @@ template <typename T> std::vector<T> Fields::parse(const char* name) const {
 
 template <typename T> std::vector<T> Fields::parse(const char* name, std::size_t count) const {
   std::vector<T> numbers = parse<T>(name);
-  if (!numbers.empty() && numbers.size() != count)
-    fail(ErrorKind::malformed, std::string(name) + " has " + std::to_string(numbers.size()) +
-                                   " numbers and needs " + std::to_string(count));
-  return numbers;
+  if (numbers.empty() || numbers.size() == count)
+    return numbers;
+  objectToField(fmt::format("{} has {} numbers and needs {}", name, numbers.size(), count));
+  return {};
 }
 
 bool Fields::boolean(const char* name, bool fallback) const {
@@ -78,7 +99,8 @@ bool Fields::boolean(const char* name, bool fallback) const {
     return true;
   if (sameName(value, "false"))
     return false;
-  fail(ErrorKind::malformed, std::string(name) + " is neither true nor false");
+  objectToField(std::string(name) + " is neither true nor false");
+  return fallback;
 }
 
 double Fields::real(const char* name, double fallback) const {
@@ -130,16 +152,20 @@ std::vector<std::string> Fields::strings(const char* name) const {
   for (std::size_t at = first; at < value.size(); ++at) {
     if (separators.find(value[at]) != std::string_view::npos)
       continue;
-    if (value[at] != '"')
-      fail(ErrorKind::malformed, std::string(name) + " has text between its strings");
+    if (value[at] != '"') {
+      objectToField(std::string(name) + " has text between its strings");
+      return {};
+    }
     std::string& string = strings.emplace_back();
     for (++at; at < value.size() && value[at] != '"'; ++at) {
       if (value[at] == '\\' && at + 1 < value.size())
         ++at;
       string += value[at];
     }
-    if (at >= value.size())
-      fail(ErrorKind::malformed, std::string(name) + " has a string without an end");
+    if (at >= value.size()) {
+      objectToField(std::string(name) + " has a string without an end");
+      return {};
+    }
   }
   return strings;
 }

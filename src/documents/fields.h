@@ -1,6 +1,6 @@
 #pragma once
 // The fields of an element, as X3D types; safe for untrusted text. Every fault
-// is an Error that names the document and the line.
+// is an Error that names the document and the line, or a warning that does.
 
 #include "base/error.h"
 #include "scene/transform.h"
@@ -20,19 +20,27 @@ struct DocumentText {
   std::size_t begin = 0; ///< of the element
 };
 
+/// What is wrong with elements that an author may have written, which are shown all the
+/// same: one sentence each, with the line.
+using DocumentWarnings = std::vector<std::string>;
+
 [[noreturn]] void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind,
                        const std::string& message);
 
 /// One element whose attributes are read by name, without regard to case. An
-/// absent or empty field gives the fallback.
+/// absent or empty field gives the fallback; with `warnings` one that is malformed does,
+/// too, as in browsers, and is named there instead of thrown.
 class Fields {
 public:
-  Fields(const DocumentText& source, pugi::xml_node node) : source_(source), node_(node) {}
+  Fields(const DocumentText& source, pugi::xml_node node, DocumentWarnings* warnings = nullptr)
+      : source_(source), node_(node), warnings_(warnings) {}
 
   const pugi::xml_node& node() const { return node_; }
   [[noreturn]] void fail(ErrorKind kind, const std::string& message) const {
     imgeo::fail(source_, node_, kind, message);
   }
+  /// Warns, if that may be, or throws Error{malformed}.
+  void object(const std::string& message, const char* consequence) const;
 
   std::string text(const char* name) const; ///< "" where it is absent
   bool boolean(const char* name, bool fallback) const;
@@ -57,9 +65,11 @@ public:
 private:
   template <typename T> std::vector<T> parse(const char* name) const;
   template <typename T> std::vector<T> parse(const char* name, std::size_t count) const;
+  void objectToField(const std::string& message) const { object(message, "it counts as absent"); }
 
   const DocumentText& source_;
   pugi::xml_node node_;
+  DocumentWarnings* warnings_;
 };
 
 } // namespace imgeo

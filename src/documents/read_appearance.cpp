@@ -26,17 +26,18 @@ void readProperties(const Fields& fields, Texture& texture) {
 
 } // namespace
 
-/// What the element's USE names; null where it has none.
+/// What the element's USE names; null where it has none, or it names nothing.
 template <typename T>
 const T* AppearanceReader::used(const Fields& fields, const std::map<std::string, T>& defined) const {
   const std::string use = fields.text("USE");
   if (use.empty())
     return nullptr;
   const auto found = defined.find(use);
-  if (found == defined.end())
-    fields.fail(ErrorKind::malformed,
-                std::string("USE names no ") + fields.node().name() + " that stands before");
-  return &found->second;
+  if (found != defined.end())
+    return &found->second;
+  fields.object(std::string("USE names no ") + fields.node().name() + " that stands before",
+                "it has its defaults");
+  return nullptr;
 }
 
 std::size_t AppearanceReader::readTexture(const Fields& fields) {
@@ -56,7 +57,7 @@ std::size_t AppearanceReader::readTexture(const Fields& fields) {
     texture.boundaryT = Boundary::clamp;
   for (const pugi::xml_node& child : fields.node().children())
     if (isNamed(child, "TextureProperties"))
-      readProperties(Fields(source_, child), texture);
+      readProperties(fieldsOf(child), texture);
   graph_.textures.push_back(texture);
   if (!texture.name.empty())
     textures_[texture.name] = graph_.textures.size() - 1;
@@ -67,7 +68,7 @@ void AppearanceReader::readTextures(const Fields& fields, DefinedMaterial& read)
   for (const pugi::xml_node& child : fields.node().children()) {
     if (!isNamed(child, "ImageTexture"))
       continue;
-    const Fields texture(source_, child);
+    const Fields texture = fieldsOf(child);
     const std::string field = texture.text("containerField");
     for (std::size_t i = 0; i < textureRoleNames.size(); ++i) {
       const auto role = static_cast<TextureRole>(i);
@@ -105,11 +106,11 @@ void AppearanceReader::readTransforms(const Fields& fields,
   if (isNamed(fields.node(), "MultiTextureTransform"))
     for (const pugi::xml_node& child : fields.node().children())
       if (isNamed(child, "TextureTransform"))
-        readTransforms(Fields(source_, child), transforms);
+        readTransforms(fieldsOf(child), transforms);
 }
 
 std::size_t AppearanceReader::read(const pugi::xml_node& node) {
-  const Fields fields(source_, node);
+  const Fields fields = fieldsOf(node);
   if (const std::size_t* index = used(fields, appearances_))
     return *index;
   Appearance appearance;
@@ -122,7 +123,7 @@ std::size_t AppearanceReader::read(const pugi::xml_node& node) {
   std::map<std::string, TextureTransform> transforms;
   std::optional<std::size_t> colorTexture;
   for (const pugi::xml_node& child : node.children()) {
-    const Fields childFields(source_, child);
+    const Fields childFields = fieldsOf(child);
     if (isNamed(child, "Material") || isNamed(child, "PhysicalMaterial") || isNamed(child, "UnlitMaterial"))
       material = readMaterial(childFields);
     else if (isNamed(child, "ImageTexture"))

@@ -11,9 +11,11 @@ namespace imgeo {
 
 class AppearanceReader {
 public:
-  AppearanceReader(const DocumentText& source, SceneGraph& graph) : source_(source), graph_(graph) {}
+  AppearanceReader(const DocumentText& source, SceneGraph& graph, DocumentWarnings& warnings)
+      : source_(source), graph_(graph), warnings_(warnings) {}
 
-  /// Reads an Appearance, or finds the one that it USEs; returns its index.
+  /// Reads an Appearance, or finds the one that it USEs; returns its index. What is wrong
+  /// in it counts as absent, with a warning.
   std::size_t read(const pugi::xml_node& node);
 
 private:
@@ -23,6 +25,7 @@ private:
     std::map<std::string, std::string> mappings;
   };
 
+  Fields fieldsOf(const pugi::xml_node& node) const { return {source_, node, &warnings_}; }
   DefinedMaterial readMaterial(const Fields& fields);
   void readTextures(const Fields& material, DefinedMaterial& read);
   std::size_t readTexture(const Fields& fields);
@@ -31,6 +34,7 @@ private:
 
   const DocumentText& source_;
   SceneGraph& graph_;
+  DocumentWarnings& warnings_;
   std::map<std::string, std::size_t> appearances_, textures_, images_;
   std::map<std::string, DefinedMaterial> materials_;
 };

@@ -34,7 +34,8 @@ bool hasElements(const pugi::xml_node& node) {
 
 class SceneReader {
 public:
-  SceneReader(const DocumentText& source) : source_(source), appearances_(source, document_.graph) {}
+  SceneReader(const DocumentText& source)
+      : source_(source), appearances_(source, document_.graph, document_.warnings) {}
 
   SceneDocument read(const pugi::xml_node& x3d) {
     bool found = false;
@@ -60,7 +61,8 @@ private:
       fail(parent, ErrorKind::limit, "elements are nested too deeply");
     std::vector<std::size_t> children;
     for (const pugi::xml_node& node : parent.children())
-      if (const std::optional<std::size_t> child = readChild(Fields(source_, node), depth))
+      if (const std::optional<std::size_t> child =
+              readChild(Fields(source_, node, &document_.warnings), depth))
         children.push_back(*child);
     return children;
   }
@@ -144,9 +146,9 @@ private:
     return index;
   }
 
-  std::string extrasOf(const pugi::xml_node& node) const {
+  std::string extrasOf(const pugi::xml_node& node) {
     for (const pugi::xml_node& child : node.children()) {
-      const Fields fields(source_, child);
+      const Fields fields(source_, child, &document_.warnings);
       if (!sameName(child.name(), "MetadataString") || fields.text("name") != "extras")
         continue;
       const std::vector<std::string> values = fields.strings("value");
@@ -225,10 +227,9 @@ private:
       document_.graph.background = Background{Vec3f(Vec3d{colors[0], colors[1], colors[2]})};
   }
 
-  /// Nothing where its geometry stands in the document.
+  /// Nothing where its geometry stands in the document, or there is none.
   std::optional<std::size_t> readShape(const Fields& fields) {
     std::optional<Shape> shape;
-    bool isInline = false;
     std::optional<std::size_t> appearance;
     for (const pugi::xml_node& child : fields.node().children()) {
       if (child.type() != pugi::node_element)
@@ -239,17 +240,12 @@ private:
         if (shape)
           fail(child, ErrorKind::malformed, "a Shape has more than one geometry");
         shape = readGeometryOf(fields, Fields(source_, child));
-      } else if (!std::string_view(child.name()).starts_with("Metadata") &&
-                 !std::string_view(child.name()).starts_with("metadata")) {
-        isInline = true;
       }
     }
-    if (!shape && isInline) {
+    if (!shape) {
       passedOver_.insert(fields.text("DEF"));
       return {};
     }
-    if (!shape)
-      fail(fields.node(), ErrorKind::malformed, "a Shape has no geometry");
     shape->appearance = appearance;
     return add(fields, *shape);
   }
@@ -288,7 +284,7 @@ private:
   std::vector<std::size_t> heights_;           ///< by node: how deep the nodes below it go
   std::vector<bool> isJoinable_;               ///< by geometry: it is its only patch, and nothing can USE it
   std::map<std::string, std::size_t> defined_; ///< nodes by their DEF
-  std::set<std::string> passedOver_;           ///< DEFs of Shapes whose geometry stands in the document
+  std::set<std::string> passedOver_; ///< DEFs of Shapes whose geometry stands in the document, or nowhere
   std::map<std::string, Shape> definedGeometries_;
 };
 
@@ -318,6 +314,7 @@ void checkReferences(std::string_view text, const std::string& name, TextSpan sp
 std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more) {
   std::vector<std::size_t> roots = append(document.graph, std::move(more.graph), document.geometries.size());
   std::ranges::move(more.geometries, std::back_inserter(document.geometries));
+  std::ranges::move(more.warnings, std::back_inserter(document.warnings));
   return roots;
 }
 

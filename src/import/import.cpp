@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "import/formats.h"
 #include "import/gzip.h"
+#include "import/warnings.h"
 
 #include <algorithm>
 #include <cctype>
@@ -75,10 +76,6 @@ void makeNamesUnique(SceneGraph& graph) {
   }
 }
 
-std::string withoutFullStop(const std::string& sentence) {
-  return sentence.ends_with('.') ? sentence.substr(0, sentence.size() - 1) : sentence;
-}
-
 } // namespace
 
 std::string stemOf(const std::string& name) {
@@ -116,6 +113,7 @@ Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOption
     throw Error(ErrorKind::malformed, name,
                 "the file has no triangles, lines or points" +
                     (imported.warnings.empty() ? "" : "; " + withoutFullStop(imported.warnings[0])));
+  requireCountableShapes(imported.scene.graph, name);
   makeNamesUnique(imported.scene.graph);
   if (imported.scene.graph.title.empty())
     imported.scene.graph.title = stemOf(name);

@@ -99,7 +99,8 @@ TEST(ReadIsolated, OutlivesWhatDies) {
 TEST(ReadIsolated, EndsWhatTakesTooLong) {
   const Error error = errorOf(
       []() -> Imported {
-        for (volatile unsigned i = 0;; i = i + 1) {
+        for (volatile unsigned i = 0;;) {
+          i = i + 1;
         }
       },
       {.seconds = 1, .memoryBytes = 1u << 30});

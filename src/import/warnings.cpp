@@ -10,6 +10,10 @@ std::string counted(std::uint64_t count, const std::string& singular, const std:
   return fmt::format("{} {}", count, count == 1 ? singular : plural);
 }
 
+std::string withoutFullStop(const std::string& sentence) {
+  return sentence.ends_with('.') ? sentence.substr(0, sentence.size() - 1) : sentence;
+}
+
 void warnOfSmallFaces(std::vector<std::string>& warnings, std::uint64_t faces) {
   if (faces > 0)
     warnings.push_back(

@@ -10,6 +10,9 @@ namespace imgeo {
 /// "1 face", "2 faces"
 std::string counted(std::uint64_t count, const std::string& singular, const std::string& plural);
 
+/// The sentence as part of a longer one.
+std::string withoutFullStop(const std::string& sentence);
+
 // Each adds its sentence where the count is not zero.
 void warnOfSmallFaces(std::vector<std::string>& warnings, std::uint64_t faces);
 void warnOfFans(std::vector<std::string>& warnings, std::uint64_t polygons);

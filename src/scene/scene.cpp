@@ -31,6 +31,38 @@ struct Visit {
   }
 };
 
+[[noreturn]] void failOfPlaces(const std::string& where) {
+  throw Error(ErrorKind::limit, where, "the scene shows more than a million shapes");
+}
+
+/// Counts shapes in all their places, as far as there may be: each node is looked at once.
+class PlaceCount {
+public:
+  explicit PlaceCount(const SceneGraph& graph) : graph_(graph), counts_(graph.nodes.size()) {}
+
+  std::size_t below(const std::vector<std::size_t>& nodes) {
+    std::size_t sum = 0;
+    for (const std::size_t node : nodes)
+      sum = std::min(sum + at(node), maxPlacedShapes + 1);
+    return sum;
+  }
+
+private:
+  std::size_t at(std::size_t index) {
+    if (counts_[index])
+      return *counts_[index];
+    const Node& node = graph_.nodes[index];
+    const OtherNode* other = std::get_if<OtherNode>(&node.content);
+    const bool isShape = std::holds_alternative<Shape>(node.content) || (other && other->element == "Shape");
+    const std::size_t count = isShape ? 1 : below(node.children);
+    counts_[index] = count;
+    return count;
+  }
+
+  const SceneGraph& graph_;
+  std::vector<std::optional<std::size_t>> counts_;
+};
+
 /// Lists the places of the shapes below a node. Nodes below which there are none
 /// are visited once, however often they are USEd.
 class Placing {
@@ -44,7 +76,7 @@ public:
     const Node& node = graph_.nodes[index];
     if (std::holds_alternative<Shape>(node.content)) {
       if (placed.size() == maxPlacedShapes)
-        throw Error(ErrorKind::limit, where_, "the scene shows more than a million shapes");
+        failOfPlaces(where_);
       placed.push_back({index, worldFromParent});
       return;
     }
@@ -162,6 +194,11 @@ void removeShapes(SceneGraph& graph, const std::vector<bool>& isLeftOut) {
   std::erase_if(graph.roots, leavesOut);
   for (Node& node : graph.nodes)
     std::erase_if(node.children, leavesOut);
+}
+
+void requireCountableShapes(const SceneGraph& graph, const std::string& place) {
+  if (PlaceCount(graph).below(graph.roots) > maxPlacedShapes)
+    failOfPlaces(place);
 }
 
 std::vector<PlacedShape> placedShapes(const SceneGraph& graph, const std::string& place) {

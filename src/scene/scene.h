@@ -204,6 +204,10 @@ struct PlacedShape {
 /// measure.
 std::vector<PlacedShape> placedShapes(const SceneGraph& graph, const std::string& place = "");
 
+/// The same limit for all shapes, those included that are no Shape of ours but an X3D
+/// source's element.
+void requireCountableShapes(const SceneGraph& graph, const std::string& place);
+
 /// A viewpoint from which a box is seen whole, from slightly above and beside,
 /// centred on the box; for pages whose source brings none.
 Viewpoint viewpointFor(const Box3d& box);

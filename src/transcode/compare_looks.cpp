@@ -1,6 +1,9 @@
 #include "transcode/compare_looks.h"
 
+#include "scene/mf_string.h"
+
 #include <algorithm>
+#include <iterator>
 
 namespace imgeo {
 
@@ -30,6 +33,17 @@ bool looksAlike(const SceneGraph& siteGraph, const Shape& inSite, const SceneGra
   return isSameMaterial(site.material, input.material) &&
          std::ranges::all_of(site.textures,
                              [&](const TextureUse& use) { return isOfInput(use, input.textures); });
+}
+
+std::set<std::string> texturesLeftIn(const SceneGraph& input) {
+  std::set<std::string> urls;
+  for (const Node& node : input.nodes)
+    if (const OtherNode* other = std::get_if<OtherNode>(&node.content);
+        other && other->element == "ImageTexture" && !other->image)
+      for (const FieldText& field : node.fields)
+        if (field.name == "url")
+          std::ranges::move(parseStrings(field.value), std::inserter(urls, urls.end()));
+  return urls;
 }
 
 } // namespace imgeo

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "documents/page_markup.h"
+#include "import/warnings.h"
 #include "transcode/encode_scene.h"
 #include "transcode/marker.h"
 #include "transcode/options.h"
@@ -245,6 +246,9 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   const SiteInfo written = inspect(site.path());
   report.roles = sumByRole(written.files);
   report.bytesPerTriangle = written.bytesPerTriangle;
+  if (options.strict && !written.warnings.empty())
+    throw Error(ErrorKind::malformed, placeOf(input), withoutFullStop(written.warnings.front()));
+  std::ranges::copy(written.warnings, std::back_inserter(report.warnings));
   report.encodeSeconds = step.lapSeconds();
 
   tell(1, "publishing");

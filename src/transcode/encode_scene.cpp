@@ -2,13 +2,16 @@
 
 #include "containers/compact/base.h"
 #include "containers/named_attributes.h"
+#include "import/warnings.h"
 #include "transcode/load_groups.h"
 #include "transcode/patch_files.h"
 #include "transcode/shapes_by_place.h"
 #include "transcode/site.h"
 #include "transcode/textures.h"
+#include "transcode/world_box.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -67,18 +70,6 @@ private:
   std::map<std::pair<std::optional<std::size_t>, bool>, std::size_t> made_;
 };
 
-Box3d worldBoxOf(const SceneDocument& document) {
-  Box3d whole;
-  for (const PlacedShape& placed : placedShapes(document.graph)) {
-    const Box3d& box = document.geometries[shapeOf(document.graph, placed.node).mesh].box;
-    for (int corner = 0; corner < 8; ++corner)
-      whole.add(
-          placed.worldFromShape.point({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                                       corner & 4 ? box.max.z : box.min.z}));
-  }
-  return whole;
-}
-
 /// The map back; the determinant is not 0.
 Affine3d inverseOf(const Affine3d& map) {
   const Vec3d a = cross(map.y, map.z), b = cross(map.z, map.x), c = cross(map.x, map.y);
@@ -119,7 +110,7 @@ private:
 };
 
 /// Puts the nodes that a page needs and the source lacks before its own.
-void addDefaults(SceneDocument& document) {
+void addDefaults(SceneDocument& document, std::vector<std::string>& warnings) {
   SceneGraph& graph = document.graph;
   bool hasViewpoint = false, hasLight = false;
   for (const std::size_t index : nodesInOrder(graph)) {
@@ -129,7 +120,12 @@ void addDefaults(SceneDocument& document) {
     hasLight |= std::holds_alternative<DirectionalLight>(content) ||
                 std::holds_alternative<PointLight>(content) || std::holds_alternative<SpotLight>(content);
   }
-  const Box3d whole = worldBoxOf(document);
+  const WorldBox world = worldBoxOf(document);
+  const Box3d whole = world.box.empty() ? Box3d{{}, {}} : world.box;
+  if (world.absurdShapes > 0)
+    warnings.push_back(fmt::format("{} scaled by more than 10^15 or less than 10^-15, or moved as far: what "
+                                   "stands there cannot be drawn.",
+                                   counted(world.absurdShapes, "shape is", "shapes are")));
   Aiming aiming(graph, whole.center());
   for (const std::size_t root : graph.roots)
     aiming.aim(root, {});
@@ -271,7 +267,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteCont
   bases.write(document.geometries);
   report.textures = writeTextures(document.graph, options, content.textures, report.warnings);
   if (!document.graph.isComplete)
-    addDefaults(document);
+    addDefaults(document, report.warnings);
   return document;
 }
 

@@ -95,10 +95,16 @@ SiteInfo inspect(const fs::path& site) {
   }
   for (const NamedFile& file : geometryFilesOf(document.scene))
     info.containerBytes += add(file.url, nameOf(file.role));
-  for (const std::string& url : textureFilesOf(document.scene))
-    info.textureBytes += add(url, "texture");
-  for (const std::string& url : previewFilesOf(document.scene))
-    info.textureBytes += add(url, "preview");
+  const auto addPictures = [&](const std::vector<std::string>& urls, const char* role) {
+    for (const std::string& url : urls)
+      if (isThere(document, url))
+        info.textureBytes += add(url, role);
+      else
+        info.missing.push_back(url);
+  };
+  addPictures(textureFilesOf(document.scene), "texture");
+  addPictures(previewFilesOf(document.scene), "preview");
+  info.warnings = document.scene.warnings;
 
   const ContainerReader reader(fetchFrom(document));
   for (const GeometryDescription& geometry : document.scene.geometries) {

@@ -49,6 +49,11 @@ std::vector<std::string> ownFilesOf(const SceneDocument& scene, std::string Imag
   return urls;
 }
 
+bool leavesItsFolder(const std::string& url) {
+  const fs::path path = fs::path(url).lexically_normal();
+  return path.empty() || path.is_absolute() || *path.begin() == ".." || url.find(':') != url.npos;
+}
+
 } // namespace
 
 OpenedDocument openDocument(const fs::path& site) {
@@ -132,13 +137,15 @@ std::vector<std::string> pageFilesOf(const OpenedDocument& document) {
 }
 
 fs::path fileOf(const OpenedDocument& document, const std::string& url) {
-  const fs::path path = fs::path(url).lexically_normal();
-  const bool leaves =
-      path.empty() || path.is_absolute() || *path.begin() == ".." || url.find(':') != url.npos;
-  if (leaves)
+  if (leavesItsFolder(url))
     throw Error(ErrorKind::unsupported, (document.root / document.name).string(),
                 "refers to \"" + url + "\", which is not a file of the site");
-  return document.root / path;
+  return document.root / fs::path(url).lexically_normal();
+}
+
+bool isThere(const OpenedDocument& document, const std::string& url) {
+  std::error_code none;
+  return !leavesItsFolder(url) && fs::is_regular_file(fileOf(document, url), none);
 }
 
 FetchFile fetchFrom(const OpenedDocument& document) {

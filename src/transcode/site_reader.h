@@ -62,4 +62,7 @@ std::filesystem::path fileOf(const OpenedDocument& document, const std::string& 
 /// The same as the bytes of urls. `document` outlives it.
 FetchFile fetchFrom(const OpenedDocument& document);
 
+/// Whether a relative url leads to a file that is there, in the document's folder.
+bool isThere(const OpenedDocument& document, const std::string& url);
+
 } // namespace imgeo

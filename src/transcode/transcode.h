@@ -157,13 +157,15 @@ struct SiteInfo {
   std::uint64_t sourceTextureBytes = 0; ///< of the images as the source had them; 0: nobody has noted that
   double bytesPerTriangle = 0;          ///< containers and the document's geometry nodes; 0 without triangles
   std::vector<SiteFile> files;
+  std::vector<std::string> missing;  ///< urls of textures and previews that are no files of the site
+  std::vector<std::string> warnings; ///< what of the document counts as absent, since it is malformed
 };
 
 /// Reads a site (its directory, its index.html or a scene.x3d) without decoding
 /// it. The document is index.html where there is one: what a browser fetches
 /// is document, runtime, style, containers and textures; `scene` is the same scene for
-/// other readers. Safe for untrusted bytes; throws Error, also for files that
-/// are missing.
+/// other readers. Safe for untrusted bytes; throws Error, also for files of the geometry
+/// and the runtime that are missing.
 SiteInfo inspect(const std::filesystem::path& site);
 
 /// What import finds in a file that could be converted.

@@ -92,13 +92,15 @@ std::map<std::string, std::vector<double>> namedBounds(const GeometryDescription
 }
 
 /// Every file that the page names is there and, in our sites, holds what its name says.
-bool checkFiles(const OpenedDocument& document, bool isForeign, Findings& findings) {
+bool checkFiles(const OpenedDocument& document, bool isForeign, const SceneGraph& input, Findings& findings) {
   bool whole = true;
   std::vector<std::string> urls = isForeign ? std::vector<std::string>{} : pageFilesOf(document);
   for (const InlinedDocument& inlined : document.scene.graph.inlined)
     urls.push_back(inlined.url);
+  const std::set<std::string> left = texturesLeftIn(input);
   for (const std::string& url : textureFilesOf(document.scene))
-    urls.push_back(url);
+    if (!left.contains(url))
+      urls.push_back(url);
   for (const std::string& url : previewFilesOf(document.scene))
     urls.push_back(url);
   for (const NamedFile& file : geometryFilesOf(document.scene))
@@ -390,7 +392,10 @@ VerifyReport verify(const fs::path& site, const fs::path& input, bool outside) {
   try {
     if (marker)
       checkDocuments(document, findings);
-    if (checkFiles(document, report.isForeign, findings))
+    if (!imported.scene.graph.isComplete) // otherwise the input itself may hold what is wrong
+      for (const std::string& warning : document.scene.warnings)
+        findings.add("{}", warning);
+    if (checkFiles(document, report.isForeign, imported.scene.graph, findings))
       compareScenes(document, imported.scene, marker, report, findings);
   } catch (const Error& error) {
     findings.add("{}.", error.what());

@@ -306,7 +306,7 @@ TEST_F(Convert, KeepsTheAttributesThatAreNamed) {
       "property float heat\nproperty uchar label\nelement face 1\n"
       "property list uchar int vertex_indices\nend_header\n0 0 0 0.5 1\n1 0 0 1.5 2\n0 1 0 -3 9\n3 0 1 2\n");
   EXPECT_NE(run({"info", input_}).out.find("heat, label"), std::string::npos);
-  for (const std::vector<std::string> as :
+  for (const std::vector<std::string>& as :
        {std::vector<std::string>{}, {"--profile", "classic"}, {"--container", "bg"}}) {
     std::vector<std::string> command{"convert",           input_,       "-o",    site_,
                                      "--keep-attributes", "label,heat", "--json"};

@@ -43,9 +43,7 @@ public:
       return {};
     readData();
     (this->*reader->second)();
-    if (faces_.corners.empty())
-      return {};
-    return finished();
+    return faces_.corners.empty() ? Geometry{} : finished();
   }
 
 private:

@@ -16,7 +16,7 @@ struct Geometry {
   std::size_t fans = 0; ///< concave polygons that were cut as fans
 };
 
-/// Nothing for every other node, and for a node without elements. Throws
+/// Nothing for every other node; an empty mesh for a node without elements. Throws
 /// Error{malformed, unsupported} for one that names values which it lacks.
 std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node);
 

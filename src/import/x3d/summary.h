@@ -23,6 +23,7 @@ struct Summary {
 
   Counts notCopied; ///< nodes with urls
   Counts notDrawn;  ///< geometries
+  Counts empty;     ///< geometries without any element
   Counts atRest;
   std::size_t remoteImages = 0, remoteInlines = 0, fans = 0;
   std::size_t flatTransforms = 0, absurdTransforms = 0; ///< that scale to nothing, or out of all measure

@@ -1,8 +1,8 @@
 // X3D in any of its encodings: geometry becomes meshes, and everything else stays the
 // element that it was.
 
-#include "import/formats.h"
 #include "images/image_type.h"
+#include "import/formats.h"
 #include "import/references.h"
 #include "import/warnings.h"
 #include "import/x3d/geometry.h"
@@ -300,14 +300,21 @@ private:
     return bytes;
   }
 
-  /// The mesh of a geometry node, once however often it is USEd.
+  /// The mesh of a geometry node, once however often it is USEd. What stays inline is read,
+  /// too, for what is wrong with it.
   std::optional<Shape> movedOut(pugi::xml_node node) {
     const auto [found, isNew] = moved_.try_emplace(node.internal_object());
-    if (!isNew || !node || staysInline(node))
+    if (!isNew || !node)
       return found->second;
     std::optional<Geometry> geometry =
         attempt("A geometry is left as it is", [&] { return readGeometry(source_, node); });
-    if (!geometry || geometry->mesh.corners.empty())
+    if (!geometry)
+      return {};
+    if (geometry->mesh.corners.empty()) {
+      ++summary_.empty[node.name()];
+      return {};
+    }
+    if (staysInline(node))
       return {};
     summary_.fans += geometry->fans;
     std::vector<Mesh>& meshes = imported_.scene.meshes;
