@@ -102,11 +102,14 @@ std::string writeInlinedX3d(const SceneDocument& document, std::size_t inlineNod
 }
 
 std::string writeHtml(const SceneDocument& document, const PageOptions& options) {
-  std::string head = link("stylesheet", options.stylesheetUrl) + link("modulepreload", options.runtimeUrl);
-  const auto hasBase = [](const GeometryDescription& geometry) { return geometry.base.has_value(); };
+  // In the order in which they are needed, and what is largest first: where a server's connections
+  // serve one request each, the first goes out on the page's own, a round trip before all others.
+  std::string head;
   for (const std::string& url : options.firstUrls)
     head += link("modulepreload", url);
+  head += link("modulepreload", options.runtimeUrl) + link("stylesheet", options.stylesheetUrl);
   // A base is shown without them, and would have to share the line.
+  const auto hasBase = [](const GeometryDescription& geometry) { return geometry.base.has_value(); };
   if (std::ranges::none_of(document.geometries, hasBase))
     for (const std::string& url : options.laterUrls)
       head += link("modulepreload", url);

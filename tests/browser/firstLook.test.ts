@@ -14,14 +14,26 @@ declare global {
   interface Window {
     /** What the view's own canvas showed when the first look had gone. */
     takenOver: string | undefined;
+    /** Of the look's draws that are seen: by how many of its programs had something been drawn before, and by how many not. */
+    rehearsed: { ready: number; unready: number };
   }
 }
 
 /** A closed surface of several patches, with a base. */
 const site = (): string => siteOfGenerated("trefoil-large", "--profile", "compact", "--patch-vertices", "20000");
 
-/** Runs in the page: waits for the view, and then for the end of the look in it. */
+/** Runs in the page: waits for the view, and then for the end of the look in it; and notes what that draws with. */
 function watchLook(): void {
+  const [unseen, seen] = [new Set<unknown>(), new Set<unknown>()];
+  const drawElements = Object.getOwnPropertyDescriptor(WebGL2RenderingContext.prototype, "drawElements")?.value as (...args: unknown[]) => void;
+  WebGL2RenderingContext.prototype.drawElements = function (...args) {
+    if (this.canvas instanceof HTMLCanvasElement && this.canvas.classList.contains("first")) {
+      (this.getParameter(this.FRAMEBUFFER_BINDING) === null ? seen : unseen).add(this.getParameter(this.CURRENT_PROGRAM));
+      const ready = Array.from(seen).filter((program) => unseen.has(program)).length;
+      window.rehearsed = { ready, unready: seen.size - ready };
+    }
+    drawElements.apply(this, args);
+  };
   const prototype = Element.prototype as unknown as Record<"attachShadow", (this: Element, init: ShadowRootInit) => ShadowRoot>;
   const { attachShadow } = prototype;
   prototype.attachShadow = function (init) {
@@ -68,6 +80,8 @@ test("a base is on the screen before the runtime, which takes it over as it is",
     assert.deepEqual((await view.events("first-image")).map(({ target, detail }) => [target, detail.stage]), [["shape", "base"], ["x3d", "base"]]);
     assert.equal(view.server.requestsOf(/imgeo-scene-/)[0]?.status, 0, "the runtime is not here");
     const first = await screenshotOf(view.page);
+
+    assert.deepEqual(await view.page.evaluate(() => window.rehearsed), { ready: 1, unready: 0 });
 
     const red = await pictureAfter(view, () => view.page.evaluate(() => { document.querySelector("material")?.setAttribute("diffuseColor", "0.9 0.1 0.1"); }));
     assert.ok(difference(first, red).mean > 2, "another colour is seen");

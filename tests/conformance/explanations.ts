@@ -8,9 +8,11 @@ const noFans = "X3DOM's npm package does not draw it";
 const noTexturesInMaterials = "X3DOM does not know X3D 4's textures of materials";
 const withoutPi = "a light of intensity 1 makes a white surface that faces it white, as with `Material`; X_ITE divides by π. X3DOM does not know the node";
 
+const allLightsAreGlobal = "X3DOM's lights shine on everything, whatever their `global`";
+
 export const explanations: Readonly<Record<string, string>> = {
   "Appearance-alphaMode-MASK": "X3DOM does not know `alphaMode`",
-  "DirectionalLight-of-its-group": "our lights, and X3DOM's, shine on everything, whatever their `global`",
+  "DirectionalLight-of-its-group": allLightsAreGlobal,
   "ElevationGrid": otherDiagonal,
   "ElevationGrid-ccw": otherDiagonal,
   "ElevationGrid-colorPerFace": otherDiagonal,
@@ -18,7 +20,7 @@ export const explanations: Readonly<Record<string, string>> = {
   "ElevationGrid-texture": otherDiagonal,
   "Extrusion": "X3DOM's npm package does not have the node",
   "Extrusion-twist": "X3DOM's npm package does not have the node",
-  "Grouping": "X3DOM shows nothing of the document",
+  "Grouping": "X3DOM shows nothing of a document that has a `StaticGroup`",
   "ImageTexture-colored-material": "a texture is multiplied by the diffuse colour (X3D 4); in X3DOM it stands in for it",
   "IndexedFaceSet-creaseAngle-between": "edges of up to `creaseAngle` are smooth, others sharp; X3DOM makes all of them smooth",
   "IndexedTriangleFanSet": noFans,
@@ -33,6 +35,7 @@ export const explanations: Readonly<Record<string, string>> = {
   "PhysicalMaterial-metallic-0-roughness-0.3": withoutPi,
   "PhysicalMaterial-metallic-0-roughness-1": withoutPi,
   "PhysicalMaterial-metallic-1-roughness-0.4": `${withoutPi}. Metal mirrors a grey room, X_ITE's nothing`,
+  "PointLight-of-its-group": allLightsAreGlobal,
   "PointLight-scaled": "what scales a light scales its radius and its falloff; not in X3DOM",
   "TextureTransform": "textures seen small are filtered otherwise",
   "Transform-mirror": "a mirror turns triangles round; X3DOM shows their backs",

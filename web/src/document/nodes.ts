@@ -64,6 +64,8 @@ const placedLightFields = {
   location: SFVec3f([0, 0, 0]),
   attenuation: SFVec3f([1, 0, 0]),
   radius: SFFloat(100),
+  /** False: it shines on what stands in its group alone. */
+  global: SFBool(true),
 };
 
 export const nodeFields = {
@@ -98,7 +100,7 @@ export const nodeFields = {
     fieldOfView: MFFloat([-1, -1, 1, 1]),
     centerOfRotation: SFVec3f([0, 0, 0]),
   },
-  DirectionalLight: { ...lightFields, direction: SFVec3f([0, 0, -1]) },
+  DirectionalLight: { ...lightFields, global: SFBool(false), direction: SFVec3f([0, 0, -1]) },
   PointLight: { ...lightFields, ...placedLightFields },
   SpotLight: {
     ...lightFields,

@@ -44,16 +44,20 @@ export class FirstLook {
   #wanted: Wanted;
   #state: "waiting" | "decoding" | "drawn" | "ended" = "waiting";
 
-  /** Undefined where the scene cannot be shown so. The canvas is empty at first. */
-  static of(x3d: Element, early: EarlyBases): FirstLook | undefined {
+  /** Undefined where the scene cannot be shown so. The canvas, which `place` puts where it will be seen, is empty at first. */
+  static of(x3d: Element, early: EarlyBases, place: (canvas: HTMLCanvasElement) => void): FirstLook | undefined {
     const wanted = wantedOf(x3d);
     if (wanted === undefined) return undefined;
     for (const { base } of wanted.scene.shapes) early.ask(hrefOf(base.url)); // before anything that takes time
     const canvas = document.createElement("canvas");
     canvas.classList.add("first");
     canvas.ariaHidden = "true";
+    place(canvas);
+    [canvas.width, canvas.height] = sizeOf(canvas); // before it has a context, which then makes its buffers once
     const context = contextOf(canvas);
-    return context === null ? undefined : new FirstLook(x3d, wanted, early, canvas, context);
+    if (context !== null) return new FirstLook(x3d, wanted, early, canvas, context);
+    canvas.remove();
+    return undefined;
   }
 
   private constructor(x3d: Element, wanted: Wanted, early: EarlyBases, canvas: HTMLCanvasElement, context: WebGL2RenderingContext) {
@@ -65,7 +69,7 @@ export class FirstLook {
     this.#wanted = wanted;
     this.#early = early;
     this.#picture = new FirstPicture(context);
-    this.#picture.prepare(wanted.scene);
+    this.#picture.rehearse(wanted.scene);
     this.#follow();
     this.#load().catch(() => { this.end(); }); // the runtime says why
   }
@@ -131,9 +135,13 @@ export class FirstLook {
     return this.#state !== "ended";
   }
 
-  #setSize(width: number, height: number): void {
-    this.canvas.width = width;
-    this.canvas.height = height;
+  /** True where it had another. To set the one that it has would empty it. */
+  #setSize(width: number, height: number): boolean {
+    const { canvas } = this;
+    if (width === canvas.width && height === canvas.height) return false;
+    canvas.width = width;
+    canvas.height = height;
+    return true;
   }
 
   #follow(): void {
@@ -145,9 +153,7 @@ export class FirstLook {
     observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
     signal.addEventListener("abort", () => { observer.disconnect(); });
     watchSize(this.canvas, signal, (width, height) => {
-      if (this.#state !== "drawn" || (width === this.canvas.width && height === this.canvas.height)) return;
-      this.#setSize(width, height);
-      this.#draw();
+      if (this.#state === "drawn" && this.#setSize(width, height)) this.#draw();
     });
   }
 

@@ -26,12 +26,12 @@ export function beginFirstLooks(): FirstLook[] {
 
 function lookInto(x3d: Element, early: EarlyBases): FirstLook | undefined {
   const isTaken = Array.from(x3d.children).some(({ localName }) => localName === viewTag);
-  const look = isTaken ? undefined : FirstLook.of(x3d, early);
-  if (look === undefined) return undefined;
-  const view = viewIn(x3d);
-  const root = view.attachShadow({ mode: "open" });
-  root.adoptedStyleSheets = [viewStyle];
-  root.append(look.canvas);
-  leaveLook(view, look);
+  if (isTaken) return undefined;
+  const look = FirstLook.of(x3d, early, (canvas) => {
+    const root = viewIn(x3d).attachShadow({ mode: "open" });
+    root.adoptedStyleSheets = [viewStyle];
+    root.append(canvas);
+  });
+  if (look !== undefined) leaveLook(viewIn(x3d), look);
   return look;
 }

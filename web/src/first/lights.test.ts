@@ -3,13 +3,14 @@ import { test } from "node:test";
 import { Matrix4 } from "three";
 import { elementsOf } from "../document/elements.testing.ts";
 import { readScene } from "../document/readScene.ts";
+import { everywhere } from "../navigation/lightScope.ts";
 import { placementOf } from "../navigation/placement.ts";
 import type { LightUniforms } from "./lights.ts";
 import { lightCountOf, lightUniformsOf } from "./lights.ts";
 
-function uniformsOf(markup: string, headlight: boolean, viewFromScene = new Matrix4()): LightUniforms {
+function uniformsOf(markup: string, headlight: boolean, viewFromScene = new Matrix4(), lightScope = everywhere): LightUniforms {
   const { lights } = placementOf(readScene(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)));
-  return lightUniformsOf({ lights, headlight }, viewFromScene);
+  return lightUniformsOf({ lights, headlight }, lightScope, viewFromScene);
 }
 
 const rounded = (values: readonly number[]) => values.map((value) => Math.round(value * 1e6) / 1e6 + 0);
@@ -38,4 +39,13 @@ test("the headlight is one more, and ambient light adds up", () => {
   assert.deepEqual(rounded(lightDirections).slice(0, 3), [0, -1, 0]);
   assert.deepEqual(lightDirections.slice(-3), [0, 0, -1]);
   assert.deepEqual(ambientLight, [0.5, 0.25, 0.25]);
+});
+
+test("what stands outside of a light's group gets none of it", () => {
+  const scene = readScene(elementsOf(`<X3D><Scene><Group><PointLight global="false" color="1 0 0" ambientIntensity="0.5"/><Shape/></Group>
+    <DirectionalLight/><Shape/></Scene></X3D>`));
+  const { lights, shapes } = placementOf(scene);
+  const seen = shapes.map(({ lightScope }) => lightUniformsOf({ lights, headlight: true }, lightScope, new Matrix4()));
+  assert.deepEqual(seen.map(({ lightColors }) => lightColors), [[1, 0, 0, 1, 1, 1, 1, 1, 1], [0, 0, 0, 1, 1, 1, 1, 1, 1]]);
+  assert.deepEqual(seen.map(({ ambientLight }) => ambientLight), [[0.5, 0, 0], [0, 0, 0]]);
 });

@@ -4,6 +4,7 @@
 import type { Matrix4 } from "three";
 import { Vector3 } from "three";
 import { coneOf, scaledFalloff } from "../lighting/falloff.ts";
+import type { LightScope } from "../navigation/lightScope.ts";
 import type { PlacedLight } from "../navigation/placement.ts";
 import { lengthScaleOf } from "../navigation/matrices.ts";
 import type { FirstScene } from "./scene.ts";
@@ -25,10 +26,12 @@ export function lightCountOf({ lights, headlight }: Pick<FirstScene, "lights" | 
   return lights.length + (headlight ? 1 : 0);
 }
 
-export function lightUniformsOf({ lights, headlight }: Pick<FirstScene, "lights" | "headlight">, viewFromScene: Matrix4): LightUniforms {
-  const all = lights.map((light) => numbersOf(light, viewFromScene));
+/** As seen by what stands in the scope: what does not shine there is black. */
+export function lightUniformsOf({ lights, headlight }: Pick<FirstScene, "lights" | "headlight">, lightScope: LightScope, viewFromScene: Matrix4): LightUniforms {
+  const all = lights.map((light) => ({ ...numbersOf(light, viewFromScene), ...(!light.scope.holds(lightScope) && { color: [0, 0, 0] }) }));
   if (headlight) all.push({ ...fromFarAway, color: [1, 1, 1], direction: [0, 0, -1] });
-  const ambient = [0, 1, 2].map((channel) => lights.reduce((sum, { light }) => sum + (light.color[channel] ?? 0) * light.ambientIntensity, 0));
+  const shining = lights.filter(({ scope }) => scope.holds(lightScope));
+  const ambient = [0, 1, 2].map((channel) => shining.reduce((sum, { light }) => sum + (light.color[channel] ?? 0) * light.ambientIntensity, 0));
   return {
     lightColors: all.flatMap(({ color }) => color), lightPlaces: all.flatMap(({ place }) => place),
     lightDirections: all.flatMap(({ direction }) => direction), lightAttenuations: all.flatMap(({ attenuation }) => attenuation),

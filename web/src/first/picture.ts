@@ -8,10 +8,12 @@ import { elementTypeOf } from "../decode/elements.ts";
 import { latticeBitsOf } from "../document/storedFrame.ts";
 import { isBlended, litNumbersOf } from "../lighting/materialNumbers.ts";
 import { lensOf } from "../navigation/camera.ts";
+import type { LightScope } from "../navigation/lightScope.ts";
 import type { LightUniforms } from "./lights.ts";
 import { lightCountOf, lightUniformsOf } from "./lights.ts";
 import type { Program, ProgramKind } from "./program.ts";
 import { attributePlaces, makeProgram } from "./program.ts";
+import { drawUnseen, standIn } from "./rehearsal.ts";
 import type { FirstScene, FirstShape } from "./scene.ts";
 
 /** A base that has come, part by part. */
@@ -41,9 +43,14 @@ export class FirstPicture {
     this.#gl = gl;
   }
 
-  /** Begins to compile what will be needed, as far as that is known before the bases are here. */
-  prepare(scene: FirstScene): void {
-    for (const shape of scene.shapes) this.#programFor(kindOf(shape, scene, { hasNormals: true, hasColors: false }));
+  /**
+   * Has the GPU make ready what the picture will take, as far as that is known before
+   * the bases are here. Drivers translate a program for their GPU when something is
+   * first drawn with it, which can take longer than the drawing.
+   */
+  rehearse(scene: FirstScene): void {
+    const shapes = Array.from(new Map(scene.shapes.map((shape) => [JSON.stringify(kindOf(shape, scene, standIn)), shape])).values());
+    drawUnseen(this.#gl, () => { this.draw({ ...scene, shapes }, () => [standIn], 1, 1, 1); });
   }
 
   /** All of it, in device pixels. Every base has come and is showable. */
@@ -56,12 +63,14 @@ export class FirstPicture {
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     const { clipFromView, viewFromScene } = camerasOf(scene, width / height);
-    const lights = lightUniformsOf(scene, viewFromScene);
+    const lightsIn = new Map<LightScope, LightUniforms>();
     for (const shape of scene.shapes) {
+      const lights = lightsIn.get(shape.lightScope) ?? lightUniformsOf(scene, shape.lightScope, viewFromScene);
+      lightsIn.set(shape.lightScope, lights);
       const viewFromShape = new Matrix4().multiplyMatrices(viewFromScene, shape.sceneFromShape);
       for (const part of baseOf(shape) ?? []) {
         if (part === undefined) continue;
-        const program = this.#programFor(kindOf(shape, scene, { hasNormals: part.normal !== undefined, hasColors: part.color !== undefined }));
+        const program = this.#programFor(kindOf(shape, scene, part));
         gl.useProgram(program.program);
         gl.uniformMatrix4fv(program.uniform("clipFromView"), false, clipFromView.elements);
         gl.uniform1f(program.uniform("exposure"), exposure);
@@ -130,8 +139,8 @@ export class FirstPicture {
 /** WebGL's constants. */
 const glTypes = { Int8: 0x1400, Uint8: 0x1401, Int16: 0x1402, Uint16: 0x1403, Int32: 0x1404, Uint32: 0x1405, Float32: 0x1406 } as const;
 
-function kindOf({ geometry, appearance }: FirstShape, scene: FirstScene, parts: Pick<ProgramKind, "hasNormals" | "hasColors">): ProgramKind {
-  return { ...parts, material: appearance.material.kind, isTwoSided: !geometry.solid, lightCount: lightCountOf(scene) };
+function kindOf({ geometry, appearance }: FirstShape, scene: FirstScene, { normal, color }: PatchBuffers): ProgramKind {
+  return { hasNormals: normal !== undefined, hasColors: color !== undefined, material: appearance.material.kind, isTwoSided: !geometry.solid, lightCount: lightCountOf(scene) };
 }
 
 /** As three.js' camera of the runtime stands and sees. */

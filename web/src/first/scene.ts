@@ -3,7 +3,7 @@
 // what has anything that it does not know is left to the runtime.
 
 import type { Matrix4, Sphere } from "three";
-import type { AppearanceDescription, GeometryDescription, Reference, SceneDescription, ShapeDescription, Vec3 } from "../document/description.ts";
+import type { AppearanceDescription, GeometryDescription, Reference, SceneDescription, Vec3 } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { isBlended } from "../lighting/materialNumbers.ts";
 import { BindingStack } from "../navigation/bindingStack.ts";
@@ -12,8 +12,9 @@ import { sphereAround } from "../navigation/camera.ts";
 import { avatarOf, bindViewpoints, boundPoseOf, clearanceOf, homeOf } from "../navigation/home.ts";
 import { shapeFromStoredOf } from "../navigation/matrices.ts";
 import { navigationTypesOf } from "../navigation/navigationType.ts";
+import type { LightScope } from "../navigation/lightScope.ts";
 import type { CameraSetting } from "../navigation/orbit.ts";
-import type { PlacedLight } from "../navigation/placement.ts";
+import type { PlacedLight, PlacedShape } from "../navigation/placement.ts";
 import { placementOf } from "../navigation/placement.ts";
 
 export interface FirstScene {
@@ -38,6 +39,7 @@ export interface FirstShape {
   readonly sceneFromShape: Matrix4;
   /** Places its lattice. */
   readonly shapeFromStored: Matrix4;
+  readonly lightScope: LightScope;
 }
 
 /** More would take longer than the runtime does. */
@@ -53,7 +55,7 @@ export function firstSceneOf(scene: SceneDescription, camera: CameraSetting): Fi
   const { viewpoints, levels } = placement;
   if (levels.length > 0 || placement.lights.length > mostLights) return undefined;
   const seen = placement.shapes.filter(({ shape }) => shape.visible && shape.geometry !== undefined);
-  const shapes = seen.slice(0, mostShapes + 1).flatMap(({ shape, sceneFromShape }) => firstShapeOf(shape, sceneFromShape) ?? []);
+  const shapes = seen.slice(0, mostShapes + 1).flatMap((placed) => firstShapeOf(placed) ?? []);
   if (shapes.length === 0 || shapes.length < seen.length || shapes.length > mostShapes) return undefined;
   const sphere = sphereAround(placement.box);
   const bound = new BindingStack<SceneElement>();
@@ -66,9 +68,10 @@ export function firstSceneOf(scene: SceneDescription, camera: CameraSetting): Fi
 }
 
 /** Undefined where it is not drawn from a base in solid colours. */
-function firstShapeOf({ element, geometry, appearance, colorMap }: ShapeDescription, sceneFromShape: Matrix4): FirstShape | undefined {
+function firstShapeOf({ shape, ...place }: PlacedShape): FirstShape | undefined {
+  const { element, geometry, appearance, colorMap } = shape;
   const [patch] = geometry?.patches ?? [];
   if (geometry?.container !== "compact" || geometry.base === undefined || patch === undefined || colorMap !== undefined) return undefined;
   if (appearance.textures.length > 0 || appearance.alpha.mode === "MASK" || isBlended(appearance, false)) return undefined;
-  return { element, geometry, base: geometry.base, appearance, sceneFromShape, shapeFromStored: shapeFromStoredOf(geometry, patch) };
+  return { element, geometry, base: geometry.base, appearance, ...place, shapeFromStored: shapeFromStoredOf(geometry, patch) };
 }

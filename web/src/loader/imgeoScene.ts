@@ -19,7 +19,7 @@ import { shapesOf } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
 import type { PickCandidate } from "../render/picking.ts";
-import { noAttenuations } from "../render/lightFalloff.ts";
+import { makeLightUniforms } from "../render/sceneLights.ts";
 import { SceneGraph } from "../render/sceneGraph.ts";
 import type { ShapeSetting } from "../render/shapeObject.ts";
 import { ShapeObject } from "../render/shapeObject.ts";
@@ -120,7 +120,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     const { root, box } = this.#build({
       look: appLook(makeMaterial, surroundingsOf(this)), geometries: new GeometryPool(buffers), buffers, textures, batches: undefined, drawing: { asPoints: false },
       shared: {
-        pixelRatio: { value: 1 }, viewport: { value: new Vector4() }, depthRange: { value: new Vector2() }, attenuations: { value: noAttenuations() },
+        pixelRatio: { value: 1 }, viewport: { value: new Vector4() }, depthRange: { value: new Vector2() }, ...makeLightUniforms(),
       },
     });
     this.box = box;

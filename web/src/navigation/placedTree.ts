@@ -6,8 +6,10 @@
 import type { Box3 } from "three";
 import { Matrix4 } from "three";
 import { areAlike } from "../document/alike.ts";
-import type { GroupDescription, NodeDescription } from "../document/description.ts";
+import type { GroupDescription, LightDescription, NodeDescription } from "../document/description.ts";
+import { everywhere, LightScope } from "./lightScope.ts";
 import { boxIn, isDrawable, matrixOf } from "./matrices.ts";
+import type { PlacedLight } from "./placement.ts";
 import type { Reach } from "./reach.ts";
 import { noReach, reachOfAll } from "./reach.ts";
 
@@ -17,6 +19,8 @@ interface Within {
   readonly isSeen: boolean;
   /** No group around it has told its box. */
   readonly counts: boolean;
+  /** The innermost that it stands in. */
+  readonly lightScope: LightScope;
 }
 
 /** A node in one of its places. */
@@ -29,6 +33,8 @@ export class PlacedNode {
   children: readonly PlacedNode[] = [];
   /** Of a group that is seen and tells it, in the scene's coordinates. */
   box: Box3 | undefined;
+  /** The innermost that it stands in. Of a group, that of its children. */
+  lightScope = everywhere;
   reach: Reach = noReach;
   /** Undefined where nothing has been told yet. */
   within: Within | undefined;
@@ -58,7 +64,7 @@ export class PlacedTree {
 
   /** Describes the scene from now on. */
   follow(root: GroupDescription): this {
-    this.#follow(this.root, root, { sceneFromNode: this.root.within?.sceneFromNode ?? new Matrix4(), isSeen: true, counts: true });
+    this.#follow(this.root, root, { sceneFromNode: this.root.within?.sceneFromNode ?? new Matrix4(), isSeen: true, counts: true, lightScope: everywhere });
     return this;
   }
 
@@ -69,16 +75,17 @@ export class PlacedTree {
     node.description = description;
     node.within = within;
     if (hasMoved) node.sceneFromNode = placedIn(within.sceneFromNode, description);
+    node.lightScope = scopeOf(node, within.lightScope);
     if (withinBefore === undefined) this.#listener?.onEnter(node);
     else this.#listener?.onChange(node, hasMoved, before);
     node.reach = description.kind === "group" ? this.#followChildren(node, description, within) : reachOf(node, within);
   }
 
-  #followChildren(node: PlacedNode, group: GroupDescription, { isSeen, counts }: Within): Reach {
+  #followChildren(node: PlacedNode, group: GroupDescription, { isSeen, counts, lightScope: around }: Within): Reach {
     const { sceneFromNode } = node;
     const isGroupSeen = isSeen && group.visible;
     node.box = isGroupSeen && group.box ? boxIn(sceneFromNode, group.box) : undefined;
-    const inner: Within = { sceneFromNode, isSeen: isGroupSeen, counts: counts && node.box === undefined };
+    const inner: Within = { sceneFromNode, isSeen: isGroupSeen, counts: counts && node.box === undefined, lightScope: node.lightScope };
     const { kept, gone } = matched(node, group.children);
     for (const child of gone) this.#leave(child);
     node.children = kept;
@@ -86,6 +93,7 @@ export class PlacedTree {
     return reachOfAll(kept, {
       box: counts && node.box && isDrawable(node.box) ? node.box : undefined,
       bounded: node.box ? [node] : [],
+      scopes: node.lightScope === around ? [] : [node.lightScope],
       levels: group.levels && isGroupSeen ? [{ ...group.levels, sceneFromLevels: sceneFromNode }] : [],
     });
   }
@@ -97,7 +105,13 @@ export class PlacedTree {
 }
 
 function isSame(a: Within, b: Within): boolean {
-  return a.sceneFromNode === b.sceneFromNode && a.isSeen === b.isSeen && a.counts === b.counts;
+  return a.sceneFromNode === b.sceneFromNode && a.isSeen === b.isSeen && a.counts === b.counts && a.lightScope === b.lightScope;
+}
+
+/** A group with lights of its own has a scope of its own, the same as long as it has any. What is outermost in a scene is in it all. */
+function scopeOf({ description, lightScope: before, parent }: PlacedNode, around: LightScope): LightScope {
+  if (parent === undefined || description.kind !== "group" || !description.children.some(isScopedLight)) return around;
+  return before.around === around ? before : new LightScope(around);
 }
 
 function transformOf(description: NodeDescription): unknown {
@@ -108,7 +122,7 @@ function placedIn(sceneFromParent: Matrix4, description: NodeDescription): Matri
   return description.kind === "group" && description.transform ? sceneFromParent.clone().multiply(matrixOf(description.transform)) : sceneFromParent;
 }
 
-function reachOf({ description, sceneFromNode }: PlacedNode, { isSeen, counts }: Within): Reach {
+function reachOf({ description, sceneFromNode }: PlacedNode, { isSeen, counts, lightScope }: Within): Reach {
   switch (description.kind) {
     case "shape": {
       const box = description.box && description.reaches && counts ? boxIn(sceneFromNode, description.box) : undefined;
@@ -117,10 +131,18 @@ function reachOf({ description, sceneFromNode }: PlacedNode, { isSeen, counts }:
     case "viewpoint":
       return { ...noReach, viewpoints: [{ element: description.element, viewpoint: description.viewpoint, sceneFromViewpoint: sceneFromNode }] };
     case "light":
-      return description.light.on && isSeen ? { ...noReach, lights: [{ light: description.light, sceneFromLight: sceneFromNode }] } : noReach;
+      return description.light.on && isSeen ? { ...noReach, lights: [placedLight(description.light, sceneFromNode, lightScope)] } : noReach;
     case "group":
       return noReach;
   }
+}
+
+function isScopedLight(description: NodeDescription): boolean {
+  return description.kind === "light" && !description.light.global;
+}
+
+function placedLight(light: LightDescription, sceneFromLight: Matrix4, around: LightScope): PlacedLight {
+  return { light, sceneFromLight, scope: light.global ? everywhere : around };
 }
 
 /** For each description the child that was it before: the same object, the shape of its element, or a group that stood there. */

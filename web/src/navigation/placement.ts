@@ -6,6 +6,7 @@ import type { Matrix4 } from "three";
 import { Box3 } from "three";
 import type { LevelsDescription, LightDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
 import type { PlacedViewpoint } from "./camera.ts";
+import type { LightScope } from "./lightScope.ts";
 import type { PlacedNode } from "./placedTree.ts";
 import { PlacedTree } from "./placedTree.ts";
 
@@ -25,11 +26,15 @@ export interface Placement {
 export interface PlacedShape {
   readonly shape: ShapeDescription;
   readonly sceneFromShape: Matrix4;
+  /** The innermost that it stands in. */
+  readonly lightScope: LightScope;
 }
 
 export interface PlacedLight {
   readonly light: LightDescription;
   readonly sceneFromLight: Matrix4;
+  /** What it shines on. */
+  readonly scope: LightScope;
 }
 
 /** A LOD in one of its places. */
@@ -44,7 +49,7 @@ export function placementOf(scene: SceneDescription): Placement {
   return { box: box ?? new Box3(), shapes: Array.from(shapesIn(root)), lights, viewpoints, levels };
 }
 
-function* shapesIn({ description, sceneFromNode, children }: PlacedNode): Generator<PlacedShape> {
-  if (description.kind === "shape") yield { shape: description, sceneFromShape: sceneFromNode };
+function* shapesIn({ description, sceneFromNode, lightScope, children }: PlacedNode): Generator<PlacedShape> {
+  if (description.kind === "shape") yield { shape: description, sceneFromShape: sceneFromNode, lightScope };
   for (const child of children) yield* shapesIn(child);
 }

@@ -2,6 +2,7 @@
 
 import type { Box3 } from "three";
 import type { PlacedViewpoint } from "./camera.ts";
+import type { LightScope } from "./lightScope.ts";
 import type { PlacedNode } from "./placedTree.ts";
 import type { PlacedLevels, PlacedLight } from "./placement.ts";
 
@@ -16,16 +17,18 @@ export interface Reach {
   readonly levels: readonly PlacedLevels[];
   /** Groups that are seen and tell their boxes. */
   readonly bounded: readonly PlacedNode[];
+  /** Groups that lights shine in, and nowhere else; each before those in it. */
+  readonly scopes: readonly LightScope[];
 }
 
 const none: readonly never[] = [];
-export const noReach: Reach = { box: undefined, lights: none, viewpoints: none, levels: none, bounded: none };
+export const noReach: Reach = { box: undefined, lights: none, viewpoints: none, levels: none, bounded: none, scopes: none };
 
 /** Of these together, and of what the group around them brings itself. One pass: there may be ten thousand. */
-export function reachOfAll(parts: readonly PlacedNode[], own: Pick<Reach, "box" | "levels" | "bounded">): Reach {
+export function reachOfAll(parts: readonly PlacedNode[], own: Pick<Reach, "box" | "levels" | "bounded" | "scopes">): Reach {
   let union: Box3 | undefined;
   const lights = new Gathered<PlacedLight>(), viewpoints = new Gathered<PlacedViewpoint>();
-  const levels = new Gathered(own.levels), bounded = new Gathered(own.bounded);
+  const levels = new Gathered(own.levels), bounded = new Gathered(own.bounded), scopes = new Gathered(own.scopes);
   for (const { reach } of parts) {
     if (reach === noReach) continue;
     if (reach.box && own.box === undefined) union = union?.union(reach.box) ?? reach.box.clone();
@@ -33,8 +36,9 @@ export function reachOfAll(parts: readonly PlacedNode[], own: Pick<Reach, "box" 
     viewpoints.add(reach.viewpoints);
     levels.add(reach.levels);
     bounded.add(reach.bounded);
+    scopes.add(reach.scopes);
   }
-  return { box: own.box ?? union, lights: lights.all, viewpoints: viewpoints.all, levels: levels.all, bounded: bounded.all };
+  return { box: own.box ?? union, lights: lights.all, viewpoints: viewpoints.all, levels: levels.all, bounded: bounded.all, scopes: scopes.all };
 }
 
 /** Lists one after the other; the only one that has anything in it stays as it is. */

@@ -2,16 +2,9 @@
 // place one number for it, `decay`. Here that is the place of the light's
 // `attenuation` in a list of the scene's.
 
-import { ShaderChunk, Vector3 } from "three";
+import { ShaderChunk } from "three";
 import { falloff } from "../lighting/falloff.ts";
 import { replaceEach } from "./vertexChunk.ts";
-
-export interface FalloffUniforms {
-  /** In the order of the lights' numbers; never empty. */
-  readonly attenuations: { value: Vector3[] };
-}
-
-export const noAttenuations = (): Vector3[] => [new Vector3(1, 0, 0)];
 
 const chunk = /* glsl */ `
 #define SCENE_LIGHTS ( NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + 1 )

@@ -6,7 +6,7 @@ import type { Material, Texture, Vector2, Vector4 } from "three";
 import type { AppearanceDescription, TextureRole } from "../document/description.ts";
 import type { DrawRange } from "../decode/stage.ts";
 import type { DrawnObject } from "./drawnObject.ts";
-import type { FalloffUniforms } from "./lightFalloff.ts";
+import type { SceneLightUniforms } from "./sceneLights.ts";
 import type { VertexForm, VertexUniforms } from "./vertexChunk.ts";
 
 export interface Look {
@@ -45,7 +45,7 @@ export type Shading = "unlit" | "distance" | "flat" | "smooth";
 export type VertexColors = "none" | "rgb" | "rgba";
 
 /** Uniforms that everything in a scene shares. */
-export interface SceneUniforms extends FalloffUniforms {
+export interface SceneUniforms extends SceneLightUniforms {
   /** Device pixels in a CSS pixel. */
   readonly pixelRatio: { value: number };
   /** Of what is being drawn, in device pixels: origin and size. Wide lines follow it. */

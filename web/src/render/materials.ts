@@ -12,6 +12,7 @@ import { x3dLighting } from "../lighting/x3dLighting.ts";
 import { placeColors } from "./batches/placeChunk.ts";
 import { farnessDefine, shadeByFarnessIn } from "./farness.ts";
 import { lightsChunk } from "./lightFalloff.ts";
+import { areScoped, scopeLightsIn } from "./lightScopes.ts";
 import type { Look, MaterialRequest, Shading, ShownPictures, VertexColors } from "./look.ts";
 import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
 import { colorByValueIn } from "./valueColors.ts";
@@ -58,7 +59,8 @@ function makeMaterial(request: MaterialRequest, appearance: AppearanceDescriptio
   };
   material.userData.lit = lit;
   material.onBeforeCompile = (shader) => {
-    Object.assign(shader.uniforms, uniforms, { depthRange: shared.depthRange, attenuations: shared.attenuations, ...lit });
+    const { depthRange, attenuations, lightReaches, scopedAmbients } = shared;
+    Object.assign(shader.uniforms, uniforms, { depthRange, attenuations, lightReaches, scopedAmbients, ...lit });
     readVerticesIn(shader);
     shapePointsIn(shader);
     shadeByFarnessIn(shader);
@@ -71,9 +73,10 @@ function makeMaterial(request: MaterialRequest, appearance: AppearanceDescriptio
       ...mapChunks,
       ...placeColors,
     ]);
+    if (areScoped(shared)) scopeLightsIn(shader);
   };
   // The text of `onBeforeCompile` is the same for all, so programs are shared as they should be.
-  material.customProgramCacheKey = () => "imgeo";
+  material.customProgramCacheKey = () => (areScoped(shared) ? "imgeo, scoped lights" : "imgeo");
   applyAppearance(material, appearance, colors, pictures);
   return material;
 }

@@ -1,12 +1,16 @@
 // A stage -> three.js objects, one per draw and place. What a stage says of its
 // vertices, for whoever draws it, is in stageDraws.ts.
 
-import type { BufferGeometry, Group, Material, Matrix4 } from "three";
+import type { BufferGeometry, Material, Matrix4 } from "three";
+import { DoubleSide, FrontSide } from "three";
 import type { DrawRange, Stage } from "../decode/stage.ts";
 import type { AppearanceDescription } from "../document/description.ts";
+import type { LightScope } from "../navigation/lightScope.ts";
+import { everywhere } from "../navigation/lightScope.ts";
 import { shapeFromStoredOf } from "../navigation/matrices.ts";
 import type { DrawnObject } from "./drawnObject.ts";
 import { objectOf } from "./drawnObject.ts";
+import type { PlaceGroup } from "./lightScopes.ts";
 import type { ShownPictures } from "./look.ts";
 import { noPictures } from "./look.ts";
 import { PickDraw } from "./pickDraw.ts";
@@ -18,11 +22,11 @@ export interface PatchDraws {
   /** For the picking pass: shared by all places. */
   readonly picks: readonly PickDraw[];
   /** In one more place of the scene, in the group that stands there. */
-  hang(group: Group): void;
-  /** The group has moved, or is shown or hidden. */
-  follow(group: Group): void;
+  hang(group: PlaceGroup): void;
+  /** The group has moved, is shown or hidden, or stands in another light scope. */
+  follow(group: PlaceGroup): void;
   /** Not there any more. */
-  leave(group: Group): void;
+  leave(group: PlaceGroup): void;
   applyAppearance(appearance: AppearanceDescription, pictures: ShownPictures): void;
   /** Takes it out of the scene and frees what this stage alone uses. */
   dispose(): void;
@@ -43,22 +47,25 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
     shape.boundingBox = box;
     shape.boundingSphere = sphere;
     const request = materialRequestOf(stage, range, geometry, uniforms.of(range), setting.shared);
-    const material = look.makeMaterial(request, setting.appearance, laid(setting.pictures));
+    const side = geometry.solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
+    const materials = new ScopedMaterials((lightScope) =>
+      look.makeMaterial({ ...request, uniforms: { ...request.uniforms, lightScope } }, shown.appearance, laid(shown.pictures)));
     const pick = new PickDraw(stage, range, {
       buffers, bounds: sphere, shapeFromStored,
-      makeParts: () => ({ geometry: shape, request: pickRequestOf(stage, range, material.side, uniforms.of(range), shown.appearance, shown.pictures), release: () => undefined }),
+      makeParts: () => ({ geometry: shape, request: pickRequestOf(stage, range, side, uniforms.of(range), shown.appearance, shown.pictures), release: () => undefined }),
     });
-    return [{ range, shape, material, request, pick }];
+    return [{ range, shape, materials, request, pick }];
   });
-  const objects = new Map<Group, DrawnObject[]>();
-  const leave = (group: Group) => {
+  const objects = new Map<PlaceGroup, DrawnObject[]>();
+  const leave = (group: PlaceGroup) => {
     for (const object of objects.get(group) ?? []) object.removeFromParent();
     objects.delete(group);
   };
   return {
     picks: draws.map(({ pick }) => pick),
     hang(group) {
-      const here = draws.map(({ range, shape, material, request }) => {
+      const here = draws.map(({ range, shape, materials, request }) => {
+        const material = materials.of(group);
         const object = placedObject(range, shape, material, shapeFromStored);
         look.prepare(object, request, material);
         return object;
@@ -66,25 +73,54 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
       if (here.length > 0) group.add(...here);
       objects.set(group, here);
     },
-    follow: () => undefined, // objects in it do so by themselves
+    follow(group) {
+      // Objects in it move by themselves.
+      objects.get(group)?.forEach((object, place) => {
+        const { materials, request } = draws[place] ?? {};
+        const material = materials?.of(group);
+        if (request === undefined || material === undefined || material === object.material) return;
+        object.material = material;
+        look.prepare(object, request, material);
+      });
+    },
     leave,
     applyAppearance(appearance, pictures) {
       shown = { appearance, pictures };
       setAppearance(uniforms.common, geometry, appearance);
-      for (const { material, pick } of draws) {
-        look.applyAppearance(material, appearance, colorsOf(stage), laid(pictures));
+      for (const { materials, pick } of draws) {
+        for (const material of materials.all) look.applyAppearance(material, appearance, colorsOf(stage), laid(pictures));
         pick.forgetParts();
       }
     },
     dispose() {
       for (const group of Array.from(objects.keys())) leave(group);
-      for (const { material, pick } of draws) {
-        material.dispose();
+      for (const { materials, pick } of draws) {
+        for (const material of materials.all) material.dispose();
         pick.dispose();
       }
       setting.geometries.release(stage);
     },
   };
+}
+
+/** Of a draw, one for each light scope that it stands in. */
+class ScopedMaterials {
+  readonly #make: (lightScope: LightScope) => Material;
+  readonly #materials = new Map<LightScope, Material>();
+
+  constructor(make: (lightScope: LightScope) => Material) {
+    this.#make = make;
+  }
+
+  get all(): Iterable<Material> {
+    return this.#materials.values();
+  }
+
+  of({ lightScope = everywhere }: PlaceGroup): Material {
+    const material = this.#materials.get(lightScope) ?? this.#make(lightScope);
+    this.#materials.set(lightScope, material);
+    return material;
+  }
 }
 
 function placedObject(draw: DrawRange, shape: BufferGeometry, material: Material, matrix: Matrix4): DrawnObject {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Group, Object3D } from "three";
+import type { Object3D } from "three";
 import { PointLight, Vector3 } from "three";
 import type { SceneDescription, ShapeDescription } from "../document/description.ts";
 import { Dice, EditedDocument } from "../document/edits.testing.ts";
@@ -10,11 +10,12 @@ import { readScene } from "../document/readScene.ts";
 import { SceneReader } from "../document/sceneReader.ts";
 import { matrixOf } from "../navigation/matrices.ts";
 import type { PlacedNode } from "../navigation/placedTree.ts";
+import type { PlaceGroup } from "./lightScopes.ts";
 import { SceneGraph } from "./sceneGraph.ts";
 
 /** The graph of a scene, and the shapes that it has told of. */
 class Watched {
-  readonly shapes = new Map<PlacedNode, { shape: ShapeDescription; group: Group }>();
+  readonly shapes = new Map<PlacedNode, { shape: ShapeDescription; group: PlaceGroup }>();
   readonly graph = new SceneGraph({
     onEnter: (shape, place, group) => {
       assert.ok(!this.shapes.has(place));
@@ -29,11 +30,11 @@ class Watched {
 
   /** All that somebody who draws it can see. */
   get seen(): unknown {
-    const { box, bounded, viewpoints, levels, attenuations, root } = this.graph;
+    const { box, bounded, viewpoints, levels, lightUniforms, root } = this.graph;
     const groups = (of: Object3D): string => of.children.map((group) =>
       [group.type, group.visible, group.matrixWorld.elements, groups(group)].join(" ")).sort().join();
-    const shapes = Array.from(this.shapes.values(), ({ shape, group }) => [shape.priority, group.visible, group.matrixWorld.elements].join(" "));
-    return { box, bounded: bounded.map((each) => each.box), viewpoints, levels, attenuations, shapes: shapes.sort(), groups: groups(root) };
+    const shapes = Array.from(this.shapes.values(), ({ shape, group }) => [shape.priority, group.visible, group.lightScope?.value, group.matrixWorld.elements].join(" "));
+    return { box, bounded: bounded.map((each) => each.box), viewpoints, levels, lightUniforms, shapes: shapes.sort(), groups: groups(root) };
   }
 }
 
@@ -110,10 +111,10 @@ test("a scene's box is that of what is seen, where it stands", () => {
 test("a light that is scaled up reaches further, and what lies there is as bright as it was", () => {
   const scene = readScene(elementsOf(`<X3D><Transform scale="4 4 4"><Transform scale="-1 1 1">
     <PointLight radius="10" attenuation="1 0.5 0.25"/></Transform></Transform></X3D>`));
-  const { root, attenuations } = buildGraph(scene);
+  const { root, lightUniforms: { attenuations } } = buildGraph(scene);
   const lights: PointLight[] = [];
   root.traverse((object) => { if (object instanceof PointLight) lights.push(object); });
-  assert.deepEqual(lights.map(({ distance, decay }) => [distance, attenuations[decay]?.toArray()]), [[40, [1, 0.125, 0.015625]]]);
+  assert.deepEqual(lights.map(({ distance, decay }) => [distance, attenuations.value[decay]?.toArray()]), [[40, [1, 0.125, 0.015625]]]);
 });
 
 test("what absurd scales blow up, shrink to nothing or turn over leaves the rest in view", () => {

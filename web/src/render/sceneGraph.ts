@@ -1,25 +1,27 @@
 // A scene as three.js' groups, kept true to where its nodes stand. Groups own
 // nothing on the GPU; what shapes show is for who makes their groups.
 
-import type { Object3D, Vector3 } from "three";
+import type { Object3D } from "three";
 import { Box3, Group } from "three";
 import { areAlike } from "../document/alike.ts";
 import type { GroupDescription, NodeDescription, ShapeDescription } from "../document/description.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
+import { numberScopes } from "../navigation/lightScope.ts";
 import { matrixOf } from "../navigation/matrices.ts";
 import type { PlacedNode, PlacedTreeListener } from "../navigation/placedTree.ts";
 import { PlacedTree } from "../navigation/placedTree.ts";
 import type { PlacedLevels, PlacedLight } from "../navigation/placement.ts";
-import type { SceneLights } from "./sceneLights.ts";
+import type { PlaceGroup } from "./lightScopes.ts";
+import type { SceneLights, SceneLightUniforms } from "./sceneLights.ts";
 import { makeLights } from "./sceneLights.ts";
 
 /** Who shows the shapes of a scene, in each place in a group, whose world matrix is up to date. */
 export interface ShapePlaces {
   /** The shape is in one more place. */
-  onEnter(shape: ShapeDescription, place: PlacedNode, group: Group): void;
-  /** It is described in another way there, or stands elsewhere. */
-  onChange(shape: ShapeDescription, place: PlacedNode, group: Group, before: ShapeDescription): void;
-  onLeave(shape: ShapeDescription, place: PlacedNode, group: Group): void;
+  onEnter(shape: ShapeDescription, place: PlacedNode, group: PlaceGroup): void;
+  /** It is described in another way there, stands elsewhere, or in another light. */
+  onChange(shape: ShapeDescription, place: PlacedNode, group: PlaceGroup, before: ShapeDescription): void;
+  onLeave(shape: ShapeDescription, place: PlacedNode, group: PlaceGroup): void;
 }
 
 /** A group that is seen, with its box in the scene's coordinates. */
@@ -31,7 +33,7 @@ export interface BoundedGroup {
 export class SceneGraph implements PlacedTreeListener {
   readonly root = new Group();
   readonly #tree = new PlacedTree(this);
-  readonly #groups = new Map<PlacedNode, Group>();
+  readonly #groups = new Map<PlacedNode, PlaceGroup>();
   readonly #shapes: ShapePlaces;
   #placedLights: readonly PlacedLight[] = [];
   #lights: SceneLights = makeLights([]);
@@ -62,29 +64,32 @@ export class SceneGraph implements PlacedTreeListener {
     return this.#tree.root.reach.levels;
   }
 
-  get attenuations(): Vector3[] {
-    return this.#lights.attenuations;
+  get lightUniforms(): SceneLightUniforms {
+    return this.#lights.uniforms;
   }
 
-  /** Shows this scene from now on. */
-  follow(root: GroupDescription): void {
+  /** Shows this scene from now on. Whether light scopes have other numbers than before, also those that nobody is told of. */
+  follow(root: GroupDescription): boolean {
     const { reach } = this.#tree.follow(root).root;
     this.#bounded = reach.bounded.flatMap((node) => {
       const group = this.#groups.get(node);
       return group && node.box ? [{ group, box: node.box }] : [];
     });
-    if (areAlike(reach.lights, this.#placedLights)) return;
+    const areRenumbered = numberScopes(reach.scopes);
+    if (!areRenumbered && areAlike(reach.lights, this.#placedLights)) return false;
     this.#placedLights = reach.lights;
     this.#lights.root.removeFromParent();
     this.#lights = makeLights(reach.lights);
     this.root.add(this.#lights.root);
+    return areRenumbered;
   }
 
   onEnter(node: PlacedNode): void {
     const { description, parent } = node;
     if (description.kind !== "group" && description.kind !== "shape") return;
-    const group = new Group();
+    const group: PlaceGroup = new Group();
     group.matrixAutoUpdate = false;
+    group.lightScope = node.lightScope;
     this.#groups.set(node, group);
     const around = parent === undefined ? this.root : this.#groups.get(parent);
     around?.add(group);
@@ -97,6 +102,7 @@ export class SceneGraph implements PlacedTreeListener {
     const group = this.#groups.get(node);
     if (group === undefined || (description.kind !== "group" && description.kind !== "shape")) return;
     describe(description, group, hasMoved);
+    group.lightScope = node.lightScope;
     if (description.kind === "shape" && before.kind === "shape") this.#shapes.onChange(description, node, group, before);
   }
 

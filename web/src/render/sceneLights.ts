@@ -1,25 +1,42 @@
 // The lights of a scene as three.js has them. They hang beside its groups, not in
 // them: those are passed over when they are out of the view, and lights shine on.
 
-import { AmbientLight, Color, DirectionalLight, Group, PointLight, SpotLight, Vector3 } from "three";
+import { AmbientLight, Color, DirectionalLight, Group, PointLight, SpotLight, Vector2, Vector3 } from "three";
 import type { LightDescription } from "../document/description.ts";
 import { coneOf, scaledFalloff } from "../lighting/falloff.ts";
 import { lengthScaleOf } from "../navigation/matrices.ts";
+import type { LightScope } from "../navigation/lightScope.ts";
+import { everywhere } from "../navigation/lightScope.ts";
 import type { PlacedLight } from "../navigation/placement.ts";
-import { noAttenuations } from "./lightFalloff.ts";
 import { setColor } from "./materials.ts";
+
+/** What three.js does not know of lights, for all materials that they shine on. */
+export interface SceneLightUniforms {
+  /** Of those that have a place, by the number in their `decay`: see lightFalloff.ts. Never empty. */
+  readonly attenuations: { value: Vector3[] };
+  /**
+   * Of each the numbers of the first scope and of the last that it shines in, and its ambient light if these
+   * are not all: points, spots, directional lights, and at the end one that shines everywhere. Empty where all do.
+   */
+  readonly lightReaches: { value: Vector2[] };
+  readonly scopedAmbients: { value: Vector3[] };
+}
+
+export function makeLightUniforms(): SceneLightUniforms {
+  return { attenuations: { value: [new Vector3(1, 0, 0)] }, lightReaches: { value: [] }, scopedAmbients: { value: [] } };
+}
 
 export interface SceneLights {
   readonly root: Group;
-  /** Of those that have a place, by the number in their `decay`: see lightFalloff.ts. */
-  readonly attenuations: Vector3[];
+  readonly uniforms: SceneLightUniforms;
 }
 
 export function makeLights(lights: readonly PlacedLight[]): SceneLights {
   const root = new Group();
-  const attenuations = noAttenuations();
+  const uniforms = makeLightUniforms();
+  const attenuations = uniforms.attenuations.value;
   const ambient = new Color(0, 0, 0);
-  for (const { light: description, sceneFromLight } of lights) {
+  for (const { light: description, sceneFromLight, scope } of lights) {
     const light = lightOf(description);
     setColor(light.color, description.color);
     if (!(light instanceof DirectionalLight) && description.kind !== "directional") {
@@ -34,10 +51,38 @@ export function makeLights(lights: readonly PlacedLight[]): SceneLights {
     place.add(light);
     if (!(light instanceof PointLight)) place.add(light.target);
     root.add(place);
-    ambient.add(light.color.clone().multiplyScalar(description.ambientIntensity));
+    if (scope === everywhere) ambient.add(ambientOf(description));
   }
   if (ambient.r + ambient.g + ambient.b > 0) root.add(new AmbientLight(ambient));
-  return { root, attenuations };
+  if (lights.some(({ scope }) => scope !== everywhere)) setReaches(uniforms, lights);
+  return { root, uniforms };
+}
+
+function ambientOf({ color, ambientIntensity }: LightDescription): Color {
+  const ambient = new Color();
+  setColor(ambient, color);
+  return ambient.multiplyScalar(ambientIntensity);
+}
+
+/** In the order in which three.js' programs count them; the headlight comes last in its scene, and may be missing. */
+function setReaches({ lightReaches, scopedAmbients }: SceneLightUniforms, lights: readonly PlacedLight[]): void {
+  for (const kind of ["point", "spot", "directional"] as const) {
+    for (const { light, scope } of lights.filter((each) => each.light.kind === kind)) {
+      lightReaches.value.push(intervalOf(scope));
+      scopedAmbients.value.push(new Vector3(...(scope === everywhere ? [0, 0, 0] : ambientOf(light).toArray())));
+    }
+  }
+  // One for the headlight, and one because a list in GLSL cannot be empty.
+  for (let more = 0; more < 2; ++more) {
+    lightReaches.value.push(intervalOf(everywhere));
+    scopedAmbients.value.push(new Vector3());
+  }
+}
+
+const mostScopes = 2 ** 24;
+
+function intervalOf({ value, last }: LightScope): Vector2 {
+  return new Vector2(value, Math.min(last, mostScopes));
 }
 
 function lightOf(description: LightDescription): DirectionalLight | PointLight | SpotLight {

@@ -12,11 +12,11 @@ import { backdropOf, disposeBackdrop } from "./backdrop.ts";
 import { Batches } from "./batches/batches.ts";
 import type { BufferUpload } from "./buffers.ts";
 import { BufferStore } from "./buffers.ts";
-import { noAttenuations } from "./lightFalloff.ts";
 import type { SceneUniforms } from "./look.ts";
 import { x3dLook } from "./materials.ts";
 import { Pace } from "./pace.ts";
 import type { Hit } from "./picking.ts";
+import { makeLightUniforms } from "./sceneLights.ts";
 import type { BuiltScene } from "./sceneShapes.ts";
 import { SceneShapes } from "./sceneShapes.ts";
 import { ScreenPicker } from "./screenPicker.ts";
@@ -59,7 +59,7 @@ export class SceneRenderer {
   readonly #drawnCamera = new PerspectiveCamera();
   readonly #headlight = new DirectionalLight();
   readonly #shared: SceneUniforms = {
-    pixelRatio: { value: 1 }, viewport: { value: new Vector4() }, depthRange: { value: new Vector2() }, attenuations: { value: noAttenuations() },
+    pixelRatio: { value: 1 }, viewport: { value: new Vector4() }, depthRange: { value: new Vector2() }, ...makeLightUniforms(),
   };
   readonly #textures = new TextureStore();
   readonly #buffers: BufferStore;

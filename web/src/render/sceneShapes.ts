@@ -2,7 +2,7 @@
 // groups that place them, and how far they reach.
 
 import type { Camera, Object3D, Sphere } from "three";
-import { Box3, Frustum, Matrix4, Vector3 } from "three";
+import { Box3, Frustum, Material, Matrix4, Vector3 } from "three";
 import type { Bounds } from "../decode/arrays.ts";
 import type { Stage } from "../decode/stage.ts";
 import type { GeometryDescription, SceneDescription, ShapeDescription, TextureRole } from "../document/description.ts";
@@ -15,8 +15,10 @@ import type { Batches } from "./batches/batches.ts";
 import { DrawingPlan } from "./batches/plan.ts";
 import type { ShownPicture } from "./look.ts";
 import type { PickCandidate } from "./picking.ts";
+import { areScoped } from "./lightScopes.ts";
 import type { BoundedGroup } from "./sceneGraph.ts";
 import { SceneGraph } from "./sceneGraph.ts";
+import type { SceneLightUniforms } from "./sceneLights.ts";
 import type { SceneChanges } from "./shapeChanges.ts";
 import { ShapeChanges } from "./shapeChanges.ts";
 import type { ShapeSetting } from "./shapeObject.ts";
@@ -99,10 +101,11 @@ export class SceneShapes {
 
   /** Shows this scene from now on. Shapes that are gone, or have another geometry, give back what they hold on the GPU. */
   setScene(description: SceneDescription): BuiltScene {
-    this.#graph.follow(description.root);
+    const areRenumbered = this.#graph.follow(description.root);
+    this.#setLights(this.#graph.lightUniforms);
     const changes = this.#applyChanges();
-    const { box, bounded, viewpoints, levels, attenuations } = this.#graph;
-    this.#setting.shared.attenuations.value = attenuations;
+    if (areRenumbered) this.#batches.followAll();
+    const { box, bounded, viewpoints, levels } = this.#graph;
     this.#bounded = bounded;
     if (!box.equals(this.#described)) {
       this.#described = box.clone();
@@ -112,6 +115,16 @@ export class SceneShapes {
     for (const object of this.#unbounded) for (const bounds of object.bounds()) this.#grow(object, bounds);
     this.#batches.sync(this.#sphere);
     return { sphere: this.#sphere, viewpoints, levels, changes };
+  }
+
+  #setLights({ attenuations, lightReaches, scopedAmbients }: SceneLightUniforms): void {
+    const { shared } = this.#setting;
+    const wereScoped = areScoped(shared);
+    shared.attenuations.value = attenuations.value;
+    shared.lightReaches.value = lightReaches.value;
+    shared.scopedAmbients.value = scopedAmbients.value;
+    if (areScoped(shared) === wereScoped) return;
+    for (const root of [this.#graph.root, this.#batches.root]) root.traverse(compileAgain);
   }
 
   /** What the graph has told since the last time. */
@@ -208,6 +221,10 @@ export class SceneShapes {
     this.#shapes.set(shape.element, object);
     return object;
   }
+}
+
+function compileAgain(object: Object3D): void {
+  if ("material" in object && object.material instanceof Material) object.material.needsUpdate = true;
 }
 
 function* shownDraws(object: ShapeObject): Generator<PickCandidate> {

@@ -21,7 +21,7 @@ export class ShapeChanges {
 
   noteThere(shape: ShapeDescription, place: PlacedNode): void {
     this.shapes.set(shape.element, shape);
-    this.places.set(place, { shape, sceneFromShape: place.sceneFromNode });
+    this.places.set(place, { shape, sceneFromShape: place.sceneFromNode, lightScope: place.lightScope });
   }
 
   /** In its other places it says the same, or will be noted as what it is there. */

@@ -1,7 +1,6 @@
 // A shape on the screen: the draws of each patch's newest stage, in a group for
 // each place where the shape stands in the scene.
 
-import type { Group } from "three";
 import type { Bounds } from "../decode/arrays.ts";
 import type { Stage } from "../decode/stage.ts";
 import { areAlike } from "../document/alike.ts";
@@ -12,6 +11,7 @@ import type { Batches } from "./batches/batches.ts";
 import { BatchedStage, drawnAsOf } from "./batches/batchedStage.ts";
 import type { DrawnAs, Drawing } from "./batches/plan.ts";
 import { alone } from "./batches/plan.ts";
+import type { PlaceGroup } from "./lightScopes.ts";
 import type { ShownPicture } from "./look.ts";
 import type { PatchDraws } from "./patchDraws.ts";
 import { drawStage } from "./patchDraws.ts";
@@ -43,7 +43,7 @@ interface ShownPatch {
 export class ShapeObject {
   readonly #setting: ShapeSetting;
   /** One for each place, with the page's element for it there. */
-  readonly #groups = new Map<Group, SceneElement>();
+  readonly #groups = new Map<PlaceGroup, SceneElement>();
   readonly #patches = new Map<number, ShownPatch>();
   readonly #colorMap = makeColorMapUniforms();
   #appearance: AppearanceDescription;
@@ -61,23 +61,23 @@ export class ShapeObject {
   }
 
   /** It stands in this group too, from now on; `host` is the page's element for it there. */
-  enter(group: Group, host: SceneElement): void {
+  enter(group: PlaceGroup, host: SceneElement): void {
     this.#groups.set(group, host);
     for (const { draws } of this.#patches.values()) draws.hang(group);
   }
 
-  /** The group has moved, or is shown or hidden. */
-  follow(group: Group): void {
+  /** The group has moved, is shown or hidden, or stands in another light scope. */
+  follow(group: PlaceGroup): void {
     for (const { draws } of this.#patches.values()) draws.follow(group);
   }
 
-  leave(group: Group): void {
+  leave(group: PlaceGroup): void {
     this.#groups.delete(group);
     for (const { draws } of this.#patches.values()) draws.leave(group);
   }
 
   /** One for each place. */
-  get groups(): readonly Group[] {
+  get groups(): readonly PlaceGroup[] {
     return Array.from(this.#groups.keys());
   }
 

@@ -1,10 +1,11 @@
 // What is drawn together: members, each of which is a draw of a stage in one place.
 
-import type { BufferGeometry, Frustum, Group, Material, Matrix4, Sphere } from "three";
+import type { BufferGeometry, Frustum, Material, Matrix4, Sphere } from "three";
 import type { DrawRange, Stage } from "../../decode/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { isSurface } from "../asPoints.ts";
 import type { DrawnObject } from "../drawnObject.ts";
+import type { PlaceGroup } from "../lightScopes.ts";
 import type { MaterialRequest, ShownPictures } from "../look.ts";
 import { backFaces, frontFaces } from "./placeChunk.ts";
 
@@ -33,7 +34,7 @@ export interface BatchedDraw {
 
 export interface Member {
   readonly draw: BatchedDraw;
-  readonly group: Group;
+  readonly group: PlaceGroup;
   /** Its record in the table of places. */
   readonly place: number;
   batch: Batch | undefined;

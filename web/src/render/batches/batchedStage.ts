@@ -1,11 +1,11 @@
 // A stage of a patch that is drawn together with others.
 
-import type { Group } from "three";
 import { DoubleSide, FrontSide } from "three";
 import type { DrawRange, Stage } from "../../decode/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { storedFrameOf } from "../../document/storedFrame.ts";
 import { shapeFromStoredOf } from "../../navigation/matrices.ts";
+import type { PlaceGroup } from "../lightScopes.ts";
 import type { Batching, ShownPictures } from "../look.ts";
 import { noPictures } from "../look.ts";
 import type { PatchDraws } from "../patchDraws.ts";
@@ -34,7 +34,7 @@ export class BatchedStage implements PatchDraws {
   readonly picks: readonly PickDraw[];
   readonly #stage: Stage;
   readonly #batch: BatchSetting;
-  readonly #members = new Map<Group, readonly Member[]>();
+  readonly #members = new Map<PlaceGroup, readonly Member[]>();
   #setting: PatchSetting;
   #draws: readonly BatchedDraw[];
 
@@ -46,16 +46,16 @@ export class BatchedStage implements PatchDraws {
     this.picks = stage.draws.filter(isSeen).map((range) => pickOf(stage, range, () => this.#setting));
   }
 
-  hang(group: Group): void {
+  hang(group: PlaceGroup): void {
     const { batches } = this.#batch;
     this.#members.set(group, this.#draws.map((draw) => batches.add(draw, this.#numbersOf(draw), group)));
   }
 
-  follow(group: Group): void {
+  follow(group: PlaceGroup): void {
     for (const member of this.#members.get(group) ?? []) this.#batch.batches.follow(member);
   }
 
-  leave(group: Group): void {
+  leave(group: PlaceGroup): void {
     for (const member of this.#members.get(group) ?? []) this.#batch.batches.remove(member);
     this.#members.delete(group);
   }

@@ -222,7 +222,7 @@ describe("small meshes", () => {
     scene.frame();
     scene.hide(members[0]);
     scene.frame();
-    assert.deepEqual(members.map((member) => scene.record(member)[placeFields.isShown]), [0, 1, 1, 1, 1]);
+    assert.deepEqual(members.map((member) => scene.record(member)[placeFields.shownIn]), [0, 1, 1, 1, 1]);
     scene.batches.remove(members[1]);
     const [drawn] = scene.frame();
     assert.ok(drawn);

@@ -8,6 +8,7 @@ import type { BufferStage, Stage } from "../../decode/stage.ts";
 import type { Buffers } from "../buffers.ts";
 import { objectOf } from "../drawnObject.ts";
 import type { Look, MaterialRequest } from "../look.ts";
+import type { PlaceGroup } from "../lightScopes.ts";
 import type { GeometryPool } from "../stageGeometries.ts";
 import type { Batch, BatchedDraw, Member } from "./batch.ts";
 import { runsOf } from "./depthOrder.ts";
@@ -45,7 +46,7 @@ export class Batches {
   }
 
   /** From now on the draw is in the group's place too. `look`: the field of that name in a place's record. */
-  add(draw: BatchedDraw, look: readonly number[], group: Group): Member {
+  add(draw: BatchedDraw, look: readonly number[], group: PlaceGroup): Member {
     const member: Member = { draw, group, place: this.#table.allocate(), batch: undefined, isShown: false, isMirrored: false, sphere: new Sphere() };
     this.#table.write(member.place, placeFields.texCoordFrame, draw.texCoordFrame);
     this.#table.write(member.place, placeFields.look, look);
@@ -69,7 +70,7 @@ export class Batches {
     if (this.#members.size === 0) this.#disposeBatches(); // of a lost context nothing may be left for the next
   }
 
-  /** Its group has moved, or is shown or hidden. */
+  /** Its group has moved, is shown or hidden, or stands in another light scope. */
   follow(member: Member): void {
     this.#followIn(this.#rootFromScene, member);
   }
@@ -81,6 +82,11 @@ export class Batches {
     if (!(radius > 0) || origin.distanceTo(center) <= radius) return;
     this.root.matrix.setPosition(center);
     this.root.updateMatrixWorld(true);
+    this.followAll();
+  }
+
+  /** All groups have moved, or stand in light scopes of other numbers. */
+  followAll(): void {
     const rootFromScene = this.#rootFromScene;
     for (const member of this.#members) this.#followIn(rootFromScene, member);
   }
@@ -146,7 +152,7 @@ export class Batches {
     const turn = member.isMirrored ? -1 : 1;
     sphere.copy(bounds).applyMatrix4(rootFromStored);
     return this.#table.write(place, placeFields.matrix, [
-      turn * xx, turn * yx, turn * zx, turn * ox, xy, yy, zy, oy, xz, yz, zz, oz, ...step, member.isShown ? 1 : 0]);
+      turn * xx, turn * yx, turn * zx, turn * ox, xy, yy, zy, oy, xz, yz, zz, oz, ...step, member.isShown ? 1 + (group.lightScope?.value ?? 0) : 0]);
   }
 
   #join(member: Member): void {

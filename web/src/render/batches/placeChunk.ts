@@ -5,16 +5,19 @@
 /** Defined in materials whose draws are of many places. */
 export const placesDefine = "PLACES";
 
+/** Defined in shaders that test what light reaches a draw: lightScopes.ts. */
+export const scopedLightsDefine = "SCOPED_LIGHTS";
+
 /** Added to a place's number: only back faces are drawn, only front faces. */
 export const backFaces = 2 ** 31;
 export const frontFaces = 2 ** 30;
 
 /** Where in a record each field begins, in numbers. */
-export const placeFields = { matrix: 0, step: 12, isShown: 15, texCoordFrame: 16, look: 20 } as const;
+export const placeFields = { matrix: 0, step: 12, shownIn: 15, texCoordFrame: 16, look: 20 } as const;
 export const texelsPerPlace = 8;
 
 /**
- * The matrix' three rows; step and whether the place is shown; the frame of texture
+ * The matrix' three rows; step and, where the place is shown, one more than the number of its light scope; the frame of texture
  * coordinates; diffuse and opacity; specular and shininess, or metallic and
  * roughness; emissive and ambient intensity.
  */
@@ -24,6 +27,9 @@ export const placeVertexChunk = /* glsl */ `
   uniform highp sampler2D places;
   flat varying vec4 placeDiffuse, placeSpecular, placeEmissive;
   flat varying uint placeFaces;
+  #ifdef ${scopedLightsDefine}
+    flat varying float placeLightScope;
+  #endif
 
   vec4 placeTexel(int n) {
     int texel = int(place & ${frontFaces - 1}u) * ${texelsPerPlace} + n;
@@ -55,7 +61,11 @@ export const placeVertexChunk = /* glsl */ `
     placeSpecular = placeTexel(6);
     placeEmissive = placeTexel(7);
     placeFaces = place & ${backFaces + frontFaces}u;
-    if (placeTexel(3).w == 0.0) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+    float shownIn = placeTexel(3).w;
+    #ifdef ${scopedLightsDefine}
+      placeLightScope = shownIn - 1.0;
+    #endif
+    if (shownIn == 0.0) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
   }
 #else
   vec3 inPlace(vec3 stored) {
