@@ -1,14 +1,26 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 
 namespace imgeo {
 
+namespace {
+
+std::atomic<std::size_t> threadLimit = 0; ///< 0: none
+
+} // namespace
+
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body) {
-  oneapi::tbb::parallel_for(std::size_t{0}, count, body);
+  // TBB's start takes longer than many a small mesh: a millisecond.
+  if (count == 1 || threadLimit == 1)
+    for (std::size_t i = 0; i < count; ++i)
+      body(i);
+  else if (count > 0)
+    oneapi::tbb::parallel_for(std::size_t{0}, count, body);
 }
 
 void parallelForBlocks(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
@@ -21,7 +33,8 @@ void limitThreads(std::size_t count) {
   using oneapi::tbb::global_control;
   static std::unique_ptr<global_control> limit;
   limit.reset();
-  if (count > 0)
+  threadLimit = count;
+  if (count > 1)
     limit = std::make_unique<global_control>(global_control::max_allowed_parallelism, count);
 }
 
