@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/heap.h"
 #include "cli/help.h"
 #include "cli/interruption.h"
 
@@ -73,5 +74,6 @@ int runAndReport(int count, char** words) {
 } // namespace imgeo::cli
 
 int main(int count, char** words) {
+  imgeo::cli::prepareHeap();
   return imgeo::cli::runAndReport(count, words);
 }

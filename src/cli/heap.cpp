@@ -1,0 +1,34 @@
+#include "cli/heap.h"
+
+#include <cstdint>
+#include <cstdlib>
+#include <malloc.h>
+#include <sys/mman.h>
+
+namespace imgeo::cli {
+
+namespace {
+
+/// Addresses, not memory: what nothing is written to costs nothing.
+constexpr std::uintptr_t heapBytes = 64 << 20;
+constexpr std::uintptr_t largePageBytes = 2 << 20;
+
+} // namespace
+
+void prepareHeap() {
+  // What is freed at the heap's end, or was mapped by itself, would go back to the system
+  // only to be asked for again, page by page.
+  mallopt(M_TRIM_THRESHOLD, 2 * heapBytes);
+  mallopt(M_MMAP_THRESHOLD, heapBytes / 2);
+  mallopt(M_TOP_PAD, heapBytes);
+  void* const first = std::malloc(largePageBytes); // lets the heap grow
+  mallopt(M_TOP_PAD, largePageBytes);
+  if (first) {
+    const std::uintptr_t begin =
+        (reinterpret_cast<std::uintptr_t>(first) + largePageBytes - 1) & ~(largePageBytes - 1);
+    madvise(reinterpret_cast<void*>(begin), heapBytes, MADV_HUGEPAGE);
+  }
+  std::free(first);
+}
+
+} // namespace imgeo::cli
