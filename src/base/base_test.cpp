@@ -100,6 +100,15 @@ TEST(ParallelFor, VisitsEveryIndexOnce) {
   for (const auto& count : visits) EXPECT_EQ(count, 1);
 }
 
+TEST(ParallelFor, KeepsTheOrderOnOneThread) {
+  limitThreads(1);
+  std::vector<std::size_t> visits;
+  parallelFor(100, [&](std::size_t i) { visits.push_back(i); });
+  limitThreads(0);
+  ASSERT_EQ(visits.size(), 100u);
+  EXPECT_TRUE(std::is_sorted(visits.begin(), visits.end()));
+}
+
 TEST(ParallelForBlocks, VisitsEveryIndexOnce) {
   for (const std::size_t count : {0, 1, 4095, 4096, 4097, 100000}) {
     std::vector<std::atomic<int>> visits(count);
