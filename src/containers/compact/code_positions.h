@@ -17,24 +17,31 @@ inline constexpr std::size_t choice = 0, first = choice + 8 * 16 * 4, second = f
                              countWithGrid = mask + 512 * 8;
 } // namespace positionModels
 
+/// Three coordinates in the order in which they are coded.
+using Coordinates = std::array<std::int64_t, 3>;
+
 /// What is known of a vertex before its coordinates.
 struct VertexContext {
-  Slope slope;
   std::uint32_t agreement = 0;
-  std::uint32_t mask = 0;  ///< axes on the grid
-  std::uint32_t shift = 0; ///< of residuals
+  std::uint32_t mask = 0;            ///< axes on the grid
+  std::uint32_t shift = 0;           ///< of residuals
+  std::array<int, 3> order{0, 1, 2}; ///< of the axes
+  Coordinates normal{};              ///< of the surface
 
-  /// Axes on the grid first, of the others the surface's dominant one last.
-  std::array<int, 3> order() const {
-    std::array<int, 3> axes{};
+  /// Axes on the grid come first, of the others the surface's dominant one last.
+  void setOrder(const Slope& slope) {
     std::size_t count = 0;
     for (int axis = 0; axis < 3; ++axis)
       if (mask >> axis & 1)
-        axes[count++] = axis;
+        order[count++] = axis;
     for (int turn = 1; turn <= 3; ++turn)
       if (const int axis = (slope.axis + turn) % 3; !(mask >> axis & 1))
-        axes[count++] = axis;
-    return axes;
+        order[count++] = axis;
+    normal = inOrder(slope.normal);
+  }
+
+  template <typename T> Coordinates inOrder(const Vec3<T>& place) const {
+    return {place[order[0]], place[order[1]], place[order[2]]};
   }
 };
 
@@ -82,16 +89,22 @@ private:
     VertexContext context;
     context.agreement = candidates.agreement();
     context.shift = residuals_.shiftOf(vertex);
-    if (across != none)
-      context.slope =
-          Slope(sums_[connectivity_.vertex[before(across)]], sums_[connectivity_.vertex[after(across)]]);
     if (grid_)
       context.mask = codeMask(vertex, across);
+    Slope slope;
+    if (across != none)
+      slope = Slope(sums_[connectivity_.vertex[before(across)]], sums_[connectivity_.vertex[after(across)]]);
+    context.setOrder(slope);
+    Coordinates coordinates{};
     std::uint32_t choice = 0;
-    if constexpr (Coder::encodes)
-      choice = cheapest(candidates, context, positions_[vertex]);
+    if constexpr (Coder::encodes) {
+      coordinates = context.inOrder(positions_[vertex]);
+      choice = cheapest(candidates, context, coordinates);
+    }
     choice = codeChoice(coder_, candidates, context, choice);
-    codeCoordinates(coder_, candidates.places[choice], context, positions_[vertex]);
+    codeCoordinates(coder_, context.inOrder(candidates.places[choice]), context, coordinates);
+    for (std::size_t turn = 0; turn < 3; ++turn)
+      positions_[vertex][context.order[turn]] = static_cast<std::uint32_t>(coordinates[turn]);
   }
 
   std::uint32_t codeMask(std::uint32_t vertex, std::uint32_t across) {
@@ -107,14 +120,15 @@ private:
   }
 
   /// What the models would charge least for.
-  std::uint32_t cheapest(const Candidates& candidates, const VertexContext& context, Vec3u position) const {
+  std::uint32_t cheapest(const Candidates& candidates, const VertexContext& context,
+                         const Coordinates& coordinates) const {
     std::uint32_t best = 0;
     std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
     for (std::uint32_t i = 0; i < candidates.count && candidates.count > 1; ++i) {
       CostMeter meter(coder_, least);
       codeChoice(meter, candidates, context, i);
-      Vec3u coded = position;
-      codeCoordinates(meter, candidates.places[i], context, coded);
+      Coordinates coded = coordinates;
+      codeCoordinates(meter, context.inOrder(candidates.places[i]), context, coded);
       if (meter.cost() < least)
         least = meter.cost(), best = i;
     }
@@ -132,15 +146,16 @@ private:
   }
 
   template <typename C>
-  void codeCoordinates(C& coder, const Place& guess, const VertexContext& context, Vec3u& position) const {
-    const std::array<int, 3> order = context.order();
+  void codeCoordinates(C& coder, const Coordinates& guess, const VertexContext& context,
+                       Coordinates& coordinates) const {
     std::uint32_t steps = 0, offGrid = 0, length = 0, longest = 0;
     for (std::size_t turn = 0; turn < 3; ++turn) {
       if constexpr (requires { coder.isSpent(); })
         if (coder.isSpent())
           return;
-      const int axis = order[turn];
-      std::int64_t expected = std::clamp<std::int64_t>(guess[axis], 0, maximum_), coordinate = position[axis];
+      const int axis = context.order[turn];
+      std::int64_t expected = std::clamp<std::int64_t>(guess[turn], 0, maximum_),
+                   coordinate = coordinates[turn];
       if (context.mask >> axis & 1) {
         const std::int64_t line = nearestGridLine(*grid_, axis, expected);
         const std::size_t models =
@@ -152,7 +167,7 @@ private:
         coordinate = gridLine(*grid_, axis, line + moved);
       } else {
         if (turn == 2)
-          expected = onSlope(guess, context.slope, order, position);
+          expected = onSlope(guess, context.normal, coordinates);
         std::size_t models = positionModels::third + numberModels * longest;
         if (offGrid == 0)
           models = turn == 2 ? positionModels::lone + numberModels * std::min(steps, 7u)
@@ -167,7 +182,7 @@ private:
         coordinate = expected + (std::int64_t{residual.value} << context.shift);
       }
       coder.require(coordinate >= 0 && coordinate <= maximum_, "a coordinate lies outside of the lattice");
-      position[axis] = static_cast<std::uint32_t>(coordinate);
+      coordinates[turn] = coordinate;
     }
   }
 
@@ -181,14 +196,10 @@ private:
   }
 
   /// The last coordinate at which the plane of the surface passes through the other two.
-  std::int64_t onSlope(const Place& guess, const Slope& slope, const std::array<int, 3>& order,
-                       const Vec3u& position) const {
-    const int u = order[0], v = order[1], axis = order[2];
-    std::int64_t expected = guess[axis];
-    if (const std::int64_t height = slope.normal[axis]; height != 0)
-      expected -= (slope.normal[u] * (std::int64_t{position[u]} - guess[u]) +
-                   slope.normal[v] * (std::int64_t{position[v]} - guess[v])) /
-                  height;
+  std::int64_t onSlope(const Coordinates& guess, const Coordinates& normal, const Coordinates& at) const {
+    std::int64_t expected = guess[2];
+    if (normal[2] != 0)
+      expected -= (normal[0] * (at[0] - guess[0]) + normal[1] * (at[1] - guess[1])) / normal[2];
     return std::clamp<std::int64_t>(expected, 0, maximum_);
   }
 

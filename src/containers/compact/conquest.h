@@ -57,15 +57,21 @@ public:
     std::uint32_t pivot = 0;
     while (!isComplete()) {
       codeRoot();
-      for (; pivot < nodes_.size(); ++pivot)
+      for (; pivot < nodes_.size(); ++pivot) {
+        if constexpr (Coder::encodes)
+          if (pivot + lookahead < nodes_.size())
+            guide_.expect(vertexOf(pivot + lookahead));
         while (!isComplete() && nodes_[pivot].previous != none)
           crossEdgeTo(pivot);
+      }
     }
     coder_.require(out_.vertexCount == vertexCount_, "there are fewer vertices than the header states");
     return std::move(out_);
   }
 
 private:
+  static constexpr std::uint32_t lookahead = 4;
+
   bool isComplete() const { return out_.across.size() == triangleCount_; }
   std::uint32_t vertexOf(std::uint32_t node) const { return nodes_[node].vertex; }
   std::uint32_t firstCorner() const { return static_cast<std::uint32_t>(out_.vertex.size() - 3); }

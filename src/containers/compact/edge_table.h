@@ -47,6 +47,13 @@ public:
     return found != end ? &edges_[found] : nullptr;
   }
 
+  /// Begins to fetch the edges of a vertex.
+  void prefetch(std::uint32_t from) const {
+    const Edge* const row = edges_.data() + begins_[from];
+    __builtin_prefetch(row);
+    __builtin_prefetch(row + 6); // where those of most vertices end
+  }
+
   bool isTaken(std::uint32_t triangle) const { return taken_[triangle]; }
   void take(std::uint32_t triangle) { taken_[triangle] = true; }
 

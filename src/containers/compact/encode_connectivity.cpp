@@ -35,6 +35,9 @@ public:
     latestNodes_[vertex] = node;
   }
 
+  /// Triangles around this vertex will be asked for soon.
+  void expect(std::uint32_t vertex) const { edges_.prefetch(sources_[vertex]); }
+
   Step stepAcross(const Gate& gate, const std::vector<Node>& nodes) {
     const EdgeTable::Edge* const edge =
         edges_.find(sources_[nodes[gate.k].vertex], sources_[nodes[gate.p].vertex]);

@@ -55,29 +55,33 @@ Ordered orderOf(const CompactPatch& patch, const std::vector<std::uint32_t>& ver
   return ordered;
 }
 
-/// The least shift with which no sum of the triangle normals' absolute values around
-/// a vertex reaches 2^30.
-std::uint32_t normalShiftFor(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices) {
-  if (patch.topology != Topology::triangles)
-    return 0;
-  for (std::uint32_t shift = 0;; ++shift) {
-    std::vector<double> sums(patch.positions.size());
-    double largest = 0;
-    for (std::size_t corner = 0; corner < vertices.size(); corner += 3) {
-      const Place a(patch.positions[vertices[corner]]);
-      const auto edge = [&](std::size_t i) {
-        const Place e = Place(patch.positions[vertices[corner + i]]) - a;
-        return Vec3d{std::abs(static_cast<double>(e.x >> shift)), std::abs(static_cast<double>(e.y >> shift)),
-                     std::abs(static_cast<double>(e.z >> shift))};
-      };
-      const Vec3d e = edge(1), f = edge(2);
-      const double size = std::max({e.y * f.z + e.z * f.y, e.z * f.x + e.x * f.z, e.x * f.y + e.y * f.x});
-      for (std::size_t i = 0; i < 3; ++i)
-        largest = std::max(largest, sums[vertices[corner + i]] += size);
-    }
-    if (largest < 1 << 30)
-      return shift;
+/// Whether the triangle normals' absolute values around each vertex sum up to less than
+/// 2^30, of edges shifted right.
+bool fitNormalSums(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices,
+                   std::uint32_t shift) {
+  constexpr std::int64_t limit = 1 << 30;
+  std::vector<std::int64_t> sums(patch.positions.size());
+  for (std::size_t corner = 0; corner < vertices.size(); corner += 3) {
+    const Place a(patch.positions[vertices[corner]]);
+    const auto edge = [&](std::size_t i) {
+      const Place e = Place(patch.positions[vertices[corner + i]]) - a;
+      return Place{std::abs(e.x >> shift), std::abs(e.y >> shift), std::abs(e.z >> shift)};
+    };
+    const Place e = edge(1), f = edge(2); // below 2^30 each
+    const std::int64_t size = std::max({e.y * f.z + e.z * f.y, e.z * f.x + e.x * f.z, e.x * f.y + e.y * f.x});
+    for (std::size_t i = 0; i < 3; ++i)
+      if ((sums[vertices[corner + i]] += size) >= limit)
+        return false;
   }
+  return true;
+}
+
+/// The least shift with which they do.
+std::uint32_t normalShiftFor(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices) {
+  std::uint32_t shift = 0;
+  while (patch.topology == Topology::triangles && !fitNormalSums(patch, vertices, shift))
+    ++shift;
+  return shift;
 }
 
 /// The largest angle between two lists of normals, in radians.

@@ -4,6 +4,7 @@
 // it counts what little it has seen, and then forgets slowly.
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <vector>
@@ -16,16 +17,21 @@ public:
   std::uint32_t probability() const { return state_ >> 5; }
 
   void update(bool bit) {
-    const std::uint32_t count = state_ & 31, shift = static_cast<std::uint32_t>(std::bit_width(count + 1));
-    std::uint32_t p = state_ >> 5;
-    if (bit)
-      p += (65536 - p) >> shift;
-    else
-      p -= p >> shift;
-    state_ = p << 5 | std::min(count + 1, 31u);
+    const std::uint32_t count = state_ & 31, shift = shifts[count];
+    const std::uint32_t p = state_ >> 5;
+    const std::uint32_t up = (65536 - p) >> shift, down = p >> shift;
+    state_ = (bit ? p + up : p - down) << 5 | std::min(count + 1, 31u);
   }
 
 private:
+  /// By count: the bits of the next one.
+  static constexpr std::array<std::uint8_t, 32> shifts = [] {
+    std::array<std::uint8_t, 32> bits{};
+    for (std::uint32_t count = 0; count < bits.size(); ++count)
+      bits[count] = static_cast<std::uint8_t>(std::bit_width(count + 1));
+    return bits;
+  }();
+
   std::uint32_t state_ = 1u << 20;
 };
 

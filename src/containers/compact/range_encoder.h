@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 
 namespace imgeo::compact {
@@ -21,18 +22,25 @@ public:
 
   /// Writes a bit and returns it.
   bool bit(std::size_t model, bool value) {
-    const std::uint32_t bound = (range_ >> 8) * models_[model].probability() >> 8;
-    models_[model].update(value);
-    if (value) {
-      range_ = bound;
-    } else {
-      low_ += bound;
-      range_ -= bound;
-      if (low_ >> 24)
-        carry();
+    interval_.narrow(models_[model], value);
+    if (interval_.waiting >= mostWaiting)
+      flush();
+    return value;
+  }
+
+  /// What `codeTree` writes, without going to memory between its bits.
+  std::uint32_t tree(std::size_t models, std::uint32_t depth, std::uint32_t value) {
+    const std::uint32_t leaf = 1u << depth | value;
+    Interval interval = interval_;
+    for (std::uint32_t level = depth; level-- > 0;) {
+      interval.narrow(models_[models + (leaf >> (level + 1))], leaf >> level & 1);
+      if (interval.waiting >= mostWaiting) {
+        interval_ = interval;
+        flush();
+        interval = interval_;
+      }
     }
-    for (; range_ < 65536; range_ <<= 8)
-      shiftOut();
+    interval_ = interval;
     return value;
   }
 
@@ -40,8 +48,10 @@ public:
   std::uint32_t raw(std::uint32_t count, std::uint32_t value) {
     assert(count <= 30 && value >> count == 0);
     hold_ |= std::uint64_t{value} << held_;
-    for (held_ += count; held_ >= 8; held_ -= 8, hold_ >>= 8)
-      back_.push_back(static_cast<std::uint8_t>(hold_));
+    held_ += count;
+    if (held_ >= 32)
+      for (int i = 0; i < 4; ++i)
+        shiftOutRaw();
     return value;
   }
 
@@ -49,31 +59,67 @@ public:
   void require(bool condition, const char*) const { assert(condition), (void)condition; }
 
   Bytes finish() {
-    for (int i = 0; i < 3; ++i)
-      shiftOut();
-    if (held_ > 0)
-      back_.push_back(static_cast<std::uint8_t>(hold_));
+    flush();
+    interval_ = {interval_.low << 24, 0, 24}; // all of what is left
+    flush();
+    while (held_ > 0)
+      shiftOutRaw();
     front_.insert(front_.end(), back_.rbegin(), back_.rend());
     return std::move(front_);
   }
 
 private:
-  void shiftOut() {
-    front_.push_back(static_cast<std::uint8_t>(low_ >> 16));
-    low_ = (low_ & 0xffff) << 8;
+  /// Bits leave in several bytes at a time, and nothing is asked about one but that: what
+  /// it is and how many bytes it moves are what a processor guesses wrong.
+  struct Interval {
+    std::uint64_t low = 0; ///< above its 24 bits those that wait, and above these a carry
+    std::uint32_t range = 0xffffff;
+    std::uint32_t waiting = 0; ///< bits
+
+    void narrow(Model& model, bool value) {
+      const std::uint32_t bound = (range >> 8) * model.probability() >> 8;
+      model.update(value);
+      const std::uint32_t isOne = -std::uint32_t{value}; // all bits or none
+      low += bound & ~isOne;
+      range = (bound & isOne) | ((range - bound) & ~isOne);
+      shift(8 * std::uint32_t{range < 65536});
+      if (range < 65536) [[unlikely]]
+        shift(8);
+    }
+    void shift(std::uint32_t bits) {
+      range <<= bits;
+      low <<= bits;
+      waiting += bits;
+    }
+  };
+  /// A bit moves two bytes at most, as no probability is near 0: low has 24 + 16 + 16 bits and a carry.
+  static constexpr std::uint32_t mostWaiting = 24;
+
+  /// Writes the bytes that wait.
+  void flush() {
+    if (interval_.low >> (24 + interval_.waiting))
+      carry();
+    for (; interval_.waiting > 0; interval_.waiting -= 8)
+      front_.push_back(static_cast<std::uint8_t>(interval_.low >> (16 + interval_.waiting)));
+    interval_.low &= 0xffffff;
   }
 
   void carry() {
-    low_ &= 0xffffff;
     auto digit = front_.rbegin();
     for (; *digit == 0xff; ++digit)
       *digit = 0;
     ++*digit;
   }
 
+  void shiftOutRaw() {
+    back_.push_back(static_cast<std::uint8_t>(hold_));
+    hold_ >>= 8;
+    held_ -= std::min(held_, 8u);
+  }
+
   Models models_;
   Bytes front_, back_;
-  std::uint32_t low_ = 0, range_ = 0xffffff;
+  Interval interval_;
   std::uint64_t hold_ = 0;
   std::uint32_t held_ = 0;
 };
