@@ -91,6 +91,7 @@ struct WholeTriangles {
 WholeTriangles wholeTrianglesOf(const Patch& patch) {
   WholeTriangles triangles;
   triangles.corners.reserve(patch.corners.size());
+  triangles.numbers.reserve(patch.elementCount());
   for (std::size_t corner = 0; corner < patch.corners.size(); corner += 3) {
     const std::uint32_t a = patch.wedgePositions[patch.corners[corner]],
                         b = patch.wedgePositions[patch.corners[corner + 1]],
@@ -155,24 +156,31 @@ struct Part {
   std::size_t triangleCountBefore = 0;
 };
 
-Part partOf(const Patch& patch, const std::vector<bool>& isFixed, double percent) {
-  const auto [corners, numbers] = wholeTrianglesOf(patch);
+/// The border that no simplification may move: of edges between fixed positions.
+std::size_t countFixedEdges(const std::vector<std::uint32_t>& corners, const std::vector<bool>& isFixed) {
+  if (std::ranges::find(isFixed, true) == isFixed.end()) // most small models
+    return 0;
   EdgeSum border;
   for (std::size_t corner = 0; corner < corners.size(); ++corner) {
     const std::uint32_t from = corners[corner], to = corners[corner % 3 == 2 ? corner - 2 : corner + 1];
     if (isFixed[from] && isFixed[to])
       border.add(from, to);
   }
-  std::size_t fixedEdges = 0;
-  border.visit([&](std::uint32_t, std::uint32_t, int) { ++fixedEdges; });
+  std::size_t count = 0;
+  border.visit([&](std::uint32_t, std::uint32_t, int) { ++count; });
+  return count;
+}
+
+Part partOf(const Patch& patch, const std::vector<bool>& isFixed, double percent) {
+  const auto [corners, numbers] = wholeTrianglesOf(patch);
   Part part;
-  part.areaBefore = areaOf(patch.positions, corners);
   part.triangleCountBefore = corners.size() / 3;
   // At least half of what is asked for is left to what no border holds.
   const double wanted = percent / 100 * static_cast<double>(part.triangleCountBefore);
-  const double least = wanted / 2 + static_cast<double>(fixedEdges);
+  const double least = wanted / 2 + static_cast<double>(countFixedEdges(corners, isFixed));
   SimplifiedTriangles triangles =
       simplify(patch.positions, corners, isFixed, static_cast<std::size_t>(std::max(wanted, least)));
+  part.areaBefore = triangles.areaBefore;
   part.area = areaOf(triangles.positions, triangles.corners);
   part.wedges = wedgesOf(triangles, patch, numbers);
   part.positions = std::move(triangles.positions);

@@ -1,8 +1,9 @@
 #include "prepare/edge_collapse.h"
 
+#include "prepare/wide_heap.h"
+
 #include <algorithm>
 #include <bit>
-#include <queue>
 
 namespace imgeo {
 
@@ -19,9 +20,10 @@ struct Candidate {
       : rank(std::uint64_t{std::bit_cast<std::uint32_t>(cost)} << 32 | from), to(other), versions(sum) {}
   std::uint32_t from() const { return static_cast<std::uint32_t>(rank); }
 
-  /// The least cost is on top of a heap; equal ones in the order of their vertices.
-  friend bool operator<(const Candidate& a, const Candidate& b) {
-    return a.rank != b.rank ? a.rank > b.rank : a.to > b.to;
+  /// The least cost comes first, equal ones in the order of their vertices. No branches:
+  /// which way they would go nobody can predict.
+  bool isBefore(const Candidate& other) const {
+    return (rank < other.rank) | ((rank == other.rank) & (to < other.to));
   }
 };
 
@@ -153,7 +155,7 @@ private:
     constexpr double costOfLength = 1e-5;
     const double cost = std::max(0.0, quadric.errorAt(placeFor(a, b, quadric))) +
                         costOfLength * quadric.weight() * dot(edge, edge);
-    heap_.emplace(static_cast<float>(cost), std::min(a, b), std::max(a, b), versions_[a] + versions_[b]);
+    heap_.push({static_cast<float>(cost), std::min(a, b), std::max(a, b), versions_[a] + versions_[b]});
   }
 
   /// Two vertices may become one where all that both are joined to are the third
@@ -242,7 +244,7 @@ private:
   std::vector<std::uint32_t> versions_;            ///< how often a vertex has changed
   std::vector<std::uint32_t> marks_, neighbours_;
   std::uint32_t mark_ = 0;
-  std::priority_queue<Candidate> heap_;
+  WideHeap<Candidate> heap_;
 };
 
 } // namespace

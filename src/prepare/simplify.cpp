@@ -26,6 +26,7 @@ public:
   }
 
   Vec3d placeOf(const Vec3u& position) const { return (Vec3d(position) - center_) * (1 / scale_); }
+  double latticeArea(double area) const { return area * scale_ * scale_; }
 
   /// Within the box of the positions.
   Vec3u nearest(Vec3d place) const {
@@ -45,19 +46,28 @@ private:
 
 /// A triangle as its vertices in ascending order, and whether it goes round that way.
 struct FoldedTriangle {
-  std::array<std::uint32_t, 3> vertices{};
+  std::uint64_t lower = 0; ///< the first two vertices
+  std::uint32_t highest = 0, place = 0;
   bool isTurned = false;
-  std::uint32_t place = 0;
 
-  FoldedTriangle(const std::uint32_t* corners, std::uint32_t at)
-      : vertices{corners[0], corners[1], corners[2]}, place(at) {
-    const auto put = [&](std::size_t i, std::size_t j) {
-      if (vertices[i] > vertices[j]) {
-        std::swap(vertices[i], vertices[j]);
+  FoldedTriangle(const std::uint32_t* corners, std::uint32_t at) : place(at) {
+    std::uint32_t a = corners[0], b = corners[1], c = corners[2];
+    const auto put = [&](std::uint32_t& u, std::uint32_t& v) {
+      if (u > v) {
+        std::swap(u, v);
         isTurned = !isTurned;
       }
     };
-    put(0, 1), put(1, 2), put(0, 1);
+    put(a, b), put(b, c), put(a, b);
+    lower = std::uint64_t{a} << 32 | b;
+    highest = c;
+  }
+
+  bool isOver(const FoldedTriangle& other) const { return lower == other.lower && highest == other.highest; }
+  friend bool operator<(const FoldedTriangle& a, const FoldedTriangle& b) {
+    return a.lower != b.lower       ? a.lower < b.lower
+           : a.highest != b.highest ? a.highest < b.highest
+                                    : a.place < b.place;
   }
 };
 
@@ -67,13 +77,11 @@ void dropFolds(std::vector<std::uint32_t>& corners, std::vector<std::uint32_t>& 
   triangles.reserve(corners.size() / 3);
   for (std::uint32_t at = 0; at < corners.size(); at += 3)
     triangles.emplace_back(&corners[at], at);
-  std::ranges::sort(triangles, [](const FoldedTriangle& a, const FoldedTriangle& b) {
-    return a.vertices != b.vertices ? a.vertices < b.vertices : a.place < b.place;
-  });
+  std::sort(triangles.begin(), triangles.end());
   std::vector<bool> isKept(triangles.size());
   for (std::size_t begin = 0, end = 0; begin < triangles.size(); begin = end) {
     std::ptrdiff_t sum = 0;
-    for (end = begin; end < triangles.size() && triangles[end].vertices == triangles[begin].vertices; ++end)
+    for (end = begin; end < triangles.size() && triangles[end].isOver(triangles[begin]); ++end)
       sum += triangles[end].isTurned ? -1 : 1;
     for (std::size_t i = begin; i < end && sum != 0; ++i)
       if (triangles[i].isTurned == (sum < 0)) {
@@ -92,9 +100,27 @@ void dropFolds(std::vector<std::uint32_t>& corners, std::vector<std::uint32_t>& 
   sources.resize(kept);
 }
 
+struct TriangleNormals {
+  std::vector<Vec3d> normals; ///< each as long as twice the triangle's area
+  double area = 0;            ///< of all
+};
+
+TriangleNormals normalsOf(std::span<const Vec3d> places, std::span<const std::uint32_t> corners) {
+  TriangleNormals result;
+  result.normals.reserve(corners.size() / 3);
+  for (std::size_t corner = 0; corner < corners.size(); corner += 3) {
+    const Vec3d a = places[corners[corner]];
+    const Vec3d normal = cross(places[corners[corner + 1]] - a, places[corners[corner + 2]] - a);
+    result.normals.push_back(normal);
+    result.area += length(normal) / 2;
+  }
+  return result;
+}
+
 /// One vertex a cell, in the middle of its vertices, with the planes of all their triangles.
 CollapsingSurface surfaceOf(std::span<const Vec3d> places, std::span<const std::uint32_t> corners,
-                            const std::vector<bool>& isFixed, const SurfaceCells& cells) {
+                            std::span<const Vec3d> normals, const std::vector<bool>& isFixed,
+                            const SurfaceCells& cells) {
   CollapsingSurface surface;
   surface.vertices.resize(cells.count);
   std::vector<std::uint32_t> members(cells.count);
@@ -109,14 +135,13 @@ CollapsingSurface surfaceOf(std::span<const Vec3d> places, std::span<const std::
     surface.vertices[cell].place = surface.vertices[cell].place * (1.0 / members[cell]);
 
   for (std::size_t corner = 0; corner < corners.size(); corner += 3) {
-    const Vec3d a = places[corners[corner]];
-    const Vec3d normal = cross(places[corners[corner + 1]] - a, places[corners[corner + 2]] - a);
+    const Vec3d normal = normals[corner / 3];
     const double size = length(normal);
     const std::uint32_t u = cells.ofVertex[corners[corner]], v = cells.ofVertex[corners[corner + 1]],
                         w = cells.ofVertex[corners[corner + 2]];
     if (size > 0) {
       Quadric plane;
-      plane.addPlane(normal * (1 / size), a, size);
+      plane.addPlane(normal * (1 / size), places[corners[corner]], size);
       for (const std::uint32_t cell : {u, v, w})
         surface.vertices[cell].quadric += plane;
     }
@@ -164,16 +189,19 @@ SimplifiedTriangles simplify(std::span<const Vec3u> positions, std::span<const s
   for (const Vec3u& position : positions)
     places.push_back(frame.placeOf(position));
   const std::size_t cellCount = cellsPerTriangle * triangleCount;
+  const auto [normals, area] = normalsOf(places, corners);
   const SurfaceCells cells = positions.size() > 2 * cellCount
-                                 ? gatherInCells(places, corners, isFixed, cellCount)
+                                 ? gatherInCells(places, corners, normals, area, isFixed, cellCount)
                                  : separateCells(positions.size());
-  CollapsingSurface surface = surfaceOf(places, corners, isFixed, cells);
+  CollapsingSurface surface = surfaceOf(places, corners, normals, isFixed, cells);
   if (cells.count < positions.size())
     for (CollapsingSurface::Vertex& vertex : surface.vertices)
       if (!vertex.isFixed)
         vertex.place = vertex.quadric.bestPlace(vertex.place);
   collapseEdges(surface, triangleCount);
-  return resultOf(surface, frame, positions, cells);
+  SimplifiedTriangles result = resultOf(surface, frame, positions, cells);
+  result.areaBefore = frame.latticeArea(area);
+  return result;
 }
 
 } // namespace imgeo

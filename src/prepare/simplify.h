@@ -19,6 +19,7 @@ struct SimplifiedTriangles {
   std::vector<std::uint32_t> triangles;  ///< per triangle: that of the input which it was
   std::vector<std::uint32_t> ofPosition; ///< per position of the input: what it has become; none where
                                          ///< no triangle is left
+  double areaBefore = 0;                 ///< of the input, in units of the lattice
 };
 
 /// Simplifies triangles over positions on a lattice to about `triangleCount`, or as

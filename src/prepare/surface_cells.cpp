@@ -10,22 +10,13 @@ namespace imgeo {
 
 namespace {
 
-/// The sums of the triangle normals around each vertex, and twice the surface's area.
-struct Normals {
-  std::vector<Vec3d> sums;
-  double doubleArea = 0;
-};
-
-Normals normalsOf(std::span<const Vec3d> places, std::span<const std::uint32_t> corners) {
-  Normals normals{std::vector<Vec3d>(places.size()), 0};
-  for (std::size_t corner = 0; corner < corners.size(); corner += 3) {
-    const Vec3d a = places[corners[corner]];
-    const Vec3d normal = cross(places[corners[corner + 1]] - a, places[corners[corner + 2]] - a);
-    normals.doubleArea += length(normal);
-    for (std::size_t i = 0; i < 3; ++i)
-      normals.sums[corners[corner + i]] += normal;
-  }
-  return normals;
+/// Around each vertex.
+std::vector<Vec3d> sumsOfNormals(std::size_t vertexCount, std::span<const std::uint32_t> corners,
+                                 std::span<const Vec3d> normals) {
+  std::vector<Vec3d> sums(vertexCount);
+  for (std::size_t corner = 0; corner < corners.size(); ++corner)
+    sums[corners[corner]] += normals[corner / 3];
+  return sums;
 }
 
 /// A cell and an octant as one number; places are within -1 .. 1.
@@ -49,9 +40,9 @@ SurfaceCells separateCells(std::size_t vertexCount) {
 }
 
 SurfaceCells gatherInCells(std::span<const Vec3d> places, std::span<const std::uint32_t> corners,
-                           const std::vector<bool>& isFixed, std::size_t cellCount) {
-  const Normals normals = normalsOf(places, corners);
-  const double area = normals.doubleArea / 2;
+                           std::span<const Vec3d> normals, double area, const std::vector<bool>& isFixed,
+                           std::size_t cellCount) {
+  const std::vector<Vec3d> sums = sumsOfNormals(places.size(), corners, normals);
   const double cellsPerUnit = area > 0 ? std::sqrt(static_cast<double>(cellCount) / area) : 1;
 
   SurfaceCells cells{std::vector<std::uint32_t>(places.size()), 0};
@@ -60,7 +51,7 @@ SurfaceCells gatherInCells(std::span<const Vec3d> places, std::span<const std::u
   IndexTable table(places.size());
   for (std::size_t vertex = 0; vertex < places.size(); ++vertex) {
     const std::uint64_t key =
-        isFixed[vertex] ? ~std::uint64_t{vertex} : keyOf(places[vertex], normals.sums[vertex], cellsPerUnit);
+        isFixed[vertex] ? ~std::uint64_t{vertex} : keyOf(places[vertex], sums[vertex], cellsPerUnit);
     const std::uint32_t cell =
         table.findOrInsert(mixHash(0, key), cells.count, [&](std::uint32_t i) { return keys[i] == key; });
     if (cell == cells.count) {

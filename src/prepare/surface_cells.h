@@ -22,8 +22,10 @@ SurfaceCells separateCells(std::size_t vertexCount);
 
 /// About `cellCount` cells of equal size. Vertices share one where the surface also
 /// faces the same octant, so that both sides of a thin wall stay apart; those with
-/// `isFixed` have one each. Places are within -1 .. 1.
+/// `isFixed` have one each. Places are within -1 .. 1; `normals`, one a triangle, are as
+/// long as twice its area; `area` is that of all.
 SurfaceCells gatherInCells(std::span<const Vec3d> places, std::span<const std::uint32_t> corners,
-                           const std::vector<bool>& isFixed, std::size_t cellCount);
+                           std::span<const Vec3d> normals, double area, const std::vector<bool>& isFixed,
+                           std::size_t cellCount);
 
 } // namespace imgeo
