@@ -16,6 +16,7 @@ const generators = {
   sphere: () => sphere(),
   "sphere-large": () => sphere(96),
   "sphere-small": () => sphere(4),
+  "sphere-numbers": () => withNumbers(sphere(4)),
   points: () => pointSpiral(),
   coil: () => coil(),
 } satisfies Record<string, () => PlainMesh>;

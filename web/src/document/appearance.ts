@@ -1,7 +1,7 @@
 // Appearance -> what a shape looks like.
 
 import type {
-  AlphaDescription, AppearanceDescription, MaterialDescription, PointDescription, SamplingDescription, TextureDescription, TextureRole,
+  AlphaDescription, AppearanceDescription, ColorMapDescription, MaterialDescription, PointDescription, SamplingDescription, TextureDescription, TextureRole,
   Warning, WrapMode,
 } from "./description.ts";
 import { textureRoles } from "./description.ts";
@@ -31,7 +31,9 @@ const textureFields: Readonly<Record<string, Partial<Readonly<Record<TextureRole
 
 const dataRoles: readonly TextureRole[] = ["metallicRoughness", "normal", "occlusion", "shininess"];
 
-export function readAppearance(element: SceneElement | undefined, childrenOf: ChildrenOf, warnings: Warning[]): AppearanceDescription {
+/** `colorMap`: the shape has it, as X3D's Appearance knows of no such thing. */
+export function readAppearance(element: SceneElement | undefined, colorMap: ColorMapDescription | undefined, childrenOf: ChildrenOf,
+                               warnings: Warning[]): AppearanceDescription {
   const parts = element === undefined ? [] : childrenOf(element).flatMap((part) => firstTextureOf(part, childrenOf, warnings));
   const named = (name: string) => parts.find((part) => lowerNameOf(part) === name);
   const material = parts.find((part) => lowerNameOf(part) in textureFields);
@@ -43,6 +45,7 @@ export function readAppearance(element: SceneElement | undefined, childrenOf: Ch
     textures: readTextures(parts, material, childrenOf, warnings),
     points: points && readPoints(points, warnings),
     lines: lines && readLines(lines, warnings),
+    colorMap,
   };
 }
 

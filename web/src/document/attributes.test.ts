@@ -22,10 +22,10 @@ describe("a shape's colorBy", () => {
     const heat = read(`colorBy="heat"`);
     assert.equal(heat.geometry.value?.name, "heat");
     assert.deepEqual(heat.geometry.patches[0]?.value.map(({ url, first }) => `${url} ${first}`), ["h1.png 9", "h0.png 0"]);
-    assert.deepEqual(heat.shape.colorMap?.range, [-2, 3]);
+    assert.deepEqual(heat.shape.appearance.colorMap?.range, [-2, 3]);
     const flow = read(`colorBy="flow"`);
     assert.deepEqual(flow.geometry.patches[0]?.value.map(({ url }) => url), ["f2.png", "f1.png", "f0.png"]);
-    assert.deepEqual(flow.shape.colorMap?.range, [0, 5]); // of the length of (-3 … -2, 0 … 4)
+    assert.deepEqual(flow.shape.appearance.colorMap?.range, [0, 5]); // of the length of (-3 … -2, 0 … 4)
   });
 
   test("of typed arrays brings one file", () => {
@@ -37,14 +37,14 @@ describe("a shape's colorBy", () => {
   test("of compact brings none but its patches', which say of how many bits they must be", () => {
     const { geometry: { value, patches: [patch] }, shape } = read(`colorBy="heat"`, `<ImageGeometry profile="compact" data="p.png">
       <FloatVertexAttribute name="heat" numComponents="1" valueBits="24" valueMin="-1" valueSize="3"/></ImageGeometry>`);
-    assert.deepEqual([value?.bits, value?.files, patch?.value, shape.colorMap?.range], [24, 0, [], [-1, 2]]);
+    assert.deepEqual([value?.bits, value?.files, patch?.value, shape.appearance.colorMap?.range], [24, 0, [], [-1, 2]]);
   });
 
   test("that is absent, or names nothing that there is, colours nothing", () => {
     assert.deepEqual(read("").geometry.patches[0]?.value, []);
     assert.deepEqual(read("").messages, []);
     const unknown = read(`colorBy="cold"`);
-    assert.equal(unknown.shape.colorMap, undefined);
+    assert.equal(unknown.shape.appearance.colorMap, undefined);
     assert.deepEqual(unknown.messages, [`colorBy="cold" is no attribute of the geometry`]);
   });
 
@@ -62,13 +62,13 @@ describe("a shape's colorBy", () => {
 
   test("takes its colours from a map by name or from a list", () => {
     const colors = (text: string) => read(`colorBy="heat" colorMap="${text}"`);
-    assert.deepEqual(colors("gray").shape.colorMap?.colors, [[0, 0, 0], [1, 1, 1]]);
-    assert.deepEqual(colors("1 0 0, 0 1 0, 0 0 1").shape.colorMap?.colors, [[1, 0, 0], [0, 1, 0], [0, 0, 1]]);
-    const viridis = read(`colorBy="heat"`).shape.colorMap?.colors;
+    assert.deepEqual(colors("gray").shape.appearance.colorMap?.colors, [[0, 0, 0], [1, 1, 1]]);
+    assert.deepEqual(colors("1 0 0, 0 1 0, 0 0 1").shape.appearance.colorMap?.colors, [[1, 0, 0], [0, 1, 0], [0, 0, 1]]);
+    const viridis = read(`colorBy="heat"`).shape.appearance.colorMap?.colors;
     assert.equal(viridis?.length, 10);
     for (const wrong of ["rainbows", "1 0 0", "1 0 0 1", "1 0 0 1 0 x"]) {
       assert.equal(colors(wrong).messages.length, 1, wrong);
-      assert.deepEqual(colors(wrong).shape.colorMap?.colors, viridis);
+      assert.deepEqual(colors(wrong).shape.appearance.colorMap?.colors, viridis);
     }
   });
 });

@@ -197,6 +197,8 @@ export interface AppearanceDescription {
   readonly points: PointDescription | undefined;
   /** Undefined: as thin as the GPU draws them. */
   readonly lines: LineDescription | undefined;
+  /** In place of the material's diffuse colour, of a geometry whose vertices have values. */
+  readonly colorMap: ColorMapDescription | undefined;
 }
 export interface ViewpointDescription extends Values<typeof nodeFields.Viewpoint> {
   /** Width over height of what a view of any shape has to show at least; 1 where nothing is said. */
@@ -229,8 +231,6 @@ export interface ShapeDescription {
   /** Tight, in the shape's own coordinates; undefined where neither the shape nor its geometry has one. */
   readonly box: Box3 | undefined;
   readonly appearance: AppearanceDescription;
-  /** In place of the material's diffuse colour. */
-  readonly colorMap: ColorMapDescription | undefined;
   /** Undefined where the shape has no geometry that we can show; the same object for shapes that USE one. */
   readonly geometry: GeometryDescription | undefined;
 }

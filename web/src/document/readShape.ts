@@ -34,10 +34,9 @@ export function readShape(element: SceneElement, host: SceneElement, node: Scene
   const isSeen = values.visible && values.render;
   return {
     kind: "shape", element, geometry, host,
-    colorMap: colorMapOf(node, values, geometry, warnings),
     visible: isSeen, reaches: isSeen, priority: values.priority * priorityOfGeometry, isPickable: values.isPickable,
     box: ownBox ?? (geometry && boxOfGeometry(geometry)),
-    appearance: readAppearance(appearance, nodesIn, warnings),
+    appearance: readAppearance(appearance, colorMapOf(node, values, geometry, warnings), nodesIn, warnings),
   };
 }
 

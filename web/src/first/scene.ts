@@ -69,9 +69,9 @@ export function firstSceneOf(scene: SceneDescription, camera: CameraSetting): Fi
 
 /** Undefined where it is not drawn from a base in solid colours. */
 function firstShapeOf({ shape, ...place }: PlacedShape): FirstShape | undefined {
-  const { element, geometry, appearance, colorMap } = shape;
+  const { element, geometry, appearance } = shape;
   const [patch] = geometry?.patches ?? [];
-  if (geometry?.container !== "compact" || geometry.base === undefined || patch === undefined || colorMap !== undefined) return undefined;
+  if (geometry?.container !== "compact" || geometry.base === undefined || patch === undefined || appearance.colorMap !== undefined) return undefined;
   if (appearance.textures.length > 0 || appearance.alpha.mode === "MASK" || isBlended(appearance, false)) return undefined;
   return { element, geometry, base: geometry.base, appearance, ...place, shapeFromStored: shapeFromStoredOf(geometry, patch) };
 }

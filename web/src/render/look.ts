@@ -21,8 +21,8 @@ export interface Look {
 
 /** What shapes that are drawn together have in common, and what each has of its own. */
 export interface Batching {
-  /** The same for appearances that one material can show; undefined for wide lines. */
-  keyOf(request: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription, pictures: ShownPictures): string | undefined;
+  /** The same for appearances that one material can show. */
+  keyOf(request: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription, pictures: ShownPictures): string;
   /** Drawn in the order of their distance, the farthest first. */
   isBlended(request: Pick<MaterialRequest, "colors">, appearance: AppearanceDescription, pictures: ShownPictures): boolean;
   /** The rest of an appearance, for the shader: the field `look` of a place's record. */

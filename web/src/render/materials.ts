@@ -105,23 +105,23 @@ function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number
 }
 
 function keyOf({ primitive, colors }: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription,
-               pictures: ShownPictures): string | undefined {
-  const { material, points, lines, ...rest } = appearance;
-  if (lines !== undefined && isLine({ primitive })) return undefined; // each is an instance of its own
+               pictures: ShownPictures): string {
+  const { material, points, lines, colorMap, ...rest } = appearance;
   const others = Object.entries(material).filter(([name]) => !numbersOfPlaces.has(name));
-  return JSON.stringify([blends(appearance, colors, pictures), rest, others, Array.from(pictures, ([role, { texture }]) => [role, texture.uuid]).sort(), primitive === "points" && points]);
+  return JSON.stringify([blends(appearance, colors, pictures), rest, others, Array.from(pictures, ([role, { texture }]) => [role, texture.uuid]).sort(),
+    primitive === "points" && points, isLine({ primitive }) && lines?.dashes, colorMap?.colors]);
 }
 
 /** What of a material `numbersOf` tells. */
 const numbersOfPlaces = new Set(["diffuseColor", "baseColor", "specularColor", "shininess", "emissiveColor", "ambientIntensity", "metallic", "roughness", "transparency"]);
 
 function numbersOf({ shading, colors }: { shading: Shading; colors: VertexColors }, appearance: AppearanceDescription): readonly number[] {
-  const { material } = appearance;
+  const { material, colorMap: { range } = { range: [0, 1] }, lines: { width } = { width: 0 } } = appearance;
   const opacity = opacityOf(appearance);
-  if (isUnlit(shading)) return [...unlitColorOf(material, colors !== "none"), opacity, 0, 0, 0, 0, 0, 0, 0, 0];
+  if (isUnlit(shading)) return [...unlitColorOf(material, colors !== "none"), opacity, 0, 0, 0, 0, 0, 0, 0, 0, ...range, width];
   const { color, specular, shininess, ambientIntensity, metallic, roughness } = litNumbersOf(material, colors !== "none");
   const gloss = material.kind === "physical" ? [metallic, roughness, 0, 0] : [...specular, shininess];
-  return [...color, opacity, ...gloss, ...material.emissiveColor, ambientIntensity];
+  return [...color, opacity, ...gloss, ...material.emissiveColor, ambientIntensity, ...range, width];
 }
 
 function isUnlit(shading: Shading): boolean {

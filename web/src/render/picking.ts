@@ -4,7 +4,7 @@
 
 import type { Camera, Group, WebGLRenderer } from "three";
 import {
-  Frustum, Matrix3, Matrix4, NearestFilter, PerspectiveCamera, Ray, RGBAIntegerFormat, Scene, Sphere, UnsignedIntType, Vector3,
+  Matrix3, Matrix4, NearestFilter, PerspectiveCamera, Ray, RGBAIntegerFormat, Scene, Sphere, UnsignedIntType, Vector3,
   WebGLRenderTarget,
 } from "three";
 import type { SceneElement } from "../document/element.ts";
@@ -14,6 +14,7 @@ import type { Face } from "./pickedPrimitive.ts";
 import { faceOf, nearestVertex, primitiveAt, primitiveEndingAt, primitiveIn } from "./pickedPrimitive.ts";
 import { pickedTargets, pickedWords } from "./pickMaterial.ts";
 import { readPixel, readPixelSoon } from "./pixelReading.ts";
+import { frustumOf } from "./viewFrustum.ts";
 
 /** What was hit, in the scene's coordinates. */
 export interface Hit {
@@ -173,7 +174,7 @@ function candidatesNear(camera: PerspectiveCamera, { x, y, width, height }: Plac
 
 /** Those whose bounds come into a camera's view. */
 export function candidatesSeenBy({ projectionMatrix, matrixWorldInverse }: Camera, candidates: Iterable<PickCandidate>): NearCandidate[] {
-  const frustum = new Frustum().setFromProjectionMatrix(new Matrix4().multiplyMatrices(projectionMatrix, matrixWorldInverse));
+  const frustum = frustumOf(projectionMatrix, matrixWorldInverse);
   const sphere = new Sphere();
   const near: NearCandidate[] = [];
   const worldFromStored = new Matrix4();

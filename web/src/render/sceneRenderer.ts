@@ -306,7 +306,8 @@ export class SceneRenderer {
     const begunAt = performance.now();
     applyPose(this.#camera, this.#cameraMan.advance(begunAt), this.#aspect, this.sphere, this.#cameraMan.clearance);
     this.#shared.depthRange.value.set(this.#camera.near, this.#camera.far);
-    this.#shapes.passOver(this.#camera);
+    const { pixelRatio } = this.#shared;
+    this.#shapes.passOver(this.#camera, [this.#size.width / pixelRatio.value, this.#size.height / pixelRatio.value]);
     this.#renderer.render(this.#scene, this.#camera);
     this.#drawCalls = this.#renderer.info.render.calls;
     this.#pace.end(begunAt);

@@ -2,7 +2,7 @@
 // groups that place them, and how far they reach.
 
 import type { Camera, Object3D, Sphere } from "three";
-import { Box3, Frustum, Material, Matrix4, Vector3 } from "three";
+import { Box3, Material, Vector3 } from "three";
 import type { Bounds } from "../decode/arrays.ts";
 import type { Stage } from "../decode/stage.ts";
 import type { GeometryDescription, SceneDescription, ShapeDescription, TextureRole } from "../document/description.ts";
@@ -23,6 +23,7 @@ import type { SceneChanges } from "./shapeChanges.ts";
 import { ShapeChanges } from "./shapeChanges.ts";
 import type { ShapeSetting } from "./shapeObject.ts";
 import { ShapeObject } from "./shapeObject.ts";
+import { frustumOf } from "./viewFrustum.ts";
 
 /** What the scene has in it, in the scene's coordinates. */
 export interface BuiltScene {
@@ -48,6 +49,8 @@ export class SceneShapes {
   /** As the document tells it, and as far as vertices do. */
   #described = new Box3();
   #box = new Box3();
+  /** In CSS pixels. */
+  #widestLine = 0;
 
   /** What is drawn hangs in `scene`. */
   constructor(scene: Object3D, setting: ShapeSetting & { readonly batches: Batches }) {
@@ -150,6 +153,7 @@ export class SceneShapes {
     if (others.size > 0) {
       for (const object of this.#shapes.values()) if (object.geometry && others.has(object.geometry)) object.drawAs(this.#plan.drawingOf(object.geometry));
     }
+    if (changes.shapes.size > 0) this.#widestLine = Array.from(this.#shapes.values()).reduce((widest, { lineWidth }) => Math.max(widest, lineWidth), 0);
     return { shapes, gone, places: changes.places };
   }
 
@@ -192,12 +196,16 @@ export class SceneShapes {
     return draws;
   }
 
-  /** Before a frame: groups that tell where they end are not looked into when they are out of the view. */
-  passOver(camera: Camera): void {
+  /**
+   * Before a frame: groups that tell where they end are not looked into when they are out of the view.
+   * `picture`: its width and height in CSS pixels.
+   */
+  passOver(camera: Camera, picture: readonly [width: number, height: number]): void {
     camera.updateMatrixWorld();
-    this.#batches.update(camera);
+    const margin = picture.map((pixels) => this.#widestLine / pixels) as [number, number];
+    this.#batches.update(camera, margin);
     if (this.#bounded.length === 0) return;
-    const frustum = new Frustum().setFromProjectionMatrix(new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
+    const frustum = frustumOf(camera.projectionMatrix, camera.matrixWorldInverse, margin);
     for (const { group, box } of this.#bounded) group.visible = frustum.intersectsBox(box);
   }
 

@@ -17,7 +17,6 @@ import type { PatchDraws } from "./patchDraws.ts";
 import { drawStage } from "./patchDraws.ts";
 import type { PickCandidate } from "./picking.ts";
 import type { PatchSetting } from "./stageDraws.ts";
-import { makeColorMapUniforms, setColorMap } from "./valueColors.ts";
 import { withWideLines } from "./wideLines.ts";
 
 /** What all shapes of a scene share. */
@@ -45,7 +44,6 @@ export class ShapeObject {
   /** One for each place, with the page's element for it there. */
   readonly #groups = new Map<PlaceGroup, SceneElement>();
   readonly #patches = new Map<number, ShownPatch>();
-  readonly #colorMap = makeColorMapUniforms();
   #appearance: AppearanceDescription;
   #geometry: GeometryDescription | undefined;
   #drawing = alone;
@@ -57,7 +55,6 @@ export class ShapeObject {
     this.#appearance = shape.appearance;
     this.#geometry = shape.geometry;
     this.#isPickable = shape.isPickable;
-    setColorMap(this.#colorMap, shape.colorMap);
   }
 
   /** It stands in this group too, from now on; `host` is the page's element for it there. */
@@ -110,8 +107,7 @@ export class ShapeObject {
   }
 
   /** Takes over what a changed document says; what shows another geometry than before is taken away. */
-  setShape({ appearance, isPickable, colorMap, geometry }: ShapeDescription): void {
-    setColorMap(this.#colorMap, colorMap);
+  setShape({ appearance, isPickable, geometry }: ShapeDescription): void {
     this.#isPickable = isPickable;
     if (geometry !== this.#geometry) this.clear();
     this.#geometry = geometry;
@@ -134,10 +130,15 @@ export class ShapeObject {
     this.#applyAppearance();
   }
 
+  /** Of its lines, in CSS pixels; 0 where they are as thin as can be. */
+  get lineWidth(): number {
+    return this.#appearance.lines?.width ?? 0;
+  }
+
   /** What its points and lines may be wide, in CSS pixels. */
   get largestWidth(): number {
-    const { points, lines } = this.#appearance;
-    const line = lines?.width ?? 0;
+    const { points } = this.#appearance;
+    const line = this.lineWidth;
     if (points === undefined) return line;
     const [a, b, c] = points.attenuation;
     return Math.max(line, b === 0 && c === 0 ? Math.min(points.size / a, points.most) : Math.min(points.most, largestPoint));
@@ -167,7 +168,7 @@ export class ShapeObject {
     const { batching } = setting.look;
     const drawnAs = this.#drawnAsOf(stage);
     const drawn = this.#drawnOf(stage, patch);
-    const patchSetting = { ...setting, geometry, patch, appearance: this.#appearance, colorMap: this.#colorMap, pictures: new Map(this.#pictures) };
+    const patchSetting = { ...setting, geometry, patch, appearance: this.#appearance, pictures: new Map(this.#pictures) };
     const draws = batches === undefined || batching === undefined || drawnAs === "alone" ? drawStage(drawn, patchSetting)
       : new BatchedStage(drawn, patchSetting, { batches, batching, isMerged: drawnAs === "merged" });
     for (const group of this.#groups.keys()) draws.hang(group);

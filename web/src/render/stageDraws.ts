@@ -1,7 +1,7 @@
 // What a stage says of its vertices, for those who draw it: uniforms, bounds, and
 // what its draws need of a material.
 
-import type { Side, Texture } from "three";
+import type { IUniform, Side, Texture } from "three";
 import { Box3, Sphere, Vector3 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
 import type { DrawRange, Stage, TextureStage } from "../decode/stage.ts";
@@ -15,11 +15,10 @@ import type { PickMaterialRequest } from "./pickMaterial.ts";
 import { alphaMaskOf } from "./pickMaterial.ts";
 import type { GeometryPool } from "./stageGeometries.ts";
 import { textureTransformsOf } from "./texCoords.ts";
-import type { ColorMapUniforms } from "./valueColors.ts";
-import { valueDefinesOf, valueUniformsOf } from "./valueColors.ts";
+import { colorMapUniformsOf, valueDefinesOf, valueUniformsOf } from "./valueColors.ts";
 import type { ImageVertexUniforms, VertexForm, VertexUniforms } from "./vertexChunk.ts";
 import { gridDefinesOf, normalDefinesOf } from "./vertexChunk.ts";
-import { lineStepOf } from "./wideLines.ts";
+import { lineCountOf, lineStepOf } from "./wideLines.ts";
 
 /** Where images are that have become textures. */
 export interface Textures {
@@ -37,7 +36,6 @@ export interface PatchSetting {
   readonly patch: PatchDescription;
   readonly appearance: AppearanceDescription;
   readonly pictures: ShownPictures;
-  readonly colorMap: ColorMapUniforms;
 }
 
 /** The patch's bounds among stored integers; the sphere is wide enough for its coarsest stage. */
@@ -61,20 +59,22 @@ export function uniformsOf(stage: Stage, setting: PatchSetting): StageUniforms {
   const { geometry, patch, shared, textures } = setting;
   const common: VertexUniforms = {
     ...appearanceUniformsOf(geometry, setting.appearance), pixelRatio: shared.pixelRatio, viewport: shared.viewport,
-    latticeStep: { value: storedFrameOf(geometry, patch).step }, ...setting.colorMap,
+    latticeStep: { value: storedFrameOf(geometry, patch).step },
     ...valueUniformsOf(stage, geometry.value, (image) => textures.textureOf(image)),
   };
   if (stage.kind === "buffers") return { common, of: () => common };
   const base = imageUniformsOf(stage, textures, common, largestStoredOf(geometry, patch));
   return {
     common,
-    of: ({ first, primitive }) => ({ ...base, firstNumber: { value: first }, isStrip: { value: primitive === "triangleStrip" } }),
+    of: (range) => ({
+      ...base, firstNumber: { value: range.first }, isStrip: { value: range.primitive === "triangleStrip" }, lineCount: { value: Math.max(1, lineCountOf(range)) },
+    }),
   };
 }
 
 /** Takes over what an appearance says of vertices. */
 export function setAppearance(uniforms: VertexUniforms, geometry: GeometryDescription, appearance: AppearanceDescription): void {
-  for (const [name, { value }] of Object.entries(appearanceUniformsOf(geometry, appearance))) {
+  for (const [name, { value }] of Object.entries<IUniform<unknown>>(appearanceUniformsOf(geometry, appearance))) {
     const uniform = uniforms[name];
     if (uniform !== undefined) uniform.value = value;
   }
@@ -86,8 +86,9 @@ const usualPoints: PointDescription = { size: usualPointSize, least: 0, most: In
 const largestPoint = 1e6;
 const usualLines: LineDescription = { width: 1, dashes: [] };
 
-function appearanceUniformsOf({ texCoordMin, texCoordSize }: GeometryDescription, appearance: AppearanceDescription):
-  Pick<VertexUniforms, "pointSizes" | "attenuation" | "lineWidth" | "dashes" | "dashCount" | "texCoordFrame" | "textureTransforms"> {
+type AppearanceUniforms = Pick<VertexUniforms, "pointSizes" | "attenuation" | "lineWidth" | "dashes" | "dashCount" | "texCoordFrame" | "textureTransforms">;
+
+function appearanceUniformsOf({ texCoordMin, texCoordSize }: GeometryDescription, appearance: AppearanceDescription): AppearanceUniforms & Record<string, IUniform> {
   const { points = usualPoints, lines: { width, dashes } = usualLines } = appearance;
   return {
     pointSizes: { value: [points.size, points.least, Math.min(points.most, largestPoint)] },
@@ -97,6 +98,7 @@ function appearanceUniformsOf({ texCoordMin, texCoordSize }: GeometryDescription
     dashCount: { value: dashes.length },
     texCoordFrame: { value: [...texCoordMin, ...texCoordSize] },
     textureTransforms: { value: textureTransformsOf(appearance) },
+    ...colorMapUniformsOf(appearance.colorMap),
   };
 }
 
@@ -172,6 +174,7 @@ function imageUniformsOf(stage: TextureStage, textures: Textures, common: Vertex
     largestStored: { value: largestStored },
     firstNumber: { value: 0 },
     isStrip: { value: false },
+    lineCount: { value: 1 },
     colorHasAlpha: { value: colorsOf(stage) === "rgba" },
   };
 }

@@ -5,7 +5,7 @@ import { BufferGeometry, InstancedBufferGeometry, InterleavedBufferAttribute, Sp
 import type { BufferStage, DrawRange, Stage } from "../decode/stage.ts";
 import type { Buffers } from "./buffers.ts";
 import { storedAttributesOf } from "./storedAttributes.ts";
-import { wideLineGeometryOf } from "./wideLines.ts";
+import { wideLineGeometryOf } from "./wideLineGeometry.ts";
 
 interface Entry {
   readonly geometries: readonly BufferGeometry[];

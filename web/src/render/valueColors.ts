@@ -3,35 +3,24 @@
 // each pixel, so that between two vertices lie the colours of the values between.
 
 import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "three";
-import { Vector3 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
 import type { Stage, ValuePlanes } from "../decode/stage.ts";
 import { mostMapColors } from "../document/colorMaps.ts";
 import type { AttributeDescription, ColorMapDescription } from "../document/description.ts";
 import { toLinearChunk } from "../lighting/physicalLighting.ts";
+import { placeFields, placesDefine } from "./batches/placeChunk.ts";
 import { imageVerticesDefine, readVertexStatement, replaceEach, srgbColorsDefine } from "./vertexChunk.ts";
 import { wideLinesDefine } from "./wideLineChunk.ts";
 
-/** Of a shape; changed in place. */
-export interface ColorMapUniforms extends Record<string, IUniform> {
-  mapColors: IUniform<Vector3[]>;
-  mapColorCount: IUniform<number>;
-  mapRange: IUniform<[number, number]>;
-}
-
-export function makeColorMapUniforms(): ColorMapUniforms {
+/** Undefined: none, of what values do not colour. */
+export function colorMapUniformsOf(map: ColorMapDescription | undefined): Record<string, IUniform> {
+  if (map === undefined) return {};
+  const numbers = map.colors.flat();
   return {
-    mapColors: { value: Array.from({ length: mostMapColors }, () => new Vector3()) },
-    mapColorCount: { value: 2 },
-    mapRange: { value: [0, 1] },
+    mapColors: { value: Array.from({ length: 3 * mostMapColors }, (_, i) => numbers[i] ?? 0) },
+    mapColorCount: { value: map.colors.length },
+    mapRange: { value: map.range },
   };
-}
-
-export function setColorMap(uniforms: ColorMapUniforms, map: ColorMapDescription | undefined): void {
-  if (map === undefined) return;
-  map.colors.forEach((color, i) => uniforms.mapColors.value[i]?.set(...color));
-  uniforms.mapColorCount.value = map.colors.length;
-  uniforms.mapRange.value = [...map.range];
 }
 
 /** What a material must define to be coloured by the values of a stage. */
@@ -42,16 +31,20 @@ export function valueDefinesOf(stage: Stage, attribute: AttributeDescription | u
 
 export function valueUniformsOf(stage: Stage, attribute: AttributeDescription | undefined,
                                 textureOf: (image: DecodedImage) => Texture): Record<string, IUniform> {
-  if (attribute === undefined || stage.value === undefined) return {};
-  if (stage.kind === "buffers") return frameOf(attribute, stage.value.largest);
-  return { ...frameOf(attribute, 256 ** stage.value.planeCount - 1), ...imageUniformsOf(stage.value, textureOf) };
+  const { value } = stage;
+  if (attribute === undefined || value === undefined) return {};
+  const { min, step } = valueFrameOf(stage, attribute);
+  const images = stage.kind === "textures" && stage.value ? imageUniformsOf(stage.value, textureOf) : {};
+  return { valueMin: { value: min }, valueStep: { value: step }, ...images };
 }
 
-/** What a stored 0 is, and a step. */
-function frameOf({ min, size }: AttributeDescription, largest: number | undefined): Record<string, IUniform> {
+/** What a stored 0 is, and a step, by component: four of each. Without meaning where a stage has no values. */
+export function valueFrameOf(stage: Stage, attribute: AttributeDescription | undefined): { min: readonly number[]; step: readonly number[] } {
+  const { min = [], size = [] } = attribute ?? {};
+  const largest = stage.kind === "buffers" ? stage.value?.largest : 256 ** (stage.value?.planeCount ?? 1) - 1;
   const four = (values: readonly number[], missing: number) => [0, 1, 2, 3].map((c) => values[c] ?? missing);
-  if (largest === undefined) return { valueMin: { value: four([], 0) }, valueStep: { value: four([], 1) } };
-  return { valueMin: { value: four(min, 0) }, valueStep: { value: four(size.map((extent) => extent / largest), 0) } };
+  if (largest === undefined) return { min: four([], 0), step: four([], 1) };
+  return { min: four(min, 0), step: four(size.map((extent) => extent / largest), 0) };
 }
 
 function imageUniformsOf({ planes, planeCount, middleOfMissing }: ValuePlanes, textureOf: (image: DecodedImage) => Texture): Record<string, IUniform> {
@@ -69,8 +62,16 @@ function imageUniformsOf({ planes, planeCount, middleOfMissing }: ValuePlanes, t
 const vertexChunk = /* glsl */ `
 #ifdef VALUE_COMPONENTS
 
-varying float vValue;
-uniform vec4 valueMin, valueStep;
+// 0 and 1 are the ends of the map of colours.
+varying float vMapPlace;
+#ifdef ${placesDefine}
+  #define valueMin placeTexel(${placeFields.valueMin / 4})
+  #define valueStep placeTexel(${placeFields.valueStep / 4})
+  #define mapRange placeTexel(${placeFields.mapRange / 4}).xy
+#else
+  uniform vec4 valueMin, valueStep;
+  uniform vec2 mapRange;
+#endif
 
 #ifdef ${imageVerticesDefine}
 
@@ -128,20 +129,23 @@ float readValue() {
   #endif
 }
 
+float mapPlaceOf(float value) {
+  vec2 range = mapRange;
+  float extent = range.y - range.x;
+  return extent == 0.0 ? 0.0 : (value - range.x) / extent;
+}
+
 #endif
 `;
 
 const fragmentDeclarations = /* glsl */ `
 #ifdef VALUE_COMPONENTS
-  varying float vValue;
+  varying float vMapPlace;
   uniform vec3 mapColors[${mostMapColors}];
   uniform int mapColorCount;
-  uniform vec2 mapRange;
 
-  vec3 mappedColor(float value) {
-    float extent = mapRange.y - mapRange.x;
-    float place = extent == 0.0 ? 0.0 : clamp((value - mapRange.x) / extent, 0.0, 1.0);
-    float at = place * float(mapColorCount - 1);
+  vec3 mappedColor() {
+    float at = clamp(vMapPlace, 0.0, 1.0) * float(mapColorCount - 1);
     int before = min(int(at), mapColorCount - 2);
     vec3 color = mix(mapColors[before], mapColors[before + 1], at - float(before));
     #ifdef ${srgbColorsDefine}
@@ -155,7 +159,7 @@ const fragmentDeclarations = /* glsl */ `
 const fragmentChunk = /* glsl */ `
 #include <color_fragment>
 #ifdef VALUE_COMPONENTS
-  diffuseColor.rgb = mappedColor(vValue);
+  diffuseColor.rgb = mappedColor();
 #endif
 `;
 
@@ -163,7 +167,7 @@ const fragmentChunk = /* glsl */ `
 export function colorByValueIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
   shader.vertexShader = replaceEach(shader.vertexShader, [
     ["void main() {", `${vertexChunk}\nvoid main() {`],
-    [readVertexStatement, `${readVertexStatement}\n#ifdef VALUE_COMPONENTS\n  vValue = readValue();\n#endif`],
+    [readVertexStatement, `${readVertexStatement}\n#ifdef VALUE_COMPONENTS\n  vMapPlace = mapPlaceOf(readValue());\n#endif`],
   ]);
   shader.fragmentShader = fragmentDeclarations + replaceEach(shader.fragmentShader, [["#include <color_fragment>", fragmentChunk]]);
 }

@@ -64,6 +64,8 @@ export interface ImageVertexUniforms extends VertexUniforms {
   /** The running number that the draw begins at, and whether it is a strip. */
   firstNumber: IUniform<number>;
   isStrip: IUniform<boolean>;
+  /** Of the draw, at least 1: instances are its lines, in one place after the other. */
+  lineCount: IUniform<number>;
   colorHasAlpha: IUniform<boolean>;
 }
 
@@ -182,6 +184,7 @@ uniform bool isGridClosed;
 uniform float largestStored;
 uniform int firstNumber;
 uniform bool isStrip;
+uniform int lineCount;
 uniform bool colorHasAlpha;
 
 #ifdef GRID
@@ -309,7 +312,7 @@ vec2 readTexCoord(int record) {
 // Of a vertex, or of one end of a wide line.
 int drawnNumber(int end) {
   #ifdef ${wideLinesDefine}
-    return gl_InstanceID * ${wideLinesDefine} + end;
+    return gl_InstanceID % lineCount * ${wideLinesDefine} + end;
   #else
     return gl_VertexID;
   #endif
@@ -394,7 +397,7 @@ export function readVerticesIn(shader: Pick<WebGLProgramParametersWithUniforms, 
     ["void main() {", cutDashesChunk], ["void main() {", cutFacesChunk],
   ]);
   shader.vertexShader = ownNormalsChunk + replaceEach(shader.vertexShader, [
-    ["#include <common>", `#include <common>\n${readVertexChunk}${wideLineChunk}${placeVertexChunk}`],
+    ["#include <common>", `#include <common>\n${readVertexChunk}${placeVertexChunk}${wideLineChunk}`],
     ["void main() {", `void main() {\n  ${readVertexStatement}`],
     ["#include <uv_vertex>", texCoordChunk],
     ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\nshowPlace();\nwidenLine();`],

@@ -5,6 +5,7 @@
 
 import type { BufferGeometry, Camera, Material, Scene, Vector4, WebGLRenderer } from "three";
 import { mostDashes } from "../document/lineProperties.ts";
+import { placeFields, placesDefine } from "./batches/placeChunk.ts";
 
 /** Defined in materials of wide lines: how many vertices on the next line begins. */
 export const wideLinesDefine = "WIDE_LINES";
@@ -22,13 +23,17 @@ function fanOf(first: number): number[] {
   return Array.from({ length: capSides - 1 }, (_, side) => [first, first + side + 1, first + side + 2]).flat();
 }
 
-/** Behind `vertexAt`. */
+/** Behind `vertexAt` and `inPlace`. */
 export const wideLineChunk = /* glsl */ `
 #ifdef ${wideLinesDefine}
 
 uniform vec4 viewport;
-uniform float lineWidth;
-// The axis of the screen along which dashes are measured, and where they begin.
+#ifdef ${placesDefine}
+  #define lineWidth placeTexel(${Math.floor(placeFields.lineWidth / 4)})[${placeFields.lineWidth % 4}]
+#else
+  uniform float lineWidth;
+#endif
+// The axis of the screen along which dashes are measured, and where they begin, in widths.
 flat varying vec3 dashAxis;
 // Where along the line this vertex is, and how far beside that on the screen.
 float lineShare;
@@ -46,8 +51,8 @@ vec2 sharesSeen(vec4 begin, vec4 end) {
 }
 
 void layLine(vec3 from, vec3 to) {
-  mat4 clipFromStored = projectionMatrix * modelViewMatrix;
-  vec4 begin = clipFromStored * vec4(from, 1.0), end = clipFromStored * vec4(to, 1.0);
+  mat4 clipFromPlace = projectionMatrix * modelViewMatrix;
+  vec4 begin = clipFromPlace * vec4(inPlace(from), 1.0), end = clipFromPlace * vec4(inPlace(to), 1.0);
   vec2 shares = sharesSeen(begin, end);
   vec2 way = onScreen(mix(begin, end, shares.y)) - onScreen(mix(begin, end, shares.x));
   vec2 along = dot(way, way) > 1e-12 ? normalize(way) : vec2(1.0, 0.0);
@@ -55,11 +60,12 @@ void layLine(vec3 from, vec3 to) {
   lineShare = isEnd ? shares.y : shares.x;
   float angle = PI * (0.5 + float(isEnd ? gl_VertexID - 1 : gl_VertexID) / ${capSides}.0);
   vec2 away = cos(angle) * along + sin(angle) * vec2(-along.y, along.x);
-  besideLine = away * lineWidth * pixelRatio / viewport.zw;
+  float width = lineWidth * pixelRatio;
+  besideLine = away * width / viewport.zw;
   // As OpenGL's stipple: so dashes run on where many short lines make one. They move with the shape.
-  vec4 origin = clipFromStored[3];
+  vec4 origin = clipFromPlace * vec4(inPlace(vec3(0.0)), 1.0);
   vec2 start = origin.w > 0.0 ? onScreen(origin) : vec2(0.0);
-  dashAxis = abs(along.x) >= abs(along.y) ? vec3(1.0, 0.0, start.x) : vec3(0.0, 1.0, start.y);
+  dashAxis = abs(along.x) >= abs(along.y) ? vec3(1.0, 0.0, start.x) / width : vec3(0.0, 1.0, start.y) / width;
 }
 
 void widenLine() {
@@ -88,8 +94,6 @@ Vertex readVertex() {
 export const dashChunk = /* glsl */ `
 #ifdef ${wideLinesDefine}
 
-uniform float pixelRatio;
-uniform float lineWidth;
 uniform float dashes[${mostDashes}];
 uniform int dashCount;
 flat varying vec3 dashAxis;
@@ -97,7 +101,7 @@ flat varying vec3 dashAxis;
 bool isBetweenDashes() {
   float period = 0.0;
   for (int i = 0; i < dashCount; ++i) period += dashes[i];
-  float left = mod((dot(gl_FragCoord.xy, dashAxis.xy) - dashAxis.z) / (lineWidth * pixelRatio), period);
+  float left = mod(dot(gl_FragCoord.xy, dashAxis.xy) - dashAxis.z, period);
   for (int i = 0; i < dashCount; ++i) {
     left -= dashes[i];
     if (left < 0.0) return (i & 1) == 1;

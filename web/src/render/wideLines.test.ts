@@ -5,7 +5,8 @@ import type { ElementArray, IndexArray } from "../decode/arrays.ts";
 import type { BufferStage, DrawRange, StoredBytes } from "../decode/stage.ts";
 import type { Buffers } from "./buffers.ts";
 import { outlineTriangles } from "./wideLineChunk.ts";
-import { wideLineGeometryOf, withWideLines } from "./wideLines.ts";
+import { wideLineGeometryOf } from "./wideLineGeometry.ts";
+import { withWideLines } from "./wideLines.ts";
 
 const contents = new Map<StoredBytes, ElementArray>();
 

@@ -25,6 +25,8 @@ export interface BatchedDraw {
   /** Of the lattice, in the shape's coordinates. */
   readonly step: readonly [number, number, number];
   readonly texCoordFrame: readonly [number, number, number, number];
+  /** As valueFrameOf says it. */
+  readonly valueFrame: { readonly min: readonly number[]; readonly step: readonly number[] };
   readonly request: MaterialRequest;
   readonly appearance: AppearanceDescription;
   readonly pictures: ShownPictures;
@@ -73,6 +75,21 @@ export interface Batch {
   /** The same where it blends: these are drawn. */
   show(runs: readonly Run[]): void;
   dispose(): void;
+}
+
+/** What members have become one of. */
+export interface Merged {
+  readonly members: Iterable<Member>;
+  readonly isEmpty: boolean;
+  /** What members have left that are gone takes much room, or would be seen: it is to be written anew. */
+  readonly isWasteful: boolean;
+  hasRoomFor(member: Member): boolean;
+  add(member: Member): void;
+  remove(member: Member): void;
+  /** Without what has been removed. */
+  writeAnew(): void;
+  /** Valid until there is more of it: they share memory. */
+  makeGeometry(): BufferGeometry;
 }
 
 /**

@@ -12,6 +12,7 @@ import type { PatchDraws } from "../patchDraws.ts";
 import { PickDraw } from "../pickDraw.ts";
 import type { PatchSetting } from "../stageDraws.ts";
 import { boundsOf, colorsOf, materialRequestOf, pickRequestOf, uniformsOf } from "../stageDraws.ts";
+import { valueFrameOf } from "../valueColors.ts";
 import type { BatchedDraw, Member } from "./batch.ts";
 import type { Batches } from "./batches.ts";
 import type { DrawnAs, Drawing } from "./plan.ts";
@@ -26,8 +27,7 @@ export interface BatchSetting {
 
 /** How the stage is drawn, of a geometry that is drawn so. */
 export function drawnAsOf(stage: Stage, drawing: Drawing, appearance: AppearanceDescription, pictures: ShownPictures, batching: Batching): DrawnAs {
-  const mayBatch = stage.draws.every((range) => lookKeyOf(stage, range, appearance, pictures, batching) !== undefined);
-  return !mayBatch ? "alone" : isBlended(stage, appearance, pictures, batching) ? drawing.blended : drawing.opaque;
+  return isBlended(stage, appearance, pictures, batching) ? drawing.blended : drawing.opaque;
 }
 
 export class BatchedStage implements PatchDraws {
@@ -91,29 +91,34 @@ function drawsOf(stage: Stage, setting: PatchSetting, { batching, isMerged }: Ba
   const { geometry, patch, appearance, pictures, shared } = setting;
   const uniforms = uniformsOf(stage, setting);
   const { sphere: bounds } = boundsOf(geometry, patch, stage);
-  return togetherOf(stage, isMerged).flatMap(({ ranges, mayMerge }) => {
+  const blends = isBlended(stage, appearance, pictures, batching);
+  return togetherOf(stage, isMerged, blends).flatMap(({ ranges, mayMerge }) => {
     const [first] = ranges;
-    const lookKey = first && lookKeyOf(stage, first, appearance, pictures, batching);
-    if (first === undefined || lookKey === undefined) return [];
+    if (first === undefined) return [];
     return [{
-      stage, ranges, bounds, appearance, lookKey,
+      stage, ranges, bounds, appearance,
+      lookKey: lookKeyOf(stage, first, appearance, pictures, batching),
       isMerged: isMerged && mayMerge,
-      isBlended: isBlended(stage, appearance, pictures, batching),
+      isBlended: blends,
       // Files that several shapes share hold more than this stage's.
       vertexCount: stage.kind !== "buffers" ? 0 : geometry.container === "bg" ? patch.vertexCount : vertexCountOf(stage),
       shapeFromStored: shapeFromStoredOf(geometry, patch),
       step: storedFrameOf(geometry, patch).step,
       texCoordFrame: [...geometry.texCoordMin, ...geometry.texCoordSize],
+      valueFrame: valueFrameOf(stage, geometry.value),
       request: materialRequestOf(stage, first, geometry, uniforms.of(first), shared, true),
       pictures: laidOn(stage, pictures),
     }];
   });
 }
 
-/** Draws of one kind of primitive are merged as one; a strip of lines would go on into the next. */
-function togetherOf({ kind, draws }: Stage, isMerged: boolean): { ranges: readonly DrawRange[]; mayMerge: boolean }[] {
+/**
+ * Draws of one kind of primitive are merged as one. A strip of thin lines would go on into the next, and of wide
+ * ones, which have no index, a frame could not tell the order.
+ */
+function togetherOf({ kind, draws }: Stage, isMerged: boolean, blends: boolean): { ranges: readonly DrawRange[]; mayMerge: boolean }[] {
   const seen = draws.filter(isSeen);
-  const mayMerge = ({ primitive }: DrawRange) => isMerged && kind === "buffers" && primitive !== "lineStrip";
+  const mayMerge = ({ primitive, isWide }: DrawRange) => isMerged && kind === "buffers" && (isWide === true ? !blends : primitive !== "lineStrip");
   const primitives = new Set(seen.filter(mayMerge).map(({ primitive }) => primitive));
   return [
     ...Array.from(primitives, (primitive) => ({ ranges: seen.filter((range) => range.primitive === primitive), mayMerge: true })),
@@ -135,7 +140,7 @@ function laidOn(stage: Stage, pictures: ShownPictures): ShownPictures {
 }
 
 function lookKeyOf(stage: Stage, { primitive }: DrawRange, appearance: AppearanceDescription, pictures: ShownPictures,
-                   batching: Batching): string | undefined {
+                   batching: Batching): string {
   return batching.keyOf({ primitive, colors: colorsOf(stage) }, appearance, laidOn(stage, pictures));
 }
 

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import type { BufferGeometry, DataTexture } from "three";
+import type { BufferGeometry, DataTexture, InstancedBufferAttribute } from "three";
 import { BufferAttribute, Group, InstancedBufferGeometry, InterleavedBuffer, Matrix4, MeshBasicMaterial, PerspectiveCamera, Sphere, Vector3 } from "three";
 import type { ElementArray } from "../../decode/arrays.ts";
 import { arrayTypeOf, elementTypeOf } from "../../decode/elements.ts";
@@ -14,6 +14,7 @@ import type { BatchedDraw, Member } from "./batch.ts";
 import { Batches } from "./batches.ts";
 import { mostVertices } from "./mergedMesh.ts";
 import { backFaces, frontFaces, placeFields, texelsPerPlace } from "./placeChunk.ts";
+import { mostRepeatedLines } from "./placedGeometry.ts";
 
 const white = [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0];
 
@@ -42,11 +43,18 @@ function stageOf(first: number, stride = 4, index = [0, 1, 2]): BufferStage {
   };
 }
 
+/** The first number of its first vertex. */
+function first({ coord }: BufferStage): number {
+  return arrays.get(coord.bytes)?.[0] ?? 0;
+}
+
 function drawOf(stage: BufferStage, isMerged: boolean, vertexCount = 3, isBlended = false, solid = true): BatchedDraw {
-  const request = { primitive: "triangles", solid, uniforms: {} } as unknown as MaterialRequest;
+  const [{ primitive, isWide } = { primitive: "triangles", isWide: false }] = stage.draws;
+  const wideLineStep = isWide !== true ? 0 : primitive === "lineStrip" ? 1 : 2;
+  const request = { primitive, wideLineStep, solid, uniforms: {} } as unknown as MaterialRequest;
   return {
     stage, ranges: stage.draws, isMerged, isBlended, vertexCount, bounds: new Sphere(new Vector3(), 1), shapeFromStored: new Matrix4(), step: [1, 1, 1],
-    texCoordFrame: [0, 0, 1, 1], request, appearance: {} as AppearanceDescription, pictures: new Map(), lookKey: isBlended ? "blended" : "",
+    texCoordFrame: [0, 0, 1, 1], valueFrame: { min: [first(stage), 0, 0, 0], step: [2, 0, 0, 0] }, request, appearance: {} as AppearanceDescription, pictures: new Map(), lookKey: isBlended ? "blended" : "",
   };
 }
 
@@ -85,9 +93,9 @@ class Scene {
   }
 
   /** What the next frame draws. */
-  frame(): DrawnObject[] {
+  frame(margin: readonly [number, number] = [0, 0]): DrawnObject[] {
     this.batches.sync(new Sphere(new Vector3(), 10));
-    this.batches.update(this.#camera);
+    this.batches.update(this.#camera, margin);
     return (this.batches.root.children as DrawnObject[]).filter(({ visible }) => visible);
   }
 
@@ -265,6 +273,93 @@ describe("small meshes", () => {
     scene.hide(left);
     assert.deepEqual(scene.frame(), []);
   });
+});
+
+describe("wide lines", () => {
+  /** Two lines between three vertices. */
+  function linesOf(start: number): BufferStage {
+    return { ...stageOf(start), index: undefined, draws: [{ primitive: "lineStrip", first: 0, count: 3, isWide: true }] };
+  }
+
+  /** Of each line: the place, and the first coordinates of its ends. */
+  function linesIn({ geometry }: DrawnObject): number[][] {
+    assert.ok(geometry instanceof InstancedBufferGeometry);
+    const [places, begins, ends] = ["place", "position", "positionEnd"].map((name) => geometry.getAttribute(name) as InstancedBufferAttribute);
+    assert.ok(places && begins && ends);
+    return Array.from({ length: geometry.instanceCount }, (_, line) => {
+      const { meshPerAttribute } = places;
+      return [places.getX(Math.floor(line / meshPerAttribute)), begins.getX(line), ends.getX(line)];
+    });
+  }
+
+  const linesAt = ({ place: own }: Member, start: number) => [[own, start, start + 4], [own, start + 4, start + 8]];
+
+  test("of small meshes are one draw, of which nothing is left of what is gone", () => {
+    const scene = new Scene();
+    const members = [10, 20, 30].map((start) => scene.add(drawOf(linesOf(start), true), 0)) as [Member, Member, Member];
+    const [drawn, ...others] = scene.frame();
+    assert.ok(drawn);
+    assert.equal(others.length, 0);
+    assert.equal(drawn.type, "Mesh");
+    assert.deepEqual(linesIn(drawn), members.flatMap((member, n) => linesAt(member, 10 * n + 10)));
+    scene.batches.remove(members[1]);
+    const [left] = scene.frame();
+    assert.ok(left);
+    assert.deepEqual(linesIn(left), [...linesAt(members[0], 10), ...linesAt(members[2], 30)]);
+  });
+
+  test("of one mesh are one draw in all its places, line after line", () => {
+    const scene = new Scene();
+    const draw = drawOf(linesOf(10), false);
+    const first = scene.add(draw, 0);
+    scene.frame();
+    const others = [1, 2, -90].map((x) => scene.add(draw, x));
+    const [drawn, ...further] = scene.frame();
+    assert.ok(drawn);
+    assert.equal(further.length, 0);
+    assert.deepEqual(linesIn(drawn), [first, ...others.slice(0, 2)].flatMap((member) => linesAt(member, 10)));
+  });
+
+  test("of large meshes are a draw for as many places as they may be stored again for", () => {
+    const scene = new Scene();
+    const lineCount = Math.floor(mostRepeatedLines / 3) + 1;
+    const stage = { ...linesOf(0), draws: [{ primitive: "lineStrip", first: 0, count: lineCount + 1, isWide: true }] } as const;
+    const members = [0, 1, 2].map((x) => scene.add(drawOf(stage, false), x));
+    const calls = scene.frame();
+    assert.deepEqual(calls.map((call) => new Set(linesIn(call).map(([own]) => own)).size), [2, 1]);
+    assert.deepEqual(new Set(calls.flatMap(linesIn).map(([own]) => own)), new Set(members.map((member) => member.place)));
+  });
+
+  test("that blend have their turns, also among what is no line", () => {
+    const scene = new Scene();
+    const [lines, panes] = [drawOf(linesOf(10), false, 3, true), drawOf(stageOf(0), true, 3, true)];
+    const members = [scene.add(lines, 0, 1, 1), scene.add(panes, 0, 1, 0), scene.add(lines, 0, 1, -1), scene.add(lines, 0, 1, -2)] as [Member, Member, Member, Member];
+    const calls = scene.frame().toSorted((a, b) => a.renderOrder - b.renderOrder);
+    assert.equal(calls.length, 3);
+    const [far, , near] = calls;
+    assert.ok(far && near);
+    assert.deepEqual(linesIn(far).map(([own]) => own), [members[3], members[3], members[2], members[2]].map((member) => member.place));
+    assert.deepEqual(linesIn(near).map(([own]) => own), [members[0], members[0]].map((member) => member.place));
+  });
+
+  test("are drawn as long as their width reaches into the view", () => {
+    const scene = new Scene();
+    const edge = 10 * Math.tan(Math.PI / 6); // of the view, at z = 0; their bounds are 1 around the middle
+    const [merged, instanced] = [scene.add(drawOf(linesOf(10), true), edge + 1.3), scene.add(drawOf(linesOf(20), false), -edge - 1.3)];
+    assert.equal(scene.frame().length, 0);
+    assert.equal(scene.frame([0, 0.2]).length, 0);
+    assert.equal(scene.frame([0.2, 0]).length, 2);
+    for (const member of [merged, instanced]) scene.move(member, 2 * edge);
+    assert.equal(scene.frame([0.2, 0.2]).length, 0);
+  });
+});
+
+test("what stored values are is told by place, so that shapes of several ranges are one draw", () => {
+  const scene = new Scene();
+  const members = [10, 20].map((start) => scene.add(drawOf(stageOf(start), true), 0));
+  assert.equal(scene.frame().length, 1);
+  const { valueMin, valueStep } = placeFields;
+  assert.deepEqual(members.map((member) => [scene.record(member)[valueMin], scene.record(member)[valueStep]]), [[10, 2], [20, 2]]);
 });
 
 describe("what blends", () => {

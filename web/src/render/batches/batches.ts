@@ -3,13 +3,14 @@
 // stand in.
 
 import type { BufferGeometry, Camera } from "three";
-import { Frustum, Group, Matrix4, Sphere, Vector3 } from "three";
+import { Group, Matrix4, Sphere, Vector3 } from "three";
 import type { BufferStage, Stage } from "../../decode/stage.ts";
 import type { Buffers } from "../buffers.ts";
 import { objectOf } from "../drawnObject.ts";
 import type { Look, MaterialRequest } from "../look.ts";
 import type { PlaceGroup } from "../lightScopes.ts";
 import type { GeometryPool } from "../stageGeometries.ts";
+import { frustumOf } from "../viewFrustum.ts";
 import type { Batch, BatchedDraw, Member } from "./batch.ts";
 import { runsOf } from "./depthOrder.ts";
 import { InstancedBatch } from "./instancedBatch.ts";
@@ -49,6 +50,8 @@ export class Batches {
   add(draw: BatchedDraw, look: readonly number[], group: PlaceGroup): Member {
     const member: Member = { draw, group, place: this.#table.allocate(), batch: undefined, isShown: false, isMirrored: false, sphere: new Sphere() };
     this.#table.write(member.place, placeFields.texCoordFrame, draw.texCoordFrame);
+    this.#table.write(member.place, placeFields.valueMin, draw.valueFrame.min);
+    this.#table.write(member.place, placeFields.valueStep, draw.valueFrame.step);
     this.#table.write(member.place, placeFields.look, look);
     this.#members.add(member);
     if (draw.isBlended) this.#blended.add(member);
@@ -91,12 +94,12 @@ export class Batches {
     for (const member of this.#members) this.#followIn(rootFromScene, member);
   }
 
-  /** Before a frame. */
-  update(camera: Camera): void {
+  /** Before a frame. `margin`: how far what is drawn reaches beyond its bounds, as `frustumOf` takes it. */
+  update(camera: Camera, margin: readonly [number, number]): void {
     if (this.#batches.size === 0) return;
     this.#table.update();
     const viewFromRoot = new Matrix4().multiplyMatrices(camera.matrixWorldInverse, this.root.matrixWorld);
-    const frustum = new Frustum().setFromProjectionMatrix(new Matrix4().multiplyMatrices(camera.projectionMatrix, viewFromRoot));
+    const frustum = frustumOf(camera.projectionMatrix, viewFromRoot, margin);
     const runs = runsOf(this.#blended, frustum, viewFromRoot);
     const emptyBefore = this.#empty;
     this.#empty = new Set();
@@ -173,7 +176,7 @@ export class Batches {
     const material = this.#look.makeMaterial(request, draw.appearance, draw.pictures);
     material.forceSinglePass = true; // three.js would draw all back faces of the batch before all front faces
     const hang = (geometry: BufferGeometry) => {
-      const object = objectOf(request, geometry, material);
+      const object = objectOf({ primitive: request.primitive, isWide: request.wideLineStep > 0 }, geometry, material);
       object.frustumCulled = false; // `update` knows better
       object.matrixAutoUpdate = false;
       if (isMirrored) object.matrix.makeScale(-1, 1, 1);

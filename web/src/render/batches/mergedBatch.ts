@@ -2,15 +2,16 @@
 // WEBGL_multi_draw would need the browser's help.
 
 import type { Frustum } from "three";
-import { BufferAttribute, BufferGeometry, Sphere } from "three";
+import { BufferGeometry, Sphere } from "three";
 import type { Buffers } from "../buffers.ts";
 import type { DrawnObject } from "../drawnObject.ts";
-import type { Batch, BatchParts, Member } from "./batch.ts";
+import type { Batch, BatchParts, Member, Merged } from "./batch.ts";
+import { MergedLines } from "./mergedLines.ts";
 import { MergedMesh } from "./mergedMesh.ts";
 
 export class MergedBatch implements Batch {
   readonly #parts: BatchParts;
-  readonly #mesh: MergedMesh;
+  readonly #mesh: Merged;
   readonly #object: DrawnObject;
   readonly #sphere = new Sphere();
   #geometry = new BufferGeometry();
@@ -19,7 +20,7 @@ export class MergedBatch implements Batch {
 
   constructor(parts: BatchParts, buffers: Buffers) {
     this.#parts = parts;
-    this.#mesh = new MergedMesh(parts.draw, buffers);
+    this.#mesh = parts.draw.request.wideLineStep > 0 ? new MergedLines(parts.draw, buffers) : new MergedMesh(parts.draw, buffers);
     this.#object = parts.hang(this.#geometry);
   }
 
@@ -37,7 +38,6 @@ export class MergedBatch implements Batch {
     this.#isTouched = true;
   }
 
-  /** Its triangles become points, until there are so many of them that all is written anew. */
   remove(member: Member): void {
     this.#mesh.remove(member);
     this.#hasChanged = true;
@@ -49,7 +49,7 @@ export class MergedBatch implements Batch {
   }
 
   update(frustum: Frustum): void {
-    if (this.#isWasteful) this.#mesh.writeAnew();
+    if (this.#mesh.isWasteful) this.#mesh.writeAnew();
     if (this.#hasChanged) this.#send();
     if (this.#isTouched) this.#measure();
     this.#object.visible = !this.#sphere.isEmpty() && frustum.intersectsSphere(this.#sphere);
@@ -65,19 +65,11 @@ export class MergedBatch implements Batch {
     this.#parts.material.dispose();
   }
 
-  get #isWasteful(): boolean {
-    // A point that is drawn twice would be seen in a place that is not its own.
-    const { lostShare } = this.#mesh;
-    return lostShare > 0.5 || (lostShare > 0 && this.#object.type === "Points");
-  }
-
   /** What has been added goes to the GPU with the next frame. */
   #send(): void {
     this.#hasChanged = false;
     this.#geometry.dispose();
-    const geometry = new BufferGeometry();
-    this.#mesh.setVerticesOf(geometry);
-    geometry.setIndex(new BufferAttribute(this.#mesh.index, 1));
+    const geometry = this.#mesh.makeGeometry();
     geometry.boundingSphere = this.#sphere;
     this.#geometry = geometry;
     this.#object.geometry = geometry;

@@ -1,11 +1,10 @@
 // Many small meshes as one: their vertices one after the other, each with the
 // number of its place, and the indices of each mesh together.
 
-import type { BufferGeometry } from "three";
-import { BufferAttribute } from "three";
-import type { BufferStage } from "../../decode/stage.ts";
+import { BufferAttribute, BufferGeometry } from "three";
+import type { BufferStage, DrawRange } from "../../decode/stage.ts";
 import type { Buffers } from "../buffers.ts";
-import type { BatchedDraw, Member } from "./batch.ts";
+import type { BatchedDraw, Member, Merged } from "./batch.ts";
 import { passesOf } from "./batch.ts";
 import { GrowingArray } from "./growingArray.ts";
 import type { Column } from "./meshColumns.ts";
@@ -19,7 +18,8 @@ interface Entry {
   readonly indexCount: number;
 }
 
-export class MergedMesh {
+export class MergedMesh implements Merged {
+  readonly #primitive: DrawRange["primitive"];
   readonly #buffers: Buffers;
   readonly #columns: readonly Column[];
   readonly #places = new GrowingArray(Uint32Array);
@@ -29,7 +29,8 @@ export class MergedMesh {
   #lostIndices = 0;
 
   /** For draws that are like this one in all that `layoutOf` says. */
-  constructor({ stage }: BatchedDraw, buffers: Buffers) {
+  constructor({ stage, request }: BatchedDraw, buffers: Buffers) {
+    this.#primitive = request.primitive;
     this.#buffers = buffers;
     this.#columns = columnsOf(stage as BufferStage);
   }
@@ -45,6 +46,11 @@ export class MergedMesh {
   /** The share of its indices that belong to nobody, 0 … 1. */
   get lostShare(): number {
     return this.#lostIndices === 0 ? 0 : this.#lostIndices / this.#index.length;
+  }
+
+  get isWasteful(): boolean {
+    // A point that is drawn twice would be seen in a place that is not its own.
+    return this.lostShare > 0.5 || (this.lostShare > 0 && this.#primitive === "points");
   }
 
   /** Of all members; those that are gone have left points, which show nothing. */
@@ -77,6 +83,7 @@ export class MergedMesh {
     this.#entries.set(member, { firstIndex, indexCount: this.#index.length - firstIndex });
   }
 
+  /** Its triangles become points, until there are so many of them that all is written anew. */
   remove(member: Member): void {
     const own = this.indicesOf(member);
     own.fill(0);
@@ -84,7 +91,6 @@ export class MergedMesh {
     this.#entries.delete(member);
   }
 
-  /** Without what has been removed. */
   writeAnew(): void {
     const members = Array.from(this.#entries.keys());
     this.#entries.clear();
@@ -93,6 +99,13 @@ export class MergedMesh {
     this.#index.clear();
     this.#lostIndices = 0;
     for (const member of members) this.add(member);
+  }
+
+  makeGeometry(): BufferGeometry {
+    const geometry = new BufferGeometry();
+    this.setVerticesOf(geometry);
+    geometry.setIndex(new BufferAttribute(this.index, 1));
+    return geometry;
   }
 
   /** Valid until it grows: they share its memory. */

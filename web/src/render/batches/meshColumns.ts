@@ -38,19 +38,22 @@ export function vertexCountOf({ coord: { bytes, type, stride } }: BufferStage): 
   return Math.floor(bytes.byteLength / byteSizeOf(type) / stride);
 }
 
-/** Appends the stage's first `count` vertices to the column of one of its attributes. */
-export function appendVertices({ name, components, elementsPerVertex, data }: Column, stage: BufferStage, count: number, buffers: Buffers): void {
+/** Appends vertices of the stage to the column of one of its attributes: its first ones, so many, or those of these numbers. */
+export function appendVertices({ name, components, elementsPerVertex, data }: Column, stage: BufferStage, vertices: number | Uint32Array, buffers: Buffers): void {
   const attribute = storedAttributesOf(stage).find((candidate) => candidate.name === name);
   if (attribute === undefined) throw new RangeError(`the stage has no ${name}`);
   const { bytes, type, stride, offset } = attribute.vertices;
   const from = buffers.read(bytes, type, 0);
+  const areFirst = typeof vertices === "number";
+  const count = areFirst ? vertices : vertices.length;
   const to = data.extend(count * elementsPerVertex);
-  if (stride === elementsPerVertex && offset === 0) {
+  if (areFirst && stride === elementsPerVertex && offset === 0) {
     to.set(from.subarray(0, to.length));
     return;
   }
-  for (let vertex = 0; vertex < count; ++vertex) {
-    for (let c = 0; c < components; ++c) to[vertex * elementsPerVertex + c] = from[vertex * stride + offset + c] ?? 0;
+  for (let n = 0; n < count; ++n) {
+    const first = (areFirst ? n : vertices[n] ?? 0) * stride + offset;
+    for (let c = 0; c < components; ++c) to[n * elementsPerVertex + c] = from[first + c] ?? 0;
   }
 }
 

@@ -12,15 +12,16 @@ export const scopedLightsDefine = "SCOPED_LIGHTS";
 export const backFaces = 2 ** 31;
 export const frontFaces = 2 ** 30;
 
-/** Where in a record each field begins, in numbers. */
-export const placeFields = { matrix: 0, step: 12, shownIn: 15, texCoordFrame: 16, look: 20 } as const;
-export const texelsPerPlace = 8;
-
 /**
- * The matrix' three rows; step and, where the place is shown, one more than the number of its light scope; the frame of texture
- * coordinates; diffuse and opacity; specular and shininess, or metallic and
- * roughness; emissive and ambient intensity.
+ * Where in a record each field begins, in numbers: the matrix' three rows; step and,
+ * where the place is shown, one more than the number of its light scope; the frame of
+ * texture coordinates; a look, which is diffuse and opacity, specular and shininess,
+ * or metallic and roughness, emissive and ambient intensity, the range of the map of
+ * colours, and the width of lines; and what stored values are.
  */
+export const placeFields = { matrix: 0, step: 12, shownIn: 15, texCoordFrame: 16, look: 20, mapRange: 32, lineWidth: 34, valueMin: 36, valueStep: 40 } as const;
+export const texelsPerPlace = 11;
+
 export const placeVertexChunk = /* glsl */ `
 #ifdef ${placesDefine}
   attribute uint place;

@@ -53,15 +53,6 @@ test("vertices that the GPU decodes are not merged, as they are in no buffers", 
   assert.deepEqual(drawn(shapes).slice(-3), ["alone", "instanced", "instanced"]);
 });
 
-test("shapes that values colour have maps of their own, and are drawn alone", () => {
-  const valued = '<BinaryGeometry recordCount="24"><FloatVertexAttribute name="heat" numComponents="1"/></BinaryGeometry>';
-  const scene = readScene(elementsOf(`<X3D>${crowd.map((inner) => `<Shape>${inner}</Shape>`).join("")}<Shape colorBy="heat">${valued}</Shape></X3D>`));
-  const places = shapesOf(scene.root);
-  const last = places.at(-1)?.geometry;
-  assert.ok(last?.value, "the test's shape has values");
-  assert.deepEqual(planOf(places).drawingOf(last), { opaque: "alone", blended: "alone" });
-});
-
 test("shapes that come and go are drawn as if those that are left had always been all", () => {
   const scene = readScene(elementsOf(`<X3D>${[...crowd, geometry("twin", mostMergedVertices / 2), '<ImageGeometry USE="twin"/>']
     .map((inner) => `<Shape>${inner}</Shape>`).join("")}</X3D>`));

@@ -53,7 +53,6 @@ export class DrawingPlan {
   drawingOf(geometry: GeometryDescription): Drawing {
     if (!this.#isCrowd) return alone;
     const count = this.#countOf(geometry);
-    if (isColoredByValues(geometry)) return alone; // each shape has a map of colours
     if (geometry.container !== "sig" && verticesOf(geometry) * count <= mostMergedVertices) return merged;
     return count > 1 ? instanced : byItself;
   }
@@ -81,10 +80,6 @@ export class DrawingPlan {
   #countOf(geometry: GeometryDescription): number {
     return this.#counts.get(geometry) ?? 0;
   }
-}
-
-function isColoredByValues({ value }: GeometryDescription): boolean {
-  return value !== undefined;
 }
 
 /** Infinity where the document does not tell. */

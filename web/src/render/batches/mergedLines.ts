@@ -1,0 +1,73 @@
+// Wide lines of many shapes as those of one: instances of one outline, each with
+// both its ends and the number of its place.
+
+import type { BufferGeometry } from "three";
+import { InstancedBufferAttribute } from "three";
+import type { BufferStage } from "../../decode/stage.ts";
+import type { Buffers } from "../buffers.ts";
+import { LineRecords, outlineGeometry } from "../wideLineGeometry.ts";
+import { lineCountOf } from "../wideLines.ts";
+import type { BatchedDraw, Member, Merged } from "./batch.ts";
+import { GrowingArray } from "./growingArray.ts";
+
+/** In one draw: they go to the GPU together whenever one comes or goes. */
+const mostLines = 65536;
+
+export class MergedLines implements Merged {
+  readonly #buffers: Buffers;
+  readonly #records: LineRecords;
+  readonly #places = new GrowingArray(Uint32Array);
+  readonly #members = new Set<Member>();
+  #isWasteful = false;
+
+  /** For draws that are like this one in all that `layoutOf` says. */
+  constructor({ stage }: BatchedDraw, buffers: Buffers) {
+    this.#buffers = buffers;
+    this.#records = new LineRecords(stage as BufferStage);
+  }
+
+  get members(): Iterable<Member> {
+    return this.#members;
+  }
+
+  get isEmpty(): boolean {
+    return this.#members.size === 0;
+  }
+
+  /** Whatever is left of one that is gone would be seen. */
+  get isWasteful(): boolean {
+    return this.#isWasteful;
+  }
+
+  hasRoomFor({ draw: { ranges } }: Member): boolean {
+    return this.#places.length + ranges.reduce((sum, range) => sum + lineCountOf(range), 0) <= mostLines;
+  }
+
+  add(member: Member): void {
+    const { ranges, stage } = member.draw;
+    for (const range of ranges) {
+      this.#records.add(stage as BufferStage, range, this.#buffers);
+      this.#places.extend(lineCountOf(range)).fill(member.place);
+    }
+    this.#members.add(member);
+  }
+
+  remove(member: Member): void {
+    this.#members.delete(member);
+    this.#isWasteful = true;
+  }
+
+  writeAnew(): void {
+    this.#isWasteful = false;
+    this.#records.clear();
+    this.#places.clear();
+    for (const member of this.#members) this.add(member);
+  }
+
+  makeGeometry(): BufferGeometry {
+    const geometry = outlineGeometry(this.#places.length);
+    this.#records.setOn(geometry);
+    geometry.setAttribute("place", new InstancedBufferAttribute(this.#places.used, 1));
+    return geometry;
+  }
+}
