@@ -32,11 +32,11 @@ export function inlinePage(model: Model, directory: string): BenchPage {
   for (const file of ["x3dom.js", "x3dom.css"]) cpSync(join(repository, "node_modules/x3dom-1.8", file), join(directory, file));
   const html = pageOf(model.sites["SIG classic"]);
   const viewpoint = /<Viewpoint[^>]*>/.exec(html)?.[0] ?? "";
-  const light = /<DirectionalLight[^>]*>/.exec(html)?.[0] ?? "";
+  const lights = html.match(/<DirectionalLight[^>]*><\/DirectionalLight>/g)?.join("") ?? "";
   writeFileSync(join(directory, "index.html"), `<!doctype html><html><head><meta charset="utf-8"><title>${model.name}</title>
 <link rel="stylesheet" href="x3dom.css"><script src="x3dom.js"></script>
 <style>html, body { margin: 0; height: 100% } x3d { width: 100%; height: 100%; border: 0 }</style></head><body>
-<X3D><Scene>${viewpoint}</Viewpoint>${light}</DirectionalLight><Shape><Appearance><Material></Material></Appearance>
+<X3D><Scene>${viewpoint}</Viewpoint>${lights}<Shape><Appearance><Material></Material></Appearance>
 ${inlineMesh(meshOf(model))}</Shape></Scene></X3D></body></html>`);
   return { name: "inline X3D", directory, contentPolicy: lax, saysWhenComplete: false };
 }

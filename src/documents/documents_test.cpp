@@ -186,14 +186,16 @@ NodeContent randomLeaf(Random& random) {
     return OrthoViewpoint{randomText(random),  randomVector(random), randomRotation(random), {-2, -1}, {3, 4},
                           randomVector(random)};
   case 2:
-    return DirectionalLight{randomVector(random), randomColor(random), random.between(0, 1), random.once(2)};
+    return DirectionalLight{randomVector(random), randomColor(random), random.between(0, 1), random.once(2),
+                            random.between(0, 1)};
   case 3:
     return PointLight{randomVector(random), {0, 0, 1},     7, randomColor(random),
-                      random.between(0, 9), random.once(2)};
+                      random.between(0, 9), random.once(2),         random.between(0, 1)};
   default:
     return SpotLight{
         randomVector(random), randomVector(random), random.between(0, 1), random.between(0, 1), {1, 2, 3},
-        random.between(1, 9), randomColor(random),  random.between(0, 9), random.once(2)};
+        random.between(1, 9), randomColor(random),  random.between(0, 9), random.once(2),
+        random.between(0, 1)};
   }
 }
 

@@ -47,6 +47,7 @@ template <typename Visit> void visitFieldsOf(const DirectionalLight*, auto& ligh
   visit("direction", light.direction, Written::always);
   visit("color", light.color, Written::always);
   visit("intensity", light.intensity, Written::always);
+  visit("ambientIntensity", light.ambientIntensity);
   visit("global", light.global);
 }
 
@@ -54,6 +55,7 @@ template <typename Visit> void visitFieldsOf(const PointLight*, auto& light, Vis
   visit("location", light.location, Written::always);
   visit("color", light.color, Written::always);
   visit("intensity", light.intensity, Written::always);
+  visit("ambientIntensity", light.ambientIntensity);
   visit("attenuation", light.attenuation);
   visit("radius", light.radius);
   visit("global", light.global);
@@ -66,6 +68,7 @@ template <typename Visit> void visitFieldsOf(const SpotLight*, auto& light, Visi
   visit("cutOffAngle", light.cutOffAngle);
   visit("color", light.color, Written::always);
   visit("intensity", light.intensity, Written::always);
+  visit("ambientIntensity", light.ambientIntensity);
   visit("attenuation", light.attenuation);
   visit("radius", light.radius);
   visit("global", light.global);

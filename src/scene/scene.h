@@ -51,12 +51,14 @@ struct OrthoViewpoint {
   friend bool operator==(const OrthoViewpoint&, const OrthoViewpoint&) = default;
 };
 
-/// X3D DirectionalLight: shines along `direction`.
+/// X3D DirectionalLight: shines along `direction`. Intensities of lights are 0 .. 1 in X3D
+/// and any number in glTF.
 struct DirectionalLight {
   Vec3d direction{0, 0, -1};
   Vec3f color{1, 1, 1};
   float intensity = 1;
   bool global = false; ///< false: lights what stands below the light's parent
+  float ambientIntensity = 0; ///< 0 .. 1; reaches surfaces whichever way they face
   friend bool operator==(const DirectionalLight&, const DirectionalLight&) = default;
 };
 
@@ -69,6 +71,7 @@ struct PointLight {
   Vec3f color{1, 1, 1};
   float intensity = 1;
   bool global = true;
+  float ambientIntensity = 0;
   friend bool operator==(const PointLight&, const PointLight&) = default;
 };
 
@@ -83,6 +86,7 @@ struct SpotLight {
   Vec3f color{1, 1, 1};
   float intensity = 1;
   bool global = true;
+  float ambientIntensity = 0;
   friend bool operator==(const SpotLight&, const SpotLight&) = default;
 };
 

@@ -20,14 +20,27 @@ namespace imgeo {
 
 namespace {
 
-/// A warm stone: shape shows by shading, and nothing of it is clipped where both
-/// lights meet: (1 + 0.45) * (diffuse + specular) is about 1.
+/// A warm stone: shape shows by shading, and nothing of it is clipped where all lights
+/// meet: (1 + 0.4) * (diffuse + specular) + 0.2 * diffuse is about 1.
 constexpr Material stone{
-    .diffuseColor{0.56f, 0.55f, 0.52f}, .specularColor{0.14f, 0.14f, 0.13f}, .shininess = 0.25f};
+    .diffuseColor{0.52f, 0.51f, 0.485f}, .specularColor{0.13f, 0.13f, 0.12f}, .shininess = 0.25f};
 
 /// From above and to the left of the viewer, warmer than the headlight, so that
 /// carving casts light and shade across the view.
-constexpr DirectionalLight keyLight{{-0.45, -0.8, -0.4}, {1.0f, 0.96f, 0.9f}, 0.45f};
+constexpr DirectionalLight keyLight{{-0.45, -0.8, -0.4}, {1.0f, 0.96f, 0.9f}, 0.4f};
+
+/// From the other side, cooler, with light from everywhere: no wall or ceiling of a room
+/// is black because the viewer looks along it.
+constexpr DirectionalLight fillLight{{0.5, 0.7, 0.5}, {0.9f, 0.95f, 1.0f}, 0.3f};
+
+/// A fifth of what a colour on the screen is: Material takes so much of ambient light, and
+/// in a PhysicalMaterial's linear numbers 0.04 are as bright.
+float ambientIntensityFor(const SceneGraph& graph) {
+  const bool isPhysical = std::ranges::any_of(graph.appearances, [](const Appearance& appearance) {
+    return std::holds_alternative<PhysicalMaterial>(appearance.material);
+  });
+  return isPhysical ? 0.04f : 1.0f;
+}
 
 constexpr Background sky{{0.93f, 0.94f, 0.95f}};
 
@@ -132,8 +145,12 @@ void addDefaults(SceneDocument& document, std::vector<std::string>& warnings) {
   const auto addFirst = [&](NodeContent content) {
     graph.roots.insert(graph.roots.begin(), addNode(graph, {"", std::move(content), {}, ""}));
   };
-  if (!hasLight)
+  if (!hasLight) {
+    DirectionalLight fill = fillLight;
+    fill.ambientIntensity = ambientIntensityFor(graph);
+    addFirst(fill);
     addFirst(keyLight);
+  }
   if (!hasViewpoint)
     addFirst(viewpointFor(whole));
   if (!graph.background)

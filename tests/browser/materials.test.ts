@@ -12,7 +12,7 @@ type Color = [number, number, number];
 
 /** A sphere lit by the headlight alone. */
 function headlitSphere(): string {
-  return variantOf(siteOfGenerated("sphere", "--profile", "classic"), "headlit", (page) => page.replace(/<DirectionalLight[^>]*><\/DirectionalLight>/, ""));
+  return variantOf(siteOfGenerated("sphere", "--profile", "classic"), "headlit", (page) => page.replace(/<DirectionalLight[^>]*><\/DirectionalLight>/g, ""));
 }
 
 /** In the middle of the picture. */
