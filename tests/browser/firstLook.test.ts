@@ -87,6 +87,12 @@ test("a base is on the screen before the runtime, which takes it over as it is",
     assert.ok(difference(first, red).mean > 2, "another colour is seen");
     const blank: Picture = { ...first, data: Uint8Array.from(first.data, (_, i) => first.data[i % first.channels]!) };
     assert.equal(silhouetteDifference(silhouette(first, blank), silhouette(red, blank)), 0);
+    const lit = await pictureAfter(view, () => view.page.evaluate(() => {
+      const lights = '<PointLight location="2 2 4" color="0.2 0.5 0.2" attenuation="1 0.1 0"></PointLight>' +
+        '<SpotLight location="0 0 6" direction="0 0 -1" color="0.2 0.2 0.6" cutOffAngle="0.3" beamWidth="0.1"></SpotLight>';
+      document.querySelector("scene")?.insertAdjacentHTML("beforeend", lights);
+    }));
+    assert.ok(difference(red, lit).mean > 1, "lights of other kinds are seen");
     const seen = await pictureAfter(view, () => view.page.setViewportSize({ width: 300, height: 320 }));
     assert.equal(seen.width, 600);
 

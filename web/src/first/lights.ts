@@ -9,10 +9,11 @@ import type { PlacedLight } from "../navigation/placement.ts";
 import { lengthScaleOf } from "../navigation/matrices.ts";
 import type { FirstScene } from "./scene.ts";
 
+export type LightKind = PlacedLight["light"]["kind"];
+
 /** By the names of the uniforms: the numbers of all lights, one after the other. */
 export interface LightUniforms {
   readonly lightColors: readonly number[];
-  /** The fourth number is 1 where there is a place, and 0 where light comes from far away. */
   readonly lightPlaces: readonly number[];
   readonly lightDirections: readonly number[];
   readonly lightAttenuations: readonly number[];
@@ -22,8 +23,9 @@ export interface LightUniforms {
   readonly ambientLight: readonly [number, number, number];
 }
 
-export function lightCountOf({ lights, headlight }: Pick<FirstScene, "lights" | "headlight">): number {
-  return lights.length + (headlight ? 1 : 0);
+/** Of each light, the headlight last. */
+export function lightKindsOf({ lights, headlight }: Pick<FirstScene, "lights" | "headlight">): LightKind[] {
+  return [...lights.map(({ light }) => light.kind), ...(headlight ? ["directional" as const] : [])];
 }
 
 /** As seen by what stands in the scope: what does not shine there is black. */
@@ -49,16 +51,17 @@ interface LightNumbers {
   readonly cone: readonly number[];
 }
 
-const fromFarAway = { place: [0, 0, 0, 0], attenuation: [1, 0, 0], radius: 0, cone: [-2, -2] };
+/** What a light's kind has no use for. */
+const fromFarAway = { place: [0, 0, 0], attenuation: [1, 0, 0], radius: 0, cone: [0, 0] };
 
 function numbersOf({ light, sceneFromLight }: PlacedLight, viewFromScene: Matrix4): LightNumbers {
   const color = light.color.map((channel) => channel * light.intensity);
   const viewFromLight = viewFromScene.clone().multiply(sceneFromLight);
   const directed = (direction: readonly [number, number, number]) => new Vector3(...direction).transformDirection(viewFromLight).toArray();
   if (light.kind === "directional") return { ...fromFarAway, color, direction: directed(light.direction) };
-  const place = [...new Vector3(...light.location).applyMatrix4(viewFromLight).toArray(), 1];
+  const place = new Vector3(...light.location).applyMatrix4(viewFromLight).toArray();
   const { radius, attenuation } = scaledFalloff(light, lengthScaleOf(sceneFromLight));
-  if (light.kind === "point") return { color, place, direction: [0, 0, -1], attenuation, radius, cone: [-2, -2] };
+  if (light.kind === "point") return { ...fromFarAway, color, place, direction: [0, 0, -1], attenuation, radius };
   const { edge, beam } = coneOf(light);
   return { color, place, direction: directed(light.direction), attenuation, radius, cone: [Math.cos(edge), Math.cos(beam)] };
 }

@@ -10,7 +10,7 @@ import { isBlended, litNumbersOf } from "../lighting/materialNumbers.ts";
 import { lensOf } from "../navigation/camera.ts";
 import type { LightScope } from "../navigation/lightScope.ts";
 import type { LightUniforms } from "./lights.ts";
-import { lightCountOf, lightUniformsOf } from "./lights.ts";
+import { lightKindsOf, lightUniformsOf } from "./lights.ts";
 import type { Program, ProgramKind } from "./program.ts";
 import { attributePlaces, makeProgram } from "./program.ts";
 import { drawUnseen, standIn } from "./rehearsal.ts";
@@ -140,7 +140,7 @@ export class FirstPicture {
 const glTypes = { Int8: 0x1400, Uint8: 0x1401, Int16: 0x1402, Uint16: 0x1403, Int32: 0x1404, Uint32: 0x1405, Float32: 0x1406 } as const;
 
 function kindOf({ geometry, appearance }: FirstShape, scene: FirstScene, { normal, color }: PatchBuffers): ProgramKind {
-  return { hasNormals: normal !== undefined, hasColors: color !== undefined, material: appearance.material.kind, isTwoSided: !geometry.solid, lightCount: lightCountOf(scene) };
+  return { hasNormals: normal !== undefined, hasColors: color !== undefined, material: appearance.material.kind, isTwoSided: !geometry.solid, lights: lightKindsOf(scene) };
 }
 
 /** As three.js' camera of the runtime stands and sees. */
@@ -175,7 +175,7 @@ function setMaterial(gl: WebGL2RenderingContext, { uniform }: Program, { appeara
 
 function setLights(gl: WebGL2RenderingContext, { uniform }: Program, lights: LightUniforms): void {
   gl.uniform3fv(uniform("lightColors"), lights.lightColors);
-  gl.uniform4fv(uniform("lightPlaces"), lights.lightPlaces);
+  gl.uniform3fv(uniform("lightPlaces"), lights.lightPlaces);
   gl.uniform3fv(uniform("lightDirections"), lights.lightDirections);
   gl.uniform3fv(uniform("lightAttenuations"), lights.lightAttenuations);
   gl.uniform1fv(uniform("lightRadii"), lights.lightRadii);

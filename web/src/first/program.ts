@@ -4,6 +4,7 @@
 import { falloff } from "../lighting/falloff.ts";
 import { physicalDefine, toDisplayedChunk, toLinearChunk } from "../lighting/physicalLighting.ts";
 import { x3dLighting } from "../lighting/x3dLighting.ts";
+import type { LightKind } from "./lights.ts";
 
 /** Where attributes are in every program. */
 export const attributePlaces = { position: 0, normal: 1, color: 2 } as const;
@@ -14,7 +15,7 @@ export interface ProgramKind {
   readonly hasNormals: boolean;
   readonly hasColors: boolean;
   readonly isTwoSided: boolean;
-  readonly lightCount: number;
+  readonly lights: readonly LightKind[];
 }
 
 const vertexShader = /* glsl */ `
@@ -43,9 +44,9 @@ void main() {
 }
 `;
 
-// Lights stand in the coordinates of the view. A directional one has no falloff:
-// w of its place is 0. One that shines to all sides has a cone of (-2, -2).
-const fragmentShader = /* glsl */ `
+// Lights stand in the coordinates of the view. Each is called by its kind: a GPU that
+// has to find that out at every pixel goes through all of them.
+const fragmentShader = (lights: readonly LightKind[]): string => /* glsl */ `
 precision highp float;
 struct IncidentLight { vec3 color; vec3 direction; };
 struct ReflectedLight { vec3 directDiffuse; vec3 directSpecular; vec3 indirectDiffuse; vec3 indirectSpecular; };
@@ -61,7 +62,7 @@ uniform float exposure;
 uniform vec3 ambientLight;
 #if LIGHTS > 0
 uniform vec3 lightColors[LIGHTS];
-uniform vec4 lightPlaces[LIGHTS];
+uniform vec3 lightPlaces[LIGHTS];
 uniform vec3 lightDirections[LIGHTS];
 uniform vec3 lightAttenuations[LIGHTS];
 uniform float lightRadii[LIGHTS];
@@ -76,13 +77,19 @@ ${x3dLighting}
 ${falloff}
 
 #if LIGHTS > 0
-IncidentLight lightAt(int i, vec3 place) {
-  if (lightPlaces[i].w == 0.0) return IncidentLight(lightColors[i], -lightDirections[i]);
-  vec3 way = lightPlaces[i].xyz - place;
-  vec3 direction = normalize(way);
-  float share = shareAtDistance(length(way), lightRadii[i], lightAttenuations[i]);
-  if (lightCones[i].x > -2.0) share *= shareInCone(lightCones[i].x, lightCones[i].y, dot(-direction, lightDirections[i]));
-  return IncidentLight(lightColors[i] * share, direction);
+IncidentLight directionalLight(int i, vec3 place) {
+  return IncidentLight(lightColors[i], -lightDirections[i]);
+}
+
+IncidentLight pointLight(int i, vec3 place) {
+  vec3 way = lightPlaces[i] - place;
+  return IncidentLight(lightColors[i] * shareAtDistance(length(way), lightRadii[i], lightAttenuations[i]), normalize(way));
+}
+
+IncidentLight spotLight(int i, vec3 place) {
+  IncidentLight light = pointLight(i, place);
+  light.color *= shareInCone(lightCones[i].x, lightCones[i].y, dot(-light.direction, lightDirections[i]));
+  return light;
 }
 #endif
 
@@ -106,9 +113,7 @@ void main() {
     ReflectedLight reflected = ReflectedLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     vec3 normal = facingNormal();
     vec3 eye = normalize(towardsEye);
-    #if LIGHTS > 0
-      for (int i = 0; i < LIGHTS; ++i) directX3d(lightAt(i, -towardsEye), -towardsEye, normal, eye, vec3(0.0), material, reflected);
-    #endif
+    ${lights.map((kind, i) => `directX3d(${kind}Light(${i}, -towardsEye), -towardsEye, normal, eye, vec3(0.0), material, reflected);`).join("\n    ")}
     ambientX3d(ambientLight, -towardsEye, normal, eye, vec3(0.0), material, reflected);
     vec3 shown = reflected.directDiffuse + reflected.directSpecular + reflected.indirectDiffuse + reflected.indirectSpecular + emissive;
   #endif
@@ -127,14 +132,14 @@ export interface Program {
 
 /** Begins to compile; whoever uses it waits. */
 export function makeProgram(gl: WebGL2RenderingContext, kind: ProgramKind): Program {
-  const { material, hasNormals, hasColors, isTwoSided, lightCount } = kind;
+  const { material, hasNormals, hasColors, isTwoSided, lights } = kind;
   const flags: readonly [string, boolean][] = [
     [physicalDefine, material === "physical"], ["UNLIT", material === "unlit"], ["FLAT", !hasNormals], ["COLORS", hasColors], ["TWO_SIDED", isTwoSided],
   ];
   const defines = flags.map(([name, isSet]) => (isSet ? `#define ${name}\n` : "")).join("");
-  const head = `#version 300 es\n${defines}#define LIGHTS ${lightCount}\n`;
+  const head = `#version 300 es\n${defines}#define LIGHTS ${lights.length}\n`;
   const program = gl.createProgram();
-  for (const [type, text] of [[gl.VERTEX_SHADER, vertexShader], [gl.FRAGMENT_SHADER, fragmentShader]] as const) {
+  for (const [type, text] of [[gl.VERTEX_SHADER, vertexShader], [gl.FRAGMENT_SHADER, fragmentShader(lights)]] as const) {
     const shader = gl.createShader(type);
     if (shader === null) continue; // the context is lost: nothing comes of it
     gl.shaderSource(shader, head + text);
