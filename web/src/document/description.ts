@@ -244,6 +244,8 @@ export interface GroupDescription {
   readonly transform: TransformDescription | undefined;
   /** Of a LOD, whose children these are, one of them visible. */
   readonly levels?: LevelsDescription;
+  /** Of an Inline that names a document: who this is, as a shape's. */
+  readonly inline?: SceneElement;
   readonly children: readonly NodeDescription[];
 }
 

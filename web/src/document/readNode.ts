@@ -166,6 +166,6 @@ function sayInline(node: SceneElement, { warnings, inlined }: NodeReading): Sayi
     const inlines = load && url.length > 0 ? [{ element: node, urls: url, visible: inner.visible, priority: inner.priority }] : [];
     const { nodes, asides } = below(x3d ? [x3d] : [], inner);
     const ofItsScene = { ...asides, navigation: undefined, background: undefined };
-    return { nodes: [groupOf(fields, nodes)], asides: joined([asidesOf({ inlines }), own, ofItsScene]) };
+    return { nodes: [{ ...groupOf(fields, nodes), ...(inlines.length > 0 && { inline: node }) }], asides: joined([asidesOf({ inlines }), own, ofItsScene]) };
   };
 }

@@ -20,6 +20,8 @@ import { joined, warned } from "./said.ts";
 
 /** What a scene shows beyond what its own elements say. Who says something else of an element than before touches it. */
 export interface Supplements {
+  /** The absolute url of the document, which it cannot inline; undefined: nobody knows. */
+  readonly url?: string;
   /** Undefined while it is not here. */
   readonly inlined?: (inline: SceneElement) => InlinedDocument | undefined;
   /** The level of a LOD; undefined while nobody knows how far it is. */
@@ -174,7 +176,7 @@ export class SceneReader {
     const found = this.#supplements.inlined?.(inline);
     if (found === undefined) return undefined;
     const { inlinedBy, host } = place.surroundings;
-    const problem = problemWith(found, inlinedBy);
+    const problem = problemWith(found, inlinedBy, this.#supplements.url);
     if (problem !== undefined) {
       warnings.push({ element: place.element, message: problem });
       return undefined;
@@ -219,8 +221,8 @@ export class SceneReader {
 const withoutAttributes: SceneElement = { localName: "", children: [], getAttribute: () => null, getAttributeNames: () => [] };
 const usualNavigation = readFields(withoutAttributes, nodeFields.NavigationInfo, []);
 
-function problemWith({ url }: InlinedDocument, inlinedBy: readonly InlinedDocument[]): string | undefined {
-  if (inlinedBy.some((outer) => outer.url === url)) return `names ${url}, which it stands in itself`;
+function problemWith({ url }: InlinedDocument, inlinedBy: readonly InlinedDocument[], ownUrl: string | undefined): string | undefined {
+  if (url === ownUrl || inlinedBy.some((outer) => outer.url === url)) return `names ${url}, which it stands in itself`;
   return inlinedBy.length >= mostInlineDepth ? `names ${url}, more than ${mostInlineDepth} documents deep` : undefined;
 }
 

@@ -25,7 +25,7 @@ import { pageWorkers } from "../workers/pageWorkers.ts";
 import { Arrival } from "./arrival.ts";
 import type { ShownShape } from "./firstLook.ts";
 import { takeBases } from "./lookRegistry.ts";
-import { Inlines } from "./inlines.ts";
+import { InlineLoads } from "./inlineLoads.ts";
 import { Loading } from "./loading.ts";
 import { isOfScene } from "./ownNodes.ts";
 import { watchProtocol } from "./protocol.ts";
@@ -65,7 +65,7 @@ export class Viewer {
   readonly #workers = pageWorkers();
   readonly #reader: SceneReader;
   readonly #shapes: ShapeLoads;
-  readonly #inlines: Inlines;
+  readonly #inlines: InlineLoads;
   readonly #levels = new ChosenLevels();
   readonly #steering: Steering;
   readonly #observer: MutationObserver;
@@ -124,7 +124,7 @@ export class Viewer {
       onError: (error, element, loading) => { this.#fail(error, element, loading); },
       maySettle: () => this.#trial !== "due" && this.#trial !== "running",
     }, shown.map(({ element }) => element));
-    this.#inlines = new Inlines(this.#pool, resolve, {
+    this.#inlines = new InlineLoads(this.#pool, resolve, {
       onChange: (inline) => {
         this.#reader.touch(inline);
         this.#readDocument();

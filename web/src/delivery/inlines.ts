@@ -1,47 +1,55 @@
-// Documents that Inlines of the scene name: asked for through the same queue as
-// everything else, before it, and kept outside of the page, whose elements they
+// Documents that Inlines of a scene name: asked for through the same queue as
+// everything else, before it, and kept outside of any page, whose elements they
 // never become. They end with the last Inline that names them.
 
-import type { DeliveryError } from "../delivery/deliveryError.ts";
-import { asDeliveryError } from "../delivery/deliveryError.ts";
-import type { Transfer } from "../delivery/progress.ts";
-import type { Lease, ResourcePool } from "../delivery/resources.ts";
 import type { InlineDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { InlinedDocument } from "../document/readScene.ts";
-import { parseInlined, requireHttp } from "./inlinedDocument.ts";
-import { Loading } from "./loading.ts";
+import type { DeliveryError } from "./deliveryError.ts";
+import { asDeliveryError } from "./deliveryError.ts";
+import { parseInlined } from "./inlinedDocument.ts";
+import type { Transfer } from "./progress.ts";
+import type { Lease, ResourcePool } from "./resources.ts";
 
 /** Before every vertex that is known already: what it holds is not even known. */
 const documentWeight = 2 ** 24;
 const expectedBytes = 30_000;
 
 export interface InlinesListener {
-  /** Something has come: the Inline is to be read anew. */
-  onChange(inline: SceneElement): void;
-  onError(error: DeliveryError, inline: Element, loading: Loading): void;
+  /** It is asked for. Not called again for the same Inline before `onLeave`. */
+  onBegin?(inline: SceneElement): void;
+  /** Its document is here, or none of its urls has led to one: the Inline is to be read anew. */
+  onEnd(inline: SceneElement, error: DeliveryError | undefined): void;
+  /** The scene no longer has it, or it names others. */
+  onLeave?(inline: SceneElement): void;
+}
+
+export interface InlinesOptions {
+  readonly pool: ResourcePool;
+  /** The absolute url of one that an Inline names. Throws DecodeError for what must not be asked for. */
+  readonly urlOf: (url: string) => string;
+  /** The document that the scene begins with, which is here, though it cannot stand in itself. */
+  readonly own?: InlinedDocument;
+  /** The <X3D> in a document; relative urls in it become absolute. Throws DecodeError. */
+  readonly parse?: (bytes: Uint8Array, url: string) => SceneElement;
 }
 
 interface Followed {
   readonly urls: readonly string[];
-  readonly loading: Loading;
-  /** Which of its urls is tried. */
-  tried: number;
   lease: Lease | undefined;
   document: InlinedDocument | undefined;
+  isEnded: boolean;
 }
 
 export class Inlines {
-  readonly #pool: ResourcePool;
-  readonly #resolve: (url: string) => string;
+  readonly #options: InlinesOptions;
   readonly #listener: InlinesListener;
   readonly #followed = new Map<SceneElement, Followed>();
   /** By their absolute url, so that two Inlines of one document show the same shapes. */
   readonly #documents = new Map<string, InlinedDocument>();
 
-  constructor(pool: ResourcePool, resolve: (url: string) => string, listener: InlinesListener) {
-    this.#pool = pool;
-    this.#resolve = resolve;
+  constructor(options: InlinesOptions, listener: InlinesListener) {
+    this.#options = options;
     this.#listener = listener;
   }
 
@@ -50,18 +58,24 @@ export class Inlines {
     return this.#followed.get(inline)?.document;
   }
 
-  get loadings(): readonly Loading[] {
-    return Array.from(this.#followed.values(), ({ loading }) => loading);
+  /** Its document has come, or none will. */
+  isEnded(inline: SceneElement): boolean {
+    return this.#followed.get(inline)?.isEnded === true;
   }
 
-  /** The page has been told all. */
-  get isQuiet(): boolean {
-    return this.loadings.every(({ isEnded }) => isEnded);
+  /** All that are asked for have ended. */
+  get isSettled(): boolean {
+    return Array.from(this.#followed.values()).every(({ isEnded }) => isEnded);
   }
 
-  /** Of those on their way. */
+  /** Of the file that an Inline has asked for last. */
+  transfersOf(inline: SceneElement): readonly Readonly<Transfer>[] {
+    const lease = this.#followed.get(inline)?.lease;
+    return lease === undefined ? [] : [lease.transfer];
+  }
+
   get transfers(): readonly Readonly<Transfer>[] {
-    return Array.from(this.#followed.values()).flatMap((followed) => transfersOf(followed));
+    return Array.from(this.#followed.keys()).flatMap((inline) => this.transfersOf(inline));
   }
 
   /** Asks for what is seen, and lets go of what the scene no longer has. */
@@ -76,7 +90,7 @@ export class Inlines {
       if (inline !== undefined && isSame(inline.urls, followed.urls)) continue;
       this.#followed.delete(element);
       followed.lease?.release();
-      followed.loading.abandon();
+      this.#listener.onLeave?.(element);
     }
     for (const inline of seen.values()) this.#ask(inline);
     const inUse = new Set(Array.from(this.#followed.values(), ({ document }) => document));
@@ -89,28 +103,21 @@ export class Inlines {
 
   #ask({ element, urls, visible, priority }: InlineDescription): void {
     const known = this.#followed.get(element);
-    if (known === undefined && !visible) return;
-    const followed = known ?? this.#begin(element as Element, urls);
-    followed.lease?.setPriority(priority * documentWeight);
-    if (known === undefined) void this.#load(element as Element, followed, priority * documentWeight);
-  }
-
-  #begin(element: Element, urls: readonly string[]): Followed {
-    const followed: Followed = {
-      urls, tried: 0, lease: undefined, document: undefined,
-      loading: new Loading(element, () => transfersOf(followed)),
-    };
+    known?.lease?.setPriority(priority * documentWeight);
+    if (known !== undefined || !visible) return;
+    const followed: Followed = { urls, lease: undefined, document: undefined, isEnded: false };
     this.#followed.set(element, followed);
-    return followed;
+    this.#listener.onBegin?.(element);
+    void this.#load(element, followed, priority * documentWeight);
   }
 
   /** One url after the other until one leads to a document. */
-  async #load(element: Element, followed: Followed, priority: number): Promise<void> {
+  async #load(element: SceneElement, followed: Followed, priority: number): Promise<void> {
     const isOver = () => this.#followed.get(element) !== followed;
     let failure: DeliveryError | undefined;
     for (const url of followed.urls) {
       try {
-        followed.document = await this.#documentAt(this.#resolve(url), followed, priority);
+        followed.document = await this.#documentAt(url, followed, priority);
         break;
       } catch (error) {
         if (isOver()) return;
@@ -118,17 +125,16 @@ export class Inlines {
       }
     }
     if (isOver()) return;
-    if (followed.document !== undefined) followed.loading.reach("full");
-    else if (failure !== undefined) this.#listener.onError(failure, element, followed.loading);
-    followed.loading.settle();
-    this.#listener.onChange(element);
+    followed.isEnded = true;
+    this.#listener.onEnd(element, followed.document === undefined ? failure : undefined);
   }
 
-  async #documentAt(url: string, followed: Followed, priority: number): Promise<InlinedDocument> {
-    const known = this.#documents.get(url);
+  async #documentAt(named: string, followed: Followed, priority: number): Promise<InlinedDocument> {
+    const { pool, urlOf, own, parse = parseInlined } = this.#options;
+    const url = urlOf(named);
+    const known = url === own?.url ? own : this.#documents.get(url);
     if (known !== undefined) return known;
-    requireHttp(url);
-    const lease = this.#pool.lease({ kind: "bytes", url, priority, expectedBytes });
+    const lease = pool.lease({ kind: "bytes", url, priority, expectedBytes });
     followed.lease?.release();
     followed.lease = lease;
     const content = await lease.content;
@@ -136,7 +142,7 @@ export class Inlines {
       const sooner = this.#documents.get(url); // for another Inline
       if (sooner !== undefined) return sooner;
       if (content.kind !== "bytes") throw new TypeError("the pool gave no bytes");
-      const document = { url, x3d: parseInlined(content.bytes, url) };
+      const document = { url, x3d: parse(content.bytes, url) };
       this.#documents.set(url, document);
       return document;
     } catch (error) {
@@ -146,10 +152,6 @@ export class Inlines {
       lease.finish();
     }
   }
-}
-
-function transfersOf({ lease }: Followed): readonly Readonly<Transfer>[] {
-  return lease === undefined ? [] : [lease.transfer];
 }
 
 function isSame(a: readonly string[], b: readonly string[]): boolean {
