@@ -294,3 +294,65 @@ describe("the loader keeps three's conventions", () => {
     }
   });
 });
+
+test("documents that Inlines name come with the scene, and levels of a LOD as cameras look at it", async () => {
+  const site = siteOfGenerated("trefoil", "--profile", "compact");
+  const unlit = (name: string, color: string): string =>
+    `<Shape DEF="${name}"><Appearance><UnlitMaterial emissiveColor="${color}"/><ImageTexture url="two.png"/></Appearance><Box/></Shape>`;
+  const x3d = (...nodes: string[]): string => `<X3D><Scene>${nodes.join("")}</Scene></X3D>`;
+  const { closed, open } = gate();
+  const server = (server: View["server"]): void => {
+    server.put("/world.x3d", x3d(`<Transform translation="0 3 0"><Inline DEF="part" url='"lost.x3d" "parts/part.x3d"'/></Transform>`,
+      '<Inline url="gone.x3d"/><Inline url="world.x3d"/>',
+      `<LOD DEF="levels" range="12"><Inline DEF="near" url="model.x3d"/>${unlit("far", "1 1 1")}</LOD>`));
+    server.put("/parts/part.x3d", x3d('<Inline url="part.x3d"/>', unlit("cube", "1 1 1")));
+    server.put("/model.x3d", readFileSync(join(site, "scene.x3d")));
+    for (const path of ["/two.png", "/parts/two.png"]) {
+      server.put(path, encodePng({ width: 1, height: 1, channels: 3, data: Uint8Array.from(path === "/two.png" ? [10, 10, 240] : [10, 240, 10]) }));
+    }
+    server.when(/^\/model\.x3d$/, { hold: closed });
+  };
+  await withApp(site, { server, expectedErrors: /404/ }, async ({ page, server }) => {
+    const lines = await page.evaluate(() => window.app.log("world.x3d"));
+    for (const item of ["part.x3d", "lost.x3d", "gone.x3d"]) {
+      const isLost = item !== "part.x3d";
+      assert.deepEqual(lines.filter((line) => line.endsWith(` ${item}`)), [`start ${item}`, ...(isLost ? [`error ${item}`] : []), `end ${item}`]);
+    }
+    assert.deepEqual(lines.filter((line) => line.endsWith(" world.x3d")), ["start world.x3d", "end world.x3d"]);
+    assert.equal(lines[lines.indexOf("onLoad") + 1], "showing cube, far");
+    assert.equal(lines.filter((line) => line === "manager.onLoad").length, 1);
+    assert.ok(!lines.some((line) => line.startsWith("onError")));
+    assert.deepEqual(await page.evaluate(() => window.app.names()), { part: "Group", cube: "Group", levels: "LOD", near: "Group", far: "Group" });
+    assert.equal(server.requestsOf(/two\.png$/).length, 2);
+    assert.equal(server.requestsOf(/^\/(model\.x3d|geometry)/).length, 0);
+
+    // From afar the last level; from near by too, until all of the first shows something.
+    const look = (z: number): Promise<number> => page.evaluate((z) => window.app.look([0, 0, z]), z);
+    const seen = async (): Promise<Picture> => decodePng(await page.screenshot());
+    assert.equal(await look(15), 1);
+    assert.deepEqual(await page.evaluate(() => window.app.pick(320, 240).ray?.name), "far");
+    assert.equal(colorAt(await seen(), 320, 240), "blue");
+    assert.equal(await look(9), 1);
+    await until("the level is asked for", () => server.requestsOf(/^\/model\.x3d$/).length === 1);
+    assert.equal(await look(9), 1);
+    open();
+    await until("the level is there", async () => await look(9) === 0 && await page.evaluate(() => window.app.isSettled()));
+    const found = await page.evaluate(() => [window.app.pick(320, 300), window.app.pick(300, 50)]);
+    assert.deepEqual(found.map(({ gpu, ray }) => [gpu?.name, ray?.name]), [["trefoil", "trefoil"], ["cube", "cube"]]);
+    assert.equal(colorAt(await seen(), 300, 50), "green");
+
+    // What has come is there in the frame in which it is looked at.
+    const asked = server.requestsOf(/./).length;
+    assert.equal(await look(15), 1);
+    assert.equal(await look(9), 0);
+    assert.equal(server.requestsOf(/./).length, asked);
+  });
+});
+
+/** As far as one channel says it, whatever the app's tone mapping. */
+function colorAt({ data, width, channels }: Picture, x: number, y: number): string {
+  const at = (y * width + x) * channels;
+  const pixel = Array.from(data.subarray(at, at + 3));
+  const strong = pixel.flatMap((value, channel) => (value > 150 ? [channel] : []));
+  return strong.length === 1 ? ["red", "green", "blue"][strong[0]!]! : pixel.join(" ");
+}

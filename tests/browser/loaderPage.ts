@@ -3,7 +3,7 @@
 
 import {
   ACESFilmicToneMapping, AmbientLight, Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, Fog, LineBasicMaterial, LineSegments,
-  LoadingManager, Mesh, MeshStandardMaterial, MeshToonMaterial, PerspectiveCamera, PlaneGeometry, PointLight, Points, PointsMaterial,
+  LoadingManager, type LOD, Mesh, MeshStandardMaterial, MeshToonMaterial, PerspectiveCamera, PlaneGeometry, PointLight, Points, PointsMaterial,
   Raycaster, Scene, SpotLight, SRGBColorSpace, Vector2, Vector3, WebGLRenderer, type Light, type Object3D,
 } from "three";
 import { ImgeoLoader, type ImgeoScene } from "../../web/src/loader/index.ts";
@@ -49,6 +49,12 @@ declare global {
       /** Ends what was loaded. */
       dispose: () => void;
       inspect: () => Promise<Record<string, unknown>>;
+      /** Draws what is loaded as it is seen from a place; the level that its LOD then shows. */
+      look: (from: [number, number, number]) => Promise<number>;
+      /** Nothing of what is loaded is on its way. */
+      isSettled: () => boolean;
+      /** Names of what is below the loaded scene, and of what. */
+      names: () => Record<string, string>;
     };
   }
 }
@@ -169,12 +175,12 @@ window.app = {
     };
     await new Promise<void>((resolve) => {
       const onLoad = (scene: ImgeoScene): void => {
-        lines.push("onLoad");
+        lines.push("onLoad", `showing ${meshesIn(scene).map(({ parent }) => parent?.name).toSorted().join(", ")}`);
         loaded = scene;
         void scene.complete.then(() => { lines.push("complete"); resolve(); }, (error: unknown) => { lines.push((error as Error).name); resolve(); });
       };
       const onError = (error: unknown): void => { lines.push(`onError ${String(error)}`); resolve(); };
-      new ImgeoLoader(manager).setPath("./").load(url, onLoad, onProgress, onError, { signal: aborter.signal });
+      new ImgeoLoader(manager).setPath("./").setWorkerUrl("/worker.js").load(url, onLoad, onProgress, onError, { signal: aborter.signal });
     });
     await all;
     return lines;
@@ -196,6 +202,27 @@ window.app = {
   dispose() {
     loaded?.dispose();
     loaded = undefined;
+  },
+
+  async look(from) {
+    if (loaded === undefined) throw new Error("nothing is loaded");
+    const scene = new Scene().add(loaded);
+    camera.position.set(...from);
+    camera.lookAt(0, 0, 0);
+    renderer.render(scene, camera);
+    await new Promise(requestAnimationFrame);
+    const lod = loaded.getObjectByProperty("isLOD", true) as LOD;
+    return lod.getCurrentLevel();
+  },
+
+  isSettled() {
+    return loaded?.transfers.every(({ state }) => state === "ready" || state === "failed") === true;
+  },
+
+  names() {
+    const names: Record<string, string> = {};
+    loaded?.traverse(({ name, type }) => { if (name !== "") names[name] = type; });
+    return names;
   },
 
   async inspect() {

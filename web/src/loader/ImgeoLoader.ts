@@ -110,14 +110,16 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
 
   #sceneOf(text: string, name: string, documentUrl: string): ImgeoScene {
     const base = this.resourcePath === "" ? documentUrl : new URL(this.resourcePath, document.baseURI).href;
-    // What is no URL is left for the request to fail on.
-    const resolve = (url: string) => this.manager.resolveURL(URL.canParse(url, base) ? new URL(url, base).href : url);
-    const scene = new ImgeoScene(readDocument(text, name), {
-      resolve, scheduler: this.#scheduler, makeMaterial: this.#makeMaterial, keepsVertices: this.#keepsVertices,
+    // What is no URL is left for the request to fail on, or for the manager to know.
+    const urlOf = (named: string) => (URL.canParse(named, base) ? new URL(named, base).href : named);
+    const resolve = (url: string) => this.manager.resolveURL(url);
+    const scene = new ImgeoScene({
+      x3d: readDocument(text, name), url: documentUrl, urlOf, resolve,
+      scheduler: this.#scheduler, makeMaterial: this.#makeMaterial, keepsVertices: this.#keepsVertices,
       runJob: (job, input, signal) => (this.#workers ??= pageWorkers(this.#workerUrl)).run(job, input, signal),
       fetch: (input, init) => fetch(input, { ...init, ...this.#requestInit }),
     });
-    reportTransfers(scene, this.manager, resolve);
+    reportTransfers(scene, this.manager, (named) => resolve(urlOf(named)));
     return scene;
   }
 

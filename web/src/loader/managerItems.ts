@@ -3,7 +3,7 @@ import type { Transfer } from "../delivery/progress.ts";
 import { isSettled } from "../delivery/progress.ts";
 import type { ImgeoScene } from "./imgeoScene.ts";
 
-/** Each file of a scene is an item of the manager, from when it is asked for until it is here, has failed or is given up. */
+/** Each file of a scene, but not what its documents hold themselves, is an item of the manager, from when it is asked for until it is here, has failed or is given up. */
 export function reportTransfers(scene: ImgeoScene, manager: LoadingManager, resolve: (url: string) => string): void {
   const open = new Set<Readonly<Transfer>>();
   const known = new WeakSet<Readonly<Transfer>>();
@@ -16,7 +16,7 @@ export function reportTransfers(scene: ImgeoScene, manager: LoadingManager, reso
   const report = () => {
     const transfers = new Set(scene.transfers);
     for (const transfer of transfers) {
-      if (!known.has(transfer)) {
+      if (!known.has(transfer) && !transfer.url.startsWith("data:")) {
         known.add(transfer);
         open.add(transfer);
         manager.itemStart(resolve(transfer.url));

@@ -1,8 +1,5 @@
-import type { SceneDescription } from "../document/description.ts";
-import { readScene } from "../document/readScene.ts";
-
-/** Reads the <X3D> element of a `scene.x3d` or of a page. Throws an Error that names `url` where there is none. */
-export function readDocument(text: string, url: string): SceneDescription {
+/** The <X3D> element of a `scene.x3d` or of a page. Throws an Error that names `url` where there is none. */
+export function readDocument(text: string, url: string): Element {
   const isXml = /^\s*(<\?xml|<!DOCTYPE X3D|<X3D)/.test(text);
   const parsed = new DOMParser().parseFromString(text, isXml ? "text/xml" : "text/html");
   const mistake = isXml ? parsed.querySelector("parsererror") : null;
@@ -10,6 +7,5 @@ export function readDocument(text: string, url: string): SceneDescription {
   // In XML names keep their case, in HTML they have lost it.
   const x3d = parsed.querySelector("X3D, x3d");
   if (x3d === null) throw new Error(`${url} has no X3D element`);
-  // What is near and far an app knows for itself: it gets the first level, the finest.
-  return readScene(x3d, { levelOf: () => 0 });
+  return x3d;
 }

@@ -22,6 +22,8 @@ export interface ShapePlaces {
   /** It is described in another way there, stands elsewhere, or in another light. */
   onChange(shape: ShapeDescription, place: PlacedNode, group: PlaceGroup, before: ShapeDescription): void;
   onLeave(shape: ShapeDescription, place: PlacedNode, group: PlaceGroup): void;
+  /** What stands in the scene for a group of it. Undefined: a plain one. */
+  makeGroup?(description: GroupDescription): Object3D | undefined;
 }
 
 /** A group that is seen, with its box in the scene's coordinates. */
@@ -33,7 +35,9 @@ export interface BoundedGroup {
 export class SceneGraph implements PlacedTreeListener {
   readonly root = new Group();
   readonly #tree = new PlacedTree(this);
-  readonly #groups = new Map<PlacedNode, PlaceGroup>();
+  readonly #groups = new Map<PlacedNode, Object3D>();
+  /** Those of them that are shapes'. */
+  readonly #shapeGroups = new Map<PlacedNode, PlaceGroup>();
   readonly #shapes: ShapePlaces;
   #placedLights: readonly PlacedLight[] = [];
   #lights: SceneLights = makeLights([]);
@@ -85,16 +89,14 @@ export class SceneGraph implements PlacedTreeListener {
   }
 
   onEnter(node: PlacedNode): void {
-    const { description, parent } = node;
-    if (description.kind !== "group" && description.kind !== "shape") return;
+    const { description } = node;
+    if (description.kind === "group") this.#hang(node, description, this.#shapes.makeGroup?.(description) ?? new Group());
+    if (description.kind !== "shape") return;
     const group: PlaceGroup = new Group();
-    group.matrixAutoUpdate = false;
     group.lightScope = node.lightScope;
-    this.#groups.set(node, group);
-    const around = parent === undefined ? this.root : this.#groups.get(parent);
-    around?.add(group);
-    describe(description, group, true);
-    if (description.kind === "shape") this.#shapes.onEnter(description, node, group);
+    this.#shapeGroups.set(node, group);
+    this.#hang(node, description, group);
+    this.#shapes.onEnter(description, node, group);
   }
 
   onChange(node: PlacedNode, hasMoved: boolean, before: NodeDescription): void {
@@ -102,20 +104,29 @@ export class SceneGraph implements PlacedTreeListener {
     const group = this.#groups.get(node);
     if (group === undefined || (description.kind !== "group" && description.kind !== "shape")) return;
     describe(description, group, hasMoved);
-    group.lightScope = node.lightScope;
-    if (description.kind === "shape" && before.kind === "shape") this.#shapes.onChange(description, node, group, before);
+    const shapeGroup = this.#shapeGroups.get(node);
+    if (shapeGroup) shapeGroup.lightScope = node.lightScope;
+    if (shapeGroup && description.kind === "shape" && before.kind === "shape") this.#shapes.onChange(description, node, shapeGroup, before);
   }
 
   onLeave(node: PlacedNode): void {
-    const group = this.#groups.get(node);
-    if (group === undefined) return;
-    if (node.description.kind === "shape") this.#shapes.onLeave(node.description, node, group);
-    group.removeFromParent();
+    const shapeGroup = this.#shapeGroups.get(node);
+    if (shapeGroup && node.description.kind === "shape") this.#shapes.onLeave(node.description, node, shapeGroup);
+    this.#groups.get(node)?.removeFromParent();
     this.#groups.delete(node);
+    this.#shapeGroups.delete(node);
+  }
+
+  #hang(node: PlacedNode, description: GroupDescription | ShapeDescription, group: Object3D): void {
+    group.matrixAutoUpdate = false;
+    this.#groups.set(node, group);
+    const around = node.parent === undefined ? this.root : this.#groups.get(node.parent);
+    around?.add(group);
+    describe(description, group, true);
   }
 }
 
-function describe(description: GroupDescription | ShapeDescription, group: Group, hasMoved: boolean): void {
+function describe(description: GroupDescription | ShapeDescription, group: Object3D, hasMoved: boolean): void {
   group.visible = description.visible;
   if (!hasMoved) return;
   if (description.kind === "shape") {

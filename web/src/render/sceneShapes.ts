@@ -23,6 +23,7 @@ import type { SceneChanges } from "./shapeChanges.ts";
 import { ShapeChanges } from "./shapeChanges.ts";
 import type { ShapeSetting } from "./shapeObject.ts";
 import { ShapeObject } from "./shapeObject.ts";
+import { isShown } from "./shown.ts";
 import { frustumOf } from "./viewFrustum.ts";
 
 /** What the scene has in it, in the scene's coordinates. */
@@ -237,8 +238,4 @@ function compileAgain(object: Object3D): void {
 
 function* shownDraws(object: ShapeObject): Generator<PickCandidate> {
   for (const drawn of object.placedDraws()) if (isShown(drawn.group)) yield drawn;
-}
-
-function isShown(object: Object3D | null): boolean {
-  return object === null || (object.visible && isShown(object.parent));
 }
