@@ -107,6 +107,15 @@ test("values and wide lines are drawn together in a scene of many shapes, and lo
     const alone = await view.picture();
     assert.ok(await drawsOfFrame(view) >= 15, `${await drawsOfFrame(view)} draws`);
     assertSamePicture("batched-looks-alone", together, alone, boundsOfQuantised);
+    await view.page.evaluate((text) => { document.querySelector("scene")!.insertAdjacentHTML("beforeend", text); }, crowd);
+    await view.picture();
+    assert.ok(await drawsOfFrame(view) <= mostDraws + 1, "they are drawn together again");
+    await view.page.evaluate(() => { for (const gone of document.querySelectorAll("scene > transform, scene > group")) gone.remove(); });
+    await view.picture();
+    assert.deepEqual(await view.page.evaluate(() => {
+      const { geometries, bufferBytes, textureBytes } = document.querySelector<ViewElement>("x3d")!.statistics!;
+      return { geometries, bufferBytes, textureBytes };
+    }), { geometries: 0, bufferBytes: 0, textureBytes: 0 }, "nothing of them is left on the GPU");
     for (const picture of [together, alone]) {
       const last = (Math.floor(picture.height / 2) * picture.width + picture.width - 1) * picture.channels;
       assert.deepEqual(Array.from(picture.data.subarray(last, last + 3)), [0, 255, 255], "a line beyond the border reaches into the picture");

@@ -50,15 +50,27 @@ async function freshPicture(site: string, scene: string): Promise<Picture> {
   return seen;
 }
 
-/** Self-contained: each runs in the page. */
-const changes: Record<string, () => void> = {
+type Changes = Record<string, () => void>;
+
+/** Self-contained: each runs in the page, after those before it. */
+const changesOfLook: Changes = {
   "a material's colour": () => { document.querySelector("material")!.setAttribute("diffuseColor", "0.9 0.2 0.1"); },
   "a material's own light": () => { document.querySelector("material")!.setAttribute("emissiveColor", "0 0.3 0"); },
   "a material's gloss": () => {
     document.querySelector("material")!.setAttribute("specularColor", "0.7 0.7 0.7");
     document.querySelector("material")!.setAttribute("shininess", "0.05");
   },
+  "a light": () => {
+    const light = document.createElement("DirectionalLight");
+    light.setAttribute("direction", "-1 -1 0");
+    light.setAttribute("color", "1 0.5 0");
+    document.querySelector("scene")!.append(light);
+  },
   "a material's transparency": () => { document.querySelector("material")!.setAttribute("transparency", "0.5"); },
+  "the sky": () => { document.querySelector("background")!.setAttribute("skyColor", "0.1 0.2 0.4"); },
+};
+
+const changesOfPlace: Changes = {
   "a transform's translation": () => { document.querySelector("transform")!.setAttribute("translation", "0.8 0.4 0"); },
   "a transform's rotation": () => { document.querySelector("transform")!.setAttribute("rotation", "0 1 0.2 0.9"); },
   "a transform's scale": () => { document.querySelector("transform")!.setAttribute("scale", "0.6 0.9 0.7"); },
@@ -66,46 +78,101 @@ const changes: Record<string, () => void> = {
     document.querySelector("viewpoint")!.setAttribute("orientation", "0 0 1 0.4");
     document.querySelector("viewpoint")!.setAttribute("fieldOfView", "1.1");
   },
-  "the sky": () => { document.querySelector("background")!.setAttribute("skyColor", "0.1 0.2 0.4"); },
-  "a light": () => {
-    const light = document.createElement("DirectionalLight");
-    light.setAttribute("direction", "-1 -1 0");
-    light.setAttribute("color", "1 0.5 0");
-    document.querySelector("scene")!.append(light);
-  },
-  "a shape that is hidden": () => { document.querySelector("shape")!.setAttribute("visible", "false"); },
-  "a group that is hidden in X3DOM's words": () => { document.querySelector("transform")!.setAttribute("render", "false"); },
   "a shape below another transform": () => {
     const other = document.createElement("Transform");
-    other.setAttribute("scale", "0.5 0.5 0.5");
+    other.setAttribute("scale", "1.5 1.5 1.5");
     document.querySelector("scene")!.append(other);
     other.append(document.querySelector("shape")!);
   },
-  "a switch around it": () => {
-    const choice = document.createElement("Switch");
-    document.querySelector("scene")!.append(choice);
-    choice.append(document.querySelector("transform")!);
-  },
+};
+
+const changesOfVertices: Changes = {
+  "the box that stored integers are spread over": () => { document.querySelector("imagegeometry")!.setAttribute("size", "3 6 4"); },
+  "a surface that has no normals any more": () => { document.querySelector("geometrypatch")!.removeAttribute("normal"); },
+};
+
+/** Self-contained: hidden, then shown again. */
+const waysToHide: Record<string, readonly [hide: () => void, show: () => void]> = {
+  "a shape": [
+    () => { document.querySelector("shape")!.setAttribute("visible", "false"); },
+    () => { document.querySelector("shape")!.removeAttribute("visible"); },
+  ],
+  "a group, in X3DOM's words": [
+    () => { document.querySelector("transform")!.setAttribute("render", "false"); },
+    () => { document.querySelector("transform")!.setAttribute("render", "true"); },
+  ],
+  "a switch around it": [
+    () => {
+      const choice = document.createElement("Switch");
+      document.querySelector("scene")!.append(choice);
+      choice.append(document.querySelector("transform")!);
+    },
+    () => { document.querySelector("switch")!.setAttribute("whichChoice", "0"); },
+  ],
 };
 
 describe("a change in the document shows", () => {
-  for (const [name, change] of Object.entries(changes)) {
-    test(name, async () => {
-      const site = twoMeshSite();
-      const replace = (html: Buffer): string => inTransform(html.toString());
-      await withPage(site, { server: (server) => server.when(/^\/$/, { replace }) }, async (view) => {
-        await view.promise("complete");
-        const before = await view.picture();
+  const replace = (html: Buffer): string => inTransform(html.toString());
+  const withTransform = (use: (view: View) => Promise<void>): Promise<void> =>
+    withPage(twoMeshSite(), { server: (server) => server.when(/^\/$/, { replace }) }, async (view) => {
+      await view.promise("complete");
+      await use(view);
+    });
+
+  for (const [what, changes] of Object.entries({ "of look": changesOfLook, "of place": changesOfPlace, "of vertices": changesOfVertices })) {
+    test(`${what}, each at once, and all together as if they had always been so`, async () => {
+      await withTransform(async (view) => {
         const asked = view.server.requests.length;
-        await view.page.evaluate(change);
-        const after = await view.picture();
+        let before = await view.picture();
+        for (const [name, change] of Object.entries(changes)) {
+          await view.page.evaluate(change);
+          const after = await view.picture();
+          assert.ok(difference(before, after).mean > 0.5, `${name}: nothing has changed`);
+          before = after;
+        }
         assert.equal(view.server.requests.length, asked, "files were asked for again");
-        assert.ok(difference(before, after).mean > 0.5, "nothing has changed");
-        const fresh = await freshPicture(site, await sceneText(view));
-        assertSamePicture(`changed ${name}`, after, fresh, { mean: 0.001 });
+        assertSamePicture(`changed ${what}`, before, await freshPicture(twoMeshSite(), await sceneText(view)), { mean: 0.001 });
       });
     });
   }
+
+  test("that hides, and that shows again", async () => {
+    await withTransform(async (view) => {
+      const asked = view.server.requests.length;
+      const shown = await view.picture();
+      for (const [name, [hide, show]] of Object.entries(waysToHide)) {
+        await view.page.evaluate(hide);
+        const { data, channels } = await view.picture();
+        assert.ok(data.every((byte, at) => byte === data[at % channels]), `${name}: something is seen`);
+        await view.page.evaluate(show);
+        assertSamePicture(`shown again ${name}`, await view.picture(), shown, { mean: 0 });
+      }
+      assert.equal(view.server.requests.length, asked, "files were asked for again");
+    });
+  });
+
+  test("of the files that a geometry names: those of another mesh", async () => {
+    await withTransform(async (view) => {
+      const before = await view.picture();
+      await view.page.evaluate((text) => {
+        const other = new DOMParser().parseFromString(text, "text/html");
+        for (const name of ["imagegeometry", "geometrypatch"]) {
+          const [own, wanted] = [document.querySelector(name)!, other.querySelector(name)!];
+          for (const attribute of [...own.getAttributeNames(), ...wanted.getAttributeNames()]) {
+            const value = wanted.getAttribute(attribute);
+            if (value === null) own.removeAttribute(attribute);
+            else own.setAttribute(attribute, value);
+          }
+        }
+      }, sphereShape());
+      await until("its files are asked for", () => view.server.requestsOf(/^\/other\//).length > 0);
+      await until("nothing is open", () => view.page.evaluate(() =>
+        (document.querySelector("imgeo-view") as unknown as { statistics: { openRequests: number } }).statistics.openRequests === 0));
+      const after = await view.picture();
+      assert.ok(difference(before, after).mean > 0.5, "nothing has changed");
+      assertSamePicture("changed files", after, await freshPicture(twoMeshSite(), await sceneText(view)), { mean: 0.001 });
+    });
+  });
 
   test("a shape that is added, and one that is removed", async () => {
     const site = twoMeshSite();

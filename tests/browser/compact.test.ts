@@ -94,6 +94,7 @@ describe("a base", () => {
       }
       for (const { open } of gates) open();
       await view.promise("complete");
+      assert.ok(view.page.workers().length > 0, "patches are decoded by workers");
       const full = await view.picture();
       assert.equal((await stages(view)).at(-1), "full");
       assert.equal(view.server.requestsOf(new RegExp(base)).length, 1);

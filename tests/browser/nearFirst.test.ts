@@ -1,13 +1,16 @@
 // Near things first (paper section 5.4): the hall, all of it one mesh cut into
-// patches, as two visitors see it come who stand at its two ends.
+// patches, as two visitors see it come who stand at its two ends, one of them over
+// a line on which more files come at a time.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { withPage } from "./harness.ts";
+import { slotsOfHttp1, slotsOfHttp2 } from "../../web/src/scheduler/slots.ts";
+import { until, withPage, type View } from "./harness.ts";
 import { converter, outputDirectory } from "./paths.ts";
+import { gate } from "./server.ts";
 import { pageOf, siteOf, variantOf } from "./sites.ts";
 
 type Point = readonly [number, number, number];
@@ -18,14 +21,23 @@ interface Visitor {
   /** Where they look, of length 1. */
   readonly gaze: Point;
   readonly orientation: string;
+  /** As the browser tells it; by HTTP/2 more files come at a time. */
+  readonly protocol: string;
+  readonly slots: number;
 }
 
 const fieldOfView = 1;
 /** The hall is 28 m wide. */
 const visitors: readonly Visitor[] = [
-  { name: "left", eye: [-12.5, 3, 2], gaze: [1, 0, 0], orientation: `0 1 0 ${-Math.PI / 2}` },
-  { name: "right", eye: [12.5, 3, 2], gaze: [-1, 0, 0], orientation: `0 1 0 ${Math.PI / 2}` },
+  { name: "left", eye: [-12.5, 3, 2], gaze: [1, 0, 0], orientation: `0 1 0 ${-Math.PI / 2}`, protocol: "h2", slots: slotsOfHttp2 },
+  { name: "right", eye: [12.5, 3, 2], gaze: [-1, 0, 0], orientation: `0 1 0 ${Math.PI / 2}`, protocol: "http/1.1", slots: slotsOfHttp1 },
 ];
+
+/** Self-contained: the test's server knows but one protocol. */
+const pretend: Readonly<Record<string, () => void>> = {
+  "h2": () => { Object.defineProperty(PerformanceResourceTiming.prototype, "nextHopProtocol", { get: () => "h2" }); },
+  "http/1.1": () => undefined,
+};
 
 /** The generated hall's triangles without what tells its seats apart. */
 function hallOfOneMesh(): string {
@@ -83,7 +95,13 @@ test("of a hall comes first what is seen largest, last what is behind one, from 
     const site = variantOf(hallOfOneMesh(), name, (page) => page.replace(/<Viewpoint[^>]*>/i,
       `<Viewpoint position="${eye.join(" ")}" orientation="${orientation}" fieldOfView="${fieldOfView}">`));
     const patches = patchesSeenBy(visitor, pageOf(site));
-    await withPage(site, {}, async (view) => {
+    const { closed, open } = gate();
+    const server = (server: View["server"]): void => void server.when((path) => patches.has(path.slice(1)), { hold: closed });
+    await withPage(site, { server, before: pretend[visitor.protocol]! }, async (view) => {
+      const count = (): number => view.asked.filter((url) => patches.has(url)).length;
+      await until("all slots are taken", () => count() >= visitor.slots);
+      assert.equal(count(), visitor.slots, `${name}: files asked for at a time, over ${visitor.protocol}`);
+      open();
       await view.promise("complete", "x3d", 60);
       const asked = view.asked.flatMap((url) => patches.get(url) ?? []);
       assert.equal(asked.length, patches.size);

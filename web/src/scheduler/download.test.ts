@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import type { DownloadOptions, DownloadState } from "./download.ts";
 import { downloadInSlot, RequestError } from "./download.ts";
-import { answering, decoded, listener, ok, subject, url } from "./download.testing.ts";
+import { answering, decoded, listener, ok, silent, subject, url } from "./download.testing.ts";
 import { mostPatienceMs, retryDelayMs } from "./retry.ts";
 import { Scheduler } from "./scheduler.ts";
 import { slotsFor, slotsOfHttp1, slotsOfHttp2 } from "./slots.ts";
@@ -34,6 +34,30 @@ describe("a download", () => {
     await assert.rejects(downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded),
       (error) => error instanceof RequestError && error.kind === "http" && error.status === 503 && error.url === url);
     assert.equal(asked(), 3);
+  });
+
+  test("waits twice as long before each further attempt", async () => {
+    const times: number[] = [];
+    const { options } = inTurn(503);
+    const timed: DownloadOptions = { ...options, backoffMs: 20, fetch: (input, init) => {
+      times.push(performance.now());
+      return options.fetch(input, init);
+    } };
+    await assert.rejects(downloadInSlot(new Scheduler(1), subject, url, signal, timed, listener, decoded));
+    const [first = 0, second = 0, third = 0] = times;
+    // Timers may be late, and early by the fraction of a millisecond that they round away.
+    assert.ok(second - first > 19 && third - second > 39, `${second - first} and ${third - second} ms`);
+  });
+
+  test("of which no byte comes is given up as one that has fallen silent, and tried again", async () => {
+    let asked = 0;
+    const options: DownloadOptions = { ...silent, silenceMs: 5, retries: 1, fetch: (input, init) => {
+      asked += 1;
+      return silent.fetch(input, init);
+    } };
+    await assert.rejects(downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded),
+      (error) => error instanceof RequestError && error.kind === "timeout" && error.url === url);
+    assert.equal(asked, 2);
   });
 
   for (const code of [404, 410, 416]) {
