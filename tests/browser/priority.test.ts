@@ -97,7 +97,8 @@ describe("the order of requests", () => {
       // Shifts the scene to the left, until only the ball at the right of it is seen.
       for (let step = 0; step < 11; ++step) await view.page.keyboard.press("Shift+ArrowLeft");
       await settle(view.page);
-      await new Promise((resolve) => setTimeout(resolve, 500)); // the queue is told some times a second, not at each frame
+      // The queue is told some times a second, by a timer of the page: a later one of the page's own comes after it.
+      await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 500)));
       open();
       await view.promise("complete");
       assertBefore(order(view).slice(6), isOf("ball"), isOf("knot"));

@@ -179,10 +179,11 @@ describe("what the author prefers", () => {
   const shapesIn = (markup: string) => shapesOf(sceneOf(markup).root);
 
   test("is multiplied down the tree, from groups to geometries", () => {
-    const [first, second, third] = shapesIn(`
+    const [first, second, third, fourth] = shapesIn(`
       <Group priority="2"><Transform priority="high"><Shape priority="0.5"><ImageGeometry priority="3"/></Shape></Transform></Group>
-      <Group priority="low"><Shape><BinaryGeometry priority="0"/></Shape></Group><Shape priority="auto"/>`);
-    assert.deepEqual([first?.priority, second?.priority, third?.priority], [2 * 4 * 0.5 * 3, 0, 1]);
+      <Group priority="low"><Shape><BinaryGeometry priority="0"/></Shape></Group><Shape priority="auto"/>
+      <Group priority="8"><Shape priority="low"/></Group>`);
+    assert.deepEqual([first, second, third, fourth].map((shape) => shape?.priority), [2 * 4 * 0.5 * 3, 0, 1, 8 / 4]);
   });
 
   test("is no part of the geometry: another priority is not another geometry", () => {

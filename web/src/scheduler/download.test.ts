@@ -90,7 +90,7 @@ describe("a download", () => {
     }), retries: 1 };
     await downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded);
     const [first = 0, second = 0] = times;
-    assert.ok(second - first >= 950 && second - first < 3000, `${second - first} ms`);
+    assert.ok(second - first >= 950, `${second - first} ms`);
   });
 
   test("lets another job have its slot while it waits to retry", async () => {

@@ -1,0 +1,85 @@
+import assert from "node:assert/strict";
+import { afterEach, beforeEach, describe, mock, test } from "node:test";
+import type { BufferUpload } from "../render/buffers.ts";
+import type { SceneRenderer } from "../render/sceneRenderer.ts";
+import { Arrival } from "./arrival.ts";
+
+const megabyte = 2 ** 20;
+
+/** Takes arrays by the megabyte. */
+class FakeRenderer {
+  isEmpty = false;
+  moved = 0;
+  closed = 0;
+
+  beginStoring({ byteLength }: { byteLength: number }): BufferUpload {
+    const move = (): void => { this.moved += megabyte; };
+    function* steps(): Generator<number, void, void> {
+      for (let left = byteLength; left > 0; left -= megabyte) {
+        move();
+        yield megabyte;
+      }
+    }
+    return { bytes: { byteLength, close: () => { this.closed += 1; } }, steps: steps() };
+  }
+}
+
+describe("what arrives", () => {
+  let frames: (() => void)[] = [];
+  const page = { requestAnimationFrame: (callback: () => void) => frames.push(callback), cancelAnimationFrame: () => undefined, document: { hidden: false } };
+
+  beforeEach(() => {
+    frames = [];
+    mock.timers.enable({ apis: ["setTimeout"] });
+    Object.assign(globalThis, page);
+  });
+  afterEach(() => {
+    mock.timers.reset();
+    for (const name of Object.keys(page)) Reflect.deleteProperty(globalThis, name);
+  });
+
+  const nextFrame = async (): Promise<void> => {
+    frames.shift()?.();
+    await Promise.resolve();
+  };
+
+  const store = (renderer: FakeRenderer, megabytes: number, signal = new AbortController().signal) =>
+    new Arrival(renderer as unknown as SceneRenderer).storeBytes(new Uint8Array(megabytes * megabyte), "vertices", signal);
+
+  test("goes to the GPU a few megabytes before each frame, and all of it in the end", async () => {
+    const renderer = new FakeRenderer();
+    const stored = store(renderer, 11);
+    const most = 4 * megabyte;
+    assert.equal(renderer.moved, 0, "nothing goes at once");
+    const moves: number[] = [];
+    const sum = (): number => moves.reduce((all, bytes) => all + bytes, 0);
+    while (sum() < 11 * megabyte) {
+      await nextFrame();
+      moves.push(renderer.moved - sum());
+    }
+    await nextFrame(); // which finds that there is no more
+    assert.ok(moves.length >= 3 && moves.every((bytes) => bytes > 0 && bytes <= most), `${moves.join(", ")} bytes before a frame`);
+    assert.equal((await stored).byteLength, 11 * megabyte);
+    assert.equal(renderer.closed, 0);
+  });
+
+  test("waits for no frame while there is no picture to hold up", async () => {
+    const renderer = new FakeRenderer();
+    renderer.isEmpty = true;
+    const stored = store(renderer, 1);
+    assert.deepEqual(frames, []);
+    for (let turn = 0; turn < 9; ++turn) mock.timers.tick(0);
+    await stored;
+  });
+
+  test("and is not wanted any more leaves nothing behind", async () => {
+    const renderer = new FakeRenderer();
+    const aborter = new AbortController();
+    const stored = store(renderer, 11, aborter.signal);
+    await nextFrame();
+    aborter.abort(new Error("removed"));
+    const { moved } = renderer;
+    await Promise.all([assert.rejects(stored, { message: "removed" }), nextFrame()]);
+    assert.deepEqual([renderer.moved, renderer.closed], [moved, 1]);
+  });
+});
