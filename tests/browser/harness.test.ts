@@ -5,7 +5,7 @@ import { mkdirSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
 import { assertSamePicture, boundsOfInput, difference, holesIn, silhouette } from "./compare.ts";
-import { withPage } from "./harness.ts";
+import { settle, withPage } from "./harness.ts";
 import { areaWeightedNormals, pointSpiral, readPly, sphere, trefoil, withColors, writePly, type PlainMesh } from "./meshes.ts";
 import { outputDirectory } from "./paths.ts";
 import { decodePng, encodePng, type Picture } from "./png.ts";
@@ -127,6 +127,16 @@ describe("the browser", () => {
       assert.deepEqual([draws, live.textures, live.buffers], [1, 0, 1]);
       const { data, channels } = await picture();
       assert.deepEqual([...data.subarray(50 * channels, 50 * channels + 3)], [255, 128, 0]);
+      // What never comes to rest is told.
+      await page.evaluate(() => {
+        const gl = document.querySelector("canvas")?.getContext("webgl2");
+        const draw = (): void => {
+          gl?.clear(gl.COLOR_BUFFER_BIT);
+          requestAnimationFrame(draw);
+        };
+        draw();
+      });
+      await assert.rejects(settle(page, 0.2), /did not come to rest within 0\.2 s: it has drawn \d+ times and goes on/);
     });
   });
 

@@ -176,20 +176,33 @@ export async function screenshotOf(page: Page): Promise<Picture> {
   }
 }
 
-/** Waits until four frames in a row have drawn nothing, no view has one to come, and nothing that has come is still being decoded. */
-export async function settle(page: Page): Promise<void> {
-  await page.evaluate(async () => {
+/**
+ * Waits until four frames in a row have drawn nothing, no view has one to come, and nothing that has come is still being
+ * decoded. Throws, saying what goes on, where that takes longer: busy machines are slow, but not for ever.
+ */
+export async function settle(page: Page, seconds = 60): Promise<void> {
+  const goingOn = await page.evaluate(async (timeoutMs) => {
     const frame = (): Promise<number> => new Promise(requestAnimationFrame);
-    const isDue = (): boolean => Array.from(document.querySelectorAll("x3d")).some((x3d) =>
-      (x3d as { statistics?: { isFrameDue: boolean } }).statistics?.isFrameDue === true);
-    const isDecoding = (): boolean => Array.from(document.querySelectorAll("x3d shape")).some((shape) =>
-      Array.from((shape as { resources?: Iterable<{ state: string }> }).resources ?? []).some(({ state }) => state === "decoding"));
-    const end = performance.now() + 20_000;
-    for (let still = 0, draws = -1; still < 4 && performance.now() < end; await frame()) {
-      still = window.observed.draws === draws && !isDue() && !isDecoding() ? still + 1 : 0;
+    const due = (): string[] => Array.from(document.querySelectorAll("x3d")).flatMap((x3d) =>
+      ((x3d as { statistics?: { isFrameDue: boolean } }).statistics?.isFrameDue === true ? ["a frame is due"] : []));
+    const decoding = (): string[] => Array.from(document.querySelectorAll("x3d shape")).flatMap((shape) =>
+      Array.from((shape as { resources?: Iterable<{ state: string; url: string }> }).resources ?? [])
+        .flatMap(({ state, url }) => (state === "decoding" ? [`${url} is being decoded`] : [])));
+    let draws = -1;
+    const unrest = (): string[] => {
+      const before = draws;
       draws = window.observed.draws;
+      return [...(draws === before ? [] : [`it has drawn ${draws} times and goes on`]), ...due(), ...decoding()];
+    };
+    const end = performance.now() + timeoutMs;
+    for (let still = 0; still < 4; await frame()) {
+      const now = unrest();
+      still = now.length === 0 ? still + 1 : 0;
+      if (now.length > 0 && performance.now() > end) return now;
     }
-  });
+    return [];
+  }, 1000 * seconds);
+  if (goingOn.length > 0) throw new Error(`the page did not come to rest within ${seconds} s: ${Array.from(new Set(goingOn)).join(", ")}`);
 }
 
 /** Waits for a condition of the test's own side; throws, naming it, after 20 s. */
