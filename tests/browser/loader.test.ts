@@ -172,6 +172,10 @@ describe("the loader keeps three's conventions", () => {
         assert.match(lines.find((line) => line.startsWith("onError")) ?? "", message);
         assert.deepEqual(lines.filter((line) => line.endsWith(` ${url}`) && !line.startsWith("onError")), [`start ${url}`, `error ${url}`, `end ${url}`]);
       }
+      // So is a worker that is not where it should be.
+      const withoutWorker = await page.evaluate(() => window.app.loader.setWorkerUrl("/nowhere.js").setKeepVertices(true).loadAsync("scene.x3d")
+        .then(() => "there", (error: unknown) => String(error)));
+      assert.match(withoutWorker, /cannot be loaded from http:.*\/nowhere\.js .*setWorkerUrl/);
     });
   });
 

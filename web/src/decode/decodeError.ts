@@ -3,8 +3,8 @@ export class DecodeError extends Error {
   override readonly name = "DecodeError";
   readonly kind: "truncated" | "malformed" | "unsupported" | "limit";
 
-  constructor(kind: DecodeError["kind"], message: string) {
-    super(message);
+  constructor(kind: DecodeError["kind"], message: string, options?: ErrorOptions) {
+    super(message, options);
     this.kind = kind;
   }
 }
