@@ -41,6 +41,7 @@ export class FirstPicture {
 
   constructor(gl: WebGL2RenderingContext) {
     this.#gl = gl;
+    gl.vertexAttrib3f(attributePlaces.color, 1, 1, 1);
   }
 
   /**
@@ -139,8 +140,8 @@ export class FirstPicture {
 /** WebGL's constants. */
 const glTypes = { Int8: 0x1400, Uint8: 0x1401, Int16: 0x1402, Uint16: 0x1403, Int32: 0x1404, Uint32: 0x1405, Float32: 0x1406 } as const;
 
-function kindOf({ geometry, appearance }: FirstShape, scene: FirstScene, { normal, color }: PatchBuffers): ProgramKind {
-  return { hasNormals: normal !== undefined, hasColors: color !== undefined, material: appearance.material.kind, isTwoSided: !geometry.solid, lights: lightKindsOf(scene) };
+function kindOf({ geometry, appearance }: FirstShape, scene: FirstScene, { normal }: PatchBuffers): ProgramKind {
+  return { hasNormals: normal !== undefined, material: appearance.material.kind, isTwoSided: !geometry.solid, lights: lightKindsOf(scene) };
 }
 
 /** As three.js' camera of the runtime stands and sees. */

@@ -6,14 +6,13 @@ import { physicalDefine, toDisplayedChunk, toLinearChunk } from "../lighting/phy
 import { x3dLighting } from "../lighting/x3dLighting.ts";
 import type { LightKind } from "./lights.ts";
 
-/** Where attributes are in every program. */
+/** Where attributes are in every program. Without colours of vertices that of all is white. */
 export const attributePlaces = { position: 0, normal: 1, color: 2 } as const;
 
 /** What differs from program to program. */
 export interface ProgramKind {
   readonly material: "phong" | "physical" | "unlit";
   readonly hasNormals: boolean;
-  readonly hasColors: boolean;
   readonly isTwoSided: boolean;
   readonly lights: readonly LightKind[];
 }
@@ -34,12 +33,9 @@ void main() {
   gl_Position = clipFromView * place;
   towardsEye = -place.xyz;
   viewNormal = viewFromNormal * normal;
-  vertexColor = vec3(1.0);
-  #ifdef COLORS
-    vertexColor = color;
-    #ifdef ${physicalDefine}
-      ${toLinearChunk("vertexColor")}
-    #endif
+  vertexColor = color;
+  #ifdef ${physicalDefine}
+    ${toLinearChunk("vertexColor")}
   #endif
 }
 `;
@@ -132,9 +128,9 @@ export interface Program {
 
 /** Begins to compile; whoever uses it waits. */
 export function makeProgram(gl: WebGL2RenderingContext, kind: ProgramKind): Program {
-  const { material, hasNormals, hasColors, isTwoSided, lights } = kind;
+  const { material, hasNormals, isTwoSided, lights } = kind;
   const flags: readonly [string, boolean][] = [
-    [physicalDefine, material === "physical"], ["UNLIT", material === "unlit"], ["FLAT", !hasNormals], ["COLORS", hasColors], ["TWO_SIDED", isTwoSided],
+    [physicalDefine, material === "physical"], ["UNLIT", material === "unlit"], ["FLAT", !hasNormals], ["TWO_SIDED", isTwoSided],
   ];
   const defines = flags.map(([name, isSet]) => (isSet ? `#define ${name}\n` : "")).join("");
   const head = `#version 300 es\n${defines}#define LIGHTS ${lights.length}\n`;
