@@ -246,6 +246,8 @@ export interface GroupDescription {
   readonly levels?: LevelsDescription;
   /** Of an Inline that names a document: who this is, as a shape's. */
   readonly inline?: SceneElement;
+  /** Of a Billboard: it turns about this axis so that its z axis points to the viewer; 0 0 0: and its y axis up in the picture. */
+  readonly billboardAxis?: Vec3;
   readonly children: readonly NodeDescription[];
 }
 

@@ -35,7 +35,7 @@ const geometries = [
   '<ImageGeometry DEF="B" vertexCount="3" coord="a.png" priority="2"/>', '<ImageGeometry USE="B"/>',
 ];
 const snippets = [
-  "<Group/>", "<Transform/>", '<Switch whichChoice="0"/>', "<LOD range='5'/>", "<Unknown/>", '<Viewpoint description="v"/>', "<DirectionalLight/>", '<PointLight global="false" ambientIntensity="1"/>',
+  "<Group/>", "<Transform/>", "<Billboard><Shape/></Billboard>", '<Anchor url="a.html"><Collision><Shape/></Collision></Anchor>', '<Switch whichChoice="0"/>', "<LOD range='5'/>", "<Unknown/>", '<Viewpoint description="v"/>', "<DirectionalLight/>", '<PointLight global="false" ambientIntensity="1"/>',
   '<Transform><SpotLight global="false"/><Group><DirectionalLight/><Shape/></Group></Transform>',
   '<NavigationInfo speed="3"/>', '<Background skyColor="1 0 0"/>', "<Group USE='A'/>", "<Shape USE='D'/>", "<Inline url='a.x3d'/>", '<MetadataString name="m"/>',
   '<Shape><Appearance DEF="A"><Material DEF="D"/></Appearance><Box/></Shape>', '<Shape><Appearance USE="A"/><Box/></Shape>',
@@ -44,7 +44,7 @@ const snippets = [
 const attributes: Readonly<Record<string, readonly string[]>> = {
   DEF: names, USE: names, visible: ["true", "false", "perhaps"], priority: ["2", "high"], translation: ["1 2 3", "x"], bboxSize: ["1 1 1", "2 2 2"],
   whichChoice: ["0", "1", "-1"], diffuseColor: ["1 0 0", "0 1 0"], bind: ["true"], load: ["false"], url: ["a.x3d", "b.x3d"], solid: ["false"],
-  point: ["3 4 5", "6 7 8"], global: ["true", "false"], on: ["false"],
+  point: ["3 4 5", "6 7 8"], global: ["true", "false"], on: ["false"], axisOfRotation: ["0 0 1", "1 0 0", "0 0 0"],
 };
 const inlinable = {
   "a.x3d": `<X3D><Group DEF="A"><Shape><Box/></Shape></Group><Group USE="A"/><Inline url="b.x3d"/><NavigationInfo speed="9"/></X3D>`,

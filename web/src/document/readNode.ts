@@ -1,9 +1,9 @@
 // A node -> what it says: for itself at once, for those below it when it is known
 // what is handed down to them.
 
-import type { BackgroundDescription, GroupDescription, NodeDescription, TransformDescription } from "./description.ts";
+import type { BackgroundDescription, GroupDescription, NodeDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
-import { lowerNameOf } from "./element.ts";
+import { attributeOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import { boxOf } from "./geometry.ts";
 import type { Warning } from "./nodes.ts";
@@ -41,10 +41,15 @@ export function readNode(element: SceneElement, node: SceneElement, reading: Nod
   const { warnings } = reading;
   switch (lowerNameOf(node)) {
     case "shape": return sayShape(element, node, reading);
-    case "group": return sayGroup(node, readFields(node, nodeFields.Group, warnings), reading);
+    case "group": case "anchor": case "staticgroup": return sayGroup(node, readFields(node, nodeFields.Group, warnings), reading);
+    case "collision": return sayGroup(node, readFields(node, nodeFields.Group, warnings), { ...reading, childrenOf: (of) => reading.childrenOf(of).filter(isSeenChild) });
+    case "billboard": {
+      const { axisOfRotation, ...fields } = readFields(node, nodeFields.Billboard, warnings);
+      return sayGroup(node, fields, reading, { billboardAxis: axisOfRotation });
+    }
     case "transform": {
       const transform = readFields(node, nodeFields.Transform, warnings);
-      return sayGroup(node, transform, reading, transform);
+      return sayGroup(node, transform, reading, { transform });
     }
     case "switch": return saySwitch(node, reading);
     case "lod": return sayLevels(node, reading);
@@ -106,15 +111,23 @@ function within(fields: GroupFields, inherited: Inherited): Inherited {
   return { visible: inherited.visible && seen, reaches: inherited.reaches && seen, priority: inherited.priority * fields.priority };
 }
 
-function groupOf(fields: GroupFields, children: readonly NodeDescription[], transform?: TransformDescription): GroupDescription {
-  return { kind: "group", visible: isSeen(fields), box: boxOf(fields), transform, children };
+/** What groups of a kind have besides. */
+type GroupTraits = Partial<Pick<GroupDescription, "transform" | "billboardAxis">>;
+
+function groupOf(fields: GroupFields, children: readonly NodeDescription[], traits: GroupTraits = {}): GroupDescription {
+  return { kind: "group", visible: isSeen(fields), box: boxOf(fields), transform: undefined, ...traits, children };
 }
 
-function sayGroup(node: SceneElement, fields: GroupFields, { warnings, childrenOf }: NodeReading, transform?: TransformDescription): Saying {
+/** A Collision's proxy stands in for its children where people walk, not where they look. */
+function isSeenChild(child: SceneElement): boolean {
+  return attributeOf(child, "containerField") !== "proxy";
+}
+
+function sayGroup(node: SceneElement, fields: GroupFields, { warnings, childrenOf }: NodeReading, traits?: GroupTraits): Saying {
   const own = warned(warnings);
   return (inherited, below) => {
     const { nodes, asides } = below(childrenOf(node), within(fields, inherited));
-    return { nodes: [groupOf(fields, nodes, transform)], asides: joined([own, asides]) };
+    return { nodes: [groupOf(fields, nodes, traits)], asides: joined([own, asides]) };
   };
 }
 

@@ -52,8 +52,8 @@ export function firstSceneOf(scene: SceneDescription, camera: CameraSetting): Fi
   const { background, navigation, inlines } = scene;
   if (inlines.length > 0 || (background && (background.sky.length > 1 || background.ground.length > 0))) return undefined;
   const placement = placementOf(scene);
-  const { viewpoints, levels } = placement;
-  if (levels.length > 0 || placement.lights.length > mostLights) return undefined;
+  const { viewpoints, levels, billboards } = placement;
+  if (levels.length > 0 || billboards.length > 0 || placement.lights.length > mostLights) return undefined;
   const seen = placement.shapes.filter(({ shape }) => shape.visible && shape.geometry !== undefined);
   const shapes = seen.slice(0, mostShapes + 1).flatMap((placed) => firstShapeOf(placed) ?? []);
   if (shapes.length === 0 || shapes.length < seen.length || shapes.length > mostShapes) return undefined;

@@ -4,9 +4,10 @@
 // and a look at its siblings and at those around it.
 
 import type { Box3 } from "three";
-import { Matrix4 } from "three";
+import { Matrix4, Vector3 } from "three";
 import { areAlike } from "../document/alike.ts";
 import type { GroupDescription, LightDescription, NodeDescription } from "../document/description.ts";
+import { boxOfTurns } from "./billboard.ts";
 import { everywhere, LightScope } from "./lightScope.ts";
 import { boxIn, isDrawable, matrixOf } from "./matrices.ts";
 import type { PlacedLight } from "./placement.ts";
@@ -90,12 +91,14 @@ export class PlacedTree {
     for (const child of gone) this.#leave(child);
     node.children = kept;
     kept.forEach((child, place) => { this.#follow(child, group.children[place] ?? child.description, inner); });
-    return reachOfAll(kept, {
+    const reach = reachOfAll(kept, {
       box: counts && node.box && isDrawable(node.box) ? node.box : undefined,
       bounded: node.box ? [node] : [],
+      billboards: group.billboardAxis ? [node] : [],
       scopes: node.lightScope === around ? [] : [node.lightScope],
       levels: group.levels && isGroupSeen ? [{ ...group.levels, sceneFromLevels: sceneFromNode }] : [],
     });
+    return group.billboardAxis ? reachOfTurns(reach, sceneFromNode) : reach;
   }
 
   #leave(node: PlacedNode): void {
@@ -114,12 +117,15 @@ function scopeOf({ description, lightScope: before, parent }: PlacedNode, around
   return before.around === around ? before : new LightScope(around);
 }
 
+/** What tells how a group stands in that around it. */
 function transformOf(description: NodeDescription): unknown {
-  return description.kind === "group" ? description.transform : undefined;
+  return description.kind === "group" ? description.transform ?? description.billboardAxis : undefined;
 }
 
 function placedIn(sceneFromParent: Matrix4, description: NodeDescription): Matrix4 {
-  return description.kind === "group" && description.transform ? sceneFromParent.clone().multiply(matrixOf(description.transform)) : sceneFromParent;
+  if (description.kind !== "group") return sceneFromParent;
+  if (description.transform) return sceneFromParent.clone().multiply(matrixOf(description.transform));
+  return description.billboardAxis ? sceneFromParent.clone() : sceneFromParent; // who draws it turns it further
 }
 
 function reachOf({ description, sceneFromNode }: PlacedNode, { isSeen, counts, lightScope }: Within): Reach {
@@ -135,6 +141,11 @@ function reachOf({ description, sceneFromNode }: PlacedNode, { isSeen, counts, l
     case "group":
       return noReach;
   }
+}
+
+/** Of what turns about its origin: no box in it stays where it is. */
+function reachOfTurns(reach: Reach, sceneFromNode: Matrix4): Reach {
+  return { ...reach, box: reach.box && boxOfTurns(reach.box, new Vector3().setFromMatrixPosition(sceneFromNode)), bounded: [] };
 }
 
 function isScopedLight(description: NodeDescription): boolean {

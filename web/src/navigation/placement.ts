@@ -21,6 +21,7 @@ export interface Placement {
   readonly viewpoints: readonly PlacedViewpoint[];
   /** Those that are seen. */
   readonly levels: readonly PlacedLevels[];
+  readonly billboards: readonly PlacedNode[];
 }
 
 export interface PlacedShape {
@@ -45,8 +46,8 @@ export interface PlacedLevels extends LevelsDescription {
 /** Of a scene that nobody follows. */
 export function placementOf(scene: SceneDescription): Placement {
   const { root } = new PlacedTree().follow(scene.root);
-  const { box, lights, viewpoints, levels } = root.reach;
-  return { box: box ?? new Box3(), shapes: Array.from(shapesIn(root)), lights, viewpoints, levels };
+  const { box, lights, viewpoints, levels, billboards } = root.reach;
+  return { box: box ?? new Box3(), shapes: Array.from(shapesIn(root)), lights, viewpoints, levels, billboards };
 }
 
 function* shapesIn({ description, sceneFromNode, lightScope, children }: PlacedNode): Generator<PlacedShape> {

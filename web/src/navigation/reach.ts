@@ -17,18 +17,21 @@ export interface Reach {
   readonly levels: readonly PlacedLevels[];
   /** Groups that are seen and tell their boxes. */
   readonly bounded: readonly PlacedNode[];
+  /** Each before those in it. */
+  readonly billboards: readonly PlacedNode[];
   /** Groups that lights shine in, and nowhere else; each before those in it. */
   readonly scopes: readonly LightScope[];
 }
 
 const none: readonly never[] = [];
-export const noReach: Reach = { box: undefined, lights: none, viewpoints: none, levels: none, bounded: none, scopes: none };
+export const noReach: Reach = { box: undefined, lights: none, viewpoints: none, levels: none, bounded: none, billboards: none, scopes: none };
 
 /** Of these together, and of what the group around them brings itself. One pass: there may be ten thousand. */
-export function reachOfAll(parts: readonly PlacedNode[], own: Pick<Reach, "box" | "levels" | "bounded" | "scopes">): Reach {
+export function reachOfAll(parts: readonly PlacedNode[], own: Pick<Reach, "box" | "levels" | "bounded" | "billboards" | "scopes">): Reach {
   let union: Box3 | undefined;
   const lights = new Gathered<PlacedLight>(), viewpoints = new Gathered<PlacedViewpoint>();
-  const levels = new Gathered(own.levels), bounded = new Gathered(own.bounded), scopes = new Gathered(own.scopes);
+  const levels = new Gathered(own.levels), bounded = new Gathered(own.bounded);
+  const billboards = new Gathered(own.billboards), scopes = new Gathered(own.scopes);
   for (const { reach } of parts) {
     if (reach === noReach) continue;
     if (reach.box && own.box === undefined) union = union?.union(reach.box) ?? reach.box.clone();
@@ -36,9 +39,13 @@ export function reachOfAll(parts: readonly PlacedNode[], own: Pick<Reach, "box" 
     viewpoints.add(reach.viewpoints);
     levels.add(reach.levels);
     bounded.add(reach.bounded);
+    billboards.add(reach.billboards);
     scopes.add(reach.scopes);
   }
-  return { box: own.box ?? union, lights: lights.all, viewpoints: viewpoints.all, levels: levels.all, bounded: bounded.all, scopes: scopes.all };
+  return {
+    box: own.box ?? union, lights: lights.all, viewpoints: viewpoints.all, levels: levels.all, bounded: bounded.all,
+    billboards: billboards.all, scopes: scopes.all,
+  };
 }
 
 /** Lists one after the other; the only one that has anything in it stays as it is. */

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Object3D } from "three";
-import { PointLight, Vector3 } from "three";
+import { PerspectiveCamera, PointLight, Vector3 } from "three";
 import type { SceneDescription, ShapeDescription } from "../document/description.ts";
 import { Dice, EditedDocument } from "../document/edits.testing.ts";
 import { elementsOf } from "../document/elements.testing.ts";
@@ -12,6 +12,10 @@ import { matrixOf } from "../navigation/matrices.ts";
 import type { PlacedNode } from "../navigation/placedTree.ts";
 import type { PlaceGroup } from "./lightScopes.ts";
 import { SceneGraph } from "./sceneGraph.ts";
+
+const viewer = new PerspectiveCamera();
+viewer.position.set(3, 1, 5);
+viewer.updateMatrixWorld();
 
 /** The graph of a scene, and the shapes that it has told of. */
 class Watched {
@@ -30,6 +34,7 @@ class Watched {
 
   /** All that somebody who draws it can see. */
   get seen(): unknown {
+    this.graph.turnBillboards(viewer);
     const { box, bounded, viewpoints, levels, lightUniforms, root } = this.graph;
     const groups = (of: Object3D): string => of.children.map((group) =>
       [group.type, group.visible, group.matrixWorld.elements, groups(group)].join(" ")).sort().join();
@@ -133,4 +138,22 @@ test("the box that a group tells stands for those of its children, and lets them
   const { box: { min, max }, bounded } = buildGraph(scene);
   assert.deepEqual([min.toArray(), max.toArray()], [[8, -1, -1], [16, 1, 1]]);
   assert.deepEqual(bounded.map(({ box }) => [box.min.x, box.max.x]), [[8, 16], [9, 11]]);
+});
+
+test("a billboard turns its z axis to the viewer, and what stands in it turns along", () => {
+  const scene = readScene(elementsOf(`<X3D><Transform translation="3 0 0" rotation="0 1 0 1.5708"><Billboard><Transform translation="0 2 1">
+    <Shape bboxCenter="0 0 0" bboxSize="0.1 0.1 0.1"/></Transform></Billboard></Transform></X3D>`));
+  const watched = new Watched();
+  watched.graph.follow(scene.root);
+  const seenFrom = (...eye: [number, number, number]): number[] => {
+    const camera = new PerspectiveCamera();
+    camera.position.set(...eye);
+    camera.updateMatrixWorld();
+    watched.graph.turnBillboards(camera);
+    const [{ group } = { group: undefined }] = watched.shapes.values();
+    return new Vector3().setFromMatrixPosition(group?.matrixWorld ?? viewer.matrixWorld).toArray().map((value) => Math.round(value * 1e3) / 1e3 + 0);
+  };
+  assert.deepEqual([seenFrom(3, 9, 7), seenFrom(-4, 0, 0), seenFrom(3, 0, -1), seenFrom(3, 8, 0)], [[3, 2, 1], [2, 2, 0], [3, 2, -1], [4, 2, 0]]);
+  const { min, max } = watched.graph.box;
+  for (const place of [[3, 2, 1.1], [1.9, 2, 0], [4.1, 2, 0]] as const) assert.ok(min.x <= place[0] && max.x >= place[0] && max.y >= 2.05 && max.z >= place[2]);
 });

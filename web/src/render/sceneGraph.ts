@@ -1,11 +1,12 @@
 // A scene as three.js' groups, kept true to where its nodes stand. Groups own
 // nothing on the GPU; what shapes show is for who makes their groups.
 
-import type { Object3D } from "three";
-import { Box3, Group } from "three";
+import type { Camera, Object3D } from "three";
+import { Box3, Group, Vector3 } from "three";
 import { areAlike } from "../document/alike.ts";
 import type { GroupDescription, NodeDescription, ShapeDescription } from "../document/description.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
+import { billboardTurn } from "../navigation/billboard.ts";
 import { numberScopes } from "../navigation/lightScope.ts";
 import { matrixOf } from "../navigation/matrices.ts";
 import type { PlacedNode, PlacedTreeListener } from "../navigation/placedTree.ts";
@@ -24,6 +25,8 @@ export interface ShapePlaces {
   onLeave(shape: ShapeDescription, place: PlacedNode, group: PlaceGroup): void;
   /** What stands in the scene for a group of it. Undefined: a plain one. */
   makeGroup?(description: GroupDescription): Object3D | undefined;
+  /** Its group has turned with a billboard. */
+  onTurn?(shape: ShapeDescription, group: PlaceGroup): void;
 }
 
 /** A group that is seen, with its box in the scene's coordinates. */
@@ -86,6 +89,34 @@ export class SceneGraph implements PlacedTreeListener {
     this.#lights = makeLights(reach.lights);
     this.root.add(this.#lights.root);
     return areRenumbered;
+  }
+
+  /** Before a frame: billboards turn to the viewer. The camera's matrix is up to date. */
+  turnBillboards({ matrixWorld }: Camera): void {
+    for (const node of this.#tree.root.reach.billboards) {
+      const group = this.#groups.get(node);
+      if (!group?.parent || node.description.kind !== "group") continue;
+      const parentFromScene = group.parent.matrixWorld.clone().invert();
+      const eye = new Vector3().setFromMatrixPosition(matrixWorld).applyMatrix4(parentFromScene);
+      const up = new Vector3().setFromMatrixColumn(matrixWorld, 1).transformDirection(parentFromScene);
+      const turn = billboardTurn(node.description.billboardAxis ?? [0, 1, 0], eye, up);
+      if (turn.equals(group.matrix)) continue;
+      group.matrix.copy(turn);
+      this.#placeAgain(node);
+    }
+  }
+
+  /** Something around it has turned. */
+  #placeAgain(node: PlacedNode): void {
+    const shapeGroup = this.#shapeGroups.get(node);
+    if (shapeGroup && node.description.kind === "shape") {
+      shapeGroup.updateMatrixWorld(true);
+      this.#shapes.onTurn?.(node.description, shapeGroup);
+      return;
+    }
+    const group = this.#groups.get(node);
+    if (group?.parent) group.matrixWorld.multiplyMatrices(group.parent.matrixWorld, group.matrix);
+    for (const child of node.children) this.#placeAgain(child);
   }
 
   onEnter(node: PlacedNode): void {

@@ -76,6 +76,7 @@ export class SceneShapes {
         if (shape.geometry) this.#plan.remove(shape.geometry);
         this.#changes.noteGone(shape, place);
       },
+      onTurn: (shape, group) => { this.#objectOf(shape).follow(group); },
     });
     scene.add(this.#graph.root, this.#batches.root);
   }
@@ -198,11 +199,12 @@ export class SceneShapes {
   }
 
   /**
-   * Before a frame: groups that tell where they end are not looked into when they are out of the view.
-   * `picture`: its width and height in CSS pixels.
+   * Before a frame: billboards turn to the camera, and groups that tell where they end are not looked into when
+   * they are out of the view. `picture`: its width and height in CSS pixels.
    */
   passOver(camera: Camera, picture: readonly [width: number, height: number]): void {
     camera.updateMatrixWorld();
+    this.#graph.turnBillboards(camera);
     const margin = picture.map((pixels) => this.#widestLine / pixels) as [number, number];
     this.#batches.update(camera, margin);
     if (this.#bounded.length === 0) return;
