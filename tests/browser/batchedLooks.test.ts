@@ -57,7 +57,7 @@ function wideLines(images: string): string {
 }
 
 /** Behind the camera: with them there are enough shapes to be drawn together. */
-const crowd = `<Group id="crowd">${Array.from({ length: 16 }, (_, n) => at(n, 0, "<Shape><Box size='0.1 0.1 0.1'></Box></Shape>")).join("")}</Group>`;
+const crowd = `<Transform id="crowd" translation="0 0 ${2 * away}">${Array.from({ length: 16 }, (_, n) => at(n, 0, "<Shape><Box size='0.1 0.1 0.1'></Box></Shape>")).join("")}</Transform>`;
 
 function strokesFile(): string {
   mkdirSync(outputDirectory, { recursive: true });
@@ -84,7 +84,7 @@ test("values and wide lines are drawn together in a scene of many shapes, and lo
   };
   const shape = (name: keyof typeof sites) => shapeIn(pageOf(sites[name])).replaceAll(/(["'])geometry\//g, `$1${name}/geometry/`);
   const scene = `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo>${black}${viewpoint}
-    ${knots(shape("buffers"), shape("images"))}${wideLines(shape("strokes"))}<Transform translation="0 0 ${2 * away}">${crowd}</Transform>`;
+    ${knots(shape("buffers"), shape("images"))}${wideLines(shape("strokes"))}${crowd}`;
   await withPage(sceneOf("batched-looks", sites, scene), {}, async (view) => {
     await view.promise("complete");
     const first = await view.picture();
@@ -107,10 +107,14 @@ test("values and wide lines are drawn together in a scene of many shapes, and lo
     const alone = await view.picture();
     assert.ok(await drawsOfFrame(view) >= 15, `${await drawsOfFrame(view)} draws`);
     assertSamePicture("batched-looks-alone", together, alone, boundsOfQuantised);
+    await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("draw-as", "points"); });
+    const points = await view.picture();
+    savePicture("batched-looks-points", points);
+    assert.ok(!isWithin(difference(alone, points), boundsOfQuantised), "surfaces are seen as points");
     await view.page.evaluate((text) => { document.querySelector("scene")!.insertAdjacentHTML("beforeend", text); }, crowd);
-    await view.picture();
+    assertSamePicture("batched-looks-points", await view.picture(), points, boundsOfQuantised);
     assert.ok(await drawsOfFrame(view) <= mostDraws + 1, "they are drawn together again");
-    await view.page.evaluate(() => { for (const gone of document.querySelectorAll("scene > transform, scene > group")) gone.remove(); });
+    await view.page.evaluate(() => { for (const gone of document.querySelectorAll("scene > transform")) gone.remove(); });
     await view.picture();
     assert.deepEqual(await view.page.evaluate(() => {
       const { geometries, bufferBytes, textureBytes } = document.querySelector<ViewElement>("x3d")!.statistics!;

@@ -182,8 +182,7 @@ export class ShapeObject {
   }
 
   #drawnAsOf(stage: Stage): DrawnAs {
-    const { look: { batching }, drawing } = this.#setting;
-    if (drawing.asPoints) return "alone";
+    const { batching } = this.#setting.look;
     return batching !== undefined ? drawnAsOf(stage, this.#drawing, this.#appearance, this.#pictures, batching) : "alone";
   }
 

@@ -54,8 +54,8 @@ describe("work before frames", () => {
     assert.deepEqual(frame(), ["a3"]);
   });
 
-  test("takes at least one step, however large", () => {
-    const { work, steps, frame } = framesOf(10, 0.5);
+  test("takes at least one step, however large, and however late the frame", () => {
+    const { work, steps, frame } = framesOf(10, 0);
     void work.run(steps("a", [99, 99]), signal);
     assert.deepEqual(frame(), ["a1"]);
     assert.deepEqual(frame(), ["a2"]);

@@ -55,13 +55,14 @@ export class FrameWork {
   #workBeforeFrame(mostBytes: number, milliseconds: number): void {
     const { now } = this.#options;
     const end = now() + milliseconds;
-    for (let bytes = 0; bytes < mostBytes && now() < end;) {
+    let bytes = 0;
+    do {
       const work = this.#queue[0];
       if (work === undefined) return;
       const moved = step(work);
       if (moved === undefined) this.#queue.shift();
       bytes += moved ?? 0;
-    }
+    } while (bytes < mostBytes && now() < end);
   }
 }
 
