@@ -1,6 +1,7 @@
 // Every format that Assimp reads and we do not: its scene -> ours.
 
 #include "import/assimp/files.h"
+#include "import/assimp/library.h"
 #include "import/assimp/materials.h"
 #include "import/creased.h"
 #include "import/formats.h"
@@ -14,12 +15,12 @@
 
 #include <algorithm>
 #include <array>
-#include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <set>
 
@@ -293,15 +294,21 @@ std::string extensionOf(const std::string& name) {
   return extension;
 }
 
+struct Release {
+  void operator()(const aiScene* scene) const { assimp().releaseImport(scene); }
+  void operator()(aiPropertyStore* properties) const { assimp().releasePropertyStore(properties); }
+};
+
 Imported readHere(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
   const References references(options, name);
-  Assimp::Importer importer;
-  auto* files = new SourceFiles(bytes, name, references); // the importer deletes it
-  importer.SetIOHandler(files);
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false); // nodes, not their parts
-  const aiScene* scene = importer.ReadFile(name, aiProcess_ValidateDataStructure);
+  SourceFiles files(bytes, name, references);
+  const std::unique_ptr<aiPropertyStore, Release> properties(assimp().createPropertyStore());
+  assimp().setImportPropertyInteger(properties.get(), AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS,
+                                    false); // nodes, not their parts
+  const std::unique_ptr<const aiScene, Release> scene(
+      assimp().importFile(name.c_str(), aiProcess_ValidateDataStructure, &files.io(), properties.get()));
   if (!scene) {
-    std::string reason = importer.GetErrorString();
+    std::string reason = assimp().getErrorString();
     std::ranges::replace(reason, '\n', ' ');
     throw Error(ErrorKind::malformed, name, fmt::format("Assimp cannot read it: {}", reason));
   }
@@ -309,7 +316,7 @@ Imported readHere(ByteSpan bytes, const std::string& name, const ImportOptions& 
   std::ranges::transform(format, format.begin(),
                          [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
   Imported imported = SceneReader(*scene, name, references).read(format);
-  for (const std::string& refused : files->refused())
+  for (const std::string& refused : files.refused())
     imported.warnings.push_back(fmt::format("Not read: {}.", refused));
   return imported;
 }
@@ -318,7 +325,7 @@ Imported readHere(ByteSpan bytes, const std::string& name, const ImportOptions& 
 
 bool isReadByAssimp(const std::string& name) {
   const std::string extension = extensionOf(name);
-  return !extension.empty() && Assimp::Importer().IsExtensionSupported(extension);
+  return !extension.empty() && assimp().isExtensionSupported(extension.c_str()) == AI_TRUE;
 }
 
 Imported readByAssimp(ByteSpan bytes, const std::string& name, const ImportOptions& options) {

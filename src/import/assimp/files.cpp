@@ -4,41 +4,51 @@
 
 #include <algorithm>
 #include <cstring>
-#include <string_view>
+#include <memory>
 
 namespace imgeo {
 
 namespace {
 
-class MemoryStream : public Assimp::IOStream {
-public:
-  explicit MemoryStream(ByteSpan bytes) : bytes_(bytes) {}
-  explicit MemoryStream(Bytes bytes) : own_(std::move(bytes)), bytes_(own_) {}
+struct OpenFile : aiFile {
+  Bytes own;
+  ByteSpan bytes; ///< these or the source's
+  std::size_t at = 0;
 
-  std::size_t Read(void* to, std::size_t size, std::size_t count) override {
-    const std::size_t whole = size == 0 ? 0 : std::min(count, (bytes_.size() - at_) / size);
+  explicit OpenFile(ByteSpan all) : aiFile{}, bytes(all) {
+    ReadProc = [](aiFile* file, char* to, std::size_t size, std::size_t count) {
+      return of(file).read(to, size, count);
+    };
+    WriteProc = [](aiFile*, const char*, std::size_t, std::size_t) -> std::size_t { return 0; };
+    TellProc = [](aiFile* file) { return of(file).at; };
+    FileSizeProc = [](aiFile* file) { return of(file).bytes.size(); };
+    SeekProc = [](aiFile* file, std::size_t offset, aiOrigin origin) {
+      return of(file).seek(offset, origin);
+    };
+    FlushProc = [](aiFile*) {};
+  }
+  explicit OpenFile(Bytes all) : OpenFile(ByteSpan{}) {
+    own = std::move(all);
+    bytes = own;
+  }
+
+  static OpenFile& of(aiFile* file) { return *static_cast<OpenFile*>(file); }
+
+  std::size_t read(char* to, std::size_t size, std::size_t count) {
+    const std::size_t whole = size == 0 ? 0 : std::min(count, (bytes.size() - at) / size);
     if (whole > 0)
-      std::memcpy(to, bytes_.data() + at_, whole * size);
-    at_ += whole * size;
+      std::memcpy(to, bytes.data() + at, whole * size);
+    at += whole * size;
     return whole;
   }
-  std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
-  aiReturn Seek(std::size_t offset, aiOrigin origin) override {
-    const std::size_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_ : bytes_.size();
+  aiReturn seek(std::size_t offset, aiOrigin origin) {
+    const std::size_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at : bytes.size();
     const std::size_t to = origin == aiOrigin_END ? from - offset : from + offset;
-    if (to > bytes_.size())
+    if (to > bytes.size())
       return aiReturn_FAILURE;
-    at_ = to;
+    at = to;
     return aiReturn_SUCCESS;
   }
-  std::size_t Tell() const override { return at_; }
-  std::size_t FileSize() const override { return bytes_.size(); }
-  void Flush() override {}
-
-private:
-  Bytes own_;
-  ByteSpan bytes_;
-  std::size_t at_ = 0;
 };
 
 /// Paths that Assimp makes begin with the source's folder, or with "./".
@@ -54,34 +64,39 @@ std::string withoutFolder(std::string path, const std::string& source) {
 
 } // namespace
 
-bool SourceFiles::isSource(const std::string& path) const {
-  return path == withoutFolder(name_, name_) || path == name_;
+SourceFiles::SourceFiles(ByteSpan bytes, const std::string& name, const References& references)
+    : bytes_(bytes), name_(name), references_(references) {
+  io_.OpenProc = [](aiFileIO* io, const char* path, const char* mode) {
+    return reinterpret_cast<SourceFiles*>(io->UserData)->open(path, mode);
+  };
+  io_.CloseProc = [](aiFileIO*, aiFile* file) { delete static_cast<OpenFile*>(file); };
+  io_.UserData = reinterpret_cast<aiUserData>(this);
 }
 
-bool SourceFiles::Exists(const char* path) const {
-  const std::string file = withoutFolder(path, name_);
-  if (isSource(file))
-    return true;
-  try {
-    references_.fetch(file);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
-Assimp::IOStream* SourceFiles::Open(const char* path, const char* mode) {
-  if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos)
+/// Assimp also opens files to find out whether they are there.
+aiFile* SourceFiles::open(const std::string& path, const std::string& mode) {
+  if (mode.find_first_of("wa+") != mode.npos)
     return nullptr;
   const std::string file = withoutFolder(path, name_);
-  if (isSource(file))
-    return new MemoryStream(bytes_);
+  if (file == withoutFolder(name_, name_) || file == name_)
+    return std::make_unique<OpenFile>(bytes_).release();
+  const std::string fileName = file.substr(file.rfind('/') + 1);
   try {
-    return new MemoryStream(references_.fetch(file));
+    auto opened = std::make_unique<OpenFile>(references_.fetch(file));
+    refused_.erase(fileName);
+    return opened.release();
   } catch (const Error& error) {
-    refused_.insert(error.what());
+    if (!file.starts_with('/')) // those Assimp makes itself, of the ends of others
+      refused_.try_emplace(fileName, error.what());
     return nullptr;
   }
+}
+
+std::vector<std::string> SourceFiles::refused() const {
+  std::vector<std::string> sentences;
+  for (const auto& [file, sentence] : refused_)
+    sentences.push_back(sentence);
+  return sentences;
 }
 
 } // namespace imgeo

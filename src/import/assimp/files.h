@@ -3,34 +3,35 @@
 
 #include "import/references.h"
 
-#include <assimp/IOStream.hpp>
-#include <assimp/IOSystem.hpp>
-#include <set>
+#include <assimp/cfileio.h>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace imgeo {
 
-class SourceFiles : public Assimp::IOSystem {
+class SourceFiles {
 public:
   /// `bytes` are those of the file `name`; both outlive this.
-  SourceFiles(ByteSpan bytes, const std::string& name, const References& references)
-      : bytes_(bytes), name_(name), references_(references) {}
+  SourceFiles(ByteSpan bytes, const std::string& name, const References& references);
+  SourceFiles(const SourceFiles&) = delete;
+  SourceFiles& operator=(const SourceFiles&) = delete;
 
-  bool Exists(const char* path) const override;
-  char getOsSeparator() const override { return '/'; }
-  Assimp::IOStream* Open(const char* path, const char* mode) override;
-  void Close(Assimp::IOStream* file) override { delete file; }
+  /// What Assimp opens and closes them with, as long as this lives.
+  aiFileIO& io() { return io_; }
 
-  /// What was asked for and not given, a sentence each.
-  const std::set<std::string>& refused() const { return refused_; }
+  /// What was asked for and given nowhere, a sentence each.
+  std::vector<std::string> refused() const;
 
 private:
-  bool isSource(const std::string& path) const;
+  aiFile* open(const std::string& path, const std::string& mode);
 
   ByteSpan bytes_;
   const std::string& name_;
   const References& references_;
-  std::set<std::string> refused_;
+  aiFileIO io_{};
+  /// By the file's name: the same may be sought in several folders.
+  std::map<std::string, std::string> refused_;
 };
 
 } // namespace imgeo

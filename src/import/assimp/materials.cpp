@@ -2,10 +2,10 @@
 
 #include "base/error.h"
 #include "images/image_type.h"
+#include "import/assimp/library.h"
 #include "import/warnings.h"
 
 #include <algorithm>
-#include <assimp/material.h>
 #include <charconv>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,8 +25,8 @@ constexpr Role roles[] = {
     {aiTextureType_SPECULAR, TextureRole::specular}, {aiTextureType_SHININESS, TextureRole::shininess}};
 
 Vec3f colorOf(const aiMaterial& material, const char* key, unsigned type, unsigned index, Vec3f otherwise) {
-  aiColor3D color;
-  if (material.Get(key, type, index, color) != aiReturn_SUCCESS)
+  aiColor4D color;
+  if (assimp().getMaterialColor(&material, key, type, index, &color) != aiReturn_SUCCESS)
     return otherwise;
   const auto channel = [](float value) { return value > 0 ? std::min(value, 1.0f) : 0.0f; };
   return {channel(color.r), channel(color.g), channel(color.b)};
@@ -34,8 +34,9 @@ Vec3f colorOf(const aiMaterial& material, const char* key, unsigned type, unsign
 
 float numberOf(const aiMaterial& material, const char* key, unsigned type, unsigned index, float otherwise) {
   ai_real number = otherwise;
-  return material.Get(key, type, index, number) == aiReturn_SUCCESS && std::isfinite(number) ? number
-                                                                                             : otherwise;
+  const bool isThere =
+      assimp().getMaterialFloats(&material, key, type, index, &number, nullptr) == aiReturn_SUCCESS;
+  return isThere && std::isfinite(number) ? number : otherwise;
 }
 
 Boundary boundaryOf(aiTextureMapMode mode) {
@@ -112,8 +113,9 @@ void AssimpMaterials::addTexture(const aiMaterial& material, aiTextureType type,
   aiTextureMapping mapping = aiTextureMapping_UV;
   unsigned texCoords = 0;
   aiTextureMapMode modes[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
-  if (material.GetTextureCount(type) == 0 ||
-      material.GetTexture(type, 0, &path, &mapping, &texCoords, nullptr, nullptr, modes) != aiReturn_SUCCESS)
+  if (assimp().getMaterialTextureCount(&material, type) == 0 ||
+      assimp().getMaterialTexture(&material, type, 0, &path, &mapping, &texCoords, nullptr, nullptr, modes,
+                                  nullptr) != aiReturn_SUCCESS)
     return;
   if (mapping != aiTextureMapping_UV || texCoords != 0) {
     ++others_["with further or computed texture coordinates"];
@@ -139,7 +141,9 @@ std::optional<std::size_t> AssimpMaterials::appearance(unsigned index) {
     return found->second;
   const aiMaterial& material = *source_.mMaterials[index];
   Appearance appearance;
-  appearance.name = material.GetName().C_Str();
+  aiString name;
+  assimp().getMaterialString(&material, AI_MATKEY_NAME, &name);
+  appearance.name = name.C_Str();
   if (appearance.name == AI_DEFAULT_MATERIAL_NAME)
     return {};
   appearance.material = materialOf(material);
@@ -149,8 +153,8 @@ std::optional<std::size_t> AssimpMaterials::appearance(unsigned index) {
     return std::ranges::any_of(roles, [type](const Role& role) { return role.type == type; });
   };
   for (int type = 1; type <= AI_TEXTURE_TYPE_MAX; ++type)
-    if (!isCarried(type) && material.GetTextureCount(static_cast<aiTextureType>(type)) > 0)
-      ++others_[aiTextureTypeToString(static_cast<aiTextureType>(type))];
+    if (!isCarried(type) && assimp().getMaterialTextureCount(&material, static_cast<aiTextureType>(type)) > 0)
+      ++others_[assimp().textureTypeToString(static_cast<aiTextureType>(type))];
   graph_.appearances.push_back(std::move(appearance));
   return found->second = graph_.appearances.size() - 1;
 }
@@ -158,7 +162,7 @@ std::optional<std::size_t> AssimpMaterials::appearance(unsigned index) {
 bool AssimpMaterials::isSolid(unsigned index) const {
   int isTwoSided = 0;
   if (index < source_.mNumMaterials)
-    source_.mMaterials[index]->Get(AI_MATKEY_TWOSIDED, isTwoSided);
+    assimp().getMaterialIntegers(source_.mMaterials[index], AI_MATKEY_TWOSIDED, &isTwoSided, nullptr);
   return isTwoSided == 0;
 }
 

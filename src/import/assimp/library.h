@@ -1,0 +1,37 @@
+#pragma once
+// Assimp by its C interface, since a library that is loaded late has no other, and this
+// one alone takes two milliseconds of every start.
+
+#include "base/late_library.h"
+
+#include <assimp/cimport.h>
+#include <assimp/material.h>
+
+namespace imgeo {
+
+struct AssimpLibrary : LateLibrary {
+  AssimpLibrary() : LateLibrary(IMGEO_ASSIMP) {}
+
+  decltype(&::aiCreatePropertyStore) createPropertyStore = find("aiCreatePropertyStore");
+  decltype(&::aiGetErrorString) getErrorString = find("aiGetErrorString");
+  decltype(&::aiGetMaterialColor) getMaterialColor = find("aiGetMaterialColor");
+  decltype(&::aiGetMaterialFloatArray) getMaterialFloats = find("aiGetMaterialFloatArray");
+  decltype(&::aiGetMaterialIntegerArray) getMaterialIntegers = find("aiGetMaterialIntegerArray");
+  decltype(&::aiGetMaterialString) getMaterialString = find("aiGetMaterialString");
+  decltype(&::aiGetMaterialTexture) getMaterialTexture = find("aiGetMaterialTexture");
+  decltype(&::aiGetMaterialTextureCount) getMaterialTextureCount = find("aiGetMaterialTextureCount");
+  decltype(&::aiImportFileExWithProperties) importFile = find("aiImportFileExWithProperties");
+  decltype(&::aiIsExtensionSupported) isExtensionSupported = find("aiIsExtensionSupported");
+  decltype(&::aiReleaseImport) releaseImport = find("aiReleaseImport");
+  decltype(&::aiReleasePropertyStore) releasePropertyStore = find("aiReleasePropertyStore");
+  decltype(&::aiSetImportPropertyInteger) setImportPropertyInteger = find("aiSetImportPropertyInteger");
+  decltype(&::aiTextureTypeToString) textureTypeToString = find("aiTextureTypeToString");
+};
+
+/// Loads it when it is first called for.
+inline const AssimpLibrary& assimp() {
+  static const AssimpLibrary library;
+  return library;
+}
+
+} // namespace imgeo
