@@ -35,10 +35,9 @@ bool hasArea(Vec3f a, Vec3f b, Vec3f c) {
 
 } // namespace
 
-std::size_t collapsedElements(const Mesh& mesh, const Lattice& lattice) {
+std::size_t collapsedElements(const Mesh& mesh, std::span<const Vec3u> points, std::uint32_t bits) {
   if (mesh.topology == Topology::points)
     return 0;
-  const std::vector<Vec3u> points = quantise(mesh.positions, lattice);
   std::atomic<std::size_t> collapsed = 0;
   parallelForBlocks(mesh.elementCount(), [&](std::size_t begin, std::size_t end) {
     std::size_t here = 0;
@@ -52,7 +51,7 @@ std::size_t collapsedElements(const Mesh& mesh, const Lattice& lattice) {
         continue;
       }
       const std::uint32_t c = corner(2);
-      here += !hasArea(points[a], points[b], points[c], lattice.bits) &&
+      here += !hasArea(points[a], points[b], points[c], bits) &&
               hasArea(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
     }
     collapsed += here;

@@ -233,20 +233,25 @@ Box3d boxOf(const Patch& patch, const Lattice& lattice) {
 }
 
 PatchedMesh cutIntoPatches(Mesh mesh, const Lattice& lattice, std::uint32_t maxWedges) {
+  std::vector<Vec3u> points = quantise(mesh.positions, lattice);
+  return cutIntoPatches(std::move(mesh), std::move(points), lattice, maxWedges);
+}
+
+PatchedMesh cutIntoPatches(Mesh mesh, std::vector<Vec3u> points, const Lattice& lattice,
+                           std::uint32_t maxWedges) {
   assert(maxWedges >= 3);
   PatchedMesh result;
   result.lattice = lattice;
-  std::vector<Vec3u> positions = quantise(mesh.positions, lattice);
   if (mesh.wedgeCount() <= maxWedges && mesh.corners.size() <= maxPatchCorners) {
     if (mesh.elementCount() > 0)
-      result.patches.push_back(wholePatch(std::move(mesh), std::move(positions)));
+      result.patches.push_back(wholePatch(std::move(mesh), std::move(points)));
   } else {
     std::vector<std::uint32_t> permutation(mesh.elementCount());
     std::iota(permutation.begin(), permutation.end(), 0u);
     const std::vector<Elements> leaves = cutTree(ElementTable(mesh), permutation, maxWedges);
     result.patches.resize(leaves.size());
     parallelFor(leaves.size(),
-                [&](std::size_t i) { result.patches[i] = makePatch(mesh, positions, leaves[i], maxWedges); });
+                [&](std::size_t i) { result.patches[i] = makePatch(mesh, points, leaves[i], maxWedges); });
   }
   for (const Patch& patch : result.patches) {
     const Box3d box = boxOf(patch, lattice);

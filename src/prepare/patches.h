@@ -36,9 +36,12 @@ struct PatchedMesh {
 /// A patch's tight box, in the mesh's units.
 Box3d boxOf(const Patch& patch, const Lattice& lattice);
 
-/// Cuts `mesh`, all of whose wedges and positions are in use, so that no patch has more than `maxWedges` wedges (3 .. maxPatchWedges)
-/// or more than `maxPatchCorners` corners. Every element is in exactly one patch, in
-/// an order that depends on the input alone, not on threads.
+/// Cuts `mesh`, all of whose wedges and positions are in use, so that no patch has more than
+/// `maxWedges` wedges (3 .. maxPatchWedges) or more than `maxPatchCorners` corners. Every
+/// element is in exactly one patch, in an order that depends on the input alone, not on threads.
 PatchedMesh cutIntoPatches(Mesh mesh, const Lattice& lattice, std::uint32_t maxWedges);
+/// The same where the mesh's positions on the lattice are known.
+PatchedMesh cutIntoPatches(Mesh mesh, std::vector<Vec3u> points, const Lattice& lattice,
+                           std::uint32_t maxWedges);
 
 } // namespace imgeo

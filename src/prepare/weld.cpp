@@ -163,6 +163,25 @@ Vec3u turned(const std::uint32_t* corners, std::uint32_t count) {
   return {c, a, b};
 }
 
+/// An element's corners but for the least.
+struct OtherCorners {
+  std::uint64_t corners;
+  std::uint32_t element;
+
+  auto operator<=>(const OtherCorners&) const = default;
+};
+
+/// Of elements with the same least corner, in ascending order: marks all that repeat one before.
+void markRepeated(std::vector<OtherCorners>& others, std::vector<std::uint8_t>& repeated) {
+  constexpr std::size_t few = 8; // most have two: not worth sorting
+  if (others.size() > few)
+    std::sort(others.begin(), others.end());
+  for (std::size_t i = 1; i < others.size(); ++i)
+    for (std::size_t j = others.size() > few ? i - 1 : 0; j < i; ++j)
+      if (others[j].corners == others[i].corners)
+        repeated[others[i].element] = 1;
+}
+
 /// One for each element that repeats an earlier one, zero for the others. Elements
 /// are told apart among those of the same least corner, which are few.
 std::vector<std::uint8_t> findRepeated(const Mesh& mesh) {
@@ -179,16 +198,14 @@ std::vector<std::uint8_t> findRepeated(const Mesh& mesh) {
       incidenceOf(least.size(), mesh.wedgeCount(), [&](std::size_t element) { return least[element]; });
   std::vector<std::uint8_t> repeated(mesh.elementCount());
   parallelForBlocks(mesh.wedgeCount(), [&](std::size_t begin, std::size_t end) {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> others;
+    std::vector<OtherCorners> others;
     for (std::size_t first = begin; first < end; ++first) {
       others.clear();
       for (const std::uint32_t element : byLeast.of(static_cast<std::uint32_t>(first))) {
         const Vec3u corners = cornersOf(element);
         others.push_back({std::uint64_t{corners.y} << 32 | corners.z, element});
       }
-      std::sort(others.begin(), others.end());
-      for (std::size_t i = 1; i < others.size(); ++i)
-        repeated[others[i].second] = others[i].first == others[i - 1].first;
+      markRepeated(others, repeated);
     }
   });
   return repeated;
@@ -200,9 +217,7 @@ std::vector<std::uint8_t> findDegenerate(const Mesh& mesh) {
   std::vector<std::uint8_t> degenerate(mesh.elementCount());
   parallelForBlocks(count > 1 ? mesh.elementCount() : 0, [&](std::size_t begin, std::size_t end) {
     for (std::size_t element = begin; element < end; ++element) {
-      const auto at = [&](std::size_t i) {
-        return mesh.wedgePositions[mesh.corners[element * count + i % count]];
-      };
+      const auto at = [&](std::size_t i) { return mesh.wedgePositions[mesh.corners[element * count + i]]; };
       degenerate[element] = at(0) == at(1) || (count > 2 && (at(1) == at(2) || at(2) == at(0)));
     }
   });

@@ -124,8 +124,9 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
   const Lattice lattice =
       latticeFor(box, options.coordType.value_or(ElementType::uint32), positionBitsFor(box, options));
   EncodedMesh result;
-  result.collapsed.of(mesh.topology) = collapsedElements(mesh, lattice);
-  PatchedMesh patched = cutIntoPatches(std::move(mesh), lattice, options.patchVertices);
+  std::vector<Vec3u> points = quantise(mesh.positions, lattice);
+  result.collapsed.of(mesh.topology) = collapsedElements(mesh, points, lattice.bits);
+  PatchedMesh patched = cutIntoPatches(std::move(mesh), std::move(points), lattice, options.patchVertices);
 
   const EncodeOptions encoding{options.container,    options.normalBits,    options.effort,
                                options.target,       options.normals,       options.coordType,
