@@ -70,6 +70,14 @@ TEST(PageMarkup, KeepsAHostileDocumentFromRunningInThePage) {
     EXPECT_NE(body.find(kept), std::string::npos) << kept << "\n" << body;
 }
 
+TEST(PageMarkup, KeepsTheStyleOfLettersFromBeingHtmls) {
+  SceneDocument document;
+  document.graph.roots = {addOther(document.graph, "FontStyle", {{"style", "BOLD"}, {"size", "2"}})};
+  EXPECT_NE(writeHtml(document, {"imgeo.js", "imgeo.css"}).find("<FontStyle size=\"2\" data-style=\"BOLD\">"),
+            std::string::npos);
+  EXPECT_NE(writeX3d(document).find("<FontStyle style=\"BOLD\" size=\"2\">"), std::string::npos);
+}
+
 TEST(PageMarkup, LeavesTheX3dFileAsItWas) {
   const std::string file = writeX3d(hostileDocument());
   for (const char* kept :

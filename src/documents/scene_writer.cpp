@@ -200,6 +200,11 @@ Element SceneWriter::otherElement(const OtherNode& other, const Node& node, cons
       field.value = strings({document_.graph.inlined.at(*other.document).url});
     element.groups.back().push_back(std::move(field));
   }
+  // In a page `style` is HTML's, and a strict content policy refuses it.
+  if (medium_ == Medium::page && other.element == "FontStyle")
+    for (const FieldText& field : node.fields)
+      if (field.name == "style")
+        element.groups.back().push_back({"data-style", field.value});
   if (image && !image->preview.empty())
     element.groups.back().push_back({"preview", image->preview});
   return element;

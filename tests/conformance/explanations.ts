@@ -4,6 +4,7 @@
 export const sameMean = 1;
 
 const otherDiagonal = "X3D leaves open along which diagonal a quad is split; X_ITE takes the other. X3DOM's npm package does not have the node";
+const otherFonts = "letters are those of the browser's fonts; X_ITE brings its own";
 const noFans = "X3DOM's npm package does not draw it";
 const noTexturesInMaterials = "X3DOM does not know X3D 4's textures of materials";
 const withoutPi = "a light of intensity 1 makes a white surface that faces it white, as with `Material`; X_ITE divides by π. X3DOM does not know the node";
@@ -20,6 +21,9 @@ export const explanations: Readonly<Record<string, string>> = {
   "ElevationGrid-texture": otherDiagonal,
   "Extrusion": "X3DOM's npm package does not have the node",
   "Extrusion-twist": "X3DOM's npm package does not have the node",
+  "FontStyle-family": otherFonts,
+  "FontStyle-justify": otherFonts,
+  "FontStyle-vertical": `${otherFonts}; X3DOM does not know \`horizontal\``,
   "Grouping": "X3DOM shows nothing of a document that has a `StaticGroup`",
   "ImageTexture-colored-material": "a texture is multiplied by the diffuse colour (X3D 4); in X3DOM it stands in for it",
   "IndexedFaceSet-creaseAngle-between": "edges of up to `creaseAngle` are smooth, others sharp; X3DOM makes all of them smooth",
@@ -37,6 +41,9 @@ export const explanations: Readonly<Record<string, string>> = {
   "PhysicalMaterial-metallic-1-roughness-0.4": `${withoutPi}. Metal mirrors a grey room, X_ITE's nothing`,
   "PointLight-of-its-group": allLightsAreGlobal,
   "PointLight-scaled": "what scales a light scales its radius and its falloff; not in X3DOM",
+  "Text": otherFonts,
+  "Text-length": `${otherFonts}. Letters are stretched; X_ITE moves them apart and together, X3DOM does not know \`length\` and squeezes one string alone`,
+  "Text-no-material": `${otherFonts}; in X3DOM MIDDLE is a little higher`,
   "TextureTransform": "textures seen small are filtered otherwise",
   "Transform-mirror": "a mirror turns triangles round; X3DOM shows their backs",
   "TriangleFanSet": noFans,

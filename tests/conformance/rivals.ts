@@ -1,7 +1,7 @@
 // The three runtimes that show a document: ours, X_ITE and X3DOM, each as a page
 // that a server serves beside the document.
 
-import { readFileSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { build } from "esbuild";
 import { runtimeBundle } from "../../web/bundle.ts";
@@ -23,7 +23,9 @@ export async function serveRuntimes(server: TestServer): Promise<void> {
   server.put("/imgeo.js", Buffer.from(bundle.outputFiles[0]?.contents ?? []));
   const of = (path: string): Buffer => readFileSync(join(repository, "node_modules", path));
   server.put("/x_ite.js", of("x_ite/dist/x_ite.min.js"));
-  for (const file of ["x_ite.css", "assets/lib/mikktspace_bg.wasm", "assets/components/TextComponent.min.js"]) server.put(`/${file}`, of(`x_ite/dist/${file}`));
+  const fonts = readdirSync(join(repository, "node_modules/x_ite/dist/assets/fonts"), { recursive: true, encoding: "utf8" })
+    .filter((file) => file.includes(".")).map((font) => `assets/fonts/${font}`);
+  for (const file of ["x_ite.css", "assets/lib/mikktspace_bg.wasm", "assets/components/TextComponent.js", "assets/lib/woff2_decoder.js", ...fonts]) server.put(`/${file}`, of(`x_ite/dist/${file}`));
   server.put("/x3dom.js", of("x3dom-1.8/x3dom.js"));
   server.put("/x3dom.css", of("x3dom-1.8/x3dom.css"));
 }

@@ -25,6 +25,7 @@ bool isDrawnInPages(std::string_view element) {
                                                 "LineSet",
                                                 "PointSet",
                                                 "Sphere",
+                                                "Text",
                                                 "TriangleFanSet",
                                                 "TriangleSet",
                                                 "TriangleStripSet",

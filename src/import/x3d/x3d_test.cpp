@@ -173,13 +173,13 @@ TEST(X3d, LeavesGeometryThatIsShortAsTextWhereItIs) {
 }
 
 TEST(X3d, SaysWhichGeometryPagesDoNotDraw) {
-  const Imported imported =
-      readScene("<Shape><Text string='a'/></Shape><Shape><Appearance/><NurbsCurve/></Shape>"
-                "<Shape><Sphere/></Shape><Shape><NurbsCurve/></Shape>");
+  const Imported imported = readScene("<Shape><Circle2D/></Shape><Shape><Appearance/><NurbsCurve/></Shape>"
+                                      "<Shape><Sphere/></Shape><Shape><NurbsCurve/></Shape>");
   EXPECT_EQ(
       imported.warnings,
       std::vector<std::string>{
-          "Geometry that stays as it is and that imgeo's pages do not draw: NurbsCurve (2), Text (1)."});
+          "Geometry that stays as it is and that imgeo's pages do not draw: Circle2D (1), NurbsCurve (2)."});
+  EXPECT_TRUE(readScene("<Shape><Text string='" + std::string(5000, 'a') + "'/></Shape>").warnings.empty());
 }
 
 TEST(X3d, TakesTexturesFromItsOwnFolderAlone) {

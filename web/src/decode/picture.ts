@@ -2,14 +2,24 @@
 // with colours.
 
 import { DecodeError } from "./decodeError.ts";
+import { drawLetters } from "./letters.ts";
 
 export interface DecodedPicture {
   readonly bitmap: ImageBitmap;
   readonly hasAlpha: boolean;
 }
 
-/** Larger ones are made smaller; of data no number is converted. Rejects with DecodeError. */
-export async function decodePicture(bytes: Uint8Array<ArrayBuffer>, largestEdge: number, isData: boolean): Promise<DecodedPicture> {
+/** What a picture's numbers mean. */
+export interface PictureKind {
+  /** No colours: no number is converted. */
+  readonly isData: boolean;
+  /** The file tells of letters, whose field of distances is made. */
+  readonly isDistanceField?: true;
+}
+
+/** Larger ones are made smaller. Rejects with DecodeError. */
+export async function decodePicture(bytes: Uint8Array<ArrayBuffer>, largestEdge: number, { isData, isDistanceField }: PictureKind): Promise<DecodedPicture> {
+  if (isDistanceField === true) return { bitmap: await drawLetters(bytes), hasAlpha: true };
   const options: ImageBitmapOptions = {
     premultiplyAlpha: "none", imageOrientation: "flipY", colorSpaceConversion: isData ? "none" : "default",
   };

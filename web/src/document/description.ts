@@ -124,6 +124,8 @@ export interface GeometryDescription {
   readonly patches: readonly PatchDescription[];
   /** SIG compact: what stands in for the patches until they are here, from this byte of its file's pixels on. */
   readonly base: Reference | undefined;
+  /** Of a text: the picture that its letters are cut out with. */
+  readonly letters?: string;
 }
 
 /** Phong's model in the numbers of the screen, glTF's metallic-roughness model in linear ones, or a colour that no light changes. */
@@ -151,6 +153,8 @@ export interface SamplingDescription {
   readonly isSmooth: boolean;
   readonly hasMipmaps: boolean;
   readonly anisotropy: number;
+  /** Alpha is no share but how far an edge is, as render/letterField.ts reads it. */
+  readonly isDistanceField?: true;
 }
 
 /** 3 x 3, column by column. */

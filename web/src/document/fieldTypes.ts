@@ -102,6 +102,9 @@ const mfString: FieldType<readonly string[]> = {
   },
 };
 
+/** The same, but a text without quotes is one string. */
+const mfText: FieldType<readonly string[]> = { name: "MFString", parse: (text) => (text.includes('"') ? mfString.parse(text) : text === "" ? [] : [text]) };
+
 const sfImage: FieldType<PixelImage> = {
   name: "SFImage",
   parse(text) {
@@ -141,4 +144,5 @@ export const SFRotation = maker(tuple<Rotation>("SFRotation", 4));
 export const MFInt32 = maker(mfInt32);
 export const MFFloat = maker(mfFloat);
 export const MFString = maker(mfString);
+export const MFText = maker(mfText);
 export const MFColor = maker(mfColor);

@@ -2,8 +2,8 @@
 // BG in data: URLs, so that everything behind the document treats it like any
 // other, and what has not changed is the same text.
 
-import type { Box3, GeometryDescription, Reference, Warning } from "./description.ts";
-import { dataUrl } from "./dataUrl.ts";
+import { describe } from "./describedArrays.ts";
+import type { GeometryDescription, Warning } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
 import { elevationGrid } from "./elevationGrid.ts";
@@ -11,7 +11,6 @@ import type { Surface } from "./elevationGrid.ts";
 import { extrusion } from "./extrusion.ts";
 import type { Corner, Drawn, VertexData } from "./facets.ts";
 import { drawn, fansOf, linesOf, trianglesOf, withCreasedNormals, withSpreadTexCoords } from "./facets.ts";
-import type { Vec3 } from "./fieldTypes.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import type { Solid } from "./solids.ts";
@@ -170,35 +169,4 @@ function strip(run: readonly number[]): number[][] {
     const [first, second] = [run[i] ?? 0, run[i + 1] ?? 0];
     return i % 2 === 0 ? [first, second, last] : [first, last, second];
   });
-}
-
-function describe(arrays: Drawn | undefined, solid: boolean): GeometryDescription | undefined {
-  if (arrays === undefined || arrays.positions.length === 0) return undefined;
-  const { positions, normals, texCoords, colors, colorComponents, primitive } = arrays;
-  const count = positions.length / 3;
-  return {
-    container: "bg", position: [0, 0, 0], size: [1, 1, 1], positionBits: 0, solid,
-    texCoordMin: [0, 0], texCoordSize: [1, 1], colorComponents, normalEncoding: "rgb", decode: "auto", base: undefined, attributes: [], value: undefined,
-    indexType: "Uint32", coordType: "Float32", normalType: "Float32", texCoordType: "Float32", colorType: "Uint8",
-    patches: [{
-      box: boxAroundAll(positions), vertexCount: count, draws: [{ primitive, count }], implicitWidth: 1, implicitHeight: 1, grid: undefined,
-      index: undefined, coord: [dataReference(positions)], normal: normals && dataReference(normals),
-      texCoord: texCoords && dataReference(texCoords), color: colors && dataReference(colors), attributes: [], value: [], data: undefined,
-    }],
-  };
-}
-
-function boxAroundAll(positions: Float32Array): Box3 {
-  const edge = (choose: (...values: number[]) => number, start: number): Vec3 => {
-    const corner: [number, number, number] = [start, start, start];
-    positions.forEach((value, i) => { corner[i % 3] = choose(corner[i % 3] ?? start, value); });
-    return corner;
-  };
-  return { min: edge(Math.min, Infinity), max: edge(Math.max, -Infinity) };
-}
-
-/** Typed arrays are little-endian there, as they are on every machine with a browser. */
-function dataReference(array: Float32Array | Uint8Array): Reference {
-  const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
-  return { url: dataUrl("application/octet-stream", bytes), first: 0, stride: 0 };
 }

@@ -6,7 +6,7 @@ import type { SceneElement } from "./element.ts";
 import { attributesOf } from "./element.ts";
 import type { Field } from "./fieldTypes.ts";
 import {
-  MFColor, MFFloat, MFInt32, MFString, optional, Priority, SFBool, SFColor, SFFloat, SFImage, SFInt32, SFRotation, SFString, SFVec2f,
+  MFColor, MFFloat, MFInt32, MFString, MFText, optional, Priority, SFBool, SFColor, SFFloat, SFImage, SFInt32, SFRotation, SFString, SFVec2f,
   SFVec3f,
 } from "./fieldTypes.ts";
 import { ColorMap } from "./colorMaps.ts";
@@ -241,6 +241,19 @@ export const nodeFields = {
     orientation: MFFloat([0, 0, 1, 0]),
     beginCap: SFBool(true),
     endCap: SFBool(true),
+  },
+  Text: { string: MFText([]), length: MFFloat([]), maxExtent: SFFloat(0), solid: SFBool(false) },
+  FontStyle: {
+    family: MFString(["SERIF"]),
+    style: SFString("PLAIN"),
+    /** The same, where a page's content policy does not let elements have HTML's `style`. */
+    "data-style": SFString(""),
+    size: SFFloat(1),
+    spacing: SFFloat(1),
+    justify: MFString(["BEGIN"]),
+    horizontal: SFBool(true),
+    leftToRight: SFBool(true),
+    topToBottom: SFBool(true),
   },
   Coordinate: { point: MFFloat([]) },
   Normal: { vector: MFFloat([]) },

@@ -9,6 +9,7 @@ import type { Vec3 } from "./fieldTypes.ts";
 import { boxAround, boxOf, isUnbounded, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
 import type { GeometryMemory, Lookup } from "./geometryMemory.ts";
 import { readInlineGeometry } from "./inlineGeometry.ts";
+import type { TextReading } from "./textGeometry.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
@@ -17,6 +18,8 @@ export interface ShapeReading {
   readonly geometries: GeometryMemory;
   readonly lookup: Lookup;
   readonly warnings: Warning[];
+  /** Undefined: nothing is seen of texts. */
+  readonly text: TextReading | undefined;
 }
 
 /** `element` is the shape's identity, `host` the page's element for it, `node` what describes it: the same but for USE. */
@@ -32,20 +35,21 @@ export function readShape(element: SceneElement, host: SceneElement, node: Scene
   });
   const appearance = firstOf(parts, reading, (part) => (lowerNameOf(part) === "appearance" ? part : undefined));
   const isSeen = values.visible && values.render;
+  const look = readAppearance(appearance, colorMapOf(node, values, geometry, warnings), nodesIn, warnings);
   return {
     kind: "shape", element, geometry, host,
     visible: isSeen, reaches: isSeen, priority: values.priority * priorityOfGeometry, isPickable: values.isPickable,
     box: ownBox ?? (geometry && boxOfGeometry(geometry)),
-    appearance: readAppearance(appearance, colorMapOf(node, values, geometry, warnings), nodesIn, warnings),
+    appearance: geometry?.letters === undefined || reading.text === undefined ? look : reading.text.appearanceOf(look, geometry.letters, node, warnings),
   };
 }
 
 /** The geometry of a shape that has these parts, with its priority: beside it, as with another it is the same geometry. */
 function readGeometryOf(parts: readonly SceneElement[], reading: ShapeReading, box: Box3 | undefined,
                         colorBy: string): readonly [geometry: GeometryDescription | undefined, priority: number] {
-  const { geometries, lookup, warnings } = reading;
+  const { geometries, lookup, warnings, text } = reading;
   const found = firstOf(parts, reading, (part) => {
-    const geometry = geometries.recall(part, lookup, warnings, readGeometry);
+    const geometry = geometries.recall(part, lookup, warnings, (...of) => readGeometry(text, ...of));
     return geometry && { part, geometry };
   });
   if (found === undefined) return [undefined, 1];
@@ -59,12 +63,14 @@ const geometryReaders: Readonly<Record<string, typeof readImageGeometry>> = {
 };
 
 /** Undefined for what is no geometry. */
-function readGeometry(element: SceneElement, lookup: Lookup, warnings: Warning[]): GeometryDescription | undefined {
+function readGeometry(text: TextReading | undefined, element: SceneElement, lookup: Lookup, warnings: Warning[]): GeometryDescription | undefined {
   const resolve = (part: SceneElement) => {
     const name = attributeOf(part, "USE");
     return name === undefined ? part : lookup(name);
   };
-  return geometryReaders[lowerNameOf(element)]?.(element, warnings) ?? readInlineGeometry(element, resolve, warnings);
+  const name = lowerNameOf(element);
+  if (name === "text") return text?.geometryOf(element, resolve, warnings);
+  return geometryReaders[name]?.(element, warnings) ?? readInlineGeometry(element, resolve, warnings);
 }
 
 /** The shape's box is that of a geometry's only patch which says nothing of its own. */

@@ -16,6 +16,7 @@ import { Place } from "./place.ts";
 import type { InlinedDocument } from "./readNode.ts";
 import { isReadAsWhole, readNode } from "./readNode.ts";
 import type { Below, Inherited, Said, Saying } from "./said.ts";
+import type { TextReading } from "./textGeometry.ts";
 import { joined, warned } from "./said.ts";
 
 /** What a scene shows beyond what its own elements say. Who says something else of an element than before touches it. */
@@ -26,6 +27,8 @@ export interface Supplements {
   readonly inlined?: (inline: SceneElement) => InlinedDocument | undefined;
   /** The level of a LOD; undefined while nobody knows how far it is. */
   readonly levelOf?: (lod: SceneElement) => number | undefined;
+  /** How texts are read; without it nothing is seen of them. */
+  readonly text?: TextReading;
 }
 
 /** Documents that inline one another deeper than this are no scene. */
@@ -165,7 +168,7 @@ export class SceneReader {
     place.node = node;
     place.readsAllBelow = isReadAsWhole(node);
     return readNode(element, node, {
-      warnings, lookup, geometries: this.#geometries, host: host ?? element,
+      warnings, lookup, geometries: this.#geometries, text: this.#supplements.text, host: host ?? element,
       childrenOf: (of) => tree.childrenOf(of),
       levelOf: (lod) => this.#supplements.levelOf?.(lod),
       inlined: (inline) => this.#inlinedAt(place, inline, warnings),

@@ -46,7 +46,7 @@ export class Arrival {
 
   /** The same of a picture, in any format that the browser knows; its first row is the lowest, as texture coordinates count. */
   async makePicture(bytes: Uint8Array<ArrayBuffer>, sampling: SamplingDescription, signal: AbortSignal): Promise<Picture> {
-    const { bitmap, hasAlpha } = await decodePicture(bytes, this.#renderer.largestTexture, sampling.isData);
+    const { bitmap, hasAlpha } = await decodePicture(bytes, this.#renderer.largestTexture, sampling);
     try {
       signal.throwIfAborted();
       return { image: await this.#upload(bitmap, signal, sampling), hasAlpha };

@@ -1,6 +1,7 @@
 // Joins a document to a picture: reads the scene whenever the document changes,
 // says what to load of it, and tells the page.
 
+import { measureRun } from "../decode/letters.ts";
 import type { StageName } from "../decode/stage.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { Transfer } from "../delivery/progress.ts";
@@ -11,6 +12,7 @@ import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { SceneReader } from "../document/sceneReader.ts";
+import { textReading } from "../document/textGeometry.ts";
 import type { NavigatedScene } from "../navigation/navigator.ts";
 import { Navigator } from "../navigation/navigator.ts";
 import type { PlacedLevels } from "../navigation/placement.ts";
@@ -133,6 +135,7 @@ export class Viewer {
     });
     this.#reader = new SceneReader(x3d, {
       inlined: (inline) => this.#inlines.documentOf(inline), levelOf: (lod) => this.#levels.levelOf(lod),
+      text: textReading(measureRun),
     });
     this.#steering = new Steering(this.renderer, { geometries: this.#deliveries, textures: this.#textures }, () => { this.#onSteered(); });
     this.#observer = new MutationObserver((all) => {

@@ -11,6 +11,7 @@ import {
 import type { AppearanceDescription, MaterialDescription, TextureRole } from "../document/description.ts";
 import { textureRoles } from "../document/description.ts";
 import { farnessDefine, shadeByFarnessIn } from "../render/farness.ts";
+import { cutLettersIn, hasLetters, setLetters } from "../render/letterField.ts";
 import type { Look, MaterialRequest, Shading, ShownPictures } from "../render/look.ts";
 import { colorByValueIn } from "../render/valueColors.ts";
 import { primitiveDefinesOf, shapePointsIn } from "../render/points.ts";
@@ -100,8 +101,9 @@ const slots: Readonly<Record<TextureRole, readonly string[]>> = {
 };
 
 /** Over the material's own colour. A material with maps of the app's keeps them until there are others. */
-function layPictures(material: Material, shadows: ShadowMaterials | undefined, { alpha, material: description }: AppearanceDescription,
-                     pictures: ShownPictures): void {
+function layPictures(material: Material, shadows: ShadowMaterials | undefined, appearance: AppearanceDescription, pictures: ShownPictures): void {
+  const { alpha, material: description } = appearance;
+  setLetters(material, appearance);
   for (const role of textureRoles) {
     const isMain = role === "color" || description.kind !== "unlit";
     for (const slot of slots[role]) if (isMain) layMap(material, slot, pictures.get(role)?.texture);
@@ -113,11 +115,12 @@ function layPictures(material: Material, shadows: ShadowMaterials | undefined, {
   const color = pictures.get("color");
   if (color === undefined) return;
   if (alpha.mode === "BLEND" || (alpha.mode === "AUTO" && color.hasAlpha)) material.transparent = true;
-  if (alpha.mode !== "MASK") return;
-  // Holes let light through.
-  for (const drawn of [material, shadows?.depth, shadows?.distance]) {
+  const areLetters = hasLetters(appearance);
+  if (alpha.mode !== "MASK" && !areLetters) return;
+  // Holes let light through; letters have their edges in the middle of their field.
+  for (const drawn of [areLetters ? undefined : material, shadows?.depth, shadows?.distance]) {
     if (drawn === undefined) continue;
-    drawn.alphaTest = alpha.cutoff;
+    drawn.alphaTest = areLetters ? 0.5 : alpha.cutoff;
     layMap(drawn, "map", color.texture);
   }
 }
@@ -168,6 +171,7 @@ function readVertices<Any extends Material>(material: Any, request: MaterialRequ
     shapePointsIn(shader);
     shadeByFarnessIn(shader);
     colorByValueIn(shader);
+    cutLettersIn(shader);
   };
   material.customProgramCacheKey = () => `imgeo ${ownKey}`;
   return material;

@@ -39,7 +39,7 @@ export class BitmapTextures implements Textures {
 
   /** The same for what is looked at. */
   async makePicture(bytes: Uint8Array<ArrayBuffer>, sampling: SamplingDescription, signal: AbortSignal): Promise<Picture> {
-    const { bitmap, hasAlpha } = await decodePicture(bytes, largestTexture, sampling.isData);
+    const { bitmap, hasAlpha } = await decodePicture(bytes, largestTexture, sampling);
     const texture = new Texture(bitmap);
     texture.flipY = false; // the bitmap is already
     texture.colorSpace = sampling.isData ? NoColorSpace : SRGBColorSpace;

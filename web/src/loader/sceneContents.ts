@@ -3,6 +3,7 @@
 
 import type { Object3D } from "three";
 import { Box3, Group } from "three";
+import { measureRun } from "../decode/letters.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import { Inlines } from "../delivery/inlines.ts";
 import type { ResourcePool } from "../delivery/resources.ts";
@@ -14,6 +15,7 @@ import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
 import { levelAt } from "../document/levels.ts";
 import { SceneReader } from "../document/sceneReader.ts";
+import { textReading } from "../document/textGeometry.ts";
 import { SceneGraph } from "../render/sceneGraph.ts";
 import type { ShapeSetting } from "../render/shapeObject.ts";
 import { chunkWeightsOf } from "../scheduler/priority.ts";
@@ -76,7 +78,7 @@ export class SceneContents {
       },
     });
     this.#reader = new SceneReader(x3d, {
-      url, inlined: (inline) => this.#inlines.documentOf(inline), levelOf: (lod) => this.#chosen.get(lod),
+      url, inlined: (inline) => this.#inlines.documentOf(inline), levelOf: (lod) => this.#chosen.get(lod), text: textReading(measureRun),
     });
     this.#scene = this.#reader.read();
     this.#graph = new SceneGraph({

@@ -13,6 +13,7 @@ import { placeColors } from "./batches/placeChunk.ts";
 import { farnessDefine, shadeByFarnessIn } from "./farness.ts";
 import { lightsChunk } from "./lightFalloff.ts";
 import { areScoped, scopeLightsIn } from "./lightScopes.ts";
+import { cutLettersIn, setLetters } from "./letterField.ts";
 import type { Look, MaterialRequest, Shading, ShownPictures, VertexColors } from "./look.ts";
 import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
 import { colorByValueIn } from "./valueColors.ts";
@@ -65,6 +66,7 @@ function makeMaterial(request: MaterialRequest, appearance: AppearanceDescriptio
     shapePointsIn(shader);
     shadeByFarnessIn(shader);
     colorByValueIn(shader);
+    cutLettersIn(shader);
     shader.fragmentShader = ownMapDeclarations + replaceEach(shader.fragmentShader, [
       ["#include <lights_pars_begin>", lightsChunk],
       ["#include <lights_phong_pars_fragment>", x3dLightingChunk],
@@ -91,6 +93,7 @@ function applyAppearance(material: Material, appearance: AppearanceDescription, 
   material.opacity = opacityOf(appearance);
   material.alphaTest = alphaTestOf(appearance);
   layPictures(shown, description, pictures, isLit ? shown.userData.lit : undefined);
+  setLetters(material, appearance);
   const isTransparent = blends(appearance, colors, pictures);
   if (material.transparent !== isTransparent) material.needsUpdate = true;
   material.transparent = isTransparent;

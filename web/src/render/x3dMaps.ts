@@ -7,6 +7,7 @@ import type { MeshBasicMaterial, MeshPhongMaterial, Texture } from "three";
 import type { MaterialDescription } from "../document/description.ts";
 import { toLinearChunk } from "../lighting/physicalLighting.ts";
 import { placesDefine } from "./batches/placeChunk.ts";
+import { setDefine } from "./defines.ts";
 import type { ShownPictures } from "./look.ts";
 import type { OwnMapRole } from "./texCoords.ts";
 import { ownMapDeclarations, ownMapDefine, ownMapRoles, ownTexel } from "./texCoords.ts";
@@ -112,10 +113,5 @@ function setMap(material: MeshPhongMaterial | MeshBasicMaterial, slot: Slot, tex
 
 function setOwnMap(material: MeshPhongMaterial, role: OwnMapRole, texture: Texture | null, uniforms: OwnMapUniforms): void {
   uniforms[`${role}Map`].value = texture;
-  const define = ownMapDefine(role);
-  const defines = material.defines ?? {};
-  if (define in defines === (texture !== null)) return;
-  const others = Object.entries(defines).filter(([name]) => name !== define);
-  material.defines = { ...Object.fromEntries(others), ...(texture !== null && { [define]: "" }) };
-  material.needsUpdate = true;
+  setDefine(material, ownMapDefine(role), texture !== null);
 }

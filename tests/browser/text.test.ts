@@ -1,0 +1,86 @@
+// X3D's Text in a page, beside what the browser itself writes in the same font, size
+// and place.
+
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import type { Page } from "playwright-core";
+import { assertSamePicture } from "./compare.ts";
+import { pictureSize, withPage } from "./harness.ts";
+import { decodePng, type Picture } from "./png.ts";
+import { sceneOf } from "./scenes.ts";
+import { siteOfGenerated } from "./sites.ts";
+
+const pixelsPerUnit = pictureSize.height / 2 / Math.tan(0.7854 / 2) / 10;
+
+interface Line {
+  text: string;
+  /** Left end of the baseline, and the size of letters, in units of the scene. */
+  x: number;
+  y: number;
+  size: number;
+  font: string;
+  color: string;
+}
+
+/** What a canvas shows of these lines. */
+async function written(page: Page, lines: readonly Line[]): Promise<Picture> {
+  const png = await page.evaluate(async ({ lines, pixelsPerUnit, width, height }) => {
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [width, height];
+    const context = canvas.getContext("2d")!;
+    context.textRendering = "geometricPrecision";
+    context.fillRect(0, 0, width, height);
+    context.fillStyle = "rgb(51 0 51)";
+    context.fillRect(width / 2 + pixelsPerUnit, height / 2 + pixelsPerUnit, 4 * pixelsPerUnit, 2 * pixelsPerUnit);
+    for (const { text, x, y, size, font, color } of lines) {
+      context.font = font.replace("SIZE", `${size * pixelsPerUnit}px`);
+      context.fillStyle = color;
+      context.fillText(text, width / 2 + x * pixelsPerUnit, height / 2 - y * pixelsPerUnit);
+    }
+    const blob = await new Promise<Blob | null>((resolve) => { canvas.toBlob(resolve); });
+    return Array.from(new Uint8Array(await blob!.arrayBuffer()));
+  }, { lines, pixelsPerUnit, ...pictureSize });
+  return decodePng(Buffer.from(png));
+}
+
+const shape = (id: string, translation: string, string: string, style: string, appearance: string): string =>
+  `<Transform translation="${translation}"><Shape id="${id}"><Appearance>${appearance}</Appearance><Text string='${string}'><FontStyle ${style}></FontStyle></Text></Shape></Transform>`;
+
+describe("a text", () => {
+  test("looks as the browser writes it, small and large, lit or not, hides nothing between its letters, is hit within its lines, and changes", async () => {
+    const scene = `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo><Background skyColor="0 0 0"></Background><Viewpoint position="0 0 10" fieldOfView="0.7854"></Viewpoint>
+      ${shape("lit", "-5 2.5 0", '"Hall" "of seats"', 'size="1.2" spacing="1.1"', '<Material diffuseColor="1 0.6 0.2" ambientIntensity="0"></Material>')}
+      ${shape("bold", "-5 -0.4 0", '"near by"', `family='"SANS"' data-style="BOLD" size="0.6"`, "")}
+      ${shape("small", "-5 -1.4 0", '"Seen from afar, and still to be read"', `family='"TYPEWRITER"' size="0.32"`, '<UnlitMaterial emissiveColor="0.5 1 0.5"></UnlitMaterial>')}
+      ${shape("large", "0.6 -3 0", '"Qg"', 'size="5" data-style="ITALIC"', '<Material diffuseColor="0.3 0.5 1" ambientIntensity="0"></Material>')}
+      <Transform translation="3 -2 -0.001"><Shape id="behind"><Appearance><UnlitMaterial emissiveColor="0.2 0 0.2"></UnlitMaterial></Appearance><Box size="4 2 0.001"></Box></Shape></Transform>`;
+    const lines: Line[] = [
+      { text: "Hall", x: -5, y: 2.5, size: 1.2, font: "SIZE serif", color: "rgb(255 153 51)" },
+      { text: "of seats", x: -5, y: 2.5 - 1.32, size: 1.2, font: "SIZE serif", color: "rgb(255 153 51)" },
+      { text: "near by", x: -5, y: -0.4, size: 0.6, font: "bold SIZE sans-serif", color: "white" },
+      { text: "Seen from afar, and still to be read", x: -5, y: -1.4, size: 0.32, font: "SIZE monospace", color: "rgb(128 255 128)" },
+      { text: "Qg", x: 0.6, y: -3, size: 5, font: "italic SIZE serif", color: "rgb(77 128 255)" },
+    ];
+    await withPage(sceneOf("text", { grid: siteOfGenerated("sphere-small") }, scene), {}, async ({ page, promise, picture }) => {
+      await promise("complete");
+      const [shown, expected] = [await picture(), await written(page, lines)];
+      // Edges are as soft as a pixel is wide, in both: 0.65 of 255 on average, and 10 where letters stand elsewhere.
+      assertSamePicture("text", shown, expected, { mean: 1 });
+      const hit = (x: number, y: number): Promise<string | undefined> => page.evaluate(([x, y]) =>
+        (document.querySelector("x3d") as unknown as { positionAndNormalFromPoint: (x: number, y: number) => { shape: Element } | null })
+          .positionAndNormalFromPoint(x!, y!)?.shape.id, [pictureSize.width / 2 + x * pixelsPerUnit, pictureSize.height / 2 - y * pixelsPerUnit]);
+      // The empty corner above the "a" of "Hall", beside it, and through the hole of the Q what lies behind it.
+      assert.deepEqual([await hit(-3.9, 3.3), await hit(-1, 3.3), await hit(-4.9, -0.2), await hit(2, 0)], ["lit", undefined, "bold", "large"]);
+
+      await page.evaluate(() => {
+        document.querySelector("#large text")!.setAttribute("string", "");
+        document.querySelector("#lit text")!.setAttribute("string", '"Foyer"');
+        document.querySelector("#bold fontstyle")!.setAttribute("size", "0.9");
+      });
+      await Promise.all(["#lit", "#bold"].map((changed) => promise("complete", changed)));
+      const changed = lines.filter(({ text }) => text !== "Qg" && text !== "of seats")
+        .map((line) => ({ ...line, text: line.text === "Hall" ? "Foyer" : line.text, size: line.text === "near by" ? 0.9 : line.size }));
+      assertSamePicture("text-changed", await picture(), await written(page, changed), { mean: 0.6 });
+    });
+  });
+});

@@ -1,0 +1,71 @@
+// Letters of a text, drawn by the browser in the fonts that it has and the page
+// brings, and measured there too.
+
+import { DecodeError } from "./decodeError.ts";
+import { distanceField } from "./distanceField.ts";
+
+/** document/letterSheet.ts leaves this room around each run. */
+const spread = 8;
+const largestEdge = 2048;
+
+/** What document/letterSheet.ts writes: runs whose pen begins at x, y from the upper left, in a font with its size. */
+interface Letters {
+  readonly width: number;
+  readonly height: number;
+  readonly font: string;
+  readonly runs: readonly { readonly text: string; readonly x: number; readonly y: number }[];
+}
+
+let canvas: OffscreenCanvasRenderingContext2D | undefined;
+
+/** At this size a font's own numbers, which browsers round to whole pixels, are within a thousandth of an em. */
+const measuredSize = 512;
+
+/** In em, as document/textLayout.ts has it. */
+export function measureRun({ family, isBold, isItalic }: { family: string; isBold: boolean; isItalic: boolean }, text: string): {
+  advance: number; ink: { left: number; right: number; up: number; down: number }; ascent: number; descent: number;
+} {
+  canvas ??= contextOf(1, 1);
+  canvas.font = `${isItalic ? "italic " : ""}${isBold ? "bold " : ""}${measuredSize}px ${family}`;
+  const metrics = canvas.measureText(text);
+  const { actualBoundingBoxLeft: left, actualBoundingBoxRight: right, actualBoundingBoxAscent: up, actualBoundingBoxDescent: down } = metrics;
+  const inEm = (pixels: number) => pixels / measuredSize;
+  return {
+    advance: inEm(metrics.width), ink: { left: inEm(left), right: inEm(right), up: inEm(up), down: inEm(down) },
+    ascent: inEm(metrics.fontBoundingBoxAscent), descent: inEm(metrics.fontBoundingBoxDescent),
+  };
+}
+
+/** White, with the letters' field of distances as alpha; its first row is the lowest. Rejects with DecodeError. */
+export async function drawLetters(bytes: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
+  const { width, height, font, runs } = lettersIn(bytes);
+  const context = contextOf(width, height);
+  context.font = font;
+  context.fillStyle = "white";
+  for (const { text, x, y } of runs) context.fillText(text, x, y);
+  const image = context.getImageData(0, 0, width, height);
+  const field = distanceField(Uint8Array.from({ length: width * height }, (_, texel) => image.data[4 * texel + 3] ?? 0), width, height, spread);
+  image.data.fill(255);
+  field.forEach((distance, texel) => { image.data[4 * texel + 3] = distance; });
+  return createImageBitmap(image, { premultiplyAlpha: "none", imageOrientation: "flipY", colorSpaceConversion: "none" });
+}
+
+function contextOf(width: number, height: number): OffscreenCanvasRenderingContext2D {
+  const context = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
+  if (context === null) throw new DecodeError("unsupported", "is a text, and this browser has no canvas for it");
+  context.textRendering = "geometricPrecision"; // outlines as they are, not moved to whole pixels
+  return context;
+}
+
+function lettersIn(bytes: Uint8Array): Letters {
+  const letters: unknown = JSON.parse(new TextDecoder().decode(bytes));
+  if (!isLetters(letters)) throw new DecodeError("malformed", "is no sheet of letters");
+  return letters;
+}
+
+function isLetters(value: unknown): value is Letters {
+  if (typeof value !== "object" || value === null) return false;
+  const { width, height, font, runs } = value as Partial<Record<keyof Letters, unknown>>;
+  const isEdge = (edge: unknown) => Number.isInteger(edge) && Number(edge) > 0 && Number(edge) <= largestEdge;
+  return isEdge(width) && isEdge(height) && typeof font === "string" && Array.isArray(runs);
+}

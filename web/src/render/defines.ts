@@ -1,0 +1,10 @@
+import type { Material } from "three";
+
+/** Another program where that changes something. */
+export function setDefine(material: Material, name: string, isDefined: boolean): void {
+  const defines = material.defines ?? {};
+  if (name in defines === isDefined) return;
+  const others = Object.entries(defines).filter(([other]) => other !== name);
+  material.defines = { ...Object.fromEntries(others), ...(isDefined && { [name]: "" }) };
+  material.needsUpdate = true;
+}
