@@ -30,8 +30,8 @@ constexpr std::size_t kMaxNamedKeywords = 8;
 
 class ObjReader {
 public:
-  ObjReader(ByteSpan bytes, const std::string& name, const References& references)
-      : scanner_(bytes, name), fileName_(name), references_(references) {}
+  ObjReader(ByteSpan bytes, const std::string& name, const References& references, bool isStrict)
+      : scanner_(bytes, name), fileName_(name), references_(references), isStrict_(isStrict) {}
 
   Imported read() {
     for (; !scanner_.atEnd(); scanner_.skipLine()) {
@@ -224,6 +224,7 @@ private:
     if (builder.partlyNormals > 0)
       imported.warnings.push_back(fmt::format("The normals of {} left out: some corners have none.",
                                               counted(builder.partlyNormals, "object were", "objects were")));
+    addLosses(imported.warnings, materials.losses(), isStrict_, fileName_);
     materials.addWarnings(imported.warnings);
   }
 
@@ -288,6 +289,7 @@ private:
   std::vector<Vec3f> ring_;
   std::vector<std::uint32_t> local_;
   const References& references_;
+  bool isStrict_;
   std::size_t current_ = 0;                           ///< the part that elements go to
   std::map<std::string, std::size_t> parts_{{"", 0}}; ///< of the current object, by material
   std::vector<std::string> libraries_;
@@ -315,7 +317,7 @@ Imported readObj(ByteSpan bytes, const std::string& name, const ImportOptions& o
   if (bytes.size() > kMaxObjBytes)
     throw Error(ErrorKind::limit, name, "OBJ files are read up to 8 GiB; binary PLY has no such limit");
   const References references(options, name);
-  return ObjReader(bytes, name, references).read();
+  return ObjReader(bytes, name, references, options.strict).read();
 }
 
 } // namespace imgeo

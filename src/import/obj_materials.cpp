@@ -212,12 +212,16 @@ std::optional<std::size_t> ObjMaterials::appearance(const std::string& name) {
   return found->second = graph_.appearances.size() - 1;
 }
 
-void ObjMaterials::addWarnings(std::vector<std::string>& warnings) const {
-  std::ranges::copy(missing_, std::back_inserter(warnings));
+std::vector<std::string> ObjMaterials::losses() const {
+  std::vector<std::string> losses = missing_;
   if (!undefined_.empty())
-    warnings.push_back(fmt::format("{} named but not defined: {}.",
-                                   counted(undefined_.size(), "material is", "materials are"),
-                                   fmt::join(undefined_, ", ")));
+    losses.push_back(fmt::format("{} named but not defined: {}.",
+                                 counted(undefined_.size(), "material is", "materials are"),
+                                 fmt::join(undefined_, ", ")));
+  return losses;
+}
+
+void ObjMaterials::addWarnings(std::vector<std::string>& warnings) const {
   if (!others_.empty())
     warnings.push_back(
         fmt::format("Statements of MTL files that imgeo does not read: {}.", fmt::join(others_, ", ")));

@@ -25,6 +25,9 @@ public:
   /// The appearance of a material; absent where no library defines it.
   std::optional<std::size_t> appearance(const std::string& name);
 
+  /// One sentence for each file that is left out, and one for the materials that no
+  /// library defines.
+  std::vector<std::string> losses() const;
   void addWarnings(std::vector<std::string>& warnings) const;
 
 private:

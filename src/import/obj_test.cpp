@@ -154,6 +154,18 @@ TEST(Obj, SaysWhatIsNotCarriedOver) {
             "The normals of 1 object were left out: some corners have none.");
 }
 
+TEST(Obj, WithoutItsMaterialsOrTexturesIsRefusedIfStrict) {
+  const TemporaryDirectory directory;
+  writeFile(directory / "lost.mtl", asBytes("newmtl red\nmap_Kd lost.png\n"));
+  ImportOptions strict;
+  strict.strict = true;
+  for (const std::string materials : {"mtllib none.mtl\n", "usemtl red\n", "mtllib lost.mtl\nusemtl red\n"}) {
+    writeFile(directory / "a.obj", asBytes(kSquare + materials + "f 1 2 3\n"));
+    EXPECT_FALSE(importFile(directory / "a.obj").warnings.empty()) << materials;
+    EXPECT_THROW(importFile(directory / "a.obj", strict), Error) << materials;
+  }
+}
+
 TEST(Obj, TakesMaterialsAndTexturesFromTheFilesThatItNames) {
   const TemporaryDirectory directory;
   writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));

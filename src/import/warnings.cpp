@@ -1,8 +1,11 @@
 #include "import/warnings.h"
 
+#include "base/error.h"
 #include "import/triangulate.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace imgeo {
 
@@ -12,6 +15,13 @@ std::string counted(std::uint64_t count, const std::string& singular, const std:
 
 std::string withoutFullStop(const std::string& sentence) {
   return sentence.ends_with('.') ? sentence.substr(0, sentence.size() - 1) : sentence;
+}
+
+void addLosses(std::vector<std::string>& warnings, const std::vector<std::string>& losses, bool isStrict,
+               const std::string& sourceName) {
+  if (isStrict && !losses.empty())
+    throw Error(ErrorKind::malformed, sourceName, withoutFullStop(losses.front()));
+  std::ranges::copy(losses, std::back_inserter(warnings));
 }
 
 void warnOfSmallFaces(std::vector<std::string>& warnings, std::uint64_t faces) {

@@ -58,8 +58,9 @@ std::string nameOf(const aiString& name) {
 /// Reads one aiScene.
 class SceneReader {
 public:
-  SceneReader(const aiScene& source, const std::string& name, const References& references)
-      : source_(source), name_(name), materials_(source, imported_.scene.graph, references) {}
+  SceneReader(const aiScene& source, const std::string& name, const References& references, bool isStrict)
+      : source_(source), name_(name), isStrict_(isStrict),
+        materials_(source, imported_.scene.graph, references) {}
 
   Imported read(std::string format) {
     imported_.format = std::move(format);
@@ -273,11 +274,13 @@ private:
     add(lostTransforms_, "transform that is no number is", "transforms that are no numbers are");
     warnOfNormals(warnings, badNormals_);
     warnOfFans(warnings, fans_);
+    addLosses(warnings, materials_.losses(), isStrict_, name_);
     materials_.addWarnings(warnings);
   }
 
   const aiScene& source_;
   const std::string& name_;
+  bool isStrict_;
   Imported imported_;
   AssimpMaterials materials_;
   std::vector<std::vector<std::size_t>> shapesOf_; ///< nodes by mesh
@@ -315,9 +318,11 @@ Imported readHere(ByteSpan bytes, const std::string& name, const ImportOptions& 
   std::string format = extensionOf(name).substr(1);
   std::ranges::transform(format, format.begin(),
                          [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
-  Imported imported = SceneReader(*scene, name, references).read(format);
+  Imported imported = SceneReader(*scene, name, references, options.strict).read(format);
+  std::vector<std::string> losses;
   for (const std::string& refused : files.refused())
-    imported.warnings.push_back(fmt::format("Not read: {}.", refused));
+    losses.push_back(fmt::format("Not read: {}.", refused));
+  addLosses(imported.warnings, losses, options.strict, name);
   return imported;
 }
 

@@ -87,6 +87,9 @@ TEST(Assimp, DoesWithoutTexturesThatAreNotThere) {
   EXPECT_TRUE(appearanceOf(imported.scene.graph, 0).textures.empty());
   ASSERT_EQ(imported.warnings.size(), 1u);
   EXPECT_NE(imported.warnings[0].find("wood.png"), std::string::npos);
+  ImportOptions strict;
+  strict.strict = true;
+  EXPECT_THROW(importFile(directory / "a.dae", strict), Error);
 }
 
 TEST(Assimp, KeepsTheSharpEdgesOfMeshesWithoutNormals) {

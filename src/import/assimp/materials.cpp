@@ -167,7 +167,6 @@ bool AssimpMaterials::isSolid(unsigned index) const {
 }
 
 void AssimpMaterials::addWarnings(std::vector<std::string>& warnings) const {
-  std::ranges::copy(missing_, std::back_inserter(warnings));
   std::vector<std::string> kinds;
   for (const auto& [kind, count] : others_)
     kinds.push_back(fmt::format("{} ({})", kind, count));

@@ -21,6 +21,8 @@ public:
   std::optional<std::size_t> appearance(unsigned material);
   bool isSolid(unsigned material) const;
 
+  /// One sentence for each image that is left out.
+  const std::vector<std::string>& losses() const { return missing_; }
   void addWarnings(std::vector<std::string>& warnings) const;
 
 private:
