@@ -1,5 +1,6 @@
 #include "base/bytes.h"
 #include "base/error.h"
+#include "base/few_digits.h"
 #include "base/file.h"
 #include "base/late_library.h"
 #include "base/parallel.h"
@@ -55,7 +56,8 @@ TEST(File, ComesBackAsItWasWritten) {
   const TemporaryDirectory directory;
   for (const std::size_t size : {0u, 1u, 65536u, 200001u}) {
     Bytes bytes(size);
-    for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::uint8_t>(i * 31 >> 3);
+    for (std::size_t i = 0; i < size; ++i)
+      bytes[i] = static_cast<std::uint8_t>(i * 31 >> 3);
     writeFile(directory.path() / "file", bytes);
     EXPECT_EQ(readFile(directory.path() / "file"), bytes);
   }
@@ -97,7 +99,8 @@ TEST(ContentName, IsSixteenHexDigitsThatChangeWithTheContent) {
 TEST(ParallelFor, VisitsEveryIndexOnce) {
   std::vector<std::atomic<int>> visits(10007);
   parallelFor(visits.size(), [&](std::size_t i) { ++visits[i]; });
-  for (const auto& count : visits) EXPECT_EQ(count, 1);
+  for (const auto& count : visits)
+    EXPECT_EQ(count, 1);
 }
 
 TEST(ParallelFor, KeepsTheOrderOnOneThread) {
@@ -114,16 +117,20 @@ TEST(ParallelForBlocks, VisitsEveryIndexOnce) {
     std::vector<std::atomic<int>> visits(count);
     parallelForBlocks(count, [&](std::size_t begin, std::size_t end) {
       ASSERT_LT(begin, end);
-      for (std::size_t i = begin; i < end; ++i) ++visits[i];
+      for (std::size_t i = begin; i < end; ++i)
+        ++visits[i];
     });
-    for (const auto& visitCount : visits) EXPECT_EQ(visitCount, 1);
+    for (const auto& visitCount : visits)
+      EXPECT_EQ(visitCount, 1);
   }
 }
 
 TEST(ParallelFor, PassesOnWhatABodyThrows) {
-  EXPECT_THROW(parallelFor(100, [](std::size_t i) {
-                 if (i == 50) throw std::runtime_error("fifty");
-               }),
+  EXPECT_THROW(parallelFor(100,
+                           [](std::size_t i) {
+                             if (i == 50)
+                               throw std::runtime_error("fifty");
+                           }),
                std::runtime_error);
 }
 
@@ -144,6 +151,18 @@ TEST(Box, GrowsByWhatIsAdded) {
   box.add({-1, 5, 3});
   EXPECT_EQ(box.center(), (Vec3d{0, 3.5, 3}));
   EXPECT_EQ(box.longestEdge(), 3);
+}
+
+TEST(WithFewDigits, StaysWithinTheTolerance) {
+  EXPECT_EQ(withFewDigits(2.009999990463257, 3e-8), 2.01);
+  EXPECT_EQ(withFewDigits(-0.29999, 1e-4), -0.3);
+  EXPECT_EQ(withFewDigits(123456.789, 0.5), 123457);
+  EXPECT_EQ(withFewDigits(123456.789, 5000), 1.2e5);
+  EXPECT_EQ(withFewDigits(1.0 / 3, 0), 1.0 / 3);
+  EXPECT_FALSE(std::signbit(withFewDigits(-1e-9, 1e-8)));
+  for (double value = 1e-12; value < 1e12; value *= 1.37)
+    for (const double tolerance : {value * 1e-9, value * 1e-4, 0.3 * value})
+      EXPECT_LE(std::abs(withFewDigits(value, tolerance) - value), tolerance) << value;
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "containers/stored_coords.h"
 
 #include "base/error.h"
+#include "base/few_digits.h"
 
 #include <algorithm>
 #include <bit>
@@ -114,9 +115,26 @@ Lattice latticeOf(const DecodeFields& fields, Container container, ElementType t
           {fields.size.x / longest, fields.size.y / longest, fields.size.z / longest}};
 }
 
+namespace {
+
+/// With all digits of a double these numbers would be a sixth of what brotli leaves of
+/// the document of thousands of shapes. More bits are for who wants each one exact.
+Lattice inFewDigits(Lattice lattice, double edge) {
+  constexpr std::uint32_t mostBits = 24;
+  if (lattice.bits > mostBits || !(edge > 0))
+    return lattice;
+  const double tolerance = lattice.step / 1024;
+  for (int axis = 0; axis < 3; ++axis)
+    lattice.origin[axis] = withFewDigits(lattice.origin[axis], tolerance);
+  lattice.step = withFewDigits(edge, tolerance) / lattice.maximum();
+  return lattice;
+}
+
+} // namespace
+
 Lattice latticeFor(const Box3d& box, ElementType type, std::uint32_t bits) {
   if (type != ElementType::float32 || bits != sourceBits || !(box.longestEdge() > 0))
-    return latticeFor(box, bits);
+    return inFewDigits(latticeFor(box, bits), box.longestEdge());
   return latticeOf({box.center(), box.size()}, Container::bg, type, bits);
 }
 

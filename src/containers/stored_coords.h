@@ -61,7 +61,8 @@ DecodeFields decodeFields(const GeometryDescription& geometry);
 /// wrote for a box that is a little too small is found in it.
 Lattice latticeOf(const DecodeFields& fields, Container container, ElementType type, std::uint32_t bits);
 
-/// The lattice on which a mesh is encoded.
+/// The lattice on which a mesh is encoded: that of its box, moved and stretched by so
+/// little of a step (a 1024th) that documents say it in few digits.
 Lattice latticeFor(const Box3d& box, ElementType type, std::uint32_t bits);
 
 /// Where our readers find a vertex that was written from the point q of `written`:

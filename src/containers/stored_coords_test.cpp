@@ -102,6 +102,22 @@ TEST(StoredCoords, OfSignedTypesStayWithinTheHalfThatX3domUses) {
   }
 }
 
+TEST(LatticeFor, IsSaidInFewDigits) {
+  // What single precision makes of 0.1, 2.01 and 5.505, of which the last is coarser than a 1024th of a step;
+  // and far from the origin, where a step is less than what single precision tells apart.
+  Box3d box;
+  box.add({0.1f, 0, 5.505f});
+  box.add({0.1 + 2.01f, 1, 6});
+  const Lattice lattice = latticeFor(box, ElementType::uint16, 16);
+  EXPECT_EQ(lattice.origin, (Vec3d{0.1, 0, 5.5050001}));
+  EXPECT_EQ(lattice.step, 2.01 / 65535);
+  Box3d far;
+  far.add({500000.03125, 0, 0});
+  far.add({500000.0625, 0, 0});
+  EXPECT_NEAR(latticeFor(far, ElementType::uint16, 16).origin.x, 500000.03125, 0.03125 / 65535 / 1024);
+  EXPECT_EQ(latticeFor(box, ElementType::uint32, 32).origin, box.min);
+}
+
 TEST(DecodeFields, GiveTheLatticeBack) {
   for (const GeometryDescription& geometry : everyGeometry()) {
     SCOPED_TRACE(nameOf(geometry));

@@ -271,10 +271,11 @@ void expectEqual(const GeometryDescription& read, GeometryDescription written) {
   expectNear(read.box, written.box, written.lattice.step);
   EXPECT_EQ(read.lattice.bits, written.lattice.bits);
   const double reach = length(written.lattice.origin) + written.lattice.step * written.lattice.maximum();
+  const double tolerance = 1e-15 * reach + 2e-7 * written.lattice.step;
   for (int axis = 0; axis < 3; ++axis)
-    EXPECT_NEAR(read.lattice.origin[axis], written.lattice.origin[axis], 1e-15 * reach);
+    EXPECT_NEAR(read.lattice.origin[axis], written.lattice.origin[axis], tolerance);
   EXPECT_NEAR(read.lattice.step * read.lattice.maximum(), written.lattice.step * written.lattice.maximum(),
-              1e-15 * reach);
+              tolerance);
   ASSERT_EQ(read.patches.size(), written.patches.size());
   for (std::size_t i = 0; i < read.patches.size(); ++i) {
     expectNear(read.patches[i].box, written.patches[i].box, written.lattice.step);

@@ -1,12 +1,10 @@
 #include "documents/geometry_element.h"
 
+#include "base/few_digits.h"
 #include "containers/stored_coords.h"
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
-#include <cmath>
-#include <fmt/format.h>
 
 namespace imgeo {
 
@@ -21,18 +19,11 @@ std::string url(const Reference& reference, Container container) {
   return reference.url;
 }
 
-} // namespace
-
-namespace {
-
-/// The nearest number with as few decimals as keep it off by less than a quarter of `step`.
-double shortened(double value, double step) {
-  const int decimals = static_cast<int>(std::ceil(-std::log10(step / 2)));
-  if (decimals < 0 || decimals > 17)
-    return value;
-  const std::string text = fmt::format("{:.{}f}", value, decimals);
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value + 0.0; // no -0
+/// As short as keeps each number off by no more than a share of the lattice's step.
+std::string shortNumbers(Vec3d vector, const Lattice& lattice, double share) {
+  for (int axis = 0; axis < 3; ++axis)
+    vector[axis] = withFewDigits(vector[axis], share * lattice.step);
+  return numbers(vector);
 }
 
 } // namespace
@@ -40,12 +31,8 @@ double shortened(double value, double step) {
 Attributes boxAttributes(const Box3d& box, const Lattice& lattice) {
   if (box.empty())
     return {};
-  const auto text = [&](Vec3d vector) {
-    for (int axis = 0; axis < 3; ++axis)
-      vector[axis] = shortened(vector[axis], lattice.step);
-    return numbers(vector);
-  };
-  return {{"bboxCenter", text(box.center())}, {"bboxSize", text(box.size())}};
+  return {{"bboxCenter", shortNumbers(box.center(), lattice, 0.25)},
+          {"bboxSize", shortNumbers(box.size(), lattice, 0.25)}};
 }
 
 std::string primTypes(const std::vector<Draw>& draws) {
@@ -126,7 +113,10 @@ const char* geometryNodeName(Container container) {
 Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names) {
   const DecodeFields decode = decodeFields(geometry);
   const bool isCompact = geometry.profile == Profile::compact;
-  Attributes box{{"position", numbers(decode.position)}, {"size", numbers(decode.size)}};
+  // What computing has left behind the lattice's own digits says nothing.
+  constexpr double noise = 1e-7;
+  Attributes box{{"position", shortNumbers(decode.position, geometry.lattice, noise)},
+                 {"size", shortNumbers(decode.size, geometry.lattice, noise)}};
   const bool hasDefaultBits = isCompact && geometry.lattice.bits == 16;
   if (!hasDefaultBits && (geometry.container == Container::sig ||
                           geometry.coordType != ElementType::float32 || geometry.lattice.bits != sourceBits))

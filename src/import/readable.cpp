@@ -21,7 +21,7 @@ double readable(double value, int digits) {
   const auto single = static_cast<float>(value);
   const std::string text =
       single == value ? fmt::format("{}", single) : fmt::format("{:.{}g}", value, digits);
-  return std::strtod(text.c_str(), nullptr);
+  return std::strtod(text.c_str(), nullptr) + 0.0; // no -0
 }
 
 Transform readable(const Transform& transform) {

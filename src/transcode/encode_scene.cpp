@@ -1,5 +1,6 @@
 #include "transcode/encode_scene.h"
 
+#include "base/few_digits.h"
 #include "containers/compact/base.h"
 #include "containers/named_attributes.h"
 #include "import/warnings.h"
@@ -122,6 +123,19 @@ private:
   std::vector<bool> isSeen_;
 };
 
+/// In digits that people read: off by less than a millionth of how far it is away.
+Viewpoint framing(const Box3d& box) {
+  Viewpoint viewpoint = viewpointFor(box);
+  const double tolerance = 1e-6 * length(viewpoint.position - viewpoint.centerOfRotation);
+  for (int axis = 0; axis < 3; ++axis) {
+    viewpoint.position[axis] = withFewDigits(viewpoint.position[axis], tolerance);
+    viewpoint.centerOfRotation[axis] = withFewDigits(viewpoint.centerOfRotation[axis], tolerance);
+    viewpoint.orientation.axis[axis] = withFewDigits(viewpoint.orientation.axis[axis], 1e-6);
+  }
+  viewpoint.orientation.angle = withFewDigits(viewpoint.orientation.angle, 1e-6);
+  return viewpoint;
+}
+
 /// Puts the nodes that a page needs and the source lacks before its own.
 void addDefaults(SceneDocument& document, std::vector<std::string>& warnings) {
   SceneGraph& graph = document.graph;
@@ -152,7 +166,7 @@ void addDefaults(SceneDocument& document, std::vector<std::string>& warnings) {
     addFirst(keyLight);
   }
   if (!hasViewpoint)
-    addFirst(viewpointFor(whole));
+    addFirst(framing(whole));
   if (!graph.background)
     graph.background = sky;
 }

@@ -106,6 +106,20 @@ TEST(Assimp, KeepsTheSharpEdgesOfMeshesWithoutNormals) {
   }
 }
 
+TEST(Assimp, HasALookOnceHoweverManyMaterialsAreAlike) {
+  const auto glass = [](const std::string& color) {
+    return "MATERIAL \"glass\" rgb " + color + " amb 0 0 0 emis 0 0 0 spec 0.5 0.5 0.5 shi 10 trans 0\n";
+  };
+  std::string panes = "AC3Db\n" + glass("0 0 1") + glass("0 0 1") + glass("1 0 0") +
+                      "OBJECT world\nkids 1\nOBJECT poly\nname \"panes\"\nnumvert 3\n"
+                      "0 0 0\n1 0 0\n0 1 0\nnumsurf 3\n";
+  for (const std::string material : {"0", "1", "2"})
+    panes += "SURF 0x0\nmat " + material + "\nrefs 3\n0 0 0\n1 0 0\n2 0 0\n";
+  const SceneGraph graph = importBytes(asBytes(panes + "kids 0\n"), "panes.ac").scene.graph;
+  EXPECT_EQ(shapeNodes(graph).size(), 3u);
+  EXPECT_EQ(graph.appearances.size(), 2u);
+}
+
 TEST(Assimp, RefusesWhatItCannotRead) {
   const Error error = errorOf(collada.substr(0, 900), "a.dae");
   EXPECT_EQ(error.kind(), ErrorKind::malformed);

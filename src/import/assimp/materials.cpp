@@ -155,8 +155,12 @@ std::optional<std::size_t> AssimpMaterials::appearance(unsigned index) {
   for (int type = 1; type <= AI_TEXTURE_TYPE_MAX; ++type)
     if (!isCarried(type) && assimp().getMaterialTextureCount(&material, static_cast<aiTextureType>(type)) > 0)
       ++others_[assimp().textureTypeToString(static_cast<aiTextureType>(type))];
-  graph_.appearances.push_back(std::move(appearance));
-  return found->second = graph_.appearances.size() - 1;
+  // Some of Assimp's readers make a material of its own for every mesh.
+  const auto same = std::ranges::find(graph_.appearances, appearance);
+  found->second = static_cast<std::size_t>(same - graph_.appearances.begin());
+  if (same == graph_.appearances.end())
+    graph_.appearances.push_back(std::move(appearance));
+  return found->second;
 }
 
 bool AssimpMaterials::isSolid(unsigned index) const {
