@@ -16,6 +16,9 @@ constexpr std::uintptr_t largePageBytes = 2 << 20;
 } // namespace
 
 void prepareHeap() {
+  // One heap for all threads, which ask for little that is not large: what one has freed
+  // the next one uses.
+  mallopt(M_ARENA_MAX, 1);
   // What is freed at the heap's end, or was mapped by itself, would go back to the system
   // only to be asked for again, page by page.
   mallopt(M_TRIM_THRESHOLD, 2 * heapBytes);

@@ -1,6 +1,6 @@
 #pragma once
 // What the allocator may do with the memory of this program, which takes much at once
-// and soon ends: docs/decisions/compact.md, "Time".
+// and soon ends: docs/decisions/compact.md, "Where an encoder's time goes".
 
 namespace imgeo::cli {
 

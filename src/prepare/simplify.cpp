@@ -139,7 +139,9 @@ CollapsingSurface surfaceOf(std::span<const Vec3d> places, std::span<const std::
     const double size = length(normal);
     const std::uint32_t u = cells.ofVertex[corners[corner]], v = cells.ofVertex[corners[corner + 1]],
                         w = cells.ofVertex[corners[corner + 2]];
-    if (size > 0) {
+    if (size > 0 && u == v && v == w) { // most triangles
+      surface.vertices[u].quadric.addPlane(normal * (1 / size), places[corners[corner]], 3 * size);
+    } else if (size > 0) {
       Quadric plane;
       plane.addPlane(normal * (1 / size), places[corners[corner]], size);
       for (const std::uint32_t cell : {u, v, w})
