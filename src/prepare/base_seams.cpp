@@ -161,7 +161,7 @@ SimplifiedWedges wedgesOf(const SimplifiedTriangles& simplified, const Patch& pa
   Pieces pieces(simplified, patch, nearest);
   for (std::size_t corner = 0; corner < simplified.corners.size(); ++corner) {
     const std::uint32_t triangle = triangles[simplified.triangles[corner / 3]];
-    pieces.add(sets.setOf(patch.corners[3 * triangle + corner % 3]), simplified.corners[corner]);
+    pieces.add(sets.setOf(patch.corners[std::size_t{3} * triangle + corner % 3]), simplified.corners[corner]);
   }
   return pieces.finish();
 }

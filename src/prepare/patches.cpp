@@ -124,7 +124,8 @@ std::vector<Elements> cutOnce(const ElementTable& table, Elements elements, std:
     return {elements};
   // Not always in half: three patches' worth is cut at a third, so that
   // patches end up well filled.
-  const double share = static_cast<double>(wanted / 2) / static_cast<double>(wanted);
+  const std::size_t first = wanted / 2;
+  const double share = static_cast<double>(first) / static_cast<double>(wanted);
   const std::size_t cut = cutOff(table, elements, boxOf(table, elements), share);
   return {elements.first(cut), elements.subspan(cut)};
 }

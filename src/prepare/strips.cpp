@@ -137,7 +137,7 @@ private:
         swaps += keptAt(end, i) != tipOf(across_[sideAt(end, i - 2)]);
       lengths_[end / 2] = count + 2 + swaps;
     }
-    turnCosts_.resize(4 * trails_.count());
+    turnCosts_.resize(std::size_t{4} * trails_.count());
     for (TrailEnd end = 0; end < 2 * trails_.count(); ++end)
       for (std::size_t parity = 0; parity < 2; ++parity)
         turnCosts_[2 * end + parity] = turnCost(end, parity);
@@ -170,7 +170,7 @@ private:
       // Compared with what this trail would cost on average: it has to come some time.
       int cost = static_cast<int>(4 * (joins + turnCosts_[2 * end + (strip.size() + joins) % 2]));
       for (std::uint32_t i = 0; i < 4; ++i)
-        cost -= static_cast<int>(turnCosts_[4 * (end / 2) + i]);
+        cost -= static_cast<int>(turnCosts_[std::size_t{4} * (end / 2) + i]);
       if (!best || cost < bestCost)
         best = end, bestCost = cost;
     };
