@@ -171,14 +171,19 @@ describe("walking and flying", () => {
     });
   });
 
-  test("by touch: one finger looks about, two walk", async () => {
+  test("by touch: one finger looks about, two walk and fly", async () => {
     await withScene(walking(), { hasTouch: true }, async (view) => {
       const start = await view.picture();
       await touch(view, [[[0, 0]], [[60, 0]], [[90, 10]]]);
       const looked = await view.picture();
       assert.ok(difference(start, looked).mean > 1, "one finger does not look about");
       await touch(view, [[[-40, 0], [40, 0]], [[-40, 40], [40, 40]], [[-40, 90], [40, 90]]]);
-      assert.ok(difference(looked, await view.picture()).mean > 1, "two fingers do not walk");
+      const walked = await view.picture();
+      assert.ok(difference(looked, walked).mean > 1, "two fingers do not walk");
+      await focusView(view);
+      await view.page.keyboard.press("f");
+      await touch(view, [[[-40, 0], [40, 0]], [[-40, -40], [40, -40]], [[-40, -90], [40, -90]]]);
+      assert.ok(difference(walked, await view.picture()).mean > 1, "two fingers do not fly");
     });
   });
 

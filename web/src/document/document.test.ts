@@ -321,6 +321,22 @@ describe("what is read again", () => {
   });
 });
 
+test("geometries that name the same files in the same way are one, however often they are written, and as long as they do", () => {
+  const copy = '<ImageGeometry coord="a.png" index="i.png" vertexCount="3"/>';
+  const shapes = [copy, copy, copy.replace("a.png", "b.png"), copy.replace("index", 'decode="cpu" index'), "<Box/>", "<Box/>"];
+  const x3d = elementsOf(`<X3D>${shapes.map((geometry) => `<Shape>${geometry}</Shape>`).join("")}</X3D>`);
+  const reader = new SceneReader(x3d);
+  const read = () => shapesOf(reader.read().root).map(({ geometry }) => geometry);
+  const before = read();
+  assert.deepEqual(before.map((geometry) => before.indexOf(geometry)), [0, 0, 2, 3, 4, 5]);
+  const changed = x3d.children[1]?.children[0];
+  assert.ok(changed);
+  changed.attributes.set("coord", "b.png");
+  reader.touch(changed);
+  const after = read();
+  assert.deepEqual(after.map((geometry) => before.indexOf(geometry)), [0, 2, 2, 3, 4, 5]);
+});
+
 describe("stored integers", () => {
   const planesOf = (count: number, bits = 8 * count) => geometryOf(`
     <ImageGeometry position="10 0 0" size="4 4 4" positionBits="${bits}" vertexCount="3"

@@ -1,6 +1,8 @@
 // What has been read of geometry elements, kept from one reading of the document
 // to the next: a geometry that did not change, and one that several shapes USE,
 // is one and the same object, so that comparing geometries is comparing objects.
+// So are geometries that name the same files in the same way: people copy shapes
+// where they could USE them, and what is copied is neither loaded nor drawn twice.
 
 import type { GeometryDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
@@ -24,6 +26,9 @@ interface Remembered {
 export class GeometryMemory {
   readonly #known = new WeakMap<SceneElement, Remembered>();
   readonly #variants = new WeakMap<GeometryDescription, Map<string, GeometryDescription>>();
+  /** By all that they say. */
+  readonly #alike = new Map<string, WeakRef<GeometryDescription>>();
+  #mostAlike = 1024;
   #touched = new WeakSet<SceneElement>();
   #reading = 0;
 
@@ -69,6 +74,21 @@ export class GeometryMemory {
     const known = variants.get(key) ?? make(geometry) ?? geometry;
     variants.set(key, known);
     return known;
+  }
+
+  /** The geometry that says the same as this one and is still somewhere; this one where there is none. For geometries of files: what it says is its key. */
+  alike(geometry: GeometryDescription): GeometryDescription {
+    const key = JSON.stringify(geometry);
+    const known = this.#alike.get(key)?.deref();
+    if (known !== undefined) return known;
+    this.#alike.set(key, new WeakRef(geometry));
+    if (this.#alike.size > this.#mostAlike) this.#forgetGone();
+    return geometry;
+  }
+
+  #forgetGone(): void {
+    for (const [key, geometry] of this.#alike) if (geometry.deref() === undefined) this.#alike.delete(key);
+    this.#mostAlike = 2 * this.#alike.size;
   }
 
   /** What it USEs stands elsewhere, and may have changed there: once a reading it is read anew. */

@@ -47,9 +47,9 @@ export function readShape(element: SceneElement, host: SceneElement, node: Scene
 /** The geometry of a shape that has these parts, with its priority: beside it, as with another it is the same geometry. */
 function readGeometryOf(parts: readonly SceneElement[], reading: ShapeReading, box: Box3 | undefined,
                         colorBy: string): readonly [geometry: GeometryDescription | undefined, priority: number] {
-  const { geometries, lookup, warnings, text } = reading;
+  const { geometries, lookup, warnings } = reading;
   const found = firstOf(parts, reading, (part) => {
-    const geometry = geometries.recall(part, lookup, warnings, (...of) => readGeometry(text, ...of));
+    const geometry = geometries.recall(part, lookup, warnings, (...of) => readGeometry(reading, ...of));
     return geometry && { part, geometry };
   });
   if (found === undefined) return [undefined, 1];
@@ -63,14 +63,15 @@ const geometryReaders: Readonly<Record<string, typeof readImageGeometry>> = {
 };
 
 /** Undefined for what is no geometry. */
-function readGeometry(text: TextReading | undefined, element: SceneElement, lookup: Lookup, warnings: Warning[]): GeometryDescription | undefined {
+function readGeometry({ geometries, text }: ShapeReading, element: SceneElement, lookup: Lookup, warnings: Warning[]): GeometryDescription | undefined {
   const resolve = (part: SceneElement) => {
     const name = attributeOf(part, "USE");
     return name === undefined ? part : lookup(name);
   };
   const name = lowerNameOf(element);
   if (name === "text") return text?.geometryOf(element, resolve, warnings);
-  return geometryReaders[name]?.(element, warnings) ?? readInlineGeometry(element, resolve, warnings);
+  const ofFiles = geometryReaders[name]?.(element, warnings);
+  return ofFiles ? geometries.alike(ofFiles) : readInlineGeometry(element, resolve, warnings);
 }
 
 /** The shape's box is that of a geometry's only patch which says nothing of its own. */

@@ -7,7 +7,7 @@ import { readScene } from "../../document/readScene.ts";
 import { DrawingPlan, leastPlaces, mostMergedVertices } from "./plan.ts";
 
 function geometry(name: string, vertices: number, profile = "compact"): string {
-  return `<ImageGeometry DEF="${name}" profile="${profile}"><GeometryPatch recordCount="${vertices}"/></ImageGeometry>`;
+  return `<ImageGeometry DEF="${name}" profile="${profile}"><GeometryPatch recordCount="${vertices}" coord="${name}.png" data="${name}.png"/></ImageGeometry>`;
 }
 
 function planOf(places: readonly ShapeDescription[]): DrawingPlan {
