@@ -19,6 +19,7 @@ import { textReading } from "../document/textGeometry.ts";
 import { SceneGraph } from "../render/sceneGraph.ts";
 import type { ShapeSetting } from "../render/shapeObject.ts";
 import { chunkWeightsOf } from "../scheduler/priority.ts";
+import { CameraWatch } from "./cameraWatch.ts";
 import { LoadedShapes } from "./loadedShapes.ts";
 import type { LevelsKeeper, Presence } from "./sceneLevels.ts";
 import { presences, SceneLevels } from "./sceneLevels.ts";
@@ -45,10 +46,13 @@ export class SceneContents {
   /** Of all shapes, as documents tell it. */
   readonly box = new Box3();
   readonly shapes: LoadedShapes;
+  /** Where all of it hangs. */
+  readonly root = new Group();
   readonly #deliveries: SharedDeliveries;
   readonly #pictures: TextureDeliveries;
   readonly #reader: SceneReader;
   readonly #graph: SceneGraph;
+  readonly #billboards = new CameraWatch((camera) => { this.#graph.turnBillboards(camera); });
   readonly #inlines: Inlines;
   readonly #levels: SceneLevels[] = [];
   /** What cameras have come to see of each LOD. */
@@ -87,11 +91,7 @@ export class SceneContents {
       onLeave: () => undefined, // documents that are read once only ever get more
       makeGroup: (description) => this.#groupOf(description),
     });
-  }
-
-  /** Where all of it hangs. */
-  get root(): Object3D {
-    return this.#graph.root;
+    this.root.add(this.#graph.root);
   }
 
   get description(): SceneDescription {
@@ -138,6 +138,7 @@ export class SceneContents {
     const { root, inlines, chunkPriority, warnings } = this.#scene;
     this.#graph.follow(withoutLights(root));
     this.box.copy(this.#graph.box);
+    if (this.#graph.hasBillboards && this.#billboards.parent === null) this.root.add(this.#billboards, this.#graph.root); // before what turns
     this.shapes.applyChanges();
     for (const levels of this.#levels) levels.fill();
     this.shapes.demand(chunkWeightsOf(chunkPriority, (problem) => { this.#warn(`chunkPriority: ${problem}`); }));

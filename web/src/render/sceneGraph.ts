@@ -91,6 +91,11 @@ export class SceneGraph implements PlacedTreeListener {
     return areRenumbered;
   }
 
+  /** Whether there is anything to turn. */
+  get hasBillboards(): boolean {
+    return this.#tree.root.reach.billboards.length > 0;
+  }
+
   /** Before a frame: billboards turn to the viewer. The camera's matrix is up to date. */
   turnBillboards({ matrixWorld }: Camera): void {
     for (const node of this.#tree.root.reach.billboards) {

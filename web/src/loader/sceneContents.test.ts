@@ -1,0 +1,115 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { BufferAttribute, InterleavedBuffer, type LOD, type Object3D, PerspectiveCamera, Vector2, Vector3, Vector4 } from "three";
+import { arrayTypeOf } from "../decode/elements.ts";
+import type { ElementType } from "../decode/elements.ts";
+import type { StoredBytes } from "../decode/stage.ts";
+import { held, siteOf, soon, type Answer } from "../delivery/delivery.testing.ts";
+import { elementsOf } from "../document/elements.testing.ts";
+import type { Buffers } from "../render/buffers.ts";
+import { makeLightUniforms } from "../render/sceneLights.ts";
+import { GeometryPool } from "../render/stageGeometries.ts";
+import { appLook, standardMaterialOf } from "./appLook.ts";
+import { SceneContents } from "./sceneContents.ts";
+
+const shape = (name: string) => `<Shape DEF="${name}"><BinaryGeometry vertexCount="3" coord="${name}.bin"/></Shape>`;
+const triangle = () => new Uint8Array(36);
+
+/** A scene in an app that has no GPU, looked at as three's renderer does. */
+function appOf(markup: string, files: Record<string, Answer>) {
+  const { pool, asked, aborted, arrayOf } = siteOf(files);
+  const viewOf = (bytes: StoredBytes, type: ElementType) => new (arrayTypeOf(type))(arrayOf({ bytes }).buffer);
+  const buffers: Buffers = {
+    recordsOf: (bytes, type, stride) => new InterleavedBuffer(viewOf(bytes, type), stride),
+    indexOf: (bytes, type) => new BufferAttribute(viewOf(bytes, type), 1),
+    read: (bytes, type, first, count = Infinity) => viewOf(bytes, type).slice(first, first + count),
+    dispose: (geometry) => { geometry.dispose(); },
+  };
+  const contents = new SceneContents({ x3d: elementsOf(markup), url: "https://site/scene.x3d", urlOf: (url) => new URL(url, "https://site/").href, pool }, {
+    look: appLook(standardMaterialOf, { castShadow: false, receiveShadow: false, sphere: undefined as never }),
+    geometries: new GeometryPool(buffers), buffers, textures: { textureOf: () => { throw new RangeError("there are none"); } },
+    batches: undefined, drawing: { asPoints: false },
+    shared: { pixelRatio: { value: 1 }, viewport: { value: new Vector4() }, depthRange: { value: new Vector2() }, ...makeLightUniforms() },
+  }, { onChange: () => undefined, onError: (error) => { throw error; }, onAdvance: () => undefined });
+  contents.start();
+  /** What a frame from there draws: the names of shapes that show something. */
+  const look = async (...from: [number, number, number]) => {
+    const camera = new PerspectiveCamera();
+    camera.position.set(...from);
+    camera.updateMatrixWorld();
+    contents.root.updateMatrixWorld();
+    const seen = drawnIn(contents.root, camera);
+    await soon();
+    return seen;
+  };
+  /** Until everything that is wanted is here. */
+  const settled = async () => { while (!contents.isSettled) await soon(); };
+  return { contents, asked, aborted, look, settled };
+}
+
+function isLod(object: object): object is Pick<LOD, "autoUpdate" | "update"> {
+  return "isLOD" in object;
+}
+
+/** As WebGLRenderer goes through a scene. */
+function drawnIn(object: Object3D, camera: PerspectiveCamera): string[] {
+  if (!object.visible) return [];
+  if (isLod(object) && object.autoUpdate) object.update(camera);
+  return [...(object.type === "Mesh" ? [object.parent?.name ?? ""] : []), ...object.children.flatMap((child) => drawnIn(child, camera))];
+}
+
+describe("what is in a scene of an app", () => {
+  test("is asked for where it is to be seen, in any of its places", async () => {
+    const files = { "a.bin": triangle(), "b.bin": triangle() };
+    const { contents, asked, look, settled } = appOf(`<X3D><Group visible="false"><Transform DEF="t">${shape("a")}</Transform>${shape("b")}</Group>
+      <Transform USE="t"/></X3D>`, files);
+    assert.ok(!contents.isShown && !contents.isSettled);
+    await settled();
+    assert.deepEqual([asked, await look(0, 0, 5), contents.isShown], [["a.bin"], ["a"], true]);
+  });
+
+  test("of a LOD is the level that the nearest camera sees, and the one before until that has come", async () => {
+    const near = held(triangle());
+    const { contents, asked, aborted, look, settled } = appOf(`<X3D><LOD DEF="lod" range="10">${shape("near")}${shape("far")}</LOD>
+      <Transform translation="100 0 0"><LOD USE="lod"/></Transform></X3D>`, { "near.bin": near.promise, "far.bin": triangle() });
+    await settled();
+    assert.deepEqual(asked, ["far.bin"]);
+    assert.deepEqual(await look(0, 0, 50), ["far", "far"]);
+    assert.deepEqual(await look(100, 0, 5), ["far", "far"]); // near to one of its places
+    while (asked.length < 2) await soon();
+    assert.deepEqual([contents.isShown, asked[1]], [false, "near.bin"]);
+    await look(0, 0, 50);
+    while (aborted.length === 0) await soon(); // nobody wants it any more
+    assert.ok(contents.isShown);
+    await look(0, 0, 5);
+    near.release();
+    while (asked.length < 3) await soon();
+    await settled();
+    assert.deepEqual(await look(0, 0, 5), ["near", "far"]);
+    assert.deepEqual(await look(0, 0, 50), ["far", "far"]);
+    assert.deepEqual(asked, ["far.bin", "near.bin", "near.bin"]);
+  });
+
+  test("turns to the camera where it is a billboard, and hears of none where there are none", async () => {
+    const plain = appOf(`<X3D>${shape("a")}</X3D>`, { "a.bin": triangle() });
+    assert.equal(plain.contents.root.getObjectByProperty("isLOD", true), undefined);
+    const { contents, look, settled } = appOf(`<X3D><Billboard><Transform translation="0 0 1">${shape("a")}</Transform></Billboard></X3D>`, { "a.bin": triangle() });
+    await settled();
+    const placeOf = () => new Vector3().setFromMatrixPosition(contents.root.getObjectByName("a")?.matrixWorld ?? contents.root.matrixWorld).round().toArray();
+    contents.root.position.set(10, 0, 0); // the app's business
+    await look(20, 0, 0);
+    assert.deepEqual(placeOf(), [11, 0, 0]);
+    await look(10, 0, -9);
+    assert.deepEqual(placeOf().map((part) => part + 0), [10, 0, -1]);
+  });
+
+  test("that is stopped asks for nothing more, and goes on to show what there is", async () => {
+    const { contents, asked, look, settled } = appOf(`<X3D><LOD range="10">${shape("near")}${shape("far")}</LOD></X3D>`,
+      { "near.bin": triangle(), "far.bin": triangle() });
+    await settled();
+    contents.stop();
+    assert.deepEqual([await look(0, 0, 5), await look(0, 0, 5), asked], [["far"], ["far"], ["far.bin"]]);
+    contents.dispose();
+    assert.deepEqual(await look(0, 0, 5), []);
+  });
+});
