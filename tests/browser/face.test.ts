@@ -286,7 +286,7 @@ describe("hotspots", () => {
     });
   });
 
-  test("say whether they face the camera, and stay readable and focusable", async () => {
+  test("say whether they face the camera and nothing stands before them, and stay readable and focusable", async () => {
     await withScene(site(), {}, async (view) => {
       const visible = async (id: string): Promise<boolean> => view.page.evaluate((name) => document.querySelector(name)!.hasAttribute("data-visible"), id);
       await settle(view.page);
@@ -298,6 +298,33 @@ describe("hotspots", () => {
       await view.page.keyboard.press("Tab");
       await view.page.keyboard.press("Tab");
       assert.equal(await view.page.evaluate(() => document.activeElement?.id), "front");
+
+      const frames = await view.page.evaluate(() => {
+        const x3d = document.querySelector("x3d") as unknown as HTMLElement & {
+          positionAndNormalFromPoint: (x: number, y: number) => { position: { x: number; y: number; z: number } } | null;
+          getCameraPosition: () => { x: number; y: number; z: number };
+        };
+        const { left, top, width, height } = x3d.getBoundingClientRect();
+        const eye = x3d.getCameraPosition();
+        // Somewhere on the shape, and on the same ray behind it.
+        const [hit] = Array.from({ length: 40 }, (_, i) => x3d.positionAndNormalFromPoint(left + (width * (i + 0.5)) / 40, top + height / 2)).filter((found) => found !== null);
+        const along = (share: number): string => (["x", "y", "z"] as const).map((axis) => eye[axis] + share * (hit!.position[axis] - eye[axis])).join(" ");
+        for (const [id, share] of [["surface", 1], ["within", 1.2]] as const) {
+          const hotspot = document.createElement("button");
+          [hotspot.id, hotspot.slot, hotspot.textContent] = [id, `hotspot-${id}`, id];
+          hotspot.setAttribute("data-position", along(share));
+          hotspot.setAttribute("data-visibility-attribute", "visible");
+          x3d.append(hotspot);
+        }
+        return (x3d as unknown as { statistics: { frames: number } }).statistics.frames;
+      });
+      await until("one is found to be covered", async () => (await visible("#surface")) && !(await visible("#within")));
+      await settle(view.page);
+      assert.deepEqual([await visible("#surface"), await visible("#within"), await visible("#back")], [true, false, true]);
+      await until("it has faded", () => view.page.evaluate(() => getComputedStyle(document.querySelector("#within")!).opacity === "0.25"));
+      assert.ok((await view.page.evaluate(() => (document.querySelector("x3d") as unknown as { statistics: { frames: number } }).statistics.frames)) <= frames + 2);
+      await view.page.getByRole("button", { name: "within" }).focus();
+      assert.equal(await view.page.evaluate(() => document.activeElement?.id), "within");
     });
   });
 

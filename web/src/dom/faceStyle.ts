@@ -25,7 +25,7 @@ export const viewStyle = sheetOf(`
   .hotspots { position: absolute; inset: 0; overflow: hidden; pointer-events: none; }
   .hotspots > div { position: absolute; left: 0; top: 0; width: 0; height: 0; display: grid; place-content: center; place-items: center; }
   .hotspots ::slotted(*) { pointer-events: auto; opacity: var(--max-hotspot-opacity, 1); transition: opacity 0.2s; }
-  .hotspots > .turned-away ::slotted(*) { opacity: var(--min-hotspot-opacity, 0.25); pointer-events: none; }
+  .hotspots > .unseen ::slotted(*) { opacity: var(--min-hotspot-opacity, 0.25); pointer-events: none; }
   .hotspots > .out-of-view { visibility: hidden; }
 
   .controls { position: absolute; inset: auto 12px 12px auto; display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 8px; max-width: calc(100% - 24px); }

@@ -1,7 +1,7 @@
 // Hotspots: children of the view with slot="hotspot-…" that stand at a place of
 // the scene. They stay the page's own elements, readable and focusable; only
-// where they are, and whether the surface under them faces the camera, comes
-// from here.
+// where they are comes from here, and whether they are seen: whether the surface
+// under them faces the camera, and nothing of the scene stands before them.
 
 import type { View } from "../render/view.ts";
 
@@ -12,17 +12,38 @@ interface Hotspot {
   readonly frame: HTMLElement;
   readonly position: Point;
   readonly normal: Point | undefined;
-  isFacing: boolean | undefined;
+  /** In CSS pixels of the picture; undefined beside it. */
+  pixel: readonly [x: number, y: number] | undefined;
+  isFacing: boolean;
+  isCovered: boolean;
+  /** What its element has been told; undefined: nothing yet. */
+  isSeen: boolean | undefined;
 }
+
+/** How a picture is looked at. */
+export interface Sight {
+  /** No other frame is to come unless something happens. */
+  readonly isStill: () => boolean;
+  /** The place in the scene that is seen at a pixel; undefined where nothing is. */
+  readonly placeAt: (x: number, y: number) => Promise<Point | undefined>;
+}
+
+/** Something that is nearer to the eye by no more than this share of the way is the hotspot's own surface. */
+const slack = 0.02;
 
 export class Hotspots {
   readonly #host: Element;
   readonly #layer: HTMLElement;
+  readonly #sight: Sight;
   #hotspots: Hotspot[] = [];
+  #frameRequest = 0;
+  /** Counts frames: what is found out about an earlier one no longer counts. */
+  #frame = 0;
 
-  constructor(host: Element, layer: HTMLElement) {
+  constructor(host: Element, layer: HTMLElement, sight: Sight) {
     this.#host = host;
     this.#layer = layer;
+    this.#sight = sight;
   }
 
   /** The page has changed its hotspots, or what it says of them. */
@@ -34,31 +55,64 @@ export class Hotspots {
       const frame = frames.get(child) ?? document.createElement("div");
       const slot = frame.querySelector("slot") ?? frame.appendChild(document.createElement("slot"));
       slot.name = child.slot;
-      return [{ element: child, frame, position, normal: pointOf(child.getAttribute("data-normal")), isFacing: undefined }];
+      return [{ element: child, frame, position, normal: pointOf(child.getAttribute("data-normal")), pixel: undefined, isFacing: true, isCovered: false, isSeen: undefined }];
     });
     this.#layer.replaceChildren(...this.#hotspots.map(({ frame }) => frame));
   }
 
-  /** Puts all in their places in a picture of this size, in CSS pixels. */
+  /** Puts all in their places in a picture of this size, in CSS pixels. When it stays, they are looked at. */
   place(view: View, width: number, height: number): void {
+    this.#forgetFrame();
+    if (this.#hotspots.length === 0) return;
     for (const hotspot of this.#hotspots) placeIn(view, width, height, hotspot);
+    this.#frameRequest = requestAnimationFrame(() => { if (this.#sight.isStill()) void this.#lookAtAll(view.position, this.#frame); });
+  }
+
+  dispose(): void {
+    this.#forgetFrame();
+  }
+
+  #forgetFrame(): void {
+    this.#frame += 1;
+    cancelAnimationFrame(this.#frameRequest);
+  }
+
+  /** One at a time, by the picking pass: no frame is drawn for it. */
+  async #lookAtAll(eye: Point, frame: number): Promise<void> {
+    for (const hotspot of this.#hotspots) {
+      if (hotspot.pixel === undefined || !hotspot.isFacing) continue;
+      const found = await this.#sight.placeAt(...hotspot.pixel);
+      if (frame !== this.#frame) return;
+      hotspot.isCovered = found !== undefined && distanceOf(eye, found) < (1 - slack) * distanceOf(eye, hotspot.position);
+      tell(hotspot);
+    }
   }
 }
 
 function placeIn(view: View, width: number, height: number, hotspot: Hotspot): void {
-  const { frame, element, position } = hotspot;
+  const { frame, position } = hotspot;
   const [x, y, , w] = clipOf(view.clipFromScene, position);
   const isInView = w > 0 && Math.abs(x) <= w && Math.abs(y) <= w;
   frame.classList.toggle("out-of-view", !isInView);
-  if (isInView) frame.style.transform = `translate(${((x / w + 1) / 2) * width}px, ${((1 - y / w) / 2) * height}px)`;
+  hotspot.pixel = isInView ? [((x / w + 1) / 2) * width, ((1 - y / w) / 2) * height] : undefined;
+  if (hotspot.pixel) frame.style.transform = `translate(${hotspot.pixel[0]}px, ${hotspot.pixel[1]}px)`;
+  hotspot.isFacing = hotspot.normal === undefined || facing(view.position, position, hotspot.normal);
+  tell(hotspot);
+}
 
-  const isFacing = hotspot.normal === undefined || facing(view.position, position, hotspot.normal);
-  if (isFacing === hotspot.isFacing) return;
-  hotspot.isFacing = isFacing;
-  frame.classList.toggle("turned-away", !isFacing);
+function tell(hotspot: Hotspot): void {
+  const { frame, element, isFacing, isCovered } = hotspot;
+  const isSeen = isFacing && !isCovered;
+  if (isSeen === hotspot.isSeen) return;
+  hotspot.isSeen = isSeen;
+  frame.classList.toggle("unseen", !isSeen);
   const name = element.getAttribute("data-visibility-attribute");
-  if (name !== null && name !== "") element.toggleAttribute(`data-${name}`, isFacing);
-  element.dispatchEvent(new CustomEvent("hotspot-visibility", { detail: { visible: isFacing } }));
+  if (name !== null && name !== "") element.toggleAttribute(`data-${name}`, isSeen);
+  element.dispatchEvent(new CustomEvent("hotspot-visibility", { detail: { visible: isSeen } }));
+}
+
+function distanceOf(a: Point, b: Point): number {
+  return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
 function facing(eye: Point, position: Point, normal: Point): boolean {

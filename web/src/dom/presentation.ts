@@ -51,7 +51,14 @@ export class Presentation {
   constructor(x3d: Element, host: HTMLElement, face: Face, context: WebGL2RenderingContext, look?: FirstLook) {
     this.#x3d = x3d;
     this.#face = face;
-    this.#hotspots = new Hotspots(host, face.hotspots);
+    this.#hotspots = new Hotspots(host, face.hotspots, {
+      isStill: () => !this.viewer.renderer.statistics.isFrameDue && !this.viewer.navigator.isMoving,
+      placeAt: async (x, y) => {
+        const { canvas } = face;
+        const hit = await this.viewer.pickSoon(Math.floor((x * canvas.width) / this.#size.width), Math.floor((y * canvas.height) / this.#size.height));
+        return hit?.position.toArray();
+      },
+    });
     this.poster = new Poster(host, face, (name, detail) => { this.#send(name, detail); this.#rotate(); });
     this.viewer = new Viewer(x3d, face.canvas, context, {
       onProgress: (share, stage) => { this.#showProgress(share, stage); },
@@ -120,6 +127,7 @@ export class Presentation {
 
   dispose(): void {
     clearTimeout(this.#quietTimer);
+    this.#hotspots.dispose();
     this.#listeners.abort();
     this.#look?.end();
     this.viewer.dispose();
