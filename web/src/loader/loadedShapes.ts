@@ -34,10 +34,16 @@ export interface ShapeSources {
   readonly textures: TextureDeliveries;
 }
 
+/** A shape in one of its places. */
+interface Placed {
+  readonly shape: ShapeDescription;
+  /** The same for as long as it is described so. */
+  readonly geometry: PlacedGeometry | undefined;
+}
+
 interface LoadedShape {
   readonly object: ShapeObject;
-  /** As it is described in each of its places. */
-  readonly places: Map<object, ShapeDescription>;
+  readonly places: Map<object, Placed>;
   readonly textures: ShapeTextures;
   delivery: JoinedDelivery | undefined;
   /** Patches of which nothing is shown, but will be. */
@@ -127,11 +133,10 @@ export class LoadedShapes implements ShapePlaces {
     const byGeometry = new Map<GeometryDescription, PlacedGeometry[]>();
     const byPicture = new Map<string, PlacedGeometry[]>();
     for (const { places } of this.#shapes.values()) {
-      for (const { geometry, visible, priority, appearance: { textures } } of places.values()) {
-        if (geometry === undefined || !visible) continue;
-        const placed = placeGeometry(geometry, nowhere, priority, textures.length > 0);
-        addTo(byGeometry, geometry, placed);
-        for (const texture of textures) addTo(byPicture, pictureKeyOf(texture), placed);
+      for (const { geometry, shape } of places.values()) {
+        if (geometry === undefined || !shape.visible) continue;
+        addTo(byGeometry, geometry.geometry, geometry);
+        for (const texture of shape.appearance.textures) addTo(byPicture, pictureKeyOf(texture), geometry);
       }
     }
     const viewing = { camera: undefined, weights };
@@ -176,14 +181,15 @@ export class LoadedShapes implements ShapePlaces {
   /** The levels of a LOD are shown by whoever draws it, so that shapes in them are hidden for other reasons alone. */
   #follow(loaded: LoadedShape, shape: ShapeDescription, place: object, group: Group): void {
     group.visible = shape.reaches;
-    loaded.places.set(place, shape);
+    const { geometry, priority, appearance: { textures } } = shape;
+    loaded.places.set(place, { shape, geometry: geometry && placeGeometry(geometry, nowhere, priority, textures.length > 0) });
     this.#changed.add(loaded);
   }
 
   /** What has been seen once stays, however often it is hidden. */
   #apply(loaded: LoadedShape): void {
     if (!isWanted(loaded)) return;
-    for (const { geometry, appearance } of loaded.places.values()) {
+    for (const { shape: { geometry, appearance } } of loaded.places.values()) {
       loaded.textures.follow(appearance.textures);
       if (geometry !== undefined) loaded.delivery ??= this.#deliver(geometry, loaded);
     }
@@ -210,7 +216,7 @@ export class LoadedShapes implements ShapePlaces {
 
 /** It is to be seen in any of its places. */
 function isWanted({ places }: LoadedShape): boolean {
-  for (const { visible } of places.values()) if (visible) return true;
+  for (const { shape } of places.values()) if (shape.visible) return true;
   return false;
 }
 

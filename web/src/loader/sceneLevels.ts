@@ -22,6 +22,10 @@ export interface LevelsKeeper {
   onLook(): void;
 }
 
+// Of a scene of thousands, each is asked in each frame.
+const eye = new Vector3(), center = new Vector3();
+const levelsFromWorld = new Matrix4();
+
 export class SceneLevels extends LOD {
   readonly description: LevelsDescription;
   readonly #keeper: LevelsKeeper;
@@ -103,7 +107,7 @@ export class SceneLevels extends LOD {
   /** Infinite in one without extent. */
   #distanceFrom(camera: Camera): number {
     if (this.matrixWorld.determinant() === 0) return Infinity;
-    const eye = new Vector3().setFromMatrixPosition(camera.matrixWorld).applyMatrix4(new Matrix4().copy(this.matrixWorld).invert());
-    return eye.distanceTo(new Vector3(...this.description.center));
+    eye.setFromMatrixPosition(camera.matrixWorld).applyMatrix4(levelsFromWorld.copy(this.matrixWorld).invert());
+    return eye.distanceTo(center.set(...this.description.center));
   }
 }
