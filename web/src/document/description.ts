@@ -252,7 +252,19 @@ export interface GroupDescription {
   readonly inline?: SceneElement;
   /** Of a Billboard: it turns about this axis so that its z axis points to the viewer; 0 0 0: and its y axis up in the picture. */
   readonly billboardAxis?: Vec3;
+  readonly anchor?: AnchorDescription;
   readonly children: readonly NodeDescription[];
+}
+
+/** What a click on something in an Anchor leads to. */
+export interface AnchorDescription {
+  /** Who this is, as a shape's. */
+  readonly element: SceneElement;
+  /** The first that may be followed counts; as the document has them. */
+  readonly urls: readonly string[];
+  readonly description: string;
+  /** As of an `<a>`; empty: this window. */
+  readonly target: string;
 }
 
 /** A LOD whose level depends on how far the viewer is from it. */

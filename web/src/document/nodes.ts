@@ -110,6 +110,7 @@ export const nodeFields = {
     cutOffAngle: SFFloat(1.5708),
   },
   Group: { ...ranked, ...boundedObject, ...seenObject },
+  Anchor: { ...ranked, ...boundedObject, ...seenObject, url: MFString([]), description: SFString(""), parameter: MFString([]) },
   Billboard: { ...ranked, ...boundedObject, ...seenObject, axisOfRotation: SFVec3f([0, 1, 0]) },
   LOD: { ...ranked, ...boundedObject, ...seenObject, center: SFVec3f([0, 0, 0]), range: MFFloat([]) },
   Inline: { ...ranked, ...boundedObject, ...seenObject, load: SFBool(true), url: MFString([]) },

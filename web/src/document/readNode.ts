@@ -1,7 +1,7 @@
 // A node -> what it says: for itself at once, for those below it when it is known
 // what is handed down to them.
 
-import type { BackgroundDescription, GroupDescription, NodeDescription } from "./description.ts";
+import type { AnchorDescription, BackgroundDescription, GroupDescription, NodeDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
@@ -41,7 +41,12 @@ export function readNode(element: SceneElement, node: SceneElement, reading: Nod
   const { warnings } = reading;
   switch (lowerNameOf(node)) {
     case "shape": return sayShape(element, node, reading);
-    case "group": case "anchor": case "staticgroup": return sayGroup(node, readFields(node, nodeFields.Group, warnings), reading);
+    case "group": case "staticgroup": return sayGroup(node, readFields(node, nodeFields.Group, warnings), reading);
+    case "anchor": {
+      const { url, description, parameter, ...fields } = readFields(node, nodeFields.Anchor, warnings);
+      const anchor: AnchorDescription = { element: node, urls: url, description, target: targetIn(parameter) };
+      return sayGroup(node, fields, reading, url.length > 0 ? { anchor } : {});
+    }
     case "collision": return sayGroup(node, readFields(node, nodeFields.Group, warnings), { ...reading, childrenOf: (of) => reading.childrenOf(of).filter(isSeenChild) });
     case "billboard": {
       const { axisOfRotation, ...fields } = readFields(node, nodeFields.Billboard, warnings);
@@ -112,10 +117,15 @@ function within(fields: GroupFields, inherited: Inherited): Inherited {
 }
 
 /** What groups of a kind have besides. */
-type GroupTraits = Partial<Pick<GroupDescription, "transform" | "billboardAxis">>;
+type GroupTraits = Partial<Pick<GroupDescription, "transform" | "billboardAxis" | "anchor">>;
 
 function groupOf(fields: GroupFields, children: readonly NodeDescription[], traits: GroupTraits = {}): GroupDescription {
   return { kind: "group", visible: isSeen(fields), box: boxOf(fields), transform: undefined, ...traits, children };
+}
+
+/** An Anchor's parameters are pairs `name=value`. */
+function targetIn(parameter: readonly string[]): string {
+  return parameter.map((pair) => /^\s*target\s*=\s*(\S+)\s*$/i.exec(pair)?.[1]).find((target) => target !== undefined) ?? "";
 }
 
 /** A Collision's proxy stands in for its children where people walk, not where they look. */

@@ -10,6 +10,8 @@ export interface Face {
   readonly hotspots: HTMLElement;
   /** For lists; pages may put their own controls in its place. */
   readonly controls: HTMLElement;
+  /** For those who do not point. */
+  readonly links: HTMLElement;
   /** 0 … 1; at 1 the bar goes away. `words` say the same to those who do not see it. */
   showProgress(share: number, words: string): void;
   /** Says something to those who do not see the picture. */
@@ -33,9 +35,10 @@ export function makeFace(root: ShadowRoot, first?: HTMLCanvasElement): Face {
   const barSlot = slotOf("progress-bar", bar);
 
   const controls = elementOf("div", { class: "controls", part: "default-controls" });
+  const links = elementOf("nav", { class: "links", "aria-label": "Links in the scene", hidden: "" });
   const spoken = elementOf("p", { class: "spoken", role: "status" });
   const message = elementOf("p", { class: "message", role: "alert", hidden: "" });
-  const above = [hotspots, poster, slotOf("controls", controls), barSlot, spoken, message];
+  const above = [hotspots, poster, links, slotOf("controls", controls), barSlot, spoken, message];
   if (first?.parentNode === root) {
     first.before(canvas);
     first.after(...above);
@@ -44,7 +47,7 @@ export function makeFace(root: ShadowRoot, first?: HTMLCanvasElement): Face {
   }
 
   return {
-    canvas, poster, posterImage, hotspots, controls,
+    canvas, poster, posterImage, hotspots, controls, links,
     showProgress(share, words) {
       const percent = Math.floor(share * 100); // 100 is said of what is whole alone
       fill.style.transform = `scaleX(${share})`;
@@ -58,7 +61,7 @@ export function makeFace(root: ShadowRoot, first?: HTMLCanvasElement): Face {
       spoken.textContent = text;
     },
     showMessage(text) {
-      for (const element of [canvas, hotspots, poster, barSlot, controls]) element.hidden = true;
+      for (const element of [canvas, hotspots, poster, links, barSlot, controls]) element.hidden = true;
       message.hidden = false;
       message.textContent = text;
     },

@@ -12,6 +12,7 @@ export const viewStyle = sheetOf(`
   canvas.covered { opacity: 0; }
   canvas.moves { cursor: grab; }
   canvas.moves:active { cursor: grabbing; }
+  canvas.points-at-link { cursor: pointer; }
   canvas:focus-visible { box-shadow: inset 0 0 0 2px Highlight; outline: 2px solid Highlight; outline-offset: -2px; }
 
   .poster { position: absolute; inset: 0; display: grid; overflow: hidden; background: var(--poster-color, Canvas); transition: opacity 0.3s; }
@@ -29,6 +30,12 @@ export const viewStyle = sheetOf(`
   .hotspots > .out-of-view { visibility: hidden; }
 
   .controls { position: absolute; inset: auto 12px 12px auto; display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 8px; max-width: calc(100% - 24px); }
+  .links { position: absolute; inset: 12px auto auto 12px; max-width: calc(100% - 24px); }
+  .links a { position: absolute; width: max-content; max-width: 100%; padding: 12px; border-radius: 8px; font: 0.9375rem system-ui, sans-serif;
+             color: LinkText; background: Canvas; }
+  .links a:not(:focus) { clip-path: inset(50%); pointer-events: none; }
+  .links a:focus-visible { outline: 2px solid Highlight; outline-offset: 2px; }
+
   select, button { min-height: 44px; max-width: 100%; padding: 0 12px; border: 1px solid color-mix(in srgb, CanvasText 30%, transparent); border-radius: 8px;
            font: 0.9375rem system-ui, sans-serif; color: CanvasText; background: color-mix(in srgb, Canvas 88%, transparent); cursor: pointer; }
   select:focus-visible, button:focus-visible { outline: 2px solid Highlight; outline-offset: 2px; }

@@ -15,6 +15,14 @@ export interface Pickable {
   pickSoon(x: number, y: number): Promise<Hit | undefined>;
 }
 
+/** Hears of the pointer what happens by itself, after pages have heard of it. */
+export interface PointingListener {
+  /** The pointer is on this now; undefined: on no shape. */
+  onHover(hit: Hit | undefined): void;
+  /** Nobody has prevented it. */
+  onClick(hit: Hit, native: MouseEvent): void;
+}
+
 const redirected = [
   "pointerdown", "pointerup", "pointercancel", "mousedown", "mouseup", "click", "auxclick", "dblclick", "contextmenu",
 ] as const;
@@ -23,8 +31,8 @@ const redirected = [
 const mostTremble = 5;
 
 /** Listens until `signal` aborts; before whatever moves the camera, so that it sees what pages have prevented. */
-export function listenForPointing(canvas: HTMLCanvasElement, view: HTMLElement, pickable: Pickable, signal: AbortSignal): void {
-  const pointing = new Pointing(canvas, view, pickable);
+export function listenForPointing(canvas: HTMLCanvasElement, view: HTMLElement, pickable: Pickable, listener: PointingListener, signal: AbortSignal): void {
+  const pointing = new Pointing(canvas, view, pickable, listener);
   for (const type of redirected) canvas.addEventListener(type, (event) => { pointing.redirect(event); }, { signal });
   canvas.addEventListener("pointermove", (event) => { pointing.move(event); }, { signal });
   canvas.addEventListener("mousemove", (event) => { pointing.keepBack(event); }, { signal });
@@ -47,6 +55,7 @@ class Pointing {
   readonly #canvas: HTMLCanvasElement;
   readonly #view: HTMLElement;
   readonly #pickable: Pickable;
+  readonly #listener: PointingListener;
   /** The view, or the shape that the pointer is on. */
   #hovered: Element;
   #hit: Hit | undefined;
@@ -56,10 +65,11 @@ class Pointing {
   #isPicking = false;
   #isInside = false;
 
-  constructor(canvas: HTMLCanvasElement, view: HTMLElement, pickable: Pickable) {
+  constructor(canvas: HTMLCanvasElement, view: HTMLElement, pickable: Pickable, listener: PointingListener) {
     this.#canvas = canvas;
     this.#view = view;
     this.#pickable = pickable;
+    this.#listener = listener;
     this.#hovered = view;
   }
 
@@ -75,6 +85,7 @@ class Pointing {
     const isPrevented = hit !== undefined && !this.#send(native, native.type, target, hit);
     if (hit !== undefined) native.stopPropagation();
     if (isPrevented) native.preventDefault();
+    else if (hit !== undefined && native.type === "click") this.#listener.onClick(hit, native);
     if (native.type === "pointerdown") {
       this.#press = { x: native.clientX, y: native.clientY, target, isPrevented, hasMoved: false };
     }
@@ -147,12 +158,14 @@ class Pointing {
       this.#sendBoth(native, "over", now, hit, before);
       for (const element of entered.reverse()) if (!left.includes(element)) this.#sendBoth(native, "enter", element, hit, before);
     }
+    this.#listener.onHover(hit);
     this.#hit = hit;
   }
 
   #leaveShape(native: PointerEvent, relatedTarget: EventTarget | null): void {
     const shape = this.#hovered;
     this.#hovered = this.#view;
+    this.#listener.onHover(undefined);
     this.#sendBoth(native, "out", shape, this.#hit, relatedTarget);
     for (const element of this.#insideScene(shape)) this.#sendBoth(native, "leave", element, this.#hit, relatedTarget);
     this.#hit = undefined;

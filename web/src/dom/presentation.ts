@@ -11,11 +11,13 @@ import type { FirstLook } from "./firstLook.ts";
 import type { HandLimits } from "./hands.ts";
 import { Hands } from "./hands.ts";
 import { Hotspots } from "./hotspots.ts";
+import { Links } from "./links.ts";
 import { Lists } from "./lists.ts";
 import { listenForPointing } from "./pointing.ts";
 import { Poster } from "./poster.ts";
 import { Viewer } from "./viewer.ts";
 import { keepTouchAction } from "./touchAction.ts";
+import type { Hit } from "../render/picking.ts";
 import { sizeOf, watchSize, whenNear } from "./visibility.ts";
 import { WaysBack } from "./waysBack.ts";
 import { drawingWords, keyWords, stageWords, typeWords, viewWords } from "./words.ts";
@@ -33,6 +35,7 @@ export class Presentation {
   readonly #face: Face;
   readonly #hands: Hands;
   readonly #lists: Lists;
+  readonly #links: Links;
   readonly #waysBack: WaysBack;
   readonly #hotspots: Hotspots;
   readonly #listeners = new AbortController();
@@ -64,11 +67,13 @@ export class Presentation {
       onProgress: (share, stage) => { this.#showProgress(share, stage); },
       onFrame: () => { this.#onFrame(); },
       onNavigation: () => { this.#describe(); },
+      onAnchors: (anchors) => { this.#links.update(anchors); },
     }, look?.shown);
     const { signal } = this.#listeners;
     const { navigator } = this.viewer;
     this.#hands = new Hands(navigator, this.#limits);
     this.#lists = new Lists(face.controls, navigator, signal);
+    this.#links = new Links(face.links, navigator, (sentence) => { this.#warnOnce(sentence); });
     this.#waysBack = new WaysBack(face.controls, navigator, signal);
     this.#settings = this.#readSettings();
     navigator.isInstant = this.#lessMotion.matches;
@@ -82,7 +87,13 @@ export class Presentation {
     this.poster.show(this.#settings.poster, this.#label);
     x3d.addEventListener("first-image", () => { this.poster.onPicture(); }, { signal });
     x3d.addEventListener("load", () => { face.say("The scene is complete."); }, { signal });
-    listenForPointing(face.canvas, host, this.viewer, signal);
+    listenForPointing(face.canvas, host, this.viewer, {
+      onHover: (hit) => { this.#pointAt(hit); },
+      onClick: (hit, native) => {
+        const anchor = this.viewer.renderer.anchorOf(hit);
+        if (anchor) this.#links.follow(anchor, native);
+      },
+    }, signal);
     listenForMovement(face.canvas, this.#hands, signal);
     face.canvas.addEventListener("keydown", (event) => { this.#toggleDrawing(event); }, { signal });
     watchSize(face.canvas, signal, (width, height, ratio) => {
@@ -168,11 +179,22 @@ export class Presentation {
   }
 
   #readSettings(): ViewSettings {
-    return readSettings(this.#x3d, (sentence) => {
-      if (this.#warned.has(sentence)) return;
-      this.#warned.add(sentence);
-      console.warn(`imgeo: <${this.#x3d.localName}> ${sentence}`);
-    });
+    return readSettings(this.#x3d, (sentence) => { this.#warnOnce(`<${this.#x3d.localName}> ${sentence}`); });
+  }
+
+  #warnOnce(sentence: string): void {
+    if (this.#warned.has(sentence)) return;
+    this.#warned.add(sentence);
+    console.warn(`imgeo: ${sentence}`);
+  }
+
+  /** Shows whether a click would lead anywhere. */
+  #pointAt(hit: Hit | undefined): void {
+    const { canvas } = this.#face;
+    const anchor = hit && this.viewer.renderer.anchorOf(hit);
+    const link = anchor && this.#links.of(anchor);
+    canvas.classList.toggle("points-at-link", link !== undefined);
+    canvas.title = link?.textContent ?? "";
   }
 
   #apply(): void {

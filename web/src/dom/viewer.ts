@@ -9,7 +9,7 @@ import { progressOf } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resources.ts";
 import { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
 import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
-import type { SceneDescription } from "../document/description.ts";
+import type { AnchorDescription, SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { SceneReader } from "../document/sceneReader.ts";
 import { textReading } from "../document/textGeometry.ts";
@@ -53,6 +53,8 @@ export interface ViewerListener {
   onFrame(): void;
   /** Another viewpoint is bound, or one moves in another way; or the scene has changed what there is of both. */
   onNavigation(): void;
+  /** The scene has other links than before. */
+  onAnchors(anchors: readonly AnchorDescription[]): void;
 }
 
 export class Viewer {
@@ -84,6 +86,7 @@ export class Viewer {
   #isLoading = false;
   #built: (NavigatedScene & { readonly levels: readonly PlacedLevels[] }) | undefined;
   #scene: SceneDescription | undefined;
+  #hasAnchors = false;
   #progressTimer: ReturnType<typeof setTimeout> | undefined;
 
   readonly #transfers = (): Readonly<Transfer>[] => [...this.#deliveries.transfers(), ...this.#textures.transfers(), ...this.#inlines.transfers];
@@ -234,6 +237,8 @@ export class Viewer {
     const scene = this.#scene = this.#reader.read();
     if (scene === before) return;
     const built = this.renderer.setScene(scene);
+    if (built.anchors.length > 0 || this.#hasAnchors) this.#listener.onAnchors(built.anchors);
+    this.#hasAnchors = built.anchors.length > 0;
     const leave = this.#shapes.follow(built.changes);
     const hasBase = Array.from(built.changes.shapes.values()).some(({ geometry }) => geometry?.base !== undefined);
     if (hasBase && !this.#wasShown) this.#workers.prepareHere();

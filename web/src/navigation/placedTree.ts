@@ -94,6 +94,7 @@ export class PlacedTree {
     const reach = reachOfAll(kept, {
       box: counts && node.box && isDrawable(node.box) ? node.box : undefined,
       bounded: node.box ? [node] : [],
+      anchors: group.anchor && isGroupSeen ? [group.anchor] : [],
       billboards: group.billboardAxis ? [node] : [],
       scopes: node.lightScope === around ? [] : [node.lightScope],
       levels: group.levels && isGroupSeen ? [{ ...group.levels, sceneFromLevels: sceneFromNode }] : [],

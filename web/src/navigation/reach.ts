@@ -2,6 +2,7 @@
 
 import type { Box3 } from "three";
 import type { PlacedViewpoint } from "./camera.ts";
+import type { AnchorDescription } from "../document/description.ts";
 import type { LightScope } from "./lightScope.ts";
 import type { PlacedNode } from "./placedTree.ts";
 import type { PlacedLevels, PlacedLight } from "./placement.ts";
@@ -17,6 +18,8 @@ export interface Reach {
   readonly levels: readonly PlacedLevels[];
   /** Groups that are seen and tell their boxes. */
   readonly bounded: readonly PlacedNode[];
+  /** Those that are seen. */
+  readonly anchors: readonly AnchorDescription[];
   /** Each before those in it. */
   readonly billboards: readonly PlacedNode[];
   /** Groups that lights shine in, and nowhere else; each before those in it. */
@@ -24,14 +27,14 @@ export interface Reach {
 }
 
 const none: readonly never[] = [];
-export const noReach: Reach = { box: undefined, lights: none, viewpoints: none, levels: none, bounded: none, billboards: none, scopes: none };
+export const noReach: Reach = { box: undefined, lights: none, viewpoints: none, levels: none, bounded: none, anchors: none, billboards: none, scopes: none };
 
 /** Of these together, and of what the group around them brings itself. One pass: there may be ten thousand. */
-export function reachOfAll(parts: readonly PlacedNode[], own: Pick<Reach, "box" | "levels" | "bounded" | "billboards" | "scopes">): Reach {
+export function reachOfAll(parts: readonly PlacedNode[], own: Pick<Reach, "box" | "levels" | "bounded" | "anchors" | "billboards" | "scopes">): Reach {
   let union: Box3 | undefined;
   const lights = new Gathered<PlacedLight>(), viewpoints = new Gathered<PlacedViewpoint>();
   const levels = new Gathered(own.levels), bounded = new Gathered(own.bounded);
-  const billboards = new Gathered(own.billboards), scopes = new Gathered(own.scopes);
+  const anchors = new Gathered(own.anchors), billboards = new Gathered(own.billboards), scopes = new Gathered(own.scopes);
   for (const { reach } of parts) {
     if (reach === noReach) continue;
     if (reach.box && own.box === undefined) union = union?.union(reach.box) ?? reach.box.clone();
@@ -39,12 +42,13 @@ export function reachOfAll(parts: readonly PlacedNode[], own: Pick<Reach, "box" 
     viewpoints.add(reach.viewpoints);
     levels.add(reach.levels);
     bounded.add(reach.bounded);
+    anchors.add(reach.anchors);
     billboards.add(reach.billboards);
     scopes.add(reach.scopes);
   }
   return {
     box: own.box ?? union, lights: lights.all, viewpoints: viewpoints.all, levels: levels.all, bounded: bounded.all,
-    billboards: billboards.all, scopes: scopes.all,
+    anchors: anchors.all, billboards: billboards.all, scopes: scopes.all,
   };
 }
 

@@ -4,7 +4,7 @@
 import type { Camera, Object3D } from "three";
 import { Box3, Group, Vector3 } from "three";
 import { areAlike } from "../document/alike.ts";
-import type { GroupDescription, NodeDescription, ShapeDescription } from "../document/description.ts";
+import type { AnchorDescription, GroupDescription, NodeDescription, ShapeDescription } from "../document/description.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
 import { billboardTurn } from "../navigation/billboard.ts";
 import { numberScopes } from "../navigation/lightScope.ts";
@@ -41,6 +41,7 @@ export class SceneGraph implements PlacedTreeListener {
   readonly #groups = new Map<PlacedNode, Object3D>();
   /** Those of them that are shapes'. */
   readonly #shapeGroups = new Map<PlacedNode, PlaceGroup>();
+  readonly #anchors = new WeakMap<Object3D, AnchorDescription>();
   readonly #shapes: ShapePlaces;
   #placedLights: readonly PlacedLight[] = [];
   #lights: SceneLights = makeLights([]);
@@ -69,6 +70,20 @@ export class SceneGraph implements PlacedTreeListener {
 
   get levels(): readonly PlacedLevels[] {
     return this.#tree.root.reach.levels;
+  }
+
+  /** Those that are seen. */
+  get anchors(): readonly AnchorDescription[] {
+    return this.#tree.root.reach.anchors;
+  }
+
+  /** The innermost that a shape's group stands in. */
+  anchorAround(group: Object3D): AnchorDescription | undefined {
+    for (let at: Object3D | null = group; at !== null; at = at.parent) {
+      const anchor = this.#anchors.get(at);
+      if (anchor !== undefined) return anchor;
+    }
+    return undefined;
   }
 
   get lightUniforms(): SceneLightUniforms {
@@ -139,7 +154,7 @@ export class SceneGraph implements PlacedTreeListener {
     const { description } = node;
     const group = this.#groups.get(node);
     if (group === undefined || (description.kind !== "group" && description.kind !== "shape")) return;
-    describe(description, group, hasMoved);
+    this.#describe(description, group, hasMoved);
     const shapeGroup = this.#shapeGroups.get(node);
     if (shapeGroup) shapeGroup.lightScope = node.lightScope;
     if (shapeGroup && description.kind === "shape" && before.kind === "shape") this.#shapes.onChange(description, node, shapeGroup, before);
@@ -158,7 +173,13 @@ export class SceneGraph implements PlacedTreeListener {
     this.#groups.set(node, group);
     const around = node.parent === undefined ? this.root : this.#groups.get(node.parent);
     around?.add(group);
-    describe(description, group, true);
+    this.#describe(description, group, true);
+  }
+
+  #describe(description: GroupDescription | ShapeDescription, group: Object3D, hasMoved: boolean): void {
+    if (description.kind === "group" && description.anchor) this.#anchors.set(group, description.anchor);
+    else this.#anchors.delete(group);
+    describe(description, group, hasMoved);
   }
 }
 

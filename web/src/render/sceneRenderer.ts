@@ -5,7 +5,7 @@ import { Color, DirectionalLight, Group, LinearSRGBColorSpace, LinearToneMapping
 import type { ElementArray } from "../decode/arrays.ts";
 import type { DecodedImage } from "../decode/image.ts";
 import type { ArrayUse, Stage } from "../decode/stage.ts";
-import type { BackgroundDescription, GeometryDescription, SamplingDescription, SceneDescription, ShapeDescription, TextureRole } from "../document/description.ts";
+import type { AnchorDescription, BackgroundDescription, GeometryDescription, SamplingDescription, SceneDescription, ShapeDescription, TextureRole } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { applyPose } from "../navigation/camera.ts";
 import { backdropOf, disposeBackdrop } from "./backdrop.ts";
@@ -230,6 +230,11 @@ export class SceneRenderer {
   async pickSoon(x: number, y: number): Promise<Hit | undefined> {
     if (this.#frames === 0) return undefined;
     return this.#picker.pickSoon(() => ({ ...this.#size, x, y }), this.#pickSlack);
+  }
+
+  /** The innermost Anchor around what was hit. */
+  anchorOf({ group }: Hit): AnchorDescription | undefined {
+    return this.#shapes.anchorAround(group);
   }
 
   /** Multiplies the light that reaches the eye; 1 leaves the document's numbers as they are. */

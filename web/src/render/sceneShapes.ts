@@ -5,7 +5,7 @@ import type { Camera, Object3D, Sphere } from "three";
 import { Box3, Material, Vector3 } from "three";
 import type { Bounds } from "../decode/arrays.ts";
 import type { Stage } from "../decode/stage.ts";
-import type { GeometryDescription, SceneDescription, ShapeDescription, TextureRole } from "../document/description.ts";
+import type { AnchorDescription, GeometryDescription, SceneDescription, ShapeDescription, TextureRole } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
 import { sphereAround } from "../navigation/camera.ts";
@@ -33,6 +33,8 @@ export interface BuiltScene {
   /** In document order. */
   readonly viewpoints: readonly PlacedViewpoint[];
   readonly levels: readonly PlacedLevels[];
+  /** Those that are seen. */
+  readonly anchors: readonly AnchorDescription[];
   readonly changes: SceneChanges;
 }
 
@@ -110,7 +112,7 @@ export class SceneShapes {
     this.#setLights(this.#graph.lightUniforms);
     const changes = this.#applyChanges();
     if (areRenumbered) this.#batches.followAll();
-    const { box, bounded, viewpoints, levels } = this.#graph;
+    const { box, bounded, viewpoints, levels, anchors } = this.#graph;
     this.#bounded = bounded;
     if (!box.equals(this.#described)) {
       this.#described = box.clone();
@@ -119,7 +121,7 @@ export class SceneShapes {
     }
     for (const object of this.#unbounded) for (const bounds of object.bounds()) this.#grow(object, bounds);
     this.#batches.sync(this.#sphere);
-    return { sphere: this.#sphere, viewpoints, levels, changes };
+    return { sphere: this.#sphere, viewpoints, levels, anchors, changes };
   }
 
   #setLights({ attenuations, lightReaches, scopedAmbients }: SceneLightUniforms): void {
@@ -182,6 +184,11 @@ export class SceneShapes {
   /** Takes away what a shape shows. */
   clearShape(element: SceneElement): void {
     this.#shapes.get(element)?.clear();
+  }
+
+  /** What a click there leads to. */
+  anchorAround(group: Object3D): AnchorDescription | undefined {
+    return this.#graph.anchorAround(group);
   }
 
   /** What is drawn and may be picked. */
