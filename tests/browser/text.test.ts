@@ -32,6 +32,8 @@ async function written(page: Page, lines: readonly Line[]): Promise<Picture> {
     context.fillRect(0, 0, width, height);
     context.fillStyle = "rgb(51 0 51)";
     context.fillRect(width / 2 + pixelsPerUnit, height / 2 + pixelsPerUnit, 4 * pixelsPerUnit, 2 * pixelsPerUnit);
+    context.fillStyle = "rgb(64 192 64)"; // a surface behind one that is not there
+    context.fillRect(width / 2 - 5 * pixelsPerUnit, height / 2 + 2 * pixelsPerUnit, 2 * pixelsPerUnit, pixelsPerUnit);
     for (const { text, x, y, size, font, color } of lines) {
       context.font = font.replace("SIZE", `${size * pixelsPerUnit}px`);
       context.fillStyle = color;
@@ -47,13 +49,17 @@ const shape = (id: string, translation: string, string: string, style: string, a
   `<Transform translation="${translation}"><Shape id="${id}"><Appearance>${appearance}</Appearance><Text string='${string}'><FontStyle ${style}></FontStyle></Text></Shape></Transform>`;
 
 describe("a text", () => {
-  test("looks as the browser writes it, small and large, lit or not, hides nothing between its letters, is hit within its lines, and changes", async () => {
+  test("looks as the browser writes it, small and large, lit or not, hides nothing between its letters (nor does anything of no alpha), is hit within its lines, and changes", async () => {
     const scene = `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo><Background skyColor="0 0 0"></Background><Viewpoint position="0 0 10" fieldOfView="0.7854"></Viewpoint>
       ${shape("lit", "-5 2.5 0", '"Hall" "of seats"', 'size="1.2" spacing="1.1"', '<Material diffuseColor="1 0.6 0.2" ambientIntensity="0"></Material>')}
       ${shape("bold", "-5 -0.4 0", '"near by"', `family='"SANS"' data-style="BOLD" size="0.6"`, "")}
       ${shape("small", "-5 -1.4 0", '"Seen from afar, and still to be read"', `family='"TYPEWRITER"' size="0.32"`, '<UnlitMaterial emissiveColor="0.5 1 0.5"></UnlitMaterial>')}
       ${shape("large", "0.6 -3 0", '"Qg"', 'size="5" data-style="ITALIC"', '<Material diffuseColor="0.3 0.5 1" ambientIntensity="0"></Material>')}
-      <Transform translation="3 -2 -0.001"><Shape id="behind"><Appearance><UnlitMaterial emissiveColor="0.2 0 0.2"></UnlitMaterial></Appearance><Box size="4 2 0.001"></Box></Shape></Transform>`;
+      <Transform translation="3 -2 -0.001"><Shape id="behind"><Appearance><UnlitMaterial emissiveColor="0.2 0 0.2"></UnlitMaterial></Appearance><Box size="4 2 0.001"></Box></Shape></Transform>
+      <Shape><Appearance><UnlitMaterial><PixelTexture containerField="emissiveTexture" image="2 1 4 0xffffff00 0x40c040ff">
+        <TextureProperties magnificationFilter="NEAREST_PIXEL" minificationFilter="NEAREST_PIXEL"></TextureProperties></PixelTexture></UnlitMaterial></Appearance>
+        <IndexedFaceSet coordIndex="0 1 2 3 -1 4 5 6 7 -1" texCoordIndex="0 0 0 0 -1 1 1 1 1 -1"><TextureCoordinate point="0.25 0.5 0.75 0.5"></TextureCoordinate>
+          <Coordinate point="-5 -3 0.01 -3 -3 0.01 -3 -2 0.01 -5 -2 0.01 -5 -3 0 -3 -3 0 -3 -2 0 -5 -2 0"></Coordinate></IndexedFaceSet></Shape>`;
     const lines: Line[] = [
       { text: "Hall", x: -5, y: 2.5, size: 1.2, font: "SIZE serif", color: "rgb(255 153 51)" },
       { text: "of seats", x: -5, y: 2.5 - 1.32, size: 1.2, font: "SIZE serif", color: "rgb(255 153 51)" },

@@ -12,6 +12,7 @@ import type { AppearanceDescription, MaterialDescription, TextureRole } from "..
 import { textureRoles } from "../document/description.ts";
 import { farnessDefine, shadeByFarnessIn } from "../render/farness.ts";
 import { cutLettersIn, hasLetters, setLetters } from "../render/letterField.ts";
+import { leastAlpha } from "../render/look.ts";
 import type { Look, MaterialRequest, Shading, ShownPictures } from "../render/look.ts";
 import { colorByValueIn } from "../render/valueColors.ts";
 import { primitiveDefinesOf, shapePointsIn } from "../render/points.ts";
@@ -114,7 +115,10 @@ function layPictures(material: Material, shadows: ShadowMaterials | undefined, a
   }
   const color = pictures.get("color");
   if (color === undefined) return;
-  if (alpha.mode === "BLEND" || (alpha.mode === "AUTO" && color.hasAlpha)) material.transparent = true;
+  if (alpha.mode === "BLEND" || (alpha.mode === "AUTO" && color.hasAlpha)) {
+    material.transparent = true;
+    material.alphaTest ||= leastAlpha;
+  }
   const areLetters = hasLetters(appearance);
   if (alpha.mode !== "MASK" && !areLetters) return;
   // Holes let light through; letters have their edges in the middle of their field.

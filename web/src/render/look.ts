@@ -38,6 +38,9 @@ export interface ShownPicture {
 export type ShownPictures = ReadonlyMap<TextureRole, ShownPicture>;
 export const noPictures: ShownPictures = new Map();
 
+/** What is blended with less is not there: it would hide what is drawn after it and lies behind, as a cornea its eye. */
+export const leastAlpha = 1 / 512;
+
 /** Unlit for points and lines, by distance for points that stand in for a surface, flat where there are no normals (yet). */
 export type Shading = "unlit" | "distance" | "flat" | "smooth";
 

@@ -14,6 +14,7 @@ import { farnessDefine, shadeByFarnessIn } from "./farness.ts";
 import { lightsChunk } from "./lightFalloff.ts";
 import { areScoped, scopeLightsIn } from "./lightScopes.ts";
 import { cutLettersIn, setLetters } from "./letterField.ts";
+import { leastAlpha } from "./look.ts";
 import type { Look, MaterialRequest, Shading, ShownPictures, VertexColors } from "./look.ts";
 import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
 import { colorByValueIn } from "./valueColors.ts";
@@ -91,12 +92,12 @@ function applyAppearance(material: Material, appearance: AppearanceDescription, 
   if (isLit) applyLit(shown, description, litNumbersOf(description, colors !== "none"));
   else setColor(shown.color, unlitColorOf(description, colors !== "none"));
   material.opacity = opacityOf(appearance);
-  material.alphaTest = alphaTestOf(appearance);
   layPictures(shown, description, pictures, isLit ? shown.userData.lit : undefined);
   setLetters(material, appearance);
   const isTransparent = blends(appearance, colors, pictures);
   if (material.transparent !== isTransparent) material.needsUpdate = true;
   material.transparent = isTransparent;
+  material.alphaTest = isTransparent ? leastAlpha : alphaTestOf(appearance);
 }
 
 function blends(appearance: AppearanceDescription, colors: VertexColors, pictures: ShownPictures): boolean {
