@@ -30,10 +30,11 @@ export const viewStyle = sheetOf(`
   .hotspots > .out-of-view { visibility: hidden; }
 
   .controls { position: absolute; inset: auto 12px 12px auto; display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 8px; max-width: calc(100% - 24px); }
-  .links { position: absolute; inset: 12px auto auto 12px; max-width: calc(100% - 24px); }
-  .links a { position: absolute; width: max-content; max-width: 100%; padding: 12px; border-radius: 8px; font: 0.9375rem system-ui, sans-serif;
-             color: LinkText; background: Canvas; }
-  .links a:not(:focus) { clip-path: inset(50%); pointer-events: none; }
+  .links { position: absolute; inset: 12px 12px auto 12px; pointer-events: none; }
+  .links a { position: absolute; box-sizing: border-box; width: max-content; max-width: 100%; padding: 12px; border-radius: 8px;
+             font: 0.9375rem system-ui, sans-serif; color: LinkText; background: Canvas; }
+  .links a:focus { pointer-events: auto; }
+  .links a:not(:focus) { clip-path: inset(50%); }
   .links a:focus-visible { outline: 2px solid Highlight; outline-offset: 2px; }
 
   select, button { min-height: 44px; max-width: 100%; padding: 0 12px; border: 1px solid color-mix(in srgb, CanvasText 30%, transparent); border-radius: 8px;
