@@ -55,8 +55,10 @@ struct ImportOptions {
   AttributeChoice attributes;     ///< none where nothing is said
   std::filesystem::path folder{}; ///< where relative urls lead; empty: nowhere
   bool outside = false;           ///< urls may lead out of the folder
-  std::size_t inlineBytes = 0; ///< geometry of an X3D document whose text is no longer than this stays in it
-  bool strict = false;         ///< damage is an Error, even where the rest could be read
+  /// Geometry of an X3D document whose text is no longer than this stays in it; where there
+  /// is much of that, only what is as short as a box.
+  std::size_t inlineBytes = 0;
+  bool strict = false;            ///< damage is an Error, even where the rest could be read
   std::filesystem::path within{}; ///< the folder that urls may not lead out of; empty: `folder`
   /// The files on whose account this one is read, outermost first: it is inlined by the last.
   std::vector<std::filesystem::path> inlinedBy{};

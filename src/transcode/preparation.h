@@ -15,8 +15,8 @@
 namespace imgeo {
 
 /// Geometry of X3D documents stays in them where its text is no longer than this, which
-/// is between the best for hosts that compress and for those that do not:
-/// docs/decisions/scenes.md has the measurement.
+/// is between the best for hosts that compress and for those that do not, and there is
+/// not too much of it: docs/decisions/scenes.md has the measurements.
 inline constexpr std::size_t inlineBytes = 1024;
 
 /// Imports a file, or standard input for "-", and says how long it is.

@@ -24,22 +24,26 @@ class GeometryReader {
 public:
   GeometryReader(const Source& source, pugi::xml_node node) : source_(source), node_(node) {}
 
+  using Readers = std::map<std::string_view, void (GeometryReader::*)()>;
+  static const Readers& readers() {
+    static const Readers readers{{"IndexedFaceSet", &GeometryReader::readIndexedFaces},
+                                 {"TriangleSet", &GeometryReader::readTriangles},
+                                 {"TriangleStripSet", &GeometryReader::readStrips},
+                                 {"TriangleFanSet", &GeometryReader::readFans},
+                                 {"IndexedTriangleSet", &GeometryReader::readTriangles},
+                                 {"IndexedTriangleStripSet", &GeometryReader::readStrips},
+                                 {"IndexedTriangleFanSet", &GeometryReader::readFans},
+                                 {"ElevationGrid", &GeometryReader::readElevationGrid},
+                                 {"Extrusion", &GeometryReader::readExtrusion},
+                                 {"IndexedLineSet", &GeometryReader::readIndexedLines},
+                                 {"LineSet", &GeometryReader::readLines},
+                                 {"PointSet", &GeometryReader::readPoints}};
+    return readers;
+  }
+
   std::optional<Geometry> read() {
-    static const std::map<std::string_view, void (GeometryReader::*)()> readers{
-        {"IndexedFaceSet", &GeometryReader::readIndexedFaces},
-        {"TriangleSet", &GeometryReader::readTriangles},
-        {"TriangleStripSet", &GeometryReader::readStrips},
-        {"TriangleFanSet", &GeometryReader::readFans},
-        {"IndexedTriangleSet", &GeometryReader::readTriangles},
-        {"IndexedTriangleStripSet", &GeometryReader::readStrips},
-        {"IndexedTriangleFanSet", &GeometryReader::readFans},
-        {"ElevationGrid", &GeometryReader::readElevationGrid},
-        {"Extrusion", &GeometryReader::readExtrusion},
-        {"IndexedLineSet", &GeometryReader::readIndexedLines},
-        {"LineSet", &GeometryReader::readLines},
-        {"PointSet", &GeometryReader::readPoints}};
-    const auto reader = readers.find(node_.name());
-    if (reader == readers.end())
+    const auto reader = readers().find(node_.name());
+    if (reader == readers().end())
       return {};
     readData();
     (this->*reader->second)();
@@ -363,6 +367,10 @@ private:
 };
 
 } // namespace
+
+bool becomesMesh(std::string_view element) {
+  return GeometryReader::readers().contains(element);
+}
 
 std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node) {
   return GeometryReader(source, node).read();

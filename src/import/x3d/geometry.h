@@ -16,6 +16,9 @@ struct Geometry {
   std::size_t fans = 0; ///< concave polygons that were cut as fans
 };
 
+/// Whether it is one of these.
+bool becomesMesh(std::string_view element);
+
 /// Nothing for every other node; an empty mesh for a node without elements. Throws
 /// Error{malformed, unsupported} for one that names values which it lacks.
 std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node);

@@ -22,6 +22,10 @@ using namespace x3d;
 
 constexpr std::size_t maxNodeDepth = 250;
 
+/// Pages read so much geometry from text in the time that a worker takes to start. Of more
+/// only what is as short as a box stays (docs/decisions/scenes.md).
+constexpr std::size_t mostInlineText = 64 << 10, shortText = 256;
+
 /// What DEF and USE say goes through the graph.
 bool isOwn(std::string_view field) {
   return field == "DEF" || field == "USE";
@@ -47,7 +51,10 @@ public:
   SceneReader(const Source& source, const References& references, const ImportOptions& options)
       : source_(source), references_(references), isStrict_(options.strict),
         inlineBytes_(options.inlineBytes),
-        inlines_(references, options, imported_.scene, imported_.warnings) {}
+        inlines_(references, options, imported_.scene, imported_.warnings) {
+    if (textOfSmallGeometry() > mostInlineText)
+      inlineBytes_ = std::min(inlineBytes_, shortText);
+  }
 
   Imported read() {
     SceneGraph& graph = imported_.scene.graph;
@@ -284,13 +291,34 @@ private:
 
   /// Whether a geometry is shorter where it is, and pages draw it from there.
   bool staysInline(pugi::xml_node node) const {
-    if (!isDrawnInPages(node.name()))
-      return false;
+    return isDrawnInPages(node.name()) && geometryTextBytesOf(node) <= inlineBytes_;
+  }
+
+  /// With the data that it holds or USEs.
+  std::size_t geometryTextBytesOf(pugi::xml_node node) const {
     std::size_t bytes = textBytesOf(node);
     for (const pugi::xml_node& child : node.children())
       if (child.type() == pugi::node_element)
         bytes += textBytesOf(source_.resolved(child));
-    return bytes <= inlineBytes_;
+    return bytes;
+  }
+
+  /// All of it in the document that might stay inline.
+  std::size_t textOfSmallGeometry() const {
+    struct Walker : pugi::xml_tree_walker {
+      explicit Walker(const SceneReader& scene) : reader(scene) {}
+      bool for_each(pugi::xml_node& node) override {
+        if (becomesMesh(node.name()))
+          if (const std::size_t text = reader.geometryTextBytesOf(node); text <= reader.inlineBytes_)
+            bytes += text;
+        return true;
+      }
+      const SceneReader& reader;
+      std::size_t bytes = 0;
+    };
+    Walker walker(*this);
+    source_.root().traverse(walker);
+    return walker.bytes;
   }
 
   static std::size_t textBytesOf(pugi::xml_node element) {

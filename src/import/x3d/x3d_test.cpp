@@ -172,6 +172,22 @@ TEST(X3d, LeavesGeometryThatIsShortAsTextWhereItIs) {
   EXPECT_EQ(readScene(shape, options).scene.meshes.size(), 1u);
 }
 
+TEST(X3d, LeavesMuchGeometryWhereItIsOnlyIfItIsAsShortAsABox) {
+  const std::string triangle = "<Shape><TriangleSet>" + square + "</TriangleSet></Shape>";
+  std::string longer = triangle;
+  longer.insert(longer.find("point='") + 7, std::string(300, ' '));
+  ImportOptions options;
+  options.inlineBytes = 1000;
+  const auto meshesOf = [&](int count) {
+    std::string shapes;
+    for (int i = 0; i < count; ++i)
+      shapes += triangle + longer;
+    return readScene(shapes, options).scene.meshes.size();
+  };
+  EXPECT_EQ(meshesOf(50), 0u);
+  EXPECT_EQ(meshesOf(500), 500u);
+}
+
 TEST(X3d, SaysWhichGeometryPagesDoNotDraw) {
   const Imported imported = readScene("<Shape><Circle2D/></Shape><Shape><Appearance/><NurbsCurve/></Shape>"
                                       "<Shape><Sphere/></Shape><Shape><NurbsCurve/></Shape>");
