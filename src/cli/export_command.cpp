@@ -18,10 +18,16 @@ int print(const Arguments& arguments, const ExportReport& report) {
                                       {"lines", report.elements.lines},
                                       {"points", report.elements.points},
                                       {"vertices", report.vertices},
-                                      {"bytes", report.bytes}};
+                                      {"bytes", report.bytes},
+                                      {"lightsLeftOut", report.lightsLeftOut}};
     fmt::print("{}\n", json.dump(2));
     return 0;
   }
+  if (report.lightsLeftOut > 0)
+    fmt::print(stderr,
+               "imgeo: warning: {} left out: glTF's shine on everything and fall off by the square of the "
+               "distance.\n",
+               report.lightsLeftOut == 1 ? "1 light is" : fmt::format("{} lights are", report.lightsLeftOut));
   fmt::print("{}: {}, {}, {} vertices in {} {}, {}\n", arguments.text("output"), report.format,
              listed(report.elements), grouped(report.vertices), report.shapes,
              report.shapes == 1 ? "shape" : "shapes", byteSize(report.bytes));

@@ -41,9 +41,13 @@ Bytes writeObj(const Scene& scene);
 /// Binary glTF 2.0: the scene's nodes below which something is seen, with their
 /// transforms; a mesh that several shapes show is stored once. Each wedge is a vertex
 /// with POSITION, NORMAL, TEXCOORD_0 (v measured down, as glTF has it), COLOR_0
-/// (linear, 16 bits a channel) and, of further attributes, _NAME. Physical and unlit materials are kept; others become
-/// rough dielectrics of their diffuse and emissive colour. Textures come along where
-/// their image is at hand. Viewpoints become cameras; lights are left out.
+/// (linear, 16 bits a channel) and, of further attributes, _NAME. Physical and unlit materials are kept;
+/// others become rough dielectrics of their diffuse and emissive colour. Textures come along where their
+/// image is at hand. Viewpoints become cameras, and lights come along but for those of lightsLeftOut.
 Bytes writeGlb(const Scene& scene);
+
+/// How many lights writeGlb leaves out: glTF's shine on everything and fall off by the
+/// square of the distance.
+std::size_t lightsLeftOut(const SceneGraph& graph);
 
 } // namespace imgeo

@@ -348,6 +348,7 @@ TEST(Glb, KeepsLightsThatItHasWordsFor) {
           {"spot", SpotLight{{4, 5, 6}, {0, -1, 0}, 0.3, 0.5, bySquare, 9, {1, 1, 1}, 4, true}, {}, ""});
   addRoot(scene.graph, {"near", DirectionalLight{}, {}, ""}); // of its group alone
   addRoot(scene.graph, {"even", PointLight{}, {}, ""});       // does not fall off
+  EXPECT_EQ(lightsLeftOut(scene.graph), 2u);
   const Imported read = importBytes(exportScene(scene, MeshFormat::glb), "a.glb");
   std::map<std::string, NodeContent> lights;
   for (const Node& node : read.scene.graph.nodes)

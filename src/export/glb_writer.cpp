@@ -398,4 +398,15 @@ Bytes writeGlb(const Scene& scene) {
   return glb;
 }
 
+std::size_t lightsLeftOut(const SceneGraph& graph) {
+  const auto isLeftOut = [&](std::size_t node) {
+    const NodeContent& content = graph.nodes[node].content;
+    const bool isLight = std::holds_alternative<DirectionalLight>(content) ||
+                         std::holds_alternative<PointLight>(content) ||
+                         std::holds_alternative<SpotLight>(content);
+    return isLight && !lightOf(content);
+  };
+  return static_cast<std::size_t>(std::ranges::count_if(nodesInOrder(graph), isLeftOut));
+}
+
 } // namespace imgeo

@@ -36,6 +36,8 @@ ExportReport exportSite(const fs::path& site, const fs::path& output) {
     readImages(document, scene.graph);
 
   ExportReport report;
+  if (*format == MeshFormat::glb)
+    report.lightsLeftOut = lightsLeftOut(scene.graph);
   report.format = nameOf(*format);
   for (const PlacedShape& placed : placedShapes(scene.graph)) {
     const Mesh& mesh = scene.meshes[shapeOf(scene.graph, placed.node).mesh];

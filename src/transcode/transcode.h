@@ -219,7 +219,8 @@ struct ExportReport {
   std::string format; ///< "PLY", "OBJ", "GLB"
   ElementCounts elements;
   std::size_t shapes = 0, vertices = 0;
-  std::uint64_t bytes = 0; ///< of the file written
+  std::uint64_t bytes = 0;       ///< of the file written
+  std::size_t lightsLeftOut = 0; ///< of a GLB: those that glTF has no words for
 };
 
 /// Writes what a site holds as a mesh file, in the format that its name ends in
