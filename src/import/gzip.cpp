@@ -19,11 +19,6 @@ struct FreeDecompressor {
   void operator()(libdeflate_decompressor* d) const { libdeflate_free_decompressor(d); }
 };
 
-/// What the unpacked file may take at most.
-std::size_t unpackedLimit(std::size_t packed) {
-  return std::min(packed * kMaxDeflateRatio, std::max(kAnyRatioBytes, packed * kMaxUnpackRatio));
-}
-
 /// The last member's size modulo 2^32, as the file says: exact for most files, a
 /// first guess for the others.
 std::size_t statedSize(ByteSpan bytes) {
@@ -31,6 +26,10 @@ std::size_t statedSize(ByteSpan bytes) {
 }
 
 } // namespace
+
+std::size_t unpackedLimit(std::size_t packed) {
+  return std::min(packed * kMaxDeflateRatio, std::max(kAnyRatioBytes, packed * kMaxUnpackRatio));
+}
 
 bool isGzip(ByteSpan bytes) {
   return bytes.size() >= 2 && bytes[0] == 0x1f && bytes[1] == 0x8b;

@@ -13,6 +13,9 @@ inline constexpr std::size_t kAnyRatioBytes = std::size_t{64} << 20;
 /// deflate could reach 1032.
 inline constexpr std::size_t kMaxUnpackRatio = 100;
 
+/// What a file of so many packed bytes may unpack to.
+std::size_t unpackedLimit(std::size_t packed);
+
 bool isGzip(ByteSpan bytes);
 
 /// Unpacks every member of a gzip file, one after the other; zero bytes behind

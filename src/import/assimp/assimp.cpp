@@ -10,6 +10,7 @@
 #include "import/triangulate.h"
 #include "import/unit_normal.h"
 #include "import/warnings.h"
+#include "import/zip.h"
 
 #include "base/error.h"
 
@@ -334,6 +335,7 @@ bool isReadByAssimp(const std::string& name) {
 }
 
 Imported readByAssimp(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+  refuseZipBomb(bytes, name);
   return readIsolated([&] { return readHere(bytes, name, options); }, name);
 }
 

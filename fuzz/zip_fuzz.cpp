@@ -1,0 +1,17 @@
+#include "base/error.h"
+#include "import/zip.h"
+
+#include <cstdlib>
+
+/// What an archive unpacks to is known, or that it is too much, whatever its bytes.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace imgeo;
+  const std::uint64_t unpacked = unpackedZipBytes({data, size});
+  try {
+    refuseZipBomb({data, size}, "fuzz.3mf");
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::limit || unpacked == 0)
+      std::abort();
+  }
+  return 0;
+}
