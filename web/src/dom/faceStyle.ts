@@ -9,6 +9,7 @@ export const viewStyle = sheetOf(`
   :host { position: absolute; inset: 0; display: block; overflow: hidden; contain: strict; }
   canvas { display: block; width: 100%; height: 100%; outline: none; -webkit-tap-highlight-color: transparent; }
   canvas.first { position: absolute; inset: 0; pointer-events: none; }
+  canvas.first:not(.drawn) { visibility: hidden; }
   canvas.covered { opacity: 0; }
   canvas.moves { cursor: grab; }
   canvas.moves:active { cursor: grabbing; }

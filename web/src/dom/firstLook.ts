@@ -118,6 +118,8 @@ export class FirstLook {
     const [width, height] = sizeOf(this.canvas);
     this.#setSize(width, height);
     if (!this.#draw()) return;
+    // Before, the compositor would wait for what the GPU rehearses, and the page for the compositor.
+    this.canvas.classList.add("drawn");
     this.#state = "drawn";
     this.#settle();
     for (const element of [...this.shown.map((shape) => shape.element as Element), this.#x3d]) {

@@ -27,4 +27,5 @@ export function drawUnseen(gl: WebGL2RenderingContext, draw: () => void): void {
   gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   gl.deleteFramebuffer(framebuffer);
   for (const buffer of buffers) gl.deleteRenderbuffer(buffer);
+  gl.flush(); // now, not when there is a frame
 }
