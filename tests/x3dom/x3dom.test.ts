@@ -39,15 +39,34 @@ function texturedFile(name: string, mesh: PlainMesh): string {
   return join(folder, `${name}.obj`);
 }
 
-/** The mesh with its positions on the lattice that convert lays over it. */
-function onLattice(mesh: PlainMesh, bits: number): PlainMesh {
+/** Where a lattice begins, and the edge of its cube. */
+interface Cube {
+  readonly origin: readonly number[];
+  readonly edge: number;
+}
+
+function cubeAround(mesh: PlainMesh): Cube {
   const axes = [0, 1, 2].map((axis) => mesh.positions.filter((_, i) => i % 3 === axis));
-  const least = axes.map((values) => values.reduce((a, b) => Math.min(a, b)));
-  const extents = axes.map((values, axis) => values.reduce((a, b) => Math.max(a, b)) - (least[axis] ?? 0));
-  const step = Math.max(...extents) / (2 ** bits - 1);
+  const origin = axes.map((values) => values.reduce((a, b) => Math.min(a, b)));
+  return { origin, edge: Math.max(...axes.map((values, axis) => values.reduce((a, b) => Math.max(a, b)) - (origin[axis] ?? 0))) };
+}
+
+/** The one that the document states, in few digits: by less than a thousandth of a step beside the mesh's own. */
+function statedCube(site: string): Cube {
+  const [, node = ""] = /<(?:Binary|Image)Geometry([^>]*)>/.exec(pageOf(site)) ?? [];
+  const numbersOf = (name: string): number[] => (new RegExp(` ${name}="([^"]*)"`).exec(node)?.[1] ?? "").split(" ").map(Number);
+  const edge = Math.max(...numbersOf("size"));
+  return { origin: numbersOf("position").map((center) => center - edge / 2), edge };
+}
+
+/** The mesh with its positions on the lattice that convert lays over it. */
+function onLattice(mesh: PlainMesh, bits: number, { origin, edge } = cubeAround(mesh)): PlainMesh {
+  const step = edge / (2 ** bits - 1);
   const positions = mesh.positions.map((value, i) => {
-    const origin = least[i % 3] ?? 0;
-    return origin + step * Math.round((value - origin) / step);
+    const least = origin[i % 3] ?? NaN;
+    const stored = least + step * Math.round((value - least) / step);
+    assert.ok(Math.abs(stored - value) < 0.51 * step, "the lattice is not the mesh's");
+    return stored;
   });
   return { ...mesh, positions };
 }
@@ -132,20 +151,20 @@ for (const container of containers) {
 
       test("shows coloured points of interleaved bytes as X3DOM shows them inline", async () => {
         const site = siteOfGenerated("points", ...options(container), "--coord-type", "uint8", "--layout", "interleaved");
-        await assertShows("points-8", site, container, onLattice(sourceOf("points"), 8));
+        await assertShows("points-8", site, container, onLattice(sourceOf("points"), 8, statedCube(site)));
       });
     }
 
     test("shows coloured points as X3DOM shows them inline", async () => {
       // A point is one pixel: half a step of the lattice puts some of them into the next.
       const site = siteOfGenerated("points", ...options(container));
-      await assertShows("points-16", site, container, onLattice(sourceOf("points"), 16));
+      await assertShows("points-16", site, container, onLattice(sourceOf("points"), 16, statedCube(site)));
     });
 
     for (const primitives of ["triangles", "strips"]) {
       test(`shows coloured lines as ${primitives === "strips" ? "strips" : "lines"} as X3DOM shows them inline`, async () => {
         const site = siteOfGenerated("coil", ...options(container), "--primitives", primitives);
-        await assertShows("coil-16", site, container, onLattice(sourceOf("coil"), 16));
+        await assertShows("coil-16", site, container, onLattice(sourceOf("coil"), 16, statedCube(site)));
       });
     }
 
