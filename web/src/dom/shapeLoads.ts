@@ -214,7 +214,9 @@ export class ShapeLoads {
     if (delivery?.isSettled !== true || !textures.isSettled) return;
     loading.settle();
     this.#isQuiet = false;
-    this.#renderer.requestFrameAtPace(); // events wait for a frame
+    // Events wait for a frame; the last one for no rest of the GPU.
+    if (this.isLoading) this.#renderer.requestFrameAtPace();
+    else this.#renderer.requestFrame();
   }
 
   #fail({ loading }: LoadedShape, element: Element, error: DeliveryError): void {
