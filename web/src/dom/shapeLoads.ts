@@ -44,6 +44,8 @@ export class ShapeLoads {
   readonly #textures: TextureDeliveries;
   readonly #listener: ShapeLoadsListener;
   readonly #shapes = new Map<SceneElement, LoadedShape>();
+  /** Those that are seen and not complete. Kept, since each of ten thousand that is complete asks whether it is the last. */
+  readonly #coming = new Set<LoadedShape>();
   /** Those that were on the screen before they were here. */
   readonly #shownBefore: Set<SceneElement>;
   /** Those that are here and have said all: of ten thousand no frame asks once more. */
@@ -79,6 +81,8 @@ export class ShapeLoads {
       if (!this.#renderer.isContextLost) loaded.textures.follow(loaded.described);
       if (loaded.isVisible !== shape.visible) this.#isQuiet = false;
       loaded.isVisible = shape.visible;
+      if (loaded.isVisible && !loaded.loading.isSettled) this.#coming.add(loaded);
+      else this.#coming.delete(loaded);
     }
     return () => {
       for (const { delivery, textures } of ended) {
@@ -93,6 +97,7 @@ export class ShapeLoads {
     const shape = this.#shapes.get(element);
     if (shape === undefined) return;
     this.#shapes.delete(element);
+    this.#coming.delete(shape);
     shape.loading.abandon();
     ended.push(shape);
   }
@@ -121,8 +126,7 @@ export class ShapeLoads {
 
   /** Something that is seen is still to come. */
   get isLoading(): boolean {
-    for (const { isVisible, loading } of this.#shapes.values()) if (isVisible && !loading.isSettled) return true;
-    return false;
+    return this.#coming.size > 0;
   }
 
   /** Whether these patches of a shape have something on the screen, as far as there will be anything. */
@@ -191,6 +195,7 @@ export class ShapeLoads {
       loading.abandon();
     }
     this.#shapes.clear();
+    this.#coming.clear();
   }
 
   #deliver(shape: LoadedShape, geometry: GeometryDescription, element: Element): void {
@@ -209,10 +214,12 @@ export class ShapeLoads {
   }
 
   /** Where nothing of it is on its way. */
-  #settle({ loading, isVisible, delivery, textures }: LoadedShape): void {
+  #settle(shape: LoadedShape): void {
+    const { loading, isVisible, delivery, textures } = shape;
     if (loading.isSettled || !isVisible || !this.#listener.maySettle()) return;
     if (delivery?.isSettled !== true || !textures.isSettled) return;
     loading.settle();
+    this.#coming.delete(shape);
     this.#isQuiet = false;
     // Events wait for a frame; the last one for no rest of the GPU.
     if (this.isLoading) this.#renderer.requestFrameAtPace();
