@@ -13,6 +13,7 @@ import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { launchChromium } from "../../tests/browser/chromium.ts";
 import { startServer } from "../../tests/browser/server.ts";
 import { pageOf, shapeIn, siteOfGenerated } from "../../tests/browser/sites.ts";
+import { goUntilComplete } from "../wholePage.ts";
 
 const count = 1000;
 const frames = 50;
@@ -52,13 +53,7 @@ async function row(browser: Browser, name: string, shape: (n: number) => string)
   const server = await startServer(directory);
   const page = await browser.newPage();
   try {
-    page.setDefaultTimeout(timeout);
-    await page.goto(server.origin);
-    await page.evaluate(async () => {
-      const x3d = document.querySelector<Partial<ViewElement> & Element>("x3d")!;
-      while (x3d.complete === undefined) await new Promise((resolve) => { setTimeout(resolve, 50); });
-      await x3d.complete;
-    });
+    await goUntilComplete(page, server.origin, timeout);
     const metrics = await page.context().newCDPSession(page);
     await metrics.send("Performance.enable", { timeDomain: "threadTicks" });
     const taskSeconds = async () => (await metrics.send("Performance.getMetrics")).metrics.find((metric) => metric.name === "TaskDuration")?.value ?? 0;

@@ -9,9 +9,9 @@ import { cpSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
-import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { launchChromium } from "../../tests/browser/chromium.ts";
 import { startServer } from "../../tests/browser/server.ts";
+import { goUntilComplete } from "../wholePage.ts";
 
 const alike = 7000, others = 3000;
 const rounds = 15;
@@ -75,13 +75,7 @@ const server = await startServer(directory);
 const browser = await launchChromium();
 try {
   const page = await browser.newPage();
-  page.setDefaultTimeout(timeout);
-  await page.goto(server.origin);
-  await page.evaluate(async () => {
-    const x3d = document.querySelector<Partial<ViewElement> & Element>("x3d")!;
-    while (x3d.complete === undefined) await new Promise((resolve) => { setTimeout(resolve, 50); });
-    await x3d.complete;
-  });
+  await goUntilComplete(page, server.origin, timeout);
   console.log(`| in a scene of ${alike + others} shapes | median | least |\n|---|--:|--:|`);
   for (const [name, change] of Object.entries(changes)) console.log(await row(page, name, change));
 } finally {
