@@ -4,14 +4,14 @@
 import { DecodeError } from "./decodeError.ts";
 import { distanceField } from "./distanceField.ts";
 
-/** document/letterSheet.ts leaves this room around each run. */
-const spread = 8;
 const largestEdge = 2048;
 
 /** What document/letterSheet.ts writes: runs whose pen begins at x, y from the upper left, in a font with its size. */
 interface Letters {
   readonly width: number;
   readonly height: number;
+  /** Texels over which the field falls from an edge to nothing. */
+  readonly spread: number;
   readonly font: string;
   readonly runs: readonly { readonly text: string; readonly x: number; readonly y: number }[];
 }
@@ -38,7 +38,7 @@ export function measureRun({ family, isBold, isItalic }: { family: string; isBol
 
 /** White, with the letters' field of distances as alpha; its first row is the lowest. Rejects with DecodeError. */
 export async function drawLetters(bytes: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
-  const { width, height, font, runs } = lettersIn(bytes);
+  const { width, height, spread, font, runs } = lettersIn(bytes);
   const context = contextOf(width, height);
   context.font = font;
   context.fillStyle = "white";
@@ -65,7 +65,7 @@ function lettersIn(bytes: Uint8Array): Letters {
 
 function isLetters(value: unknown): value is Letters {
   if (typeof value !== "object" || value === null) return false;
-  const { width, height, font, runs } = value as Partial<Record<keyof Letters, unknown>>;
+  const { width, height, spread, font, runs } = value as Partial<Record<keyof Letters, unknown>>;
   const isEdge = (edge: unknown) => Number.isInteger(edge) && Number(edge) > 0 && Number(edge) <= largestEdge;
-  return isEdge(width) && isEdge(height) && typeof font === "string" && Array.isArray(runs);
+  return isEdge(width) && isEdge(height) && isEdge(spread) && typeof font === "string" && Array.isArray(runs);
 }

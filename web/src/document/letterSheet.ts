@@ -4,7 +4,7 @@
 import { dataUrl } from "./dataUrl.ts";
 import type { Font, PlacedRun } from "./textLayout.ts";
 
-/** Texels over which the field falls from an edge to nothing; the same in decode/letters.ts and render/letterField.ts. */
+/** Texels over which the field falls from an edge to nothing. */
 export const fieldSpread = 8;
 
 /** Texels of an em, from the best on: what fits is taken. With less than the last letters are not to be read. */
@@ -70,5 +70,5 @@ function packed(runs: readonly PlacedRun[], texelsPerEm: number): LetterSheet {
 export function sheetUrl({ width, height, texelsPerEm, cells }: LetterSheet, { family, isBold, isItalic }: Font): string {
   const font = `${isItalic ? "italic " : ""}${isBold ? "bold " : ""}${texelsPerEm}px ${family}`;
   const runs = Array.from(cells, ([text, { penX, penY }]) => ({ text, x: penX, y: penY }));
-  return dataUrl("application/json", new TextEncoder().encode(JSON.stringify({ width, height, font, runs })));
+  return dataUrl("application/json", new TextEncoder().encode(JSON.stringify({ width, height, spread: fieldSpread, font, runs })));
 }
