@@ -1,20 +1,33 @@
-// What the C++ decoder says of every file of some directories: a line each of its
-// verdict, a tab and its path. tests/verdicts.ts asks the runtime's decoder the same.
+// What the C++ decoder says of every file of some directories, payloads and the images
+// that carry them: a line each of its verdict, a tab and its path. tests/verdicts.ts
+// asks the runtime's decoder the same.
 //
 //   compact_verdicts DIRECTORY... | node tests/verdicts.ts
 #include "base/file.h"
+#include "containers/compact/payload_image.h"
 #include "containers/compact/verdict.h"
 
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 
+namespace {
+
+std::string verdictOnFile(const std::filesystem::path& path) {
+  const imgeo::Bytes bytes = imgeo::readFile(path);
+  if (path.extension() != ".png")
+    return imgeo::compact::testing::verdictOn(bytes);
+  return imgeo::compact::testing::verdictOf(
+      [&] { return imgeo::compact::decodePatches(imgeo::compact::payloadOfImage(bytes, "x.png"), "x.png"); });
+}
+
+} // namespace
+
 int main(int argc, char** argv) try {
   for (int i = 1; i < argc; ++i)
     for (const auto& entry : std::filesystem::recursive_directory_iterator(argv[i]))
       if (entry.is_regular_file())
-        std::printf("%s\t%s\n", imgeo::compact::testing::verdictOn(imgeo::readFile(entry.path())).c_str(),
-                    entry.path().c_str());
+        std::printf("%s\t%s\n", verdictOnFile(entry.path()).c_str(), entry.path().c_str());
 } catch (const std::exception& error) {
   std::fprintf(stderr, "compact_verdicts: %s\n", error.what());
   return 1;

@@ -103,8 +103,8 @@ inline Mesh star(std::uint32_t triangles) {
 }
 
 /// Three parts, whose common positions are exact where others are not.
-inline CompactPatch baseOf(const Mesh& mesh) {
-  CompactPatch base = patchOf(mesh, 16, {8, 12, 8, NormalMode::derivedArea});
+inline CompactPatch baseOf(const Mesh& mesh, NormalMode normals = NormalMode::derivedArea) {
+  CompactPatch base = patchOf(mesh, 16, {8, 12, 8, normals});
   base.partCount = 3;
   base.residualShift = 6;
   for (std::size_t corner = 0; corner < base.corners.size(); corner += 3) {
@@ -177,6 +177,99 @@ inline std::vector<Sample> samples() {
   return samples;
 }
 
+/// An attribute of any kind, with values all over its range.
+inline void addAny(CompactPatch& patch, const AttributeType& type, std::uint32_t seed) {
+  Random random(seed);
+  Attribute attribute{type, {}};
+  const std::int32_t radius = (1 << (type.bits - 1)) - 1;
+  for (std::size_t wedge = 0; wedge < patch.wedgeCount(); ++wedge) {
+    Value& value = attribute.values.emplace_back();
+    if (type.kind == AttributeKind::normal) {
+      const auto below = [&](std::int32_t n) {
+        return static_cast<std::int32_t>(random.below(static_cast<std::uint32_t>(n)));
+      };
+      const auto either = [&](std::int32_t n) { return random.once(2) ? n : -n; };
+      const std::int32_t x = below(radius + 1), y = below(radius - x + 1);
+      value = {{either(x), either(y), either(radius - x - y), 0}};
+      continue;
+    }
+    for (std::uint32_t i = 0; i < type.components; ++i)
+      value[i] = static_cast<std::int32_t>(random.bits() >> (32 - type.bits));
+  }
+  patch.attributes.push_back(std::move(attribute));
+}
+
+/// Elements over `vertexCount` random points, each of which is in use, with `wedgeCount` wedges.
+inline CompactPatch tangle(Topology topology, std::uint32_t vertexCount, std::uint32_t wedgeCount,
+                           std::uint32_t elementCount, std::uint32_t bits) {
+  Random random(wedgeCount);
+  CompactPatch patch;
+  patch.topology = topology;
+  patch.positionBits = bits;
+  const auto coordinate = [&] { return random.bits() >> (32 - bits); };
+  for (std::uint32_t i = 0; i < vertexCount; ++i)
+    patch.positions.push_back({coordinate(), coordinate(), coordinate()});
+  for (std::uint32_t i = 0; i < wedgeCount; ++i)
+    patch.wedgePositions.push_back(i % vertexCount);
+  const auto cornerCount = static_cast<std::uint32_t>(elementCount * cornersPerElement(topology));
+  for (std::uint32_t i = 0; i < cornerCount; ++i)
+    patch.corners.push_back(i < wedgeCount ? i : random.below(wedgeCount));
+  return patch;
+}
+
+/// Gives wedges of a vertex the value of its first one, but for some.
+inline void repeatValues(CompactPatch& patch, std::uint32_t once) {
+  Random random(once);
+  for (Attribute& attribute : patch.attributes)
+    for (std::uint32_t wedge = 0; wedge < patch.wedgeCount(); ++wedge)
+      if (!random.once(once))
+        attribute.values[wedge] = attribute.values[patch.wedgePositions[wedge] % patch.positions.size()];
+}
+
+/// Patches for what meshes seldom need of the format.
+inline std::vector<Sample> rareSamples() {
+  using enum AttributeKind;
+  using enum NormalMode;
+  std::vector<Sample> samples;
+  // Triangles on any vertices: boundaries end in vertices that lie on none.
+  samples.push_back({"tangle", tangle(Topology::triangles, 40, 60, 120, 16)});
+  addAny(samples.back().patch(), {normal, 3, 8, area}, 1);
+  addAny(samples.back().patch(), {texCoord, 2, 9, area}, 2);
+  addAny(samples.back().patch(), {color, 3, 8, area}, 3);
+  addAny(samples.back().patch(), {other, 3, 7, area}, 4);
+  repeatValues(samples.back().patch(), 4);
+  // More wedges a vertex than there are steps of a ring.
+  samples.push_back({"crowded", tangle(Topology::triangles, 5, 120, 300, 12)});
+  addAny(samples.back().patch(), {normal, 3, 16, uniform}, 5);
+  samples.push_back({"lines-with-seams", tangle(Topology::lines, 30, 50, 80, 16)});
+  addAny(samples.back().patch(), {normal, 3, 6, area}, 6);
+  addAny(samples.back().patch(), {texCoord, 2, 10, area}, 7);
+  addAny(samples.back().patch(), {color, 4, 16, area}, 8);
+  repeatValues(samples.back().patch(), 3);
+  samples.push_back({"points-with-all", tangle(Topology::points, 30, 30, 30, 24)});
+  addAny(samples.back().patch(), {texCoord, 2, 16, area}, 9);
+  addAny(samples.back().patch(), {other, 2, 24, area}, 10);
+  addAny(samples.back().patch(), {normal, 3, 8, derivedArea}, 11);
+  // The fewest bits of everything: many places are one, and triangles have no area.
+  samples.push_back({"fewest-bits", tangle(Topology::triangles, 20, 25, 40, 1)});
+  addAny(samples.back().patch(), {normal, 3, 4, area}, 12);
+  addAny(samples.back().patch(), {texCoord, 2, 1, area}, 13);
+  addAny(samples.back().patch(), {color, 3, 1, area}, 14);
+  addAny(samples.back().patch(), {other, 1, 1, area}, 15);
+  samples.push_back({"most-attributes", tangle(Topology::triangles, 6, 8, 9, 30)});
+  for (std::uint32_t i = 0; i < maxAttributes; ++i)
+    addAny(samples.back().patch(),
+           {static_cast<AttributeKind>(i % 4),
+            static_cast<std::uint8_t>(i % 4 == 0   ? 3
+                                      : i % 4 == 1 ? 2
+                                                   : 4),
+            static_cast<std::uint8_t>(4 + i % 13), i % 4 == 0 ? static_cast<NormalMode>(i / 4) : area},
+           20 + i);
+  // A base of an isosurface: exact on its grid, rounded beside it.
+  samples.push_back({"base-grid", baseOf(terrain(9), derivedUniform)});
+  return samples;
+}
+
 /// Of one patch and of several.
 inline std::vector<Sample> files() {
   std::vector<Sample> files = samples();
@@ -195,6 +288,7 @@ inline std::vector<Sample> files() {
   files.emplace_back("alike", std::move(alike));
   files.emplace_back("several", several);
   files.emplace_back("bases", bases);
+  std::ranges::move(rareSamples(), std::back_inserter(files));
   return files;
 }
 

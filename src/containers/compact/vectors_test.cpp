@@ -1,12 +1,13 @@
 // vectors/compact-1: files and what decodes from them, for readers in any language.
-// NAME.png holds the patches of NAME.json. edits.json
-// lists edits of payloads, and what is to come of each: the kind of error, or the
-// FNV-1a sum of what decodes. IMGEO_REWRITE_GOLDEN=1 writes all anew, which is a
-// new version of the format.
+// NAME.png holds the patches of NAME.json. edits.json lists edits of payloads, and
+// what is to come of each: the kind of error, or the FNV-1a sum of what decodes.
+// refused.json has whole payloads, in base 16. IMGEO_REWRITE_GOLDEN=1 writes all
+// anew; where a file that there was has changed, that is a new version of the format.
 #include "base/file.h"
 #include "containers/compact/patch_coding.h"
 #include "containers/compact/patch_samples.h"
 #include "containers/compact/payload_image.h"
+#include "containers/compact/refused_payloads.h"
 #include "containers/compact/verdict.h"
 
 #include <cctype>
@@ -102,6 +103,21 @@ Json editsOf(const std::string& name, const Bytes& payload, std::uint32_t seed) 
   return entries;
 }
 
+std::string base16Of(const Bytes& bytes) {
+  static constexpr char digits[] = "0123456789abcdef";
+  std::string text;
+  for (const std::uint8_t byte : bytes)
+    text.append({digits[byte >> 4], digits[byte & 15]});
+  return text;
+}
+
+Bytes bytesOfBase16(const std::string& text) {
+  Bytes bytes;
+  for (std::size_t i = 0; i < text.size(); i += 2)
+    bytes.push_back(static_cast<std::uint8_t>(std::stoul(text.substr(i, 2), nullptr, 16)));
+  return bytes;
+}
+
 void rewrite() {
   Json edits = Json::array();
   std::uint32_t seed = 0;
@@ -113,6 +129,10 @@ void rewrite() {
       edits.push_back(std::move(entry));
   }
   write("edits.json", edits);
+  Json refused = Json::array();
+  for (const auto& [name, payload] : testing::refusedPayloads())
+    refused.push_back({{"name", name}, {"payload", base16Of(payload)}, {"verdict", verdictOn(payload)}});
+  write("refused.json", refused);
 }
 
 class Vectors : public ::testing::Test {
@@ -142,6 +162,16 @@ TEST_F(Vectors, AreWhatIsEncodedToday) {
     EXPECT_EQ(imageOfPayload(encodePatches(sample.patches, 0).bytes),
               readFile(folder / (sample.name + ".png")))
         << sample.name;
+}
+
+TEST_F(Vectors, AreRefusedWhereTheyAreMadeToBe) {
+  const Json refused = read("refused.json");
+  EXPECT_GT(refused.size(), 10u);
+  for (const Json& entry : refused) {
+    const Json verdict = verdictOn(bytesOfBase16(entry.at("payload")));
+    EXPECT_TRUE(verdict.is_string()) << entry;
+    EXPECT_EQ(verdict, entry.at("verdict")) << entry;
+  }
 }
 
 TEST_F(Vectors, AreRefusedOrDecodedAsStatedWhenEdited) {

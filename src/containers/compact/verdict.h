@@ -44,14 +44,19 @@ inline std::uint32_t sumOf(const std::vector<CompactPatch>& patches) {
   return hash;
 }
 
-/// The sum of what a payload decodes to, or the kind of its refusal.
-inline std::string verdictOn(ByteSpan payload) {
+/// The sum of the patches that `decode` gives, or the kind of its refusal.
+template <typename Decode> std::string verdictOf(Decode decode) {
   static constexpr std::array names{"io", "truncated", "malformed", "unsupported", "limit", "usage"};
   try {
-    return std::to_string(sumOf(decodePatches(payload, "x.png")));
+    return std::to_string(sumOf(decode()));
   } catch (const Error& error) {
     return names.at(static_cast<std::size_t>(error.kind()));
   }
+}
+
+/// Of a payload.
+inline std::string verdictOn(ByteSpan payload) {
+  return verdictOf([&] { return decodePatches(payload, "x.png"); });
 }
 
 } // namespace imgeo::compact::testing

@@ -21,8 +21,8 @@ export async function compactBases(png: Uint8Array<ArrayBuffer>): Promise<BaseBu
   return decodePatches(await payloadOf(png), baseBuffersOf);
 }
 
-/** The pixels of a gray PNG. */
-async function payloadOf(png: Uint8Array<ArrayBuffer>): Promise<Uint8Array<ArrayBuffer>> {
+/** The pixels of a gray PNG. Rejects with DecodeError. Safe for untrusted bytes. */
+export async function payloadOf(png: Uint8Array<ArrayBuffer>): Promise<Uint8Array<ArrayBuffer>> {
   const { channels, data } = await decodePixels(png);
   if (channels !== 1) throw new DecodeError("malformed", "is a PNG of colours, not of gray");
   return data;

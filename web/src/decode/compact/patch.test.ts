@@ -9,6 +9,7 @@ import { stated, verdictOn } from "./verdict.testing.ts";
 import { readPayload, readVector, vectorNames } from "./vectors.testing.ts";
 
 const names = vectorNames();
+const payloads = new Map(names.map((name) => [name, readPayload(name)]));
 
 const decode = (payload: Uint8Array) => decodePatches(payload, stated);
 const headersOf = (payload: Uint8Array) => decodePatches(payload, ({ header }) => header);
@@ -20,6 +21,44 @@ interface Edit {
   /** Where to cut, after that. */
   readonly length?: number;
   readonly verdict: number | DecodeError["kind"];
+}
+
+/** A whole payload. */
+interface Refused {
+  readonly name: string;
+  /** In base 16. */
+  readonly payload: string;
+  readonly verdict: DecodeError["kind"];
+}
+
+/** All that a reader has to refuse in a payload (docs/formats/compact.md), in this one's words. */
+const refusals = [
+  /is no image of compact/, /of version \d+ of compact/, /number that is too long/, /ends before its streams do/, /bases beside patches/,
+  /parts of points/, /parts of lines/, /attribute of a patch twice/, /stream that nothing reads/,
+  ...["attributes", "types of patches", "patches", "vertices", "wedges", "elements"].map((what) => new RegExp(`holds \\d+ ${what}; \\d+ are allowed`)),
+  ...["kind of an attribute", "number of components", "bits of an attribute", "mode of an attribute", "topology", "bits of a position", "flags",
+      "number of attributes", "attribute", "number of patches", "type of a patch", "number of wedges", "shift of normals", "step of the grid",
+      "origin of the grid", "number of parts", "shift of residuals"].map((what) => new RegExp(`as ${what}; `)),
+  /stream that is longer/, /stream that is shorter/, /more vertices than/, /fewer vertices than/, /vertex that has not come/,
+  /node of the boundary that has not come/, /part that there is not/, /vertex beside its lattice/, /more wedges than/, /fewer wedges than/,
+  /another wedge of a vertex that has one/, /wedge that its vertex has not/, /normal beside its octahedron/, /texture coordinate that its bits cannot/,
+  /value that its bits cannot/,
+];
+
+/** What is said of a payload that is refused. */
+function refusalOf(payload: Uint8Array): string {
+  try {
+    decodePatches(payload, () => undefined);
+    return "";
+  } catch (error) {
+    return error instanceof DecodeError ? error.message : assert.fail(String(error));
+  }
+}
+
+function edited({ file, edits, length }: Edit): Uint8Array {
+  const payload = payloads.get(file)!.slice();
+  for (const [place, value] of edits) payload[place] = value;
+  return payload.subarray(0, length);
 }
 
 describe("a file of compact", () => {
@@ -43,23 +82,25 @@ describe("a file of compact", () => {
   });
 
   test("is refused as it should be, or decodes as it should, after every edit that the vectors state", () => {
-    const payloads = new Map(names.map((name) => [name, readPayload(name)]));
-    for (const edit of readVector("edits") as Edit[]) {
-      const payload = payloads.get(edit.file)!.slice();
-      for (const [place, value] of edit.edits) payload[place] = value;
-      assert.equal(verdictOn(payload.subarray(0, edit.length)), edit.verdict, JSON.stringify(edit));
-    }
+    for (const edit of readVector("edits") as Edit[]) assert.equal(verdictOn(edited(edit)), edit.verdict, JSON.stringify(edit));
+  });
+
+  test("is refused where the vectors are made to be, and for everything that there is to refuse", () => {
+    const refused = (readVector("refused") as Refused[]).map((each) => ({ ...each, payload: Uint8Array.from(Buffer.from(each.payload, "hex")) }));
+    for (const { name, payload, verdict } of refused) assert.equal(verdictOn(payload), verdict, name);
+    const said = new Set([...refused.map(({ payload }) => payload), ...(readVector("edits") as Edit[]).map(edited)].map(refusalOf));
+    for (const refusal of refusals) assert.ok([...said].some((message) => refusal.test(message)), `no vector is refused with ${String(refusal)}`);
+    for (const message of said) assert.ok(message === "" || refusals.some((refusal) => refusal.test(message)), `"${message}" is of no kind that is listed`);
   });
 
   test("is decoded or refused, quickly, whatever its bytes", () => {
     const random = new TestRandom(1);
-    const payloads = names.map(readPayload);
     // Processor time, since a busy machine may take any.
     const milliseconds = () => process.cpuUsage().user / 1000;
     const started = milliseconds();
     let refusals = 0;
     for (let round = 0; round < 4000; ++round) {
-      const payload = payloads[random.below(payloads.length)]!.slice();
+      const payload = payloads.get(names[random.below(names.length)]!)!.slice();
       for (let edit = random.below(4); edit >= 0; --edit) {
         // Headers are what hostile counts come from.
         payload[random.below(random.below(2) === 0 ? Math.min(64, payload.length) : payload.length)] = random.below(256);

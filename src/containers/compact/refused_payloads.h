@@ -1,0 +1,129 @@
+#pragma once
+// Payloads that every reader refuses and that no few bytes make of a good one, each
+// under the name of what is wrong with it. Header-only and for tests alone.
+
+#include "containers/compact/code_positions.h"
+#include "containers/compact/conquest.h"
+#include "containers/compact/header.h"
+#include "containers/compact/lines.h"
+#include "containers/compact/range_encoder.h"
+#include "containers/compact/sizes.h"
+#include "containers/compact/wedges.h"
+
+#include <map>
+#include <string>
+#include <utility>
+
+namespace imgeo::compact::testing {
+
+/// A file of patches of one type, without attributes, of these streams and no others.
+inline Bytes payloadOf(const PatchType& type, std::uint32_t patchCount,
+                       const std::map<StreamName, Bytes>& streams) {
+  FileHeader header{{}, {type}, patchCount, std::vector<std::uint32_t>(5)};
+  for (const auto& [name, bytes] : streams)
+    header.streamLengths[static_cast<std::size_t>(name)] = static_cast<std::uint32_t>(bytes.size());
+  Bytes payload;
+  appendHeader(payload, header);
+  for (const auto& [name, bytes] : streams)
+    payload.insert(payload.end(), bytes.begin(), bytes.end());
+  return payload;
+}
+
+/// The sizes of patches of one type, whatever they are.
+inline Bytes sizesStream(const PatchType& type, const std::vector<PatchSizes>& patches) {
+  RangeEncoder encoder(sizeModels::count);
+  for (const PatchSizes& sizes : patches) {
+    codeNumber(encoder, sizeModels::type, 0);
+    codeNumber(encoder, sizeModels::vertices, sizes.vertexCount - 1);
+    if (type.topology != Topology::points) {
+      codeNumber(encoder, sizeModels::seams, sizes.wedgeCount - sizes.vertexCount);
+      codeNumber(encoder, sizeModels::elements, sizes.elementCount - 1);
+    }
+    if (type.positionBits > 16)
+      continue;
+    encoder.bit(sizeModels::grid, sizes.grid.has_value());
+    for (int axis = 0; axis < 3 && sizes.grid; ++axis) {
+      codeWord(encoder, sizes.grid->origin[axis]);
+      codeWord(encoder, sizes.grid->step[axis]);
+    }
+  }
+  return encoder.finish();
+}
+
+/// Four lines from one vertex to another, the last of which names for its first end a wedge of its second.
+inline Bytes wedgeOfAnotherVertex() {
+  const PatchType type{Topology::lines, 30, false, {}};
+  RangeEncoder connectivity(lineModelOffsets::count), positions(positionModels::countWithGrid),
+      wedges(wedgeModels::count);
+  for (int line = 0; line < 4; ++line) {
+    if (line > 0)
+      connectivity.bit(lineModelOffsets::chain, false);
+    for (std::uint32_t end = 0; end < 2; ++end) {
+      connectivity.bit(lineModelOffsets::old + end, line > 0);
+      if (line > 0)
+        codeNumber(connectivity, lineModelOffsets::vertex, 1 - end);
+    }
+  }
+  for (int vertex = 0; vertex < 2; ++vertex) // both in the middle
+    for (const std::size_t models : {positionModels::first, positionModels::second, positionModels::third})
+      codeSigned(positions, models, 0);
+  wedges.bit(wedgeModels::split, true);
+  wedges.bit(wedgeModels::split + 1, false);
+  for (std::size_t extra = 0; extra < 2; ++extra) {
+    wedges.bit(wedgeModels::same + 3 * extra, false);
+    wedges.bit(wedgeModels::made + extra, true);
+  }
+  wedges.bit(wedgeModels::same + 6, false);
+  wedges.bit(wedgeModels::made + 2, false);
+  codeTree(wedges, wedgeModels::step, 4, 15);
+  codeNumber(wedges, wedgeModels::wedge, 2); // the second of four
+  return payloadOf(type, 1,
+                   {{StreamName::sizes, sizesStream(type, {{0, 2, 4, 4, 0, {}, 0, 0}})},
+                    {StreamName::connectivity, connectivity.finish()},
+                    {StreamName::positions, positions.finish()},
+                    {StreamName::wedges, wedges.finish()}});
+}
+
+inline std::vector<std::pair<std::string, Bytes>> refusedPayloads() {
+  constexpr std::uint32_t most = maxPatchCount;
+  const PatchType points{Topology::points, 30, false, {}}, lines{Topology::lines, 30, false, {}},
+      onGrid{Topology::points, 16, false, {}};
+  const auto ofSizes = [](const PatchType& type, const std::vector<PatchSizes>& sizes) {
+    return payloadOf(type, static_cast<std::uint32_t>(sizes.size()),
+                     {{StreamName::sizes, sizesStream(type, sizes)}});
+  };
+  const auto ofGrid = [&](std::uint32_t origin, std::uint32_t step) {
+    const Grid grid{{0, 0, origin}, {1u << 20, 1u << 20, step}};
+    return ofSizes(onGrid, {{0, 1, 1, 1, 0, grid, 0, 0}});
+  };
+  const Bytes begin{'I', 'G', 'C', 1};
+  const auto ofHeader = [&](std::initializer_list<std::uint8_t> rest) {
+    Bytes bytes = begin;
+    bytes.insert(bytes.end(), rest);
+    bytes.resize(64);
+    return bytes;
+  };
+  return {
+      {"more vertices", ofSizes(points, {{0, most, 0, 0, 0, {}, 0, 0}, {0, 1, 0, 0, 0, {}, 0, 0}})},
+      {"more wedges", ofSizes(lines, {{0, 1, most + 1, most, 0, {}, 0, 0}})},
+      {"more elements", ofSizes(lines, {{0, 1, 1, most + 1, 0, {}, 0, 0}})},
+      {"another format", {'I', 'G', 'D', 1, 0, 0}},
+      {"another version", {'I', 'G', 'C', 2, 0, 0}},
+      {"half a header", {'I', 'G', 'C', 1, 1, 0}},
+      {"more attributes", ofHeader({0x81, 2})},
+      {"more types", ofHeader({0, 0x81, 2})},
+      {"more patches", ofHeader({0, 1, 1, 16, 0, 0, 0x81, 0x80, 4})},
+      {"no patches", ofHeader({0, 1, 1, 16, 0, 0, 0})},
+      {"a patch of no type", ofHeader({0, 0, 1, 3, 0, 0, 0, 0})},
+      {"a number of five bytes", ofHeader({0x80, 0x80, 0x80, 0x80, 0})},
+      {"streams of more than 32 bits",
+       ofHeader({0, 1, 1, 16, 0, 0, 1, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff, 0x7f})},
+      {"a base of points", ofHeader({0, 1, 1, 16, 1, 0, 1, 0, 0, 0, 0, 0})},
+      {"bases beside patches", ofHeader({0, 2, 3, 16, 1, 0, 3, 16, 0, 0, 1, 0, 0, 0, 0, 0})},
+      {"lines of a grid that are too near", ofGrid(0, 2 * 65536 - 1)},
+      {"a grid that begins behind its first line", ofGrid(1u << 20, 1u << 20)},
+      {"a wedge of another vertex", wedgeOfAnotherVertex()},
+  };
+}
+
+} // namespace imgeo::compact::testing
