@@ -110,13 +110,16 @@ const char* geometryNodeName(Container container) {
   return container == Container::sig ? "ImageGeometry" : "BinaryGeometry";
 }
 
-Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names) {
+Attributes decodeAttributes(const GeometryDescription& geometry) {
+  constexpr double noise = 1e-7; // what computing has left behind the lattice's own digits
   const DecodeFields decode = decodeFields(geometry);
+  return {{"position", shortNumbers(decode.position, geometry.lattice, noise)},
+          {"size", shortNumbers(decode.size, geometry.lattice, noise)}};
+}
+
+Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names) {
   const bool isCompact = geometry.profile == Profile::compact;
-  // What computing has left behind the lattice's own digits says nothing.
-  constexpr double noise = 1e-7;
-  Attributes box{{"position", shortNumbers(decode.position, geometry.lattice, noise)},
-                 {"size", shortNumbers(decode.size, geometry.lattice, noise)}};
+  Attributes box = decodeAttributes(geometry);
   const bool hasDefaultBits = isCompact && geometry.lattice.bits == 16;
   if (!hasDefaultBits && (geometry.container == Container::sig ||
                           geometry.coordType != ElementType::float32 || geometry.lattice.bits != sourceBits))

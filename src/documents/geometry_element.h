@@ -12,6 +12,8 @@ namespace imgeo {
 /// bboxCenter and bboxSize, off by less than half a step of the lattice on which the
 /// vertices are: more digits tell nothing. None for an empty box.
 Attributes boxAttributes(const Box3d& box, const Lattice& lattice);
+/// `position` and `size`, which say where the lattice lies, in no more digits than that takes.
+Attributes decodeAttributes(const GeometryDescription& geometry);
 std::string primTypes(const std::vector<Draw>& draws); ///< MFString
 std::string counts(const std::vector<Draw>& draws);    ///< MFInt32
 

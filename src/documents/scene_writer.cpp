@@ -184,6 +184,10 @@ Attributes SceneWriter::allowedFields(const std::vector<FieldText>& all) const {
   return fields;
 }
 
+Attribute SceneWriter::letterStyle(const std::string& style) const {
+  return {"data-style", style};
+}
+
 /// A page has a Group where it may not have an element that others stand in.
 Element SceneWriter::otherElement(const OtherNode& other, const Node& node, const Attributes& names) const {
   const bool isWritten = medium_ == Medium::file || mayStandInPage(other.element);
@@ -200,11 +204,10 @@ Element SceneWriter::otherElement(const OtherNode& other, const Node& node, cons
       field.value = strings({document_.graph.inlined.at(*other.document).url});
     element.groups.back().push_back(std::move(field));
   }
-  // In a page `style` is HTML's, and a strict content policy refuses it.
   if (medium_ == Medium::page && other.element == "FontStyle")
     for (const FieldText& field : node.fields)
       if (field.name == "style")
-        element.groups.back().push_back({"data-style", field.value});
+        element.groups.back().push_back(letterStyle(field.value));
   if (image && !image->preview.empty())
     element.groups.back().push_back({"preview", image->preview});
   return element;

@@ -31,6 +31,9 @@ public:
 protected:
   /// Writes what stands for a Shape node; `names` is its DEF, if it has one.
   virtual void writeShape(const Node& node, const Attributes& names);
+  /// A page's attribute for the `style` of a FontStyle. `style` itself is HTML's there, and a
+  /// strict content policy refuses it.
+  virtual Attribute letterStyle(const std::string& style) const;
   void writeExtras(const Node& node);
   /// Extras and children: of an X3D source's Shape, what it has besides its geometry.
   void writeParts(const Node& node);

@@ -51,6 +51,13 @@ private:
     writer_.close(group);
   }
 
+  /// X3DOM knows no other attribute for it. To HTML X3D's four words are no style at all; what
+  /// else a source says here might be one.
+  Attribute letterStyle(const std::string& style) const override {
+    constexpr std::string_view styles[] = {"PLAIN", "BOLD", "ITALIC", "BOLDITALIC"};
+    return {"style", std::ranges::find(styles, style) != std::end(styles) ? style : "PLAIN"};
+  }
+
   /// X3DOM lights triangles alone; other elements shine in their emissive colour.
   static bool shines(const PatchDescription& patch) { return !isLit(patch) && !patch.color; }
 
@@ -100,8 +107,7 @@ private:
   }
 
   static Attributes boxFields(const GeometryDescription& geometry, bool solid) {
-    const DecodeFields decode = decodeFields(geometry);
-    Attributes fields{{"position", numbers(decode.position)}, {"size", numbers(decode.size)}};
+    Attributes fields = decodeAttributes(geometry);
     const std::uint32_t bits = geometry.lattice.bits;
     const std::uint32_t stored = geometry.container == Container::sig ? 8 * coordBytes(Container::sig, bits)
                                  : geometry.coordType == ElementType::float32

@@ -70,7 +70,7 @@ void expectReadsBackAs(const SceneDocument& written, const std::string& text) {
     EXPECT_EQ(read.graph.nodes[shapes[i]].name, written.graph.nodes[i].name);
     GeometryDescription geometry = read.geometries.at(shapeOf(read.graph, shapes[i]).mesh);
     const GeometryDescription& expected = written.geometries.at(i);
-    EXPECT_NEAR(geometry.lattice.step, expected.lattice.step, 1e-15);
+    EXPECT_NEAR(geometry.lattice.step, expected.lattice.step, 1e-10 * expected.lattice.step);
     EXPECT_EQ(geometry.lattice.bits, expected.lattice.bits);
     geometry.lattice = expected.lattice;
     geometry.normalType = expected.normalType; // not stated where there are no normals
@@ -138,6 +138,25 @@ TEST(X3domElement, StatesAStrideAsAQuery) {
   EXPECT_EQ(countOf(text, "coord=\"[a-d]c0.png\\?\\+8\""), 4u);
   EXPECT_EQ(countOf(text, "normal=\"[a-d]n.png\\?\\+4\""), 3u);
   EXPECT_EQ(countOf(text, "index=\"[a-d]i.png\""), 4u);
+}
+
+TEST(X3domElement, SaysWhereTheLatticeLiesInNoMoreDigitsThanThatTakes) {
+  SceneDocument document = arrays();
+  for (GeometryDescription& geometry : document.geometries)
+    geometry.lattice = {{0.1, 0.2, 0.3}, 0.15 / 65535, 16};
+  const std::string text = x3domElement(document, 0, Medium::file);
+  EXPECT_EQ(countOf(text, "position=\"0.175 0.275 0.375\" size=\"0.15 0.15 0.15\""), 4u) << text;
+}
+
+TEST(X3domElement, HasTheStyleOfLettersInX3domsOwnWordsAndNoOther) {
+  SceneDocument document;
+  for (const char* style : {"BOLDITALIC", "position: fixed"}) {
+    const Node node{"", OtherNode{"FontStyle", "", {}}, {}, "", {{"style", style}}};
+    document.graph.roots.push_back(addNode(document.graph, node));
+  }
+  const std::string text = x3domElement(document, 0, Medium::page);
+  EXPECT_EQ(countOf(text, "<FontStyle style=\"BOLDITALIC\"></FontStyle>"), 1u) << text;
+  EXPECT_EQ(countOf(text, "<FontStyle style=\"PLAIN\"></FontStyle>"), 1u) << text;
 }
 
 } // namespace
