@@ -2,12 +2,16 @@
 // and place.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { describe, test } from "node:test";
 import type { Page } from "playwright-core";
-import { assertSamePicture } from "./compare.ts";
+import { assertSamePicture, difference } from "./compare.ts";
 import { pictureSize, withPage } from "./harness.ts";
 import { decodePng, type Picture } from "./png.ts";
+import { repository } from "./paths.ts";
 import { sceneOf } from "./scenes.ts";
+import type { TestServer } from "./server.ts";
 import { siteOfGenerated } from "./sites.ts";
 
 const pixelsPerUnit = pictureSize.height / 2 / Math.tan(0.7854 / 2) / 10;
@@ -49,7 +53,7 @@ const shape = (id: string, translation: string, string: string, style: string, a
   `<Transform translation="${translation}"><Shape id="${id}"><Appearance>${appearance}</Appearance><Text string='${string}'><FontStyle ${style}></FontStyle></Text></Shape></Transform>`;
 
 describe("a text", () => {
-  test("looks as the browser writes it, small and large, lit or not, hides nothing between its letters (nor does anything of no alpha), is hit within its lines, and changes", async () => {
+  test("looks as the browser writes it, small and large, lit or not, hides nothing between its letters (nor does anything of no alpha), is hit within its lines, changes, and again when its font comes", async () => {
     const scene = `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo><Background skyColor="0 0 0"></Background><Viewpoint position="0 0 10" fieldOfView="0.7854"></Viewpoint>
       ${shape("lit", "-5 2.5 0", '"Hall" "of seats"', 'size="1.2" spacing="1.1"', '<Material diffuseColor="1 0.6 0.2" ambientIntensity="0"></Material>')}
       ${shape("bold", "-5 -0.4 0", '"near by"', `family='"SANS"' data-style="BOLD" size="0.6"`, "")}
@@ -67,7 +71,13 @@ describe("a text", () => {
       { text: "Seen from afar, and still to be read", x: -5, y: -1.4, size: 0.32, font: "SIZE monospace", color: "rgb(128 255 128)" },
       { text: "Qg", x: 0.6, y: -3, size: 5, font: "italic SIZE serif", color: "rgb(77 128 255)" },
     ];
-    await withPage(sceneOf("text", { grid: siteOfGenerated("sphere-small") }, scene), {}, async ({ page, promise, picture }) => {
+    const lateFont = readFileSync(join(repository, "node_modules/x_ite/dist/assets/fonts/Droid/DroidSerif-Bold.woff2"));
+    let sendFont = (): void => undefined;
+    const prepare = (server: TestServer): void => {
+      server.put("/late.woff2", lateFont);
+      server.when(/late/, { hold: new Promise<void>((resolve) => { sendFont = resolve; }) });
+    };
+    await withPage(sceneOf("text", { grid: siteOfGenerated("sphere-small") }, scene), { server: prepare }, async ({ page, promise, picture }) => {
       await promise("complete");
       const [shown, expected] = [await picture(), await written(page, lines)];
       // Edges are as soft as a pixel is wide, in both: 0.65 of 255 on average, and 10 where letters stand elsewhere.
@@ -87,6 +97,23 @@ describe("a text", () => {
       const changed = lines.filter(({ text }) => text !== "Qg" && text !== "of seats")
         .map((line) => ({ ...line, text: line.text === "Hall" ? "Foyer" : line.text, size: line.text === "near by" ? 0.9 : line.size }));
       assertSamePicture("text-changed", await picture(), await written(page, changed), { mean: 0.6 });
+
+      await page.evaluate(() => {
+        document.fonts.add(new FontFace("Late", "url(/late.woff2)"));
+        document.querySelector("#bold fontstyle")!.setAttribute("family", '"Late" "SANS"');
+        document.querySelector("#bold fontstyle")!.setAttribute("data-style", "PLAIN");
+      });
+      await promise("complete", "#bold");
+      // No picture of this: Playwright takes none while a font is to come.
+      // Who listens later than the scene hears of the font when the scene has asked for the new letters.
+      const come = await page.evaluateHandle(() => ({ font: new Promise((resolve) => { document.fonts.addEventListener("loadingdone", resolve, { once: true }); }) }));
+      sendFont();
+      await come.evaluate(async ({ font }) => { await font; });
+      await promise("complete", "#bold");
+      const writtenIn = (font: string): Promise<Picture> => written(page, changed.map((line) => (line.text === "near by" ? { ...line, font } : line)));
+      const withFont = await picture();
+      assertSamePicture("text-font-come", withFont, await writtenIn('SIZE "Late"'), { mean: 0.6 });
+      assert.ok(difference(withFont, await writtenIn("SIZE sans-serif")).mean > 0.6);
     });
   });
 });

@@ -66,9 +66,9 @@ function packed(runs: readonly PlacedRun[], texelsPerEm: number): LetterSheet {
   return { width, height: Math.max(top + rowHeight, 1), texelsPerEm, cells };
 }
 
-/** What decode/letters.ts reads. */
-export function sheetUrl({ width, height, texelsPerEm, cells }: LetterSheet, { family, isBold, isItalic }: Font): string {
+/** What decode/letters.ts reads; the edition of the font only makes it another url. */
+export function sheetUrl({ width, height, texelsPerEm, cells }: LetterSheet, { family, isBold, isItalic }: Font, edition: number): string {
   const font = `${isItalic ? "italic " : ""}${isBold ? "bold " : ""}${texelsPerEm}px ${family}`;
   const runs = Array.from(cells, ([text, { penX, penY }]) => ({ text, x: penX, y: penY }));
-  return dataUrl("application/json", new TextEncoder().encode(JSON.stringify({ width, height, spread: fieldSpread, font, runs })));
+  return dataUrl("application/json", new TextEncoder().encode(JSON.stringify({ width, height, spread: fieldSpread, font, edition, runs })));
 }

@@ -20,6 +20,8 @@ export interface ShapeReading {
   readonly warnings: Warning[];
   /** Undefined: nothing is seen of texts. */
   readonly text: TextReading | undefined;
+  /** Says that the shape is read again when this element of it is touched, in whatever document that stands. */
+  readonly listen: (element: SceneElement) => void;
 }
 
 /** `element` is the shape's identity, `host` the page's element for it, `node` what describes it: the same but for USE. */
@@ -49,6 +51,7 @@ function readGeometryOf(parts: readonly SceneElement[], reading: ShapeReading, b
                         colorBy: string): readonly [geometry: GeometryDescription | undefined, priority: number] {
   const { geometries, lookup, warnings } = reading;
   const found = firstOf(parts, reading, (part) => {
+    if (lowerNameOf(part) === "text") reading.listen(part);
     const geometry = geometries.recall(part, lookup, warnings, (...of) => readGeometry(reading, ...of));
     return geometry && { part, geometry };
   });

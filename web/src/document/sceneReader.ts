@@ -7,7 +7,7 @@
 
 import type { SceneDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
-import { attributeOf } from "./element.ts";
+import { attributeOf, lowerNameOf } from "./element.ts";
 import { ElementTree } from "./elementTree.ts";
 import { GeometryMemory } from "./geometryMemory.ts";
 import type { Warning } from "./nodes.ts";
@@ -69,6 +69,11 @@ export class SceneReader {
   /** Says that attributes of the element may have changed, or what supplements say of it. */
   touch(element: SceneElement): void {
     this.#touched.add(element);
+  }
+
+  /** Says that letters may look otherwise than before. */
+  touchTexts(): void {
+    for (const element of this.#readers.keys()) if (lowerNameOf(element) === "text") this.touch(element);
   }
 
   /** Says that children of the element may have come or gone. */
@@ -170,6 +175,7 @@ export class SceneReader {
     return readNode(element, node, {
       warnings, lookup, geometries: this.#geometries, text: this.#supplements.text, host: host ?? element,
       childrenOf: (of) => tree.childrenOf(of),
+      listen: (part) => { this.#listen(place, part); },
       levelOf: (lod) => this.#supplements.levelOf?.(lod),
       inlined: (inline) => this.#inlinedAt(place, inline, warnings),
     });

@@ -153,6 +153,26 @@ describe("a shape of text", () => {
     assert.deepEqual(geometries().map((geometry) => geometry?.patches[0]?.box?.max[1]?.toFixed(1)), ["2.4", "2.4"]);
   });
 
+  test("is another picture where another edition of its font has come, also in a document that is inlined", () => {
+    const inlined = { url: "http://a/room.x3d", x3d: elementsOf(`<X3D><Scene><Shape><Text string='"b"'><FontStyle family="F"/></Text></Shape></Scene></X3D>`) };
+    const x3d = elementsOf(`<X3D><Scene><Shape><Text string='"a"'><FontStyle family="F"/></Text></Shape>
+      <Shape><Text string='"a"'/></Shape><Inline url="room.x3d"/></Scene></X3D>`);
+    const asked: string[] = [];
+    let edition = 0;
+    const reader = new SceneReader(x3d, { inlined: () => inlined, text: textReading(measure, ({ family }, letters) => {
+      asked.push(`${family}: ${letters}`);
+      return family.includes("F") ? edition : 0;
+    }) });
+    const letters = () => shapesOf(reader.read().root).map(({ geometry }) => geometry?.letters);
+    const before = letters();
+    assert.deepEqual(asked, ['"F", serif: a', "serif: a", '"F", serif: b']);
+    reader.touchTexts();
+    assert.deepEqual(letters(), before);
+    edition = 1;
+    reader.touchTexts();
+    assert.deepEqual(letters().map((each, i) => each === before[i]), [false, true, false]);
+  });
+
   test("is not seen where nobody can draw letters", () => {
     const { root, warnings } = readScene(elementsOf(`<X3D><Scene>${hello}</Scene></X3D>`));
     assert.deepEqual([shapesOf(root)[0]?.geometry, warnings], [undefined, []]);

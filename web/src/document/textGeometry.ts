@@ -21,8 +21,11 @@ export interface TextReading {
   readonly appearanceOf: typeof lettered;
 }
 
-/** For who can measure, and draw, letters. */
-export function textReading(measure: MeasureRun): TextReading {
+/**
+ * For who can measure, and draw, letters. `editionOf` says how often faces of a font have
+ * come that were not here at first: a text's picture is another one then.
+ */
+export function textReading(measure: MeasureRun, editionOf: (font: Font, letters: string) => number = () => 0): TextReading {
   const geometryOf: TextReading["geometryOf"] = (element, resolve, warnings) => {
     const { string, length, maxExtent, solid } = readFields(element, nodeFields.Text, warnings);
     const fontStyle = childrenOf(element).flatMap((child) => resolve(child) ?? []).find((child) => lowerNameOf(child) === "fontstyle");
@@ -39,7 +42,7 @@ export function textReading(measure: MeasureRun): TextReading {
       return undefined;
     }
     const geometry = describe(rectanglesOf(runs, sheet, fields.size), solid);
-    return geometry && { ...geometry, letters: sheetUrl(sheet, style.font) };
+    return geometry && { ...geometry, letters: sheetUrl(sheet, style.font, editionOf(style.font, string.join(""))) };
   };
   return { geometryOf, appearanceOf: lettered };
 }

@@ -1,6 +1,7 @@
 // Joins a document to a picture: reads the scene whenever the document changes,
 // says what to load of it, and tells the page.
 
+import { LateFonts } from "../decode/lateFonts.ts";
 import { measureRun } from "../decode/letters.ts";
 import type { StageName } from "../decode/stage.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
@@ -136,9 +137,13 @@ export class Viewer {
       },
       onError: (error, element, loading) => { this.#fail(error, element, loading); },
     });
+    const fonts = new LateFonts(document.fonts, () => {
+      this.#reader.touchTexts();
+      this.#readDocument();
+    }, this.#listeners.signal);
     this.#reader = new SceneReader(x3d, {
       inlined: (inline) => this.#inlines.documentOf(inline), levelOf: (lod) => this.#levels.levelOf(lod),
-      text: textReading(measureRun),
+      text: textReading(measureRun, (font, letters) => fonts.editionOf(font, letters)),
     });
     this.#steering = new Steering(this.renderer, { geometries: this.#deliveries, textures: this.#textures }, () => { this.#onSteered(); });
     this.#observer = new MutationObserver((all) => {
