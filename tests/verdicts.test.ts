@@ -1,4 +1,5 @@
-// The two decoders of compact say the same of every file that the C++ one is fuzzed with.
+// The two decoders of compact, and their readers of PNG, say the same of every file
+// that the C++ ones are fuzzed with.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readdirSync } from "node:fs";
@@ -7,9 +8,9 @@ import { test } from "node:test";
 import { differencesIn } from "./verdicts.testing.ts";
 
 const repository = join(import.meta.dirname, "..");
-const corpora = ["fuzz/corpus/compact"].map((folder) => join(repository, folder));
+const corpora = ["fuzz/corpus/compact", "fuzz/corpus/png"].map((folder) => join(repository, folder));
 
-test("both decoders of compact say the same of every file of the corpus", async () => {
+test("both decoders of compact say the same of every file of the corpora", async () => {
   const output = execFileSync(join(repository, "build/fuzz/compact_verdicts"), corpora, { encoding: "utf8" });
   const { count, differences } = await differencesIn(output);
   assert.deepEqual(differences, []);

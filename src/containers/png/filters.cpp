@@ -45,6 +45,30 @@ void filterRow(Filter filter, const std::uint8_t* row, const std::uint8_t* above
   }
 }
 
+/// The other way around; `above` is zeros at the top.
+void unfilterRow(Filter filter, const std::uint8_t* row, const std::uint8_t* above, std::size_t rowBytes,
+                 std::size_t pixelBytes, std::uint8_t* out) {
+  const auto each = [&](auto predict) {
+    for (std::size_t i = 0; i < pixelBytes; ++i)
+      out[i] = static_cast<std::uint8_t>(row[i] + predict(0, above[i], 0));
+    for (std::size_t i = pixelBytes; i < rowBytes; ++i)
+      out[i] =
+          static_cast<std::uint8_t>(row[i] + predict(out[i - pixelBytes], above[i], above[i - pixelBytes]));
+  };
+  switch (filter) {
+  case Filter::sub:
+    return each([](int left, int, int) { return left; });
+  case Filter::up:
+    return each([](int, int up, int) { return up; });
+  case Filter::average:
+    return each([](int left, int up, int) { return (left + up) / 2; });
+  case Filter::paeth:
+    return each([](int left, int up, int upLeft) { return int{paeth(left, up, upLeft)}; });
+  default:
+    std::copy_n(row, rowBytes, out);
+  }
+}
+
 std::uint64_t sumOfDifferences(const std::uint8_t* row, std::size_t rowBytes) {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < rowBytes; ++i)
@@ -78,6 +102,22 @@ Bytes filterRows(const Image& image, Filter filter) {
     }
   }
   return filtered;
+}
+
+bool unfilterRows(ByteSpan filtered, Image& image) {
+  const std::size_t rowBytes = std::size_t{image.width} * image.channels;
+  image.pixels.resize(rowBytes * image.height);
+  const Bytes nothing(rowBytes);
+  const std::uint8_t* above = nothing.data();
+  for (std::size_t y = 0; y < image.height; ++y) {
+    const std::uint8_t* row = &filtered[y * (rowBytes + 1)];
+    std::uint8_t* out = &image.pixels[y * rowBytes];
+    if (row[0] > static_cast<std::uint8_t>(Filter::paeth))
+      return false;
+    unfilterRow(static_cast<Filter>(row[0]), row + 1, above, rowBytes, image.channels, out);
+    above = out;
+  }
+  return true;
 }
 
 } // namespace imgeo

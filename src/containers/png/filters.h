@@ -14,4 +14,8 @@ enum class Filter : std::uint8_t { none = 0, sub = 1, up = 2, average = 3, paeth
 /// differences, row by row.
 Bytes filterRows(const Image& image, Filter filter);
 
+/// The other way around: makes `image.pixels` out of (width * channels + 1) * height bytes.
+/// False where a row states a filter that there is not.
+bool unfilterRows(ByteSpan filtered, Image& image);
+
 } // namespace imgeo

@@ -105,6 +105,32 @@ TEST(Png, WhosePaletteIsTransparentIsUnsupported) {
             ErrorKind::unsupported);
 }
 
+TEST(Png, OfGrayThatIsSeeThroughIsUnsupported) {
+  EXPECT_EQ(kindOfDecoding(withChunk(encodePng({1, 1, 1, {7}}, 5), "tRNS", {0, 7})), ErrorKind::unsupported);
+}
+
+TEST(Png, IsReadWithWhateverElseStandsInIt) {
+  Bytes png = encodePng({1, 1, 1, {7}}, 5);
+  for (int i = 0; i < 300; ++i)
+    png = withChunk(png, "tEXt", {'T', 0, 'x'});
+  EXPECT_EQ(decodePng(png, "x.png").pixels, Bytes{7});
+}
+
+TEST(Png, OfChunksThatNobodyKnowsOrInAnotherOrderIsMalformed) {
+  const Bytes png = encodePng({1, 1, 1, {7}}, 5);
+  for (const char* type : {"ABCD", "IHDR"})
+    EXPECT_EQ(kindOfDecoding(withChunk(png, type, {})), ErrorKind::malformed) << type;
+  EXPECT_EQ(decodePng(withChunk(png, "IDAT", {}), "x.png").pixels, Bytes{7}); // behind each other
+  Bytes apart = withChunk(png, "IDAT", {}); // with a text between the first and the second
+  const std::size_t second = asText(apart).find("IDAT", asText(apart).find("IDAT") + 4) - 4;
+  const Bytes text = withChunk(png, "tEXt", {'T', 0, 'x'});
+  const std::size_t begin = asText(text).find("tEXt") - 4;
+  apart.insert(apart.begin() + static_cast<std::ptrdiff_t>(second),
+               text.begin() + static_cast<std::ptrdiff_t>(begin),
+               text.begin() + static_cast<std::ptrdiff_t>(begin + 15));
+  EXPECT_EQ(kindOfDecoding(apart), ErrorKind::malformed);
+}
+
 TEST(Png, HoldsThreeChunksOnly) {
   std::mt19937 random(2);
   const Bytes png = encodePng(randomImage(random, 3), 5);

@@ -29,6 +29,13 @@ describe("a PNG", () => {
     assert.deepEqual(checkPng(pngOf({ width: 2, height: 2, extra: [chunkOf("tEXt", new Uint8Array(9))] })), { width: 2, height: 2, channels: 3 });
   });
 
+  for (const type of ["ABCD", "IHDR", "IDAT"]) {
+    test(`with ${type === "IDAT" ? "its data apart" : `a further ${type}`} is malformed`, () => {
+      const extra = [chunkOf(type, new Uint8Array(3)), chunkOf("tEXt", new Uint8Array(3))];
+      assert.throws(() => checkPng(pngOf({ width: 2, height: 2, extra })), refused("malformed"));
+    });
+  }
+
   for (const [what, png] of Object.entries({
     "a see-through palette": pngOf({ width: 2, height: 2, colorType: 3, extra: [chunkOf("tRNS", new Uint8Array(1))] }),
     "grey with alpha": pngOf({ width: 2, height: 2, colorType: 4 }),

@@ -37,9 +37,20 @@ export function checkPng(bytes: Uint8Array, largestEdge = largestImageEdge): Png
   if (types[0] !== "IHDR" || view.getUint32(signature.length) !== headerLength) {
     throw new DecodeError("malformed", "does not begin with a PNG header");
   }
-  if (!types.includes("IDAT")) throw new DecodeError("malformed", "holds no image data");
+  checkOrder(types);
   if (types.includes("tRNS")) throw new DecodeError("unsupported", "has colours that are see-through");
   return readHeader(view, signature.length + 8, largestEdge);
+}
+
+/** The header first, at most one palette, the image's data in a row, and nothing else that a reader must know. */
+function checkOrder(types: readonly string[]): void {
+  const isCritical = (type: string) => (type.charCodeAt(0) & 32) === 0; // its first letter is a capital
+  if (types.slice(1).some((type) => isCritical(type) && !["PLTE", "IDAT", "IEND"].includes(type))) {
+    throw new DecodeError("malformed", "has a chunk that no reader knows");
+  }
+  const runs = types.filter((type, place) => type === "IDAT" && types[place - 1] !== "IDAT").length;
+  if (runs === 0) throw new DecodeError("malformed", "holds no image data");
+  if (runs > 1 || types.indexOf("PLTE") !== types.lastIndexOf("PLTE")) throw new DecodeError("malformed", "has its chunks out of order");
 }
 
 function readHeader(view: DataView, offset: number, largestEdge: number): PngHeader {

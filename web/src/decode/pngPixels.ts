@@ -23,12 +23,13 @@ export async function decodePixels(png: Uint8Array<ArrayBuffer>): Promise<Pixels
   const rowLength = width * (isPalette ? 1 : channels);
   const packed = chunks.filter(({ type }) => type === "IDAT").map(({ data }) => data);
   for (const chunk of chunks) checkSum(chunk);
+  if (isPalette && !isPaletteLength(palette?.length ?? 0)) throw new DecodeError("malformed", "has no palette of 1 to 256 colours");
   const length = height * (1 + rowLength);
   if (length > png.length * largestDeflateRatio) throw new DecodeError("truncated", "is too short for the size in its header");
   const [only, ...others] = packed;
   const filtered = (only && others.length === 0 ? stored(only, length) : undefined) ?? await inflate(packed, length);
   const data = unfiltered(filtered, height, rowLength, isPalette ? 1 : channels);
-  return { width, height, channels, data: isPalette ? throughPalette(data, palette) : data };
+  return { width, height, channels, data: isPalette ? throughPalette(data, palette ?? new Uint8Array()) : data };
 }
 
 const signatureLength = 8;
@@ -180,8 +181,11 @@ function paeth(left: number, above: number, corner: number): number {
   return toAbove <= toCorner ? above : corner;
 }
 
-function throughPalette(numbers: Uint8Array, palette: Uint8Array | undefined): Uint8Array<ArrayBuffer> {
-  if (palette === undefined) throw new DecodeError("malformed", "has no palette");
+function isPaletteLength(length: number): boolean {
+  return length > 0 && length <= 3 * 256 && length % 3 === 0;
+}
+
+function throughPalette(numbers: Uint8Array, palette: Uint8Array): Uint8Array<ArrayBuffer> {
   const colors = new Uint8Array(numbers.length * 3);
   for (let n = 0; n < numbers.length; ++n) {
     const entry = (numbers[n] ?? 0) * 3;
