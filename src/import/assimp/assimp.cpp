@@ -59,9 +59,10 @@ std::string nameOf(const aiString& name) {
 /// Reads one aiScene.
 class SceneReader {
 public:
-  SceneReader(const aiScene& source, const std::string& name, const References& references, bool isStrict)
+  SceneReader(const aiScene& source, const std::string& name, const References& references, bool isStrict,
+              std::string_view extension)
       : source_(source), name_(name), isStrict_(isStrict),
-        materials_(source, imported_.scene.graph, references) {}
+        materials_(source, imported_.scene.graph, references, extension) {}
 
   Imported read(std::string format) {
     imported_.format = std::move(format);
@@ -316,10 +317,11 @@ Imported readHere(ByteSpan bytes, const std::string& name, const ImportOptions& 
     std::ranges::replace(reason, '\n', ' ');
     throw Error(ErrorKind::malformed, name, fmt::format("Assimp cannot read it: {}", reason));
   }
-  std::string format = extensionOf(name).substr(1);
+  const std::string extension = extensionOf(name).substr(1);
+  std::string format = extension;
   std::ranges::transform(format, format.begin(),
                          [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
-  Imported imported = SceneReader(*scene, name, references, options.strict).read(format);
+  Imported imported = SceneReader(*scene, name, references, options.strict, extension).read(format);
   std::vector<std::string> losses;
   for (const std::string& refused : files.refused())
     losses.push_back(fmt::format("Not read: {}.", refused));

@@ -106,6 +106,27 @@ TEST(Assimp, KeepsTheSharpEdgesOfMeshesWithoutNormals) {
   }
 }
 
+TEST(Assimp, LetsTexturesMultiplyGlowWhereTheFormatsViewersDo) {
+  const TemporaryDirectory directory;
+  writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
+  const auto rolesOf = [&](const std::string& emissive, const std::string& texture) {
+    writeFile(directory / "a.ac",
+              asBytes("AC3Db\nMATERIAL \"m\" rgb 1 1 1 amb 0 0 0 emis " + emissive +
+                      " spec 0 0 0 shi 10 trans 0\nOBJECT world\nkids 1\nOBJECT poly\n" + texture +
+                      "numvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\nmat 0\nrefs 3\n"
+                      "0 0 0\n1 1 0\n2 0 1\nkids 0\n"));
+    std::vector<TextureRole> roles;
+    const Imported imported = importFile(directory / "a.ac");
+    for (const TextureUse& use : appearanceOf(imported.scene.graph, 0).textures)
+      roles.push_back(use.role);
+    return roles;
+  };
+  using enum TextureRole;
+  EXPECT_EQ(rolesOf("0.3 0.3 0.3", "texture \"wood.png\"\n"), (std::vector{color, emissive}));
+  EXPECT_EQ(rolesOf("0 0 0", "texture \"wood.png\"\n"), (std::vector{color}));
+  EXPECT_EQ(rolesOf("0.3 0.3 0.3", ""), (std::vector<TextureRole>{}));
+}
+
 TEST(Assimp, HasALookOnceHoweverManyMaterialsAreAlike) {
   const auto glass = [](const std::string& color) {
     return "MATERIAL \"glass\" rgb " + color + " amb 0 0 0 emis 0 0 0 spec 0.5 0.5 0.5 shi 10 trans 0\n";

@@ -54,7 +54,31 @@ std::optional<std::size_t> embeddedIndex(const std::string& path) {
   return fault == std::errc{} && end == path.data() + path.size() ? std::optional(index) : std::nullopt;
 }
 
+/// Formats of viewers that multiply all light by the texture, glow included: OpenGL's and
+/// Direct3D's fixed stages. X3D's emissiveColor alone would lie over it like a veil.
+bool multipliesAllLight(std::string_view extension) {
+  constexpr std::string_view extensions[] = {"3ds", "ac", "acc", "ase", "lwo", "lws", "ms3d", "x"};
+  return std::ranges::find(extensions, extension) != std::end(extensions);
+}
+
+/// Its colour's texture is its emissive colour's, too, where it has no other.
+void letTextureGlow(Appearance& appearance) {
+  const Material* material = std::get_if<Material>(&appearance.material);
+  const auto color = std::ranges::find(appearance.textures, TextureRole::color, &TextureUse::role);
+  const bool hasOwn = std::ranges::find(appearance.textures, TextureRole::emissive, &TextureUse::role) !=
+                      appearance.textures.end();
+  if (!material || material->emissiveColor == Vec3f{} || color == appearance.textures.end() || hasOwn)
+    return;
+  TextureUse glow = *color;
+  glow.role = TextureRole::emissive;
+  appearance.textures.push_back(glow);
+}
+
 } // namespace
+
+AssimpMaterials::AssimpMaterials(const aiScene& source, SceneGraph& graph, const References& references,
+                                 std::string_view extension)
+    : source_(source), graph_(graph), references_(references), texturesGlow_(multipliesAllLight(extension)) {}
 
 AnyMaterial AssimpMaterials::materialOf(const aiMaterial& material) const {
   Material phong;
@@ -149,6 +173,8 @@ std::optional<std::size_t> AssimpMaterials::appearance(unsigned index) {
   appearance.material = materialOf(material);
   for (const Role& role : roles)
     addTexture(material, role.type, role.role, appearance);
+  if (texturesGlow_)
+    letTextureGlow(appearance);
   const auto isCarried = [](int type) {
     return std::ranges::any_of(roles, [type](const Role& role) { return role.type == type; });
   };

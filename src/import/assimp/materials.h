@@ -7,14 +7,16 @@
 #include <assimp/scene.h>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace imgeo {
 
 class AssimpMaterials {
 public:
-  AssimpMaterials(const aiScene& source, SceneGraph& graph, const References& references)
-      : source_(source), graph_(graph), references_(references) {}
+  /// `extension` is that of the source's name, in lower case, without its dot.
+  AssimpMaterials(const aiScene& source, SceneGraph& graph, const References& references,
+                  std::string_view extension);
 
   /// The appearance of a material; read when it is first asked for. Absent for the
   /// material that Assimp makes where a source has none.
@@ -34,6 +36,7 @@ private:
   const aiScene& source_;
   SceneGraph& graph_;
   const References& references_;
+  const bool texturesGlow_; ///< the colour's texture is that of the emissive colour, too
   std::map<unsigned, std::optional<std::size_t>> appearances_;
   std::map<std::string, std::optional<std::size_t>> images_;
   std::vector<std::string> missing_;          ///< one sentence for each image that is left out
