@@ -102,18 +102,4 @@ std::string numbers(const std::vector<double>& values) {
   return text;
 }
 
-std::string strings(const std::vector<std::string>& values) {
-  std::string text;
-  for (const std::string& value : values) {
-    text += text.empty() ? "\"" : " \"";
-    for (const char c : value) {
-      if (c == '"' || c == '\\')
-        text += '\\';
-      text += c;
-    }
-    text += '"';
-  }
-  return text;
-}
-
 } // namespace imgeo

@@ -2,6 +2,7 @@
 // Elements as text that HTML and XML read alike and people can read.
 
 #include "base/vec.h"
+#include "scene/mf_string.h"
 
 #include <string>
 #include <string_view>
@@ -71,6 +72,5 @@ void addUnless(Attributes& attributes, const char* name, const T& value, const T
 }
 
 /// An X3D MFString: each string in double quotes, backslash before quotes and backslashes.
-std::string strings(const std::vector<std::string>& values);
 
 } // namespace imgeo

@@ -30,4 +30,18 @@ std::vector<std::string> parseStrings(std::string_view text) {
   return strings;
 }
 
+std::string strings(const std::vector<std::string>& values) {
+  std::string text;
+  for (const std::string& value : values) {
+    text += text.empty() ? "\"" : " \"";
+    for (const char c : value) {
+      if (c == '"' || c == '\\')
+        text += '\\';
+      text += c;
+    }
+    text += '"';
+  }
+  return text;
+}
+
 } // namespace imgeo

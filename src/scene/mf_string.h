@@ -12,4 +12,7 @@ namespace imgeo {
 /// most likely means.
 std::vector<std::string> parseStrings(std::string_view text);
 
+/// The text of such a list; every string in quotes.
+std::string strings(const std::vector<std::string>& values);
+
 } // namespace imgeo

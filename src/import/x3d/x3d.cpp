@@ -151,6 +151,8 @@ private:
     } else {
       node.content = otherNode(element);
       node.fields = fieldsOf(element);
+      if (name == "ImageTexture" && !std::get<OtherNode>(node.content).image)
+        leaveToOtherHosts(node.fields);
     }
     if (name == "Inline")
       addInlined(element, node);
@@ -213,15 +215,15 @@ private:
     node.children = document->roots;
   }
 
-  /// The first of several urls that leads to an image.
+  /// The first of several urls that leads to an image here; without one, nothing where
+  /// other hosts may have it.
   std::optional<std::size_t> image(const std::vector<std::string>& urls) {
+    const bool mayBeRemote = std::ranges::any_of(urls, isRemote);
     for (std::size_t i = 0; i < urls.size(); ++i) {
       if (const auto found = images_.find(urls[i]); found != images_.end())
         return found->second;
-      if (isRemote(urls[i])) {
-        ++summary_.remoteImages;
+      if (isRemote(urls[i]))
         continue;
-      }
       try {
         ImageFile file{urls[i].starts_with("data:") ? "" : urls[i], references_.fetch(urls[i])};
         if (imageType(file.bytes).empty())
@@ -230,11 +232,23 @@ private:
         images.push_back(std::move(file));
         return images_[urls[i]] = images.size() - 1;
       } catch (const Error&) {
-        if (i + 1 == urls.size())
+        if (i + 1 == urls.size() && !mayBeRemote)
           throw;
       }
     }
     return {};
+  }
+
+  /// Pages ask for the first url of a texture; one that leads to no file here leads to none there.
+  void leaveToOtherHosts(std::vector<FieldText>& fields) {
+    const auto url = std::ranges::find(fields, "url", &FieldText::name);
+    std::vector<std::string> urls =
+        url == fields.end() ? std::vector<std::string>{} : parseStrings(url->value);
+    std::erase_if(urls, [](const std::string& each) { return !isRemote(each); });
+    if (urls.empty())
+      return;
+    ++summary_.remoteImages;
+    url->value = strings(urls);
   }
 
   /// Fields that are no numbers count as absent, and leave `fields`.

@@ -218,6 +218,28 @@ TEST(X3d, TakesTexturesFromItsOwnFolderAlone) {
   EXPECT_TRUE(read("http://example.org/a.png").scene.graph.images.empty());
 }
 
+TEST(X3d, LeavesATextureToOtherHostsOnlyWhereItIsNotHere) {
+  const testing::TemporaryDirectory directory;
+  writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
+  const auto read = [&](const std::string& urls) {
+    writeFile(directory / "a.x3d", asBytes("<X3D><Scene><Shape><Appearance><ImageTexture url='" + urls +
+                                           "'/></Appearance><Box/></Shape></Scene></X3D>"));
+    return importFile(directory / "a.x3d");
+  };
+  const Imported here = read("\"http://a.org/wood.png\" \"lost.png\" \"wood.png\"");
+  EXPECT_EQ(here.scene.graph.images.size(), 1u);
+  EXPECT_TRUE(here.warnings.empty());
+  const Imported there = read("\"lost.png\" \"http://a.org/wood.png\" \"https://b.org/\" \"lost.gif\"");
+  EXPECT_EQ(there.warnings, (std::vector<std::string>{"1 texture is left on other hosts."}));
+  const auto texture = std::ranges::find_if(there.scene.graph.nodes, [](const Node& node) {
+    const OtherNode* other = std::get_if<OtherNode>(&node.content);
+    return other && other->element == "ImageTexture";
+  });
+  ASSERT_NE(texture, there.scene.graph.nodes.end());
+  EXPECT_EQ(texture->fields,
+            (std::vector<FieldText>{{"url", "\"http://a.org/wood.png\" \"https://b.org/\""}}));
+}
+
 TEST(X3d, LeavesWhatIsDamagedAsItIsUnlessStrict) {
   const std::string damaged = "<Shape><TriangleSet>" + square +
                               "</TriangleSet></Shape>"
