@@ -226,9 +226,18 @@ std::string texturesOf(const TextureReport& textures) {
   return text;
 }
 
+void printTextures(const TextureReport& textures) {
+  if (textures.files > 0)
+    printLine("textures", texturesOf(textures));
+}
+
 void printChoices(const Arguments& arguments, const ConvertReport& report) {
   const bool isSig = arguments.text("container") == "sig";
   printLine("source", fmt::format("{}, {}", report.format, byteSize(report.sourceBytes)));
+  if (report.patches == 0) { // a scene of a few primitives
+    printLine("elements", "none to encode: what geometry there is stays in the document as it is");
+    return printTextures(report.textures);
+  }
   printLine("elements", fmt::format("{} of {} vertices", listed(report.elements), grouped(report.vertices)));
   const bool onlyPoints = report.elements.points == report.elements.sum();
   printLine("container",
@@ -253,8 +262,7 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   for (const AttributeReport& attribute : report.attributes)
     printLine("attribute", fmt::format("{}: {} bits, off by at most {:.3g}", attribute.name, attribute.bits,
                                        attribute.error));
-  if (report.textures.files > 0)
-    printLine("textures", texturesOf(report.textures));
+  printTextures(report.textures);
   printLine("patches", fmt::format("{} of at most {} vertices", report.patches,
                                    grouped(static_cast<std::uint64_t>(arguments.integer("patch-vertices")))));
   const WeldReport& weld = report.weld;
