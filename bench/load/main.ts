@@ -16,7 +16,7 @@ import { dracoPage, inlinePage, lod2Page, meshoptPage, sitePage, type BenchPage 
 import { describeBrowser, longestTasks } from "./tasks.ts";
 
 const { values: options, positionals: wanted } = parseArgs({
-  options: { runs: { type: "string", default: "3" }, tasks: { type: "boolean", default: false } }, allowPositionals: true,
+  options: { runs: { type: "string", default: "5" }, tasks: { type: "boolean", default: false } }, allowPositionals: true,
 });
 const runs = Number(options.runs);
 if (!Number.isInteger(runs) || runs < 1) throw new Error(`--runs ${options.runs} is no number of loads`);
@@ -92,7 +92,7 @@ try {
     print("---", "--:", "--:", "---", "--:", "---");
     for (const page of largest.pages) await printTasks(page);
   }
-  console.log(`\nMedians of ${runs} cold loads, one where it takes over 2.5 s; ${await describeBrowser(browser)}, ${cpus().length} cores; brotli where it helps.`);
+  console.log(`\nMedians of ${runs} cold loads, one where the first image takes over 2.5 s; ${await describeBrowser(browser)}, ${cpus().length} cores; brotli where it helps.`);
 } finally {
   await browser.close();
   rmSync(work, { recursive: true, force: true });

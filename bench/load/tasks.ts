@@ -5,10 +5,9 @@
 
 import type { Browser, BrowserContext } from "playwright-core";
 import type { TestServer } from "../../tests/browser/server.ts";
-import { isDone, leastVertices, timeoutMs, viewport } from "./measure.ts";
+import { load, openTab, viewport } from "./measure.ts";
 import type { BenchPage } from "./pages.ts";
 import { mainTasksOf, traceCategories, type Task, type TraceEvent } from "./trace.ts";
-import { watch } from "./watch.ts";
 
 export interface Tasks {
   /** The longest on the processor, and the longest of those that start no code: what loads and draws the model. */
@@ -50,11 +49,9 @@ function medianOf(tasks: readonly Task[], measure: (task: Task) => number): Task
 }
 
 async function traceLoad(browser: Browser, context: BrowserContext, page: BenchPage, server: TestServer): Promise<TraceEvent[]> {
-  const tab = await context.newPage();
-  await tab.addInitScript(watch, { saysWhenComplete: page.saysWhenComplete, leastVertices, takesPictures: false });
+  const tab = await openTab(context, page, false);
   await browser.startTracing(tab, { categories: traceCategories });
-  await tab.goto(server.origin, { waitUntil: "commit", timeout: timeoutMs });
-  await tab.waitForFunction(isDone, undefined, { timeout: timeoutMs, polling: 50 });
+  await load(tab, page, server);
   const trace = JSON.parse((await browser.stopTracing()).toString()) as { traceEvents: TraceEvent[] };
   return trace.traceEvents;
 }
