@@ -24,9 +24,11 @@ RuntimeFile siteFile(const std::string& stem, std::string_view bundle,
                      std::initializer_list<std::pair<const char*, const RuntimeFile*>> used) {
   std::string text(bundle);
   for (const auto& [bundledName, file] : used) {
-    const std::size_t place = text.find(bundledName);
-    assert(place != text.npos && text.find(bundledName, place + 1) == text.npos);
-    text.replace(place, std::string_view(bundledName).size(), file->name);
+    std::size_t place = text.find(bundledName);
+    assert(place != text.npos);
+    for (; place != text.npos; place = text.find(bundledName, place + file->name.size())) {
+      text.replace(place, std::string_view(bundledName).size(), file->name);
+    }
   }
   std::string name = fmt::format("{}-{}.js", stem, contentName(asBytes(text)));
   return {std::move(name), std::move(text)};

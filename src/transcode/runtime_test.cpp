@@ -38,6 +38,11 @@ TEST(Runtime, InASiteModulesNameEachOthersFilesAndAllAreNamedByTheirContent) {
   EXPECT_TRUE(names(page, scene));
   EXPECT_TRUE(names(scene, shared));
   EXPECT_TRUE(names(scene, worker));
+  for (const RuntimeFile* file : {&page, &shared, &scene, &worker}) {
+    for (const char* bundled : {"imgeo.js", "imgeo-shared.js", "imgeo-scene.js", "imgeo-worker.js"}) {
+      EXPECT_EQ(file->text.find(bundled), std::string::npos) << file->name << " names " << bundled;
+    }
+  }
 }
 
 } // namespace

@@ -14,8 +14,10 @@ declare global {
   interface Window {
     /** What the view's own canvas showed when the first look had gone. */
     takenOver: string | undefined;
-    /** Of the look's draws that are seen: by how many of its programs had something been drawn before, and by how many not. */
+    /** Of the look's draws of a base: by how many of its programs had something been drawn before, and by how many not. */
     rehearsed: { ready: number; unready: number };
+    /** Ends what the page waits for bases. */
+    endPatience: (() => void) | undefined;
   }
 }
 
@@ -24,11 +26,17 @@ const site = (): string => siteOfGenerated("trefoil-large", "--profile", "compac
 
 /** Runs in the page: waits for the view, and then for the end of the look in it; and notes what that draws with. */
 function watchLook(): void {
+  const { setTimeout: later } = window;
+  window.setTimeout = ((call: () => void, ms?: number, ...args: unknown[]) => {
+    if (ms !== 3000) return later(call, ms, ...args);
+    window.endPatience = call; // on a busy machine it could end before what it waits for
+    return 0;
+  }) as typeof setTimeout;
   const [unseen, seen] = [new Set<unknown>(), new Set<unknown>()];
   const drawElements = Object.getOwnPropertyDescriptor(WebGL2RenderingContext.prototype, "drawElements")?.value as (...args: unknown[]) => void;
   WebGL2RenderingContext.prototype.drawElements = function (...args) {
     if (this.canvas instanceof HTMLCanvasElement && this.canvas.classList.contains("first")) {
-      (this.getParameter(this.FRAMEBUFFER_BINDING) === null ? seen : unseen).add(this.getParameter(this.CURRENT_PROGRAM));
+      (Number(args[1]) > 3 ? seen : unseen).add(this.getParameter(this.CURRENT_PROGRAM));
       const ready = Array.from(seen).filter((program) => unseen.has(program)).length;
       window.rehearsed = { ready, unready: seen.size - ready };
     }
@@ -63,24 +71,34 @@ async function pictureOfTakeOver(view: View): Promise<Picture> {
   return decodePng(Buffer.from(url.slice(url.indexOf(",") + 1), "base64"));
 }
 
+const runtimeFile = /imgeo-scene-/;
+
+async function baseIsWaitedFor({ page, server }: View, base: string): Promise<void> {
+  await until("the look waits for its base", async () => server.requestsOf(new RegExp(base)).length === 1 &&
+    await page.evaluate(() => window.endPatience !== undefined));
+  assert.deepEqual(server.requestsOf(runtimeFile), [], "the runtime is not asked for before the base is here");
+}
+
 test("a base is on the screen before the runtime, which takes it over as it is", async () => {
   const tags = tagsOf(pageOf(site()));
   const base = tags.find(({ name }) => name === "imagegeometry")?.attributes.base ?? "";
   const patches = tags.flatMap(({ attributes: { data } }) => (data ? [data] : []));
-  const [runtime, files] = [gate(), gate()];
+  const [bases, runtime, files] = [gate(), gate(), gate()];
   const options = {
     size: { width: 400, height: 300 }, deviceScaleFactor: 2, before: watchLook,
     server: (server: View["server"]): void => {
-      server.when(/imgeo-scene-/, { hold: runtime.closed });
+      server.when(new RegExp(base), { hold: bases.closed });
+      server.when(runtimeFile, { hold: runtime.closed });
       server.when((path) => patches.includes(path.slice(1)), { hold: files.closed });
     },
   };
   await withPage(site(), options, async (view) => {
+    await baseIsWaitedFor(view, base);
+    bases.open();
     await until("the first look has drawn", async () => await firstImages(view) === 1);
     assert.deepEqual((await view.events("first-image")).map(({ target, detail }) => [target, detail.stage]), [["shape", "base"], ["x3d", "base"]]);
-    assert.equal(view.server.requestsOf(/imgeo-scene-/)[0]?.status, 0, "the runtime is not here");
+    assert.equal(view.server.requestsOf(runtimeFile)[0]?.status, 0, "the runtime is not here");
     const first = await screenshotOf(view.page);
-
     assert.deepEqual(await view.page.evaluate(() => window.rehearsed), { ready: 1, unready: 0 });
 
     const red = await pictureAfter(view, () => view.page.evaluate(() => { document.querySelector("material")?.setAttribute("diffuseColor", "0.9 0.1 0.1"); }));
@@ -113,5 +131,18 @@ test("a base is on the screen before the runtime, which takes it over as it is",
       return { resources: all.map(({ url, state, tries }) => ({ url, state, tries })) };
     });
     assert.deepEqual(resources.find(({ url }) => url === base), { url: base, state: "ready", tries: 1 });
+  });
+});
+
+test("a base that does not come holds the runtime up for a while only", async () => {
+  const base = tagsOf(pageOf(site())).find(({ name }) => name === "imagegeometry")?.attributes.base ?? "";
+  const bases = gate();
+  const options = { before: watchLook, server: (server: View["server"]): void => void server.when(new RegExp(base), { hold: bases.closed }) };
+  await withPage(site(), options, async (view) => {
+    await baseIsWaitedFor(view, base);
+    await view.page.evaluate(() => { window.endPatience?.(); });
+    await view.promise("firstImage");
+    assert.ok((await view.events("first-image", "x3d")).every(({ detail }) => detail.stage !== "base"));
+    bases.open();
   });
 });

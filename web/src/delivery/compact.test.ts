@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { baseBuffersOf } from "../decode/compact/baseBuffers.ts";
+import { Base } from "../decode/compact/baseBuffers.ts";
 import { buffersOf } from "../decode/compact/patchBuffers.ts";
 import { decodeVector, readVectorFile, vectorNames } from "../decode/compact/vectors.testing.ts";
 import { pngWithTexels } from "../decode/png.testing.ts";
@@ -183,7 +183,7 @@ describe("a geometry of compact", () => {
     await settled;
     assert.deepEqual(errors, []);
     assert.deepEqual(site.asked, ["base.png", "sphere.png", "soup.png"]);
-    const parts = baseBuffersOf(decodeVector("base")[0] ?? assert.fail());
+    const parts = new Base(decodeVector("base")[0] ?? assert.fail()).parts;
     for (const patch of [0, 1, 2]) {
       const [first, last, ...others] = stages.filter((one) => one.patch === patch).map(({ stage }) => stage);
       assert.deepEqual([first?.name, last?.name, others.length], ["base", "full", 0]);
@@ -200,7 +200,7 @@ describe("a geometry of compact", () => {
     const value = { name: "flow", components: 2, bits: 16, files: 0, min: [0, 0], size: [1, 1] } as const;
     const { stages, settled } = record({ ...plain, attributes: [value], value }, site.pool);
     await settled;
-    const parts = baseBuffersOf(decodeVector("base-seams")[0] ?? assert.fail());
+    const parts = new Base(decodeVector("base-seams")[0] ?? assert.fail()).parts;
     assert.deepEqual(new Set(stages.map(({ patch }) => patch)), new Set(parts.flatMap((part, place) => (part ? [place] : []))));
     for (const { patch, stage } of stages) {
       assert.ok(stage.kind === "buffers" && stage.name === "base");

@@ -237,6 +237,8 @@ export interface ShapeDescription {
   readonly appearance: AppearanceDescription;
   /** Undefined where the shape has no geometry that we can show; the same object for shapes that USE one. */
   readonly geometry: GeometryDescription | undefined;
+  /** It has a geometry all the same: damaged, or of a kind that the reader has no means for. */
+  readonly isUnread: boolean;
 }
 
 export interface GroupDescription {

@@ -6,6 +6,7 @@ import { elementsOf } from "./elements.testing.ts";
 import { referenceOf } from "./geometry.ts";
 import { nodeFields } from "./nodes.ts";
 import { readScene } from "./readScene.ts";
+import { readInlineGeometry } from "./inlineGeometry.ts";
 import { SceneReader } from "./sceneReader.ts";
 import { middleOfMissing, storedFrameOf } from "./storedFrame.ts";
 
@@ -301,7 +302,7 @@ describe("what is read again", () => {
   const x3d = elementsOf(`<X3D><Shape>${patches}</Shape></X3D>`);
   const element = x3d.children[0]?.children[0];
   assert.ok(element);
-  const reader = new SceneReader(x3d);
+  const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
   const read = () => shapesOf(reader.read().root)[0]?.geometry;
   const first = read();
 
@@ -325,7 +326,7 @@ test("geometries that name the same files in the same way are one, however often
   const copy = '<ImageGeometry coord="a.png" index="i.png" vertexCount="3"/>';
   const shapes = [copy, copy, copy.replace("a.png", "b.png"), copy.replace("index", 'decode="cpu" index'), "<Box/>", "<Box/>"];
   const x3d = elementsOf(`<X3D>${shapes.map((geometry) => `<Shape>${geometry}</Shape>`).join("")}</X3D>`);
-  const reader = new SceneReader(x3d);
+  const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
   const read = () => shapesOf(reader.read().root).map(({ geometry }) => geometry);
   const before = read();
   assert.deepEqual(before.map((geometry) => before.indexOf(geometry)), [0, 0, 2, 3, 4, 5]);

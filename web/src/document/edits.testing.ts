@@ -4,6 +4,7 @@
 import type { SceneElement } from "./element.ts";
 import { elementsOf, type TestElement } from "./elements.testing.ts";
 import type { Supplements } from "./readScene.ts";
+import { readInlineGeometry } from "./inlineGeometry.ts";
 import { SceneReader } from "./sceneReader.ts";
 
 /** Numbers that look random and are the same in every run (Marsaglia 2003, xorshift). */
@@ -53,6 +54,7 @@ const inlinable = {
 
 export class EditedDocument implements Supplements {
   readonly x3d = elementsOf(`<X3D><Scene>${snippets.join("")}</Scene></X3D>`);
+  readonly inlineGeometry = readInlineGeometry;
   readonly reader = new SceneReader(this.x3d, this);
   readonly #dice: Dice;
   readonly #documents = Object.entries(inlinable).map(([url, text]) => ({ url, x3d: elementsOf(text) }));

@@ -58,8 +58,10 @@ const surfaces: Readonly<Record<string, (element: SceneElement, given: VertexDat
 
 const primitives: Readonly<Record<string, Drawn["primitive"]>> = { indexedlineset: "lines", lineset: "lines", pointset: "points" };
 
-/** Undefined for nodes that are none of the geometries we draw, and for those without elements. */
-export function readInlineGeometry(element: SceneElement, resolve: Resolve, warnings: Warning[]): GeometryDescription | undefined {
+/** How geometry is read whose numbers stand in the document: undefined for nodes that are none, and for those without elements. */
+export type InlineGeometryReader = (element: SceneElement, resolve: Resolve, warnings: Warning[]) => GeometryDescription | undefined;
+
+export const readInlineGeometry: InlineGeometryReader = (element, resolve, warnings) => {
   const name = lowerNameOf(element);
   const readSolid = solids[name], readRuns = runReaders[name], readSurface = surfaces[name];
   if (!readSolid && !readRuns && !readSurface) return undefined;
@@ -74,7 +76,7 @@ export function readInlineGeometry(element: SceneElement, resolve: Resolve, warn
   const arrays = drawnOf(primitives[name] ?? "triangles", data, runs, fields, isCreased);
   if (arrays === undefined) warnings.push({ element, message: "it names vertices that it lacks; nothing is drawn" });
   return describe(arrays, fields.solid);
-}
+};
 
 function drawnOf(primitive: Drawn["primitive"], given: VertexData, runs: Runs, fields: Fields, isCreased: boolean): Drawn | undefined {
   if (primitive === "points") return drawn(primitive, given, runs.flat());

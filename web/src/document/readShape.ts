@@ -8,7 +8,7 @@ import { attributeOf, childrenOf, inPlaceOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import { boxAround, boxOf, isUnbounded, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
 import type { GeometryMemory, Lookup } from "./geometryMemory.ts";
-import { readInlineGeometry } from "./inlineGeometry.ts";
+import type { InlineGeometryReader } from "./inlineGeometry.ts";
 import type { TextReading } from "./textGeometry.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
@@ -18,6 +18,8 @@ export interface ShapeReading {
   readonly geometries: GeometryMemory;
   readonly lookup: Lookup;
   readonly warnings: Warning[];
+  /** Undefined: nothing is seen of what stands in the document. */
+  readonly inlineGeometry: InlineGeometryReader | undefined;
   /** Undefined: nothing is seen of texts. */
   readonly text: TextReading | undefined;
   /** Says that the shape is read again when this element of it is touched, in whatever document that stands. */
@@ -39,7 +41,7 @@ export function readShape(element: SceneElement, host: SceneElement, node: Scene
   const isSeen = values.visible && values.render;
   const look = readAppearance(appearance, colorMapOf(node, values, geometry, warnings), nodesIn, warnings);
   return {
-    kind: "shape", element, geometry, host,
+    kind: "shape", element, geometry, host, isUnread: geometry === undefined && parts.some(isGeometry),
     visible: isSeen, reaches: isSeen, priority: values.priority * priorityOfGeometry, isPickable: values.isPickable,
     box: ownBox ?? (geometry && boxOfGeometry(geometry)),
     appearance: geometry?.letters === undefined || reading.text === undefined ? look : reading.text.appearanceOf(look, geometry.letters, node, warnings),
@@ -66,7 +68,7 @@ const geometryReaders: Readonly<Record<string, typeof readImageGeometry>> = {
 };
 
 /** Undefined for what is no geometry. */
-function readGeometry({ geometries, text }: ShapeReading, element: SceneElement, lookup: Lookup, warnings: Warning[]): GeometryDescription | undefined {
+function readGeometry({ geometries, inlineGeometry, text }: ShapeReading, element: SceneElement, lookup: Lookup, warnings: Warning[]): GeometryDescription | undefined {
   const resolve = (part: SceneElement) => {
     const name = attributeOf(part, "USE");
     return name === undefined ? part : lookup(name);
@@ -74,7 +76,13 @@ function readGeometry({ geometries, text }: ShapeReading, element: SceneElement,
   const name = lowerNameOf(element);
   if (name === "text") return text?.geometryOf(element, resolve, warnings);
   const ofFiles = geometryReaders[name]?.(element, warnings);
-  return ofFiles ? geometries.alike(ofFiles) : readInlineGeometry(element, resolve, warnings);
+  return ofFiles ? geometries.alike(ofFiles) : inlineGeometry?.(element, resolve, warnings);
+}
+
+/** As far as can be said without reading it: nothing else stands in shapes. */
+function isGeometry(part: SceneElement): boolean {
+  const name = lowerNameOf(part);
+  return name !== "appearance" && !name.startsWith("metadata");
 }
 
 /** The shape's box is that of a geometry's only patch which says nothing of its own. */

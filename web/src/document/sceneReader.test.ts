@@ -6,6 +6,7 @@ import { Dice, EditedDocument, elementsIn } from "./edits.testing.ts";
 import type { SceneElement } from "./element.ts";
 import { elementsOf } from "./elements.testing.ts";
 import { readScene } from "./readScene.ts";
+import { readInlineGeometry } from "./inlineGeometry.ts";
 import { SceneReader } from "./sceneReader.ts";
 
 /** A description as text: elements and geometries by number, so that equal texts mean the same ones. */
@@ -48,14 +49,14 @@ describe("a document that changes", () => {
   };
   /** Which of the groups are other objects after `change`. */
   const changedBy = (change: (reader: SceneReader) => void) => {
-    const reader = new SceneReader(x3d);
+    const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
     const before = reader.read().root.children;
     change(reader);
     return reader.read().root.children.map((node, place) => node !== before[place]);
   };
 
   test("is the same object where nothing has, and the same objects but for what has", () => {
-    const reader = new SceneReader(x3d);
+    const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
     assert.equal(reader.read(), reader.read());
     assert.deepEqual(changedBy((other) => { other.touch(named("t")); }), [true, false, false]);
     assert.deepEqual(changedBy((other) => { other.touch(named("m")); }), [true, true, false], "what is USEd says the same everywhere");
@@ -63,7 +64,7 @@ describe("a document that changes", () => {
   });
 
   test("gives the geometry of a shape that is moved or coloured as the same object", () => {
-    const reader = new SceneReader(x3d);
+    const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
     const geometryOf = () => shapesOf(reader.read().root).map(({ geometry }) => geometry);
     const before = geometryOf();
     for (const id of ["t", "m", "b", "user"]) reader.touch(named(id));
@@ -74,7 +75,7 @@ describe("a document that changes", () => {
 test("groups that USE one another without measure are shown as far as there may be places", () => {
   const bomb = Array.from({ length: 40 }, (_, i) => `<Group DEF="g${i + 1}"><Group USE="g${i}"/><Group USE="g${i}"/></Group>`);
   const x3d = elementsOf(`<X3D><Scene><Group DEF="g0"><Shape><Box/></Shape></Group>${bomb.join("")}<Shape><Sphere/></Shape></Scene></X3D>`);
-  const reader = new SceneReader(x3d, {}, 1000);
+  const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry }, 1000);
   const shown = reader.read();
   assert.deepEqual(shown.warnings.map(({ message }) => message), ["has more than 1000 nodes in all their places: the rest is left out"]);
   const count = shapesOf(shown.root).length;

@@ -10,14 +10,15 @@ import type { SceneElement } from "./element.ts";
 import { attributeOf, lowerNameOf } from "./element.ts";
 import { ElementTree } from "./elementTree.ts";
 import { GeometryMemory } from "./geometryMemory.ts";
+import type { InlineGeometryReader } from "./inlineGeometry.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 import { Place } from "./place.ts";
 import type { InlinedDocument } from "./readNode.ts";
 import { isReadAsWhole, readNode } from "./readNode.ts";
 import type { Below, Inherited, Said, Saying } from "./said.ts";
-import type { TextReading } from "./textGeometry.ts";
 import { joined, warned } from "./said.ts";
+import type { TextReading } from "./textGeometry.ts";
 
 /** What a scene shows beyond what its own elements say. Who says something else of an element than before touches it. */
 export interface Supplements {
@@ -27,6 +28,8 @@ export interface Supplements {
   readonly inlined?: (inline: SceneElement) => InlinedDocument | undefined;
   /** The level of a LOD; undefined while nobody knows how far it is. */
   readonly levelOf?: (lod: SceneElement) => number | undefined;
+  /** How geometry is read that stands in the document; without it nothing is seen of it. */
+  readonly inlineGeometry?: InlineGeometryReader;
   /** How texts are read; without it nothing is seen of them. */
   readonly text?: TextReading;
 }
@@ -173,7 +176,7 @@ export class SceneReader {
     place.node = node;
     place.readsAllBelow = isReadAsWhole(node);
     return readNode(element, node, {
-      warnings, lookup, geometries: this.#geometries, text: this.#supplements.text, host: host ?? element,
+      warnings, lookup, geometries: this.#geometries, inlineGeometry: this.#supplements.inlineGeometry, text: this.#supplements.text, host: host ?? element,
       childrenOf: (of) => tree.childrenOf(of),
       listen: (part) => { this.#listen(place, part); },
       levelOf: (lod) => this.#supplements.levelOf?.(lod),

@@ -3,10 +3,10 @@
 // document and the size of the element, and goes where it could only show another
 // picture than the runtime will.
 
-import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
+import type { Base } from "../decode/compact/baseBuffers.ts";
 import type { SceneElement } from "../document/element.ts";
-import { readScene } from "../document/readScene.ts";
-import type { EarlyBases } from "../first/earlyBases.ts";
+import { SceneReader } from "../document/sceneReader.ts";
+import type { EarlyBases, EarlyFile } from "../first/earlyBases.ts";
 import { FirstPicture, isShowable } from "../first/picture.ts";
 import type { FirstScene, FirstShape } from "../first/scene.ts";
 import { firstSceneOf } from "../first/scene.ts";
@@ -30,17 +30,18 @@ interface Wanted {
 
 export class FirstLook {
   readonly canvas: HTMLCanvasElement;
+  /** Kept when its files are here, or one of them will not come. */
+  readonly arrived: Promise<unknown>;
   /** Kept when it has been drawn, or has gone. */
   readonly settled: Promise<unknown>;
   /** Called when it goes. */
   onEnd: () => void = () => undefined;
   readonly #x3d: Element;
-  readonly #early: EarlyBases;
   readonly #picture: FirstPicture;
-  readonly #bases = new Map<string, readonly BaseBuffers[]>();
+  readonly #bases = new Map<string, readonly Base[]>();
   readonly #settle: () => void;
   readonly #listeners = new AbortController();
-  readonly #baseOf = ({ base }: FirstShape): BaseBuffers | undefined => this.#bases.get(hrefOf(base.url))?.[base.first];
+  readonly #baseOf = ({ base }: FirstShape): Base | undefined => this.#bases.get(hrefOf(base.url))?.[base.first];
   #wanted: Wanted;
   #state: "waiting" | "decoding" | "drawn" | "ended" = "waiting";
 
@@ -67,11 +68,12 @@ export class FirstLook {
     this.#settle = () => { resolve(undefined); };
     this.#x3d = x3d;
     this.#wanted = wanted;
-    this.#early = early;
     this.#picture = new FirstPicture(context);
-    this.#picture.rehearse(wanted.scene);
+    this.#picture.rehearse(wanted.scene, canvas.width, canvas.height);
     this.#follow();
-    this.#load().catch(() => { this.end(); }); // the runtime says why
+    const files = Array.from(new Set(wanted.scene.shapes.map(({ base }) => hrefOf(base.url))), (url) => ({ url, ...early.ask(url) }));
+    this.arrived = Promise.all(files.map(({ arrival }) => arrival)).catch(() => undefined);
+    this.#load(files).catch(() => { this.end(); }); // the runtime says why
   }
 
   /** All files are here: it will be drawn with the next frame. */
@@ -84,7 +86,7 @@ export class FirstLook {
     if (this.#state !== "drawn") return [];
     const shapes = new Map(this.#wanted.scene.shapes.map((shape) => [shape.element, shape])); // one may stand in several places
     return Array.from(shapes.values(), (shape) => ({
-      element: shape.element, patches: (this.#baseOf(shape) ?? []).flatMap((part, patch) => (part === undefined ? [] : [patch])),
+      element: shape.element, patches: (this.#baseOf(shape)?.parts ?? []).flatMap((part, patch) => (part === undefined ? [] : [patch])),
     }));
   }
 
@@ -99,11 +101,10 @@ export class FirstLook {
     this.onEnd();
   }
 
-  async #load(): Promise<void> {
-    const files = Array.from(new Set(this.#wanted.scene.shapes.map(({ base }) => hrefOf(base.url))), (url) => ({ url, file: this.#early.ask(url) }));
-    await Promise.all(files.map(({ file }) => file.arrival));
+  async #load(files: readonly ({ readonly url: string } & EarlyFile)[]): Promise<void> {
+    await Promise.all(files.map(({ arrival }) => arrival));
     if (this.#state === "waiting") this.#state = "decoding";
-    for (const { url, file } of files) this.#bases.set(url, (await file.content).bases);
+    for (const { url, content } of files) this.#bases.set(url, (await content).bases);
     beforeNextFrame((isUnseen) => {
       try {
         if (!isUnseen) this.#drawFirst();
@@ -122,7 +123,7 @@ export class FirstLook {
     this.canvas.classList.add("drawn");
     this.#state = "drawn";
     this.#settle();
-    for (const element of [...this.shown.map((shape) => shape.element as Element), this.#x3d]) {
+    for (const element of new Set([...this.#wanted.scene.shapes.map((shape) => shape.element as Element), this.#x3d])) {
       element.dispatchEvent(new CustomEvent("first-image", { detail: { stage: "base" }, bubbles: false }));
     }
   }
@@ -175,7 +176,7 @@ export class FirstLook {
 function wantedOf(x3d: Element): Wanted | undefined {
   const settings = readSettings(x3d, () => undefined);
   if (settings["draw-as"] !== "surface" || settings.reveal !== "auto") return undefined;
-  const scene = firstSceneOf(readScene(x3d), cameraSettingOf(settings));
+  const scene = firstSceneOf(new SceneReader(x3d).read(), cameraSettingOf(settings));
   return scene && { scene, exposure: settings.exposure };
 }
 

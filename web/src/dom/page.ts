@@ -5,15 +5,32 @@ import { stylePage, viewTag } from "./faceStyle.ts";
 import type { FirstLook } from "./firstLook.ts";
 import { beginFirstLooks } from "./firstLooks.ts";
 
+/** The file of `register.ts` and of all that it takes, beside this one. */
+const runtimeUrl = new URL("imgeo-scene.js", import.meta.url);
+
+/** A base that has not come by then is not waited for. */
+const patienceMs = 3000;
+
 async function start(): Promise<void> {
-  const runtime = import("./register.ts");
   stylePage(document);
   const looks = looksOrNone();
-  const { registerViews } = await runtime;
-  // Bases that are here are drawn before the runtime begins to work, which takes longer.
+  if (looks.length > 0) await leaveTheWayTo(looks);
+  const { registerViews } = await import("./register.ts");
+  // Bases that have come meanwhile are drawn before the runtime begins to work, which takes longer.
   await Promise.all(looks.filter(({ isDue }) => isDue).map(({ settled }) => settled));
   registerViews();
   for (const look of looks) if (!look.canvas.isConnected) look.end(); // the page has taken it away
+}
+
+/** The line is theirs until their files are here, and the processor until they are drawn; the runtime comes in between. */
+async function leaveTheWayTo(looks: readonly FirstLook[]): Promise<void> {
+  const patience = new Promise((resolve) => setTimeout(resolve, patienceMs));
+  await Promise.race([Promise.all(looks.map(({ arrived }) => arrived)), patience]);
+  const link = document.createElement("link");
+  link.rel = "modulepreload";
+  link.href = runtimeUrl.href;
+  document.head.append(link);
+  await Promise.race([Promise.all(looks.map(({ settled }) => settled)), patience]);
 }
 
 /** Whatever goes wrong with them, the runtime comes. */

@@ -12,6 +12,7 @@ import { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
 import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { AnchorDescription, SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
+import { readInlineGeometry } from "../document/inlineGeometry.ts";
 import { SceneReader } from "../document/sceneReader.ts";
 import { textReading } from "../document/textGeometry.ts";
 import type { NavigatedScene } from "../navigation/navigator.ts";
@@ -143,6 +144,7 @@ export class Viewer {
     }, this.#listeners.signal);
     this.#reader = new SceneReader(x3d, {
       inlined: (inline) => this.#inlines.documentOf(inline), levelOf: (lod) => this.#levels.levelOf(lod),
+      inlineGeometry: readInlineGeometry,
       text: textReading(measureRun, (font, letters) => fonts.editionOf(font, letters)),
     });
     this.#steering = new Steering(this.renderer, { geometries: this.#deliveries, textures: this.#textures }, () => { this.#onSteered(); });

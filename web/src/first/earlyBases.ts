@@ -1,20 +1,20 @@
 // Bases that a first look has asked for. The runtime takes them over, so that they
 // are fetched and decoded once; what has failed it asks for anew, and reports.
 
-import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
-import { compactBases } from "../decode/compact/jobs.ts";
+import type { Base, BaseBuffers } from "../decode/compact/baseBuffers.ts";
+import { wholeBases } from "../decode/compact/jobs.ts";
 
 /** Of one file. */
-export interface DecodedBases {
+interface DecodedBases<Decoded> {
   readonly byteLength: number;
-  readonly bases: readonly BaseBuffers[];
+  readonly bases: readonly Decoded[];
 }
 
 export interface EarlyFile {
   /** Kept when it is here, decoded or not. */
   readonly arrival: Promise<unknown>;
   /** Rejects where the file is of no use. */
-  readonly content: Promise<DecodedBases>;
+  readonly content: Promise<DecodedBases<Base>>;
 }
 
 export class EarlyBases {
@@ -33,15 +33,15 @@ export class EarlyBases {
   }
 
   /** What has been asked for, for one who keeps it: it is not here any more. */
-  take(url: string): Promise<DecodedBases> | undefined {
+  take(url: string): Promise<DecodedBases<BaseBuffers>> | undefined {
     const file = this.#files.get(url);
     this.#files.delete(url);
-    return file?.content;
+    return file?.content.then(({ byteLength, bases }) => ({ byteLength, bases: bases.map((base) => base.parts) }));
   }
 
   #load(url: string): EarlyFile {
     const arrival = this.#download(url);
-    const content = arrival.then(async (bytes) => ({ byteLength: bytes.byteLength, bases: await compactBases(bytes) }));
+    const content = arrival.then(async (bytes) => ({ byteLength: bytes.byteLength, bases: await wholeBases(bytes) }));
     for (const promise of [arrival, content]) promise.catch(() => undefined); // nobody has to look
     return { arrival, content };
   }

@@ -1,7 +1,7 @@
 // Draws a first scene into a WebGL context that is its own.
 
 import { Matrix3, Matrix4, Vector3 } from "three";
-import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
+import type { Base } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { ElementArray, VertexArray } from "../decode/arrays.ts";
 import { elementTypeOf } from "../decode/elements.ts";
@@ -13,21 +13,20 @@ import type { LightUniforms } from "./lights.ts";
 import { lightKindsOf, lightUniformsOf } from "./lights.ts";
 import type { Program, ProgramKind } from "./program.ts";
 import { attributePlaces, makeProgram } from "./program.ts";
-import { drawUnseen, standIn } from "./rehearsal.ts";
+import { resolveUnseen, standIn } from "./rehearsal.ts";
 import type { FirstScene, FirstShape } from "./scene.ts";
 
-/** A base that has come, part by part. */
-export type BaseOf = (shape: FirstShape) => BaseBuffers | undefined;
+/** A shape's base, if it has come. */
+export type BaseOf = (shape: FirstShape) => Base | undefined;
 
 /** Whether its base holds what the document says of it, and nothing that is seen through. */
-export function isShowable({ geometry, appearance }: FirstShape, base: BaseBuffers | undefined): base is BaseBuffers {
-  const bits = latticeBitsOf(geometry);
-  return base?.length === geometry.patches.length && base.every((part) =>
-    part === undefined || (part.positionBits === bits && !isBlended(appearance, part.color?.components === 4)));
+export function isShowable({ geometry, appearance }: FirstShape, base: Base | undefined): boolean {
+  return base?.partCount === geometry.patches.length && base.whole.positionBits === latticeBitsOf(geometry)
+    && !isBlended(appearance, base.whole.color?.components === 4);
 }
 
-/** A part on the GPU. */
-interface DrawnPart {
+/** What is drawn, on the GPU. */
+interface Stored {
   readonly vertices: WebGLVertexArrayObject;
   readonly count: number;
   readonly indexType: number;
@@ -36,7 +35,7 @@ interface DrawnPart {
 export class FirstPicture {
   readonly #gl: WebGL2RenderingContext;
   readonly #programs = new Map<string, Program>();
-  readonly #parts = new Map<PatchBuffers, DrawnPart>();
+  readonly #stored = new Map<PatchBuffers, Stored>();
   readonly #buffers: WebGLBuffer[] = [];
 
   constructor(gl: WebGL2RenderingContext) {
@@ -47,15 +46,21 @@ export class FirstPicture {
   /**
    * Has the GPU make ready what the picture will take, as far as that is known before
    * the bases are here. Drivers translate a program for their GPU when something is
-   * first drawn with it, which can take longer than the drawing.
+   * first drawn with it, and give a canvas memory when it is first drawn into, which can
+   * take longer than the drawing.
    */
-  rehearse(scene: FirstScene): void {
+  rehearse(scene: FirstScene, width: number, height: number): void {
     const shapes = Array.from(new Map(scene.shapes.map((shape) => [JSON.stringify(kindOf(shape, scene, standIn)), shape])).values());
-    drawUnseen(this.#gl, () => { this.draw({ ...scene, shapes }, () => [standIn], 1, 1, 1); });
+    this.#draw({ ...scene, shapes }, () => standIn, width, height, 1);
+    resolveUnseen(this.#gl);
   }
 
   /** All of it, in device pixels. Every base has come and is showable. */
   draw(scene: FirstScene, baseOf: BaseOf, width: number, height: number, exposure: number): void {
+    this.#draw(scene, (shape) => baseOf(shape)?.whole, width, height, exposure);
+  }
+
+  #draw(scene: FirstScene, buffersOf: (shape: FirstShape) => PatchBuffers | undefined, width: number, height: number, exposure: number): void {
     const gl = this.#gl;
     const { background } = scene;
     gl.viewport(0, 0, width, height);
@@ -68,25 +73,23 @@ export class FirstPicture {
     for (const shape of scene.shapes) {
       const lights = lightsIn.get(shape.lightScope) ?? lightUniformsOf(scene, shape.lightScope, viewFromScene);
       lightsIn.set(shape.lightScope, lights);
-      const viewFromShape = new Matrix4().multiplyMatrices(viewFromScene, shape.sceneFromShape);
-      for (const part of baseOf(shape) ?? []) {
-        if (part === undefined) continue;
-        const program = this.#programFor(kindOf(shape, scene, part));
-        gl.useProgram(program.program);
-        gl.uniformMatrix4fv(program.uniform("clipFromView"), false, clipFromView.elements);
-        gl.uniform1f(program.uniform("exposure"), exposure);
-        setLights(gl, program, lights);
-        setMaterial(gl, program, shape, part.color !== undefined);
-        setPlace(gl, program, viewFromShape, shape);
-        this.#drawPart(part);
-      }
+      const buffers = buffersOf(shape);
+      if (buffers === undefined) continue;
+      const program = this.#programFor(kindOf(shape, scene, buffers));
+      gl.useProgram(program.program);
+      gl.uniformMatrix4fv(program.uniform("clipFromView"), false, clipFromView.elements);
+      gl.uniform1f(program.uniform("exposure"), exposure);
+      setLights(gl, program, lights);
+      setMaterial(gl, program, shape, buffers.color !== undefined);
+      setPlace(gl, program, new Matrix4().multiplyMatrices(viewFromScene, shape.sceneFromShape), shape);
+      this.#drawBuffers(buffers);
     }
   }
 
   /** Gives everything back, the context too. */
   dispose(): void {
     const gl = this.#gl;
-    for (const { vertices } of this.#parts.values()) gl.deleteVertexArray(vertices);
+    for (const { vertices } of this.#stored.values()) gl.deleteVertexArray(vertices);
     for (const buffer of this.#buffers) gl.deleteBuffer(buffer);
     for (const { program } of this.#programs.values()) gl.deleteProgram(program);
     gl.getExtension("WEBGL_lose_context")?.loseContext();
@@ -99,15 +102,15 @@ export class FirstPicture {
     return known;
   }
 
-  #drawPart(part: PatchBuffers): void {
+  #drawBuffers(buffers: PatchBuffers): void {
     const gl = this.#gl;
-    const drawn = this.#parts.get(part) ?? this.#store(part);
-    this.#parts.set(part, drawn);
-    gl.bindVertexArray(drawn.vertices);
-    gl.drawElements(gl.TRIANGLES, drawn.count, drawn.indexType, 0);
+    const stored = this.#stored.get(buffers) ?? this.#store(buffers);
+    this.#stored.set(buffers, stored);
+    gl.bindVertexArray(stored.vertices);
+    gl.drawElements(gl.TRIANGLES, stored.count, stored.indexType, 0);
   }
 
-  #store({ coord, normal, color, index }: PatchBuffers): DrawnPart {
+  #store({ coord, normal, color, index }: PatchBuffers): Stored {
     const gl = this.#gl;
     const vertices = gl.createVertexArray();
     gl.bindVertexArray(vertices);

@@ -11,21 +11,16 @@ export const standIn: PatchBuffers = {
   color: undefined, texCoord: undefined, others: [],
 };
 
-/** Draws into a pixel that nobody sees, of the kind that the context's own are: what is made ready depends on it. */
-export function drawUnseen(gl: WebGL2RenderingContext, draw: () => void): void {
-  const samples = gl.getParameter(gl.SAMPLES) as number;
-  const framebuffer = gl.createFramebuffer();
-  gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
-  const buffers = ([[gl.COLOR_ATTACHMENT0, gl.RGBA8], [gl.DEPTH_STENCIL_ATTACHMENT, gl.DEPTH24_STENCIL8]] as const).map(([place, format]) => {
-    const buffer = gl.createRenderbuffer();
-    gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
-    gl.renderbufferStorageMultisample(gl.RENDERBUFFER, samples, format, 1, 1);
-    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, buffer);
-    return buffer;
-  });
-  draw();
-  gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-  gl.deleteFramebuffer(framebuffer);
-  for (const buffer of buffers) gl.deleteRenderbuffer(buffer);
+/**
+ * Has the GPU do what a screen would need of the picture, and waits for nothing: memory for
+ * its samples is there when it has been written, and what makes pixels of samples is ready.
+ */
+export function resolveUnseen(gl: WebGL2RenderingContext): void {
+  const buffer = gl.createBuffer();
+  gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
+  gl.bufferData(gl.PIXEL_PACK_BUFFER, 4, gl.STREAM_READ);
+  gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, 0);
+  gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
+  gl.deleteBuffer(buffer);
   gl.flush(); // now, not when there is a frame
 }

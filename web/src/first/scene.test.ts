@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { Sphere } from "three";
 import { elementsOf } from "../document/elements.testing.ts";
-import { readScene } from "../document/readScene.ts";
+import { SceneReader } from "../document/sceneReader.ts";
 import { poseFraming } from "../navigation/camera.ts";
 import { Navigator } from "../navigation/navigator.ts";
 import type { CameraSetting } from "../navigation/orbit.ts";
@@ -18,7 +18,7 @@ const shape = (appearance = "<Appearance><Material/></Appearance>", drawn = geom
   `<Shape ${attributes}>${appearance}${drawn}</Shape>`;
 
 function firstOf(markup: string, camera: CameraSetting = unsetCamera): FirstScene | undefined {
-  return firstSceneOf(readScene(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)), camera);
+  return firstSceneOf(new SceneReader(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)).read(), camera);
 }
 
 describe("a first scene", () => {
@@ -46,6 +46,8 @@ describe("a first scene", () => {
     "a shape without a base": shape(undefined, geometry("")),
     "a shape without a base beside one with": shape() + shape(undefined, geometry("")),
     "inline geometry": shape() + shape(undefined, "<Box/>"),
+    "a text": shape() + shape(undefined, '<Text string="letters"/>'),
+    "geometry of another shape": `<Shape><Sphere DEF="s"/></Shape>${shape(undefined, '<Sphere USE="s"/>')}${shape()}`,
     "a texture": shape('<Appearance><Material/><ImageTexture url="t.png"/></Appearance>'),
     "glass": shape('<Appearance><Material transparency="0.5"/></Appearance>'),
     "a mask": shape('<Appearance alphaMode="MASK"><Material/></Appearance>'),
@@ -74,7 +76,7 @@ describe("the camera of a first scene", () => {
   for (const [what, markup] of Object.entries(scenes)) {
     test(`stands where the runtime's does, with ${what}`, () => {
       for (const camera of cameras) {
-        const description = readScene(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`));
+        const description = new SceneReader(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)).read();
         const first = firstSceneOf(description, camera);
         const { box, viewpoints } = placementOf(description);
         const navigator = new Navigator(() => undefined, () => undefined);

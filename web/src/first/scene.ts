@@ -54,7 +54,7 @@ export function firstSceneOf(scene: SceneDescription, camera: CameraSetting): Fi
   const placement = placementOf(scene);
   const { viewpoints, levels, billboards } = placement;
   if (levels.length > 0 || billboards.length > 0 || placement.lights.length > mostLights) return undefined;
-  const seen = placement.shapes.filter(({ shape }) => shape.visible && shape.geometry !== undefined);
+  const seen = placement.shapes.filter(({ shape }) => shape.visible && (shape.geometry !== undefined || shape.isUnread));
   const shapes = seen.slice(0, mostShapes + 1).flatMap((placed) => firstShapeOf(placed) ?? []);
   if (shapes.length === 0 || shapes.length < seen.length || shapes.length > mostShapes) return undefined;
   const sphere = sphereAround(placement.box);

@@ -14,6 +14,7 @@ import type { GroupDescription, SceneDescription } from "../document/description
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
 import { levelAt } from "../document/levels.ts";
+import { readInlineGeometry } from "../document/inlineGeometry.ts";
 import { SceneReader } from "../document/sceneReader.ts";
 import { textReading } from "../document/textGeometry.ts";
 import { SceneGraph } from "../render/sceneGraph.ts";
@@ -82,7 +83,8 @@ export class SceneContents {
       },
     });
     this.#reader = new SceneReader(x3d, {
-      url, inlined: (inline) => this.#inlines.documentOf(inline), levelOf: (lod) => this.#chosen.get(lod), text: textReading(measureRun),
+      url, inlined: (inline) => this.#inlines.documentOf(inline), levelOf: (lod) => this.#chosen.get(lod),
+      inlineGeometry: readInlineGeometry, text: textReading(measureRun),
     });
     this.#scene = this.#reader.read();
     this.#graph = new SceneGraph({

@@ -7,6 +7,7 @@ import { Dice, EditedDocument } from "../document/edits.testing.ts";
 import { elementsOf } from "../document/elements.testing.ts";
 import { nodeFields } from "../document/nodes.ts";
 import { readScene } from "../document/readScene.ts";
+import { readInlineGeometry } from "../document/inlineGeometry.ts";
 import { SceneReader } from "../document/sceneReader.ts";
 import { matrixOf } from "../navigation/matrices.ts";
 import type { PlacedNode } from "../navigation/placedTree.ts";
@@ -68,7 +69,7 @@ test("a graph that has followed a document shows it as one that is new to it", (
 
 test("what has not changed is not told of again", () => {
   const x3d = elementsOf("<X3D><Transform><Shape/></Transform><Transform><Shape/></Transform><Group><Shape/></Group></X3D>");
-  const reader = new SceneReader(x3d);
+  const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
   const told: string[] = [];
   const tell = (shape: ShapeDescription) => { told.push(shape.element === x3d.children[1]?.children[0] ? "second" : "another"); };
   const graph = new SceneGraph({ onEnter: tell, onChange: tell, onLeave: tell });

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { baseBuffersOf } from "./baseBuffers.ts";
+import { Base } from "./baseBuffers.ts";
 import { decodeVector, readVector } from "./vectors.testing.ts";
 
 interface Expected {
@@ -20,7 +20,7 @@ describe("the parts of a base", () => {
       const placeOf = (w: number) => positions.slice(3 * wedgePositions[w]!, 3 * wedgePositions[w]! + 3).join();
       const expected = Array.from({ length: partCount }, (_, part) => parts.flatMap((p, t) =>
         p === part ? [corners.slice(3 * t, 3 * t + 3).map(placeOf).join(" ")] : []));
-      const buffers = baseBuffersOf(decodeVector(name)[0]!);
+      const buffers = new Base(decodeVector(name)[0]!).parts;
       assert.equal(buffers.length, partCount);
       assert.deepEqual(buffers.map((part) => {
         if (part === undefined) return [];
@@ -34,10 +34,20 @@ describe("the parts of a base", () => {
     });
   }
 
+  test("are all in one at first", () => {
+    const { corners, wedgePositions, positions } = (readVector("base-seams") as Expected[])[0]!;
+    const { whole, partCount } = new Base(decodeVector("base-seams")[0]!);
+    assert.deepEqual(Array.from(whole.index!), corners);
+    const { array, stride } = whole.coord;
+    const places = Array.from({ length: whole.vertexCount }, (_, w) => Array.from(array.subarray(stride * w, stride * w + 3)));
+    assert.deepEqual(places, wedgePositions.map((v) => positions.slice(3 * v, 3 * v + 3)));
+    assert.ok(partCount > 1);
+  });
+
   test("have one normal at each place, whatever seams the texture has", () => {
     const normals = new Map<string, string>();
     let seams = 0;
-    for (const part of baseBuffersOf(decodeVector("base-seams")[0]!)) {
+    for (const part of new Base(decodeVector("base-seams")[0]!).parts) {
       if (part?.normal === undefined) continue;
       const { coord, normal } = part;
       for (let n = 0; n < part.vertexCount; ++n) {
@@ -52,6 +62,6 @@ describe("the parts of a base", () => {
   });
 
   test("are not those of a patch", () => {
-    assert.throws(() => baseBuffersOf(decodeVector("sphere")[0]!), /a patch where a base should be/);
+    assert.throws(() => new Base(decodeVector("sphere")[0]!), /a patch where a base should be/);
   });
 });

@@ -1,4 +1,5 @@
-// A decoded base as what a GPU takes, each part for itself: it goes when its patch comes.
+// A decoded base as what a GPU takes: whole for the first look, each part for itself
+// for those after it, since a part goes when its patch comes.
 
 import type { ElementArray, VertexArray } from "../arrays.ts";
 import { DecodeError } from "../decodeError.ts";
@@ -9,28 +10,48 @@ import { indexOf, verticesOf } from "./patchBuffers.ts";
 /** Of each part, in order; undefined where one has no triangles. */
 export type BaseBuffers = (PatchBuffers | undefined)[];
 
-/** Throws DecodeError for what is no base. */
-export function baseBuffersOf(base: CompactPatch): BaseBuffers {
-  const { header, parts, wedges: { wedge } } = base;
-  if (parts === undefined) throw new DecodeError("malformed", "holds a patch where a base should be");
-  const { firsts, triangles } = trianglesByPart(parts.part, header.partCount);
-  const vertices = verticesOf(base);
-  const numbers = new Int32Array(header.wedgeCount).fill(-1);
-  return Array.from({ length: header.partCount }, (_, part) => {
-    const corners = new Int32Array(3 * (firsts[part + 1]! - firsts[part]!));
+export class Base {
+  readonly partCount: number;
+  /** All parts in one. */
+  readonly whole: PatchBuffers;
+  readonly #part: Int32Array;
+  readonly #wedge: Int32Array;
+  #parts: BaseBuffers | undefined;
+
+  /** Throws DecodeError for what is no base. */
+  constructor(patch: CompactPatch) {
+    const { header, parts, wedges: { wedge } } = patch;
+    if (parts === undefined) throw new DecodeError("malformed", "holds a patch where a base should be");
+    this.partCount = header.partCount;
+    this.whole = { ...verticesOf(patch), index: indexOf(wedge, header.wedgeCount) };
+    this.#part = parts.part;
+    this.#wedge = wedge;
+  }
+
+  /** Its parts, made when they are first asked for. */
+  get parts(): BaseBuffers {
+    return this.#parts ??= partsOf(this.whole, this.#wedge, this.#part, this.partCount);
+  }
+}
+
+function partsOf(whole: PatchBuffers, wedge: Int32Array, part: Int32Array, partCount: number): BaseBuffers {
+  const { firsts, triangles } = trianglesByPart(part, partCount);
+  const numbers = new Int32Array(whole.vertexCount).fill(-1);
+  return Array.from({ length: partCount }, (_, p) => {
+    const corners = new Int32Array(3 * (firsts[p + 1]! - firsts[p]!));
     if (corners.length === 0) return undefined;
     const used: number[] = [];
     for (let c = 0; c < corners.length; ++c) {
-      const w = wedge[3 * triangles[firsts[part]! + Math.floor(c / 3)]! + c % 3]!;
+      const w = wedge[3 * triangles[firsts[p]! + Math.floor(c / 3)]! + c % 3]!;
       if (numbers[w]! < 0) numbers[w] = used.push(w) - 1;
       corners[c] = numbers[w]!;
     }
     for (const w of used) numbers[w] = -1;
     const some = (all: VertexArray | undefined) => all && gather(all, used);
     return {
-      ...vertices, vertexCount: used.length, index: indexOf(corners, used.length),
-      coord: gather(vertices.coord, used), normal: some(vertices.normal), color: some(vertices.color), texCoord: some(vertices.texCoord),
-      others: vertices.others.map((other) => ({ ...other, vertices: gather(other.vertices, used) })),
+      ...whole, vertexCount: used.length, index: indexOf(corners, used.length),
+      coord: gather(whole.coord, used), normal: some(whole.normal), color: some(whole.color), texCoord: some(whole.texCoord),
+      others: whole.others.map((other) => ({ ...other, vertices: gather(other.vertices, used) })),
     };
   });
 }

@@ -3,7 +3,7 @@
 import { DecodeError } from "../decodeError.ts";
 import { decodePixels } from "../pngPixels.ts";
 import type { BaseBuffers } from "./baseBuffers.ts";
-import { baseBuffersOf } from "./baseBuffers.ts";
+import { Base } from "./baseBuffers.ts";
 import { decodePatches } from "./patch.ts";
 import type { PatchBuffers } from "./patchBuffers.ts";
 import { buffersOf } from "./patchBuffers.ts";
@@ -18,7 +18,12 @@ export async function compactPatches(png: Uint8Array<ArrayBuffer>): Promise<Patc
 
 /** The parts of all bases of a file. Rejects with DecodeError. Safe for untrusted bytes. */
 export async function compactBases(png: Uint8Array<ArrayBuffer>): Promise<BaseBuffers[]> {
-  return decodePatches(await payloadOf(png), baseBuffersOf);
+  return (await wholeBases(png)).map((base) => base.parts);
+}
+
+/** All bases of a file, for who shows them whole first. Rejects with DecodeError. Safe for untrusted bytes. */
+export async function wholeBases(png: Uint8Array<ArrayBuffer>): Promise<Base[]> {
+  return decodePatches(await payloadOf(png), (patch) => new Base(patch));
 }
 
 /** The pixels of a gray PNG. Rejects with DecodeError. Safe for untrusted bytes. */
