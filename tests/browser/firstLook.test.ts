@@ -26,7 +26,7 @@ const site = (): string => siteOfGenerated("trefoil-large", "--profile", "compac
 
 /** Runs in the page: waits for the view, and then for the end of the look in it; and notes what that draws with. */
 function watchLook(): void {
-  const { setTimeout: later } = window;
+  const later = window.setTimeout.bind(window);
   window.setTimeout = ((call: () => void, ms?: number, ...args: unknown[]) => {
     if (ms !== 3000) return later(call, ms, ...args);
     window.endPatience = call; // on a busy machine it could end before what it waits for
@@ -36,7 +36,7 @@ function watchLook(): void {
   const drawElements = Object.getOwnPropertyDescriptor(WebGL2RenderingContext.prototype, "drawElements")?.value as (...args: unknown[]) => void;
   WebGL2RenderingContext.prototype.drawElements = function (...args) {
     if (this.canvas instanceof HTMLCanvasElement && this.canvas.classList.contains("first")) {
-      (Number(args[1]) > 3 ? seen : unseen).add(this.getParameter(this.CURRENT_PROGRAM));
+      (args[1] > 3 ? seen : unseen).add(this.getParameter(this.CURRENT_PROGRAM));
       const ready = Array.from(seen).filter((program) => unseen.has(program)).length;
       window.rehearsed = { ready, unready: seen.size - ready };
     }
