@@ -71,6 +71,4 @@ void addUnless(Attributes& attributes, const char* name, const T& value, const T
     attributes.push_back({name, std::move(text)});
 }
 
-/// An X3D MFString: each string in double quotes, backslash before quotes and backslashes.
-
 } // namespace imgeo
