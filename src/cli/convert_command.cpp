@@ -130,6 +130,12 @@ std::string normalsOf(const Arguments& arguments, const ConvertReport& report) {
   return report.normalsComputed ? arguments.text("normal-weighting") : "source";
 }
 
+/// By which a component of 0 .. 255 may be off: half a step, and what is left of it after rounding to a whole
+/// number.
+double colorErrorBound(std::uint32_t bits) {
+  return bits >= 8 ? 0 : std::floor(127.5 / ((1u << bits) - 1) + 0.5);
+}
+
 Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
   Json json;
   json["input"] = arguments.text("input");
@@ -142,7 +148,8 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
     json[name] = arguments.text(name);
   if (!report.x3domUrl.empty())
     json["x3dom"] = {{"version", report.x3domVersion}, {"url", report.x3domUrl}};
-  json["positionBits"] = report.lattice.bits;
+  json["positionBits"] = report.mostPositionBits;
+  json["leastPositionBits"] = report.leastPositionBits;
   json["coordType"] = arguments.text("coord-type");
   json["layout"] = arguments.text("layout");
   json["normalEncoding"] = nameOf(report.normalEncoding);
@@ -164,11 +171,15 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
                       {"bytes", textures.bytes},
                       {"previewBytes", textures.previewBytes}};
   json["texCoordBits"] = report.texCoordBits;
+  if (report.texCoordError)
+    json["texCoordError"] = *report.texCoordError;
   json["colorBits"] = report.colorBits;
+  if (report.hasColors)
+    json["colorError"] = colorErrorBound(report.colorBits);
   json["patchVertices"] = arguments.integer("patch-vertices");
   json["effort"] = arguments.integer("effort");
   json["normals"] = normalsOf(arguments, report);
-  json["step"] = report.lattice.step;
+  json["step"] = report.largestStep;
   json["positionError"] = report.positionError;
   json["collapsed"] = {{"triangles", report.collapsed.triangles}, {"lines", report.collapsed.lines}};
   json["triangles"] = report.elements.triangles;
@@ -206,9 +217,11 @@ void printLine(const std::string& label, const std::string& text) {
 std::string positionsOf(const Arguments& arguments, const ConvertReport& report) {
   const bool asFloats = arguments.text("coord-type") == "float32";
   const std::string lattice =
-      asFloats && arguments.text("position-bits").empty()
-          ? "the source's numbers"
-          : fmt::format("{} bits: step {:.4g}", report.lattice.bits, report.lattice.step);
+      asFloats && arguments.text("position-bits").empty() ? "the source's numbers"
+      : report.leastPositionBits < report.mostPositionBits
+          ? fmt::format("{} to {} bits: steps of up to {:.4g}", report.leastPositionBits,
+                        report.mostPositionBits, report.largestStep)
+          : fmt::format("{} bits: step {:.4g}", report.mostPositionBits, report.largestStep);
   return fmt::format("{}{}, so off by at most {:.4g} an axis, in units of the source", lattice,
                      asFloats ? " as float32" : "", report.positionError);
 }
@@ -250,15 +263,26 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   printLine("positions", positionsOf(arguments, report));
   if (report.collapsed.sum() > 0)
     printLine("", fmt::format("too coarse for {}, without area or length there", listed(report.collapsed)));
-  printLine("normals",
-            fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", nameOf(report.normalEncoding),
-                        report.normalBits, report.normalErrorDegrees,
-                        report.normalsComputed
-                            ? "computed: triangles count by " +
-                                  std::string(arguments.text("normal-weighting") == "area"    ? "their area"
-                                              : arguments.text("normal-weighting") == "angle" ? "their angle"
-                                                                                              : "one each")
-                            : "the source's, where it has any"));
+  if (report.hasNormals)
+    printLine(
+        "normals",
+        fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", nameOf(report.normalEncoding),
+                    report.normalBits, report.normalErrorDegrees,
+                    report.normalsComputed
+                        ? "computed: triangles count by " +
+                              std::string(arguments.text("normal-weighting") == "area"    ? "their area"
+                                          : arguments.text("normal-weighting") == "angle" ? "their angle"
+                                                                                          : "one each")
+                        : "the source's, where it has any"));
+  const auto bitsOf = [&](std::uint32_t bits) { return isSig ? fmt::format("{} bits: ", bits) : ""; };
+  if (report.texCoordError)
+    printLine("texcoords",
+              fmt::format("{}off by at most {:.3g}", bitsOf(report.texCoordBits), *report.texCoordError));
+  if (report.hasColors)
+    printLine("colours", bitsOf(report.colorBits) + (report.colorBits >= 8
+                                                         ? "the source's own of 8"
+                                                         : fmt::format("off by at most {:.0f} of 255",
+                                                                       colorErrorBound(report.colorBits))));
   for (const AttributeReport& attribute : report.attributes)
     printLine("attribute", fmt::format("{}: {} bits, off by at most {:.3g}", attribute.name, attribute.bits,
                                        attribute.error));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace imgeo {
@@ -21,6 +22,18 @@ std::uint16_t storeTexCoord(float value, float min, float size) {
 
 float loadTexCoord(std::uint16_t stored, float min, float size) {
   return static_cast<float>(min + double{size} * stored / 65535);
+}
+
+Vec2<double> texCoordErrorBound(const GeometryDescription& geometry, std::uint32_t bits) {
+  const bool isSig = geometry.container == Container::sig;
+  const double steps = isSig ? std::ldexp(1.0, static_cast<int>(bits)) - 1 : maximumOf(geometry.texCoordType);
+  const bool isExact = !isSig && geometry.texCoordType == ElementType::float32;
+  const auto bound = [&](double low, double size) {
+    const double largest = std::max(std::abs(low), std::abs(low + size));
+    return (isExact ? 0 : size / steps / 2) + 4 * largest * std::numeric_limits<float>::epsilon() + 1e-30;
+  };
+  return {bound(geometry.texCoordMin.x, geometry.texCoordSize.x),
+          bound(geometry.texCoordMin.y, geometry.texCoordSize.y)};
 }
 
 Vec3f unitNormal(Vec3d stored) {

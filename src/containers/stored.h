@@ -17,6 +17,10 @@ double texCoordShare(float value, float min, float size);
 std::uint16_t storeTexCoord(float value, float min, float size);
 float loadTexCoord(std::uint16_t stored, float min, float size);
 
+/// How far a texture coordinate may be from what is stored of it, in SIG in `bits` bits: half a
+/// step of its box, and what single precision adds.
+Vec2<double> texCoordErrorBound(const GeometryDescription& geometry, std::uint32_t bits);
+
 /// The direction of a stored normal; (0, 0, 1) for one without length.
 Vec3f unitNormal(Vec3d stored);
 

@@ -133,6 +133,14 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
                                options.layout,       options.attributeBits, *options.profile,
                                options.texCoordBits, options.colorBits};
   result.geometry = describe(patched, encoding);
+  for (const Patch& patch : patched.patches) {
+    result.hasNormals |= !patch.normals.empty();
+    result.hasColors |= !patch.colors.empty();
+    if (!patch.texCoords.empty()) {
+      const Vec2<double> error = texCoordErrorBound(result.geometry, options.texCoordBits);
+      result.texCoordError = std::max(error.x, error.y);
+    }
+  }
   if (options.profile == Profile::compact && options.primitives == Primitives::triangles)
     if (const std::optional<BaseMesh> base = baseOf(patched, options.basePercent.value_or(0)))
       result.base = baseInIntegers(*base, result.geometry, options.texCoordBits, options.colorBits);

@@ -45,6 +45,8 @@ struct EncodedMesh {
   ElementCounts collapsed;       ///< those that lost their area or length on the lattice
   double positionError = 0;      ///< by which its vertices may be off, along an axis
   double normalErrorDegrees = 0; ///< by which its stored normals may be off
+  bool hasNormals = false, hasColors = false;
+  std::optional<double> texCoordError; ///< by which its texture coordinates may be off, where it has any
 };
 
 /// Called with how many more elements have been written.

@@ -227,6 +227,15 @@ void addEncoded(ConvertReport& report, const EncodedMesh& encoded) {
   report.collapsed += encoded.collapsed;
   report.positionError = std::max(report.positionError, encoded.positionError);
   report.normalErrorDegrees = std::max(report.normalErrorDegrees, encoded.normalErrorDegrees);
+  const Lattice& lattice = encoded.geometry.lattice;
+  report.largestStep = std::max(report.largestStep, lattice.step);
+  report.leastPositionBits =
+      report.leastPositionBits == 0 ? lattice.bits : std::min(report.leastPositionBits, lattice.bits);
+  report.mostPositionBits = std::max(report.mostPositionBits, lattice.bits);
+  report.hasNormals |= encoded.hasNormals;
+  report.hasColors |= encoded.hasColors;
+  if (encoded.texCoordError)
+    report.texCoordError = std::max(report.texCoordError.value_or(0), *encoded.texCoordError);
   addAttributes(report.attributes, encoded.geometry);
 }
 

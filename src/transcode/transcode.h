@@ -98,12 +98,16 @@ struct ConvertReport {
   std::size_t vertices = 0, patches = 0;
   WeldReport weld;
   bool normalsComputed = false;
-  Lattice lattice;          ///< of the first mesh: step states the precision
+  Lattice lattice;                                           ///< of the first mesh: step states the precision
+  std::uint32_t leastPositionBits = 0, mostPositionBits = 0; ///< of all meshes
+  double largestStep = 0;                                    ///< of all meshes
   ElementCounts collapsed;  ///< that lost their area or length on so coarse a lattice
   double positionError = 0; ///< by which vertices of any mesh may be off, along an axis
   NormalEncoding normalEncoding = NormalEncoding::rgb;
   std::uint32_t normalBits = 0, texCoordBits = 0, colorBits = 0; ///< of a stored component
   double normalErrorDegrees = 0;                                 ///< by which stored normals may be off
+  std::optional<double> texCoordError; ///< by which texture coordinates may be off, where there are any
+  bool hasNormals = false, hasColors = false;
   std::vector<AttributeReport> attributes;
   TextureReport textures;
   std::string x3domVersion, x3domUrl; ///< target x3dom: the release that the page is for, and its script

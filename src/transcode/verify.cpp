@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "containers/named_attributes.h"
 #include "containers/normals.h"
+#include "containers/stored.h"
 #include "containers/stored_coords.h"
 #include "prepare/patches.h"
 #include "transcode/compare_looks.h"
@@ -56,19 +57,6 @@ double normalBoundDegrees(const GeometryDescription& geometry, const Marker& mar
 /// Of images any type but Float32: their lattice is exact.
 ElementType coordTypeOf(const GeometryDescription& geometry) {
   return geometry.container == Container::bg ? geometry.coordType : ElementType::uint32;
-}
-
-/// Half a step of the stored share of the box, and what single precision adds.
-Vec2<double> texCoordBound(const GeometryDescription& geometry, std::uint32_t bits) {
-  const bool isSig = geometry.container == Container::sig;
-  const double steps = isSig ? std::ldexp(1.0, static_cast<int>(bits)) - 1 : maximumOf(geometry.texCoordType);
-  const bool isExact = !isSig && geometry.texCoordType == ElementType::float32;
-  const auto bound = [&](double low, double size) {
-    const double largest = std::max(std::abs(low), std::abs(low + size));
-    return (isExact ? 0 : size / steps / 2) + 4 * largest * std::numeric_limits<float>::epsilon() + 1e-30;
-  };
-  return {bound(geometry.texCoordMin.x, geometry.texCoordSize.x),
-          bound(geometry.texCoordMin.y, geometry.texCoordSize.y)};
 }
 
 /// Brings colours to those that fewer than 8 bits a component can tell apart.
@@ -287,7 +275,7 @@ void compareMesh(const ContainerReader& reader, const GeometryDescription& geome
   const StoredPrecision precision = reader.precisionOf(geometry);
   roundColors(input.colors, precision.colorBits);
   const AttributeBounds bounds{normalBoundDegrees(geometry, marker.value_or(Marker{})),
-                               texCoordBound(geometry, std::max(precision.texCoordBits, 1u)),
+                               texCoordErrorBound(geometry, std::max(precision.texCoordBits, 1u)),
                                namedBounds(geometry)};
   const ElementDifference difference = compare(input, site, bounds);
   count(difference, input, site, topology, report);

@@ -33,6 +33,41 @@ TEST_F(Convert, SaysWhatItChose) {
                                                       "runtime", "scene.x3d"}));
 }
 
+TEST_F(Convert, SaysTheErrorOfAllThatItRounds) {
+  const std::string input = directory_ / "painted.ply", points = directory_ / "points.ply";
+  write(input,
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float s\nproperty float t\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "element face 1\nproperty list uchar int vertex_index\nend_header\n"
+        "0 0 0 0 0 255 0 0\n1 0 0 8 0 0 255 0\n0 1 0 0 1 0 0 255\n3 0 1 2\n");
+  const Outcome outcome = run({"convert", input, "-o", site_, "-vt", "5", "-vc", "4", "-vn", "10"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* words :
+       {"octahedral, 10 bits: off by at most 0.24 degrees", "texcoords  5 bits: off by at most 0.129",
+        "colours    4 bits: off by at most 9 of 255"})
+    EXPECT_NE(outcome.out.find(words), std::string::npos) << words << " is not in:\n" << outcome.out;
+  EXPECT_EQ(run({"verify", site_, input}).code, 0);
+  const Json report = Json::parse(run({"convert", input, "-o", site_, "-vt", "5", "--json"}).out);
+  EXPECT_NEAR(report["texCoordError"].get<double>(), 8.0 / 31 / 2, 1e-5);
+  EXPECT_EQ(report["colorError"], 0);
+  write(points,
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        "end_header\n1 2 3\n");
+  const std::string plain = run({"convert", points, "-o", site_}).out;
+  for (const char* label : {"normals", "texcoords", "colours"})
+    EXPECT_EQ(plain.find(label), std::string::npos) << label << " are in:\n" << plain;
+}
+
+TEST_F(Convert, SaysTheBitsOfEveryMeshThatTheErrorChose) {
+  const std::string input = directory_ / "two.obj";
+  write(input,
+        "o small\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no large\nv 0 0 9\nv 1000 0 9\nv 0 1000 9\nf 4 5 6\n");
+  const Json report = Json::parse(run({"convert", input, "-o", site_, "--max-error", "0.002", "--json"}).out);
+  EXPECT_EQ(report["leastPositionBits"], 9);
+  EXPECT_EQ(report["positionBits"], 19);
+  EXPECT_LE(report["positionError"].get<double>() * std::sqrt(3.0), 0.002);
+}
+
 TEST_F(Convert, IsCompactUnlessWhatIsAskedForIsClassics) {
   const auto profileOf = [&](std::vector<std::string> options) {
     std::vector<std::string> line{"convert", input_, "-o", site_, "--json"};
