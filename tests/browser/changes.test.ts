@@ -113,13 +113,16 @@ const waysToHide: Record<string, readonly [hide: () => void, show: () => void]> 
 
 describe("a change in the document shows", () => {
   const replace = (html: Buffer): string => inTransform(html.toString());
-  const withTransform = (use: (view: View) => Promise<void>): Promise<void> =>
-    withPage(twoMeshSite(), { server: (server) => server.when(/^\/$/, { replace }) }, async (view) => {
+  const withTransform = (use: (view: View) => Promise<void>, site = twoMeshSite()): Promise<void> =>
+    withPage(site, { server: (server) => server.when(/^\/$/, { replace }) }, async (view) => {
       await view.promise("complete");
       await use(view);
     });
 
-  for (const [what, changes] of Object.entries({ "of look": changesOfLook, "of place": changesOfPlace, "of vertices": changesOfVertices })) {
+  for (const [what, changes, site] of [
+    ["of look", changesOfLook, twoMeshSite], ["of place", changesOfPlace, twoMeshSite], ["of vertices", changesOfVertices, twoMeshSite],
+    ["of place and look, of compact", { ...changesOfPlace, ...changesOfLook }, () => siteOfGenerated("trefoil", "--profile", "compact", "--patch-vertices", "1000")],
+  ] as const) {
     test(`${what}, each at once, and all together as if they had always been so`, async () => {
       await withTransform(async (view) => {
         const asked = view.server.requests.length;
@@ -131,8 +134,8 @@ describe("a change in the document shows", () => {
           before = after;
         }
         assert.equal(view.server.requests.length, asked, "files were asked for again");
-        assertSamePicture(`changed ${what}`, before, await freshPicture(twoMeshSite(), await sceneText(view)), { mean: 0.001 });
-      });
+        assertSamePicture(`changed ${what}`, before, await freshPicture(site(), await sceneText(view)), { mean: 0.001 });
+      }, site());
     });
   }
 

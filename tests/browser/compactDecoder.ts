@@ -10,7 +10,7 @@ import type { VertexArray } from "../../web/src/decode/arrays.ts";
 import { decodePng } from "./png.ts";
 import { numbersOf, tagsOf, type PlainPatch } from "./siteDecoder.ts";
 
-/** All patches of the only geometry of the site, which have triangles. */
+/** All patches of the only geometry of the site. */
 export function decodeCompactSite(directory: string): PlainPatch[] {
   const tags = tagsOf(readFileSync(join(directory, "index.html"), "utf8"));
   const node = tags.find(({ name }) => name === "imagegeometry")?.attributes ?? {};
@@ -23,13 +23,18 @@ export function decodeCompactSite(directory: string): PlainPatch[] {
   return tags.filter(({ attributes }) => attributes.data !== undefined).map(({ attributes }) => {
     const [url, first] = attributes.data!.split("#");
     const { data } = decodePng(readFileSync(join(directory, url!)));
-    const { coord, normal, index, vertexCount } = decodePatches(data, buffersOf)[Number(first ?? 0)]!;
+    const { topology, coord, normal, index, vertexCount } = decodePatches(data, buffersOf)[Number(first ?? 0)]!;
+    const elementsOf = (kind: typeof topology): Uint32Array => Uint32Array.from(topology === kind ? index ?? running(vertexCount) : []);
     return {
       positions: Float32Array.from({ length: 3 * vertexCount }, (_, i) => place(numberAt(coord, i), i % 3)),
       ...(normal && { normals: unitVectors(Float32Array.from({ length: 3 * vertexCount }, (_, i) => numberAt(normal, i))) }),
-      triangles: Uint32Array.from(index!), lines: new Uint32Array(), points: new Uint32Array(),
+      triangles: elementsOf("triangles"), lines: elementsOf("lines"), points: elementsOf("points"),
     };
   });
+}
+
+function running(count: number): number[] {
+  return Array.from({ length: count }, (_, n) => n);
 }
 
 function numberAt({ array, stride, offset }: VertexArray, i: number): number {

@@ -76,7 +76,7 @@ const cases: Case[] = [
   { mesh: "trefoil-colors", options: ["--profile", "classic"] },
   { mesh: "trefoil-colors", options: ["--container", "bg"] },
   { mesh: "points", options: ["--profile", "classic"] },
-  { mesh: "coil", options: ["--container", "bg"] },
+  { mesh: "coil", options: ["--profile", "compact"] },
   { mesh: "coil", options: ["--profile", "classic"] },
 ];
 

@@ -168,11 +168,13 @@ function projected(patch: PlainPatch, vertices: Iterable<number>, viewpoint: Par
   });
 }
 
+const containers = { classic: ["--profile", "classic"], bg: ["--container", "bg"], compact: ["--profile", "compact"] };
+
 describe("a point is hit where it is drawn", () => {
-  for (const container of ["sig", "bg"]) {
-    test(container, async () => {
-      const site = siteOfGenerated("points", "--profile", "classic", "--container", container);
-      const [patch] = decodeSite(site);
+  for (const [what, options] of Object.entries(containers)) {
+    test(what, async () => {
+      const site = siteOfGenerated("points", ...options);
+      const [patch] = what === "compact" ? decodeCompactSite(site) : decodeSite(site);
       const points = projected(patch!, patch!.points, lookOf(pageOf(site)).viewpoint);
       await withSite(site, async (view) => {
         let hits = 0;
@@ -201,10 +203,10 @@ describe("a point is hit where it is drawn", () => {
 });
 
 describe("a line is hit where it is drawn, at its nearer end", () => {
-  for (const container of ["sig", "bg"]) {
-    test(container, async () => {
-      const site = siteOfGenerated("coil", "--profile", "classic", "--container", container);
-      const [patch] = decodeSite(site);
+  for (const [what, options] of Object.entries(containers)) {
+    test(what, async () => {
+      const site = siteOfGenerated("coil", ...options);
+      const [patch] = what === "compact" ? decodeCompactSite(site) : decodeSite(site);
       const { viewpoint } = lookOf(pageOf(site));
       const ends = projected(patch!, patch!.lines, viewpoint);
       const lines = Array.from({ length: ends.length / 2 }, (_, i) => [ends[2 * i]!, ends[2 * i + 1]!] as const);
