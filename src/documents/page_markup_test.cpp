@@ -59,8 +59,8 @@ SceneDocument hostileDocument() {
 }
 
 TEST(PageMarkup, KeepsAHostileDocumentFromRunningInThePage) {
-  const std::string page = writeHtml(hostileDocument(), {"imgeo.js", "imgeo.css"});
-  const std::string body = page.substr(page.find("<body>"));
+  const std::string html = writeHtml(hostileDocument(), {"imgeo.js", "imgeo.css"});
+  const std::string body = html.substr(html.find("<body>"));
   EXPECT_EQ(body.find("<script"), std::string::npos) << body;
   for (const char* never :
        {"<Script", "<iframe", "<meta", "onclick", "ONLOAD", "style=", "srcdoc", "javascript",

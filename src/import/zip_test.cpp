@@ -24,8 +24,8 @@ Bytes archiveOf(const std::vector<std::uint32_t>& sizes, std::string_view commen
     append(bytes, "PK\1\2");
     bytes.resize(bytes.size() + 20);
     appendLittle(bytes, size);
-    for (const std::uint16_t length : {5, 2, 1})
-      appendLittle(bytes, length);
+    for (const int length : {5, 2, 1})
+      appendLittle(bytes, static_cast<std::uint16_t>(length));
     bytes.resize(bytes.size() + 12);
     append(bytes, "a.xmlEXC");
   }

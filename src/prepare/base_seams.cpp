@@ -11,8 +11,6 @@ namespace imgeo {
 
 namespace {
 
-constexpr std::uint32_t none = SimplifiedTriangles::none;
-
 /// Wedges of a patch in sets that grow together.
 class WedgeSets {
 public:
@@ -57,7 +55,7 @@ void joinGathered(WedgeSets& sets, const SimplifiedTriangles& simplified, const 
   for (std::size_t corner = 0; corner < patch.corners.size(); ++corner) {
     const std::uint32_t a = patch.corners[corner],
                         b = patch.corners[corner % 3 == 2 ? corner - 2 : corner + 1];
-    if (vertexOf(a) != none && vertexOf(a) == vertexOf(b))
+    if (vertexOf(a) != SimplifiedTriangles::none && vertexOf(a) == vertexOf(b))
       sets.join(a, b);
   }
 }
@@ -65,11 +63,11 @@ void joinGathered(WedgeSets& sets, const SimplifiedTriangles& simplified, const 
 /// Of each set, by the number of its wedge that stands for it, the wedge that is nearest to the vertex.
 std::vector<std::uint32_t> nearestOf(WedgeSets& sets, const SimplifiedTriangles& simplified,
                                      const Patch& patch) {
-  std::vector<std::uint32_t> nearest(patch.wedgeCount(), none);
+  std::vector<std::uint32_t> nearest(patch.wedgeCount(), SimplifiedTriangles::none);
   std::vector<double> distances(patch.wedgeCount(), std::numeric_limits<double>::infinity());
   for (std::uint32_t wedge = 0; wedge < patch.wedgeCount(); ++wedge) {
     const std::uint32_t position = patch.wedgePositions[wedge], vertex = simplified.ofPosition[position];
-    if (vertex == none)
+    if (vertex == SimplifiedTriangles::none)
       continue;
     const Vec3d off = Vec3d(patch.positions[position]) - Vec3d(simplified.positions[vertex]);
     const std::uint32_t set = sets.setOf(wedge);
@@ -85,8 +83,8 @@ std::vector<std::uint32_t> nearestOf(WedgeSets& sets, const SimplifiedTriangles&
 class Pieces {
 public:
   Pieces(const SimplifiedTriangles& simplified, const Patch& patch, const std::vector<std::uint32_t>& nearest)
-      : patch_(patch), nearest_(nearest), latest_(simplified.positions.size(), none),
-        numbers_(patch.wedgeCount(), none) {}
+      : patch_(patch), nearest_(nearest), latest_(simplified.positions.size(), SimplifiedTriangles::none),
+        numbers_(patch.wedgeCount(), SimplifiedTriangles::none) {}
 
   /// The next corner, by a set of wedges and the vertex that it stands around.
   void add(std::uint32_t set, std::uint32_t position) {
@@ -98,7 +96,7 @@ public:
     const double together = patch_.texCoords.empty() ? 0 : meanEdge() / 4;
     for (std::size_t corner = 0; corner < sets_.size(); ++corner) {
       std::uint32_t& number = numbers_[sets_[corner]];
-      if (number == none)
+      if (number == SimplifiedTriangles::none)
         number = wedgeAt(positions_[corner], nearest_[sets_[corner]], together);
       wedges_.corners.push_back(number);
     }
@@ -122,7 +120,8 @@ private:
   std::uint32_t wedgeAt(std::uint32_t position, std::uint32_t source, double together) {
     constexpr int mostToLookAt = 16; // loose triangles may be thousands at one vertex
     std::uint32_t wedge = latest_[position];
-    for (int looked = 0; wedge != none && looked < mostToLookAt; ++looked, wedge = before_[wedge])
+    for (int looked = 0; wedge != SimplifiedTriangles::none && looked < mostToLookAt;
+         ++looked, wedge = before_[wedge])
       if (patch_.texCoords.empty() || between(wedges_.sources[wedge], source) <= together)
         return wedge;
     before_.push_back(latest_[position]);

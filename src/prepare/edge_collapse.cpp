@@ -9,8 +9,6 @@ namespace imgeo {
 
 namespace {
 
-constexpr std::uint32_t none = UINT32_MAX;
-
 /// What an edge costs, as it was when both ends had these versions.
 struct Candidate {
   std::uint64_t rank = 0; ///< its cost, not below 0, as the bits of a float, before `from`
@@ -60,6 +58,8 @@ public:
   }
 
 private:
+  static constexpr std::uint32_t none = CollapsingSurface::none;
+
   static std::uint32_t afterCorner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
   static std::uint32_t beforeCorner(std::uint32_t corner) {
     return corner % 3 == 0 ? corner + 2 : corner - 1;

@@ -10,10 +10,10 @@ namespace imgeo {
 
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
 /// Opposite a vertex, a triangle has the link edge from -> to.
 struct LinkEdge {
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
   std::uint32_t corner = 0; ///< the vertex's own corner of the triangle
   std::uint32_t from = 0, to = 0;
   std::uint32_t nextFrom = none; ///< the next edge that leaves `from`
@@ -52,6 +52,8 @@ public:
   }
 
 private:
+  static constexpr std::uint32_t none = LinkEdge::none;
+
   void discover(std::uint32_t vertex) {
     if (numbers_[vertex] != none)
       return;

@@ -240,6 +240,14 @@ inline Scene sceneOf(std::vector<Mesh> meshes) {
   return scene;
 }
 
+/// The first node of that content in a scene, or null.
+template <typename T> const T* firstOf(const SceneGraph& graph) {
+  for (const std::size_t node : nodesInOrder(graph))
+    if (const T* content = std::get_if<T>(&graph.nodes[node].content))
+      return content;
+  return nullptr;
+}
+
 /// The name of the nth shape of a scene.
 inline const std::string& shapeName(const SceneGraph& graph, std::size_t n) {
   return graph.nodes.at(shapeNodes(graph).at(n)).name;

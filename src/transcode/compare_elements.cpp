@@ -17,13 +17,8 @@ struct Place {
   std::uint32_t element = 0;
 };
 
-bool less(const Vec3u& a, const Vec3u& b) {
-  return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-}
-
 bool less(const Place& a, const Place& b) {
-  return std::ranges::lexicographical_compare(a.points, b.points,
-                                              [](const Vec3u& p, const Vec3u& q) { return less(p, q); });
+  return std::ranges::lexicographical_compare(a.points, b.points, precedes);
 }
 
 /// Turns every element into its least rotation and sorts them by place.

@@ -33,6 +33,11 @@ struct ElementKind {
   bool byPlace = false;
 };
 
+/// An order of lattice points: by x, then by y, then by z.
+constexpr bool precedes(const Vec3u& a, const Vec3u& b) {
+  return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
 /// The elements of a prepared mesh; `positions` are its own, quantised.
 ElementList elementsOf(const Mesh& mesh, const std::vector<Vec3u>& positions, ElementKind kind);
 

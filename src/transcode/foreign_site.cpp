@@ -1,5 +1,7 @@
 #include "transcode/foreign_site.h"
 
+#include "transcode/element_list.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,16 +9,12 @@ namespace imgeo {
 
 namespace {
 
-bool less(const Vec3u& a, const Vec3u& b) {
-  return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-}
-
 /// Every lattice point of a site once, sorted.
 std::vector<Vec3u> pointsOf(const std::vector<IndexedPatch>& site) {
   std::vector<Vec3u> points;
   for (const IndexedPatch& patch : site)
     points.insert(points.end(), patch.positions.begin(), patch.positions.end());
-  std::ranges::sort(points, less);
+  std::ranges::sort(points, precedes);
   points.erase(std::ranges::unique(points).begin(), points.end());
   return points;
 }
@@ -50,7 +48,7 @@ std::vector<Vec3u> quantiseLike(const std::vector<IndexedPatch>& site, std::span
   std::vector<Vec3u> quantised = quantise(positions, lattice);
   for (std::size_t i = 0; i < quantised.size(); ++i)
     for (const Vec3u& candidate : candidatesOf(quantised[i], positions[i], lattice))
-      if (std::ranges::binary_search(points, candidate, less)) {
+      if (std::ranges::binary_search(points, candidate, precedes)) {
         quantised[i] = candidate;
         break;
       }

@@ -1,5 +1,7 @@
 #include "containers/compact/edge_table.h"
 
+#include "containers/compact/connectivity.h"
+
 #include <gtest/gtest.h>
 #include <vector>
 
@@ -7,8 +9,6 @@ namespace imgeo::compact {
 namespace {
 
 using Corners = std::vector<std::uint32_t>;
-
-constexpr std::uint32_t none = UINT32_MAX;
 
 /// The corner of the edge that is found.
 std::uint32_t cornerOf(EdgeTable& table, std::uint32_t from, std::uint32_t to) {

@@ -44,7 +44,7 @@ Bytes deflate(ByteSpan bytes, int level) {
 struct Effort {
   int levelOfDense;        ///< for images that hardly repeat: low bytes, normals
   int level, levelOfLarge; ///< for images that do, where parsing takes the longer the longer its matches are
-  std::span<const Filter> filters;
+  std::span<const RowFilter> filters;
   int probeLevel = 1;                            ///< filters are compared at this level
   std::size_t probeBytes = std::size_t{1} << 15; ///< and on so much of an image
 };
@@ -59,9 +59,9 @@ constexpr double repetitiveRatio = 0.3;
 /// stand side by side, hardly ever above one another: sub nearly always wins.
 Effort effortOf(int effort) {
   assert(effort >= 0 && effort <= 9);
-  static constexpr Filter all[] = {Filter::sub,      Filter::none, Filter::paeth,
-                                   Filter::adaptive, Filter::up,   Filter::average};
-  static constexpr std::span<const Filter> filters(all);
+  static constexpr RowFilter all[] = {RowFilter::sub,      RowFilter::none, RowFilter::paeth,
+                                      RowFilter::adaptive, RowFilter::up,   RowFilter::average};
+  static constexpr std::span<const RowFilter> filters(all);
   static const Effort ladder[] = {
       {1, 1, 1, filters.first(1)},         {1, 1, 1, filters.first(2)},    {1, 4, 4, filters.first(2)},
       {1, 6, 6, filters.first(3)},         {1, 7, 7, filters.first(4)},    {10, 7, 7, filters.first(4)},
@@ -91,7 +91,7 @@ Image probeOf(const Image& image, std::size_t bytes) {
 
 /// What is known of an image before all of it is deflated.
 struct Estimate {
-  Filter filter; ///< whose rows deflate smallest at the probe level; the first of equals
+  RowFilter filter; ///< whose rows deflate smallest at the probe level; the first of equals
   bool isRepetitive = false;
 };
 
@@ -99,9 +99,9 @@ Estimate estimate(const Image& image, const Effort& effort) {
   if (effort.filters.size() == 1)
     return {effort.filters[0]};
   const Image probe = probeOf(image, effort.probeBytes);
-  Filter best = effort.filters[0];
+  RowFilter best = effort.filters[0];
   std::size_t bestSize = SIZE_MAX;
-  for (const Filter filter : effort.filters) {
+  for (const RowFilter filter : effort.filters) {
     const std::size_t size = deflate(filterRows(probe, filter), effort.probeLevel).size();
     if (size >= bestSize)
       continue;
@@ -161,7 +161,7 @@ Bytes encodePng(const Image& image, int effort) {
 
 Bytes encodePlainPng(const Image& image) {
   assert(isEncodable(image));
-  const Bytes rows = filterRows(image, Filter::none);
+  const Bytes rows = filterRows(image, RowFilter::none);
   const Bytes packed = deflate(rows, 1);
   // Stored bytes take a reader no time: they may be a little more.
   return pngOf(image, packed.size() + rows.size() / 256 < rows.size() ? packed : deflate(rows, 0));

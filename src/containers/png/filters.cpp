@@ -18,7 +18,7 @@ std::uint8_t paeth(int left, int up, int upLeft) {
 
 /// Filters one row into `out`. `above` is the row before, or null at the top. The
 /// first pixel, which has nothing to its left, is apart, so that the rest is a plain loop.
-void filterRow(Filter filter, const std::uint8_t* row, const std::uint8_t* above, std::size_t rowBytes,
+void filterRow(RowFilter filter, const std::uint8_t* row, const std::uint8_t* above, std::size_t rowBytes,
                std::size_t pixelBytes, std::uint8_t* out) {
   const auto each = [&](auto predict) {
     for (std::size_t i = 0; i < pixelBytes; ++i)
@@ -32,13 +32,13 @@ void filterRow(Filter filter, const std::uint8_t* row, const std::uint8_t* above
         out[i] = static_cast<std::uint8_t>(row[i] - predict(row[i - pixelBytes], 0, 0));
   };
   switch (filter) {
-  case Filter::sub:
+  case RowFilter::sub:
     return each([](int left, int, int) { return left; });
-  case Filter::up:
+  case RowFilter::up:
     return each([](int, int up, int) { return up; });
-  case Filter::average:
+  case RowFilter::average:
     return each([](int left, int up, int) { return (left + up) / 2; });
-  case Filter::paeth:
+  case RowFilter::paeth:
     return each([](int left, int up, int upLeft) { return int{paeth(left, up, upLeft)}; });
   default:
     std::copy_n(row, rowBytes, out);
@@ -46,7 +46,7 @@ void filterRow(Filter filter, const std::uint8_t* row, const std::uint8_t* above
 }
 
 /// The other way around; `above` is zeros at the top.
-void unfilterRow(Filter filter, const std::uint8_t* row, const std::uint8_t* above, std::size_t rowBytes,
+void unfilterRow(RowFilter filter, const std::uint8_t* row, const std::uint8_t* above, std::size_t rowBytes,
                  std::size_t pixelBytes, std::uint8_t* out) {
   const auto each = [&](auto predict) {
     for (std::size_t i = 0; i < pixelBytes; ++i)
@@ -56,13 +56,13 @@ void unfilterRow(Filter filter, const std::uint8_t* row, const std::uint8_t* abo
           static_cast<std::uint8_t>(row[i] + predict(out[i - pixelBytes], above[i], above[i - pixelBytes]));
   };
   switch (filter) {
-  case Filter::sub:
+  case RowFilter::sub:
     return each([](int left, int, int) { return left; });
-  case Filter::up:
+  case RowFilter::up:
     return each([](int, int up, int) { return up; });
-  case Filter::average:
+  case RowFilter::average:
     return each([](int left, int up, int) { return (left + up) / 2; });
-  case Filter::paeth:
+  case RowFilter::paeth:
     return each([](int left, int up, int upLeft) { return int{paeth(left, up, upLeft)}; });
   default:
     std::copy_n(row, rowBytes, out);
@@ -78,20 +78,21 @@ std::uint64_t sumOfDifferences(const std::uint8_t* row, std::size_t rowBytes) {
 
 } // namespace
 
-Bytes filterRows(const Image& image, Filter filter) {
+Bytes filterRows(const Image& image, RowFilter filter) {
   const std::size_t rowBytes = std::size_t{image.width} * image.channels;
   Bytes filtered(image.height * (rowBytes + 1)), trial(rowBytes);
   for (std::size_t y = 0; y < image.height; ++y) {
     const std::uint8_t* row = image.pixels.data() + y * rowBytes;
     const std::uint8_t* above = y > 0 ? row - rowBytes : nullptr;
     std::uint8_t* out = filtered.data() + y * (rowBytes + 1);
-    if (filter != Filter::adaptive) {
+    if (filter != RowFilter::adaptive) {
       out[0] = static_cast<std::uint8_t>(filter);
       filterRow(filter, row, above, rowBytes, image.channels, out + 1);
       continue;
     }
     std::uint64_t smallest = UINT64_MAX;
-    for (const Filter candidate : {Filter::none, Filter::sub, Filter::up, Filter::average, Filter::paeth}) {
+    for (const RowFilter candidate :
+         {RowFilter::none, RowFilter::sub, RowFilter::up, RowFilter::average, RowFilter::paeth}) {
       filterRow(candidate, row, above, rowBytes, image.channels, trial.data());
       const std::uint64_t sum = sumOfDifferences(trial.data(), rowBytes);
       if (sum >= smallest)
@@ -112,9 +113,9 @@ bool unfilterRows(ByteSpan filtered, Image& image) {
   for (std::size_t y = 0; y < image.height; ++y) {
     const std::uint8_t* row = &filtered[y * (rowBytes + 1)];
     std::uint8_t* out = &image.pixels[y * rowBytes];
-    if (row[0] > static_cast<std::uint8_t>(Filter::paeth))
+    if (row[0] > static_cast<std::uint8_t>(RowFilter::paeth))
       return false;
-    unfilterRow(static_cast<Filter>(row[0]), row + 1, above, rowBytes, image.channels, out);
+    unfilterRow(static_cast<RowFilter>(row[0]), row + 1, above, rowBytes, image.channels, out);
     above = out;
   }
   return true;

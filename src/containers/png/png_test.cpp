@@ -189,7 +189,7 @@ TEST(Png, ThatPromisesMoreThanItsBytesCanHoldIsRefusedBeforeMemoryIsTaken) {
 
 TEST(Filters, ThatAdaptKeepTheSmallestDifferences) {
   const Image ramp{4, 2, 1, {10, 20, 30, 40, 10, 20, 30, 40}};
-  const Bytes rows = filterRows(ramp, Filter::adaptive);
+  const Bytes rows = filterRows(ramp, RowFilter::adaptive);
   EXPECT_EQ(rows, (Bytes{1, 10, 10, 10, 10, 2, 0, 0, 0, 0}));
 }
 

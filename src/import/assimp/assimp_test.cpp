@@ -47,13 +47,6 @@ const std::string collada = R"(<?xml version="1.0"?>
   <scene><instance_visual_scene url="#scene"/></scene>
 </COLLADA>)";
 
-template <typename T> const T* firstOf(const SceneGraph& graph) {
-  for (const std::size_t node : nodesInOrder(graph))
-    if (const T* content = std::get_if<T>(&graph.nodes[node].content))
-      return content;
-  return nullptr;
-}
-
 TEST(Assimp, BringsNodesMaterialsTexturesCamerasAndLights) {
   const TemporaryDirectory directory;
   writeFile(directory / "a.dae", asBytes(collada));

@@ -18,13 +18,6 @@ bool warnsOf(const Imported& imported, const std::string& words) {
                              [&](const std::string& w) { return w.find(words) != w.npos; });
 }
 
-template <typename T> const T* firstOf(const SceneGraph& graph) {
-  for (const std::size_t node : nodesInOrder(graph))
-    if (const T* content = std::get_if<T>(&graph.nodes[node].content))
-      return content;
-  return nullptr;
-}
-
 TEST(GltfNodes, KeepNamesTransformsAndTheirTree) {
   GltfText gltf;
   const std::size_t mesh = gltf.addTriangle();
