@@ -5,6 +5,7 @@
 #include "documents/read_appearance.h"
 #include "documents/read_fields.h"
 #include "documents/read_geometry.h"
+#include "scene/mf_string.h"
 
 #include <algorithm>
 #include <array>
@@ -75,6 +76,11 @@ private:
       document_.graph.info = fields.strings("info");
     } else if (is("NavigationInfo")) {
       document_.graph.headlight = fields.boolean("headlight", true);
+      if (const std::vector<std::string> types = fields.strings("type"); !types.empty()) {
+        const std::size_t node = add(fields, OtherNode{"NavigationInfo", "", {}});
+        document_.graph.nodes[node].fields = {{"type", strings(types)}};
+        return node;
+      }
     } else if (is("Background")) {
       readBackground(fields);
     } else if (is("Inline")) {

@@ -5,6 +5,7 @@
 #include "export/export.h"
 #include "export/gltf_material.h"
 #include "scene/color.h"
+#include "scene/mf_string.h"
 
 #include <algorithm>
 #include <array>
@@ -354,6 +355,18 @@ void appendChunk(Bytes& glb, std::uint32_t type, ByteSpan data, std::uint8_t pad
   glb.resize(glb.size() + padded - data.size(), padding);
 }
 
+/// The types of the first NavigationInfo that has any: glTF has no word for them.
+std::vector<std::string> navigationTypes(const SceneGraph& graph) {
+  for (const std::size_t index : nodesInOrder(graph)) {
+    const Node& node = graph.nodes[index];
+    const OtherNode* other = std::get_if<OtherNode>(&node.content);
+    const auto type = std::ranges::find(node.fields, "type", &FieldText::name);
+    if (other && other->element == "NavigationInfo" && type != node.fields.end())
+      return parseStrings(type->value);
+  }
+  return {};
+}
+
 } // namespace
 
 Bytes writeGlb(const Scene& scene) {
@@ -367,6 +380,8 @@ Bytes writeGlb(const Scene& scene) {
       root["extensionsUsed"].push_back(extension);
   root["scene"] = 0;
   root["scenes"] = Json::array({{{"nodes", gltf.roots}}});
+  if (const std::vector<std::string> types = navigationTypes(scene.graph); !types.empty())
+    root["scenes"][0]["extras"]["NavigationInfo"]["type"] = types;
   root["nodes"] = gltf.nodes;
   root["meshes"] = gltf.meshes;
   root["materials"] = gltf.materials;

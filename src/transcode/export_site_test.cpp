@@ -57,6 +57,25 @@ TEST(ExportSite, JoinsPatchesAtTheirBorders) {
   EXPECT_EQ(read.scene.meshes.at(0).elementCount(), mesh.elementCount());
 }
 
+TEST(ExportSite, SaysInAGlbHowOneMoves) {
+  const TemporaryDirectory directory;
+  const auto path = [&](const std::string& file) { return directory.path() / file; };
+  std::string points; // more than stays in the document
+  for (int i = 0; i < 100; ++i)
+    points += std::to_string(i) + " 0 0, 1000 0 0, 0 " + std::to_string(i + 1) + " 0, ";
+  writeFile(path("hall.x3d"),
+            asBytes("<X3D><Scene><NavigationInfo type='\"WALK\" \"ANY\"'/><Shape><TriangleSet><Coordinate "
+                    "point='" +
+                    points + "'/></TriangleSet></Shape></Scene></X3D>"));
+  convert(path("hall.x3d"), path("hall"), {});
+  exportSite(path("hall"), path("hall.glb"));
+  convert(path("hall.glb"), path("again"), {});
+  const Bytes page = readFile(path("again") / "index.html");
+  EXPECT_NE(std::string(page.begin(), page.end()).find("<NavigationInfo type='\"WALK\" \"ANY\"'>"),
+            std::string::npos);
+  EXPECT_TRUE(verify(path("again"), path("hall.glb")).equal);
+}
+
 TEST(ExportSite, RefusesAFormatThatItCannotWrite) {
   try {
     exportSite("site", "out.fbx");

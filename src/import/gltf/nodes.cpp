@@ -1,6 +1,7 @@
 #include "import/gltf/nodes.h"
 
 #include "import/readable.h"
+#include "scene/mf_string.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,18 @@ template <typename Read> void NodeReader::attempt(const Read& read) {
   }
 }
 
+/// How one moves in an X3D scene, as our export says it; those of others may have anything there.
+void NodeReader::addNavigation(const Value& extras) {
+  if (!extras.has("NavigationInfo") || !extras["NavigationInfo"].has("type"))
+    return;
+  std::vector<std::string> types;
+  for (const Json& type : extras["NavigationInfo"]["type"].json())
+    if (type.is_string())
+      types.push_back(type.get<std::string>());
+  if (!types.empty())
+    addRoot(scene_.graph, {"", OtherNode{"NavigationInfo", "", {}}, {}, "", {{"type", strings(types)}}});
+}
+
 void NodeReader::readScene() {
   const Value nodes = document_.array("nodes"), scenes = document_.array("scenes");
   visited_.assign(nodes.size(), false);
@@ -61,6 +74,7 @@ void NodeReader::readScene() {
   if (scenes.size() > 0) {
     const Value scene = scenes[chosen.value_or(0)];
     scene_.graph.title = scene["name"].text();
+    addNavigation(scene["extras"]);
     const Value list = scene["nodes"];
     for (std::size_t i = 0; i < list.size(); ++i) {
       const std::uint64_t node = list[i].whole();

@@ -35,6 +35,7 @@ private:
   void addCamera(const Value& node, std::vector<std::size_t>& children);
   void addLight(const Value& node, double scale, std::vector<std::size_t>& children);
   /// Reads something that may be left out: a sentence where it is, an Error if strict.
+  void addNavigation(const Value& extras);
   template <typename Read> void attempt(const Read& read);
 
   Document& document_;

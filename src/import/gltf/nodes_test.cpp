@@ -153,6 +153,23 @@ TEST(GltfNodes, KeepWhatTheirAuthorsAdded) {
   EXPECT_EQ(graph.nodes[graph.roots.at(0)].extras, R"({"material":"oak","price":12})");
 }
 
+TEST(GltfNodes, SayHowOneMovesWhereTheSceneCameFromX3d) {
+  const auto fieldsOf = [](const GltfText::Json& extras) {
+    GltfText gltf;
+    gltf.addNode({{"mesh", gltf.addTriangle()}});
+    gltf.json["scenes"] = {{{"nodes", {0}}, {"extras", extras}}};
+    const SceneGraph graph = read(gltf).scene.graph;
+    const Node& first = graph.nodes[graph.roots.at(0)];
+    return std::holds_alternative<OtherNode>(first.content) ? first.fields : std::vector<FieldText>{};
+  };
+  EXPECT_EQ(fieldsOf({{"NavigationInfo", {{"type", {"WALK", 7, "ANY"}}}}}),
+            (std::vector<FieldText>{{"type", "\"WALK\" \"ANY\""}}));
+  for (const GltfText::Json& foreign : {GltfText::Json(7), GltfText::Json{{"NavigationInfo", "WALK"}},
+                                        GltfText::Json{{"NavigationInfo", {{"type", 7}}}},
+                                        GltfText::Json{{"NavigationInfo", {{"type", nullptr}}}}})
+    EXPECT_TRUE(fieldsOf(foreign).empty()) << foreign;
+}
+
 TEST(GltfNodes, SayWhatIsNotCarriedOver) {
   GltfText gltf;
   gltf.addNode({{"mesh", gltf.addTriangle()}, {"skin", 0}});
