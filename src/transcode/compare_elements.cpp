@@ -84,16 +84,17 @@ public:
   void match(std::span<const Place> inputs, std::span<const Place> sites, ElementDifference& worst) const {
     const bool collapsed = inputs.front().points[0] == inputs.front().points[input_.cornerCount - 1];
     const std::size_t turns = collapsed ? input_.cornerCount : 1;
-    if (inputs.size() == 1 && sites.size() == 1) {
-      note(nearest(inputs.front().element, sorted(site_, sites, 1), site_, input_, turns), worst);
+    const std::vector<std::uint32_t> ofInput = distinct(input_, inputs), ofSite = distinct(site_, sites);
+    if (ofInput.size() == 1 && ofSite.size() == 1) {
+      note(nearest(ofInput.front(), sorted(site_, ofSite, 1), site_, input_, turns), worst);
       return;
     }
-    const std::vector<Candidate> siteOrder = sorted(site_, sites, turns),
-                                 inputOrder = sorted(input_, inputs, turns);
-    for (const Place& place : inputs)
-      note(nearest(place.element, siteOrder, site_, input_, 1), worst);
-    for (const Place& place : sites)
-      note(nearest(place.element, inputOrder, input_, site_, 1), worst);
+    const std::vector<Candidate> siteOrder = sorted(site_, ofSite, turns),
+                                 inputOrder = sorted(input_, ofInput, turns);
+    for (const std::uint32_t element : ofInput)
+      note(nearest(element, siteOrder, site_, input_, 1), worst);
+    for (const std::uint32_t element : ofSite)
+      note(nearest(element, inputOrder, input_, site_, 1), worst);
   }
 
 private:
@@ -121,12 +122,26 @@ private:
     return 0;
   }
 
-  std::vector<Candidate> sorted(const ElementList& list, std::span<const Place> places,
+  /// Of elements of the same vertices one: a mesh may have one of them a hundred thousand times.
+  static std::vector<std::uint32_t> distinct(const ElementList& list, std::span<const Place> places) {
+    std::vector<std::uint32_t> elements;
+    for (const Place& place : places)
+      elements.push_back(place.element);
+    const auto verticesOf = [&](std::uint32_t element) { return list.elements[element]; };
+    if (elements.size() > 1) {
+      std::ranges::sort(elements, {}, verticesOf);
+      const auto rest = std::ranges::unique(elements, {}, verticesOf);
+      elements.erase(rest.begin(), rest.end());
+    }
+    return elements;
+  }
+
+  std::vector<Candidate> sorted(const ElementList& list, const std::vector<std::uint32_t>& elements,
                                 std::size_t turns) const {
     std::vector<Candidate> candidates;
-    for (const Place& place : places)
+    for (const std::uint32_t element : elements)
       for (std::uint32_t turn = 0; turn < turns; ++turn)
-        candidates.push_back({key(list, place.element, turn), place.element, turn});
+        candidates.push_back({key(list, element, turn), element, turn});
     std::ranges::sort(candidates, {}, &Candidate::key);
     return candidates;
   }

@@ -92,6 +92,73 @@ TEST(RoundTrip, CompactGivesBackEveryMeshAtEveryPrecision) {
       }
 }
 
+/// Triangles over random points, however they hang together.
+Mesh meshOver(std::uint32_t pointCount, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  testing::Random random(pointCount);
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < pointCount; ++i)
+    mesh.positions.push_back({random.between(0, 1), random.between(0, 1), random.between(0, 1)});
+  testing::addPlainWedges(mesh);
+  for (const auto& [a, b, c] : triangles)
+    testing::addTriangle(mesh, a, b, c);
+  return mesh;
+}
+
+/// Each after what the codec's own tests have of it: here it is welded, cut, simplified, written and proven.
+TEST(RoundTrip, CompactGivesBackWhatNoSurfaceIs) {
+  constexpr std::uint32_t count = 30'000;
+  using Triangle = std::array<std::uint32_t, 3>;
+  const std::pair<const char*, Triangle (*)(std::uint32_t)> kinds[] = {
+      {"a vertex of all triangles",
+       [](std::uint32_t i) {
+         return Triangle{0, 1 + i, 1 + (i + 1) % count};
+       }},
+      {"triangles on their own",
+       [](std::uint32_t i) {
+         return Triangle{3 * i, 3 * i + 1, 3 * i + 2};
+       }},
+      {"triangles between any vertices",
+       [](std::uint32_t i) {
+         return Triangle{i, i * 7919 % count, (i * 104'729 + 1) % count};
+       }},
+      {"an edge of all triangles",
+       [](std::uint32_t i) {
+         return Triangle{0, 1, 2 + i};
+       }},
+      {"one triangle",
+       [](std::uint32_t i) {
+         return Triangle{i % 3, (i + 1) % 3, (i + 2) % 3};
+       }},
+      {"one triangle, either way around",
+       [](std::uint32_t i) {
+         return i % 2 ? Triangle{0, 1, 2} : Triangle{1, 0, 2};
+       }},
+      {"triangles without area",
+       [](std::uint32_t i) {
+         return Triangle{i, i, (i + 1) % count};
+       }},
+      {"a strip whose neighbours are of opposite orientation", [](std::uint32_t i) {
+         return Triangle{i, i + 1, i + 2};
+       }}};
+  for (const auto& [what, triangleAt] : kinds) {
+    std::vector<Triangle> triangles;
+    std::uint32_t pointCount = 0, flat = 0; // those of two corners are not compared, but are all there
+    for (std::uint32_t i = 0; i < count; ++i) {
+      triangles.push_back(triangleAt(i));
+      const auto& [a, b, c] = triangles.back();
+      flat += a == b || b == c || c == a;
+      pointCount = std::max({pointCount, a + 1, b + 1, c + 1});
+    }
+    for (const std::uint32_t patchVertices : {5'000u, 65'535u}) {
+      ConvertOptions options;
+      options.profile = Profile::compact;
+      options.patchVertices = patchVertices;
+      const VerifyReport verified = expectRoundTrip(meshOver(pointCount, triangles), options, what);
+      EXPECT_EQ(verified.input.triangles + flat, count) << what;
+    }
+  }
+}
+
 TEST(RoundTrip, TheLargestErrorChoosesTheFewestBits) {
   const TemporaryDirectory directory;
   testing::writeMesh(directory / "input.ply", testing::torus(20, 12)); // 2.7 wide
