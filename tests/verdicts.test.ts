@@ -2,20 +2,36 @@
 // that the C++ ones are fuzzed with.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { readdirSync } from "node:fs";
+import { mkdtempSync, readdirSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
-import { differencesIn } from "./verdicts.testing.ts";
+import { differencesIn, writeMutants } from "./verdicts.testing.ts";
 
 const repository = join(import.meta.dirname, "..");
+const compactVerdicts = join(repository, "build/fuzz/compact_verdicts");
 const corpora = ["fuzz/corpus/compact", "fuzz/corpus/png"].map((folder) => join(repository, folder));
 
 test("both decoders of compact say the same of every file of the corpora", async () => {
-  const output = execFileSync(join(repository, "build/fuzz/compact_verdicts"), corpora, { encoding: "utf8" });
+  const output = execFileSync(compactVerdicts, corpora, { encoding: "utf8" });
   const { count, differences } = await differencesIn(output);
   assert.deepEqual(differences, []);
   assert.equal(count, corpora.flatMap((folder) => readdirSync(folder)).length);
   const verdicts = output.split("\n").map((line) => line.split("\t")[0] ?? "");
   for (const kind of ["truncated", "malformed", "unsupported", "limit"]) assert.ok(verdicts.includes(kind), kind);
   assert.ok(verdicts.filter((verdict) => /^\d+$/.test(verdict)).length > 20, "most of them decode");
+});
+
+/** `make soak` asks for more. */
+const mutants = Number(process.env.IMGEO_MUTANTS ?? 1500);
+
+test("and of every file that damage makes of these", async () => {
+  const directory = mkdtempSync(join(tmpdir(), "imgeo-mutants-"));
+  try {
+    writeMutants(directory, corpora[0]!, mutants, 1);
+    const { count, differences } = await differencesIn(execFileSync(compactVerdicts, [directory], { encoding: "utf8" }));
+    assert.deepEqual([count, differences], [mutants, []]);
+  } finally {
+    rmSync(directory, { recursive: true });
+  }
 });

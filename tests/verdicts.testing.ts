@@ -1,8 +1,11 @@
-// What the runtime's decoder of compact says of files, beside what the C++ one said.
+// What the runtime's decoder of compact says of files, beside what the C++ one said,
+// and files for both to be asked of.
 
-import { readFileSync } from "node:fs";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { DecodeError } from "../web/src/decode/decodeError.ts";
 import { payloadOf } from "../web/src/decode/compact/jobs.ts";
+import { TestRandom } from "../web/src/decode/compact/rangeEncoder.testing.ts";
 import { verdictOn } from "../web/src/decode/compact/verdict.testing.ts";
 
 /** Of a payload, or of the image that has it as its pixels. */
@@ -26,4 +29,30 @@ export async function differencesIn(output: string): Promise<{ count: number; di
     if (verdict !== expected) differences.push(`${path}: ${expected} in C++, ${verdict} in TypeScript`);
   }
   return { count: lines.length, differences };
+}
+
+/** Writes files of a corpus with a few bytes changed, moved, or cut off: the same ones of a seed every time. */
+export function writeMutants(directory: string, corpus: string, count: number, seed: number): void {
+  const seeds = readdirSync(corpus).sort().map((name) => readFileSync(join(corpus, name)));
+  const random = new TestRandom(seed);
+  for (let n = 0; n < count; ++n) {
+    let bytes = Uint8Array.from(seeds[random.below(seeds.length)]!);
+    for (let edit = random.below(5); edit >= 0; --edit) bytes = damaged(bytes, seeds[random.below(seeds.length)]!, random);
+    writeFileSync(join(directory, `${n}.bin`), bytes);
+  }
+}
+
+function damaged(bytes: Uint8Array<ArrayBuffer>, other: Uint8Array, random: TestRandom): Uint8Array<ArrayBuffer> {
+  if (bytes.length === 0) return bytes;
+  // Headers are short, and what they state goes far.
+  const at = random.below(random.below(2) === 0 ? Math.min(bytes.length, 64) : bytes.length);
+  switch (random.below(8)) {
+    case 0: return bytes.slice(0, at);
+    case 1: return Uint8Array.from([...bytes.subarray(0, at), ...other.subarray(Math.min(at, other.length))]);
+    case 2: return Uint8Array.from([...bytes.subarray(0, at), random.below(256), ...bytes.subarray(at)]);
+    case 3: return Uint8Array.from([...bytes.subarray(0, at), ...bytes.subarray(at + 1)]);
+    case 4: bytes[at] = [0, 1, 127, 128, 255][random.below(5)]!; return bytes;
+    case 5: bytes[at]! ^= 1 << random.below(8); return bytes;
+    default: bytes[at] = random.below(256); return bytes;
+  }
 }

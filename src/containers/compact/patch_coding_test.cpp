@@ -215,6 +215,40 @@ TEST(Compact, GivesBackWhatNoSurfaceIs) {
   }
 }
 
+/// Bits of a plain list of what a patch holds: its indices of 16, its values as they are.
+double plainBitsOf(const CompactPatch& patch) {
+  std::size_t bits = 3 * patch.positionBits * patch.positions.size();
+  if (patch.topology != Topology::points)
+    bits += 16 * patch.corners.size();
+  for (const Attribute& attribute : patch.attributes) // two numbers are enough for a point of the octahedron
+    bits += patch.wedgeCount() * attribute.type.bits *
+            (attribute.type.kind == AttributeKind::normal ? 2 : attribute.type.components);
+  return static_cast<double>(bits);
+}
+
+TEST(Compact, TakesHardlyMoreThanAPlainListForNoise) {
+  using enum AttributeKind;
+  const AttributeType noise[] = {{normal, 3, 8, NormalMode::area},
+                                 {texCoord, 2, 12, NormalMode::area},
+                                 {color, 3, 8, NormalMode::area},
+                                 {other, 1, 24, NormalMode::area}};
+  for (const Topology topology : {Topology::points, Topology::lines, Topology::triangles})
+    for (const std::uint32_t bits : {8u, 16u, 30u})
+      for (const std::size_t attributes : {std::size_t{0}, std::size(noise)}) {
+        CompactPatch patch = testing::tangle(topology, 20'000, 20'000, 20'000, bits);
+        for (std::size_t i = 0; i < attributes; ++i)
+          testing::addAny(patch, noise[i], static_cast<std::uint32_t>(i));
+        const double share = 8 * static_cast<double>(bytesOf(patch).size()) / plainBitsOf(patch);
+        EXPECT_LT(share, topology == Topology::points ? 1.11 : 0.97)
+            << static_cast<int>(topology) << " of " << bits << " bits, " << attributes;
+        if (bits == 16)
+          expectComesBack(patch);
+      }
+  // Points come in an order that is theirs to choose, which noise gains by, too.
+  const CompactPatch cloud = testing::patchOf(imgeo::testing::pointCloud(20'000, 1), 16);
+  EXPECT_LT(8 * static_cast<double>(bytesOf(cloud).size()) / plainBitsOf(cloud), 0.95);
+}
+
 TEST(Compact, EncodesTheSameBytesEveryTime) {
   const CompactPatch patch = testing::patchOf(imgeo::testing::randomMesh(7), 16);
   EXPECT_EQ(bytesOf(patch, 5), bytesOf(patch, 5));
