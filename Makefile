@@ -16,7 +16,7 @@ install: ## install the apt and npm packages that are missing
 	@scripts/install
 
 build: install ## build the tool build/imgeo
-	@scripts/build
+	@scripts/build release --target imgeo
 
 demo: build ## convert a mesh and serve its page [MODEL=statue.ply PORT=8080]
 	@scripts/demo
@@ -27,7 +27,7 @@ app: build ## convert a mesh and serve an app of three.js that shows it [MODEL=s
 museum: build ## serve the Stanford dragon as a museum's piece: it turns, has notes, and shows its points [PORT=8080]
 	@scripts/demo --museum
 
-test: build ## run every test: C++, TypeScript and the browser
+test: install ## run every test: C++, TypeScript and the browser
 	@scripts/test
 
 check: install ## check the types and the style of the TypeScript
@@ -39,7 +39,6 @@ tidy: ## check the C++ with clang-tidy (long)
 
 soak: ## run what is too long for make test: sanitizers and fuzzing
 	@scripts/install --soak
-	@scripts/build
 	@scripts/soak
 
 bench: build ## measure convert, beside gltfpack; print the README's tables
