@@ -25,7 +25,7 @@ Mesh ObjMeshBuilder::build(const ObjObject& object, Topology topology) {
   const auto normals = std::ranges::count_if(corners, [](const ObjCorner& c) { return c.normal != kNone; });
   hasNormals_ = static_cast<std::size_t>(normals) == corners.size();
   partlyNormals += normals > 0 && !hasNormals_;
-  firstWedge_.clear(), nextWedge_.clear(), wedgeKeys_.clear();
+  firstWedge_.clear(), nextWedge_.clear(), wedgeKeys_.clear(), crowded_.clear();
 
   if (isOnlyMesh_)
     addAllPositions(mesh);
@@ -58,14 +58,23 @@ std::uint32_t ObjMeshBuilder::wedge(Mesh& mesh, const ObjCorner& corner) {
   }
   const std::uint32_t texCoord = hasTexCoords_ ? corner.texCoord : kNone;
   const std::uint32_t normal = hasNormals_ ? corner.normal : kNone;
-  for (std::uint32_t w = firstWedge_[local]; w != kNone; w = nextWedge_[w])
+  std::uint32_t length = 0;
+  for (std::uint32_t w = firstWedge_[local]; w != kNone; w = nextWedge_[w], ++length)
     if (wedgeKeys_[w].texCoord == texCoord && wedgeKeys_[w].normal == normal)
       return w;
 
   const auto added = static_cast<std::uint32_t>(mesh.wedgeCount());
+  constexpr std::uint32_t longestList = 32;
+  const bool isListed = length < longestList;
+  if (!isListed) {
+    const auto [found, isNew] = crowded_.try_emplace({local, texCoord, normal}, added);
+    if (!isNew)
+      return found->second;
+  }
   mesh.wedgePositions.push_back(local);
   nextWedge_.push_back(firstWedge_[local]);
-  firstWedge_[local] = added;
+  if (isListed)
+    firstWedge_[local] = added;
   wedgeKeys_.push_back({local, texCoord, normal});
   if (hasTexCoords_)
     mesh.texCoords.push_back(texCoord == kNone ? Vec2f{} : content_.texCoords[texCoord]);

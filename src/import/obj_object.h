@@ -4,7 +4,9 @@
 
 #include "scene/mesh.h"
 
+#include <compare>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +16,7 @@ namespace imgeo {
 struct ObjCorner {
   static constexpr std::uint32_t kNone = 0xffffffff;
   std::uint32_t position = 0, texCoord = kNone, normal = kNone;
+  friend auto operator<=>(const ObjCorner&, const ObjCorner&) = default;
 };
 
 /// An object, or the part of it that has one material.
@@ -56,6 +59,9 @@ private:
   bool isOnlyMesh_ = false, hasTexCoords_ = false, hasNormals_ = false;
   std::vector<std::uint32_t> firstWedge_, nextWedge_; ///< the wedges of each local position, as a list
   std::vector<ObjCorner> wedgeKeys_;
+  /// Of positions that have many: those beyond their lists, which would take a time that grows with the
+  /// square.
+  std::map<ObjCorner, std::uint32_t> crowded_;
 };
 
 } // namespace imgeo

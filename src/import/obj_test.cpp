@@ -77,6 +77,23 @@ TEST(Obj, MakesAWedgeOfEachCombinationOnce) {
   EXPECT_EQ(mesh.wedgeCount(), 5u);
 }
 
+TEST(Obj, MakesAWedgeOfEachCombinationOnceWhereAPositionHasMany) {
+  std::string text = kSquare;
+  constexpr std::uint32_t count = 300;
+  for (std::uint32_t i = 1; i <= count; ++i)
+    text += fmt::format("vt {} 0\n", i);
+  for (int round = 0; round < 2; ++round)
+    for (std::uint32_t i = 1; i <= count; ++i)
+      text += fmt::format("f 1/{} 2/1 3/1\n", i);
+  const Mesh mesh = onlyMesh(text, "m.obj");
+  ASSERT_EQ(mesh.wedgeCount(), count + 2);
+  for (std::uint32_t face = 0; face < 2 * count; ++face) {
+    const std::uint32_t wedge = mesh.corners[3 * face];
+    EXPECT_EQ(mesh.wedgePositions[wedge], mesh.wedgePositions[mesh.corners[0]]);
+    EXPECT_EQ(mesh.texCoords[wedge].x, static_cast<float>(face % count + 1));
+  }
+}
+
 TEST(Obj, KeepsObjectsAsShapesWithNamesThatDiffer) {
   const Imported imported =
       importBytes(asBytes("v 9 9 9\n" + kSquare +
