@@ -77,29 +77,34 @@ describe("vertex data", () => {
     ["of arrays", "trefoil-colors", ["--container", "bg", "--layout", "separate"], ""],
     ["of arrays of records", "trefoil-colors", ["--container", "bg", "--layout", "interleaved"], ""],
     ["of images that workers decode", "trefoil-colors", ["--profile", "classic"], 'decode="cpu"'],
-    ["of compact", "trefoil-colors", ["--profile", "compact"], ""],
+    // 36,864 vertices of eight bytes and 73,728 triangles: more than a piece of each.
+    ["of compact", "sphere-large", ["--profile", "compact"], ""],
   ] as const) {
     test(`${what} are not kept in JavaScript`, async () => {
-      const site = siteOfGenerated(mesh, "--patch-vertices", "1000", ...options);
+      const isLarge = mesh === "sphere-large";
+      const site = siteOfGenerated(mesh, ...(isLarge ? [] : ["--patch-vertices", "1000"]), ...options);
       const server = (server: View["server"]): void => {
         server.when(/^\/$/, { replace: (html) => html.toString().replace(/<ImageGeometry/i, `$& ${attribute}`) });
       };
       await withPage(site, { before: keepAccount, server }, async (view) => {
         await view.promise("complete");
         await settle(view.page);
-        const { seen, kept } = await view.page.evaluate(async () => {
+        const { seen, largest, kept } = await view.page.evaluate(async () => {
           const { memory, gc } = window as unknown as { memory: Memory; gc: () => void };
           const sum = (arrays: Memory["seen"]): number => arrays.reduce((bytes, each) => bytes + each.bytes, 0);
           const all = sum(memory.seen);
+          const largestPiece = memory.seen.reduce((most, { bytes }) => Math.max(most, bytes), 0);
           for (let turn = 0; turn < 20 && memory.seen.length > 0; ++turn) {
             await new Promise((resolve) => setTimeout(resolve, 50)); // whoever asks a WeakRef keeps it for the turn
             gc();
             memory.seen = memory.seen.filter(({ array }) => array.deref() !== undefined);
           }
-          return { seen: all, kept: sum(memory.seen) };
+          return { seen: all, largest: largestPiece, kept: sum(memory.seen) };
         });
         assert.ok(seen > 20_000, `${seen} bytes were seen`);
-        assert.equal(kept, 0);
+        if (isLarge) assert.ok(seen > 2 ** 19 && largest <= 2 ** 18, `${seen} bytes in pieces of up to ${largest}`);
+        // What first looks are rehearsed with is not of the scene: one vertex, and a triangle of it.
+        assert.ok(kept <= (isLarge ? 18 : 0), `${kept} bytes are kept`);
       });
     });
   }
