@@ -16,11 +16,27 @@ std::uint8_t paeth(int left, int up, int upLeft) {
   return static_cast<std::uint8_t>(toUp <= toUpLeft ? up : upLeft);
 }
 
+/// Calls back with what a filter predicts of a byte from those to its left, above, and above the left one.
+template <typename Each> void withPredictor(RowFilter filter, Each each) {
+  switch (filter) {
+  case RowFilter::sub:
+    return each([](int left, int, int) { return left; });
+  case RowFilter::up:
+    return each([](int, int up, int) { return up; });
+  case RowFilter::average:
+    return each([](int left, int up, int) { return (left + up) / 2; });
+  case RowFilter::paeth:
+    return each([](int left, int up, int upLeft) { return int{paeth(left, up, upLeft)}; });
+  default:
+    return each([](int, int, int) { return 0; });
+  }
+}
+
 /// Filters one row into `out`. `above` is the row before, or null at the top. The
 /// first pixel, which has nothing to its left, is apart, so that the rest is a plain loop.
 void filterRow(RowFilter filter, const std::uint8_t* row, const std::uint8_t* above, std::size_t rowBytes,
                std::size_t pixelBytes, std::uint8_t* out) {
-  const auto each = [&](auto predict) {
+  withPredictor(filter, [&](auto predict) {
     for (std::size_t i = 0; i < pixelBytes; ++i)
       out[i] = static_cast<std::uint8_t>(row[i] - predict(0, above ? above[i] : 0, 0));
     if (above)
@@ -30,43 +46,19 @@ void filterRow(RowFilter filter, const std::uint8_t* row, const std::uint8_t* ab
     else
       for (std::size_t i = pixelBytes; i < rowBytes; ++i)
         out[i] = static_cast<std::uint8_t>(row[i] - predict(row[i - pixelBytes], 0, 0));
-  };
-  switch (filter) {
-  case RowFilter::sub:
-    return each([](int left, int, int) { return left; });
-  case RowFilter::up:
-    return each([](int, int up, int) { return up; });
-  case RowFilter::average:
-    return each([](int left, int up, int) { return (left + up) / 2; });
-  case RowFilter::paeth:
-    return each([](int left, int up, int upLeft) { return int{paeth(left, up, upLeft)}; });
-  default:
-    std::copy_n(row, rowBytes, out);
-  }
+  });
 }
 
 /// The other way around; `above` is zeros at the top.
 void unfilterRow(RowFilter filter, const std::uint8_t* row, const std::uint8_t* above, std::size_t rowBytes,
                  std::size_t pixelBytes, std::uint8_t* out) {
-  const auto each = [&](auto predict) {
+  withPredictor(filter, [&](auto predict) {
     for (std::size_t i = 0; i < pixelBytes; ++i)
       out[i] = static_cast<std::uint8_t>(row[i] + predict(0, above[i], 0));
     for (std::size_t i = pixelBytes; i < rowBytes; ++i)
       out[i] =
           static_cast<std::uint8_t>(row[i] + predict(out[i - pixelBytes], above[i], above[i - pixelBytes]));
-  };
-  switch (filter) {
-  case RowFilter::sub:
-    return each([](int left, int, int) { return left; });
-  case RowFilter::up:
-    return each([](int, int up, int) { return up; });
-  case RowFilter::average:
-    return each([](int left, int up, int) { return (left + up) / 2; });
-  case RowFilter::paeth:
-    return each([](int left, int up, int upLeft) { return int{paeth(left, up, upLeft)}; });
-  default:
-    std::copy_n(row, rowBytes, out);
-  }
+  });
 }
 
 std::uint64_t sumOfDifferences(const std::uint8_t* row, std::size_t rowBytes) {
