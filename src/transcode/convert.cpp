@@ -131,7 +131,7 @@ void warnOfCollapsed(ConvertReport& report) {
     if (const std::size_t count = report.collapsed.of(topology); 100 * count > report.elements.of(topology))
       report.warnings.push_back(fmt::format("{} of {} {} have no {} at {} bits", count,
                                             report.elements.of(topology), nameOf(topology), lost,
-                                            report.lattice.bits));
+                                            report.leastPositionBits));
   };
   warn(Topology::triangles, "area");
   warn(Topology::lines, "length");

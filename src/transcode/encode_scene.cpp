@@ -297,8 +297,6 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteCont
   }
   if (!document.graph.isComplete)
     giveLooks(document);
-  if (!document.geometries.empty())
-    report.lattice = document.geometries.front().lattice;
   for (PatchFiles::Placed& placed : patchFiles.finish()) {
     document.geometries[placed.geometry].patches[0].data = std::move(placed.data);
     report.normalErrorDegrees =

@@ -168,7 +168,7 @@ TEST(RoundTrip, TheLargestErrorChoosesTheFewestBits) {
       ConvertOptions options;
       options.profile = profile;
       options.maxError = error;
-      EXPECT_EQ(convert(directory / "input.ply", directory / "site", options).lattice.bits, bits);
+      EXPECT_EQ(convert(directory / "input.ply", directory / "site", options).leastPositionBits, bits);
     }
 }
 

@@ -98,9 +98,8 @@ struct ConvertReport {
   std::size_t vertices = 0, patches = 0;
   WeldReport weld;
   bool normalsComputed = false;
-  Lattice lattice;                                           ///< of the first mesh: step states the precision
   std::uint32_t leastPositionBits = 0, mostPositionBits = 0; ///< of all meshes
-  double largestStep = 0;                                    ///< of all meshes
+  double largestStep = 0;                                    ///< of all meshes' lattices
   ElementCounts collapsed;  ///< that lost their area or length on so coarse a lattice
   double positionError = 0; ///< by which vertices of any mesh may be off, along an axis
   NormalEncoding normalEncoding = NormalEncoding::rgb;
