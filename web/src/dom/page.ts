@@ -25,7 +25,7 @@ async function start(): Promise<void> {
 /** The line is theirs until their files are here, and the processor until they are drawn; the runtime comes in between. */
 async function leaveTheWayTo(looks: readonly FirstLook[]): Promise<void> {
   const patience = new Promise((resolve) => setTimeout(resolve, patienceMs));
-  await Promise.race([Promise.all(looks.map(({ arrived }) => arrived)), patience]);
+  await Promise.race([Promise.all(looks.map(({ arrived, settled }) => Promise.race([arrived, settled]))), patience]);
   const link = document.createElement("link");
   link.rel = "modulepreload";
   link.href = runtimeUrl.href;
