@@ -58,8 +58,8 @@ struct Measured {
 };
 
 /// `form`: classic or compact, profiles of SIG, or bg.
-std::vector<std::string> convertWords(const std::string& model, const std::string& form,
-                                      const std::string& effort, const fs::path& work) {
+std::vector<std::string> convertWords(const std::string& model, const std::string& form, const std::string& effort,
+                                      const fs::path& work) {
   return {"build/imgeo", "convert",     model,
           "-o",          work / "site", form == "bg" ? "--container" : "--profile",
           form,          "-r",          work / "report.json",
@@ -85,12 +85,11 @@ void printRow(const std::string& name, const std::string& form, const Measured& 
   for (const Json& role : measured.report["roles"])
     bytes[role["role"]] += role["bytes"].get<double>();
   const auto each = [&](const std::string& role) { return bytes[role] / triangles; };
-  fmt::print(
-      "| {} | {} | {:.0f} | {:.2f} s | {:.2f} M/s | {:.0f} MB | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | "
-      "**{:.2f}** |\n",
-      name, form, triangles, measured.run.seconds, millions(triangles / measured.run.seconds),
-      millions(static_cast<double>(measured.run.peakBytes)), each("index"), each("coord"), each("normal"),
-      each("patch") + each("base"), each("document"), measured.report["bytesPerTriangle"].get<double>());
+  fmt::print("| {} | {} | {:.0f} | {:.2f} s | {:.2f} M/s | {:.0f} MB | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | "
+             "**{:.2f}** |\n",
+             name, form, triangles, measured.run.seconds, millions(triangles / measured.run.seconds),
+             millions(static_cast<double>(measured.run.peakBytes)), each("index"), each("coord"), each("normal"),
+             each("patch") + each("base"), each("document"), measured.report["bytesPerTriangle"].get<double>());
   std::fflush(stdout);
 }
 
@@ -116,16 +115,15 @@ void compareWithGltfpack(const std::string& model, const fs::path& work) {
   runOnce(gltfpackCompressed);
   const auto sizeCompressed = static_cast<double>(fs::file_size(packed));
 
-  const std::vector<Run> measured =
-      measureInTurns({fromGlb, fromModel, compact, gltfpack, gltfpackCompressed});
+  const std::vector<Run> measured = measureInTurns({fromGlb, fromModel, compact, gltfpack, gltfpackCompressed});
   const double triangles = report["triangles"], ours = triangles * report["bytesPerTriangle"].get<double>();
   fmt::print("\n| {} | time | of imgeo's | processor time | peak memory | bytes/triangle |\n"
              "|---|--:|--:|--:|--:|--:|\n",
              name);
   const auto print = [&](const std::string& what, const Run& run, double bytes) {
     fmt::print("| {} | {:.2f} s | {:.2f} | {:.2f} s | {:.0f} MB | {:.2f} |\n", what, run.seconds,
-               run.seconds / measured[0].seconds, run.processorSeconds,
-               millions(static_cast<double>(run.peakBytes)), bytes / triangles);
+               run.seconds / measured[0].seconds, run.processorSeconds, millions(static_cast<double>(run.peakBytes)),
+               bytes / triangles);
   };
   const std::string version =
       fmt::format("gltfpack {} (npm, library.wasm) `-vp 16 -vn 8", package["version"].get<std::string>());
@@ -158,8 +156,7 @@ void benchmark(const std::vector<std::string>& models, const fs::path& work) {
   for (const std::string& model : models)
     for (const std::string form : {"compact", "classic", "bg"})
       printRow(fs::path(model).filename(), form, measureConvert(model, form, defaultEffort, work));
-  fmt::print("\nBytes a triangle by role; medians of {} runs on {} threads.\n", runs,
-             sysconf(_SC_NPROCESSORS_ONLN));
+  fmt::print("\nBytes a triangle by role; medians of {} runs on {} threads.\n", runs, sysconf(_SC_NPROCESSORS_ONLN));
   for (const std::string& model : models)
     compareWithGltfpack(model, work);
   compareEfforts(models.front(), work);

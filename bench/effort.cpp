@@ -54,8 +54,8 @@ void printTable(const std::string& path) {
     for (int effort = 0; effort <= 9; ++effort) {
       Measured m = measure(patches, geometry, effort);
       m.seconds = std::min(m.seconds, measure(patches, geometry, effort).seconds);
-      fmt::print("| {} | {:.2f} | {} | {} | {} | {} | {} |\n", effort, m.seconds, m.index, m.high, m.low,
-                 m.other, m.index + m.high + m.low + m.other);
+      fmt::print("| {} | {:.2f} | {} | {} | {} | {} | {} |\n", effort, m.seconds, m.index, m.high, m.low, m.other,
+                 m.index + m.high + m.low + m.other);
       std::fflush(stdout);
     }
   });

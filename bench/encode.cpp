@@ -66,16 +66,15 @@ void printModel(const std::string& model, const fs::path& work) {
                         [&triangles, report] {
                           const auto json = nlohmann::json::parse(asText(readFile(report)));
                           triangles = json["triangles"];
-                          return static_cast<std::uint64_t>(
-                              json["bytesPerTriangle"].get<double>() * triangles + 0.5);
+                          return static_cast<std::uint64_t>(json["bytesPerTriangle"].get<double>() * triangles + 0.5);
                         },
                         {}});
   }
-  programs.push_back({"gltfpack -cz",
-                      {"node", "node_modules/gltfpack/cli.js", "-i", glb, "-o", packed, "-cz", "-vp", "16",
-                       "-vn", "8", "-kv"},
-                      [&] { return fs::file_size(packed); },
-                      {}});
+  programs.push_back(
+      {"gltfpack -cz",
+       {"node", "node_modules/gltfpack/cli.js", "-i", glb, "-o", packed, "-cz", "-vp", "16", "-vn", "8", "-kv"},
+       [&] { return fs::file_size(packed); },
+       {}});
   for (int round = 0; round < rounds; ++round)
     for (Program& program : programs)
       program.runs.push_back(runOnce(program.words));
@@ -85,8 +84,8 @@ void printModel(const std::string& model, const fs::path& work) {
   const double draco = programs[0].median().processorSeconds;
   for (std::size_t i = 0; i < programs.size(); ++i) {
     const Run& run = programs[i].median();
-    fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.0f} | {} |\n", fs::path(model).filename().string(),
-               programs[i].name, run.processorSeconds / triangles * 1e6, run.processorSeconds / draco,
+    fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.0f} | {} |\n", fs::path(model).filename().string(), programs[i].name,
+               run.processorSeconds / triangles * 1e6, run.processorSeconds / draco,
                static_cast<double>(run.peakBytes) / triangles, bytes[i]);
   }
   std::fflush(stdout);

@@ -79,9 +79,8 @@ Coded throughJpeg(const Image& image, int quality) {
 Coded throughWebp(const Image& image, int quality) {
   std::uint8_t* buffer = nullptr;
   const int stride = static_cast<int>(image.width) * 3;
-  const std::size_t size =
-      WebPEncodeRGB(image.pixels.data(), static_cast<int>(image.width), static_cast<int>(image.height),
-                    stride, static_cast<float>(quality), &buffer);
+  const std::size_t size = WebPEncodeRGB(image.pixels.data(), static_cast<int>(image.width),
+                                         static_cast<int>(image.height), stride, static_cast<float>(quality), &buffer);
   Coded coded{size, image};
   WebPDecodeRGBInto(buffer, size, coded.image.pixels.data(), coded.image.pixels.size(), stride);
   WebPFree(buffer);
@@ -130,8 +129,7 @@ void distort(IndexedPatch& patch, const GeometryDescription& geometry, const Enc
         stored[i][axis] = stored[i][axis] << 8 | coded.image.pixels[i * 3 + static_cast<std::size_t>(axis)];
   }
   for (std::size_t i = 0; i < stored.size(); ++i)
-    outcome.add(length(Vec3d(stored[i]) - Vec3d(patch.positions[i])) * geometry.lattice.step,
-                geometry.lattice);
+    outcome.add(length(Vec3d(stored[i]) - Vec3d(patch.positions[i])) * geometry.lattice.step, geometry.lattice);
   patch.positions = std::move(stored);
 }
 
@@ -189,9 +187,8 @@ void measure(const std::filesystem::path& model, const std::string& directory) {
     exact.push_back(asTriangles(patch));
 
   fmt::print("\n{}: {} triangles\n\n", model.filename().string(), mesh.elementCount());
-  fmt::print(
-      "| coordinate images | bytes | of lossless | RMS error, % of diagonal | largest | vertices off by "
-      "more than 8-bit precision |\n|---|---|---|---|---|---|\n");
+  fmt::print("| coordinate images | bytes | of lossless | RMS error, % of diagonal | largest | vertices off by "
+             "more than 8-bit precision |\n|---|---|---|---|---|---|\n");
   std::size_t losslessBytes = 0;
   const auto run = [&](const Variant& variant, const std::string& name, const std::string& file) {
     std::vector<IndexedPatch> patches = exact;
@@ -202,13 +199,12 @@ void measure(const std::filesystem::path& model, const std::string& directory) {
       losslessBytes = outcome.coordBytes;
     printRow(name, outcome, losslessBytes, diagonal);
     if (!directory.empty())
-      writeMesh(patches, geometry.lattice,
-                fmt::format("{}/{}-{}.ply", directory, model.stem().string(), file));
+      writeMesh(patches, geometry.lattice, fmt::format("{}/{}-{}.ply", directory, model.stem().string(), file));
   };
   run({"PNG", 0, false}, "PNG, 16 bits, lossless", "lossless");
   for (const std::uint32_t bits : {14u, 12u, 10u})
-    printRow(fmt::format("PNG, {} bits, lossless", bits),
-             withFewerBits(mesh, geometry.lattice, bits, options), losslessBytes, diagonal);
+    printRow(fmt::format("PNG, {} bits, lossless", bits), withFewerBits(mesh, geometry.lattice, bits, options),
+             losslessBytes, diagonal);
   for (const bool highToo : {false, true})
     for (const char* codec : {"JPEG", "WebP"})
       for (const int quality : {100, 95, 80, 50})

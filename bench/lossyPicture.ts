@@ -13,7 +13,8 @@ import { converter, repository } from "../tests/browser/paths.ts";
 import { startServer } from "../tests/browser/server.ts";
 
 const [directory, model, output = join(repository, "docs/images/lossy.png")] = process.argv.slice(2);
-if (directory === undefined || model === undefined) throw new Error("usage: lossyPicture.ts DIRECTORY NAME_OF_MODEL [OUTPUT.png]");
+if (directory === undefined || model === undefined)
+  throw new Error("usage: lossyPicture.ts DIRECTORY NAME_OF_MODEL [OUTPUT.png]");
 
 const panel = { width: 300, height: 280 };
 const variants: readonly { file: string; bits?: number; says: string }[] = [
@@ -33,7 +34,10 @@ async function picture(browser: Browser, site: string, place: string): Promise<B
   const page = await browser.newPage({ viewport: panel, reducedMotion: "reduce" });
   try {
     const html = readFileSync(join(site, "index.html"), "utf8");
-    server.put("/index.html", html.replace(viewpoint, () => place));
+    server.put(
+      "/index.html",
+      html.replace(viewpoint, () => place),
+    );
     await page.goto(`${server.origin}index.html`);
     await page.waitForFunction(() => "complete" in (document.querySelector("x3d") ?? {}));
     await page.evaluate(() => (document.querySelector("x3d") as unknown as { complete: Promise<void> }).complete);
@@ -50,8 +54,12 @@ async function together(browser: Browser, pictures: readonly Buffer[]): Promise<
   await page.setContent(`<style>
       body { margin: 0; display: grid; grid-template-columns: repeat(3, 1fr); font: 14px sans-serif; background: #edf0f2 }
       figure { margin: 0 } img { display: block } figcaption { height: 26px; text-align: center }
-    </style>${pictures.map((png, i) =>
-      `<figure><img src="data:image/png;base64,${png.toString("base64")}"><figcaption>${variants[i]!.says}</figcaption></figure>`).join("")}`);
+    </style>${pictures
+      .map(
+        (png, i) =>
+          `<figure><img src="data:image/png;base64,${png.toString("base64")}"><figcaption>${variants[i]!.says}</figcaption></figure>`,
+      )
+      .join("")}`);
   return page.screenshot();
 }
 
@@ -62,8 +70,21 @@ try {
   let place = "";
   for (const { file, bits, says } of variants) {
     const site = join(sites, says.replaceAll(/\W+/g, "-"));
-    execFileSync(converter, ["convert", join(directory, `${model}-${file}.ply`), "-o", site, "--profile", "classic", "--effort", "0",
-      ...(bits === undefined ? [] : ["--position-bits", `${bits}`])], { stdio: "ignore" });
+    execFileSync(
+      converter,
+      [
+        "convert",
+        join(directory, `${model}-${file}.ply`),
+        "-o",
+        site,
+        "--profile",
+        "classic",
+        "--effort",
+        "0",
+        ...(bits === undefined ? [] : ["--position-bits", `${bits}`]),
+      ],
+      { stdio: "ignore" },
+    );
     // All from where the first is seen: what is torn out of a mesh widens its box.
     place ||= viewpoint.exec(readFileSync(join(site, "index.html"), "utf8"))?.[0] ?? "";
     pictures.push(await picture(browser, site, place));

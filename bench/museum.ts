@@ -25,8 +25,11 @@ async function stillPicture(page: Page): Promise<Buffer> {
 
 async function beside(browser: Browser, pictures: readonly Buffer[]): Promise<Buffer> {
   const page = await browser.newPage({ viewport: { width: size.width * pictures.length, height: size.height } });
-  await page.setContent(`<style>body { margin: 0; display: flex } img { display: block }</style>${
-    pictures.map((png) => `<img src="data:image/png;base64,${png.toString("base64")}">`).join("")}`);
+  await page.setContent(
+    `<style>body { margin: 0; display: flex } img { display: block }</style>${pictures
+      .map((png) => `<img src="data:image/png;base64,${png.toString("base64")}">`)
+      .join("")}`,
+  );
   return page.screenshot();
 }
 
@@ -35,7 +38,9 @@ const browser = await launchChromium();
 try {
   const page = await browser.newPage({ viewport: size, reducedMotion: "reduce" });
   await page.goto(server.origin);
-  await page.waitForFunction(() => document.querySelector("x3d")?.hasAttribute("alt") === true && "complete" in document.querySelector("x3d")!);
+  await page.waitForFunction(
+    () => document.querySelector("x3d")?.hasAttribute("alt") === true && "complete" in document.querySelector("x3d")!,
+  );
   await page.evaluate(() => (document.querySelector("x3d") as unknown as { complete: Promise<void> }).complete);
   const surface = await stillPicture(page);
   await page.evaluate(() => {

@@ -58,8 +58,8 @@ Measure asWritten(NormalEncoding normals) {
 /// Octahedral numbers in red and green, the way coordinates are stored.
 void asTwoChannels(const PatchedMesh&, const IndexedPatch& patch, Outcome& outcome) {
   std::vector<Vec3f> stored;
-  const Image image = imageOf(
-      recordImageSize(patch.vertexCount()), 3, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
+  const Image image =
+      imageOf(recordImageSize(patch.vertexCount()), 3, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
         const auto pair = storeNormal(patch.normals[n], NormalEncoding::octahedral, 8);
         out[0] = static_cast<std::uint8_t>(pair.x);
         out[1] = static_cast<std::uint8_t>(pair.y);
@@ -130,8 +130,8 @@ void printTable(const std::string& path) {
     std::vector<IndexedPatch> patches;
     for (const Patch& patch : patched.patches)
       patches.push_back(asTriangles(patch));
-    fmt::print("\n{}: {} vertices, {} patches\n\n", std::filesystem::path(path).filename().string(),
-               mesh.wedgeCount(), patches.size());
+    fmt::print("\n{}: {} vertices, {} patches\n\n", std::filesystem::path(path).filename().string(), mesh.wedgeCount(),
+               patches.size());
     fmt::print("| normals | bytes | bits/vertex | of rgb | mean error, degrees | largest | bound |\n"
                "|---|--:|--:|--:|--:|--:|--:|\n");
     std::size_t rgbBytes = 0;
@@ -141,11 +141,10 @@ void printTable(const std::string& path) {
         row.measure(patched, patch, outcome);
       if (rgbBytes == 0)
         rgbBytes = outcome.bytes;
-      const double vertices = static_cast<double>(outcome.vertices),
-                   bytes = static_cast<double>(outcome.bytes);
+      const double vertices = static_cast<double>(outcome.vertices), bytes = static_cast<double>(outcome.bytes);
       fmt::print("| {} | {} | {:.1f} | {:.2f} | {:.3f} | {:.2f} | {} |\n", row.name, outcome.bytes,
-                 8 * bytes / vertices, bytes / static_cast<double>(rgbBytes), outcome.sum / vertices,
-                 outcome.largest, row.bound);
+                 8 * bytes / vertices, bytes / static_cast<double>(rgbBytes), outcome.sum / vertices, outcome.largest,
+                 row.bound);
       std::fflush(stdout);
     }
   });

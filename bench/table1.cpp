@@ -48,8 +48,7 @@ std::string grouped(std::uint64_t number) {
 }
 
 /// The X3D nodes of some of a patch's vertices.
-std::string verticesText(const IndexedPatch& patch, const Lattice& lattice, std::size_t first,
-                         std::size_t count) {
+std::string verticesText(const IndexedPatch& patch, const Lattice& lattice, std::size_t first, std::size_t count) {
   std::string text = "><Coordinate point='";
   for (const Vec3u& position : std::span(patch.positions).subspan(first, count))
     text += numbers(Vec3f(lattice.point(position))) + " ";
@@ -76,9 +75,9 @@ std::uint64_t textSize(const IndexedPatch& patch, const Lattice& lattice) {
       text += fmt::format(" stripCount='{}'", draw.count);
     }
     const bool sharesVertices = indexed && first > 0;
-    text += sharesVertices ? "><Coordinate USE='c'/><Normal USE='n'/>"
-                           : verticesText(patch, lattice, indexed ? 0 : first,
-                                          indexed ? patch.vertexCount() : draw.count);
+    text += sharesVertices
+                ? "><Coordinate USE='c'/><Normal USE='n'/>"
+                : verticesText(patch, lattice, indexed ? 0 : first, indexed ? patch.vertexCount() : draw.count);
     text += "</" + name + ">";
     first += draw.count;
   }
@@ -104,11 +103,9 @@ void add(const IndexedPatch& patch, const PatchedMesh& mesh, const EncodeOptions
   sum.x3d += textSize(patch, mesh.lattice);
   const GeometryDescription geometry = describe(mesh, options);
   const EncodedPatch encoded = encodePatch(patch, geometry, options);
-  const IndexedPatch decoded = decodePatch(encoded.description, geometry, [&](const std::string& url) {
-    return encoded.files.at(std::stoul(url)).bytes;
-  });
-  if (decoded.positions != patch.positions || decoded.indices != patch.indices ||
-      decoded.draws != patch.draws)
+  const IndexedPatch decoded = decodePatch(
+      encoded.description, geometry, [&](const std::string& url) { return encoded.files.at(std::stoul(url)).bytes; });
+  if (decoded.positions != patch.positions || decoded.indices != patch.indices || decoded.draws != patch.draws)
     throw Error(ErrorKind::malformed, "", "what was written reads back as something else");
   for (const EncodedFile& file : encoded.files)
     sum.sig[static_cast<std::size_t>(file.role)] += file.bytes.size();
@@ -144,16 +141,14 @@ void printTable(const std::array<Measured, 4>& rows, std::size_t triangles) {
   for (const PaperTable& table : paperTables)
     if (table.triangles == triangles)
       paper = &table;
-  fmt::print(
-      "| mesh | vertices | indices | X3D text | X3DB (the paper's) | BG | SIG raw | SIG PNG | BG of 16 and "
-      "8 bits |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+  fmt::print("| mesh | vertices | indices | X3D text | X3DB (the paper's) | BG | SIG raw | SIG PNG | BG of 16 and "
+             "8 bits |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
   for (std::size_t row = 0; row < rows.size(); ++row) {
     const Measured& m = rows[row];
     const RawSize raw = rawSize(m.vertices, m.indices);
-    fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", kinds[row], grouped(m.vertices),
-               grouped(m.indices), cell(m.x3d, paper, row, x3d), paper ? grouped(paper->rows[row][x3db]) : "",
-               cell(raw.bg, paper, row, bg), cell(raw.sig, paper, row, sigRaw),
-               cell(m.sigBytes(), paper, row, sigPng), grouped(m.bg));
+    fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", kinds[row], grouped(m.vertices), grouped(m.indices),
+               cell(m.x3d, paper, row, x3d), paper ? grouped(paper->rows[row][x3db]) : "", cell(raw.bg, paper, row, bg),
+               cell(raw.sig, paper, row, sigRaw), cell(m.sigBytes(), paper, row, sigPng), grouped(m.bg));
   }
   fmt::print("\nSIG PNG by role, and its share:\n\n| mesh | index | coord | normal | bytes/triangle |\n"
              "|---|--:|--:|--:|--:|\n");
@@ -180,9 +175,8 @@ int main(int count, char** words) {
     for (const std::string& model : arguments.models)
       bench::visitSurfaces(model, [&](const Mesh& mesh) {
         const PatchedMesh patched = bench::patchesOf(mesh);
-        fmt::print("\n## {}: {} triangles, {} vertices, {} {}\n\n",
-                   std::filesystem::path(model).filename().string(), grouped(mesh.elementCount()),
-                   grouped(mesh.wedgeCount()), patched.patches.size(),
+        fmt::print("\n## {}: {} triangles, {} vertices, {} {}\n\n", std::filesystem::path(model).filename().string(),
+                   grouped(mesh.elementCount()), grouped(mesh.wedgeCount()), patched.patches.size(),
                    patched.patches.size() == 1 ? "patch" : "patches");
         printTable(measure(patched, options), mesh.elementCount());
         std::fflush(stdout);

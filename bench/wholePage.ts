@@ -9,7 +9,10 @@ export async function goUntilComplete(page: Page, url: string, timeoutMs: number
   await page.goto(url);
   await page.evaluate(async () => {
     const x3d = document.querySelector<Partial<ViewElement> & Element>("x3d")!;
-    while (x3d.complete === undefined) await new Promise((resolve) => { setTimeout(resolve, 50); });
+    while (x3d.complete === undefined)
+      await new Promise((resolve) => {
+        setTimeout(resolve, 50);
+      });
     await x3d.complete;
   });
 }

@@ -24,8 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Image image{width, height, channels, Bytes(std::size_t{width} * height * channels)};
     if (shape & 128 && channels == 1)
       image.palette.assign(3u * 200, 17);
-    std::ranges::copy(input.take(std::min<std::size_t>(image.pixels.size(), 1 + input.bits(16))),
-                      image.pixels.begin());
+    std::ranges::copy(input.take(std::min<std::size_t>(image.pixels.size(), 1 + input.bits(16))), image.pixels.begin());
     files[std::to_string(i)] = encodePng(image, 0);
   }
   return fuzz::decodeOrRefuse(patch, geometry, files);

@@ -30,8 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (!shape)
         continue;
       const Shape& shapeAgain = std::get<Shape>(nodeAgain.content);
-      require(again.geometries.at(shapeAgain.mesh).patches.size() ==
-              read.geometries.at(shape->mesh).patches.size());
+      require(again.geometries.at(shapeAgain.mesh).patches.size() == read.geometries.at(shape->mesh).patches.size());
       require(!shape->appearance || again.graph.appearances.at(*shapeAgain.appearance).material ==
                                         read.graph.appearances.at(*shape->appearance).material);
     }

@@ -54,8 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string_view text = asText({data, size});
   checkTarget(takeLine(text));
   const std::string_view range = takeLine(text);
-  for (const std::uint64_t fileSize :
-       {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{1000}, ~std::uint64_t{0}})
+  for (const std::uint64_t fileSize : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{1000}, ~std::uint64_t{0}})
     checkRange(range, fileSize);
   const std::string_view accepted = takeLine(text);
   // Nothing is compressed for those who never named a coding.

@@ -26,9 +26,7 @@ public:
 
 private:
   std::size_t below(std::size_t bound) { return bound == 0 ? 0 : engine_() % bound; }
-  static auto at(Input& input, std::size_t place) {
-    return input.begin() + static_cast<std::ptrdiff_t>(place);
-  }
+  static auto at(Input& input, std::size_t place) { return input.begin() + static_cast<std::ptrdiff_t>(place); }
 
   void mutate(Input& input) {
     const std::size_t place = below(input.size() + 1),
@@ -56,8 +54,7 @@ private:
     case 5: { // the end of another seed
       const Input& other = corpus_[below(corpus_.size())];
       input.resize(place);
-      input.insert(input.end(), other.begin() + static_cast<std::ptrdiff_t>(below(other.size() + 1)),
-                   other.end());
+      input.insert(input.end(), other.begin() + static_cast<std::ptrdiff_t>(below(other.size() + 1)), other.end());
       break;
     }
     case 6: // four bytes that make a count or a size absurd

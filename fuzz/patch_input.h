@@ -48,8 +48,7 @@ inline PatchDescription readDescription(InputReader& input, std::size_t coords) 
   const std::uint32_t present = input.bits(8);
   patch.vertexCount = present & 16 ? input.bits(32) : input.bits(16);
   for (std::uint32_t draws = 1 + present / 32 % 3; draws > 0; --draws)
-    patch.draws.push_back(
-        {static_cast<Primitive>(input.bits(8) % 4), present & 16 ? input.bits(32) : input.bits(8)});
+    patch.draws.push_back({static_cast<Primitive>(input.bits(8) % 4), present & 16 ? input.bits(32) : input.bits(8)});
   patch.implicitMeshSize = {input.bits(8), 1};
   std::size_t file = 0;
   const auto reference = [&] {

@@ -82,7 +82,10 @@ function checkFile(layers: Layers, path: string, text: string): string[] {
 /** "three/addons/x.js" belongs to the package three; a path that is no layer stays itself. */
 function packageOf(target: string): string {
   if (/^(src|web|tests|node_modules)\//.test(target)) return target;
-  return target.split("/").slice(0, target.startsWith("@") ? 2 : 1).join("/");
+  return target
+    .split("/")
+    .slice(0, target.startsWith("@") ? 2 : 1)
+    .join("/");
 }
 
 /** Every source file below `tree`, as paths from its root. */
@@ -105,7 +108,8 @@ function checkOrder(layers: Layers): string[] {
   const findings: string[] = [];
   for (const [folder, uses] of layers) {
     for (const used of uses) {
-      if (used.includes("/") && !above.has(used)) findings.push(`${folder} uses ${used}, which does not stand above it`);
+      if (used.includes("/") && !above.has(used))
+        findings.push(`${folder} uses ${used}, which does not stand above it`);
     }
     above.add(folder);
   }
@@ -125,7 +129,8 @@ function withTree(files: Record<string, string>, body: (tree: string) => void): 
   }
 }
 
-const smallTable = "# who may use whom\nsrc/base:\nsrc/image: src/base\nsrc/scene: src/base\ntests of src/scene: src/image\nweb/src/decode:\nweb/src/render: web/src/decode three\n";
+const smallTable =
+  "# who may use whom\nsrc/base:\nsrc/image: src/base\nsrc/scene: src/base\ntests of src/scene: src/image\nweb/src/decode:\nweb/src/render: web/src/decode three\n";
 
 test("every include and import keeps to docs/layers.txt", () => {
   assert.ok(sourceFiles(root).length > 10, "the sources were not found");
@@ -143,7 +148,10 @@ test("docs/layers.txt has a row for every folder of src and web/src", () => {
       .filter((entry) => entry.isDirectory())
       .map((entry) => `${folder}/${entry.name}`),
   );
-  assert.deepEqual(folders.filter((folder) => !layers.has(folder)), []);
+  assert.deepEqual(
+    folders.filter((folder) => !layers.has(folder)),
+    [],
+  );
 });
 
 test("the check finds what breaks the rules, and names its line", () => {
@@ -154,7 +162,8 @@ test("the check finds what breaks the rules, and names its line", () => {
     "src/image/i_test.cpp": '#include "image/i.h"\n#include "scene/b.h"\n',
     "src/stray/c.cpp": "\n",
     "web/src/decode/png.ts": 'import {\n  Scene,\n} from "three";\nimport { x } from "../render/x.ts";\n',
-    "web/src/decode/lazy.ts": 'const late = await import("../render/x.ts");\nexport * from "../render/x.ts";\nimport "three/addons/a.js";\n',
+    "web/src/decode/lazy.ts":
+      'const late = await import("../render/x.ts");\nexport * from "../render/x.ts";\nimport "three/addons/a.js";\n',
     "web/src/decode/file.ts": 'import { open } from "node:fs";\nimport { y } from "../../../tests/y.ts";\n',
     "web/src/render/x.ts": 'import type { Texture } from "three";\nimport { png } from "../decode/png.ts";\n',
   };
@@ -183,9 +192,13 @@ test("a tree that keeps to the rules passes, node's modules in its tests too", (
     "src/scene/b_test.cpp": '#include "scene/b.h"\n#include "image/i.h"\n',
     "web/src/render/x.test.ts": 'import { test } from "node:test";\nimport { png } from "../decode/png.ts";\n',
   };
-  withTree(tree, (path) => { assert.deepEqual(checkTree(path), []); });
+  withTree(tree, (path) => {
+    assert.deepEqual(checkTree(path), []);
+  });
 });
 
 test("a table with a cycle is found", () => {
-  assert.deepEqual(checkOrder(readLayers("src/a: src/b\nsrc/b: src/a\n")), ["src/a uses src/b, which does not stand above it"]);
+  assert.deepEqual(checkOrder(readLayers("src/a: src/b\nsrc/b: src/a\n")), [
+    "src/a uses src/b, which does not stand above it",
+  ]);
 });

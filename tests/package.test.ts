@@ -24,18 +24,33 @@ function run(directory: string, program: string, ...words: string[]): string {
 
 before(() => {
   run(root, process.execPath, "web/package.ts");
-  const [tarball] = JSON.parse(run(join(root, "web"), "npm", "pack", "--json", "--pack-destination", work)) as { filename: string; files: { path: string }[] }[];
+  const [tarball] = JSON.parse(run(join(root, "web"), "npm", "pack", "--json", "--pack-destination", work)) as {
+    filename: string;
+    files: { path: string }[];
+  }[];
   assert.ok(tarball);
   packed = tarball.files.map(({ path }) => path);
   mkdirSync(app);
   writeFileSync(join(app, "package.json"), JSON.stringify({ name: "app", private: true, type: "module" }));
   // Peers are the app's own: here those of this repository.
-  run(app, "npm", "install", "--offline", "--legacy-peer-deps", "--no-audit", "--no-fund", join(work, tarball.filename));
+  run(
+    app,
+    "npm",
+    "install",
+    "--offline",
+    "--legacy-peer-deps",
+    "--no-audit",
+    "--no-fund",
+    join(work, tarball.filename),
+  );
   mkdirSync(join(app, "node_modules/@types"));
-  for (const name of ["three", "@types/three"]) symlinkSync(join(root, "node_modules", name), join(app, "node_modules", name));
+  for (const name of ["three", "@types/three"])
+    symlinkSync(join(root, "node_modules", name), join(app, "node_modules", name));
 });
 
-after(() => { rmSync(work, { recursive: true, force: true }); });
+after(() => {
+  rmSync(work, { recursive: true, force: true });
+});
 
 const users: Record<string, string> = {
   "loader.ts": `
@@ -59,8 +74,14 @@ const users: Record<string, string> = {
 
 async function bundle(source: string): Promise<{ text: string; metafile: Metafile }> {
   const { outputFiles, metafile } = await build({
-    stdin: { contents: source, resolveDir: app, loader: "ts" }, external: ["three"],
-    bundle: true, format: "esm", target: "es2022", write: false, metafile: true, logLevel: "error",
+    stdin: { contents: source, resolveDir: app, loader: "ts" },
+    external: ["three"],
+    bundle: true,
+    format: "esm",
+    target: "es2022",
+    write: false,
+    metafile: true,
+    logLevel: "error",
   });
   return { text: outputFiles[0]?.text ?? "", metafile };
 }
@@ -68,7 +89,11 @@ async function bundle(source: string): Promise<{ text: string; metafile: Metafil
 /** The package's modules that have left something in a bundle, and their folders. */
 function modulesIn({ outputs }: Metafile): Set<string> {
   const inputs = Object.values(outputs).flatMap((output) => Object.entries(output.inputs));
-  return new Set(inputs.filter(([, { bytesInOutput }]) => bytesInOutput > 0).flatMap(([path]) => /imgeo\/lib\/(.*)\.js/.exec(path)?.[1] ?? []));
+  return new Set(
+    inputs
+      .filter(([, { bytesInOutput }]) => bytesInOutput > 0)
+      .flatMap(([path]) => /imgeo\/lib\/(.*)\.js/.exec(path)?.[1] ?? []),
+  );
 }
 
 function foldersIn(metafile: Metafile): Set<string> {
@@ -77,14 +102,33 @@ function foldersIn(metafile: Metafile): Set<string> {
 
 describe("the package", () => {
   test("holds modules, their types and the worker, and nothing else", () => {
-    assert.ok(["lib/loader/index.js", "lib/loader/index.d.ts", "lib/dom/index.js", "lib/workers/imgeo-worker.js", "README.md", "package.json"]
-      .every((path) => packed.includes(path)));
-    assert.deepEqual(packed.filter((path) => /test|\.ts$/.test(path) && !path.endsWith(".d.ts")), []);
+    assert.ok(
+      [
+        "lib/loader/index.js",
+        "lib/loader/index.d.ts",
+        "lib/dom/index.js",
+        "lib/workers/imgeo-worker.js",
+        "README.md",
+        "package.json",
+      ].every((path) => packed.includes(path)),
+    );
+    assert.deepEqual(
+      packed.filter((path) => /test|\.ts$/.test(path) && !path.endsWith(".d.ts")),
+      [],
+    );
   });
 
   test("types an app under strict rules", () => {
     for (const [name, text] of Object.entries(users)) writeFileSync(join(app, name), text);
-    const options = { strict: true, module: "nodenext", target: "es2022", lib: ["es2024", "dom", "dom.iterable"], noEmit: true, skipLibCheck: false, types: [] };
+    const options = {
+      strict: true,
+      module: "nodenext",
+      target: "es2022",
+      lib: ["es2024", "dom", "dom.iterable"],
+      noEmit: true,
+      skipLibCheck: false,
+      types: [],
+    };
     writeFileSync(join(app, "tsconfig.json"), JSON.stringify({ compilerOptions: options, files: Object.keys(users) }));
     run(app, process.execPath, join(root, "node_modules/typescript/bin/tsc"), "--project", ".");
   });
@@ -95,8 +139,15 @@ describe("the package", () => {
     assert.ok(folders.has("loader") && folders.has("render"));
     assert.ok(!folders.has("dom"), "the element is in the loader's bundle");
     // Of what moves a camera nothing; where things stand is told there too.
-    const placing = ["billboard", "lightScope", "matrices", "placedTree", "placement", "reach"].map((name) => `navigation/${name}`);
-    assert.deepEqual(Array.from(modulesIn(loader.metafile)).filter((path) => path.startsWith("navigation/") && !placing.includes(path)), []);
+    const placing = ["billboard", "lightScope", "matrices", "placedTree", "placement", "reach"].map(
+      (name) => `navigation/${name}`,
+    );
+    assert.deepEqual(
+      Array.from(modulesIn(loader.metafile)).filter(
+        (path) => path.startsWith("navigation/") && !placing.includes(path),
+      ),
+      [],
+    );
     assert.doesNotMatch(loader.text, /customElements|x3dLook|keydown/);
     const nothing = await bundle(`import { ImgeoLoader } from "imgeo/loader"; import "three"; console.log(1);`);
     assert.deepEqual([...foldersIn(nothing.metafile)], []);
@@ -106,8 +157,12 @@ describe("the package", () => {
   });
 
   test("carries three.js as a peer of one range with the tested release", () => {
-    const { peerDependencies } = JSON.parse(readFileSync(join(root, "web/package.json"), "utf8")) as { peerDependencies: Record<string, string> };
-    const { devDependencies } = JSON.parse(readFileSync(join(root, "package.json"), "utf8")) as { devDependencies: Record<string, string> };
+    const { peerDependencies } = JSON.parse(readFileSync(join(root, "web/package.json"), "utf8")) as {
+      peerDependencies: Record<string, string>;
+    };
+    const { devDependencies } = JSON.parse(readFileSync(join(root, "package.json"), "utf8")) as {
+      devDependencies: Record<string, string>;
+    };
     assert.equal(peerDependencies.three, `>=${devDependencies.three} <1`);
   });
 });

@@ -30,7 +30,9 @@ test("and of every file that damage makes of these", async () => {
   const directory = mkdtempSync(join(tmpdir(), "imgeo-mutants-"));
   try {
     writeMutants(directory, corpusOfCompact, mutants, 1);
-    const { count, differences } = await differencesIn(execFileSync(compactVerdicts, [directory], { encoding: "utf8" }));
+    const { count, differences } = await differencesIn(
+      execFileSync(compactVerdicts, [directory], { encoding: "utf8" }),
+    );
     assert.deepEqual([count, differences], [mutants, []]);
   } finally {
     rmSync(directory, { recursive: true });

@@ -33,7 +33,9 @@ export async function differencesIn(output: string): Promise<{ count: number; di
 
 /** Writes files of a corpus with a few bytes changed, moved, or cut off: the same ones of a seed every time. */
 export function writeMutants(directory: string, corpus: string, count: number, seed: number): void {
-  const files = readdirSync(corpus).sort().map((name) => readFileSync(join(corpus, name)));
+  const files = readdirSync(corpus)
+    .sort()
+    .map((name) => readFileSync(join(corpus, name)));
   const random = new TestRandom(seed);
   const any = () => files[random.below(files.length)] ?? new Uint8Array();
   for (let n = 0; n < count; ++n) {
@@ -49,12 +51,19 @@ function damaged(bytes: Uint8Array<ArrayBuffer>, other: Uint8Array, random: Test
   const at = random.below(random.below(2) === 0 ? Math.min(bytes.length, 64) : bytes.length);
   const put = (byte: number) => bytes.with(at, byte);
   switch (random.below(8)) {
-    case 0: return bytes.slice(0, at);
-    case 1: return Uint8Array.from([...bytes.subarray(0, at), ...other.subarray(Math.min(at, other.length))]);
-    case 2: return Uint8Array.from([...bytes.subarray(0, at), random.below(256), ...bytes.subarray(at)]);
-    case 3: return Uint8Array.from([...bytes.subarray(0, at), ...bytes.subarray(at + 1)]);
-    case 4: return put([0, 1, 127, 128, 255][random.below(5)] ?? 0);
-    case 5: return put((bytes[at] ?? 0) ^ 1 << random.below(8));
-    default: return put(random.below(256));
+    case 0:
+      return bytes.slice(0, at);
+    case 1:
+      return Uint8Array.from([...bytes.subarray(0, at), ...other.subarray(Math.min(at, other.length))]);
+    case 2:
+      return Uint8Array.from([...bytes.subarray(0, at), random.below(256), ...bytes.subarray(at)]);
+    case 3:
+      return Uint8Array.from([...bytes.subarray(0, at), ...bytes.subarray(at + 1)]);
+    case 4:
+      return put([0, 1, 127, 128, 255][random.below(5)] ?? 0);
+    case 5:
+      return put((bytes[at] ?? 0) ^ (1 << random.below(8)));
+    default:
+      return put(random.below(256));
   }
 }

@@ -31,7 +31,7 @@ export const workerBundle = bundleOf("workers/worker.ts");
 /** As sites have it, in as many modules as it takes to come in parts. */
 export const siteBundle: BuildOptions & { write?: true } = {
   ...bundleOf("dom/page.ts"),
-  entryPoints: { "imgeo": join(sources, "dom/page.ts"), "imgeo-scene": join(sources, "dom/register.ts") },
+  entryPoints: { imgeo: join(sources, "dom/page.ts"), "imgeo-scene": join(sources, "dom/register.ts") },
   splitting: true,
   chunkNames: "imgeo-shared", // there is one: two would be two files of this name, which is an error
   plugins: [leanThree],

@@ -17,16 +17,44 @@ const shaders = "renderers/shaders";
 
 /** Programs of materials that we have none of, and of shadows and environments. */
 const unusedPrograms = [
-  "backgroundCube", "cube", "depth", "distance", "equirect", "linedashed", "meshlambert", "meshmatcap", "meshnormal",
-  "meshphysical", "meshtoon", "points", "shadow", "sprite", "vsm",
+  "backgroundCube",
+  "cube",
+  "depth",
+  "distance",
+  "equirect",
+  "linedashed",
+  "meshlambert",
+  "meshmatcap",
+  "meshnormal",
+  "meshphysical",
+  "meshtoon",
+  "points",
+  "shadow",
+  "sprite",
+  "vsm",
 ];
 
 /** Included by these alone, or in whole of what is for shadows, probes and physical environments. */
 const unusedChunks = [
-  "alphahash_fragment", "alphahash_pars_fragment", "envmap_physical_pars_fragment", "gradientmap_pars_fragment", "iridescence_fragment",
-  "iridescence_pars_fragment", "lightprobes_pars_fragment", "lights_lambert_fragment", "lights_lambert_pars_fragment",
-  "lights_physical_fragment", "lights_physical_pars_fragment", "lights_toon_fragment", "lights_toon_pars_fragment", "packing",
-  "shadowmap_pars_fragment", "shadowmap_pars_vertex", "shadowmap_vertex", "shadowmask_pars_fragment", "transmission_fragment",
+  "alphahash_fragment",
+  "alphahash_pars_fragment",
+  "envmap_physical_pars_fragment",
+  "gradientmap_pars_fragment",
+  "iridescence_fragment",
+  "iridescence_pars_fragment",
+  "lightprobes_pars_fragment",
+  "lights_lambert_fragment",
+  "lights_lambert_pars_fragment",
+  "lights_physical_fragment",
+  "lights_physical_pars_fragment",
+  "lights_toon_fragment",
+  "lights_toon_pars_fragment",
+  "packing",
+  "shadowmap_pars_fragment",
+  "shadowmap_pars_vertex",
+  "shadowmap_vertex",
+  "shadowmask_pars_fragment",
+  "transmission_fragment",
   "transmission_pars_fragment",
 ];
 
@@ -42,7 +70,9 @@ const standIns: Readonly<Record<string, string>> = {
     enabled = false; isPresenting = false; cameraAutoUpdate = true;
     addEventListener() {} removeEventListener() {} setAnimationLoop() {} getEnvironmentBlendMode() {} dispose() {}
   }`,
-  ...Object.fromEntries(unusedPrograms.map((name) => [`${shaders}/ShaderLib/${name}.glsl.js`, 'export const vertex = "", fragment = "";'])),
+  ...Object.fromEntries(
+    unusedPrograms.map((name) => [`${shaders}/ShaderLib/${name}.glsl.js`, 'export const vertex = "", fragment = "";']),
+  ),
   ...Object.fromEntries(unusedChunks.map((name) => [`${shaders}/ShaderChunk/${name}.glsl.js`, 'export default "";'])),
 };
 
@@ -64,9 +94,16 @@ function filesByName(): ReadonlyMap<string, string> {
 
 /** Of one of our modules. */
 function withNamesFromTheirFiles(module: string, files: ReadonlyMap<string, string>): string {
-  return module.replaceAll(/^import \{([^}]*)\} from "three";$/gm, (statement, names: string) =>
-    names.split(",").map((name) => name.trim()).filter((name) => name !== "")
-      .map((name) => `import { ${name} } from ${JSON.stringify(files.get(name) ?? "three")};`).join(" ") || statement);
+  return module.replaceAll(
+    /^import \{([^}]*)\} from "three";$/gm,
+    (statement, names: string) =>
+      names
+        .split(",")
+        .map((name) => name.trim())
+        .filter((name) => name !== "")
+        .map((name) => `import { ${name} } from ${JSON.stringify(files.get(name) ?? "three")};`)
+        .join(" ") || statement,
+  );
 }
 
 export const leanThree: Plugin = {
@@ -79,8 +116,10 @@ export const leanThree: Plugin = {
     build.initialOptions.banner = { js: notice };
     build.onResolve({ filter: /^three$/ }, () => ({ path: join(three, "src/Three.js"), sideEffects: false }));
     const files = filesByName();
-    build.onLoad({ filter: /web\/src\/.*\.ts$/ }, ({ path }) =>
-      ({ contents: withNamesFromTheirFiles(readFileSync(path, "utf8"), files), loader: "ts" }));
+    build.onLoad({ filter: /web\/src\/.*\.ts$/ }, ({ path }) => ({
+      contents: withNamesFromTheirFiles(readFileSync(path, "utf8"), files),
+      loader: "ts",
+    }));
     build.onLoad({ filter: /three\/src\/.*\.js$/ }, ({ path }) => {
       const standIn = standIns[path.slice(join(three, "src/").length)];
       if (standIn !== undefined) return { contents: standIn };
@@ -91,5 +130,9 @@ export const leanThree: Plugin = {
 
 /** Of GLSL in a module of three.js. */
 function withoutComments(module: string): string {
-  return module.replaceAll(/\/\*(?! glsl).*?\*\//gs, "").replaceAll(/[ \t]*\/\/.*$/gm, "").replaceAll(/^[ \t]+/gm, "").replaceAll(/\n{2,}/g, "\n");
+  return module
+    .replaceAll(/\/\*(?! glsl).*?\*\//gs, "")
+    .replaceAll(/[ \t]*\/\/.*$/gm, "")
+    .replaceAll(/^[ \t]+/gm, "")
+    .replaceAll(/\n{2,}/g, "\n");
 }

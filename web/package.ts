@@ -10,5 +10,9 @@ import { workerBundle } from "./bundle.ts";
 const web = import.meta.dirname;
 
 rmSync(join(web, "lib"), { recursive: true, force: true });
-execFileSync(process.execPath, [join(web, "../node_modules/typescript/bin/tsc"), "--project", join(web, "tsconfig.package.json")], { stdio: "inherit" });
+execFileSync(
+  process.execPath,
+  [join(web, "../node_modules/typescript/bin/tsc"), "--project", join(web, "tsconfig.package.json")],
+  { stdio: "inherit" },
+);
 await build({ ...workerBundle, outfile: join(web, "lib/workers/imgeo-worker.js") });

@@ -29,7 +29,9 @@ function coloredByValues(n: number): string {
 }
 
 function wideLines(fields: string): (n: number) => string {
-  return (n) => `<Shape><Appearance><Material emissiveColor="${n % 7 / 7} ${n % 11 / 11} 0.5"></Material><LineProperties linewidthScaleFactor="${2 + n % 10}" ${fields}></LineProperties></Appearance>
+  return (
+    n,
+  ) => `<Shape><Appearance><Material emissiveColor="${(n % 7) / 7} ${(n % 11) / 11} 0.5"></Material><LineProperties linewidthScaleFactor="${2 + (n % 10)}" ${fields}></LineProperties></Appearance>
     <IndexedLineSet coordIndex="0 1 2 3 -1"><Coordinate point="-0.5 -0.5 0 0 0.5 0 0.5 ${n / count} 0 0 0 0.5"></Coordinate></IndexedLineSet></Shape>`;
 }
 
@@ -40,7 +42,10 @@ const scenes: Record<string, (n: number) => string> = {
 };
 
 function pageText(shape: (n: number) => string): string {
-  const shapes = Array.from({ length: count }, (_, n) => `<Transform translation="${2 * (n % 32)} ${2 * Math.floor(n / 32)} ${n % 5}">${shape(n)}</Transform>`);
+  const shapes = Array.from(
+    { length: count },
+    (_, n) => `<Transform translation="${2 * (n % 32)} ${2 * Math.floor(n / 32)} ${n % 5}">${shape(n)}</Transform>`,
+  );
   return `<!DOCTYPE html><title>batches</title><script type="module" src="imgeo.js"></script>
     <X3D style="width:64px;height:48px;display:block"><Scene>${shapes.join("\n")}</Scene></X3D>`;
 }
@@ -56,7 +61,9 @@ async function row(browser: Browser, name: string, shape: (n: number) => string)
     await goUntilComplete(page, server.origin, timeout);
     const metrics = await page.context().newCDPSession(page);
     await metrics.send("Performance.enable", { timeDomain: "threadTicks" });
-    const taskSeconds = async () => (await metrics.send("Performance.getMetrics")).metrics.find((metric) => metric.name === "TaskDuration")?.value ?? 0;
+    const taskSeconds = async () =>
+      (await metrics.send("Performance.getMetrics")).metrics.find((metric) => metric.name === "TaskDuration")?.value ??
+      0;
     const times: number[] = [];
     for (let round = 0; round < rounds; ++round) {
       const before = await taskSeconds();
@@ -68,7 +75,7 @@ async function row(browser: Browser, name: string, shape: (n: number) => string)
         x3d.pause();
         return x3d.statistics!.frames - first;
       }, frames);
-      times.push((1000 * (await taskSeconds() - before)) / drawn);
+      times.push((1000 * ((await taskSeconds()) - before)) / drawn);
     }
     const { drawCalls } = (await page.evaluate(() => document.querySelector<ViewElement>("x3d")!.statistics))!;
     times.sort((a, b) => a - b);

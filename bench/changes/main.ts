@@ -13,16 +13,20 @@ import { launchChromium } from "../../tests/browser/chromium.ts";
 import { startServer } from "../../tests/browser/server.ts";
 import { goUntilComplete } from "../wholePage.ts";
 
-const alike = 7000, others = 3000;
+const alike = 7000,
+  others = 3000;
 const rounds = 15;
 const timeout = 300_000;
 
 function sceneText(): string {
   const shapes = Array.from({ length: alike + others }, (_, n) => {
     const place = `${2 * (n % 100)} ${2 * Math.floor(n / 100)} 0`;
-    const shape = n === 0 ? '<Shape DEF="box"><Appearance><Material></Material></Appearance><Box size="1 1 1"></Box></Shape>'
-      : n < alike ? '<Shape USE="box"></Shape>'
-      : `<Shape><Appearance><Material diffuseColor="${n % 7 / 7} ${n % 11 / 11} 0.5"></Material></Appearance><Box size="1 1 ${1 + n / 10000}"></Box></Shape>`;
+    const shape =
+      n === 0
+        ? '<Shape DEF="box"><Appearance><Material></Material></Appearance><Box size="1 1 1"></Box></Shape>'
+        : n < alike
+          ? '<Shape USE="box"></Shape>'
+          : `<Shape><Appearance><Material diffuseColor="${(n % 7) / 7} ${(n % 11) / 11} 0.5"></Material></Appearance><Box size="1 1 ${1 + n / 10000}"></Box></Shape>`;
     return `<Transform translation="${place}">${shape}</Transform>`;
   });
   return `<X3D style="width:64px;height:48px;display:block" budget="1000"><Scene>${shapes.join("\n")}</Scene></X3D>`;
@@ -30,19 +34,27 @@ function sceneText(): string {
 
 /** Self-contained: each is called in the page, over and over, and changes something each time. */
 const changes: Record<string, (round: number) => void> = {
-  "a Transform is moved": (round) => { document.querySelectorAll("transform")[5000]!.setAttribute("translation", `100 100 ${round % 2}`); },
-  "a Shape is hidden, or shown": (round) => { document.querySelectorAll("shape")[8000]!.setAttribute("visible", String(round % 2 === 0)); },
-  "a Material is coloured": (round) => { document.querySelectorAll("material")[500]!.setAttribute("diffuseColor", `0.${round % 10} 0 0`); },
+  "a Transform is moved": (round) => {
+    document.querySelectorAll("transform")[5000]!.setAttribute("translation", `100 100 ${round % 2}`);
+  },
+  "a Shape is hidden, or shown": (round) => {
+    document.querySelectorAll("shape")[8000]!.setAttribute("visible", String(round % 2 === 0));
+  },
+  "a Material is coloured": (round) => {
+    document.querySelectorAll("material")[500]!.setAttribute("diffuseColor", `0.${round % 10} 0 0`);
+  },
   "a Transform with a Shape is added": (round) => {
     const added = document.createElement("Transform");
     added.setAttribute("translation", `${round} 0 2`);
     added.innerHTML = '<Shape USE="box"></Shape>';
     document.querySelector("scene")!.append(added);
   },
-  "one is removed": () => { document.querySelectorAll("transform")[6000]!.remove(); },
+  "one is removed": () => {
+    document.querySelectorAll("transform")[6000]!.remove();
+  },
   "one in the middle is inserted": (round) => {
     const added = document.createElement("Transform");
-    added.innerHTML = '<Shape><Appearance><Material></Material></Appearance><Box></Box></Shape>';
+    added.innerHTML = "<Shape><Appearance><Material></Material></Appearance><Box></Box></Shape>";
     added.setAttribute("translation", `${round} 0 4`);
     document.querySelectorAll("transform")[3000]!.before(added);
   },
@@ -52,7 +64,9 @@ const changes: Record<string, (round: number) => void> = {
 async function timesIn(change: (round: number) => void, count: number): Promise<number[]> {
   const times: number[] = [];
   for (let round = 0; round < count; ++round) {
-    await new Promise((resolve) => { setTimeout(resolve, 150); });
+    await new Promise((resolve) => {
+      setTimeout(resolve, 150);
+    });
     const begun = performance.now();
     change(round);
     await Promise.resolve();
@@ -70,7 +84,10 @@ async function row(page: Page, name: string, change: (round: number) => void): P
 const directory = mkdtempSync(join(tmpdir(), "imgeo-changes-"));
 const runtime = process.env.RUNTIME ?? "web/dist";
 for (const name of readdirSync(runtime)) cpSync(join(runtime, name), join(directory, name));
-writeFileSync(join(directory, "index.html"), `<!DOCTYPE html><title>changes</title><script type="module" src="imgeo.js"></script>${sceneText()}`);
+writeFileSync(
+  join(directory, "index.html"),
+  `<!DOCTYPE html><title>changes</title><script type="module" src="imgeo.js"></script>${sceneText()}`,
+);
 const server = await startServer(directory);
 const browser = await launchChromium();
 try {

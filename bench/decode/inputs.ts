@@ -10,7 +10,8 @@ import type { Model } from "../load/models.ts";
 export type Inputs = Record<"imgeo" | "draco" | "meshopt", Buffer[]>;
 
 export function inputsOf(model: Model, directory: string): Inputs {
-  const run = (program: string, ...words: string[]): void => void execFileSync(program, words, { stdio: ["ignore", "ignore", "inherit"] });
+  const run = (program: string, ...words: string[]): void =>
+    void execFileSync(program, words, { stdio: ["ignore", "ignore", "inherit"] });
   const site = join(directory, "compact");
   // Of the mesh with its normals: Draco and gltfpack are given them, and must keep them.
   run(converter, "convert", model.ply, "-o", site, "--profile", "compact", "--base", "0", "--force");
@@ -18,7 +19,19 @@ export function inputsOf(model: Model, directory: string): Inputs {
   const drc = join(directory, "mesh.drc");
   run("draco_encoder", "-i", model.ply, "-o", drc, "-qp", "16", "-qn", "8", "-cl", "10");
   const glb = join(directory, "meshopt.glb");
-  run(process.execPath, join(repository, "node_modules/gltfpack/cli.js"), "-i", model.glb, "-o", glb, "-vp", "16", "-vn", "8", "-cc");
+  run(
+    process.execPath,
+    join(repository, "node_modules/gltfpack/cli.js"),
+    "-i",
+    model.glb,
+    "-o",
+    glb,
+    "-vp",
+    "16",
+    "-vn",
+    "8",
+    "-cc",
+  );
   return {
     imgeo: readdirSync(geometry).map((file) => readFileSync(join(geometry, file))),
     draco: [readFileSync(drc)],

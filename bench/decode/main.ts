@@ -25,17 +25,31 @@ const runs = Number(process.env.RUNS ?? 9);
 async function writePage(directory: string): Promise<void> {
   mkdirSync(directory);
   const bundle = { bundle: true, format: "esm", target: "es2022", minify: true, logLevel: "warning" } as const;
-  await build({ ...bundle, entryPoints: [join(repository, "bench/decode/page.ts")], outfile: join(directory, "page.js") });
-  await build({ ...bundle, entryPoints: [join(repository, "web/src/workers/worker.ts")], outfile: join(directory, "imgeo-worker.js") });
+  await build({
+    ...bundle,
+    entryPoints: [join(repository, "bench/decode/page.ts")],
+    outfile: join(directory, "page.js"),
+  });
+  await build({
+    ...bundle,
+    entryPoints: [join(repository, "web/src/workers/worker.ts")],
+    outfile: join(directory, "imgeo-worker.js"),
+  });
   cpSync(join(repository, "node_modules/three/examples/jsm/libs/draco"), join(directory, "draco"), { recursive: true });
-  writeFileSync(join(directory, "index.html"), '<!doctype html><meta charset="utf-8"><title>decode</title><script type="module" src="page.js"></script>');
+  writeFileSync(
+    join(directory, "index.html"),
+    '<!doctype html><meta charset="utf-8"><title>decode</title><script type="module" src="page.js"></script>',
+  );
 }
 
 /** Brings a decoder's files into the page. */
 async function give(page: Page, decoder: string, files: readonly Buffer[]): Promise<void> {
-  await page.evaluate(({ decoder, texts }) => {
-    window.files[decoder] = texts.map((text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)));
-  }, { decoder, texts: files.map((file) => file.toString("base64")) });
+  await page.evaluate(
+    ({ decoder, texts }) => {
+      window.files[decoder] = texts.map((text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)));
+    },
+    { decoder, texts: files.map((file) => file.toString("base64")) },
+  );
 }
 
 async function decode(page: Page, decoder: string): Promise<{ ms: number; triangles: number }> {
@@ -53,14 +67,18 @@ async function measure(page: Page, decoder: string, files: readonly Buffer[], tr
   await give(page, decoder, files);
   const first = await decode(page, decoder);
   // Draco and gltfpack drop triangles that have lost their area among 16-bit positions.
-  if (Math.abs(first.triangles - triangles) > triangles / 100) throw new Error(`${decoder} gives ${first.triangles} triangles of ${triangles}`);
+  if (Math.abs(first.triangles - triangles) > triangles / 100)
+    throw new Error(`${decoder} gives ${first.triangles} triangles of ${triangles}`);
   const times: number[] = [];
   for (let run = 0; run < runs; ++run) times.push((await decode(page, decoder)).ms);
   const traces: TraceEvent[][] = [];
   for (let run = 0; run < 3; ++run) traces.push(await traceOf(page, decoder));
   const bytes = files.reduce((sum, { length }) => sum + length, 0);
   return {
-    decoder, bytes, first: first.ms, warm: median(times),
+    decoder,
+    bytes,
+    first: first.ms,
+    warm: median(times),
     processor: median(traces.map(processorMsOf)),
     task: median(traces.map(longestTaskMsOf)),
   };
@@ -94,12 +112,16 @@ try {
     const ms = (value: number): string => `${value.toFixed(value < 10 ? 1 : 0)} ms`;
     const ofDraco = (value: number, its: number): string => `${ms(value)} (${(value / its).toFixed(2)})`;
     for (const { decoder, bytes, first, warm, processor, task } of rows) {
-      console.log(`| ${[model.name, decoder, bytes, ms(first), ofDraco(warm, draco.warm), ofDraco(processor, draco.processor), ms(task)].join(" | ")} |`);
+      console.log(
+        `| ${[model.name, decoder, bytes, ms(first), ofDraco(warm, draco.warm), ofDraco(processor, draco.processor), ms(task)].join(" | ")} |`,
+      );
     }
     await page.close();
   }
   await server.close();
-  console.log(`\nMedians of ${runs} decodes after the first; ${await describeBrowser(browser)}, ${cpus().length} cores.`);
+  console.log(
+    `\nMedians of ${runs} decodes after the first; ${await describeBrowser(browser)}, ${cpus().length} cores.`,
+  );
 } finally {
   await browser.close();
   rmSync(work, { recursive: true, force: true });

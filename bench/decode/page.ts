@@ -33,13 +33,20 @@ window.files = {};
 window.decoders = {
   async imgeo(files) {
     const patches = await Promise.all(files.map((file) => workers.run("compactPatches", file, signal)));
-    return sumOf(patches.flat().map(({ vertexCount, index }) => ({ vertices: vertexCount, triangles: (index?.length ?? 0) / 3 })));
+    return sumOf(
+      patches.flat().map(({ vertexCount, index }) => ({ vertices: vertexCount, triangles: (index?.length ?? 0) / 3 })),
+    );
   },
   async draco(files) {
-    const geometries = await Promise.all(files.map((file) => new Promise<BufferGeometry>((resolve, reject) => {
-      // The loader hands its bytes over to its worker, so it gets its own.
-      draco.parse(file.slice().buffer, resolve, reject);
-    })));
+    const geometries = await Promise.all(
+      files.map(
+        (file) =>
+          new Promise<BufferGeometry>((resolve, reject) => {
+            // The loader hands its bytes over to its worker, so it gets its own.
+            draco.parse(file.slice().buffer, resolve, reject);
+          }),
+      ),
+    );
     return sumOf(geometries.map(countsOf));
   },
   async meshopt(files) {
@@ -54,11 +61,15 @@ function countsOf(geometry: BufferGeometry): Decoded {
 
 function meshesIn(root: Object3D): Mesh[] {
   const meshes: Mesh[] = [];
-  root.traverse((object) => { if (object instanceof Mesh) meshes.push(object as Mesh); });
+  root.traverse((object) => {
+    if (object instanceof Mesh) meshes.push(object as Mesh);
+  });
   return meshes;
 }
 
 function sumOf(parts: readonly Decoded[]): Decoded {
-  return parts.reduce((sum, part) => ({ vertices: sum.vertices + part.vertices, triangles: sum.triangles + part.triangles }),
-    { vertices: 0, triangles: 0 });
+  return parts.reduce(
+    (sum, part) => ({ vertices: sum.vertices + part.vertices, triangles: sum.triangles + part.triangles }),
+    { vertices: 0, triangles: 0 },
+  );
 }

@@ -16,13 +16,14 @@ import { dracoPage, inlinePage, lod2Page, meshoptPage, sitePage, type BenchPage 
 import { describeBrowser, longestTasks } from "./tasks.ts";
 
 const { values: options, positionals: wanted } = parseArgs({
-  options: { runs: { type: "string", default: "5" }, tasks: { type: "boolean", default: false } }, allowPositionals: true,
+  options: { runs: { type: "string", default: "5" }, tasks: { type: "boolean", default: false } },
+  allowPositionals: true,
 });
 const runs = Number(options.runs);
 if (!Number.isInteger(runs) || runs < 1) throw new Error(`--runs ${options.runs} is no number of loads`);
 
 const lines: Record<string, LineOptions | undefined> = {
-  "unthrottled": undefined,
+  unthrottled: undefined,
   "20 Mbit/s, 40 ms": { bitsPerSecond: 20e6, roundTripMs: 40 },
   "5 Mbit/s, 40 ms": { bitsPerSecond: 5e6, roundTripMs: 40 },
 };
@@ -31,7 +32,10 @@ function print(...cells: (string | number)[]): void {
   console.log(`| ${cells.join(" | ")} |`);
 }
 
-async function withServer(page: BenchPage, use: (server: Awaited<ReturnType<typeof serve>>) => Promise<void>): Promise<void> {
+async function withServer(
+  page: BenchPage,
+  use: (server: Awaited<ReturnType<typeof serve>>) => Promise<void>,
+): Promise<void> {
   const server = await serve(page);
   try {
     await use(server);
@@ -45,7 +49,11 @@ async function pagesOf(model: Model, work: string): Promise<Record<"ours" | "oth
   return {
     ours: (Object.keys(containers) as Container[]).map((container) => sitePage(model, container)),
     inline: [inlinePage(model, directory("inline"))],
-    others: [await dracoPage(model, directory("draco")), await meshoptPage(model, directory("meshopt")), await lod2Page(model, directory("lod2"))],
+    others: [
+      await dracoPage(model, directory("draco")),
+      await meshoptPage(model, directory("meshopt")),
+      await lod2Page(model, directory("lod2")),
+    ],
   };
 }
 
@@ -87,12 +95,20 @@ try {
   }
   if (largest) {
     console.log();
-    print(`${largest.model.name}: main thread, unthrottled`, "longest task, ms", "longest on the processor, ms", "caused by",
-      "longest but for starts, ms", "caused by");
+    print(
+      `${largest.model.name}: main thread, unthrottled`,
+      "longest task, ms",
+      "longest on the processor, ms",
+      "caused by",
+      "longest but for starts, ms",
+      "caused by",
+    );
     print("---", "--:", "--:", "---", "--:", "---");
     for (const page of largest.pages) await printTasks(page);
   }
-  console.log(`\nMedians of ${runs} cold loads, one where the first image takes over 2.5 s; ${await describeBrowser(browser)}, ${cpus().length} cores; brotli where it helps.`);
+  console.log(
+    `\nMedians of ${runs} cold loads, one where the first image takes over 2.5 s; ${await describeBrowser(browser)}, ${cpus().length} cores; brotli where it helps.`,
+  );
 } finally {
   await browser.close();
   rmSync(work, { recursive: true, force: true });

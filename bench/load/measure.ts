@@ -34,7 +34,9 @@ export async function serve({ directory, contentPolicy }: BenchPage): Promise<Te
     if (!file.isFile() || extname(file.name) === ".png") continue;
     const path = join(file.parentPath, file.name).slice(directory.length);
     const body = readFileSync(join(directory, path));
-    const packed = brotliCompressSync(body, { params: { [constants.BROTLI_PARAM_QUALITY]: 9, [constants.BROTLI_PARAM_SIZE_HINT]: body.length } });
+    const packed = brotliCompressSync(body, {
+      params: { [constants.BROTLI_PARAM_QUALITY]: 9, [constants.BROTLI_PARAM_SIZE_HINT]: body.length },
+    });
     if (packed.length > 0.95 * body.length) continue;
     server.putEncoded(path, "br", packed);
     if (path.endsWith("/index.html")) server.putEncoded(path.slice(0, -"index.html".length), "br", packed);
@@ -43,14 +45,23 @@ export async function serve({ directory, contentPolicy }: BenchPage): Promise<Te
 }
 
 /** The median of each figure over so many loads. */
-export async function medianLoad(browser: Browser, page: BenchPage, server: TestServer, line: LineOptions | undefined, count: number): Promise<Load> {
+export async function medianLoad(
+  browser: Browser,
+  page: BenchPage,
+  server: TestServer,
+  line: LineOptions | undefined,
+  count: number,
+): Promise<Load> {
   const loads: Load[] = [];
   server.useLine(line);
   do loads.push(await coldLoad(browser, page, server));
   while (loads.length < count && loads.at(-1)!.first < longLoadMs);
-  const median = (of: (load: Load) => number): number => loads.map(of).sort((a, b) => a - b)[Math.floor(loads.length / 2)]!;
+  const median = (of: (load: Load) => number): number =>
+    loads.map(of).sort((a, b) => a - b)[Math.floor(loads.length / 2)]!;
   return {
-    first: median(({ first }) => first), most: median(({ most }) => most), final: median(({ final }) => final),
+    first: median(({ first }) => first),
+    most: median(({ most }) => most),
+    final: median(({ final }) => final),
     bytes: median(({ bytes }) => bytes),
   };
 }
@@ -59,7 +70,9 @@ export async function medianLoad(browser: Browser, page: BenchPage, server: Test
 export async function launchWarm(): Promise<Browser> {
   const browser = await launchChromium("--disable-gpu-program-cache", "--disable-gpu-shader-disk-cache");
   const tab = await browser.newPage();
-  await tab.evaluate(() => { document.createElement("canvas").getContext("webgl2")?.clear(0x4000); });
+  await tab.evaluate(() => {
+    document.createElement("canvas").getContext("webgl2")?.clear(0x4000);
+  });
   await tab.close();
   return browser;
 }
@@ -78,11 +91,15 @@ async function loadOnce(context: BrowserContext, page: BenchPage, server: TestSe
   const sentBefore = server.bytesSent;
   await load(tab, page, server);
   await tab.waitForTimeout(100); // a last frame may follow
-  return { ...await tab.evaluate(timesOf), bytes: server.bytesSent - sentBefore };
+  return { ...(await tab.evaluate(timesOf)), bytes: server.bytesSent - sentBefore };
 }
 
 /** A tab that will watch the page, and is idle. */
-export async function openTab(context: BrowserContext, { saysWhenComplete }: BenchPage, takesPictures: boolean): Promise<Page> {
+export async function openTab(
+  context: BrowserContext,
+  { saysWhenComplete }: BenchPage,
+  takesPictures: boolean,
+): Promise<Page> {
   const tab = await context.newPage();
   await tab.addInitScript(watch, { saysWhenComplete, leastVertices, takesPictures, completeMessage });
   await new Promise((resolve) => setTimeout(resolve, tabMs));
@@ -93,8 +110,13 @@ export async function openTab(context: BrowserContext, { saysWhenComplete }: Ben
 export async function load(tab: Page, { name }: BenchPage, server: TestServer): Promise<void> {
   const errors: string[] = [];
   tab.on("pageerror", (error) => errors.push(String(error)));
-  const complete = tab.waitForEvent("console", { predicate: (message) => message.text() === completeMessage, timeout: timeoutMs });
-  await Promise.all([complete, tab.goto(server.origin, { waitUntil: "commit", timeout: timeoutMs })]).catch((error: unknown) => {
-    throw new Error(`${name} was not shown: ${String(error)}; ${errors.join("; ")}`);
+  const complete = tab.waitForEvent("console", {
+    predicate: (message) => message.text() === completeMessage,
+    timeout: timeoutMs,
   });
+  await Promise.all([complete, tab.goto(server.origin, { waitUntil: "commit", timeout: timeoutMs })]).catch(
+    (error: unknown) => {
+      throw new Error(`${name} was not shown: ${String(error)}; ${errors.join("; ")}`);
+    },
+  );
 }

@@ -6,7 +6,11 @@ import { join } from "node:path";
 import { converter, modelDirectory, repository } from "../../tests/browser/paths.ts";
 import { readPly, type PlainMesh } from "../../tests/browser/meshes.ts";
 
-export const containers = { "SIG classic": ["--profile", "classic"], "SIG compact": ["--profile", "compact"], "BG": ["--container", "bg"] } as const;
+export const containers = {
+  "SIG classic": ["--profile", "classic"],
+  "SIG compact": ["--profile", "compact"],
+  BG: ["--container", "bg"],
+} as const;
 export type Container = keyof typeof containers;
 
 export interface Model {
@@ -39,14 +43,15 @@ export function prepareModels(names: readonly string[], directory: string): Mode
 }
 
 function convertModel(name: string, source: string, directory: string): Model {
-  const imgeo = (...words: string[]): void => void execFileSync(converter, words, { stdio: ["ignore", "ignore", "inherit"] });
+  const imgeo = (...words: string[]): void =>
+    void execFileSync(converter, words, { stdio: ["ignore", "ignore", "inherit"] });
   mkdirSync(directory, { recursive: true });
   const siteAs = (container: Container): string => {
     const site = join(directory, container.replaceAll(" ", "-"));
     imgeo("convert", source, "-o", site, ...containers[container], "--title", name, "--force");
     return site;
   };
-  const sites = { "SIG classic": siteAs("SIG classic"), "SIG compact": siteAs("SIG compact"), "BG": siteAs("BG") };
+  const sites = { "SIG classic": siteAs("SIG classic"), "SIG compact": siteAs("SIG compact"), BG: siteAs("BG") };
   const model = { name, source, sites, ply: join(directory, "mesh.ply"), glb: join(directory, "mesh.glb") };
   // Floats of the source with the normals that convert computes: exact but for them.
   imgeo("export", sites["SIG classic"], "-o", model.ply);

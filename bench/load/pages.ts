@@ -29,30 +29,40 @@ export function sitePage(model: Model, container: Container): BenchPage {
 /** The mesh as text in the page, shown by the newest X3DOM. Six digits hold more than 16 bits, three more than 8. */
 export function inlinePage(model: Model, directory: string): BenchPage {
   mkdirSync(directory, { recursive: true });
-  for (const file of ["x3dom.js", "x3dom.css"]) cpSync(join(repository, "node_modules/x3dom-1.8", file), join(directory, file));
+  for (const file of ["x3dom.js", "x3dom.css"])
+    cpSync(join(repository, "node_modules/x3dom-1.8", file), join(directory, file));
   const html = pageOf(model.sites["SIG classic"]);
   const viewpoint = /<Viewpoint[^>]*>/.exec(html)?.[0] ?? "";
   const lights = html.match(/<DirectionalLight[^>]*><\/DirectionalLight>/g)?.join("") ?? "";
-  writeFileSync(join(directory, "index.html"), `<!doctype html><html><head><meta charset="utf-8"><title>${model.name}</title>
+  writeFileSync(
+    join(directory, "index.html"),
+    `<!doctype html><html><head><meta charset="utf-8"><title>${model.name}</title>
 <link rel="stylesheet" href="x3dom.css"><script src="x3dom.js"></script>
 <style>html, body { margin: 0; height: 100% } x3d { width: 100%; height: 100%; border: 0 }</style></head><body>
 <X3D><Scene>${viewpoint}</Viewpoint>${lights}<Shape><Appearance><Material></Material></Appearance>
-${inlineMesh(meshOf(model))}</Shape></Scene></X3D></body></html>`);
+${inlineMesh(meshOf(model))}</Shape></Scene></X3D></body></html>`,
+  );
   return { name: "inline X3D", directory, contentPolicy: lax, saysWhenComplete: false };
 }
 
 function inlineMesh({ positions, normals, triangles }: PlainMesh): string {
   const words = (values: Float32Array, digits: number): string =>
     Array.from(values, (value) => String(Number(value.toPrecision(digits)))).join(" ");
-  return `<IndexedTriangleSet index="${triangles.join(" ")}"><Coordinate point="${words(positions, 6)}"></Coordinate>` +
-    (normals ? `<Normal vector="${words(normals, 3)}"></Normal>` : "") + "</IndexedTriangleSet>";
+  return (
+    `<IndexedTriangleSet index="${triangles.join(" ")}"><Coordinate point="${words(positions, 6)}"></Coordinate>` +
+    (normals ? `<Normal vector="${words(normals, 3)}"></Normal>` : "") +
+    "</IndexedTriangleSet>"
+  );
 }
 
 /** three.js with its DRACOLoader, as its examples use it. 16-bit positions, 8-bit normals, Draco's default level. */
 export async function dracoPage(model: Model, directory: string): Promise<BenchPage> {
   mkdirSync(directory, { recursive: true });
-  execFileSync("draco_encoder", ["-i", model.ply, "-o", join(directory, "mesh.drc"), "-qp", "16", "-qn", "8", "-cl", "7"],
-    { stdio: ["ignore", "ignore", "inherit"] });
+  execFileSync(
+    "draco_encoder",
+    ["-i", model.ply, "-o", join(directory, "mesh.drc"), "-qp", "16", "-qn", "8", "-cl", "7"],
+    { stdio: ["ignore", "ignore", "inherit"] },
+  );
   cpSync(join(repository, "node_modules/three/examples/jsm/libs/draco"), join(directory, "draco"), { recursive: true });
   const preloads = ["mesh.drc", "draco/draco_wasm_wrapper.js", "draco/draco_decoder.wasm"];
   return threePage("three.js + Draco", "draco", preloads, directory);
@@ -75,17 +85,27 @@ export async function lod2Page(model: Model, directory: string): Promise<BenchPa
 
 function gltfpack(model: Model, output: string, ...options: string[]): void {
   const words = ["-i", model.glb, "-o", output, "-vp", "16", "-vn", "8", "-cc", ...options];
-  execFileSync(process.execPath, [join(repository, "node_modules/gltfpack/cli.js"), ...words], { stdio: ["ignore", "ignore", "inherit"] });
+  execFileSync(process.execPath, [join(repository, "node_modules/gltfpack/cli.js"), ...words], {
+    stdio: ["ignore", "ignore", "inherit"],
+  });
 }
 
 async function threePage(name: string, script: string, preloads: string[], directory: string): Promise<BenchPage> {
   await build({
-    entryPoints: [join(repository, `bench/load/pages/${script}.ts`)], outfile: join(directory, "page.js"),
-    bundle: true, format: "esm", target: "es2022", minify: true, logLevel: "warning",
+    entryPoints: [join(repository, `bench/load/pages/${script}.ts`)],
+    outfile: join(directory, "page.js"),
+    bundle: true,
+    format: "esm",
+    target: "es2022",
+    minify: true,
+    logLevel: "warning",
   });
   const hints = preloads.map((url) => `<link rel="preload" as="fetch" crossorigin="anonymous" href="${url}">`);
-  writeFileSync(join(directory, "index.html"), `<!doctype html><html><head><meta charset="utf-8"><title>${name}</title>
+  writeFileSync(
+    join(directory, "index.html"),
+    `<!doctype html><html><head><meta charset="utf-8"><title>${name}</title>
 <link rel="modulepreload" href="page.js">${hints.join("")}<script type="module" src="page.js"></script>
-<style>html, body { margin: 0; height: 100% } canvas { display: block }</style></head><body></body></html>`);
+<style>html, body { margin: 0; height: 100% } canvas { display: block }</style></head><body></body></html>`,
+  );
   return { name, directory, contentPolicy: lax, saysWhenComplete: true };
 }

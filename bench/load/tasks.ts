@@ -18,7 +18,12 @@ export interface Tasks {
 }
 
 /** The medians of so many cold loads. */
-export async function longestTasks(browser: Browser, page: BenchPage, server: TestServer, count: number): Promise<Tasks> {
+export async function longestTasks(
+  browser: Browser,
+  page: BenchPage,
+  server: TestServer,
+  count: number,
+): Promise<Tasks> {
   const runs: Task[][] = [];
   server.useLine(undefined);
   for (let i = 0; i < count; ++i) {
@@ -31,9 +36,23 @@ export async function longestTasks(browser: Browser, page: BenchPage, server: Te
   }
   const isStart = ({ cause }: Task): boolean => cause.startsWith("start");
   return {
-    longest: medianOf(runs.map((tasks) => longestOf(tasks, byProcessor)), byProcessor),
-    longestOfLoading: medianOf(runs.map((tasks) => longestOf(tasks.filter((task) => !isStart(task)), byProcessor)), byProcessor),
-    longestMs: medianOf(runs.map((tasks) => longestOf(tasks, byClock)), byClock).ms,
+    longest: medianOf(
+      runs.map((tasks) => longestOf(tasks, byProcessor)),
+      byProcessor,
+    ),
+    longestOfLoading: medianOf(
+      runs.map((tasks) =>
+        longestOf(
+          tasks.filter((task) => !isStart(task)),
+          byProcessor,
+        ),
+      ),
+      byProcessor,
+    ),
+    longestMs: medianOf(
+      runs.map((tasks) => longestOf(tasks, byClock)),
+      byClock,
+    ).ms,
   };
 }
 
@@ -48,7 +67,12 @@ function medianOf(tasks: readonly Task[], measure: (task: Task) => number): Task
   return tasks.toSorted((a, b) => measure(a) - measure(b))[Math.floor(tasks.length / 2)]!;
 }
 
-async function traceLoad(browser: Browser, context: BrowserContext, page: BenchPage, server: TestServer): Promise<TraceEvent[]> {
+async function traceLoad(
+  browser: Browser,
+  context: BrowserContext,
+  page: BenchPage,
+  server: TestServer,
+): Promise<TraceEvent[]> {
   const tab = await openTab(context, page, false);
   await browser.startTracing(tab, { categories: traceCategories });
   await load(tab, page, server);
@@ -58,7 +82,9 @@ async function traceLoad(browser: Browser, context: BrowserContext, page: BenchP
 
 /** From the first request of the page on: what comes before is the browser's own beginning. */
 function tasksOf(events: TraceEvent[]): Task[] {
-  const first = events.find(({ name, args }) => name === "ResourceSendRequest" && args.data?.url?.startsWith("http://127.0.0.1"));
+  const first = events.find(
+    ({ name, args }) => name === "ResourceSendRequest" && args.data?.url?.startsWith("http://127.0.0.1"),
+  );
   if (first === undefined) throw new Error("the trace has no request of the page");
   return mainTasksOf(events, first.ts);
 }

@@ -27,9 +27,17 @@ export interface Task {
 
 /** By the trace's own names. */
 const causes = {
-  "v8.evaluateModule": "start of the module", "EvaluateScript": "start of a script", "FireAnimationFrame": "a frame", "TimerFire": "a timer",
-  "HandlePostMessage": "a worker's answer", "RunMicrotasks": "promises", "FunctionCall": "a callback", "ParseHTML": "the document",
-  "MajorGC": "garbage", "MinorGC": "garbage", "Receive mojo message": "the browser's own",
+  "v8.evaluateModule": "start of the module",
+  EvaluateScript: "start of a script",
+  FireAnimationFrame: "a frame",
+  TimerFire: "a timer",
+  HandlePostMessage: "a worker's answer",
+  RunMicrotasks: "promises",
+  FunctionCall: "a callback",
+  ParseHTML: "the document",
+  MajorGC: "garbage",
+  MinorGC: "garbage",
+  "Receive mojo message": "the browser's own",
 } as const;
 export type Cause = (typeof causes)[keyof typeof causes] | "unknown";
 
@@ -38,7 +46,9 @@ const inspectorsEvent = "V8.CollectSourcePositions";
 
 /** Of the main threads of a trace's pages, from a time on. */
 export function mainTasksOf(events: readonly TraceEvent[], from = 0): Task[] {
-  const mainThreads = new Set(events.filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain").map(threadOf));
+  const mainThreads = new Set(
+    events.filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain").map(threadOf),
+  );
   const threads = new Map(Array.from(mainThreads, (thread) => [thread, [] as TraceEvent[]]));
   for (const event of events) if (event.ph === "X" && event.ts >= from) threads.get(threadOf(event))?.push(event);
   return Array.from(threads.values()).flatMap((own) => {
@@ -69,7 +79,8 @@ function tasksOf(tasks: readonly TraceEvent[], sorted: readonly TraceEvent[]): T
       if (event.name in causes && (main === undefined || onProcessor(event) > onProcessor(main))) main = event;
     }
     return {
-      ms: (task.dur ?? 0) / 1000, processorMs: (onProcessor(task) - inspectors) / 1000,
+      ms: (task.dur ?? 0) / 1000,
+      processorMs: (onProcessor(task) - inspectors) / 1000,
       cause: main === undefined ? "unknown" : causes[main.name as keyof typeof causes],
     };
   });
@@ -82,10 +93,20 @@ export function longestTaskMsOf(events: readonly TraceEvent[]): number {
 
 /** Milliseconds on the processor of all tasks of the pages' main threads and of their workers. */
 export function processorMsOf(events: readonly TraceEvent[]): number {
-  const threads = new Set(events.filter(({ name, args }) =>
-    name === "thread_name" && /^(CrRendererMain|DedicatedWorker thread)/.test(args.name ?? "")).map(threadOf));
-  return Array.from(threads, (thread) => outermostTasks(events.filter((event) => event.ph === "X" && threadOf(event) === thread).toSorted(byBegin)))
-    .flat().reduce((sum, task) => sum + onProcessor(task), 0) / 1000;
+  const threads = new Set(
+    events
+      .filter(
+        ({ name, args }) => name === "thread_name" && /^(CrRendererMain|DedicatedWorker thread)/.test(args.name ?? ""),
+      )
+      .map(threadOf),
+  );
+  return (
+    Array.from(threads, (thread) =>
+      outermostTasks(events.filter((event) => event.ph === "X" && threadOf(event) === thread).toSorted(byBegin)),
+    )
+      .flat()
+      .reduce((sum, task) => sum + onProcessor(task), 0) / 1000
+  );
 }
 
 /** Outer ones before inner ones. */

@@ -58,12 +58,14 @@ export function watch(wanted: Wanted): void {
     const at = performance.now();
     const [columns, rows] = [Math.floor(width / sparse), Math.floor(height / sparse)];
     const some = new Uint32Array(columns * rows);
-    for (let i = 0; i < some.length; ++i) some[i] = all[Math.floor(i / columns) * sparse * width + (i % columns) * sparse]!;
+    for (let i = 0; i < some.length; ++i)
+      some[i] = all[Math.floor(i / columns) * sparse * width + (i % columns) * sparse]!;
     watched.columns = columns;
     watched.frames.push({ at, pixels: new Uint8Array(some.buffer) });
   };
   /** A page may draw into a canvas that it shows later: nobody has seen that yet. */
-  const isSeen = ({ canvas }: Context): boolean => canvas instanceof HTMLCanvasElement && canvas.checkVisibility({ opacityProperty: true, visibilityProperty: true });
+  const isSeen = ({ canvas }: Context): boolean =>
+    canvas instanceof HTMLCanvasElement && canvas.checkVisibility({ opacityProperty: true, visibilityProperty: true });
   const note = (gl: Context, count: number): void => {
     if (gl.getParameter(gl.FRAMEBUFFER_BINDING) !== null) return; // what is drawn for the page's own use
     hasModel ||= count >= wanted.leastVertices;
@@ -79,18 +81,28 @@ export function watch(wanted: Wanted): void {
 
   for (const prototype of [WebGLRenderingContext.prototype, WebGL2RenderingContext.prototype]) {
     const calls = prototype as unknown as Record<string, (this: Context, ...args: unknown[]) => unknown>;
-    for (const [name, place] of [["drawArrays", 2], ["drawElements", 1], ["drawArraysInstanced", 2], ["drawElementsInstanced", 1]] as const) {
+    for (const [name, place] of [
+      ["drawArrays", 2],
+      ["drawElements", 1],
+      ["drawArraysInstanced", 2],
+      ["drawElementsInstanced", 1],
+    ] as const) {
       const draw = calls[name];
-      if (draw) calls[name] = function (...args) {
-        note(this, Number(args[place]));
-        return draw.apply(this, args);
-      };
+      if (draw)
+        calls[name] = function (...args) {
+          note(this, Number(args[place]));
+          return draw.apply(this, args);
+        };
     }
   }
   document.addEventListener("model-complete", complete);
-  document.addEventListener("load", ({ target }) => {
-    if (wanted.saysWhenComplete && target instanceof Element && target.localName.toLowerCase() === "x3d") complete();
-  }, true);
+  document.addEventListener(
+    "load",
+    ({ target }) => {
+      if (wanted.saysWhenComplete && target instanceof Element && target.localName.toLowerCase() === "x3d") complete();
+    },
+    true,
+  );
 }
 
 /** When a page's picture had become what. Milliseconds from navigation. */
@@ -110,11 +122,15 @@ export function timesOf(): Times {
   if (last === undefined) throw new Error("nothing was drawn");
   const final = last.pixels;
   const background = final.slice(0, 3); // the models stand clear of the corner
-  const off = (pixels: Uint8Array, i: number, channel: number): number => Math.abs(pixels[i + channel]! - background[channel]!);
-  const shows = (pixels: Uint8Array, i: number): boolean => Math.max(off(pixels, i, 0), off(pixels, i, 1), off(pixels, i, 2)) > 8;
+  const off = (pixels: Uint8Array, i: number, channel: number): number =>
+    Math.abs(pixels[i + channel]! - background[channel]!);
+  const shows = (pixels: Uint8Array, i: number): boolean =>
+    Math.max(off(pixels, i, 0), off(pixels, i, 1), off(pixels, i, 2)) > 8;
   // Of one picture in another: who simplifies a shape moves its outline by a hair, and would miss much of a thin leg.
   const isCovered = (pixels: Uint8Array, i: number): boolean =>
-    [0, -4, 4, -4 * columns, 4 * columns].some((away) => i + away >= 0 && i + away < pixels.length && shows(pixels, i + away));
+    [0, -4, 4, -4 * columns, 4 * columns].some(
+      (away) => i + away >= 0 && i + away < pixels.length && shows(pixels, i + away),
+    );
   let [covered, whole] = [0, 0];
   for (let i = 0; i < final.length; i += 4) {
     if (shows(final, i)) covered += 1;

@@ -34,7 +34,7 @@ const paths: Record<string, { container: Container; decode: string }> = {
   "SIG classic, in the shader": { container: "SIG classic", decode: "gpu" },
   "SIG classic, in workers": { container: "SIG classic", decode: "cpu" },
   "SIG compact": { container: "SIG compact", decode: "" },
-  "BG": { container: "BG", decode: "" },
+  BG: { container: "BG", decode: "" },
 };
 
 /** So many shapes, no two alike: what is the same would be one file. */
@@ -44,10 +44,15 @@ function shapes(count: number, directory: string): Input {
   writeShapes(count, source);
   const siteAs = (container: Container): string => {
     const site = join(directory, container.replaceAll(" ", "-"));
-    execFileSync(converter, ["convert", source, "-o", site, ...containers[container]], { stdio: ["ignore", "ignore", "inherit"] });
+    execFileSync(converter, ["convert", source, "-o", site, ...containers[container]], {
+      stdio: ["ignore", "ignore", "inherit"],
+    });
     return site;
   };
-  return { name: `${count} shapes`, sites: { "SIG classic": siteAs("SIG classic"), "SIG compact": siteAs("SIG compact"), "BG": siteAs("BG") } };
+  return {
+    name: `${count} shapes`,
+    sites: { "SIG classic": siteAs("SIG classic"), "SIG compact": siteAs("SIG compact"), BG: siteAs("BG") },
+  };
 }
 
 interface Measured {
@@ -77,8 +82,12 @@ async function measure(browser: Browser, site: string, decode: string): Promise<
     const { traceEvents } = JSON.parse((await browser.stopTracing()).toString()) as { traceEvents: TraceEvent[] };
     const { statistics, frames } = await turn(page);
     return {
-      loadMs, processorMs: processorMsOf(traceEvents), longestTaskMs: longestTaskMsOf(traceEvents),
-      frameMs: turningMs / frames, gpuBytes: statistics.textureBytes + statistics.bufferBytes, requests: statistics.requests,
+      loadMs,
+      processorMs: processorMsOf(traceEvents),
+      longestTaskMs: longestTaskMsOf(traceEvents),
+      frameMs: turningMs / frames,
+      gpuBytes: statistics.textureBytes + statistics.bufferBytes,
+      requests: statistics.requests,
     };
   } finally {
     await context.close();
@@ -114,24 +123,40 @@ const browser = await launchChromium();
 try {
   const renderer = await rendererOf(browser);
   const scenes = process.argv.length > 2 ? process.argv.slice(2) : ["bunny", "dragon", "shapes"];
-  const inputs = scenes.flatMap((name): Input[] => name === "shapes" ? [shapes(500, join(work, name))] : prepareModels([name], work));
+  const inputs = scenes.flatMap((name): Input[] =>
+    name === "shapes" ? [shapes(500, join(work, name))] : prepareModels([name], work),
+  );
   console.log("| scene | path | load | on processors | longest task | frame | vertex data on the GPU | requests |");
   console.log("|---|---|--:|--:|--:|--:|--:|--:|");
   for (const { name, sites } of inputs) {
     const results = new Map(Object.keys(paths).map((path) => [path, [] as Measured[]]));
     // One after the other, so that what else the machine does befalls all alike.
     for (let run = 0; run < runs; ++run) {
-      for (const [path, { container, decode }] of Object.entries(paths)) results.get(path)?.push(await measure(browser, sites[container], decode));
+      for (const [path, { container, decode }] of Object.entries(paths))
+        results.get(path)?.push(await measure(browser, sites[container], decode));
     }
     for (const [path, all] of results) {
-      const median = (of: keyof Measured): number => all.map((each) => each[of]).sort((a, b) => a - b)[Math.floor(all.length / 2)]!;
+      const median = (of: keyof Measured): number =>
+        all.map((each) => each[of]).sort((a, b) => a - b)[Math.floor(all.length / 2)]!;
       const ms = (of: keyof Measured): string => `${median(of).toFixed(0)} ms`;
-      console.log(`| ${[name, path, ms("loadMs"), ms("processorMs"), ms("longestTaskMs"), ms("frameMs"),
-        `${(median("gpuBytes") / 1e6).toFixed(2)} MB`, median("requests")].join(" | ")} |`);
+      console.log(
+        `| ${[
+          name,
+          path,
+          ms("loadMs"),
+          ms("processorMs"),
+          ms("longestTaskMs"),
+          ms("frameMs"),
+          `${(median("gpuBytes") / 1e6).toFixed(2)} MB`,
+          median("requests"),
+        ].join(" | ")} |`,
+      );
     }
   }
   const isSoftware = /swiftshader|llvmpipe|software/i.test(renderer);
-  console.log(`\nMedians of ${runs}; ${renderer}, ${cpus().length} cores.${isSoftware ? " A software renderer: times of frames decide nothing." : ""}`);
+  console.log(
+    `\nMedians of ${runs}; ${renderer}, ${cpus().length} cores.${isSoftware ? " A software renderer: times of frames decide nothing." : ""}`,
+  );
 } finally {
   await browser.close();
   rmSync(work, { recursive: true, force: true });

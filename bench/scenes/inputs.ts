@@ -26,29 +26,46 @@ const root = process.env.IMGEO_PACKAGES ?? "/";
 const models = join(root, "usr/share/assimp/models");
 const castle = join(root, "usr/share/doc/castle-game-engine-doc/examples");
 
-const from = (name: string, target: string, orbit: string): Camera =>
-  ({ name, attributes: `camera-target="${target}" camera-orbit="${orbit}"` });
+const from = (name: string, target: string, orbit: string): Camera => ({
+  name,
+  attributes: `camera-target="${target}" camera-orbit="${orbit}"`,
+});
 
 export const inputs: readonly Input[] = [
   {
-    name: "hall", source: "`imgeo sample hall --seats 2000`", file: "",
+    name: "hall",
+    source: "`imgeo sample hall --seats 2000`",
+    file: "",
     cameras: [{ name: "from the door", attributes: "" }, from("from the stage", "0m 2.4m 10m", "180deg 88deg 11m")],
   },
   {
-    name: "house", source: "`AC14-FZK-Haus.ifc` of assimp-testmodels", file: join(models, "IFC/AC14-FZK-Haus.ifc"),
+    name: "house",
+    source: "`AC14-FZK-Haus.ifc` of assimp-testmodels",
+    file: join(models, "IFC/AC14-FZK-Haus.ifc"),
     cameras: [{ name: "from the garden", attributes: "" }, from("in the kitchen", "4m 1.6m -3m", "90deg 85deg 3m")],
   },
   {
-    name: "engine", source: "`2CylinderEngine.glb` of assimp-testmodels",
+    name: "engine",
+    source: "`2CylinderEngine.glb` of assimp-testmodels",
     file: join(models, "glTF2/2CylinderEngine-glTF-Binary/2CylinderEngine.glb"),
-    cameras: [{ name: "of all", attributes: "" }, { name: "at one end", attributes: 'camera-orbit="80deg 85deg 40%"' }],
+    cameras: [
+      { name: "of all", attributes: "" },
+      { name: "at one end", attributes: 'camera-orbit="80deg 85deg 40%"' },
+    ],
   },
   {
-    name: "dungeon", source: "`level-dungeon.gltf` of castle-game-engine-doc", file: join(castle, "third_person_navigation/data/level/level-dungeon.gltf"),
-    cameras: [from("in its yard", "10m 1m 0m", "150deg 75deg 14m"), from("at its gate", "-28m 1m 0m", "90deg 80deg 8m")],
+    name: "dungeon",
+    source: "`level-dungeon.gltf` of castle-game-engine-doc",
+    file: join(castle, "third_person_navigation/data/level/level-dungeon.gltf"),
+    cameras: [
+      from("in its yard", "10m 1m 0m", "150deg 75deg 14m"),
+      from("at its gate", "-28m 1m 0m", "90deg 80deg 8m"),
+    ],
   },
   {
-    name: "bridge", source: "`bridge.x3d` of castle-game-engine-doc", file: join(castle, "viewport_and_scenes/view_3d_model_basic/data/bridge.x3d"),
+    name: "bridge",
+    source: "`bridge.x3d` of castle-game-engine-doc",
+    file: join(castle, "viewport_and_scenes/view_3d_model_basic/data/bridge.x3d"),
     cameras: [{ name: "from the water", attributes: "" }, from("on it", "15m 2m 0m", "80deg 80deg 20m")],
   },
 ];
@@ -57,7 +74,9 @@ export const inputs: readonly Input[] = [
 export function fileOf(input: Input, work: string): string | undefined {
   if (input.file === "") {
     const file = join(work, `${input.name}.glb`);
-    execFileSync(converter, ["sample", "hall", "--seats", "2000", "-o", file], { stdio: ["ignore", "ignore", "inherit"] });
+    execFileSync(converter, ["sample", "hall", "--seats", "2000", "-o", file], {
+      stdio: ["ignore", "ignore", "inherit"],
+    });
     return file;
   }
   if (existsSync(input.file)) return input.file;

@@ -44,7 +44,9 @@ async function measure(input: Input, work: string): Promise<Measured | undefined
   const info = JSON.parse(execFileSync(converter, ["info", "--json", sites[0]], { encoding: "utf8" })) as SiteInfo;
   const visits: Visit[] = [];
   for (const site of sites) visits.push(await visit(browser, site, line));
-  visits.forEach(({ picture }, place) => { writeFileSync(join(output, `${input.name}-${place + 1}.png`), picture); });
+  visits.forEach(({ picture }, place) => {
+    writeFileSync(join(output, `${input.name}-${place + 1}.png`), picture);
+  });
   // The second copy's document has a camera's attributes more.
   return { input, info: { ...info, documentBytes: statSync(join(sites[0], "index.html")).size }, visits };
 }
@@ -56,26 +58,47 @@ function printBytes({ input, info, visits }: Measured): void {
   // What its containers would take were every place of a mesh stored by itself.
   const unshared = (containerBytes * triangles) / info.triangles;
   const page = runtimeBytes + containerBytes + textureBytes;
-  print(input.name, whole(shapes), whole(triangles), whole(info.triangles), whole(info.documentBytes), whole(documentBytes),
-    whole(containerBytes), whole(textureBytes), share(documentBytes, documentBytes + page),
-    share(documentBytes, documentBytes + containerBytes + textureBytes), share(info.documentBytes, info.documentBytes + unshared + textureBytes));
+  print(
+    input.name,
+    whole(shapes),
+    whole(triangles),
+    whole(info.triangles),
+    whole(info.documentBytes),
+    whole(documentBytes),
+    whole(containerBytes),
+    whole(textureBytes),
+    share(documentBytes, documentBytes + page),
+    share(documentBytes, documentBytes + containerBytes + textureBytes),
+    share(info.documentBytes, info.documentBytes + unshared + textureBytes),
+  );
 }
 
 function printLoad({ input, visits }: Measured, place: number): void {
   const { requests, bytes, firstBytes, firstSeconds, finalSeconds, drawCalls } = visits[place]!;
-  print(input.name, input.cameras[place]!.name, requests, drawCalls, `${whole(firstBytes / 1000)} kB, ${firstSeconds.toFixed(2)} s`,
-    `${whole(bytes / 1000)} kB, ${finalSeconds.toFixed(2)} s`);
+  print(
+    input.name,
+    input.cameras[place]!.name,
+    requests,
+    drawCalls,
+    `${whole(firstBytes / 1000)} kB, ${firstSeconds.toFixed(2)} s`,
+    `${whole(bytes / 1000)} kB, ${finalSeconds.toFixed(2)} s`,
+  );
 }
 
 function textOf({ role, names, bytes }: AskedFile): string {
-  const some = names.slice(0, 3).map((name) => name.length > 24 ? `${name.slice(0, 23)}…` : name).join(", ");
+  const some = names
+    .slice(0, 3)
+    .map((name) => (name.length > 24 ? `${name.slice(0, 23)}…` : name))
+    .join(", ");
   return `${role} (${(bytes / 1000).toFixed(bytes < 10_000 ? 1 : 0)} kB) of ${some}${names.length > 3 ? ` and ${names.length - 3} more` : ""}`;
 }
 
 /** Previews come in one go, and would fill the list. */
 function printOrder({ input, visits }: Measured, place: number): void {
   const steps = visits[place]!.asked.filter(({ role }) => role !== "preview").map(textOf);
-  console.log(`- **${input.name}, ${input.cameras[place]!.name}**: ${steps.slice(0, 8).join("; ")}${steps.length > 8 ? `; ${steps.length - 8} more` : ""}`);
+  console.log(
+    `- **${input.name}, ${input.cameras[place]!.name}**: ${steps.slice(0, 8).join("; ")}${steps.length > 8 ? `; ${steps.length - 8} more` : ""}`,
+  );
 }
 
 /** A column a scene, a row a camera. */
@@ -83,8 +106,11 @@ async function sheetOf(all: readonly Measured[]): Promise<Buffer> {
   const width = 200;
   const page = await browser.newPage({ viewport: { width: width * all.length, height: 300 } });
   const pictures = [0, 1].flatMap((place) => all.map(({ visits }) => visits[place]!.picture.toString("base64")));
-  await page.setContent(`<style>body { margin: 0; line-height: 0 }</style>${
-    pictures.map((png) => `<img width="${width}" src="data:image/png;base64,${png}">`).join("")}`);
+  await page.setContent(
+    `<style>body { margin: 0; line-height: 0 }</style>${pictures
+      .map((png) => `<img width="${width}" src="data:image/png;base64,${png}">`)
+      .join("")}`,
+  );
   return page.screenshot();
 }
 
@@ -99,7 +125,19 @@ try {
     const measured = await measure(input, work);
     if (measured) all.push(measured);
   }
-  print("scene", "shapes", "triangles seen", "stored", "document", "brotli", "geometry", "textures", "document's share of the page", "of the scene's files", "were nothing shared");
+  print(
+    "scene",
+    "shapes",
+    "triangles seen",
+    "stored",
+    "document",
+    "brotli",
+    "geometry",
+    "textures",
+    "document's share of the page",
+    "of the scene's files",
+    "were nothing shared",
+  );
   print("---", ...Array.from({ length: 10 }, () => "--:"));
   all.forEach(printBytes);
   console.log();

@@ -41,12 +41,18 @@ export async function visit(browser: Browser, directory: string, line: LineOptio
   try {
     const page = await context.newPage();
     await page.addInitScript(observe);
-    await page.addInitScript(() => { performance.setResourceTimingBufferSize(10_000); });
+    await page.addInitScript(() => {
+      performance.setResourceTimingBufferSize(10_000);
+    });
     const order: string[] = [];
     page.on("request", (request) => order.push(request.url().slice(server.origin.length)));
     server.useLine(line);
     await page.goto(server.origin, { waitUntil: "commit", timeout: timeoutMs });
-    await page.waitForFunction(() => window.observed.events.some(({ type, target }) => type === "load" && target === "x3d"), undefined, { timeout: timeoutMs });
+    await page.waitForFunction(
+      () => window.observed.events.some(({ type, target }) => type === "load" && target === "x3d"),
+      undefined,
+      { timeout: timeoutMs },
+    );
     const seen = await page.evaluate(measure, order);
     return { ...seen, requests: server.requests.length, bytes: server.bytesSent, picture: await page.screenshot() };
   } finally {
@@ -58,20 +64,27 @@ export async function visit(browser: Browser, directory: string, line: LineOptio
 /** Runs in the page; self-contained. */
 async function measure(order: readonly string[]): Promise<Omit<Visit, "requests" | "bytes" | "picture">> {
   const x3d = document.querySelector<ViewElement>("x3d")!;
-  const timeOf = (type: string): number => window.observed.events.find((event) => event.type === type && event.target === "x3d")?.at ?? NaN;
+  const timeOf = (type: string): number =>
+    window.observed.events.find((event) => event.type === type && event.target === "x3d")?.at ?? NaN;
   const [navigation] = performance.getEntriesByType("navigation") as PerformanceNavigationTiming[];
   const files = performance.getEntriesByType("resource") as PerformanceResourceTiming[];
   const pathOf = (url: string): string => new URL(url).pathname.slice(1);
   const bytesOf = new Map(files.map(({ name, encodedBodySize }) => [pathOf(name), encodedBodySize]));
-  const sum = (entries: readonly PerformanceResourceTiming[]): number => entries.reduce((total, { encodedBodySize }) => total + encodedBodySize, 0);
+  const sum = (entries: readonly PerformanceResourceTiming[]): number =>
+    entries.reduce((total, { encodedBodySize }) => total + encodedBodySize, 0);
 
   const fieldOf = (element: Element, name: string): string => element.getAttribute(name) ?? "";
-  const defined = new Map(Array.from(document.querySelectorAll("[DEF]"), (element) => [fieldOf(element, "DEF"), element]));
+  const defined = new Map(
+    Array.from(document.querySelectorAll("[DEF]"), (element) => [fieldOf(element, "DEF"), element]),
+  );
   const resolved = (element: Element): Element => defined.get(fieldOf(element, "USE")) ?? element;
   const count = { shapes: 0, triangles: 0 };
   const countIn = (parent: Element): void => {
     for (const child of Array.from(parent.children, resolved)) {
-      if (child.localName !== "shape") { countIn(child); continue; }
+      if (child.localName !== "shape") {
+        countIn(child);
+        continue;
+      }
       count.shapes += 1;
       for (const geometry of Array.from(child.children, resolved)) {
         const patches = geometry.querySelectorAll("geometrypatch");
@@ -94,7 +107,13 @@ async function measure(order: readonly string[]): Promise<Omit<Visit, "requests"
     for (const [role, attributes] of Object.entries(roleAttributes)) {
       const users = attributes.flatMap((attribute) => Array.from(x3d.querySelectorAll(`[${attribute}*="${path}"]`)));
       if (path !== "" && users.length > 0) {
-        return [{ role: role as keyof typeof roleAttributes, names: [...new Set(users.map(nameOf))], bytes: bytesOf.get(path) ?? 0 }];
+        return [
+          {
+            role: role as keyof typeof roleAttributes,
+            names: [...new Set(users.map(nameOf))],
+            bytes: bytesOf.get(path) ?? 0,
+          },
+        ];
       }
     }
     return [];

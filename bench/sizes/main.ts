@@ -21,7 +21,10 @@ const withoutThree: Plugin = {
 
 async function bundled(source: string, ...plugins: Plugin[]): Promise<Buffer> {
   const { outputFiles } = await build({
-    ...runtimeBundle, plugins, write: false, entryPoints: [],
+    ...runtimeBundle,
+    plugins,
+    write: false,
+    entryPoints: [],
     stdin: { contents: source, resolveDir: repository, loader: "ts" },
   });
   return Buffer.from(outputFiles[0]!.contents);
@@ -31,7 +34,10 @@ async function bundled(source: string, ...plugins: Plugin[]): Promise<Buffer> {
 async function ofSite(): Promise<{ first: Buffer[]; all: Buffer[] }> {
   const { outputFiles } = await build({ ...siteBundle, outdir: "dist", write: false });
   const modules = outputFiles.map(({ path, contents }) => ({ path, bytes: Buffer.from(contents) }));
-  return { first: modules.filter(({ path }) => !path.endsWith("-scene.js")).map(({ bytes }) => bytes), all: modules.map(({ bytes }) => bytes) };
+  return {
+    first: modules.filter(({ path }) => !path.endsWith("-scene.js")).map(({ bytes }) => bytes),
+    all: modules.map(({ bytes }) => bytes),
+  };
 }
 
 async function worker(): Promise<Buffer> {
@@ -41,7 +47,10 @@ async function worker(): Promise<Buffer> {
 
 /** What another viewer's package ships for pages, minified where it is not so already. */
 async function shipped(path: string): Promise<Buffer> {
-  const { code } = await transform(readFileSync(join(repository, "node_modules", path)), { minify: true, legalComments: "inline" });
+  const { code } = await transform(readFileSync(join(repository, "node_modules", path)), {
+    minify: true,
+    legalComments: "inline",
+  });
   return Buffer.from(code);
 }
 
@@ -60,10 +69,20 @@ const rows: [name: string, withThree: Files | undefined, without: Files | undefi
   ["imgeo, `ImgeoLoader`", await bundled(app + loader), await bundled(loader, withoutThree)],
   ["imgeo's worker, for compact", undefined, await worker()],
   ["three.js itself, in an app", await bundled(app), undefined],
-  ["three.js' GLTFLoader and MeshoptDecoder", undefined, await bundled(
-    `export { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
-     export { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";`, withoutThree)],
-  ["model-viewer", await shipped("@google/model-viewer/dist/model-viewer.min.js"), await shipped("@google/model-viewer/dist/model-viewer-module.min.js")],
+  [
+    "three.js' GLTFLoader and MeshoptDecoder",
+    undefined,
+    await bundled(
+      `export { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+     export { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";`,
+      withoutThree,
+    ),
+  ],
+  [
+    "model-viewer",
+    await shipped("@google/model-viewer/dist/model-viewer.min.js"),
+    await shipped("@google/model-viewer/dist/model-viewer-module.min.js"),
+  ],
   ["X3DOM", undefined, await shipped("x3dom-1.8/x3dom.js")],
 ];
 
@@ -71,9 +90,11 @@ const rows: [name: string, withThree: Files | undefined, without: Files | undefi
 function cellOf(files: Files | undefined): string {
   if (files === undefined) return "";
   const all: readonly Buffer[] = Buffer.isBuffer(files) ? [files] : files;
-  const brotli = (bytes: Buffer): Buffer => brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length } });
-  const sums = [(bytes: Buffer) => bytes, (bytes: Buffer) => gzipSync(bytes, { level: 9 }), brotli]
-    .map((pack) => all.reduce((sum, bytes) => sum + pack(bytes).length, 0));
+  const brotli = (bytes: Buffer): Buffer =>
+    brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length } });
+  const sums = [(bytes: Buffer) => bytes, (bytes: Buffer) => gzipSync(bytes, { level: 9 }), brotli].map((pack) =>
+    all.reduce((sum, bytes) => sum + pack(bytes).length, 0),
+  );
   return sums.map((sum) => (sum / 1000).toFixed(0)).join(" / ");
 }
 

@@ -2,8 +2,20 @@
 // under its own lights, with their shadows. Click on the model to mark a place.
 
 import {
-  CircleGeometry, Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, Scene,
-  Sphere, SphereGeometry, Vector3, WebGLRenderer, type Box3,
+  CircleGeometry,
+  Color,
+  DirectionalLight,
+  HemisphereLight,
+  Mesh,
+  MeshBasicMaterial,
+  MeshStandardMaterial,
+  PerspectiveCamera,
+  Scene,
+  Sphere,
+  SphereGeometry,
+  Vector3,
+  WebGLRenderer,
+  type Box3,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { ImgeoLoader } from "imgeo/loader";
@@ -68,11 +80,21 @@ function setTheStage(box: Box3): void {
   sun.target.position.copy(center);
   sun.castShadow = true;
   sun.shadow.mapSize.set(2048, 2048);
-  Object.assign(sun.shadow.camera, { left: -radius, right: radius, top: radius, bottom: -radius, near: radius, far: 6 * radius });
+  Object.assign(sun.shadow.camera, {
+    left: -radius,
+    right: radius,
+    top: radius,
+    bottom: -radius,
+    near: radius,
+    far: 6 * radius,
+  });
   sun.shadow.normalBias = radius / 100;
   scene.add(sun, sun.target, new HemisphereLight(0xeaf4ff, 0x8a8177, 1.2));
 
-  const floor = new Mesh(new CircleGeometry(4 * radius, 64), new MeshStandardMaterial({ color: 0xc9c4bb, roughness: 1 }));
+  const floor = new Mesh(
+    new CircleGeometry(4 * radius, 64),
+    new MeshStandardMaterial({ color: 0xc9c4bb, roughness: 1 }),
+  );
   floor.rotation.x = -Math.PI / 2;
   floor.position.set(center.x, box.min.y, center.z);
   floor.receiveShadow = true;

@@ -10,15 +10,21 @@ import { join } from "node:path";
 
 const here = import.meta.dirname;
 const repository = join(here, "../..");
-const [site = join(repository, "build/demo/dragon_vrip"), output = join(repository, "build/three-app")] = process.argv.slice(2);
+const [site = join(repository, "build/demo/dragon_vrip"), output = join(repository, "build/three-app")] =
+  process.argv.slice(2);
 
 rmSync(output, { recursive: true, force: true });
 mkdirSync(output, { recursive: true });
 for (const file of ["index.html", "app.css"]) cpSync(join(here, file), join(output, file));
 cpSync(site, join(output, "model"), { recursive: true });
 await build({
-  entryPoints: [join(here, "app.ts")], outfile: join(output, "app.js"),
+  entryPoints: [join(here, "app.ts")],
+  outfile: join(output, "app.js"),
   alias: { "imgeo/loader": join(repository, "web/src/loader/index.ts") },
-  bundle: true, format: "esm", target: "es2022", minify: true, logLevel: "warning",
+  bundle: true,
+  format: "esm",
+  target: "es2022",
+  minify: true,
+  logLevel: "warning",
 });
 cpSync(join(repository, "web/dist/imgeo-worker.js"), join(output, "imgeo-worker.js"));

@@ -27,15 +27,13 @@ TEST(Error, SaysWhereAndWhat) {
 TEST(Error, HasTheDocumentedExitCodes) {
   EXPECT_EQ(exitCode(ErrorKind::usage), 1);
   EXPECT_EQ(exitCode(ErrorKind::io), 2);
-  for (const ErrorKind kind :
-       {ErrorKind::truncated, ErrorKind::malformed, ErrorKind::unsupported, ErrorKind::limit})
+  for (const ErrorKind kind : {ErrorKind::truncated, ErrorKind::malformed, ErrorKind::unsupported, ErrorKind::limit})
     EXPECT_EQ(exitCode(kind), 3);
 }
 
 TEST(LateLibrary, CallsWhatItFindsAndNamesWhatItDoesNot) {
   struct Maths : LateLibrary {
-    explicit Maths(const char* name, const char* function = "fabs")
-        : LateLibrary(name), fabs(find(function)) {}
+    explicit Maths(const char* name, const char* function = "fabs") : LateLibrary(name), fabs(find(function)) {}
     double (*fabs)(double);
   };
   EXPECT_EQ(Maths("libm.so.6").fabs(-3), 3);

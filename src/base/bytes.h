@@ -30,7 +30,8 @@ inline std::string_view asText(ByteSpan bytes) {
 template <typename T> T byteSwap(T value) {
   std::uint8_t raw[sizeof(T)];
   std::memcpy(raw, &value, sizeof(T));
-  for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(raw[i], raw[sizeof(T) - 1 - i]);
+  for (std::size_t i = 0; i < sizeof(T) / 2; ++i)
+    std::swap(raw[i], raw[sizeof(T) - 1 - i]);
   std::memcpy(&value, raw, sizeof(T));
   return value;
 }
@@ -50,13 +51,15 @@ template <typename T> T loadBig(const std::uint8_t* at) {
 
 /// Appends a scalar in the stated order.
 template <typename T> void appendLittle(Bytes& out, T value) {
-  if (std::endian::native != std::endian::little) value = byteSwap(value);
+  if (std::endian::native != std::endian::little)
+    value = byteSwap(value);
   const std::size_t at = out.size();
   out.resize(at + sizeof(T));
   std::memcpy(out.data() + at, &value, sizeof(T));
 }
 template <typename T> void appendBig(Bytes& out, T value) {
-  if (std::endian::native != std::endian::big) value = byteSwap(value);
+  if (std::endian::native != std::endian::big)
+    value = byteSwap(value);
   const std::size_t at = out.size();
   out.resize(at + sizeof(T));
   std::memcpy(out.data() + at, &value, sizeof(T));

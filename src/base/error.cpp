@@ -10,12 +10,15 @@ Error::Error(ErrorKind kind, std::string place, std::string message)
 
 int exitCode(ErrorKind kind) noexcept {
   switch (kind) {
-  case ErrorKind::usage: return 1;
-  case ErrorKind::io: return 2;
+  case ErrorKind::usage:
+    return 1;
+  case ErrorKind::io:
+    return 2;
   case ErrorKind::truncated:
   case ErrorKind::malformed:
   case ErrorKind::unsupported:
-  case ErrorKind::limit: return 3;
+  case ErrorKind::limit:
+    return 3;
   }
   return 4;
 }

@@ -29,10 +29,13 @@ Bytes readFile(const std::filesystem::path& path) {
   const bool isStdin = path == "-";
   File opened(isStdin ? nullptr : std::fopen(path.c_str(), "rb"));
   std::FILE* file = isStdin ? stdin : opened.get();
-  if (!file) failWithErrno(path, "open");
+  if (!file)
+    failWithErrno(path, "open");
   struct stat status {};
-  if (fstat(fileno(file), &status) != 0) failWithErrno(path, "read");
-  if (S_ISDIR(status.st_mode)) throw Error(ErrorKind::io, path.string(), "is a directory, not a file");
+  if (fstat(fileno(file), &status) != 0)
+    failWithErrno(path, "read");
+  if (S_ISDIR(status.st_mode))
+    throw Error(ErrorKind::io, path.string(), "is a directory, not a file");
 
   Bytes bytes(S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0);
   std::size_t used = 0;
@@ -41,28 +44,32 @@ Bytes readFile(const std::filesystem::path& path) {
   for (;;) {
     if (used == bytes.size()) {
       std::uint8_t more[1];
-      if (std::fread(more, 1, 1, file) == 0) break;
+      if (std::fread(more, 1, 1, file) == 0)
+        break;
       bytes.resize(std::max<std::size_t>(bytes.size() * 2, std::size_t{1} << 16));
       bytes[used++] = more[0];
     }
     const std::size_t got = std::fread(bytes.data() + used, 1, bytes.size() - used, file);
-    if (got == 0) break;
+    if (got == 0)
+      break;
     used += got;
   }
-  if (std::ferror(file)) failWithErrno(path, "read");
+  if (std::ferror(file))
+    failWithErrno(path, "read");
   bytes.resize(used);
   return bytes;
 }
 
 void writeFile(const std::filesystem::path& path, ByteSpan bytes) {
   File file(std::fopen(path.c_str(), "wb"));
-  if (!file) failWithErrno(path, "write");
-  const bool wrote =
-      bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+  if (!file)
+    failWithErrno(path, "write");
+  const bool wrote = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
   if (!wrote || std::fclose(file.release()) != 0) {
     const int reason = errno;
     std::error_code ignored; // a device or a pipe is not ours to remove
-    if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
+    if (std::filesystem::is_regular_file(path, ignored))
+      std::filesystem::remove(path, ignored);
     errno = reason;
     failWithErrno(path, "write");
   }

@@ -36,11 +36,15 @@ using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
 using Vec3u = Vec3<std::uint32_t>;
 
-template <typename T> T dot(Vec3<T> a, Vec3<T> b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+template <typename T> T dot(Vec3<T> a, Vec3<T> b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 template <typename T> Vec3<T> cross(Vec3<T> a, Vec3<T> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-template <typename T> T length(Vec3<T> a) { return std::sqrt(dot(a, a)); }
+template <typename T> T length(Vec3<T> a) {
+  return std::sqrt(dot(a, a));
+}
 
 /// A colour of 8 bits a channel, as files store it (sRGB where they say nothing).
 struct Rgba8 {

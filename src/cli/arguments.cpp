@@ -16,8 +16,7 @@ namespace imgeo::cli {
 namespace {
 
 [[noreturn]] void refuse(const Command* command, const std::string& message) {
-  throw Error(ErrorKind::usage, "",
-              fmt::format("{}; see imgeo {}--help", message, command ? command->name + " " : ""));
+  throw Error(ErrorKind::usage, "", fmt::format("{}; see imgeo {}--help", message, command ? command->name + " " : ""));
 }
 
 /// What is wrong with a value; empty where nothing is.
@@ -88,9 +87,8 @@ Arguments parseCommand(const Command& command, std::vector<std::string> words) {
       continue;
     }
     // A positional argument with a short name may be given by its long one too.
-    const std::string names = flag.positional
-                                  ? (flag.aliases.empty() ? flag.name : flag.name + ",--" + flag.name)
-                                  : "--" + flag.name;
+    const std::string names =
+        flag.positional ? (flag.aliases.empty() ? flag.name : flag.name + ",--" + flag.name) : "--" + flag.name;
     arguments.values[flag.name] = flag.fallback;
     app.add_option(names, arguments.values[flag.name])->check([&flag](const std::string& value) {
       return faultOf(flag, value);
@@ -108,10 +106,9 @@ Arguments parseCommand(const Command& command, std::vector<std::string> words) {
     return arguments;
   for (const Flag& flag : command.flags)
     if (flag.required && arguments.values[flag.name].empty())
-      refuse(&command,
-             fmt::format("{} is missing: imgeo {} {}",
-                         flag.positional ? flag.valueName : fmt::format("--{} {}", flag.name, flag.valueName),
-                         command.name, command.usage));
+      refuse(&command, fmt::format("{} is missing: imgeo {} {}",
+                                   flag.positional ? flag.valueName : fmt::format("--{} {}", flag.name, flag.valueName),
+                                   command.name, command.usage));
   return arguments;
 }
 

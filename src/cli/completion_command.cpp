@@ -25,13 +25,12 @@ std::vector<std::string> spellings(const Flag& flag) {
 }
 
 std::string bashScript() {
-  std::string script =
-      "_imgeo() {\n  local word=\"${COMP_WORDS[COMP_CWORD]}\" before=\"${COMP_WORDS[COMP_CWORD-1]}\"\n"
-      "  COMPREPLY=()\n  if [[ $COMP_CWORD -eq 1 ]]; then\n"
-      "    COMPREPLY=($(compgen -W \"" +
-      fmt::format("{}", fmt::join(commandNames(), " ")) +
-      " --help --version\" -- \"$word\"))\n"
-      "    return\n  fi\n  case \"${COMP_WORDS[1]} $before\" in\n";
+  std::string script = "_imgeo() {\n  local word=\"${COMP_WORDS[COMP_CWORD]}\" before=\"${COMP_WORDS[COMP_CWORD-1]}\"\n"
+                       "  COMPREPLY=()\n  if [[ $COMP_CWORD -eq 1 ]]; then\n"
+                       "    COMPREPLY=($(compgen -W \"" +
+                       fmt::format("{}", fmt::join(commandNames(), " ")) +
+                       " --help --version\" -- \"$word\"))\n"
+                       "    return\n  fi\n  case \"${COMP_WORDS[1]} $before\" in\n";
   for (const Command& command : commands())
     for (const Flag& flag : command.flags) {
       if (!flag.takesValue() || spellings(flag).empty())
@@ -125,8 +124,7 @@ std::string fishScript() {
     script += fmt::format("complete -c imgeo -n __fish_use_subcommand -f -a {} -d '{}'\n", command.name,
                           fishText(command.summary));
   for (const Command& command : commands()) {
-    const std::string here =
-        fmt::format("complete -c imgeo -n '__fish_seen_subcommand_from {}'", command.name);
+    const std::string here = fmt::format("complete -c imgeo -n '__fish_seen_subcommand_from {}'", command.name);
     for (const Flag& flag : command.flags) {
       if (flag.positional) {
         if (!flag.choices.empty())

@@ -50,10 +50,8 @@ MaxError maxErrorFrom(const std::string& text) {
   const char* end = text.data() + text.size();
   error.isPercent = text.ends_with('%');
   const auto [last, fault] = std::from_chars(text.data(), end - error.isPercent, error.value);
-  if (fault != std::errc{} || last != end - error.isPercent || !(error.value > 0) ||
-      !std::isfinite(error.value))
-    throw Error(ErrorKind::usage, "--max-error",
-                fmt::format("\"{}\" is no length, nor one of percent", text));
+  if (fault != std::errc{} || last != end - error.isPercent || !(error.value > 0) || !std::isfinite(error.value))
+    throw Error(ErrorKind::usage, "--max-error", fmt::format("\"{}\" is no length, nor one of percent", text));
   return error;
 }
 
@@ -68,9 +66,8 @@ double basePercentFrom(const std::string& text) {
 
 TextureOptions texturesFrom(const Arguments& arguments) {
   TextureOptions textures;
-  textures.format =
-      chosen(arguments, "textures",
-             {TextureFormat::keep, TextureFormat::webp, TextureFormat::avif, TextureFormat::png});
+  textures.format = chosen(arguments, "textures",
+                           {TextureFormat::keep, TextureFormat::webp, TextureFormat::avif, TextureFormat::png});
   if (!arguments.text("texture-size").empty())
     textures.size = static_cast<std::uint32_t>(arguments.integer("texture-size"));
   if (!arguments.text("texture-quality").empty())
@@ -82,15 +79,14 @@ TextureOptions texturesFrom(const Arguments& arguments) {
 ConvertOptions optionsFrom(const Arguments& arguments) {
   ConvertOptions options;
   options.container = chosen(arguments, "container", {Container::sig, Container::bg});
-  options.profile = chosen<std::optional<Profile>>(arguments, "profile",
-                                                   {std::nullopt, Profile::compact, Profile::classic});
+  options.profile =
+      chosen<std::optional<Profile>>(arguments, "profile", {std::nullopt, Profile::compact, Profile::classic});
   options.target = chosen(arguments, "target", {Target::web, Target::x3dom});
   options.x3domUrl = arguments.text("x3dom-url");
-  options.primitives =
-      chosen(arguments, "primitives", {Primitives::triangles, Primitives::strips, Primitives::points});
+  options.primitives = chosen(arguments, "primitives", {Primitives::triangles, Primitives::strips, Primitives::points});
   options.indexed = arguments.text("index") == "on";
-  options.normalWeighting = chosen(arguments, "normal-weighting",
-                                   {NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform});
+  options.normalWeighting =
+      chosen(arguments, "normal-weighting", {NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform});
   const auto takeBits = [&](const char* name, std::uint32_t& bits) {
     if (!arguments.text(name).empty())
       bits = static_cast<std::uint32_t>(arguments.integer(name));
@@ -105,8 +101,8 @@ ConvertOptions optionsFrom(const Arguments& arguments) {
     options.basePercent = basePercentFrom(arguments.text("base"));
   options.coordType =
       chosen<std::optional<ElementType>>(arguments, "coord-type",
-                                         {std::nullopt, ElementType::uint8, ElementType::int8,
-                                          ElementType::uint16, ElementType::int16, ElementType::float32});
+                                         {std::nullopt, ElementType::uint8, ElementType::int8, ElementType::uint16,
+                                          ElementType::int16, ElementType::float32});
   options.layout = chosen(arguments, "layout", {Layout::separate, Layout::interleaved});
   options.normals = chosen(arguments, "normals",
                            {NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical,
@@ -216,12 +212,11 @@ void printLine(const std::string& label, const std::string& text) {
 
 std::string positionsOf(const Arguments& arguments, const ConvertReport& report) {
   const bool asFloats = arguments.text("coord-type") == "float32";
-  const std::string lattice =
-      asFloats && arguments.text("position-bits").empty() ? "the source's numbers"
-      : report.leastPositionBits < report.mostPositionBits
-          ? fmt::format("{} to {} bits: steps of up to {:.4g}", report.leastPositionBits,
-                        report.mostPositionBits, report.largestStep)
-          : fmt::format("{} bits: step {:.4g}", report.mostPositionBits, report.largestStep);
+  const std::string lattice = asFloats && arguments.text("position-bits").empty() ? "the source's numbers"
+                              : report.leastPositionBits < report.mostPositionBits
+                                  ? fmt::format("{} to {} bits: steps of up to {:.4g}", report.leastPositionBits,
+                                                report.mostPositionBits, report.largestStep)
+                                  : fmt::format("{} bits: step {:.4g}", report.mostPositionBits, report.largestStep);
   return fmt::format("{}{}, so off by at most {:.4g} an axis, in units of the source", lattice,
                      asFloats ? " as float32" : "", report.positionError);
 }
@@ -253,39 +248,36 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   }
   printLine("elements", fmt::format("{} of {} vertices", listed(report.elements), grouped(report.vertices)));
   const bool onlyPoints = report.elements.points == report.elements.sum();
-  printLine("container",
-            fmt::format("{}, profile {}, target {}, {}{}", isSig ? "sig (PNG images)" : "bg (typed arrays)",
-                        nameOf(report.profile), arguments.text("target"),
-                        onlyPoints ? "points" : arguments.text("primitives"),
-                        onlyPoints || arguments.text("index") == "on" ? "" : " without index"));
+  printLine("container", fmt::format("{}, profile {}, target {}, {}{}",
+                                     isSig ? "sig (PNG images)" : "bg (typed arrays)", nameOf(report.profile),
+                                     arguments.text("target"), onlyPoints ? "points" : arguments.text("primitives"),
+                                     onlyPoints || arguments.text("index") == "on" ? "" : " without index"));
   if (!report.x3domUrl.empty())
     printLine("X3DOM", fmt::format("{}, from {}", report.x3domVersion, report.x3domUrl));
   printLine("positions", positionsOf(arguments, report));
   if (report.collapsed.sum() > 0)
     printLine("", fmt::format("too coarse for {}, without area or length there", listed(report.collapsed)));
   if (report.hasNormals)
-    printLine(
-        "normals",
-        fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", nameOf(report.normalEncoding),
-                    report.normalBits, report.normalErrorDegrees,
-                    report.normalsComputed
-                        ? "computed: triangles count by " +
-                              std::string(arguments.text("normal-weighting") == "area"    ? "their area"
-                                          : arguments.text("normal-weighting") == "angle" ? "their angle"
-                                                                                          : "one each")
-                        : "the source's, where it has any"));
+    printLine("normals",
+              fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", nameOf(report.normalEncoding),
+                          report.normalBits, report.normalErrorDegrees,
+                          report.normalsComputed
+                              ? "computed: triangles count by " +
+                                    std::string(arguments.text("normal-weighting") == "area"    ? "their area"
+                                                : arguments.text("normal-weighting") == "angle" ? "their angle"
+                                                                                                : "one each")
+                              : "the source's, where it has any"));
   const auto bitsOf = [&](std::uint32_t bits) { return isSig ? fmt::format("{} bits: ", bits) : ""; };
   if (report.texCoordError)
-    printLine("texcoords",
-              fmt::format("{}off by at most {:.3g}", bitsOf(report.texCoordBits), *report.texCoordError));
+    printLine("texcoords", fmt::format("{}off by at most {:.3g}", bitsOf(report.texCoordBits), *report.texCoordError));
   if (report.hasColors)
-    printLine("colours", bitsOf(report.colorBits) + (report.colorBits >= 8
-                                                         ? "the source's own of 8"
-                                                         : fmt::format("off by at most {:.0f} of 255",
-                                                                       colorErrorBound(report.colorBits))));
+    printLine("colours", bitsOf(report.colorBits) +
+                             (report.colorBits >= 8
+                                  ? "the source's own of 8"
+                                  : fmt::format("off by at most {:.0f} of 255", colorErrorBound(report.colorBits))));
   for (const AttributeReport& attribute : report.attributes)
-    printLine("attribute", fmt::format("{}: {} bits, off by at most {:.3g}", attribute.name, attribute.bits,
-                                       attribute.error));
+    printLine("attribute",
+              fmt::format("{}: {} bits, off by at most {:.3g}", attribute.name, attribute.bits, attribute.error));
   printTextures(report.textures);
   printLine("patches", fmt::format("{} of at most {} vertices", report.patches,
                                    grouped(static_cast<std::uint64_t>(arguments.integer("patch-vertices")))));
@@ -296,16 +288,15 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
                                    grouped(weld.unreferencedPositions)));
   const bool isStrips = arguments.text("primitives") == "strips"; // which draw nothing degenerate
   if (weld.degenerateElements + weld.duplicateElements > 0)
-    printLine("", fmt::format("{} {} degenerate elements, {} {} repeated ones",
-                              drop == "degenerate" || drop == "both" || isStrips ? "dropped" : "kept",
-                              grouped(weld.degenerateElements),
-                              drop == "repeated" || drop == "both" ? "dropped" : "kept",
-                              grouped(weld.duplicateElements)));
+    printLine("",
+              fmt::format("{} {} degenerate elements, {} {} repeated ones",
+                          drop == "degenerate" || drop == "both" || isStrips ? "dropped" : "kept",
+                          grouped(weld.degenerateElements), drop == "repeated" || drop == "both" ? "dropped" : "kept",
+                          grouped(weld.duplicateElements)));
 }
 
 void printBytes(const ConvertReport& report) {
-  fmt::print("\n{}\n",
-             bold(fmt::format("{:10} {:>7} {:>14} {:>16}", "role", "files", "bytes", "bytes/triangle")));
+  fmt::print("\n{}\n", bold(fmt::format("{:10} {:>7} {:>14} {:>16}", "role", "files", "bytes", "bytes/triangle")));
   RoleBytes sum{"together", 0, 0};
   const auto print = [&](const RoleBytes& role) {
     const std::size_t triangles = report.elements.triangles;
@@ -329,8 +320,7 @@ void printBytes(const ConvertReport& report) {
 std::string eachTriangle(const ConvertReport& report) {
   return report.elements.triangles == 0
              ? ""
-             : fmt::format(", {} bytes a triangle",
-                           grouped(report.peakMemoryBytes / report.elements.triangles));
+             : fmt::format(", {} bytes a triangle", grouped(report.peakMemoryBytes / report.elements.triangles));
 }
 
 void printFiles(const std::filesystem::path& site) {
@@ -348,11 +338,11 @@ int runConvert(const Arguments& arguments) {
   ConvertReport report;
   {
     ProgressBar bar;
-    report = convert(arguments.text("input"), output, optionsFrom(arguments),
-                     [&](double share, const std::string& doing) {
-                       throwIfInterrupted();
-                       bar.show(share, doing);
-                     });
+    report =
+        convert(arguments.text("input"), output, optionsFrom(arguments), [&](double share, const std::string& doing) {
+          throwIfInterrupted();
+          bar.show(share, doing);
+        });
   }
   for (const std::string& warning : report.warnings)
     fmt::print(stderr, "imgeo: warning: {}\n", warning);

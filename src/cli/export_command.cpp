@@ -28,9 +28,8 @@ int print(const Arguments& arguments, const ExportReport& report) {
                "imgeo: warning: {} left out: glTF's shine on everything and fall off by the square of the "
                "distance.\n",
                report.lightsLeftOut == 1 ? "1 light is" : fmt::format("{} lights are", report.lightsLeftOut));
-  fmt::print("{}: {}, {}, {} vertices in {} {}, {}\n", arguments.text("output"), report.format,
-             listed(report.elements), grouped(report.vertices), report.shapes,
-             report.shapes == 1 ? "shape" : "shapes", byteSize(report.bytes));
+  fmt::print("{}: {}, {}, {} vertices in {} {}, {}\n", arguments.text("output"), report.format, listed(report.elements),
+             grouped(report.vertices), report.shapes, report.shapes == 1 ? "shape" : "shapes", byteSize(report.bytes));
   return 0;
 }
 

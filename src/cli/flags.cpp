@@ -18,17 +18,11 @@ Flag outsideFlag() {
 }
 
 Flag positional(const std::string& name, const std::string& valueName, Value value, const std::string& help) {
-  return {.name = name,
-          .value = value,
-          .valueName = valueName,
-          .help = help,
-          .positional = true,
-          .required = true};
+  return {.name = name, .value = value, .valueName = valueName, .help = help, .positional = true, .required = true};
 }
 
 Flag choice(const std::string& name, std::vector<std::string> choices, const std::string& help) {
-  return {
-      .name = name, .value = Value::choice, .help = help, .fallback = choices.front(), .choices = choices};
+  return {.name = name, .value = Value::choice, .help = help, .fallback = choices.front(), .choices = choices};
 }
 
 Flag integer(const std::string& name, std::vector<std::string> aliases, std::int64_t least, std::int64_t most,
@@ -44,9 +38,8 @@ Flag integer(const std::string& name, std::vector<std::string> aliases, std::int
 }
 
 Command convertCommand() {
-  Flag input =
-      positional("input", "INPUT", Value::file,
-                 "X3D, VRML, glTF, GLB, PLY, OBJ or STL file, gzipped or not; \"-\" reads standard input");
+  Flag input = positional("input", "INPUT", Value::file,
+                          "X3D, VRML, glTF, GLB, PLY, OBJ or STL file, gzipped or not; \"-\" reads standard input");
   input.aliases = {"-i"};
   Flag output{.name = "output",
               .aliases = {"-o"},
@@ -68,91 +61,89 @@ Command convertCommand() {
               "named by their content. The directory takes its place in one step; killed at any moment, it "
               "is the old "
               "site or the new one.",
-      .flags =
-          {input,
-           output,
-           choice("container", {"sig", "bg"}, "sig: PNG images; bg: typed arrays"),
-           choice("profile", {"auto", "compact", "classic"},
-                  "of sig. compact: a coarse shape first, then patches, decoded by workers; classic: three "
-                  "times its bytes, refined byte by byte, decoded by the GPU, and by X3DOM 1.7 as well; "
-                  "auto: compact, but classic with --primitives strips, --index off, --normals palette or "
-                  "spherical, more than 30 position bits, 1048576 patch vertices or 13 attributes to keep"),
-           choice("target", {"web", "x3dom"},
-                  "web: a page with its own runtime; x3dom: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)"),
-           {.name = "x3dom-url",
-            .value = Value::text,
-            .valueName = "URL",
-            .help = "target x3dom: the folder that has x3dom.js and x3dom.css; otherwise npm's by "
-                    "jsdelivr.net"},
-           choice("primitives", {"triangles", "strips", "points"},
-                  "how patches are drawn, those of lines as lines, line strips or points; a point cloud "
-                  "is always points"),
-           choice("index", {"on", "off"},
-                  "off: vertices are repeated wherever they are drawn instead of named by an index"),
-           integer("position-bits", {"-vp", "-qp"}, 8, 32, "",
-                   "bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; "
-                   "otherwise 16, or what the coordinates' type holds"),
-           {.name = "max-error",
-            .value = Value::text,
-            .valueName = "LENGTH|PERCENT",
-            .help = "sig: the fewest position bits that move no vertex farther, in units of the source or, "
-                    "with %, of a mesh's longest edge"},
-           choice("coord-type", {"auto", "uint8", "int8", "uint16", "int16", "float32"},
-                  "bg: elements of coordinates; auto: the fewest unsigned bytes; float32 without "
-                  "--position-bits: the source's numbers"),
-           choice("layout", {"separate", "interleaved"},
-                  "bg: a file for each attribute, or one of records with all of them beside the index"),
-           choice("normals", {"rgb", "octahedral", "spherical", "palette", "derived"},
-                  "how normals are stored: as vectors, as two numbers (compact: always), as 256 directions "
-                  "a patch, or in compact not at all"),
-           integer("normal-bits", {"-vn", "-qn"}, 4, 32, "",
-                   "bits of a normal's component; sig: 8, compact: 4..16; bg: 8, 16 or 32; otherwise 8"),
-           integer("texcoord-bits", {"-vt", "-qt"}, 1, 16, "",
-                   "bits of a texture coordinate; compact: 1..16, otherwise 12; classic and bg have 16"),
-           integer("color-bits", {"-vc"}, 1, 8, "",
-                   "bits of a colour's component; compact: 1..8, otherwise 8; classic and bg have 8"),
-           integer("patch-vertices", {}, 256, 4194304, "65535",
-                   "the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices"),
-           {.name = "base",
-            .value = Value::text,
-            .valueName = "PERCENT",
-            .help = "compact: a first shape of so many of the triangles in 100, 0..25; 0: none, otherwise 2"},
-           choice("drop", {"none", "degenerate", "repeated", "both"},
-                  "which elements to leave out: those with two corners at one place, those that repeat "
-                  "another, or both"),
-           {.name = "keep-attributes",
-            .value = Value::text,
-            .valueName = "NAMES",
-            .help = "further numbers of PLY's vertices to keep: names with commas between, all or none",
-            .fallback = "none"},
-           integer("attribute-bits", {}, 8, 24, "",
-                   "bits of such a number; sig: 8, 16 or 24, otherwise 16; bg holds floats"),
-           choice("textures", {"keep", "webp", "avif", "png"},
-                  "what images of textures are written as; keep: as they are, and those that no browser "
-                  "shows (TGA, TIFF, BMP ...) as lossless WebP. Normal maps and other data are never lossy"),
-           integer("texture-size", {}, 1, 16383, "",
-                   "the longest edge of a texture in pixels; larger ones are made smaller, none larger"),
-           integer("texture-quality", {}, 0, 100, "", "of lossy textures; otherwise 80 of webp, 60 of avif"),
-           integer("texture-preview", {}, 0, 256, "64",
-                   "the longest edge of what is shown first of a large texture; 0: nothing is"),
-           choice("normal-weighting", {"area", "angle", "uniform"},
-                  "how triangles count in normals that the source lacks"),
-           {.name = "title",
-            .value = Value::text,
-            .valueName = "TEXT",
-            .help = "the page's title; otherwise the input's name"},
-           integer("effort", {}, 0, 9, "5",
-                   "how hard to compress: 0 fastest, 9 smallest; in compact 1 to 6 are one"),
-           integer("threads", {}, 0, 1024, "0",
-                   "how many threads to use; 0: all. The site is the same with any number"),
-           outsideFlag(),
-           {.name = "strict",
-            .help = "refuse a source of which a part is damaged, instead of leaving that out"},
-           {.name = "force", .help = "replace DIR with everything in it, even if it is not a site of ours"},
-           report,
-           jsonFlag("the report"),
-           {.name = "verbose", .aliases = {"-v"}, .help = "list every file that was written"},
-           helpFlag()},
+      .flags = {input,
+                output,
+                choice("container", {"sig", "bg"}, "sig: PNG images; bg: typed arrays"),
+                choice("profile", {"auto", "compact", "classic"},
+                       "of sig. compact: a coarse shape first, then patches, decoded by workers; classic: three "
+                       "times its bytes, refined byte by byte, decoded by the GPU, and by X3DOM 1.7 as well; "
+                       "auto: compact, but classic with --primitives strips, --index off, --normals palette or "
+                       "spherical, more than 30 position bits, 1048576 patch vertices or 13 attributes to keep"),
+                choice("target", {"web", "x3dom"},
+                       "web: a page with its own runtime; x3dom: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)"),
+                {.name = "x3dom-url",
+                 .value = Value::text,
+                 .valueName = "URL",
+                 .help = "target x3dom: the folder that has x3dom.js and x3dom.css; otherwise npm's by "
+                         "jsdelivr.net"},
+                choice("primitives", {"triangles", "strips", "points"},
+                       "how patches are drawn, those of lines as lines, line strips or points; a point cloud "
+                       "is always points"),
+                choice("index", {"on", "off"},
+                       "off: vertices are repeated wherever they are drawn instead of named by an index"),
+                integer("position-bits", {"-vp", "-qp"}, 8, 32, "",
+                        "bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; "
+                        "otherwise 16, or what the coordinates' type holds"),
+                {.name = "max-error",
+                 .value = Value::text,
+                 .valueName = "LENGTH|PERCENT",
+                 .help = "sig: the fewest position bits that move no vertex farther, in units of the source or, "
+                         "with %, of a mesh's longest edge"},
+                choice("coord-type", {"auto", "uint8", "int8", "uint16", "int16", "float32"},
+                       "bg: elements of coordinates; auto: the fewest unsigned bytes; float32 without "
+                       "--position-bits: the source's numbers"),
+                choice("layout", {"separate", "interleaved"},
+                       "bg: a file for each attribute, or one of records with all of them beside the index"),
+                choice("normals", {"rgb", "octahedral", "spherical", "palette", "derived"},
+                       "how normals are stored: as vectors, as two numbers (compact: always), as 256 directions "
+                       "a patch, or in compact not at all"),
+                integer("normal-bits", {"-vn", "-qn"}, 4, 32, "",
+                        "bits of a normal's component; sig: 8, compact: 4..16; bg: 8, 16 or 32; otherwise 8"),
+                integer("texcoord-bits", {"-vt", "-qt"}, 1, 16, "",
+                        "bits of a texture coordinate; compact: 1..16, otherwise 12; classic and bg have 16"),
+                integer("color-bits", {"-vc"}, 1, 8, "",
+                        "bits of a colour's component; compact: 1..8, otherwise 8; classic and bg have 8"),
+                integer("patch-vertices", {}, 256, 4194304, "65535",
+                        "the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices"),
+                {.name = "base",
+                 .value = Value::text,
+                 .valueName = "PERCENT",
+                 .help = "compact: a first shape of so many of the triangles in 100, 0..25; 0: none, otherwise 2"},
+                choice("drop", {"none", "degenerate", "repeated", "both"},
+                       "which elements to leave out: those with two corners at one place, those that repeat "
+                       "another, or both"),
+                {.name = "keep-attributes",
+                 .value = Value::text,
+                 .valueName = "NAMES",
+                 .help = "further numbers of PLY's vertices to keep: names with commas between, all or none",
+                 .fallback = "none"},
+                integer("attribute-bits", {}, 8, 24, "",
+                        "bits of such a number; sig: 8, 16 or 24, otherwise 16; bg holds floats"),
+                choice("textures", {"keep", "webp", "avif", "png"},
+                       "what images of textures are written as; keep: as they are, and those that no browser "
+                       "shows (TGA, TIFF, BMP ...) as lossless WebP. Normal maps and other data are never lossy"),
+                integer("texture-size", {}, 1, 16383, "",
+                        "the longest edge of a texture in pixels; larger ones are made smaller, none larger"),
+                integer("texture-quality", {}, 0, 100, "", "of lossy textures; otherwise 80 of webp, 60 of avif"),
+                integer("texture-preview", {}, 0, 256, "64",
+                        "the longest edge of what is shown first of a large texture; 0: nothing is"),
+                choice("normal-weighting", {"area", "angle", "uniform"},
+                       "how triangles count in normals that the source lacks"),
+                {.name = "title",
+                 .value = Value::text,
+                 .valueName = "TEXT",
+                 .help = "the page's title; otherwise the input's name"},
+                integer("effort", {}, 0, 9, "5",
+                        "how hard to compress: 0 fastest, 9 smallest; in compact 1 to 6 are one"),
+                integer("threads", {}, 0, 1024, "0",
+                        "how many threads to use; 0: all. The site is the same with any number"),
+                outsideFlag(),
+                {.name = "strict", .help = "refuse a source of which a part is damaged, instead of leaving that out"},
+                {.name = "force", .help = "replace DIR with everything in it, even if it is not a site of ours"},
+                report,
+                jsonFlag("the report"),
+                {.name = "verbose", .aliases = {"-v"}, .help = "list every file that was written"},
+                helpFlag()},
       .examples = {"imgeo convert statue.ply -o site", "imgeo convert statue.ply -o site --max-error 0.01%",
                    "imgeo convert statue.ply -o site --profile classic --primitives strips",
                    "imgeo convert statue.ply.gz -o site --container bg --normal-bits 16",
@@ -170,28 +161,24 @@ Command infoCommand() {
       .summary = "say what a site or a mesh file holds, and where its bytes are",
       .text = "PATH is a site's directory, its index.html or scene.x3d, a file of vertex data, or a mesh to "
               "convert.",
-      .flags = {positional("path", "PATH", Value::file, "a site or a file"), outsideFlag(), jsonFlag("it"),
-                helpFlag()},
+      .flags = {positional("path", "PATH", Value::file, "a site or a file"), outsideFlag(), jsonFlag("it"), helpFlag()},
       .examples = {"imgeo info site", "imgeo info site --json | jq .documentBytes", "imgeo info statue.ply"}};
 }
 
 Command verifyCommand() {
-  return {
-      .name = "verify",
-      .usage = "DIR INPUT [--json]",
-      .summary = "read a site back and prove that it equals its input",
-      .text =
-          "Compares every triangle, line or point of the site with the input, welded as convert does it: the "
-          "same "
-          "elements in the same orientation, positions within half a step of the lattice, normals within the "
-          "rounding of their bits. Checks that every file is there and holds what its name says, in a site "
-          "of "
-          "another program only that it is there. Exits with 0 only if all of that is so, with 3 if not.",
-      .flags = {positional("site", "DIR", Value::directory, "the site"),
-                positional("input", "INPUT", Value::file, "the file it was converted from"), outsideFlag(),
-                jsonFlag("the result"), helpFlag()},
-      .examples = {"imgeo verify site statue.ply",
-                   "imgeo verify site statue.ply --json | jq .normalErrorDegrees"}};
+  return {.name = "verify",
+          .usage = "DIR INPUT [--json]",
+          .summary = "read a site back and prove that it equals its input",
+          .text = "Compares every triangle, line or point of the site with the input, welded as convert does it: the "
+                  "same "
+                  "elements in the same orientation, positions within half a step of the lattice, normals within the "
+                  "rounding of their bits. Checks that every file is there and holds what its name says, in a site "
+                  "of "
+                  "another program only that it is there. Exits with 0 only if all of that is so, with 3 if not.",
+          .flags = {positional("site", "DIR", Value::directory, "the site"),
+                    positional("input", "INPUT", Value::file, "the file it was converted from"), outsideFlag(),
+                    jsonFlag("the result"), helpFlag()},
+          .examples = {"imgeo verify site statue.ply", "imgeo verify site statue.ply --json | jq .normalErrorDegrees"}};
 }
 
 Command exportCommand() {
@@ -207,14 +194,13 @@ Command exportCommand() {
           .text = "Reads a site back, joins the patches of each mesh and writes all shapes into one file. "
                   "Reads sites "
                   "that aopt wrote for X3DOM, too.",
-          .flags = {positional("site", "DIR", Value::directory, "the site, its index.html or a .x3d file"),
-                    output, jsonFlag("what was written"), helpFlag()},
+          .flags = {positional("site", "DIR", Value::directory, "the site, its index.html or a .x3d file"), output,
+                    jsonFlag("what was written"), helpFlag()},
           .examples = {"imgeo export site -o statue.ply", "imgeo export old/statue.x3d -o statue.glb"}};
 }
 
 Command sampleCommand() {
-  Flag what =
-      positional("sample", "SAMPLE", Value::choice, "hall: rows of seats, stairs, columns, trusses, signs");
+  Flag what = positional("sample", "SAMPLE", Value::choice, "hall: rows of seats, stairs, columns, trusses, signs");
   what.choices = {"hall"};
   Flag output{.name = "output",
               .aliases = {"-o"},
@@ -272,9 +258,8 @@ Command manualCommand() {
 } // namespace
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all{convertCommand(),    infoCommand(),   verifyCommand(),
-                                        exportCommand(),     sampleCommand(), serveCommand(),
-                                        completionCommand(), manualCommand()};
+  static const std::vector<Command> all{convertCommand(), infoCommand(),  verifyCommand(),     exportCommand(),
+                                        sampleCommand(),  serveCommand(), completionCommand(), manualCommand()};
   return all;
 }
 

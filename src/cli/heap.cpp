@@ -27,8 +27,7 @@ void prepareHeap() {
   void* const first = std::malloc(largePageBytes); // lets the heap grow
   mallopt(M_TOP_PAD, largePageBytes);
   if (first) {
-    const std::uintptr_t begin =
-        (reinterpret_cast<std::uintptr_t>(first) + largePageBytes - 1) & ~(largePageBytes - 1);
+    const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(first) + largePageBytes - 1) & ~(largePageBytes - 1);
     madvise(reinterpret_cast<void*>(begin), heapBytes, MADV_HUGEPAGE);
   }
   std::free(first);

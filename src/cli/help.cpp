@@ -40,9 +40,8 @@ std::string valueOf(const Flag& flag) {
 std::string namesOf(const Flag& flag) {
   std::string names = flag.positional ? flag.valueName : fmt::format("--{}", flag.name);
   if (flag.positional)
-    return flag.aliases.empty()
-               ? names
-               : fmt::format("{}, {} {}", names, fmt::join(flag.aliases, ", "), flag.valueName);
+    return flag.aliases.empty() ? names
+                                : fmt::format("{}, {} {}", names, fmt::join(flag.aliases, ", "), flag.valueName);
   if (!flag.aliases.empty())
     names = fmt::format("{}, {}", fmt::join(flag.aliases, ", "), names);
   return flag.takesValue() ? names + " " + valueOf(flag) : names;
@@ -55,8 +54,7 @@ std::string describe(const Flag& flag) {
 void addFlag(std::string& text, const Flag& flag) {
   constexpr std::size_t column = 30;
   const std::string names = "  " + namesOf(flag);
-  text += names.size() + 2 > column ? names + "\n" + std::string(column, ' ')
-                                    : fmt::format("{:{}}", names, column);
+  text += names.size() + 2 > column ? names + "\n" + std::string(column, ' ') : fmt::format("{:{}}", names, column);
   text += filled(describe(flag), column) + "\n";
 }
 
@@ -97,8 +95,8 @@ std::string overview() {
 }
 
 std::string helpOf(const Command& command) {
-  std::string text = fmt::format("imgeo {}: {}\n\nUsage: imgeo {}{}{}\n", command.name, command.summary,
-                                 command.name, command.usage.empty() ? "" : " ", command.usage);
+  std::string text = fmt::format("imgeo {}: {}\n\nUsage: imgeo {}{}{}\n", command.name, command.summary, command.name,
+                                 command.usage.empty() ? "" : " ", command.usage);
   if (!command.text.empty())
     text += fmt::format("\n{}\n", filled(command.text, 0));
   if (std::ranges::any_of(command.flags, &Flag::positional))
@@ -117,10 +115,10 @@ std::string helpOf(const Command& command) {
 }
 
 std::string manualPage(const std::string& version) {
-  std::string text = fmt::format(
-      ".TH IMGEO 1 \"\" \"imgeo {}\"\n.SH NAME\nimgeo \\- large 3D meshes on the web, shown progressively\n"
-      ".SH SYNOPSIS\n",
-      version);
+  std::string text =
+      fmt::format(".TH IMGEO 1 \"\" \"imgeo {}\"\n.SH NAME\nimgeo \\- large 3D meshes on the web, shown progressively\n"
+                  ".SH SYNOPSIS\n",
+                  version);
   for (const Command& command : commands())
     text += fmt::format(".B imgeo {}\n{}\n.br\n", command.name, troff(command.usage));
   text += ".SH COMMANDS\n";

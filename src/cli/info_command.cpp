@@ -66,8 +66,8 @@ bool isFetched(const std::string& role) {
 /// "sig: positions of 16 bits, Uint16 indices, octahedral normals of 8 bits"
 std::string textOf(const GeometryInfo& geometry) {
   const bool isCompact = geometry.profile == Profile::compact;
-  std::string text = fmt::format("{}{}: positions of {} bits", nameOf(geometry.container),
-                                 isCompact ? " compact" : "", geometry.positionBits);
+  std::string text = fmt::format("{}{}: positions of {} bits", nameOf(geometry.container), isCompact ? " compact" : "",
+                                 geometry.positionBits);
   if (!geometry.coordType.empty())
     text += " as " + geometry.coordType;
   if (!isCompact)
@@ -125,8 +125,7 @@ void printSite(const SiteInfo& info) {
     fmt::print("Textures take {} with their previews; the source's were {}.\n", byteSize(info.textureBytes),
                byteSize(info.sourceTextureBytes));
   if (info.elements.triangles > 0)
-    fmt::print("Geometry takes {:.3f} bytes a triangle, its nodes in the document included.\n",
-               info.bytesPerTriangle);
+    fmt::print("Geometry takes {:.3f} bytes a triangle, its nodes in the document included.\n", info.bytesPerTriangle);
   for (const std::string& url : info.missing)
     warn({fmt::format("{} is named by the document but is no file of the site.", url)});
   warn(info.warnings);
@@ -152,8 +151,8 @@ void printSource(const SourceInfo& info) {
   if (!info.attributes.empty())
     fmt::print("further attributes of vertices: {}\n", fmt::join(info.attributes, ", "));
   if (!info.box.empty())
-    fmt::print("box {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n", info.box.min.x, info.box.min.y,
-               info.box.min.z, info.box.max.x, info.box.max.y, info.box.max.z);
+    fmt::print("box {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n", info.box.min.x, info.box.min.y, info.box.min.z,
+               info.box.max.x, info.box.max.y, info.box.max.z);
   warn(info.warnings);
 }
 
@@ -165,15 +164,13 @@ Json jsonOf(const GeometryFileInfo& info) {
 }
 
 void printGeometryFile(const GeometryFileInfo& info) {
-  const std::string size = info.channels > 0 ? fmt::format(", {} x {} pixels of {} channels", info.width,
-                                                           info.height, info.channels)
-                                             : "";
+  const std::string size =
+      info.channels > 0 ? fmt::format(", {} x {} pixels of {} channels", info.width, info.height, info.channels) : "";
   fmt::print("{}{}, {} bytes; its name {} its content\n", info.kind, size, grouped(info.bytes),
              info.namedByContent ? "says" : "does not say");
 }
 
-template <typename Info>
-int print(const Arguments& arguments, const Info& info, void (*asText)(const Info&)) {
+template <typename Info> int print(const Arguments& arguments, const Info& info, void (*asText)(const Info&)) {
   if (arguments.has("json"))
     printJson(jsonOf(info));
   else
@@ -185,8 +182,7 @@ int print(const Arguments& arguments, const Info& info, void (*asText)(const Inf
 bool namesContainers(const std::filesystem::path& file) {
   const Bytes bytes = readFile(file);
   std::string text(asText(bytes));
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text.find("<imagegeometry") != text.npos || text.find("<binarygeometry") != text.npos;
 }
 

@@ -56,8 +56,7 @@ void ProgressBar::show(double share, const std::string& doing) {
     return;
   constexpr std::size_t width = 30;
   const auto full = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * width);
-  const std::string line =
-      fmt::format("[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", width - full, share * 100, doing);
+  const std::string line = fmt::format("[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", width - full, share * 100, doing);
   if (line == shown_)
     return;
   fmt::print(stderr, "\r{}\x1b[K", line);

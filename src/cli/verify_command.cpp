@@ -35,22 +35,20 @@ void printJson(const VerifyReport& report) {
 void printText(const VerifyReport& report) {
   for (const Topology kind : allTopologies)
     if (report.input.of(kind) + report.site.of(kind) > 0)
-      fmt::print("{} {} in the input, {} in the site: {} missing, {} extra\n",
-                 bold(fmt::format("{:10}", nameOf(kind))), grouped(report.input.of(kind)),
-                 grouped(report.site.of(kind)), grouped(report.missing.of(kind)),
+      fmt::print("{} {} in the input, {} in the site: {} missing, {} extra\n", bold(fmt::format("{:10}", nameOf(kind))),
+                 grouped(report.input.of(kind)), grouped(report.site.of(kind)), grouped(report.missing.of(kind)),
                  grouped(report.extra.of(kind)));
-  fmt::print("{} off by at most {:.6g} an axis; half a step is {:.6g}\n",
-             bold(fmt::format("{:10}", "positions")), report.positionError, report.positionBound);
+  fmt::print("{} off by at most {:.6g} an axis; half a step is {:.6g}\n", bold(fmt::format("{:10}", "positions")),
+             report.positionError, report.positionBound);
   if (report.normalBoundDegrees > 0)
     fmt::print("{} off by at most {:.4g} degrees; their rounding allows {:.4g}\n",
                bold(fmt::format("{:10}", "normals")), report.normalErrorDegrees, report.normalBoundDegrees);
   if (report.isForeign)
-    fmt::print(
-        "Another program wrote the site: how its files are named, and normals that the input lacks, are "
-        "not checked.\n");
+    fmt::print("Another program wrote the site: how its files are named, and normals that the input lacks, are "
+               "not checked.\n");
   if (report.attributeError > 0)
-    fmt::print("{} off by at most {:.4g} of what their rounding allows\n",
-               bold(fmt::format("{:10}", "attributes")), report.attributeError);
+    fmt::print("{} off by at most {:.4g} of what their rounding allows\n", bold(fmt::format("{:10}", "attributes")),
+               report.attributeError);
   if (report.looks > 0)
     fmt::print("{} of {} shapes compared; lights, viewpoints and pictures are not\n",
                bold(fmt::format("{:10}", "materials")), grouped(report.looks));
@@ -62,8 +60,7 @@ void printText(const VerifyReport& report) {
 } // namespace
 
 int runVerify(const Arguments& arguments) {
-  const VerifyReport report =
-      verify(arguments.text("site"), arguments.text("input"), arguments.has("outside"));
+  const VerifyReport report = verify(arguments.text("site"), arguments.text("input"), arguments.has("outside"));
   if (arguments.has("json"))
     printJson(report);
   else

@@ -41,8 +41,7 @@ void spreadTexCoords(GeometryDescription& geometry, const PatchedMesh& mesh, Tar
   geometry.texCoordSize = {max.x - min.x, max.y - min.y};
   // Compact predicts them from the shapes of triangles: one step on both axes.
   if (geometry.profile == Profile::compact)
-    geometry.texCoordSize.x = geometry.texCoordSize.y =
-        std::max(geometry.texCoordSize.x, geometry.texCoordSize.y);
+    geometry.texCoordSize.x = geometry.texCoordSize.y = std::max(geometry.texCoordSize.x, geometry.texCoordSize.y);
 }
 
 /// 16 bits wherever they name all vertices of every patch.
@@ -80,8 +79,7 @@ GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& optio
   return geometry;
 }
 
-EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry,
-                         const EncodeOptions& options) {
+EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry, const EncodeOptions& options) {
   assert(geometry.profile == Profile::classic);
   return geometry.container == Container::sig ? encodeClassic(patch, geometry, options.effort, options.target)
                                               : encodeBg(patch, geometry, options.layout);
@@ -92,8 +90,7 @@ ContainerReader::ContainerReader(FetchFile fetch)
 
 ContainerReader::~ContainerReader() = default;
 
-IndexedPatch ContainerReader::decode(const PatchDescription& patch,
-                                     const GeometryDescription& geometry) const {
+IndexedPatch ContainerReader::decode(const PatchDescription& patch, const GeometryDescription& geometry) const {
   if (geometry.container == Container::bg)
     return decodeBg(patch, geometry, fetch_);
   return geometry.profile == Profile::classic ? decodeClassic(patch, geometry, fetch_)
@@ -104,8 +101,7 @@ BaseMesh ContainerReader::decodeBase(const GeometryDescription& geometry) const 
   return compact_->decodeBase(geometry);
 }
 
-IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescription& geometry,
-                         const FetchFile& fetch) {
+IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch) {
   return ContainerReader(fetch).decode(patch, geometry);
 }
 

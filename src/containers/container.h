@@ -62,8 +62,7 @@ GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& optio
 /// Encodes a patch by the node's fields, of SIG classic and BG. Deterministic. `patch` is one of
 /// the mesh that was described, and has no NaN. Compact: see encodeCompact. Throws Error{limit} for
 /// a patch that draws more than an image holds.
-EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry,
-                         const EncodeOptions& options);
+EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry, const EncodeOptions& options);
 
 /// Gives the bytes of a url; throws Error{io} where there are none.
 using FetchFile = std::function<Bytes(const std::string& url)>;
@@ -101,7 +100,6 @@ private:
 };
 
 /// The same for one patch alone.
-IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescription& geometry,
-                         const FetchFile& fetch);
+IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch);
 
 } // namespace imgeo

@@ -25,8 +25,7 @@ struct Encoded {
   IndexedPatch decoded() const { return decodePatch(patch.description, geometry, filesOf(patch)); }
 };
 
-Encoded encode(const Mesh& mesh, Primitive primitive, bool indexed, std::uint32_t bits,
-               const EncodeOptions& options) {
+Encoded encode(const Mesh& mesh, Primitive primitive, bool indexed, std::uint32_t bits, const EncodeOptions& options) {
   const PatchedMesh patched = onePatch(mesh, bits);
   Encoded encoded{verticesOf(patched.patches[0], primitive, indexed), describe(patched, options), {}};
   encoded.patch = encodePatch(encoded.source, encoded.geometry, options);
@@ -99,8 +98,8 @@ TEST(Containers, GiveBackEveryMeshAtEveryPrecision) {
       const Mesh mesh = randomMesh(seed + 100 * bits);
       const bool indexed = !random.once(4);
       for (const EncodeOptions& options : everyNormalEncoding(bits)) {
-        SCOPED_TRACE(std::to_string(bits) + " bits, mesh " + std::to_string(seed) + ", " +
-                     nameOf(options.normals) + " normals of " + std::to_string(options.normalBits));
+        SCOPED_TRACE(std::to_string(bits) + " bits, mesh " + std::to_string(seed) + ", " + nameOf(options.normals) +
+                     " normals of " + std::to_string(options.normalBits));
         const Primitive primitive = static_cast<Primitive>(random.below(4));
         expectEqualWithinSteps(encode(mesh, primitive, indexed, bits, options));
       }
@@ -134,8 +133,8 @@ TEST(Containers, GiveBackEveryAttributeOfEveryPrimitiveAtEveryPrecision) {
           options.container = container;
           options.effort = 0;
           options.attributeBits = 8 * (1 + ++seed % 3);
-          SCOPED_TRACE(fmt::format("container {}, primitive {}, {} bits, {}, seed {}", int(container),
-                                   int(primitive), bits, indexed ? "indexed" : "without an index", seed));
+          SCOPED_TRACE(fmt::format("container {}, primitive {}, {} bits, {}, seed {}", int(container), int(primitive),
+                                   bits, indexed ? "indexed" : "without an index", seed));
           const Encoded encoded = encode(richMesh(seed), primitive, indexed, bits, options);
           EXPECT_FALSE(encoded.source.normals.empty() || encoded.source.texCoords.empty() ||
                        encoded.source.colors.empty());
@@ -148,8 +147,8 @@ TEST(Containers, GiveBackEveryAttributeOfEveryPrimitiveAtEveryPrecision) {
 /// Every BG of coordinates of so many bits.
 std::vector<EncodeOptions> everyArray(std::uint32_t bits) {
   std::vector<EncodeOptions> all;
-  for (const ElementType type : {ElementType::int8, ElementType::uint8, ElementType::int16,
-                                 ElementType::uint16, ElementType::int32, ElementType::uint32})
+  for (const ElementType type : {ElementType::int8, ElementType::uint8, ElementType::int16, ElementType::uint16,
+                                 ElementType::int32, ElementType::uint32})
     for (const Layout layout : {Layout::separate, Layout::interleaved})
       if (holdsLattice(type, bits))
         for (const EncodeOptions& normals : everyNormalEncoding(8 * byteSizeOf(type)))
@@ -204,8 +203,8 @@ TEST(Containers, GiveBackFloatsAsNearAsSinglesAre) {
 
 TEST(Containers, PutPairsOfNormalsIntoWhatPadsCoordinates) {
   for (const NormalEncoding normals : {NormalEncoding::octahedral, NormalEncoding::spherical}) {
-    const Encoded encoded = encode(testing::torus(9, 9), Primitive::triangles, true, 16,
-                                   {Container::bg, 8, 1, Target::web, normals});
+    const Encoded encoded =
+        encode(testing::torus(9, 9), Primitive::triangles, true, 16, {Container::bg, 8, 1, Target::web, normals});
     const PatchDescription& patch = encoded.patch.description;
     EXPECT_EQ(patch.normal, (Reference{patch.coord[0].url, 6, 8}));
     EXPECT_EQ(encoded.patch.files.size(), 3u); // index, coordinates, texture coordinates
@@ -218,8 +217,8 @@ TEST(Containers, GiveBackPairsOfNormalsOfMoreVerticesThanAnIndexCouldName) {
     Random random(count);
     for (std::uint32_t i = 0; i < count; ++i)
       mesh.normals.push_back(random.direction());
-    expectEqualWithinSteps(encode(mesh, Primitive::points, false, 8,
-                                  {Container::sig, 8, 0, Target::web, NormalEncoding::octahedral}));
+    expectEqualWithinSteps(
+        encode(mesh, Primitive::points, false, 8, {Container::sig, 8, 0, Target::web, NormalEncoding::octahedral}));
   }
 }
 
@@ -271,8 +270,7 @@ TEST(Containers, GiveBackSeveralDraws) {
   for (const Container container : {Container::sig, Container::bg}) {
     const PatchedMesh patched = onePatch(testing::grid(9), 12);
     const EncodeOptions options{container};
-    Encoded encoded{
-        verticesOf(patched.patches[0], Primitive::triangles, true), describe(patched, options), {}};
+    Encoded encoded{verticesOf(patched.patches[0], Primitive::triangles, true), describe(patched, options), {}};
     const auto count = static_cast<std::uint32_t>(encoded.source.indices.size());
     encoded.source.draws = {
         {Primitive::triangles, 30}, {Primitive::triangleStrip, 50}, {Primitive::points, count - 80}};
@@ -329,8 +327,7 @@ TEST(Containers, RefuseAFileWhoseEndIsMissing) {
       const Bytes whole = file.bytes;
       for (std::size_t length = 0; length < whole.size(); ++length) {
         file.bytes.assign(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
-        EXPECT_THROW(encoded.decoded(), Error)
-            << nameOf(file.role) << ", " << length << " of " << whole.size();
+        EXPECT_THROW(encoded.decoded(), Error) << nameOf(file.role) << ", " << length << " of " << whole.size();
       }
       file.bytes = whole;
     }
@@ -426,9 +423,7 @@ TEST_P(HostilePatch, OutsideOfItsStatedBoxIsMalformed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEach, HostilePatch, ::testing::Values(Container::sig, Container::bg),
-                         [](const auto& parameter) {
-                           return parameter.param == Container::sig ? "Sig" : "Bg";
-                         });
+                         [](const auto& parameter) { return parameter.param == Container::sig ? "Sig" : "Bg"; });
 
 } // namespace
 } // namespace imgeo

@@ -58,9 +58,8 @@ struct PatchDescription {
   std::optional<Reference> index;                 ///< absent: records are drawn in order
   std::vector<Reference> coord;                   ///< SIG: byte planes, most significant first. BG: one
   std::optional<Reference> normal, texCoord, color;
-  std::vector<std::vector<Reference>>
-      attributes;                ///< each of the geometry's: its byte planes (SIG) or one (BG)
-  std::optional<Reference> data; ///< compact: all of it
+  std::vector<std::vector<Reference>> attributes; ///< each of the geometry's: its byte planes (SIG) or one (BG)
+  std::optional<Reference> data;                  ///< compact: all of it
   friend bool operator==(const PatchDescription&, const PatchDescription&) = default;
 };
 
@@ -102,8 +101,8 @@ struct GeometryDescription {
   Box3d box;                                   ///< tight box of all patches
   Vec2f texCoordMin{0, 0}, texCoordSize{1, 1}; ///< texture coordinates are stored relative to this box
   std::uint32_t colorComponents = 3;
-  ElementType indexType = ElementType::uint16, coordType = ElementType::uint16,
-              normalType = ElementType::int8, texCoordType = ElementType::uint16,
+  ElementType indexType = ElementType::uint16, coordType = ElementType::uint16, normalType = ElementType::int8,
+              texCoordType = ElementType::uint16,
               colorType = ElementType::uint8; ///< BG only, but for indexType: SIG has uint16 and uint32
   NormalEncoding normalEncoding = NormalEncoding::rgb;
   std::vector<AttributeDescription> attributes;

@@ -50,15 +50,13 @@ const Variant variants[] = {
 
 GoldenPatch encodeGolden(const EncodeOptions& options) {
   const PatchedMesh mesh = goldenMesh();
-  GoldenPatch patch{
-      testing::verticesOf(mesh.patches[0], Primitive::triangles, true), describe(mesh, options), {}};
+  GoldenPatch patch{testing::verticesOf(mesh.patches[0], Primitive::triangles, true), describe(mesh, options), {}};
   patch.encoded = encodePatch(patch.source, patch.geometry, options);
   return patch;
 }
 
 std::filesystem::path pathOf(const Variant& variant, std::size_t number, const EncodedFile& file) {
-  return golden / (std::string(variant.name) + "-" + std::to_string(number) + "-" + nameOf(file.role) +
-                   file.extension);
+  return golden / (std::string(variant.name) + "-" + std::to_string(number) + "-" + nameOf(file.role) + file.extension);
 }
 
 class Golden : public ::testing::TestWithParam<Variant> {
@@ -78,8 +76,7 @@ TEST_P(Golden, FilesAreStillRead) {
   GoldenPatch patch = encodeGolden(GetParam().options);
   for (std::size_t i = 0; i < patch.encoded.files.size(); ++i)
     patch.encoded.files[i].bytes = readFile(pathOf(GetParam(), i, patch.encoded.files[i]));
-  const IndexedPatch decoded =
-      decodePatch(patch.encoded.description, patch.geometry, testing::filesOf(patch.encoded));
+  const IndexedPatch decoded = decodePatch(patch.encoded.description, patch.geometry, testing::filesOf(patch.encoded));
   EXPECT_EQ(decoded.positions, patch.source.positions);
   EXPECT_EQ(decoded.colors, patch.source.colors);
   EXPECT_EQ(decoded.indices, patch.source.indices);

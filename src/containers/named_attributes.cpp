@@ -37,8 +37,7 @@ std::uint32_t bytesFor(const Values& values, std::uint32_t most) {
   return most;
 }
 
-AttributeDescription describe(const PatchedMesh& mesh, std::size_t place, Container container,
-                              std::uint32_t bytes) {
+AttributeDescription describe(const PatchedMesh& mesh, std::size_t place, Container container, std::uint32_t bytes) {
   const NamedAttribute& first = mesh.patches.front().namedAttributes[place];
   std::vector<Values> values(first.components);
   for (const Patch& patch : mesh.patches) {
@@ -80,8 +79,7 @@ std::uint32_t storeNumber(float value, const AttributeDescription& attribute, st
 }
 
 float loadNumber(std::uint32_t stored, const AttributeDescription& attribute, std::uint32_t component) {
-  return static_cast<float>(attribute.min[component] +
-                            attribute.size[component] * stored / maximumOf(attribute.bytes));
+  return static_cast<float>(attribute.min[component] + attribute.size[component] * stored / maximumOf(attribute.bytes));
 }
 
 double numberBound(Container container, const AttributeDescription& attribute, std::uint32_t component) {
@@ -89,8 +87,7 @@ double numberBound(Container container, const AttributeDescription& attribute, s
     return 0;
   const double low = attribute.min[component], size = attribute.size[component];
   // What single precision adds.
-  const double rounding =
-      std::max(std::abs(low), std::abs(low + size)) * std::numeric_limits<float>::epsilon();
+  const double rounding = std::max(std::abs(low), std::abs(low + size)) * std::numeric_limits<float>::epsilon();
   return size / maximumOf(attribute.bytes) / 2 + rounding;
 }
 
@@ -100,8 +97,7 @@ void checkAttributes(const PatchDescription& patch, const GeometryDescription& g
   for (std::size_t a = 0; fits && a < count; ++a)
     fits = patch.attributes[a].size() == filesOf(geometry.container, geometry.attributes[a]);
   if (!fits)
-    throw Error(ErrorKind::malformed, "",
-                "a patch has not as many files of attributes as its geometry needs");
+    throw Error(ErrorKind::malformed, "", "a patch has not as many files of attributes as its geometry needs");
 }
 
 std::size_t filesOf(Container container, const AttributeDescription& attribute) {

@@ -8,8 +8,7 @@ namespace imgeo {
 /// What a document says of the attributes of a mesh about to be encoded, in
 /// their order. Images: each number of a vertex takes `bytes` bytes spread over the box of
 /// all its values; where all are whole and fit, fewer bytes that hold them exactly.
-std::vector<AttributeDescription> describeAttributes(const PatchedMesh& mesh, Container container,
-                                                     std::uint32_t bytes);
+std::vector<AttributeDescription> describeAttributes(const PatchedMesh& mesh, Container container, std::uint32_t bytes);
 
 /// A component's number -> the integer that images hold, and back.
 std::uint32_t storeNumber(float value, const AttributeDescription& attribute, std::uint32_t component);

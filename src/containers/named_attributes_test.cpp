@@ -48,8 +48,7 @@ TEST(NamedAttributes, OfWholeNumbersTakeNoMoreBytesThanTheyNeedAndAreExact) {
 TEST(NamedAttributes, AreExactAsTypedArrays) {
   const PatchedMesh mesh = withValues({1e-30f, -3.25f, 1e30f, 0.1f, 7}, 3);
   for (const Layout layout : {Layout::separate, Layout::interleaved})
-    EXPECT_EQ(readBack(mesh, {.container = Container::bg, .layout = layout}),
-              mesh.patches[0].namedAttributes[0]);
+    EXPECT_EQ(readBack(mesh, {.container = Container::bg, .layout = layout}), mesh.patches[0].namedAttributes[0]);
 }
 
 TEST(NamedAttributes, HaveAStepThatIsTheirRangeOverTheirBits) {

@@ -74,9 +74,7 @@ void moveToMeans(std::vector<Cell>& cells, std::vector<Vec3d>& directions) {
   for (std::size_t i = 0; i < directions.size(); ++i) {
     double norm = length(sums[i]);
     if (norm == 0) {
-      const auto loss = [&](const Cell& cell) {
-        return length(cell.sum) - dot(cell.sum, directions[cell.nearest]);
-      };
+      const auto loss = [&](const Cell& cell) { return length(cell.sum) - dot(cell.sum, directions[cell.nearest]); };
       Cell& worst = *std::ranges::max_element(cells, {}, loss);
       worst.nearest = i;
       sums[i] = worst.sum;

@@ -8,9 +8,8 @@
 namespace imgeo {
 namespace {
 
-constexpr ElementType everyType[] = {ElementType::int8,   ElementType::uint8, ElementType::int16,
-                                     ElementType::uint16, ElementType::int32, ElementType::uint32,
-                                     ElementType::float32};
+constexpr ElementType everyType[] = {ElementType::int8,  ElementType::uint8,  ElementType::int16,  ElementType::uint16,
+                                     ElementType::int32, ElementType::uint32, ElementType::float32};
 const Lattice somewhere{{-3, 1, 700}, 0.37, 8};
 
 GeometryDescription arrays(ElementType type, std::uint32_t bits) {
@@ -95,8 +94,7 @@ TEST(StoredCoords, OfSignedTypesStayWithinTheHalfThatX3domUses) {
     const StoredCoords stored = storedCoords(Container::bg, ElementType::int16, bits);
     EXPECT_GE(storeCoord(0, stored), -16384);
     EXPECT_LE(storeCoord(geometry.lattice.maximum(), stored), 16383);
-    const double edge = decodeFields(geometry).size.x,
-                 extent = geometry.lattice.step * geometry.lattice.maximum();
+    const double edge = decodeFields(geometry).size.x, extent = geometry.lattice.step * geometry.lattice.maximum();
     EXPECT_GE(edge, extent * 0.9999);
     EXPECT_LE(edge, extent * 1.004) << "a box much larger than the mesh is culled too late";
   }
@@ -121,8 +119,8 @@ TEST(LatticeFor, IsSaidInFewDigits) {
 TEST(DecodeFields, GiveTheLatticeBack) {
   for (const GeometryDescription& geometry : everyGeometry()) {
     SCOPED_TRACE(nameOf(geometry));
-    const Lattice &lattice = geometry.lattice, back = latticeOf(decodeFields(geometry), geometry.container,
-                                                                geometry.coordType, lattice.bits);
+    const Lattice &lattice = geometry.lattice,
+                  back = latticeOf(decodeFields(geometry), geometry.container, geometry.coordType, lattice.bits);
     const double edge = lattice.step * lattice.maximum();
     EXPECT_EQ(back.bits, lattice.bits);
     EXPECT_NEAR(back.step, lattice.step, 1e-13 * lattice.step);

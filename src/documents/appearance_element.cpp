@@ -30,9 +30,7 @@ void writeTransforms(ElementWriter& writer, const std::vector<TextureUse>& uses,
 
 Element propertiesElement(const Texture& texture) {
   Attributes boundaries, filters;
-  const auto boundary = [&](const char* name, Boundary value) {
-    boundaries.push_back({name, nameOf(value)});
-  };
+  const auto boundary = [&](const char* name, Boundary value) { boundaries.push_back({name, nameOf(value)}); };
   boundary("boundaryModeS", texture.boundaryS);
   boundary("boundaryModeT", texture.boundaryT);
   if (texture.magnification != Filter::standard)
@@ -60,8 +58,8 @@ Element materialElement(const AnyMaterial& material) {
   return std::visit([&](const auto& any) { return nodeElement(materialNodeName(material), any); }, material);
 }
 
-void writeTexture(ElementWriter& writer, const SceneGraph& graph, std::size_t index,
-                  const std::string& containerField, const Attributes& names) {
+void writeTexture(ElementWriter& writer, const SceneGraph& graph, std::size_t index, const std::string& containerField,
+                  const Attributes& names) {
   const Texture& texture = graph.textures.at(index);
   Element element{"ImageTexture", {names}};
   Attributes& attributes = element.groups[0];

@@ -36,15 +36,12 @@ void setMinificationFilter(Texture& texture, std::string_view name) {
     if (name.size() < pixel.size() || !sameName(name.substr(0, pixel.size()), pixel))
       continue;
     const std::string_view mipMap = name.substr(pixel.size());
-    const bool betweenNearest = sameName(mipMap, nearestMipMap),
-               betweenAverage = sameName(mipMap, averageMipMap);
+    const bool betweenNearest = sameName(mipMap, nearestMipMap), betweenAverage = sameName(mipMap, averageMipMap);
     if (!mipMap.empty() && !betweenNearest && !betweenAverage)
       continue;
     texture.minification = nearest ? Filter::nearest : Filter::linear;
     texture.mipMaps = !mipMap.empty();
-    texture.betweenMipMaps = betweenNearest   ? Filter::nearest
-                             : betweenAverage ? Filter::linear
-                                              : Filter::standard;
+    texture.betweenMipMaps = betweenNearest ? Filter::nearest : betweenAverage ? Filter::linear : Filter::standard;
   }
 }
 

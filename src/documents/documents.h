@@ -48,8 +48,7 @@ struct X3domFiles {
 /// were encoded for it.
 std::string writeX3domX3d(const SceneDocument& document);
 std::string writeInlinedX3domX3d(const SceneDocument& document, std::size_t inlineNode);
-std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom,
-                           const std::string& stylesheetUrl);
+std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom, const std::string& stylesheetUrl);
 
 /// The text of the page's stylesheet: the scene fills the window.
 std::string_view pageStylesheet();

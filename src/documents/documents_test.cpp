@@ -18,10 +18,9 @@ using testing::shapeName;
 
 /// Text with everything in it that markup could stumble over.
 std::string randomText(Random& random) {
-  static const char* pieces[] = {"a",       "\"",  "'",  "<",    ">",    "&",     "&amp;",  "</script>",
-                                 "-->",     "]]>", "\n", "\t",   "\r\n", "<X3D>", "</X3D>", "é",
-                                 "像",      "𝄞",   " ",  "  ",   "\\",   "\\\"",  "#",      "\xc2\x85",
-                                 "&#60;x&", "=",   "/>", "<!--", "%",    "0"};
+  static const char* pieces[] = {"a",  "\"",   "'",    "<",        ">",       "&", "&amp;", "</script>", "-->", "]]>",
+                                 "\n", "\t",   "\r\n", "<X3D>",    "</X3D>",  "é", "像",    "𝄞",         " ",   "  ",
+                                 "\\", "\\\"", "#",    "\xc2\x85", "&#60;x&", "=", "/>",    "<!--",      "%",   "0"};
   std::string text = "t"; // leading white space is kept too, but nobody needs it
   for (std::uint32_t count = random.below(8); count > 0; --count)
     text += pieces[random.below(std::size(pieces))];
@@ -44,8 +43,7 @@ Box3d randomBox(Random& random) {
 }
 
 Reference randomReference(Random& random, Container container) {
-  Reference reference{"f" + std::to_string(random.below(1000)) + (random.once(3) ? "\" &'<x>.png" : ".bin"),
-                      0, 0};
+  Reference reference{"f" + std::to_string(random.below(1000)) + (random.once(3) ? "\" &'<x>.png" : ".bin"), 0, 0};
   if (random.once(2))
     reference.first = random.bits();
   if (container == Container::bg && random.once(2))
@@ -105,9 +103,9 @@ GeometryDescription randomGeometry(Random& random) {
   if (geometry.container == Container::sig && random.once(2))
     geometry.indexType = ElementType::uint32;
   for (std::uint32_t patches = 1 + random.below(4); patches > 0; --patches)
-    geometry.patches.push_back(randomPatch(
-        random, geometry.container,
-        geometry.container == Container::sig ? coordBytes(Container::sig, geometry.lattice.bits) : 1));
+    geometry.patches.push_back(
+        randomPatch(random, geometry.container,
+                    geometry.container == Container::sig ? coordBytes(Container::sig, geometry.lattice.bits) : 1));
   for (PatchDescription& patch : geometry.patches)
     for (const AttributeDescription& attribute : geometry.attributes) {
       patch.attributes.emplace_back();
@@ -133,14 +131,12 @@ Appearance randomAppearance(Random& random, std::size_t textures) {
     appearance.name = "look_" + std::to_string(random.bits());
   switch (random.below(3)) {
   case 0:
-    appearance.material = Material{.diffuseColor = randomColor(random),
-                                   .specularColor = randomColor(random),
-                                   .shininess = random.between(0, 1)};
+    appearance.material = Material{
+        .diffuseColor = randomColor(random), .specularColor = randomColor(random), .shininess = random.between(0, 1)};
     break;
   case 1:
-    appearance.material = PhysicalMaterial{.baseColor = randomColor(random),
-                                           .metallic = random.between(0, 1),
-                                           .transparency = random.between(0, 1)};
+    appearance.material = PhysicalMaterial{
+        .baseColor = randomColor(random), .metallic = random.between(0, 1), .transparency = random.between(0, 1)};
     break;
   default:
     appearance.material = UnlitMaterial{.emissiveColor = randomColor(random)};
@@ -189,13 +185,12 @@ NodeContent randomLeaf(Random& random) {
     return DirectionalLight{randomVector(random), randomColor(random), random.between(0, 1), random.once(2),
                             random.between(0, 1)};
   case 3:
-    return PointLight{randomVector(random), {0, 0, 1},     7, randomColor(random),
-                      random.between(0, 9), random.once(2),         random.between(0, 1)};
+    return PointLight{randomVector(random), {0, 0, 1},           7, randomColor(random), random.between(0, 9),
+                      random.once(2),       random.between(0, 1)};
   default:
     return SpotLight{
         randomVector(random), randomVector(random), random.between(0, 1), random.between(0, 1), {1, 2, 3},
-        random.between(1, 9), randomColor(random),  random.between(0, 9), random.once(2),
-        random.between(0, 1)};
+        random.between(1, 9), randomColor(random),  random.between(0, 9), random.once(2),       random.between(0, 1)};
   }
 }
 
@@ -274,8 +269,7 @@ void expectEqual(const GeometryDescription& read, GeometryDescription written) {
   const double tolerance = 1e-15 * reach + 2e-7 * written.lattice.step;
   for (int axis = 0; axis < 3; ++axis)
     EXPECT_NEAR(read.lattice.origin[axis], written.lattice.origin[axis], tolerance);
-  EXPECT_NEAR(read.lattice.step * read.lattice.maximum(), written.lattice.step * written.lattice.maximum(),
-              tolerance);
+  EXPECT_NEAR(read.lattice.step * read.lattice.maximum(), written.lattice.step * written.lattice.maximum(), tolerance);
   ASSERT_EQ(read.patches.size(), written.patches.size());
   for (std::size_t i = 0; i < read.patches.size(); ++i) {
     expectNear(read.patches[i].box, written.patches[i].box, written.lattice.step);
@@ -332,8 +326,7 @@ void expectEqual(const SceneDocument& read, const SceneDocument& written) {
     for (std::size_t i = 0; i < look.textures.size(); ++i) {
       TextureUse use = readLook.textures[i];
       expectSame(readTexture, look.textures[i].texture, use.texture);
-      Texture texture = read.graph.textures[use.texture],
-              expected = written.graph.textures[look.textures[i].texture];
+      Texture texture = read.graph.textures[use.texture], expected = written.graph.textures[look.textures[i].texture];
       EXPECT_EQ(read.graph.images[texture.image], written.graph.images[expected.image]);
       texture.image = expected.image;
       texture.name = expected.name;
@@ -395,17 +388,8 @@ SceneDocument documentNamed(const std::string& name) {
   SceneDocument document;
   document.graph.title = name;
   GeometryDescription geometry;
-  geometry.patches = {{{},
-                       3,
-                       {{Primitive::triangles, 3}},
-                       {256, 1},
-                       {},
-                       {{"a.png", 0, 0}, {"b.png", 0, 0}},
-                       {},
-                       {},
-                       {},
-                       {},
-                       {}}};
+  geometry.patches = {
+      {{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", 0, 0}, {"b.png", 0, 0}}, {}, {}, {}, {}, {}}};
   document.geometries = {geometry, geometry};
   addRoot(document.graph, {"", Viewpoint{name, {}, {}, 0.8, {}}, {}, ""});
   addRoot(document.graph, {name, Shape{0, {}, true}, {}, ""});
@@ -460,8 +444,7 @@ TEST(Documents, GiveShapesValidUniqueNames) {
 }
 
 TEST(Documents, AreValidUtf8WhateverTheirNamesAre) {
-  const SceneDocument read =
-      readScene(writeHtml(documentNamed("a\xc3(\xed\xa0\x80\x01z\xf0\x9f"), page), "x");
+  const SceneDocument read = readScene(writeHtml(documentNamed("a\xc3(\xed\xa0\x80\x01z\xf0\x9f"), page), "x");
   const std::string r = "\xef\xbf\xbd";
   EXPECT_EQ(read.graph.title, "a" + r + "(" + r + r + r + r + "z" + r + r);
 }
@@ -509,8 +492,7 @@ TEST(Html, HintsAtNoMoreThanSixteenFiles) {
   }
   const std::string html = writeHtml(document, page);
   std::size_t hints = 0;
-  for (std::size_t at = html.find("as=\"fetch\""); at != std::string::npos;
-       at = html.find("as=\"fetch\"", at + 1))
+  for (std::size_t at = html.find("as=\"fetch\""); at != std::string::npos; at = html.find("as=\"fetch\"", at + 1))
     ++hints;
   EXPECT_EQ(hints, 16u);
 }
@@ -557,20 +539,17 @@ TEST(ReadScene, TakesImageTexturesForImages) {
 }
 
 TEST(ReadScene, FindsTheElementPastWhatOnlyLooksLikeIt) {
-  const SceneDocument document =
-      readScene("<!DOCTYPE html><!-- <X3D> --><script>'<X3D>'</script><title><x3d></title>"
-                "<p title='<X3D>'></p><X3D><Scene><WorldInfo title='here'/></Scene></X3D>",
-                "x");
+  const SceneDocument document = readScene("<!DOCTYPE html><!-- <X3D> --><script>'<X3D>'</script><title><x3d></title>"
+                                           "<p title='<X3D>'></p><X3D><Scene><WorldInfo title='here'/></Scene></X3D>",
+                                           "x");
   EXPECT_EQ(document.graph.title, "here");
 }
 
 TEST(ReadScene, RefusesDocumentTypesAndEntities) {
   EXPECT_EQ(kindOfReading("<!DOCTYPE X3D [<!ENTITY a 'aaaaaaaa'>]><X3D><Scene/></X3D>", "s.x3d:1"),
             ErrorKind::unsupported);
-  EXPECT_EQ(kindOfReading("<!DOCTYPE X3D SYSTEM 'file:///etc/passwd'><X3D><Scene/></X3D>"),
-            ErrorKind::unsupported);
-  EXPECT_EQ(kindOfReading("<X3D>\n<Scene><WorldInfo title='&a;'/></Scene></X3D>", "s.x3d:2"),
-            ErrorKind::malformed);
+  EXPECT_EQ(kindOfReading("<!DOCTYPE X3D SYSTEM 'file:///etc/passwd'><X3D><Scene/></X3D>"), ErrorKind::unsupported);
+  EXPECT_EQ(kindOfReading("<X3D>\n<Scene><WorldInfo title='&a;'/></Scene></X3D>", "s.x3d:2"), ErrorKind::malformed);
   EXPECT_EQ(kindOfReading("<X3D><!ENTITY a 'b'><Scene/></X3D>"), ErrorKind::malformed);
 }
 
@@ -606,11 +585,9 @@ TEST(ReadScene, FindsTheStrideOfAUrlAsX3domDoes) {
 }
 
 TEST(ReadScene, PutsSignedCoordinatesAroundTheCentreOfABoxOfAnyShape) {
-  const Lattice lattice =
-      readBinaryGeometry("coordType='Int16' position='1 2 3' size='4 2 0' coord='a'").lattice;
+  const Lattice lattice = readBinaryGeometry("coordType='Int16' position='1 2 3' size='4 2 0' coord='a'").lattice;
   EXPECT_EQ(lattice.bits, 16u);
-  const Vec3d middle = lattice.point({32768, 32768, 32768}),
-              corner = lattice.point({32768 + 32767, 32768 - 32767, 0});
+  const Vec3d middle = lattice.point({32768, 32768, 32768}), corner = lattice.point({32768 + 32767, 32768 - 32767, 0});
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(middle[axis], (Vec3d{1, 2, 3}[axis]), 1e-12);
     EXPECT_NEAR(corner[axis], (Vec3d{5, 0, 3}[axis]), 1e-12);
@@ -621,8 +598,8 @@ TEST(Documents, KeepTheLatticeOfForeignGeometry) {
   for (const std::string type : {"Int8", "Int16", "Uint8", "Uint16", "Uint32", "Float32"})
     for (const std::string size : {"4 2 0", "1 1 1", "1e-3 5 100"}) {
       const SceneDocument document =
-          readScene("<X3D><Scene><Shape><BinaryGeometry coordType='" + type + "' position='1 2 3' size='" +
-                        size + "' coord='a'/></Shape></Scene></X3D>",
+          readScene("<X3D><Scene><Shape><BinaryGeometry coordType='" + type + "' position='1 2 3' size='" + size +
+                        "' coord='a'/></Shape></Scene></X3D>",
                     "x");
       const Lattice before = document.geometries.at(0).lattice;
       const Lattice after = readScene(writeX3d(document), "x").geometries.at(0).lattice;
@@ -635,8 +612,8 @@ TEST(Documents, KeepTheLatticeOfForeignGeometry) {
 
 TEST(ReadScene, RefusesAttributesThatItsPatchesDoNotHave) {
   const auto messageOf = [](const std::string& attribute, const std::string& attrib) -> std::string {
-    const std::string text = "<X3D><Scene><Shape><ImageGeometry coord='a.png' vertexCount='3' attrib='" +
-                             attrib + "'><FloatVertexAttribute " + attribute +
+    const std::string text = "<X3D><Scene><Shape><ImageGeometry coord='a.png' vertexCount='3' attrib='" + attrib +
+                             "'><FloatVertexAttribute " + attribute +
                              "></FloatVertexAttribute></ImageGeometry></Shape></Scene></X3D>";
     try {
       readScene(text, "s.x3d");
@@ -698,8 +675,7 @@ TEST(ReadScene, JoinsAGroupOfShapesThatShareTheirAppearance) {
            coord + "'/></Shape>";
   };
   const auto scene = [](const std::string& shapes) {
-    return readScene("<X3D><Scene><Group DEF='statue' bboxSize='3 3 3'>" + shapes + "</Group></Scene></X3D>",
-                     "x");
+    return readScene("<X3D><Scene><Group DEF='statue' bboxSize='3 3 3'>" + shapes + "</Group></Scene></X3D>", "x");
   };
   const SceneDocument joined = scene(shape("DEF='A'", "a") + shape("USE='A'", "b"));
   ASSERT_EQ(shapeNodes(joined.graph).size(), 1u);
@@ -731,11 +707,10 @@ TEST(ReadScene, RefusesGeometryThatNoLatticeStandsFor) {
 }
 
 TEST(ReadScene, WarnsOfWhatAuthorsGetWrongAndReadsTheRest) {
-  const SceneDocument document =
-      readScene("<X3D><Scene>\n<Shape/><Viewpoint position='1 2' fieldOfView='1'/>\n"
-                "<Shape><Appearance USE='a'/><ImageGeometry coord='c'/></Shape>"
-                "</Scene></X3D>",
-                "folder/s.x3d");
+  const SceneDocument document = readScene("<X3D><Scene>\n<Shape/><Viewpoint position='1 2' fieldOfView='1'/>\n"
+                                           "<Shape><Appearance USE='a'/><ImageGeometry coord='c'/></Shape>"
+                                           "</Scene></X3D>",
+                                           "folder/s.x3d");
   EXPECT_EQ(document.warnings,
             (std::vector<std::string>{
                 "s.x3d:2: Viewpoint: position has 2 numbers and needs 3; it counts as absent.",
@@ -761,9 +736,8 @@ TEST(ReadScene, RefusesADepthThatNobodyWrites) {
 }
 
 TEST(ReadScene, RefusesAUseThatNamesNothingBefore) {
-  for (const std::string use :
-       {"<Shape USE='a'/>", "<Group DEF='a'><Group USE='a'/></Group>",
-        "<Transform USE='a'/><Transform DEF='a'/>", "<Shape><ImageGeometry USE='a'/></Shape>"})
+  for (const std::string use : {"<Shape USE='a'/>", "<Group DEF='a'><Group USE='a'/></Group>",
+                                "<Transform USE='a'/><Transform DEF='a'/>", "<Shape><ImageGeometry USE='a'/></Shape>"})
     EXPECT_EQ(kindOfReading("<X3D><Scene>" + use + "</Scene></X3D>"), ErrorKind::malformed) << use;
 }
 

@@ -20,10 +20,7 @@ void ElementWriter::startTag(const Element& element) {
       continue;
     std::string line;
     for (const Attribute& attribute : group)
-      line.append(line.empty() ? "" : " ")
-          .append(attribute.name)
-          .append("=")
-          .append(quoteAttribute(attribute.value));
+      line.append(line.empty() ? "" : " ").append(attribute.name).append("=").append(quoteAttribute(attribute.value));
     length += 1 + line.size();
     lines.push_back(std::move(line));
   }

@@ -54,8 +54,7 @@ struct FieldAttributes {
 };
 
 /// The element of a node that holds nothing but fields.
-template <typename Node>
-Element nodeElement(const char* name, const Node& node, const Attributes& names = {}) {
+template <typename Node> Element nodeElement(const char* name, const Node& node, const Attributes& names = {}) {
   FieldTexts defaults;
   visitFields(Node{}, defaults);
   Element element{name, {names}};

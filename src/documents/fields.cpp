@@ -47,8 +47,7 @@ std::size_t offsetOf(const DocumentText& source, const pugi::xml_node& node) {
 
 } // namespace
 
-void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind,
-          const std::string& message) {
+void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind, const std::string& message) {
   throw Error(kind, placeOf(source.text, source.name, offsetOf(source, node)), message);
 }
 

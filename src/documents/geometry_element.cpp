@@ -54,8 +54,7 @@ namespace {
 /// What compact says of a patch, but for its box.
 Attributes compactFields(const PatchDescription& patch) {
   Attributes fields{{"recordCount", std::to_string(patch.vertexCount)}};
-  if (patch.draws !=
-      std::vector<Draw>{{Primitive::triangles, patch.draws.empty() ? 0 : patch.draws[0].count}})
+  if (patch.draws != std::vector<Draw>{{Primitive::triangles, patch.draws.empty() ? 0 : patch.draws[0].count}})
     fields.push_back({"primType", primTypes(patch.draws)});
   fields.push_back({"vertexCount", counts(patch.draws)});
   fields.push_back({"data", url(*patch.data, Container::sig)});
@@ -77,8 +76,8 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
   if (patch.data)
     return {"GeometryPatch", {boxAttributes(patch.box, geometry.lattice), compactFields(patch)}};
   if (container == Container::sig)
-    draws.push_back({"implicitMeshSize", std::to_string(patch.implicitMeshSize.x) + " " +
-                                             std::to_string(patch.implicitMeshSize.y)});
+    draws.push_back({"implicitMeshSize",
+                     std::to_string(patch.implicitMeshSize.x) + " " + std::to_string(patch.implicitMeshSize.y)});
   Attributes references;
   const auto add = [&](const char* name, const std::optional<Reference>& reference) {
     if (reference)
@@ -121,8 +120,8 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
   const bool isCompact = geometry.profile == Profile::compact;
   Attributes box = decodeAttributes(geometry);
   const bool hasDefaultBits = isCompact && geometry.lattice.bits == 16;
-  if (!hasDefaultBits && (geometry.container == Container::sig ||
-                          geometry.coordType != ElementType::float32 || geometry.lattice.bits != sourceBits))
+  if (!hasDefaultBits && (geometry.container == Container::sig || geometry.coordType != ElementType::float32 ||
+                          geometry.lattice.bits != sourceBits))
     box.push_back({"positionBits", std::to_string(geometry.lattice.bits)});
   addUnless(box, "solid", solid, true, "false");
   Attributes stored;

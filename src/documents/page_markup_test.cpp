@@ -10,14 +10,13 @@ namespace {
 TEST(PageMarkup, LetsNodesOfX3dIntoAPageAndNothingThatActs) {
   for (const char* node : {"Transform", "Switch", "LOD", "TimeSensor", "ROUTE", "IndexedFaceSet", "Text"})
     EXPECT_TRUE(mayStandInPage(node)) << node;
-  for (const char* element : {"Script", "script", "SCRIPT", "iframe", "img", "svg", "style", "link", "meta",
-                              "base", "form", "template", "ProtoDeclare", "x-y", ""})
+  for (const char* element : {"Script", "script", "SCRIPT", "iframe", "img", "svg", "style", "link", "meta", "base",
+                              "form", "template", "ProtoDeclare", "x-y", ""})
     EXPECT_FALSE(mayStandInPage(element)) << element;
 }
 
 TEST(PageMarkup, KnowsAttributesThatBrowsersActOn) {
-  for (const char* name :
-       {"onload", "ONCLICK", "onx", "style", "src", "srcdoc", "href", "xlink:href", "Style", "is"})
+  for (const char* name : {"onload", "ONCLICK", "onx", "style", "src", "srcdoc", "href", "xlink:href", "Style", "is"})
     EXPECT_FALSE(isInertInPage(name)) << name;
   for (const char* name : {"on", "id", "class", "translation", "url", "DEF", "whichChoice"})
     EXPECT_TRUE(isInertInPage(name)) << name;
@@ -26,9 +25,8 @@ TEST(PageMarkup, KnowsAttributesThatBrowsersActOn) {
 TEST(PageMarkup, LetsRelativeUrlsAndThoseOfHttpIntoAPage) {
   for (const char* url : {"a.png", "../b/c.x3d", "http://a/b", "HTTPS://a", "?x:y", "#a:b"})
     EXPECT_TRUE(isPageUrl(url)) << url;
-  for (const char* url :
-       {"javascript:alert(1)", " JavaScript:alert(1)", "java\nscript:alert(1)", "\x01javascript:1",
-        "data:text/html,<script>", "vbscript:x", "file:///etc/passwd", "ecmascript:x", ":x"})
+  for (const char* url : {"javascript:alert(1)", " JavaScript:alert(1)", "java\nscript:alert(1)", "\x01javascript:1",
+                          "data:text/html,<script>", "vbscript:x", "file:///etc/passwd", "ecmascript:x", ":x"})
     EXPECT_FALSE(isPageUrl(url)) << url;
   EXPECT_EQ(pageUrls("\"javascript:1\" \"a.png\""), "\"a.png\"");
   EXPECT_EQ(pageUrls("\"data:,x\""), "");
@@ -45,15 +43,14 @@ SceneDocument hostileDocument() {
   SceneGraph& graph = document.graph;
   graph.isComplete = true;
   const std::size_t inside = addOther(graph, "Viewpoint", {{"description", "\"><script>alert(1)</script>"}});
-  graph.roots = {addOther(graph, "Script", {{"url", "javascript:alert(2)"}}, {}, "alert(3) </script> ]]>"),
-                 addOther(graph, "script", {{"src", "http://evil/x.js"}}, {}, "alert(4)"),
-                 addOther(graph, "iframe", {{"srcdoc", "<script>alert(5)</script>"}}, {inside}),
-                 addOther(graph, "TouchSensor",
-                          {{"onclick", "alert(6)"}, {"ONLOAD", "alert(7)"}, {"style", "x:url(//evil)"}}),
-                 addOther(graph, "Inline",
-                          {{"url", "\"java\tscript:alert(8)\" \"data:text/html,alert(9)\" \"part.x3d\""}}),
-                 addOther(graph, "AudioClip", {{"url", "data:audio/wav,alert(10)"}}),
-                 addOther(graph, "DirectionalLight", {{"on", "false"}})};
+  graph.roots = {
+      addOther(graph, "Script", {{"url", "javascript:alert(2)"}}, {}, "alert(3) </script> ]]>"),
+      addOther(graph, "script", {{"src", "http://evil/x.js"}}, {}, "alert(4)"),
+      addOther(graph, "iframe", {{"srcdoc", "<script>alert(5)</script>"}}, {inside}),
+      addOther(graph, "TouchSensor", {{"onclick", "alert(6)"}, {"ONLOAD", "alert(7)"}, {"style", "x:url(//evil)"}}),
+      addOther(graph, "Inline", {{"url", "\"java\tscript:alert(8)\" \"data:text/html,alert(9)\" \"part.x3d\""}}),
+      addOther(graph, "AudioClip", {{"url", "data:audio/wav,alert(10)"}}),
+      addOther(graph, "DirectionalLight", {{"on", "false"}})};
   graph.head.header = {addOther(graph, "meta", {{"http-equiv", "refresh"}, {"content", "0;url=//evil"}})};
   return document;
 }
@@ -62,9 +59,8 @@ TEST(PageMarkup, KeepsAHostileDocumentFromRunningInThePage) {
   const std::string html = writeHtml(hostileDocument(), {"imgeo.js", "imgeo.css"});
   const std::string body = html.substr(html.find("<body>"));
   EXPECT_EQ(body.find("<script"), std::string::npos) << body;
-  for (const char* never :
-       {"<Script", "<iframe", "<meta", "onclick", "ONLOAD", "style=", "srcdoc", "javascript",
-        "script:", "data:", "evil", "alert(2)", "alert(3)", "alert(8)", "alert(9)"})
+  for (const char* never : {"<Script", "<iframe", "<meta", "onclick", "ONLOAD", "style=", "srcdoc", "javascript",
+                            "script:", "data:", "evil", "alert(2)", "alert(3)", "alert(8)", "alert(9)"})
     EXPECT_EQ(body.find(never), std::string::npos) << never << "\n" << body;
   for (const char* kept : {"&lt;script", "url='\"part.x3d\"'", "<DirectionalLight on=\"false\">"})
     EXPECT_NE(body.find(kept), std::string::npos) << kept << "\n" << body;

@@ -16,10 +16,8 @@ bool isNamed(const pugi::xml_node& node, std::string_view name) {
 }
 
 void readProperties(const Fields& fields, Texture& texture) {
-  texture.boundaryS =
-      valueNamed<Boundary>(boundaryNames, fields.text("boundaryModeS")).value_or(Boundary::repeat);
-  texture.boundaryT =
-      valueNamed<Boundary>(boundaryNames, fields.text("boundaryModeT")).value_or(Boundary::repeat);
+  texture.boundaryS = valueNamed<Boundary>(boundaryNames, fields.text("boundaryModeS")).value_or(Boundary::repeat);
+  texture.boundaryT = valueNamed<Boundary>(boundaryNames, fields.text("boundaryModeT")).value_or(Boundary::repeat);
   setMagnificationFilter(texture, fields.text("magnificationFilter"));
   setMinificationFilter(texture, fields.text("minificationFilter"));
 }
@@ -35,8 +33,7 @@ const T* AppearanceReader::used(const Fields& fields, const std::map<std::string
   const auto found = defined.find(use);
   if (found != defined.end())
     return &found->second;
-  fields.object(std::string("USE names no ") + fields.node().name() + " that stands before",
-                "it has its defaults");
+  fields.object(std::string("USE names no ") + fields.node().name() + " that stands before", "it has its defaults");
   return nullptr;
 }
 
@@ -99,8 +96,7 @@ AppearanceReader::DefinedMaterial AppearanceReader::readMaterial(const Fields& f
 }
 
 /// Transforms by the name of their mapping; "" for one without.
-void AppearanceReader::readTransforms(const Fields& fields,
-                                      std::map<std::string, TextureTransform>& transforms) const {
+void AppearanceReader::readTransforms(const Fields& fields, std::map<std::string, TextureTransform>& transforms) const {
   if (isNamed(fields.node(), "TextureTransform"))
     transforms[fields.text("mapping")] = readNode<TextureTransform>(fields);
   if (isNamed(fields.node(), "MultiTextureTransform"))
@@ -115,8 +111,7 @@ std::size_t AppearanceReader::read(const pugi::xml_node& node) {
     return *index;
   Appearance appearance;
   appearance.name = fields.text("DEF");
-  appearance.alphaMode =
-      valueNamed<AlphaMode>(alphaModeNames, fields.text("alphaMode")).value_or(AlphaMode::automatic);
+  appearance.alphaMode = valueNamed<AlphaMode>(alphaModeNames, fields.text("alphaMode")).value_or(AlphaMode::automatic);
   appearance.alphaCutoff = fields.real("alphaCutoff", 0.5f);
 
   DefinedMaterial material;

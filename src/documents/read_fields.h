@@ -17,9 +17,7 @@ template <typename Node> Node readNode(const Fields& fields) {
     void operator()(const char* name, Vec2f& member, Written = {}) { member = fields.vec2(name, member); }
     void operator()(const char* name, Vec3f& member, Written = {}) { member = fields.vec3(name, member); }
     void operator()(const char* name, Vec3d& member, Written = {}) { member = fields.vec3(name, member); }
-    void operator()(const char* name, Rotation& member, Written = {}) {
-      member = fields.rotation(name, member);
-    }
+    void operator()(const char* name, Rotation& member, Written = {}) { member = fields.rotation(name, member); }
     void line() {}
   };
   Node node;

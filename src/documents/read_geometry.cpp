@@ -16,9 +16,8 @@ ElementType elementTypeOf(const Fields& fields, const char* name, ElementType fa
   const std::string text = fields.text(name);
   if (text.empty())
     return fallback;
-  for (const ElementType type :
-       {ElementType::int8, ElementType::uint8, ElementType::int16, ElementType::uint16, ElementType::int32,
-        ElementType::uint32, ElementType::float32})
+  for (const ElementType type : {ElementType::int8, ElementType::uint8, ElementType::int16, ElementType::uint16,
+                                 ElementType::int32, ElementType::uint32, ElementType::float32})
     if (sameName(text, nameOf(type)))
       return type;
   fields.fail(ErrorKind::unsupported, std::string(name) + " is no element type we know");
@@ -26,8 +25,7 @@ ElementType elementTypeOf(const Fields& fields, const char* name, ElementType fa
 
 NormalEncoding normalEncodingOf(const Fields& fields) {
   const std::string text = fields.text("normalEncoding");
-  for (const NormalEncoding encoding :
-       {NormalEncoding::octahedral, NormalEncoding::spherical, NormalEncoding::palette})
+  for (const NormalEncoding encoding : {NormalEncoding::octahedral, NormalEncoding::spherical, NormalEncoding::palette})
     if (sameName(text, nameOf(encoding)))
       return encoding;
   if (!text.empty() && !sameName(text, nameOf(NormalEncoding::rgb)))
@@ -76,8 +74,8 @@ Reference referenceOf(const Fields& fields, const std::string& url, Container co
 }
 
 Primitive primitiveNamed(const Fields& fields, const std::string& name) {
-  for (const Primitive primitive : {Primitive::points, Primitive::lines, Primitive::lineStrip,
-                                    Primitive::triangles, Primitive::triangleStrip})
+  for (const Primitive primitive :
+       {Primitive::points, Primitive::lines, Primitive::lineStrip, Primitive::triangles, Primitive::triangleStrip})
     if (sameName(name, nameOf(primitive)))
       return primitive;
   fields.fail(ErrorKind::unsupported, "primType is none of those we read");
@@ -115,12 +113,11 @@ void readTexture(const DocumentText& source, const pugi::xml_node& node, PatchDe
   else if (sameName(role, "index"))
     patch.index = reference;
   else
-    fields.fail(ErrorKind::malformed,
-                "an ImageTexture in an ImageGeometry has no containerField that we know");
+    fields.fail(ErrorKind::malformed, "an ImageTexture in an ImageGeometry has no containerField that we know");
 }
 
-PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& node,
-                           const GeometryDescription& geometry, Vec2<std::uint32_t> implicitMeshSize) {
+PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& node, const GeometryDescription& geometry,
+                           Vec2<std::uint32_t> implicitMeshSize) {
   const Container container = geometry.container;
   const Fields fields(source, node);
   PatchDescription patch;
@@ -191,17 +188,15 @@ std::uint32_t storedBits(const Fields& fields, const GeometryDescription& geomet
 
 Lattice latticeOf(const Fields& fields, const GeometryDescription& geometry) {
   const std::uint32_t stored = storedBits(fields, geometry), bits = fields.integer("positionBits", stored);
-  const bool isHeld =
-      geometry.container == Container::bg
-          ? holdsLattice(geometry.coordType, bits)
-          : bits >= 8 && bits <= 32 &&
-                (geometry.profile == Profile::compact || 8 * coordBytes(Container::sig, bits) == stored);
+  const bool isHeld = geometry.container == Container::bg ? holdsLattice(geometry.coordType, bits)
+                                                          : bits >= 8 && bits <= 32 &&
+                                                                (geometry.profile == Profile::compact ||
+                                                                 8 * coordBytes(Container::sig, bits) == stored);
   if (!isHeld)
     fields.fail(ErrorKind::malformed,
                 "positionBits is no precision of coordinates of " + std::to_string(stored / 8) + " bytes");
   const DecodeFields box{fields.vec3("position", Vec3d{0, 0, 0}), fields.vec3("size", Vec3d{1, 1, 1})};
-  if (!(std::min({box.size.x, box.size.y, box.size.z}) >= 0 &&
-        std::max({box.size.x, box.size.y, box.size.z}) > 0))
+  if (!(std::min({box.size.x, box.size.y, box.size.z}) >= 0 && std::max({box.size.x, box.size.y, box.size.z}) > 0))
     fields.fail(ErrorKind::malformed, "size is the extent of no box");
   return imgeo::latticeOf(box, geometry.container, geometry.coordType, bits);
 }
@@ -228,8 +223,7 @@ void takeNormalsFromCoords(const Fields& fields, GeometryDescription& geometry) 
 
 } // namespace
 
-GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node,
-                                 Container container) {
+GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node, Container container) {
   const Fields fields(source, node);
   GeometryDescription geometry;
   geometry.container = container;

@@ -19,8 +19,7 @@ namespace {
 constexpr std::size_t maxDocumentBytes = 64u << 20; // some hundred thousand patches
 constexpr std::size_t maxDepth = 256;               // of elements, and of nodes with what they USE
 
-constexpr std::array nodeNames{"Shape",      "Group",          "Transform",
-                               "Viewpoint",  "OrthoViewpoint", "DirectionalLight",
+constexpr std::array nodeNames{"Shape",      "Group",    "Transform", "Viewpoint", "OrthoViewpoint", "DirectionalLight",
                                "PointLight", "SpotLight"};
 
 /// "0123456789abcdef.x3d": a document that `convert` wrote beside its scene.
@@ -29,8 +28,7 @@ bool isNamedByContent(std::string_view url) {
 }
 
 bool hasElements(const pugi::xml_node& node) {
-  return std::ranges::any_of(node.children(),
-                             [](const auto& child) { return child.type() == pugi::node_element; });
+  return std::ranges::any_of(node.children(), [](const auto& child) { return child.type() == pugi::node_element; });
 }
 
 class SceneReader {
@@ -62,8 +60,7 @@ private:
       fail(parent, ErrorKind::limit, "elements are nested too deeply");
     std::vector<std::size_t> children;
     for (const pugi::xml_node& node : parent.children())
-      if (const std::optional<std::size_t> child =
-              readChild(Fields(source_, node, &document_.warnings), depth))
+      if (const std::optional<std::size_t> child = readChild(Fields(source_, node, &document_.warnings), depth))
         children.push_back(*child);
     return children;
   }
@@ -92,8 +89,7 @@ private:
       if (const auto found = defined_.find(use); found != defined_.end())
         return found->second;
     } else if (hasElements(fields.node())) {
-      return add(fields, Group{},
-                 readChildren(fields.node(), depth + 1)); // whatever it is, shapes may stand in it
+      return add(fields, Group{}, readChildren(fields.node(), depth + 1)); // whatever it is, shapes may stand in it
     }
     return {};
   }
@@ -120,8 +116,7 @@ private:
       return {};
     const auto found = defined_.find(use);
     if (found == defined_.end())
-      fields.fail(ErrorKind::malformed,
-                  std::string("USE names no ") + fields.node().name() + " that stands before");
+      fields.fail(ErrorKind::malformed, std::string("USE names no ") + fields.node().name() + " that stands before");
     return found->second;
   }
 
@@ -181,14 +176,11 @@ private:
     const Box3d box = fields.box();
     if (box.empty() || children.empty() || document_.geometries.size() - first != children.size())
       return false;
-    const auto shapeAt = [&](std::size_t i) {
-      return std::get_if<Shape>(&document_.graph.nodes[children[i]].content);
-    };
+    const auto shapeAt = [&](std::size_t i) { return std::get_if<Shape>(&document_.graph.nodes[children[i]].content); };
     for (std::size_t i = 0; i < children.size(); ++i) {
       const Shape* shape = shapeAt(i);
-      if (!shape || !shape->appearance || shape->appearance != shapeAt(0)->appearance ||
-          shape->mesh != first + i || !isJoinable_[shape->mesh] ||
-          !document_.graph.nodes[children[i]].name.empty() ||
+      if (!shape || !shape->appearance || shape->appearance != shapeAt(0)->appearance || shape->mesh != first + i ||
+          !isJoinable_[shape->mesh] || !document_.graph.nodes[children[i]].name.empty() ||
           !sameButForPatches(document_.geometries[first + i], document_.geometries[first]))
         return false;
     }
@@ -267,8 +259,7 @@ private:
     read.mesh = document_.geometries.size();
     read.solid = fields.boolean("solid", true);
     const bool isSig = sameName(fields.node().name(), "ImageGeometry");
-    GeometryDescription geometry =
-        readGeometry(source_, fields.node(), isSig ? Container::sig : Container::bg);
+    GeometryDescription geometry = readGeometry(source_, fields.node(), isSig ? Container::sig : Container::bg);
     geometry.box = shape.box();
     const bool hasPatches = std::ranges::any_of(
         fields.node().children(), [](const auto& child) { return sameName(child.name(), "GeometryPatch"); });
@@ -290,7 +281,7 @@ private:
   std::vector<std::size_t> heights_;           ///< by node: how deep the nodes below it go
   std::vector<bool> isJoinable_;               ///< by geometry: it is its only patch, and nothing can USE it
   std::map<std::string, std::size_t> defined_; ///< nodes by their DEF
-  std::set<std::string> passedOver_; ///< DEFs of Shapes whose geometry stands in the document, or nowhere
+  std::set<std::string> passedOver_;           ///< DEFs of Shapes whose geometry stands in the document, or nowhere
   std::map<std::string, Shape> definedGeometries_;
 };
 
@@ -307,8 +298,8 @@ void checkReferences(std::string_view text, const std::string& name, TextSpan sp
       return;
     const std::string_view rest = text.substr(at + 1, 12);
     const std::string_view entity = rest.substr(0, rest.find(';'));
-    const bool known = entity == "amp" || entity == "lt" || entity == "gt" || entity == "quot" ||
-                       entity == "apos" || (entity.size() > 1 && entity[0] == '#');
+    const bool known = entity == "amp" || entity == "lt" || entity == "gt" || entity == "quot" || entity == "apos" ||
+                       (entity.size() > 1 && entity[0] == '#');
     if (!known || entity.size() == rest.size())
       throw Error(ErrorKind::malformed, placeOf(text, name, at),
                   "an ampersand begins no character reference that we know");
@@ -330,11 +321,10 @@ SceneDocument readScene(std::string_view text, const std::string& name) {
   const TextSpan span = findX3d(text, name);
   checkReferences(text, name, span);
   pugi::xml_document parsed;
-  const pugi::xml_parse_result result = parsed.load_buffer(text.data() + span.begin, span.end - span.begin,
-                                                           pugi::parse_default, pugi::encoding_utf8);
+  const pugi::xml_parse_result result =
+      parsed.load_buffer(text.data() + span.begin, span.end - span.begin, pugi::parse_default, pugi::encoding_utf8);
   if (!result)
-    throw Error(ErrorKind::malformed,
-                placeOf(text, name, span.begin + static_cast<std::size_t>(result.offset)),
+    throw Error(ErrorKind::malformed, placeOf(text, name, span.begin + static_cast<std::size_t>(result.offset)),
                 std::string("not well-formed: ") + result.description());
   const DocumentText source{text, name, span.begin};
   return SceneReader(source).read(parsed.document_element());

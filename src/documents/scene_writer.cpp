@@ -63,8 +63,8 @@ SceneWriter::SceneWriter(const SceneDocument& document, std::size_t level, Mediu
     : document_(document), writer_(level), nodeNames_(document.graph.nodes.size()),
       appearanceNames_(document.graph.appearances.size()), textureNames_(document.graph.textures.size()),
       roots_(inlineNode ? document.graph.nodes.at(*inlineNode).children : document.graph.roots),
-      head_(inlineNode ? inlinedDocumentOf(document.graph, *inlineNode).head : document.graph.head),
-      medium_(medium), geometryNames_(2 * document.geometries.size()) {
+      head_(inlineNode ? inlinedDocumentOf(document.graph, *inlineNode).head : document.graph.head), medium_(medium),
+      geometryNames_(2 * document.geometries.size()) {
   giveNames();
 }
 
@@ -153,8 +153,8 @@ std::string SceneWriter::write() {
 
 void SceneWriter::writeExtras(const Node& node) {
   if (!node.extras.empty())
-    writer_.leaf({"MetadataString",
-                  {{{"containerField", "metadata"}, {"name", "extras"}, {"value", strings({node.extras})}}}});
+    writer_.leaf(
+        {"MetadataString", {{{"containerField", "metadata"}, {"name", "extras"}, {"value", strings({node.extras})}}}});
 }
 
 void SceneWriter::writeParts(const Node& node) {

@@ -19,8 +19,7 @@ template <std::size_t N> bool isIn(const Range (&ranges)[N], char32_t c) {
 
 /// XML 1.0 (fifth edition), production [2] Char.
 bool isXmlCharacter(char32_t c) {
-  static constexpr Range ranges[] = {
-      {0x9, 0xa}, {0xd, 0xd}, {0x20, 0xd7ff}, {0xe000, 0xfffd}, {0x10000, 0x10ffff}};
+  static constexpr Range ranges[] = {{0x9, 0xa}, {0xd, 0xd}, {0x20, 0xd7ff}, {0xe000, 0xfffd}, {0x10000, 0x10ffff}};
   return isIn(ranges, c);
 }
 
@@ -126,8 +125,7 @@ std::string escapeText(std::string_view text) {
 
 std::string quoteAttribute(std::string_view text) {
   const std::string valid = validText(text);
-  const char quote =
-      valid.find('"') != std::string::npos && valid.find('\'') == std::string::npos ? '\'' : '"';
+  const char quote = valid.find('"') != std::string::npos && valid.find('\'') == std::string::npos ? '\'' : '"';
   return quote +
          substitute(valid,
                     [quote](char c) {

@@ -127,15 +127,13 @@ std::string writeInlinedX3domX3d(const SceneDocument& document, std::size_t inli
   return xmlDeclaration + x3domElement(document, 0, Medium::file, inlineNode);
 }
 
-std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom,
-                           const std::string& stylesheetUrl) {
+std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom, const std::string& stylesheetUrl) {
   const auto checked = [](const std::string& sum) {
     return sum.empty() ? "" : " integrity=" + quoteAttribute(sum) + " crossorigin=\"anonymous\"";
   };
   const std::string head = link("stylesheet", x3dom.stylesheetUrl, checked(x3dom.stylesheetSum)) +
-                           link("stylesheet", stylesheetUrl) +
-                           "    <script src=" + quoteAttribute(x3dom.scriptUrl) + checked(x3dom.scriptSum) +
-                           "></script>\n";
+                           link("stylesheet", stylesheetUrl) + "    <script src=" + quoteAttribute(x3dom.scriptUrl) +
+                           checked(x3dom.scriptSum) + "></script>\n";
   return page(document, head, x3domElement(document, 2, Medium::page));
 }
 

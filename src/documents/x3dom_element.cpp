@@ -27,8 +27,7 @@ Vec2<std::uint32_t> implicitMeshSizeOf(const SceneDocument& document) {
 
 class X3domWriter : public SceneWriter {
 public:
-  X3domWriter(const SceneDocument& document, std::size_t level, Medium medium,
-              std::optional<std::size_t> inlineNode)
+  X3domWriter(const SceneDocument& document, std::size_t level, Medium medium, std::optional<std::size_t> inlineNode)
       : SceneWriter(document, level, medium, inlineNode), sampling_(table_.take("exactTexels")),
         shiningNames_(document.graph.appearances.size()), implicitMeshSize_(implicitMeshSizeOf(document)) {}
 
@@ -109,10 +108,9 @@ private:
   static Attributes boxFields(const GeometryDescription& geometry, bool solid) {
     Attributes fields = decodeAttributes(geometry);
     const std::uint32_t bits = geometry.lattice.bits;
-    const std::uint32_t stored = geometry.container == Container::sig ? 8 * coordBytes(Container::sig, bits)
-                                 : geometry.coordType == ElementType::float32
-                                     ? sourceBits
-                                     : 8 * byteSizeOf(geometry.coordType);
+    const std::uint32_t stored = geometry.container == Container::sig         ? 8 * coordBytes(Container::sig, bits)
+                                 : geometry.coordType == ElementType::float32 ? sourceBits
+                                                                              : 8 * byteSizeOf(geometry.coordType);
     if (bits != stored)
       fields.push_back({"positionBits", std::to_string(bits)});
     addUnless(fields, "solid", solid, true, "false");
@@ -132,8 +130,8 @@ private:
     assert(geometry.texCoordMin == Vec2f{} && geometry.texCoordSize == (Vec2f{1, 1}));
     assert(!isPair(geometry.normalEncoding) && geometry.indexType == ElementType::uint16);
     Attributes draws = drawFields(patch);
-    draws.push_back({"implicitMeshSize",
-                     std::to_string(implicitMeshSize_.x) + " " + std::to_string(implicitMeshSize_.y)});
+    draws.push_back(
+        {"implicitMeshSize", std::to_string(implicitMeshSize_.x) + " " + std::to_string(implicitMeshSize_.y)});
     draws.push_back({"numColorComponents", std::to_string(geometry.colorComponents)});
     if (geometry.normalEncoding == NormalEncoding::palette)
       draws.push_back({"normalEncoding", nameOf(geometry.normalEncoding)});
@@ -161,14 +159,13 @@ private:
     if (samplingIsDefined_)
       writer_.leaf({"TextureProperties", {{{"USE", sampling_}}}});
     else
-      writer_.leaf({"TextureProperties",
-                    {{{"DEF", sampling_},
-                      {"boundaryModeS", "CLAMP_TO_EDGE"},
-                      {"boundaryModeT", "CLAMP_TO_EDGE"},
-                      {"boundaryModeR", "CLAMP_TO_EDGE"}},
-                     {{"magnificationFilter", "NEAREST"},
-                      {"minificationFilter", "NEAREST"},
-                      {"generateMipMaps", "false"}}}});
+      writer_.leaf(
+          {"TextureProperties",
+           {{{"DEF", sampling_},
+             {"boundaryModeS", "CLAMP_TO_EDGE"},
+             {"boundaryModeT", "CLAMP_TO_EDGE"},
+             {"boundaryModeR", "CLAMP_TO_EDGE"}},
+            {{"magnificationFilter", "NEAREST"}, {"minificationFilter", "NEAREST"}, {"generateMipMaps", "false"}}}});
     samplingIsDefined_ = true;
     writer_.close(texture);
   }
@@ -184,14 +181,11 @@ private:
     return file.url + "#" + std::to_string(file.first) + "+" + std::to_string(file.stride);
   }
 
-  static Element binaryGeometry(const GeometryDescription& geometry, const PatchDescription& patch,
-                                bool solid) {
+  static Element binaryGeometry(const GeometryDescription& geometry, const PatchDescription& patch, bool solid) {
     const Reference& coord = patch.coord.at(0);
-    const auto isBeside = [&](const std::optional<Reference>& file) {
-      return file && file->url == coord.url;
-    };
-    const bool isInterleaved = (isBeside(patch.normal) && !hasNormalsInCoords(geometry)) ||
-                               isBeside(patch.texCoord) || isBeside(patch.color);
+    const auto isBeside = [&](const std::optional<Reference>& file) { return file && file->url == coord.url; };
+    const bool isInterleaved =
+        (isBeside(patch.normal) && !hasNormalsInCoords(geometry)) || isBeside(patch.texCoord) || isBeside(patch.color);
     Attributes types, urls;
     const auto add = [&](const char* role, const char* typeField, ElementType type,
                          const std::optional<Reference>& file) {

@@ -6,8 +6,7 @@
 namespace imgeo {
 namespace {
 
-PatchDescription patchOf(const std::string& name, std::uint32_t rows,
-                         Primitive primitive = Primitive::triangles) {
+PatchDescription patchOf(const std::string& name, std::uint32_t rows, Primitive primitive = Primitive::triangles) {
   PatchDescription patch;
   patch.box = {{0, 0, 0}, {1, 2, 3}};
   patch.vertexCount = 9;
@@ -86,8 +85,7 @@ void expectReadsBackAs(const SceneDocument& written, const std::string& text) {
 TEST(X3domElement, ReadsBackAsTheSameScene) {
   expectReadsBackAs(images(), writeX3domX3d(images()));
   expectReadsBackAs(arrays(), writeX3domX3d(arrays()));
-  expectReadsBackAs(images(),
-                    writeX3domHtml(images(), {"x3dom/x3dom.js", "", "x3dom/x3dom.css", ""}, "imgeo.css"));
+  expectReadsBackAs(images(), writeX3domHtml(images(), {"x3dom/x3dom.js", "", "x3dom/x3dom.css", ""}, "imgeo.css"));
 }
 
 TEST(X3domElement, HasOneImplicitMeshForThePage) {
@@ -100,9 +98,8 @@ TEST(X3domElement, LetsNoTexelBeFilteredOrScaled) {
   const std::string text = x3domElement(images(), 0, Medium::file);
   const std::size_t textures = countOf(text, "<ImageTexture ");
   EXPECT_EQ(textures, 4u + 4 + 4 + 3);
-  EXPECT_EQ(
-      countOf(text, "containerField=\"(index|coord|normal)\" url='\"[a-d][a-z0-9]+.png\"' scale=\"false\">"),
-      textures);
+  EXPECT_EQ(countOf(text, "containerField=\"(index|coord|normal)\" url='\"[a-d][a-z0-9]+.png\"' scale=\"false\">"),
+            textures);
   EXPECT_EQ(countOf(text, "<TextureProperties USE=\"exactTexels\">"), textures - 1);
   EXPECT_EQ(countOf(text, "<TextureProperties DEF=\"exactTexels\""), 1u);
 }

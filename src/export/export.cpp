@@ -12,8 +12,7 @@ const char* nameOf(MeshFormat format) {
 
 std::optional<MeshFormat> meshFormatOf(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
   if (ending == ".ply")
     return MeshFormat::ply;
   if (ending == ".obj")

@@ -168,8 +168,7 @@ TEST(ExportedObj, IsReadBackByOurImport) {
 }
 
 TEST(ExportedObj, HasLinesAndPoints) {
-  Mesh lines{
-      {{}, {{0, 0}, {1, 0.5f}}, {}, 3, {}}, "", Topology::lines, {{0, 0, 0}, {1, 0, 0}}, {0, 1}, {0, 1}};
+  Mesh lines{{{}, {{0, 0}, {1, 0.5f}}, {}, 3, {}}, "", Topology::lines, {{0, 0, 0}, {1, 0, 0}}, {0, 1}, {0, 1}};
   Mesh points{{{}, {}, {{255, 0, 51, 255}}, 3, {}}, "", Topology::points, {{7, 8, 9}}, {0}, {0}};
   Scene scene = sceneOf({lines, points});
   scene.graph.nodes[1].name = "two\nlines";
@@ -199,8 +198,7 @@ std::vector<Corner> cornersOf(const aiMesh& mesh, unsigned perElement) {
       }
       if (mesh.HasVertexColors(0)) {
         const auto byte = [](double linear) {
-          const double srgb =
-              linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+          const double srgb = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
           return static_cast<std::uint8_t>(std::lround(srgb * 255));
         };
         const aiColor4D& c = mesh.mColors[0][vertex];
@@ -245,8 +243,7 @@ TEST(ExportedGlb, CarriesTheMaterial) {
   const aiScene* read = readGlb(importer, writeGlb(scene));
   ASSERT_NE(read, nullptr) << importer.GetErrorString();
   aiColor4D color;
-  ASSERT_EQ(read->mMaterials[read->mMeshes[0]->mMaterialIndex]->Get(AI_MATKEY_COLOR_DIFFUSE, color),
-            aiReturn_SUCCESS);
+  ASSERT_EQ(read->mMaterials[read->mMeshes[0]->mMaterialIndex]->Get(AI_MATKEY_COLOR_DIFFUSE, color), aiReturn_SUCCESS);
   EXPECT_NEAR(color.r, 1, 1e-6);
   EXPECT_NEAR(color.g, 0, 1e-6);
   EXPECT_NEAR(color.b, 0.2140, 1e-4); // 0.5 in sRGB
@@ -273,8 +270,7 @@ TEST(ExportedGlb, CarriesNamedAttributesAsItsOwn) {
     ASSERT_EQ(found.components, a + 1);
     for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner)
       for (std::size_t c = 0; c <= a; ++c)
-        EXPECT_EQ(found.values[back.corners[corner] * (a + 1) + c],
-                  written.values[mesh.corners[corner] * (a + 1) + c]);
+        EXPECT_EQ(found.values[back.corners[corner] * (a + 1) + c], written.values[mesh.corners[corner] * (a + 1) + c]);
   }
 }
 
@@ -344,8 +340,7 @@ TEST(Glb, KeepsLightsThatItHasWordsFor) {
   const Vec3d bySquare{0, 0, 1};
   addRoot(scene.graph, {"sun", DirectionalLight{{1, -2, 0.5}, {1, 0.5f, 0.25f}, 2, true}, {}, ""});
   addRoot(scene.graph, {"lamp", PointLight{{1, 2, 3}, bySquare, 12, {0, 1, 0}, 3, true}, {}, ""});
-  addRoot(scene.graph,
-          {"spot", SpotLight{{4, 5, 6}, {0, -1, 0}, 0.3, 0.5, bySquare, 9, {1, 1, 1}, 4, true}, {}, ""});
+  addRoot(scene.graph, {"spot", SpotLight{{4, 5, 6}, {0, -1, 0}, 0.3, 0.5, bySquare, 9, {1, 1, 1}, 4, true}, {}, ""});
   addRoot(scene.graph, {"near", DirectionalLight{}, {}, ""}); // of its group alone
   addRoot(scene.graph, {"even", PointLight{}, {}, ""});       // does not fall off
   EXPECT_EQ(lightsLeftOut(scene.graph), 2u);

@@ -35,12 +35,9 @@ public:
 
   /// Describes what has been appended since begin(); returns the accessor's number.
   std::size_t end(int target, int componentType, const char* type, std::size_t count) {
-    views.push_back(
-        {{"buffer", 0}, {"byteOffset", first_}, {"byteLength", bytes.size() - first_}, {"target", target}});
-    accessors.push_back({{"bufferView", views.size() - 1},
-                         {"componentType", componentType},
-                         {"count", count},
-                         {"type", type}});
+    views.push_back({{"buffer", 0}, {"byteOffset", first_}, {"byteLength", bytes.size() - first_}, {"target", target}});
+    accessors.push_back(
+        {{"bufferView", views.size() - 1}, {"componentType", componentType}, {"count", count}, {"type", type}});
     bytes.resize((bytes.size() + 3) / 4 * 4); // arrays begin at whole words
     return accessors.size() - 1;
   }
@@ -148,8 +145,7 @@ Affine3d facing(Vec3d direction, Vec3d origin) {
   const double size = length(direction);
   if (size == 0)
     return {.translation = origin};
-  const Vec3d z = direction * (-1 / size),
-              aside = cross(std::abs(z.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}, z);
+  const Vec3d z = direction * (-1 / size), aside = cross(std::abs(z.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}, z);
   const Vec3d x = aside * (1 / length(aside));
   return {x, cross(z, x), z, origin};
 }
@@ -163,9 +159,8 @@ struct PlacedLight {
 /// one, falls off by the square of the distance.
 std::optional<PlacedLight> lightOf(const NodeContent& content) {
   const auto common = [](const char* type, const auto& light) {
-    return Json{{"type", type},
-                {"color", {light.color.x, light.color.y, light.color.z}},
-                {"intensity", light.intensity}};
+    return Json{
+        {"type", type}, {"color", {light.color.x, light.color.y, light.color.z}}, {"intensity", light.intensity}};
   };
   const auto placed = [&](const char* type, const auto& light) {
     Json json = common(type, light);
@@ -280,8 +275,7 @@ private:
   }
 
   std::size_t meshOf(const Shape& shape, const std::string& name) {
-    const auto [found, isNew] =
-        meshOf_.try_emplace({shape.mesh, shape.appearance, shape.solid}, meshes.size());
+    const auto [found, isNew] = meshOf_.try_emplace({shape.mesh, shape.appearance, shape.solid}, meshes.size());
     if (!isNew)
       return found->second;
     const Mesh& mesh = scene_.meshes.at(shape.mesh);
@@ -300,10 +294,8 @@ private:
   std::size_t materialIndexOf(const Shape& shape, const Mesh& mesh) {
     static const Appearance plain;
     const Appearance& appearance = shape.appearance ? scene_.graph.appearances.at(*shape.appearance) : plain;
-    Json json =
-        gltfMaterial(appearance, shape, mesh, [&](std::size_t texture) { return textureIndexOf(texture); });
-    const auto [found, isNew] =
-        materialOf_.try_emplace(json.dump(-1, ' ', false, replaceBadUtf8), materials.size());
+    Json json = gltfMaterial(appearance, shape, mesh, [&](std::size_t texture) { return textureIndexOf(texture); });
+    const auto [found, isNew] = materialOf_.try_emplace(json.dump(-1, ' ', false, replaceBadUtf8), materials.size());
     if (isNew)
       materials.push_back(std::move(json));
     return found->second;
@@ -373,8 +365,7 @@ Bytes writeGlb(const Scene& scene) {
   const GltfBuilder gltf(scene);
   const Arrays& arrays = gltf.arrays;
   Json root{{"asset", {{"version", "2.0"}, {"generator", "imgeo"}}}};
-  const std::string looks =
-      Json{gltf.materials, gltf.textures}.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string looks = Json{gltf.materials, gltf.textures}.dump(-1, ' ', false, Json::error_handler_t::replace);
   for (const char* extension : {"KHR_materials_unlit", "KHR_texture_transform", "EXT_texture_webp"})
     if (looks.find(extension) != looks.npos)
       root["extensionsUsed"].push_back(extension);
@@ -417,8 +408,7 @@ std::size_t lightsLeftOut(const SceneGraph& graph) {
   const auto isLeftOut = [&](std::size_t node) {
     const NodeContent& content = graph.nodes[node].content;
     const bool isLight = std::holds_alternative<DirectionalLight>(content) ||
-                         std::holds_alternative<PointLight>(content) ||
-                         std::holds_alternative<SpotLight>(content);
+                         std::holds_alternative<PointLight>(content) || std::holds_alternative<SpotLight>(content);
     return isLight && !lightOf(content);
   };
   return static_cast<std::size_t>(std::ranges::count_if(nodesInOrder(graph), isLeftOut));

@@ -65,8 +65,7 @@ Json gltfTransform(const TextureTransform& transform) {
   const bool isUniform = transform.scale.x == transform.scale.y;
   if (!isUniform && transform.rotation != 0)
     return {};
-  const Vec2<double> moved{transform.translation.x + transform.center.x,
-                           transform.translation.y + transform.center.y};
+  const Vec2<double> moved{transform.translation.x + transform.center.x, transform.translation.y + transform.center.y};
   const double x = (c * moved.x - s * moved.y) * transform.scale.x - transform.center.x,
                y = (s * moved.x + c * moved.y) * transform.scale.y - transform.center.y;
   // t' = s sx u + c sy t + y with t = 1 - v, measured up like t'.
@@ -125,8 +124,7 @@ Json gltfMaterial(const Appearance& appearance, const Shape& shape, const Mesh& 
   if (appearance.alphaMode == AlphaMode::mask) {
     json["alphaMode"] = "MASK";
     json["alphaCutoff"] = appearance.alphaCutoff;
-  } else if (appearance.alphaMode == AlphaMode::blend ||
-             (appearance.alphaMode == AlphaMode::automatic && clear)) {
+  } else if (appearance.alphaMode == AlphaMode::blend || (appearance.alphaMode == AlphaMode::automatic && clear)) {
     json["alphaMode"] = "BLEND";
   }
   if (!shape.solid)

@@ -15,8 +15,7 @@ using Json = nlohmann::ordered_json;
 using TextureIndex = std::function<std::optional<std::size_t>(std::size_t texture)>;
 
 /// The material of a shape that shows `mesh`.
-Json gltfMaterial(const Appearance& appearance, const Shape& shape, const Mesh& mesh,
-                  const TextureIndex& textureIndex);
+Json gltfMaterial(const Appearance& appearance, const Shape& shape, const Mesh& mesh, const TextureIndex& textureIndex);
 
 /// A texture's sampler.
 Json gltfSampler(const Texture& texture);

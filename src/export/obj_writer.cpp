@@ -14,8 +14,7 @@ namespace {
 
 using Text = fmt::memory_buffer;
 
-template <typename... Values>
-void print(Text& out, fmt::format_string<Values...> format, Values&&... values) {
+template <typename... Values> void print(Text& out, fmt::format_string<Values...> format, Values&&... values) {
   fmt::format_to(std::back_inserter(out), format, std::forward<Values>(values)...);
 }
 
@@ -41,8 +40,7 @@ PositionLines printPositions(Text& out, const Mesh& mesh) {
     if (!isNew)
       continue;
     const Vec3f& p = mesh.positions[mesh.wedgePositions[wedge]];
-    print(out, "v {} {} {} {:.6g} {:.6g} {:.6g}\n", p.x, p.y, p.z, color.r / 255.0, color.g / 255.0,
-          color.b / 255.0);
+    print(out, "v {} {} {} {:.6g} {:.6g} {:.6g}\n", p.x, p.y, p.z, color.r / 255.0, color.g / 255.0, color.b / 255.0);
   }
   written.count = lines.size();
   return written;

@@ -64,8 +64,8 @@ std::string headerOf(const Layout& layout) {
     properties("uchar", {"alpha"});
   for (const auto& [name, components] : layout.named)
     for (std::uint32_t c = 0; c < components; ++c)
-      header += components == 1 ? fmt::format("property float {}\n", name)
-                                : fmt::format("property float {}_{}\n", name, c);
+      header +=
+          components == 1 ? fmt::format("property float {}\n", name) : fmt::format("property float {}_{}\n", name, c);
   if (layout.faces > 0) {
     header += fmt::format("element face {}\n", layout.faces);
     properties("list uchar int", {"vertex_indices"});
@@ -133,8 +133,7 @@ void appendElements(Bytes& out, const Mesh& mesh, std::uint64_t firstVertex) {
 Bytes writePly(const Scene& scene) {
   const Layout layout = layoutOf(scene);
   if (layout.vertices > INT32_MAX)
-    throw Error(ErrorKind::limit, "",
-                fmt::format("{} vertices are more than a PLY file can count", layout.vertices));
+    throw Error(ErrorKind::limit, "", fmt::format("{} vertices are more than a PLY file can count", layout.vertices));
   const std::string header = headerOf(layout);
   Bytes out(header.begin(), header.end()), faces, edges;
   std::uint64_t firstVertex = 0;

@@ -8,8 +8,7 @@
 
 namespace imgeo {
 
-using VisitWorldShape =
-    std::function<void(const std::string& name, const Appearance& appearance, const Mesh& mesh)>;
+using VisitWorldShape = std::function<void(const std::string& name, const Appearance& appearance, const Mesh& mesh)>;
 
 /// Calls `visit` for every shape as often as it is seen; the mesh is gone with the call.
 void forEachWorldShape(const Scene& scene, const VisitWorldShape& visit);

@@ -90,13 +90,11 @@ Info infoFor(const std::string& type) {
 }
 
 void requireSize(const ::Image& image, const std::string& place, std::uint64_t mostPixels) {
-  const auto width = static_cast<std::uint64_t>(image.columns),
-             height = static_cast<std::uint64_t>(image.rows);
+  const auto width = static_cast<std::uint64_t>(image.columns), height = static_cast<std::uint64_t>(image.rows);
   if (width > maxRasterEdge || height > maxRasterEdge || width * height > mostPixels)
-    throw Error(
-        ErrorKind::limit, place,
-        fmt::format("is an image of {} x {} pixels; more than {} along an edge or {} in all are not decoded",
-                    width, height, maxRasterEdge, mostPixels));
+    throw Error(ErrorKind::limit, place,
+                fmt::format("is an image of {} x {} pixels; more than {} along an edge or {} in all are not decoded",
+                            width, height, maxRasterEdge, mostPixels));
 }
 
 } // namespace
@@ -113,8 +111,7 @@ Raster decodeRaster(ByteSpan bytes, const std::string& place, std::uint64_t most
   if (!isDecodable(type))
     throw Error(ErrorKind::unsupported, place, "is an image of a kind that imgeo does not decode");
   const auto refuse = [&] {
-    throw Error(ErrorKind::malformed, place,
-                fmt::format("is a {} image that does not decode", type.substr(1)));
+    throw Error(ErrorKind::malformed, place, fmt::format("is a {} image that does not decode", type.substr(1)));
   };
   const Info info = infoFor(type);
   Outcome outcome(magick());
@@ -133,8 +130,8 @@ Raster decodeRaster(ByteSpan bytes, const std::string& place, std::uint64_t most
     magick().transformColorspace(image.get(), RGBColorspace);
   Raster raster{static_cast<std::uint32_t>(image->columns), static_cast<std::uint32_t>(image->rows), {}};
   raster.pixels.resize(std::size_t{4} * raster.width * raster.height);
-  if (magick().dispatchImage(image.get(), 0, 0, image->columns, image->rows, "RGBA", CharPixel,
-                             raster.pixels.data(), outcome.info()) == MagickFail)
+  if (magick().dispatchImage(image.get(), 0, 0, image->columns, image->rows, "RGBA", CharPixel, raster.pixels.data(),
+                             outcome.info()) == MagickFail)
     refuse();
   if (!image->matte) // nothing is said of alpha then, not even that there is none
     for (std::size_t at = 3; at < raster.pixels.size(); at += 4)

@@ -39,8 +39,7 @@ Bytes encoded(const Raster& raster, const WebPConfig& config) {
   WebPMemoryWriter writer;
   WebPMemoryWriterInit(&writer);
   const std::unique_ptr<WebPPicture, decltype(&WebPPictureFree)> picturesEnd(&picture, WebPPictureFree);
-  const std::unique_ptr<WebPMemoryWriter, decltype(&WebPMemoryWriterClear)> writersEnd(&writer,
-                                                                                       WebPMemoryWriterClear);
+  const std::unique_ptr<WebPMemoryWriter, decltype(&WebPMemoryWriterClear)> writersEnd(&writer, WebPMemoryWriterClear);
   picture.use_argb = 1;
   picture.width = static_cast<int>(raster.width);
   picture.height = static_cast<int>(raster.height);
@@ -72,11 +71,9 @@ Bytes encodeLosslessWebp(const Raster& raster) {
 Bytes encodeAvif(const Raster& raster, int quality) {
   static const Avif avif; // loaded once a process
   const std::unique_ptr<avifImage, decltype(avif.imageDestroy)> image(
-      avif.imageCreate(static_cast<int>(raster.width), static_cast<int>(raster.height), 8,
-                       AVIF_PIXEL_FORMAT_YUV420),
+      avif.imageCreate(static_cast<int>(raster.width), static_cast<int>(raster.height), 8, AVIF_PIXEL_FORMAT_YUV420),
       avif.imageDestroy);
-  const std::unique_ptr<avifEncoder, decltype(avif.encoderDestroy)> encoder(avif.encoderCreate(),
-                                                                            avif.encoderDestroy);
+  const std::unique_ptr<avifEncoder, decltype(avif.encoderDestroy)> encoder(avif.encoderCreate(), avif.encoderDestroy);
   require(image && encoder);
   image->colorPrimaries = AVIF_COLOR_PRIMARIES_BT709;
   image->transferCharacteristics = AVIF_TRANSFER_CHARACTERISTICS_SRGB;

@@ -30,11 +30,10 @@ bool isTga(ByteSpan bytes) {
     return false;
   const unsigned colorMap = bytes[1], kind = bytes[2], mapEntryBits = bytes[7], pixelBits = bytes[16];
   const bool isMapped = isOneOf(kind, {1, 9});
-  const unsigned width = loadLittle<std::uint16_t>(&bytes[12]),
-                 height = loadLittle<std::uint16_t>(&bytes[14]);
+  const unsigned width = loadLittle<std::uint16_t>(&bytes[12]), height = loadLittle<std::uint16_t>(&bytes[14]);
   return colorMap <= 1 && isOneOf(kind, {1, 2, 3, 9, 10, 11}) && (!isMapped || colorMap == 1) &&
-         (colorMap == 0 || isOneOf(mapEntryBits, {15, 16, 24, 32})) &&
-         isOneOf(pixelBits, {8, 15, 16, 24, 32}) && width > 0 && height > 0;
+         (colorMap == 0 || isOneOf(mapEntryBits, {15, 16, 24, 32})) && isOneOf(pixelBits, {8, 15, 16, 24, 32}) &&
+         width > 0 && height > 0;
 }
 
 bool isPcx(ByteSpan bytes) {

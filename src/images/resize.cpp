@@ -36,8 +36,7 @@ public:
   }
 
   Pixel numbersOf(const std::uint8_t* bytes) const {
-    const float alpha = static_cast<float>(bytes[3]) / 255,
-                weight = content_ == PixelContent::color ? alpha : 1;
+    const float alpha = static_cast<float>(bytes[3]) / 255, weight = content_ == PixelContent::color ? alpha : 1;
     return {values_[bytes[0]] * weight, values_[bytes[1]] * weight, values_[bytes[2]] * weight, alpha};
   }
 
@@ -76,8 +75,7 @@ std::vector<Cover> coversOf(std::uint32_t from, std::uint32_t to) {
     const double begin = i * step, end = std::min<double>((i + 1) * step, from);
     covers[i].first = static_cast<std::size_t>(begin);
     for (std::size_t at = covers[i].first; static_cast<double>(at) < end; ++at) {
-      const double least = std::max(begin, static_cast<double>(at)),
-                   most = std::min(end, static_cast<double>(at) + 1);
+      const double least = std::max(begin, static_cast<double>(at)), most = std::min(end, static_cast<double>(at) + 1);
       covers[i].shares.push_back(static_cast<float>((most - least) / step));
     }
   }
@@ -85,8 +83,8 @@ std::vector<Cover> coversOf(std::uint32_t from, std::uint32_t to) {
 }
 
 /// Adds a row, made shorter and weighted, to a row of means.
-void addRow(const std::uint8_t* row, const std::vector<Cover>& covers, float weight,
-            const Averaging& averaging, std::vector<Pixel>& means) {
+void addRow(const std::uint8_t* row, const std::vector<Cover>& covers, float weight, const Averaging& averaging,
+            std::vector<Pixel>& means) {
   for (std::size_t x = 0; x < covers.size(); ++x)
     for (std::size_t i = 0; i < covers[x].shares.size(); ++i) {
       const Pixel numbers = averaging.numbersOf(row + 4 * (covers[x].first + i));
@@ -110,16 +108,14 @@ RasterSize fittedSize(RasterSize size, std::uint32_t longest) {
 
 Raster shrunk(const Raster& raster, RasterSize size, PixelContent content) {
   assert(size.width > 0 && size.width <= raster.width && size.height > 0 && size.height <= raster.height);
-  const std::vector<Cover> across = coversOf(raster.width, size.width),
-                           down = coversOf(raster.height, size.height);
+  const std::vector<Cover> across = coversOf(raster.width, size.width), down = coversOf(raster.height, size.height);
   const Averaging averaging(content);
   Raster smaller{size.width, size.height, Bytes(std::size_t{4} * size.width * size.height)};
   std::vector<Pixel> means(size.width);
   for (std::size_t y = 0; y < size.height; ++y) {
     std::ranges::fill(means, Pixel{});
     for (std::size_t i = 0; i < down[y].shares.size(); ++i)
-      addRow(&raster.pixels[4 * raster.width * (down[y].first + i)], across, down[y].shares[i], averaging,
-             means);
+      addRow(&raster.pixels[4 * raster.width * (down[y].first + i)], across, down[y].shares[i], averaging, means);
     for (std::size_t x = 0; x < size.width; ++x)
       averaging.store(means[x], &smaller.pixels[4 * (y * size.width + x)]);
   }

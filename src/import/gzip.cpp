@@ -36,8 +36,7 @@ bool isGzip(ByteSpan bytes) {
 }
 
 Bytes gunzip(ByteSpan bytes, const std::string& name) {
-  const std::unique_ptr<libdeflate_decompressor, FreeDecompressor> decompressor(
-      libdeflate_alloc_decompressor());
+  const std::unique_ptr<libdeflate_decompressor, FreeDecompressor> decompressor(libdeflate_alloc_decompressor());
   if (!decompressor)
     throw std::bad_alloc();
 

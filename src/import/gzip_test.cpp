@@ -10,8 +10,7 @@ namespace {
 Bytes gzip(ByteSpan bytes) {
   libdeflate_compressor* compressor = libdeflate_alloc_compressor(6);
   Bytes packed(libdeflate_gzip_compress_bound(compressor, bytes.size()));
-  packed.resize(
-      libdeflate_gzip_compress(compressor, bytes.data(), bytes.size(), packed.data(), packed.size()));
+  packed.resize(libdeflate_gzip_compress(compressor, bytes.data(), bytes.size(), packed.data(), packed.size()));
   libdeflate_free_compressor(compressor);
   return packed;
 }
@@ -53,8 +52,7 @@ TEST(Gzip, RefusesDamageAndWhatFollowsWithItsByte) {
   EXPECT_EQ(errorOf(damaged, "m.ply.gz").kind(), ErrorKind::malformed);
   EXPECT_EQ(errorOf(damaged, "m.ply.gz").place(), "m.ply.gz, byte 0");
   const Bytes packed = gzip(countingBytes(3000));
-  EXPECT_EQ(errorOf(joined(packed, {'P', 'K'}), "m.ply.gz").place(),
-            "m.ply.gz, byte " + std::to_string(packed.size()));
+  EXPECT_EQ(errorOf(joined(packed, {'P', 'K'}), "m.ply.gz").place(), "m.ply.gz, byte " + std::to_string(packed.size()));
 }
 
 TEST(Gzip, RefusesABomb) {

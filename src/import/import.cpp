@@ -21,8 +21,7 @@ namespace {
 using Reader = Imported (*)(ByteSpan, const std::string&, const ImportOptions&);
 
 std::string lowerCase(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -57,10 +56,9 @@ Reader readerFor(ByteSpan bytes, const std::string& name) {
     throw Error(ErrorKind::unsupported, name, "is text in UTF-16; imgeo reads ASCII and UTF-8");
   if (reader != readers.end())
     return reader->second;
-  throw Error(
-      ErrorKind::unsupported, name,
-      "is in no format that imgeo reads, which are X3D, VRML, glTF, PLY, OBJ, STL and those of Assimp "
-      "(Collada, FBX, 3DS ...)");
+  throw Error(ErrorKind::unsupported, name,
+              "is in no format that imgeo reads, which are X3D, VRML, glTF, PLY, OBJ, STL and those of Assimp "
+              "(Collada, FBX, 3DS ...)");
 }
 
 /// Names of nodes become DEFs, which must differ: "wheel", "wheel-2", ...
@@ -108,8 +106,7 @@ Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOption
   const auto hasElements = [&](const PlacedShape& placed) {
     return !imported.scene.meshes[shapeOf(imported.scene.graph, placed.node).mesh].corners.empty();
   };
-  if (!imported.scene.graph.isComplete &&
-      std::ranges::none_of(placedShapes(imported.scene.graph, name), hasElements))
+  if (!imported.scene.graph.isComplete && std::ranges::none_of(placedShapes(imported.scene.graph, name), hasElements))
     throw Error(ErrorKind::malformed, name,
                 "the file has no triangles, lines or points" +
                     (imported.warnings.empty() ? "" : "; " + withoutFullStop(imported.warnings[0])));

@@ -43,8 +43,7 @@ TEST(Import, PassesOverAByteOrderMark) {
 }
 
 TEST(Import, SaysThatItDoesNotReadUtf16) {
-  EXPECT_NE(errorOf(std::string_view("\xff\xfev\0 \0", 6), "a.obj").message().find("UTF-16"),
-            std::string::npos);
+  EXPECT_NE(errorOf(std::string_view("\xff\xfev\0 \0", 6), "a.obj").message().find("UTF-16"), std::string::npos);
 }
 
 TEST(Import, NamesTheSceneAfterTheFile) {

@@ -114,8 +114,7 @@ Bytes answerOf(const std::function<Imported()>& read) {
 
 } // namespace
 
-Imported readIsolated(const std::function<Imported()>& read, const std::string& place,
-                      const IsolationLimits& limits) {
+Imported readIsolated(const std::function<Imported()>& read, const std::string& place, const IsolationLimits& limits) {
   int ends[2];
   if (pipe(ends) != 0)
     throw Error(ErrorKind::io, place, fmt::format("no pipe to another process: {}", std::strerror(errno)));

@@ -187,8 +187,7 @@ private:
     readCorners();
     linesTooShort_ += polygon_.size() < 2;
     for (std::size_t i = 1; i < polygon_.size(); ++i)
-      content_.objects[current_].lines.insert(content_.objects[current_].lines.end(),
-                                              {polygon_[i - 1], polygon_[i]});
+      content_.objects[current_].lines.insert(content_.objects[current_].lines.end(), {polygon_[i - 1], polygon_[i]});
   }
 
   void readFace() {
@@ -229,8 +228,7 @@ private:
   }
 
   /// An object of several materials is a group of as many shapes.
-  void addObject(std::span<const ObjObject> parts, ObjMeshBuilder& builder, ObjMaterials& materials,
-                 Scene& scene) {
+  void addObject(std::span<const ObjObject> parts, ObjMeshBuilder& builder, ObjMaterials& materials, Scene& scene) {
     std::vector<std::size_t> shapes;
     for (const ObjObject& part : parts)
       for (const Topology topology : {Topology::triangles, Topology::lines}) {
@@ -267,12 +265,11 @@ private:
 
   void addWarnings(std::vector<std::string>& warnings) const {
     if (linesTooShort_ > 0)
-      warnings.push_back(fmt::format("{} left out: fewer than two corners.",
-                                     counted(linesTooShort_, "line was", "lines were")));
-    if (points_ > 0 && !content_.objects.empty())
       warnings.push_back(
-          fmt::format("Points of the OBJ file, which has faces or lines, are not carried over ({}).",
-                      counted(points_, "statement", "statements")));
+          fmt::format("{} left out: fewer than two corners.", counted(linesTooShort_, "line was", "lines were")));
+    if (points_ > 0 && !content_.objects.empty())
+      warnings.push_back(fmt::format("Points of the OBJ file, which has faces or lines, are not carried over ({}).",
+                                     counted(points_, "statement", "statements")));
     if (!others_.empty())
       warnings.push_back(
           fmt::format("Statements of the OBJ file that imgeo does not read: {}.", fmt::join(others_, ", ")));
@@ -293,16 +290,14 @@ private:
   std::size_t current_ = 0;                           ///< the part that elements go to
   std::map<std::string, std::size_t> parts_{{"", 0}}; ///< of the current object, by material
   std::vector<std::string> libraries_;
-  std::size_t linesTooShort_ = 0, points_ = 0, facesTooSmall_ = 0, fans_ = 0, colorsClamped_ = 0,
-              unusableNormals_ = 0;
+  std::size_t linesTooShort_ = 0, points_ = 0, facesTooSmall_ = 0, fans_ = 0, colorsClamped_ = 0, unusableNormals_ = 0;
   std::set<std::string> others_; ///< some of the keywords that were passed over
 };
 
 } // namespace
 
 bool looksLikeObj(ByteSpan bytes) {
-  constexpr std::string_view keywords[] = {"v", "vt", "vn", "vp", "f",      "o",
-                                           "g", "s",  "l",  "p",  "mtllib", "usemtl"};
+  constexpr std::string_view keywords[] = {"v", "vt", "vn", "vp", "f", "o", "g", "s", "l", "p", "mtllib", "usemtl"};
   const std::string name;
   for (TextScanner scanner(bytes, name); !scanner.atEnd(); scanner.skipLine()) {
     scanner.skipBlanks();

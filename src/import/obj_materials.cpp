@@ -82,9 +82,8 @@ void ObjMaterials::readFile(const std::string& file) {
 
 void ObjMaterials::readLine(TextScanner& scanner, Definition& definition) {
   static const std::map<std::string_view, TextureRole> maps{
-      {"map_Kd", TextureRole::color},    {"map_Ks", TextureRole::specular},
-      {"map_Ke", TextureRole::emissive}, {"map_Ns", TextureRole::shininess},
-      {"norm", TextureRole::normal},     {"map_Ka", TextureRole::ambient}};
+      {"map_Kd", TextureRole::color},     {"map_Ks", TextureRole::specular}, {"map_Ke", TextureRole::emissive},
+      {"map_Ns", TextureRole::shininess}, {"norm", TextureRole::normal},     {"map_Ka", TextureRole::ambient}};
   const std::string keyword(scanner.word());
   Material& material = definition.material;
   if (keyword.empty() || keyword.front() == '#')
@@ -223,8 +222,7 @@ std::vector<std::string> ObjMaterials::losses() const {
 
 void ObjMaterials::addWarnings(std::vector<std::string>& warnings) const {
   if (!others_.empty())
-    warnings.push_back(
-        fmt::format("Statements of MTL files that imgeo does not read: {}.", fmt::join(others_, ", ")));
+    warnings.push_back(fmt::format("Statements of MTL files that imgeo does not read: {}.", fmt::join(others_, ", ")));
 }
 
 } // namespace imgeo

@@ -71,8 +71,7 @@ TEST(Obj, KeepsWhatEachCornerIs) {
 }
 
 TEST(Obj, MakesAWedgeOfEachCombinationOnce) {
-  const Mesh mesh =
-      onlyMesh(kSquare + "vt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/1 3/1 4/1\nf 1/2 3/1 4/1\n", "m.obj");
+  const Mesh mesh = onlyMesh(kSquare + "vt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/1 3/1 4/1\nf 1/2 3/1 4/1\n", "m.obj");
   EXPECT_EQ(mesh.positions.size(), 4u);
   EXPECT_EQ(mesh.wedgeCount(), 5u);
 }
@@ -95,10 +94,9 @@ TEST(Obj, MakesAWedgeOfEachCombinationOnceWhereAPositionHasMany) {
 }
 
 TEST(Obj, KeepsObjectsAsShapesWithNamesThatDiffer) {
-  const Imported imported =
-      importBytes(asBytes("v 9 9 9\n" + kSquare +
-                          "o a\nf 2 3 4\no empty\no a\nf 2 4 5\no b c \ng x\nf 2 3 5\ng y\nf 2 3 4\n"),
-                  "m.obj");
+  const Imported imported = importBytes(
+      asBytes("v 9 9 9\n" + kSquare + "o a\nf 2 3 4\no empty\no a\nf 2 4 5\no b c \ng x\nf 2 3 5\ng y\nf 2 3 4\n"),
+      "m.obj");
   ASSERT_EQ(shapeNodes(imported.scene.graph).size(), 3u);
   EXPECT_EQ(testing::shapeName(imported.scene.graph, 0), "a");
   EXPECT_EQ(testing::shapeName(imported.scene.graph, 1), "a-2");
@@ -116,13 +114,11 @@ TEST(Obj, CutsPolygonsIntoTriangles) {
 
 TEST(Obj, ReadsVertexColours) {
   const Mesh mesh = onlyMesh("v 0 0 0\nv 1 0 0 1 0.5 0\nv 0 1 0 1\nf 1 2 3\n", "m.obj");
-  EXPECT_EQ(mesh.colors,
-            (std::vector<Rgba8>{{255, 255, 255, 255}, {255, 128, 0, 255}, {255, 255, 255, 255}}));
+  EXPECT_EQ(mesh.colors, (std::vector<Rgba8>{{255, 255, 255, 255}, {255, 128, 0, 255}, {255, 255, 255, 255}}));
 }
 
 TEST(Obj, HasLinesOfManyCornersAsAMeshOfLines) {
-  const Mesh mesh =
-      onlyMesh("v 0 0 0\nv 1 0 0\nv 2 0 0\nvt 0 0\nvt 1 0\nl 3/1 1/2 -2/2\nl 1/1 2/2\n", "m.obj");
+  const Mesh mesh = onlyMesh("v 0 0 0\nv 1 0 0\nv 2 0 0\nvt 0 0\nvt 1 0\nl 3/1 1/2 -2/2\nl 1/1 2/2\n", "m.obj");
   EXPECT_EQ(mesh.topology, Topology::lines);
   EXPECT_EQ(mesh.elementCount(), 3u);
   std::vector<float> x;
@@ -152,19 +148,16 @@ TEST(Obj, WithoutFacesIsAPointCloud) {
 }
 
 TEST(Obj, SaysWhatIsNotCarriedOver) {
-  const auto warningsOf = [](const std::string& text) {
-    return importBytes(asBytes(text), "m.obj").warnings;
-  };
+  const auto warningsOf = [](const std::string& text) { return importBytes(asBytes(text), "m.obj").warnings; };
   EXPECT_TRUE(warningsOf("# a comment\n" + kSquare + "s 1\ng top\nf 1 2 3 4\n").empty());
-  EXPECT_EQ(
-      warningsOf(kSquare + "mtllib a.mtl\nusemtl red\nl 1\np 1\np 2\nf 1 2\nf 1 2 3\nparm u 0\n"),
-      (std::vector<std::string>{
-          "Materials are left out: m.obj: refers to \"a.mtl\", which can only be found beside a file, not "
-          "beside standard input.",
-          "1 material is named but not defined: red.", "1 line was left out: fewer than two corners.",
-          "Points of the OBJ file, which has faces or lines, are not carried over (2 statements).",
-          "Statements of the OBJ file that imgeo does not read: parm.",
-          "1 face was left out: fewer than three corners."}));
+  EXPECT_EQ(warningsOf(kSquare + "mtllib a.mtl\nusemtl red\nl 1\np 1\np 2\nf 1 2\nf 1 2 3\nparm u 0\n"),
+            (std::vector<std::string>{
+                "Materials are left out: m.obj: refers to \"a.mtl\", which can only be found beside a file, not "
+                "beside standard input.",
+                "1 material is named but not defined: red.", "1 line was left out: fewer than two corners.",
+                "Points of the OBJ file, which has faces or lines, are not carried over (2 statements).",
+                "Statements of the OBJ file that imgeo does not read: parm.",
+                "1 face was left out: fewer than three corners."}));
   EXPECT_EQ(warningsOf(kSquare + "vn 0 0 0\nf 1//1 2//1 3//1\n").at(0),
             "1 normal was replaced by (0, 0, 1): without direction.");
   EXPECT_EQ(warningsOf(kSquare + "vn 0 0 1\nf 1//1 2//1 3\n").at(0),
@@ -186,15 +179,13 @@ TEST(Obj, WithoutItsMaterialsOrTexturesIsRefusedIfStrict) {
 TEST(Obj, TakesMaterialsAndTexturesFromTheFilesThatItNames) {
   const TemporaryDirectory directory;
   writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
-  writeFile(directory / "my house.mtl",
-            asBytes("newmtl red brick\nKd 1 0 0\nNs 64\nd 0.75\n"
-                    "newmtl oak\nKd 1 1 1\nmap_Kd -s 2 4 -o 1 0 -clamp on wood.png\n"
-                    "map_Bump bumps.png\n"
-                    "newmtl gold\nKd 1 1 0\nPm 1\nPr 0.25\nmap_Kd lost.png\n"));
-  writeFile(directory / "a.obj",
-            asBytes("mtllib my house.mtl\n" + kSquare +
-                    "o wall\nusemtl red brick\nf 1 2 3\nusemtl oak\nf 1 3 4\nusemtl red brick\n"
-                    "f 2 3 4\no ring\nusemtl gold\nf 1 2 4\n"));
+  writeFile(directory / "my house.mtl", asBytes("newmtl red brick\nKd 1 0 0\nNs 64\nd 0.75\n"
+                                                "newmtl oak\nKd 1 1 1\nmap_Kd -s 2 4 -o 1 0 -clamp on wood.png\n"
+                                                "map_Bump bumps.png\n"
+                                                "newmtl gold\nKd 1 1 0\nPm 1\nPr 0.25\nmap_Kd lost.png\n"));
+  writeFile(directory / "a.obj", asBytes("mtllib my house.mtl\n" + kSquare +
+                                         "o wall\nusemtl red brick\nf 1 2 3\nusemtl oak\nf 1 3 4\nusemtl red brick\n"
+                                         "f 2 3 4\no ring\nusemtl gold\nf 1 2 4\n"));
   const Imported imported = importFile(directory / "a.obj");
   const SceneGraph& graph = imported.scene.graph;
   ASSERT_EQ(shapeNodes(graph).size(), 3u);

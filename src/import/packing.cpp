@@ -35,8 +35,7 @@ void members(auto& archive, auto& v, const OtherNode*) {
   archive(v.element, v.text, v.image, v.document);
 }
 void members(auto& archive, auto& v, const Texture*) {
-  archive(v.name, v.image, v.boundaryS, v.boundaryT, v.magnification, v.minification, v.betweenMipMaps,
-          v.mipMaps);
+  archive(v.name, v.image, v.boundaryS, v.boundaryT, v.magnification, v.minification, v.betweenMipMaps, v.mipMaps);
 }
 void members(auto& archive, auto& v, const ImageFile*) {
   archive(v.url, v.bytes, v.preview);
@@ -51,8 +50,8 @@ void members(auto& archive, auto& v, const InlinedDocument*) {
   archive(v.url, v.head);
 }
 void members(auto& archive, auto& v, const SceneGraph*) {
-  archive(v.title, v.info, v.nodes, v.roots, v.head, v.inlined, v.appearances, v.textures, v.images,
-          v.background, v.headlight, v.isComplete);
+  archive(v.title, v.info, v.nodes, v.roots, v.head, v.inlined, v.appearances, v.textures, v.images, v.background,
+          v.headlight, v.isComplete);
 }
 void members(auto& archive, auto& v, const Imported*) {
   archive(v.scene.graph, v.scene.meshes, v.attributes, v.format, v.warnings);

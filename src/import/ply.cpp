@@ -105,17 +105,15 @@ Mesh surfaceOrCloudOf(PlyContent& content, std::size_t& fans) {
 /// What was left out or changed; `content` has given its vectors away, not its counts.
 void addWarnings(std::vector<std::string>& warnings, const PlyContent& content, const Box3d& box) {
   if (!content.ignored.empty())
-    warnings.push_back(
-        fmt::format("Not carried over from the PLY file: {}.", fmt::join(content.ignored, ", ")));
+    warnings.push_back(fmt::format("Not carried over from the PLY file: {}.", fmt::join(content.ignored, ", ")));
   if (content.trailingBytes > 0)
     warnings.push_back(fmt::format("{} behind the last element of the PLY file, which imgeo ignored.",
                                    counted(content.trailingBytes, "byte stands", "bytes stand")));
   warnOfColors(warnings, content.colorsClamped);
   warnOfSmallFaces(warnings, content.facesTooSmall);
   if (content.largestRounding > box.longestEdge() / 131072) // half a step of 16 bits
-    warnings.push_back(
-        fmt::format("Coordinates far from the origin were rounded to single precision, by up to {:.2g}.",
-                    content.largestRounding));
+    warnings.push_back(fmt::format("Coordinates far from the origin were rounded to single precision, by up to {:.2g}.",
+                                   content.largestRounding));
 }
 
 } // namespace
@@ -129,8 +127,7 @@ Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& o
   const PlyHeader header = readPlyHeader(bytes, name);
   PlyContent content = readPlyContent(bytes, header, name, options.attributes);
   if (std::max(content.indices.size(), content.edges.size()) > std::numeric_limits<std::uint32_t>::max())
-    throw Error(ErrorKind::limit, name,
-                "the polygons or edges have more corners than 32-bit indices can name");
+    throw Error(ErrorKind::limit, name, "the polygons or edges have more corners than 32-bit indices can name");
 
   Imported imported;
   imported.format = "PLY";

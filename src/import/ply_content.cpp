@@ -42,8 +42,7 @@ bool isEdge(const PlyElement& element) {
 }
 
 template <typename Cursor>
-void readEdges(PlyRecords<Cursor>& records, const PlyElement& element, std::uint64_t vertexCount,
-               PlyContent& content) {
+void readEdges(PlyRecords<Cursor>& records, const PlyElement& element, std::uint64_t vertexCount, PlyContent& content) {
   records.checkCount(element);
   content.edges.reserve(2 * element.count);
   for (const PlyProperty& property : element.properties)
@@ -76,8 +75,7 @@ void readElement(PlyRecords<Cursor>& records, const PlyElement& element, std::ui
 }
 
 template <typename Cursor>
-PlyContent readContent(ByteSpan bytes, const PlyHeader& header, const std::string& name,
-                       const AttributeChoice& kept) {
+PlyContent readContent(ByteSpan bytes, const PlyHeader& header, const std::string& name, const AttributeChoice& kept) {
   PlyContent content;
   PlyRecords<Cursor> records(Cursor(bytes, name, header.bodyOffset));
   [[maybe_unused]] PlyLineReader lines(bytes, name);
@@ -85,8 +83,7 @@ PlyContent readContent(ByteSpan bytes, const PlyHeader& header, const std::strin
   if (!vertices)
     records.fail(ErrorKind::malformed, "the header has no element 'vertex'");
   if (vertices->count > std::numeric_limits<std::uint32_t>::max())
-    records.fail(ErrorKind::limit,
-                 fmt::format("{} vertices are more than 32-bit indices can name", vertices->count));
+    records.fail(ErrorKind::limit, fmt::format("{} vertices are more than 32-bit indices can name", vertices->count));
 
   for (const PlyElement& element : header.elements) {
     if constexpr (std::is_same_v<Cursor, AsciiPlyCursor>)
@@ -113,8 +110,7 @@ void PlyContent::noteIgnored(const PlyElement& element, const PlyProperty& prope
 void PlyContent::append(std::vector<PlyContent>& parts) {
   // The same in all parts.
   ignored.insert(ignored.end(), parts[0].ignored.begin(), parts[0].ignored.end());
-  namedAttributes.insert(namedAttributes.end(), parts[0].namedAttributes.begin(),
-                         parts[0].namedAttributes.end());
+  namedAttributes.insert(namedAttributes.end(), parts[0].namedAttributes.begin(), parts[0].namedAttributes.end());
   const auto reserve = [&](auto member) {
     std::size_t count = (this->*member).size();
     for (const PlyContent& part : parts)
@@ -130,9 +126,7 @@ void PlyContent::append(std::vector<PlyContent>& parts) {
 }
 
 void PlyContent::append(const PlyContent& part) {
-  const auto add = [](auto& values, const auto& more) {
-    values.insert(values.end(), more.begin(), more.end());
-  };
+  const auto add = [](auto& values, const auto& more) { values.insert(values.end(), more.begin(), more.end()); };
   imgeo::append(attributes, positions.size(), part.attributes, part.positions.size());
   add(positions, part.positions);
   if (!part.sizes.empty() && sizes.empty())

@@ -20,11 +20,11 @@ struct PlyContent {
   std::vector<std::uint32_t> edges;   ///< two vertices each
 
   std::vector<std::string> namedAttributes; ///< that there are, kept or not
-  std::vector<std::string> ignored; ///< "'quality' of 'vertex'", "element 'camera'": in the file's order
-  std::uint64_t facesTooSmall = 0;  ///< left out: fewer than three corners
-  std::uint64_t colorsClamped = 0;  ///< channels outside their type's range
-  std::uint64_t trailingBytes = 0;  ///< behind the last element
-  double largestRounding = 0;       ///< of coordinates that were double
+  std::vector<std::string> ignored;         ///< "'quality' of 'vertex'", "element 'camera'": in the file's order
+  std::uint64_t facesTooSmall = 0;          ///< left out: fewer than three corners
+  std::uint64_t colorsClamped = 0;          ///< channels outside their type's range
+  std::uint64_t trailingBytes = 0;          ///< behind the last element
+  double largestRounding = 0;               ///< of coordinates that were double
 
   void noteIgnored(const PlyElement& element, const PlyProperty& property);
   /// Appends what has been read of an element in parts, which it gives back part by part.

@@ -75,8 +75,7 @@ private:
 
 template <std::endian order> class BinaryPlyCursor {
 public:
-  BinaryPlyCursor(ByteSpan bytes, const std::string& name, std::size_t from)
-      : bytes_(bytes), at_(from), name_(name) {}
+  BinaryPlyCursor(ByteSpan bytes, const std::string& name, std::size_t from) : bytes_(bytes), at_(from), name_(name) {}
 
   static std::size_t smallestSize(PlyType type) { return byteSizeOf(type); }
   static constexpr std::size_t kSparedAtEnd = 0;
@@ -129,9 +128,7 @@ private:
       out[i] = static_cast<double>(order == std::endian::little ? loadLittle<T>(from) : loadBig<T>(from));
     at_ += out.size() * sizeof(T);
   }
-  [[noreturn]] void failTruncated() const {
-    fail(ErrorKind::truncated, "the file ends within " + record_.name());
-  }
+  [[noreturn]] void failTruncated() const { fail(ErrorKind::truncated, "the file ends within " + record_.name()); }
 
   ByteSpan bytes_;
   std::size_t at_;

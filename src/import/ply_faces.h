@@ -56,9 +56,7 @@ private:
   static bool isIndexList(const PlyProperty& property) {
     return property.isList() && (property.name == "vertex_indices" || property.name == "vertex_index");
   }
-  static bool isTexCoordList(const PlyProperty& property) {
-    return property.isList() && property.name == "texcoord";
-  }
+  static bool isTexCoordList(const PlyProperty& property) { return property.isList() && property.name == "texcoord"; }
 
   /// Finds the one list of indices and returns its type; notes what is not read.
   PlyType checkProperties(const PlyElement& element, bool texCoordsAreRead) {
@@ -114,8 +112,8 @@ private:
   /// (0, 0) for faces that come without, before this one and here.
   void addTexCoords(const std::vector<Vec2f>& texCoords, std::size_t corners) {
     if (!texCoords.empty() && texCoords.size() != corners)
-      records_.fail(ErrorKind::malformed, fmt::format("a face of {} corners has {} texture coordinates",
-                                                      corners, texCoords.size()));
+      records_.fail(ErrorKind::malformed,
+                    fmt::format("a face of {} corners has {} texture coordinates", corners, texCoords.size()));
     std::vector<Vec2f>& all = content_.cornerTexCoords;
     all.resize(content_.indices.size());
     std::ranges::copy(texCoords, all.end() - static_cast<std::ptrdiff_t>(corners));
@@ -134,8 +132,7 @@ private:
       if (i < begin + 2)
         continue;
       const bool isOdd = (i - begin) % 2 == 1;
-      const std::array<double, 3> triangle{indices[i - (isOdd ? 1 : 2)], indices[i - (isOdd ? 2 : 1)],
-                                           indices[i]};
+      const std::array<double, 3> triangle{indices[i - (isOdd ? 1 : 2)], indices[i - (isOdd ? 2 : 1)], indices[i]};
       if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[0] != triangle[2])
         addPolygon(triangle);
     }

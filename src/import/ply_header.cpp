@@ -67,23 +67,20 @@ PlyElement readElement(TextScanner& line) {
 PlyEncoding readEncoding(TextScanner& line) {
   const std::string word = nextWord(line), version = nextWord(line);
   if (version != "1.0")
-    line.fail(ErrorKind::unsupported,
-              fmt::format("this is PLY version '{}'; imgeo reads 1.0", asPrintable(version)));
+    line.fail(ErrorKind::unsupported, fmt::format("this is PLY version '{}'; imgeo reads 1.0", asPrintable(version)));
   if (word == "ascii")
     return PlyEncoding::ascii;
   if (word == "binary_little_endian")
     return PlyEncoding::littleEndian;
   if (word == "binary_big_endian")
     return PlyEncoding::bigEndian;
-  line.fail(ErrorKind::unsupported,
-            fmt::format("the header names an unknown encoding '{}'", asPrintable(word)));
+  line.fail(ErrorKind::unsupported, fmt::format("the header names an unknown encoding '{}'", asPrintable(word)));
 }
 
 void addElement(PlyHeader& header, TextScanner& line) {
   PlyElement element = readElement(line);
   if (header.find(element.name))
-    line.fail(ErrorKind::malformed,
-              fmt::format("the header has two elements '{}'", asPrintable(element.name)));
+    line.fail(ErrorKind::malformed, fmt::format("the header has two elements '{}'", asPrintable(element.name)));
   header.elements.push_back(std::move(element));
 }
 
@@ -136,8 +133,7 @@ PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name) {
     } else if (keyword == "property") {
       addProperty(header, scanner);
     } else if (keyword != "end_header" && !scanner.atEnd()) {
-      scanner.fail(ErrorKind::malformed,
-                   fmt::format("'{}' is no keyword of a PLY header", asPrintable(keyword)));
+      scanner.fail(ErrorKind::malformed, fmt::format("'{}' is no keyword of a PLY header", asPrintable(keyword)));
     }
     scanner.skipBlanks();
     if (scanner.atEnd())

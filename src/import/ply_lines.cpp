@@ -66,8 +66,7 @@ bool PlyLineReader::read(AsciiPlyCursor& cursor, const PlyElement& element, PlyC
   parallelFor(partCount, [&](std::size_t i) {
     if (!isOneALine)
       return;
-    const std::uint64_t from = i * linesOfPart,
-                        to = std::min<std::uint64_t>(element.count, from + linesOfPart);
+    const std::uint64_t from = i * linesOfPart, to = std::min<std::uint64_t>(element.count, from + linesOfPart);
     PlyElement part = element;
     part.count = to - from;
     const std::size_t partEnd = i + 1 == partCount ? end : lines_->beginOf(first + to);

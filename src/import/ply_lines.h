@@ -44,8 +44,7 @@ public:
   /// Reads the records of `element`, which begin at the cursor, and moves it behind them; what it
   /// appends is what `read` would have appended at once. False where they are few, are not one a
   /// line, or have a fault: then nothing has changed, and who reads them in turn finds it.
-  bool read(AsciiPlyCursor& cursor, const PlyElement& element, PlyContent& content,
-            const ReadPlyElement& read);
+  bool read(AsciiPlyCursor& cursor, const PlyElement& element, PlyContent& content, const ReadPlyElement& read);
 
 private:
   const LineIndex& lines();

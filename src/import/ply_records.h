@@ -54,8 +54,7 @@ public:
   }
   void checkVertexNumber(double number, std::uint64_t vertexCount) const {
     if (!(number >= 0 && number < static_cast<double>(vertexCount)))
-      fail(ErrorKind::malformed,
-           fmt::format("vertex {} is named, but there are only {}", number, vertexCount));
+      fail(ErrorKind::malformed, fmt::format("vertex {} is named, but there are only {}", number, vertexCount));
   }
 
   /// The values of a list, until the next list is read.
@@ -65,9 +64,7 @@ public:
     return scratch_;
   }
 
-  void skip(const PlyProperty& property) {
-    cursor_.skip(property.type, property.isList() ? listCount(property) : 1);
-  }
+  void skip(const PlyProperty& property) { cursor_.skip(property.type, property.isList() ? listCount(property) : 1); }
 
   /// The bytes behind the last record that are not white space.
   std::size_t trailingBytes() { return cursor_.trailingBytes(); }

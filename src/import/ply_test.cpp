@@ -11,8 +11,7 @@ namespace {
 
 const char* const kEncodings[] = {"ascii", "binary_little_endian", "binary_big_endian"};
 
-template <typename T>
-std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uint32_t>& from) {
+template <typename T> std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uint32_t>& from) {
   std::vector<T> result;
   for (const std::uint32_t i : from)
     if (!values.empty())
@@ -87,8 +86,7 @@ TEST(Ply, HasItsEdgesBesideItsFacesAsAShapeOfLines) {
   edges.topology = Topology::lines;
   edges.corners = {3, 7, 3, 9};
   expectEqual(imported.scene.meshes[1], inOrderOfUse(edges));
-  EXPECT_EQ(imported.warnings,
-            std::vector<std::string>{"Not carried over from the PLY file: 'crease' of 'edge'."});
+  EXPECT_EQ(imported.warnings, std::vector<std::string>{"Not carried over from the PLY file: 'crease' of 'edge'."});
 }
 
 TEST(Ply, IsReadUnderEveryNameThatProgramsUse) {
@@ -115,8 +113,7 @@ TEST(Ply, ReadsEveryTypeUnderBothItsNames) {
   const char* const reals[] = {"float", "float32", "double", "float64"};
   for (const char* encoding : kEncodings) {
     for (const char* type : integers)
-      expectEqual(onlyMesh(plyBytes(mesh, {.encoding = encoding, .real = type, .count = type, .index = type}),
-                           "m.ply"),
+      expectEqual(onlyMesh(plyBytes(mesh, {.encoding = encoding, .real = type, .count = type, .index = type}), "m.ply"),
                   mesh);
     for (const char* type : reals)
       expectEqual(onlyMesh(plyBytes(mesh, {.encoding = encoding, .real = type}), "m.ply"), mesh);
@@ -133,8 +130,7 @@ TEST(Ply, EveryProperPrefixIsRefused) {
       while (whole[end - 2] != ' ')
         --end;
     for (std::size_t size = 0; size < end; ++size)
-      EXPECT_THROW(importBytes(ByteSpan(whole).first(size), "m.ply"), Error)
-          << encoding << ", " << size << " bytes";
+      EXPECT_THROW(importBytes(ByteSpan(whole).first(size), "m.ply"), Error) << encoding << ", " << size << " bytes";
     expectEqual(onlyMesh(whole, "m.ply"), mesh);
   }
 }
@@ -168,9 +164,9 @@ TEST(Ply, CutsPolygonsIntoTriangles) {
 }
 
 TEST(Ply, ReadsFacesThatStandBeforeTheirVertices) {
-  const Mesh mesh = onlyMesh(asciiPly("element face 1\n" + kFaces + "element vertex 4\n" + kXyz,
-                                      "4 0 1 2 3\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"),
-                             "m.ply");
+  const Mesh mesh = onlyMesh(
+      asciiPly("element face 1\n" + kFaces + "element vertex 4\n" + kXyz, "4 0 1 2 3\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"),
+      "m.ply");
   EXPECT_EQ(mesh.elementCount(), 2u);
 }
 
@@ -183,10 +179,9 @@ TEST(Ply, ReadsTriangleStripsWithTheirOrientation) {
 }
 
 TEST(Ply, GivesEachCornerItsTextureCoordinate) {
-  const std::string elements =
-      "element vertex 3\n" + kXyz +
-      "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 2\n" + kFaces +
-      "property list uchar float texcoord\n";
+  const std::string elements = "element vertex 3\n" + kXyz +
+                               "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 2\n" +
+                               kFaces + "property list uchar float texcoord\n";
   const Mesh mesh = onlyMesh(asciiPly(elements, "0 0 0 1 2 3\n1 0 0 4 5 6\n0 1 0 7 8 9\n"
                                                 "3 0 1 2 6 0 0 0.5 0 0 0.5\n3 2 1 0 0\n"),
                              "m.ply");
@@ -220,15 +215,14 @@ TEST(Ply, CountsAlphaOnlyWhereItSaysSomething) {
 TEST(Ply, BringsNormalsToUnitLengthAndCountsThoseWithoutDirection) {
   const std::string elements =
       "element vertex 4\n" + kXyz + "property float nx\nproperty float ny\nproperty float nz\n";
-  const Imported imported = importBytes(
-      asBytes(asciiPly(elements, "0 0 0 0 2 0\n0 0 1 0 0 0\n0 0 2 nan 0 0\n0 0 3 1e30 0 1e30\n")), "m.ply");
+  const Imported imported =
+      importBytes(asBytes(asciiPly(elements, "0 0 0 0 2 0\n0 0 1 0 0 0\n0 0 2 nan 0 0\n0 0 3 1e30 0 1e30\n")), "m.ply");
   const std::vector<Vec3f>& normals = imported.scene.meshes.at(0).normals;
   EXPECT_EQ(normals[0], (Vec3f{0, 1, 0}));
   EXPECT_EQ(normals[1], (Vec3f{0, 0, 1}));
   EXPECT_EQ(normals[2], (Vec3f{0, 0, 1}));
   EXPECT_FLOAT_EQ(normals[3].x, std::sqrt(0.5f));
-  EXPECT_EQ(imported.warnings,
-            std::vector<std::string>{"2 normals were replaced by (0, 0, 1): without direction."});
+  EXPECT_EQ(imported.warnings, std::vector<std::string>{"2 normals were replaced by (0, 0, 1): without direction."});
 }
 
 TEST(Ply, PassesOverWhatItDoesNotKnowAndSaysSo) {
@@ -255,8 +249,7 @@ TEST(Ply, PassesOverWhatItDoesNotKnowAndSaysSo) {
       values.add("float", 0.25);
       values.endRecord();
     }
-    values.add("uchar", 3), values.add("int", 0), values.add("int", 1), values.add("int", 2),
-        values.add("uchar", 9);
+    values.add("uchar", 3), values.add("int", 0), values.add("int", 1), values.add("int", 2), values.add("uchar", 9);
     values.endRecord();
     values.add("int", 0), values.add("int", 1);
     values.endRecord();
@@ -265,9 +258,8 @@ TEST(Ply, PassesOverWhatItDoesNotKnowAndSaysSo) {
     EXPECT_EQ(imported.scene.meshes.at(0).positions, (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
     EXPECT_EQ(imported.scene.meshes.at(0).elementCount(), 1u);
     EXPECT_EQ(imported.warnings,
-              std::vector<std::string>{
-                  "Not carried over from the PLY file: element 'material', 'near' of 'vertex', "
-                  "'quality' of 'vertex', 'flags' of 'face', element 'edge'."});
+              std::vector<std::string>{"Not carried over from the PLY file: element 'material', 'near' of 'vertex', "
+                                       "'quality' of 'vertex', 'flags' of 'face', element 'edge'."});
   }
 }
 
@@ -281,36 +273,33 @@ TEST(Ply, KeepsTheAttributesThatAreAskedFor) {
   const Imported all = importBytes(asBytes(text), "m.ply", kEveryAttribute);
   EXPECT_TRUE(all.warnings.empty());
   EXPECT_EQ(all.scene.meshes.at(0).positions, (std::vector<Vec3f>{{1, 2, 3}, {4, 5, 6}}));
-  EXPECT_EQ(all.scene.meshes.at(0).namedAttributes, (std::vector<NamedAttribute>{{"quality", 1, {0.5f, -7}},
-                                                                                 {"count", 1, {65535, 9}},
-                                                                                 {"rate", 2, {1, 2, 3, 4}},
-                                                                                 {"label_0", 1, {8, 9}}}));
+  EXPECT_EQ(
+      all.scene.meshes.at(0).namedAttributes,
+      (std::vector<NamedAttribute>{
+          {"quality", 1, {0.5f, -7}}, {"count", 1, {65535, 9}}, {"rate", 2, {1, 2, 3, 4}}, {"label_0", 1, {8, 9}}}));
   const Imported some = importBytes(asBytes(text), "m.ply", {{.all = false, .names = {"rate", "quality"}}});
   EXPECT_EQ(some.attributes, (std::vector<std::string>{"quality", "count", "rate", "label_0"}));
   ASSERT_EQ(some.scene.meshes.at(0).namedAttributes.size(), 2u);
   EXPECT_EQ(some.scene.meshes[0].namedAttributes[1].name, "rate");
-  EXPECT_EQ(some.warnings,
-            std::vector<std::string>{
-                "Not carried over from the PLY file: 'count' of 'vertex', 'label_0' of 'vertex'."});
+  EXPECT_EQ(some.warnings, std::vector<std::string>{
+                               "Not carried over from the PLY file: 'count' of 'vertex', 'label_0' of 'vertex'."});
 }
 
 TEST(Ply, HasAttributesWithTexturedFacesAndEdgesToo) {
-  const std::string text =
-      asciiPly("element vertex 4\n" + kXyz + "property float heat\nelement face 2\n" + kFaces +
-                   "property list uchar float texcoord\nelement edge 1\n"
-                   "property int vertex1\nproperty int vertex2\n",
-               "0 0 0 10\n1 0 0 11\n0 1 0 12\n1 1 0 13\n3 0 1 2 6 0 0 1 0 0 1\n"
-               "3 2 1 3 6 0 1 1 0 1 1\n3 0\n");
+  const std::string text = asciiPly("element vertex 4\n" + kXyz + "property float heat\nelement face 2\n" + kFaces +
+                                        "property list uchar float texcoord\nelement edge 1\n"
+                                        "property int vertex1\nproperty int vertex2\n",
+                                    "0 0 0 10\n1 0 0 11\n0 1 0 12\n1 1 0 13\n3 0 1 2 6 0 0 1 0 0 1\n"
+                                    "3 2 1 3 6 0 1 1 0 1 1\n3 0\n");
   const Imported imported = importBytes(asBytes(text), "m.ply", kEveryAttribute);
-  EXPECT_EQ(imported.scene.meshes.at(0).namedAttributes.at(0).values,
-            (std::vector<float>{10, 11, 12, 12, 11, 13}));
+  EXPECT_EQ(imported.scene.meshes.at(0).namedAttributes.at(0).values, (std::vector<float>{10, 11, 12, 12, 11, 13}));
   EXPECT_EQ(imported.scene.meshes.at(1).namedAttributes.at(0).values, (std::vector<float>{13, 10}));
 }
 
 TEST(Ply, RefusesAttributesThatAreNoNumbersOnlyWhereTheyAreKept) {
   for (const char* value : {"nan", "inf", "1e39"}) {
-    const std::string text = asciiPly("element vertex 2\n" + kXyz + "property double heat\n",
-                                      std::string("0 0 0 1\n1 1 1 ") + value + "\n");
+    const std::string text =
+        asciiPly("element vertex 2\n" + kXyz + "property double heat\n", std::string("0 0 0 1\n1 1 1 ") + value + "\n");
     EXPECT_EQ(onlyMesh(text, "m.ply").elementCount(), 2u);
     const Error error = errorOf(text, "m.ply", kEveryAttribute);
     EXPECT_EQ(error.kind(), ErrorKind::malformed);
@@ -341,8 +330,8 @@ TEST(Ply, RefusesWithOneSentenceAndAPlace) {
   const Refused cases[] = {
       {"too many vertices", "element vertex 4000000000\n" + kXyz, "0 0 0\n", ErrorKind::truncated, "m.ply:9",
        "promises 4000000000 of 'vertex'"},
-      {"too many faces", vertex + "element face 4000000000\n" + kFaces, "0 0 0\n", ErrorKind::truncated,
-       "m.ply:11", "promises 4000000000 of 'face'"},
+      {"too many faces", vertex + "element face 4000000000\n" + kFaces, "0 0 0\n", ErrorKind::truncated, "m.ply:11",
+       "promises 4000000000 of 'face'"},
       {"beyond 32 bits", "element vertex 5000000000\n" + kXyz, "", ErrorKind::limit, "m.ply:9", "32-bit"},
       {"beyond 64 bits", "element vertex 99999999999999999999\n" + kXyz, "", ErrorKind::malformed, "m.ply:4",
        "elements"},
@@ -353,28 +342,23 @@ TEST(Ply, RefusesWithOneSentenceAndAPlace) {
       {"a word", vertex, "0 zero 0\n", ErrorKind::malformed, "m.ply:9", "not 'zero'"},
       {"half a word", vertex, "0 1,5 0\n", ErrorKind::malformed, "m.ply:9", "not '1,5'"},
       {"a value too many", vertex, "0 0 0 0\n", ErrorKind::malformed, "m.ply:9", "vertex 1 of 1"},
-      {"a value too few", "element vertex 2\n" + kXyz, "0.5 0.5\n0.5 0.5 0.5\n", ErrorKind::malformed,
-       "m.ply:10", "vertex 1 of 2"},
-      {"an index beyond", vertex + face, "0 0 0\n3 0 0 1\n", ErrorKind::malformed, "m.ply:12",
-       "vertex 1 is named"},
-      {"an index below", vertex + face, "0 0 0\n3 0 -1 0\n", ErrorKind::malformed, "m.ply:12",
-       "vertex -1 is named"},
-      {"a list too long", vertex + face, "0 0 0\n300 0 0\n", ErrorKind::truncated, "m.ply:12",
-       "promises 300"},
-      {"a fractional index", vertex + face, "0 0 0\n3 0 0.5 0\n", ErrorKind::malformed, "m.ply:12",
-       "not '0.5'"},
+      {"a value too few", "element vertex 2\n" + kXyz, "0.5 0.5\n0.5 0.5 0.5\n", ErrorKind::malformed, "m.ply:10",
+       "vertex 1 of 2"},
+      {"an index beyond", vertex + face, "0 0 0\n3 0 0 1\n", ErrorKind::malformed, "m.ply:12", "vertex 1 is named"},
+      {"an index below", vertex + face, "0 0 0\n3 0 -1 0\n", ErrorKind::malformed, "m.ply:12", "vertex -1 is named"},
+      {"a list too long", vertex + face, "0 0 0\n300 0 0\n", ErrorKind::truncated, "m.ply:12", "promises 300"},
+      {"a fractional index", vertex + face, "0 0 0\n3 0 0.5 0\n", ErrorKind::malformed, "m.ply:12", "not '0.5'"},
       {"a negative list", vertex + face, "0 0 0\n-3 0 0 0\n", ErrorKind::malformed, "m.ply:12", "negative"},
-      {"fractional indices", vertex + "element face 1\nproperty list uchar float vertex_indices\n",
-       "0 0 0\n3 0 0 0\n", ErrorKind::malformed, "m.ply:11", "fractions"},
-      {"fractional counts", "element vertex 1\nproperty list float int x\n", "", ErrorKind::malformed,
-       "m.ply:5", "fractions"},
-      {"faces without vertices", vertex + "element face 1\nproperty int a\n", "0 0 0\n1\n",
-       ErrorKind::malformed, "m.ply:11", "vertex_indices"},
-      {"no z", "element vertex 1\nproperty float x\nproperty float y\n", "0 0\n", ErrorKind::malformed,
-       "m.ply:8", "x, y and z"},
+      {"fractional indices", vertex + "element face 1\nproperty list uchar float vertex_indices\n", "0 0 0\n3 0 0 0\n",
+       ErrorKind::malformed, "m.ply:11", "fractions"},
+      {"fractional counts", "element vertex 1\nproperty list float int x\n", "", ErrorKind::malformed, "m.ply:5",
+       "fractions"},
+      {"faces without vertices", vertex + "element face 1\nproperty int a\n", "0 0 0\n1\n", ErrorKind::malformed,
+       "m.ply:11", "vertex_indices"},
+      {"no z", "element vertex 1\nproperty float x\nproperty float y\n", "0 0\n", ErrorKind::malformed, "m.ply:8",
+       "x, y and z"},
       {"no vertices", face, "3 0 0 0\n", ErrorKind::malformed, "m.ply:7", "no element 'vertex'"},
-      {"an unknown type", "element vertex 1\nproperty half x\n", "", ErrorKind::malformed, "m.ply:5",
-       "'half'"},
+      {"an unknown type", "element vertex 1\nproperty half x\n", "", ErrorKind::malformed, "m.ply:5", "'half'"},
       {"a name twice", "element vertex 1\n" + kXyz + "property int x\n", "", ErrorKind::malformed, "m.ply:8",
        "two properties 'x'"},
       {"an element twice", vertex + vertex, "", ErrorKind::malformed, "m.ply:8", "two elements 'vertex'"},
@@ -382,8 +366,8 @@ TEST(Ply, RefusesWithOneSentenceAndAPlace) {
       {"an unknown keyword", "elements vertex 1\n", "", ErrorKind::malformed, "m.ply:4", "'elements'"},
       {"texture coordinates for two of three", vertex + face + "property list uchar float texcoord\n",
        "0 0 0\n3 0 0 0 4 0 0 1 1\n", ErrorKind::malformed, "m.ply:13", "3 corners"},
-      {"an edge to nowhere", vertex + "element edge 1\nproperty int vertex1\nproperty int vertex2\n",
-       "0 0 0\n0 1\n", ErrorKind::malformed, "m.ply:13", "vertex 1"},
+      {"an edge to nowhere", vertex + "element edge 1\nproperty int vertex1\nproperty int vertex2\n", "0 0 0\n0 1\n",
+       ErrorKind::malformed, "m.ply:13", "vertex 1"},
       {"nothing to see", "element vertex 0\n" + kXyz, "", ErrorKind::malformed, "m.ply",
        "no triangles, lines or points"},
       {"only edges of faces", vertex + face, "0 0 0\n2 0 0\n", ErrorKind::malformed, "m.ply", "no triangles"},
@@ -455,8 +439,7 @@ TEST_F(LongPly, MayHavePolygonsThatAreNoTriangles) {
   EXPECT_EQ(quad.corners.size(), mesh.corners.size() + 3);
   const std::ptrdiff_t before = static_cast<std::ptrdiff_t>(3 * (faceLine - firstFaceLine));
   EXPECT_TRUE(std::equal(mesh.corners.begin(), mesh.corners.begin() + before, quad.corners.begin()));
-  EXPECT_TRUE(
-      std::equal(mesh.corners.begin() + before + 3, mesh.corners.end(), quad.corners.begin() + before + 6));
+  EXPECT_TRUE(std::equal(mesh.corners.begin() + before + 3, mesh.corners.end(), quad.corners.begin() + before + 6));
 }
 
 TEST_F(LongPly, NamesTheLineOfAFault) {

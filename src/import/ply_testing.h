@@ -74,8 +74,7 @@ private:
 
 /// "ply", the format, `elements` (its lines end with a line feed) and "end_header".
 inline std::string plyHeader(const PlyStyle& style, const std::string& elements) {
-  std::string header =
-                  "ply\nformat " + style.encoding + " 1.0\ncomment for a test\n" + elements + "end_header\n",
+  std::string header = "ply\nformat " + style.encoding + " 1.0\ncomment for a test\n" + elements + "end_header\n",
               ended;
   for (const char c : header)
     ended += c == '\n' ? style.lineEnd : std::string(1, c);
@@ -99,8 +98,8 @@ inline Bytes plyBytes(const Mesh& mesh, const PlyStyle& style) {
     for (const char* name : {"red", "green", "blue", "alpha"})
       elements += property("uchar", style.colorPrefix + name);
   if (mesh.topology == Topology::triangles)
-    elements += fmt::format("element face {}\nproperty list {} {} {}\n", mesh.elementCount(), style.count,
-                            style.index, style.listName);
+    elements += fmt::format("element face {}\nproperty list {} {} {}\n", mesh.elementCount(), style.count, style.index,
+                            style.listName);
   if (mesh.topology == Topology::lines)
     elements += fmt::format("element edge {}\n", mesh.elementCount()) + property(style.index, "vertex1") +
                 property(style.index, "vertex2");

@@ -38,8 +38,7 @@ PlySlot slotOf(const PlyProperty& property) {
 /// "scale" for component 1 of "scale_1"; empty where it is none.
 std::string baseOfComponent(const std::string& name, std::size_t component) {
   const std::string ending = fmt::format("_{}", component);
-  return name.size() > ending.size() && name.ends_with(ending) ? name.substr(0, name.size() - ending.size())
-                                                               : "";
+  return name.size() > ending.size() && name.ends_with(ending) ? name.substr(0, name.size() - ending.size()) : "";
 }
 
 /// Names that documents and lists of names can hold.
@@ -69,8 +68,7 @@ PlyVertexReader::PlyVertexReader(const PlyElement& element, const AttributeChoic
   hasTexCoord_ = has(PlySlot::u, PlySlot::v);
   hasColor_ = has(PlySlot::red, PlySlot::blue);
   hasAlpha_ = has(PlySlot::alpha, PlySlot::alpha);
-  isDouble_ =
-      std::ranges::any_of(std::span(types_).first(3), [](PlyType type) { return type == PlyType::float64; });
+  isDouble_ = std::ranges::any_of(std::span(types_).first(3), [](PlyType type) { return type == PlyType::float64; });
 }
 
 void PlyVertexReader::chooseNamed(const AttributeChoice& kept) {
@@ -159,8 +157,7 @@ const char* PlyVertexReader::addVertex() {
     content_.attributes.texCoords.push_back({f(PlySlot::u), f(PlySlot::v)});
   }
   if (hasColor_) {
-    const std::uint8_t red = channel(PlySlot::red), green = channel(PlySlot::green),
-                       blue = channel(PlySlot::blue);
+    const std::uint8_t red = channel(PlySlot::red), green = channel(PlySlot::green), blue = channel(PlySlot::blue);
     const std::uint8_t alpha = hasAlpha_ ? channel(PlySlot::alpha) : 255;
     content_.attributes.colors.push_back({red, green, blue, alpha});
     if (alpha < 255)

@@ -19,8 +19,7 @@ Rotation readableTurn(const Rotation& rotation, int digits) {
 
 double readable(double value, int digits) {
   const auto single = static_cast<float>(value);
-  const std::string text =
-      single == value ? fmt::format("{}", single) : fmt::format("{:.{}g}", value, digits);
+  const std::string text = single == value ? fmt::format("{}", single) : fmt::format("{:.{}g}", value, digits);
   return std::strtod(text.c_str(), nullptr) + 0.0; // no -0
 }
 

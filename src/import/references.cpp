@@ -25,9 +25,8 @@ int hexDigit(char c) {
 bool hasScheme(std::string_view url) {
   const std::size_t colon = url.find(':');
   return colon != url.npos && colon > 0 && std::isalpha(static_cast<unsigned char>(url[0])) &&
-         std::ranges::all_of(url.substr(0, colon), [](unsigned char c) {
-           return std::isalnum(c) || c == '+' || c == '-' || c == '.';
-         });
+         std::ranges::all_of(url.substr(0, colon),
+                             [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; });
 }
 
 /// The url as far as messages need it.
@@ -90,8 +89,7 @@ Bytes base64Decoded(std::string_view text, const std::string& place) {
 
 fs::path References::fileOf(std::string_view url) const {
   const auto refuse = [&](const char* why) {
-    throw Error(ErrorKind::unsupported, sourceName_,
-                fmt::format("refers to \"{}\", {}", shortened(url), why));
+    throw Error(ErrorKind::unsupported, sourceName_, fmt::format("refers to \"{}\", {}", shortened(url), why));
   };
   if (hasScheme(url) || url.starts_with("//"))
     refuse("which is on another host; imgeo reads local files alone");
@@ -106,8 +104,7 @@ fs::path References::fileOf(std::string_view url) const {
     if (const fs::path asWritten = folder_ / std::string(url); fs::exists(asWritten, none))
       file = asWritten;
   const fs::path folder = fs::weakly_canonical(within_, none), real = fs::weakly_canonical(file, none);
-  const bool isInside =
-      std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end();
+  const bool isInside = std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end();
   if (!isInside && !allowsOutside_)
     refuse("which lies outside of the folder of the source; --outside allows that");
   return file;

@@ -77,16 +77,14 @@ Imported readBinary(ByteSpan bytes, const std::string& name) {
       const std::uint8_t* from = at + kFacetNormalBytes + 12 * k;
       const Vec3f p{loadLittle<float>(from), loadLittle<float>(from + 4), loadLittle<float>(from + 8)};
       if (!isFinite(p))
-        throw Error(ErrorKind::malformed, bytePlace(name, static_cast<std::size_t>(from - bytes.data())),
-                    kNotFinite);
+        throw Error(ErrorKind::malformed, bytePlace(name, static_cast<std::size_t>(from - bytes.data())), kNotFinite);
       addCorner(mesh, p);
     }
     hasAttributes |= loadLittle<std::uint16_t>(at + kFacetAttributeAt) != 0;
   }
   Imported imported;
   if (hasAttributes)
-    imported.warnings.emplace_back(
-        "Facet colours of the STL file (its attribute bytes) are not carried over.");
+    imported.warnings.emplace_back("Facet colours of the STL file (its attribute bytes) are not carried over.");
   if (const std::size_t rest = bytes.size() - kPrefixBytes - kFacetBytes * count; rest > 0)
     imported.warnings.push_back(fmt::format("{} behind the last facet of the STL file, which imgeo ignored.",
                                             counted(rest, "byte stands", "bytes stand")));
@@ -159,8 +157,7 @@ bool looksLikeStl(ByteSpan bytes) {
 }
 
 Imported readStl(ByteSpan bytes, const std::string& name, const ImportOptions&) {
-  Imported imported =
-      !hasBinarySize(bytes) && isAscii(bytes) ? readAscii(bytes, name) : readBinary(bytes, name);
+  Imported imported = !hasBinarySize(bytes) && isAscii(bytes) ? readAscii(bytes, name) : readBinary(bytes, name);
   imported.format = "STL";
   return imported;
 }

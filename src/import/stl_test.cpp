@@ -62,9 +62,8 @@ TEST(Stl, BinaryFilesMayBeginWithSolid) {
   longer.push_back(0);
   const Imported imported = importBytes(longer, "m.stl");
   EXPECT_EQ(imported.scene.meshes.at(0).elementCount(), mesh.elementCount());
-  EXPECT_EQ(
-      imported.warnings,
-      std::vector<std::string>{"1 byte stands behind the last facet of the STL file, which imgeo ignored."});
+  EXPECT_EQ(imported.warnings,
+            std::vector<std::string>{"1 byte stands behind the last facet of the STL file, which imgeo ignored."});
 }
 
 TEST(Stl, EverySolidIsAShape) {
@@ -101,8 +100,7 @@ TEST(Stl, RefusesWithOneSentenceAndAPlace) {
   EXPECT_EQ(errorOf(asciiStl(mesh), "m.stl").place(), "m.stl:6");
 
   EXPECT_EQ(
-      errorOf("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet\nendsolid\n", "m.stl")
-          .place(),
+      errorOf("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet\nendsolid\n", "m.stl").place(),
       "m.stl:5");
   EXPECT_EQ(errorOf("solid\nfacet normal 0 0 1\nvertex 0 0 0\nendsolid\n", "m.stl").place(), "m.stl:4");
   EXPECT_EQ(errorOf("solid\nfacets\nendsolid\n", "m.stl").place(), "m.stl:2");

@@ -25,8 +25,7 @@ TEST(TextScanner, ReadsEveryFloatThatIsWrittenInFull) {
     const float value = std::bit_cast<float>(random.bits());
     if (std::isnan(value))
       continue;
-    EXPECT_EQ(std::bit_cast<std::uint32_t>(float32Of(fmt::format("{}", value))),
-              std::bit_cast<std::uint32_t>(value));
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(float32Of(fmt::format("{}", value))), std::bit_cast<std::uint32_t>(value));
   }
 }
 

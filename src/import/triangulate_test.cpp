@@ -54,8 +54,7 @@ Ring starShaped(Random& random, std::size_t corners) {
 }
 
 TEST(Triangulate, MakesAFanOfAConvexPolygon) {
-  EXPECT_EQ(cut({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}),
-            (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
+  EXPECT_EQ(cut({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}), (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
   EXPECT_EQ(cut({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}), (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
@@ -77,16 +76,8 @@ TEST(Triangulate, CoversConcavePolygonsInEveryPlane) {
 }
 
 TEST(Triangulate, CoversAPolygonWithAHoleAndItsBridge) {
-  expectCovered({{0, 0, 0},
-                 {4, 0, 0},
-                 {4, 4, 0},
-                 {0, 4, 0},
-                 {0, 0, 0},
-                 {1, 1, 0},
-                 {1, 3, 0},
-                 {3, 3, 0},
-                 {3, 1, 0},
-                 {1, 1, 0}});
+  expectCovered(
+      {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0}, {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}});
 }
 
 TEST(Triangulate, KeepsTheCountOfWhatHasNoSimpleCut) {
@@ -95,8 +86,7 @@ TEST(Triangulate, KeepsTheCountOfWhatHasNoSimpleCut) {
   cut(Ring(7, Vec3f{1, 2, 3}));                                   // a point
   Ring pentagram;
   for (int i = 0; i < 5; ++i)
-    pentagram.push_back(
-        Vec3f(Vec3d{std::cos(i * 0.8 * std::numbers::pi), std::sin(i * 0.8 * std::numbers::pi), 0}));
+    pentagram.push_back(Vec3f(Vec3d{std::cos(i * 0.8 * std::numbers::pi), std::sin(i * 0.8 * std::numbers::pi), 0}));
   cut(pentagram);
 }
 

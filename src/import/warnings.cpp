@@ -26,21 +26,19 @@ void addLosses(std::vector<std::string>& warnings, const std::vector<std::string
 
 void warnOfSmallFaces(std::vector<std::string>& warnings, std::uint64_t faces) {
   if (faces > 0)
-    warnings.push_back(
-        fmt::format("{} left out: fewer than three corners.", counted(faces, "face was", "faces were")));
+    warnings.push_back(fmt::format("{} left out: fewer than three corners.", counted(faces, "face was", "faces were")));
 }
 
 void warnOfFans(std::vector<std::string>& warnings, std::uint64_t polygons) {
   if (polygons > 0)
-    warnings.push_back(
-        fmt::format("{} cut as a fan, which may overlap itself: concave, with more than {} corners.",
-                    counted(polygons, "polygon was", "polygons were"), kMaxEarClippedCorners));
+    warnings.push_back(fmt::format("{} cut as a fan, which may overlap itself: concave, with more than {} corners.",
+                                   counted(polygons, "polygon was", "polygons were"), kMaxEarClippedCorners));
 }
 
 void warnOfNormals(std::vector<std::string>& warnings, std::uint64_t normals) {
   if (normals > 0)
-    warnings.push_back(fmt::format("{} replaced by (0, 0, 1): without direction.",
-                                   counted(normals, "normal was", "normals were")));
+    warnings.push_back(
+        fmt::format("{} replaced by (0, 0, 1): without direction.", counted(normals, "normal was", "normals were")));
 }
 
 void warnOfColors(std::vector<std::string>& warnings, std::uint64_t values) {

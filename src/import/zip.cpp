@@ -19,8 +19,7 @@ std::size_t directoryOf(ByteSpan bytes) {
   const std::size_t at = asText(bytes.last(tail)).rfind(endOfDirectory);
   if (at == std::string_view::npos || tail - at < endBytes)
     return bytes.size();
-  return std::min<std::size_t>(loadLittle<std::uint32_t>(bytes.last(tail).subspan(at + 16).data()),
-                               bytes.size());
+  return std::min<std::size_t>(loadLittle<std::uint32_t>(bytes.last(tail).subspan(at + 16).data()), bytes.size());
 }
 
 } // namespace
@@ -31,8 +30,8 @@ std::uint64_t unpackedZipBytes(ByteSpan bytes) {
   while (rest.size() >= entryBytes && asText(rest).starts_with(entry)) {
     // Sizes beyond 32 bits are this one's largest and stand elsewhere.
     sum += loadLittle<std::uint32_t>(&rest[24]);
-    const std::size_t names = std::size_t{loadLittle<std::uint16_t>(&rest[28])} +
-                              loadLittle<std::uint16_t>(&rest[30]) + loadLittle<std::uint16_t>(&rest[32]);
+    const std::size_t names = std::size_t{loadLittle<std::uint16_t>(&rest[28])} + loadLittle<std::uint16_t>(&rest[30]) +
+                              loadLittle<std::uint16_t>(&rest[32]);
     rest = rest.subspan(std::min(entryBytes + names, rest.size()));
   }
   return sum;
@@ -43,9 +42,9 @@ void refuseZipBomb(ByteSpan bytes, const std::string& name) {
     return;
   const std::uint64_t unpacked = unpackedZipBytes(bytes), limit = unpackedLimit(bytes.size());
   if (unpacked > limit)
-    throw Error(ErrorKind::limit, name,
-                fmt::format("unpacks to {} bytes, {} times its size, which no model does", unpacked,
-                            unpacked / bytes.size()));
+    throw Error(
+        ErrorKind::limit, name,
+        fmt::format("unpacks to {} bytes, {} times its size, which no model does", unpacked, unpacked / bytes.size()));
 }
 
 } // namespace imgeo

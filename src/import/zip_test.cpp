@@ -14,8 +14,7 @@ void append(Bytes& bytes, std::string_view text) {
 }
 
 /// An archive of `packed` bytes that are said to unpack to these sizes.
-Bytes archiveOf(const std::vector<std::uint32_t>& sizes, std::string_view comment = "",
-                std::size_t packed = 0) {
+Bytes archiveOf(const std::vector<std::uint32_t>& sizes, std::string_view comment = "", std::size_t packed = 0) {
   Bytes bytes;
   append(bytes, "PK\3\4 what it holds PK\1\2");
   bytes.resize(bytes.size() + packed);

@@ -107,8 +107,7 @@ WholeTriangles wholeTrianglesOf(const Patch& patch) {
 double areaOf(const std::vector<Vec3u>& positions, const std::vector<std::uint32_t>& corners) {
   double area = 0;
   for (std::size_t corner = 0; corner < corners.size(); corner += 3) {
-    const Vec3d a(positions[corners[corner]]), b(positions[corners[corner + 1]]),
-        c(positions[corners[corner + 2]]);
+    const Vec3d a(positions[corners[corner]]), b(positions[corners[corner + 1]]), c(positions[corners[corner + 2]]);
     area += length(cross(b - a, c - a)) / 2;
   }
   return area;
@@ -132,8 +131,8 @@ public:
     std::ranges::sort(terms_, {}, [](const Term& term) { return std::pair(term.a, term.b); });
     for (std::size_t begin = 0, end = 0; begin < terms_.size(); begin = end) {
       int count = 0;
-      for (end = begin;
-           end < terms_.size() && terms_[end].a == terms_[begin].a && terms_[end].b == terms_[begin].b; ++end)
+      for (end = begin; end < terms_.size() && terms_[end].a == terms_[begin].a && terms_[end].b == terms_[begin].b;
+           ++end)
         count += terms_[end].count;
       if (count != 0)
         visit(terms_[begin].a, terms_[begin].b, count);
@@ -235,12 +234,11 @@ private:
 
   std::uint32_t wedgeAt(std::uint32_t position, Vec2f texCoord) {
     const auto next = static_cast<std::uint32_t>(base_.wedgePositions.size());
-    const std::uint64_t bits = std::uint64_t{std::bit_cast<std::uint32_t>(texCoord.x)} << 32 |
-                               std::bit_cast<std::uint32_t>(texCoord.y);
-    const std::uint32_t wedge =
-        wedges_.findOrInsert(mixHash(mixHash(0, position), bits), next, [&](std::uint32_t i) {
-          return base_.wedgePositions[i] == position && places_[i] == bits;
-        });
+    const std::uint64_t bits =
+        std::uint64_t{std::bit_cast<std::uint32_t>(texCoord.x)} << 32 | std::bit_cast<std::uint32_t>(texCoord.y);
+    const std::uint32_t wedge = wedges_.findOrInsert(mixHash(mixHash(0, position), bits), next, [&](std::uint32_t i) {
+      return base_.wedgePositions[i] == position && places_[i] == bits;
+    });
     if (wedge == next) {
       base_.wedgePositions.push_back(position);
       places_.push_back(bits);
@@ -282,8 +280,8 @@ std::optional<BaseMesh> baseOf(const PatchedMesh& mesh, double percent) {
   std::size_t elementCount = 0;
   for (const Patch& patch : mesh.patches)
     elementCount += patch.elementCount();
-  if (mesh.patches.empty() || mesh.patches[0].topology != Topology::triangles ||
-      elementCount < leastTrianglesOfBase || !(percent > 0))
+  if (mesh.patches.empty() || mesh.patches[0].topology != Topology::triangles || elementCount < leastTrianglesOfBase ||
+      !(percent > 0))
     return std::nullopt;
   const std::vector<std::vector<bool>> isFixed = sharedPositions(mesh.patches);
   std::vector<Part> parts(mesh.patches.size());
@@ -323,8 +321,7 @@ bool meetsAtBorders(const BaseMesh& base, const std::vector<PatchTriangles>& pat
   bool meets = true;
   for (std::size_t part = 0; part < patches.size(); ++part) {
     EdgeSum border;
-    border.addTriangles(patches[part].corners,
-                        [&](std::uint32_t position) { return common.numbers[part][position]; });
+    border.addTriangles(patches[part].corners, [&](std::uint32_t position) { return common.numbers[part][position]; });
     // Under a map of vertices an edge of the mesh's own border becomes another or none.
     std::size_t ownBorder = 0, changed = 0;
     border.visit([&](std::uint32_t a, std::uint32_t b, int times) {
@@ -333,9 +330,8 @@ bool meetsAtBorders(const BaseMesh& base, const std::vector<PatchTriangles>& pat
       else
         ownBorder += static_cast<std::size_t>(std::abs(times));
     });
-    differences[part].visit([&](std::uint32_t, std::uint32_t, int times) {
-      changed += static_cast<std::size_t>(std::abs(times));
-    });
+    differences[part].visit(
+        [&](std::uint32_t, std::uint32_t, int times) { changed += static_cast<std::size_t>(std::abs(times)); });
     meets = meets && changed <= ownBorder;
   }
   return meets;

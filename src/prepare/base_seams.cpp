@@ -49,20 +49,16 @@ void joinAlike(WedgeSets& sets, const Patch& patch) {
 
 /// Joins wedges of a triangle whose vertices have become one.
 void joinGathered(WedgeSets& sets, const SimplifiedTriangles& simplified, const Patch& patch) {
-  const auto vertexOf = [&](std::uint32_t wedge) {
-    return simplified.ofPosition[patch.wedgePositions[wedge]];
-  };
+  const auto vertexOf = [&](std::uint32_t wedge) { return simplified.ofPosition[patch.wedgePositions[wedge]]; };
   for (std::size_t corner = 0; corner < patch.corners.size(); ++corner) {
-    const std::uint32_t a = patch.corners[corner],
-                        b = patch.corners[corner % 3 == 2 ? corner - 2 : corner + 1];
+    const std::uint32_t a = patch.corners[corner], b = patch.corners[corner % 3 == 2 ? corner - 2 : corner + 1];
     if (vertexOf(a) != SimplifiedTriangles::none && vertexOf(a) == vertexOf(b))
       sets.join(a, b);
   }
 }
 
 /// Of each set, by the number of its wedge that stands for it, the wedge that is nearest to the vertex.
-std::vector<std::uint32_t> nearestOf(WedgeSets& sets, const SimplifiedTriangles& simplified,
-                                     const Patch& patch) {
+std::vector<std::uint32_t> nearestOf(WedgeSets& sets, const SimplifiedTriangles& simplified, const Patch& patch) {
   std::vector<std::uint32_t> nearest(patch.wedgeCount(), SimplifiedTriangles::none);
   std::vector<double> distances(patch.wedgeCount(), std::numeric_limits<double>::infinity());
   for (std::uint32_t wedge = 0; wedge < patch.wedgeCount(); ++wedge) {
@@ -120,8 +116,7 @@ private:
   std::uint32_t wedgeAt(std::uint32_t position, std::uint32_t source, double together) {
     constexpr int mostToLookAt = 16; // loose triangles may be thousands at one vertex
     std::uint32_t wedge = latest_[position];
-    for (int looked = 0; wedge != SimplifiedTriangles::none && looked < mostToLookAt;
-         ++looked, wedge = before_[wedge])
+    for (int looked = 0; wedge != SimplifiedTriangles::none && looked < mostToLookAt; ++looked, wedge = before_[wedge])
       if (patch_.texCoords.empty() || between(wedges_.sources[wedge], source) <= together)
         return wedge;
     before_.push_back(latest_[position]);

@@ -31,8 +31,7 @@ double around(double a, double b) {
 /// Where a torus has a point in its texture.
 Vec2<double> texCoordOf(Vec3d point) {
   const double radius = std::hypot(point.x, point.z) - 1;
-  return {std::atan2(-point.z, point.x) / (2 * std::numbers::pi),
-          std::atan2(point.y, radius) / (2 * std::numbers::pi)};
+  return {std::atan2(-point.z, point.x) / (2 * std::numbers::pi), std::atan2(point.y, radius) / (2 * std::numbers::pi)};
 }
 
 TEST(BaseSeams, LayTheTextureWhereItIsAndStretchItOverNoSeam) {
@@ -42,8 +41,7 @@ TEST(BaseSeams, LayTheTextureWhereItIsAndStretchItOverNoSeam) {
     ASSERT_EQ(base.texCoords.size(), base.wedgePositions.size());
     EXPECT_GT(base.wedgePositions.size(), base.positions.size());
     for (std::size_t wedge = 0; wedge < base.wedgePositions.size(); ++wedge) {
-      const Vec2<double> expected =
-          texCoordOf(based.patched.lattice.point(base.positions[base.wedgePositions[wedge]]));
+      const Vec2<double> expected = texCoordOf(based.patched.lattice.point(base.positions[base.wedgePositions[wedge]]));
       EXPECT_LT(around(base.texCoords[wedge].x, expected.x), 0.08) << wedge;
       EXPECT_LT(around(base.texCoords[wedge].y, expected.y), 0.08) << wedge;
     }

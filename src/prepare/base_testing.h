@@ -49,9 +49,7 @@ inline void expectClosedMixtures(const BaseMesh& base, const std::vector<PatchTr
       }
     for (std::size_t part = 0; part < patches.size(); ++part)
       for (std::size_t corner = 0; hasCome[part] && corner < patches[part].corners.size(); corner += 3) {
-        const auto at = [&](std::size_t i) {
-          return patches[part].positions[patches[part].corners[corner + i]];
-        };
+        const auto at = [&](std::size_t i) { return patches[part].positions[patches[part].corners[corner + i]]; };
         edges.add(at(0), at(1), at(2));
       }
     EXPECT_EQ(edges.cracks(), 0u) << "mixture " << mixture << " of " << patches.size() << " patches";

@@ -14,9 +14,7 @@ __extension__ using Wide = __int128;
 constexpr std::uint32_t narrowBits = 30;
 
 template <typename T> Vec3<T> between(Vec3u a, Vec3u b) {
-  const auto difference = [](std::uint32_t x, std::uint32_t y) {
-    return static_cast<T>(y) - static_cast<T>(x);
-  };
+  const auto difference = [](std::uint32_t x, std::uint32_t y) { return static_cast<T>(y) - static_cast<T>(x); };
   return {difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z)};
 }
 

@@ -20,9 +20,7 @@ struct Candidate {
 
   /// The least cost comes first, equal ones in the order of their vertices. No branches:
   /// which way they would go nobody can predict.
-  bool isBefore(const Candidate& other) const {
-    return (rank < other.rank) | ((rank == other.rank) & (to < other.to));
-  }
+  bool isBefore(const Candidate& other) const { return (rank < other.rank) | ((rank == other.rank) & (to < other.to)); }
 };
 
 struct Edge {
@@ -33,10 +31,10 @@ struct Edge {
 class EdgeCollapse {
 public:
   EdgeCollapse(CollapsingSurface& surface, std::size_t triangleCount)
-      : vertices_(surface.vertices), corners_(surface.corners), sources_(surface.sources),
-        wanted_(triangleCount), triangleCount_(corners_.size() / 3), first_(vertices_.size(), none),
-        last_(vertices_.size(), none), next_(corners_.size(), none), isGone_(triangleCount_),
-        isBorder_(vertices_.size()), versions_(vertices_.size()), marks_(vertices_.size()) {
+      : vertices_(surface.vertices), corners_(surface.corners), sources_(surface.sources), wanted_(triangleCount),
+        triangleCount_(corners_.size() / 3), first_(vertices_.size(), none), last_(vertices_.size(), none),
+        next_(corners_.size(), none), isGone_(triangleCount_), isBorder_(vertices_.size()), versions_(vertices_.size()),
+        marks_(vertices_.size()) {
     for (std::uint32_t corner = 0; corner < corners_.size(); ++corner)
       append(corners_[corner], corner, corner);
   }
@@ -61,9 +59,7 @@ private:
   static constexpr std::uint32_t none = CollapsingSurface::none;
 
   static std::uint32_t afterCorner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-  static std::uint32_t beforeCorner(std::uint32_t corner) {
-    return corner % 3 == 0 ? corner + 2 : corner - 1;
-  }
+  static std::uint32_t beforeCorner(std::uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
   void append(std::uint32_t vertex, std::uint32_t begin, std::uint32_t end) {
     if (first_[vertex] == none)
@@ -132,8 +128,7 @@ private:
       return;
     constexpr double holdOfBorders = 3;
     for (const std::uint32_t vertex : {a, b})
-      vertices_[vertex].quadric.addPlane(across * (1 / size), vertices_[a].place,
-                                         holdOfBorders * dot(along, along));
+      vertices_[vertex].quadric.addPlane(across * (1 / size), vertices_[a].place, holdOfBorders * dot(along, along));
   }
 
   /// Where the vertex is to be that two become.
@@ -153,8 +148,8 @@ private:
     const Vec3d edge = vertices_[b].place - vertices_[a].place;
     // On a plane, where nothing costs anything, short edges go first.
     constexpr double costOfLength = 1e-5;
-    const double cost = std::max(0.0, quadric.errorAt(placeFor(a, b, quadric))) +
-                        costOfLength * quadric.weight() * dot(edge, edge);
+    const double cost =
+        std::max(0.0, quadric.errorAt(placeFor(a, b, quadric))) + costOfLength * quadric.weight() * dot(edge, edge);
     heap_.push({static_cast<float>(cost), std::min(a, b), std::max(a, b), versions_[a] + versions_[b]});
   }
 
@@ -172,8 +167,8 @@ private:
     });
     bool isTied = isBorder_[a] && isBorder_[b] && shared != 1;
     visitCorners(a, [&](std::uint32_t corner) {
-      isTied = isTied || marks_[corners_[afterCorner(corner)]] == mark_ ||
-               marks_[corners_[beforeCorner(corner)]] == mark_;
+      isTied =
+          isTied || marks_[corners_[afterCorner(corner)]] == mark_ || marks_[corners_[beforeCorner(corner)]] == mark_;
     });
     return !isTied;
   }

@@ -31,9 +31,8 @@ struct Start {
 class FanWalk {
 public:
   FanWalk(std::span<const std::uint32_t> cornerVertices, std::size_t vertexCount)
-      : vertexOf_(cornerVertices),
-        incidence_(incidenceOf(cornerVertices.size(), vertexCount,
-                               [&](std::size_t corner) { return cornerVertices[corner]; })),
+      : vertexOf_(cornerVertices), incidence_(incidenceOf(cornerVertices.size(), vertexCount,
+                                                          [&](std::size_t corner) { return cornerVertices[corner]; })),
         emitted_(cornerVertices.size() / 3), numbers_(vertexCount, none), firstFrom_(vertexCount, none),
         entered_(vertexCount) {
     queue_.reserve(vertexCount);

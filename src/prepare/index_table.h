@@ -12,8 +12,7 @@ namespace imgeo {
 
 /// Mixes one more word into a hash (the multiply-and-fold step of wyhash).
 inline std::uint64_t mixHash(std::uint64_t hash, std::uint64_t word) {
-  const auto product =
-      static_cast<unsigned __int128>(hash ^ word ^ 0x9e3779b97f4a7c15u) * 0xa0761d6478bd642fu;
+  const auto product = static_cast<unsigned __int128>(hash ^ word ^ 0x9e3779b97f4a7c15u) * 0xa0761d6478bd642fu;
   return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
 }
 
@@ -26,8 +25,7 @@ public:
   explicit IndexTable(std::size_t capacity) : slots_(std::bit_ceil(2 * capacity + 1), none) {}
 
   /// The index in the table that `equals`, or else `index`, which is then in the table.
-  template <typename Equals>
-  std::uint32_t findOrInsert(std::uint64_t hash, std::uint32_t index, Equals equals) {
+  template <typename Equals> std::uint32_t findOrInsert(std::uint64_t hash, std::uint32_t index, Equals equals) {
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t at = hash & mask;; at = (at + 1) & mask) {
       if (slots_[at] == none)

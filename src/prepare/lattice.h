@@ -20,9 +20,7 @@ struct Lattice {
   Vec3d stretch{1, 1, 1};  ///< an axis's step over the longest; 0 where the box is flat
 
   std::uint32_t maximum() const { return static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1); }
-  Vec3d point(Vec3u q) const {
-    return origin + Vec3d{q.x * stretch.x, q.y * stretch.y, q.z * stretch.z} * step;
-  }
+  Vec3d point(Vec3u q) const { return origin + Vec3d{q.x * stretch.x, q.y * stretch.y, q.z * stretch.z} * step; }
   friend bool operator==(const Lattice&, const Lattice&) = default;
 };
 

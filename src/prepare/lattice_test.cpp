@@ -19,9 +19,8 @@ TEST(Lattice, ErrsByHalfAStepAtMost) {
       for (std::size_t i = 0; i < quantised.size(); ++i)
         for (int axis = 0; axis < 3; ++axis) {
           ASSERT_LE(quantised[i][axis], lattice.maximum());
-          ASSERT_LE(
-              std::abs(lattice.point(quantised[i])[axis] - static_cast<double>(mesh.positions[i][axis])),
-              lattice.step / 2 + rounding)
+          ASSERT_LE(std::abs(lattice.point(quantised[i])[axis] - static_cast<double>(mesh.positions[i][axis])),
+                    lattice.step / 2 + rounding)
               << "seed " << seed << ", bits " << bits;
         }
     }

@@ -30,9 +30,9 @@ Vec3d contribution(const Mesh& mesh, std::uint32_t corner, NormalWeighting weigh
 
 void computeNormals(Mesh& mesh, NormalWeighting weighting) {
   assert(mesh.topology == Topology::triangles);
-  const Incidence incidence =
-      incidenceOf(mesh.corners.size(), mesh.positions.size(),
-                  [&](std::size_t corner) { return mesh.wedgePositions[mesh.corners[corner]]; });
+  const Incidence incidence = incidenceOf(mesh.corners.size(), mesh.positions.size(), [&](std::size_t corner) {
+    return mesh.wedgePositions[mesh.corners[corner]];
+  });
 
   // Gathered by position, not scattered by triangle: the order of each sum, and
   // so its last bit, does not depend on threads.

@@ -8,8 +8,7 @@
 namespace imgeo {
 namespace {
 
-constexpr NormalWeighting everyWeighting[] = {NormalWeighting::area, NormalWeighting::angle,
-                                              NormalWeighting::uniform};
+constexpr NormalWeighting everyWeighting[] = {NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform};
 
 double degreesBetween(Vec3f a, Vec3f b) {
   return std::atan2(length(cross(Vec3d(a), Vec3d(b))), dot(Vec3d(a), Vec3d(b))) * 180 / std::numbers::pi;

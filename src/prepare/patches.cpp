@@ -50,8 +50,7 @@ std::size_t countWedges(const Mesh& mesh, Elements elements) {
   std::vector<bool> seen(mesh.wedgeCount());
   std::size_t wedges = 0;
   for (const std::uint32_t element : elements)
-    for (std::size_t corner = std::size_t{element} * count; corner < (std::size_t{element} + 1) * count;
-         ++corner) {
+    for (std::size_t corner = std::size_t{element} * count; corner < (std::size_t{element} + 1) * count; ++corner) {
       wedges += !seen[mesh.corners[corner]];
       seen[mesh.corners[corner]] = true;
     }
@@ -90,8 +89,7 @@ std::size_t cutOff(const ElementTable& table, Elements elements, const Box3d& bo
   std::vector<std::uint64_t> weights(bucketCount);
   for (const std::uint32_t element : elements)
     weights[bucketOf(element)] += table.weights[element];
-  const double wanted =
-      share * static_cast<double>(std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
+  const double wanted = share * static_cast<double>(std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
   std::uint64_t lower = 0;
   std::size_t border = 0;
   while (border + 1 < bucketCount && static_cast<double>(lower + weights[border]) <= wanted)
@@ -118,8 +116,8 @@ std::size_t cutOff(const ElementTable& table, Elements elements, const Box3d& bo
 std::vector<Elements> cutOnce(const ElementTable& table, Elements elements, std::size_t maxWedges) {
   const auto ceilDivide = [](std::size_t a, std::size_t b) { return (a + b - 1) / b; };
   const std::size_t cornerCount = elements.size() * cornersPerElement(table.mesh.topology);
-  const std::size_t wanted = std::max(ceilDivide(countWedges(table.mesh, elements), maxWedges),
-                                      ceilDivide(cornerCount, maxPatchCorners));
+  const std::size_t wanted =
+      std::max(ceilDivide(countWedges(table.mesh, elements), maxWedges), ceilDivide(cornerCount, maxPatchCorners));
   if (wanted <= 1)
     return {elements};
   // Not always in half: three patches' worth is cut at a third, so that
@@ -184,8 +182,7 @@ private:
   std::vector<Recent> recent_{recentCount};
 };
 
-Patch makePatch(const Mesh& mesh, const std::vector<Vec3u>& lattice, Elements elements,
-                std::size_t maxWedges) {
+Patch makePatch(const Mesh& mesh, const std::vector<Vec3u>& lattice, Elements elements, std::size_t maxWedges) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
   const std::size_t capacity = std::min(maxWedges, elements.size() * count);
 
@@ -194,8 +191,7 @@ Patch makePatch(const Mesh& mesh, const std::vector<Vec3u>& lattice, Elements el
   patch.corners.reserve(elements.size() * count);
   Compactor wedges(capacity), positions(capacity);
   for (const std::uint32_t element : elements)
-    for (std::size_t corner = std::size_t{element} * count; corner < (std::size_t{element} + 1) * count;
-         ++corner)
+    for (std::size_t corner = std::size_t{element} * count; corner < (std::size_t{element} + 1) * count; ++corner)
       patch.corners.push_back(wedges.numberOf(mesh.corners[corner]));
   patch.wedgePositions.reserve(wedges.kept.size());
   for (const std::uint32_t wedge : wedges.kept)
@@ -238,8 +234,7 @@ PatchedMesh cutIntoPatches(Mesh mesh, const Lattice& lattice, std::uint32_t maxW
   return cutIntoPatches(std::move(mesh), std::move(points), lattice, maxWedges);
 }
 
-PatchedMesh cutIntoPatches(Mesh mesh, std::vector<Vec3u> points, const Lattice& lattice,
-                           std::uint32_t maxWedges) {
+PatchedMesh cutIntoPatches(Mesh mesh, std::vector<Vec3u> points, const Lattice& lattice, std::uint32_t maxWedges) {
   assert(maxWedges >= 3);
   PatchedMesh result;
   result.lattice = lattice;

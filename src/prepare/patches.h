@@ -41,7 +41,6 @@ Box3d boxOf(const Patch& patch, const Lattice& lattice);
 /// element is in exactly one patch, in an order that depends on the input alone, not on threads.
 PatchedMesh cutIntoPatches(Mesh mesh, const Lattice& lattice, std::uint32_t maxWedges);
 /// The same where the mesh's positions on the lattice are known.
-PatchedMesh cutIntoPatches(Mesh mesh, std::vector<Vec3u> points, const Lattice& lattice,
-                           std::uint32_t maxWedges);
+PatchedMesh cutIntoPatches(Mesh mesh, std::vector<Vec3u> points, const Lattice& lattice, std::uint32_t maxWedges);
 
 } // namespace imgeo

@@ -32,8 +32,7 @@ std::vector<double> elementOf(const Piece& piece, const std::vector<Vec3u>& posi
 }
 
 template <typename Piece>
-void addElements(std::multiset<std::vector<double>>& into, const Piece& piece,
-                 const std::vector<Vec3u>& positions) {
+void addElements(std::multiset<std::vector<double>>& into, const Piece& piece, const std::vector<Vec3u>& positions) {
   for (std::size_t element = 0; element < piece.elementCount(); ++element)
     into.insert(elementOf(piece, positions, element));
 }
@@ -51,8 +50,7 @@ void expectWellFormed(const Patch& patch, std::uint32_t maxWedges) {
   for (const std::uint32_t position : patch.wedgePositions)
     positions.at(position) = true;
   EXPECT_EQ(std::count(wedges.begin(), wedges.end(), true), static_cast<std::ptrdiff_t>(patch.wedgeCount()));
-  EXPECT_EQ(std::count(positions.begin(), positions.end(), true),
-            static_cast<std::ptrdiff_t>(patch.positions.size()));
+  EXPECT_EQ(std::count(positions.begin(), positions.end(), true), static_cast<std::ptrdiff_t>(patch.positions.size()));
 }
 
 TEST(Patches, HoldEveryElementOnce) {
@@ -110,8 +108,7 @@ TEST(Patches, AreWellFilledAndTight) {
       whole.add(box.max);
       // A share of the area that matches its share of the elements.
       const double area = box.size().x * box.size().y;
-      EXPECT_LT(area,
-                1.3 * static_cast<double>(patch.elementCount()) / static_cast<double>(mesh.elementCount()));
+      EXPECT_LT(area, 1.3 * static_cast<double>(patch.elementCount()) / static_cast<double>(mesh.elementCount()));
     }
     EXPECT_EQ(whole, result.box);
   }
@@ -123,8 +120,7 @@ TEST(Patches, AreMadeEvenWhereAllCentroidsAreOne) {
     const double angle = 2 * std::numbers::pi * i / 3000;
     for (int corner = 0; corner < 3; ++corner) {
       const double a = angle + corner * 2 * std::numbers::pi / 3;
-      mesh.positions.push_back(
-          {static_cast<float>(std::round(1e4 * std::cos(a))), 0, static_cast<float>(corner)});
+      mesh.positions.push_back({static_cast<float>(std::round(1e4 * std::cos(a))), 0, static_cast<float>(corner)});
       mesh.corners.push_back(3 * i + static_cast<std::uint32_t>(corner));
     }
   }

@@ -165,8 +165,7 @@ std::vector<std::uint32_t> mortonOrder(const Patch& patch) {
   std::vector<std::uint32_t> order(patch.wedgeCount());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return beforeInMortonOrder(patch.positions[patch.wedgePositions[a]],
-                               patch.positions[patch.wedgePositions[b]]);
+    return beforeInMortonOrder(patch.positions[patch.wedgePositions[a]], patch.positions[patch.wedgePositions[b]]);
   });
   return order;
 }

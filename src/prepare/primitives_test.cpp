@@ -180,8 +180,7 @@ TEST(WithoutIndices, TheTrianglesAreTheSame) {
 TEST(Strips, TakeFewerIndicesThanTriangles) {
   for (const Patch& patch : {patchOf(testing::grid(50)), patchOf(testing::sphere(50, 50))}) {
     const auto perTriangle = [&](int effort) {
-      return static_cast<double>(asStrips(patch, effort).indices.size()) /
-             static_cast<double>(patch.elementCount());
+      return static_cast<double>(asStrips(patch, effort).indices.size()) / static_cast<double>(patch.elementCount());
     };
     EXPECT_LE(perTriangle(9), perTriangle(5));
     EXPECT_LT(perTriangle(5), 1.2);
@@ -248,8 +247,8 @@ std::vector<Line> linesIn(const Patch& patch) {
 std::vector<Line> linesIn(const IndexedPatch& patch) {
   std::vector<Line> result;
   for (const Vec2<std::uint32_t>& line : linesOf(patch))
-    result.push_back(turned(Line{cornerOf(patch, line.x, patch.positions[line.x]),
-                                 cornerOf(patch, line.y, patch.positions[line.y])}));
+    result.push_back(turned(
+        Line{cornerOf(patch, line.x, patch.positions[line.x]), cornerOf(patch, line.y, patch.positions[line.y])}));
   std::sort(result.begin(), result.end());
   return result;
 }
@@ -267,8 +266,7 @@ TEST(Lines, AreThePatchsLinesWithAndWithoutStripsAndIndices) {
         mesh.texCoords.push_back({static_cast<float>(wedge), 0});
     const Patch patch = patchOf(mesh);
     std::vector<Line> expected = linesIn(patch), withLength = expected;
-    std::erase_if(withLength,
-                  [](const Line& line) { return std::equal(&line[0][0], &line[0][3], &line[1][0]); });
+    std::erase_if(withLength, [](const Line& line) { return std::equal(&line[0][0], &line[0][3], &line[1][0]); });
     for (const IndexedPatch& result : {asLines(patch), asLineStrips(patch)}) {
       expectWhole(result);
       expectNumberedByFirstUse(result);
@@ -320,8 +318,7 @@ TEST(Points, ComeInMortonOrder) {
   patch.topology = Topology::points;
   testing::Random random(1);
   for (std::uint32_t i = 0; i < 3000; ++i) {
-    patch.positions.push_back(
-        {random.bits() >> random.below(32), random.bits(), random.bits() >> random.below(32)});
+    patch.positions.push_back({random.bits() >> random.below(32), random.bits(), random.bits() >> random.below(32)});
     patch.wedgePositions.push_back(i);
     patch.corners.push_back(i);
   }

@@ -44,15 +44,13 @@ public:
     if (!(determinant > 0))
       return near;
     const Vec3d slope = (timesMatrix(near) + linear_) * (-1 / determinant);
-    return near + Vec3d{c00 * slope.x + c01 * slope.y + c02 * slope.z,
-                        c01 * slope.x + c11 * slope.y + c12 * slope.z,
+    return near + Vec3d{c00 * slope.x + c01 * slope.y + c02 * slope.z, c01 * slope.x + c11 * slope.y + c12 * slope.z,
                         c02 * slope.x + c12 * slope.y + c22 * slope.z};
   }
 
 private:
   Vec3d timesMatrix(Vec3d p) const {
-    return {xx_ * p.x + xy_ * p.y + xz_ * p.z, xy_ * p.x + yy_ * p.y + yz_ * p.z,
-            xz_ * p.x + yz_ * p.y + zz_ * p.z};
+    return {xx_ * p.x + xy_ * p.y + xz_ * p.z, xy_ * p.x + yy_ * p.y + yz_ * p.z, xz_ * p.x + yz_ * p.y + zz_ * p.z};
   }
 
   double xx_ = 0, xy_ = 0, xz_ = 0, yy_ = 0, yz_ = 0, zz_ = 0;

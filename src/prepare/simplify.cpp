@@ -33,8 +33,8 @@ public:
     const Vec3d position = place * scale_ + center_;
     Vec3u nearest;
     for (int axis = 0; axis < 3; ++axis)
-      nearest[axis] = static_cast<std::uint32_t>(
-          std::clamp(std::floor(position[axis] + 0.5), box_.min[axis], box_.max[axis]));
+      nearest[axis] =
+          static_cast<std::uint32_t>(std::clamp(std::floor(position[axis] + 0.5), box_.min[axis], box_.max[axis]));
     return nearest;
   }
 
@@ -65,9 +65,7 @@ struct FoldedTriangle {
 
   bool isOver(const FoldedTriangle& other) const { return lower == other.lower && highest == other.highest; }
   friend bool operator<(const FoldedTriangle& a, const FoldedTriangle& b) {
-    return a.lower != b.lower       ? a.lower < b.lower
-           : a.highest != b.highest ? a.highest < b.highest
-                                    : a.place < b.place;
+    return a.lower != b.lower ? a.lower < b.lower : a.highest != b.highest ? a.highest < b.highest : a.place < b.place;
   }
 };
 
@@ -158,8 +156,8 @@ CollapsingSurface surfaceOf(std::span<const Vec3d> places, std::span<const std::
 }
 
 /// The vertices that are in use, on the lattice.
-SimplifiedTriangles resultOf(const CollapsingSurface& surface, const UnitFrame& frame,
-                             std::span<const Vec3u> positions, const SurfaceCells& cells) {
+SimplifiedTriangles resultOf(const CollapsingSurface& surface, const UnitFrame& frame, std::span<const Vec3u> positions,
+                             const SurfaceCells& cells) {
   constexpr std::uint32_t none = SimplifiedTriangles::none;
   SimplifiedTriangles result;
   result.triangles = surface.sources;

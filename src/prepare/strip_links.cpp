@@ -34,14 +34,7 @@ constexpr std::uint8_t turns[8][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 2, 0}
 /// What a triangle of a star is besides its two spokes: its outer side is not
 /// linked; or is, to a triangle that ends there, turns on at the side after, or
 /// before; or there is no triangle, and a fan is open.
-enum Outer : std::uint8_t {
-  outerFree,
-  outerLinked,
-  outerTurnsAfter,
-  outerTurnsBefore,
-  noTriangle,
-  outerKinds
-};
+enum Outer : std::uint8_t { outerFree, outerLinked, outerTurnsAfter, outerTurnsBefore, noTriangle, outerKinds };
 
 bool hasOuterLink(std::uint32_t outer) {
   return outer != outerFree;
@@ -73,22 +66,19 @@ struct WeightTables {
   }
 
   /// Ends that it is, and a swap at its outer side.
-  static float triangleWeight(const Powers& powers, std::uint32_t outer, std::uint32_t in,
-                              std::uint32_t out) {
+  static float triangleWeight(const Powers& powers, std::uint32_t outer, std::uint32_t in, std::uint32_t out) {
     if (outer == noTriangle)
       return in + out == 0 ? 1.0f : 0.0f;
     const std::uint32_t degree = in + out + hasOuterLink(outer);
     if (degree > 2)
       return 0;
-    const bool isSwap =
-        degree == 2 && ((outer == outerTurnsAfter && in) || (outer == outerTurnsBefore && out));
+    const bool isSwap = degree == 2 && ((outer == outerTurnsAfter && in) || (outer == outerTurnsBefore && out));
     return powers.values[endCost * (2 - degree) + (isSwap ? swapCost : 0)];
   }
 
   /// A swap at a spoke, or the tips at its far end, of which there are some odd already.
   /// `links` has the spoke before it, itself and the one behind as bits.
-  static std::uint32_t spokeCost(bool outerBefore, bool outerBehind, std::uint32_t oddBefore,
-                                 std::uint32_t links) {
+  static std::uint32_t spokeCost(bool outerBefore, bool outerBehind, std::uint32_t oddBefore, std::uint32_t links) {
     const bool before = links & 1, here = links >> 1 & 1, behind = links >> 2 & 1;
     if (here) {
       const int turnBefore = before ? 1 : outerBefore ? 2 : 0, turnBehind = outerBehind ? 1 : behind ? 2 : 0;
@@ -122,8 +112,7 @@ public:
       outers_[i] = outerFree;
       if (triangle.linked >> outer & 1) {
         const std::uint32_t opposite = triangle.across[outer];
-        outers_[i] =
-            static_cast<Outer>(outerLinked + turns[links_.triangles_[opposite / 4].linked][opposite % 4]);
+        outers_[i] = static_cast<Outer>(outerLinked + turns[links_.triangles_[opposite / 4].linked][opposite % 4]);
       }
       farOdd_[i] = links_.oddTips_[links_.corners_[3 * number + outer]];
       at = triangle.across[out];
@@ -226,8 +215,8 @@ private:
     for (std::uint32_t i = 0; i < count_; ++i) {
       const std::uint32_t in = ins_[i];
       const std::uint32_t behind = i + 1 == size_ ? 0 : i + 1;
-      links_.triangles_[numbers_[i]].linked = spokes_[i] << in | spokes_[behind] << before(in) |
-                                              std::uint32_t{outers_[i] != outerFree} << after(in);
+      links_.triangles_[numbers_[i]].linked =
+          spokes_[i] << in | spokes_[behind] << before(in) | std::uint32_t{outers_[i] != outerFree} << after(in);
     }
   }
 
@@ -249,8 +238,7 @@ StripLinks::StripLinks(std::span<const std::uint32_t> corners, std::span<const s
                        std::size_t vertexCount)
     : triangles_(corners.size() / 3), corners_(corners), oddTips_(vertexCount) {
   for (std::uint32_t side = 0; side < corners.size(); ++side)
-    triangles_[side / 3].across[side % 3] =
-        across[side] == noSide ? noSide : 4 * (across[side] / 3) + across[side] % 3;
+    triangles_[side / 3].across[side % 3] = across[side] == noSide ? noSide : 4 * (across[side] / 3) + across[side] % 3;
   findStars(across);
 }
 
@@ -287,8 +275,7 @@ std::uint32_t StripLinks::degree(std::uint32_t triangle) const {
 
 bool StripLinks::isSwap(std::uint32_t triangle, std::uint32_t side) const {
   const std::uint32_t opposite = triangles_[triangle].across[side];
-  return (turns[triangles_[triangle].linked][side] ^ turns[triangles_[opposite / 4].linked][opposite % 4]) ==
-         3;
+  return (turns[triangles_[triangle].linked][side] ^ turns[triangles_[opposite / 4].linked][opposite % 4]) == 3;
 }
 
 /// Puts the tip of a triangle that has one link where it is, or takes it away;
@@ -297,8 +284,7 @@ int StripLinks::toggleTip(std::uint32_t triangle) {
   const std::uint32_t linked = triangles_[triangle].linked;
   if (bitCounts[linked] != 1)
     return 0;
-  std::uint8_t& isOdd =
-      oddTips_[corners_[3 * triangle + before(linked / 2)]]; // bits 1, 2, 4 are sides 0, 1, 2
+  std::uint8_t& isOdd = oddTips_[corners_[3 * triangle + before(linked / 2)]]; // bits 1, 2, 4 are sides 0, 1, 2
   isOdd ^= 1;
   return isOdd ? int{oddCost} : -int{oddCost};
 }
@@ -314,8 +300,7 @@ int StripLinks::costAt(const Change& change) const {
     const std::uint32_t triangle = change.triangles[i];
     cost += int{endCost} * (2 - static_cast<int>(degree(triangle)));
     for (std::uint32_t side = 0; side < 3; ++side) // a link within the change counts at its first triangle
-      if (isLinked(triangle, side) && isSwap(triangle, side) &&
-          !isIn(triangles_[triangle].across[side] / 4, i))
+      if (isLinked(triangle, side) && isSwap(triangle, side) && !isIn(triangles_[triangle].across[side] / 4, i))
         cost += swapCost;
   }
   return cost;
@@ -327,8 +312,7 @@ int StripLinks::toggle(const Change& change) {
   for (std::uint32_t i = 0; i < change.triangleCount; ++i)
     cost += toggleTip(change.triangles[i]);
   for (std::uint32_t i = 0; i < change.sideCount; ++i)
-    for (const std::uint32_t half :
-         {change.sides[i], triangles_[change.sides[i] / 4].across[change.sides[i] % 4]})
+    for (const std::uint32_t half : {change.sides[i], triangles_[change.sides[i] / 4].across[change.sides[i] % 4]})
       triangles_[half / 4].linked ^= 1u << half % 4;
   for (std::uint32_t i = 0; i < change.triangleCount; ++i)
     cost += toggleTip(change.triangles[i]);

@@ -35,8 +35,7 @@ private:
 class StripLinks {
 public:
   /// No links yet. `across` is sidesAcross(corners).
-  StripLinks(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> across,
-             std::size_t vertexCount);
+  StripLinks(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> across, std::size_t vertexCount);
 
   /// Draws the links around every vertex anew, all those of one vertex at once and
   /// as likely as factor^cost each; `factor` is 0 .. 1, and the lower it is, the fewer dear
@@ -49,9 +48,7 @@ public:
 
   std::size_t triangleCount() const { return triangles_.size(); }
   std::uint32_t degree(std::uint32_t triangle) const;
-  bool isLinked(std::uint32_t triangle, std::uint32_t side) const {
-    return triangles_[triangle].linked >> side & 1;
-  }
+  bool isLinked(std::uint32_t triangle, std::uint32_t side) const { return triangles_[triangle].linked >> side & 1; }
   /// Whether both triangles at a linked side have another link and the turns
   /// before and after it go the same way.
   bool isSwap(std::uint32_t triangle, std::uint32_t side) const;

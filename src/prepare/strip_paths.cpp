@@ -28,8 +28,7 @@ void anneal(StripLinks& links, int sweeps) {
 /// Reads the paths off the links, among which there are no rings.
 class PathReader {
 public:
-  PathReader(const StripLinks& links, std::span<const std::uint32_t> corners,
-             std::span<const std::uint32_t> across)
+  PathReader(const StripLinks& links, std::span<const std::uint32_t> corners, std::span<const std::uint32_t> across)
       : links_(links), corners_(corners), across_(across), isRead_(links.triangleCount()) {}
 
   StripPaths run() && {

@@ -32,9 +32,8 @@ constexpr std::size_t fewestSeparate = 32;
 class Stitcher {
 public:
   Stitcher(std::span<const std::uint32_t> corners, std::size_t vertexCount, int effort)
-      : corners_(corners), across_(sidesAcross(corners)),
-        paths_(findStripPaths(corners, across_, vertexCount, effort)), tips_(tipsOfPaths(vertexCount)),
-        trails_(findTrails(tips_, vertexCount)), used_(trails_.count()) {
+      : corners_(corners), across_(sidesAcross(corners)), paths_(findStripPaths(corners, across_, vertexCount, effort)),
+        tips_(tipsOfPaths(vertexCount)), trails_(findTrails(tips_, vertexCount)), used_(trails_.count()) {
     for (TrailEnd end = 0; end < 2 * trails_.count(); ++end) {
       const std::uint32_t side = firstSide(pathEnd(end, 0));
       endCorners_.insert(endCorners_.end(), {tipOf(side), corners_[side], corners_[sideAfter(side)]});
@@ -115,8 +114,7 @@ private:
     for (const std::uint32_t trail : lone) {
       used_[trail] = true;
       const std::uint32_t first = paths_.path(pathEnd(2 * trail, 0) / 2).front() / 3 * 3;
-      result_.triangles.insert(result_.triangles.end(),
-                               {corners_[first], corners_[first + 1], corners_[first + 2]});
+      result_.triangles.insert(result_.triangles.end(), {corners_[first], corners_[first + 1], corners_[first + 2]});
     }
   }
 
@@ -289,10 +287,10 @@ private:
   std::vector<std::uint32_t> endCorners_; ///< three a trail end: its tip and the edge of its first side
   Incidence endsAt_;                      ///< vertex -> its places in endCorners_
   std::vector<std::uint32_t> endsLeft_;   ///< by vertex: how many of these are not known to be used
-  std::vector<Parity> wanted_;       ///< by path end: of the place at which its first triangle is to begin
-  std::vector<std::size_t> lengths_; ///< by path: indices, where it begins as wanted
-  std::vector<std::uint32_t> turnCosts_; ///< by trail end and parity of the place that it begins at
-  std::uint32_t firstUnused_ = 0;        ///< trails before it are used
+  std::vector<Parity> wanted_;            ///< by path end: of the place at which its first triangle is to begin
+  std::vector<std::size_t> lengths_;      ///< by path: indices, where it begins as wanted
+  std::vector<std::uint32_t> turnCosts_;  ///< by trail end and parity of the place that it begins at
+  std::uint32_t firstUnused_ = 0;         ///< trails before it are used
   Strips result_;
 };
 

@@ -23,8 +23,7 @@ public:
     for (std::uint32_t vertex = 0; vertex < vertexCount; ++vertex)
       if (isOdd[vertex])
         vertices_.push_back(vertex);
-    incidence_ =
-        incidenceOf(vertices_.size(), vertexCount, [&](std::size_t corner) { return vertices_[corner]; });
+    incidence_ = incidenceOf(vertices_.size(), vertexCount, [&](std::size_t corner) { return vertices_[corner]; });
     // Taken from the back, the undrawn line of a vertex comes first and the others
     // from last to first; the trail comes out the other way round.
     left_.assign(incidence_.offsets.begin() + 1, incidence_.offsets.end());

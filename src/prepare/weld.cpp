@@ -42,8 +42,7 @@ struct Renumbering {
   template <typename Equals>
   std::uint32_t number(std::uint32_t old, IndexTable& table, std::uint64_t hash, Equals equals) {
     const auto next = static_cast<std::uint32_t>(kept.size());
-    const std::uint32_t found =
-        table.findOrInsert(hash, next, [&](std::uint32_t i) { return equals(kept[i]); });
+    const std::uint32_t found = table.findOrInsert(hash, next, [&](std::uint32_t i) { return equals(kept[i]); });
     if (found == next)
       kept.push_back(old);
     else
@@ -54,8 +53,7 @@ struct Renumbering {
 
 /// The values of a vertex of an attribute.
 std::span<const float> valuesOf(const NamedAttribute& attribute, std::uint32_t vertex) {
-  return std::span(attribute.values)
-      .subspan(std::size_t{vertex} * attribute.components, attribute.components);
+  return std::span(attribute.values).subspan(std::size_t{vertex} * attribute.components, attribute.components);
 }
 
 /// For each position the first that is the same. In the order of memory, so that the slots
@@ -186,9 +184,7 @@ void markRepeated(std::vector<OtherCorners>& others, std::vector<std::uint8_t>& 
 /// are told apart among those of the same least corner, which are few.
 std::vector<std::uint8_t> findRepeated(const Mesh& mesh) {
   const std::uint32_t count = cornersPerElement(mesh.topology);
-  const auto cornersOf = [&](std::size_t element) {
-    return turned(mesh.corners.data() + element * count, count);
-  };
+  const auto cornersOf = [&](std::size_t element) { return turned(mesh.corners.data() + element * count, count); };
   std::vector<std::uint32_t> least(mesh.elementCount());
   parallelForBlocks(least.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t element = begin; element < end; ++element)

@@ -9,9 +9,7 @@ namespace imgeo {
 namespace {
 
 Vec3f encodedSrgb(Vec3f linear) {
-  const auto encode = [](float value) {
-    return static_cast<float>(srgbOfLinear(std::clamp(value, 0.0f, 1.0f)));
-  };
+  const auto encode = [](float value) { return static_cast<float>(srgbOfLinear(std::clamp(value, 0.0f, 1.0f))); };
   return {encode(linear.x), encode(linear.y), encode(linear.z)};
 }
 

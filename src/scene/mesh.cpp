@@ -25,8 +25,7 @@ Box3d boxOf(const Mesh& mesh) {
 
 bool isConsistent(const Mesh& mesh) {
   const auto below = [](std::size_t bound) { return [bound](std::uint32_t index) { return index < bound; }; };
-  return isConsistent(mesh, mesh.wedgeCount()) &&
-         mesh.corners.size() % cornersPerElement(mesh.topology) == 0 &&
+  return isConsistent(mesh, mesh.wedgeCount()) && mesh.corners.size() % cornersPerElement(mesh.topology) == 0 &&
          std::ranges::all_of(mesh.wedgePositions, below(mesh.positions.size())) &&
          std::ranges::all_of(mesh.corners, below(mesh.wedgeCount()));
 }

@@ -134,8 +134,7 @@ std::vector<std::size_t> nodesOfDocument(const SceneGraph& graph, const std::vec
 
 std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_t meshesBefore) {
   const std::size_t nodes = graph.nodes.size(), appearances = graph.appearances.size(),
-                    textures = graph.textures.size(), images = graph.images.size(),
-                    inlined = graph.inlined.size();
+                    textures = graph.textures.size(), images = graph.images.size(), inlined = graph.inlined.size();
   const auto shift = [](auto& index, std::size_t by) {
     if (index)
       *index += by;
@@ -176,8 +175,7 @@ std::vector<std::size_t> append(SceneGraph& graph, SceneGraph&& more, std::size_
 
 std::vector<std::size_t> shapeNodes(const SceneGraph& graph) {
   std::vector<std::size_t> nodes = nodesInOrder(graph);
-  std::erase_if(nodes,
-                [&](std::size_t node) { return !std::holds_alternative<Shape>(graph.nodes[node].content); });
+  std::erase_if(nodes, [&](std::size_t node) { return !std::holds_alternative<Shape>(graph.nodes[node].content); });
   return nodes;
 }
 
@@ -214,8 +212,7 @@ Viewpoint viewpointFor(const Box3d& box) {
 
   // Turn the default view (along -z) by `yaw` to the side, then look down by `pitch`.
   const double yaw = 0.45, pitch = -0.3;
-  const double cy = std::cos(yaw / 2), sy = std::sin(yaw / 2), cp = std::cos(pitch / 2),
-               sp = std::sin(pitch / 2);
+  const double cy = std::cos(yaw / 2), sy = std::sin(yaw / 2), cp = std::cos(pitch / 2), sp = std::sin(pitch / 2);
   const Vec3d axis{cy * sp, sy * cp, -sy * sp}; // quaternion yaw * pitch
   const double axisLength = length(axis);
   viewpoint.orientation = {axis * (1 / axisLength), 2 * std::atan2(axisLength, cy * cp)};
@@ -229,8 +226,7 @@ Viewpoint viewpointFor(const Box3d& box) {
   const Vec3d half = box.size() * 0.5;
   double distance = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3d c{corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y,
-                  corner & 4 ? half.z : -half.z};
+    const Vec3d c{corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z};
     const double aside = std::max(std::abs(dot(c, right)), std::abs(dot(c, up)));
     distance = std::max(distance, dot(c, back) + aside / widest);
   }

@@ -24,10 +24,9 @@ struct Group {
 
 /// One visible thing: a mesh and what it looks like.
 struct Shape {
-  std::size_t mesh = 0; ///< index into Scene::meshes
-  std::optional<std::size_t>
-      appearance;    ///< index into SceneGraph::appearances; absent: the source says nothing
-  bool solid = true; ///< false: its triangles are seen from both sides
+  std::size_t mesh = 0;                  ///< index into Scene::meshes
+  std::optional<std::size_t> appearance; ///< index into SceneGraph::appearances; absent: the source says nothing
+  bool solid = true;                     ///< false: its triangles are seen from both sides
   friend bool operator==(const Shape&, const Shape&) = default;
 };
 
@@ -57,7 +56,7 @@ struct DirectionalLight {
   Vec3d direction{0, 0, -1};
   Vec3f color{1, 1, 1};
   float intensity = 1;
-  bool global = false; ///< false: lights what stands below the light's parent
+  bool global = false;        ///< false: lights what stands below the light's parent
   float ambientIntensity = 0; ///< 0 .. 1; reaches surfaces whichever way they face
   friend bool operator==(const DirectionalLight&, const DirectionalLight&) = default;
 };
@@ -111,8 +110,8 @@ struct OtherNode {
   friend bool operator==(const OtherNode&, const OtherNode&) = default;
 };
 
-using NodeContent = std::variant<Group, Transform, Shape, Viewpoint, OrthoViewpoint, DirectionalLight,
-                                 PointLight, SpotLight, OtherNode>;
+using NodeContent = std::variant<Group, Transform, Shape, Viewpoint, OrthoViewpoint, DirectionalLight, PointLight,
+                                 SpotLight, OtherNode>;
 
 struct Node {
   std::string name; ///< becomes its DEF; of several nodes of one name the later get a number

@@ -17,17 +17,16 @@ Vec3d seenFrom(const Viewpoint& viewpoint, Vec3d point) {
 }
 
 TEST(ViewpointFor, SeesEveryCornerOfABoxAndFillsTheViewWithIt) {
-  for (const Vec3d size : {Vec3d{1, 1, 1}, Vec3d{10, 1, 1}, Vec3d{1, 10, 1}, Vec3d{1, 1, 10},
-                           Vec3d{1e-6, 2e-6, 1e-6}, Vec3d{0, 3e5, 1e5}}) {
+  for (const Vec3d size : {Vec3d{1, 1, 1}, Vec3d{10, 1, 1}, Vec3d{1, 10, 1}, Vec3d{1, 1, 10}, Vec3d{1e-6, 2e-6, 1e-6},
+                           Vec3d{0, 3e5, 1e5}}) {
     Box3d box;
     box.add({7, -3, 2});
     box.add(Vec3d{7, -3, 2} + size);
     const Viewpoint viewpoint = viewpointFor(box);
     double widest = 0;
     for (int corner = 0; corner < 8; ++corner) {
-      const Vec3d seen =
-          seenFrom(viewpoint, {corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                               corner & 4 ? box.max.z : box.min.z});
+      const Vec3d seen = seenFrom(viewpoint, {corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                              corner & 4 ? box.max.z : box.min.z});
       ASSERT_LT(seen.z, 0) << "a corner lies behind the eye";
       widest = std::max({widest, std::abs(seen.x / seen.z), std::abs(seen.y / seen.z)});
     }
@@ -65,11 +64,8 @@ std::size_t addTransform(SceneGraph& graph, Vec3d translation, std::vector<std::
 TEST(PlacedShapes, StandWhereTheirParentsPutThem) {
   SceneGraph graph;
   const std::size_t shape = addNode(graph, {"seat", Shape{}, {}, ""});
-  const std::size_t row =
-      addNode(graph, {"row",
-                      Group{},
-                      {addTransform(graph, {1, 0, 0}, {shape}), addTransform(graph, {2, 0, 0}, {shape})},
-                      ""});
+  const std::size_t row = addNode(
+      graph, {"row", Group{}, {addTransform(graph, {1, 0, 0}, {shape}), addTransform(graph, {2, 0, 0}, {shape})}, ""});
   graph.roots = {addTransform(graph, {0, 10, 0}, {row}), addTransform(graph, {0, 20, 0}, {row}), shape};
   std::vector<Vec3d> places;
   for (const PlacedShape& placed : placedShapes(graph)) {

@@ -104,10 +104,9 @@ inline Mesh torus(std::uint32_t rings, std::uint32_t segments) {
     for (std::uint32_t s = 0; s <= segments; ++s) {
       const double u = turn(r % rings, rings), v = turn(s % segments, segments);
       mesh.wedgePositions.push_back(r % rings * segments + s % segments);
-      mesh.normals.push_back(
-          Vec3f(Vec3d{std::cos(v) * std::cos(u), std::sin(v), -std::cos(v) * std::sin(u)}));
-      mesh.texCoords.push_back({static_cast<float>(r) / static_cast<float>(rings),
-                                static_cast<float>(s) / static_cast<float>(segments)});
+      mesh.normals.push_back(Vec3f(Vec3d{std::cos(v) * std::cos(u), std::sin(v), -std::cos(v) * std::sin(u)}));
+      mesh.texCoords.push_back(
+          {static_cast<float>(r) / static_cast<float>(rings), static_cast<float>(s) / static_cast<float>(segments)});
     }
   const auto at = [&](std::uint32_t r, std::uint32_t s) { return r * (segments + 1) + s; };
   for (std::uint32_t r = 0; r < rings; ++r)
@@ -197,9 +196,7 @@ inline Mesh polylines(std::uint32_t count, std::uint32_t seed) {
   Mesh mesh;
   mesh.name = "polylines";
   mesh.topology = Topology::lines;
-  const auto addLine = [&](std::uint32_t a, std::uint32_t b) {
-    mesh.corners.insert(mesh.corners.end(), {a, b});
-  };
+  const auto addLine = [&](std::uint32_t a, std::uint32_t b) { mesh.corners.insert(mesh.corners.end(), {a, b}); };
   for (std::uint32_t line = 0; line < count; ++line) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const std::uint32_t length = 1 + random.below(random.once(8) ? 200 : 12);
@@ -265,8 +262,7 @@ inline Mesh randomMesh(std::uint32_t seed) {
   Random random(seed);
   Mesh mesh;
   // Drawn one by one: the order in which arguments are evaluated is not the standard's.
-  const std::uint32_t kind = random.below(7), i = random.below(20), j = random.below(300),
-                      inner = random.bits();
+  const std::uint32_t kind = random.below(7), i = random.below(20), j = random.below(300), inner = random.bits();
   switch (kind) {
   case 0:
     mesh = sphere(2 + i, 3 + j % 20);
@@ -331,8 +327,8 @@ inline Mesh randomMesh(std::uint32_t seed) {
     }
   }
   for (std::uint32_t left = random.once(3) ? 1 + random.below(3) : 0; left > 0; --left)
-    mesh.namedAttributes.push_back(randomAttribute(random, "measure" + std::to_string(left),
-                                                   static_cast<std::uint32_t>(mesh.wedgeCount())));
+    mesh.namedAttributes.push_back(
+        randomAttribute(random, "measure" + std::to_string(left), static_cast<std::uint32_t>(mesh.wedgeCount())));
   return mesh;
 }
 

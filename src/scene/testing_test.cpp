@@ -12,8 +12,7 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, int> directedEdges(const Mesh&
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (std::size_t at = 0; at < mesh.corners.size(); at += 3)
     for (std::size_t k = 0; k < 3; ++k)
-      ++edges[{mesh.wedgePositions[mesh.corners[at + k]],
-               mesh.wedgePositions[mesh.corners[at + (k + 1) % 3]]}];
+      ++edges[{mesh.wedgePositions[mesh.corners[at + k]], mesh.wedgePositions[mesh.corners[at + (k + 1) % 3]]}];
   return edges;
 }
 

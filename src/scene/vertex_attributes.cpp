@@ -18,8 +18,7 @@ NamedAttribute gather(const NamedAttribute& attribute, std::span<const std::uint
 
 /// `count` and `moreCount` are in elements of the vectors.
 template <typename T>
-void append(std::vector<T>& values, std::size_t count, const std::vector<T>& more, std::size_t moreCount,
-            T missing) {
+void append(std::vector<T>& values, std::size_t count, const std::vector<T>& more, std::size_t moreCount, T missing) {
   if (values.empty() && more.empty())
     return;
   values.resize(count, missing);
@@ -40,8 +39,7 @@ VertexAttributes gather(const VertexAttributes& attributes, std::span<const std:
   return result;
 }
 
-void append(VertexAttributes& attributes, std::size_t count, const VertexAttributes& more,
-            std::size_t moreCount) {
+void append(VertexAttributes& attributes, std::size_t count, const VertexAttributes& more, std::size_t moreCount) {
   append(attributes.normals, count, more.normals, moreCount, {0, 0, 1});
   append(attributes.texCoords, count, more.texCoords, moreCount, {0, 0});
   append(attributes.colors, count, more.colors, moreCount, {255, 255, 255, 255});
@@ -54,20 +52,17 @@ void append(VertexAttributes& attributes, std::size_t count, const VertexAttribu
     const auto other = std::ranges::find(more.namedAttributes, attribute.name, &NamedAttribute::name);
     const std::size_t each = attribute.components;
     const bool isThere = other != more.namedAttributes.end() && other->components == each;
-    append(attribute.values, count * each, isThere ? other->values : std::vector<float>{}, moreCount * each,
-           0.0f);
+    append(attribute.values, count * each, isThere ? other->values : std::vector<float>{}, moreCount * each, 0.0f);
   }
 }
 
 bool isConsistent(const VertexAttributes& attributes, std::size_t count) {
   const auto emptyOrAll = [&](const auto& values) { return values.empty() || values.size() == count; };
   std::set<std::string> names;
-  return emptyOrAll(attributes.normals) && emptyOrAll(attributes.texCoords) &&
-         emptyOrAll(attributes.colors) &&
+  return emptyOrAll(attributes.normals) && emptyOrAll(attributes.texCoords) && emptyOrAll(attributes.colors) &&
          std::ranges::all_of(attributes.namedAttributes, [&](const NamedAttribute& attribute) {
            return attribute.components >= 1 && attribute.components <= 4 &&
-                  attribute.values.size() == count * attribute.components &&
-                  names.insert(attribute.name).second;
+                  attribute.values.size() == count * attribute.components && names.insert(attribute.name).second;
          });
 }
 

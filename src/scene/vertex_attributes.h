@@ -31,8 +31,7 @@ struct VertexAttributes {
 };
 
 /// values[from[0]], values[from[1]], ...; nothing of what is not there.
-template <typename T>
-std::vector<T> gather(const std::vector<T>& values, std::span<const std::uint32_t> from) {
+template <typename T> std::vector<T> gather(const std::vector<T>& values, std::span<const std::uint32_t> from) {
   std::vector<T> result;
   if (values.empty())
     return result;
@@ -45,8 +44,7 @@ VertexAttributes gather(const VertexAttributes& attributes, std::span<const std:
 
 /// Appends what `more` has of `moreCount` vertices to what `attributes` has of
 /// `count`. Normals (0, 0, 1), white and zeros stand for what one of them lacks.
-void append(VertexAttributes& attributes, std::size_t count, const VertexAttributes& more,
-            std::size_t moreCount);
+void append(VertexAttributes& attributes, std::size_t count, const VertexAttributes& more, std::size_t moreCount);
 
 /// Whether every attribute that is there is one a vertex, and no two have one name.
 bool isConsistent(const VertexAttributes& attributes, std::size_t count);

@@ -16,8 +16,8 @@ TEST(VertexAttributes, AreGatheredByVertex) {
   EXPECT_TRUE(gathered.texCoords.empty());
   EXPECT_EQ(gathered.colors[1], (Rgba8{1, 0, 0, 9}));
   EXPECT_EQ(gathered.colorComponents, 4u);
-  EXPECT_EQ(gathered.namedAttributes, (std::vector<NamedAttribute>{{"heat", 1, {30, 10, 30, 30}},
-                                                                   {"flow", 2, {5, 6, 1, 2, 5, 6, 5, 6}}}));
+  EXPECT_EQ(gathered.namedAttributes,
+            (std::vector<NamedAttribute>{{"heat", 1, {30, 10, 30, 30}}, {"flow", 2, {5, 6, 1, 2, 5, 6, 5, 6}}}));
   EXPECT_TRUE(isConsistent(gathered, 4));
 }
 

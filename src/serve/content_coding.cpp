@@ -22,8 +22,7 @@ struct FreeCompressor {
 };
 
 Bytes gzip(ByteSpan bytes) {
-  const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
-      libdeflate_alloc_compressor(gzipLevel));
+  const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(libdeflate_alloc_compressor(gzipLevel));
   if (!compressor)
     throw std::bad_alloc();
   Bytes out(libdeflate_gzip_compress_bound(compressor.get(), bytes.size()));
@@ -35,8 +34,8 @@ Bytes gzip(ByteSpan bytes) {
 Bytes brotli(ByteSpan bytes) {
   std::size_t size = BrotliEncoderMaxCompressedSize(bytes.size());
   Bytes out(size);
-  if (!BrotliEncoderCompress(brotliQuality, BROTLI_DEFAULT_WINDOW, BROTLI_MODE_TEXT, bytes.size(),
-                             bytes.data(), &size, out.data()))
+  if (!BrotliEncoderCompress(brotliQuality, BROTLI_DEFAULT_WINDOW, BROTLI_MODE_TEXT, bytes.size(), bytes.data(), &size,
+                             out.data()))
     throw std::bad_alloc();
   out.resize(size);
   return out;

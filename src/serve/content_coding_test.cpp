@@ -52,8 +52,8 @@ TEST(ContentCoding, GzipComesBackAsItWas) {
   const Bytes text = sampleText(), packed = encodeContent(ContentCoding::gzip, text);
   Bytes unpacked(text.size());
   libdeflate_decompressor* decompressor = libdeflate_alloc_decompressor();
-  const auto result = libdeflate_gzip_decompress(decompressor, packed.data(), packed.size(), unpacked.data(),
-                                                 unpacked.size(), nullptr);
+  const auto result =
+      libdeflate_gzip_decompress(decompressor, packed.data(), packed.size(), unpacked.data(), unpacked.size(), nullptr);
   libdeflate_free_decompressor(decompressor);
   ASSERT_EQ(result, LIBDEFLATE_SUCCESS);
   EXPECT_EQ(unpacked, text);

@@ -35,9 +35,8 @@ TEST(MediaType, AFileNamedByItsContentIsRecognised) {
 
 TEST(MediaType, OtherNamesMayChangeTheirContent) {
   const std::string hash = contentName(asBytes("content"));
-  for (const std::string& name :
-       {std::string("index.html"), hash + "-old.png", "a" + hash + ".png", hash.substr(1) + ".png",
-        std::string("0123456789ABCDEF.png"), std::string()})
+  for (const std::string& name : {std::string("index.html"), hash + "-old.png", "a" + hash + ".png",
+                                  hash.substr(1) + ".png", std::string("0123456789ABCDEF.png"), std::string()})
     EXPECT_FALSE(isContentNamed(name)) << name;
 }
 

@@ -32,8 +32,7 @@ OpenFile::~OpenFile() {
 std::size_t OpenFile::readAt(std::uint64_t offset, std::span<std::uint8_t> out) const {
   std::size_t used = 0;
   while (used < out.size()) {
-    const ssize_t got =
-        ::pread(descriptor_, out.data() + used, out.size() - used, static_cast<off_t>(offset + used));
+    const ssize_t got = ::pread(descriptor_, out.data() + used, out.size() - used, static_cast<off_t>(offset + used));
     if (got < 0 && errno == EINTR)
       continue;
     if (got < 0)
@@ -45,8 +44,7 @@ std::size_t OpenFile::readAt(std::uint64_t offset, std::span<std::uint8_t> out) 
   return used;
 }
 
-std::variant<std::shared_ptr<const OpenFile>, Absence> openBelow(const fs::path& root,
-                                                                 const RequestPath& path) {
+std::variant<std::shared_ptr<const OpenFile>, Absence> openBelow(const fs::path& root, const RequestPath& path) {
   fs::path wanted = root;
   for (const std::string& name : path.names) {
     if (name.starts_with('.'))

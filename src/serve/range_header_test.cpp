@@ -29,9 +29,8 @@ TEST(RangeHeader, ARangeBehindTheEndIsUnsatisfiable) {
 }
 
 TEST(RangeHeader, NonsenseAndSeveralRangesMeanTheWholeFile) {
-  for (const char* header :
-       {"", "bytes", "bytes=", "bytes=-", "bytes=a-b", "bytes=5-2", "bytes=1-2,4-5", "bytes=--5",
-        "bytes=+1-2", "lines=1-2", "bytes=1 - 2", "bytes=0x1-2", "bytes=1-2-3"})
+  for (const char* header : {"", "bytes", "bytes=", "bytes=-", "bytes=a-b", "bytes=5-2", "bytes=1-2,4-5", "bytes=--5",
+                             "bytes=+1-2", "lines=1-2", "bytes=1 - 2", "bytes=0x1-2", "bytes=1-2-3"})
     EXPECT_EQ(parseRange(header, 1000), (ByteRange{Kind::whole, 0, 1000})) << header;
 }
 
@@ -39,8 +38,8 @@ TEST(RangeHeader, EveryPartLiesInsideTheFile) {
   for (std::uint64_t size = 0; size < 6; ++size) {
     for (int first = -1; first < 8; ++first) {
       for (int last = -1; last < 8; ++last) {
-        const std::string header = fmt::format("bytes={}-{}", first < 0 ? "" : std::to_string(first),
-                                               last < 0 ? "" : std::to_string(last));
+        const std::string header =
+            fmt::format("bytes={}-{}", first < 0 ? "" : std::to_string(first), last < 0 ? "" : std::to_string(last));
         const ByteRange range = parseRange(header, size);
         if (range.kind != Kind::part)
           continue;

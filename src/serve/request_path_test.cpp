@@ -49,8 +49,7 @@ TEST(RequestPath, NamesHoldNeitherSlashNorNul) {
 }
 
 TEST(RequestPath, BrokenEscapesAndForeignFormsAreRefused) {
-  for (const char* target :
-       {"", "a", "*", "/%", "/%4", "/%zz", "/%-1", "http:/a", "ftp://h/a", "?a", "host:80"})
+  for (const char* target : {"", "a", "*", "/%", "/%4", "/%zz", "/%-1", "http:/a", "ftp://h/a", "?a", "host:80"})
     EXPECT_FALSE(parseRequestTarget(target)) << target;
 }
 

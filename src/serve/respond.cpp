@@ -53,15 +53,14 @@ void sendEncoded(Response& response, const Site& site, const OpenFile& file, con
 }
 
 /// The file's own bytes, or the part of them that `range` asks for.
-void sendPlain(Response& response, std::shared_ptr<const OpenFile> file, const MediaType& type,
-               ByteRange range) {
+void sendPlain(Response& response, std::shared_ptr<const OpenFile> file, const MediaType& type, ByteRange range) {
   response.fileFirst = range.first;
   response.fileCount = range.count;
   response.fields.emplace_back("Accept-Ranges", "bytes");
   if (range.kind == ByteRange::Kind::part) {
     response.status = 206;
-    response.fields.emplace_back("Content-Range", fmt::format("bytes {}-{}/{}", range.first,
-                                                              range.first + range.count - 1, file->size()));
+    response.fields.emplace_back(
+        "Content-Range", fmt::format("bytes {}-{}/{}", range.first, range.first + range.count - 1, file->size()));
   }
   addContentFields(response, type, range.count);
   response.file = std::move(file);
@@ -70,8 +69,7 @@ void sendPlain(Response& response, std::shared_ptr<const OpenFile> file, const M
 Response respondWithFile(const Site& site, const RequestHead& request, std::string_view fileName,
                          std::shared_ptr<const OpenFile> file) {
   const MediaType type = mediaTypeOf(fileName);
-  const bool varies =
-      type.isCompressible && file->size() >= leastEncodedBytes && file->size() <= mostEncodedBytes;
+  const bool varies = type.isCompressible && file->size() >= leastEncodedBytes && file->size() <= mostEncodedBytes;
   // Ranges count the bytes of the file as it is, so a request for one gets no coding.
   const ContentCoding coding =
       varies && request.range.empty() ? chooseCoding(request.acceptEncoding) : ContentCoding::identity;
@@ -89,8 +87,8 @@ Response respondWithFile(const Site& site, const RequestHead& request, std::stri
     return response;
   }
   // If-Range with another tag, or with a date, which we never sent: the whole file.
-  const bool hasRange = request.method == "GET" && !request.range.empty() &&
-                        (request.ifRange.empty() || request.ifRange == tag);
+  const bool hasRange =
+      request.method == "GET" && !request.range.empty() && (request.ifRange.empty() || request.ifRange == tag);
   const ByteRange range = parseRange(hasRange ? request.range : "", file->size());
   if (range.kind == ByteRange::Kind::unsatisfiable) {
     Response refusal = refuse(416, "The file ends before the range begins.");
@@ -113,15 +111,13 @@ Response respondToGet(const Site& site, const RequestHead& request) {
     return redirectTo(formatRequestPath({path->names, true}));
   }
   const std::string_view fileName = path->isDirectory ? "index.html" : std::string_view(path->names.back());
-  return respondWithFile(site, request, fileName,
-                         std::get<std::shared_ptr<const OpenFile>>(std::move(found)));
+  return respondWithFile(site, request, fileName, std::get<std::shared_ptr<const OpenFile>>(std::move(found)));
 }
 
 } // namespace
 
 std::string_view Response::field(std::string_view name) const {
-  const auto found =
-      std::find_if(fields.begin(), fields.end(), [&](const auto& field) { return field.first == name; });
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& field) { return field.first == name; });
   return found == fields.end() ? std::string_view() : std::string_view(found->second);
 }
 

@@ -106,8 +106,7 @@ TEST_F(Respond, HiddenFilesAndPipesAreNotServed) {
 }
 
 TEST_F(Respond, ContentNamedFilesAreCachedForEverAndOthersAskAgain) {
-  EXPECT_EQ(get("/coord0-0123456789abcdef.png").field("Cache-Control"),
-            "public, max-age=31536000, immutable");
+  EXPECT_EQ(get("/coord0-0123456789abcdef.png").field("Cache-Control"), "public, max-age=31536000, immutable");
   EXPECT_EQ(get("/plane.bin").field("Cache-Control"), "no-cache");
   EXPECT_EQ(get("/").field("Cache-Control"), "no-cache");
   EXPECT_EQ(get("/missing-0123456789abcdef.png").field("Cache-Control"), "no-cache");

@@ -55,8 +55,7 @@ fs::path canonicalDirectory(const fs::path& directory) {
 tcp::acceptor listenOn(asio::io_context& context, const std::string& host, std::uint16_t port) {
   const std::string place = fmt::format("{}:{}", host, port);
   ErrorCode failure;
-  const auto addresses =
-      tcp::resolver(context).resolve(host, std::to_string(port), tcp::resolver::passive, failure);
+  const auto addresses = tcp::resolver(context).resolve(host, std::to_string(port), tcp::resolver::passive, failure);
   if (failure)
     throw Error(ErrorKind::io, host, fmt::format("is no address to listen on: {}", failure.message()));
   const tcp::endpoint endpoint = addresses.begin()->endpoint();
@@ -107,8 +106,8 @@ struct Server::State {
 asio::awaitable<void> Server::State::acceptConnections() {
   while (!isStopping) {
     ErrorCode failure;
-    tcp::socket socket = co_await acceptor.async_accept(asio::make_strand(context),
-                                                        asio::redirect_error(asio::use_awaitable, failure));
+    tcp::socket socket =
+        co_await acceptor.async_accept(asio::make_strand(context), asio::redirect_error(asio::use_awaitable, failure));
     if (!failure && !isStopping)
       startSession(std::move(socket));
     if (failure && !isStopping) {
@@ -120,9 +119,8 @@ asio::awaitable<void> Server::State::acceptConnections() {
 }
 
 void Server::State::startSession(tcp::socket socket) {
-  const auto session =
-      std::make_shared<Session>(boost::beast::tcp_stream(std::move(socket)), site,
-                                SessionLimits{options.headTimeoutMs, options.writeTimeoutMs});
+  const auto session = std::make_shared<Session>(boost::beast::tcp_stream(std::move(socket)), site,
+                                                 SessionLimits{options.headTimeoutMs, options.writeTimeoutMs});
   sessions.insert(session);
   asio::co_spawn(
       session->executor(), [session] { return session->run(); },

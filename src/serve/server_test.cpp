@@ -193,8 +193,7 @@ TEST_F(ServerOverLoopback, HostileRequestsAreRefusedAndTheServerLives) {
       {"POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 5\r\n\r\nhello", "405"},
       {"BREW / HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n", "405"},
       {std::string("GET /\0 HTTP/1.1\r\nHost: a\r\n\r\n", 29), "400"},
-      {std::string("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11) + std::string(200, '\x01'),
-       "400"}, // TLS
+      {std::string("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11) + std::string(200, '\x01'), "400"}, // TLS
       {"GET /" + std::string(40'000, 'a') + " HTTP/1.1\r\nHost: a\r\n\r\n", "431"},
       {"GET / HTTP/1.1\r\nHost: a\r\nX: " + std::string(40'000, 'a') + "\r\n\r\n", "431"},
   };
@@ -215,8 +214,7 @@ TEST_F(ServerOverLoopback, HostileRequestsAreRefusedAndTheServerLives) {
 TEST_F(ServerOverLoopback, WhatFollowsABodyIsNeverTakenForARequest) {
   Client client(start());
   const std::string hidden = requestFor("/large.bin");
-  client.send(
-      fmt::format("GET / HTTP/1.1\r\nHost: a\r\nContent-Length: {}\r\n\r\n{}", hidden.size(), hidden));
+  client.send(fmt::format("GET / HTTP/1.1\r\nHost: a\r\nContent-Length: {}\r\n\r\n{}", hidden.size(), hidden));
   const std::string answer = client.receiveAll();
   EXPECT_TRUE(answer.ends_with("<p>hello</p>")) << answer.size();
 }
@@ -317,8 +315,7 @@ TEST_F(ServerOverLoopback, APortThatIsTakenIsSaidInOneSentence) {
     FAIL() << "bound a port twice";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::io);
-    EXPECT_EQ(std::string(error.what()),
-              fmt::format("127.0.0.1:{}: the port is in use already", options.port));
+    EXPECT_EQ(std::string(error.what()), fmt::format("127.0.0.1:{}: the port is in use already", options.port));
   }
 }
 

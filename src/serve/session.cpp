@@ -96,8 +96,7 @@ asio::awaitable<void> Session::serveRequests() {
     const bool isModern = request.version() >= 11;
     keepAlive = isModern && request.keep_alive() && !hasBody && !isFinishing_;
     const bool isNameless = isModern && request.find(http::field::host) == request.end();
-    const Response response =
-        isNameless ? refuse(400, "The request names no host.") : respond(site_, headOf(request));
+    const Response response = isNameless ? refuse(400, "The request names no host.") : respond(site_, headOf(request));
     co_await write(response, keepAlive);
     isAnswering_ = false;
   }
@@ -110,8 +109,7 @@ asio::awaitable<bool> Session::readHead(Parser& parser) {
   // Once for the whole head: a client that sends a byte now and then gains nothing.
   stream_.expires_after(std::chrono::milliseconds(limits_.headTimeoutMs));
   beast::error_code failure;
-  co_await http::async_read_header(stream_, received_, parser,
-                                   asio::redirect_error(asio::use_awaitable, failure));
+  co_await http::async_read_header(stream_, received_, parser, asio::redirect_error(asio::use_awaitable, failure));
   if (failure && !isMalformed(failure))
     co_return false;
   isAnswering_ = true;
@@ -129,9 +127,7 @@ asio::awaitable<void> Session::write(const Response& response, bool keepAlive) {
   // The first bytes of the body leave with the head.
   Bytes chunk;
   std::uint64_t sent = 0;
-  const std::uint64_t count = response.content ? response.content->size()
-                              : response.file  ? response.fileCount
-                                               : 0;
+  const std::uint64_t count = response.content ? response.content->size() : response.file ? response.fileCount : 0;
   do {
     const std::size_t part = static_cast<std::size_t>(std::min<std::uint64_t>(count - sent, chunkBytes));
     asio::const_buffer body;
@@ -143,8 +139,7 @@ asio::awaitable<void> Session::write(const Response& response, bool keepAlive) {
         throw Error(ErrorKind::truncated, "", "a file became shorter while it was sent");
       body = asio::buffer(chunk);
     }
-    const std::array<asio::const_buffer, 2> buffers{sent == 0 ? asio::buffer(head) : asio::const_buffer(),
-                                                    body};
+    const std::array<asio::const_buffer, 2> buffers{sent == 0 ? asio::buffer(head) : asio::const_buffer(), body};
     stream_.expires_after(limit);
     co_await asio::async_write(stream_, buffers, asio::use_awaitable);
     sent += part;
@@ -161,8 +156,8 @@ asio::awaitable<void> Session::drain() {
   stream_.expires_after(drainTimeout);
   Bytes discarded(4096);
   for (std::size_t total = 0; !failure && total < mostDrainedBytes;)
-    total += co_await stream_.async_read_some(asio::buffer(discarded),
-                                              asio::redirect_error(asio::use_awaitable, failure));
+    total +=
+        co_await stream_.async_read_some(asio::buffer(discarded), asio::redirect_error(asio::use_awaitable, failure));
 }
 
 void Session::finish() {

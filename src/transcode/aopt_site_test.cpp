@@ -55,8 +55,7 @@ protected:
 
   std::string boxFields() const {
     const Vec3d center = box.center(), size = box.size();
-    return fmt::format("position='{} {} {}' size='{} {} {}'", center.x, center.y, center.z, size.x, size.y,
-                       size.z);
+    return fmt::format("position='{} {} {}' size='{} {} {}'", center.x, center.y, center.z, size.x, size.y, size.z);
   }
 
   /// What our readers find in a page with this geometry node.
@@ -67,8 +66,7 @@ protected:
     writeFile(directory.path() / "index.html", asBytes(page));
     const Scene scene = readMeshes(openDocument(directory.path()));
     EXPECT_EQ(testing::shapeName(scene.graph, 0), "torus");
-    EXPECT_EQ(std::get<Material>(testing::appearanceOf(scene.graph, 0).material).diffuseColor,
-              (Vec3f{1, 0, 0}));
+    EXPECT_EQ(std::get<Material>(testing::appearanceOf(scene.graph, 0).material).diffuseColor, (Vec3f{1, 0, 0}));
     return scene.meshes.at(0);
   }
 
@@ -83,8 +81,7 @@ protected:
       const std::uint32_t r = read.corners[corner], w = mesh.corners[corner];
       const Vec3d off = Vec3d(read.positions[read.wedgePositions[r]]) - position(w);
       for (int axis = 0; axis < 3; ++axis)
-        ASSERT_LE(std::abs(off[axis]), positionShare * size[axis] + 1e-5)
-            << "axis " << axis; // 1e-5: floats near 100
+        ASSERT_LE(std::abs(off[axis]), positionShare * size[axis] + 1e-5) << "axis " << axis; // 1e-5: floats near 100
       if (normalDegrees > 0) {
         const Vec3d n = cross(Vec3d(read.normals[r]), Vec3d(mesh.normals[w]));
         ASSERT_LE(std::asin(std::min(length(n), 1.0)) * 180 / std::numbers::pi, normalDegrees);
@@ -140,9 +137,7 @@ protected:
              "normalType='Int8'></BinaryGeometry>");
   }
 
-  std::string draws() const {
-    return fmt::format("primType='\"TRIANGLES\"' vertexCount='{}'", mesh.corners.size());
-  }
+  std::string draws() const { return fmt::format("primType='\"TRIANGLES\"' vertexCount='{}'", mesh.corners.size()); }
 };
 
 TEST_F(AoptSite, WithSeparateFilesNamedByTheirStride) {
@@ -163,10 +158,10 @@ TEST_F(AoptSite, WithSeparateFilesNamedByTheirStride) {
   write("n.bin+4", normals);
   write("t.bin+4", texCoords);
   write("k.bin+4", colors);
-  const Mesh read = readBack(
-      "<BinaryGeometry " + boxFields() + " " + draws() +
-      " index='i.bin' coord='c.bin+8' normal='n.bin+4' texCoord='t.bin+4' color='k.bin+4'"
-      " coordType='Int16' normalType='Int8' texCoordType='Uint16' colorType='Uint8'></BinaryGeometry>");
+  const Mesh read =
+      readBack("<BinaryGeometry " + boxFields() + " " + draws() +
+               " index='i.bin' coord='c.bin+8' normal='n.bin+4' texCoord='t.bin+4' color='k.bin+4'"
+               " coordType='Int16' normalType='Int8' texCoordType='Uint16' colorType='Uint8'></BinaryGeometry>");
   expectEqual(read, 0.5 / 32767, 0.4, 0.51 / 65535);
   EXPECT_FALSE(read.colors.empty());
   expectVerified(true, true, true);

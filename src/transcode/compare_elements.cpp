@@ -38,9 +38,8 @@ std::vector<Place> placesOf(ElementList& list) {
     std::rotate(corners.begin(), corners.begin() + turns, corners.begin() + list.cornerCount);
     places[i] = least;
   }
-  std::ranges::sort(places, [](const Place& a, const Place& b) {
-    return less(a, b) || (!less(b, a) && a.element < b.element);
-  });
+  std::ranges::sort(
+      places, [](const Place& a, const Place& b) { return less(a, b) || (!less(b, a) && a.element < b.element); });
   return places;
 }
 
@@ -67,8 +66,7 @@ struct NamedPair {
 class Matcher {
 public:
   Matcher(const ElementList& input, const ElementList& site, const AttributeBounds& bounds)
-      : input_(input), site_(site), bounds_(bounds),
-        normals_(!input.normals.empty() && !site.normals.empty()),
+      : input_(input), site_(site), bounds_(bounds), normals_(!input.normals.empty() && !site.normals.empty()),
         texCoords_(!input.texCoords.empty() && !site.texCoords.empty()),
         colors_(!input.colors.empty() && !site.colors.empty()) {
     for (const NamedAttribute& attribute : input.namedAttributes) {
@@ -89,8 +87,7 @@ public:
       note(nearest(ofInput.front(), sorted(site_, ofSite, 1), site_, input_, turns), worst);
       return;
     }
-    const std::vector<Candidate> siteOrder = sorted(site_, ofSite, turns),
-                                 inputOrder = sorted(input_, ofInput, turns);
+    const std::vector<Candidate> siteOrder = sorted(site_, ofSite, turns), inputOrder = sorted(input_, ofInput, turns);
     for (const std::uint32_t element : ofInput)
       note(nearest(element, siteOrder, site_, input_, 1), worst);
     for (const std::uint32_t element : ofSite)
@@ -214,8 +211,7 @@ private:
     if (normals_)
       cost = std::max(cost, distance.normalDegrees / bounds_.normalDegrees);
     if (texCoords_)
-      cost = std::max(
-          {cost, distance.texCoord.x / bounds_.texCoord.x, distance.texCoord.y / bounds_.texCoord.y});
+      cost = std::max({cost, distance.texCoord.x / bounds_.texCoord.x, distance.texCoord.y / bounds_.texCoord.y});
     return cost;
   }
 

@@ -15,15 +15,13 @@ bool isSameMaterial(const AnyMaterial& site, const AnyMaterial& input) {
 
 /// The site's texture has one of the input beside it, of the same role and in the same place.
 bool isOfInput(const TextureUse& use, const std::vector<TextureUse>& input) {
-  return std::ranges::any_of(input, [&](const TextureUse& other) {
-    return other.role == use.role && other.transform == use.transform;
-  });
+  return std::ranges::any_of(
+      input, [&](const TextureUse& other) { return other.role == use.role && other.transform == use.transform; });
 }
 
 } // namespace
 
-bool looksAlike(const SceneGraph& siteGraph, const Shape& inSite, const SceneGraph& inputGraph,
-                const Shape& inInput) {
+bool looksAlike(const SceneGraph& siteGraph, const Shape& inSite, const SceneGraph& inputGraph, const Shape& inInput) {
   if (!inInput.appearance)
     return true;
   if (!inSite.appearance)
@@ -31,8 +29,7 @@ bool looksAlike(const SceneGraph& siteGraph, const Shape& inSite, const SceneGra
   const Appearance& site = siteGraph.appearances.at(*inSite.appearance);
   const Appearance& input = inputGraph.appearances.at(*inInput.appearance);
   return isSameMaterial(site.material, input.material) &&
-         std::ranges::all_of(site.textures,
-                             [&](const TextureUse& use) { return isOfInput(use, input.textures); });
+         std::ranges::all_of(site.textures, [&](const TextureUse& use) { return isOfInput(use, input.textures); });
 }
 
 std::set<std::string> texturesLeftIn(const SceneGraph& input) {

@@ -12,8 +12,7 @@ namespace imgeo {
 /// Appearances that the source has as plain data; those of an X3D source go into the
 /// document as they are. A material may have become the Material that looks most
 /// like it, for X3DOM; a texture whose file was of no use is missing on purpose.
-bool looksAlike(const SceneGraph& siteGraph, const Shape& inSite, const SceneGraph& inputGraph,
-                const Shape& inInput);
+bool looksAlike(const SceneGraph& siteGraph, const Shape& inSite, const SceneGraph& inputGraph, const Shape& inInput);
 
 /// The urls of textures that were not there for an X3D input either, so that convert
 /// left them as they were.

@@ -65,10 +65,9 @@ void requireAttributes(const Imported& imported, const ConvertOptions& options) 
   for (const std::string& name : options.keepAttributes.names)
     if (std::ranges::find(imported.attributes, name) == imported.attributes.end())
       throw Error(ErrorKind::usage, "--keep-attributes",
-                  imported.attributes.empty()
-                      ? fmt::format("the input has no attribute \"{}\", nor any other", name)
-                      : fmt::format("the input has no attribute \"{}\" but {}", name,
-                                    fmt::join(imported.attributes, ", ")));
+                  imported.attributes.empty() ? fmt::format("the input has no attribute \"{}\", nor any other", name)
+                                              : fmt::format("the input has no attribute \"{}\" but {}", name,
+                                                            fmt::join(imported.attributes, ", ")));
 }
 
 /// A title of the user's wins over the source's own, which wins over the file's name.
@@ -118,10 +117,9 @@ void writePage(const SceneDocument& document, const fs::path& site) {
   for (const RuntimeFile& file : {runtime.page, runtime.shared, runtime.scene, runtime.worker})
     writeFile(site / runtimeFolder / file.name, asBytes(file.text));
   writeFile(site / sceneName, asBytes(writeX3d(document)));
-  writeFile(
-      site / pageName,
-      asBytes(writeHtml(
-          document, {urlOf(runtime.page), stylesheetName, {urlOf(runtime.shared)}, {urlOf(runtime.scene)}})));
+  writeFile(site / pageName,
+            asBytes(writeHtml(document,
+                              {urlOf(runtime.page), stylesheetName, {urlOf(runtime.shared)}, {urlOf(runtime.scene)}})));
 }
 
 /// Scans have slivers, a few of which any lattice flattens; more than one element in
@@ -129,9 +127,8 @@ void writePage(const SceneDocument& document, const fs::path& site) {
 void warnOfCollapsed(ConvertReport& report) {
   const auto warn = [&](Topology topology, const char* lost) {
     if (const std::size_t count = report.collapsed.of(topology); 100 * count > report.elements.of(topology))
-      report.warnings.push_back(fmt::format("{} of {} {} have no {} at {} bits", count,
-                                            report.elements.of(topology), nameOf(topology), lost,
-                                            report.leastPositionBits));
+      report.warnings.push_back(fmt::format("{} of {} {} have no {} at {} bits", count, report.elements.of(topology),
+                                            nameOf(topology), lost, report.leastPositionBits));
   };
   warn(Topology::triangles, "area");
   warn(Topology::lines, "length");
@@ -192,13 +189,11 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   report.normalEncoding = options.normals;
   report.format = imported.format;
   report.warnings = std::move(imported.warnings);
-  nameScene(imported.scene.graph, options.title.empty() ? titleFrom(input) : options.title,
-            !options.title.empty());
+  nameScene(imported.scene.graph, options.title.empty() ? titleFrom(input) : options.title, !options.title.empty());
   report.importSeconds = step.lapSeconds();
 
   tell(0.2, "preparing");
-  PreparationReport prepared =
-      prepareScene(imported.scene, options.dropped, options.normalWeighting, placeOf(input));
+  PreparationReport prepared = prepareScene(imported.scene, options.dropped, options.normalWeighting, placeOf(input));
   report.weld = prepared.weld;
   report.normalsComputed = prepared.normalsComputed;
   std::ranges::move(prepared.warnings, std::back_inserter(report.warnings));
@@ -210,12 +205,11 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
     elementCount += mesh.elementCount();
   std::mutex doneMutex;
   SiteContent content{{site.path(), geometryFolder}, {site.path(), textureFolder}};
-  SceneDocument document =
-      encodeScene(std::move(imported.scene), options, content, report, [&](std::size_t count) {
-        const std::lock_guard lock(doneMutex);
-        elementsDone += count;
-        tell(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
-      });
+  SceneDocument document = encodeScene(std::move(imported.scene), options, content, report, [&](std::size_t count) {
+    const std::lock_guard lock(doneMutex);
+    elementsDone += count;
+    tell(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
+  });
   writeInlinedDocuments(document, options.target, site.path());
   warnOfCollapsed(report);
   warnOfPage(document.graph, report);

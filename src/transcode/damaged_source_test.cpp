@@ -46,8 +46,7 @@ protected:
 };
 
 TEST_F(DamagedSource, HasFieldsThatCountAsAbsentWhereTheyAreMalformed) {
-  expectWarning("<Viewpoint position='a b c'/>",
-                "index.html:15: Viewpoint: position holds a word that is no number");
+  expectWarning("<Viewpoint position='a b c'/>", "index.html:15: Viewpoint: position holds a word that is no number");
   expectWarning("<OrthoViewpoint fieldOfView='1 2'/>", "fieldOfView has 2 numbers and needs 4");
   expectWarning("<DirectionalLight direction='down'/>", "direction holds");
   expectWarning("<Background skyColor='blue'/>", "skyColor holds");
@@ -60,8 +59,7 @@ TEST_F(DamagedSource, HasFieldsThatCountAsAbsentWhereTheyAreMalformed) {
 
 TEST_F(DamagedSource, NamesTexturesThatAreNotThereOrNotInItsFolder) {
   for (const std::string url : {"lost.png", "../out.png", "/etc/hostname"}) {
-    expectWarning(
-        "<Shape><Appearance><ImageTexture url='\"" + url + "\"'/></Appearance>" + strip() + "</Shape>", url);
+    expectWarning("<Shape><Appearance><ImageTexture url='\"" + url + "\"'/></Appearance>" + strip() + "</Shape>", url);
     EXPECT_EQ(inspect(directory_ / "site").missing, std::vector<std::string>{url});
   }
   // A file that convert has written is another matter.
@@ -79,16 +77,14 @@ TEST_F(DamagedSource, HasShapesWithoutGeometry) {
   }
   const std::vector<std::string> warnings =
       convertNodes("<Shape><IndexedFaceSet/></Shape><Shape>" + strip() + "</Shape>").warnings;
-  EXPECT_EQ(warnings,
-            std::vector<std::string>{"Geometry without faces, lines or points: IndexedFaceSet (1)."});
+  EXPECT_EQ(warnings, std::vector<std::string>{"Geometry without faces, lines or points: IndexedFaceSet (1)."});
 }
 
 TEST_F(DamagedSource, IsReadAlsoWhereItsGeometryIsSmall) {
   const std::string coordinate = "<Coordinate point='0 0 0 1 0 0 0 1 0'/>";
   expectWarning("<Shape><IndexedTriangleSet index='0 1 7'>" + coordinate + "</IndexedTriangleSet></Shape>",
                 "position 7 of 3");
-  expectWarning("<Shape><ElevationGrid xDimension='100000' zDimension='100000' height='0'/></Shape>",
-                "ElevationGrid");
+  expectWarning("<Shape><ElevationGrid xDimension='100000' zDimension='100000' height='0'/></Shape>", "ElevationGrid");
 }
 
 TEST_F(DamagedSource, OfShapesInMoreThanAMillionPlacesIsRefused) {

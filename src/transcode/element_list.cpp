@@ -67,8 +67,7 @@ ElementList elementsOf(const std::vector<IndexedPatch>& patches, ElementKind kin
       for (const Draw& draw : patch.draws)
         drawn += elementsOf(draw).points;
       for (std::size_t i = 0; i < drawn; ++i)
-        addElement(list, {base + (patch.indices.empty() ? static_cast<std::uint32_t>(i) : patch.indices[i])},
-                   kind);
+        addElement(list, {base + (patch.indices.empty() ? static_cast<std::uint32_t>(i) : patch.indices[i])}, kind);
     }
   }
   return list;

@@ -57,27 +57,25 @@ struct EncodedElements {
 };
 
 /// Of compact, in integers.
-compact::CompactPatch quantisedAs(Patch patch, const GeometryDescription& geometry,
-                                  const ConvertOptions& options, const EncodeOptions& encoding) {
+compact::CompactPatch quantisedAs(Patch patch, const GeometryDescription& geometry, const ConvertOptions& options,
+                                  const EncodeOptions& encoding) {
   if (options.primitives == Primitives::points)
     patch.topology = Topology::points;
   return quantisePatch(std::move(patch), geometry, encoding);
 }
 
-EncodedPatch encodeAlone(const compact::CompactPatch& patch, const GeometryDescription& geometry,
-                         int effort) {
+EncodedPatch encodeAlone(const compact::CompactPatch& patch, const GeometryDescription& geometry, int effort) {
   EncodedCompact encoded = encodeCompact({&patch, 1}, effort);
   EncodedPatch result{describe(patch, geometry), {}, encoded.normalErrors[0]};
   result.description.data = addFile(result, std::move(encoded.file));
   return result;
 }
 
-EncodedElements encodeElements(Patch patch, const GeometryDescription& geometry,
-                               const ConvertOptions& options, const EncodeOptions& encoding) {
+EncodedElements encodeElements(Patch patch, const GeometryDescription& geometry, const ConvertOptions& options,
+                               const EncodeOptions& encoding) {
   EncodedElements encoded;
   if (geometry.profile == Profile::compact) {
-    encoded.patch =
-        encodeAlone(quantisedAs(std::move(patch), geometry, options, encoding), geometry, encoding.effort);
+    encoded.patch = encodeAlone(quantisedAs(std::move(patch), geometry, options, encoding), geometry, encoding.effort);
   } else {
     const IndexedPatch indexed = primitivesOf(patch, options);
     // The joins of strips draw nothing, so strips are walked.
@@ -118,8 +116,7 @@ void addSmall(EncodedMesh& mesh, Patch patch, const ConvertOptions& options, con
 
 } // namespace
 
-EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files,
-                       const ElementsDone& done) {
+EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done) {
   const Box3d box = boxOf(mesh);
   const Lattice lattice =
       latticeFor(box, options.coordType.value_or(ElementType::uint32), positionBitsFor(box, options));
@@ -128,10 +125,9 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
   result.collapsed.of(mesh.topology) = collapsedElements(mesh, points, lattice.bits);
   PatchedMesh patched = cutIntoPatches(std::move(mesh), std::move(points), lattice, options.patchVertices);
 
-  const EncodeOptions encoding{options.container,    options.normalBits,    options.effort,
-                               options.target,       options.normals,       options.coordType,
-                               options.layout,       options.attributeBits, *options.profile,
-                               options.texCoordBits, options.colorBits};
+  const EncodeOptions encoding{options.container, options.normalBits,   options.effort,   options.target,
+                               options.normals,   options.coordType,    options.layout,   options.attributeBits,
+                               *options.profile,  options.texCoordBits, options.colorBits};
   result.geometry = describe(patched, encoding);
   for (const Patch& patch : patched.patches) {
     result.hasNormals |= !patch.normals.empty();
@@ -155,8 +151,7 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
   std::vector<double> normalErrors(patched.patches.size());
   parallelFor(patched.patches.size(), [&](std::size_t i) {
     const std::size_t elementCount = patched.patches[i].elementCount();
-    EncodedElements encoded =
-        encodeElements(std::exchange(patched.patches[i], {}), result.geometry, options, encoding);
+    EncodedElements encoded = encodeElements(std::exchange(patched.patches[i], {}), result.geometry, options, encoding);
     std::vector<std::string> urls;
     for (const EncodedFile& file : encoded.patch.files)
       urls.push_back(files.write(file.bytes, file.extension));
@@ -172,8 +167,7 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
     result.elements += counts;
   if (!descriptions.empty() && (descriptions.front().normal || descriptions.front().data))
     result.normalErrorDegrees =
-        std::max(normalErrorBound(result.geometry), *std::ranges::max_element(normalErrors)) *
-        (180 / std::numbers::pi);
+        std::max(normalErrorBound(result.geometry), *std::ranges::max_element(normalErrors)) * (180 / std::numbers::pi);
   result.positionError = positionErrorBound(result.geometry);
   result.geometry.patches = std::move(descriptions);
   return result;

@@ -19,8 +19,7 @@ namespace imgeo {
 class ContentFiles {
 public:
   /// `site` is the site's root; its folder is made by the first file.
-  ContentFiles(std::filesystem::path site, std::string folder)
-      : site_(std::move(site)), folder_(std::move(folder)) {}
+  ContentFiles(std::filesystem::path site, std::string folder) : site_(std::move(site)), folder_(std::move(folder)) {}
 
   /// Writes a file named by its content and returns its url, relative to the site.
   std::string write(ByteSpan bytes, const std::string& extension);
@@ -59,7 +58,6 @@ inline constexpr std::size_t sharedFileVertices = 16384;
 /// Cuts a mesh into patches and writes them, but for what is to share a file, several at a time; a patch's
 /// memory is given back when its files are written, so that the peak is the patches and not their encodings.
 /// `mesh` is used up. Deterministic.
-EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files,
-                       const ElementsDone& done);
+EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done);
 
 } // namespace imgeo

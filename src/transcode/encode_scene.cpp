@@ -23,8 +23,7 @@ namespace {
 
 /// A warm stone: shape shows by shading, and nothing of it is clipped where all lights
 /// meet: (1 + 0.4) * (diffuse + specular) + 0.2 * diffuse is about 1.
-constexpr Material stone{
-    .diffuseColor{0.52f, 0.51f, 0.485f}, .specularColor{0.13f, 0.13f, 0.12f}, .shininess = 0.25f};
+constexpr Material stone{.diffuseColor{0.52f, 0.51f, 0.485f}, .specularColor{0.13f, 0.13f, 0.12f}, .shininess = 0.25f};
 
 /// From above and to the left of the viewer, warmer than the headlight, so that
 /// carving casts light and shade across the view.
@@ -142,10 +141,9 @@ void addDefaults(SceneDocument& document, std::vector<std::string>& warnings) {
   bool hasViewpoint = false, hasLight = false;
   for (const std::size_t index : nodesInOrder(graph)) {
     const NodeContent& content = graph.nodes[index].content;
-    hasViewpoint |=
-        std::holds_alternative<Viewpoint>(content) || std::holds_alternative<OrthoViewpoint>(content);
-    hasLight |= std::holds_alternative<DirectionalLight>(content) ||
-                std::holds_alternative<PointLight>(content) || std::holds_alternative<SpotLight>(content);
+    hasViewpoint |= std::holds_alternative<Viewpoint>(content) || std::holds_alternative<OrthoViewpoint>(content);
+    hasLight |= std::holds_alternative<DirectionalLight>(content) || std::holds_alternative<PointLight>(content) ||
+                std::holds_alternative<SpotLight>(content);
   }
   const WorldBox world = worldBoxOf(document);
   const Box3d whole = world.box.empty() ? Box3d{{}, {}} : world.box;
@@ -271,8 +269,8 @@ void giveLooks(SceneDocument& document) {
 
 } // namespace
 
-SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteContent& content,
-                          ConvertReport& report, const ElementsDone& done) {
+SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteContent& content, ConvertReport& report,
+                          const ElementsDone& done) {
   SceneDocument document;
   document.graph = std::move(scene.graph);
   const std::vector<std::size_t> meshOf = numberGeometries(document.graph);
@@ -286,8 +284,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteCont
     if (isEncoded[geometry])
       continue;
     isEncoded[geometry] = true;
-    EncodedMesh encoded =
-        encodeMesh(std::move(scene.meshes[meshOf[geometry]]), options, content.geometry, done);
+    EncodedMesh encoded = encodeMesh(std::move(scene.meshes[meshOf[geometry]]), options, content.geometry, done);
     addEncoded(report, encoded);
     if (encoded.base)
       bases.add(std::move(*encoded.base), geometry);
@@ -299,8 +296,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteCont
     giveLooks(document);
   for (PatchFiles::Placed& placed : patchFiles.finish()) {
     document.geometries[placed.geometry].patches[0].data = std::move(placed.data);
-    report.normalErrorDegrees =
-        std::max(report.normalErrorDegrees, placed.normalError * (180 / std::numbers::pi));
+    report.normalErrorDegrees = std::max(report.normalErrorDegrees, placed.normalError * (180 / std::numbers::pi));
   }
   bases.write(document.geometries);
   report.textures = writeTextures(document.graph, options, content.textures, report.warnings);

@@ -14,7 +14,7 @@ struct SiteContent {
 /// of its textures, and gives a scene without
 /// viewpoint, lights, background or materials those that show it well. Adds what
 /// was written to `report`. The scene has at least one shape.
-SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteContent& content,
-                          ConvertReport& report, const ElementsDone& done);
+SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, SiteContent& content, ConvertReport& report,
+                          const ElementsDone& done);
 
 } // namespace imgeo

@@ -28,8 +28,7 @@ void readImages(const OpenedDocument& document, SceneGraph& graph) {
 ExportReport exportSite(const fs::path& site, const fs::path& output) {
   const std::optional<MeshFormat> format = meshFormatOf(output);
   if (!format)
-    throw Error(ErrorKind::usage, output.string(),
-                "ends in none of .ply, .obj and .glb, which say what to write");
+    throw Error(ErrorKind::usage, output.string(), "ends in none of .ply, .obj and .glb, which say what to write");
   const OpenedDocument document = openDocument(site);
   Scene scene = readMeshes(document);
   if (*format == MeshFormat::glb) // the others have no place for images

@@ -71,8 +71,7 @@ TEST(ExportSite, SaysInAGlbHowOneMoves) {
   exportSite(path("hall"), path("hall.glb"));
   convert(path("hall.glb"), path("again"), {});
   const Bytes page = readFile(path("again") / "index.html");
-  EXPECT_NE(std::string(page.begin(), page.end()).find("<NavigationInfo type='\"WALK\" \"ANY\"'>"),
-            std::string::npos);
+  EXPECT_NE(std::string(page.begin(), page.end()).find("<NavigationInfo type='\"WALK\" \"ANY\"'>"), std::string::npos);
   EXPECT_TRUE(verify(path("again"), path("hall.glb")).equal);
 }
 

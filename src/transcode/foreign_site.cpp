@@ -28,8 +28,7 @@ std::vector<Vec3u> candidatesOf(Vec3u nearest, Vec3f position, const Lattice& la
       continue;
     const double off = (position[axis] - lattice.origin[axis]) / step - nearest[axis];
     const bool isUp = off > 0;
-    if (std::abs(off) < 0.5 - foreignRounding ||
-        (isUp ? nearest[axis] == lattice.maximum() : nearest[axis] == 0))
+    if (std::abs(off) < 0.5 - foreignRounding || (isUp ? nearest[axis] == lattice.maximum() : nearest[axis] == 0))
       continue;
     for (std::size_t i = candidates.size(); i-- > 0;) {
       Vec3u other = candidates[i];

@@ -32,26 +32,21 @@ protected:
   InlineSite() {
     fs::create_directories(directory_ / "in/parts");
     write("out.x3d", "<X3D><Scene/></X3D>");
-    write("in/parts/seat.wrl", "#VRML V2.0 utf8\nDEF Seat Group { children [ DEF Back Shape { geometry " +
-                                   gridOf(10) + " } Inline { url \"row.x3d\" } ] }");
+    write("in/parts/seat.wrl", "#VRML V2.0 utf8\nDEF Seat Group { children [ DEF Back Shape { geometry " + gridOf(10) +
+                                   " } Inline { url \"row.x3d\" } ] }");
     write("in/parts/row.x3d", "<X3D version='3.2'><Scene><Transform DEF='Seat' translation='1 0 0'>"
                               "<Inline url='\"lost.x3d\" \"seat.wrl\"'/></Transform></Scene></X3D>");
-    write("in/hall.x3d",
-          "<X3D><Scene><Inline DEF='A' url='\"parts/row.x3d\"'/>"
-          "<Transform DEF='Seat' translation='0 5 0'><Inline url='\"parts/row.x3d\"'/></Transform>"
-          "<Inline url='\"https://example.org/a.x3d\"'/><Inline url='\"../out.x3d\"'/>"
-          "<Inline url='\"hall.x3d\"'/></Scene></X3D>");
+    write("in/hall.x3d", "<X3D><Scene><Inline DEF='A' url='\"parts/row.x3d\"'/>"
+                         "<Transform DEF='Seat' translation='0 5 0'><Inline url='\"parts/row.x3d\"'/></Transform>"
+                         "<Inline url='\"https://example.org/a.x3d\"'/><Inline url='\"../out.x3d\"'/>"
+                         "<Inline url='\"hall.x3d\"'/></Scene></X3D>");
   }
 
-  void write(const std::string& name, const std::string& text) {
-    writeFile(directory_ / name, asBytes(text));
-  }
+  void write(const std::string& name, const std::string& text) { writeFile(directory_ / name, asBytes(text)); }
   ConvertReport convertHall(const ConvertOptions& options = {}) {
     return convert(directory_ / "in/hall.x3d", directory_ / "site", options);
   }
-  std::string textOf(const std::string& file) {
-    return std::string(asText(readFile(directory_ / "site" / file)));
-  }
+  std::string textOf(const std::string& file) { return std::string(asText(readFile(directory_ / "site" / file))); }
 
   testing::TemporaryDirectory directory_;
 };
@@ -65,8 +60,8 @@ std::string urlIn(const std::string& text, std::size_t from = 0) {
 TEST_F(InlineSite, KeepsItsDocumentsApart) {
   const ConvertReport report = convertHall();
   EXPECT_EQ(report.elements.triangles, 200u);
-  const std::string page = textOf("index.html"),
-                    row = textOf(urlIn(page, page.find("translation=\"0 5 0\""))), seat = textOf(urlIn(row));
+  const std::string page = textOf("index.html"), row = textOf(urlIn(page, page.find("translation=\"0 5 0\""))),
+                    seat = textOf(urlIn(row));
   EXPECT_EQ(page.find("ImageGeometry"), std::string::npos);
   EXPECT_NE(page.find("<Inline DEF=\"A\" url='\"" + urlIn(page, page.find("translation=\"0 5 0\""))),
             std::string::npos);
@@ -82,8 +77,8 @@ TEST_F(InlineSite, SpeaksX3domInEachOfThem) {
   ConvertOptions options;
   options.target = Target::x3dom;
   convertHall(options);
-  const std::string page = textOf("index.html"),
-                    row = textOf(urlIn(page, page.find("translation=\"0 5 0\""))), seat = textOf(urlIn(row));
+  const std::string page = textOf("index.html"), row = textOf(urlIn(page, page.find("translation=\"0 5 0\""))),
+                    seat = textOf(urlIn(row));
   EXPECT_NE(seat.find("<ImageGeometry"), std::string::npos) << seat;
   EXPECT_EQ(seat.find("GeometryPatch"), std::string::npos) << seat;
 }
@@ -91,11 +86,10 @@ TEST_F(InlineSite, SpeaksX3domInEachOfThem) {
 TEST_F(InlineSite, SaysOnceWhatItLeaves) {
   const ConvertReport report = convertHall();
   const auto count = [&](const std::string& part) {
-    return std::ranges::count_if(
-        report.warnings, [&](const std::string& warning) { return warning.find(part) != std::string::npos; });
+    return std::ranges::count_if(report.warnings,
+                                 [&](const std::string& warning) { return warning.find(part) != std::string::npos; });
   };
-  EXPECT_EQ(count("names row.x3d, which it stands in itself"), 1)
-      << ::testing::PrintToString(report.warnings);
+  EXPECT_EQ(count("names row.x3d, which it stands in itself"), 1) << ::testing::PrintToString(report.warnings);
   EXPECT_EQ(count("names hall.x3d, which it stands in itself"), 1);
   EXPECT_EQ(count("1 Inline is left on other hosts"), 1);
   EXPECT_EQ(count("outside of the folder"), 1);

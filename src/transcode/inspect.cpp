@@ -57,12 +57,10 @@ GeometryInfo infoOf(const GeometryDescription& geometry, const ContainerReader& 
 
 /// The bytes of the geometry nodes in a document's text, tags and all.
 std::uint64_t geometryNodeBytes(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   std::uint64_t bytes = 0;
   for (const std::string node : {"imagegeometry", "binarygeometry"})
-    for (std::size_t begin = text.find("<" + node); begin != text.npos;
-         begin = text.find("<" + node, begin)) {
+    for (std::size_t begin = text.find("<" + node); begin != text.npos; begin = text.find("<" + node, begin)) {
       const std::string endTag = "</" + node + ">";
       const std::size_t endsAt = text.find(endTag, begin);
       const std::size_t end = endsAt == text.npos ? text.find('>', begin) : endsAt + endTag.size();
@@ -126,8 +124,8 @@ SiteInfo inspect(const fs::path& site) {
       info.elements.triangles = marker.elements.triangles;
   }
   if (info.elements.triangles > 0)
-    info.bytesPerTriangle = static_cast<double>(info.containerBytes + geometryBytes) /
-                            static_cast<double>(info.elements.triangles);
+    info.bytesPerTriangle =
+        static_cast<double>(info.containerBytes + geometryBytes) / static_cast<double>(info.elements.triangles);
   return info;
 }
 

@@ -18,8 +18,7 @@ SourceInfo inspectSource(const std::filesystem::path& file, bool outside) {
   const std::vector<PlacedShape> placed = placedShapes(imported.scene.graph);
   info.shapes = placed.size();
   for (const PlacedShape& shape : placed)
-    for (const Vec3f& position :
-         imported.scene.meshes[shapeOf(imported.scene.graph, shape.node).mesh].positions)
+    for (const Vec3f& position : imported.scene.meshes[shapeOf(imported.scene.graph, shape.node).mesh].positions)
       info.box.add(shape.worldFromShape.point(Vec3d(position)));
   for (const Mesh& mesh : imported.scene.meshes) {
     info.elements.of(mesh.topology) += mesh.elementCount();

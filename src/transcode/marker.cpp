@@ -25,15 +25,11 @@ Value valueNamed(const std::array<Value, count>& values, const std::string& name
 } // namespace
 
 const char* nameOf(Primitives primitives) {
-  return primitives == Primitives::triangles ? "triangles"
-         : primitives == Primitives::strips  ? "strips"
-                                             : "points";
+  return primitives == Primitives::triangles ? "triangles" : primitives == Primitives::strips ? "strips" : "points";
 }
 
 const char* nameOf(NormalWeighting weighting) {
-  return weighting == NormalWeighting::area    ? "area"
-         : weighting == NormalWeighting::angle ? "angle"
-                                               : "uniform";
+  return weighting == NormalWeighting::area ? "area" : weighting == NormalWeighting::angle ? "angle" : "uniform";
 }
 
 std::string writeMarker(const Marker& marker) {

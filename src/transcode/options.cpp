@@ -30,8 +30,7 @@ bool isOfOneType(const ConvertOptions& options) {
 }
 
 bool has16BitCoords(const ConvertOptions& options) {
-  return (options.coordType ? byteSizeOf(*options.coordType)
-                            : coordBytes(Container::bg, options.positionBits)) == 2;
+  return (options.coordType ? byteSizeOf(*options.coordType) : coordBytes(Container::bg, options.positionBits)) == 2;
 }
 
 std::uint32_t defaultPositionBits(const ConvertOptions& options) {
@@ -80,8 +79,7 @@ void requireCoords(const ConvertOptions& options) {
     requireCoordType(*options.coordType, options);
   else if (options.target == Target::x3dom && options.positionBits > 16)
     refuse("--position-bits",
-           fmt::format("X3DOM reads bg with at most 16 bits, not {}; float32 and sig hold more",
-                       options.positionBits));
+           fmt::format("X3DOM reads bg with at most 16 bits, not {}; float32 and sig hold more", options.positionBits));
 }
 
 void requireNormals(const ConvertOptions& options) {
@@ -92,17 +90,16 @@ void requireNormals(const ConvertOptions& options) {
     if (options.normals == NormalEncoding::derived)
       refuse("--normals", "only compact derives normals");
     if (options.target == Target::x3dom && isPair(options.normals))
-      refuse("--normals", fmt::format("X3DOM reads no {} normals from images; rgb and palette it does",
-                                      nameOf(options.normals)));
+      refuse("--normals",
+             fmt::format("X3DOM reads no {} normals from images; rgb and palette it does", nameOf(options.normals)));
     return;
   }
   switch (options.normals) {
   case NormalEncoding::rgb:
     if (isOfOneType(options) && options.coordType && bits != 8 * byteSizeOf(*options.coordType))
-      refuse("--normal-bits",
-             fmt::format("X3DOM reads interleaved records as one element type, so that normals "
-                         "beside {} have its bits, not {}",
-                         nameOf(*options.coordType), bits));
+      refuse("--normal-bits", fmt::format("X3DOM reads interleaved records as one element type, so that normals "
+                                          "beside {} have its bits, not {}",
+                                          nameOf(*options.coordType), bits));
     if (bits != 8 && bits != 16 && bits != 32)
       refuse("--normal-bits", fmt::format("bg stores normals in 8, 16 or 32 bits, not {}", bits));
     return;
@@ -133,8 +130,7 @@ void requireAttributes(const ConvertOptions& options) {
   if (isAny && options.target == Target::x3dom)
     refuse("--keep-attributes", "X3DOM reads no further attributes out of images and arrays");
   if (options.container == Container::bg && options.attributeBits != 0)
-    refuse("--attribute-bits",
-           fmt::format("bg stores attributes as Float32, not in {} bits", options.attributeBits));
+    refuse("--attribute-bits", fmt::format("bg stores attributes as Float32, not in {} bits", options.attributeBits));
   if (options.attributeBits % 8 != 0 || options.attributeBits > 24)
     refuse("--attribute-bits", fmt::format("images hold 8, 16 or 24 bits, not {}", options.attributeBits));
   if (!isAny && options.attributeBits != 0)
@@ -154,11 +150,10 @@ void requireMaxError(const ConvertOptions& options) {
 
 /// What compact has not, and classic and BG have.
 bool isClassicsAlone(const ConvertOptions& options) {
-  const bool isPlain =
-      options.normals == NormalEncoding::spherical || options.normals == NormalEncoding::palette;
+  const bool isPlain = options.normals == NormalEncoding::spherical || options.normals == NormalEncoding::palette;
   return options.container == Container::bg || options.target == Target::x3dom ||
-         options.primitives == Primitives::strips || !options.indexed || isPlain ||
-         options.positionBits > 30 || options.patchVertices > compact::maxPatchCount;
+         options.primitives == Primitives::strips || !options.indexed || isPlain || options.positionBits > 30 ||
+         options.patchVertices > compact::maxPatchCount;
 }
 
 void requireTextures(const TextureOptions& textures) {
@@ -171,8 +166,7 @@ void requireTextures(const TextureOptions& textures) {
   if (textures.format == TextureFormat::png)
     refuse("--texture-quality", "PNG loses nothing; webp and avif have a quality");
   if (textures.format == TextureFormat::keep && textures.size == 0)
-    refuse("--texture-quality",
-           "textures are kept as they are unless --textures or --texture-size says otherwise");
+    refuse("--texture-quality", "textures are kept as they are unless --textures or --texture-size says otherwise");
 }
 
 /// Compact has its own way with normals, its own order, and is for our runtime.
@@ -228,15 +222,13 @@ ConvertOptions resolvedFor(const Scene& scene, const ConvertOptions& given) {
   std::size_t most = 0;
   for (const Mesh& mesh : scene.meshes)
     most = std::max(most, mesh.namedAttributes.size());
-  constexpr std::size_t mostNamed =
-      compact::maxAttributes - 3; // beside normals, texture coordinates, colours
+  constexpr std::size_t mostNamed = compact::maxAttributes - 3; // beside normals, texture coordinates, colours
   if (most <= mostNamed)
     return options;
   if (given.profile)
-    refuse("--profile",
-           fmt::format("compact holds {} further attributes of a mesh, not {}; classic holds any "
-                       "number, and --keep-attributes says which",
-                       mostNamed, most));
+    refuse("--profile", fmt::format("compact holds {} further attributes of a mesh, not {}; classic holds any "
+                                    "number, and --keep-attributes says which",
+                                    mostNamed, most));
   options = given;
   options.profile = Profile::classic;
   return resolved(options);

@@ -30,8 +30,7 @@ bool FileContents::fits(const compact::CompactPatch& patch, std::size_t mostVert
     return true;
   const bool isKnown = std::ranges::find(kinds_, kindOf(patch)) != kinds_.end();
   return patches_.size() < compact::maxFilePatches && (isKnown || kinds_.size() < mostKinds) &&
-         wedges_ + patch.wedgeCount() <= mostVertices &&
-         elements_ + patch.elementCount() <= compact::maxPatchCount;
+         wedges_ + patch.wedgeCount() <= mostVertices && elements_ + patch.elementCount() <= compact::maxPatchCount;
 }
 
 void FileContents::add(compact::CompactPatch patch) {
@@ -67,9 +66,8 @@ void PatchFiles::encodeClosed() {
     const EncodedCompact encoded = encodeCompact(file.contents.patches(), effort_);
     const std::string url = files_.write(encoded.file.bytes, encoded.file.extension);
     for (std::size_t number = 0; number < file.geometries.size(); ++number)
-      placed[i].push_back({file.geometries[number],
-                           {url, static_cast<std::uint32_t>(number), 0},
-                           encoded.normalErrors[number]});
+      placed[i].push_back(
+          {file.geometries[number], {url, static_cast<std::uint32_t>(number), 0}, encoded.normalErrors[number]});
   });
   for (std::vector<Placed>& ofFile : placed)
     std::ranges::move(ofFile, std::back_inserter(placed_));

@@ -34,8 +34,8 @@ private:
   std::size_t wedges_ = 0, elements_ = 0;
 };
 
-/// Gathers patches in the order in which they come: neighbours in it load together. Patches of different groups never share a file. Files are
-/// encoded several at a time; the result does not depend on it.
+/// Gathers patches in the order in which they come: neighbours in it load together. Patches of different groups never
+/// share a file. Files are encoded several at a time; the result does not depend on it.
 class PatchFiles {
 public:
   /// `files` and whatever `placed` refers to outlive this.

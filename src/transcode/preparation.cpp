@@ -68,8 +68,7 @@ PreparationReport prepareScene(Scene& scene, const Dropped& dropped, NormalWeigh
   removeShapes(scene.graph, isEmpty);
   const std::size_t shapesLeft = shapeNodes(scene.graph).size();
   if (shapesLeft == 0 && !scene.graph.isComplete)
-    throw Error(ErrorKind::malformed, place,
-                "holds no triangles, lines or points, so there is nothing to show");
+    throw Error(ErrorKind::malformed, place, "holds no triangles, lines or points, so there is nothing to show");
   if (const std::size_t leftOut = shapesBefore - shapesLeft)
     sum.warnings.push_back(fmt::format("left out shapes without triangles, lines or points: {}", leftOut));
   return sum;

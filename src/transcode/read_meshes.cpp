@@ -61,8 +61,7 @@ void append(Mesh& mesh, const IndexedPatch& patch, const Lattice& lattice, const
 
 Mesh readMesh(const ContainerReader& reader, const GeometryDescription& geometry, const std::string& place) {
   std::vector<IndexedPatch> patches(geometry.patches.size());
-  parallelFor(patches.size(),
-              [&](std::size_t i) { patches[i] = reader.decode(geometry.patches[i], geometry); });
+  parallelFor(patches.size(), [&](std::size_t i) { patches[i] = reader.decode(geometry.patches[i], geometry); });
   Mesh mesh;
   mesh.topology = topologyOf(geometry, place);
   for (IndexedPatch& patch : patches)

@@ -60,8 +60,8 @@ TEST(RoundTrip, EveryContainerPrimitiveAndPrecisionGivesBackEveryMesh) {
             options.attributeBits = 8 * (1 + seed % 3);
           const VerifyReport verified = expectRoundTrip(
               testing::randomMesh(seed), options,
-              fmt::format("seed {} container {} primitives {} indexed {} bits {} patches of {}", seed,
-                          int(container), int(primitives), options.indexed, bits, options.patchVertices));
+              fmt::format("seed {} container {} primitives {} indexed {} bits {} patches of {}", seed, int(container),
+                          int(primitives), options.indexed, bits, options.patchVertices));
           EXPECT_GT(verified.input.sum(), 0u) << seed;
           if (HasFailure())
             return;
@@ -200,8 +200,7 @@ TEST(RoundTrip, EveryElementTypeAndLayoutGivesBackEveryMesh) {
           options.patchVertices = seed % 2 ? 256 : 65535;
           expectRoundTrip(testing::randomMesh(seed), options,
                           fmt::format("seed {} type {} bits {} normals {} layout {}", seed,
-                                      one.type ? nameOf(*one.type) : "auto", bits, nameOf(normals),
-                                      int(layout)));
+                                      one.type ? nameOf(*one.type) : "auto", bits, nameOf(normals), int(layout)));
         }
 }
 
@@ -244,8 +243,7 @@ TEST(RoundTrip, PatchesOfMoreThan16BitIndicesNameGiveBackTheMesh) {
 }
 
 TEST(RoundTrip, EveryNormalWeightingIsTheOneThatVerifyRepeats) {
-  for (const NormalWeighting weighting :
-       {NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform}) {
+  for (const NormalWeighting weighting : {NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform}) {
     ConvertOptions options;
     options.normalWeighting = weighting;
     expectRoundTrip(testing::nonManifold(), options, fmt::format("weighting {}", int(weighting)));

@@ -49,8 +49,7 @@ Runtime runtimeOfSite() {
   Runtime site;
   site.worker = siteFile("imgeo-worker", worker, {});
   site.shared = siteFile("imgeo-shared", shared, {});
-  site.scene =
-      siteFile("imgeo-scene", scene, {{"imgeo-shared.js", &site.shared}, {"imgeo-worker.js", &site.worker}});
+  site.scene = siteFile("imgeo-scene", scene, {{"imgeo-shared.js", &site.shared}, {"imgeo-worker.js", &site.worker}});
   site.page = siteFile("imgeo", page, {{"imgeo-shared.js", &site.shared}, {"imgeo-scene.js", &site.scene}});
   return site;
 }

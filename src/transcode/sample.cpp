@@ -10,8 +10,7 @@ namespace imgeo {
 
 ExportReport writeSampleHall(std::uint32_t seats, const std::filesystem::path& output) {
   if (meshFormatOf(output) != MeshFormat::glb)
-    throw Error(ErrorKind::usage, output.string(),
-                "does not end in .glb, the format that keeps a hall's structure");
+    throw Error(ErrorKind::usage, output.string(), "does not end in .glb, the format that keeps a hall's structure");
   const Scene scene = hallScene(seats);
   ExportReport report;
   report.format = nameOf(MeshFormat::glb);

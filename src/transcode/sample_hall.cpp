@@ -86,8 +86,7 @@ Mesh wallsMesh(const Size& size) {
   walls.addBox({door, -0.2, size.back}, {halfWidth, size.height, size.back + wall});
   walls.addBox({-door, lintel, size.back}, {door, size.height, size.back + wall});
   walls.addBox({-door, -0.2, size.back}, {door, size.backFloor, size.back + wall});
-  walls.addBox({-door - 1, size.backFloor - 0.2, size.back + wall},
-               {door + 1, size.backFloor, size.back + landing});
+  walls.addBox({-door - 1, size.backFloor - 0.2, size.back + wall}, {door + 1, size.backFloor, size.back + landing});
   walls.addBox({-8, 0, -4}, {8, 0.9, 1.5});
   for (const int step : {1, 2, 3})
     walls.addBox({6, 0, 1.5 + 0.3 * (3 - step)}, {8, 0.225 * step, 1.5 + 0.3 * (4 - step)});
@@ -146,8 +145,8 @@ private:
   Shape shapeOf(Mesh mesh, Vec3f baseColor, float metallic) {
     Appearance look;
     look.name = mesh.name + "Look";
-    look.material = PhysicalMaterial{
-        .baseColor = baseColor, .metallic = metallic, .roughness = metallic > 0 ? 0.4f : 0.8f};
+    look.material =
+        PhysicalMaterial{.baseColor = baseColor, .metallic = metallic, .roughness = metallic > 0 ? 0.4f : 0.8f};
     graph().appearances.push_back(std::move(look));
     scene_.meshes.push_back(std::move(mesh));
     return {scene_.meshes.size() - 1, graph().appearances.size() - 1, true};
@@ -180,8 +179,7 @@ private:
   }
 
   void addSeats(std::uint32_t seats) {
-    const std::size_t seat =
-        addNode(graph(), {"seat", shapeOf(seatMesh(), {0.3f, 0.03f, 0.035f}, 0), {}, ""});
+    const std::size_t seat = addNode(graph(), {"seat", shapeOf(seatMesh(), {0.3f, 0.03f, 0.035f}, 0), {}, ""});
     for (std::uint32_t first = 0; first < seats; first += seatsPerRow) {
       const std::uint32_t row = first / seatsPerRow;
       Transform place;
@@ -197,8 +195,7 @@ private:
   }
 
   /// The same thing at every bay, at each x.
-  void addAlong(const char* name, const Shape& shape, double back, std::initializer_list<double> xs,
-                double y) {
+  void addAlong(const char* name, const Shape& shape, double back, std::initializer_list<double> xs, double y) {
     const std::size_t one = addNode(graph(), {"", shape, {}, ""});
     Node group{name, Group{}, {}, ""};
     for (double z = -2; z < back; z += bayLength)
@@ -222,13 +219,12 @@ private:
       look.material = PhysicalMaterial{.metallic = 0, .roughness = 0.9f};
       look.textures = {{TextureRole::color, graph().textures.size() - 1, {}}};
       graph().appearances.push_back(std::move(look));
-      signs.push_back(addNode(
-          graph(), {"", Shape{scene_.meshes.size() - 1, graph().appearances.size() - 1, false}, {}, ""}));
+      signs.push_back(
+          addNode(graph(), {"", Shape{scene_.meshes.size() - 1, graph().appearances.size() - 1, false}, {}, ""}));
     }
     Node group{"signs", Group{}, {}, ""};
     for (std::uint32_t row = 0; row < rows; row += 4)
-      group.children.push_back(
-          placed({0, row * rowRise + 2.6, firstRow + row * rowDepth}, signs[row / 4 % 2]));
+      group.children.push_back(placed({0, row * rowRise + 2.6, firstRow + row * rowDepth}, signs[row / 4 % 2]));
     addRoot(graph(), std::move(group));
   }
 

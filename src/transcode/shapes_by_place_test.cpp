@@ -46,8 +46,7 @@ TEST(ShapesByPlace, FollowEachOtherInBlocksNotInRows) {
 
 TEST(ShapesByPlace, HaveEachShapeOnceHoweverOftenAndWhereverItStands) {
   SceneGraph graph;
-  const std::size_t twice = addNode(graph, {"", Shape{}, {}, "", {}}),
-                    far = addNode(graph, {"", Shape{}, {}, "", {}});
+  const std::size_t twice = addNode(graph, {"", Shape{}, {}, "", {}}), far = addNode(graph, {"", Shape{}, {}, "", {}});
   constexpr double infinite = std::numeric_limits<double>::infinity();
   graph.roots = {addMoved(graph, {5, 0, 0}, twice), addMoved(graph, {infinite, 0, 0}, far),
                  addMoved(graph, {7, 0, 0}, twice)};

@@ -72,8 +72,8 @@ int lockDirectory(const fs::path& directory, int operation) {
     return -1;
   struct stat held {
   }, named{};
-  if (flock(descriptor, operation) == 0 && fstat(descriptor, &held) == 0 &&
-      stat(directory.c_str(), &named) == 0 && held.st_ino == named.st_ino)
+  if (flock(descriptor, operation) == 0 && fstat(descriptor, &held) == 0 && stat(directory.c_str(), &named) == 0 &&
+      held.st_ino == named.st_ino)
     return descriptor;
   close(descriptor);
   return -1;
@@ -113,9 +113,8 @@ std::vector<fs::path> filesInOrderOfNeed(const fs::path& staging) {
   const auto rank = [](const fs::path& file) {
     return file == pageName ? 3 : file == markerName ? 2 : file.has_parent_path() ? 0 : 1;
   };
-  std::ranges::sort(files, [&](const fs::path& a, const fs::path& b) {
-    return std::pair(rank(a), a) < std::pair(rank(b), b);
-  });
+  std::ranges::sort(
+      files, [&](const fs::path& a, const fs::path& b) { return std::pair(rank(a), a) < std::pair(rank(b), b); });
   return files;
 }
 
@@ -135,8 +134,7 @@ StagedSite::StagedSite(const fs::path& target, bool force) : force_(force) {
   requireReplaceable(target_, force);
   const bool exists = fs::is_directory(target_, unknown);
   const fs::path above = target_.parent_path();
-  inPlace_ =
-      exists && (holdsWorkingDirectory(target_) || isMountPoint(target_) || access(above.c_str(), W_OK) != 0);
+  inPlace_ = exists && (holdsWorkingDirectory(target_) || isMountPoint(target_) || access(above.c_str(), W_OK) != 0);
   try {
     if (!exists)
       makeFoldersAbove();

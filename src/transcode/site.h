@@ -21,8 +21,7 @@ inline constexpr const char* textureFolder = "textures";
 inline constexpr const char* runtimeFolder = "runtime";
 
 /// Moves `from` to `to`; `flags` are those of renameat2(2). Returns 0 or an errno.
-using Rename =
-    std::function<int(const std::filesystem::path& from, const std::filesystem::path& to, unsigned flags)>;
+using Rename = std::function<int(const std::filesystem::path& from, const std::filesystem::path& to, unsigned flags)>;
 
 /// The system's own.
 int renameBySystem(const std::filesystem::path& from, const std::filesystem::path& to, unsigned flags);

@@ -44,8 +44,7 @@ std::string wholeVersionAt(const fs::path& site) {
   for (const std::string part : {"a", "b"})
     if (!fs::exists(site / geometryFolder / (version + part + ".png")))
       return version + " without its containers";
-  return fs::exists(site / runtimeFolder / ("imgeo-" + version + ".js")) ? version
-                                                                         : version + " without runtime";
+  return fs::exists(site / runtimeFolder / ("imgeo-" + version + ".js")) ? version : version + " without runtime";
 }
 
 int withoutExchange(const fs::path& from, const fs::path& to, unsigned flags) {
@@ -109,8 +108,7 @@ TEST(Site, IsOldOrNewWhereverTheFallbackIsKilled) {
 
     publish(target, "last");
     EXPECT_EQ(wholeVersionAt(target), "last");
-    EXPECT_EQ(namesIn(directory.path()), std::vector<std::string>{"site"})
-        << "what the killed run left is gone";
+    EXPECT_EQ(namesIn(directory.path()), std::vector<std::string>{"site"}) << "what the killed run left is gone";
   }
 }
 
@@ -180,8 +178,8 @@ TEST(Site, RemovesWhatKilledRunsLeftAndNothingElse) {
   const int living = open((directory / ".site.imgeo-living").c_str(), O_RDONLY | O_DIRECTORY);
   ASSERT_EQ(flock(living, LOCK_EX), 0);
   publish(directory / "site", "new");
-  EXPECT_EQ(namesIn(directory.path()), (std::vector<std::string>{".other.imgeo-killed", ".site.imgeo-living",
-                                                                 ".site.imgeo-notours", "site"}));
+  EXPECT_EQ(namesIn(directory.path()),
+            (std::vector<std::string>{".other.imgeo-killed", ".site.imgeo-living", ".site.imgeo-notours", "site"}));
   close(living);
 }
 

@@ -50,8 +50,7 @@ public:
   }
 
   /// A round bar without ends; `flutes` of them run along it where there are any.
-  void addBar(Vec3d from, Vec3d to, double radius, std::uint32_t segments, std::uint32_t rings = 1,
-              int flutes = 0) {
+  void addBar(Vec3d from, Vec3d to, double radius, std::uint32_t segments, std::uint32_t rings = 1, int flutes = 0) {
     const Vec3d along = (to - from) * (1 / length(to - from));
     const Vec3d aside = cross(along, std::abs(along.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0});
     const Vec3d a = aside * (1 / length(aside)), b = cross(along, a);

@@ -103,20 +103,14 @@ public:
 
 private:
   /// Something else than the file as it is was asked for.
-  bool wantsOther() const {
-    return options_.textures.format != TextureFormat::keep || options_.textures.size != 0;
-  }
+  bool wantsOther() const { return options_.textures.format != TextureFormat::keep || options_.textures.size != 0; }
   bool wantsPreview() const {
-    return options_.textures.previewEdge > 0 && options_.target == Target::web && use_.isColor &&
-           !use_.isData && image_.bytes.size() >= leastPreviewedBytes;
+    return options_.textures.previewEdge > 0 && options_.target == Target::web && use_.isColor && !use_.isData &&
+           image_.bytes.size() >= leastPreviewedBytes;
   }
-  bool needsPixels() const {
-    return !isForPages(type_) || wantsOther() || (isDecodable(type_) && wantsPreview());
-  }
+  bool needsPixels() const { return !isForPages(type_) || wantsOther() || (isDecodable(type_) && wantsPreview()); }
   PixelContent content() const {
-    return use_.isNormal ? PixelContent::directions
-           : use_.isData ? PixelContent::numbers
-                         : PixelContent::color;
+    return use_.isNormal ? PixelContent::directions : use_.isData ? PixelContent::numbers : PixelContent::color;
   }
 
   void fromPixels(Raster raster, Prepared& result) const {
@@ -146,8 +140,7 @@ private:
       return encodedPng(raster, options_.effort);
     if (isLossy && wanted.format == TextureFormat::avif)
       return {encodeAvif(raster, wanted.quality.value_or(avifQuality)), ".avif"};
-    return {isLossy ? encodeWebp(raster, wanted.quality.value_or(webpQuality)) : encodeLosslessWebp(raster),
-            ".webp"};
+    return {isLossy ? encodeWebp(raster, wanted.quality.value_or(webpQuality)) : encodeLosslessWebp(raster), ".webp"};
   }
 
   const ConvertOptions& options_;
@@ -162,8 +155,7 @@ void leaveOut(SceneGraph& graph, const std::vector<bool>& hasFailed) {
     std::erase_if(appearance.textures,
                   [&](const TextureUse& use) { return hasFailed[graph.textures[use.texture].image]; });
   for (Node& node : graph.nodes)
-    if (OtherNode* other = std::get_if<OtherNode>(&node.content);
-        other && other->image && hasFailed[*other->image])
+    if (OtherNode* other = std::get_if<OtherNode>(&node.content); other && other->image && hasFailed[*other->image])
       other->image = {};
 }
 

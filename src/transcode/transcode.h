@@ -53,13 +53,13 @@ struct ConvertOptions {
   std::optional<ElementType> coordType; ///< see EncodeOptions, as `layout`
   Layout layout = Layout::separate;
   NormalEncoding normals = NormalEncoding::rgb;
-  std::uint32_t normalBits = 0;                  ///< see EncodeOptions; 0: the fewest that cost nothing
-  std::uint32_t texCoordBits = 0, colorBits = 0; ///< 0: 12 and 8 in compact, 16 and 8 elsewhere
-  Dropped dropped;                               ///< elements that are left out; otherwise none
+  std::uint32_t normalBits = 0;                            ///< see EncodeOptions; 0: the fewest that cost nothing
+  std::uint32_t texCoordBits = 0, colorBits = 0;           ///< 0: 12 and 8 in compact, 16 and 8 elsewhere
+  Dropped dropped;                                         ///< elements that are left out; otherwise none
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where the source has no normals
-  std::uint32_t patchVertices = 65535; ///< 256..4,194,304; above 65,535 with 32-bit indices
-  AttributeChoice keepAttributes;      ///< further attributes of vertices
-  std::uint32_t attributeBits = 0;     ///< SIG: 8, 16 or 24; 0: 16. BG has Float32
+  std::uint32_t patchVertices = 65535;                     ///< 256..4,194,304; above 65,535 with 32-bit indices
+  AttributeChoice keepAttributes;                          ///< further attributes of vertices
+  std::uint32_t attributeBits = 0;                         ///< SIG: 8, 16 or 24; 0: 16. BG has Float32
   /// Compact: a base of so many percent of the triangles, 0..25; 0: none. Nothing: 2.
   std::optional<double> basePercent;
   TextureOptions textures;
@@ -100,7 +100,7 @@ struct ConvertReport {
   bool normalsComputed = false;
   std::uint32_t leastPositionBits = 0, mostPositionBits = 0; ///< of all meshes
   double largestStep = 0;                                    ///< of all meshes' lattices
-  ElementCounts collapsed;  ///< that lost their area or length on so coarse a lattice
+  ElementCounts collapsed;                                   ///< that lost their area or length on so coarse a lattice
   double positionError = 0; ///< by which vertices of any mesh may be off, along an axis
   NormalEncoding normalEncoding = NormalEncoding::rgb;
   std::uint32_t normalBits = 0, texCoordBits = 0, colorBits = 0; ///< of a stored component
@@ -215,8 +215,7 @@ struct VerifyReport {
 /// Shapes are compared with their places and, where the input is no X3D, whose elements
 /// stay as they are, with their materials; lights, viewpoints and pictures are not.
 /// `outside`: the input may refer to files outside of its folder.
-VerifyReport verify(const std::filesystem::path& site, const std::filesystem::path& input,
-                    bool outside = false);
+VerifyReport verify(const std::filesystem::path& site, const std::filesystem::path& input, bool outside = false);
 
 struct ExportReport {
   std::string format; ///< "PLY", "OBJ", "GLB"

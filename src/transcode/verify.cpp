@@ -36,8 +36,7 @@ namespace {
 class Findings {
 public:
   explicit Findings(VerifyReport& report) : report_(report) {}
-  template <typename... Arguments>
-  void add(fmt::format_string<Arguments...> sentence, Arguments&&... arguments) {
+  template <typename... Arguments> void add(fmt::format_string<Arguments...> sentence, Arguments&&... arguments) {
     report_.findings.push_back(fmt::format(sentence, std::forward<Arguments>(arguments)...));
   }
 
@@ -47,10 +46,8 @@ private:
 
 /// The bound of a palette and of compact is what convert says; it need not hold for other sites.
 double normalBoundDegrees(const GeometryDescription& geometry, const Marker& marker) {
-  const bool isStated =
-      geometry.normalEncoding == NormalEncoding::palette || geometry.profile == Profile::compact;
-  const double bound =
-      isStated ? marker.normalErrorDegrees : normalErrorBound(geometry) * (180 / std::numbers::pi);
+  const bool isStated = geometry.normalEncoding == NormalEncoding::palette || geometry.profile == Profile::compact;
+  const double bound = isStated ? marker.normalErrorDegrees : normalErrorBound(geometry) * (180 / std::numbers::pi);
   return std::max(bound, 1e-5);
 }
 
@@ -66,8 +63,7 @@ void roundColors(std::vector<Rgba8>& colors, std::uint32_t bits) {
   const double steps = (1 << bits) - 1;
   for (Rgba8& color : colors)
     for (std::uint8_t* component : {&color.r, &color.g, &color.b, &color.a})
-      *component =
-          static_cast<std::uint8_t>(std::floor(*component / 255.0 * steps + 0.5) / steps * 255 + 0.5);
+      *component = static_cast<std::uint8_t>(std::floor(*component / 255.0 * steps + 0.5) / steps * 255 + 0.5);
 }
 
 /// By how much each component of the further attributes may be off.
@@ -121,14 +117,12 @@ void checkDocuments(const OpenedDocument& page, Findings& findings) {
 
 std::vector<IndexedPatch> decodePatches(const ContainerReader& reader, const GeometryDescription& geometry) {
   std::vector<IndexedPatch> patches(geometry.patches.size());
-  parallelFor(patches.size(),
-              [&](std::size_t i) { patches[i] = reader.decode(geometry.patches[i], geometry); });
+  parallelFor(patches.size(), [&](std::size_t i) { patches[i] = reader.decode(geometry.patches[i], geometry); });
   return patches;
 }
 
 /// Every patch lies in the box that the document gives it, if it gives one.
-void checkBoxes(const std::vector<IndexedPatch>& patches, const GeometryDescription& geometry,
-                Findings& findings) {
+void checkBoxes(const std::vector<IndexedPatch>& patches, const GeometryDescription& geometry, Findings& findings) {
   const double slack = geometry.lattice.step / 2 + 1e-6 * geometry.box.longestEdge();
   const auto agree = [&](const Box3d& a, const Box3d& b) {
     for (int axis = 0; axis < 3 && !b.empty(); ++axis)
@@ -191,12 +185,12 @@ void checkAttributesPresent(const Mesh& mesh, const std::vector<IndexedPatch>& p
   };
   for (const IndexedPatch& patch : patches)
     if (namesOf(patch) != namesOf(mesh))
-      return findings.add("The input's further attributes are {}, the site's {}.",
-                          fmt::join(namesOf(mesh), ", "), fmt::join(namesOf(patch), ", "));
+      return findings.add("The input's further attributes are {}, the site's {}.", fmt::join(namesOf(mesh), ", "),
+                          fmt::join(namesOf(patch), ", "));
 }
 
-void count(const ElementDifference& difference, const ElementList& input, const ElementList& site,
-           Topology topology, VerifyReport& report) {
+void count(const ElementDifference& difference, const ElementList& input, const ElementList& site, Topology topology,
+           VerifyReport& report) {
   report.input.of(topology) += input.elements.size();
   report.site.of(topology) += site.elements.size();
   report.missing.of(topology) += difference.missing;
@@ -227,16 +221,15 @@ std::vector<Vec3u> quantisedAs(const GeometryDescription& geometry, const std::v
   return quantised;
 }
 
-void checkPositions(const GeometryDescription& geometry, const std::vector<Vec3u>& quantised,
-                    const Mesh& mesh, VerifyReport& report, Findings& findings) {
+void checkPositions(const GeometryDescription& geometry, const std::vector<Vec3u>& quantised, const Mesh& mesh,
+                    VerifyReport& report, Findings& findings) {
   const double error = positionError(mesh, quantised, geometry.lattice),
                slack = report.isForeign ? foreignRounding * geometry.lattice.step : 0,
                bound = positionErrorBound(geometry) + slack;
   if (error * report.positionBound >= report.positionError * bound)
     report.positionError = error, report.positionBound = bound;
   if (error > bound + positionTolerance(mesh, geometry.lattice))
-    findings.add("Positions are off by up to {:.6g}, more than half a step of the lattice, {:.6g}.", error,
-                 bound);
+    findings.add("Positions are off by up to {:.6g}, more than half a step of the lattice, {:.6g}.", error, bound);
 }
 
 /// The base, if there is one, must be whole and leave no crack beside any patch.
@@ -264,11 +257,9 @@ void compareMesh(const ContainerReader& reader, const GeometryDescription& geome
   const std::vector<Vec3u> quantised = quantisedAs(geometry, patches, mesh, !marker);
   checkPositions(geometry, quantised, mesh, report, findings);
 
-  const Topology topology = marker
-                                ? marker->primitives == Primitives::points ? Topology::points : mesh.topology
-                                : topologyOf(patches.front().draws.front().primitive);
-  const bool isWithoutIndex =
-      std::ranges::any_of(patches, &std::vector<std::uint32_t>::empty, &IndexedPatch::indices);
+  const Topology topology = marker ? marker->primitives == Primitives::points ? Topology::points : mesh.topology
+                                   : topologyOf(patches.front().draws.front().primitive);
+  const bool isWithoutIndex = std::ranges::any_of(patches, &std::vector<std::uint32_t>::empty, &IndexedPatch::indices);
   const ElementKind kind{topology, isWithoutIndex};
   ElementList input = elementsOf(mesh, quantised, kind);
   const ElementList site = elementsOf(patches, kind);
@@ -291,16 +282,15 @@ void compareMesh(const ContainerReader& reader, const GeometryDescription& geome
     report.normalBoundDegrees = std::max(report.normalBoundDegrees, bounds.normalDegrees);
   report.normalErrorDegrees = std::max(report.normalErrorDegrees, difference.normalDegrees);
   if (difference.normalDegrees > bounds.normalDegrees + normalTolerance)
-    findings.add("Normals are off by up to {:.4g} degrees, more than their rounding, {:.4g}.",
-                 difference.normalDegrees, bounds.normalDegrees);
+    findings.add("Normals are off by up to {:.4g} degrees, more than their rounding, {:.4g}.", difference.normalDegrees,
+                 bounds.normalDegrees);
   if (difference.texCoord.x > bounds.texCoord.x || difference.texCoord.y > bounds.texCoord.y)
     findings.add("Texture coordinates are off by up to {:.4g} and {:.4g}, more than their rounding, {:.4g} "
                  "and {:.4g}.",
                  difference.texCoord.x, difference.texCoord.y, bounds.texCoord.x, bounds.texCoord.y);
   report.attributeError = std::max(report.attributeError, difference.named);
   if (difference.named > 1)
-    findings.add("Further attributes are off by up to {:.4g} times what their rounding allows.",
-                 difference.named);
+    findings.add("Further attributes are off by up to {:.4g} times what their rounding allows.", difference.named);
   if (difference.colorsDiffering > 0)
     findings.add("{} {} have other colours.", difference.colorsDiffering, elements);
 }
@@ -346,8 +336,7 @@ void compareScenes(const OpenedDocument& document, const Scene& input, const std
   std::set<std::pair<std::size_t, std::size_t>> compared;
   std::size_t misplaced = 0, otherwise = 0;
   for (std::size_t i = 0; i < inSite.size(); ++i) {
-    const Shape &siteShape = shapeOf(siteGraph, inSite[i].node),
-                &inputShape = shapeOf(input.graph, inInput[i].node);
+    const Shape &siteShape = shapeOf(siteGraph, inSite[i].node), &inputShape = shapeOf(input.graph, inInput[i].node);
     const std::size_t geometry = siteShape.mesh, mesh = inputShape.mesh;
     if (marker && inputShape.appearance) {
       ++report.looks;
@@ -355,14 +344,13 @@ void compareScenes(const OpenedDocument& document, const Scene& input, const std
     }
     misplaced += !agree(inSite[i].worldFromShape, inInput[i].worldFromShape, boxOf(input.meshes[mesh]));
     if (compared.emplace(geometry, mesh).second)
-      compareMesh(reader, document.scene.geometries.at(geometry), input.meshes[mesh], marker, report,
-                  findings);
+      compareMesh(reader, document.scene.geometries.at(geometry), input.meshes[mesh], marker, report, findings);
   }
   if (misplaced > 0)
     findings.add("{} of {} shapes stand elsewhere than in the input.", misplaced, inSite.size());
   if (otherwise > 0)
-    findings.add("{} of {} shapes have other materials than in the input, or other places of textures.",
-                 otherwise, report.looks);
+    findings.add("{} of {} shapes have other materials than in the input, or other places of textures.", otherwise,
+                 report.looks);
 }
 
 } // namespace

@@ -39,8 +39,8 @@ public:
   void write() {
     const std::vector<std::string> urls = pageFilesOf(opened_.text);
     const bool moduleFirst = urls.at(0).ends_with(".js");
-    writeFile(site() / pageName, asBytes(writeHtml(opened_.scene, {urls.at(moduleFirst ? 0 : 1),
-                                                                   urls.at(moduleFirst ? 1 : 0)})));
+    writeFile(site() / pageName,
+              asBytes(writeHtml(opened_.scene, {urls.at(moduleFirst ? 0 : 1), urls.at(moduleFirst ? 1 : 0)})));
     writeFile(site() / sceneName, asBytes(writeX3d(opened_.scene)));
   }
 
@@ -48,8 +48,7 @@ public:
   void change(Reference& reference, const std::function<void(Bytes&)>& damage) {
     Bytes bytes = readFile(site() / reference.url);
     damage(bytes);
-    reference.url =
-        "geometry/" + contentName(bytes) + std::filesystem::path(reference.url).extension().string();
+    reference.url = "geometry/" + contentName(bytes) + std::filesystem::path(reference.url).extension().string();
     writeFile(site() / reference.url, bytes);
     write();
   }
@@ -81,10 +80,8 @@ private:
 void expectFinding(const DamagedSite& site, const std::string& words) {
   const VerifyReport report = site.verified();
   EXPECT_FALSE(report.equal);
-  const bool said =
-      std::ranges::any_of(report.findings, [&](const std::string& f) { return f.find(words) != f.npos; });
-  EXPECT_TRUE(said) << words
-                    << "; said instead: " << (report.findings.empty() ? "nothing" : report.findings.front());
+  const bool said = std::ranges::any_of(report.findings, [&](const std::string& f) { return f.find(words) != f.npos; });
+  EXPECT_TRUE(said) << words << "; said instead: " << (report.findings.empty() ? "nothing" : report.findings.front());
 }
 
 TEST(Verify, FindsNothingInAWholeSite) {
@@ -124,8 +121,7 @@ TEST(Verify, SeesALineThatIsDrawnInThePlaceOfAnother) {
   DamagedSite site(Container::bg, testing::polylines(60, 1));
   EXPECT_TRUE(site.verified().equal);
   // Two indices of two bytes a line.
-  site.change(*site.geometry().patches[0].index,
-              [](Bytes& indices) { std::copy_n(&indices[8], 4, &indices[0]); });
+  site.change(*site.geometry().patches[0].index, [](Bytes& indices) { std::copy_n(&indices[8], 4, &indices[0]); });
   expectFinding(site, "1 lines of the input are missing");
   expectFinding(site, "1 lines of the site are not in the input");
 }
@@ -140,9 +136,7 @@ TEST(Verify, SeesBytePlanesSwapped) {
 
 TEST(Verify, SeesTwoFilesSwapped) {
   DamagedSite site;
-  const auto path = [&](std::size_t patch) {
-    return site.site() / site.geometry().patches[patch].coord[0].url;
-  };
+  const auto path = [&](std::size_t patch) { return site.site() / site.geometry().patches[patch].coord[0].url; };
   std::filesystem::rename(path(0), site.site() / "aside");
   std::filesystem::rename(path(1), path(0));
   std::filesystem::rename(site.site() / "aside", path(1));
@@ -185,8 +179,7 @@ TEST(Verify, SeesNormalsTurned) {
     DamagedSite site(container);
     Reference& normal = *site.geometry().patches[0].normal;
     if (container == Container::sig)
-      site.changeImage(
-          normal, [](Image& image) { image.pixels[0] = static_cast<std::uint8_t>(image.pixels[0] ^ 4); });
+      site.changeImage(normal, [](Image& image) { image.pixels[0] = static_cast<std::uint8_t>(image.pixels[0] ^ 4); });
     else
       site.change(normal, [](Bytes& bytes) { bytes[0] = static_cast<std::uint8_t>(bytes[0] ^ 4); });
     expectFinding(site, "Normals are off");
@@ -197,9 +190,8 @@ TEST(Verify, SeesNormalsTurnedInEveryEncoding) {
   for (const NormalEncoding normals : {NormalEncoding::octahedral, NormalEncoding::spherical}) {
     DamagedSite images(Container::sig, testing::sphere(30, 30), normals),
         arrays(Container::bg, testing::sphere(30, 30), normals);
-    images.changeImage(*images.geometry().patches[0].normal, [](Image& image) {
-      image.pixels[0] = static_cast<std::uint8_t>(image.pixels[0] ^ 16);
-    });
+    images.changeImage(*images.geometry().patches[0].normal,
+                       [](Image& image) { image.pixels[0] = static_cast<std::uint8_t>(image.pixels[0] ^ 16); });
     expectFinding(images, "Normals are off");
     // The file that the normals share with the coordinates.
     PatchDescription& patch = arrays.geometry().patches[0];

@@ -29,9 +29,8 @@ WorldBox worldBoxOf(const SceneDocument& document) {
       continue;
     }
     for (int corner = 0; corner < 8; ++corner)
-      world.box.add(
-          placed.worldFromShape.point({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                                       corner & 4 ? box.max.z : box.min.z}));
+      world.box.add(placed.worldFromShape.point({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                                 corner & 4 ? box.max.z : box.min.z}));
   }
   return world;
 }

@@ -54,13 +54,11 @@ TEST(X3domSite, HoldsEveryMeshInEveryArray) {
     NormalEncoding normals;
   };
   using enum NormalEncoding;
-  const Case cases[] = {{ElementType::uint8, Layout::separate, rgb},
-                        {ElementType::uint16, Layout::separate, spherical},
-                        {ElementType::int16, Layout::separate, rgb},
-                        {ElementType::float32, Layout::separate, rgb},
-                        {ElementType::uint16, Layout::interleaved, spherical},
-                        {ElementType::int16, Layout::interleaved, rgb},
-                        {ElementType::float32, Layout::interleaved, rgb}};
+  const Case cases[] = {
+      {ElementType::uint8, Layout::separate, rgb},           {ElementType::uint16, Layout::separate, spherical},
+      {ElementType::int16, Layout::separate, rgb},           {ElementType::float32, Layout::separate, rgb},
+      {ElementType::uint16, Layout::interleaved, spherical}, {ElementType::int16, Layout::interleaved, rgb},
+      {ElementType::float32, Layout::interleaved, rgb}};
   for (const Case& one : cases)
     for (std::uint32_t seed = 0; seed < 8; ++seed) {
       SCOPED_TRACE(std::string(nameOf(one.type)) + ", layout " + std::to_string(int(one.layout)) + ", mesh " +
@@ -132,8 +130,7 @@ TEST(X3domSite, RefusesWhatX3domCannotHold) {
        {arrays(ElementType::int8, Layout::separate, 0), arrays(ElementType::int16, Layout::separate, 16)})
     EXPECT_EQ(kindOfConverting(testing::torus(9, 9), refused), ErrorKind::usage);
   for (const ElementType type : {ElementType::uint8, ElementType::uint16})
-    EXPECT_EQ(kindOfConverting(testing::torus(9, 9), arrays(type, Layout::interleaved, 0)),
-              ErrorKind::unsupported);
+    EXPECT_EQ(kindOfConverting(testing::torus(9, 9), arrays(type, Layout::interleaved, 0)), ErrorKind::unsupported);
   Mesh mesh = testing::torus(9, 9);
   mesh.texCoords[0] = {1.5f, 0};
   EXPECT_EQ(kindOfConverting(mesh, optionsFor(Container::sig)), ErrorKind::unsupported);

@@ -25,35 +25,75 @@ function geometryOf(shape: string): string {
   return /<ImageGeometry[\s\S]*<\/ImageGeometry>/i.exec(shape)?.[0] ?? assert.fail("the site has no ImageGeometry");
 }
 
-const at = (x: number, y: number, inner: string, scale = "1 1 1") => `<Transform translation="${x} ${y} 0" scale="${scale}">${inner}</Transform>`;
+const at = (x: number, y: number, inner: string, scale = "1 1 1") =>
+  `<Transform translation="${x} ${y} 0" scale="${scale}">${inner}</Transform>`;
 const lit = '<Appearance><Material diffuseColor="1 1 1" shininess="0.3"></Material></Appearance>';
 const lines = (fields: string, color = "1 1 1", more = "") =>
   `<Appearance><Material emissiveColor="${color}" ${more}></Material><LineProperties ${fields}></LineProperties></Appearance>`;
-const strip = (points: string, name = "") => `<IndexedLineSet ${name} coordIndex="0 1 2 -1"><Coordinate point="${points}"></Coordinate></IndexedLineSet>`;
+const strip = (points: string, name = "") =>
+  `<IndexedLineSet ${name} coordIndex="0 1 2 -1"><Coordinate point="${points}"></Coordinate></IndexedLineSet>`;
 
 /** Knots that values colour: three out of buffers, each a geometry of its own, and two places of one out of images. */
 function knots(buffers: string, images: string): string {
   const knot = (id: string, fields: string, geometry: string, x: number, y: number) =>
     at(x, y, `<Shape id="${id}" colorBy="height" ${fields}>${lit}${geometry}</Shape>`, "0.4 0.4 0.4");
-  return knot("warm", 'colorMap="coolwarm"', geometryOf(buffers), -4, 2) + knot("narrow", 'colorMap="coolwarm" colorRange="-1 0.5"', geometryOf(buffers), -1.4, 2)
-    + knot("turned", 'colorMap="coolwarm" colorRange="4 -2"', geometryOf(buffers), 1.4, 2)
-    + knot("first", 'colorMap="gray"', geometryOf(images).replace("<ImageGeometry", '$& DEF="knot"'), 4, 2)
-    + knot("second", 'colorMap="gray" colorRange="0 1"', '<ImageGeometry USE="knot"></ImageGeometry>', 4, -1);
+  return (
+    knot("warm", 'colorMap="coolwarm"', geometryOf(buffers), -4, 2) +
+    knot("narrow", 'colorMap="coolwarm" colorRange="-1 0.5"', geometryOf(buffers), -1.4, 2) +
+    knot("turned", 'colorMap="coolwarm" colorRange="4 -2"', geometryOf(buffers), 1.4, 2) +
+    knot("first", 'colorMap="gray"', geometryOf(images).replace("<ImageGeometry", '$& DEF="knot"'), 4, 2) +
+    knot("second", 'colorMap="gray" colorRange="0 1"', '<ImageGeometry USE="knot"></ImageGeometry>', 4, -1)
+  );
 }
 
 /** Wide lines: out of buffers, some that are dashed, some that blend, one beyond the picture's border; and out of images. */
 function wideLines(images: string): string {
   const zigzag = "-1 -0.6 0 0 0.6 0 1 -0.6 0";
-  const others = at(-4, -0.6, `<Shape id="thick">${lines('linewidthScaleFactor="14"', "1 0.5 0")}${strip(zigzag)}</Shape>`)
-    + at(-1.4, -0.6, `<Shape id="slim">${lines('linewidthScaleFactor="5"', "0.2 1 0.4")}${strip(zigzag)}</Shape>`, "-1 1.4 1")
-    + at(1.4, -0.6, `<Shape id="dashed">${lines('linewidthScaleFactor="6" linetype="2"', "1 1 0")}${strip(zigzag)}</Shape>`)
-    + at(right + 0.03, 0, `<Shape>${lines('linewidthScaleFactor="12"', "0 1 1")}${strip(`0 -2 0 0 0 0 0 ${top} 0`)}</Shape>`);
-  const blended = at(-4, -2.6, `<Shape>${lines('linewidthScaleFactor="20"', "1 0 0", 'transparency="0.5"')}${strip(zigzag, 'DEF="veil"')}</Shape>`)
-    + at(-3.6, -2.6, `<Shape>${lines('linewidthScaleFactor="10"', "0 0.4 1", 'transparency="0.3"')}<IndexedLineSet USE="veil"></IndexedLineSet></Shape>`);
+  const others =
+    at(-4, -0.6, `<Shape id="thick">${lines('linewidthScaleFactor="14"', "1 0.5 0")}${strip(zigzag)}</Shape>`) +
+    at(
+      -1.4,
+      -0.6,
+      `<Shape id="slim">${lines('linewidthScaleFactor="5"', "0.2 1 0.4")}${strip(zigzag)}</Shape>`,
+      "-1 1.4 1",
+    ) +
+    at(
+      1.4,
+      -0.6,
+      `<Shape id="dashed">${lines('linewidthScaleFactor="6" linetype="2"', "1 1 0")}${strip(zigzag)}</Shape>`,
+    ) +
+    at(
+      right + 0.03,
+      0,
+      `<Shape>${lines('linewidthScaleFactor="12"', "0 1 1")}${strip(`0 -2 0 0 0 0 0 ${top} 0`)}</Shape>`,
+    );
+  const blended =
+    at(
+      -4,
+      -2.6,
+      `<Shape>${lines('linewidthScaleFactor="20"', "1 0 0", 'transparency="0.5"')}${strip(zigzag, 'DEF="veil"')}</Shape>`,
+    ) +
+    at(
+      -3.6,
+      -2.6,
+      `<Shape>${lines('linewidthScaleFactor="10"', "0 0.4 1", 'transparency="0.3"')}<IndexedLineSet USE="veil"></IndexedLineSet></Shape>`,
+    );
   const own = geometryOf(images).replace("<ImageGeometry", '$& DEF="strokes"');
   const again = '<ImageGeometry USE="strokes"></ImageGeometry>';
-  return others + blended + [own, again, again].map((geometry, n) =>
-    at(2 * n - 0.8, -2.8, `<Shape>${lines(`linewidthScaleFactor="${3 + 4 * n}"`, `1 ${n / 2} 1`)}${geometry}</Shape>`, n === 1 ? "-0.8 0.6 1" : "0.8 0.8 1")).join("");
+  return (
+    others +
+    blended +
+    [own, again, again]
+      .map((geometry, n) =>
+        at(
+          2 * n - 0.8,
+          -2.8,
+          `<Shape>${lines(`linewidthScaleFactor="${3 + 4 * n}"`, `1 ${n / 2} 1`)}${geometry}</Shape>`,
+          n === 1 ? "-0.8 0.6 1" : "0.8 0.8 1",
+        ),
+      )
+      .join("")
+  );
 }
 
 /** Behind the camera: with them there are enough shapes to be drawn together. */
@@ -63,7 +103,10 @@ function strokesFile(): string {
   mkdirSync(outputDirectory, { recursive: true });
   const path = join(outputDirectory, "strokes.ply");
   const positions = Float32Array.from([-1, -1, 0, -0.5, 1, 0, 0, -1, 0, 0.5, 1, 0, 1, -1, 0]);
-  writeFileSync(path, writePly({ positions, triangles: new Uint32Array(0), lines: Uint32Array.from([0, 1, 1, 2, 2, 3, 3, 4]) }));
+  writeFileSync(
+    path,
+    writePly({ positions, triangles: new Uint32Array(0), lines: Uint32Array.from([0, 1, 1, 2, 2, 3, 3, 4]) }),
+  );
   return path;
 }
 
@@ -79,10 +122,19 @@ async function drawsOfFrame({ page }: View): Promise<number> {
 test("values and wide lines are drawn together in a scene of many shapes, and look as if drawn alone", async () => {
   const sites = {
     buffers: siteOfGenerated("trefoil-numbers", "--keep-attributes", "all", "--normal-bits", "10"),
-    images: siteOfGenerated("trefoil-numbers", "--keep-attributes", "all", "--profile", "classic", "--position-bits", "8"), // small on the screen, more bits would wait
+    images: siteOfGenerated(
+      "trefoil-numbers",
+      "--keep-attributes",
+      "all",
+      "--profile",
+      "classic",
+      "--position-bits",
+      "8",
+    ), // small on the screen, more bits would wait
     strokes: siteOf(strokesFile(), "--profile", "classic", "--position-bits", "8"),
   };
-  const shape = (name: keyof typeof sites) => shapeIn(pageOf(sites[name])).replaceAll(/(["'])geometry\//g, `$1${name}/geometry/`);
+  const shape = (name: keyof typeof sites) =>
+    shapeIn(pageOf(sites[name])).replaceAll(/(["'])geometry\//g, `$1${name}/geometry/`);
   const scene = `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo>${black}${viewpoint}
     ${knots(shape("buffers"), shape("images"))}${wideLines(shape("strokes"))}${crowd}`;
   await withPage(sceneOf("batched-looks", sites, scene), {}, async (view) => {
@@ -91,9 +143,11 @@ test("values and wide lines are drawn together in a scene of many shapes, and lo
     savePicture("batched-looks", first);
     // Buffers with values, images with values, lines, dashed ones, those that blend, those of images and that of them which is mirrored.
     const mostDraws = 1 + 1 + 2 + 1 + 1 + 1 + 1 + 2;
-    assert.ok(await drawsOfFrame(view) <= mostDraws, `${await drawsOfFrame(view)} draws`);
+    assert.ok((await drawsOfFrame(view)) <= mostDraws, `${await drawsOfFrame(view)} draws`);
     await view.page.evaluate(() => {
-      const set = (selector: string, name: string, value: string) => { document.querySelector(selector)!.setAttribute(name, value); };
+      const set = (selector: string, name: string, value: string) => {
+        document.querySelector(selector)!.setAttribute(name, value);
+      };
       set("#warm", "colorRange", "-3 0");
       set("#second", "colorRange", "-1 2");
       set("#narrow", "colorMap", "1 0 0, 0 1 0, 0 0 1");
@@ -103,26 +157,42 @@ test("values and wide lines are drawn together in a scene of many shapes, and lo
     const together = await view.picture();
     savePicture("batched-looks-changed", together);
     assert.ok(!isWithin(difference(first, together), boundsOfQuantised), "the changes are seen");
-    await view.page.evaluate(() => { document.querySelector("#crowd")!.remove(); });
+    await view.page.evaluate(() => {
+      document.querySelector("#crowd")!.remove();
+    });
     const alone = await view.picture();
-    assert.ok(await drawsOfFrame(view) >= 15, `${await drawsOfFrame(view)} draws`);
+    assert.ok((await drawsOfFrame(view)) >= 15, `${await drawsOfFrame(view)} draws`);
     assertSamePicture("batched-looks-alone", together, alone, boundsOfQuantised);
-    await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("draw-as", "points"); });
+    await view.page.evaluate(() => {
+      document.querySelector("x3d")!.setAttribute("draw-as", "points");
+    });
     const points = await view.picture();
     savePicture("batched-looks-points", points);
     assert.ok(!isWithin(difference(alone, points), boundsOfQuantised), "surfaces are seen as points");
-    await view.page.evaluate((text) => { document.querySelector("scene")!.insertAdjacentHTML("beforeend", text); }, crowd);
+    await view.page.evaluate((text) => {
+      document.querySelector("scene")!.insertAdjacentHTML("beforeend", text);
+    }, crowd);
     assertSamePicture("batched-looks-points", await view.picture(), points, boundsOfQuantised);
-    assert.ok(await drawsOfFrame(view) <= mostDraws + 1, "they are drawn together again");
-    await view.page.evaluate(() => { for (const gone of document.querySelectorAll("scene > transform")) gone.remove(); });
+    assert.ok((await drawsOfFrame(view)) <= mostDraws + 1, "they are drawn together again");
+    await view.page.evaluate(() => {
+      for (const gone of document.querySelectorAll("scene > transform")) gone.remove();
+    });
     await view.picture();
-    assert.deepEqual(await view.page.evaluate(() => {
-      const { geometries, bufferBytes, textureBytes } = document.querySelector<ViewElement>("x3d")!.statistics!;
-      return { geometries, bufferBytes, textureBytes };
-    }), { geometries: 0, bufferBytes: 0, textureBytes: 0 }, "nothing of them is left on the GPU");
+    assert.deepEqual(
+      await view.page.evaluate(() => {
+        const { geometries, bufferBytes, textureBytes } = document.querySelector<ViewElement>("x3d")!.statistics!;
+        return { geometries, bufferBytes, textureBytes };
+      }),
+      { geometries: 0, bufferBytes: 0, textureBytes: 0 },
+      "nothing of them is left on the GPU",
+    );
     for (const picture of [together, alone]) {
       const last = (Math.floor(picture.height / 2) * picture.width + picture.width - 1) * picture.channels;
-      assert.deepEqual(Array.from(picture.data.subarray(last, last + 3)), [0, 255, 255], "a line beyond the border reaches into the picture");
+      assert.deepEqual(
+        Array.from(picture.data.subarray(last, last + 3)),
+        [0, 255, 255],
+        "a line beyond the border reaches into the picture",
+      );
     }
   });
 });

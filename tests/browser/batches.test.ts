@@ -36,10 +36,17 @@ function pixelOf([x, y]: Point): Point {
 
 /** Shapes of one ball, each in a colour of its own, and a box of its own size for every hundredth. */
 function crowd(ball: string): string {
-  const geometry = /<ImageGeometry[\s\S]*<\/ImageGeometry>/i.exec(ball)?.[0].replace("<ImageGeometry", '<ImageGeometry DEF="ball"') ?? "";
+  const geometry =
+    /<ImageGeometry[\s\S]*<\/ImageGeometry>/i.exec(ball)?.[0].replace("<ImageGeometry", '<ImageGeometry DEF="ball"') ??
+    "";
   const shapes = Array.from({ length: side * side }, (_, n) => {
     const [x, y] = placeOf(n);
-    const own = n === 0 ? geometry : n % 100 === 1 ? `<Box size="0.8 0.7 ${0.5 + n / 5000}"></Box>` : '<ImageGeometry USE="ball"></ImageGeometry>';
+    const own =
+      n === 0
+        ? geometry
+        : n % 100 === 1
+          ? `<Box size="0.8 0.7 ${0.5 + n / 5000}"></Box>`
+          : '<ImageGeometry USE="ball"></ImageGeometry>';
     const color = n % 3 === 0 ? "1 0 0" : `0 ${1 - (n % 7) / 20} 0`;
     return `<Transform translation="${x} ${y} 0" scale="0.45 0.45 0.45"><Shape id="s${n}"><Appearance><Material diffuseColor="${color}"></Material></Appearance>${own}</Shape></Transform>`;
   });
@@ -58,25 +65,39 @@ async function drawsOfFrame({ page }: View): Promise<number> {
 /** The ids of the shapes at pixels. */
 async function shapesAt({ page }: View, points: readonly Point[]): Promise<(string | undefined)[]> {
   await settle(page);
-  return page.evaluate((pixels) => pixels.map(([x, y]) =>
-    document.querySelector<ViewElement>("x3d")!.positionAndNormalFromPoint(x, y)?.shape.id), points.map(pixelOf));
+  return page.evaluate(
+    (pixels) =>
+      pixels.map(([x, y]) => document.querySelector<ViewElement>("x3d")!.positionAndNormalFromPoint(x, y)?.shape.id),
+    points.map(pixelOf),
+  );
 }
 
 test("2,500 shapes are a few draws, and each follows its element", async () => {
   const site = variantOf(siteOfGenerated("sphere-small", "--profile", "compact"), "crowd", (page) =>
-    withShapes(page.replaceAll(/<Viewpoint[^>]*>/gi, viewpoint.replace("</Viewpoint>", "")), crowd));
+    withShapes(page.replaceAll(/<Viewpoint[^>]*>/gi, viewpoint.replace("</Viewpoint>", "")), crowd),
+  );
   await withPage(site, {}, async (view) => {
     await view.promise("complete");
-    assert.ok(await drawsOfFrame(view) <= 20, `${await drawsOfFrame(view)} draws`);
+    assert.ok((await drawsOfFrame(view)) <= 20, `${await drawsOfFrame(view)} draws`);
     const numbers = [0, 1201, 1250, 1301, 2499];
-    assert.deepEqual(await shapesAt(view, numbers.map(placeOf)), numbers.map((n) => `s${n}`));
+    assert.deepEqual(
+      await shapesAt(view, numbers.map(placeOf)),
+      numbers.map((n) => `s${n}`),
+    );
     await view.page.evaluate(() => {
       document.querySelector("#s1250")!.setAttribute("visible", "false");
       document.querySelector("#s1301")!.closest("transform")!.setAttribute("translation", "30 0 0");
       document.querySelector("#s1201 material")!.setAttribute("diffuseColor", "0 0 1");
       document.querySelector("#s2499")!.remove();
     });
-    assert.deepEqual(await shapesAt(view, [...numbers.map(placeOf), [30, 0]]), ["s0", "s1201", undefined, undefined, undefined, "s1301"]);
+    assert.deepEqual(await shapesAt(view, [...numbers.map(placeOf), [30, 0]]), [
+      "s0",
+      "s1201",
+      undefined,
+      undefined,
+      undefined,
+      "s1301",
+    ]);
     const { data, width, channels } = await view.picture();
     const colorAt = (point: Point) => {
       const [x, y] = pixelOf(point);
@@ -85,9 +106,15 @@ test("2,500 shapes are a few draws, and each follows its element", async () => {
     };
     const sky = colorAt([0, 25.8]);
     const strongest = (color: number[]) => color.indexOf(Math.max(...color));
-    assert.deepEqual([1250, 1301, 2499].map((n) => colorAt(placeOf(n))), [sky, sky, sky]);
-    assert.deepEqual([0, 1201, 1251, 1252].map((n) => strongest(colorAt(placeOf(n)))), [0, 2, 0, 1]);
-    assert.ok(await drawsOfFrame(view) <= 20);
+    assert.deepEqual(
+      [1250, 1301, 2499].map((n) => colorAt(placeOf(n))),
+      [sky, sky, sky],
+    );
+    assert.deepEqual(
+      [0, 1201, 1251, 1252].map((n) => strongest(colorAt(placeOf(n)))),
+      [0, 2, 0, 1],
+    );
+    assert.ok((await drawsOfFrame(view)) <= 20);
   });
 });
 
@@ -95,7 +122,10 @@ test("2,500 shapes are a few draws, and each follows its element", async () => {
 async function loseContextForAMoment(): Promise<void> {
   const canvas = document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!;
   const loser = canvas.getContext("webgl2")!.getExtension("WEBGL_lose_context")!;
-  const heard = (name: string) => new Promise((resolve) => { canvas.addEventListener(name, () => setTimeout(resolve), { once: true }); });
+  const heard = (name: string) =>
+    new Promise((resolve) => {
+      canvas.addEventListener(name, () => setTimeout(resolve), { once: true });
+    });
   const lost = heard("webglcontextlost");
   loser.loseContext();
   await lost;
@@ -113,7 +143,10 @@ function matrixOfCopy(n: number, x: number): { markup: string; matrix: Matrix4 }
   const axis = new Vector3(1, n, 2).normalize();
   const matrix = new Matrix4().compose(position, new Quaternion().setFromAxisAngle(axis, n), scale);
   const text = (vector: Vector3) => vector.toArray().join(" ");
-  return { matrix, markup: `<Transform translation="${text(position)}" rotation="${text(axis)} ${n}" scale="${text(scale)}">` };
+  return {
+    matrix,
+    markup: `<Transform translation="${text(position)}" rotation="${text(axis)} ${n}" scale="${text(scale)}">`,
+  };
 }
 
 test("what is drawn together looks as if drawn alone: instances of images, and merged buffers", async () => {
@@ -123,13 +156,16 @@ test("what is drawn together looks as if drawn alone: instances of images, and m
   const look = /<Appearance[\s\S]*<\/Appearance>/i.exec(shapeIn(pageOf(images)))?.[0] ?? "";
   const ball = inOther.replace(/<Appearance[\s\S]*<\/Appearance>/i, () => look);
   const expected: PlainPatch[] = [];
-  const scene = (knot: string): string => Array.from({ length: copies }, (_, n) => {
-    const [left, right] = [matrixOfCopy(n, -1.2), matrixOfCopy(n, 1.2)];
-    const geometry = n === 0 ? knot.replace("<ImageGeometry", '<ImageGeometry DEF="knot"')
-      : knot.replace(/<ImageGeometry[\s\S]*<\/ImageGeometry>/i, '<ImageGeometry USE="knot"></ImageGeometry>');
-    expected.push(...placed(decodeSite(images), left.matrix), ...placed(decodeCompactSite(buffers), right.matrix));
-    return `${left.markup}${geometry}</Transform>${right.markup}${ball}</Transform>`;
-  }).join("\n");
+  const scene = (knot: string): string =>
+    Array.from({ length: copies }, (_, n) => {
+      const [left, right] = [matrixOfCopy(n, -1.2), matrixOfCopy(n, 1.2)];
+      const geometry =
+        n === 0
+          ? knot.replace("<ImageGeometry", '<ImageGeometry DEF="knot"')
+          : knot.replace(/<ImageGeometry[\s\S]*<\/ImageGeometry>/i, '<ImageGeometry USE="knot"></ImageGeometry>');
+      expected.push(...placed(decodeSite(images), left.matrix), ...placed(decodeCompactSite(buffers), right.matrix));
+      return `${left.markup}${geometry}</Transform>${right.markup}${ball}</Transform>`;
+    }).join("\n");
   const page = withShapes(pageOf(images), scene);
   const site = variantOf(images, "together", () => page);
   cpSync(buffers, join(site, "other"), { recursive: true });
@@ -137,47 +173,74 @@ test("what is drawn together looks as if drawn alone: instances of images, and m
     await view.promise("complete");
     const reference = await referencePicture(page, expected);
     assertSamePicture("together", await view.picture(), reference, boundsOfQuantised);
-    assert.ok(await drawsOfFrame(view) <= 6, `${await drawsOfFrame(view)} draws`);
+    assert.ok((await drawsOfFrame(view)) <= 6, `${await drawsOfFrame(view)} draws`);
     await view.page.evaluate(loseContextForAMoment);
-    await until("all is back after its context was lost", async () => isWithin(difference(await view.picture(), reference), boundsOfQuantised));
-    assert.ok(await drawsOfFrame(view) <= 6);
+    await until("all is back after its context was lost", async () =>
+      isWithin(difference(await view.picture(), reference), boundsOfQuantised),
+    );
+    assert.ok((await drawsOfFrame(view)) <= 6);
   });
 });
 
 /** Of the panes: where they stand along z, and what lies behind how much of whose colour. */
 const panes = Array.from({ length: 24 }, (_, n) => ({
   // Three stacks of eight, which cover one another in part; no two alike, in no order.
-  z: ((n * 7) % 24) / 8, x: (n % 3) * 1.6 - 1.6 + (n % 5) / 20, y: (n % 4) / 10,
-  color: [(n % 2) * 0.9 + 0.05, ((n * 5) % 7) / 7, ((n * 3) % 5) / 5], transparency: 0.3 + (n % 4) / 8,
+  z: ((n * 7) % 24) / 8,
+  x: (n % 3) * 1.6 - 1.6 + (n % 5) / 20,
+  y: (n % 4) / 10,
+  color: [(n % 2) * 0.9 + 0.05, ((n * 5) % 7) / 7, ((n * 3) % 5) / 5],
+  transparency: 0.3 + (n % 4) / 8,
 }));
 
 /** Flat squares, every second one with two sides; every third is read from images. */
 function panesMarkup(image: string): string {
-  return panes.map(({ x, y, z, color, transparency }, n) => {
-    const look = `<Appearance><UnlitMaterial emissiveColor="${color.join(" ")}" transparency="${transparency}"></UnlitMaterial></Appearance>`;
-    const square = n % 3 === 2 ? (n === 2 ? image.replace("<ImageGeometry", '<ImageGeometry DEF="pane"') : '<ImageGeometry USE="pane"></ImageGeometry>')
-      : `<IndexedFaceSet solid="false" coordIndex="0 1 2 3 -1"><Coordinate point="-1 -1 0 1 -1 0 1 1 0 -1 1 0"></Coordinate></IndexedFaceSet>`;
-    return `<Transform translation="${x} ${y} ${z}"><Shape id="p${n}">${look}${square}</Shape></Transform>`;
-  }).join("");
+  return panes
+    .map(({ x, y, z, color, transparency }, n) => {
+      const look = `<Appearance><UnlitMaterial emissiveColor="${color.join(" ")}" transparency="${transparency}"></UnlitMaterial></Appearance>`;
+      const square =
+        n % 3 === 2
+          ? n === 2
+            ? image.replace("<ImageGeometry", '<ImageGeometry DEF="pane"')
+            : '<ImageGeometry USE="pane"></ImageGeometry>'
+          : `<IndexedFaceSet solid="false" coordIndex="0 1 2 3 -1"><Coordinate point="-1 -1 0 1 -1 0 1 1 0 -1 1 0"></Coordinate></IndexedFaceSet>`;
+      return `<Transform translation="${x} ${y} ${z}"><Shape id="p${n}">${look}${square}</Shape></Transform>`;
+    })
+    .join("");
 }
 
 test("panes that blend are a few draws, and look from both sides as if each were drawn in its turn", async () => {
   const away = 12;
   const images = siteOf(squareFile(), "--profile", "classic");
-  const image = /<ImageGeometry[\s\S]*<\/ImageGeometry>/i.exec(shapeIn(pageOf(images)))?.[0].replace("<ImageGeometry", '<ImageGeometry solid="false"') ?? "";
-  const views = [`<Viewpoint id="front" position="0 0 ${away}" fieldOfView="0.8"></Viewpoint>`,
-    `<Viewpoint id="behind" position="0 0 ${-away}" orientation="0 1 0 ${Math.PI}" fieldOfView="0.8"></Viewpoint>`];
-  const site = variantOf(images, "panes", (page) => withShapes(page, () => panesMarkup(image)).replaceAll(/<Background[^>]*><\/Background>/gi, "")
-    .replaceAll(/<Viewpoint[^>]*><\/Viewpoint>/gi, () => `<Background skyColor="0 0 0"></Background>${views.splice(0).join("")}`));
+  const image =
+    /<ImageGeometry[\s\S]*<\/ImageGeometry>/i
+      .exec(shapeIn(pageOf(images)))?.[0]
+      .replace("<ImageGeometry", '<ImageGeometry solid="false"') ?? "";
+  const views = [
+    `<Viewpoint id="front" position="0 0 ${away}" fieldOfView="0.8"></Viewpoint>`,
+    `<Viewpoint id="behind" position="0 0 ${-away}" orientation="0 1 0 ${Math.PI}" fieldOfView="0.8"></Viewpoint>`,
+  ];
+  const site = variantOf(images, "panes", (page) =>
+    withShapes(page, () => panesMarkup(image))
+      .replaceAll(/<Background[^>]*><\/Background>/gi, "")
+      .replaceAll(
+        /<Viewpoint[^>]*><\/Viewpoint>/gi,
+        () => `<Background skyColor="0 0 0"></Background>${views.splice(0).join("")}`,
+      ),
+  );
   const isImage = (pane: (typeof panes)[number]) => panes.indexOf(pane) % 3 === 2;
-  const turns = panes.toSorted((a, b) => a.z - b.z).filter((pane, n, all) => n === 0 || isImage(pane) !== isImage(all[n - 1]!)).length;
+  const turns = panes
+    .toSorted((a, b) => a.z - b.z)
+    .filter((pane, n, all) => n === 0 || isImage(pane) !== isImage(all[n - 1]!)).length;
   await withPage(site, {}, async (view) => {
     await view.promise("complete");
     for (const side of [1, -1]) {
-      if (side < 0) await view.page.evaluate(() => { document.querySelector("#behind")!.setAttribute("set_bind", "true"); });
+      if (side < 0)
+        await view.page.evaluate(() => {
+          document.querySelector("#behind")!.setAttribute("set_bind", "true");
+        });
       const picture = await view.picture();
       savePicture(`panes${side}`, picture);
-      assert.ok(await drawsOfFrame(view) <= turns + 2, `${await drawsOfFrame(view)} draws`);
+      assert.ok((await drawsOfFrame(view)) <= turns + 2, `${await drawsOfFrame(view)} draws`);
       let compared = 0;
       for (let n = 0; n < 400; ++n) {
         const at: Point = [(n % 20) / 4 - 2.4, Math.floor(n / 20) / 10 - 0.87];
@@ -185,9 +248,20 @@ test("panes that blend are a few draws, and look from both sides as if each were
         if (wanted === undefined) continue;
         compared += 1;
         const scale = pictureSize.height / 2 / Math.tan(0.4) / away;
-        const [x, y] = [Math.floor(pictureSize.width / 2 + side * at[0] * scale), Math.floor(pictureSize.height / 2 - at[1] * scale)];
-        const found = Array.from(picture.data.subarray((y * picture.width + x) * picture.channels, (y * picture.width + x) * picture.channels + 3));
-        assert.ok(wanted.every((channel, i) => Math.abs(channel - found[i]!) <= 3), `side ${side}, at ${at.join()}: ${found.join()} instead of ${wanted.join()}`);
+        const [x, y] = [
+          Math.floor(pictureSize.width / 2 + side * at[0] * scale),
+          Math.floor(pictureSize.height / 2 - at[1] * scale),
+        ];
+        const found = Array.from(
+          picture.data.subarray(
+            (y * picture.width + x) * picture.channels,
+            (y * picture.width + x) * picture.channels + 3,
+          ),
+        );
+        assert.ok(
+          wanted.every((channel, i) => Math.abs(channel - found[i]!) <= 3),
+          `side ${side}, at ${at.join()}: ${found.join()} instead of ${wanted.join()}`,
+        );
       }
       assert.ok(compared > 100, `${compared} places`);
     }
@@ -211,6 +285,12 @@ function blendedAt([x, y]: Point, eye: number): number[] | undefined {
 function squareFile(): string {
   const path = join(outputDirectory, "pane.ply");
   mkdirSync(outputDirectory, { recursive: true });
-  writeFileSync(path, writePly({ positions: Float32Array.from([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]), triangles: Uint32Array.from([0, 1, 2, 0, 2, 3]) }));
+  writeFileSync(
+    path,
+    writePly({
+      positions: Float32Array.from([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]),
+      triangles: Uint32Array.from([0, 1, 2, 0, 2, 3]),
+    }),
+  );
   return path;
 }

@@ -54,8 +54,12 @@ type Changes = Record<string, () => void>;
 
 /** Self-contained: each runs in the page, after those before it. */
 const changesOfLook: Changes = {
-  "a material's colour": () => { document.querySelector("material")!.setAttribute("diffuseColor", "0.9 0.2 0.1"); },
-  "a material's own light": () => { document.querySelector("material")!.setAttribute("emissiveColor", "0 0.3 0"); },
+  "a material's colour": () => {
+    document.querySelector("material")!.setAttribute("diffuseColor", "0.9 0.2 0.1");
+  },
+  "a material's own light": () => {
+    document.querySelector("material")!.setAttribute("emissiveColor", "0 0.3 0");
+  },
   "a material's gloss": () => {
     document.querySelector("material")!.setAttribute("specularColor", "0.7 0.7 0.7");
     document.querySelector("material")!.setAttribute("shininess", "0.05");
@@ -66,14 +70,24 @@ const changesOfLook: Changes = {
     light.setAttribute("color", "1 0.5 0");
     document.querySelector("scene")!.append(light);
   },
-  "a material's transparency": () => { document.querySelector("material")!.setAttribute("transparency", "0.5"); },
-  "the sky": () => { document.querySelector("background")!.setAttribute("skyColor", "0.1 0.2 0.4"); },
+  "a material's transparency": () => {
+    document.querySelector("material")!.setAttribute("transparency", "0.5");
+  },
+  "the sky": () => {
+    document.querySelector("background")!.setAttribute("skyColor", "0.1 0.2 0.4");
+  },
 };
 
 const changesOfPlace: Changes = {
-  "a transform's translation": () => { document.querySelector("transform")!.setAttribute("translation", "0.8 0.4 0"); },
-  "a transform's rotation": () => { document.querySelector("transform")!.setAttribute("rotation", "0 1 0.2 0.9"); },
-  "a transform's scale": () => { document.querySelector("transform")!.setAttribute("scale", "0.6 0.9 0.7"); },
+  "a transform's translation": () => {
+    document.querySelector("transform")!.setAttribute("translation", "0.8 0.4 0");
+  },
+  "a transform's rotation": () => {
+    document.querySelector("transform")!.setAttribute("rotation", "0 1 0.2 0.9");
+  },
+  "a transform's scale": () => {
+    document.querySelector("transform")!.setAttribute("scale", "0.6 0.9 0.7");
+  },
   "a viewpoint": () => {
     document.querySelector("viewpoint")!.setAttribute("orientation", "0 0 1 0.4");
     document.querySelector("viewpoint")!.setAttribute("fieldOfView", "1.1");
@@ -87,19 +101,31 @@ const changesOfPlace: Changes = {
 };
 
 const changesOfVertices: Changes = {
-  "the box that stored integers are spread over": () => { document.querySelector("imagegeometry")!.setAttribute("size", "3 6 4"); },
-  "a surface that has no normals any more": () => { document.querySelector("geometrypatch")!.removeAttribute("normal"); },
+  "the box that stored integers are spread over": () => {
+    document.querySelector("imagegeometry")!.setAttribute("size", "3 6 4");
+  },
+  "a surface that has no normals any more": () => {
+    document.querySelector("geometrypatch")!.removeAttribute("normal");
+  },
 };
 
 /** Self-contained: hidden, then shown again. */
 const waysToHide: Record<string, readonly [hide: () => void, show: () => void]> = {
   "a shape": [
-    () => { document.querySelector("shape")!.setAttribute("visible", "false"); },
-    () => { document.querySelector("shape")!.removeAttribute("visible"); },
+    () => {
+      document.querySelector("shape")!.setAttribute("visible", "false");
+    },
+    () => {
+      document.querySelector("shape")!.removeAttribute("visible");
+    },
   ],
   "a group, in X3DOM's words": [
-    () => { document.querySelector("transform")!.setAttribute("render", "false"); },
-    () => { document.querySelector("transform")!.setAttribute("render", "true"); },
+    () => {
+      document.querySelector("transform")!.setAttribute("render", "false");
+    },
+    () => {
+      document.querySelector("transform")!.setAttribute("render", "true");
+    },
   ],
   "a switch around it": [
     () => {
@@ -107,7 +133,9 @@ const waysToHide: Record<string, readonly [hide: () => void, show: () => void]> 
       document.querySelector("scene")!.append(choice);
       choice.append(document.querySelector("transform")!);
     },
-    () => { document.querySelector("switch")!.setAttribute("whichChoice", "0"); },
+    () => {
+      document.querySelector("switch")!.setAttribute("whichChoice", "0");
+    },
   ],
 };
 
@@ -120,8 +148,14 @@ describe("a change in the document shows", () => {
     });
 
   for (const [what, changes, site] of [
-    ["of look", changesOfLook, twoMeshSite], ["of place", changesOfPlace, twoMeshSite], ["of vertices", changesOfVertices, twoMeshSite],
-    ["of place and look, of compact", { ...changesOfPlace, ...changesOfLook }, () => siteOfGenerated("trefoil", "--profile", "compact", "--patch-vertices", "1000")],
+    ["of look", changesOfLook, twoMeshSite],
+    ["of place", changesOfPlace, twoMeshSite],
+    ["of vertices", changesOfVertices, twoMeshSite],
+    [
+      "of place and look, of compact",
+      { ...changesOfPlace, ...changesOfLook },
+      () => siteOfGenerated("trefoil", "--profile", "compact", "--patch-vertices", "1000"),
+    ],
   ] as const) {
     test(`${what}, each at once, and all together as if they had always been so`, async () => {
       await withTransform(async (view) => {
@@ -134,7 +168,9 @@ describe("a change in the document shows", () => {
           before = after;
         }
         assert.equal(view.server.requests.length, asked, "files were asked for again");
-        assertSamePicture(`changed ${what}`, before, await freshPicture(site(), await sceneText(view)), { mean: 0.001 });
+        assertSamePicture(`changed ${what}`, before, await freshPicture(site(), await sceneText(view)), {
+          mean: 0.001,
+        });
       }, site());
     });
   }
@@ -146,7 +182,10 @@ describe("a change in the document shows", () => {
       for (const [name, [hide, show]] of Object.entries(waysToHide)) {
         await view.page.evaluate(hide);
         const { data, channels } = await view.picture();
-        assert.ok(data.every((byte, at) => byte === data[at % channels]), `${name}: something is seen`);
+        assert.ok(
+          data.every((byte, at) => byte === data[at % channels]),
+          `${name}: something is seen`,
+        );
         await view.page.evaluate(show);
         assertSamePicture(`shown again ${name}`, await view.picture(), shown, { mean: 0 });
       }
@@ -169,11 +208,18 @@ describe("a change in the document shows", () => {
         }
       }, sphereShape());
       await until("its files are asked for", () => view.server.requestsOf(/^\/other\//).length > 0);
-      await until("nothing is open", () => view.page.evaluate(() =>
-        (document.querySelector("imgeo-view") as unknown as { statistics: { openRequests: number } }).statistics.openRequests === 0));
+      await until("nothing is open", () =>
+        view.page.evaluate(
+          () =>
+            (document.querySelector("imgeo-view") as unknown as { statistics: { openRequests: number } }).statistics
+              .openRequests === 0,
+        ),
+      );
       const after = await view.picture();
       assert.ok(difference(before, after).mean > 0.5, "nothing has changed");
-      assertSamePicture("changed files", after, await freshPicture(twoMeshSite(), await sceneText(view)), { mean: 0.001 });
+      assertSamePicture("changed files", after, await freshPicture(twoMeshSite(), await sceneText(view)), {
+        mean: 0.001,
+      });
     });
   });
 
@@ -191,7 +237,9 @@ describe("a change in the document shows", () => {
       assert.ok(during.textures > before.textures);
       assertSamePicture("added shape", both, await freshPicture(site, await sceneText(view)), { mean: 0.001 });
 
-      await view.page.evaluate(() => { document.querySelector("#sphere")!.remove(); });
+      await view.page.evaluate(() => {
+        document.querySelector("#sphere")!.remove();
+      });
       assertSamePicture("removed shape", await view.picture(), alone, { mean: 0 });
       const { live: after } = await view.observed();
       assert.deepEqual({ ...after, programs: 0 }, { ...before, programs: 0 });
@@ -205,8 +253,12 @@ describe("a change in the document shows", () => {
       await view.promise("complete");
       await addShape(view, sphereShape());
       await until("the sphere's files are asked for", () => view.server.requestsOf(/^\/other\//).length > 0);
-      await view.page.evaluate(() => { document.querySelector("#sphere")!.remove(); });
-      await until("the requests are aborted", () => view.server.requestsOf(/^\/other\//).every(({ state }) => state === "aborted"));
+      await view.page.evaluate(() => {
+        document.querySelector("#sphere")!.remove();
+      });
+      await until("the requests are aborted", () =>
+        view.server.requestsOf(/^\/other\//).every(({ state }) => state === "aborted"),
+      );
       await settle(view.page);
       const asked = view.server.requestsOf(/^\/other\//).length;
       await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 300)));
@@ -219,10 +271,14 @@ describe("a change in the document shows", () => {
     await withPage(siteOfGenerated("trefoil", "--profile", "classic"), {}, async (view) => {
       await view.promise("complete");
       const isReleased = await view.page.evaluate(async () => {
-        const context = document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.getContext("webgl2")!;
+        const context = document
+          .querySelector("imgeo-view")!
+          .shadowRoot!.querySelector("canvas")!
+          .getContext("webgl2")!;
         document.querySelector("x3d")!.remove();
         const end = performance.now() + 20_000;
-        while (!context.isContextLost() && performance.now() < end) await new Promise((resolve) => setTimeout(resolve, 10));
+        while (!context.isContextLost() && performance.now() < end)
+          await new Promise((resolve) => setTimeout(resolve, 10));
         return context.isContextLost();
       });
       assert.ok(isReleased, "the WebGL context is still held");
@@ -231,5 +287,7 @@ describe("a change in the document shows", () => {
 });
 
 async function addShape(view: View, shape: string): Promise<void> {
-  await view.page.evaluate((text) => { document.querySelector("scene")!.insertAdjacentHTML("beforeend", text); }, shape);
+  await view.page.evaluate((text) => {
+    document.querySelector("scene")!.insertAdjacentHTML("beforeend", text);
+  }, shape);
 }

@@ -24,13 +24,17 @@ function filesOf(directory: string): { base: string; patches: string[] } {
   return { base, patches: tags.flatMap(({ attributes: { data } }) => (data ? [data] : [])) };
 }
 
-const isPath = (url: string) => (path: string): boolean => path === `/${url}`;
+const isPath =
+  (url: string) =>
+  (path: string): boolean =>
+    path === `/${url}`;
 
 /** For each pixel whether the mesh is there: it is darker than what lies behind. */
 function foreground({ width, height, channels, data }: Picture): boolean[] {
   const background = [0, 1, 2].map((channel) => data[(height - 2) * width * channels + channel]!);
   return Array.from({ length: width * height }, (_, pixel) =>
-    background.some((shade, channel) => Math.abs(data[pixel * channels + channel]! - shade) > 12));
+    background.some((shade, channel) => Math.abs(data[pixel * channels + channel]! - shade) > 12),
+  );
 }
 
 /** Pixels from which the mesh reaches at least `margin` pixels to all sides. */
@@ -61,19 +65,29 @@ function assertNoHoles(picture: Picture, full: Picture | undefined, what: string
 }
 
 function shuffled<Value>(values: Value[]): Value[] {
-  return values.map((value) => ({ value, rank: Math.random() })).sort((a, b) => a.rank - b.rank).map(({ value }) => value);
+  return values
+    .map((value) => ({ value, rank: Math.random() }))
+    .sort((a, b) => a.rank - b.rank)
+    .map(({ value }) => value);
 }
 
 const stages = async (view: View): Promise<unknown[]> =>
-  [...await view.events("first-image", "x3d"), ...await view.events("refine", "x3d")].map(({ detail }) => detail.stage);
+  [...(await view.events("first-image", "x3d")), ...(await view.events("refine", "x3d"))].map(
+    ({ detail }) => detail.stage,
+  );
 
 describe("a base", () => {
   test("shows the whole shape, and no background through any mixture with patches", async () => {
     const { base, patches } = filesOf(site());
-    assert.ok(patches.length >= 4 && patches.length <= 6, `${patches.length} patches, all of which are asked for at once`);
+    assert.ok(
+      patches.length >= 4 && patches.length <= 6,
+      `${patches.length} patches, all of which are asked for at once`,
+    );
     const gates = patches.map(gate);
     const server = (server: View["server"]): void => {
-      patches.forEach((url, place) => { server.when(isPath(url), { hold: gates[place]!.closed }); });
+      patches.forEach((url, place) => {
+        server.when(isPath(url), { hold: gates[place]!.closed });
+      });
     };
     await withPage(site(), { server }, async (view) => {
       await view.promise("firstImage");
@@ -83,7 +97,9 @@ describe("a base", () => {
       const order = shuffled([...patches.keys()]);
       for (const place of order.slice(0, -1)) {
         gates[place]!.open();
-        await until("the patch is here", () => view.server.requests.some(({ path, status }) => isPath(patches[place]!)(path) && status === 200));
+        await until("the patch is here", () =>
+          view.server.requests.some(({ path, status }) => isPath(patches[place]!)(path) && status === 200),
+        );
         const seen = mixtures.at(-1)!;
         await until("the patch is shown", async () => {
           const picture = await view.picture();
@@ -117,14 +133,17 @@ describe("a file of compact that is no use", () => {
     return changed;
   };
   const faults: [string, Behaviour, RegExp][] = [
-    ["missing", { status: 404 }, /http/], ["cut short", { truncateTo: 900 }, /truncated|malformed/],
+    ["missing", { status: 404 }, /http/],
+    ["cut short", { truncateTo: 900 }, /truncated|malformed/],
     ["with a bit turned over", { replace: flipped }, /malformed/],
   ];
 
   test("costs its patch alone, which its base stands in for, and is named", async () => {
     const { patches } = filesOf(site());
     const server = (server: View["server"]): void => {
-      faults.forEach(([, behaviour], place) => { server.when(isPath(patches[place]!), behaviour); });
+      faults.forEach(([, behaviour], place) => {
+        server.when(isPath(patches[place]!), behaviour);
+      });
     };
     await withPage(site(), { server, expectedErrors: /Failed to load resource|imgeo/ }, async (view) => {
       await until("all have been reported", async () => (await view.events("error", "x3d")).length === faults.length);
@@ -140,10 +159,15 @@ describe("a file of compact that is no use", () => {
 
   test("leaves all patches where it is the base", async () => {
     const { base } = filesOf(site());
-    const server = (server: View["server"]): void => { server.when(isPath(base), { status: 404 }); };
+    const server = (server: View["server"]): void => {
+      server.when(isPath(base), { status: 404 });
+    };
     await withPage(site(), { server, expectedErrors: /Failed to load resource|imgeo/ }, async (view) => {
       await until("the scene is loaded", async () => (await view.events("load", "x3d")).length === 1);
-      assert.deepEqual((await view.events("error", "shape")).map(({ detail }) => detail.url), [base]);
+      assert.deepEqual(
+        (await view.events("error", "shape")).map(({ detail }) => detail.url),
+        [base],
+      );
       assert.equal((await stages(view)).at(-1), "full");
     });
   });
@@ -153,19 +177,29 @@ describe("patches of compact", () => {
   test("come in the order of what is seen, after the base", async () => {
     const { base, patches } = filesOf(site());
     // From near one side: what lies beside the view comes last.
-    const near = (html: Buffer): string => html.toString().replace(/<Viewpoint[\s\S]*?<\/Viewpoint>/i,
-      '<Viewpoint position="2.2 0 1.2" orientation="0 0 1 0" fieldOfView="0.6" centerOfRotation="2.2 0 0"></Viewpoint>');
+    const near = (html: Buffer): string =>
+      html
+        .toString()
+        .replace(
+          /<Viewpoint[\s\S]*?<\/Viewpoint>/i,
+          '<Viewpoint position="2.2 0 1.2" orientation="0 0 1 0" fieldOfView="0.6" centerOfRotation="2.2 0 0"></Viewpoint>',
+        );
     await withPage(site(), { server: (server) => server.when(/^\/$/, { replace: near }) }, async (view) => {
       await view.promise("complete");
       const asked = view.asked.filter((path) => path === base || patches.includes(path));
       assert.equal(asked[0], base);
       assert.deepEqual(new Set(asked.slice(1)), new Set(patches));
-      const seen = await view.page.evaluate(() => Array.from(document.querySelectorAll("geometrypatch"), (patch) => {
-        const [x = 0, y = 0, z = 0] = (patch.getAttribute("bboxCenter") ?? "").split(" ").map(Number);
-        return { url: patch.getAttribute("data") ?? "", away: Math.hypot(x - 2.2, y, z - 1.2) };
-      }));
+      const seen = await view.page.evaluate(() =>
+        Array.from(document.querySelectorAll("geometrypatch"), (patch) => {
+          const [x = 0, y = 0, z = 0] = (patch.getAttribute("bboxCenter") ?? "").split(" ").map(Number);
+          return { url: patch.getAttribute("data") ?? "", away: Math.hypot(x - 2.2, y, z - 1.2) };
+        }),
+      );
       const nearest = seen.reduce((best, one) => (one.away < best.away ? one : best));
-      assert.ok(asked.indexOf(nearest.url) <= Math.ceil(patches.length / 2), `${nearest.url} is number ${asked.indexOf(nearest.url)}`);
+      assert.ok(
+        asked.indexOf(nearest.url) <= Math.ceil(patches.length / 2),
+        `${nearest.url} is number ${asked.indexOf(nearest.url)}`,
+      );
     });
   });
 
@@ -173,9 +207,13 @@ describe("patches of compact", () => {
     await withPage(site(), {}, async (view) => {
       await view.promise("complete");
       const count = (): Promise<{ geometries: number }> =>
-        view.page.evaluate(() => (document.querySelector("imgeo-view") as unknown as { statistics: { geometries: number } }).statistics);
+        view.page.evaluate(
+          () => (document.querySelector("imgeo-view") as unknown as { statistics: { geometries: number } }).statistics,
+        );
       assert.ok((await count()).geometries >= filesOf(site()).patches.length);
-      await view.page.evaluate(() => { document.querySelector("shape")?.remove(); });
+      await view.page.evaluate(() => {
+        document.querySelector("shape")?.remove();
+      });
       await until("nothing is left", async () => (await count()).geometries === 0);
       assert.ok(!foreground(await view.picture()).includes(true));
     });

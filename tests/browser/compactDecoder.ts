@@ -20,17 +20,24 @@ export function decodeCompactSite(directory: string): PlainPatch[] {
   const size = numbersOf(node.size, [1, 1, 1]);
   const place = (stored: number, axis: number): number =>
     position[axis]! - size[axis]! / 2 + (stored * 2 ** (8 * bytes - bits) * size[axis]!) / (256 ** bytes - 1);
-  return tags.filter(({ attributes }) => attributes.data !== undefined).map(({ attributes }) => {
-    const [url, first] = attributes.data!.split("#");
-    const { data } = decodePng(readFileSync(join(directory, url!)));
-    const { topology, coord, normal, index, vertexCount } = decodePatches(data, buffersOf)[Number(first ?? 0)]!;
-    const elementsOf = (kind: typeof topology): Uint32Array => Uint32Array.from(topology === kind ? index ?? running(vertexCount) : []);
-    return {
-      positions: Float32Array.from({ length: 3 * vertexCount }, (_, i) => place(numberAt(coord, i), i % 3)),
-      ...(normal && { normals: unitVectors(Float32Array.from({ length: 3 * vertexCount }, (_, i) => numberAt(normal, i))) }),
-      triangles: elementsOf("triangles"), lines: elementsOf("lines"), points: elementsOf("points"),
-    };
-  });
+  return tags
+    .filter(({ attributes }) => attributes.data !== undefined)
+    .map(({ attributes }) => {
+      const [url, first] = attributes.data!.split("#");
+      const { data } = decodePng(readFileSync(join(directory, url!)));
+      const { topology, coord, normal, index, vertexCount } = decodePatches(data, buffersOf)[Number(first ?? 0)]!;
+      const elementsOf = (kind: typeof topology): Uint32Array =>
+        Uint32Array.from(topology === kind ? (index ?? running(vertexCount)) : []);
+      return {
+        positions: Float32Array.from({ length: 3 * vertexCount }, (_, i) => place(numberAt(coord, i), i % 3)),
+        ...(normal && {
+          normals: unitVectors(Float32Array.from({ length: 3 * vertexCount }, (_, i) => numberAt(normal, i))),
+        }),
+        triangles: elementsOf("triangles"),
+        lines: elementsOf("lines"),
+        points: elementsOf("points"),
+      };
+    });
 }
 
 function running(count: number): number[] {

@@ -95,7 +95,8 @@ function differencePicture(a: Picture, b: Picture): Picture {
 /** One where a picture differs from the blank one by more than 8, zero elsewhere. */
 export function silhouette(picture: Picture, blank: Picture): Uint8Array {
   const mask = new Uint8Array(picture.width * picture.height);
-  for (let pixel = 0; pixel < mask.length; ++pixel) mask[pixel] = channelDifferences(picture, blank, pixel).largest > 8 ? 1 : 0;
+  for (let pixel = 0; pixel < mask.length; ++pixel)
+    mask[pixel] = channelDifferences(picture, blank, pixel).largest > 8 ? 1 : 0;
   return mask;
 }
 
@@ -120,8 +121,14 @@ export function holesIn(mask: Uint8Array, width: number): number {
     reached[y * width + x] = 1;
     open.push(y * width + x);
   };
-  for (let x = 0; x < width; ++x) [0, height - 1].forEach((y) => { visit(x, y); });
-  for (let y = 0; y < height; ++y) [0, width - 1].forEach((x) => { visit(x, y); });
+  for (let x = 0; x < width; ++x)
+    [0, height - 1].forEach((y) => {
+      visit(x, y);
+    });
+  for (let y = 0; y < height; ++y)
+    [0, width - 1].forEach((x) => {
+      visit(x, y);
+    });
   for (let pixel = open.pop(); pixel !== undefined; pixel = open.pop()) {
     const x = pixel % width;
     const y = (pixel - x) / width;

@@ -33,7 +33,10 @@ async function shown(site: string, options: PageOptions): Promise<Shown> {
 }
 
 const cases: { mesh: GeneratedMesh; options: string[] }[] = [
-  ...["triangles", "strips"].map((primitives) => ({ mesh: "trefoil-colors" as const, options: ["--primitives", primitives, "--patch-vertices", "1000"] })),
+  ...["triangles", "strips"].map((primitives) => ({
+    mesh: "trefoil-colors" as const,
+    options: ["--primitives", primitives, "--patch-vertices", "1000"],
+  })),
   { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"] },
   { mesh: "trefoil-plain", options: ["--position-bits", "12"] },
   { mesh: "trefoil", options: ["--normals", "octahedral"] },
@@ -49,7 +52,12 @@ describe("decoded on the CPU, the picture is that of the GPU and of plain buffer
       const gpu = await shown(site, {});
       const cpu = await shown(site, { server: cpuServer });
       assertSamePicture(`cpu and gpu ${mesh} ${options.join("")}`, cpu.picture, gpu.picture, { mean: 0.0005 });
-      assertSamePicture(`cpu ${mesh} ${options.join("")}`, cpu.picture, await referencePicture(pageOf(site), decodeSite(site)), boundsOfQuantised);
+      assertSamePicture(
+        `cpu ${mesh} ${options.join("")}`,
+        cpu.picture,
+        await referencePicture(pageOf(site), decodeSite(site)),
+        boundsOfQuantised,
+      );
       assert.ok(gpu.textures > cpu.textures, `${gpu.textures} and ${cpu.textures} textures`);
       assert.ok(gpu.workers === 0 && cpu.workers > 0, `${gpu.workers} and ${cpu.workers} workers`);
     });
@@ -66,7 +74,9 @@ describe("decoded on the CPU, the picture is that of the GPU and of plain buffer
         server.when((path) => held.includes(path), { hold: closed });
       };
       await withPage(site, { server }, async (view) => {
-        await until("it is shaded", async () => (await view.observed()).events.some(({ target, detail }) => target === "shape" && detail.stage === "shaded"));
+        await until("it is shaded", async () =>
+          (await view.observed()).events.some(({ target, detail }) => target === "shape" && detail.stage === "shaded"),
+        );
         pictures.push(await view.picture());
       });
     }
@@ -94,7 +104,10 @@ describe("images are decoded on the CPU of themselves", () => {
       await view.promise("complete");
       assertSamePicture(name, await view.picture(), expected, boundsOfQuantised);
       assert.ok(view.page.workers().length > 0, "nothing was decoded in workers");
-      assert.ok(messages.some((message) => message.includes("decoded in workers")), messages.join("; "));
+      assert.ok(
+        messages.some((message) => message.includes("decoded in workers")),
+        messages.join("; "),
+      );
     });
   }
 
@@ -129,7 +142,12 @@ describe("images are decoded on the CPU of themselves", () => {
     };
     // Index images are 1024 wide.
     const { picture, workers } = await shown(site(), { before });
-    assertSamePicture("large texture", picture, await referencePicture(pageOf(site()), decodeSite(site())), boundsOfQuantised);
+    assertSamePicture(
+      "large texture",
+      picture,
+      await referencePicture(pageOf(site()), decodeSite(site())),
+      boundsOfQuantised,
+    );
     assert.ok(workers > 0, "nothing was decoded in workers");
   });
 
@@ -146,8 +164,18 @@ test("the page decodes by itself where it may start no workers", async () => {
   const site = siteOfGenerated("trefoil-colors", "--profile", "classic");
   const expected = await referencePicture(pageOf(site), decodeSite(site));
   for (const before of [
-    () => { window.Worker = function () { throw new DOMException("not here", "SecurityError"); } as unknown as typeof Worker; },
-    () => { window.Worker = class extends Worker { constructor() { super("/missing.js", { type: "module" }); } }; },
+    () => {
+      window.Worker = function () {
+        throw new DOMException("not here", "SecurityError");
+      } as unknown as typeof Worker;
+    },
+    () => {
+      window.Worker = class extends Worker {
+        constructor() {
+          super("/missing.js", { type: "module" });
+        }
+      };
+    },
   ]) {
     const { picture } = await shown(site, { server: cpuServer, before, expectedErrors: /missing\.js|404/ });
     assertSamePicture("without workers", picture, expected, boundsOfQuantised);
@@ -167,7 +195,9 @@ test("a file that is wrong is named, and the rest is shown", async () => {
     assert.deepEqual([error?.detail.type, error?.detail.url], ["truncated", normal]);
     // Where all is decoded before the first frame, its first image is the surface already.
     const { events } = await view.observed();
-    const stages = events.filter(({ target, type }) => target === "shape" && (type === "first-image" || type === "refine")).map(({ detail }) => detail.stage);
+    const stages = events
+      .filter(({ target, type }) => target === "shape" && (type === "first-image" || type === "refine"))
+      .map(({ detail }) => detail.stage);
     assert.equal(stages.at(-1), "surface");
   });
 });

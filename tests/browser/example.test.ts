@@ -12,13 +12,15 @@ import { siteOfGenerated } from "./sites.ts";
 /** Of pixels that are as red as the mark. */
 function redIn({ data, channels }: Picture): number {
   let count = 0;
-  for (let i = 0; i < data.length; i += channels) if (data[i]! > 150 && data[i + 1]! < 90 && data[i + 2]! < 90) count += 1;
+  for (let i = 0; i < data.length; i += channels)
+    if (data[i]! > 150 && data[i + 1]! < 90 && data[i + 2]! < 90) count += 1;
   return count;
 }
 
 /** Pixels of the floor that are much darker than the rest of it. */
 function shadowIn({ data, width, height, channels }: Picture): number {
-  const brightness = (x: number, y: number): number => data[(y * width + x) * channels]! + data[(y * width + x) * channels + 1]!;
+  const brightness = (x: number, y: number): number =>
+    data[(y * width + x) * channels]! + data[(y * width + x) * channels + 1]!;
   const lit = brightness(20, height - 60);
   let count = 0;
   for (let y = Math.floor(height * 0.6); y < height; ++y) {
@@ -29,7 +31,11 @@ function shadowIn({ data, width, height, channels }: Picture): number {
 
 test("the three.js app shows a model with its shadow, and marks where one clicks on it", async () => {
   const directory = join(outputDirectory, "three-app");
-  execFileSync(process.execPath, ["examples/three/build.ts", siteOfGenerated("trefoil", "--profile", "compact"), directory], { cwd: repository });
+  execFileSync(
+    process.execPath,
+    ["examples/three/build.ts", siteOfGenerated("trefoil", "--profile", "compact"), directory],
+    { cwd: repository },
+  );
   await withPage(directory, {}, async ({ page, server }) => {
     await until("all is there", async () => (await page.textContent("#status"))?.startsWith("Complete") === true);
     // Its last frame may still be on its way.

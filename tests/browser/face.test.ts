@@ -15,10 +15,12 @@ import { pageOf, siteOfGenerated, variantOf } from "./sites.ts";
 
 /** The page with attributes on its <x3d>, elements in it, and more around it. */
 function siteWith(name: string, { attributes = "", inside = "", before = "", after = "" }): string {
-  return variantOf(siteOfGenerated("trefoil", "--profile", "classic"), name, (page) => page
-    .replace(/<X3D/i, `<X3D ${attributes}`)
-    .replace(/<\/X3D>/i, (end) => `${inside}${end}${after}`)
-    .replace(/<body[^>]*>/i, (start) => `${start}${before}`));
+  return variantOf(siteOfGenerated("trefoil", "--profile", "classic"), name, (page) =>
+    page
+      .replace(/<X3D/i, `<X3D ${attributes}`)
+      .replace(/<\/X3D>/i, (end) => `${inside}${end}${after}`)
+      .replace(/<body[^>]*>/i, (start) => `${start}${before}`),
+  );
 }
 
 async function withScene(site: string, options: PageOptions, use: (view: View) => Promise<void>): Promise<void> {
@@ -41,37 +43,51 @@ function near(actual: number, expected: number, tolerance = 1e-6): void {
 
 describe("attributes of <x3d>", () => {
   test("place the camera, at the start and when they change", async () => {
-    await withScene(siteWith("orbit", { attributes: 'camera-orbit="30deg 60deg 9m" camera-target="1m 0m 0m"' }), {}, async (view) => {
-      const { theta, phi, radius } = await orbitOf(view);
-      near(theta, Math.PI / 6);
-      near(phi, Math.PI / 3);
-      near(radius, 9);
-      await focusView(view);
-      await view.page.keyboard.press("ArrowLeft");
-      assert.ok(Math.abs((await orbitOf(view)).theta - theta) > 0.01);
-      await view.page.keyboard.press("r");
-      near((await orbitOf(view)).theta, theta);
-      await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("camera-orbit", "-1rad auto auto"); });
-      await settle(view.page);
-      near((await orbitOf(view)).theta, -1);
-      const text = await view.page.evaluate(() => String(document.querySelector<ViewElement>("x3d")!.getCameraOrbit()));
-      assert.match(text, /^-[\d.]+rad [\d.]+rad [\d.]+m$/);
-    });
+    await withScene(
+      siteWith("orbit", { attributes: 'camera-orbit="30deg 60deg 9m" camera-target="1m 0m 0m"' }),
+      {},
+      async (view) => {
+        const { theta, phi, radius } = await orbitOf(view);
+        near(theta, Math.PI / 6);
+        near(phi, Math.PI / 3);
+        near(radius, 9);
+        await focusView(view);
+        await view.page.keyboard.press("ArrowLeft");
+        assert.ok(Math.abs((await orbitOf(view)).theta - theta) > 0.01);
+        await view.page.keyboard.press("r");
+        near((await orbitOf(view)).theta, theta);
+        await view.page.evaluate(() => {
+          document.querySelector("x3d")!.setAttribute("camera-orbit", "-1rad auto auto");
+        });
+        await settle(view.page);
+        near((await orbitOf(view)).theta, -1);
+        const text = await view.page.evaluate(() =>
+          String(document.querySelector<ViewElement>("x3d")!.getCameraOrbit()),
+        );
+        assert.match(text, /^-[\d.]+rad [\d.]+rad [\d.]+m$/);
+      },
+    );
   });
 
   test("bound the camera, and its field of view frames more or less", async () => {
-    await withScene(siteWith("bounds", { attributes: 'max-camera-orbit="auto 80deg auto" min-camera-orbit="auto auto 100%"' }), {}, async (view) => {
-      await drag(view, 0, -300);
-      near((await orbitOf(view)).phi, (80 * Math.PI) / 180);
-      const { radius } = await orbitOf(view);
-      for (let i = 0; i < 9; ++i) await view.page.mouse.wheel(0, -240);
-      await settle(view.page);
-      const { radius: nearest } = await orbitOf(view);
-      assert.ok(nearest <= radius && nearest > radius / 3);
-      const before = await view.picture();
-      await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("field-of-view", "80deg"); });
-      assert.ok(difference(before, await view.picture()).mean > 1);
-    });
+    await withScene(
+      siteWith("bounds", { attributes: 'max-camera-orbit="auto 80deg auto" min-camera-orbit="auto auto 100%"' }),
+      {},
+      async (view) => {
+        await drag(view, 0, -300);
+        near((await orbitOf(view)).phi, (80 * Math.PI) / 180);
+        const { radius } = await orbitOf(view);
+        for (let i = 0; i < 9; ++i) await view.page.mouse.wheel(0, -240);
+        await settle(view.page);
+        const { radius: nearest } = await orbitOf(view);
+        assert.ok(nearest <= radius && nearest > radius / 3);
+        const before = await view.picture();
+        await view.page.evaluate(() => {
+          document.querySelector("x3d")!.setAttribute("field-of-view", "80deg");
+        });
+        assert.ok(difference(before, await view.picture()).mean > 1);
+      },
+    );
   });
 
   test("switch the camera's controls off, and on again", async () => {
@@ -83,17 +99,24 @@ describe("attributes of <x3d>", () => {
       assert.equal(await view.page.evaluate(() => document.activeElement?.localName), "body");
       assertSamePicture("camera-controls off", await view.picture(), start, { mean: 0 });
       assert.equal(await view.page.getByRole("img").count(), 1);
-      await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("camera-controls", ""); });
+      await view.page.evaluate(() => {
+        document.querySelector("x3d")!.setAttribute("camera-controls", "");
+      });
       await drag(view, 90, 40);
       assert.ok(difference(start, await view.picture()).mean > 1);
     });
   });
 
   test("leave wheel and fingers to the page where it says so", async () => {
-    const site = siteWith("scrolls", { attributes: 'disable-zoom touch-action="pan-y"', after: '<div id="tall"></div>' });
+    const site = siteWith("scrolls", {
+      attributes: 'disable-zoom touch-action="pan-y"',
+      after: '<div id="tall"></div>',
+    });
     const tall = (): void => {
       const sheet = new CSSStyleSheet();
-      sheet.replaceSync("#tall { height: 3000px } html, body { height: auto !important; overflow: auto !important } x3d { height: 480px !important }");
+      sheet.replaceSync(
+        "#tall { height: 3000px } html, body { height: auto !important; overflow: auto !important } x3d { height: 480px !important }",
+      );
       document.adoptedStyleSheets.push(sheet);
     };
     await withScene(site, {}, async (view) => {
@@ -103,18 +126,28 @@ describe("attributes of <x3d>", () => {
       await view.page.mouse.wheel(0, 300);
       await until("the page scrolls", async () => (await view.page.evaluate(() => scrollY)) > 100);
       assert.deepEqual(await orbitOf(view), before);
-      assert.equal(await view.page.evaluate(() => getComputedStyle(document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!).touchAction), "pan-y");
+      assert.equal(
+        await view.page.evaluate(
+          () =>
+            getComputedStyle(document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!).touchAction,
+        ),
+        "pan-y",
+      );
     });
   });
 
   test("leave fingers to a page that scrolls, until the view is engaged", async () => {
-    const touchAction = (view: View): Promise<string> => view.page.evaluate(() =>
-      getComputedStyle(document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!).touchAction);
+    const touchAction = (view: View): Promise<string> =>
+      view.page.evaluate(
+        () => getComputedStyle(document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!).touchAction,
+      );
     await withScene(siteWith("scrolls-by-itself", { after: '<div id="tall"></div>' }), {}, async (view) => {
       assert.equal(await touchAction(view), "none"); // there is nothing to scroll
       await view.page.evaluate(() => {
         const sheet = new CSSStyleSheet();
-        sheet.replaceSync("#tall { height: 3000px } html, body { height: auto !important; overflow: auto !important } x3d { height: 480px !important }");
+        sheet.replaceSync(
+          "#tall { height: 3000px } html, body { height: auto !important; overflow: auto !important } x3d { height: 480px !important }",
+        );
         document.adoptedStyleSheets.push(sheet);
       });
       await until("the page may scroll", async () => (await touchAction(view)) === "pan-y");
@@ -138,13 +171,19 @@ describe("attributes of <x3d>", () => {
   test("set the exposure", async () => {
     await withScene(siteOfGenerated("trefoil", "--profile", "classic"), {}, async (view) => {
       const before = await view.picture();
-      await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("exposure", "0.5"); });
+      await view.page.evaluate(() => {
+        document.querySelector("x3d")!.setAttribute("exposure", "0.5");
+      });
       const after = await view.picture();
       // The sky is no light that reaches the scene; it stays.
       const isScene = (at: number): boolean => before.data[at] !== before.data[at % before.channels];
-      const ratios = Array.from(after.data, (byte, at) => (isScene(at) ? byte / before.data[at]! : NaN)).filter((ratio) => !Number.isNaN(ratio)).sort((a, b) => a - b);
+      const ratios = Array.from(after.data, (byte, at) => (isScene(at) ? byte / before.data[at]! : NaN))
+        .filter((ratio) => !Number.isNaN(ratio))
+        .sort((a, b) => a - b);
       near(ratios[Math.floor(ratios.length / 2)]!, 0.5, 0.01);
-      await view.page.evaluate(() => { document.querySelector("x3d")!.removeAttribute("exposure"); });
+      await view.page.evaluate(() => {
+        document.querySelector("x3d")!.removeAttribute("exposure");
+      });
       assertSamePicture("exposure back", await view.picture(), before, { mean: 0 });
     });
   });
@@ -156,14 +195,22 @@ describe("turning by itself", () => {
   test("begins after the delay, rests while somebody moves the camera, and stops when it is told", async () => {
     await withPage(siteWith("turns", { attributes }), { before: listen, motion: true }, async (view) => {
       await view.promise("complete");
-      await until("it turns", async () => (await heard(view, "camera-change")).some(({ detail }) => detail.source === "automatic"));
+      await until("it turns", async () =>
+        (await heard(view, "camera-change")).some(({ detail }) => detail.source === "automatic"),
+      );
       assert.equal(await view.page.evaluate(() => document.querySelector<ViewElement>("x3d")!.paused), false);
-      await view.page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.pause(); });
+      await view.page.evaluate(() => {
+        document.querySelector<ViewElement>("x3d")!.pause();
+      });
       await settle(view.page);
       const { theta } = await orbitOf(view);
-      await view.page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.play(); });
+      await view.page.evaluate(() => {
+        document.querySelector<ViewElement>("x3d")!.play();
+      });
       await until("it turns on", async () => Math.abs((await orbitOf(view)).theta - theta) > 0.01);
-      await view.page.evaluate(() => { document.querySelector("x3d")!.removeAttribute("auto-rotate"); });
+      await view.page.evaluate(() => {
+        document.querySelector("x3d")!.removeAttribute("auto-rotate");
+      });
       await settle(view.page);
       assert.ok(await view.page.evaluate(() => document.querySelector<ViewElement>("x3d")!.paused));
     });
@@ -173,16 +220,24 @@ describe("turning by itself", () => {
     await withScene(siteWith("turns", { attributes }), {}, async (view) => {
       await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 300)));
       assert.ok((await heard(view, "camera-change")).every(({ detail }) => detail.source !== "automatic"));
-      await view.page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.play(); });
-      await until("it turns", async () => (await heard(view, "camera-change")).some(({ detail }) => detail.source === "automatic"));
-      await view.page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.pause(); });
+      await view.page.evaluate(() => {
+        document.querySelector<ViewElement>("x3d")!.play();
+      });
+      await until("it turns", async () =>
+        (await heard(view, "camera-change")).some(({ detail }) => detail.source === "automatic"),
+      );
+      await view.page.evaluate(() => {
+        document.querySelector<ViewElement>("x3d")!.pause();
+      });
     });
   });
 });
 
 describe("a poster", () => {
   const posterShown = async ({ page }: View): Promise<boolean> =>
-    page.evaluate(() => document.querySelector("imgeo-view")!.shadowRoot!.querySelector<HTMLElement>(".poster")!.checkVisibility());
+    page.evaluate(() =>
+      document.querySelector("imgeo-view")!.shadowRoot!.querySelector<HTMLElement>(".poster")!.checkVisibility(),
+    );
   const geometry = (path: string): boolean => path.startsWith("/geometry/");
 
   test("stands until the first picture", async () => {
@@ -211,10 +266,17 @@ describe("a poster", () => {
       assert.ok(await posterShown(view));
       assert.ok(await view.page.getByText("Wait for it").isVisible());
       assert.deepEqual(await heard(view, "model-visibility"), []);
-      await view.page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.dismissPoster(); });
+      await view.page.evaluate(() => {
+        document.querySelector<ViewElement>("x3d")!.dismissPoster();
+      });
       assert.equal(await posterShown(view), false);
-      assert.deepEqual((await heard(view, "model-visibility")).map(({ detail }) => detail), [{ visible: true }]);
-      await view.page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.dismissPoster(); });
+      assert.deepEqual(
+        (await heard(view, "model-visibility")).map(({ detail }) => detail),
+        [{ visible: true }],
+      );
+      await view.page.evaluate(() => {
+        document.querySelector<ViewElement>("x3d")!.dismissPoster();
+      });
       assert.equal((await heard(view, "poster-dismissed")).length, 1);
     });
   });
@@ -228,26 +290,40 @@ describe("a poster", () => {
 
 /** One red pixel. */
 function redPng(): Buffer {
-  return Buffer.from("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC", "base64");
+  return Buffer.from(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC",
+    "base64",
+  );
 }
 
 describe("loading", () => {
-  const below = (loading: string): string => variantOf(siteOfGenerated("trefoil", "--profile", "classic"), `below-${loading}`, (page) => page
-    .replace(/<link rel="preload"[^>]*>/g, "").replace(/<X3D/i, `<div id="tall"></div><X3D loading="${loading}"`));
+  const below = (loading: string): string =>
+    variantOf(siteOfGenerated("trefoil", "--profile", "classic"), `below-${loading}`, (page) =>
+      page.replace(/<link rel="preload"[^>]*>/g, "").replace(/<X3D/i, `<div id="tall"></div><X3D loading="${loading}"`),
+    );
   const tall = (): void => {
     const sheet = new CSSStyleSheet();
-    sheet.replaceSync("#tall { height: 6000px } html, body { height: auto !important; overflow: auto !important } x3d { height: 400px !important }");
+    sheet.replaceSync(
+      "#tall { height: 6000px } html, body { height: auto !important; overflow: auto !important } x3d { height: 400px !important }",
+    );
     document.adoptedStyleSheets.push(sheet);
   };
 
   for (const loading of ["auto", "lazy"]) {
     test(`="${loading}" waits for a scene far below the window until people come near`, async () => {
       await withPage(below(loading), { before: tall }, async (view) => {
-        await until("the runtime runs", async () => view.page.evaluate(() => document.querySelector("imgeo-view")?.shadowRoot !== null
-          && document.querySelector("imgeo-view") !== null));
+        await until("the runtime runs", async () =>
+          view.page.evaluate(
+            () =>
+              document.querySelector("imgeo-view")?.shadowRoot !== null &&
+              document.querySelector("imgeo-view") !== null,
+          ),
+        );
         await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 300)));
         assert.equal(view.server.requestsOf(/geometry/).length, 0);
-        await view.page.evaluate(() => { document.querySelector("x3d")!.scrollIntoView(); });
+        await view.page.evaluate(() => {
+          document.querySelector("x3d")!.scrollIntoView();
+        });
         await view.promise("complete");
         await view.promise("complete", "shape");
       });
@@ -256,7 +332,12 @@ describe("loading", () => {
 
   test('="eager" does not wait', async () => {
     await withPage(below("eager"), { before: tall }, async (view) => {
-      await until("all files are asked for", () => view.server.requestsOf(/geometry/).length === ranksOfFiles(pageOf(siteOfGenerated("trefoil", "--profile", "classic"))).size);
+      await until(
+        "all files are asked for",
+        () =>
+          view.server.requestsOf(/geometry/).length ===
+          ranksOfFiles(pageOf(siteOfGenerated("trefoil", "--profile", "classic"))).size,
+      );
     });
   });
 });
@@ -264,17 +345,24 @@ describe("loading", () => {
 describe("hotspots", () => {
   const inside = `<button slot="hotspot-front" id="front" data-position="0 0 1.5" data-normal="0 0 1" data-visibility-attribute="visible">Front</button>
     <a slot="hotspot-back" id="back" href="#" data-position="0m 0m -1.5m" data-normal="0m 0m -1m" data-visibility-attribute="visible">Back</a>`;
-  const site = (): string => siteWith("hotspots", { inside, attributes: 'camera-orbit="0deg 90deg 10m" camera-target="0 0 0" field-of-view="45deg"' });
+  const site = (): string =>
+    siteWith("hotspots", {
+      inside,
+      attributes: 'camera-orbit="0deg 90deg 10m" camera-target="0 0 0" field-of-view="45deg"',
+    });
 
   test("stand where their places are seen, and follow the camera", async () => {
     await withScene(site(), {}, async (view) => {
-      const middle = async (): Promise<[number, number]> => view.page.evaluate(() => {
-        const { x, y, width, height } = document.querySelector("#front")!.getBoundingClientRect();
-        return [x + width / 2, y + height / 2];
-      });
+      const middle = async (): Promise<[number, number]> =>
+        view.page.evaluate(() => {
+          const { x, y, width, height } = document.querySelector("#front")!.getBoundingClientRect();
+          return [x + width / 2, y + height / 2];
+        });
       await settle(view.page);
       assert.deepEqual((await middle()).map(Math.round), [center.x, center.y]);
-      await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("camera-orbit", "40deg 90deg 10m"); });
+      await view.page.evaluate(() => {
+        document.querySelector("x3d")!.setAttribute("camera-orbit", "40deg 90deg 10m");
+      });
       await settle(view.page);
       // The eye is at 10 (sin 40, 0, cos 40); the place is 1.5 ahead of the centre as seen from the front.
       const angle = (40 * Math.PI) / 180;
@@ -288,10 +376,13 @@ describe("hotspots", () => {
 
   test("say whether they face the camera and nothing stands before them, and stay readable and focusable", async () => {
     await withScene(site(), {}, async (view) => {
-      const visible = async (id: string): Promise<boolean> => view.page.evaluate((name) => document.querySelector(name)!.hasAttribute("data-visible"), id);
+      const visible = async (id: string): Promise<boolean> =>
+        view.page.evaluate((name) => document.querySelector(name)!.hasAttribute("data-visible"), id);
       await settle(view.page);
       assert.deepEqual([await visible("#front"), await visible("#back")], [true, false]);
-      await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("camera-orbit", "180deg 90deg 10m"); });
+      await view.page.evaluate(() => {
+        document.querySelector("x3d")!.setAttribute("camera-orbit", "180deg 90deg 10m");
+      });
       await until("they change places", async () => !(await visible("#front")) && (await visible("#back")));
       assert.ok((await heard(view, "hotspot-visibility")).length >= 4);
       assert.equal(await view.page.getByRole("button", { name: "Front" }).count(), 1);
@@ -301,15 +392,24 @@ describe("hotspots", () => {
 
       const frames = await view.page.evaluate(() => {
         const x3d = document.querySelector("x3d") as unknown as HTMLElement & {
-          positionAndNormalFromPoint: (x: number, y: number) => { position: { x: number; y: number; z: number } } | null;
+          positionAndNormalFromPoint: (
+            x: number,
+            y: number,
+          ) => { position: { x: number; y: number; z: number } } | null;
           getCameraPosition: () => { x: number; y: number; z: number };
         };
         const { left, top, width, height } = x3d.getBoundingClientRect();
         const eye = x3d.getCameraPosition();
         // Somewhere on the shape, and on the same ray behind it.
-        const [hit] = Array.from({ length: 40 }, (_, i) => x3d.positionAndNormalFromPoint(left + (width * (i + 0.5)) / 40, top + height / 2)).filter((found) => found !== null);
-        const along = (share: number): string => (["x", "y", "z"] as const).map((axis) => eye[axis] + share * (hit!.position[axis] - eye[axis])).join(" ");
-        for (const [id, share] of [["surface", 1], ["within", 1.2]] as const) {
+        const [hit] = Array.from({ length: 40 }, (_, i) =>
+          x3d.positionAndNormalFromPoint(left + (width * (i + 0.5)) / 40, top + height / 2),
+        ).filter((found) => found !== null);
+        const along = (share: number): string =>
+          (["x", "y", "z"] as const).map((axis) => eye[axis] + share * (hit!.position[axis] - eye[axis])).join(" ");
+        for (const [id, share] of [
+          ["surface", 1],
+          ["within", 1.2],
+        ] as const) {
           const hotspot = document.createElement("button");
           [hotspot.id, hotspot.slot, hotspot.textContent] = [id, `hotspot-${id}`, id];
           hotspot.setAttribute("data-position", along(share));
@@ -320,9 +420,19 @@ describe("hotspots", () => {
       });
       await until("one is found to be covered", async () => (await visible("#surface")) && !(await visible("#within")));
       await settle(view.page);
-      assert.deepEqual([await visible("#surface"), await visible("#within"), await visible("#back")], [true, false, true]);
-      await until("it has faded", () => view.page.evaluate(() => getComputedStyle(document.querySelector("#within")!).opacity === "0.25"));
-      assert.ok((await view.page.evaluate(() => (document.querySelector("x3d") as unknown as { statistics: { frames: number } }).statistics.frames)) <= frames + 2);
+      assert.deepEqual(
+        [await visible("#surface"), await visible("#within"), await visible("#back")],
+        [true, false, true],
+      );
+      await until("it has faded", () =>
+        view.page.evaluate(() => getComputedStyle(document.querySelector("#within")!).opacity === "0.25"),
+      );
+      assert.ok(
+        (await view.page.evaluate(
+          () => (document.querySelector("x3d") as unknown as { statistics: { frames: number } }).statistics.frames,
+        )) <=
+          frames + 2,
+      );
       await view.page.getByRole("button", { name: "within" }).focus();
       assert.equal(await view.page.evaluate(() => document.activeElement?.id), "within");
     });
@@ -340,10 +450,17 @@ describe("hotspots", () => {
         document.querySelector("x3d")!.append(added);
       });
       await settle(view.page);
-      const top = async (id: string): Promise<number> => view.page.evaluate((name) => document.querySelector(name)!.getBoundingClientRect().y, id);
+      const top = async (id: string): Promise<number> =>
+        view.page.evaluate((name) => document.querySelector(name)!.getBoundingClientRect().y, id);
       assert.ok((await top("#front")) < center.y - 50 && (await top("#added")) > center.y + 50);
-      await view.page.evaluate(() => { document.querySelector("#added")!.remove(); });
-      await until("its frame goes", async () => view.page.evaluate(() => document.querySelector("imgeo-view")!.shadowRoot!.querySelectorAll(".hotspots > div").length === 2));
+      await view.page.evaluate(() => {
+        document.querySelector("#added")!.remove();
+      });
+      await until("its frame goes", async () =>
+        view.page.evaluate(
+          () => document.querySelector("imgeo-view")!.shadowRoot!.querySelectorAll(".hotspots > div").length === 2,
+        ),
+      );
       assert.equal(view.server.requests.length, asked);
     });
   });
@@ -354,35 +471,60 @@ describe("people who do not see the picture, or use no mouse", () => {
     await withScene(siteWith("named", { attributes: 'alt="A trefoil knot in stone"' }), {}, async (view) => {
       const canvas = view.page.getByRole("application", { name: "A trefoil knot in stone" });
       assert.equal(await canvas.count(), 1);
-      assert.match(await canvas.getAttribute("aria-description") ?? "", /Arrow keys turn/);
+      assert.match((await canvas.getAttribute("aria-description")) ?? "", /Arrow keys turn/);
       await focusView(view);
       await view.page.keyboard.press("ArrowRight");
-      await until("the view is described", async () => (await view.page.getByRole("status").textContent() ?? "").startsWith("View from"));
+      await until("the view is described", async () =>
+        ((await view.page.getByRole("status").textContent()) ?? "").startsWith("View from"),
+      );
       await view.page.keyboard.press("r");
-      await until("the viewpoint is named", async () => (await view.page.getByRole("status").textContent()) === "Start");
-      await view.page.evaluate(() => { document.querySelector("x3d")!.setAttribute("alt", "Another name"); });
-      await until("the name follows", async () => (await view.page.getByRole("application", { name: "Another name" }).count()) === 1);
+      await until(
+        "the viewpoint is named",
+        async () => (await view.page.getByRole("status").textContent()) === "Start",
+      );
+      await view.page.evaluate(() => {
+        document.querySelector("x3d")!.setAttribute("alt", "Another name");
+      });
+      await until(
+        "the name follows",
+        async () => (await view.page.getByRole("application", { name: "Another name" }).count()) === 1,
+      );
     });
   });
 
   test("hear how far it has come", async () => {
     const { closed, open } = gate();
-    await withPage(siteOfGenerated("trefoil", "--profile", "classic"), { server: (server) => server.when((path) => path.startsWith("/geometry/"), { hold: closed }) }, async (view) => {
-      const bar = view.page.getByRole("progressbar", { name: "Loading" });
-      await until("the bar is there", async () => (await bar.count()) === 1);
-      assert.deepEqual([await bar.getAttribute("aria-valuemin"), await bar.getAttribute("aria-valuenow"), await bar.getAttribute("aria-valuemax")], ["0", "0", "100"]);
-      open();
-      await view.promise("complete");
-      await settle(view.page);
-      assert.equal(await bar.count(), 0); // what is complete is not announced as going on
-      assert.equal(await view.page.getByRole("status").textContent(), "The scene is complete.");
-    });
+    await withPage(
+      siteOfGenerated("trefoil", "--profile", "classic"),
+      { server: (server) => server.when((path) => path.startsWith("/geometry/"), { hold: closed }) },
+      async (view) => {
+        const bar = view.page.getByRole("progressbar", { name: "Loading" });
+        await until("the bar is there", async () => (await bar.count()) === 1);
+        assert.deepEqual(
+          [
+            await bar.getAttribute("aria-valuemin"),
+            await bar.getAttribute("aria-valuenow"),
+            await bar.getAttribute("aria-valuemax"),
+          ],
+          ["0", "0", "100"],
+        );
+        open();
+        await view.promise("complete");
+        await settle(view.page);
+        assert.equal(await bar.count(), 0); // what is complete is not announced as going on
+        assert.equal(await view.page.getByRole("status").textContent(), "The scene is complete.");
+      },
+    );
   });
 
   test("see where the focus is, and leave by Tab or Escape", async () => {
-    const site = siteWith("between", { before: '<a id="first" href="#">Before</a>', after: '<a id="last" href="#">Behind</a>' });
+    const site = siteWith("between", {
+      before: '<a id="first" href="#">Before</a>',
+      after: '<a id="last" href="#">Behind</a>',
+    });
     await withScene(site, {}, async (view) => {
-      const focused = async (): Promise<string> => view.page.evaluate(() => document.activeElement?.id ?? document.activeElement?.localName ?? "");
+      const focused = async (): Promise<string> =>
+        view.page.evaluate(() => document.activeElement?.id ?? document.activeElement?.localName ?? "");
       const unfocused = await view.picture();
       await view.page.keyboard.press("Tab");
       assert.equal(await focused(), "first");

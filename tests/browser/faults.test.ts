@@ -32,16 +32,24 @@ function twoShapes(html: Buffer): string {
   const good = shapeOf(html.toString(), "good", "");
   const bad = shapeOf(pageOf(siteOfGenerated("sphere", "--profile", "classic")), "bad", "bad/");
   // Large enough that its second byte is seen, and so asked for.
-  return html.toString().replace(/<Shape[\s\S]*<\/Shape>/i, () => `<Transform scale="2 2 2">${bad}</Transform>\n${good}`);
+  return html
+    .toString()
+    .replace(/<Shape[\s\S]*<\/Shape>/i, () => `<Transform scale="2 2 2">${bad}</Transform>\n${good}`);
 }
 
 function badFile(rank: number): string {
-  const [url] = [...ranksOfFiles(pageOf(siteOfGenerated("sphere", "--profile", "classic")))].find(([, other]) => other === rank) ?? [];
+  const [url] =
+    [...ranksOfFiles(pageOf(siteOfGenerated("sphere", "--profile", "classic")))].find(([, other]) => other === rank) ??
+    [];
   assert.ok(url);
   return `/bad/${url}`;
 }
 
-async function withFault(rank: number, behaviour: Behaviour, use: (view: View, url: string) => Promise<void>): Promise<void> {
+async function withFault(
+  rank: number,
+  behaviour: Behaviour,
+  use: (view: View, url: string) => Promise<void>,
+): Promise<void> {
   const path = badFile(rank);
   const options = {
     server: (server: View["server"]): void => {
@@ -61,10 +69,12 @@ async function assertReported(view: View, url: string): Promise<void> {
   const errors = await view.events("error");
   const own = view.errors.filter((line) => line.startsWith("imgeo:"));
   assert.equal(own.length, 1, own.join("; "));
-  const listed = await view.page.evaluate(() => ["x3d", "#bad", "#good"].map((selector) => {
-    const { errors } = document.querySelector(selector) as unknown as { errors: { url: string; message: string }[] };
-    return errors.map(({ url, message }) => ({ url, message }));
-  }));
+  const listed = await view.page.evaluate(() =>
+    ["x3d", "#bad", "#good"].map((selector) => {
+      const { errors } = document.querySelector(selector) as unknown as { errors: { url: string; message: string }[] };
+      return errors.map(({ url, message }) => ({ url, message }));
+    }),
+  );
   const [inScene, ofBad, ofGood] = listed;
   assert.deepEqual([inScene, ofGood], [ofBad, []]);
   assert.equal(ofBad?.length, 1);
@@ -75,7 +85,9 @@ async function assertReported(view: View, url: string): Promise<void> {
     assert.ok(url.endsWith(String(detail.url).replace(/^\.?\//, "")), `${String(detail.url)} is not ${url}`);
     assert.equal(detail.element, "shape");
   }
-  const resources = await view.page.evaluate(() => (document.querySelector("#bad") as unknown as { resources: ResourceEntry[] }).resources);
+  const resources = await view.page.evaluate(
+    () => (document.querySelector("#bad") as unknown as { resources: ResourceEntry[] }).resources,
+  );
   for (const { url: each, state, error, tries, loadedBytes, totalBytes } of resources) {
     const isIt = url.endsWith(each.replace(/^\.?\//, ""));
     assert.deepEqual([state, error !== null], isIt ? ["failed", true] : ["ready", false], each);
@@ -122,7 +134,9 @@ describe("a file that does not come", () => {
   test("leaves the page alive: it still follows the document and the keyboard", async () => {
     await withFault(1, { status: 404 }, async (view) => {
       const before = await view.picture();
-      await view.page.evaluate(() => { document.querySelector("#good material")!.setAttribute("diffuseColor", "1 0 0"); });
+      await view.page.evaluate(() => {
+        document.querySelector("#good material")!.setAttribute("diffuseColor", "1 0 0");
+      });
       const red = await view.picture();
       assert.ok(difference(before, red).mean > 0.5, "the document is not followed");
       await view.page.keyboard.press("Tab");
@@ -132,7 +146,8 @@ describe("a file that does not come", () => {
   });
 });
 
-const smallestJpeg = "/9j/4AAQSkZJRgABAQEASABIAAD/2wBDAP//////////////////////////////////////////////////////////////////////" +
+const smallestJpeg =
+  "/9j/4AAQSkZJRgABAQEASABIAAD/2wBDAP//////////////////////////////////////////////////////////////////////" +
   "////////////////wgALCAABAAEBAREA/8QAFBABAAAAAAAAAAAAAAAAAAAAAP/aAAgBAQABPxA=";
 const smallestWebp = "UklGRiIAAABXRUJQVlA4IBYAAAAwAQCdASoBAAEADsD+JaQAA3AAAAAA";
 
@@ -142,12 +157,16 @@ describe("a file that is broken is reported", () => {
     "an empty image": { truncateTo: 0 },
     "a lossy image: JPEG": { replace: () => Buffer.from(smallestJpeg, "base64") },
     "a lossy image: WebP": { replace: () => Buffer.from(smallestWebp, "base64") },
-    "an image of another size": { replace: () => encodePng({ width: 16, height: 16, channels: 3, data: new Uint8Array(768) }) },
+    "an image of another size": {
+      replace: () => encodePng({ width: 16, height: 16, channels: 3, data: new Uint8Array(768) }),
+    },
     "an image larger than any texture may be": {
       replace: () => encodePng({ width: 16_384, height: 2, channels: 3, data: new Uint8Array(16_384 * 6) }),
     },
     "no image at all": { replace: () => "<!doctype html><p>Not found</p>" },
-    "an image with flipped bits": { replace: (body) => Buffer.from(body.map((byte, i) => (i > 100 && i % 50 === 0 ? byte ^ 255 : byte))) },
+    "an image with flipped bits": {
+      replace: (body) => Buffer.from(body.map((byte, i) => (i > 100 && i % 50 === 0 ? byte ^ 255 : byte))),
+    },
   };
   for (const [name, behaviour] of Object.entries(broken)) {
     test(name, async () => {

@@ -33,7 +33,9 @@ function watchLook(): void {
     return 0;
   }) as typeof setTimeout;
   const [unseen, seen] = [new Set<unknown>(), new Set<unknown>()];
-  const drawElements = Object.getOwnPropertyDescriptor(WebGL2RenderingContext.prototype, "drawElements")?.value as (...args: unknown[]) => void;
+  const drawElements = Object.getOwnPropertyDescriptor(WebGL2RenderingContext.prototype, "drawElements")?.value as (
+    ...args: unknown[]
+  ) => void;
   WebGL2RenderingContext.prototype.drawElements = function (...args) {
     if (this.canvas instanceof HTMLCanvasElement && this.canvas.classList.contains("first")) {
       (args[1] > 3 ? seen : unseen).add(this.getParameter(this.CURRENT_PROGRAM));
@@ -42,14 +44,18 @@ function watchLook(): void {
     }
     drawElements.apply(this, args);
   };
-  const prototype = Element.prototype as unknown as Record<"attachShadow", (this: Element, init: ShadowRootInit) => ShadowRoot>;
+  const prototype = Element.prototype as unknown as Record<
+    "attachShadow",
+    (this: Element, init: ShadowRootInit) => ShadowRoot
+  >;
   const { attachShadow } = prototype;
   prototype.attachShadow = function (init) {
     const root = attachShadow.call(this, init);
     // Called in the turn of the event loop in which it goes: what has been drawn in it can still be read.
     new MutationObserver((records) => {
       const isLook = (node: Node): boolean => node instanceof Element && node.classList.contains("first");
-      if (records.some(({ removedNodes }) => Array.from(removedNodes).some(isLook))) window.takenOver = root.querySelector("canvas")?.toDataURL();
+      if (records.some(({ removedNodes }) => Array.from(removedNodes).some(isLook)))
+        window.takenOver = root.querySelector("canvas")?.toDataURL();
     }).observe(root, { childList: true });
     return root;
   };
@@ -74,8 +80,11 @@ async function pictureOfTakeOver(view: View): Promise<Picture> {
 const runtimeFile = /imgeo-scene-/;
 
 async function baseIsWaitedFor({ page, server }: View, base: string): Promise<void> {
-  await until("the look waits for its base", async () => server.requestsOf(new RegExp(base)).length === 1 &&
-    await page.evaluate(() => window.endPatience !== undefined));
+  await until(
+    "the look waits for its base",
+    async () =>
+      server.requestsOf(new RegExp(base)).length === 1 && (await page.evaluate(() => window.endPatience !== undefined)),
+  );
   assert.deepEqual(server.requestsOf(runtimeFile), [], "the runtime is not asked for before the base is here");
 }
 
@@ -85,7 +94,9 @@ test("a base is on the screen before the runtime, which takes it over as it is",
   const patches = tags.flatMap(({ attributes: { data } }) => (data ? [data] : []));
   const [bases, runtime, files] = [gate(), gate(), gate()];
   const options = {
-    size: { width: 400, height: 300 }, deviceScaleFactor: 2, before: watchLook,
+    size: { width: 400, height: 300 },
+    deviceScaleFactor: 2,
+    before: watchLook,
     server: (server: View["server"]): void => {
       server.when(new RegExp(base), { hold: bases.closed });
       server.when(runtimeFile, { hold: runtime.closed });
@@ -95,21 +106,34 @@ test("a base is on the screen before the runtime, which takes it over as it is",
   await withPage(site(), options, async (view) => {
     await baseIsWaitedFor(view, base);
     bases.open();
-    await until("the first look has drawn", async () => await firstImages(view) === 1);
-    assert.deepEqual((await view.events("first-image")).map(({ target, detail }) => [target, detail.stage]), [["shape", "base"], ["x3d", "base"]]);
+    await until("the first look has drawn", async () => (await firstImages(view)) === 1);
+    assert.deepEqual(
+      (await view.events("first-image")).map(({ target, detail }) => [target, detail.stage]),
+      [
+        ["shape", "base"],
+        ["x3d", "base"],
+      ],
+    );
     assert.equal(view.server.requestsOf(runtimeFile)[0]?.status, 0, "the runtime is not here");
     const first = await screenshotOf(view.page);
     assert.deepEqual(await view.page.evaluate(() => window.rehearsed), { ready: 1, unready: 0 });
 
-    const red = await pictureAfter(view, () => view.page.evaluate(() => { document.querySelector("material")?.setAttribute("diffuseColor", "0.9 0.1 0.1"); }));
+    const red = await pictureAfter(view, () =>
+      view.page.evaluate(() => {
+        document.querySelector("material")?.setAttribute("diffuseColor", "0.9 0.1 0.1");
+      }),
+    );
     assert.ok(difference(first, red).mean > 2, "another colour is seen");
     const blank: Picture = { ...first, data: Uint8Array.from(first.data, (_, i) => first.data[i % first.channels]!) };
     assert.equal(silhouetteDifference(silhouette(first, blank), silhouette(red, blank)), 0);
-    const lit = await pictureAfter(view, () => view.page.evaluate(() => {
-      const lights = '<PointLight location="2 2 4" color="0.2 0.5 0.2" attenuation="1 0.1 0"></PointLight>' +
-        '<SpotLight location="0 0 6" direction="0 0 -1" color="0.2 0.2 0.6" cutOffAngle="0.3" beamWidth="0.1"></SpotLight>';
-      document.querySelector("scene")?.insertAdjacentHTML("beforeend", lights);
-    }));
+    const lit = await pictureAfter(view, () =>
+      view.page.evaluate(() => {
+        const lights =
+          '<PointLight location="2 2 4" color="0.2 0.5 0.2" attenuation="1 0.1 0"></PointLight>' +
+          '<SpotLight location="0 0 6" direction="0 0 -1" color="0.2 0.2 0.6" cutOffAngle="0.3" beamWidth="0.1"></SpotLight>';
+        document.querySelector("scene")?.insertAdjacentHTML("beforeend", lights);
+      }),
+    );
     assert.ok(difference(red, lit).mean > 1, "lights of other kinds are seen");
     const seen = await pictureAfter(view, () => view.page.setViewportSize({ width: 300, height: 320 }));
     assert.equal(seen.width, 600);
@@ -117,30 +141,51 @@ test("a base is on the screen before the runtime, which takes it over as it is",
     runtime.open();
     const taken = await pictureOfTakeOver(view);
     const empty: Picture = { ...seen, data: Uint8Array.from(seen.data, (_, i) => seen.data[i % seen.channels]!) };
-    assert.ok(silhouetteDifference(silhouette(seen, empty), silhouette(taken, empty)) < 1e-4, "the outline is the same");
-    assert.ok(difference(seen, taken).mean < 0.1, `the runtime draws the same: ${JSON.stringify(difference(seen, taken))}`);
+    assert.ok(
+      silhouetteDifference(silhouette(seen, empty), silhouette(taken, empty)) < 1e-4,
+      "the outline is the same",
+    );
+    assert.ok(
+      difference(seen, taken).mean < 0.1,
+      `the runtime draws the same: ${JSON.stringify(difference(seen, taken))}`,
+    );
 
     files.open();
     await view.promise("complete");
     assert.equal(await firstImages(view), 1);
     assert.deepEqual((await view.events("refine", "x3d")).at(-1)?.detail.stage, "full");
     assert.equal(view.server.requestsOf(new RegExp(base)).length, 1);
-    assert.equal(await view.page.evaluate(() => document.querySelector("imgeo-view")?.shadowRoot?.querySelectorAll("canvas").length), 1);
+    assert.equal(
+      await view.page.evaluate(
+        () => document.querySelector("imgeo-view")?.shadowRoot?.querySelectorAll("canvas").length,
+      ),
+      1,
+    );
     const { resources } = await view.page.evaluate(() => {
-      const { resources: all } = document.querySelector("x3d") as unknown as { resources: { url: string; state: string; tries: number }[] };
+      const { resources: all } = document.querySelector("x3d") as unknown as {
+        resources: { url: string; state: string; tries: number }[];
+      };
       return { resources: all.map(({ url, state, tries }) => ({ url, state, tries })) };
     });
-    assert.deepEqual(resources.find(({ url }) => url === base), { url: base, state: "ready", tries: 1 });
+    assert.deepEqual(
+      resources.find(({ url }) => url === base),
+      { url: base, state: "ready", tries: 1 },
+    );
   });
 });
 
 test("a base that does not come holds the runtime up for a while only", async () => {
   const base = tagsOf(pageOf(site())).find(({ name }) => name === "imagegeometry")?.attributes.base ?? "";
   const bases = gate();
-  const options = { before: watchLook, server: (server: View["server"]): void => void server.when(new RegExp(base), { hold: bases.closed }) };
+  const options = {
+    before: watchLook,
+    server: (server: View["server"]): void => void server.when(new RegExp(base), { hold: bases.closed }),
+  };
   await withPage(site(), options, async (view) => {
     await baseIsWaitedFor(view, base);
-    await view.page.evaluate(() => { window.endPatience?.(); });
+    await view.page.evaluate(() => {
+      window.endPatience?.();
+    });
     await view.promise("firstImage");
     assert.ok((await view.events("first-image", "x3d")).every(({ detail }) => detail.stage !== "base"));
     bases.open();

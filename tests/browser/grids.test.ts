@@ -27,9 +27,17 @@ function serving(example: GridExample, html: string): (server: View["server"]) =
   };
 }
 
-const plain = (example: GridExample) => meshOf(example, [...example.files.values()].map((file) => decodePng(file)));
+const plain = (example: GridExample) =>
+  meshOf(
+    example,
+    [...example.files.values()].map((file) => decodePng(file)),
+  );
 
-for (const [name, example] of [["terrain", terrain()], ["sheet", sheet()], ["vase", vase()]] as const) {
+for (const [name, example] of [
+  ["terrain", terrain()],
+  ["sheet", sheet()],
+  ["vase", vase()],
+] as const) {
   describe(`the ${name}`, () => {
     for (const decode of ["gpu", "cpu"]) {
       test(`is the surface of its texels, shaded by its slope, on the ${decode}`, async () => {
@@ -38,7 +46,12 @@ for (const [name, example] of [["terrain", terrain()], ["sheet", sheet()], ["vas
           await view.promise("complete");
           const picture = await view.picture();
           savePicture(`grid ${name} ${decode}`, picture);
-          assertSamePicture(`grid ${name} on the ${decode}`, picture, await referencePicture(html, [plain(example)]), boundsOfQuantised);
+          assertSamePicture(
+            `grid ${name} on the ${decode}`,
+            picture,
+            await referencePicture(html, [plain(example)]),
+            boundsOfQuantised,
+          );
         });
       });
     }
@@ -50,13 +63,30 @@ for (const [name, example] of [["terrain", terrain()], ["sheet", sheet()], ["vas
         await view.promise("complete");
         await view.picture();
         let hits = 0;
-        for (const [x, y] of [[320, 240], [300, 200], [350, 280], [280, 300], [330, 320]] as const) {
+        for (const [x, y] of [
+          [320, 240],
+          [300, 200],
+          [350, 280],
+          [280, 300],
+          [330, 320],
+        ] as const) {
           const expected = firstHit(rayThrough(lookOf(html).viewpoint, pictureSize, x, y), [mesh]);
-          const found = await view.page.evaluate(([x, y]) => {
-            const point = document.querySelector<HTMLElement & { positionAndNormalFromPoint(x: number, y: number): { position: { x: number; y: number; z: number } } | null }>("imgeo-view")!
-              .positionAndNormalFromPoint(x, y);
-            return point && `${point.position.x} ${point.position.y} ${point.position.z}`;
-          }, [x + 0.5, y + 0.5] as const);
+          const found = await view.page.evaluate(
+            ([x, y]) => {
+              const point = document
+                .querySelector<
+                  HTMLElement & {
+                    positionAndNormalFromPoint(
+                      x: number,
+                      y: number,
+                    ): { position: { x: number; y: number; z: number } } | null;
+                  }
+                >("imgeo-view")!
+                .positionAndNormalFromPoint(x, y);
+              return point && `${point.position.x} ${point.position.y} ${point.position.z}`;
+            },
+            [x + 0.5, y + 0.5] as const,
+          );
           assert.equal(found !== null, expected !== undefined, `at ${x}, ${y}`);
           if (found === null || expected === undefined) continue;
           ++hits;

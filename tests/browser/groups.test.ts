@@ -7,13 +7,19 @@ import { sceneOf } from "./scenes.ts";
 import { siteOfGenerated } from "./sites.ts";
 
 const size = { width: 320, height: 240 };
-const paint = (color: string): string => `<Appearance><UnlitMaterial emissiveColor="${color}"></UnlitMaterial></Appearance>`;
+const paint = (color: string): string =>
+  `<Appearance><UnlitMaterial emissiveColor="${color}"></UnlitMaterial></Appearance>`;
 /** Of no thickness: seen from its side it is nothing. */
 const panel = `<Shape>${paint("1 0 0")}<IndexedFaceSet solid="false" coordIndex="0 1 2 3"><Coordinate point="-1 -1 0 1 -1 0 1 1 0 -1 1 0"></Coordinate></IndexedFaceSet></Shape>`;
 const box = `<Shape>${paint("0 0 1")}<Box size="0.8 0.8 0.8"></Box></Shape>`;
 const views = { ahead: 0, aside: 1.5708, behind: 2.5 };
 const scene = `<NavigationInfo transitionType="TELEPORT"></NavigationInfo><Background skyColor="0 0 0"></Background>
-  ${Object.entries(views).map(([name, angle]) => `<Viewpoint description="${name}" position="${8 * Math.sin(angle)} 0 ${8 * Math.cos(angle)}" orientation="0 1 0 ${angle}"></Viewpoint>`).join("")}
+  ${Object.entries(views)
+    .map(
+      ([name, angle]) =>
+        `<Viewpoint description="${name}" position="${8 * Math.sin(angle)} 0 ${8 * Math.cos(angle)}" orientation="0 1 0 ${angle}"></Viewpoint>`,
+    )
+    .join("")}
   <Viewpoint DEF="there" description="there" position="0 0 9"></Viewpoint>
   <Anchor id="viewpoint" url='"javascript:document.title=1" "#there"' description="Go there"><Transform translation="-1.5 2.3 0">${box}</Transform></Anchor>
   <Anchor id="section" url="#section" description="Read on"><Transform translation="1.5 2.3 0">${box}</Transform></Anchor>
@@ -33,11 +39,18 @@ const clickAt = (view: View, x: number): Promise<void> => {
   return view.page.mouse.click(size.width / 2 + x * unit, size.height / 2 - 2.3 * unit);
 };
 
-const boundIn = (view: View): Promise<string | undefined> => view.page.evaluate(() =>
-  (document.querySelector("x3d") as unknown as { viewpoints: { description: string; isBound: boolean }[] }).viewpoints.find(({ isBound }) => isBound)?.description);
+const boundIn = (view: View): Promise<string | undefined> =>
+  view.page.evaluate(
+    () =>
+      (
+        document.querySelector("x3d") as unknown as { viewpoints: { description: string; isBound: boolean }[] }
+      ).viewpoints.find(({ isBound }) => isBound)?.description,
+  );
 
 async function bind(view: View, name: string): Promise<void> {
-  await view.page.evaluate((description) => { (document.querySelector("x3d") as unknown as { bindViewpoint: (name: string) => void }).bindViewpoint(description); }, name);
+  await view.page.evaluate((description) => {
+    (document.querySelector("x3d") as unknown as { bindViewpoint: (name: string) => void }).bindViewpoint(description);
+  }, name);
   await view.picture();
 }
 
@@ -47,23 +60,31 @@ async function assertLinks(view: View): Promise<void> {
   const hash = (): Promise<string> => page.evaluate(() => location.hash);
   await bind(view, "ahead");
   await page.evaluate(() => {
-    document.querySelector("#section")!.addEventListener("click", (event) => { event.preventDefault(); }, { once: true });
+    document.querySelector("#section")!.addEventListener(
+      "click",
+      (event) => {
+        event.preventDefault();
+      },
+      { once: true },
+    );
   });
   await clickAt(view, 1.5);
   await clickAt(view, 0);
   assert.equal(await hash(), "", "what is prevented, or a script, leads nowhere");
   await clickAt(view, 1.5);
-  await until("the page is at its section", async () => await hash() === "#section");
+  await until("the page is at its section", async () => (await hash()) === "#section");
   await clickAt(view, -1.5);
-  await until("the viewpoint is bound", async () => await boundIn(view) === "there");
+  await until("the viewpoint is bound", async () => (await boundIn(view)) === "there");
   assert.equal(await hash(), "#section");
   await bind(view, "ahead");
   const links = page.locator("imgeo-view nav a");
   assert.deepEqual(await links.allTextContents(), ["Go there", "Read on"]);
   await links.first().focus();
   await page.keyboard.press("Enter");
-  await until("the viewpoint is bound by the keyboard", async () => await boundIn(view) === "there");
-  await page.evaluate(() => { document.querySelector("#viewpoint")!.removeAttribute("url"); });
+  await until("the viewpoint is bound by the keyboard", async () => (await boundIn(view)) === "there");
+  await page.evaluate(() => {
+    document.querySelector("#viewpoint")!.removeAttribute("url");
+  });
   await until("a link goes with its url", async () => (await links.allTextContents()).join() === "Read on");
   assert.notEqual(await page.title(), "1");
 }
@@ -73,7 +94,7 @@ test("a billboard is seen from the front from everywhere, drawn by itself and wi
   await withPage(site, { size }, async (view) => {
     await view.promise("complete");
     // Two units at a distance of 8, in 240 pixels of a field of view of 45 degrees.
-    const whole = (size.height / 2 / Math.tan(0.7854 / 2) / 8 * 2) ** 2;
+    const whole = ((size.height / 2 / Math.tan(0.7854 / 2) / 8) * 2) ** 2;
     const assertSeen = async (how: string): Promise<void> => {
       for (const name of Object.keys(views)) {
         await bind(view, name);
@@ -84,11 +105,16 @@ test("a billboard is seen from the front from everywhere, drawn by itself and wi
     await assertSeen("by itself");
     await assertLinks(view);
     await view.page.evaluate(() => {
-      const others = Array.from({ length: 16 }, () => "<Shape><Appearance><Material></Material></Appearance><Box size='0.01 0.01 0.01'></Box></Shape>");
+      const others = Array.from(
+        { length: 16 },
+        () => "<Shape><Appearance><Material></Material></Appearance><Box size='0.01 0.01 0.01'></Box></Shape>",
+      );
       document.querySelector("billboard")!.insertAdjacentHTML("beforeend", others.join(""));
     });
     await assertSeen("with others");
-    await view.page.evaluate(() => { document.querySelector("billboard")!.setAttribute("axisOfRotation", "0 0 1"); });
+    await view.page.evaluate(() => {
+      document.querySelector("billboard")!.setAttribute("axisOfRotation", "0 0 1");
+    });
     const unturned = await redPixels(view);
     assert.ok(unturned < 0.97 * whole, `${unturned} pixels of what cannot turn`);
   });

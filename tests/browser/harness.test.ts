@@ -6,13 +6,27 @@ import { join } from "node:path";
 import { describe, test } from "node:test";
 import { assertSamePicture, boundsOfInput, difference, holesIn, silhouette } from "./compare.ts";
 import { settle, withPage } from "./harness.ts";
-import { areaWeightedNormals, pointSpiral, readPly, sphere, trefoil, withColors, writePly, type PlainMesh } from "./meshes.ts";
+import {
+  areaWeightedNormals,
+  pointSpiral,
+  readPly,
+  sphere,
+  trefoil,
+  withColors,
+  writePly,
+  type PlainMesh,
+} from "./meshes.ts";
 import { outputDirectory } from "./paths.ts";
 import { decodePng, encodePng, type Picture } from "./png.ts";
 import { gate } from "./server.ts";
 
 function noise(width: number, height: number, channels: number): Picture {
-  return { width, height, channels, data: Uint8Array.from({ length: width * height * channels }, (_, i) => (i * 2654435761) >>> 24) };
+  return {
+    width,
+    height,
+    channels,
+    data: Uint8Array.from({ length: width * height * channels }, (_, i) => (i * 2654435761) >>> 24),
+  };
 }
 
 const grey: Picture = { width: 100, height: 100, channels: 3, data: new Uint8Array(30000).fill(100) };
@@ -32,7 +46,9 @@ describe("pictures", () => {
   });
 
   test("the difference counts every channel, and pixels that are off by more than 16", () => {
-    const other = changed(grey, (data) => { data.set([116, 100, 83], 0); });
+    const other = changed(grey, (data) => {
+      data.set([116, 100, 83], 0);
+    });
     assert.deepEqual(difference(grey, other), { mean: 33 / 30000, offShare: 1 / 10000, largest: 17 });
   });
 
@@ -44,7 +60,9 @@ describe("pictures", () => {
   });
 
   test("a hole in a silhouette is found, a bay is not", () => {
-    const disc = new Uint8Array(30 * 30).map((_, i) => (Math.hypot((i % 30) - 15, Math.floor(i / 30) - 15) < 10 ? 1 : 0));
+    const disc = new Uint8Array(30 * 30).map((_, i) =>
+      Math.hypot((i % 30) - 15, Math.floor(i / 30) - 15) < 10 ? 1 : 0,
+    );
     assert.equal(holesIn(disc, 30), 0);
     disc[15 * 30 + 15] = 0;
     assert.equal(holesIn(disc, 30), 1);
@@ -72,7 +90,12 @@ describe("meshes", () => {
       const edges = new Set<string>();
       for (let t = 0; t < mesh.triangles.length; t += 3) {
         const [a, b, c] = mesh.triangles.subarray(t, t + 3);
-        for (const [from, to] of [[a, b], [b, c], [c, a]]) edges.add(`${from}>${to}`);
+        for (const [from, to] of [
+          [a, b],
+          [b, c],
+          [c, a],
+        ])
+          edges.add(`${from}>${to}`);
       }
       assert.equal(edges.size, mesh.triangles.length);
       for (const edge of edges) assert.ok(edges.has(edge.split(">").reverse().join(">")));
@@ -86,7 +109,8 @@ describe("meshes", () => {
   });
 
   test("a PLY file is read as it was written", () => {
-    for (const mesh of [withColors(trefoil(8, 4)), sphere(3), pointSpiral(10)]) assert.deepEqual(readPly(writePly(mesh)), mesh);
+    for (const mesh of [withColors(trefoil(8, 4)), sphere(3), pointSpiral(10)])
+      assert.deepEqual(readPly(writePly(mesh)), mesh);
   });
 });
 
@@ -173,8 +197,10 @@ describe("the server", () => {
       assert.equal(server.requests.at(-1)?.state, "waiting");
       held.open();
       assert.equal(await waiting, "200 0123456789!");
-      assert.deepEqual(server.requestsOf(/^\/[ab]$/).map(({ path, status }) => `${path} ${status}`),
-        ["/a 200", "/b 404", "/a 200", "/a 503", "/a 200"]);
+      assert.deepEqual(
+        server.requestsOf(/^\/[ab]$/).map(({ path, status }) => `${path} ${status}`),
+        ["/a 200", "/b 404", "/a 200", "/a 503", "/a 200"],
+      );
     });
   });
 });

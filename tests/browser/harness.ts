@@ -72,7 +72,12 @@ async function openPage(device: Device): Promise<Page> {
   const known = openers.get(key) ?? openOpener(device);
   openers.set(key, known);
   const opener = await known;
-  const [page] = await Promise.all([opener.waitForEvent("popup"), opener.evaluate(() => { window.open("about:blank"); })]);
+  const [page] = await Promise.all([
+    opener.waitForEvent("popup"),
+    opener.evaluate(() => {
+      window.open("about:blank");
+    }),
+  ]);
   return page;
 }
 
@@ -80,7 +85,9 @@ async function openPage(device: Device): Promise<Page> {
 async function openOpener({ deviceScaleFactor, hasTouch, motion }: Device): Promise<Page> {
   // Less motion: the bar does not fade while pictures are taken.
   const reducedMotion = motion ? "no-preference" : "reduce";
-  const context = await (await browser()).newContext({ viewport: pictureSize, deviceScaleFactor, hasTouch, reducedMotion });
+  const context = await (
+    await browser()
+  ).newContext({ viewport: pictureSize, deviceScaleFactor, hasTouch, reducedMotion });
   const page = await context.newPage();
   const server = await startServer(outputDirectory);
   server.put("/", "<!doctype html>");
@@ -107,7 +114,10 @@ export async function withPage(
     const view = watch(page, server);
     await page.goto(server.origin + (options.path ?? ""), { waitUntil: "commit" });
     await use(view);
-    assert.deepEqual(view.errors.filter((message) => options.expectedErrors?.test(message) !== true), []);
+    assert.deepEqual(
+      view.errors.filter((message) => options.expectedErrors?.test(message) !== true),
+      [],
+    );
     if (options.isCrossOrigin !== true) assert.deepEqual(view.foreignRequests, []);
   } finally {
     await page.close();
@@ -139,7 +149,8 @@ function watch(page: Page, server: TestServer): View {
     observed,
     async promise(name, selector = "x3d", seconds = 20) {
       const isKept = await page.evaluate(awaitPromise, { name, selector, timeoutMs: 1000 * seconds });
-      if (!isKept) throw new Error(`${name} of ${selector} did not come within ${seconds} s; console: ${errors.join("; ")}`);
+      if (!isKept)
+        throw new Error(`${name} of ${selector} did not come within ${seconds} s; console: ${errors.join("; ")}`);
     },
     async events(type, target) {
       const { events } = await observed();
@@ -153,11 +164,26 @@ function watch(page: Page, server: TestServer): View {
 }
 
 /** In the page: whether the element's promise resolves in time. The runtime may still have to load. */
-async function awaitPromise({ name, selector, timeoutMs }: { name: string; selector: string; timeoutMs: number }): Promise<boolean> {
-  const pause = (ms: number): Promise<boolean> => new Promise((resolve) => setTimeout(() => { resolve(false); }, ms));
+async function awaitPromise({
+  name,
+  selector,
+  timeoutMs,
+}: {
+  name: string;
+  selector: string;
+  timeoutMs: number;
+}): Promise<boolean> {
+  const pause = (ms: number): Promise<boolean> =>
+    new Promise((resolve) =>
+      setTimeout(() => {
+        resolve(false);
+      }, ms),
+    );
   const end = performance.now() + timeoutMs;
   for (; performance.now() < end; await pause(10)) {
-    const promise = (document.querySelector(selector) as unknown as Record<string, Promise<unknown> | undefined> | null)?.[name];
+    const promise = (
+      document.querySelector(selector) as unknown as Record<string, Promise<unknown> | undefined> | null
+    )?.[name];
     if (promise) return Promise.race([promise.then(() => true), pause(end - performance.now())]);
   }
   return false;
@@ -183,11 +209,16 @@ export async function screenshotOf(page: Page): Promise<Picture> {
 export async function settle(page: Page, seconds = 60): Promise<void> {
   const goingOn = await page.evaluate(async (timeoutMs) => {
     const frame = (): Promise<number> => new Promise(requestAnimationFrame);
-    const due = (): string[] => Array.from(document.querySelectorAll("x3d")).flatMap((x3d) =>
-      ((x3d as { statistics?: { isFrameDue: boolean } }).statistics?.isFrameDue === true ? ["a frame is due"] : []));
-    const decoding = (): string[] => Array.from(document.querySelectorAll("x3d shape")).flatMap((shape) =>
-      Array.from((shape as { resources?: Iterable<{ state: string; url: string }> }).resources ?? [])
-        .flatMap(({ state, url }) => (state === "decoding" ? [`${url} is being decoded`] : [])));
+    const due = (): string[] =>
+      Array.from(document.querySelectorAll("x3d")).flatMap((x3d) =>
+        (x3d as { statistics?: { isFrameDue: boolean } }).statistics?.isFrameDue === true ? ["a frame is due"] : [],
+      );
+    const decoding = (): string[] =>
+      Array.from(document.querySelectorAll("x3d shape")).flatMap((shape) =>
+        Array.from((shape as { resources?: Iterable<{ state: string; url: string }> }).resources ?? []).flatMap(
+          ({ state, url }) => (state === "decoding" ? [`${url} is being decoded`] : []),
+        ),
+      );
     let draws = -1;
     const unrest = (): string[] => {
       const before = draws;
@@ -202,7 +233,8 @@ export async function settle(page: Page, seconds = 60): Promise<void> {
     }
     return [];
   }, 1000 * seconds);
-  if (goingOn.length > 0) throw new Error(`the page did not come to rest within ${seconds} s: ${Array.from(new Set(goingOn)).join(", ")}`);
+  if (goingOn.length > 0)
+    throw new Error(`the page did not come to rest within ${seconds} s: ${Array.from(new Set(goingOn)).join(", ")}`);
 }
 
 /** Waits for a condition of the test's own side; throws, naming it, after 20 s. */

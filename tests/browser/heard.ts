@@ -18,9 +18,13 @@ declare global {
 export function listen(): void {
   window.viewEvents = [];
   for (const type of ["camera-change", "model-visibility", "poster-dismissed", "hotspot-visibility"]) {
-    document.addEventListener(type, (event) => {
-      window.viewEvents.push({ type, detail: (event as CustomEvent<Record<string, unknown>>).detail });
-    }, true);
+    document.addEventListener(
+      type,
+      (event) => {
+        window.viewEvents.push({ type, detail: (event as CustomEvent<Record<string, unknown>>).detail });
+      },
+      true,
+    );
   }
 }
 

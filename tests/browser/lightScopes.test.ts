@@ -11,7 +11,8 @@ type Color = readonly [number, number, number];
 
 const size = { width: 320, height: 160 };
 /** Scene units between two walls, and across the picture. */
-const apart = 2, across = 12;
+const apart = 2,
+  across = 12;
 const names = ["alone", "outer", "inner", "spot", "last"] as const;
 type Name = (typeof names)[number];
 
@@ -36,14 +37,22 @@ const scene = `<NavigationInfo headlight="false"></NavigationInfo>
 
 /** The scene's own light, and what its groups add. */
 const dark: Color = [0.2, 0.2, 0.2];
-const lit: Readonly<Record<Name, Color>> = { alone: dark, outer: [0.7, 0.2, 0.2], inner: [0.7, 0.8, 0.2], spot: [0.2, 0.2, 0.7], last: dark };
+const lit: Readonly<Record<Name, Color>> = {
+  alone: dark,
+  outer: [0.7, 0.2, 0.2],
+  inner: [0.7, 0.8, 0.2],
+  spot: [0.2, 0.2, 0.7],
+  last: dark,
+};
 
 async function assertColors(view: View, what: string, wanted: Readonly<Record<Name, Color>>): Promise<void> {
   const { data, width, height, channels } = await view.picture();
-  const seen = Object.fromEntries(names.map((name) => {
-    const at = (Math.floor(height / 2) * width + Math.floor(width * (0.5 + place(name) / across))) * channels;
-    return [name, Array.from(data.subarray(at, at + 3), (value) => Math.round(value / 2.55) / 100)];
-  }));
+  const seen = Object.fromEntries(
+    names.map((name) => {
+      const at = (Math.floor(height / 2) * width + Math.floor(width * (0.5 + place(name) / across))) * channels;
+      return [name, Array.from(data.subarray(at, at + 3), (value) => Math.round(value / 2.55) / 100)];
+    }),
+  );
   assert.deepEqual(seen, wanted, what);
 }
 
@@ -59,18 +68,32 @@ test("lights shine in their groups alone, as the document says now, and however 
       document.querySelector("#blue")!.remove();
     });
     await assertColors(view, "after changes", {
-      alone: [0.7, 0.2, 0.2], outer: [0.7, 0.2, 0.2], inner: [0.7, 0.8, 0.2], spot: [0.7, 0.2, 0.2], last: [0.7, 0.8, 0.2],
+      alone: [0.7, 0.2, 0.2],
+      outer: [0.7, 0.2, 0.2],
+      inner: [0.7, 0.8, 0.2],
+      spot: [0.7, 0.2, 0.2],
+      last: [0.7, 0.8, 0.2],
     });
 
     await view.page.evaluate(() => {
       // Further shapes, so many that all are drawn together; their group with a light of its own is the first of all.
-      const walls = Array.from({ length: 16 }, () => "<Shape><Appearance><Material></Material></Appearance><Box size='0.01 0.01 0.01'></Box></Shape>");
-      document.querySelector("#alone")!.insertAdjacentHTML("beforebegin", `<Group><DirectionalLight color="1 1 1"></DirectionalLight>${walls.join("")}</Group>`);
+      const walls = Array.from(
+        { length: 16 },
+        () => "<Shape><Appearance><Material></Material></Appearance><Box size='0.01 0.01 0.01'></Box></Shape>",
+      );
+      document
+        .querySelector("#alone")!
+        .insertAdjacentHTML(
+          "beforebegin",
+          `<Group><DirectionalLight color="1 1 1"></DirectionalLight>${walls.join("")}</Group>`,
+        );
       document.querySelector("#red")!.setAttribute("global", "false");
       document.querySelector("scene")!.append(document.querySelector("#last")!);
     });
     await assertColors(view, "together", { ...lit, spot: dark });
-    const drawCalls = await view.page.evaluate(() => (document.querySelector("x3d") as unknown as { statistics: { drawCalls: number } }).statistics.drawCalls);
+    const drawCalls = await view.page.evaluate(
+      () => (document.querySelector("x3d") as unknown as { statistics: { drawCalls: number } }).statistics.drawCalls,
+    );
     assert.ok(drawCalls <= 3, `${drawCalls} draws: they are drawn together`);
 
     await view.page.evaluate(() => {
@@ -79,9 +102,21 @@ test("lights shine in their groups alone, as the document says now, and however 
       document.querySelector("#group")!.prepend(document.querySelector("#alone")!);
     });
     await assertColors(view, "together, after changes", {
-      alone: [0.7, 0.2, 0.2], outer: [0.7, 0.2, 0.2], inner: [0.7, 0.2, 0.2], spot: dark, last: dark,
+      alone: [0.7, 0.2, 0.2],
+      outer: [0.7, 0.2, 0.2],
+      inner: [0.7, 0.2, 0.2],
+      spot: dark,
+      last: dark,
     });
-    await view.page.evaluate(() => { document.querySelector("#red")!.remove(); });
-    await assertColors(view, "without any light of a group", { alone: dark, outer: dark, inner: dark, spot: dark, last: dark });
+    await view.page.evaluate(() => {
+      document.querySelector("#red")!.remove();
+    });
+    await assertColors(view, "without any light of a group", {
+      alone: dark,
+      outer: dark,
+      inner: dark,
+      spot: dark,
+      last: dark,
+    });
   });
 });

@@ -7,12 +7,19 @@ import { withPage } from "./harness.ts";
 import { sceneOf } from "./scenes.ts";
 import { siteOfGenerated } from "./sites.ts";
 
-const eye = 5, fieldOfView = 0.8, lamp = 2;
+const eye = 5,
+  fieldOfView = 0.8,
+  lamp = 2;
 const attenuation = [0.5, 0.25, 0.1] as const;
-const beamWidth = 0.25, cutOffAngle = 0.55;
+const beamWidth = 0.25,
+  cutOffAngle = 0.55;
 const edge = 1.5;
 const skyAngles = [1.4, 1.8] as const;
-const sky = [[0, 0, 1], [0, 1, 0], [1, 0, 0]] as const;
+const sky = [
+  [0, 0, 1],
+  [0, 1, 0],
+  [1, 0, 0],
+] as const;
 const wall = `<IndexedFaceSet coordIndex="0 1 2 3"><Coordinate point="-${edge} -${edge} 0 ${edge} -${edge} 0 ${edge} ${edge} 0 -${edge} ${edge} 0"></Coordinate></IndexedFaceSet>`;
 const scene = `<NavigationInfo headlight="false"></NavigationInfo><Viewpoint position="0 0 ${eye}" fieldOfView="${fieldOfView}"></Viewpoint>
   <Background skyAngle="${skyAngles.join(" ")}" skyColor="${sky.flat().join(" ")}"></Background>
@@ -42,8 +49,10 @@ test("a lamp's light falls off with distance and angle, and the sky has its ring
   await withPage(site, { size: { width: 320, height: 240 } }, async (view) => {
     await view.promise("complete");
     const { data, width, height, channels } = await view.picture();
-    const slope = (pixel: number, from: number): number => ((pixel + 0.5 - from / 2) / (height / 2)) * Math.tan(fieldOfView / 2);
-    let lamps = 0, skies = 0;
+    const slope = (pixel: number, from: number): number =>
+      ((pixel + 0.5 - from / 2) / (height / 2)) * Math.tan(fieldOfView / 2);
+    let lamps = 0,
+      skies = 0;
     for (let y = 0; y < height; ++y) {
       for (let x = 0; x < width; ++x) {
         const [right, down] = [slope(x, width), slope(y, height)];
@@ -56,7 +65,10 @@ test("a lamp's light falls off with distance and angle, and the sky has its ring
         // Where the light ends, a pixel is on both sides.
         if (isWall && Math.abs(Math.hypot(aside, lamp) - 2.3) < 0.02) continue;
         const off = Math.max(...seen.map((value, i) => Math.abs(value - 255 * wanted[i]!)));
-        assert.ok(off <= 3, `(${x}, ${y}) is ${seen.join(" ")} instead of ${wanted.map((value) => Math.round(255 * value)).join(" ")}`);
+        assert.ok(
+          off <= 3,
+          `(${x}, ${y}) is ${seen.join(" ")} instead of ${wanted.map((value) => Math.round(255 * value)).join(" ")}`,
+        );
         if (!isWall) skies += 1;
         else if (seen[0]! > 0) lamps += 1;
       }

@@ -18,8 +18,20 @@ type Pair = [number, number];
 type Color = [number, number, number];
 
 /** Sharp and blunt joints, each vertex in its colour. */
-const corners: Pair[] = [[-0.9, -0.7], [-0.3, 0.8], [0, -0.8], [0.5, -0.1], [0.9, 0.8]];
-const colors: Color[] = [[255, 0, 0], [0, 255, 0], [90, 90, 255], [255, 255, 0], [0, 255, 255]];
+const corners: Pair[] = [
+  [-0.9, -0.7],
+  [-0.3, 0.8],
+  [0, -0.8],
+  [0.5, -0.1],
+  [0.9, 0.8],
+];
+const colors: Color[] = [
+  [255, 0, 0],
+  [0, 255, 0],
+  [90, 90, 255],
+  [255, 255, 0],
+  [0, 255, 255],
+];
 const viewDistance = 10;
 const pictureSize = { width: 400, height: 300 };
 const [ratio, width] = [2, 6];
@@ -28,33 +40,63 @@ const zigzag = (): string => {
   mkdirSync(outputDirectory, { recursive: true });
   const path = join(outputDirectory, "zigzag.ply");
   const lines = corners.slice(1).flatMap((_, i) => [i, i + 1]);
-  writeFileSync(path, writePly({
-    positions: Float32Array.from(corners.flatMap(([x, y]) => [x, y, 0])), colors: Uint8Array.from(colors.flat()),
-    triangles: new Uint32Array(0), lines: Uint32Array.from(lines),
-  }));
+  writeFileSync(
+    path,
+    writePly({
+      positions: Float32Array.from(corners.flatMap(([x, y]) => [x, y, 0])),
+      colors: Uint8Array.from(colors.flat()),
+      triangles: new Uint32Array(0),
+      lines: Uint32Array.from(lines),
+    }),
+  );
   return path;
 };
 
-const inline = (points: readonly (readonly number[])[], inColors = false): string => `<IndexedLineSet coordIndex="${points.map((_, i) => i).join(" ")} -1">
-  <Coordinate point="${points.flat().join(" ")}"></Coordinate>${inColors ? `<Color color="${colors.flat().map((byte) => byte / 255).join(" ")}"></Color>` : ""}</IndexedLineSet>`;
-const properties = (attributes: string): string => `<Appearance><Material emissiveColor="1 1 1"></Material><LineProperties ${attributes}></LineProperties></Appearance>`;
+const inline = (
+  points: readonly (readonly number[])[],
+  inColors = false,
+): string => `<IndexedLineSet coordIndex="${points.map((_, i) => i).join(" ")} -1">
+  <Coordinate point="${points.flat().join(" ")}"></Coordinate>${
+    inColors
+      ? `<Color color="${colors
+          .flat()
+          .map((byte) => byte / 255)
+          .join(" ")}"></Color>`
+      : ""
+  }</IndexedLineSet>`;
+const properties = (attributes: string): string =>
+  `<Appearance><Material emissiveColor="1 1 1"></Material><LineProperties ${attributes}></LineProperties></Appearance>`;
 const wide = properties(`linewidthScaleFactor="${width}"`);
 
 const ways: string[][] = [
-  ["--profile", "classic"], ["--profile", "classic", "--primitives", "strips"], ["--profile", "classic", "--index", "off"],
-  ["--container", "bg"], ["--container", "bg", "--primitives", "strips", "--layout", "interleaved"], ["--profile", "compact"],
+  ["--profile", "classic"],
+  ["--profile", "classic", "--primitives", "strips"],
+  ["--profile", "classic", "--index", "off"],
+  ["--container", "bg"],
+  ["--container", "bg", "--primitives", "strips", "--layout", "interleaved"],
+  ["--profile", "compact"],
 ];
 const perRow = 4;
 const placeOf = (n: number): Pair => [2.2 * (n % perRow) - 3.3, 2.2 - 2.2 * Math.floor(n / perRow)];
 
 function zigzags(sites: readonly string[]): string {
-  const shapes = sites.map((site, n) => shapeIn(site, `z${n}`).replaceAll(/(["'])geometry\//g, `$1z${n}/geometry/`)
-    .replace(/<Appearance[\s\S]*<\/Appearance>/i, wide));
+  const shapes = sites.map((site, n) =>
+    shapeIn(site, `z${n}`)
+      .replaceAll(/(["'])geometry\//g, `$1z${n}/geometry/`)
+      .replace(/<Appearance[\s\S]*<\/Appearance>/i, wide),
+  );
   shapes.push(shapes[0]!.replace(/<ImageGeometry/i, '$& decode="cpu"'));
-  shapes.push(`<Shape>${wide}${inline(corners.map(([x, y]) => [x, y, 0]), true)}</Shape>`);
+  shapes.push(
+    `<Shape>${wide}${inline(
+      corners.map(([x, y]) => [x, y, 0]),
+      true,
+    )}</Shape>`,
+  );
   // One is mirrored, and one lies flat on its side.
   const turns = shapes.map((_, n) => (n === 1 ? 'scale="-1 1 1"' : n === 3 ? 'scale="1 1 -3"' : ""));
-  return shapes.map((shape, n) => `<Transform translation="${placeOf(n).join(" ")} 0" ${turns[n]!}>${shape}</Transform>`).join("\n");
+  return shapes
+    .map((shape, n) => `<Transform translation="${placeOf(n).join(" ")} 0" ${turns[n]!}>${shape}</Transform>`)
+    .join("\n");
 }
 
 const dashWidth = 2;
@@ -64,18 +106,39 @@ const dot: Pair = [1.2, -3];
 /** From behind the camera to far ahead of it; three kinds of lines in the row at the bottom; and a dot. */
 const others = (): string => `
   <Shape id="past">${wide}${inline([past.behind, past.ahead])}</Shape>
-  <Shape id="dashed">${properties(`linetype="2" linewidthScaleFactor="${dashWidth}"`)}${inline([[-4.4, -2.4, 0], [-2, -2.4, 0], [0, -2.4, 0]])}</Shape>
-  <Shape id="thin">${properties('linewidthScaleFactor="1"')}${inline([[-4.4, -2.8, 0], [0, -2.8, 0]])}</Shape>
-  <Shape id="off">${properties('linewidthScaleFactor="9" applied="false"')}${inline([[-4.4, -3.1, 0], [0, -3.1, 0]])}</Shape>
-  <Shape id="dot">${wide}${inline([[...dot, 0], [...dot, 0]])}</Shape>`;
+  <Shape id="dashed">${properties(`linetype="2" linewidthScaleFactor="${dashWidth}"`)}${inline([
+    [-4.4, -2.4, 0],
+    [-2, -2.4, 0],
+    [0, -2.4, 0],
+  ])}</Shape>
+  <Shape id="thin">${properties('linewidthScaleFactor="1"')}${inline([
+    [-4.4, -2.8, 0],
+    [0, -2.8, 0],
+  ])}</Shape>
+  <Shape id="off">${properties('linewidthScaleFactor="9" applied="false"')}${inline([
+    [-4.4, -3.1, 0],
+    [0, -3.1, 0],
+  ])}</Shape>
+  <Shape id="dot">${wide}${inline([
+    [...dot, 0],
+    [...dot, 0],
+  ])}</Shape>`;
 
 const scale = (pictureSize.height * ratio) / 2 / Math.tan(0.7854 / 2);
 /** Device pixels. */
 function onScreen([x, y]: Pair, distance = viewDistance): Pair {
-  return [(pictureSize.width * ratio) / 2 + (x * scale) / distance, (pictureSize.height * ratio) / 2 - (y * scale) / distance];
+  return [
+    (pictureSize.width * ratio) / 2 + (x * scale) / distance,
+    (pictureSize.height * ratio) / 2 - (y * scale) / distance,
+  ];
 }
 
-interface Segment { from: Pair; to: Pair; colors: [Color, Color]; width: number }
+interface Segment {
+  from: Pair;
+  to: Pair;
+  colors: [Color, Color];
+  width: number;
+}
 
 /** How far from a segment, and how far along it, 0 … 1. */
 function nearest({ from, to }: Segment, [x, y]: Pair): { away: number; along: number } {
@@ -85,18 +148,24 @@ function nearest({ from, to }: Segment, [x, y]: Pair): { away: number; along: nu
 }
 
 function segments(): Segment[] {
-  const white: [Color, Color] = [[255, 255, 255], [255, 255, 255]];
+  const white: [Color, Color] = [
+    [255, 255, 255],
+    [255, 255, 255],
+  ];
   const zigzagged = Array.from({ length: ways.length + 2 }, (_, n) => {
     const [x, y] = placeOf(n);
     const at = corners.map(([u, v]) => onScreen([x + (n === 1 ? -u : u), y + v]));
-    return at.slice(1).map((to, i): Segment => ({ from: at[i]!, to, colors: [colors[i]!, colors[i + 1]!], width: width * ratio }));
+    return at
+      .slice(1)
+      .map((to, i): Segment => ({ from: at[i]!, to, colors: [colors[i]!, colors[i + 1]!], width: width * ratio }));
   });
   // Cut a thousandth of a length before the eye: far beyond the picture.
   const [[x, y, z], [u, v, w]] = [past.behind, past.ahead];
   const share = (z - viewDistance + 0.001) / (z - w);
   const from = onScreen([x + (u - x) * share, y + (v - y) * share], 0.001);
   return [
-    ...zigzagged.flat(), { from, to: onScreen([u, v], viewDistance - w), colors: white, width: width * ratio },
+    ...zigzagged.flat(),
+    { from, to: onScreen([u, v], viewDistance - w), colors: white, width: width * ratio },
     { from: onScreen(dot), to: onScreen(dot), colors: white, width: width * ratio },
   ];
 }
@@ -125,7 +194,10 @@ function assertDrawn(picture: Picture, drawn: readonly Segment[]): void {
         const [begin, end] = only.segment.colors;
         begin.forEach((channel, i) => {
           const wanted = channel + (end[i]! - channel) * only.along;
-          assert.ok(Math.abs(found[i]! - wanted) < 8, `at ${x} ${y}: ${found.join()}, channel ${i} should be ${wanted.toFixed()}`);
+          assert.ok(
+            Math.abs(found[i]! - wanted) < 8,
+            `at ${x} ${y}: ${found.join()}, channel ${i} should be ${wanted.toFixed()}`,
+          );
         });
       }
     }
@@ -149,19 +221,28 @@ function runsAlong(picture: Picture, row: number): Pair[] {
 /** How many pixels are lit above one another. */
 function heightOf(picture: Picture, [x, row]: Pair): number {
   const [column, middle] = onScreen([x, row]).map(Math.floor) as Pair;
-  return Array.from({ length: 13 }, (_, i) => colorAt(picture, column, middle - 6 + i)[0]).filter((value) => value > 60).length;
+  return Array.from({ length: 13 }, (_, i) => colorAt(picture, column, middle - 6 + i)[0]).filter((value) => value > 60)
+    .length;
 }
 
-const hitAt = (view: View, [x, y]: Pair): Promise<boolean> => view.page.evaluate((place) =>
-  (document.querySelector("x3d") as unknown as { positionAndNormalFromPoint: (x: number, y: number) => unknown })
-    .positionAndNormalFromPoint(place[0], place[1]) !== null, [x / ratio, y / ratio] as const);
+const hitAt = (view: View, [x, y]: Pair): Promise<boolean> =>
+  view.page.evaluate(
+    (place) =>
+      (
+        document.querySelector("x3d") as unknown as { positionAndNormalFromPoint: (x: number, y: number) => unknown }
+      ).positionAndNormalFromPoint(place[0], place[1]) !== null,
+    [x / ratio, y / ratio] as const,
+  );
 
 describe("wide lines", () => {
   test("cover what lies within half their width, from every container, past the eye and in dashes, and are hit there", async () => {
     const sites = ways.map((way) => siteOf(zigzag(), ...way));
-    const directory = sceneOf("lines-wide", Object.fromEntries(sites.map((site, n) => [`z${n}`, site])),
+    const directory = sceneOf(
+      "lines-wide",
+      Object.fromEntries(sites.map((site, n) => [`z${n}`, site])),
       `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo><Background skyColor="0 0 0"></Background>
-       <Viewpoint position="0 0 ${viewDistance}" fieldOfView="0.7854"></Viewpoint>${zigzags(sites)}${others()}`);
+       <Viewpoint position="0 0 ${viewDistance}" fieldOfView="0.7854"></Viewpoint>${zigzags(sites)}${others()}`,
+    );
     await withPage(directory, { size: pictureSize, deviceScaleFactor: ratio }, async (view) => {
       await view.promise("complete");
       const picture = await view.picture();
@@ -170,7 +251,8 @@ describe("wide lines", () => {
       assertDrawn(picture, drawn);
       await assertHit(view, drawn);
       assertDashes(picture);
-      for (const row of [-2.8, -3.1]) assert.ok(heightOf(picture, [-2, row]) <= 2, `a line of ${row} is as thin as can be`);
+      for (const row of [-2.8, -3.1])
+        assert.ok(heightOf(picture, [-2, row]) <= 2, `a line of ${row} is as thin as can be`);
       await view.page.evaluate(() => {
         document.querySelector("#thin lineproperties")?.setAttribute("linewidthScaleFactor", "3");
         document.querySelector("#dashed lineproperties")?.remove();
@@ -178,7 +260,10 @@ describe("wide lines", () => {
       const changed = await view.picture();
       savePicture("lines-changed", changed);
       assert.ok(heightOf(changed, [-2, -2.8]) >= 6, "it has become wide");
-      assert.ok(heightOf(changed, [-2, -2.4]) <= 2 && runsAlong(changed, -2.4).length === 1, "it has become thin and solid");
+      assert.ok(
+        heightOf(changed, [-2, -2.4]) <= 2 && runsAlong(changed, -2.4).length === 1,
+        "it has become thin and solid",
+      );
     });
   });
 });
@@ -188,14 +273,17 @@ function assertDashes(picture: Picture): void {
   assert.ok(runs.length >= 4, `${runs.length} dashes`);
   runs.forEach(([begin, end], i) => {
     assert.ok(Math.abs(end - begin - 6 * dashWidth * ratio) <= 1, `a dash of ${end - begin} pixels`);
-    assert.ok(i === 0 || Math.abs(begin - runs[i - 1]![0] - 10 * dashWidth * ratio) <= 1, "dashes run on across joints");
+    assert.ok(
+      i === 0 || Math.abs(begin - runs[i - 1]![0] - 10 * dashWidth * ratio) <= 1,
+      "dashes run on across joints",
+    );
   });
 }
 
 /** A little within and without the borders of one segment of each zigzag. */
 async function assertHit(view: View, drawn: readonly Segment[]): Promise<void> {
   for (let n = 0; n < ways.length + 2; ++n) {
-    const { from, to, width: across } = drawn[n * (corners.length - 1) + n % (corners.length - 1)]!;
+    const { from, to, width: across } = drawn[n * (corners.length - 1) + (n % (corners.length - 1))]!;
     const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
     const middle = 0.5;
     const beside = (pixels: number): Pair => [

@@ -24,8 +24,12 @@ const directory = join(outputDirectory, "loader");
 before(async () => {
   for (const [name, entry] of Object.entries(bundles)) {
     await build({
-      entryPoints: [join(repository, entry)], outfile: join(directory, name),
-      bundle: true, format: "esm", target: "es2022", logLevel: "error",
+      entryPoints: [join(repository, entry)],
+      outfile: join(directory, name),
+      bundle: true,
+      format: "esm",
+      target: "es2022",
+      logLevel: "error",
     });
   }
 });
@@ -42,12 +46,19 @@ async function withApp(site: string, options: PageOptions, use: (view: View) => 
   };
   await withPage(site, { ...options, server }, async (view) => {
     await until("the app runs", async () => view.page.evaluate(() => "app" in window));
-    await view.page.evaluate(() => { window.app.loader.setWorkerUrl("/worker.js"); });
+    await view.page.evaluate(() => {
+      window.app.loader.setWorkerUrl("/worker.js");
+    });
     await use(view);
   });
 }
 
-async function draw(page: Page, light: AppRequest["light"], what: AppRequest["what"], castShadow = true): Promise<Picture> {
+async function draw(
+  page: Page,
+  light: AppRequest["light"],
+  what: AppRequest["what"],
+  castShadow = true,
+): Promise<Picture> {
   await page.evaluate((asked) => window.app.draw(asked), { light, what, castShadow });
   return decodePng(await page.screenshot());
 }
@@ -55,8 +66,11 @@ async function draw(page: Page, light: AppRequest["light"], what: AppRequest["wh
 function plainOf(mesh: GeneratedMesh): PlainBuffers {
   const { positions, normals, colors, triangles, lines } = patchOfInput(readPly(readFileSync(meshFile(mesh))));
   return {
-    positions: [...positions], ...(normals && { normals: [...normals] }), ...(colors && { colors: [...colors] }),
-    triangles: [...triangles], lines: [...lines],
+    positions: [...positions],
+    ...(normals && { normals: [...normals] }),
+    ...(colors && { colors: [...colors] }),
+    triangles: [...triangles],
+    lines: [...lines],
   };
 }
 
@@ -70,7 +84,10 @@ interface Case {
 const cases: Case[] = [
   { mesh: "trefoil", options: ["--profile", "classic"], lights: ["directional", "spot", "point"] },
   { mesh: "trefoil", options: ["--profile", "classic"], keepsVertices: true },
-  { mesh: "trefoil", options: ["--profile", "classic", "--normals", "octahedral", "--primitives", "strips", "--patch-vertices", "1000"] },
+  {
+    mesh: "trefoil",
+    options: ["--profile", "classic", "--normals", "octahedral", "--primitives", "strips", "--patch-vertices", "1000"],
+  },
   { mesh: "trefoil", options: ["--profile", "compact"], lights: ["directional", "point"] },
   { mesh: "trefoil", options: ["--container", "bg", "--normals", "spherical"], lights: ["directional", "point"] },
   { mesh: "trefoil-colors", options: ["--profile", "classic"] },
@@ -87,7 +104,12 @@ describe("a scene in somebody's own app looks as plain buffers do there", () => 
       await withApp(site, {}, async ({ page, server }) => {
         await page.evaluate((keep) => window.app.loader.setKeepVertices(keep), keepsVertices);
         const { diffuseColor, shininess } = lookOf(pageOf(site)).material;
-        await page.evaluate(([mesh, look]) => { window.app.setPlain(mesh, look); }, [plainOf(mesh), { diffuseColor, shininess }] as const);
+        await page.evaluate(
+          ([mesh, look]) => {
+            window.app.setPlain(mesh, look);
+          },
+          [plainOf(mesh), { diffuseColor, shininess }] as const,
+        );
         await page.evaluate(() => window.app.load());
         for (const light of lights) {
           const expected = await draw(page, light, "plain");
@@ -96,7 +118,8 @@ describe("a scene in somebody's own app looks as plain buffers do there", () => 
           assertSamePicture(name, await draw(page, light, "scene"), expected, { mean: 0.06, offShare: 0.001 });
           const [empty, unshadowed] = [await draw(page, light, "nothing"), await draw(page, light, "plain", false)];
           assert.ok(difference(expected, empty).mean > 0.5, "the reference shows nothing");
-          if (mesh.startsWith("trefoil")) assert.ok(difference(expected, unshadowed).mean > 1, "the reference has no shadow");
+          if (mesh.startsWith("trefoil"))
+            assert.ok(difference(expected, unshadowed).mean > 1, "the reference has no shadow");
         }
         const usesWorker = keepsVertices || options.includes("compact");
         assert.equal(server.requestsOf(/^\/worker\.js$/).length > 0, usesWorker);
@@ -108,15 +131,32 @@ describe("a scene in somebody's own app looks as plain buffers do there", () => 
 test("a texture lies over a surface, the right way round", async () => {
   mkdirSync(outputDirectory, { recursive: true });
   const quad = join(outputDirectory, "textured.ply");
-  const corners = [[-3, -3], [3, -3], [3, 3], [-3, 3]].map(([x, y]) => `${x} ${y} 0 0 0 1 ${(x! + 3) / 6} ${(y! + 3) / 6}`);
+  const corners = [
+    [-3, -3],
+    [3, -3],
+    [3, 3],
+    [-3, 3],
+  ].map(([x, y]) => `${x} ${y} 0 0 0 1 ${(x! + 3) / 6} ${(y! + 3) / 6}`);
   const properties = ["x", "y", "z", "nx", "ny", "nz", "s", "t"].map((name) => `property float ${name}\n`).join("");
-  writeFileSync(quad, `ply\nformat ascii 1.0\nelement vertex 4\n${properties}element face 2\nproperty list uchar int vertex_indices\nend_header\n${corners.join("\n")}\n3 0 1 2\n3 0 2 3\n`);
+  writeFileSync(
+    quad,
+    `ply\nformat ascii 1.0\nelement vertex 4\n${properties}element face 2\nproperty list uchar int vertex_indices\nend_header\n${corners.join("\n")}\n3 0 1 2\n3 0 2 3\n`,
+  );
   // Red on the left, blue on the right.
   const picture = encodePng({ width: 2, height: 1, channels: 3, data: Uint8Array.from([230, 20, 20, 20, 20, 230]) });
   const nearest = '<TextureProperties magnificationFilter="NEAREST_PIXEL" minificationFilter="NEAREST_PIXEL"/>';
-  const textured = (xml: Buffer): string => xml.toString().replace(/<Appearance[\s\S]*?<\/Appearance>/,
-    `<Appearance><Material diffuseColor="1 1 1"/><ImageTexture url="two.png">${nearest}</ImageTexture></Appearance>`);
-  for (const options of [["--profile", "classic"], ["--profile", "compact"], ["--container", "bg"]]) {
+  const textured = (xml: Buffer): string =>
+    xml
+      .toString()
+      .replace(
+        /<Appearance[\s\S]*?<\/Appearance>/,
+        `<Appearance><Material diffuseColor="1 1 1"/><ImageTexture url="two.png">${nearest}</ImageTexture></Appearance>`,
+      );
+  for (const options of [
+    ["--profile", "classic"],
+    ["--profile", "compact"],
+    ["--container", "bg"],
+  ]) {
     await withApp(siteOf(quad, ...options), {}, async ({ page, server }) => {
       server.put("/two.png", picture);
       server.when(/^\/scene\.x3d$/, { replace: textured });
@@ -135,13 +175,17 @@ test("a texture lies over a surface, the right way round", async () => {
       const middle = seen.width / 2;
       const [red, blue] = [colored(0, 0, seen.width), colored(2, 0, seen.width)];
       assert.ok(red > 5000 && blue > 5000, `${red} red pixels and ${blue} blue ones`);
-      assert.ok(colored(0, 0, middle) > 0.8 * red && colored(2, middle, seen.width) > 0.8 * blue, "the picture is the other way round");
+      assert.ok(
+        colored(0, 0, middle) > 0.8 * red && colored(2, middle, seen.width) > 0.8 * blue,
+        "the picture is the other way round",
+      );
     });
   }
 });
 
 const classic = (): string => siteOfGenerated("trefoil", "--profile", "classic");
-const filesOf = (site: string): string[] => [...ranksOfFiles(pageOf(site)).keys()].map((url) => url.replace(/.*\//, ""));
+const filesOf = (site: string): string[] =>
+  [...ranksOfFiles(pageOf(site)).keys()].map((url) => url.replace(/.*\//, ""));
 const isGeometry = (path: string): boolean => path.startsWith("/geometry/");
 
 describe("the loader keeps three's conventions", () => {
@@ -151,7 +195,10 @@ describe("the loader keeps three's conventions", () => {
       for (const document of ["scene.x3d", "index.html"]) {
         const lines = await page.evaluate((name) => window.app.log(name), document);
         for (const item of [document, ...filesOf(site)]) {
-          assert.deepEqual(lines.filter((line) => line.endsWith(` ${item}`)), [`start ${item}`, `end ${item}`]);
+          assert.deepEqual(
+            lines.filter((line) => line.endsWith(` ${item}`)),
+            [`start ${item}`, `end ${item}`],
+          );
         }
         assert.ok(lines.indexOf("onLoad") < lines.indexOf("complete"));
         assert.ok(lines.indexOf("onLoad") < lines.indexOf("manager.onLoad"));
@@ -167,14 +214,29 @@ describe("the loader keeps three's conventions", () => {
     await withApp(classic(), { expectedErrors: /404|inline style/ }, async ({ page, server }) => {
       server.put("/none.html", "<p>nothing here");
       server.put("/broken.x3d", "<X3D><Scene></X3D>");
-      for (const [url, message] of [["absent.x3d", /absent\.x3d: the server answered 404/], ["none.html", /none\.html has no X3D/], ["broken.x3d", /broken\.x3d is not well-formed/]] as const) {
+      for (const [url, message] of [
+        ["absent.x3d", /absent\.x3d: the server answered 404/],
+        ["none.html", /none\.html has no X3D/],
+        ["broken.x3d", /broken\.x3d is not well-formed/],
+      ] as const) {
         const lines = await page.evaluate((name) => window.app.log(name), url);
         assert.match(lines.find((line) => line.startsWith("onError")) ?? "", message);
-        assert.deepEqual(lines.filter((line) => line.endsWith(` ${url}`) && !line.startsWith("onError")), [`start ${url}`, `error ${url}`, `end ${url}`]);
+        assert.deepEqual(
+          lines.filter((line) => line.endsWith(` ${url}`) && !line.startsWith("onError")),
+          [`start ${url}`, `error ${url}`, `end ${url}`],
+        );
       }
       // So is a worker that is not where it should be.
-      const withoutWorker = await page.evaluate(() => window.app.loader.setWorkerUrl("/nowhere.js").setKeepVertices(true).loadAsync("scene.x3d")
-        .then(() => "there", (error: unknown) => String(error)));
+      const withoutWorker = await page.evaluate(() =>
+        window.app.loader
+          .setWorkerUrl("/nowhere.js")
+          .setKeepVertices(true)
+          .loadAsync("scene.x3d")
+          .then(
+            () => "there",
+            (error: unknown) => String(error),
+          ),
+      );
       assert.match(withoutWorker, /cannot be loaded from http:.*\/nowhere\.js .*setWorkerUrl/);
     });
   });
@@ -185,7 +247,10 @@ describe("the loader keeps three's conventions", () => {
     await withApp(site, { expectedErrors: /404/ }, async ({ page, server }) => {
       const mend = server.when((path) => path.endsWith(index!), { status: 404 });
       const partly = await page.evaluate(() => window.app.log("scene.x3d"));
-      assert.deepEqual(partly.filter((line) => line.startsWith("error")), [`error ${index!}`]);
+      assert.deepEqual(
+        partly.filter((line) => line.startsWith("error")),
+        [`error ${index!}`],
+      );
       assert.ok(partly.includes("onLoad") && partly.includes("complete"));
       mend();
       server.when(isGeometry, { status: 404 });
@@ -202,7 +267,9 @@ describe("the loader keeps three's conventions", () => {
       server.when(isGeometry, { hold: closed });
       const log = page.evaluate(() => window.app.log("scene.x3d"));
       await until("files are asked for", () => server.requestsOf(/^\/geometry\//).length > 0);
-      await page.evaluate(() => { window.app.abort(); });
+      await page.evaluate(() => {
+        window.app.abort();
+      });
       const nothing = await log;
       assert.match(nothing.find((line) => line.startsWith("onError")) ?? "", /AbortError/);
       assert.equal(nothing.at(-1), "manager.onLoad"); // every item has ended
@@ -213,16 +280,23 @@ describe("the loader keeps three's conventions", () => {
       const partial = page.evaluate(() => {
         const { loader } = window.app;
         return loader.loadAsync("scene.x3d").then(async (scene) => {
-          const complete = scene.complete.then(() => "resolved", (error: unknown) => (error as Error).name);
+          const complete = scene.complete.then(
+            () => "resolved",
+            (error: unknown) => (error as Error).name,
+          );
           loader.abort();
           const shown: string[] = [];
-          scene.traverse(({ type }) => { if (type !== "Group") shown.push(type); });
+          scene.traverse(({ type }) => {
+            if (type !== "Group") shown.push(type);
+          });
           return { complete: await complete, shown };
         });
       });
       assert.deepEqual(await partial, { complete: "AbortError", shown: ["Points"] });
       for (const file of later) {
-        await until(`${file} is given up`, () => server.requestsOf(new RegExp(file)).every(({ state }) => state === "aborted"));
+        await until(`${file} is given up`, () =>
+          server.requestsOf(new RegExp(file)).every(({ state }) => state === "aborted"),
+        );
       }
       pass();
       open();
@@ -239,7 +313,9 @@ describe("the loader keeps three's conventions", () => {
           await draw(page, "directional", "scene");
           await page.evaluate(() => window.app.pick(320, 200));
           const held = (await observed()).live;
-          await page.evaluate(() => { window.app.dispose(); });
+          await page.evaluate(() => {
+            window.app.dispose();
+          });
           // The app makes its floor and its shadow map anew each time, and the scene must leave no more than that.
           const { live } = await observed();
           assert.ok(live.textures + live.buffers < held.textures + held.buffers);
@@ -261,19 +337,33 @@ describe("the loader keeps three's conventions", () => {
       const { size, sizeOfObjects, ...found } = await page.evaluate(() => window.app.inspect());
       assert.deepEqual(found, { meshes: 1, toon: true, casting: true, byName: true, lights: false });
       assert.ok((size as number[]).every((edge) => edge > 2 && edge < 7));
-      (size as number[]).forEach((edge, axis) => { assert.ok(Math.abs(edge - (sizeOfObjects as number[])[axis]!) < 1e-3); });
+      (size as number[]).forEach((edge, axis) => {
+        assert.ok(Math.abs(edge - (sizeOfObjects as number[])[axis]!) < 1e-3);
+      });
     });
   });
 
   test("the GPU says what is under a pixel, and a ray finds it where vertices are kept", async () => {
-    for (const [options, keeps] of [[["--profile", "classic"], false], [["--profile", "classic"], true], [["--profile", "compact"], false], [["--container", "bg"], false]] as const) {
+    for (const [options, keeps] of [
+      [["--profile", "classic"], false],
+      [["--profile", "classic"], true],
+      [["--profile", "compact"], false],
+      [["--container", "bg"], false],
+    ] as const) {
       await withApp(siteOfGenerated("trefoil", ...options), {}, async ({ page }) => {
         await page.evaluate((keep) => window.app.loader.setKeepVertices(keep), keeps);
         await page.evaluate(() => window.app.load());
         const before = await draw(page, "directional", "scene");
         const hasVertices = keeps || !options.includes("classic" as never);
         let [hits, sameTriangles] = [0, 0];
-        for (const [x, y] of [[320, 150], [250, 200], [400, 220], [330, 260], [5, 5], [635, 475]] as const) {
+        for (const [x, y] of [
+          [320, 150],
+          [250, 200],
+          [400, 220],
+          [330, 260],
+          [5, 5],
+          [635, 475],
+        ] as const) {
           const { gpu, ray } = await page.evaluate(([x, y]) => window.app.pick(x, y), [x, y] as const);
           if (gpu === undefined) {
             assert.equal(ray, undefined);
@@ -306,13 +396,26 @@ test("documents that Inlines name come with the scene, and levels of a LOD as ca
   const x3d = (...nodes: string[]): string => `<X3D><Scene>${nodes.join("")}</Scene></X3D>`;
   const { closed, open } = gate();
   const server = (server: View["server"]): void => {
-    server.put("/world.x3d", x3d(`<Transform translation="0 3 0"><Inline DEF="part" url='"lost.x3d" "parts/part.x3d"'/></Transform>`,
-      '<Inline url="gone.x3d"/><Inline url="world.x3d"/>',
-      `<LOD DEF="levels" range="12"><Inline DEF="near" url="model.x3d"/>${unlit("far", "1 1 1")}</LOD>`));
+    server.put(
+      "/world.x3d",
+      x3d(
+        `<Transform translation="0 3 0"><Inline DEF="part" url='"lost.x3d" "parts/part.x3d"'/></Transform>`,
+        '<Inline url="gone.x3d"/><Inline url="world.x3d"/>',
+        `<LOD DEF="levels" range="12"><Inline DEF="near" url="model.x3d"/>${unlit("far", "1 1 1")}</LOD>`,
+      ),
+    );
     server.put("/parts/part.x3d", x3d('<Inline url="part.x3d"/>', unlit("cube", "1 1 1")));
     server.put("/model.x3d", readFileSync(join(site, "scene.x3d")));
     for (const path of ["/two.png", "/parts/two.png"]) {
-      server.put(path, encodePng({ width: 1, height: 1, channels: 3, data: Uint8Array.from(path === "/two.png" ? [10, 10, 240] : [10, 240, 10]) }));
+      server.put(
+        path,
+        encodePng({
+          width: 1,
+          height: 1,
+          channels: 3,
+          data: Uint8Array.from(path === "/two.png" ? [10, 10, 240] : [10, 240, 10]),
+        }),
+      );
     }
     server.when(/^\/model\.x3d$/, { hold: closed });
   };
@@ -320,13 +423,25 @@ test("documents that Inlines name come with the scene, and levels of a LOD as ca
     const lines = await page.evaluate(() => window.app.log("world.x3d"));
     for (const item of ["part.x3d", "lost.x3d", "gone.x3d"]) {
       const isLost = item !== "part.x3d";
-      assert.deepEqual(lines.filter((line) => line.endsWith(` ${item}`)), [`start ${item}`, ...(isLost ? [`error ${item}`] : []), `end ${item}`]);
+      assert.deepEqual(
+        lines.filter((line) => line.endsWith(` ${item}`)),
+        [`start ${item}`, ...(isLost ? [`error ${item}`] : []), `end ${item}`],
+      );
     }
-    assert.deepEqual(lines.filter((line) => line.endsWith(" world.x3d")), ["start world.x3d", "end world.x3d"]);
+    assert.deepEqual(
+      lines.filter((line) => line.endsWith(" world.x3d")),
+      ["start world.x3d", "end world.x3d"],
+    );
     assert.equal(lines[lines.indexOf("onLoad") + 1], "showing cube, far");
     assert.equal(lines.filter((line) => line === "manager.onLoad").length, 1);
     assert.ok(!lines.some((line) => line.startsWith("onError")));
-    assert.deepEqual(await page.evaluate(() => window.app.names()), { part: "Group", cube: "Group", levels: "LOD", near: "Group", far: "Group" });
+    assert.deepEqual(await page.evaluate(() => window.app.names()), {
+      part: "Group",
+      cube: "Group",
+      levels: "LOD",
+      near: "Group",
+      far: "Group",
+    });
     assert.equal(server.requestsOf(/two\.png$/).length, 2);
     assert.equal(server.requestsOf(/^\/(model\.x3d|geometry)/).length, 0);
 
@@ -340,9 +455,18 @@ test("documents that Inlines name come with the scene, and levels of a LOD as ca
     await until("the level is asked for", () => server.requestsOf(/^\/model\.x3d$/).length === 1);
     assert.equal(await look(9), 1);
     open();
-    await until("the level is there", async () => await look(9) === 0 && await page.evaluate(() => window.app.isSettled()));
+    await until(
+      "the level is there",
+      async () => (await look(9)) === 0 && (await page.evaluate(() => window.app.isSettled())),
+    );
     const found = await page.evaluate(() => [window.app.pick(320, 300), window.app.pick(300, 50)]);
-    assert.deepEqual(found.map(({ gpu, ray }) => [gpu?.name, ray?.name]), [["trefoil", "trefoil"], ["cube", "cube"]]);
+    assert.deepEqual(
+      found.map(({ gpu, ray }) => [gpu?.name, ray?.name]),
+      [
+        ["trefoil", "trefoil"],
+        ["cube", "cube"],
+      ],
+    );
     assert.equal(colorAt(await seen(), 300, 50), "green");
 
     // What has come is there in the frame in which it is looked at.

@@ -2,9 +2,35 @@
 // and once with plain buffers of the same mesh. Bundled by loader.test.ts.
 
 import {
-  ACESFilmicToneMapping, AmbientLight, Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, Fog, LineBasicMaterial, LineSegments,
-  LoadingManager, type LOD, Mesh, MeshStandardMaterial, MeshToonMaterial, PerspectiveCamera, PlaneGeometry, PointLight, Points, PointsMaterial,
-  Raycaster, Scene, SpotLight, SRGBColorSpace, Vector2, Vector3, WebGLRenderer, type Light, type Object3D,
+  ACESFilmicToneMapping,
+  AmbientLight,
+  Box3,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DirectionalLight,
+  Fog,
+  LineBasicMaterial,
+  LineSegments,
+  LoadingManager,
+  type LOD,
+  Mesh,
+  MeshStandardMaterial,
+  MeshToonMaterial,
+  PerspectiveCamera,
+  PlaneGeometry,
+  PointLight,
+  Points,
+  PointsMaterial,
+  Raycaster,
+  Scene,
+  SpotLight,
+  SRGBColorSpace,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+  type Light,
+  type Object3D,
 } from "three";
 import { ImgeoLoader, type ImgeoScene } from "../../web/src/loader/index.ts";
 
@@ -89,18 +115,28 @@ function stageWith(light: Light): Scene {
 }
 
 function lightOf(kind: AppRequest["light"]): Light {
-  const light = kind === "directional" ? new DirectionalLight(0xffffff, 2.5)
-    : kind === "spot" ? new SpotLight(0xffffff, 400, 40, 0.7) : new PointLight(0xffffff, 300, 40);
-  if (light instanceof DirectionalLight) Object.assign(light.shadow.camera, { left: -8, right: 8, top: 8, bottom: -8, near: 0.5, far: 30 });
+  const light =
+    kind === "directional"
+      ? new DirectionalLight(0xffffff, 2.5)
+      : kind === "spot"
+        ? new SpotLight(0xffffff, 400, 40, 0.7)
+        : new PointLight(0xffffff, 300, 40);
+  if (light instanceof DirectionalLight)
+    Object.assign(light.shadow.camera, { left: -8, right: 8, top: 8, bottom: -8, near: 0.5, far: 30 });
   light.position.set(3, 8, 4);
   light.shadow.mapSize.set(1024, 1024);
   light.shadow.bias = -0.002;
   return light;
 }
 
-function plainObject({ positions, normals, colors, triangles, lines }: PlainBuffers, color: Color, shininess: number): Object3D {
+function plainObject(
+  { positions, normals, colors, triangles, lines }: PlainBuffers,
+  color: Color,
+  shininess: number,
+): Object3D {
   const geometry = new BufferGeometry();
-  const set = (name: string, values: number[]): void => void geometry.setAttribute(name, new BufferAttribute(Float32Array.from(values), 3));
+  const set = (name: string, values: number[]): void =>
+    void geometry.setAttribute(name, new BufferAttribute(Float32Array.from(values), 3));
   set("position", positions);
   if (normals) set("normal", normals);
   if (colors) set("color", linear(colors));
@@ -110,7 +146,8 @@ function plainObject({ positions, normals, colors, triangles, lines }: PlainBuff
     const roughness = Math.sqrt(2 / (shininess * 128 + 2));
     return new Mesh(geometry, new MeshStandardMaterial({ ...look, roughness, metalness: 0 }));
   }
-  if (lines.length === 0) return new Points(geometry, new PointsMaterial({ ...look, size: 2 * devicePixelRatio, sizeAttenuation: false }));
+  if (lines.length === 0)
+    return new Points(geometry, new PointsMaterial({ ...look, size: 2 * devicePixelRatio, sizeAttenuation: false }));
   geometry.setIndex(lines);
   return new LineSegments(geometry, new LineBasicMaterial(look));
 }
@@ -122,7 +159,9 @@ function linear(colors: number[]): number[] {
 
 function meshesIn(object: Object3D): Mesh[] {
   const meshes: Mesh[] = [];
-  object.traverse((part) => { if (part instanceof Mesh) meshes.push(part as Mesh); });
+  object.traverse((part) => {
+    if (part instanceof Mesh) meshes.push(part as Mesh);
+  });
   return meshes;
 }
 
@@ -131,9 +170,18 @@ function loggingManager(lines: string[]): LoadingManager {
   const manager = new LoadingManager();
   const { itemStart, itemEnd, itemError } = manager;
   const note = (what: string, item: string): void => void lines.push(`${what} ${item.replace(/.*\//, "")}`);
-  manager.itemStart = (item) => { note("start", item); itemStart(item); };
-  manager.itemEnd = (item) => { note("end", item); itemEnd(item); };
-  manager.itemError = (item) => { note("error", item); itemError(item); };
+  manager.itemStart = (item) => {
+    note("start", item);
+    itemStart(item);
+  };
+  manager.itemEnd = (item) => {
+    note("end", item);
+    itemEnd(item);
+  };
+  manager.itemError = (item) => {
+    note("error", item);
+    itemError(item);
+  };
   return manager;
 }
 
@@ -154,7 +202,9 @@ window.app = {
     const object = what === "scene" ? loaded : what === "plain" ? plain : undefined;
     if (object) {
       // As apps do: whatever the object has in it, now or later.
-      object.traverse((part) => { Object.assign(part, { castShadow, receiveShadow: true }); });
+      object.traverse((part) => {
+        Object.assign(part, { castShadow, receiveShadow: true });
+      });
       scene.add(object);
     }
     renderer.render(scene, camera);
@@ -169,18 +219,44 @@ window.app = {
     const lines: string[] = [];
     aborter = new AbortController();
     const manager = loggingManager(lines);
-    const all = new Promise<void>((resolve) => { manager.onLoad = () => { lines.push("manager.onLoad"); resolve(); }; });
+    const all = new Promise<void>((resolve) => {
+      manager.onLoad = () => {
+        lines.push("manager.onLoad");
+        resolve();
+      };
+    });
     const onProgress = ({ loaded, total }: ProgressEvent): void => {
       lines.push(loaded <= total ? "progress" : `progress ${loaded} of ${total}`);
     };
     await new Promise<void>((resolve) => {
       const onLoad = (scene: ImgeoScene): void => {
-        lines.push("onLoad", `showing ${meshesIn(scene).map(({ parent }) => parent?.name).toSorted().join(", ")}`);
+        lines.push(
+          "onLoad",
+          `showing ${meshesIn(scene)
+            .map(({ parent }) => parent?.name)
+            .toSorted()
+            .join(", ")}`,
+        );
         loaded = scene;
-        void scene.complete.then(() => { lines.push("complete"); resolve(); }, (error: unknown) => { lines.push((error as Error).name); resolve(); });
+        void scene.complete.then(
+          () => {
+            lines.push("complete");
+            resolve();
+          },
+          (error: unknown) => {
+            lines.push((error as Error).name);
+            resolve();
+          },
+        );
       };
-      const onError = (error: unknown): void => { lines.push(`onError ${String(error)}`); resolve(); };
-      new ImgeoLoader(manager).setPath("./").setWorkerUrl("/worker.js").load(url, onLoad, onProgress, onError, { signal: aborter.signal });
+      const onError = (error: unknown): void => {
+        lines.push(`onError ${String(error)}`);
+        resolve();
+      };
+      new ImgeoLoader(manager)
+        .setPath("./")
+        .setWorkerUrl("/worker.js")
+        .load(url, onLoad, onProgress, onError, { signal: aborter.signal });
     });
     await all;
     return lines;
@@ -194,8 +270,18 @@ window.app = {
     const [ray] = caster.intersectObject(loaded);
     const normal = ray?.face?.normal.clone().transformDirection(ray.object.matrixWorld);
     return {
-      gpu: hit && { point: hit.point.toArray(), normal: hit.normal?.toArray(), name: hit.object.name, triangle: hit.triangle },
-      ray: ray && { point: ray.point.toArray(), normal: normal?.toArray(), name: ray.object.parent?.name ?? "", triangle: ray.faceIndex ?? undefined },
+      gpu: hit && {
+        point: hit.point.toArray(),
+        normal: hit.normal?.toArray(),
+        name: hit.object.name,
+        triangle: hit.triangle,
+      },
+      ray: ray && {
+        point: ray.point.toArray(),
+        normal: normal?.toArray(),
+        name: ray.object.parent?.name ?? "",
+        triangle: ray.faceIndex ?? undefined,
+      },
     };
   },
 
@@ -221,14 +307,20 @@ window.app = {
 
   names() {
     const names: Record<string, string> = {};
-    loaded?.traverse(({ name, type }) => { if (name !== "") names[name] = type; });
+    loaded?.traverse(({ name, type }) => {
+      if (name !== "") names[name] = type;
+    });
     return names;
   },
 
   async inspect() {
-    const loader = new ImgeoLoader().setMaterial((material) =>
-      new MeshToonMaterial({ color: new Color().setRGB(...material.kind === "phong" ? material.diffuseColor : material.emissiveColor) }));
-    const object = loaded = await loader.loadAsync("scene.x3d");
+    const loader = new ImgeoLoader().setMaterial(
+      (material) =>
+        new MeshToonMaterial({
+          color: new Color().setRGB(...(material.kind === "phong" ? material.diffuseColor : material.emissiveColor)),
+        }),
+    );
+    const object = (loaded = await loader.loadAsync("scene.x3d"));
     object.castShadow = true; // before all has come: it must hold for what comes
     await object.complete;
     const meshes = meshesIn(object);

@@ -12,12 +12,16 @@ type Color = [number, number, number];
 
 /** A sphere lit by the headlight alone. */
 function headlitSphere(): string {
-  return variantOf(siteOfGenerated("sphere", "--profile", "classic"), "headlit", (page) => page.replace(/<DirectionalLight[^>]*><\/DirectionalLight>/g, ""));
+  return variantOf(siteOfGenerated("sphere", "--profile", "classic"), "headlit", (page) =>
+    page.replace(/<DirectionalLight[^>]*><\/DirectionalLight>/g, ""),
+  );
 }
 
 /** In the middle of the picture. */
 async function colorOf(view: View, material: string): Promise<Color> {
-  await view.page.evaluate((markup) => { document.querySelector("appearance")!.innerHTML = markup; }, material);
+  await view.page.evaluate((markup) => {
+    document.querySelector("appearance")!.innerHTML = markup;
+  }, material);
   const { data, width, height, channels } = await view.picture();
   const at = (Math.floor(height / 2) * width + Math.floor(width / 2)) * channels;
   return [data[at] ?? 0, data[at + 1] ?? 0, data[at + 2] ?? 0];
@@ -50,15 +54,28 @@ describe("a material of X3D 4", () => {
         const markup = `<PhysicalMaterial baseColor="${baseColor.join(" ")}" metallic="0" roughness="${roughness}"></PhysicalMaterial>`;
         assertColor(await colorOf(view, markup), facing(baseColor, roughness), markup);
       }
-      assertColor(await colorOf(view, '<UnlitMaterial emissiveColor="0.2 0.4 0.6"></UnlitMaterial>'), [51, 102, 153], "unlit");
+      assertColor(
+        await colorOf(view, '<UnlitMaterial emissiveColor="0.2 0.4 0.6"></UnlitMaterial>'),
+        [51, 102, 153],
+        "unlit",
+      );
       assertColor(await colorOf(view, '<Material diffuseColor="0.2 0.4 0.6"></Material>'), [51, 102, 153], "Phong's");
-      const [red, green] = await colorOf(view, '<PhysicalMaterial baseColor="1 0.2 0.2" metallic="1" roughness="1"></PhysicalMaterial>');
-      assert.ok(red > 100 && red > 1.5 * green, `a metal is ${red} ${green}: it shows its colour in the room around it`);
+      const [red, green] = await colorOf(
+        view,
+        '<PhysicalMaterial baseColor="1 0.2 0.2" metallic="1" roughness="1"></PhysicalMaterial>',
+      );
+      assert.ok(
+        red > 100 && red > 1.5 * green,
+        `a metal is ${red} ${green}: it shows its colour in the room around it`,
+      );
 
       // Geometry in the document, larger than what came in files and around it.
       await view.page.evaluate(() => {
-        document.querySelector("scene")!.insertAdjacentHTML("beforeend", `<Shape id="box"><Appearance>
-          <UnlitMaterial emissiveColor="1 0 1"></UnlitMaterial></Appearance><Box size="2.5 2.5 2.5"></Box></Shape>`);
+        document.querySelector("scene")!.insertAdjacentHTML(
+          "beforeend",
+          `<Shape id="box"><Appearance>
+          <UnlitMaterial emissiveColor="1 0 1"></UnlitMaterial></Appearance><Box size="2.5 2.5 2.5"></Box></Shape>`,
+        );
       });
       await view.promise("complete", "#box");
       const asked = view.server.requests.length;
@@ -80,7 +97,9 @@ describe("a material of X3D 4", () => {
         ['<SpotLight location="0 0 100" radius="1000"></SpotLight>', true],
         ['<SpotLight location="0 0 100" direction="0 1 0" cutOffAngle="0.5" radius="1000"></SpotLight>', false],
       ] as const) {
-        await view.page.evaluate((markup) => { document.querySelector("scene > group")!.innerHTML = markup; }, light);
+        await view.page.evaluate((markup) => {
+          document.querySelector("scene > group")!.innerHTML = markup;
+        }, light);
         const [red] = await colorOf(view, '<Material diffuseColor="1 1 1"></Material>');
         assert.equal(red > 128, isLit, `${light}: ${red}`);
       }

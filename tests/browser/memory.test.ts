@@ -21,7 +21,8 @@ function keepAccount(): void {
   const memory: Memory = { seen: [], gpuBytes: 0, mostGpuBytes: 0 };
   Object.assign(window, { memory });
   const see = (data: unknown): void => {
-    if (ArrayBuffer.isView(data)) memory.seen.push({ bytes: data.byteLength, array: new WeakRef(data.buffer as ArrayBuffer) });
+    if (ArrayBuffer.isView(data))
+      memory.seen.push({ bytes: data.byteLength, array: new WeakRef(data.buffer as ArrayBuffer) });
   };
   const gl = WebGL2RenderingContext.prototype;
   const methods = gl as unknown as Record<string, (...args: unknown[]) => unknown>;
@@ -38,17 +39,27 @@ function keepAccount(): void {
     sizes.set(object, bytes);
     memory.mostGpuBytes = Math.max(memory.mostGpuBytes, memory.gpuBytes);
   };
-  const bound: Record<number, number> = { [gl.COPY_WRITE_BUFFER]: 0x8f37, [gl.ARRAY_BUFFER]: gl.ARRAY_BUFFER_BINDING, [gl.ELEMENT_ARRAY_BUFFER]: gl.ELEMENT_ARRAY_BUFFER_BINDING };
-  after("bufferSubData", (_, [, , data]) => { see(data); });
+  const bound: Record<number, number> = {
+    [gl.COPY_WRITE_BUFFER]: 0x8f37,
+    [gl.ARRAY_BUFFER]: gl.ARRAY_BUFFER_BINDING,
+    [gl.ELEMENT_ARRAY_BUFFER]: gl.ELEMENT_ARRAY_BUFFER_BINDING,
+  };
+  after("bufferSubData", (_, [, , data]) => {
+    see(data);
+  });
   after("bufferData", (context, [target, data]) => {
     see(data);
     const place = bound[target as number];
-    if (place) take(context.getParameter(place), typeof data === "number" ? data : (data as ArrayBufferView).byteLength);
+    if (place)
+      take(context.getParameter(place), typeof data === "number" ? data : (data as ArrayBufferView).byteLength);
   });
   after("texStorage2D", (context, [target, , , width, height]) => {
     if (target === gl.TEXTURE_2D) take(context.getParameter(gl.TEXTURE_BINDING_2D), Number(width) * Number(height) * 4);
   });
-  for (const name of ["deleteBuffer", "deleteTexture"]) after(name, (_, [object]) => { if (sizes.has(object)) take(object, 0); });
+  for (const name of ["deleteBuffer", "deleteTexture"])
+    after(name, (_, [object]) => {
+      if (sizes.has(object)) take(object, 0);
+    });
   window.Blob = class extends Blob {
     constructor(parts: BlobPart[] = [], options?: BlobPropertyBag) {
       super(parts, options);
@@ -57,17 +68,22 @@ function keepAccount(): void {
   };
 }
 
-const memoryOf = (view: View): Promise<Memory> => view.page.evaluate(() => (window as unknown as { memory: Memory }).memory);
+const memoryOf = (view: View): Promise<Memory> =>
+  view.page.evaluate(() => (window as unknown as { memory: Memory }).memory);
 
 describe("a scene that has loaded", () => {
   test("keeps no decoded image", async () => {
-    await withPage(siteOfGenerated("trefoil-colors", "--profile", "classic", "--patch-vertices", "1000"), {}, async (view) => {
-      await view.promise("complete");
-      await settle(view.page);
-      const { live } = await view.observed();
-      assert.equal(live.bitmaps, 0);
-      assert.ok(live.textures > 10);
-    });
+    await withPage(
+      siteOfGenerated("trefoil-colors", "--profile", "classic", "--patch-vertices", "1000"),
+      {},
+      async (view) => {
+        await view.promise("complete");
+        await settle(view.page);
+        const { live } = await view.observed();
+        assert.equal(live.bitmaps, 0);
+        assert.ok(live.textures > 10);
+      },
+    );
   });
 });
 
@@ -113,9 +129,15 @@ describe("vertex data", () => {
 describe("a budget", () => {
   /** Two knots far apart, and a viewpoint before each. */
   const scene = (site: string, attributes: string): string => {
-    const at = (x: number): string => `<Transform translation="${x} 0 0">${shapeIn(site, "knot", `id="at${x}"`).replaceAll("knot/", `knot${x}/`)}</Transform>`;
+    const at = (x: number): string =>
+      `<Transform translation="${x} 0 0">${shapeIn(site, "knot", `id="at${x}"`).replaceAll("knot/", `knot${x}/`)}</Transform>`;
     const point = (x: number): string => `<Viewpoint description="at ${x}" position="${x} 0 12"></Viewpoint>`;
-    return sceneOf(`budget-${attributes.replaceAll(/\W+/g, "-")}`, { knot0: site, knot500: site }, `${point(0)}${point(500)}${at(0)}${at(500)}`, attributes);
+    return sceneOf(
+      `budget-${attributes.replaceAll(/\W+/g, "-")}`,
+      { knot0: site, knot500: site },
+      `${point(0)}${point(500)}${at(0)}${at(500)}`,
+      attributes,
+    );
   };
 
   async function pictures(directory: string, check: (view: View, place: number) => Promise<void>): Promise<Picture[]> {
@@ -126,7 +148,8 @@ describe("a budget", () => {
         await view.page.evaluate((name) => {
           (document.querySelector("x3d") as unknown as { bindViewpoint: (name: string) => void }).bindViewpoint(name);
         }, `at ${place}`);
-        const stateOf = async (): Promise<string> => `${view.server.requests.length} ${(await memoryOf(view)).gpuBytes}`;
+        const stateOf = async (): Promise<string> =>
+          `${view.server.requests.length} ${(await memoryOf(view)).gpuBytes}`;
         for (let before = ""; before !== (before = await stateOf());) {
           await settle(view.page);
           await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 200)));
@@ -140,9 +163,19 @@ describe("a budget", () => {
 
   for (const container of ["sig", "bg"]) {
     test(`holds what is seen, gives up what is not, and comes to rest: ${container}`, async () => {
-      const site = siteOfGenerated("trefoil", "--profile", "classic", "--patch-vertices", "700", "--container", container);
+      const site = siteOfGenerated(
+        "trefoil",
+        "--profile",
+        "classic",
+        "--patch-vertices",
+        "700",
+        "--container",
+        container,
+      );
       let all = 0;
-      const expected = await pictures(scene(site, `id="${container}"`), async (view) => { all = (await memoryOf(view)).gpuBytes; });
+      const expected = await pictures(scene(site, `id="${container}"`), async (view) => {
+        all = (await memoryOf(view)).gpuBytes;
+      });
       const budget = 0.6 * all;
       let requests = 0;
       const found = await pictures(scene(site, `id="${container}" budget="${budget / 1e6}"`), async (view, place) => {
@@ -154,7 +187,9 @@ describe("a budget", () => {
         assert.ok(place === 0 || length > requests, "nothing was fetched again");
         requests = length;
       });
-      found.forEach((picture, n) => { assertSamePicture(`budget ${container} ${n}`, picture, expected[n]!, { mean: 0 }); });
+      found.forEach((picture, n) => {
+        assertSamePicture(`budget ${container} ${n}`, picture, expected[n]!, { mean: 0 });
+      });
     });
   }
 });

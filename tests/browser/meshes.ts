@@ -59,13 +59,34 @@ export function withTexCoords(mesh: PlainMesh, times = 1, start = 0): PlainMesh 
 }
 
 /** OBJ of triangles with normals and texture coordinates, whose material `material` is in `library`. */
-export function writeObj({ positions, normals = new Float32Array(0), texCoords = new Float32Array(0), triangles }: PlainMesh,
-                         library: string, material: string): string {
+export function writeObj(
+  { positions, normals = new Float32Array(0), texCoords = new Float32Array(0), triangles }: PlainMesh,
+  library: string,
+  material: string,
+): string {
   const rows = (word: string, values: Float32Array, each: number): string[] =>
-    Array.from({ length: values.length / each }, (_, i) => `${word} ${values.subarray(each * i, each * (i + 1)).join(" ")}`);
-  const faces = Array.from({ length: triangles.length / 3 }, (_, t) =>
-    `f ${Array.from(triangles.subarray(3 * t, 3 * t + 3), (vertex) => Array(3).fill(vertex + 1).join("/")).join(" ")}`);
-  return [`mtllib ${library}`, `usemtl ${material}`, ...rows("v", positions, 3), ...rows("vt", texCoords, 2), ...rows("vn", normals, 3), ...faces, ""].join("\n");
+    Array.from(
+      { length: values.length / each },
+      (_, i) => `${word} ${values.subarray(each * i, each * (i + 1)).join(" ")}`,
+    );
+  const faces = Array.from(
+    { length: triangles.length / 3 },
+    (_, t) =>
+      `f ${Array.from(triangles.subarray(3 * t, 3 * t + 3), (vertex) =>
+        Array(3)
+          .fill(vertex + 1)
+          .join("/"),
+      ).join(" ")}`,
+  );
+  return [
+    `mtllib ${library}`,
+    `usemtl ${material}`,
+    ...rows("v", positions, 3),
+    ...rows("vt", texCoords, 2),
+    ...rows("vn", normals, 3),
+    ...faces,
+    "",
+  ].join("\n");
 }
 
 export function withoutNormals({ positions, triangles }: PlainMesh): PlainMesh {
@@ -170,7 +191,11 @@ function unit(a: Point): Point {
 /** Smooth normals, each triangle counting by its area: what convert gives a mesh without normals. */
 export function areaWeightedNormals({ positions, triangles }: PlainMesh): Float32Array {
   const sums = new Float64Array(positions.length);
-  const at = (vertex: number): Point => [positions[3 * vertex]!, positions[3 * vertex + 1]!, positions[3 * vertex + 2]!];
+  const at = (vertex: number): Point => [
+    positions[3 * vertex]!,
+    positions[3 * vertex + 1]!,
+    positions[3 * vertex + 2]!,
+  ];
   for (let t = 0; t < triangles.length; t += 3) {
     const corners = [triangles[t]!, triangles[t + 1]!, triangles[t + 2]!];
     const [a, b, c] = [at(corners[0]!), at(corners[1]!), at(corners[2]!)];
@@ -182,7 +207,14 @@ export function areaWeightedNormals({ positions, triangles }: PlainMesh): Float3
 }
 
 /** Binary little-endian PLY. */
-export function writePly({ positions, normals, colors, triangles, lines = new Uint32Array(0), numbers = {} }: PlainMesh): Buffer {
+export function writePly({
+  positions,
+  normals,
+  colors,
+  triangles,
+  lines = new Uint32Array(0),
+  numbers = {},
+}: PlainMesh): Buffer {
   const count = positions.length / 3;
   const properties = [
     ...["x", "y", "z"].map((name) => `float ${name}`),
@@ -190,7 +222,9 @@ export function writePly({ positions, normals, colors, triangles, lines = new Ui
     ...(colors ? ["red", "green", "blue"].map((name) => `uchar ${name}`) : []),
     ...Object.keys(numbers).map((name) => `float ${name}`),
   ].map((property) => `property ${property}\n`);
-  const faces = triangles.length ? `element face ${triangles.length / 3}\nproperty list uchar int vertex_indices\n` : "";
+  const faces = triangles.length
+    ? `element face ${triangles.length / 3}\nproperty list uchar int vertex_indices\n`
+    : "";
   const edges = lines.length ? `element edge ${lines.length / 2}\nproperty int vertex1\nproperty int vertex2\n` : "";
   const header = `ply\nformat binary_little_endian 1.0\nelement vertex ${count}\n${properties.join("")}${faces}${edges}end_header\n`;
   const recordBytes = 12 + (normals ? 12 : 0) + (colors ? 3 : 0) + 4 * Object.keys(numbers).length;
@@ -239,7 +273,13 @@ export function readPly(bytes: Buffer): PlainMesh {
     for (let corner = 0; corner < 3; ++corner) triangles[3 * t + corner] = bytes.readInt32LE(at + 1 + 4 * corner);
   }
   const lines = Uint32Array.from({ length: 2 * edgeCount }, (_, corner) => bytes.readInt32LE(at + 4 * corner));
-  return { positions, triangles, ...(edgeCount > 0 && { lines }), ...(normals && { normals }), ...(colors && { colors }) };
+  return {
+    positions,
+    triangles,
+    ...(edgeCount > 0 && { lines }),
+    ...(normals && { normals }),
+    ...(colors && { colors }),
+  };
 }
 
 /** Positions and triangles of an OBJ file; anything else in it is left out. */

@@ -23,11 +23,17 @@ test("a museum's piece has notes that can be read from everywhere, shows its poi
   await withPage(site, { before: listen }, async (view) => {
     const { page } = view;
     await view.promise("complete");
-    const opacityOf = (name: string): Promise<string> => page.evaluate((wanted) => {
-      const note = Array.from(document.querySelectorAll<HTMLElement>(".note")).find(({ textContent }) => textContent === wanted);
-      return getComputedStyle(note!).opacity;
-    }, name);
-    await until("the note of the far side has faded", async () => await opacityOf("Front") === "1" && await opacityOf("Back") === "0.25");
+    const opacityOf = (name: string): Promise<string> =>
+      page.evaluate((wanted) => {
+        const note = Array.from(document.querySelectorAll<HTMLElement>(".note")).find(
+          ({ textContent }) => textContent === wanted,
+        );
+        return getComputedStyle(note!).opacity;
+      }, name);
+    await until(
+      "the note of the far side has faded",
+      async () => (await opacityOf("Front")) === "1" && (await opacityOf("Back")) === "0.25",
+    );
 
     await focusView(view);
     const focused = async (): Promise<string | undefined> => {
@@ -40,10 +46,17 @@ test("a museum's piece has notes that can be read from everywhere, shows its poi
     await page.keyboard.press("Escape");
     assert.ok(!(await page.getByText("Its other side.").isVisible()));
 
-    await page.evaluate(() => { document.querySelector("x3d")!.setAttribute("camera-orbit", "180deg 90deg auto"); });
-    await until("the other note has faded", async () => await opacityOf("Front") === "0.25" && await opacityOf("Back") === "1");
+    await page.evaluate(() => {
+      document.querySelector("x3d")!.setAttribute("camera-orbit", "180deg 90deg auto");
+    });
+    await until(
+      "the other note has faded",
+      async () => (await opacityOf("Front")) === "0.25" && (await opacityOf("Back")) === "1",
+    );
 
-    await page.evaluate(() => { document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.focus(); });
+    await page.evaluate(() => {
+      document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.focus();
+    });
     const surface = await view.picture();
     await page.keyboard.press("p");
     assert.equal(await page.evaluate(() => document.querySelector("x3d")!.getAttribute("draw-as")), "points");
@@ -51,6 +64,9 @@ test("a museum's piece has notes that can be read from everywhere, shows its poi
     assert.ok(offShare > 0.02, `points and surface differ in ${offShare} of all pixels`);
     await page.keyboard.press("p");
     assertSamePicture("a surface again", await view.picture(), surface, { mean: 0.001 });
-    assert.ok((await heard(view, "camera-change")).every(({ detail }) => detail.source !== "automatic"), "it turns for who wants less motion");
+    assert.ok(
+      (await heard(view, "camera-change")).every(({ detail }) => detail.source !== "automatic"),
+      "it turns for who wants less motion",
+    );
   });
 });

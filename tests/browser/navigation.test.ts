@@ -11,14 +11,18 @@ import { heard, listen } from "./heard.ts";
 import type { Picture } from "./png.ts";
 import { pageOf, siteOfGenerated, variantOf } from "./sites.ts";
 
-const above = '<Viewpoint id="above" description="From above" position="0 12 0" orientation="1 0 0 -1.5707963"></Viewpoint>';
-const side = '<Transform rotation="0 1 0 1.5707963"><Viewpoint id="side" description="Side" position="0 0 12"></Viewpoint></Transform>';
+const above =
+  '<Viewpoint id="above" description="From above" position="0 12 0" orientation="1 0 0 -1.5707963"></Viewpoint>';
+const side =
+  '<Transform rotation="0 1 0 1.5707963"><Viewpoint id="side" description="Side" position="0 0 12"></Viewpoint></Transform>';
 
 /** The site with more viewpoints behind its own, and another NavigationInfo. */
 function siteWith(name: string, viewpoints: string, navigation?: string): string {
-  return variantOf(siteOfGenerated("trefoil-colors", "--profile", "classic"), name, (page) => page
-    .replace(/<\/Viewpoint>/i, (end) => `${end}${viewpoints}`)
-    .replace(/<NavigationInfo[^>]*>/i, (own) => navigation ?? own));
+  return variantOf(siteOfGenerated("trefoil-colors", "--profile", "classic"), name, (page) =>
+    page
+      .replace(/<\/Viewpoint>/i, (end) => `${end}${viewpoints}`)
+      .replace(/<NavigationInfo[^>]*>/i, (own) => navigation ?? own),
+  );
 }
 
 const threeViews = (): string => siteWith("views", above + side);
@@ -32,7 +36,9 @@ async function withScene(site: string, options: PageOptions, use: (view: View) =
 
 /** The picture of the page when that viewpoint is its only one. */
 async function pictureFrom(viewpoint: string): Promise<Picture> {
-  const site = variantOf(siteOfGenerated("trefoil-colors", "--profile", "classic"), "one-view", (page) => page.replace(/<Viewpoint[\s\S]*<\/Viewpoint>/i, viewpoint));
+  const site = variantOf(siteOfGenerated("trefoil-colors", "--profile", "classic"), "one-view", (page) =>
+    page.replace(/<Viewpoint[\s\S]*<\/Viewpoint>/i, viewpoint),
+  );
   let seen: Picture | undefined;
   await withScene(site, {}, async (view) => {
     seen = await view.picture();
@@ -50,12 +56,28 @@ async function bare(view: View): Promise<Picture> {
 }
 
 const waysToBind: Record<string, (view: View) => Promise<void>> = {
-  "the list": async ({ page }) => { await page.getByRole("combobox", { name: "Viewpoint" }).selectOption("Side"); },
-  "set_bind": async ({ page }) => { await page.evaluate(() => { document.querySelector("#side")!.setAttribute("set_bind", "true"); }); },
-  "X3DOM's bind": async ({ page }) => { await page.evaluate(() => { document.querySelector("#side")!.setAttribute("bind", "TRUE"); }); },
-  "its name": async ({ page }) => { await page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.bindViewpoint("Side"); }); },
+  "the list": async ({ page }) => {
+    await page.getByRole("combobox", { name: "Viewpoint" }).selectOption("Side");
+  },
+  set_bind: async ({ page }) => {
+    await page.evaluate(() => {
+      document.querySelector("#side")!.setAttribute("set_bind", "true");
+    });
+  },
+  "X3DOM's bind": async ({ page }) => {
+    await page.evaluate(() => {
+      document.querySelector("#side")!.setAttribute("bind", "TRUE");
+    });
+  },
+  "its name": async ({ page }) => {
+    await page.evaluate(() => {
+      document.querySelector<ViewElement>("x3d")!.bindViewpoint("Side");
+    });
+  },
   "its element": async ({ page }) => {
-    await page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.bindViewpoint(document.querySelector("#side")!); });
+    await page.evaluate(() => {
+      document.querySelector<ViewElement>("x3d")!.bindViewpoint(document.querySelector("#side")!);
+    });
   },
 };
 
@@ -68,7 +90,9 @@ describe("a viewpoint is chosen by", () => {
         assertSamePicture(`viewpoint by ${name}`, await bare(view), await pictureFrom(side), { mean: 0.001 });
         assert.equal(await view.page.getByRole("combobox").inputValue(), "Side");
         assert.deepEqual(await boundNames(view), ["Side"]);
-        await view.page.evaluate(() => { document.querySelector("#side")!.setAttribute("set_bind", "false"); });
+        await view.page.evaluate(() => {
+          document.querySelector("#side")!.setAttribute("set_bind", "false");
+        });
         assertSamePicture(`unbound after ${name}`, await bare(view), start, { mean: 0.001 });
         assert.deepEqual(await boundNames(view), ["Start"]);
       });
@@ -85,8 +109,12 @@ describe("a viewpoint is chosen by", () => {
   test("its removal from under the camera", async () => {
     await withScene(threeViews(), {}, async (view) => {
       const start = await bare(view);
-      await view.page.evaluate(() => { document.querySelector("#above")!.setAttribute("set_bind", "true"); });
-      await view.page.evaluate(() => { document.querySelector("#above")!.remove(); });
+      await view.page.evaluate(() => {
+        document.querySelector("#above")!.setAttribute("set_bind", "true");
+      });
+      await view.page.evaluate(() => {
+        document.querySelector("#above")!.remove();
+      });
       assertSamePicture("removed viewpoint", await bare(view), start, { mean: 0.001 });
       assert.equal(await view.page.getByRole("option").count(), 2);
     });
@@ -99,7 +127,12 @@ describe("a viewpoint is chosen by", () => {
   });
 
   async function boundNames({ page }: View): Promise<string[]> {
-    return page.evaluate(() => document.querySelector<ViewElement>("x3d")!.viewpoints.filter(({ isBound }) => isBound).map(({ description }) => description));
+    return page.evaluate(() =>
+      document
+        .querySelector<ViewElement>("x3d")!
+        .viewpoints.filter(({ isBound }) => isBound)
+        .map(({ description }) => description),
+    );
   }
 });
 
@@ -137,7 +170,13 @@ describe("walking and flying", () => {
   test("go on while a key is held, and end with it or with the focus", async () => {
     await withScene(walking(), {}, async (view) => {
       await focusView(view);
-      for (const end of [async () => view.page.keyboard.up("ArrowUp"), async () => view.page.evaluate(() => { (document.activeElement as HTMLElement).blur(); })]) {
+      for (const end of [
+        async () => view.page.keyboard.up("ArrowUp"),
+        async () =>
+          view.page.evaluate(() => {
+            (document.activeElement as HTMLElement).blur();
+          }),
+      ]) {
         const before = (await heard(view, "camera-change")).length;
         await view.page.keyboard.down("ArrowUp");
         await until("the camera moves on", async () => (await heard(view, "camera-change")).length > before + 3);
@@ -148,7 +187,9 @@ describe("walking and flying", () => {
         assert.equal((await heard(view, "camera-change")).length, length);
         await view.page.keyboard.up("ArrowUp");
       }
-      assert.ok((await heard(view, "camera-change")).slice(1).every(({ detail }) => detail.source === "user-interaction"));
+      assert.ok(
+        (await heard(view, "camera-change")).slice(1).every(({ detail }) => detail.source === "user-interaction"),
+      );
     });
   });
 
@@ -177,12 +218,38 @@ describe("walking and flying", () => {
       await touch(view, [[[0, 0]], [[60, 0]], [[90, 10]]]);
       const looked = await view.picture();
       assert.ok(difference(start, looked).mean > 1, "one finger does not look about");
-      await touch(view, [[[-40, 0], [40, 0]], [[-40, 40], [40, 40]], [[-40, 90], [40, 90]]]);
+      await touch(view, [
+        [
+          [-40, 0],
+          [40, 0],
+        ],
+        [
+          [-40, 40],
+          [40, 40],
+        ],
+        [
+          [-40, 90],
+          [40, 90],
+        ],
+      ]);
       const walked = await view.picture();
       assert.ok(difference(looked, walked).mean > 1, "two fingers do not walk");
       await focusView(view);
       await view.page.keyboard.press("f");
-      await touch(view, [[[-40, 0], [40, 0]], [[-40, -40], [40, -40]], [[-40, -90], [40, -90]]]);
+      await touch(view, [
+        [
+          [-40, 0],
+          [40, 0],
+        ],
+        [
+          [-40, -40],
+          [40, -40],
+        ],
+        [
+          [-40, -90],
+          [40, -90],
+        ],
+      ]);
       assert.ok(difference(walked, await view.picture()).mean > 1, "two fingers do not fly");
     });
   });
@@ -194,9 +261,9 @@ describe("walking and flying", () => {
       await focusView(view);
       await view.page.keyboard.press("e");
       assert.equal(await list.inputValue(), "Examine");
-      await until("it is said", async () => (await spoken(view)).includes('Examining'));
+      await until("it is said", async () => (await spoken(view)).includes("Examining"));
       await list.selectOption("Fly");
-      await until("it is said", async () => (await spoken(view)).includes('Flying'));
+      await until("it is said", async () => (await spoken(view)).includes("Flying"));
     });
   });
 
@@ -204,7 +271,20 @@ describe("walking and flying", () => {
     await withScene(walking(), {}, async (view) => {
       await focusView(view);
       const start = await bare(view);
-      for (const key of ["ArrowUp", "ArrowRight", "Shift+ArrowUp", "Shift+ArrowLeft", "f", "PageUp", "r", "e", "ArrowLeft", "+", "w", "ArrowDown"]) {
+      for (const key of [
+        "ArrowUp",
+        "ArrowRight",
+        "Shift+ArrowUp",
+        "Shift+ArrowLeft",
+        "f",
+        "PageUp",
+        "r",
+        "e",
+        "ArrowLeft",
+        "+",
+        "w",
+        "ArrowDown",
+      ]) {
         const before = await bare(view);
         await hold(view, key);
         if (!/^[efwr]$/.test(key)) assert.ok(difference(before, await bare(view)).mean > 0.2, `${key} does nothing`);
@@ -227,7 +307,9 @@ describe("walking and flying", () => {
 });
 
 async function spoken({ page }: View): Promise<string> {
-  return page.evaluate(() => document.querySelector("imgeo-view")!.shadowRoot!.querySelector("[role=status]")!.textContent);
+  return page.evaluate(
+    () => document.querySelector("imgeo-view")!.shadowRoot!.querySelector("[role=status]")!.textContent,
+  );
 }
 
 test("who has lost the scene on a phone finds it again", async () => {
@@ -238,7 +320,20 @@ test("who has lost the scene on a phone finds it again", async () => {
     const buttons = page.getByRole("button");
     assert.equal(await buttons.count(), 0);
     await touch(view, [[[0, 0]], [[60, 0]], [[90, 10]]]);
-    await touch(view, [[[-20, 0], [20, 0]], [[-60, 0], [60, 0]], [[-150, 0], [150, 0]]]);
+    await touch(view, [
+      [
+        [-20, 0],
+        [20, 0],
+      ],
+      [
+        [-60, 0],
+        [60, 0],
+      ],
+      [
+        [-150, 0],
+        [150, 0],
+      ],
+    ]);
     await until("the ways back are there", async () => (await buttons.allTextContents()).join() === "Show all,Start");
     const orbit = (): Promise<{ theta: number; radius: number }> =>
       page.evaluate(() => document.querySelector<ViewElement>("x3d")!.getCameraOrbit());
@@ -246,7 +341,10 @@ test("who has lost the scene on a phone finds it again", async () => {
     await page.getByRole("button", { name: "Show all" }).tap();
     await settle(page);
     const all = await orbit();
-    assert.ok(all.radius > 3 * near.radius && Math.abs(all.theta - near.theta) < 1e-6, "all is shown from the same side");
+    assert.ok(
+      all.radius > 3 * near.radius && Math.abs(all.theta - near.theta) < 1e-6,
+      "all is shown from the same side",
+    );
     await page.getByRole("button", { name: "Start" }).tap();
     assertSamePicture("found again", await view.picture(), start, { mean: 0.001 });
     assert.equal(await buttons.count(), 0);
@@ -266,23 +364,30 @@ describe("what a document does not allow", () => {
   });
 
   test("with NONE, nothing moves the camera but the page", async () => {
-    await withScene(siteWith("none", above + side, '<NavigationInfo type="NONE">'), { hasTouch: true }, async (view) => {
-      const start = await bare(view);
-      await drag(view, 90, 40);
-      await view.page.mouse.wheel(0, 240);
-      await touch(view, [[[0, 0]], [[60, 0]], [[90, 10]]]); // two fingers would zoom the page
-      await view.page.evaluate(() => { document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.focus(); });
-      for (const key of ["ArrowLeft", "+", "r", "a", "w", "Escape"]) await view.page.keyboard.press(key);
-      assertSamePicture("NONE", await bare(view), start, { mean: 0 });
-      await waysToBind.set_bind!(view);
-      assertSamePicture("NONE, bound", await bare(view), await pictureFrom(side), { mean: 0.001 });
-    });
+    await withScene(
+      siteWith("none", above + side, '<NavigationInfo type="NONE">'),
+      { hasTouch: true },
+      async (view) => {
+        const start = await bare(view);
+        await drag(view, 90, 40);
+        await view.page.mouse.wheel(0, 240);
+        await touch(view, [[[0, 0]], [[60, 0]], [[90, 10]]]); // two fingers would zoom the page
+        await view.page.evaluate(() => {
+          document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.focus();
+        });
+        for (const key of ["ArrowLeft", "+", "r", "a", "w", "Escape"]) await view.page.keyboard.press(key);
+        assertSamePicture("NONE", await bare(view), start, { mean: 0 });
+        await waysToBind.set_bind!(view);
+        assertSamePicture("NONE, bound", await bare(view), await pictureFrom(side), { mean: 0.001 });
+      },
+    );
   });
 });
 
 test("the page says which way is up: a statue seen from above stays upright when it is turned", async () => {
   await withScene(siteOfGenerated("trefoil-colors", "--profile", "classic"), {}, async (view) => {
-    const orbit = async (): Promise<number> => view.page.evaluate(() => document.querySelector<ViewElement>("x3d")!.getCameraOrbit().phi);
+    const orbit = async (): Promise<number> =>
+      view.page.evaluate(() => document.querySelector<ViewElement>("x3d")!.getCameraOrbit().phi);
     const before = await orbit();
     assert.ok(before < Math.PI / 2 - 0.1, pageOf(siteOfGenerated("trefoil-colors", "--profile", "classic")));
     await drag(view, 150, 0);

@@ -29,13 +29,29 @@ interface Visitor {
 const fieldOfView = 1;
 /** The hall is 28 m wide. */
 const visitors: readonly Visitor[] = [
-  { name: "left", eye: [-12.5, 3, 2], gaze: [1, 0, 0], orientation: `0 1 0 ${-Math.PI / 2}`, protocol: "h2", slots: slotsOfHttp2 },
-  { name: "right", eye: [12.5, 3, 2], gaze: [-1, 0, 0], orientation: `0 1 0 ${Math.PI / 2}`, protocol: "http/1.1", slots: slotsOfHttp1 },
+  {
+    name: "left",
+    eye: [-12.5, 3, 2],
+    gaze: [1, 0, 0],
+    orientation: `0 1 0 ${-Math.PI / 2}`,
+    protocol: "h2",
+    slots: slotsOfHttp2,
+  },
+  {
+    name: "right",
+    eye: [12.5, 3, 2],
+    gaze: [-1, 0, 0],
+    orientation: `0 1 0 ${Math.PI / 2}`,
+    protocol: "http/1.1",
+    slots: slotsOfHttp1,
+  },
 ];
 
 /** Self-contained: the test's server knows but one protocol. */
 const pretend: Readonly<Record<string, () => void>> = {
-  "h2": () => { Object.defineProperty(PerformanceResourceTiming.prototype, "nextHopProtocol", { get: () => "h2" }); },
+  h2: () => {
+    Object.defineProperty(PerformanceResourceTiming.prototype, "nextHopProtocol", { get: () => "h2" });
+  },
   "http/1.1": () => undefined,
 };
 
@@ -44,7 +60,8 @@ function hallOfOneMesh(): string {
   const file = join(outputDirectory, "whole-hall.ply");
   if (!existsSync(file)) {
     mkdirSync(outputDirectory, { recursive: true });
-    const imgeo = (...words: string[]): void => void execFileSync(converter, words, { stdio: ["ignore", "ignore", "inherit"] });
+    const imgeo = (...words: string[]): void =>
+      void execFileSync(converter, words, { stdio: ["ignore", "ignore", "inherit"] });
     const sample = join(outputDirectory, "small-hall.glb");
     imgeo("sample", "hall", "--seats", "12", "-o", sample);
     imgeo("export", siteOf(sample), "-o", file);
@@ -68,15 +85,25 @@ const dot = (a: Point, b: Point): number => a[0] * b[0] + a[1] * b[1] + a[2] * b
 function patchesSeenBy({ eye, gaze }: Visitor, page: string): Map<string, SeenPatch> {
   const numbersOf = (tag: string, field: string): Point =>
     (new RegExp(`\\s${field}="([^"]*)"`).exec(tag)?.[1] ?? "").split(" ").map(Number) as unknown as Point;
-  return new Map((page.match(/<GeometryPatch[^>]*>/g) ?? []).map((tag) => {
-    const [center, size] = [numbersOf(tag, "bboxCenter"), numbersOf(tag, "bboxSize")];
-    const url = /\sdata="([^"#]*)/.exec(tag)?.[1] ?? "";
-    const away: Point = [center[0] - eye[0], center[1] - eye[1], center[2] - eye[2]];
-    const [radius, distance] = [Math.hypot(...size) / 2, Math.hypot(...away)];
-    const angle = Math.acos(dot(away, gaze) / distance);
-    const spread = distance > radius ? Math.asin(radius / distance) : Math.PI;
-    return [url, { url, x: center[0], size: (2 * radius) / Math.max(distance, radius), angles: [angle - spread, angle + spread] }];
-  }));
+  return new Map(
+    (page.match(/<GeometryPatch[^>]*>/g) ?? []).map((tag) => {
+      const [center, size] = [numbersOf(tag, "bboxCenter"), numbersOf(tag, "bboxSize")];
+      const url = /\sdata="([^"#]*)/.exec(tag)?.[1] ?? "";
+      const away: Point = [center[0] - eye[0], center[1] - eye[1], center[2] - eye[2]];
+      const [radius, distance] = [Math.hypot(...size) / 2, Math.hypot(...away)];
+      const angle = Math.acos(dot(away, gaze) / distance);
+      const spread = distance > radius ? Math.asin(radius / distance) : Math.PI;
+      return [
+        url,
+        {
+          url,
+          x: center[0],
+          size: (2 * radius) / Math.max(distance, radius),
+          angles: [angle - spread, angle + spread],
+        },
+      ];
+    }),
+  );
 }
 
 /** No patch comes after one that is a tenth smaller. */
@@ -92,11 +119,16 @@ test("of a hall comes first what is seen largest, last what is behind one, from 
   const middles: number[] = [];
   for (const visitor of visitors) {
     const { name, eye, orientation } = visitor;
-    const site = variantOf(hallOfOneMesh(), name, (page) => page.replace(/<Viewpoint[^>]*>/i,
-      `<Viewpoint position="${eye.join(" ")}" orientation="${orientation}" fieldOfView="${fieldOfView}">`));
+    const site = variantOf(hallOfOneMesh(), name, (page) =>
+      page.replace(
+        /<Viewpoint[^>]*>/i,
+        `<Viewpoint position="${eye.join(" ")}" orientation="${orientation}" fieldOfView="${fieldOfView}">`,
+      ),
+    );
     const patches = patchesSeenBy(visitor, pageOf(site));
     const { closed, open } = gate();
-    const server = (server: View["server"]): void => void server.when((path) => patches.has(path.slice(1)), { hold: closed });
+    const server = (server: View["server"]): void =>
+      void server.when((path) => patches.has(path.slice(1)), { hold: closed });
     await withPage(site, { server, before: pretend[visitor.protocol]! }, async (view) => {
       const count = (): number => view.asked.filter((url) => patches.has(url)).length;
       await until("all slots are taken", () => count() >= visitor.slots);

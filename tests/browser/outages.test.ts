@@ -38,8 +38,13 @@ async function assertTruthfulEvents(view: View): Promise<void> {
     const own = (await view.observed()).events.filter((event) => event.target === target && event.type !== "progress");
     assert.equal(own[0]?.type, "first-image");
     assert.equal(own.at(-1)?.type, "load");
-    const ranks = own.slice(0, -1).map(({ detail }) => ["points", "surface", "shaded", "full"].indexOf(String(detail.stage)));
-    assert.deepEqual(ranks, ranks.toSorted((a, b) => a - b));
+    const ranks = own
+      .slice(0, -1)
+      .map(({ detail }) => ["points", "surface", "shaded", "full"].indexOf(String(detail.stage)));
+    assert.deepEqual(
+      ranks,
+      ranks.toSorted((a, b) => a - b),
+    );
   }
   assert.deepEqual(await view.events("error"), []);
 }
@@ -65,7 +70,10 @@ describe("a slow host", () => {
 
   test("that is busy for a second is asked again when it says so", async () => {
     const server = (server: View["server"]): void => {
-      const busy = server.when(filesOf((rank) => rank === 2), { status: 503, headers: { "Retry-After": "1" } });
+      const busy = server.when(
+        filesOf((rank) => rank === 2),
+        { status: 503, headers: { "Retry-After": "1" } },
+      );
       setTimeout(busy, 1000);
     };
     await withPage(site(), { server, expectedErrors: /503/ }, async (view) => {
@@ -79,8 +87,8 @@ describe("a slow host", () => {
 test("a host that refuses other sites' pages costs the shapes whose files it has, and says what it must allow", async () => {
   const other = await startServer(site());
   try {
-    const scene = shapeIn(site(), "good", 'id="good"') +
-      shapeIn(site(), "bad", 'id="bad"').replaceAll("bad/", other.origin);
+    const scene =
+      shapeIn(site(), "good", 'id="good"') + shapeIn(site(), "bad", 'id="bad"').replaceAll("bad/", other.origin);
     const options = {
       isCrossOrigin: true,
       server: (server: View["server"]): void => void (server.contentPolicy = "default-src 'self'; connect-src *"),
@@ -108,7 +116,9 @@ describe("a lost WebGL context", () => {
     (window as unknown as { loser: WEBGL_lose_context }).loser = context.getExtension("WEBGL_lose_context")!;
     (window as unknown as { loser: WEBGL_lose_context }).loser.loseContext();
   };
-  const restore = (): void => { (window as unknown as { loser: WEBGL_lose_context }).loser.restoreContext(); };
+  const restore = (): void => {
+    (window as unknown as { loser: WEBGL_lose_context }).loser.restoreContext();
+  };
 
   test("comes back with the same picture, and without a second load", async () => {
     await withPage(site(), {}, async (view) => {
@@ -122,7 +132,9 @@ describe("a lost WebGL context", () => {
       await until("the picture is back", async () => {
         await settle(view.page);
         const statistics = await view.page.evaluate(() => {
-          const { statistics } = document.querySelector("imgeo-view") as unknown as { statistics: { openRequests: number } };
+          const { statistics } = document.querySelector("imgeo-view") as unknown as {
+            statistics: { openRequests: number };
+          };
           return statistics.openRequests;
         });
         return statistics === 0;
@@ -136,7 +148,11 @@ describe("a lost WebGL context", () => {
 
   test("amid loading only delays it", async () => {
     const { closed, open } = gate();
-    const server = (server: View["server"]): void => void server.when(filesOf((rank) => rank > 0), { hold: closed });
+    const server = (server: View["server"]): void =>
+      void server.when(
+        filesOf((rank) => rank > 0),
+        { hold: closed },
+      );
     await withPage(site(), { server }, async (view) => {
       await view.promise("firstImage");
       await view.page.evaluate(lose);
@@ -159,13 +175,22 @@ test("ten thousand shapes, one without its files, are all shown but that one, an
     const shape = (place === 4321 ? broken : whole).replace("NAME", `s${place}`);
     return `<Transform translation="${2.5 * (place % side) - 125} ${2.5 * Math.floor(place / side) - 125} 0">${shape}</Transform>`;
   });
-  const directory = sceneOf("ten-thousand", { small }, `<Viewpoint position="0 0 320"></Viewpoint>${shapes.join("\n")}`);
+  const directory = sceneOf(
+    "ten-thousand",
+    { small },
+    `<Viewpoint position="0 0 320"></Viewpoint>${shapes.join("\n")}`,
+  );
   await withPage(directory, { expectedErrors: /Failed to load resource|imgeo/ }, async (view) => {
     await view.promise("complete", "x3d", 120);
     await settle(view.page);
     const { loaded, failed, draws } = await view.page.evaluate(() => {
-      const of = (wanted: string) => window.observed.events.filter(({ type, target }) => type === wanted && target !== "x3d");
-      return { loaded: of("load").length, failed: of("error").map(({ target }) => target), draws: window.observed.draws };
+      const of = (wanted: string) =>
+        window.observed.events.filter(({ type, target }) => type === wanted && target !== "x3d");
+      return {
+        loaded: of("load").length,
+        failed: of("error").map(({ target }) => target),
+        draws: window.observed.draws,
+      };
     });
     assert.equal(loaded, side * side - 1);
     assert.deepEqual([...new Set(failed)], ["shape#s4321"]);
@@ -205,11 +230,15 @@ describe("a tab that nobody looks at", () => {
     await withPage(site(), { before: hideAtFirst }, async (view) => {
       const files = filesOf(() => true);
       const count = ranksOfFiles(pageOf(site())).size;
-      await until("all files have come", () =>
-        view.server.requests.filter(({ path, state }) => files(path) && state === "answered").length === count);
+      await until(
+        "all files have come",
+        () => view.server.requests.filter(({ path, state }) => files(path) && state === "answered").length === count,
+      );
       await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 1000)));
       for (const type of ["first-image", "refine", "load"]) assert.deepEqual(await view.events(type), []);
-      await view.page.evaluate(() => { (window as unknown as { reveal: () => void }).reveal(); });
+      await view.page.evaluate(() => {
+        (window as unknown as { reveal: () => void }).reveal();
+      });
       await view.promise("complete");
       await assertTruthfulEvents(view);
       assertSamePicture("hidden tab", await view.picture(), await undisturbed(), { mean: 0 });

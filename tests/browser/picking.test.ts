@@ -32,7 +32,17 @@ declare global {
 /** Self-contained: records pointer events as the document hears them, after all bubbling. */
 function hear(): void {
   window.heard = [];
-  const types = ["pointerdown", "pointerup", "pointermove", "pointerover", "pointerout", "click", "mousedown", "mousemove", "mouseover"];
+  const types = [
+    "pointerdown",
+    "pointerup",
+    "pointermove",
+    "pointerover",
+    "pointerout",
+    "click",
+    "mousedown",
+    "mousemove",
+    "mouseover",
+  ];
   for (const type of types) {
     document.addEventListener(type, (event) => {
       if (!(event.target instanceof Element)) return;
@@ -40,14 +50,22 @@ function hear(): void {
       const place = (v: { x: number; y: number; z: number } | null): Vec3 | null => v && [v.x, v.y, v.z];
       const { localName, id } = event.target;
       window.heard.push({
-        type, triangleId, vertexId, patch, target: localName + (id && `#${id}`),
+        type,
+        triangleId,
+        vertexId,
+        patch,
+        target: localName + (id && `#${id}`),
         ...("worldPosition" in event && { position: place(p)!, normal: place(n), hitPnt: [...hitPnt] as Vec3 }),
       });
     });
   }
 }
 
-async function withSite(site: string, use: (view: View) => Promise<void>, change: (html: string) => string = (html) => html): Promise<void> {
+async function withSite(
+  site: string,
+  use: (view: View) => Promise<void>,
+  change: (html: string) => string = (html) => html,
+): Promise<void> {
   const server = (server: View["server"]): void => {
     server.when(/^\/$/, { replace: (html) => change(html.toString()) });
   };
@@ -64,7 +82,9 @@ async function heard({ page }: View, type: string): Promise<HeardEvent[]> {
 
 /** Clicks and gives what the document heard of it. */
 async function clickAt(view: View, x: number, y: number): Promise<HeardEvent> {
-  await view.page.evaluate(() => { window.heard = []; });
+  await view.page.evaluate(() => {
+    window.heard = [];
+  });
   await view.page.mouse.click(x, y);
   const clicks = await heard(view, "click");
   assert.equal(clicks.length, 1, `one click at ${x}, ${y}`);
@@ -93,12 +113,23 @@ const sites: string[][] = ["sig", "bg"].flatMap((container) => [
   ["--container", container, "--index", "off"],
   ["--container", container, "--normals", "octahedral"],
 ]);
-const layouts: string[][] = ["int16", "float32"].map((type) =>
-  ["--container", "bg", "--layout", "interleaved", "--coord-type", type]);
+const layouts: string[][] = ["int16", "float32"].map((type) => [
+  "--container",
+  "bg",
+  "--layout",
+  "interleaved",
+  "--coord-type",
+  type,
+]);
 
 describe("a click tells the triangle, vertex, place and normal that the pixel shows", () => {
-  for (const options of [...sites, ...layouts, ["--position-bits", "24"], ["--container", "bg", "--normal-bits", "32", "--position-bits", "8"],
-                         ["--profile", "compact", "--patch-vertices", "1000"]]) {
+  for (const options of [
+    ...sites,
+    ...layouts,
+    ["--position-bits", "24"],
+    ["--container", "bg", "--normal-bits", "32", "--position-bits", "8"],
+    ["--profile", "compact", "--patch-vertices", "1000"],
+  ]) {
     test(options.join(" "), async () => {
       const isCompact = options.includes("compact");
       const site = siteOfGenerated("trefoil", ...(isCompact ? [] : ["--profile", "classic"]), ...options);
@@ -132,17 +163,26 @@ describe("a surface without normals tells that of the triangle", () => {
   for (const container of ["sig", "bg"]) {
     test(container, async () => {
       const site = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
-      const patches = decodeSite(site).map(({ positions, triangles, lines, points }) => ({ positions, triangles, lines, points }));
-      await withSite(site, async (view) => {
-        let hits = 0;
-        for (const { x, y } of pixels) {
-          const expected = expectedAt(site, patches, x, y);
-          if (!expected) continue;
-          assertNear((await clickAt(view, x, y)).normal, expected.normal, 1e-4, "the normal");
-          ++hits;
-        }
-        assert.ok(hits >= 8);
-      }, withoutNormalFiles);
+      const patches = decodeSite(site).map(({ positions, triangles, lines, points }) => ({
+        positions,
+        triangles,
+        lines,
+        points,
+      }));
+      await withSite(
+        site,
+        async (view) => {
+          let hits = 0;
+          for (const { x, y } of pixels) {
+            const expected = expectedAt(site, patches, x, y);
+            if (!expected) continue;
+            assertNear((await clickAt(view, x, y)).normal, expected.normal, 1e-4, "the normal");
+            ++hits;
+          }
+          assert.ok(hits >= 8);
+        },
+        withoutNormalFiles,
+      );
     });
   }
 });
@@ -155,7 +195,11 @@ interface ProjectedPoint {
   depth: number;
 }
 
-function projected(patch: PlainPatch, vertices: Iterable<number>, viewpoint: Parameters<typeof rayThrough>[0]): ProjectedPoint[] {
+function projected(
+  patch: PlainPatch,
+  vertices: Iterable<number>,
+  viewpoint: Parameters<typeof rayThrough>[0],
+): ProjectedPoint[] {
   const through = (x: number, y: number): Vec3 => rayThrough(viewpoint, pictureSize, x, y).direction;
   const corner = through(0, 0);
   const [right, below] = [minus(through(1, 0), corner), minus(through(0, 1), corner)];
@@ -217,7 +261,9 @@ describe("a line is hit where it is drawn, at its nearer end", () => {
           const click = await clickAt(view, x, y);
           if (click.target !== "shape") continue; // lines are a pixel wide: the middle may lie in the next one
           ++hits;
-          const near = lines.filter(([from, to]) => distanceToLine({ x, y }, from, to) < 1 && [from.vertex, to.vertex].includes(click.vertexId));
+          const near = lines.filter(
+            ([from, to]) => distanceToLine({ x, y }, from, to) < 1 && [from.vertex, to.vertex].includes(click.vertexId),
+          );
           assert.ok(near.length > 0, `vertex ${click.vertexId} is the end of no line at ${x}, ${y}`);
           const on = near.some(([from, to]) => {
             const [p, q] = [vectorAt(patch!.positions, from.vertex), vectorAt(patch!.positions, to.vertex)];
@@ -257,9 +303,13 @@ describe("pointer events", () => {
       const { mouse } = view.page;
       await mouse.move(offShape.x, offShape.y);
       await mouse.move(onShape.x, onShape.y);
-      await until("the shape is entered", async () => (await heard(view, "pointermove")).some(({ target }) => target === "shape"));
+      await until("the shape is entered", async () =>
+        (await heard(view, "pointermove")).some(({ target }) => target === "shape"),
+      );
       await mouse.move(offShape.x, offShape.y);
-      await until("the shape is left", async () => (await heard(view, "pointerout")).some(({ target }) => target === "shape"));
+      await until("the shape is left", async () =>
+        (await heard(view, "pointerout")).some(({ target }) => target === "shape"),
+      );
       const targets = async (type: string): Promise<string[]> => (await heard(view, type)).map(({ target }) => target);
       assert.deepEqual(await targets("pointerover"), ["imgeo-view", "shape", "imgeo-view"]);
       assert.deepEqual(await targets("mouseover"), ["imgeo-view", "shape", "imgeo-view"]);
@@ -271,19 +321,26 @@ describe("pointer events", () => {
   });
 
   test("are stopped by a listener on the shape, and enter a group once for all its shapes", async () => {
-    const inGroup = (html: string): string => html.replace(/<Shape[\s\S]*<\/Shape>/i, (shape) => `<Group id="all">${shape}</Group>`);
-    await withSite(site(), async (view) => {
-      await view.page.evaluate(() => {
-        document.querySelector("shape")!.addEventListener("click", (event) => { event.stopPropagation(); });
-        document.querySelector("#all")!.addEventListener("pointerenter", ({ target }) => {
-          document.title = `entered ${(target as Element).id}`;
+    const inGroup = (html: string): string =>
+      html.replace(/<Shape[\s\S]*<\/Shape>/i, (shape) => `<Group id="all">${shape}</Group>`);
+    await withSite(
+      site(),
+      async (view) => {
+        await view.page.evaluate(() => {
+          document.querySelector("shape")!.addEventListener("click", (event) => {
+            event.stopPropagation();
+          });
+          document.querySelector("#all")!.addEventListener("pointerenter", ({ target }) => {
+            document.title = `entered ${(target as Element).id}`;
+          });
         });
-      });
-      await view.page.mouse.click(onShape.x, onShape.y);
-      assert.deepEqual(await heard(view, "click"), []);
-      assert.equal((await heard(view, "pointerdown")).length, 1);
-      await until("the group is entered", async () => (await view.page.title()) === "entered all");
-    }, inGroup);
+        await view.page.mouse.click(onShape.x, onShape.y);
+        assert.deepEqual(await heard(view, "click"), []);
+        assert.equal((await heard(view, "pointerdown")).length, 1);
+        await until("the group is entered", async () => (await view.page.title()) === "entered all");
+      },
+      inGroup,
+    );
   });
 
   test("leave the camera alone when the press is prevented, and are no click after a drag", async () => {
@@ -295,15 +352,24 @@ describe("pointer events", () => {
         await view.page.mouse.up();
         await settle(view.page);
       };
-      const frames = (): Promise<number> => view.page.evaluate(() => document.querySelector<ImgeoView>("imgeo-view")!.statistics!.frames);
+      const frames = (): Promise<number> =>
+        view.page.evaluate(() => document.querySelector<ImgeoView>("imgeo-view")!.statistics!.frames);
       await view.page.evaluate(() => {
-        document.querySelector("shape")!.addEventListener("pointerdown", (event) => { event.preventDefault(); }, { once: true });
+        document.querySelector("shape")!.addEventListener(
+          "pointerdown",
+          (event) => {
+            event.preventDefault();
+          },
+          { once: true },
+        );
       });
       const before = await frames();
       await drag();
       assert.equal(await frames(), before, "the camera has moved");
       assert.equal((await heard(view, "mousedown")).length, 0, "a prevented press has no mouse event");
-      await view.page.evaluate(() => { window.heard = []; });
+      await view.page.evaluate(() => {
+        window.heard = [];
+      });
       await drag();
       assert.ok((await frames()) > before, "the camera has not moved");
       assert.deepEqual(await heard(view, "click"), []);
@@ -312,33 +378,56 @@ describe("pointer events", () => {
 
   test("pass through shapes that are hidden or not pickable, also when they become so", async () => {
     await withSite(site(), async (view) => {
-      for (const [name, value] of [["visible", "false"], ["isPickable", "false"]] as const) {
+      for (const [name, value] of [
+        ["visible", "false"],
+        ["isPickable", "false"],
+      ] as const) {
         assert.equal((await clickAt(view, onShape.x, onShape.y)).target, "shape");
-        await view.page.evaluate(([name, value]) => { document.querySelector("shape")!.setAttribute(name, value); }, [name, value] as const);
+        await view.page.evaluate(
+          ([name, value]) => {
+            document.querySelector("shape")!.setAttribute(name, value);
+          },
+          [name, value] as const,
+        );
         await settle(view.page);
         assert.equal((await clickAt(view, onShape.x, onShape.y)).target, "imgeo-view");
-        await view.page.evaluate((name) => { document.querySelector("shape")!.removeAttribute(name); }, name);
+        await view.page.evaluate((name) => {
+          document.querySelector("shape")!.removeAttribute(name);
+        }, name);
         await settle(view.page);
       }
     });
   });
 
   test("hit what a transform has moved, mirrored and stretched", async () => {
-    const moved = (html: string): string => html.replace(/<Shape[\s\S]*<\/Shape>/i, (shape) =>
-      `<Transform scale="-1 0.8 1.3" rotation="0 0 1 0.4" translation="0.2 0.1 0"><Transform rotation="1 0 0 0.3">${shape}</Transform></Transform>`);
-    await withSite(site(), async (view) => {
-      let hits = 0;
-      for (const { x, y } of pixels) {
-        const click = await clickAt(view, x, y);
-        if (click.target !== "shape") continue;
-        ++hits;
-        const { origin, direction } = rayThrough(lookOf(pageOf(site())).viewpoint, pictureSize, x, y);
-        const along = dot(minus(click.position!, origin), direction) / dot(direction, direction);
-        assertNear(click.position, origin.map((part, i) => part + along * direction[i]!) as Vec3, 2e-4, "the place on the ray");
-        assert.ok(dot(click.normal!, direction) < 0.1, "the normal faces the eye");
-      }
-      assert.ok(hits > 5, `${hits} hits`);
-    }, moved);
+    const moved = (html: string): string =>
+      html.replace(
+        /<Shape[\s\S]*<\/Shape>/i,
+        (shape) =>
+          `<Transform scale="-1 0.8 1.3" rotation="0 0 1 0.4" translation="0.2 0.1 0"><Transform rotation="1 0 0 0.3">${shape}</Transform></Transform>`,
+      );
+    await withSite(
+      site(),
+      async (view) => {
+        let hits = 0;
+        for (const { x, y } of pixels) {
+          const click = await clickAt(view, x, y);
+          if (click.target !== "shape") continue;
+          ++hits;
+          const { origin, direction } = rayThrough(lookOf(pageOf(site())).viewpoint, pictureSize, x, y);
+          const along = dot(minus(click.position!, origin), direction) / dot(direction, direction);
+          assertNear(
+            click.position,
+            origin.map((part, i) => part + along * direction[i]!) as Vec3,
+            2e-4,
+            "the place on the ray",
+          );
+          assert.ok(dot(click.normal!, direction) < 0.1, "the normal faces the eye");
+        }
+        assert.ok(hits > 5, `${hits} hits`);
+      },
+      moved,
+    );
   });
 });
 
@@ -352,11 +441,14 @@ test("hovering draws no frame and never waits for the GPU", async () => {
         return readPixels.apply(this, args);
       };
     });
-    const frames = (): Promise<number> => view.page.evaluate(() => document.querySelector<ImgeoView>("imgeo-view")!.statistics!.frames);
+    const frames = (): Promise<number> =>
+      view.page.evaluate(() => document.querySelector<ImgeoView>("imgeo-view")!.statistics!.frames);
     const before = await frames();
     await view.page.mouse.move(onShape.x, onShape.y);
     await view.page.mouse.move(nearby.x, nearby.y, { steps: 3 });
-    await until("the shape hears of it", async () => (await heard(view, "pointermove")).some(({ target }) => target === "shape"));
+    await until("the shape hears of it", async () =>
+      (await heard(view, "pointermove")).some(({ target }) => target === "shape"),
+    );
     assert.equal(await frames(), before);
     assert.notEqual(await view.page.title(), "waited");
     await view.page.mouse.click(onShape.x, onShape.y);
@@ -366,11 +458,22 @@ test("hovering draws no frame and never waits for the GPU", async () => {
 
 test("positionAndNormalFromPoint tells what is seen at a point of the window", async () => {
   await withSite(site(), async (view) => {
-    const at = ({ x, y }: { x: number; y: number }): Promise<{ position: string; normal: string; shape: string } | null> =>
-      view.page.evaluate(([x, y]) => {
-        const found = document.querySelector<ImgeoView>("imgeo-view")!.positionAndNormalFromPoint(x, y);
-        return found && { position: String(found.position), normal: String(found.normal), shape: found.shape.localName };
-      }, [x, y] as const);
+    const at = ({
+      x,
+      y,
+    }: {
+      x: number;
+      y: number;
+    }): Promise<{ position: string; normal: string; shape: string } | null> =>
+      view.page.evaluate(
+        ([x, y]) => {
+          const found = document.querySelector<ImgeoView>("imgeo-view")!.positionAndNormalFromPoint(x, y);
+          return (
+            found && { position: String(found.position), normal: String(found.normal), shape: found.shape.localName }
+          );
+        },
+        [x, y] as const,
+      );
     const expected = expectedAt(site(), decodeSite(site()), onShape.x, onShape.y)!;
     const found = await at(onShape);
     assert.equal(found?.shape, "shape");

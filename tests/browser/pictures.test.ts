@@ -5,7 +5,14 @@ import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
-import { assertSamePicture, boundsOfCompact, boundsOfInput, boundsOfQuantised, difference, isWithin } from "./compare.ts";
+import {
+  assertSamePicture,
+  boundsOfCompact,
+  boundsOfInput,
+  boundsOfQuantised,
+  difference,
+  isWithin,
+} from "./compare.ts";
 import { withPage, type PageOptions } from "./harness.ts";
 import { readObj, readPly } from "./meshes.ts";
 import { modelDirectory } from "./paths.ts";
@@ -29,26 +36,45 @@ const cases: { mesh: GeneratedMesh; options: string[] }[] = [
   ...["sig", "bg"].flatMap((container) =>
     ["triangles", "strips"].flatMap((primitives) => [
       { mesh: "trefoil" as const, options: ["--container", container, "--primitives", primitives] },
-      { mesh: "trefoil-colors" as const, options: ["--container", container, "--primitives", primitives, "--patch-vertices", "1000"] },
+      {
+        mesh: "trefoil-colors" as const,
+        options: ["--container", container, "--primitives", primitives, "--patch-vertices", "1000"],
+      },
     ]),
   ),
   { mesh: "trefoil-plain", options: ["--position-bits", "12"] },
   { mesh: "trefoil-plain", options: ["--position-bits", "24"] },
   { mesh: "trefoil-plain", options: ["--container", "bg", "--normal-bits", "16"] },
-  ...["octahedral", "spherical", "palette"].map((normals) =>
-    ({ mesh: "trefoil" as const, options: ["--normals", normals, "--patch-vertices", "1000"] })),
-  ...["octahedral", "spherical"].map((normals) =>
-    ({ mesh: "trefoil-colors" as const, options: ["--container", "bg", "--normals", normals] })),
+  ...["octahedral", "spherical", "palette"].map((normals) => ({
+    mesh: "trefoil" as const,
+    options: ["--normals", normals, "--patch-vertices", "1000"],
+  })),
+  ...["octahedral", "spherical"].map((normals) => ({
+    mesh: "trefoil-colors" as const,
+    options: ["--container", "bg", "--normals", normals],
+  })),
   { mesh: "trefoil-plain", options: ["--container", "bg", "--normals", "octahedral", "--normal-bits", "16"] },
   { mesh: "trefoil", options: ["--normals", "octahedral", "--index", "off"] },
-  ...["uint8", "int8", "int16", "float32"].flatMap((type) => ["separate", "interleaved"].map((layout) =>
-    ({ mesh: "trefoil-colors" as const, options: ["--container", "bg", "--coord-type", type, "--layout", layout] }))),
-  { mesh: "trefoil", options: ["--container", "bg", "--coord-type", "int16", "--position-bits", "11", "--normals", "spherical"] },
-  { mesh: "trefoil-colors", options: ["--container", "bg", "--layout", "interleaved", "--position-bits", "20", "--primitives", "strips"] },
+  ...["uint8", "int8", "int16", "float32"].flatMap((type) =>
+    ["separate", "interleaved"].map((layout) => ({
+      mesh: "trefoil-colors" as const,
+      options: ["--container", "bg", "--coord-type", type, "--layout", layout],
+    })),
+  ),
+  {
+    mesh: "trefoil",
+    options: ["--container", "bg", "--coord-type", "int16", "--position-bits", "11", "--normals", "spherical"],
+  },
+  {
+    mesh: "trefoil-colors",
+    options: ["--container", "bg", "--layout", "interleaved", "--position-bits", "20", "--primitives", "strips"],
+  },
   { mesh: "trefoil-colors", options: ["--container", "bg", "--layout", "interleaved", "--normals", "octahedral"] },
   { mesh: "points", options: ["--container", "bg", "--layout", "interleaved", "--coord-type", "float32"] },
-  ...["sig", "bg"].map((container) =>
-    ({ mesh: "trefoil-large" as const, options: ["--container", container, "--patch-vertices", "100000"] })),
+  ...["sig", "bg"].map((container) => ({
+    mesh: "trefoil-large" as const,
+    options: ["--container", container, "--patch-vertices", "100000"],
+  })),
   { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"] },
   { mesh: "trefoil-colors", options: ["--index", "off", "--container", "bg"] },
   { mesh: "points", options: [] },
@@ -73,7 +99,11 @@ describe("the final picture is that of plain buffers with the quantised mesh", (
 
 describe("the final picture is that of plain buffers with the input", () => {
   for (const mesh of ["trefoil", "trefoil-colors", "trefoil-plain"] as const) {
-    for (const options of [["--profile", "compact"], ["--profile", "classic"], ["--container", "bg"]]) {
+    for (const options of [
+      ["--profile", "compact"],
+      ["--profile", "classic"],
+      ["--container", "bg"],
+    ]) {
       test([mesh, ...options].join(" "), async () => {
         const site = siteOfGenerated(mesh, ...options);
         const input = patchOfInput(readPly(readFileSync(meshFile(mesh))));
@@ -106,7 +136,9 @@ describe("a wrong mesh is seen", () => {
     const site = siteOfGenerated("trefoil", "--profile", "classic");
     const [high, low] = [fileOfRank(site, 0), fileOfRank(site, 4)];
     const swapped = (html: Buffer): string =>
-      html.toString().replaceAll(/coord=.*/gi, (coord) => coord.replace(high, "\n").replace(low, high).replace("\n", low));
+      html
+        .toString()
+        .replaceAll(/coord=.*/gi, (coord) => coord.replace(high, "\n").replace(low, high).replace("\n", low));
     await assertDiffers(site, { server: (server) => server.when(/^\/$/, { replace: swapped }) });
   });
 
@@ -149,16 +181,20 @@ describe("a wrong mesh is seen", () => {
     return areas.indexOf(Math.max(...areas));
   }
 
-  const otherIndexInImage = (corner: number) => (bytes: Buffer): Buffer => {
-    const image = decodePng(bytes);
-    // Green is the row in units of 1/256 of the coordinate image, which is 16 rows high: 2,560 vertices.
-    image.data[corner * image.channels + 1]! ^= (offBy / 256) * 16;
-    return encodePng(image);
-  };
+  const otherIndexInImage =
+    (corner: number) =>
+    (bytes: Buffer): Buffer => {
+      const image = decodePng(bytes);
+      // Green is the row in units of 1/256 of the coordinate image, which is 16 rows high: 2,560 vertices.
+      image.data[corner * image.channels + 1]! ^= (offBy / 256) * 16;
+      return encodePng(image);
+    };
 
-  const otherIndexInArray = (corner: number) => (bytes: Buffer): Buffer => {
-    const changed = Buffer.from(bytes);
-    changed.writeUInt16LE(changed.readUInt16LE(2 * corner) ^ offBy, 2 * corner);
-    return changed;
-  };
+  const otherIndexInArray =
+    (corner: number) =>
+    (bytes: Buffer): Buffer => {
+      const changed = Buffer.from(bytes);
+      changed.writeUInt16LE(changed.readUInt16LE(2 * corner) ^ offBy, 2 * corner);
+      return changed;
+    };
 });

@@ -21,7 +21,8 @@ export function decodePng(bytes: Uint8Array): Picture {
   const width = view.readUInt32BE(16);
   const height = view.readUInt32BE(20);
   const channels = channelsOfColorType[view.readUInt8(25)];
-  if (channels === undefined || view.readUInt8(24) !== 8) throw new Error("the test decoder reads 8-bit grey and RGB only");
+  if (channels === undefined || view.readUInt8(24) !== 8)
+    throw new Error("the test decoder reads 8-bit grey and RGB only");
   const [palette] = chunksOf(view, "PLTE");
   const filtered = inflateSync(Buffer.concat(chunksOf(view, "IDAT")));
   const stride = width * channels;
@@ -33,19 +34,33 @@ export function decodePng(bytes: Uint8Array): Picture {
       const up = y === 0 ? 0 : data[(y - 1) * stride + x]!;
       const corner = y === 0 || x < channels ? 0 : data[(y - 1) * stride + x - channels]!;
       const guess =
-        filter === 1 ? left : filter === 2 ? up : filter === 3 ? (left + up) >> 1 : filter === 4 ? paeth(left, up, corner) : 0;
+        filter === 1
+          ? left
+          : filter === 2
+            ? up
+            : filter === 3
+              ? (left + up) >> 1
+              : filter === 4
+                ? paeth(left, up, corner)
+                : 0;
       data[y * stride + x] = filtered[y * (stride + 1) + 1 + x]! + guess;
     }
   }
   if (palette === undefined || view.readUInt8(25) !== 3) return { width, height, channels, data };
-  return { width, height, channels: 3, data: Uint8Array.from({ length: 3 * data.length }, (_, i) => palette[3 * data[Math.floor(i / 3)]! + (i % 3)]!) };
+  return {
+    width,
+    height,
+    channels: 3,
+    data: Uint8Array.from({ length: 3 * data.length }, (_, i) => palette[3 * data[Math.floor(i / 3)]! + (i % 3)]!),
+  };
 }
 
 /** What the chunks of a type hold. */
 function chunksOf(png: Buffer, type: string): Buffer[] {
   const bodies: Buffer[] = [];
   for (let at = 8; at < png.length; at += 12 + png.readUInt32BE(at)) {
-    if (png.toString("latin1", at + 4, at + 8) === type) bodies.push(png.subarray(at + 8, at + 8 + png.readUInt32BE(at)));
+    if (png.toString("latin1", at + 4, at + 8) === type)
+      bodies.push(png.subarray(at + 8, at + 8 + png.readUInt32BE(at)));
   }
   return bodies;
 }
@@ -68,7 +83,12 @@ export function encodePng({ width, height, channels, data }: Picture): Buffer {
     rows.set(data.subarray(y * width * channels, (y + 1) * width * channels), y * (width * channels + 1) + 1);
   }
   const signature = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
-  return Buffer.concat([signature, chunk("IHDR", header), chunk("IDAT", deflateSync(rows)), chunk("IEND", Buffer.alloc(0))]);
+  return Buffer.concat([
+    signature,
+    chunk("IHDR", header),
+    chunk("IDAT", deflateSync(rows)),
+    chunk("IEND", Buffer.alloc(0)),
+  ]);
 }
 
 function chunk(type: string, body: Buffer): Buffer {

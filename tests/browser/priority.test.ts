@@ -16,7 +16,10 @@ function twoShapes(viewpoint: string, { knotIs = "", ballIs = "", x3dIs = "" } =
   const scene = `<Viewpoint ${viewpoint}></Viewpoint>
     <Transform translation="-30 0 0">${shapeIn(knot(), "knot", `id="knot" ${knotIs}`)}</Transform>
     <Transform translation="30 0 0">${shapeIn(ball(), "ball", `id="ball" ${ballIs}`)}</Transform>`;
-  const name = createHash("sha256").update(scene + x3dIs).digest("hex").slice(0, 12);
+  const name = createHash("sha256")
+    .update(scene + x3dIs)
+    .digest("hex")
+    .slice(0, 12);
   return sceneOf(`priority-${name}`, { knot: knot(), ball: ball() }, scene, x3dIs);
 }
 
@@ -30,7 +33,10 @@ function order(view: View): string[] {
   return view.asked.filter((url) => ranks.has(url)).map((url) => `${url.split("/")[0] ?? ""}${ranks.get(url) ?? ""}`);
 }
 
-const isOf = (shape: string) => (name: string): boolean => name.startsWith(shape);
+const isOf =
+  (shape: string) =>
+  (name: string): boolean =>
+    name.startsWith(shape);
 
 function assertBefore(names: string[], early: (name: string) => boolean, late: (name: string) => boolean): void {
   assert.ok(names.some(early) && names.some(late), names.join(" "));
@@ -55,9 +61,17 @@ describe("the order of requests", () => {
   test("of two in the view makes both coarse before one is fine, the larger first", async () => {
     const names = await orderOf(twoShapes(atBoth));
     for (const rank of ["0", "1", "2"]) {
-      assertBefore(names, (name) => name === `knot${rank}`, (name) => name === `ball${rank}`);
+      assertBefore(
+        names,
+        (name) => name === `knot${rank}`,
+        (name) => name === `ball${rank}`,
+      );
     }
-    assertBefore(names, (name) => name.endsWith("0"), (name) => name.endsWith("1"));
+    assertBefore(
+      names,
+      (name) => name.endsWith("0"),
+      (name) => name.endsWith("1"),
+    );
   });
 
   test("follows the author: by shape", async () => {
@@ -67,42 +81,64 @@ describe("the order of requests", () => {
 
   test("follows the author: by what files hold", async () => {
     const names = await orderOf(twoShapes(atBoth, { x3dIs: 'chunkPriority="normal: 100000"' }));
-    assertBefore(names, (name) => name.endsWith("2"), (name) => !name.endsWith("2"));
+    assertBefore(
+      names,
+      (name) => name.endsWith("2"),
+      (name) => !name.endsWith("2"),
+    );
   });
 
   for (const [who, change] of [
-    ["the camera", () => { document.querySelector("viewpoint")!.setAttribute("position", "30 0 6"); }],
-    ["the author", () => { document.querySelector("#ball")!.setAttribute("priority", "100000"); }],
+    [
+      "the camera",
+      () => {
+        document.querySelector("viewpoint")!.setAttribute("position", "30 0 6");
+      },
+    ],
+    [
+      "the author",
+      () => {
+        document.querySelector("#ball")!.setAttribute("priority", "100000");
+      },
+    ],
   ] as const) {
     test(`changes while files wait: ${who}`, async () => {
       const { closed, open } = gate();
-      await withPage(twoShapes(atKnot), { server: (server) => server.when(/^\/(knot|ball)\//, { hold: closed }) }, async (view) => {
-        await until("all slots are taken", () => order(view).length === 6);
-        await view.page.evaluate(change);
-        await settle(view.page);
-        open();
-        await view.promise("complete");
-        const names = order(view);
-        assert.ok(names.slice(0, 6).every(isOf("knot")), names.join(" "));
-        assertBefore(names.slice(6), isOf("ball"), isOf("knot"));
-      });
+      await withPage(
+        twoShapes(atKnot),
+        { server: (server) => server.when(/^\/(knot|ball)\//, { hold: closed }) },
+        async (view) => {
+          await until("all slots are taken", () => order(view).length === 6);
+          await view.page.evaluate(change);
+          await settle(view.page);
+          open();
+          await view.promise("complete");
+          const names = order(view);
+          assert.ok(names.slice(0, 6).every(isOf("knot")), names.join(" "));
+          assertBefore(names.slice(6), isOf("ball"), isOf("knot"));
+        },
+      );
     });
   }
 
   test("changes while files wait: the user", async () => {
     const { closed, open } = gate();
-    await withPage(twoShapes(atBoth), { server: (server) => server.when(/^\/(knot|ball)\//, { hold: closed }) }, async (view) => {
-      await until("all slots are taken", () => order(view).length === 6);
-      await view.page.locator("imgeo-view canvas").focus();
-      // Shifts the scene to the left, until only the ball at the right of it is seen.
-      for (let step = 0; step < 11; ++step) await view.page.keyboard.press("Shift+ArrowLeft");
-      await settle(view.page);
-      // The queue is told some times a second, by a timer of the page: a later one of the page's own comes after it.
-      await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 500)));
-      open();
-      await view.promise("complete");
-      assertBefore(order(view).slice(6), isOf("ball"), isOf("knot"));
-    });
+    await withPage(
+      twoShapes(atBoth),
+      { server: (server) => server.when(/^\/(knot|ball)\//, { hold: closed }) },
+      async (view) => {
+        await until("all slots are taken", () => order(view).length === 6);
+        await view.page.locator("imgeo-view canvas").focus();
+        // Shifts the scene to the left, until only the ball at the right of it is seen.
+        for (let step = 0; step < 11; ++step) await view.page.keyboard.press("Shift+ArrowLeft");
+        await settle(view.page);
+        // The queue is told some times a second, by a timer of the page: a later one of the page's own comes after it.
+        await view.page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 500)));
+        open();
+        await view.promise("complete");
+        assertBefore(order(view).slice(6), isOf("ball"), isOf("knot"));
+      },
+    );
   });
 });
 
@@ -113,7 +149,9 @@ describe("a shape that is hidden", () => {
       assert.ok(!order(view).some(isOf("ball")), order(view).join(" "));
       assert.deepEqual(await view.events("progress", "shape#ball"), []);
 
-      await view.page.evaluate(() => { document.querySelector("#ball")!.setAttribute("visible", "true"); });
+      await view.page.evaluate(() => {
+        document.querySelector("#ball")!.setAttribute("visible", "true");
+      });
       await view.promise("complete", "#ball");
       await view.promise("complete");
       assert.ok(order(view).some(isOf("ball")));
@@ -126,10 +164,15 @@ describe("a shape that is hidden", () => {
     const server = (server: View["server"]): void => void server.when(/^\/ball\//, { hold: closed });
     await withPage(twoShapes(atBall), { server }, async (view) => {
       await until("all slots are taken", () => view.server.requestsOf(/^\/ball\//).length === 6);
-      await view.page.evaluate(() => { document.querySelector("#ball")!.setAttribute("visible", "false"); });
+      await view.page.evaluate(() => {
+        document.querySelector("#ball")!.setAttribute("visible", "false");
+      });
       await view.promise("complete"); // the knot gets the slots
       const requests = view.server.requestsOf(/^\/ball\//);
-      assert.deepEqual(requests.map(({ state }) => state), Array.from({ length: 6 }, () => "aborted"));
+      assert.deepEqual(
+        requests.map(({ state }) => state),
+        Array.from({ length: 6 }, () => "aborted"),
+      );
       assert.deepEqual(await view.events("error"), []);
     });
   });
@@ -144,8 +187,11 @@ describe("a byte that nobody could see", () => {
       assert.equal(secondBytes(view), 0);
       assert.deepEqual((await view.events("progress", "x3d")).at(-1)?.detail.totalProgress, 1);
 
-      await view.page.evaluate(() => { document.querySelector("viewpoint")!.setAttribute("position", "-30 0 12"); });
-      const stages = async (): Promise<unknown[]> => (await view.events("refine", "shape#knot")).map(({ detail }) => detail.stage);
+      await view.page.evaluate(() => {
+        document.querySelector("viewpoint")!.setAttribute("position", "-30 0 12");
+      });
+      const stages = async (): Promise<unknown[]> =>
+        (await view.events("refine", "shape#knot")).map(({ detail }) => detail.stage);
       await until("the knot is sharp", async () => (await stages()).at(-1) === "full");
       assert.ok(secondBytes(view) > 0);
       assert.equal((await view.events("load", "shape#knot")).length, 1);

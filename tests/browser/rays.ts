@@ -65,7 +65,11 @@ export function firstHit({ origin, direction }: Ray, patches: PlainPatch[]): Ray
       if (u < 0 || v < 0 || u + v > 1 || distance <= 0 || (found && found.distance <= distance)) continue;
       const shares: Vec3 = [1 - u - v, u, v];
       found = {
-        patch, triangle: mesh.triangleNumbers?.[t] ?? t, vertices, shares, distance,
+        patch,
+        triangle: mesh.triangleNumbers?.[t] ?? t,
+        vertices,
+        shares,
+        distance,
         position: [0, 1, 2].map((i) => origin[i]! + distance * direction[i]!) as Vec3,
         normal: unit(mesh.normals ? mixed(mesh.normals, vertices, shares) : cross(ab, ac)),
       };
@@ -75,7 +79,9 @@ export function firstHit({ origin, direction }: Ray, patches: PlainPatch[]): Ray
 }
 
 function mixed(values: Float32Array, vertices: Vec3, shares: Vec3): Vec3 {
-  return [0, 1, 2].map((i) => shares.reduce((sum, share, corner) => sum + share * values[3 * vertices[corner]! + i]!, 0)) as Vec3;
+  return [0, 1, 2].map((i) =>
+    shares.reduce((sum, share, corner) => sum + share * values[3 * vertices[corner]! + i]!, 0),
+  ) as Vec3;
 }
 
 export function vectorAt(values: Float32Array, n: number): Vec3 {

@@ -19,15 +19,29 @@ export interface ReferenceScene {
   viewpoint: { position: Vec3; orientation: [number, number, number, number]; fieldOfView: number };
   headlight: boolean;
   lights: { direction: Vec3; color: Vec3; intensity: number; ambientIntensity: number }[];
-  material: { diffuseColor: Vec3; specularColor: Vec3; emissiveColor: Vec3; ambientIntensity: number; shininess: number };
+  material: {
+    diffuseColor: Vec3;
+    specularColor: Vec3;
+    emissiveColor: Vec3;
+    ambientIntensity: number;
+    shininess: number;
+  };
   skyColor: Vec3;
-  patches: { positions: number[]; normals?: number[]; colors?: number[]; triangles: number[]; lines: number[]; points: number[] }[];
+  patches: {
+    positions: number[];
+    normals?: number[];
+    colors?: number[];
+    triangles: number[];
+    lines: number[];
+    points: number[];
+  }[];
 }
 
 /** The numbers that the only shape of a document is drawn with. */
 export function lookOf(html: string): Omit<ReferenceScene, "patches"> {
   const tags = tagsOf(html);
-  const attributesOf = (name: string): Record<string, string> => tags.find((tag) => tag.name === name)?.attributes ?? {};
+  const attributesOf = (name: string): Record<string, string> =>
+    tags.find((tag) => tag.name === name)?.attributes ?? {};
   const vec3 = (text: string | undefined, fallback: Vec3): Vec3 => numbersOf(text, fallback).slice(0, 3) as Vec3;
   const [viewpoint, material, background] = ["viewpoint", "material", "background"].map(attributesOf);
   return {
@@ -37,12 +51,14 @@ export function lookOf(html: string): Omit<ReferenceScene, "patches"> {
       fieldOfView: Number(viewpoint!.fieldofview ?? 0.7854),
     },
     headlight: attributesOf("navigationinfo").headlight !== "false",
-    lights: tags.filter(({ name }) => name === "directionallight").map(({ attributes }) => ({
-      direction: vec3(attributes.direction, [0, 0, -1]),
-      color: vec3(attributes.color, [1, 1, 1]),
-      intensity: Number(attributes.intensity ?? 1),
-      ambientIntensity: Number(attributes.ambientintensity ?? 0),
-    })),
+    lights: tags
+      .filter(({ name }) => name === "directionallight")
+      .map(({ attributes }) => ({
+        direction: vec3(attributes.direction, [0, 0, -1]),
+        color: vec3(attributes.color, [1, 1, 1]),
+        intensity: Number(attributes.intensity ?? 1),
+        ambientIntensity: Number(attributes.ambientintensity ?? 0),
+      })),
     material: {
       diffuseColor: vec3(material!.diffusecolor, [0.8, 0.8, 0.8]),
       specularColor: vec3(material!.specularcolor, [0, 0, 0]),
@@ -55,7 +71,13 @@ export function lookOf(html: string): Omit<ReferenceScene, "patches"> {
 }
 
 /** The float input as the reference draws it: computed normals where it has none. */
-export function patchOfInput({ positions, normals, colors, triangles, lines = new Uint32Array(0) }: PlainMesh): PlainPatch {
+export function patchOfInput({
+  positions,
+  normals,
+  colors,
+  triangles,
+  lines = new Uint32Array(0),
+}: PlainMesh): PlainPatch {
   const isCloud = triangles.length + lines.length === 0;
   const shown = normals ?? (triangles.length ? areaWeightedNormals({ positions, triangles }) : undefined);
   return {
@@ -96,7 +118,10 @@ async function openReferencePage(deviceScaleFactor: number): Promise<ReferencePa
   bundled ??= bundle();
   await bundled;
   const server = await startServer(outputDirectory);
-  server.put("/", `<!doctype html><link rel="stylesheet" href="/reference.css"><canvas></canvas><script type="module" src="/reference.js"></script>`);
+  server.put(
+    "/",
+    `<!doctype html><link rel="stylesheet" href="/reference.css"><canvas></canvas><script type="module" src="/reference.js"></script>`,
+  );
   server.put("/reference.css", "body { margin: 0 } canvas { display: block }");
   const page = await (await browser()).newPage({ viewport: pictureSize, deviceScaleFactor });
   page.on("close", () => void server.close());

@@ -3,8 +3,21 @@
 // 19775-1, 17.2.2) once more, from the standard.
 
 import {
-  BufferAttribute, BufferGeometry, Color, FrontSide, LinearSRGBColorSpace, LineSegments, MathUtils, Mesh, PerspectiveCamera, Points,
-  Scene, ShaderMaterial, Vector3, WebGLRenderer, type Object3D,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  FrontSide,
+  LinearSRGBColorSpace,
+  LineSegments,
+  MathUtils,
+  Mesh,
+  PerspectiveCamera,
+  Points,
+  Scene,
+  ShaderMaterial,
+  Vector3,
+  WebGLRenderer,
+  type Object3D,
 } from "three";
 import type { ReferenceScene } from "./reference.ts";
 
@@ -57,7 +70,8 @@ function cameraOf({ viewpoint, patches }: ReferenceScene, aspect: number): Persp
 
 function farthestFrom(place: Vector3, positions: number[]): number {
   let farthest = 0;
-  for (let i = 0; i < positions.length; i += 3) farthest = Math.max(farthest, place.distanceTo(new Vector3().fromArray(positions, i)));
+  for (let i = 0; i < positions.length; i += 3)
+    farthest = Math.max(farthest, place.distanceTo(new Vector3().fromArray(positions, i)));
   return farthest;
 }
 
@@ -124,7 +138,11 @@ void main() {
   #endif
 }`;
 
-function materialOf(patch: Patch, { material, lights, headlight }: ReferenceScene, camera: PerspectiveCamera): ShaderMaterial {
+function materialOf(
+  patch: Patch,
+  { material, lights, headlight }: ReferenceScene,
+  camera: PerspectiveCamera,
+): ShaderMaterial {
   const towards = (direction: [number, number, number]): Vector3 =>
     new Vector3(...direction).negate().normalize().transformDirection(camera.matrixWorldInverse);
   const shining = [
@@ -135,14 +153,19 @@ function materialOf(patch: Patch, { material, lights, headlight }: ReferenceScen
     })),
   ];
   const ambient = new Vector3();
-  for (const { color, ambientIntensity } of lights) ambient.addScaledVector(new Vector3(...color), ambientIntensity * material.ambientIntensity);
+  for (const { color, ambientIntensity } of lights)
+    ambient.addScaledVector(new Vector3(...color), ambientIntensity * material.ambientIntensity);
   const value = <Value>(value: Value): { value: Value } => ({ value });
   return new ShaderMaterial({
     vertexShader,
     fragmentShader,
     side: FrontSide,
-    defines: { LIGHTS: shining.length, ...(patch.normals && { HAS_NORMALS: "" }), ...(patch.colors && { HAS_COLORS: "" }),
-               ...(patch.points.length && { HAS_NO_BACK: "" }) },
+    defines: {
+      LIGHTS: shining.length,
+      ...(patch.normals && { HAS_NORMALS: "" }),
+      ...(patch.colors && { HAS_COLORS: "" }),
+      ...(patch.points.length && { HAS_NO_BACK: "" }),
+    },
     uniforms: {
       diffuseColor: value(new Vector3(...material.diffuseColor)),
       specularColor: value(new Vector3(...material.specularColor)),

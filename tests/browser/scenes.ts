@@ -27,7 +27,10 @@ export function sceneOf(name: string, sites: Record<string, string>, scene: stri
   for (const [folder, site] of Object.entries(sites)) cpSync(site, join(directory, folder), { recursive: true });
   const page = pageOf(first)
     .replaceAll(/<link rel="preload"[^>]*>\s*/g, "")
-    .replace(/<X3D([^>]*)>[\s\S]*<\/X3D>/i, (_, own: string) => `<X3D${own} ${x3dAttributes}><Scene>${scene}</Scene></X3D>`);
+    .replace(
+      /<X3D([^>]*)>[\s\S]*<\/X3D>/i,
+      (_, own: string) => `<X3D${own} ${x3dAttributes}><Scene>${scene}</Scene></X3D>`,
+    );
   writeFileSync(join(directory, "index.html"), page);
   return directory;
 }

@@ -153,5 +153,10 @@ export async function startServer(directory: string): Promise<TestServer> {
 /** A promise for `hold`, with the function that lets go. */
 export function gate(): { closed: Promise<unknown>; open: () => void } {
   const { promise, resolve } = Promise.withResolvers<undefined>();
-  return { closed: promise, open: () => { resolve(undefined); } };
+  return {
+    closed: promise,
+    open: () => {
+      resolve(undefined);
+    },
+  };
 }

@@ -25,18 +25,24 @@ function site(): string {
   writeShapes(count, file);
   const viewpoint = `<Viewpoint position="${middle} ${middle} ${distance}" fieldOfView="0.8"></Viewpoint>`;
   return variantOf(siteOf(file, "--profile", "compact"), "above", (page) =>
-    page.replace(/<Viewpoint[\s\S]*?<\/Viewpoint>/i, viewpoint).replaceAll(/<Shape DEF="(\w+)"/g, '$& id="$1"'));
+    page.replace(/<Viewpoint[\s\S]*?<\/Viewpoint>/i, viewpoint).replaceAll(/<Shape DEF="(\w+)"/g, '$& id="$1"'),
+  );
 }
 
 /** The names of the shapes that are seen where some of them stand. */
 async function shapesAt({ page }: View, numbers: readonly number[], offset = 0): Promise<(string | undefined)[]> {
   await settle(page);
-  const pixels = numbers.map((n) => [
-    pictureSize.width / 2 + (3 * (n % side) + offset - middle) * pixelsPerUnit,
-    pictureSize.height / 2 - (3 * Math.floor(n / side) - middle) * pixelsPerUnit,
-  ] as const);
-  return page.evaluate((at) => at.map(([x, y]) =>
-    document.querySelector<ViewElement>("x3d")!.positionAndNormalFromPoint(x, y)?.shape.id), pixels);
+  const pixels = numbers.map(
+    (n) =>
+      [
+        pictureSize.width / 2 + (3 * (n % side) + offset - middle) * pixelsPerUnit,
+        pictureSize.height / 2 - (3 * Math.floor(n / side) - middle) * pixelsPerUnit,
+      ] as const,
+  );
+  return page.evaluate(
+    (at) => at.map(([x, y]) => document.querySelector<ViewElement>("x3d")!.positionAndNormalFromPoint(x, y)?.shape.id),
+    pixels,
+  );
 }
 
 const nameOf = (n: number): string => `shape${n}`;
@@ -45,7 +51,12 @@ test("shapes of one file come with one request, and each follows its element", a
   await withPage(site(), {}, async (view) => {
     await view.promise("complete");
     assert.equal(new Set(view.server.requestsOf(/geometry/).map(({ path }) => path)).size, 1);
-    const told = view.page.evaluate(() => document.querySelector("imgeo-view")!.shadowRoot!.querySelector("[role=progressbar]")!.getAttribute("aria-valuetext"));
+    const told = view.page.evaluate(() =>
+      document
+        .querySelector("imgeo-view")!
+        .shadowRoot!.querySelector("[role=progressbar]")!
+        .getAttribute("aria-valuetext"),
+    );
     assert.equal(await told, "100 %, all of it is shown");
     const all = Array.from({ length: count }, (_, n) => n);
     assert.deepEqual(await shapesAt(view, all), all.map(nameOf));
@@ -61,15 +72,22 @@ test("shapes of one file come with one request, and each follows its element", a
     assert.deepEqual(await shapesAt(view, [30, 31, 32]), [undefined, undefined, "shape32"]);
     await until("the shape stands elsewhere", async () => (await shapesAt(view, [70], 1.5))[0] === "shape70");
     const states = await view.page.evaluate(() =>
-      Array.from((document.querySelector("#shape100") as unknown as { resources: Iterable<{ state: string }> }).resources, ({ state }) => state));
+      Array.from(
+        (document.querySelector("#shape100") as unknown as { resources: Iterable<{ state: string }> }).resources,
+        ({ state }) => state,
+      ),
+    );
     assert.deepEqual(states, ["ready"]);
   });
 });
 
 test("a file that is missing is an error of each shape that shares it", async () => {
-  const server = (own: View["server"]): void => { own.when(/geometry/, { status: 404 }); };
+  const server = (own: View["server"]): void => {
+    own.when(/geometry/, { status: 404 });
+  };
   await withPage(site(), { server, expectedErrors: /Failed to load resource|imgeo/ }, async (view) => {
     await until("all have been told", async () => (await view.events("error", "x3d")).length === count);
-    for (const name of ["shape0", "shape99"]) assert.equal((await view.events("error", `shape#${name}`)).length, 1, name);
+    for (const name of ["shape0", "shape99"])
+      assert.equal((await view.events("error", `shape#${name}`)).length, 1, name);
   });
 });

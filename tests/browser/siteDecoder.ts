@@ -26,7 +26,10 @@ export function tagsOf(text: string): Tag[] {
 }
 
 export function numbersOf(text: string | undefined, fallback: number[]): number[] {
-  const numbers = text?.trim().split(/[\s,]+/).map(Number);
+  const numbers = text
+    ?.trim()
+    .split(/[\s,]+/)
+    .map(Number);
   return numbers ?? fallback;
 }
 
@@ -99,13 +102,19 @@ interface DataImage extends Records {
 
 function normalsOfImage(node: Attributes, image: DataImage, records: number): Float32Array {
   const encoding = node.normalencoding ?? "rgb";
-  if (encoding === "rgb" || encoding === "palette") return table(records, (r, axis) => (2 * image.at(r, axis)) / 255 - 1);
+  if (encoding === "rgb" || encoding === "palette")
+    return table(records, (r, axis) => (2 * image.at(r, axis)) / 255 - 1);
   const half = (image.width * image.height) / 2;
   return normalsOfPairs(encoding, 255, records, (r, part) => image.at(part * half + r, 0));
 }
 
 /** Unit vectors of octahedral (x, y) or spherical (phi, theta), integers 0..largest. */
-function normalsOfPairs(encoding: string, largest: number, records: number, pairAt: (r: number, part: number) => number): Float32Array {
+function normalsOfPairs(
+  encoding: string,
+  largest: number,
+  records: number,
+  pairAt: (r: number, part: number) => number,
+): Float32Array {
   const normals = Array.from({ length: records }, (_, r): number[] => {
     const [first, second] = [pairAt(r, 0), pairAt(r, 1)];
     if (encoding === "spherical") {
@@ -186,8 +195,10 @@ function decodeBg(node: Attributes, patch: Attributes, directory: string): Plain
   const asFloats = (records: Records & { largest: number }): Float32Array =>
     table(recordCount, (r, axis) => records.at(r, axis) / records.largest);
   return {
-    positions: coordinate.largest === 1 ? asFloats(coordinate)
-      : spread(node, coordinate, recordCount, coordinate.largest, node.coordtype!.startsWith("Int") ? 0 : 0.5),
+    positions:
+      coordinate.largest === 1
+        ? asFloats(coordinate)
+        : spread(node, coordinate, recordCount, coordinate.largest, node.coordtype!.startsWith("Int") ? 0 : 0.5),
     ...(normals && { normals }),
     ...(color && { colors: asFloats(color) }),
     ...elementsOf(patch, (n) => (index ? index.at(n, 0) : n)),
@@ -196,7 +207,12 @@ function decodeBg(node: Attributes, patch: Attributes, directory: string): Plain
 
 type OpenArray = (url: string, type: string, components: number) => Records;
 
-function normalsOfArrays(node: Attributes, patch: Attributes, open: OpenArray, records: number): Float32Array | undefined {
+function normalsOfArrays(
+  node: Attributes,
+  patch: Attributes,
+  open: OpenArray,
+  records: number,
+): Float32Array | undefined {
   if (node.normalassphericalcoordinates === "true") {
     const words = open(patch.coord!, "Uint16", 4);
     return normalsOfPairs("spherical", 255, records, (r, part) => (words.at(r, 3) >> (8 * part)) & 255);

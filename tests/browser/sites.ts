@@ -3,7 +3,17 @@
 import { execFileSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
-import { coil, pointSpiral, sphere, trefoil, withColors, withNumbers, withoutNormals, writePly, type PlainMesh } from "./meshes.ts";
+import {
+  coil,
+  pointSpiral,
+  sphere,
+  trefoil,
+  withColors,
+  withNumbers,
+  withoutNormals,
+  writePly,
+  type PlainMesh,
+} from "./meshes.ts";
 import { converter, outputDirectory } from "./paths.ts";
 
 const generators = {

@@ -3,7 +3,14 @@
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { assertSamePicture, boundsOfQuantised, difference, holesIn, silhouette, silhouetteDifference } from "./compare.ts";
+import {
+  assertSamePicture,
+  boundsOfQuantised,
+  difference,
+  holesIn,
+  silhouette,
+  silhouetteDifference,
+} from "./compare.ts";
 import { pictureSize, until, withPage, type View } from "./harness.ts";
 import { decodePng, encodePng, type Picture } from "./png.ts";
 import { referencePicture } from "./reference.ts";
@@ -24,8 +31,14 @@ function pathsOf(site: string, ranks: (rank: number) => boolean): string[] {
 /** Waits until what these files hold is part of the shapes. */
 async function arrived(view: View, paths: string[]): Promise<void> {
   await until("every file that is not held has arrived", async () => {
-    const states = await view.page.evaluate(() => Array.from(document.querySelectorAll("x3d shape"), (shape) =>
-      Array.from((shape as unknown as { resources?: Iterable<{ url: string; state: string }> }).resources ?? [], ({ url, state }) => [url, state] as const)).flat());
+    const states = await view.page.evaluate(() =>
+      Array.from(document.querySelectorAll("x3d shape"), (shape) =>
+        Array.from(
+          (shape as unknown as { resources?: Iterable<{ url: string; state: string }> }).resources ?? [],
+          ({ url, state }) => [url, state] as const,
+        ),
+      ).flat(),
+    );
     const stateOf = new Map(states);
     return paths.every((path) => stateOf.get(path.replace(/^\//, "")) === "ready");
   });
@@ -51,7 +64,10 @@ describe("the first coordinate byte", () => {
     const { closed, open } = gate();
     await withPage(site(), { server: holding(site(), (rank) => rank > 3, closed) }, async (view) => {
       await view.promise("firstImage");
-      await arrived(view, pathsOf(site(), (rank) => rank <= 3));
+      await arrived(
+        view,
+        pathsOf(site(), (rank) => rank <= 3),
+      );
       const coarse = await view.picture();
       assert.equal((await view.events("first-image", "x3d")).length, 1);
       assert.equal((await view.events("first-image", "shape")).length, 1);
@@ -83,11 +99,17 @@ describe("the first coordinate byte", () => {
       await view.promise("firstImage");
       const points = silhouette(withoutBar(await view.picture()), withoutBar(blank));
       sendIndex();
-      await arrived(view, pathsOf(site(), (rank) => rank === 1));
+      await arrived(
+        view,
+        pathsOf(site(), (rank) => rank === 1),
+      );
       const surface = silhouette(withoutBar(await view.picture()), withoutBar(blank));
       const covered = (mask: Uint8Array): number => mask.reduce((sum, pixel) => sum + pixel, 0);
       assert.ok(covered(points) > 500, `${covered(points)} pixels of points`);
-      assert.ok(covered(surface) > 1.2 * covered(points), `${covered(points)} pixels of points, ${covered(surface)} of surface`);
+      assert.ok(
+        covered(surface) > 1.2 * covered(points),
+        `${covered(points)} pixels of points, ${covered(surface)} of surface`,
+      );
     });
   });
 });
@@ -123,7 +145,10 @@ describe("borders between patches are watertight", () => {
     assert.equal(holesIn(mask, pictureSize.width), 0);
   }
 
-  for (const { from, change } of [{ from: "outside", change: glowing }, { from: "inside", change: fromInside }]) {
+  for (const { from, change } of [
+    { from: "outside", change: glowing },
+    { from: "inside", change: fromInside },
+  ]) {
     test(`seen from ${from}, coarse and final`, async () => {
       assert.ok(decodeSite(site()).length > 8);
       const { closed, open } = gate();
@@ -132,13 +157,20 @@ describe("borders between patches are watertight", () => {
         server.when(/^\/$/, { replace: (html) => change(html.toString()) });
       };
       await withPage(site(), { server }, async (view) => {
-        await arrived(view, pathsOf(site(), (rank) => rank <= 3));
+        await arrived(
+          view,
+          pathsOf(site(), (rank) => rank <= 3),
+        );
         const coarse = litPixels(withoutBar(await view.picture()));
         open();
         await view.promise("complete");
         for (const mask of [coarse, litPixels(withoutBar(await view.picture()))]) {
           assertClosed(mask);
-          if (from === "inside") assert.ok(mask.every((pixel) => pixel === 1), "the background shines through");
+          if (from === "inside")
+            assert.ok(
+              mask.every((pixel) => pixel === 1),
+              "the background shines through",
+            );
         }
       });
     });
@@ -156,7 +188,10 @@ describe("borders between patches are watertight", () => {
     };
     await withPage(site(), { server }, async (view) => {
       await view.promise("complete");
-      assert.ok(litPixels(await view.picture()).some((pixel) => pixel === 0), "no gap is seen");
+      assert.ok(
+        litPixels(await view.picture()).some((pixel) => pixel === 0),
+        "no gap is seen",
+      );
     });
   });
 });
@@ -185,12 +220,18 @@ describe("files are asked for", () => {
     await withPage(site(), { server: (server) => server.when(/\.js$/, { hold: closed }) }, async (view) => {
       const first = pathsOf(site(), (rank) => rank === 0);
       await until("the first coordinate bytes are there before the runtime", () =>
-        first.every((path) => view.server.requests.some((request) => request.path === path && request.state === "answered")),
+        first.every((path) =>
+          view.server.requests.some((request) => request.path === path && request.state === "answered"),
+        ),
       );
       open();
       await view.promise("complete");
       for (const path of first) {
-        assert.equal(view.server.requests.filter((request) => request.path === path).length, 1, `${path} is asked for twice`);
+        assert.equal(
+          view.server.requests.filter((request) => request.path === path).length,
+          1,
+          `${path} is asked for twice`,
+        );
       }
     });
   });
@@ -198,8 +239,13 @@ describe("files are asked for", () => {
   test("from nowhere but the page's own host, and nothing but the page's own parts", async () => {
     await withPage(site(), {}, async (view) => {
       await view.promise("complete");
-      const others = view.server.requests.map(({ path }) => path).filter((path) => !ranksOfFiles(pageOf(site())).has(path.slice(1)));
-      const strange = others.filter((path, place) => !/^\/(imgeo\.css|runtime\/imgeo[\w-]*-[0-9a-f]{16}\.js)?$/.test(path) || others.indexOf(path) < place);
+      const others = view.server.requests
+        .map(({ path }) => path)
+        .filter((path) => !ranksOfFiles(pageOf(site())).has(path.slice(1)));
+      const strange = others.filter(
+        (path, place) =>
+          !/^\/(imgeo\.css|runtime\/imgeo[\w-]*-[0-9a-f]{16}\.js)?$/.test(path) || others.indexOf(path) < place,
+      );
       assert.deepEqual(strange, []); // besides the page, its modules and its stylesheet, each once
       assert.ok(view.server.requests.every(({ status }) => status === 200));
     });

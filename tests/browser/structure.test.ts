@@ -34,10 +34,21 @@ const transforms: Record<string, { markup: (shape: string) => string; matrix: Ma
     matrix: stretch(0.4, 1, 1.7),
   },
   "every field at once, nested": {
-    markup: (shape) => `<Transform translation="0.5 0.2 -1" rotation="1 0 0 0.3"><Transform translation="0.3 0 0" center="1 0.5 0"
+    markup: (
+      shape,
+    ) => `<Transform translation="0.5 0.2 -1" rotation="1 0 0 0.3"><Transform translation="0.3 0 0" center="1 0.5 0"
       rotation="0 1 1 0.6" scale="0.5 1.2 0.8" scaleOrientation="0 0 1 0.7">${shape}</Transform></Transform>`,
-    matrix: product(move(0.5, 0.2, -1), turn(1, 0, 0, 0.3), move(0.3, 0, 0), move(1, 0.5, 0), turn(0, 1, 1, 0.6), turn(0, 0, 1, 0.7),
-      stretch(0.5, 1.2, 0.8), turn(0, 0, 1, -0.7), move(-1, -0.5, 0)),
+    matrix: product(
+      move(0.5, 0.2, -1),
+      turn(1, 0, 0, 0.3),
+      move(0.3, 0, 0),
+      move(1, 0.5, 0),
+      turn(0, 1, 1, 0.6),
+      turn(0, 0, 1, 0.7),
+      stretch(0.5, 1.2, 0.8),
+      turn(0, 0, 1, -0.7),
+      move(-1, -0.5, 0),
+    ),
   },
   "a mirror": {
     markup: (shape) => `<Transform scale="-0.8 1 0.6">${shape}</Transform>`,
@@ -63,8 +74,14 @@ for (const container of ["sig", "bg"]) {
   test(`a decode box that is no cube stretches the shape and leaves its normals alone, ${container}`, async () => {
     const original = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
     const site = variantOf(original, "stretched", (page) =>
-      page.replaceAll(/ bbox(Center|Size)="[^"]*"/g, "").replace(/ size="[^"]*"/, ' size="3 6 4"'));
-    assertSamePicture(`no cube ${container}`, await pictureOf(site), await referencePicture(pageOf(site), decodeSite(site)), boundsOfQuantised);
+      page.replaceAll(/ bbox(Center|Size)="[^"]*"/g, "").replace(/ size="[^"]*"/, ' size="3 6 4"'),
+    );
+    assertSamePicture(
+      `no cube ${container}`,
+      await pictureOf(site),
+      await referencePicture(pageOf(site), decodeSite(site)),
+      boundsOfQuantised,
+    );
   });
 }
 
@@ -77,26 +94,35 @@ const twice: Record<string, { used: (shape: string) => string; full: (shape: str
   "a geometry": {
     used: (shape) => {
       const node = /<(ImageGeometry|BinaryGeometry)/.exec(shape)?.[1] ?? "";
-      return shape.replace(`<${node}`, `<${node} DEF="knot"`)
-        + aside(`<Shape><Appearance><Material diffuseColor="0.8 0.1 0.1"></Material></Appearance><${node} USE="knot"></${node}></Shape>`);
+      return (
+        shape.replace(`<${node}`, `<${node} DEF="knot"`) +
+        aside(
+          `<Shape><Appearance><Material diffuseColor="0.8 0.1 0.1"></Material></Appearance><${node} USE="knot"></${node}></Shape>`,
+        )
+      );
     },
     full: (shape) => `${shape}${aside(shape.replace(/<Material[^>]*>/, '<Material diffuseColor="0.8 0.1 0.1">'))}`,
   },
   "an Appearance": {
-    used: (shape) => `${shape.replace("<Appearance", '<Appearance DEF="stone"')}${aside(shape.replace(/<Appearance[\s\S]*<\/Appearance>/, '<Appearance USE="stone"></Appearance>'))}`,
+    used: (shape) =>
+      `${shape.replace("<Appearance", '<Appearance DEF="stone"')}${aside(shape.replace(/<Appearance[\s\S]*<\/Appearance>/, '<Appearance USE="stone"></Appearance>'))}`,
     full: (shape) => `${shape}${aside(shape)}`,
   },
   "a Material": {
-    used: (shape) => `${shape.replace("<Material", '<Material DEF="stone"')}${aside(shape.replace(/<Material[^>]*>/, '<Material USE="stone">'))}`,
+    used: (shape) =>
+      `${shape.replace("<Material", '<Material DEF="stone"')}${aside(shape.replace(/<Material[^>]*>/, '<Material USE="stone">'))}`,
     full: (shape) => `${shape}${aside(shape)}`,
   },
   "a Group": {
-    used: (shape) => `<Group DEF="all">${shape}<Group render="false"></Group></Group>${aside('<Group USE="all"></Group>')}`,
+    used: (shape) =>
+      `<Group DEF="all">${shape}<Group render="false"></Group></Group>${aside('<Group USE="all"></Group>')}`,
     full: (shape) => `${shape}${aside(shape)}`,
   },
   "a Transform": {
-    used: (shape) => `<Transform DEF="all" scale="0.7 0.7 0.7">${shape}</Transform>${aside('<Transform USE="all"></Transform>')}`,
-    full: (shape) => `<Transform scale="0.7 0.7 0.7">${shape}</Transform>${aside(`<Transform scale="0.7 0.7 0.7">${shape}</Transform>`)}`,
+    used: (shape) =>
+      `<Transform DEF="all" scale="0.7 0.7 0.7">${shape}</Transform>${aside('<Transform USE="all"></Transform>')}`,
+    full: (shape) =>
+      `<Transform scale="0.7 0.7 0.7">${shape}</Transform>${aside(`<Transform scale="0.7 0.7 0.7">${shape}</Transform>`)}`,
   },
 };
 
@@ -118,7 +144,9 @@ describe("USE of", () => {
           for (const url of ranksOfFiles(shapeIn(pageOf(original))).keys()) {
             assert.equal(view.server.requests.filter(({ path }) => path === `/${url}`).length, 1, url);
           }
-          await view.page.evaluate(() => { document.querySelector("#second")!.remove(); });
+          await view.page.evaluate(() => {
+            document.querySelector("#second")!.remove();
+          });
           assert.ok(difference(await view.picture(), expected).mean > 0.5, "the second is seen still");
           if (name === "an Appearance" || name === "a Material") return; // those have geometries of their own
           const { live: alone } = await view.observed();
@@ -129,12 +157,19 @@ describe("USE of", () => {
   }
 
   test("a Shape outlives the Shape that defines it no longer than a moment", async () => {
-    const site = variantOf(siteOfGenerated("trefoil", "--profile", "classic"), "orphan", (page) => withShapes(page, twice["a Shape"]!.used));
+    const site = variantOf(siteOfGenerated("trefoil", "--profile", "classic"), "orphan", (page) =>
+      withShapes(page, twice["a Shape"]!.used),
+    );
     await withPage(site, {}, async (view) => {
       await view.promise("complete");
-      await view.page.evaluate(() => { document.querySelector("shape")!.remove(); });
+      await view.page.evaluate(() => {
+        document.querySelector("shape")!.remove();
+      });
       const { data, channels } = await view.picture();
-      assert.ok(data.every((byte, at) => byte === data[at % channels]), "something is seen");
+      assert.ok(
+        data.every((byte, at) => byte === data[at % channels]),
+        "something is seen",
+      );
       const { live } = await view.observed();
       assert.equal(live.textures, await emptySceneTextures());
     });
@@ -143,7 +178,9 @@ describe("USE of", () => {
 
 async function emptySceneTextures(): Promise<number> {
   let count = -1;
-  const site = variantOf(siteOfGenerated("trefoil", "--profile", "classic"), "empty", (page) => withShapes(page, () => ""));
+  const site = variantOf(siteOfGenerated("trefoil", "--profile", "classic"), "empty", (page) =>
+    withShapes(page, () => ""),
+  );
   await withPage(site, {}, async (view) => {
     await view.promise("complete");
     await view.picture();

@@ -28,24 +28,29 @@ interface Line {
 
 /** What a canvas shows of these lines. */
 async function written(page: Page, lines: readonly Line[]): Promise<Picture> {
-  const png = await page.evaluate(async ({ lines, pixelsPerUnit, width, height }) => {
-    const canvas = document.createElement("canvas");
-    [canvas.width, canvas.height] = [width, height];
-    const context = canvas.getContext("2d")!;
-    context.textRendering = "geometricPrecision";
-    context.fillRect(0, 0, width, height);
-    context.fillStyle = "rgb(51 0 51)";
-    context.fillRect(width / 2 + pixelsPerUnit, height / 2 + pixelsPerUnit, 4 * pixelsPerUnit, 2 * pixelsPerUnit);
-    context.fillStyle = "rgb(64 192 64)"; // a surface behind one that is not there
-    context.fillRect(width / 2 - 5 * pixelsPerUnit, height / 2 + 2 * pixelsPerUnit, 2 * pixelsPerUnit, pixelsPerUnit);
-    for (const { text, x, y, size, font, color } of lines) {
-      context.font = font.replace("SIZE", `${size * pixelsPerUnit}px`);
-      context.fillStyle = color;
-      context.fillText(text, width / 2 + x * pixelsPerUnit, height / 2 - y * pixelsPerUnit);
-    }
-    const blob = await new Promise<Blob | null>((resolve) => { canvas.toBlob(resolve); });
-    return Array.from(new Uint8Array(await blob!.arrayBuffer()));
-  }, { lines, pixelsPerUnit, ...pictureSize });
+  const png = await page.evaluate(
+    async ({ lines, pixelsPerUnit, width, height }) => {
+      const canvas = document.createElement("canvas");
+      [canvas.width, canvas.height] = [width, height];
+      const context = canvas.getContext("2d")!;
+      context.textRendering = "geometricPrecision";
+      context.fillRect(0, 0, width, height);
+      context.fillStyle = "rgb(51 0 51)";
+      context.fillRect(width / 2 + pixelsPerUnit, height / 2 + pixelsPerUnit, 4 * pixelsPerUnit, 2 * pixelsPerUnit);
+      context.fillStyle = "rgb(64 192 64)"; // a surface behind one that is not there
+      context.fillRect(width / 2 - 5 * pixelsPerUnit, height / 2 + 2 * pixelsPerUnit, 2 * pixelsPerUnit, pixelsPerUnit);
+      for (const { text, x, y, size, font, color } of lines) {
+        context.font = font.replace("SIZE", `${size * pixelsPerUnit}px`);
+        context.fillStyle = color;
+        context.fillText(text, width / 2 + x * pixelsPerUnit, height / 2 - y * pixelsPerUnit);
+      }
+      const blob = await new Promise<Blob | null>((resolve) => {
+        canvas.toBlob(resolve);
+      });
+      return Array.from(new Uint8Array(await blob!.arrayBuffer()));
+    },
+    { lines, pixelsPerUnit, ...pictureSize },
+  );
   return decodePng(Buffer.from(png));
 }
 
@@ -68,52 +73,92 @@ describe("a text", () => {
       { text: "Hall", x: -5, y: 2.5, size: 1.2, font: "SIZE serif", color: "rgb(255 153 51)" },
       { text: "of seats", x: -5, y: 2.5 - 1.32, size: 1.2, font: "SIZE serif", color: "rgb(255 153 51)" },
       { text: "near by", x: -5, y: -0.4, size: 0.6, font: "bold SIZE sans-serif", color: "white" },
-      { text: "Seen from afar, and still to be read", x: -5, y: -1.4, size: 0.32, font: "SIZE monospace", color: "rgb(128 255 128)" },
+      {
+        text: "Seen from afar, and still to be read",
+        x: -5,
+        y: -1.4,
+        size: 0.32,
+        font: "SIZE monospace",
+        color: "rgb(128 255 128)",
+      },
       { text: "Qg", x: 0.6, y: -3, size: 5, font: "italic SIZE serif", color: "rgb(77 128 255)" },
     ];
     const lateFont = readFileSync(join(repository, "node_modules/x_ite/dist/assets/fonts/Droid/DroidSerif-Bold.woff2"));
     let sendFont = (): void => undefined;
     const prepare = (server: TestServer): void => {
       server.put("/late.woff2", lateFont);
-      server.when(/late/, { hold: new Promise<void>((resolve) => { sendFont = resolve; }) });
+      server.when(/late/, {
+        hold: new Promise<void>((resolve) => {
+          sendFont = resolve;
+        }),
+      });
     };
-    await withPage(sceneOf("text", { grid: siteOfGenerated("sphere-small") }, scene), { server: prepare }, async ({ page, promise, picture }) => {
-      await promise("complete");
-      const [shown, expected] = [await picture(), await written(page, lines)];
-      // Edges are as soft as a pixel is wide, in both: 0.65 of 255 on average, and 10 where letters stand elsewhere.
-      assertSamePicture("text", shown, expected, { mean: 1 });
-      const hit = (x: number, y: number): Promise<string | undefined> => page.evaluate(([x, y]) =>
-        (document.querySelector("x3d") as unknown as { positionAndNormalFromPoint: (x: number, y: number) => { shape: Element } | null })
-          .positionAndNormalFromPoint(x!, y!)?.shape.id, [pictureSize.width / 2 + x * pixelsPerUnit, pictureSize.height / 2 - y * pixelsPerUnit]);
-      // The empty corner above the "a" of "Hall", beside it, and through the hole of the Q what lies behind it.
-      assert.deepEqual([await hit(-3.9, 3.3), await hit(-1, 3.3), await hit(-4.9, -0.2), await hit(2, 0)], ["lit", undefined, "bold", "large"]);
+    await withPage(
+      sceneOf("text", { grid: siteOfGenerated("sphere-small") }, scene),
+      { server: prepare },
+      async ({ page, promise, picture }) => {
+        await promise("complete");
+        const [shown, expected] = [await picture(), await written(page, lines)];
+        // Edges are as soft as a pixel is wide, in both: 0.65 of 255 on average, and 10 where letters stand elsewhere.
+        assertSamePicture("text", shown, expected, { mean: 1 });
+        const hit = (x: number, y: number): Promise<string | undefined> =>
+          page.evaluate(
+            ([x, y]) =>
+              (
+                document.querySelector("x3d") as unknown as {
+                  positionAndNormalFromPoint: (x: number, y: number) => { shape: Element } | null;
+                }
+              ).positionAndNormalFromPoint(x!, y!)?.shape.id,
+            [pictureSize.width / 2 + x * pixelsPerUnit, pictureSize.height / 2 - y * pixelsPerUnit],
+          );
+        // The empty corner above the "a" of "Hall", beside it, and through the hole of the Q what lies behind it.
+        assert.deepEqual(
+          [await hit(-3.9, 3.3), await hit(-1, 3.3), await hit(-4.9, -0.2), await hit(2, 0)],
+          ["lit", undefined, "bold", "large"],
+        );
 
-      await page.evaluate(() => {
-        document.querySelector("#large text")!.setAttribute("string", "");
-        document.querySelector("#lit text")!.setAttribute("string", '"Foyer"');
-        document.querySelector("#bold fontstyle")!.setAttribute("size", "0.9");
-      });
-      await Promise.all(["#lit", "#bold"].map((changed) => promise("complete", changed)));
-      const changed = lines.filter(({ text }) => text !== "Qg" && text !== "of seats")
-        .map((line) => ({ ...line, text: line.text === "Hall" ? "Foyer" : line.text, size: line.text === "near by" ? 0.9 : line.size }));
-      assertSamePicture("text-changed", await picture(), await written(page, changed), { mean: 0.6 });
+        await page.evaluate(() => {
+          document.querySelector("#large text")!.setAttribute("string", "");
+          document.querySelector("#lit text")!.setAttribute("string", '"Foyer"');
+          document.querySelector("#bold fontstyle")!.setAttribute("size", "0.9");
+        });
+        await Promise.all(["#lit", "#bold"].map((changed) => promise("complete", changed)));
+        const changed = lines
+          .filter(({ text }) => text !== "Qg" && text !== "of seats")
+          .map((line) => ({
+            ...line,
+            text: line.text === "Hall" ? "Foyer" : line.text,
+            size: line.text === "near by" ? 0.9 : line.size,
+          }));
+        assertSamePicture("text-changed", await picture(), await written(page, changed), { mean: 0.6 });
 
-      await page.evaluate(() => {
-        document.fonts.add(new FontFace("Late", "url(/late.woff2)"));
-        document.querySelector("#bold fontstyle")!.setAttribute("family", '"Late" "SANS"');
-        document.querySelector("#bold fontstyle")!.setAttribute("data-style", "PLAIN");
-      });
-      await promise("complete", "#bold");
-      // No picture of this: Playwright takes none while a font is to come.
-      // Who listens later than the scene hears of the font when the scene has asked for the new letters.
-      const come = await page.evaluateHandle(() => ({ font: new Promise((resolve) => { document.fonts.addEventListener("loadingdone", resolve, { once: true }); }) }));
-      sendFont();
-      await come.evaluate(async ({ font }) => { await font; });
-      await promise("complete", "#bold");
-      const writtenIn = (font: string): Promise<Picture> => written(page, changed.map((line) => (line.text === "near by" ? { ...line, font } : line)));
-      const withFont = await picture();
-      assertSamePicture("text-font-come", withFont, await writtenIn('SIZE "Late"'), { mean: 0.6 });
-      assert.ok(difference(withFont, await writtenIn("SIZE sans-serif")).mean > 0.6);
-    });
+        await page.evaluate(() => {
+          document.fonts.add(new FontFace("Late", "url(/late.woff2)"));
+          document.querySelector("#bold fontstyle")!.setAttribute("family", '"Late" "SANS"');
+          document.querySelector("#bold fontstyle")!.setAttribute("data-style", "PLAIN");
+        });
+        await promise("complete", "#bold");
+        // No picture of this: Playwright takes none while a font is to come.
+        // Who listens later than the scene hears of the font when the scene has asked for the new letters.
+        const come = await page.evaluateHandle(() => ({
+          font: new Promise((resolve) => {
+            document.fonts.addEventListener("loadingdone", resolve, { once: true });
+          }),
+        }));
+        sendFont();
+        await come.evaluate(async ({ font }) => {
+          await font;
+        });
+        await promise("complete", "#bold");
+        const writtenIn = (font: string): Promise<Picture> =>
+          written(
+            page,
+            changed.map((line) => (line.text === "near by" ? { ...line, font } : line)),
+          );
+        const withFont = await picture();
+        assertSamePicture("text-font-come", withFont, await writtenIn('SIZE "Late"'), { mean: 0.6 });
+        assert.ok(difference(withFont, await writtenIn("SIZE sans-serif")).mean > 0.6);
+      },
+    );
   });
 });

@@ -17,11 +17,20 @@ const mesh = withNumbers(trefoil());
 const { height, away_0: x, away_1: y, away_2: z } = mesh.numbers as Record<string, Float32Array>;
 const away = Float32Array.from(x!, (_, i) => Math.hypot(x![i]!, y![i]!, z![i]!));
 
-const keeping = (...options: string[]): string => siteOfGenerated("trefoil-numbers", "--keep-attributes", "all", ...options);
-const withFields = (fields: string): Server => (server) => void server.when(/^\/$/, { replace: (html) => html.toString().replace("<Shape ", `<Shape ${fields} `) });
+const keeping = (...options: string[]): string =>
+  siteOfGenerated("trefoil-numbers", "--keep-attributes", "all", ...options);
+const withFields =
+  (fields: string): Server =>
+  (server) =>
+    void server.when(/^\/$/, { replace: (html) => html.toString().replace("<Shape ", `<Shape ${fields} `) });
 
 /** Plain buffers with a colour for each vertex between two, which are those at `least` and `most`. */
-async function expectedPicture(site: string, values: Float32Array, [least, most]: [number, number], [from, to]: [Color, Color]): Promise<Picture> {
+async function expectedPicture(
+  site: string,
+  values: Float32Array,
+  [least, most]: [number, number],
+  [from, to]: [Color, Color],
+): Promise<Picture> {
   const colors = Float32Array.from({ length: 3 * values.length }, (_, i) => {
     const place = Math.min(1, Math.max(0, (values[Math.floor(i / 3)]! - least) / (most - least)));
     return from[i % 3]! + (to[i % 3]! - from[i % 3]!) * place;
@@ -32,14 +41,20 @@ async function expectedPicture(site: string, values: Float32Array, [least, most]
 const spread: [number, number] = [Math.min(...height!), Math.max(...height!)];
 const black: Color = [0, 0, 0];
 const white: Color = [1, 1, 1];
-const ends: [Color, Color] = [[0.1, 0.2, 0.9], [1, 0.6, 0]];
+const ends: [Color, Color] = [
+  [0.1, 0.2, 0.9],
+  [1, 0.6, 0],
+];
 const colorMap = `colorMap="${ends.join(", ").replaceAll(",", " ")}"`;
 
 describe("a shape coloured by an attribute", () => {
   const ways: [what: string, options: string[], fields?: string][] = [
     ["out of patches of compact", ["--patch-vertices", "1000", "--normal-bits", "10"]],
     ["out of two byte planes", ["--profile", "classic"]],
-    ["out of one byte plane and many patches of strips", ["--attribute-bits", "8", "--patch-vertices", "1000", "--primitives", "strips"]],
+    [
+      "out of one byte plane and many patches of strips",
+      ["--attribute-bits", "8", "--patch-vertices", "1000", "--primitives", "strips"],
+    ],
     ["out of three byte planes, without an index", ["--attribute-bits", "24", "--index", "off"]],
     ["out of three byte planes, in workers", ["--profile", "classic", "--attribute-bits", "24"], "cpu"],
     ["out of arrays", ["--container", "bg"]],
@@ -48,9 +63,14 @@ describe("a shape coloured by an attribute", () => {
     test(`${what} has the colours that its values stand for`, async () => {
       const site = keeping(...options);
       const expected = await expectedPicture(site, height!, spread, ends);
-      const server: Server = (server) => void server.when(/^\/$/, { replace: (html) => html.toString()
-        .replace("<Shape ", `<Shape colorBy="height" ${colorMap} `)
-        .replaceAll("<ImageGeometry", decode ? `$& decode="${decode}"` : "$&") });
+      const server: Server = (server) =>
+        void server.when(/^\/$/, {
+          replace: (html) =>
+            html
+              .toString()
+              .replace("<Shape ", `<Shape colorBy="height" ${colorMap} `)
+              .replaceAll("<ImageGeometry", decode ? `$& decode="${decode}"` : "$&"),
+        });
       await withPage(site, { server }, async (view) => {
         await view.promise("complete");
         assertSamePicture(`values ${what}`, await view.picture(), expected, boundsOfInput);
@@ -63,7 +83,12 @@ describe("a shape coloured by an attribute", () => {
     await withPage(site, { server: withFields(`colorBy="away" colorMap="gray" colorRange="0.5 4"`) }, async (view) => {
       await view.promise("complete");
       const first = await view.picture();
-      assertSamePicture("values length", first, await expectedPicture(site, away, [0.5, 4], [black, white]), boundsOfInput);
+      assertSamePicture(
+        "values length",
+        first,
+        await expectedPicture(site, away, [0.5, 4], [black, white]),
+        boundsOfInput,
+      );
       const asked = view.asked.length;
       await view.page.evaluate(() => {
         const shape = document.querySelector("shape")!;
@@ -71,14 +96,32 @@ describe("a shape coloured by an attribute", () => {
         shape.setAttribute("colorRange", "0 5");
       });
       const second = await view.picture();
-      assertSamePicture("values changed", second, await expectedPicture(site, away, [0, 5], [white, black]), boundsOfInput);
+      assertSamePicture(
+        "values changed",
+        second,
+        await expectedPicture(site, away, [0, 5], [white, black]),
+        boundsOfInput,
+      );
       assert.equal(view.asked.length, asked, "something was asked for again");
       assert.ok(!isWithin(difference(first, second), boundsOfInput));
-      await view.page.evaluate(() => { document.querySelector("shape")!.setAttribute("colorBy", "height"); });
-      await view.page.evaluate(() => { document.querySelector("shape")!.removeAttribute("colorRange"); });
-      await view.page.waitForFunction(() => (document.querySelector("imgeo-view") as unknown as { statistics: { openRequests: number } }).statistics.openRequests === 0);
+      await view.page.evaluate(() => {
+        document.querySelector("shape")!.setAttribute("colorBy", "height");
+      });
+      await view.page.evaluate(() => {
+        document.querySelector("shape")!.removeAttribute("colorRange");
+      });
+      await view.page.waitForFunction(
+        () =>
+          (document.querySelector("imgeo-view") as unknown as { statistics: { openRequests: number } }).statistics
+            .openRequests === 0,
+      );
       await view.promise("complete", "shape");
-      assertSamePicture("values of another attribute", await view.picture(), await expectedPicture(site, height!, spread, [white, black]), boundsOfInput);
+      assertSamePicture(
+        "values of another attribute",
+        await view.picture(),
+        await expectedPicture(site, height!, spread, [white, black]),
+        boundsOfInput,
+      );
     });
   });
 

@@ -66,7 +66,20 @@ describe("the view moves, and R brings it back", () => {
   test("two fingers that part bring the scene nearer, and one finger turns it", async () => {
     await withCompletePage({ hasTouch: true }, async (view) => {
       const before = await view.picture();
-      await touch(view, [[[-40, 0], [40, 0]], [[-60, 0], [60, 0]], [[-90, 0], [90, 0]]]);
+      await touch(view, [
+        [
+          [-40, 0],
+          [40, 0],
+        ],
+        [
+          [-60, 0],
+          [60, 0],
+        ],
+        [
+          [-90, 0],
+          [90, 0],
+        ],
+      ]);
       const nearer = await view.picture();
       assert.ok(covered(nearer) > 1.3 * covered(before), "two fingers do not zoom in");
       await touch(view, [[[0, 0]], [[40, 10]], [[90, 20]]]);
@@ -80,8 +93,12 @@ describe("the picture fits its place", () => {
     const size = { width: 420, height: 600 };
     await withCompletePage({}, async (view) => {
       await view.page.setViewportSize(size);
-      await until("the canvas has the new size", () => view.page.evaluate((width) =>
-        document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.width === width, size.width));
+      await until("the canvas has the new size", () =>
+        view.page.evaluate(
+          (width) => document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!.width === width,
+          size.width,
+        ),
+      );
       const expected = await referencePicture(pageOf(site()), decodeSite(site()), size);
       assertSamePicture("resized", await view.picture(), expected, boundsOfQuantised);
     });
@@ -115,24 +132,28 @@ describe("events", () => {
     // What refines waits for the first picture: where all came before it, nothing would be refined.
     const { closed, open } = gate();
     const later = [...ranksOfFiles(pageOf(site()))].filter(([, rank]) => rank > 0).map(([url]) => `/${url}`);
-    await withPage(site(), { server: (server) => void server.when((path) => later.includes(path), { hold: closed }) }, async (view) => {
-      await view.promise("firstImage");
-      open();
-      await view.promise("complete");
-      await settle(view.page);
-      const { events, bubbled } = await view.observed();
-      assert.deepEqual(bubbled, []);
-      assert.ok(events.every(({ bubbles }) => !bubbles));
-      for (const target of ["x3d", "shape"]) {
-        const own = events.filter((event) => event.target === target);
-        const types = own.map(({ type }) => type).filter((type) => type !== "progress");
-        assert.equal(types[0], "first-image");
-        assert.equal(types.at(-1), "load");
-        assert.ok(types.includes("refine"));
-        assert.equal(types.filter((type) => type === "load" || type === "first-image").length, 2);
-        assertProgress(own.filter(({ type }) => type === "progress").map(({ detail }) => detail));
-      }
-    });
+    await withPage(
+      site(),
+      { server: (server) => void server.when((path) => later.includes(path), { hold: closed }) },
+      async (view) => {
+        await view.promise("firstImage");
+        open();
+        await view.promise("complete");
+        await settle(view.page);
+        const { events, bubbled } = await view.observed();
+        assert.deepEqual(bubbled, []);
+        assert.ok(events.every(({ bubbles }) => !bubbles));
+        for (const target of ["x3d", "shape"]) {
+          const own = events.filter((event) => event.target === target);
+          const types = own.map(({ type }) => type).filter((type) => type !== "progress");
+          assert.equal(types[0], "first-image");
+          assert.equal(types.at(-1), "load");
+          assert.ok(types.includes("refine"));
+          assert.equal(types.filter((type) => type === "load" || type === "first-image").length, 2);
+          assertProgress(own.filter(({ type }) => type === "progress").map(({ detail }) => detail));
+        }
+      },
+    );
   });
 
   function assertProgress(details: Record<string, unknown>[]): void {
@@ -166,7 +187,10 @@ test("a browser without WebGL2 says so in words", async () => {
   };
   await withPage(site(), { before, expectedErrors: /WebGL/ }, async (view) => {
     await until("the message is there", async () => /WebGL ?2/.test(await shownText(view)));
-    assert.ok((await view.picture()).data.some((byte, i, data) => byte !== data[i % 3]), "nothing is seen");
+    assert.ok(
+      (await view.picture()).data.some((byte, i, data) => byte !== data[i % 3]),
+      "nothing is seen",
+    );
   });
 });
 
@@ -187,14 +211,19 @@ test("programs are compiled while the first files are on their way", async () =>
       link?.apply(this, args);
     };
   };
-  await withPage(site(), { before, server: (server) => server.when(/^\/geometry\//, { hold: closed }) }, async (view) => {
-    const links = (): Promise<number> => view.page.evaluate(() => (window as unknown as { counts: { links: number } }).counts.links);
-    // Points, a surface by its slope, one by its normals, and that with colours.
-    await until("four programs are on their way", async () => (await links()) === 4);
-    open();
-    await view.promise("complete");
-    assert.ok((await links()) <= 5, `${await links()} programs`); // the trial of the GPU has one of its own
-  });
+  await withPage(
+    site(),
+    { before, server: (server) => server.when(/^\/geometry\//, { hold: closed }) },
+    async (view) => {
+      const links = (): Promise<number> =>
+        view.page.evaluate(() => (window as unknown as { counts: { links: number } }).counts.links);
+      // Points, a surface by its slope, one by its normals, and that with colours.
+      await until("four programs are on their way", async () => (await links()) === 4);
+      open();
+      await view.promise("complete");
+      assert.ok((await links()) <= 5, `${await links()} programs`); // the trial of the GPU has one of its own
+    },
+  );
 });
 
 test("what nothing in the document bounds is framed when its vertices are here", async () => {

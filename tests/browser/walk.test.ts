@@ -12,10 +12,17 @@ import { until, withPage, type View } from "./harness.ts";
 import { converter, outputDirectory } from "./paths.ts";
 import { siteOf, variantOf } from "./sites.ts";
 
-interface Eye { x: number; y: number; z: number }
+interface Eye {
+  x: number;
+  y: number;
+  z: number;
+}
 
 /** Of the hall's generator. */
-const rowDepth = 0.95, rowRise = 0.16, firstRow = 5, rows = 4;
+const rowDepth = 0.95,
+  rowRise = 0.16,
+  firstRow = 5,
+  rows = 4;
 const back = firstRow + (rows - 0.5) * rowDepth;
 
 /** Height of the floor in the aisle. */
@@ -27,11 +34,15 @@ function floorAt(z: number): number {
 function hall(): string {
   mkdirSync(outputDirectory, { recursive: true });
   const file = join(outputDirectory, "hall.glb");
-  execFileSync(converter, ["sample", "hall", "--seats", String(rows * 40), "-o", file], { stdio: ["ignore", "ignore", "inherit"] });
-  return variantOf(siteOf(file), "walk", (page) => page
-    .replaceAll(/(DEF="(?:row\d+|trusses|columns)")/g, '$1 visible="false"')
-    .replace(/<\/Scene>/i, (end) => `<Viewpoint description="Before the steps" position="7 2 4"></Viewpoint>${end}`)
-    .replace(/<NavigationInfo[^>]*>/i, '<NavigationInfo type="WALK" avatarSize="0.25 1.6 0.4" speed="5">'));
+  execFileSync(converter, ["sample", "hall", "--seats", String(rows * 40), "-o", file], {
+    stdio: ["ignore", "ignore", "inherit"],
+  });
+  return variantOf(siteOf(file), "walk", (page) =>
+    page
+      .replaceAll(/(DEF="(?:row\d+|trusses|columns)")/g, '$1 visible="false"')
+      .replace(/<\/Scene>/i, (end) => `<Viewpoint description="Before the steps" position="7 2 4"></Viewpoint>${end}`)
+      .replace(/<NavigationInfo[^>]*>/i, '<NavigationInfo type="WALK" avatarSize="0.25 1.6 0.4" speed="5">'),
+  );
 }
 
 /** Keeps every place of the eye in the page. */
@@ -52,7 +63,9 @@ async function eyeIn({ page }: View): Promise<Eye> {
 async function holdAgainst(view: View, key: string, what: string, isThere: (eye: Eye) => boolean): Promise<Eye> {
   await view.page.keyboard.down(key);
   await until(what, async () => isThere(await eyeIn(view)));
-  await view.page.evaluate(async () => { for (let count = 0; count < 8; ++count) await new Promise(requestAnimationFrame); });
+  await view.page.evaluate(async () => {
+    for (let count = 0; count < 8; ++count) await new Promise(requestAnimationFrame);
+  });
   await view.page.keyboard.up(key);
   return eyeIn(view);
 }
@@ -80,17 +93,25 @@ test("one walks into the hall, down its stairs and up to the stage, and through 
     }
 
     // From before its steps onto the stage.
-    await view.page.evaluate(() => { document.querySelector<ViewElement>("x3d")!.bindViewpoint("Before the steps"); });
-    const wall = await holdAgainst(view, "ArrowUp", "he is on the stage, before the wall", ({ y, z }) => z < -3.6 && y > 2.45);
+    await view.page.evaluate(() => {
+      document.querySelector<ViewElement>("x3d")!.bindViewpoint("Before the steps");
+    });
+    const wall = await holdAgainst(
+      view,
+      "ArrowUp",
+      "he is on the stage, before the wall",
+      ({ y, z }) => z < -3.6 && y > 2.45,
+    );
     near(wall.y, 0.9 + 1.6, 0.05, "on the stage");
     near(wall.z, -4 + 0.25, 0.1, "before the wall");
 
-    const framesOfTen = (): Promise<number> => view.page.evaluate(async () => {
-      const frames = (): number => document.querySelector<ViewElement>("x3d")!.statistics!.frames;
-      const before = frames();
-      for (let count = 0; count < 10; ++count) await new Promise(requestAnimationFrame);
-      return frames() - before;
-    });
-    await until("nothing is drawn for who stands still", async () => await framesOfTen() === 0);
+    const framesOfTen = (): Promise<number> =>
+      view.page.evaluate(async () => {
+        const frames = (): number => document.querySelector<ViewElement>("x3d")!.statistics!.frames;
+        const before = frames();
+        for (let count = 0; count < 10; ++count) await new Promise(requestAnimationFrame);
+        return frames() - before;
+      });
+    await until("nothing is drawn for who stands still", async () => (await framesOfTen()) === 0);
   });
 });

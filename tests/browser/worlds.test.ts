@@ -13,8 +13,10 @@ import { siteOf } from "./sites.ts";
 
 /** A wall of many vertices, so that it is moved out: 2 wide, 2 high. Other columns are other files. */
 function wall(columns: number): { points: string; faces: string } {
-  const points: string[] = [], faces: string[] = [];
-  for (let y = 0; y <= columns; ++y) for (let x = 0; x <= columns; ++x) points.push(`${(2 * x) / columns - 1} ${(2 * y) / columns - 1} 0`);
+  const points: string[] = [],
+    faces: string[] = [];
+  for (let y = 0; y <= columns; ++y)
+    for (let x = 0; x <= columns; ++x) points.push(`${(2 * x) / columns - 1} ${(2 * y) / columns - 1} 0`);
   for (let y = 0; y < columns; ++y) {
     for (let x = 0; x < columns; ++x) {
       const at = y * (columns + 1) + x;
@@ -31,15 +33,21 @@ function convertedWorld(): string {
   const folder = join(outputDirectory, "worlds");
   const [red, blue] = [wall(24), wall(30)];
   mkdirSync(join(folder, "parts"), { recursive: true });
-  writeFileSync(join(folder, "parts/wall.wrl"), `#VRML V2.0 utf8
+  writeFileSync(
+    join(folder, "parts/wall.wrl"),
+    `#VRML V2.0 utf8
     PROTO Panel [ field SFColor paint 1 1 1 ] {
       Shape { appearance Appearance { material Material { diffuseColor 0 0 0 emissiveColor IS paint } }
       geometry IndexedFaceSet { coordIndex [ ${red.faces} ] coord Coordinate { point [ ${red.points} ] } } } }
-    DEF Wall Transform { translation -2 0 0 children Panel { paint 1 0 0 } }`);
-  writeFileSync(join(folder, "world.x3d"), `<X3D version="3.3"><Scene><Viewpoint DEF="V" position="0 0 10"/><NavigationInfo headlight="false"/>
+    DEF Wall Transform { translation -2 0 0 children Panel { paint 1 0 0 } }`,
+  );
+  writeFileSync(
+    join(folder, "world.x3d"),
+    `<X3D version="3.3"><Scene><Viewpoint DEF="V" position="0 0 10"/><NavigationInfo headlight="false"/>
     <Background skyColor="1 1 1"/><Group id="left"><Inline id="part" url='"parts/wall.wrl"'/></Group>
     <Transform translation="2 0 0"><LOD range="15"><Shape id="near">${plain("0 1 0")}<Box/></Shape>
-    <Shape id="far">${plain("0 0 1")}<IndexedFaceSet coordIndex="${blue.faces}"><Coordinate point="${blue.points}"/></IndexedFaceSet></Shape></LOD></Transform></Scene></X3D>`);
+    <Shape id="far">${plain("0 0 1")}<IndexedFaceSet coordIndex="${blue.faces}"><Coordinate point="${blue.points}"/></IndexedFaceSet></Shape></LOD></Transform></Scene></X3D>`,
+  );
   return siteOf(join(folder, "world.x3d"), "--profile", "classic");
 }
 
@@ -62,7 +70,10 @@ test("inlined documents and levels of detail are fetched, shown, picked and let 
   const server = (test: View["server"]): void => {
     test.put("/held.x3d", "<X3D/>");
     test.when(/held/, { hold: new Promise(() => undefined) });
-    test.put("/circle.x3d", `<X3D><Scene><Inline url='"circle.x3d"'/><Transform translation="0 2 0"><Shape>${plain("0 1 0")}<Box/></Shape></Transform></Scene></X3D>`);
+    test.put(
+      "/circle.x3d",
+      `<X3D><Scene><Inline url='"circle.x3d"'/><Transform translation="0 2 0"><Shape>${plain("0 1 0")}<Box/></Shape></Transform></Scene></X3D>`,
+    );
     test.put("/bomb.x3d", "<!DOCTYPE X3D [<!ENTITY a 'aaaa'>]><X3D/>");
   };
   await withPage(site, { server, expectedErrors: /404|lost|bomb/ }, async (view) => {
@@ -72,7 +83,11 @@ test("inlined documents and levels of detail are fetched, shown, picked and let 
     assert.ok(near.red > 5000 && near.green > 5000 && near.blue === 0, JSON.stringify(near));
     const asked = geometryRequests(view);
     assert.ok(asked > 0 && asked <= 4, `${asked} requests: those of the red wall, none of the blue one`);
-    assert.equal(await page.evaluate(() => document.querySelectorAll("x3d shape").length), 2, "the page holds no element of the other document");
+    assert.equal(
+      await page.evaluate(() => document.querySelectorAll("x3d shape").length),
+      2,
+      "the page holds no element of the other document",
+    );
 
     // The pointer finds the Inline in the place of what it shows.
     const hit = await page.evaluate(() => {
@@ -82,7 +97,9 @@ test("inlined documents and levels of detail are fetched, shown, picked and let 
     assert.equal(hit, "part");
 
     // Farther away the other level is asked for, and seen alone.
-    await page.evaluate(() => { document.querySelector("viewpoint")?.setAttribute("position", "0 0 20"); });
+    await page.evaluate(() => {
+      document.querySelector("viewpoint")?.setAttribute("position", "0 0 20");
+    });
     await until("the other level is asked for", () => geometryRequests(view) > asked);
     await view.promise("complete");
     const far = colorsOf(await view.picture());
@@ -93,15 +110,21 @@ test("inlined documents and levels of detail are fetched, shown, picked and let 
       document.querySelector("#left")?.insertAdjacentHTML("beforeend", `<inline id="held" url='"held.x3d"'></inline>`);
     });
     await until("the Inline is asked for", () => view.server.requestsOf(/held/).length === 1);
-    await page.evaluate(() => { document.querySelector("#left")?.replaceChildren(); });
+    await page.evaluate(() => {
+      document.querySelector("#left")?.replaceChildren();
+    });
     await until("it is given up", () => view.server.requestsOf(/held/)[0]?.state === "aborted");
     await settle(page);
     assert.equal(colorsOf(await view.picture()).red, 0);
 
     // The first url that leads to a document counts; what leads nowhere says so on its element.
     await page.evaluate(() => {
-      document.querySelector("#left")?.insertAdjacentHTML("beforeend",
-        `<inline id="circle" url='"lost.x3d" "circle.x3d"'></inline><inline id="bomb" url='"bomb.x3d"'></inline>`);
+      document
+        .querySelector("#left")
+        ?.insertAdjacentHTML(
+          "beforeend",
+          `<inline id="circle" url='"lost.x3d" "circle.x3d"'></inline><inline id="bomb" url='"bomb.x3d"'></inline>`,
+        );
     });
     await view.promise("complete", "#circle");
     const errors = await page.evaluate(async () => {

@@ -29,30 +29,27 @@ TEST_F(Convert, SaysWhatItChose) {
                             "1 of at most 65,535 vertices", "patch", "bytes a triangle", "memory"})
     EXPECT_NE(outcome.out.find(words), std::string::npos) << words << " is not in:\n" << outcome.out;
   EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos) << "colours are for terminals";
-  EXPECT_EQ(namesIn(site_), (std::vector<std::string>{"geometry", "imgeo.css", "imgeo.json", "index.html",
-                                                      "runtime", "scene.x3d"}));
+  EXPECT_EQ(namesIn(site_),
+            (std::vector<std::string>{"geometry", "imgeo.css", "imgeo.json", "index.html", "runtime", "scene.x3d"}));
 }
 
 TEST_F(Convert, SaysTheErrorOfAllThatItRounds) {
   const std::string input = directory_ / "painted.ply", points = directory_ / "points.ply";
-  write(input,
-        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-        "property float s\nproperty float t\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
-        "element face 1\nproperty list uchar int vertex_index\nend_header\n"
-        "0 0 0 0 0 255 0 0\n1 0 0 8 0 0 255 0\n0 1 0 0 1 0 0 255\n3 0 1 2\n");
+  write(input, "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+               "property float s\nproperty float t\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+               "element face 1\nproperty list uchar int vertex_index\nend_header\n"
+               "0 0 0 0 0 255 0 0\n1 0 0 8 0 0 255 0\n0 1 0 0 1 0 0 255\n3 0 1 2\n");
   const Outcome outcome = run({"convert", input, "-o", site_, "-vt", "5", "-vc", "4", "-vn", "10"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* words :
-       {"octahedral, 10 bits: off by at most 0.24 degrees", "texcoords  5 bits: off by at most 0.129",
-        "colours    4 bits: off by at most 9 of 255"})
+  for (const char* words : {"octahedral, 10 bits: off by at most 0.24 degrees",
+                            "texcoords  5 bits: off by at most 0.129", "colours    4 bits: off by at most 9 of 255"})
     EXPECT_NE(outcome.out.find(words), std::string::npos) << words << " is not in:\n" << outcome.out;
   EXPECT_EQ(run({"verify", site_, input}).code, 0);
   const Json report = Json::parse(run({"convert", input, "-o", site_, "-vt", "5", "--json"}).out);
   EXPECT_NEAR(report["texCoordError"].get<double>(), 8.0 / 31 / 2, 1e-5);
   EXPECT_EQ(report["colorError"], 0);
-  write(points,
-        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
-        "end_header\n1 2 3\n");
+  write(points, "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+                "end_header\n1 2 3\n");
   const std::string plain = run({"convert", points, "-o", site_}).out;
   for (const char* label : {"normals", "texcoords", "colours"})
     EXPECT_EQ(plain.find(label), std::string::npos) << label << " are in:\n" << plain;
@@ -60,8 +57,7 @@ TEST_F(Convert, SaysTheErrorOfAllThatItRounds) {
 
 TEST_F(Convert, SaysTheBitsOfEveryMeshThatTheErrorChose) {
   const std::string input = directory_ / "two.obj";
-  write(input,
-        "o small\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no large\nv 0 0 9\nv 1000 0 9\nv 0 1000 9\nf 4 5 6\n");
+  write(input, "o small\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no large\nv 0 0 9\nv 1000 0 9\nv 0 1000 9\nf 4 5 6\n");
   const Json report = Json::parse(run({"convert", input, "-o", site_, "--max-error", "0.002", "--json"}).out);
   EXPECT_EQ(report["leastPositionBits"], 9);
   EXPECT_EQ(report["positionBits"], 19);
@@ -79,12 +75,11 @@ TEST_F(Convert, IsCompactUnlessWhatIsAskedForIsClassics) {
   EXPECT_EQ(profileOf({}), "compact");
   EXPECT_EQ(profileOf({"--primitives", "points"}), "compact");
   EXPECT_EQ(profileOf({"--profile", "classic"}), "classic");
-  for (const std::vector<std::string>& options :
-       std::vector<std::vector<std::string>>{{"--target", "x3dom"},
-                                             {"--primitives", "strips"},
-                                             {"--index", "off"},
-                                             {"--normals", "palette"},
-                                             {"-vp", "32"}})
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{{"--target", "x3dom"},
+                                                                                       {"--primitives", "strips"},
+                                                                                       {"--index", "off"},
+                                                                                       {"--normals", "palette"},
+                                                                                       {"-vp", "32"}})
     EXPECT_EQ(profileOf(options), "classic") << options[0];
 }
 
@@ -118,11 +113,9 @@ TEST_F(Convert, MakesPointsAndLinesSmallerThanClassicDoes) {
     const std::string place = std::to_string(radius * std::cos(angle)) + " " +
                               std::to_string(radius * std::sin(angle)) + " " + std::to_string(0.001 * i);
     points += place + " " + std::to_string(i % 256) + " 80 " + std::to_string(i % 7) + "\n";
-    lines +=
-        "v " + place + "\n" + (i > 0 ? "l " + std::to_string(i) + " " + std::to_string(i + 1) + "\n" : "");
+    lines += "v " + place + "\n" + (i > 0 ? "l " + std::to_string(i) + " " + std::to_string(i + 1) + "\n" : "");
   }
-  for (const auto& [name, text] :
-       {std::pair<std::string, std::string>{"cloud.ply", points}, {"wire.obj", lines}}) {
+  for (const auto& [name, text] : {std::pair<std::string, std::string>{"cloud.ply", points}, {"wire.obj", lines}}) {
     const std::string input = directory_ / name;
     write(input, text);
     std::map<std::string, std::size_t> bytes;
@@ -156,19 +149,17 @@ TEST_F(Convert, WritesTheSameReportToAFileAndAsJson) {
 }
 
 TEST_F(Convert, TakesEveryShortName) {
-  for (const std::vector<std::string>& options :
-       std::vector<std::vector<std::string>>{{"-vp", "14"},
-                                             {"-qp=14"},
-                                             {"-vp14"},
-                                             {"--position-bits=14"},
-                                             {"-vn", "8", "-vp", "14"},
-                                             {"-qn", "8", "-qp", "14"},
-                                             {"-vt", "16", "-qp", "14"},
-                                             {"-qt", "16", "-qp", "14"},
-                                             {"-vc", "8", "-qp", "14"},
-                                             {"-v", "-qp", "14"}}) {
-    std::vector<std::string> line{"convert", input_, "-o" + site_,
-                                  "-r=" + (directory_ / "report.json").string()};
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{{"-vp", "14"},
+                                                                                       {"-qp=14"},
+                                                                                       {"-vp14"},
+                                                                                       {"--position-bits=14"},
+                                                                                       {"-vn", "8", "-vp", "14"},
+                                                                                       {"-qn", "8", "-qp", "14"},
+                                                                                       {"-vt", "16", "-qp", "14"},
+                                                                                       {"-qt", "16", "-qp", "14"},
+                                                                                       {"-vc", "8", "-qp", "14"},
+                                                                                       {"-v", "-qp", "14"}}) {
+    std::vector<std::string> line{"convert", input_, "-o" + site_, "-r=" + (directory_ / "report.json").string()};
     line.insert(line.end(), options.begin(), options.end());
     const Outcome outcome = run(line);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -225,9 +216,7 @@ TEST_F(Convert, WritesTheSameBytesWithAnyNumberOfThreads) {
   const std::vector<std::string> options{"--patch-vertices", "256"};
   for (const std::string threads : {"1", "2"})
     ASSERT_EQ(
-        run({"convert", input_, "-o", directory_ / threads, "--patch-vertices", "256", "--threads", threads})
-            .code,
-        0);
+        run({"convert", input_, "-o", directory_ / threads, "--patch-vertices", "256", "--threads", threads}).code, 0);
   EXPECT_EQ(textOf(directory_ / "1/index.html"), textOf(directory_ / "2/index.html"));
   EXPECT_EQ(namesIn(directory_ / "1/geometry"), namesIn(directory_ / "2/geometry"));
 }
@@ -268,15 +257,13 @@ TEST_F(Convert, KilledAtAnyMomentLeavesTheOldSiteOrTheNew) {
   }
   EXPECT_GT(killed, 5) << "hardly ever killed, so hardly tested";
   ASSERT_EQ(run({"convert", other, "-o", site_}).code, 0);
-  EXPECT_EQ(namesIn(directory_.path()),
-            (std::vector<std::string>{"other.ply", "site", "statue.ply", "whole"}));
+  EXPECT_EQ(namesIn(directory_.path()), (std::vector<std::string>{"other.ply", "site", "statue.ply", "whole"}));
 }
 
 TEST_F(Convert, InterruptedRemovesWhatItHasBegun) {
   write(input_, gridPly(400));
   for (const int signal : {SIGINT, SIGTERM}) {
-    const pid_t child =
-        start({"convert", input_, "-o", site_, "--effort", "9"}, "/dev/null", directory_ / "err");
+    const pid_t child = start({"convert", input_, "-o", site_, "--effort", "9"}, "/dev/null", directory_ / "err");
     const auto staged = [&] {
       for (const std::string& name : namesIn(directory_.path()))
         if (name.starts_with(".site.imgeo-"))
@@ -296,8 +283,8 @@ TEST_F(Convert, InfoHasTheseKeysAndTheyAddUp) {
   const Outcome outcome = run({"info", site_, "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Json info = Json::parse(outcome.out);
-  for (const char* key : {"triangles", "vertices", "patches", "documentBytes", "containerBytes",
-                          "runtimeBytes", "bytesPerTriangle", "files"})
+  for (const char* key : {"triangles", "vertices", "patches", "documentBytes", "containerBytes", "runtimeBytes",
+                          "bytesPerTriangle", "files"})
     EXPECT_TRUE(info.contains(key)) << key;
   EXPECT_EQ(info["triangles"], 800);
   EXPECT_GT(info["patches"], 1);
@@ -335,16 +322,13 @@ TEST_F(Convert, VerifyExitsWithThreeAndSentencesWhereTheSiteIsAnother) {
 }
 
 TEST_F(Convert, KeepsTheAttributesThatAreNamed) {
-  write(
-      input_,
-      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-      "property float heat\nproperty uchar label\nelement face 1\n"
-      "property list uchar int vertex_indices\nend_header\n0 0 0 0.5 1\n1 0 0 1.5 2\n0 1 0 -3 9\n3 0 1 2\n");
+  write(input_, "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                "property float heat\nproperty uchar label\nelement face 1\n"
+                "property list uchar int vertex_indices\nend_header\n0 0 0 0.5 1\n1 0 0 1.5 2\n0 1 0 -3 9\n3 0 1 2\n");
   EXPECT_NE(run({"info", input_}).out.find("heat, label"), std::string::npos);
   for (const std::vector<std::string>& as :
        {std::vector<std::string>{}, {"--profile", "classic"}, {"--container", "bg"}}) {
-    std::vector<std::string> command{"convert",           input_,       "-o",    site_,
-                                     "--keep-attributes", "label,heat", "--json"};
+    std::vector<std::string> command{"convert", input_, "-o", site_, "--keep-attributes", "label,heat", "--json"};
     command.insert(command.end(), as.begin(), as.end());
     const Outcome outcome = run(command);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -352,8 +336,7 @@ TEST_F(Convert, KeepsTheAttributesThatAreNamed) {
     EXPECT_EQ(run({"verify", site_, input_}).code, 0);
     EXPECT_NE(run({"info", site_}).out.find("further attributes heat, label\n"), std::string::npos);
     ASSERT_EQ(run({"export", site_, "-o", directory_ / "out.ply"}).code, 0);
-    EXPECT_NE(textOf(directory_ / "out.ply").find("property float heat\nproperty float label\n"),
-              std::string::npos);
+    EXPECT_NE(textOf(directory_ / "out.ply").find("property float heat\nproperty float label\n"), std::string::npos);
   }
 }
 
@@ -361,9 +344,8 @@ TEST_F(Convert, KeepsMoreAttributesThanCompactHoldsInClassic) {
   std::string properties;
   for (char name = 'a'; name <= 'n'; ++name)
     properties += std::string("property uchar ") + name + "\n";
-  write(input_,
-        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n" +
-            properties + "end_header\n0 0 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14\n");
+  write(input_, "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n" +
+                    properties + "end_header\n0 0 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14\n");
   const std::vector<std::string> command{"convert", input_, "-o", site_, "--json", "--keep-attributes"};
   const auto runWith = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), command.begin(), command.end());
@@ -379,14 +361,12 @@ TEST_F(Convert, KeepsMoreAttributesThanCompactHoldsInClassic) {
 }
 
 TEST_F(Convert, DropsElementsThatAddNothingWhereItIsTold) {
-  write(input_,
-        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
-        "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
-        "0 0 0\n1 0 0\n0 1 0\n1 1 0\n5 5 5\n3 0 1 2\n3 1 3 2\n3 2 0 1\n3 4 4 1\n");
+  write(input_, "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+                "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+                "0 0 0\n1 0 0\n0 1 0\n1 1 0\n5 5 5\n3 0 1 2\n3 1 3 2\n3 2 0 1\n3 4 4 1\n");
   for (const auto& [drop, left] : {std::pair{"none", 4}, {"degenerate", 3}, {"repeated", 3}, {"both", 2}})
     for (const std::string profile : {"compact", "classic"}) {
-      const Outcome outcome =
-          run({"convert", input_, "-o", site_, "--profile", profile, "--drop", drop, "--json"});
+      const Outcome outcome = run({"convert", input_, "-o", site_, "--profile", profile, "--drop", drop, "--json"});
       ASSERT_EQ(outcome.code, 0) << outcome.err;
       const Json report = Json::parse(outcome.out);
       EXPECT_EQ(report["triangles"], left) << drop;
@@ -404,8 +384,7 @@ TEST_F(Convert, ServePrintsTheAddressAndStopsOnCtrlC) {
   const pid_t child = start({"serve", site_, "--port", "0"}, directory_ / "out", directory_ / "err");
   for (int waited = 0; textOf(directory_ / "out").empty() && waited < 5000; ++waited)
     usleep(1000);
-  EXPECT_NE(textOf(directory_ / "out").find("http://127.0.0.1:"), std::string::npos)
-      << textOf(directory_ / "err");
+  EXPECT_NE(textOf(directory_ / "out").find("http://127.0.0.1:"), std::string::npos) << textOf(directory_ / "err");
   kill(child, SIGINT);
   EXPECT_EQ(wait(child), 0) << textOf(directory_ / "err");
 }

@@ -30,8 +30,7 @@ protected:
     EXPECT_EQ(outcome.out, "");
     EXPECT_TRUE(outcome.err.starts_with("imgeo: ")) << outcome.err;
     EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
-    EXPECT_NE(outcome.err.find(words), std::string::npos)
-        << "expected: " << words << "\nsaid: " << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << "expected: " << words << "\nsaid: " << outcome.err;
   }
 
   TemporaryDirectory directory_;
@@ -50,15 +49,13 @@ TEST_F(Faults, ATruncatedPly) {
 }
 
 TEST_F(Faults, APlyThatPromisesFourBillionFaces) {
-  expectRefusal("liar.ply", header("ascii", "3", "4294967295") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 3,
-                "liar.ply");
+  expectRefusal("liar.ply", header("ascii", "3", "4294967295") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 3, "liar.ply");
   expectRefusal("liar.ply", header("binary_little_endian", "0", "4294967295"), 3, "liar.ply");
 }
 
 TEST_F(Faults, CoordinatesThatAreNoNumbers) {
   for (const char* bad : {"nan", "inf", "-inf"})
-    expectRefusal("bad.ply", header("ascii", "3", "1") + "0 0 0\n1 " + bad + " 0\n0 1 0\n3 0 1 2\n", 3,
-                  "bad.ply:11");
+    expectRefusal("bad.ply", header("ascii", "3", "1") + "0 0 0\n1 " + bad + " 0\n0 1 0\n3 0 1 2\n", 3, "bad.ply:11");
 }
 
 TEST_F(Faults, TextureCoordinatesAndAttributesThatAreNoNumbers) {
@@ -93,8 +90,7 @@ TEST_F(Faults, AnInputThatIsNotThereOrIsADirectory) {
 
 TEST_F(Faults, ATargetThatCannotBeWritten) {
   write(directory_ / "mesh.ply", gridPly(3));
-  expectSentence(run({"convert", directory_ / "mesh.ply", "-o", directory_ / "mesh.ply/site"}), 2,
-                 "mesh.ply");
+  expectSentence(run({"convert", directory_ / "mesh.ply", "-o", directory_ / "mesh.ply/site"}), 2, "mesh.ply");
   expectSentence(run({"convert", directory_ / "mesh.ply", "-o", "/proc/site"}), 2, "/proc");
   expectSentence(run({"convert", directory_ / "mesh.ply", "-o", "/dev/null"}), 2, "/dev/null");
   EXPECT_EQ(namesIn(directory_.path()), std::vector<std::string>{"mesh.ply"});
@@ -115,8 +111,7 @@ TEST_F(Faults, ADirectoryThatIsNotASite) {
 TEST_F(Faults, AnInputInsideTheDirectoryThatIsReplaced) {
   std::filesystem::create_directory(directory_ / "scans");
   write(directory_ / "scans/mesh.ply", gridPly(3));
-  expectSentence(run({"convert", directory_ / "scans/mesh.ply", "-o", directory_ / "scans", "--force"}), 1,
-                 "inside");
+  expectSentence(run({"convert", directory_ / "scans/mesh.ply", "-o", directory_ / "scans", "--force"}), 1, "inside");
   EXPECT_TRUE(std::filesystem::exists(directory_ / "scans/mesh.ply"));
 }
 
@@ -133,8 +128,7 @@ TEST_F(Faults, OptionsThatCannotBeHonoured) {
   refuse("--normal-bits", {"--container", "bg", "--normals", "octahedral", "-vn", "32"});
   refuse("--normal-bits", {"--container", "bg", "--normals", "octahedral", "-vn", "8", "-vp", "8"});
   refuse("--normals", {"--target", "x3dom", "--normals", "octahedral"});
-  refuse("--normals",
-         {"--container", "bg", "--normals", "spherical", "--coord-type", "int16", "--target", "x3dom"});
+  refuse("--normals", {"--container", "bg", "--normals", "spherical", "--coord-type", "int16", "--target", "x3dom"});
   refuse("--coord-type", {"--coord-type", "uint16"});
   refuse("--coord-type", {"--container", "bg", "--coord-type", "float64"});
   refuse("--coord-type", {"--container", "bg", "--coord-type", "int8", "--target", "x3dom"});
@@ -142,8 +136,8 @@ TEST_F(Faults, OptionsThatCannotBeHonoured) {
   refuse("--position-bits", {"--container", "bg", "--coord-type", "uint8", "-vp", "9"});
   refuse("--position-bits", {"--container", "bg", "--coord-type", "float32", "-vp", "25"});
   refuse("--position-bits", {"--container", "bg", "--coord-type", "int16", "-vp", "16", "--target", "x3dom"});
-  refuse("--normal-bits", {"--container", "bg", "--coord-type", "int16", "--layout", "interleaved", "-vn",
-                           "8", "--target", "x3dom"});
+  refuse("--normal-bits",
+         {"--container", "bg", "--coord-type", "int16", "--layout", "interleaved", "-vn", "8", "--target", "x3dom"});
   refuse("--position-bits", {"-vp", "7"});
   refuse("--position-bits", {"-qp", "33"});
   refuse("--position-bits", {"--position-bits", "abc"});

@@ -47,8 +47,7 @@ TEST(Help, BashCompletesOptionsAndChoices) {
   write(directory / "imgeo.bash", run({"completion", "bash"}).out);
   const auto complete = [&](const std::string& words, int at) {
     write(directory / "ask.bash", ". " + (directory / "imgeo.bash").string() + "\nCOMP_WORDS=(" + words +
-                                      ")\nCOMP_CWORD=" + std::to_string(at) +
-                                      "\n_imgeo\necho \"${COMPREPLY[@]}\" >" +
+                                      ")\nCOMP_CWORD=" + std::to_string(at) + "\n_imgeo\necho \"${COMPREPLY[@]}\" >" +
                                       (directory / "reply").string() + "\n");
     EXPECT_EQ(std::system(("bash " + (directory / "ask.bash").string()).c_str()), 0);
     return textOf(directory / "reply");

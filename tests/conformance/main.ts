@@ -42,7 +42,10 @@ async function show(page: Page, server: TestServer, runtime: Runtime, name: stri
   const address = `nodes/${runtime}-${name}.html`;
   server.put(`/${address}`, pageOf(runtime, `/nodes/${name}.x3d`, scene));
   await page.goto(server.origin + address);
-  if (runtime === "imgeo") await page.waitForFunction(() => (document.querySelector("x3d") as { complete?: unknown } | null)?.complete !== undefined);
+  if (runtime === "imgeo")
+    await page.waitForFunction(
+      () => (document.querySelector("x3d") as { complete?: unknown } | null)?.complete !== undefined,
+    );
   return stillPicture(page);
 }
 
@@ -84,7 +87,9 @@ function lineOf(row: Row): { text: string; isExplained: boolean } {
 
 const words = process.argv.slice(2);
 const wanted = words.filter((word) => word !== "--check");
-const all = readdirSync(join(here, "nodes")).map((file) => file.replace(/\.x3d$/, "")).sort();
+const all = readdirSync(join(here, "nodes"))
+  .map((file) => file.replace(/\.x3d$/, ""))
+  .sort();
 const names = wanted.length > 0 ? all.filter((name) => wanted.includes(name)) : all;
 mkdirSync(output, { recursive: true });
 const browser = await launchChromium();
@@ -97,7 +102,10 @@ try {
   if (words.length === 0) {
     writeFileSync(picture, sheet);
     const head = readFileSync(table, "utf8").split(/^\| document/m)[0] ?? "";
-    writeFileSync(table, `${head}| document | X_ITE | X3DOM | where ours differs |\n|---|--:|--:|---|\n${lines.map(({ text }) => text).join("\n")}\n`);
+    writeFileSync(
+      table,
+      `${head}| document | X_ITE | X3DOM | where ours differs |\n|---|--:|--:|---|\n${lines.map(({ text }) => text).join("\n")}\n`,
+    );
   }
   const open = rows.filter((_, i) => lines[i]?.isExplained === false).map(({ name }) => name);
   if (open.length > 0) {

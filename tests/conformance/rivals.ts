@@ -23,9 +23,20 @@ export async function serveRuntimes(server: TestServer): Promise<void> {
   server.put("/imgeo.js", Buffer.from(bundle.outputFiles[0]?.contents ?? []));
   const of = (path: string): Buffer => readFileSync(join(repository, "node_modules", path));
   server.put("/x_ite.js", of("x_ite/dist/x_ite.min.js"));
-  const fonts = readdirSync(join(repository, "node_modules/x_ite/dist/assets/fonts"), { recursive: true, encoding: "utf8" })
-    .filter((file) => file.includes(".")).map((font) => `assets/fonts/${font}`);
-  for (const file of ["x_ite.css", "assets/lib/mikktspace_bg.wasm", "assets/components/TextComponent.js", "assets/lib/woff2_decoder.js", ...fonts]) server.put(`/${file}`, of(`x_ite/dist/${file}`));
+  const fonts = readdirSync(join(repository, "node_modules/x_ite/dist/assets/fonts"), {
+    recursive: true,
+    encoding: "utf8",
+  })
+    .filter((file) => file.includes("."))
+    .map((font) => `assets/fonts/${font}`);
+  for (const file of [
+    "x_ite.css",
+    "assets/lib/mikktspace_bg.wasm",
+    "assets/components/TextComponent.js",
+    "assets/lib/woff2_decoder.js",
+    ...fonts,
+  ])
+    server.put(`/${file}`, of(`x_ite/dist/${file}`));
   server.put("/x3dom.js", of("x3dom-1.8/x3dom.js"));
   server.put("/x3dom.css", of("x3dom-1.8/x3dom.css"));
 }
@@ -37,13 +48,21 @@ export function pageOf(runtime: Runtime, path: string, document: string): string
     case "imgeo":
       return html(`<script type="module" src="/imgeo.js"></script>`, scene.replace("<X3D", `<X3D style="${fill}"`));
     case "X_ITE":
-      return html(`<script src="/x_ite.js"></script>`,
-        `<x3d-canvas src="${path}" style="${fill}" splashScreen="false" notifications="false" contextMenu="false" update="auto"></x3d-canvas>`);
+      return html(
+        `<script src="/x_ite.js"></script>`,
+        `<x3d-canvas src="${path}" style="${fill}" splashScreen="false" notifications="false" contextMenu="false" update="auto"></x3d-canvas>`,
+      );
     case "X3DOM":
-      return html(`<script src="/x3dom.js"></script><link rel="stylesheet" href="/x3dom.css">`,
-        scene.replace("<X3D", `<X3D style="${fill}" width="${size.width}px" height="${size.height}px" showStat="false" showLog="false"`)
+      return html(
+        `<script src="/x3dom.js"></script><link rel="stylesheet" href="/x3dom.css">`,
+        scene
+          .replace(
+            "<X3D",
+            `<X3D style="${fill}" width="${size.width}px" height="${size.height}px" showStat="false" showLog="false"`,
+          )
           // Its light would add up in linear numbers otherwise, which X3D 4 asks of PhysicalMaterial alone.
-          .replace("<Scene>", '<Scene><Environment gammaCorrectionDefault="none"></Environment>'));
+          .replace("<Scene>", '<Scene><Environment gammaCorrectionDefault="none"></Environment>'),
+      );
   }
 }
 

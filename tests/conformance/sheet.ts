@@ -15,8 +15,15 @@ const columns = 4;
 /** A PNG, four documents beside each other. */
 export async function contactSheet(browser: Browser, rows: readonly Row[]): Promise<Buffer> {
   const [width, height] = [size.width * scale, size.height * scale];
-  const cells = rows.map(({ name, pictures }) => `<figure>${runtimes.map((runtime) =>
-    `<img width="${width}" height="${height}" src="data:image/png;base64,${pictures[runtime].toString("base64")}">`).join("")}<figcaption>${name}</figcaption></figure>`);
+  const cells = rows.map(
+    ({ name, pictures }) =>
+      `<figure>${runtimes
+        .map(
+          (runtime) =>
+            `<img width="${width}" height="${height}" src="data:image/png;base64,${pictures[runtime].toString("base64")}">`,
+        )
+        .join("")}<figcaption>${name}</figcaption></figure>`,
+  );
   const page = await browser.newPage({ viewport: { width: columns * (3 * width + 12), height: 600 } });
   await page.setContent(`<style>
     body { margin: 0; display: grid; grid-template-columns: repeat(${columns}, auto); font: 11px/16px sans-serif; background: #fff; color: #333 }

@@ -14,7 +14,14 @@ export function referencePage(html: string, mesh: PlainMesh): string {
   return html.slice(0, begin) + shape + html.slice(end);
 }
 
-function plainNode({ positions, normals, colors, texCoords, triangles, lines = new Uint32Array(0) }: PlainMesh): string {
+function plainNode({
+  positions,
+  normals,
+  colors,
+  texCoords,
+  triangles,
+  lines = new Uint32Array(0),
+}: PlainMesh): string {
   const coordinate = `<Coordinate point="${positions.join(" ")}"></Coordinate>`;
   const color = colors ? `<Color color="${Array.from(colors, (byte) => byte / 255).join(" ")}"></Color>` : "";
   if (lines.length > 0) {

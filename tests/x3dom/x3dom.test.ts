@@ -6,14 +6,31 @@ import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
 import { assertSamePicture, difference, isWithin, savePicture, type Bounds } from "../browser/compare.ts";
-import { areaWeightedNormals, readObj, readPly, trefoil, withTexCoords, writeObj, type PlainMesh } from "../browser/meshes.ts";
+import {
+  areaWeightedNormals,
+  readObj,
+  readPly,
+  trefoil,
+  withTexCoords,
+  writeObj,
+  type PlainMesh,
+} from "../browser/meshes.ts";
 import { modelDirectory, outputDirectory } from "../browser/paths.ts";
 import { decodePng, encodePng, type Picture } from "../browser/png.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "../browser/sites.ts";
 import { referencePage } from "./referencePage.ts";
 import { fileOf, pictureOf, sumOf, type Container } from "./releases.ts";
 
-const options = (container: Container): string[] => ["--target", "x3dom", "--x3dom-url", "x3dom/", "--container", container, "--effort", "0"];
+const options = (container: Container): string[] => [
+  "--target",
+  "x3dom",
+  "--x3dom-url",
+  "x3dom/",
+  "--container",
+  container,
+  "--effort",
+  "0",
+];
 const containers: Container[] = ["sig", "bg"];
 /** The issue's bounds. */
 const bounds: Bounds = { mean: 0.05, offShare: 0.0001 };
@@ -29,10 +46,12 @@ function texturedFile(name: string, mesh: PlainMesh): string {
   const folder = join(outputDirectory, name);
   mkdirSync(folder, { recursive: true });
   const wave = (x: number): number => Math.round(127.5 + 110 * Math.sin((2 * Math.PI * x) / 32));
-  const data = Uint8Array.from(Array.from({ length: 64 * 64 }, (_, i) => {
-    const [x, y] = [i % 64, Math.floor(i / 64)];
-    return [wave(x), wave(2 * y), 4 * y];
-  }).flat());
+  const data = Uint8Array.from(
+    Array.from({ length: 64 * 64 }, (_, i) => {
+      const [x, y] = [i % 64, Math.floor(i / 64)];
+      return [wave(x), wave(2 * y), 4 * y];
+    }).flat(),
+  );
   writeFileSync(join(folder, "stripes.png"), encodePng({ width: 64, height: 64, channels: 3, data }));
   writeFileSync(join(folder, "stripes.mtl"), "newmtl stripes\nKd 1 1 1\nmap_Kd stripes.png\n");
   writeFileSync(join(folder, `${name}.obj`), writeObj(mesh, "stripes.mtl", "stripes"));
@@ -48,13 +67,17 @@ interface Cube {
 function cubeAround(mesh: PlainMesh): Cube {
   const axes = [0, 1, 2].map((axis) => mesh.positions.filter((_, i) => i % 3 === axis));
   const origin = axes.map((values) => values.reduce((a, b) => Math.min(a, b)));
-  return { origin, edge: Math.max(...axes.map((values, axis) => values.reduce((a, b) => Math.max(a, b)) - (origin[axis] ?? 0))) };
+  return {
+    origin,
+    edge: Math.max(...axes.map((values, axis) => values.reduce((a, b) => Math.max(a, b)) - (origin[axis] ?? 0))),
+  };
 }
 
 /** The one that the document states, in few digits: by less than a thousandth of a step beside the mesh's own. */
 function statedCube(site: string): Cube {
   const [, node = ""] = /<(?:Binary|Image)Geometry([^>]*)>/.exec(pageOf(site)) ?? [];
-  const numbersOf = (name: string): number[] => (new RegExp(` ${name}="([^"]*)"`).exec(node)?.[1] ?? "").split(" ").map(Number);
+  const numbersOf = (name: string): number[] =>
+    (new RegExp(` ${name}="([^"]*)"`).exec(node)?.[1] ?? "").split(" ").map(Number);
   const edge = Math.max(...numbersOf("size"));
   return { origin: numbersOf("position").map((center) => center - edge / 2), edge };
 }
@@ -105,29 +128,60 @@ for (const container of containers) {
       ["computed normals", "trefoil-plain", []],
     ];
     cases.push(["triangles without an index", "trefoil", ["--index", "off"]]);
-    cases.push(["many patches of strips with colours without an index", "trefoil-colors", [...patches, "--index", "off", "--primitives", "strips"]]);
+    cases.push([
+      "many patches of strips with colours without an index",
+      "trefoil-colors",
+      [...patches, "--index", "off", "--primitives", "strips"],
+    ]);
     if (container === "sig") cases.push(["positions of three bytes", "sphere", ["--position-bits", "20"]]);
     if (container === "bg") {
       for (const layout of ["separate", "interleaved"]) {
-        cases.push([`coordinates as float32, ${layout}`, "trefoil-colors", ["--coord-type", "float32", "--layout", layout]]);
-        cases.push([`coordinates as int16, ${layout}`, "trefoil-colors", ["--coord-type", "int16", "--layout", layout, "--primitives", "strips"], 15]);
+        cases.push([
+          `coordinates as float32, ${layout}`,
+          "trefoil-colors",
+          ["--coord-type", "float32", "--layout", layout],
+        ]);
+        cases.push([
+          `coordinates as int16, ${layout}`,
+          "trefoil-colors",
+          ["--coord-type", "int16", "--layout", layout, "--primitives", "strips"],
+          15,
+        ]);
       }
-      cases.push(["coordinates as uint16 beside angles and colours", "trefoil-colors",
-        ["--coord-type", "uint16", "--layout", "interleaved", "--normals", "spherical"]]);
-      cases.push(["many interleaved patches without an index", "trefoil", ["--coord-type", "int16", "--layout", "interleaved", "--index", "off", ...patches], 15]);
+      cases.push([
+        "coordinates as uint16 beside angles and colours",
+        "trefoil-colors",
+        ["--coord-type", "uint16", "--layout", "interleaved", "--normals", "spherical"],
+      ]);
+      cases.push([
+        "many interleaved patches without an index",
+        "trefoil",
+        ["--coord-type", "int16", "--layout", "interleaved", "--index", "off", ...patches],
+        15,
+      ]);
       cases.push(["indices of 32 bits", "trefoil-large", ["--patch-vertices", "100000"]]);
       cases.push(["normals as angles beside the coordinates", "trefoil", ["--normals", "spherical"]]);
     }
     for (const [what, mesh, more, bits] of cases) {
       test(`shows ${what} as X3DOM shows them inline`, async () => {
         const source = bits === undefined ? sourceOf(mesh) : onLattice(sourceOf(mesh), bits);
-        await assertShows(bits === undefined ? mesh : `${mesh}-${bits}`, siteOfGenerated(mesh, ...options(container), ...more), container, source);
+        await assertShows(
+          bits === undefined ? mesh : `${mesh}-${bits}`,
+          siteOfGenerated(mesh, ...options(container), ...more),
+          container,
+          source,
+        );
       });
     }
 
     test("shows a texture on many patches as X3DOM shows it inline", async () => {
       const mesh = withTexCoords(trefoil());
-      await assertShows("texture", siteOf(texturedFile("texture", mesh), ...options(container), ...patches), container, mesh);
+      await assertShows(
+        "texture",
+        siteOf(texturedFile("texture", mesh), ...options(container), ...patches),
+        container,
+        mesh,
+      );
     });
 
     test("shows positions of 12 bits as X3DOM shows them inline", async () => {
@@ -139,18 +193,40 @@ for (const container of containers) {
       test("shows a texture that repeats as X3DOM shows it inline", async () => {
         const mesh = withTexCoords(trefoil(), 3, -1);
         const records = ["--coord-type", "float32", "--layout", "interleaved"];
-        await assertShows("texture-repeats", siteOf(texturedFile("texture-repeats", mesh), ...options(container), ...records), container, mesh);
+        await assertShows(
+          "texture-repeats",
+          siteOf(texturedFile("texture-repeats", mesh), ...options(container), ...records),
+          container,
+          mesh,
+        );
       });
 
       test("shows positions of 8 bits as uint8 and of 11 as int16 as X3DOM shows them inline", async () => {
-        for (const [type, bits] of [["uint8", 8], ["int16", 11]] as const) {
-          const site = siteOfGenerated("sphere", ...options(container), "--coord-type", type, "--position-bits", `${bits}`);
+        for (const [type, bits] of [
+          ["uint8", 8],
+          ["int16", 11],
+        ] as const) {
+          const site = siteOfGenerated(
+            "sphere",
+            ...options(container),
+            "--coord-type",
+            type,
+            "--position-bits",
+            `${bits}`,
+          );
           await assertShows(`sphere-${bits}`, site, container, onLattice(sourceOf("sphere"), bits));
         }
       });
 
       test("shows coloured points of interleaved bytes as X3DOM shows them inline", async () => {
-        const site = siteOfGenerated("points", ...options(container), "--coord-type", "uint8", "--layout", "interleaved");
+        const site = siteOfGenerated(
+          "points",
+          ...options(container),
+          "--coord-type",
+          "uint8",
+          "--layout",
+          "interleaved",
+        );
         await assertShows("points-8", site, container, onLattice(sourceOf("points"), 8, statedCube(site)));
       });
     }
@@ -174,17 +250,26 @@ for (const container of containers) {
         const page = pageOf(site);
         const [, normals = ""] = /containerField="normal" url='"([^"]+)"'/.exec(page) ?? [];
         const expanded = encodePng(decodePng(readFileSync(join(site, normals))));
-        const expected = await pictureOf(site, container, page.replace(normals, "expanded.png"), { "/expanded.png": expanded });
+        const expected = await pictureOf(site, container, page.replace(normals, "expanded.png"), {
+          "/expanded.png": expanded,
+        });
         assertShowsSomething(expected);
         assertSamePicture("x3dom-palette", await pictureOf(site, container, page), expected, { mean: 0, offShare: 0 });
       });
     }
 
-    test("shows the Stanford bunny as X3DOM shows it inline", { skip: !existsSync(join(modelDirectory, "stanford-bunny.obj")) }, async () => {
-      const file = join(modelDirectory, "stanford-bunny.obj");
-      const mesh = readObj(readFileSync(file, "utf8"));
-      await assertShows("bunny", siteOf(file, ...options(container)), container, { ...mesh, normals: areaWeightedNormals(mesh) });
-    });
+    test(
+      "shows the Stanford bunny as X3DOM shows it inline",
+      { skip: !existsSync(join(modelDirectory, "stanford-bunny.obj")) },
+      async () => {
+        const file = join(modelDirectory, "stanford-bunny.obj");
+        const mesh = readObj(readFileSync(file, "utf8"));
+        await assertShows("bunny", siteOf(file, ...options(container)), container, {
+          ...mesh,
+          normals: areaWeightedNormals(mesh),
+        });
+      },
+    );
 
     test("is found different when a file is another's", async () => {
       const site = siteOfGenerated("trefoil", ...options(container), ...patches);
@@ -211,7 +296,10 @@ for (const container of containers) {
       const page = pageOf(site);
       const before = page.slice(0, page.search(/<(Group|Shape)\b/)); // viewpoint, lights and ground
       const inline = `${before}<Inline url="shapes.x3d"></Inline></Scene></X3D></body></html>`;
-      const shapes = readFileSync(join(site, "scene.x3d"), "utf8").replaceAll(/<(Viewpoint|DirectionalLight|NavigationInfo|Background)\b[\s\S]*?<\/\1>/g, "");
+      const shapes = readFileSync(join(site, "scene.x3d"), "utf8").replaceAll(
+        /<(Viewpoint|DirectionalLight|NavigationInfo|Background)\b[\s\S]*?<\/\1>/g,
+        "",
+      );
       const actual = await pictureOf(site, container, inline, { "/shapes.x3d": shapes });
       const expected = await referenceOf(site, container, "trefoil", sourceOf("trefoil"));
       assertSamePicture(`x3dom-inline-${container}`, actual, expected, bounds);

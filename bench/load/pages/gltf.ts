@@ -8,6 +8,8 @@ const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
 
 export async function load(url: string): Promise<Object3D> {
   const { scene } = await loader.loadAsync(url);
-  scene.traverse((object) => { if (object instanceof Mesh) object.material = new MeshPhongMaterial(); });
+  scene.traverse((object) => {
+    if (object instanceof Mesh) object.material = new MeshPhongMaterial();
+  });
   return scene;
 }

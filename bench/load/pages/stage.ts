@@ -1,7 +1,17 @@
 // A three.js page's usual beginning: a canvas over the whole window, a light at
 // the camera, and a camera that frames what is shown first.
 
-import { Box3, Color, DirectionalLight, PerspectiveCamera, Scene, Sphere, Vector3, WebGLRenderer, type Object3D } from "three";
+import {
+  Box3,
+  Color,
+  DirectionalLight,
+  PerspectiveCamera,
+  Scene,
+  Sphere,
+  Vector3,
+  WebGLRenderer,
+  type Object3D,
+} from "three";
 
 const renderer = new WebGLRenderer({ antialias: true });
 const camera = new PerspectiveCamera(45, innerWidth / innerHeight);
@@ -17,7 +27,10 @@ export function show(object: Object3D, isAll = true): void {
   scene.add(object, light);
   requestAnimationFrame(() => {
     renderer.render(scene, camera);
-    if (isAll) queueMicrotask(() => { document.dispatchEvent(new Event("model-complete")); });
+    if (isAll)
+      queueMicrotask(() => {
+        document.dispatchEvent(new Event("model-complete"));
+      });
   });
 }
 

@@ -17,7 +17,6 @@ EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geom
 /// element types, interleaved records, spherical normals. Safe for untrusted
 /// bytes; see decodePatch. Throws Error{unsupported} for signed indices,
 /// unsigned components of normals, and pairs of other than 8 or 16 bits.
-IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry,
-                      const FetchFile& fetch);
+IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch);
 
 } // namespace imgeo

@@ -19,8 +19,7 @@ class Records {
 public:
   Records(const Reference& reference, const FetchFile& fetch, ElementType type, std::uint32_t components)
       : bytes_(fetch(reference.url)), place_(reference.url), type_(type), first_(reference.first),
-        recordBytes_(components * byteSizeOf(type)),
-        stride_(reference.stride != 0 ? reference.stride : recordBytes_) {
+        recordBytes_(components * byteSizeOf(type)), stride_(reference.stride != 0 ? reference.stride : recordBytes_) {
     if (stride_ < recordBytes_)
       throw Error(ErrorKind::malformed, place_,
                   "a stride of " + std::to_string(stride_) + " bytes is less than a record of " +
@@ -34,9 +33,8 @@ public:
     const std::uint64_t begin = first_ - first_ % stride_;
     if (begin > bytes_.size() || (bytes_.size() - begin) / stride_ < count || available() < count)
       throw Error(ErrorKind::truncated, place_,
-                  std::to_string(bytes_.size()) + " bytes are too few for " + std::to_string(count) +
-                      " records of " + std::to_string(stride_) + " bytes from byte " +
-                      std::to_string(first_));
+                  std::to_string(bytes_.size()) + " bytes are too few for " + std::to_string(count) + " records of " +
+                      std::to_string(stride_) + " bytes from byte " + std::to_string(first_));
   }
 
   /// How many records follow one another to the end of the file.
@@ -94,8 +92,7 @@ void requireType(bool supported, const std::string& place, const char* attribute
 }
 
 /// A count of 0 in the only draw stands for all indices of the file.
-std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, ElementType type,
-                                         const FetchFile& fetch) {
+std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, ElementType type, const FetchFile& fetch) {
   requireType(isUnsigned(type), patch.index->url, "indices", type);
   const Records records(*patch.index, fetch, type, 1);
   const bool all = patch.draws.size() == 1 && patch.draws[0].count == 0;
@@ -107,8 +104,8 @@ std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, ElementT
   return indices;
 }
 
-std::vector<Vec3u> decodeIntegers(const Records& records, std::uint32_t count,
-                                  const GeometryDescription& geometry, const std::string& place) {
+std::vector<Vec3u> decodeIntegers(const Records& records, std::uint32_t count, const GeometryDescription& geometry,
+                                  const std::string& place) {
   const StoredCoords stored = storedCoords(Container::bg, geometry.coordType, geometry.lattice.bits);
   std::vector<Vec3u> positions(count);
   for (std::uint32_t n = 0; n < count; ++n)
@@ -122,25 +119,23 @@ std::vector<Vec3u> decodeFloats(const Records& records, std::uint32_t count, con
                                 const std::string& place) {
   std::vector<Vec3u> positions;
   for (std::uint32_t n = 0; n < count; ++n)
-    positions.push_back(nearestPoint(
-        Vec3f(Vec3d{records.realAt(n, 0), records.realAt(n, 1), records.realAt(n, 2)}), lattice, place));
+    positions.push_back(
+        nearestPoint(Vec3f(Vec3d{records.realAt(n, 0), records.realAt(n, 1), records.realAt(n, 2)}), lattice, place));
   return positions;
 }
 
-std::vector<Vec3f> decodeNormals(const Records& records, std::uint32_t count,
-                                 const GeometryDescription& geometry) {
+std::vector<Vec3f> decodeNormals(const Records& records, std::uint32_t count, const GeometryDescription& geometry) {
   std::vector<Vec3f> normals(count);
   const std::uint32_t bits = 8 * byteSizeOf(geometry.normalType);
   for (std::uint32_t n = 0; n < count; ++n)
-    normals[n] =
-        isPair(geometry.normalEncoding)
-            ? loadNormal({records.unsignedAt(n, 0), records.unsignedAt(n, 1)}, geometry.normalEncoding, bits)
-            : unitNormal({records.realAt(n, 0), records.realAt(n, 1), records.realAt(n, 2)});
+    normals[n] = isPair(geometry.normalEncoding)
+                     ? loadNormal({records.unsignedAt(n, 0), records.unsignedAt(n, 1)}, geometry.normalEncoding, bits)
+                     : unitNormal({records.realAt(n, 0), records.realAt(n, 1), records.realAt(n, 2)});
   return normals;
 }
 
-NamedAttribute decodeAttribute(const Records& records, std::uint32_t count,
-                               const AttributeDescription& description, const std::string& place) {
+NamedAttribute decodeAttribute(const Records& records, std::uint32_t count, const AttributeDescription& description,
+                               const std::string& place) {
   NamedAttribute attribute{description.name, description.components, {}};
   for (std::uint32_t n = 0; n < count; ++n)
     for (std::uint32_t c = 0; c < description.components; ++c) {
@@ -168,8 +163,7 @@ void checkTypes(const PatchDescription& patch, const GeometryDescription& geomet
 
 } // namespace
 
-IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry,
-                      const FetchFile& fetch) {
+IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch) {
   checkTypes(patch, geometry);
   const std::string& place = patch.coord[0].url;
   IndexedPatch decoded;
@@ -188,15 +182,13 @@ IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& 
   };
 
   const Records coords = fetchRecords(patch.coord[0], geometry.coordType, 3);
-  decoded.positions = geometry.coordType == ElementType::float32
-                          ? decodeFloats(coords, count, geometry.lattice, place)
-                          : decodeIntegers(coords, count, geometry, place);
+  decoded.positions = geometry.coordType == ElementType::float32 ? decodeFloats(coords, count, geometry.lattice, place)
+                                                                 : decodeIntegers(coords, count, geometry, place);
   checkInsideBox(decoded.positions, geometry, patch.box, place);
 
   if (patch.normal)
     decoded.normals = decodeNormals(
-        fetchRecords(*patch.normal, geometry.normalType, isPair(geometry.normalEncoding) ? 2 : 3), count,
-        geometry);
+        fetchRecords(*patch.normal, geometry.normalType, isPair(geometry.normalEncoding) ? 2 : 3), count, geometry);
   if (patch.texCoord) {
     const Records records = fetchRecords(*patch.texCoord, geometry.texCoordType, 2);
     const Vec2f min = geometry.texCoordMin, size = geometry.texCoordSize;
@@ -211,15 +203,15 @@ IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& 
       return static_cast<std::uint8_t>(std::lround(255 * (share >= 0 ? std::min(share, 1.0) : 0)));
     };
     for (std::uint32_t n = 0; n < count; ++n)
-      decoded.colors.push_back({byte(n, 0), byte(n, 1), byte(n, 2),
-                                geometry.colorComponents == 4 ? byte(n, 3) : std::uint8_t{255}});
+      decoded.colors.push_back(
+          {byte(n, 0), byte(n, 1), byte(n, 2), geometry.colorComponents == 4 ? byte(n, 3) : std::uint8_t{255}});
   }
   checkAttributes(patch, geometry);
   for (std::size_t a = 0; a < geometry.attributes.size(); ++a) {
     const AttributeDescription& attribute = geometry.attributes[a];
     decoded.namedAttributes.push_back(
-        decodeAttribute(fetchRecords(patch.attributes[a][0], ElementType::float32, attribute.components),
-                        count, attribute, patch.attributes[a][0].url));
+        decodeAttribute(fetchRecords(patch.attributes[a][0], ElementType::float32, attribute.components), count,
+                        attribute, patch.attributes[a][0].url));
   }
   return decoded;
 }

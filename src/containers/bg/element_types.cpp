@@ -30,13 +30,13 @@ void chooseOneType(GeometryDescription& geometry, const PatchedMesh& mesh) {
   };
   const auto refuse = [&](const std::string& what) {
     throw Error(ErrorKind::unsupported, "",
-                "X3DOM reads interleaved records as one element type, and " + std::string(nameOf(type)) +
-                    " holds no " + what);
+                "X3DOM reads interleaved records as one element type, and " + std::string(nameOf(type)) + " holds no " +
+                    what);
   };
   if (has(&Patch::normals) && isUnsigned(type) && !isPair(geometry.normalEncoding))
     refuse("components of normals; Int16, Float32 and spherical normals beside Uint16 do");
-  if (has(&Patch::texCoords) && (byteSizeOf(type) == 1 || (geometry.texCoordType == ElementType::float32 &&
-                                                           type != ElementType::float32)))
+  if (has(&Patch::texCoords) &&
+      (byteSizeOf(type) == 1 || (geometry.texCoordType == ElementType::float32 && type != ElementType::float32)))
     refuse("such texture coordinates; Float32 does");
   if (!isPair(geometry.normalEncoding))
     geometry.normalType = type;

@@ -53,8 +53,7 @@ Bytes indexArray(const IndexedPatch& patch, ElementType type) {
 /// Two bytes of normal fit into what pads a record of 16-bit coordinates to whole
 /// words: X3DOM's place for spherical ones.
 bool areNormalsInCoords(const IndexedPatch& patch, const GeometryDescription& geometry) {
-  return !patch.normals.empty() && isPair(geometry.normalEncoding) &&
-         geometry.normalType == ElementType::uint8;
+  return !patch.normals.empty() && isPair(geometry.normalEncoding) && geometry.normalType == ElementType::uint8;
 }
 
 /// Coordinates of one or two bytes have a fourth element; X3DOM binds four where the

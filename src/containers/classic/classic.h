@@ -15,12 +15,10 @@ namespace imgeo {
 /// For X3DOM, which has one implicit mesh a page, all images are 256 wide. Throws
 /// Error{limit} for more indices, or records without an index, than an image of
 /// that width or of guaranteedImageEdge, and guaranteedImageEdge high, holds.
-EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort,
-                           Target target);
+EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort, Target target);
 
 /// Reads what encodeClassic writes and X3DOM's ImageGeometry with record images of
 /// any size. Safe for untrusted bytes; see decodePatch.
-IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescription& geometry,
-                           const FetchFile& fetch);
+IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch);
 
 } // namespace imgeo

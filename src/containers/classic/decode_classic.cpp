@@ -17,10 +17,9 @@ namespace {
 /// of them) from the reference's first texel on.
 class Texels {
 public:
-  Texels(const Reference& reference, const FetchFile& fetch, std::uint32_t columns,
-         std::uint32_t fewestChannels)
-      : image_(decodePng(fetch(reference.url), reference.url)),
-        columns_(columns != 0 ? columns : image_.width), first_(reference.first), place_(reference.url) {
+  Texels(const Reference& reference, const FetchFile& fetch, std::uint32_t columns, std::uint32_t fewestChannels)
+      : image_(decodePng(fetch(reference.url), reference.url)), columns_(columns != 0 ? columns : image_.width),
+        first_(reference.first), place_(reference.url) {
     if (columns > image_.width)
       throw Error(ErrorKind::malformed, place_,
                   "the image is " + std::to_string(image_.width) + " texels wide and cannot hold " +
@@ -73,13 +72,12 @@ std::vector<std::uint32_t> decodeWideIndices(const PatchDescription& patch, cons
   return indices;
 }
 
-std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, const FetchFile& fetch,
-                                         const Image& records, const std::string& recordsPlace) {
+std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, const FetchFile& fetch, const Image& records,
+                                         const std::string& recordsPlace) {
   if (records.width > recordColumns || records.height > recordColumns)
     throw Error(ErrorKind::malformed, recordsPlace,
                 "a coordinate image that is indexed is at most 256 texels wide and 256 high");
-  const std::vector<std::uint32_t> columnOf = texelsByByte(records.width),
-                                   rowOf = texelsByByte(records.height);
+  const std::vector<std::uint32_t> columnOf = texelsByByte(records.width), rowOf = texelsByByte(records.height);
   const std::uint64_t count = drawnCount(patch.draws);
   const Texels texels(*patch.index, fetch, patch.implicitMeshSize.x, 3);
   texels.require(count);
@@ -110,9 +108,7 @@ std::vector<Vec3f> decodePairs(const Texels& texels, std::uint32_t count, Normal
 }
 
 Vec2f texCoordOf(const std::uint8_t* texel, const GeometryDescription& geometry) {
-  const auto word = [](std::uint8_t high, std::uint8_t low) {
-    return static_cast<std::uint16_t>(high << 8 | low);
-  };
+  const auto word = [](std::uint8_t high, std::uint8_t low) { return static_cast<std::uint16_t>(high << 8 | low); };
   return {loadTexCoord(word(texel[0], texel[2]), geometry.texCoordMin.x, geometry.texCoordSize.x),
           loadTexCoord(word(texel[1], texel[3]), geometry.texCoordMin.y, geometry.texCoordSize.y)};
 }
@@ -134,15 +130,13 @@ NamedAttribute decodeAttribute(const std::vector<Texels>& planes, std::uint32_t 
 
 } // namespace
 
-IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescription& geometry,
-                           const FetchFile& fetch) {
+IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch) {
   const std::uint32_t bits = geometry.lattice.bits;
   const StoredCoords stored = storedCoords(Container::sig, geometry.coordType, bits);
   if (patch.coord.size() != coordBytes(Container::sig, bits))
     throw Error(ErrorKind::malformed, "",
-                std::to_string(bits) + "-bit coordinates need " +
-                    std::to_string(coordBytes(Container::sig, bits)) + " images and have " +
-                    std::to_string(patch.coord.size()));
+                std::to_string(bits) + "-bit coordinates need " + std::to_string(coordBytes(Container::sig, bits)) +
+                    " images and have " + std::to_string(patch.coord.size()));
 
   // What an index means follows from the height of the record images, and how
   // many records there are may only follow from the indices.
@@ -153,9 +147,8 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
   decoded.draws = patch.draws;
   decoded.colorComponents = geometry.colorComponents;
   if (patch.index)
-    decoded.indices = geometry.indexType == ElementType::uint32
-                          ? decodeWideIndices(patch, fetch)
-                          : decodeIndices(patch, fetch, first.image(), place);
+    decoded.indices = geometry.indexType == ElementType::uint32 ? decodeWideIndices(patch, fetch)
+                                                                : decodeIndices(patch, fetch, first.image(), place);
   const std::uint32_t count = recordCountOf(patch, decoded.indices, patch.index ? patch.index->url : place);
   first.require(count);
 
@@ -191,8 +184,7 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
     const bool alpha = geometry.colorComponents == 4;
     const Texels texels = fetchRecords(*patch.color, alpha ? 4 : 3);
     for (std::uint32_t n = 0; n < count; ++n)
-      decoded.colors.push_back(
-          {texels[n][0], texels[n][1], texels[n][2], alpha ? texels[n][3] : std::uint8_t{255}});
+      decoded.colors.push_back({texels[n][0], texels[n][1], texels[n][2], alpha ? texels[n][3] : std::uint8_t{255}});
   }
   checkAttributes(patch, geometry);
   for (std::size_t a = 0; a < geometry.attributes.size(); ++a) {

@@ -72,10 +72,8 @@ Image coordImage(const IndexedPatch& patch, ImageSize size, const StoredCoords& 
 
 Image texCoordImage(const IndexedPatch& patch, const GeometryDescription& geometry, ImageSize size) {
   return imageOf(size, 4, patch.vertexCount(), [&](std::size_t n, std::uint8_t* out) {
-    const std::uint16_t u =
-        storeTexCoord(patch.texCoords[n].x, geometry.texCoordMin.x, geometry.texCoordSize.x);
-    const std::uint16_t v =
-        storeTexCoord(patch.texCoords[n].y, geometry.texCoordMin.y, geometry.texCoordSize.y);
+    const std::uint16_t u = storeTexCoord(patch.texCoords[n].x, geometry.texCoordMin.x, geometry.texCoordSize.x);
+    const std::uint16_t v = storeTexCoord(patch.texCoords[n].y, geometry.texCoordMin.y, geometry.texCoordSize.y);
     out[0] = static_cast<std::uint8_t>(u >> 8);
     out[1] = static_cast<std::uint8_t>(v >> 8);
     out[2] = static_cast<std::uint8_t>(u);
@@ -104,8 +102,7 @@ Image attributeImage(const NamedAttribute& attribute, const AttributeDescription
 
 } // namespace
 
-EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort,
-                           Target target) {
+EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort, Target target) {
   EncodedPatch encoded{describePatch(patch, geometry), {}, 0};
   const ImageSize records = recordImageSizeOf(patch, target);
   const ImageSize running = implicitMeshSizeOf(patch, records, target);
@@ -114,9 +111,8 @@ EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription&
 
   std::vector<RoleImage> images;
   if (!patch.indices.empty())
-    images.push_back({Role::index, geometry.indexType == ElementType::uint32
-                                       ? wideIndexImage(patch, running)
-                                       : indexImage(patch, running, records)});
+    images.push_back({Role::index, geometry.indexType == ElementType::uint32 ? wideIndexImage(patch, running)
+                                                                             : indexImage(patch, running, records)});
   for (std::uint32_t plane = coordBytes(Container::sig, geometry.lattice.bits); plane-- > 0;)
     images.push_back({Role::coord, coordImage(patch, records, stored, plane)});
   if (!patch.normals.empty())
@@ -129,10 +125,10 @@ EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription&
     images.push_back({Role::color, colorImage(patch, geometry.colorComponents, records)});
   for (std::size_t a = 0; a < geometry.attributes.size(); ++a)
     for (std::uint32_t plane = geometry.attributes[a].bytes; plane-- > 0;)
-      images.push_back({Role::attribute,
-                        attributeImage(patch.namedAttributes.at(a), geometry.attributes[a], records,
-                                       patch.vertexCount(), plane),
-                        a});
+      images.push_back(
+          {Role::attribute,
+           attributeImage(patch.namedAttributes.at(a), geometry.attributes[a], records, patch.vertexCount(), plane),
+           a});
 
   std::vector<Bytes> pngs(images.size());
   parallelFor(images.size(), [&](std::size_t i) { pngs[i] = encodePng(images[i].image, effort); });

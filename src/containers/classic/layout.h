@@ -28,8 +28,7 @@ struct ImageSize {
 
 /// The images of something that is as long as it has to be: indices, and records without them.
 inline constexpr ImageSize longImageSize(std::uint64_t count) {
-  const std::uint32_t columns =
-      rowsFor(count, longColumns) <= guaranteedImageEdge ? longColumns : guaranteedImageEdge;
+  const std::uint32_t columns = rowsFor(count, longColumns) <= guaranteedImageEdge ? longColumns : guaranteedImageEdge;
   return {columns, rowsFor(count, columns)};
 }
 
@@ -50,8 +49,7 @@ inline constexpr ImageSize pairImageSize(ImageSize records) {
 }
 
 /// An image of which texel(n, out) writes texel n of the first `count`; the rest repeat the last.
-template <typename Texel>
-Image imageOf(ImageSize size, std::uint32_t channels, std::size_t count, Texel texel) {
+template <typename Texel> Image imageOf(ImageSize size, std::uint32_t channels, std::size_t count, Texel texel) {
   const std::size_t texels = std::size_t{size.columns} * size.rows;
   Image image{size.columns, size.rows, channels, Bytes(texels * channels)};
   std::uint8_t* out = image.pixels.data();

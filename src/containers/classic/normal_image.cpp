@@ -27,9 +27,8 @@ Image rgbImage(const IndexedPatch& patch, ImageSize records) {
 Image pairImage(const IndexedPatch& patch, NormalEncoding encoding, ImageSize records) {
   const ImageSize size = pairImageSize(records);
   if (size.columns > guaranteedImageEdge)
-    throw Error(
-        ErrorKind::limit, "",
-        "normals of two numbers fit into an image for at most 2,097,152 vertices; use smaller patches");
+    throw Error(ErrorKind::limit, "",
+                "normals of two numbers fit into an image for at most 2,097,152 vertices; use smaller patches");
   Image image{size.columns, size.rows, 1, Bytes(std::size_t{size.columns} * size.rows)};
   const std::size_t half = image.pixels.size() / 2, count = patch.vertexCount();
   for (std::size_t n = 0; n < count; ++n) {

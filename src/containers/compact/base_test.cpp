@@ -70,8 +70,7 @@ TEST(CompactBase, StandsBehindOthersInAFile) {
   EncodedBase mesh = encoded(sphere(100, 100), 3000);
   mesh.bases.push_back(mesh.bases[0]);
   mesh.geometry.base->first = 1;
-  EXPECT_EQ(ContainerReader(mesh.fetch()).decodeBase(mesh.geometry).triangleCount(),
-            mesh.base.triangleCount());
+  EXPECT_EQ(ContainerReader(mesh.fetch()).decodeBase(mesh.geometry).triangleCount(), mesh.base.triangleCount());
 }
 
 TEST(CompactBase, IsRefusedWhereItIsNotTheNodes) {

@@ -9,9 +9,8 @@
 namespace imgeo::compact {
 
 namespace attributeModels {
-inline constexpr std::size_t repeat = 0, choice = repeat + 1, exact = choice + 24, flip = exact + 2,
-                             first = flip + 1, second = first + numberModels,
-                             count = second + 93 * numberModels;
+inline constexpr std::size_t repeat = 0, choice = repeat + 1, exact = choice + 24, flip = exact + 2, first = flip + 1,
+                             second = first + numberModels, count = second + 93 * numberModels;
 }
 
 /// What attributes are predicted from.
@@ -34,8 +33,7 @@ std::vector<bool> codeRepeats(Coder& coder, const Surface& surface, const std::v
   std::vector<bool> repeats(wedges.count());
   for (std::uint32_t wedge = 0; wedge < wedges.count(); ++wedge)
     if (const std::uint32_t previous = wedges.previous[wedge]; previous != none)
-      repeats[wedge] =
-          coder.bit(attributeModels::repeat, Coder::encodes && values[wedge] == values[previous]);
+      repeats[wedge] = coder.bit(attributeModels::repeat, Coder::encodes && values[wedge] == values[previous]);
   return repeats;
 }
 

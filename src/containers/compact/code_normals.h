@@ -63,9 +63,7 @@ inline NormalSums sumsOfWedges(const Surface& surface, const std::vector<bool>& 
     const auto wedge = [&](std::size_t i) { return repeated[wedges.ofCorner[corner + i]]; };
     if (std::min({wedge(0), wedge(1), wedge(2)}) >= limit)
       continue;
-    const auto position = [&](std::size_t i) {
-      return surface.positions[surface.connectivity.vertex[corner + i]];
-    };
+    const auto position = [&](std::size_t i) { return surface.positions[surface.connectivity.vertex[corner + i]]; };
     Vec3<std::int32_t> normal = sums.normalOf(position(0), position(1), position(2));
     if (isUniform) {
       const Place n(normal);
@@ -109,9 +107,8 @@ void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type
       repeats[wedge] = wedges.previous[wedge] != none;
   const bool hasTriangles = surface.topology == Topology::triangles;
   const bool ofVertices = !surface.hasSeams() && !type.isUniform();
-  const NormalSums ofWedges = hasTriangles && !ofVertices
-                                  ? sumsOfWedges(surface, repeats, type.isUniform(), limit)
-                                  : NormalSums(0, 0);
+  const NormalSums ofWedges =
+      hasTriangles && !ofVertices ? sumsOfWedges(surface, repeats, type.isUniform(), limit) : NormalSums(0, 0);
   const NormalSums& sums = ofVertices ? surface.normalSums : ofWedges;
   const std::uint32_t end = std::min(static_cast<std::uint32_t>(wedges.count()), limit);
   bool isExact = false; // as the one before was

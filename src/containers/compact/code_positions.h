@@ -12,8 +12,8 @@ namespace imgeo::compact {
 
 namespace positionModels {
 inline constexpr std::size_t choice = 0, first = choice + 8 * 16 * 4, second = first + 16 * numberModels,
-                             third = second + 31 * numberModels, count = third + 31 * numberModels,
-                             lone = count, line = lone + 8 * numberModels, mask = line + 96 * numberModels,
+                             third = second + 31 * numberModels, count = third + 31 * numberModels, lone = count,
+                             line = lone + 8 * numberModels, mask = line + 96 * numberModels,
                              countWithGrid = mask + 512 * 8;
 } // namespace positionModels
 
@@ -57,13 +57,11 @@ template <typename Coder> class PositionCoder {
 public:
   /// `positions` are those of an encoder, which become what a decoder gets of them, or
   /// room for a decoder's. All are kept by reference.
-  PositionCoder(Coder& coder, const Connectivity& connectivity, std::uint32_t bits,
-                const std::optional<Grid>& grid, std::uint32_t normalShift, CoarseResiduals residuals,
-                std::vector<Vec3u>& positions)
-      : coder_(coder), connectivity_(connectivity), bits_(bits), maximum_((std::int64_t{1} << bits) - 1),
-        grid_(grid), residuals_(residuals), positions_(positions),
-        sums_(connectivity.across.empty() ? 0 : positions.size(), normalShift),
-        masks_(grid ? positions.size() : 0) {}
+  PositionCoder(Coder& coder, const Connectivity& connectivity, std::uint32_t bits, const std::optional<Grid>& grid,
+                std::uint32_t normalShift, CoarseResiduals residuals, std::vector<Vec3u>& positions)
+      : coder_(coder), connectivity_(connectivity), bits_(bits), maximum_((std::int64_t{1} << bits) - 1), grid_(grid),
+        residuals_(residuals), positions_(positions),
+        sums_(connectivity.across.empty() ? 0 : positions.size(), normalShift), masks_(grid ? positions.size() : 0) {}
 
   /// Returns the sums of the triangle normals around each vertex; nothing for points and lines.
   NormalSums run() {
@@ -154,15 +152,12 @@ private:
         if (coder.isSpent())
           return;
       const int axis = context.order[turn];
-      std::int64_t expected = std::clamp<std::int64_t>(guess[turn], 0, maximum_),
-                   coordinate = coordinates[turn];
+      std::int64_t expected = std::clamp<std::int64_t>(guess[turn], 0, maximum_), coordinate = coordinates[turn];
       if (context.mask >> axis & 1) {
         const std::int64_t line = nearestGridLine(*grid_, axis, expected);
         const std::size_t models =
-            positionModels::line +
-            numberModels * ((turn * 4 + std::min(steps, 3u)) * 8 + context.agreement / 2);
-        const std::int64_t moved =
-            codeSmall(coder, models, nearestGridLine(*grid_, axis, coordinate) - line).value;
+            positionModels::line + numberModels * ((turn * 4 + std::min(steps, 3u)) * 8 + context.agreement / 2);
+        const std::int64_t moved = codeSmall(coder, models, nearestGridLine(*grid_, axis, coordinate) - line).value;
         steps += static_cast<std::uint32_t>(std::min<std::int64_t>(std::abs(moved), 7));
         coordinate = gridLine(*grid_, axis, line + moved);
       } else {
@@ -174,8 +169,7 @@ private:
                              : positionModels::first + numberModels * context.agreement;
         else if (offGrid == 1)
           models = positionModels::second + numberModels * length;
-        const SignedNumber residual =
-            codeSigned(coder, models, stepsBetween(expected, coordinate, context.shift));
+        const SignedNumber residual = codeSigned(coder, models, stepsBetween(expected, coordinate, context.shift));
         ++offGrid;
         length = residual.length;
         longest = std::max(longest, length);

@@ -102,8 +102,7 @@ private:
     } else if (a != none || b != none) {
       guesses.add(values_[a != none ? a : b]);
     } else {
-      guesses.add(wedge > 0 ? values_[wedge - 1]
-                            : combine([&](std::uint32_t) { return 1 << (type_.bits - 1); }));
+      guesses.add(wedge > 0 ? values_[wedge - 1] : combine([&](std::uint32_t) { return 1 << (type_.bits - 1); }));
     }
     return guesses;
   }
@@ -134,8 +133,8 @@ private:
         const std::int64_t to = from + floorDivide(2 * by + frame.unit, 2 * frame.unit);
         return static_cast<std::int32_t>(std::clamp<std::int64_t>(to, 0, maximum_));
       };
-      guesses.add({{moved(values_[a][0], frame.along * u - beside * v),
-                    moved(values_[a][1], frame.along * v + beside * u)}});
+      guesses.add(
+          {{moved(values_[a][0], frame.along * u - beside * v), moved(values_[a][1], frame.along * v + beside * u)}});
     }
   }
 
@@ -146,8 +145,8 @@ private:
     const std::uint32_t across = surface_.connectivity.across[corner / 3];
     const std::vector<std::uint32_t>& ofCorner = surface_.wedges.ofCorner;
     if (across != none && ofCorner[after(across)] == b && ofCorner[before(across)] == a)
-      guesses.add(combine(
-          [&](std::uint32_t i) { return values_[a][i] + values_[b][i] - values_[ofCorner[across]][i]; }));
+      guesses.add(
+          combine([&](std::uint32_t i) { return values_[a][i] + values_[b][i] - values_[ofCorner[across]][i]; }));
   }
 
   std::uint32_t cheapest(const Guesses& guesses, std::uint32_t latest, Value value) {
@@ -164,8 +163,7 @@ private:
   }
 
   template <typename C>
-  static std::uint32_t codeChoice(C& coder, const Guesses& guesses, std::uint32_t latest,
-                                  std::uint32_t choice) {
+  static std::uint32_t codeChoice(C& coder, const Guesses& guesses, std::uint32_t latest, std::uint32_t choice) {
     const std::size_t models = attributeModels::choice + (guesses.set() * 4 + latest) * 2;
     std::uint32_t i = 0;
     while (i + 1 < guesses.count && !coder.bit(models + i, i == choice))

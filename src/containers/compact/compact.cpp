@@ -52,19 +52,16 @@ struct Requirement {
 template <typename Value> const Value& valueAt(const std::vector<Value>& values, const Reference& data) {
   if (data.first >= values.size())
     throw Error(ErrorKind::malformed, data.url,
-                "has no patch " + std::to_string(data.first) + " but " + std::to_string(values.size()) +
-                    " patches");
+                "has no patch " + std::to_string(data.first) + " but " + std::to_string(values.size()) + " patches");
   return values[data.first];
 }
 
 } // namespace
 
-compact::CompactPatch quantisePatch(Patch patch, const GeometryDescription& geometry,
-                                    const EncodeOptions& options) {
+compact::CompactPatch quantisePatch(Patch patch, const GeometryDescription& geometry, const EncodeOptions& options) {
   const compact::AttributeBits bits{options.normalBits, options.texCoordBits, options.colorBits,
-                                    options.normals == NormalEncoding::derived
-                                        ? compact::NormalMode::derivedArea
-                                        : compact::NormalMode::area};
+                                    options.normals == NormalEncoding::derived ? compact::NormalMode::derivedArea
+                                                                               : compact::NormalMode::area};
   return compact::quantise(std::move(patch), geometry, bits);
 }
 
@@ -95,8 +92,7 @@ IndexedPatch CompactFiles::decode(const PatchDescription& patch, const GeometryD
   const compact::CompactPatch& decoded = valueAt(*patches, data);
   const Requirement require{data.url};
   require(decoded.partCount == 0, "a base stands where a patch should");
-  require(decoded.positionBits == geometry.lattice.bits,
-          "the positions have other bits than the node states");
+  require(decoded.positionBits == geometry.lattice.bits, "the positions have other bits than the node states");
   require(patch.vertexCount == 0 || patch.vertexCount == decoded.wedgeCount(),
           "the patch has other vertices than the document states");
   require(hasAttributes(decoded, geometry), "the patch has other attributes than the document states");

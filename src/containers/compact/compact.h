@@ -11,8 +11,7 @@
 namespace imgeo {
 
 /// A patch in integers, by the node's fields. Of points, each wedge is one.
-compact::CompactPatch quantisePatch(Patch patch, const GeometryDescription& geometry,
-                                    const EncodeOptions& options);
+compact::CompactPatch quantisePatch(Patch patch, const GeometryDescription& geometry, const EncodeOptions& options);
 
 /// What documents say of such a patch, but for where its data lies.
 PatchDescription describe(const compact::CompactPatch& patch, const GeometryDescription& geometry);

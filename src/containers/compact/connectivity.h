@@ -26,8 +26,7 @@ struct Connectivity {
   std::uint32_t vertexCount = 0;
 
   // Triangles. `none` where there is no such thing.
-  std::vector<std::uint32_t>
-      across; ///< per triangle: the corner opposite of its first edge in the neighbour there
+  std::vector<std::uint32_t> across;  ///< per triangle: the corner opposite of its first edge in the neighbour there
   std::vector<std::uint32_t> closing; ///< per triangle: the same for the second edge that it closes
   std::vector<std::uint32_t> ahead;   ///< per vertex: the boundary's next vertex when it came
   std::vector<std::uint32_t> behind;  ///< per vertex: the one before, likewise
@@ -45,11 +44,9 @@ Connectivity decodeLines(RangeDecoder& decoder, std::uint32_t lineCount, std::ui
 /// Finds an order for elements over vertices 0 .. vertexCount - 1, all of them in use,
 /// and writes it. `sourceCorner` receives the corner of `vertices` that each
 /// corner of the result is. `firstTriangle` is where it begins.
-Connectivity encodeTriangles(RangeEncoder& encoder, std::span<const std::uint32_t> vertices,
-                             std::uint32_t vertexCount, std::uint32_t firstTriangle,
-                             std::vector<std::uint32_t>& sourceCorner);
+Connectivity encodeTriangles(RangeEncoder& encoder, std::span<const std::uint32_t> vertices, std::uint32_t vertexCount,
+                             std::uint32_t firstTriangle, std::vector<std::uint32_t>& sourceCorner);
 /// The same for lines, in the order in which they stand and in their direction.
-Connectivity encodeLines(RangeEncoder& encoder, std::span<const std::uint32_t> vertices,
-                         std::uint32_t vertexCount);
+Connectivity encodeLines(RangeEncoder& encoder, std::span<const std::uint32_t> vertices, std::uint32_t vertexCount);
 
 } // namespace imgeo::compact

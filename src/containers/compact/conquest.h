@@ -208,8 +208,7 @@ private:
   void close(const Gate& gate) {
     const auto [k, p, next, behind] = gate;
     const std::uint32_t closing = nodes_[next].apex, vertex = vertexOf(p);
-    if (vertex > vertexOf(k) && vertex > vertexOf(next) && vertex > out_.vertex[closing] &&
-        out_.second[vertex] == none)
+    if (vertex > vertexOf(k) && vertex > vertexOf(next) && vertex > out_.vertex[closing] && out_.second[vertex] == none)
       out_.second[vertex] = closing;
     addTriangle({vertexOf(k), vertex, vertexOf(next)}, nodes_[k].apex, closing);
     nodes_[k].previous = nodes_[k].next = none;

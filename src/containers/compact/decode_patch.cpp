@@ -50,13 +50,11 @@ private:
       parts = codeParts(streams_[StreamName::parts], connectivity, sizes.partCount,
                         std::vector<std::uint32_t>(sizes.elementCount));
     patch.positions.resize(sizes.vertexCount);
-    const NormalSums sums =
-        PositionCoder(streams_[StreamName::positions], connectivity, type.positionBits, sizes.grid,
-                      sizes.normalShift, {sizes.residualShift, &parts.isShared}, patch.positions)
-            .run();
+    const NormalSums sums = PositionCoder(streams_[StreamName::positions], connectivity, type.positionBits, sizes.grid,
+                                          sizes.normalShift, {sizes.residualShift, &parts.isShared}, patch.positions)
+                                .run();
     Wedges wedges = decodeWedges(connectivity, sizes);
-    const Surface surface{type.topology, connectivity,      wedges,     patch.positions,
-                          sums,          sizes.normalShift, type.isBase};
+    const Surface surface{type.topology, connectivity, wedges, patch.positions, sums, sizes.normalShift, type.isBase};
     for (const std::uint32_t attribute : type.attributes)
       patch.attributes.push_back({header_.attributes[attribute], decodeValues(surface, attribute)});
     patch.parts = std::move(parts.ofTriangle);
@@ -82,8 +80,7 @@ private:
   Wedges decodeWedges(const Connectivity& connectivity, const PatchSizes& sizes) {
     if (!sizes.hasSeams())
       return plainWedges(connectivity);
-    return WedgeCoder(streams_[StreamName::wedges], connectivity, sizes.wedgeCount,
-                      [](std::uint32_t) { return none; })
+    return WedgeCoder(streams_[StreamName::wedges], connectivity, sizes.wedgeCount, [](std::uint32_t) { return none; })
         .run();
   }
 

@@ -60,8 +60,7 @@ public:
 private:
   static constexpr std::uint32_t fewEdges = 16;
 
-  template <typename Visit>
-  static void visitEdges(std::span<const std::uint32_t> vertices, const Visit& visit) {
+  template <typename Visit> static void visitEdges(std::span<const std::uint32_t> vertices, const Visit& visit) {
     for (std::uint32_t corner = 0; corner < vertices.size(); corner += 3) {
       const std::uint32_t a = vertices[corner], b = vertices[corner + 1], c = vertices[corner + 2];
       if (a == b || b == c || c == a)
@@ -73,9 +72,7 @@ private:
   }
 
   /// Those of one edge in the source's order.
-  static bool before(const Edge& a, const Edge& b) {
-    return a.to != b.to ? a.to < b.to : a.corner < b.corner;
-  }
+  static bool before(const Edge& a, const Edge& b) { return a.to != b.to ? a.to < b.to : a.corner < b.corner; }
 
   /// In a sorted range. Of several triangles at one edge those found to be taken are
   /// passed over once.
@@ -83,8 +80,7 @@ private:
     if (passed_.empty())
       passed_.resize(edges_.size());
     const auto first = static_cast<std::uint32_t>(
-        std::lower_bound(edges_.begin() + begin, edges_.begin() + end, Edge{to, 0, 0}, before) -
-        edges_.begin());
+        std::lower_bound(edges_.begin() + begin, edges_.begin() + end, Edge{to, 0, 0}, before) - edges_.begin());
     if (first == end || edges_[first].to != to)
       return nullptr;
     std::uint32_t at = first + passed_[first];

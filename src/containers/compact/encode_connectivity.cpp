@@ -9,8 +9,8 @@ namespace {
 /// Knows the source's triangles and says at each edge which one lies across.
 class TriangleGuide {
 public:
-  TriangleGuide(std::span<const std::uint32_t> vertices, std::uint32_t vertexCount,
-                std::uint32_t firstTriangle, std::vector<std::uint32_t>& sourceCorner)
+  TriangleGuide(std::span<const std::uint32_t> vertices, std::uint32_t vertexCount, std::uint32_t firstTriangle,
+                std::vector<std::uint32_t>& sourceCorner)
       : vertices_(vertices), edges_(vertices, vertexCount), numbers_(vertexCount, none),
         latestNodes_(vertexCount, none), nextRoot_(firstTriangle), sourceCorner_(sourceCorner) {
     sources_.reserve(vertexCount);
@@ -25,9 +25,7 @@ public:
     take(3 * nextRoot_);
   }
   std::uint32_t rootVertex(std::uint32_t i) const { return numbers_[vertices_[3 * nextRoot_ + i]]; }
-  void numberRootVertex(std::uint32_t i, std::uint32_t number) {
-    giveNumber(vertices_[3 * nextRoot_ + i], number);
-  }
+  void numberRootVertex(std::uint32_t i, std::uint32_t number) { giveNumber(vertices_[3 * nextRoot_ + i], number); }
 
   void addNode(std::uint32_t node, std::uint32_t vertex) {
     assert(node == olderNodes_.size());
@@ -39,8 +37,7 @@ public:
   void expect(std::uint32_t vertex) const { edges_.prefetch(sources_[vertex]); }
 
   Step stepAcross(const Gate& gate, const std::vector<Node>& nodes) {
-    const EdgeTable::Edge* const edge =
-        edges_.find(sources_[nodes[gate.k].vertex], sources_[nodes[gate.p].vertex]);
+    const EdgeTable::Edge* const edge = edges_.find(sources_[nodes[gate.k].vertex], sources_[nodes[gate.p].vertex]);
     if (!edge)
       return Step::hole;
     take(edge->corner);
@@ -109,15 +106,13 @@ private:
 
 } // namespace
 
-Connectivity encodeTriangles(RangeEncoder& encoder, std::span<const std::uint32_t> vertices,
-                             std::uint32_t vertexCount, std::uint32_t firstTriangle,
-                             std::vector<std::uint32_t>& sourceCorner) {
+Connectivity encodeTriangles(RangeEncoder& encoder, std::span<const std::uint32_t> vertices, std::uint32_t vertexCount,
+                             std::uint32_t firstTriangle, std::vector<std::uint32_t>& sourceCorner) {
   TriangleGuide guide(vertices, vertexCount, firstTriangle, sourceCorner);
   return Conquest(encoder, guide, static_cast<std::uint32_t>(vertices.size() / 3), vertexCount).run();
 }
 
-Connectivity encodeLines(RangeEncoder& encoder, std::span<const std::uint32_t> vertices,
-                         std::uint32_t vertexCount) {
+Connectivity encodeLines(RangeEncoder& encoder, std::span<const std::uint32_t> vertices, std::uint32_t vertexCount) {
   LineGuide guide(vertices, vertexCount);
   return codeLines(encoder, guide, static_cast<std::uint32_t>(vertices.size() / 2), vertexCount);
 }

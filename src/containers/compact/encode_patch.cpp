@@ -57,8 +57,7 @@ Ordered orderOf(const CompactPatch& patch, const std::vector<std::uint32_t>& ver
 
 /// Whether the triangle normals' absolute values around each vertex sum up to less than
 /// 2^30, of edges shifted right.
-bool fitNormalSums(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices,
-                   std::uint32_t shift) {
+bool fitNormalSums(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices, std::uint32_t shift) {
   constexpr std::int64_t limit = 1 << 30;
   std::vector<std::int64_t> sums(patch.positions.size());
   for (std::size_t corner = 0; corner < vertices.size(); corner += 3) {
@@ -104,9 +103,7 @@ struct CodedPatch {
   NormalSums normalSums{0, 0};
   Wedges wedges;
 
-  std::uint32_t sourceWedge(std::uint32_t corner) const {
-    return source.corners[ordered.sourceCorner[corner]];
-  }
+  std::uint32_t sourceWedge(std::uint32_t corner) const { return source.corners[ordered.sourceCorner[corner]]; }
   Surface surface() const {
     return {source.topology,   ordered.connectivity, wedges, positions, normalSums,
             sizes.normalShift, source.partCount > 0};
@@ -196,11 +193,11 @@ private:
     for (const std::uint32_t wedge : patch.corners)
       vertices.push_back(patch.wedgePositions[wedge]);
     CodedPatch coded{patch, orderOf(patch, vertices, attempt_, streams_), {}, {}, NormalSums(0, 0), {}};
-    coded.sizes = codeSizes(
-        streams_[StreamName::sizes], header_.types,
-        {type, static_cast<std::uint32_t>(patch.positions.size()),
-         static_cast<std::uint32_t>(patch.wedgeCount()), static_cast<std::uint32_t>(patch.elementCount()),
-         normalShiftFor(patch, vertices), gridOf(patch), patch.partCount, patch.residualShift});
+    coded.sizes =
+        codeSizes(streams_[StreamName::sizes], header_.types,
+                  {type, static_cast<std::uint32_t>(patch.positions.size()),
+                   static_cast<std::uint32_t>(patch.wedgeCount()), static_cast<std::uint32_t>(patch.elementCount()),
+                   normalShiftFor(patch, vertices), gridOf(patch), patch.partCount, patch.residualShift});
     const Connectivity& connectivity = coded.ordered.connectivity;
     Parts parts;
     if (patch.partCount > 0)
@@ -258,8 +255,7 @@ private:
   }
 
   /// By which normals are off that are not stored.
-  static double derivedError(const CodedPatch& coded, const AttributeType& type,
-                             const std::vector<Value>& values) {
+  static double derivedError(const CodedPatch& coded, const AttributeType& type, const std::vector<Value>& values) {
     std::vector<Value> derived = values;
     RangeEncoder nothing(attributeModels::count);
     codeNormals(nothing, coded.surface(), type, derived);

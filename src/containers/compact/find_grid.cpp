@@ -49,10 +49,10 @@ std::int64_t numberLines(std::vector<Line>& lines) {
   if (distance < leastStep)
     return 0;
   for (std::size_t i = 1; i < lines.size(); ++i)
-    lines[i].number = lines[i - 1].number +
-                      static_cast<std::int64_t>(
-                          std::lround(static_cast<double>(lines[i].coordinate - lines[i - 1].coordinate) /
-                                      static_cast<double>(distance)));
+    lines[i].number =
+        lines[i - 1].number +
+        static_cast<std::int64_t>(std::lround(static_cast<double>(lines[i].coordinate - lines[i - 1].coordinate) /
+                                              static_cast<double>(distance)));
   return distance;
 }
 

@@ -99,9 +99,8 @@ PatchType takeType(FieldReader& reader, std::size_t attributeCount) {
 } // namespace
 
 void appendHeader(Bytes& out, const FileHeader& header) {
-  assert(header.streamLengths.size() == header.streamCount() &&
-         header.attributes.size() <= maxFileAttributes && header.types.size() <= maxFileTypes &&
-         header.patchCount <= maxFilePatches);
+  assert(header.streamLengths.size() == header.streamCount() && header.attributes.size() <= maxFileAttributes &&
+         header.types.size() <= maxFileTypes && header.patchCount <= maxFilePatches);
   out.insert(out.end(), std::begin(signature), std::end(signature));
   appendNumber(out, static_cast<std::uint32_t>(header.attributes.size()));
   for (const AttributeType& type : header.attributes)
@@ -128,8 +127,7 @@ PlacedHeader readHeader(ByteSpan payload, const std::string& place) {
   if (!std::equal(begin, begin + 3, signature))
     throw Error(ErrorKind::malformed, place, "is no image of compact");
   if (begin[3] != signature[3])
-    throw Error(ErrorKind::unsupported, place,
-                "compact of version " + std::to_string(begin[3]) + " is not known");
+    throw Error(ErrorKind::unsupported, place, "compact of version " + std::to_string(begin[3]) + " is not known");
 
   FileHeader header;
   const std::uint32_t attributeCount = reader.takeCount(maxFileAttributes, "attributes");

@@ -27,9 +27,7 @@ struct FileHeader {
   std::uint32_t patchCount = 0;
   std::vector<std::uint32_t> streamLengths; ///< 0: no patch has any of it
 
-  std::size_t streamCount() const {
-    return static_cast<std::size_t>(StreamName::attributes) + attributes.size();
-  }
+  std::size_t streamCount() const { return static_cast<std::size_t>(StreamName::attributes) + attributes.size(); }
 };
 
 /// What a file may have at most: of patches, of their types and of attributes. Its vertices,

@@ -209,8 +209,7 @@ TEST(Compact, GivesBackWhatNoSurfaceIs) {
     const double bytes = static_cast<double>(bytesOf(hostile.patch).size());
     EXPECT_LT(bytes / static_cast<double>(hostile.patch.elementCount()), hostile.mostBytes);
     // Words for coordinates and for indices: what no coding at all would take.
-    const auto plain =
-        6.0 * static_cast<double>(hostile.patch.positions.size() + hostile.patch.elementCount());
+    const auto plain = 6.0 * static_cast<double>(hostile.patch.positions.size() + hostile.patch.elementCount());
     EXPECT_LT(bytes, plain);
   }
 }

@@ -120,8 +120,7 @@ struct Sample {
   std::vector<CompactPatch> patches;
 
   Sample(std::string called, CompactPatch only) : name(std::move(called)), patches{std::move(only)} {}
-  Sample(std::string called, std::vector<CompactPatch> all)
-      : name(std::move(called)), patches(std::move(all)) {}
+  Sample(std::string called, std::vector<CompactPatch> all) : name(std::move(called)), patches(std::move(all)) {}
   CompactPatch& patch() { return patches[0]; }
   const CompactPatch& patch() const { return patches[0]; }
 };
@@ -149,8 +148,7 @@ inline std::vector<Sample> samples() {
   samples.push_back({"sphere", patchOf(sphere(12, 16), 16)});
   samples.push_back({"sphere-derived", patchOf(sphere(5, 6), 12, {16, 12, 8, NormalMode::derivedArea})});
   samples.push_back({"torus", patchOf(colored(torus(12, 9), 4), 14, {10, 12, 8, NormalMode::uniform})});
-  samples.push_back(
-      {"torus-plain-colors", patchOf(colored(torus(9, 12), 3), 11, {4, 16, 5, NormalMode::area})});
+  samples.push_back({"torus-plain-colors", patchOf(colored(torus(9, 12), 3), 11, {4, 16, 5, NormalMode::area})});
   samples.push_back({"cube", patchOf(creasedCube(), 10)});
   samples.push_back({"cube-derived", patchOf(creasedCube(), 10, {8, 12, 8, NormalMode::derivedUniform})});
   samples.push_back({"cone", patchOf(flatCone(40), 16)});
@@ -282,8 +280,8 @@ inline std::vector<Sample> files() {
   std::vector<CompactPatch> alike;
   for (std::uint32_t i = 3; i < 12; ++i)
     alike.push_back(patchOf(imgeo::testing::sphere(i, i + 1), 12));
-  const auto several = of({"cube", "sphere", "lines", "others", "terrain", "points-with-normals", "torus",
-                           "cube", "torus-plain-colors", "sphere-derived"}),
+  const auto several = of({"cube", "sphere", "lines", "others", "terrain", "points-with-normals", "torus", "cube",
+                           "torus-plain-colors", "sphere-derived"}),
              bases = of({"base", "base-colors", "base"});
   files.emplace_back("alike", std::move(alike));
   files.emplace_back("several", several);

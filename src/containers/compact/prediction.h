@@ -57,9 +57,8 @@ inline Candidates candidatesFor(std::uint32_t vertex, std::uint32_t across, cons
                 k = at(connectivity.vertex[before(across)]);
     candidates.add(k + p - o, 0);
     if (const std::uint32_t s = connectivity.second[vertex]; s != none)
-      candidates.add(at(connectivity.vertex[after(s)]) + at(connectivity.vertex[before(s)]) -
-                         at(connectivity.vertex[s]),
-                     1);
+      candidates.add(
+          at(connectivity.vertex[after(s)]) + at(connectivity.vertex[before(s)]) - at(connectivity.vertex[s]), 1);
     if (const std::uint32_t ahead = connectivity.ahead[vertex]; ahead != none)
       candidates.add(p + at(ahead) - k, 2);
     if (const std::uint32_t behind = connectivity.behind[vertex]; behind != none)
@@ -93,9 +92,7 @@ public:
   /// Twice the area of a triangle as a vector, of edges shifted right.
   Vec3<std::int32_t> normalOf(const Vec3u& a, const Vec3u& b, const Vec3u& c) const {
     const auto edge = [&](const Vec3u& to) {
-      const auto component = [&](int axis) {
-        return bits(static_cast<std::int32_t>(to[axis] - a[axis]) >> shift_);
-      };
+      const auto component = [&](int axis) { return bits(static_cast<std::int32_t>(to[axis] - a[axis]) >> shift_); };
       return Vec3u{component(0), component(1), component(2)};
     };
     const Vec3u e = edge(b), f = edge(c);
@@ -118,8 +115,7 @@ struct Slope {
   Slope() = default;
   Slope(const Vec3<std::int32_t>& k, const Vec3<std::int32_t>& p) {
     for (int a = 0; a < 3; ++a)
-      normal[a] =
-          static_cast<std::int32_t>(static_cast<std::uint32_t>(k[a]) + static_cast<std::uint32_t>(p[a]));
+      normal[a] = static_cast<std::int32_t>(static_cast<std::uint32_t>(k[a]) + static_cast<std::uint32_t>(p[a]));
     axis = dominantAxis(normal);
     const std::uint32_t length = lengthInBits(largestComponent(normal));
     for (int a = 0; a < 3 && length > 15; ++a)

@@ -23,8 +23,7 @@ AttributeType typeOf(AttributeKind kind, std::uint32_t components, std::uint32_t
 /// the same triangles give in floats and in integers becomes the same point.
 Value quantiseNormal(const Vec3f& normal, std::uint32_t bits) {
   constexpr double fine = 1 << 24;
-  const Place direction{std::llround(normal.x * fine), std::llround(normal.y * fine),
-                        std::llround(normal.z * fine)};
+  const Place direction{std::llround(normal.x * fine), std::llround(normal.y * fine), std::llround(normal.z * fine)};
   const std::int64_t radius = (std::int64_t{1} << (bits - 1)) - 1;
   return valueOf(octahedronPoint(direction, radius), radius);
 }
@@ -71,8 +70,7 @@ CompactPatch quantiseInOrder(Patch patch, const GeometryDescription& geometry, c
     quantised.attributes.push_back(colorAttribute(patch.colors, geometry.colorComponents, bits.color));
   for (std::size_t i = 0; i < patch.namedAttributes.size(); ++i) {
     const AttributeDescription& description = geometry.attributes.at(i);
-    quantised.attributes.push_back(
-        namedAttribute(patch.namedAttributes[i], description, 8 * description.bytes));
+    quantised.attributes.push_back(namedAttribute(patch.namedAttributes[i], description, 8 * description.bytes));
   }
   return quantised;
 }
@@ -128,8 +126,7 @@ Attribute colorAttribute(const std::vector<Rgba8>& colors, std::uint32_t compone
   return attribute;
 }
 
-Attribute namedAttribute(const NamedAttribute& named, const AttributeDescription& description,
-                         std::uint32_t bits) {
+Attribute namedAttribute(const NamedAttribute& named, const AttributeDescription& description, std::uint32_t bits) {
   Attribute attribute{typeOf(AttributeKind::other, named.components, bits), {}};
   const std::uint32_t whole = 8 * description.bytes;
   for (std::size_t wedge = 0; wedge < named.count(); ++wedge) {
@@ -163,8 +160,7 @@ IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& ge
     vertices.positions.push_back(patch.positions[position]);
   for (const Attribute& attribute : patch.attributes) {
     if (attribute.type.kind == AttributeKind::other)
-      vertices.namedAttributes.push_back(
-          namedOf(attribute, geometry.attributes.at(vertices.namedAttributes.size())));
+      vertices.namedAttributes.push_back(namedOf(attribute, geometry.attributes.at(vertices.namedAttributes.size())));
     for (std::size_t wedge = 0; wedge < patch.wedgeCount(); ++wedge) {
       const Value& value = attribute.values[wedge];
       switch (attribute.type.kind) {
@@ -183,8 +179,7 @@ IndexedPatch verticesOf(const CompactPatch& patch, const GeometryDescription& ge
         const auto at = [&](std::uint32_t i) {
           return static_cast<std::uint8_t>(shareOf(attribute, wedge, i) * 255 + 0.5);
         };
-        vertices.colors.push_back(
-            {at(0), at(1), at(2), attribute.type.components == 4 ? at(3) : std::uint8_t{255}});
+        vertices.colors.push_back({at(0), at(1), at(2), attribute.type.components == 4 ? at(3) : std::uint8_t{255}});
         break;
       }
       case AttributeKind::other:

@@ -25,8 +25,7 @@ Attribute texCoordAttribute(const std::vector<Vec2f>& texCoords, const GeometryD
 Attribute colorAttribute(const std::vector<Rgba8>& colors, std::uint32_t components, std::uint32_t bits);
 
 /// `bits` are 1 .. 8 * description.bytes; with less than that, over the same box.
-Attribute namedAttribute(const NamedAttribute& named, const AttributeDescription& description,
-                         std::uint32_t bits);
+Attribute namedAttribute(const NamedAttribute& named, const AttributeDescription& description, std::uint32_t bits);
 
 /// What is drawn of a patch: all its elements.
 std::vector<Draw> drawsOf(const CompactPatch& patch);

@@ -153,8 +153,7 @@ public:
   static constexpr bool encodes = true;
 
   /// What costs `limit` is of no use any more.
-  explicit CostMeter(const RangeEncoder& encoder, std::uint32_t limit)
-      : models_(encoder.models()), limit_(limit) {}
+  explicit CostMeter(const RangeEncoder& encoder, std::uint32_t limit) : models_(encoder.models()), limit_(limit) {}
 
   std::uint32_t cost() const { return cost_; }
   bool isSpent() const { return cost_ >= limit_; }

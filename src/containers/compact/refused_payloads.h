@@ -17,8 +17,7 @@
 namespace imgeo::compact::testing {
 
 /// A file of patches of one type, without attributes, of these streams and no others.
-inline Bytes payloadOf(const PatchType& type, std::uint32_t patchCount,
-                       const std::map<StreamName, Bytes>& streams) {
+inline Bytes payloadOf(const PatchType& type, std::uint32_t patchCount, const std::map<StreamName, Bytes>& streams) {
   FileHeader header{{}, {type}, patchCount, std::vector<std::uint32_t>(5)};
   for (const auto& [name, bytes] : streams)
     header.streamLengths[static_cast<std::size_t>(name)] = static_cast<std::uint32_t>(bytes.size());
@@ -89,8 +88,7 @@ inline std::vector<std::pair<std::string, Bytes>> refusedPayloads() {
   const PatchType points{Topology::points, 30, false, {}}, lines{Topology::lines, 30, false, {}},
       onGrid{Topology::points, 16, false, {}};
   const auto ofSizes = [](const PatchType& type, const std::vector<PatchSizes>& sizes) {
-    return payloadOf(type, static_cast<std::uint32_t>(sizes.size()),
-                     {{StreamName::sizes, sizesStream(type, sizes)}});
+    return payloadOf(type, static_cast<std::uint32_t>(sizes.size()), {{StreamName::sizes, sizesStream(type, sizes)}});
   };
   const auto ofGrid = [&](std::uint32_t origin, std::uint32_t step) {
     const Grid grid{{0, 0, origin}, {1u << 20, 1u << 20, step}};

@@ -27,9 +27,7 @@ struct SizeSums {
     wedges += wedgeCount;
     elements += elementCount;
   }
-  bool fits() const {
-    return vertices <= maxPatchCount && wedges <= maxPatchCount && elements <= maxPatchCount;
-  }
+  bool fits() const { return vertices <= maxPatchCount && wedges <= maxPatchCount && elements <= maxPatchCount; }
 };
 
 namespace sizeModels {

@@ -15,8 +15,8 @@ namespace imgeo::compact {
 
 /// Models that a stream has.
 inline std::size_t modelsOf(std::size_t stream) {
-  const std::size_t models[] = {sizeModels::count, connectivityModels, partModels::count,
-                                positionModels::countWithGrid, wedgeModels::count};
+  const std::size_t models[] = {sizeModels::count, connectivityModels, partModels::count, positionModels::countWithGrid,
+                                wedgeModels::count};
   return stream < std::size(models) ? models[stream] : attributeModels::count;
 }
 

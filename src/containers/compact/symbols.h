@@ -30,8 +30,7 @@ template <typename Coder> std::uint32_t codeClass(Coder& coder, std::size_t mode
 }
 
 /// 0 .. 2^30 - 1.
-template <typename Coder>
-std::uint32_t codeNumber(Coder& coder, std::size_t models, std::uint32_t value = 0) {
+template <typename Coder> std::uint32_t codeNumber(Coder& coder, std::size_t models, std::uint32_t value = 0) {
   const std::uint32_t length = codeClass(coder, models, static_cast<std::uint32_t>(std::bit_width(value)));
   if (length == 0)
     return 0;

@@ -56,8 +56,7 @@ Json jsonOf(const std::vector<CompactPatch>& patches) {
 /// A number where the payload decodes.
 Json verdictOn(const Bytes& payload) {
   const std::string verdict = testing::verdictOn(payload);
-  return std::isdigit(static_cast<unsigned char>(verdict.front())) ? Json(std::stoul(verdict))
-                                                                   : Json(verdict);
+  return std::isdigit(static_cast<unsigned char>(verdict.front())) ? Json(std::stoul(verdict)) : Json(verdict);
 }
 
 /// A payload after [byte, value] pairs and, where "length" stands, cut to it.
@@ -96,8 +95,7 @@ Json editsOf(const std::string& name, const Bytes& payload, std::uint32_t seed) 
   for (int i = 0; i < 40; ++i)
     add({{random.below(payload.size()), random.below(256)}});
   for (int i = 0; i < 10; ++i)
-    add({{random.below(payload.size()), random.below(256)},
-         {random.below(payload.size()), random.below(256)}});
+    add({{random.below(payload.size()), random.below(256)}, {random.below(payload.size()), random.below(256)}});
   for (int i = 0; i < 10; ++i)
     add(Json::array(), random.below(payload.size()));
   return entries;
@@ -159,8 +157,7 @@ TEST_F(Vectors, AreDecodedExactly) {
 
 TEST_F(Vectors, AreWhatIsEncodedToday) {
   for (const testing::Sample& sample : testing::files())
-    EXPECT_EQ(imageOfPayload(encodePatches(sample.patches, 0).bytes),
-              readFile(folder / (sample.name + ".png")))
+    EXPECT_EQ(imageOfPayload(encodePatches(sample.patches, 0).bytes), readFile(folder / (sample.name + ".png")))
         << sample.name;
 }
 

@@ -27,8 +27,7 @@ Wedges plainWedges(const Connectivity& connectivity);
 /// `SourceWedge(corner)` tells an encoder a corner's wedge in its own numbering, below `wedgeCount`.
 template <typename Coder, typename SourceWedge> class WedgeCoder {
 public:
-  WedgeCoder(Coder& coder, const Connectivity& connectivity, std::uint32_t wedgeCount,
-             SourceWedge sourceWedge)
+  WedgeCoder(Coder& coder, const Connectivity& connectivity, std::uint32_t wedgeCount, SourceWedge sourceWedge)
       : coder_(coder), connectivity_(connectivity), wedgeCount_(wedgeCount), sourceWedge_(sourceWedge),
         start_(connectivity.vertexCount, none), made_(connectivity.vertexCount, none),
         latest_(connectivity.vertexCount, none), extra_(connectivity.vertexCount, 0),
@@ -83,8 +82,7 @@ private:
     const std::uint32_t vertex = connectivity_.vertex[corner];
     if (connectivity_.across.empty())
       return latest_[vertex];
-    const std::uint32_t across = connectivity_.across[corner / 3],
-                        closing = connectivity_.closing[corner / 3];
+    const std::uint32_t across = connectivity_.across[corner / 3], closing = connectivity_.closing[corner / 3];
     if (corner % 3 == 2) {
       if (closing == none)
         return latest_[vertex];

@@ -29,9 +29,7 @@ struct Chunk {
 struct Refusal {
   const std::string& place;
 
-  [[noreturn]] void operator()(ErrorKind kind, const std::string& message) const {
-    throw Error(kind, place, message);
-  }
+  [[noreturn]] void operator()(ErrorKind kind, const std::string& message) const { throw Error(kind, place, message); }
   void unless(bool condition, ErrorKind kind, const char* message) const {
     if (!condition)
       (*this)(kind, message);
@@ -60,8 +58,7 @@ void checkSignature(ByteSpan png, const Refusal& refuse) {
   if (png.size() >= std::size(signature) && std::ranges::equal(png.first(std::size(signature)), signature))
     return;
   if (const std::string_view other = foreignFormatOf(png); !other.empty())
-    refuse(ErrorKind::unsupported,
-           "is " + std::string(other) + "; vertex data must be PNG, which keeps every byte");
+    refuse(ErrorKind::unsupported, "is " + std::string(other) + "; vertex data must be PNG, which keeps every byte");
   refuse(png.size() < std::size(signature) ? ErrorKind::truncated : ErrorKind::malformed, "is no PNG image");
 }
 
@@ -70,13 +67,11 @@ std::vector<Chunk> splitChunks(ByteSpan png, const Refusal& refuse) {
   std::vector<Chunk> chunks;
   std::size_t at = std::size(signature);
   while (chunks.empty() || chunks.back().type != "IEND") {
-    refuse.unless(png.size() - at >= chunkOverhead, ErrorKind::truncated,
-                  "the PNG ends before its last chunk");
+    refuse.unless(png.size() - at >= chunkOverhead, ErrorKind::truncated, "the PNG ends before its last chunk");
     const std::size_t length = loadBig<std::uint32_t>(&png[at]);
-    refuse.unless(length <= png.size() - at - chunkOverhead, ErrorKind::truncated,
-                  "the PNG ends inside a chunk");
-    chunks.push_back({asText(png.subspan(at + 4, 4)), png.subspan(at + 8, length),
-                      loadBig<std::uint32_t>(&png[at + 8 + length])});
+    refuse.unless(length <= png.size() - at - chunkOverhead, ErrorKind::truncated, "the PNG ends inside a chunk");
+    chunks.push_back(
+        {asText(png.subspan(at + 4, 4)), png.subspan(at + 8, length), loadBig<std::uint32_t>(&png[at + 8 + length])});
     at += length + chunkOverhead;
   }
   refuse.unless(at == png.size(), ErrorKind::malformed, "bytes follow the end of the PNG");
@@ -112,8 +107,7 @@ PngChunks readHeader(ByteSpan header, const Refusal& refuse) {
   const std::uint8_t depth = header[8], colorType = header[9], compression = header[10], filter = header[11],
                      interlace = header[12];
   refuse.unless(depth == 8 && (colorType == 0 || colorType == 2 || colorType == 3 || colorType == 6),
-                ErrorKind::unsupported,
-                "data images are of 8 bits a channel, gray, RGB, RGBA or of a palette");
+                ErrorKind::unsupported, "data images are of 8 bits a channel, gray, RGB, RGBA or of a palette");
   refuse.unless(interlace == 0, ErrorKind::unsupported, "data images are not interlaced");
   refuse.unless(compression == 0 && filter == 0, ErrorKind::malformed,
                 "the PNG has an unknown compression or filter method");

@@ -28,8 +28,8 @@ Bytes inflate(const std::vector<ByteSpan>& pieces, std::size_t size, const std::
     throw std::bad_alloc();
   Bytes out(size);
   std::size_t taken = 0, given = 0;
-  const libdeflate_result result = libdeflate_zlib_decompress_ex(
-      decompressor.get(), packed.data(), packed.size(), out.data(), out.size(), &taken, &given);
+  const libdeflate_result result = libdeflate_zlib_decompress_ex(decompressor.get(), packed.data(), packed.size(),
+                                                                 out.data(), out.size(), &taken, &given);
   if (result == LIBDEFLATE_INSUFFICIENT_SPACE)
     throw Error(ErrorKind::malformed, place, "the PNG holds more than its pixels");
   if (result != LIBDEFLATE_SUCCESS || taken != packed.size())

@@ -125,10 +125,7 @@ Bytes pngOf(const Image& image, const Bytes& data) {
   appendBig(header, image.width);
   appendBig(header, image.height);
   assert(image.palette.empty() || (image.channels == 1 && image.palette.size() <= 256 * 3));
-  const std::uint8_t colorType = !image.palette.empty() ? 3
-                                 : image.channels == 1  ? 0
-                                 : image.channels == 3  ? 2
-                                                        : 6;
+  const std::uint8_t colorType = !image.palette.empty() ? 3 : image.channels == 1 ? 0 : image.channels == 3 ? 2 : 6;
   header.insert(header.end(), {8, colorType, 0, 0, 0}); // depth; deflate, adaptive filters, not interlaced
 
   Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};

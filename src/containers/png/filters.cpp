@@ -9,8 +9,7 @@ namespace {
 
 /// Paeth's predictor: the neighbour nearest to left + up - upLeft, ties in that order.
 std::uint8_t paeth(int left, int up, int upLeft) {
-  const int toLeft = std::abs(up - upLeft), toUp = std::abs(left - upLeft),
-            toUpLeft = std::abs(left + up - 2 * upLeft);
+  const int toLeft = std::abs(up - upLeft), toUp = std::abs(left - upLeft), toUpLeft = std::abs(left + up - 2 * upLeft);
   if (toLeft <= toUp && toLeft <= toUpLeft)
     return static_cast<std::uint8_t>(left);
   return static_cast<std::uint8_t>(toUp <= toUpLeft ? up : upLeft);
@@ -41,8 +40,7 @@ void filterRow(RowFilter filter, const std::uint8_t* row, const std::uint8_t* ab
       out[i] = static_cast<std::uint8_t>(row[i] - predict(0, above ? above[i] : 0, 0));
     if (above)
       for (std::size_t i = pixelBytes; i < rowBytes; ++i)
-        out[i] =
-            static_cast<std::uint8_t>(row[i] - predict(row[i - pixelBytes], above[i], above[i - pixelBytes]));
+        out[i] = static_cast<std::uint8_t>(row[i] - predict(row[i - pixelBytes], above[i], above[i - pixelBytes]));
     else
       for (std::size_t i = pixelBytes; i < rowBytes; ++i)
         out[i] = static_cast<std::uint8_t>(row[i] - predict(row[i - pixelBytes], 0, 0));
@@ -56,8 +54,7 @@ void unfilterRow(RowFilter filter, const std::uint8_t* row, const std::uint8_t* 
     for (std::size_t i = 0; i < pixelBytes; ++i)
       out[i] = static_cast<std::uint8_t>(row[i] + predict(0, above[i], 0));
     for (std::size_t i = pixelBytes; i < rowBytes; ++i)
-      out[i] =
-          static_cast<std::uint8_t>(row[i] + predict(out[i - pixelBytes], above[i], above[i - pixelBytes]));
+      out[i] = static_cast<std::uint8_t>(row[i] + predict(out[i - pixelBytes], above[i], above[i - pixelBytes]));
   });
 }
 

@@ -11,9 +11,7 @@ namespace {
 
 /// Noise over a smooth ramp: every filter has rows where it wins.
 Image randomImage(std::mt19937& random, std::uint32_t channels) {
-  const auto upTo = [&](std::uint32_t count) {
-    return std::uniform_int_distribution<std::uint32_t>(1, count)(random);
-  };
+  const auto upTo = [&](std::uint32_t count) { return std::uniform_int_distribution<std::uint32_t>(1, count)(random); };
   Image image{upTo(40), upTo(40), channels, {}};
   const std::uint32_t noise = upTo(255);
   for (std::uint32_t y = 0; y < image.height; ++y)
@@ -76,8 +74,7 @@ TEST(Png, ComesBackExactlyAtEveryEffort) {
     for (int effort = 0; effort <= 9; ++effort)
       for (int round = 0; round < 5; ++round) {
         const Image image = randomImage(random, channels);
-        EXPECT_EQ(decodePng(encodePng(image, effort), "x.png"), image)
-            << channels << " channels, effort " << effort;
+        EXPECT_EQ(decodePng(encodePng(image, effort), "x.png"), image) << channels << " channels, effort " << effort;
       }
 }
 
@@ -101,8 +98,7 @@ TEST(Png, WhosePixelsNameMoreThanItsPaletteHoldsIsMalformed) {
 }
 
 TEST(Png, WhosePaletteIsTransparentIsUnsupported) {
-  EXPECT_EQ(kindOfDecoding(withChunk(encodePng({1, 1, 1, {0}, {1, 2, 3}}, 5), "tRNS", {128})),
-            ErrorKind::unsupported);
+  EXPECT_EQ(kindOfDecoding(withChunk(encodePng({1, 1, 1, {0}, {1, 2, 3}}, 5), "tRNS", {128})), ErrorKind::unsupported);
 }
 
 TEST(Png, OfGrayThatIsSeeThroughIsUnsupported) {
@@ -125,8 +121,7 @@ TEST(Png, OfChunksThatNobodyKnowsOrInAnotherOrderIsMalformed) {
   const std::size_t second = asText(apart).find("IDAT", asText(apart).find("IDAT") + 4) - 4;
   const Bytes text = withChunk(png, "tEXt", {'T', 0, 'x'});
   const std::size_t begin = asText(text).find("tEXt") - 4;
-  apart.insert(apart.begin() + static_cast<std::ptrdiff_t>(second),
-               text.begin() + static_cast<std::ptrdiff_t>(begin),
+  apart.insert(apart.begin() + static_cast<std::ptrdiff_t>(second), text.begin() + static_cast<std::ptrdiff_t>(begin),
                text.begin() + static_cast<std::ptrdiff_t>(begin + 15));
   EXPECT_EQ(kindOfDecoding(apart), ErrorKind::malformed);
 }
@@ -153,8 +148,7 @@ TEST(Png, IsRefusedWhenAnyOfItsEndIsMissing) {
   std::mt19937 random(4);
   const Bytes png = encodePng(randomImage(random, 4), 5);
   for (std::size_t length = 0; length < png.size(); ++length)
-    EXPECT_THROW(decodePng(ByteSpan(png).first(length), "x.png"), Error)
-        << length << " of " << png.size() << " bytes";
+    EXPECT_THROW(decodePng(ByteSpan(png).first(length), "x.png"), Error) << length << " of " << png.size() << " bytes";
 }
 
 TEST(Png, IsRefusedWhenAnyByteIsAltered) {

@@ -43,16 +43,14 @@ Affine3d mapOf(const aiMatrix4x4& m) {
 }
 
 bool isFinite(const Affine3d& map) {
-  return std::ranges::all_of(std::array{map.x, map.y, map.z, map.translation}, [](Vec3d v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-  });
+  return std::ranges::all_of(std::array{map.x, map.y, map.z, map.translation},
+                             [](Vec3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); });
 }
 
 /// Names that importers make up say nothing.
 std::string nameOf(const aiString& name) {
   const std::string text = name.C_Str();
-  const bool isMadeUp =
-      text.starts_with('$') || text.starts_with('<') || text == "ROOT" || text == "RootNode";
+  const bool isMadeUp = text.starts_with('$') || text.starts_with('<') || text == "ROOT" || text == "RootNode";
   return isMadeUp ? "" : text;
 }
 
@@ -85,8 +83,7 @@ private:
   void readRoot(const aiNode& root) {
     const std::size_t node = readNode(root, 1);
     const Node& read = graph().nodes[node];
-    const bool isNothing =
-        std::holds_alternative<Group>(read.content) && (read.name.empty() || root.mNumMeshes == 0);
+    const bool isNothing = std::holds_alternative<Group>(read.content) && (read.name.empty() || root.mNumMeshes == 0);
     graph().roots = isNothing ? read.children : std::vector{node};
   }
 
@@ -148,8 +145,7 @@ private:
       for (unsigned c = 0; c < face.mNumIndices; ++c)
         if (face.mIndices[c] >= source.mNumVertices)
           throw Error(ErrorKind::malformed, name_,
-                      fmt::format("face {} of a mesh names vertex {} of {}", i, face.mIndices[c],
-                                  source.mNumVertices));
+                      fmt::format("face {} of a mesh names vertex {} of {}", i, face.mIndices[c], source.mNumVertices));
       if (!isPolygon) {
         mesh.corners.insert(mesh.corners.end(), face.mIndices, face.mIndices + face.mNumIndices);
         continue;
@@ -195,8 +191,7 @@ private:
     if (source.HasVertexColors(0)) {
       const aiColor4D& color = source.mColors[0][vertex];
       const auto byte = [](float value) {
-        return value > 0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 1.0f) * 255))
-                         : std::uint8_t{0};
+        return value > 0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 1.0f) * 255)) : std::uint8_t{0};
       };
       mesh.colors.push_back({byte(color.r), byte(color.g), byte(color.b), byte(color.a)});
     }
@@ -214,8 +209,7 @@ private:
                 up = cross(back, right);
     if (length(right) > 0 && length(up) > 0)
       viewpoint.orientation =
-          transformOf({right * (1 / length(right)), up * (1 / length(up)), back * (1 / length(back)), {}})
-              .rotation;
+          transformOf({right * (1 / length(right)), up * (1 / length(up)), back * (1 / length(back)), {}}).rotation;
     const double horizontal = std::clamp<double>(camera.mHorizontalFOV, 0.01, 3);
     const double aspect = camera.mAspect > 1 ? camera.mAspect : 1;
     viewpoint.fieldOfView = 2 * std::atan(std::tan(horizontal / 2) / aspect);
@@ -244,15 +238,9 @@ private:
     else if (light.mType == aiLightSource_POINT)
       content = PointLight{position, attenuation, farthest, color, most, true};
     else if (light.mType == aiLightSource_SPOT)
-      content = SpotLight{position,
-                          direction,
-                          light.mAngleInnerCone / 2.0,
-                          light.mAngleOuterCone / 2.0,
-                          attenuation,
-                          farthest,
-                          color,
-                          most,
-                          true};
+      content = SpotLight{
+          position, direction, light.mAngleInnerCone / 2.0, light.mAngleOuterCone / 2.0, attenuation, farthest, color,
+          most,     true};
     else {
       ++otherLights_;
       return;
@@ -294,8 +282,7 @@ private:
 
 std::string extensionOf(const std::string& name) {
   std::string extension = std::filesystem::path(name).extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  std::ranges::transform(extension, extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
   return extension;
 }
 
@@ -319,8 +306,7 @@ Imported readHere(ByteSpan bytes, const std::string& name, const ImportOptions& 
   }
   const std::string extension = extensionOf(name).substr(1);
   std::string format = extension;
-  std::ranges::transform(format, format.begin(),
-                         [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
+  std::ranges::transform(format, format.begin(), [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
   Imported imported = SceneReader(*scene, name, references, options.strict, extension).read(format);
   std::vector<std::string> losses;
   for (const std::string& refused : files.refused())

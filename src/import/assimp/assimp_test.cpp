@@ -67,8 +67,7 @@ TEST(Assimp, BringsNodesMaterialsTexturesCamerasAndLights) {
   ASSERT_EQ(oak.textures.size(), 1u);
   EXPECT_EQ(scene.graph.images.at(0).url, "wood.png");
   ASSERT_TRUE(firstOf<Viewpoint>(scene.graph));
-  EXPECT_NEAR(firstOf<Viewpoint>(scene.graph)->fieldOfView, 2 * std::atan(std::tan(3.14159265 / 6) / 1.5),
-              1e-3);
+  EXPECT_NEAR(firstOf<Viewpoint>(scene.graph)->fieldOfView, 2 * std::atan(std::tan(3.14159265 / 6) / 1.5), 1e-3);
   ASSERT_TRUE(firstOf<PointLight>(scene.graph));
   EXPECT_EQ(firstOf<PointLight>(scene.graph)->color, (Vec3f{1, 0.5f, 0}));
 }
@@ -93,8 +92,7 @@ TEST(Assimp, KeepsTheSharpEdgesOfMeshesWithoutNormals) {
   ASSERT_EQ(mesh.corners.size(), 36u);
   for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
     const std::size_t first = i / 3 * 3;
-    const Vec3d a(mesh.cornerPosition(first)), b(mesh.cornerPosition(first + 1)),
-        c(mesh.cornerPosition(first + 2));
+    const Vec3d a(mesh.cornerPosition(first)), b(mesh.cornerPosition(first + 1)), c(mesh.cornerPosition(first + 2));
     EXPECT_LT(length(Vec3d(mesh.normals.at(mesh.corners[i])) - cross(b - a, c - a)), 1e-6);
   }
 }
@@ -103,11 +101,10 @@ TEST(Assimp, LetsTexturesMultiplyGlowWhereTheFormatsViewersDo) {
   const TemporaryDirectory directory;
   writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
   const auto rolesOf = [&](const std::string& emissive, const std::string& texture) {
-    writeFile(directory / "a.ac",
-              asBytes("AC3Db\nMATERIAL \"m\" rgb 1 1 1 amb 0 0 0 emis " + emissive +
-                      " spec 0 0 0 shi 10 trans 0\nOBJECT world\nkids 1\nOBJECT poly\n" + texture +
-                      "numvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\nmat 0\nrefs 3\n"
-                      "0 0 0\n1 1 0\n2 0 1\nkids 0\n"));
+    writeFile(directory / "a.ac", asBytes("AC3Db\nMATERIAL \"m\" rgb 1 1 1 amb 0 0 0 emis " + emissive +
+                                          " spec 0 0 0 shi 10 trans 0\nOBJECT world\nkids 1\nOBJECT poly\n" + texture +
+                                          "numvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\nmat 0\nrefs 3\n"
+                                          "0 0 0\n1 1 0\n2 0 1\nkids 0\n"));
     std::vector<TextureRole> roles;
     const Imported imported = importFile(directory / "a.ac");
     for (const TextureUse& use : appearanceOf(imported.scene.graph, 0).textures)

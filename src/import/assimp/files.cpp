@@ -22,9 +22,7 @@ struct OpenFile : aiFile {
     WriteProc = [](aiFile*, const char*, std::size_t, std::size_t) -> std::size_t { return 0; };
     TellProc = [](aiFile* file) { return of(file).at; };
     FileSizeProc = [](aiFile* file) { return of(file).bytes.size(); };
-    SeekProc = [](aiFile* file, std::size_t offset, aiOrigin origin) {
-      return of(file).seek(offset, origin);
-    };
+    SeekProc = [](aiFile* file, std::size_t offset, aiOrigin origin) { return of(file).seek(offset, origin); };
     FlushProc = [](aiFile*) {};
   }
   explicit OpenFile(Bytes all) : OpenFile(ByteSpan{}) {

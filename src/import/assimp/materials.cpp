@@ -34,8 +34,7 @@ Vec3f colorOf(const aiMaterial& material, const char* key, unsigned type, unsign
 
 float numberOf(const aiMaterial& material, const char* key, unsigned type, unsigned index, float otherwise) {
   ai_real number = otherwise;
-  const bool isThere =
-      assimp().getMaterialFloats(&material, key, type, index, &number, nullptr) == aiReturn_SUCCESS;
+  const bool isThere = assimp().getMaterialFloats(&material, key, type, index, &number, nullptr) == aiReturn_SUCCESS;
   return isThere && std::isfinite(number) ? number : otherwise;
 }
 
@@ -65,8 +64,8 @@ bool multipliesAllLight(std::string_view extension) {
 void letTextureGlow(Appearance& appearance) {
   const Material* material = std::get_if<Material>(&appearance.material);
   const auto color = std::ranges::find(appearance.textures, TextureRole::color, &TextureUse::role);
-  const bool hasOwn = std::ranges::find(appearance.textures, TextureRole::emissive, &TextureUse::role) !=
-                      appearance.textures.end();
+  const bool hasOwn =
+      std::ranges::find(appearance.textures, TextureRole::emissive, &TextureUse::role) != appearance.textures.end();
   if (!material || material->emissiveColor == Vec3f{} || color == appearance.textures.end() || hasOwn)
     return;
   TextureUse glow = *color;
@@ -86,8 +85,7 @@ AnyMaterial AssimpMaterials::materialOf(const aiMaterial& material) const {
   phong.specularColor = colorOf(material, AI_MATKEY_COLOR_SPECULAR, phong.specularColor) *
                         std::clamp(numberOf(material, AI_MATKEY_SHININESS_STRENGTH, 1), 0.0f, 1.0f);
   phong.emissiveColor = colorOf(material, AI_MATKEY_COLOR_EMISSIVE, phong.emissiveColor);
-  phong.shininess =
-      std::clamp(numberOf(material, AI_MATKEY_SHININESS, 128 * phong.shininess) / 128, 0.0f, 1.0f);
+  phong.shininess = std::clamp(numberOf(material, AI_MATKEY_SHININESS, 128 * phong.shininess) / 128, 0.0f, 1.0f);
   phong.transparency = 1 - std::clamp(numberOf(material, AI_MATKEY_OPACITY, 1), 0.0f, 1.0f);
   return phong;
 }
@@ -138,8 +136,8 @@ void AssimpMaterials::addTexture(const aiMaterial& material, aiTextureType type,
   unsigned texCoords = 0;
   aiTextureMapMode modes[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
   if (assimp().getMaterialTextureCount(&material, type) == 0 ||
-      assimp().getMaterialTexture(&material, type, 0, &path, &mapping, &texCoords, nullptr, nullptr, modes,
-                                  nullptr) != aiReturn_SUCCESS)
+      assimp().getMaterialTexture(&material, type, 0, &path, &mapping, &texCoords, nullptr, nullptr, modes, nullptr) !=
+          aiReturn_SUCCESS)
     return;
   if (mapping != aiTextureMapping_UV || texCoords != 0) {
     ++others_["with further or computed texture coordinates"];

@@ -15,8 +15,7 @@ namespace imgeo {
 class AssimpMaterials {
 public:
   /// `extension` is that of the source's name, in lower case, without its dot.
-  AssimpMaterials(const aiScene& source, SceneGraph& graph, const References& references,
-                  std::string_view extension);
+  AssimpMaterials(const aiScene& source, SceneGraph& graph, const References& references, std::string_view extension);
 
   /// The appearance of a material; read when it is first asked for. Absent for the
   /// material that Assimp makes where a source has none.

@@ -56,9 +56,7 @@ const std::uint8_t* Accessor::at(std::size_t element, std::uint32_t component) c
 
 double Accessor::real(std::size_t element, std::uint32_t component) const {
   const std::uint8_t* bytes = at(element, component);
-  const auto scaled = [this](double value, double most) {
-    return normalized_ ? std::max(value / most, -1.0) : value;
-  };
+  const auto scaled = [this](double value, double most) { return normalized_ ? std::max(value / most, -1.0) : value; };
   switch (componentType_) {
   case byteType:
     return scaled(static_cast<std::int8_t>(*bytes), 127);
@@ -94,8 +92,7 @@ void Document::spend(const Value& place, std::uint64_t bytes) {
   budget_ -= bytes;
 }
 
-ByteSpan Document::within(const Value& value, ByteSpan bytes, std::uint64_t offset,
-                          std::uint64_t length) const {
+ByteSpan Document::within(const Value& value, ByteSpan bytes, std::uint64_t offset, std::uint64_t length) const {
   if (offset > bytes.size() || length > bytes.size() - offset)
     value.fail(ErrorKind::truncated,
                fmt::format("needs {} bytes from byte {} on, where {} are", length, offset, bytes.size()));
@@ -142,24 +139,21 @@ Bytes Document::unpacked(const Value& value) {
   const std::optional<std::size_t> index = value.index("buffer", root_["buffers"]);
   if (!index)
     value["buffer"].fail(ErrorKind::malformed, "is missing");
-  const ByteSpan packed =
-      within(value, buffer(*index), value["byteOffset"].whole(0), value["byteLength"].whole());
+  const ByteSpan packed = within(value, buffer(*index), value["byteOffset"].whole(0), value["byteLength"].whole());
   const std::uint64_t stride = value["byteStride"].whole(), count = value["count"].whole();
   const std::string mode = value["mode"].text(), filter = value["filter"].text("NONE");
   const bool isAttributes = mode == "ATTRIBUTES";
-  const bool isGood = isAttributes
-                          ? stride >= 4 && stride <= 256 && stride % 4 == 0
-                          : (mode == "TRIANGLES" || mode == "INDICES") && (stride == 2 || stride == 4) &&
-                                (mode == "INDICES" || count % 3 == 0);
+  const bool isGood = isAttributes ? stride >= 4 && stride <= 256 && stride % 4 == 0
+                                   : (mode == "TRIANGLES" || mode == "INDICES") && (stride == 2 || stride == 4) &&
+                                         (mode == "INDICES" || count % 3 == 0);
   if (!isGood || count > UINT32_MAX)
     value.fail(ErrorKind::malformed, "describes no data that EXT_meshopt_compression packs");
   spend(value, count * stride);
   Bytes bytes(count * stride);
   const int failure =
-      isAttributes ? meshopt_decodeVertexBuffer(bytes.data(), count, stride, packed.data(), packed.size())
-      : mode == "TRIANGLES"
-          ? meshopt_decodeIndexBuffer(bytes.data(), count, stride, packed.data(), packed.size())
-          : meshopt_decodeIndexSequence(bytes.data(), count, stride, packed.data(), packed.size());
+      isAttributes          ? meshopt_decodeVertexBuffer(bytes.data(), count, stride, packed.data(), packed.size())
+      : mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(bytes.data(), count, stride, packed.data(), packed.size())
+                            : meshopt_decodeIndexSequence(bytes.data(), count, stride, packed.data(), packed.size());
   if (failure != 0)
     value.fail(ErrorKind::malformed, "holds no data of EXT_meshopt_compression");
   if (filter == "OCTAHEDRAL" && (stride == 4 || stride == 8))
@@ -234,8 +228,7 @@ void Document::applySparse(const Value& value, Accessor& accessor) {
                                   : indexSize == 2 ? loadLittle<std::uint16_t>(at)
                                                    : loadLittle<std::uint32_t>(at);
     if (element >= accessor.count_)
-      value["indices"].fail(ErrorKind::malformed,
-                            fmt::format("names element {} of {}", element, accessor.count_));
+      value["indices"].fail(ErrorKind::malformed, fmt::format("names element {} of {}", element, accessor.count_));
     std::memcpy(accessor.own_.data() + element * accessor.stride_, values.data() + i * accessor.stride_,
                 accessor.stride_);
   }

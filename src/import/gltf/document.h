@@ -27,9 +27,7 @@ public:
   double real(std::size_t element, std::uint32_t component) const;
   /// A component of an unsigned integer type as it is.
   std::uint32_t whole(std::size_t element, std::uint32_t component) const;
-  bool isUnsigned() const {
-    return componentType_ != 5120 && componentType_ != 5122 && componentType_ != 5126;
-  }
+  bool isUnsigned() const { return componentType_ != 5120 && componentType_ != 5122 && componentType_ != 5126; }
 
 private:
   friend class Document;

@@ -40,8 +40,7 @@ Chunks chunksOf(ByteSpan bytes, const std::string& name) {
     const std::uint64_t length = loadLittle<std::uint32_t>(bytes.data() + at);
     const std::uint32_t type = loadLittle<std::uint32_t>(bytes.data() + at + 4);
     if (length > bytes.size() - at - 8)
-      throw Error(ErrorKind::truncated, bytePlace(name, at),
-                  "a chunk is longer than what is left of the file");
+      throw Error(ErrorKind::truncated, bytePlace(name, at), "a chunk is longer than what is left of the file");
     const ByteSpan content = bytes.subspan(at + 8, length);
     if (type == jsonChunk && chunks.json.empty())
       chunks.json = asText(content);
@@ -87,8 +86,8 @@ void addWarnings(const Value& root, const PrimitiveLosses& primitives, const Mat
       "meshes with morph targets are not moved by them, which are");
   add(nodes.otherScenes, "further scene is", "further scenes are");
   if (!primitives.attributes.empty())
-    warnings.push_back(fmt::format("Attributes of vertices that are not carried over: {}.",
-                                   fmt::join(primitives.attributes, ", ")));
+    warnings.push_back(
+        fmt::format("Attributes of vertices that are not carried over: {}.", fmt::join(primitives.attributes, ", ")));
   std::vector<std::string> extensions;
   for (const auto& [name, count] : materials.extensions)
     if (count > 0)

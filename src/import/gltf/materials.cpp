@@ -41,9 +41,7 @@ Filter filterOf(std::uint64_t value) {
 
 Boundary boundaryOf(std::uint64_t value) {
   constexpr std::uint64_t clampToEdge = 33071, mirroredRepeat = 33648;
-  return value == clampToEdge      ? Boundary::clamp
-         : value == mirroredRepeat ? Boundary::mirroredRepeat
-                                   : Boundary::repeat;
+  return value == clampToEdge ? Boundary::clamp : value == mirroredRepeat ? Boundary::mirroredRepeat : Boundary::repeat;
 }
 
 void readSampler(const Value& value, Texture& texture) {
@@ -64,8 +62,7 @@ void readSampler(const Value& value, Texture& texture) {
 
 } // namespace
 
-std::optional<TextureTransform> textureTransformOf(double a, double b, double c, double d, double x,
-                                                   double y) {
+std::optional<TextureTransform> textureTransformOf(double a, double b, double c, double d, double x, double y) {
   // Rows of the matrix, which X3D makes of a rotation, then a scale.
   const double sizeS = std::hypot(a, c), sizeT = std::hypot(b, d);
   if (!(sizeS > 0) || !(sizeT > 0) || std::abs(a * b + c * d) > 1e-6 * sizeS * sizeT)
@@ -84,8 +81,7 @@ TextureTransform MaterialReader::transformOf(const Value& extension) {
   if (extension.isAbsent())
     return {};
   const Vec2<double> offset = extension["offset"].vec2({0, 0}), scale = extension["scale"].vec2({1, 1});
-  const double rotation = extension["rotation"].real(0), cosine = std::cos(rotation),
-               sine = std::sin(rotation);
+  const double rotation = extension["rotation"].real(0), cosine = std::cos(rotation), sine = std::sin(rotation);
   // u' = cos sx u + sin sy v + x, v' = -sin sx u + cos sy v + y, where v is measured
   // down; X3D measures t = 1 - v up.
   const double a = cosine * scale.x, b = sine * scale.x, c = -sine * scale.y, d = cosine * scale.y;
@@ -190,8 +186,7 @@ void MaterialReader::readTextures(const Value& value, Appearance& appearance) {
   const bool isPhong = std::holds_alternative<Material>(appearance.material),
              isUnlit = std::holds_alternative<UnlitMaterial>(appearance.material);
   const Value glossiness = value["extensions"]["KHR_materials_pbrSpecularGlossiness"];
-  addTexture(isPhong ? glossiness["diffuseTexture"] : pbr["baseColorTexture"], TextureRole::color,
-             appearance);
+  addTexture(isPhong ? glossiness["diffuseTexture"] : pbr["baseColorTexture"], TextureRole::color, appearance);
   if (isUnlit)
     return;
   addTexture(value["emissiveTexture"], TextureRole::emissive, appearance);

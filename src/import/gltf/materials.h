@@ -47,7 +47,6 @@ private:
 
 /// X3D's form of an affine map of texture coordinates that are measured up:
 /// (a c; b d) and (x, y); nothing where it has none.
-std::optional<TextureTransform> textureTransformOf(double a, double b, double c, double d, double x,
-                                                   double y);
+std::optional<TextureTransform> textureTransformOf(double a, double b, double c, double d, double x, double y);
 
 } // namespace imgeo::gltf

@@ -34,14 +34,14 @@ Appearance lookOf(const GltfText& gltf, const ImportOptions& options = {}) {
 }
 
 TEST(GltfMaterial, IsAPhysicalMaterialWithItsNumbers) {
-  const Appearance look = lookOf(withMaterial(
-      {{"name", "steel"},
-       {"pbrMetallicRoughness",
-        {{"baseColorFactor", {0.5, 0.25, 0, 0.75}}, {"metallicFactor", 0.5}, {"roughnessFactor", 0.25}}},
-       {"emissiveFactor", {0, 0.5, 0}},
-       {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}}},
-       {"alphaMode", "MASK"},
-       {"alphaCutoff", 0.25}}));
+  const Appearance look = lookOf(
+      withMaterial({{"name", "steel"},
+                    {"pbrMetallicRoughness",
+                     {{"baseColorFactor", {0.5, 0.25, 0, 0.75}}, {"metallicFactor", 0.5}, {"roughnessFactor", 0.25}}},
+                    {"emissiveFactor", {0, 0.5, 0}},
+                    {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}}},
+                    {"alphaMode", "MASK"},
+                    {"alphaCutoff", 0.25}}));
   EXPECT_EQ(look.name, "steel");
   PhysicalMaterial expected;
   expected.baseColor = {0.5f, 0.25f, 0};
@@ -55,14 +55,12 @@ TEST(GltfMaterial, IsAPhysicalMaterialWithItsNumbers) {
 }
 
 TEST(GltfMaterial, MayBeUnlitOrOfPhongsModel) {
-  const Appearance unlit =
-      lookOf(withMaterial({{"pbrMetallicRoughness", {{"baseColorFactor", {0.214, 1, 0, 1}}}},
-                           {"extensions", {{"KHR_materials_unlit", Json::object()}}}}));
+  const Appearance unlit = lookOf(withMaterial({{"pbrMetallicRoughness", {{"baseColorFactor", {0.214, 1, 0, 1}}}},
+                                                {"extensions", {{"KHR_materials_unlit", Json::object()}}}}));
   EXPECT_NEAR(std::get<UnlitMaterial>(unlit.material).emissiveColor.x, 0.5, 1e-3);
-  const Appearance phong =
-      lookOf(withMaterial({{"extensions",
-                            {{"KHR_materials_pbrSpecularGlossiness",
-                              {{"diffuseFactor", {1, 0, 0, 1}}, {"glossinessFactor", 0.5}}}}}}));
+  const Appearance phong = lookOf(withMaterial(
+      {{"extensions",
+        {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseFactor", {1, 0, 0, 1}}, {"glossinessFactor", 0.5}}}}}}));
   EXPECT_EQ(std::get<Material>(phong.material).diffuseColor, (Vec3f{1, 0, 0}));
   EXPECT_EQ(std::get<Material>(phong.material).shininess, 0.5f);
 }
@@ -70,9 +68,8 @@ TEST(GltfMaterial, MayBeUnlitOrOfPhongsModel) {
 TEST(GltfTexture, ComesWithItsSamplerFromABufferOrAUrl) {
   GltfText gltf = withMaterial({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
                                 {"normalTexture", {{"index", 1}, {"scale", 0.5}}}});
-  gltf.json["images"] = {
-      {{"bufferView", gltf.addView(bytesOf(png))}, {"mimeType", "image/png"}, {"name", "wood"}},
-      {{"uri", GltfText::dataUrl(bytesOf(png + "2"))}}};
+  gltf.json["images"] = {{{"bufferView", gltf.addView(bytesOf(png))}, {"mimeType", "image/png"}, {"name", "wood"}},
+                         {{"uri", GltfText::dataUrl(bytesOf(png + "2"))}}};
   gltf.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9986}}};
   gltf.json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 1}}};
   const SceneGraph graph = read(gltf).scene.graph;
@@ -81,8 +78,8 @@ TEST(GltfTexture, ComesWithItsSamplerFromABufferOrAUrl) {
   EXPECT_EQ(look.textures[0].role, TextureRole::color);
   EXPECT_EQ(look.textures[1].role, TextureRole::normal);
   const Texture& wood = graph.textures[look.textures[0].texture];
-  EXPECT_EQ(wood, (Texture{"wood", 0, Boundary::clamp, Boundary::mirroredRepeat, Filter::nearest,
-                           Filter::nearest, Filter::linear, true}));
+  EXPECT_EQ(wood, (Texture{"wood", 0, Boundary::clamp, Boundary::mirroredRepeat, Filter::nearest, Filter::nearest,
+                           Filter::linear, true}));
   EXPECT_EQ(graph.images[wood.image].bytes, bytesOf(png));
   EXPECT_EQ(graph.images[1].bytes, bytesOf(png + "2"));
   EXPECT_EQ(std::get<PhysicalMaterial>(look.material).normalScale, 0.5f);
@@ -132,13 +129,13 @@ TEST(GltfTexture, IsReadWhereItsTransformSaysInBothMeasures) {
     const bool turned = random.once(2);
     const Vec2f scale = turned ? Vec2f{size, size} : Vec2f{size, random.between(-3, -1)};
     const float angle = turned ? rotation : 0;
-    GltfText gltf = withMaterial(
-        {{"pbrMetallicRoughness",
-          {{"baseColorTexture",
-            {{"index", 0},
-             {"extensions",
-              {{"KHR_texture_transform",
-                {{"offset", {x, y}}, {"scale", {scale.x, scale.y}}, {"rotation", angle}}}}}}}}}});
+    GltfText gltf =
+        withMaterial({{"pbrMetallicRoughness",
+                       {{"baseColorTexture",
+                         {{"index", 0},
+                          {"extensions",
+                           {{"KHR_texture_transform",
+                             {{"offset", {x, y}}, {"scale", {scale.x, scale.y}}, {"rotation", angle}}}}}}}}}});
     gltf.json["images"] = {{{"uri", GltfText::dataUrl(bytesOf(png))}}};
     gltf.json["textures"] = {{{"source", 0}}};
     const TextureTransform transform = lookOf(gltf).textures.at(0).transform;

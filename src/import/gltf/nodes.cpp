@@ -107,8 +107,8 @@ NodeContent NodeReader::transformOf(const Value& node) const {
     const Affine3d map{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
     return groupUnlessMoved(map == Affine3d{} ? Transform{} : imgeo::transformOf(map));
   }
-  return groupUnlessMoved(transformOfTrs(
-      node["translation"].vec3({}), node["rotation"].reals(4, {0, 0, 0, 1}), node["scale"].vec3({1, 1, 1})));
+  return groupUnlessMoved(transformOfTrs(node["translation"].vec3({}), node["rotation"].reals(4, {0, 0, 0, 1}),
+                                         node["scale"].vec3({1, 1, 1})));
 }
 
 std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t depth, double scale) {
@@ -136,9 +136,8 @@ std::optional<std::size_t> NodeReader::readNode(std::size_t index, std::size_t d
   for (std::size_t i = 0; i < children.size(); ++i) {
     const std::uint64_t child = children[i].whole();
     if (child >= visited_.size())
-      attempt([&] {
-        children[i].fail(ErrorKind::malformed, fmt::format("names node {} of {}", child, visited_.size()));
-      });
+      attempt(
+          [&] { children[i].fail(ErrorKind::malformed, fmt::format("names node {} of {}", child, visited_.size())); });
     else if (const std::optional<std::size_t> read = readNode(child, depth + 1, scale))
       node.children.push_back(*read);
   }
@@ -171,8 +170,8 @@ void NodeReader::addInstances(const Value& node, std::size_t mesh, std::vector<s
     count = read->count();
     return read;
   };
-  const std::optional<Accessor> translations = accessor("TRANSLATION", 3),
-                                rotations = accessor("ROTATION", 4), scales = accessor("SCALE", 3);
+  const std::optional<Accessor> translations = accessor("TRANSLATION", 3), rotations = accessor("ROTATION", 4),
+                                scales = accessor("SCALE", 3);
   document_.spend(instancing, count.value_or(0) * 512);
   for (std::size_t i = 0; i < count.value_or(0); ++i) {
     const auto number = [&](const std::optional<Accessor>& from, std::uint32_t component, double otherwise) {

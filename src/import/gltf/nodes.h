@@ -13,10 +13,8 @@ struct NodeLosses {
 
 class NodeReader {
 public:
-  NodeReader(Document& document, Scene& scene, PrimitiveReader& primitives, MaterialReader& materials,
-             bool isStrict)
-      : document_(document), scene_(scene), primitives_(primitives), materials_(materials),
-        isStrict_(isStrict) {}
+  NodeReader(Document& document, Scene& scene, PrimitiveReader& primitives, MaterialReader& materials, bool isStrict)
+      : document_(document), scene_(scene), primitives_(primitives), materials_(materials), isStrict_(isStrict) {}
 
   /// Reads the document's scene; where it has none, all nodes that are nobody's
   /// children; where it has no nodes, its meshes.

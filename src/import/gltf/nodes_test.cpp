@@ -14,8 +14,7 @@ Vec3d originOf(const PlacedShape& placed) {
 }
 
 bool warnsOf(const Imported& imported, const std::string& words) {
-  return std::ranges::any_of(imported.warnings,
-                             [&](const std::string& w) { return w.find(words) != w.npos; });
+  return std::ranges::any_of(imported.warnings, [&](const std::string& w) { return w.find(words) != w.npos; });
 }
 
 TEST(GltfNodes, KeepNamesTransformsAndTheirTree) {
@@ -70,8 +69,7 @@ TEST(GltfNodes, ShareAMeshWhereOnlyTheMaterialsDiffer) {
 
 TEST(GltfNodes, TakeMatricesEvenWhereTheyShear) {
   GltfText gltf;
-  gltf.addNode(
-      {{"mesh", gltf.addTriangle()}, {"matrix", {1, 0, 0, 0, 0.5, 2, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1}}});
+  gltf.addNode({{"mesh", gltf.addTriangle()}, {"matrix", {1, 0, 0, 0, 0.5, 2, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1}}});
   const std::vector<PlacedShape> placed = placedShapes(read(gltf).scene.graph);
   EXPECT_LE(length(placed.at(0).worldFromShape.point({0, 1, 0}) - Vec3d{7.5, 10, 9}), 1e-7);
 }
@@ -147,8 +145,7 @@ TEST(GltfNodes, KeepWhatLightsReachInScaledPlaces) {
 
 TEST(GltfNodes, KeepWhatTheirAuthorsAdded) {
   GltfText gltf;
-  gltf.addNode(
-      {{"name", "door"}, {"mesh", gltf.addTriangle()}, {"extras", {{"material", "oak"}, {"price", 12}}}});
+  gltf.addNode({{"name", "door"}, {"mesh", gltf.addTriangle()}, {"extras", {{"material", "oak"}, {"price", 12}}}});
   const SceneGraph graph = read(gltf).scene.graph;
   EXPECT_EQ(graph.nodes[graph.roots.at(0)].extras, R"({"material":"oak","price":12})");
 }
@@ -164,9 +161,9 @@ TEST(GltfNodes, SayHowOneMovesWhereTheSceneCameFromX3d) {
   };
   EXPECT_EQ(fieldsOf({{"NavigationInfo", {{"type", {"WALK", 7, "ANY"}}}}}),
             (std::vector<FieldText>{{"type", "\"WALK\" \"ANY\""}}));
-  for (const GltfText::Json& foreign : {GltfText::Json(7), GltfText::Json{{"NavigationInfo", "WALK"}},
-                                        GltfText::Json{{"NavigationInfo", {{"type", 7}}}},
-                                        GltfText::Json{{"NavigationInfo", {{"type", nullptr}}}}})
+  for (const GltfText::Json& foreign :
+       {GltfText::Json(7), GltfText::Json{{"NavigationInfo", "WALK"}},
+        GltfText::Json{{"NavigationInfo", {{"type", 7}}}}, GltfText::Json{{"NavigationInfo", {{"type", nullptr}}}}})
     EXPECT_TRUE(fieldsOf(foreign).empty()) << foreign;
 }
 

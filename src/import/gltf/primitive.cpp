@@ -75,9 +75,8 @@ void PrimitiveReader::addAccessors(const Value& primitive, PrimitiveData& data) 
       names[name.c_str()].fail(ErrorKind::malformed, fmt::format("has {} elements, another attribute has {}",
                                                                  accessor->count(), *vertexCount));
     vertexCount = accessor->count();
-    data.attributes.push_back({name, accessor->components(), [accessor](std::size_t vertex, std::uint32_t c) {
-                                 return accessor->real(vertex, c);
-                               }});
+    data.attributes.push_back({name, accessor->components(),
+                               [accessor](std::size_t vertex, std::uint32_t c) { return accessor->real(vertex, c); }});
   }
   data.vertexCount = vertexCount.value_or(0);
   const std::optional<std::size_t> indices = primitive.index("indices", document_.array("accessors"));
@@ -108,8 +107,7 @@ PrimitiveData PrimitiveReader::dataOf(const Value& primitive) {
 
 /// Numbers the vertices that are used in the order of their first use; returns
 /// them and changes `corners` to the new numbers.
-std::vector<std::uint32_t> PrimitiveReader::compact(std::vector<std::uint32_t>& corners,
-                                                    std::size_t vertexCount) {
+std::vector<std::uint32_t> PrimitiveReader::compact(std::vector<std::uint32_t>& corners, std::size_t vertexCount) {
   if (localVertex_.size() < vertexCount)
     localVertex_.resize(vertexCount, unset);
   std::vector<std::uint32_t> vertices;
@@ -156,17 +154,14 @@ void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& d
   const auto attribute = [&](const char* name, std::uint32_t least, std::uint32_t most) {
     const PrimitiveData::Attribute* found = data.find(name);
     if (found && (found->components < least || found->components > most))
-      primitive["attributes"][name].fail(ErrorKind::malformed,
-                                         "has a number of components that it cannot have");
+      primitive["attributes"][name].fail(ErrorKind::malformed, "has a number of components that it cannot have");
     return found;
   };
   const auto vec3 = [](const PrimitiveData::Attribute& from, std::uint32_t vertex) {
     return Vec3f(Vec3d{from.number(vertex, 0), from.number(vertex, 1), from.number(vertex, 2)});
   };
-  const PrimitiveData::Attribute *positions = attribute("POSITION", 3, 3),
-                                 *normals = attribute("NORMAL", 3, 3),
-                                 *texCoords = attribute("TEXCOORD_0", 2, 2),
-                                 *colors = attribute("COLOR_0", 3, 4);
+  const PrimitiveData::Attribute *positions = attribute("POSITION", 3, 3), *normals = attribute("NORMAL", 3, 3),
+                                 *texCoords = attribute("TEXCOORD_0", 2, 2), *colors = attribute("COLOR_0", 3, 4);
   if (!positions)
     primitive["attributes"].fail(ErrorKind::malformed, "has no POSITION");
   for (const std::uint32_t vertex : vertices) {
@@ -189,8 +184,7 @@ void PrimitiveReader::addVertices(const Value& primitive, const PrimitiveData& d
     }
     if (colors) { // linear in glTF
       const auto channel = [&](std::uint32_t c) { return byteOf(srgbOfLinear(colors->number(vertex, c))); };
-      const std::uint8_t alpha =
-          colors->components == 4 ? byteOf(colors->number(vertex, 3)) : std::uint8_t{255};
+      const std::uint8_t alpha = colors->components == 4 ? byteOf(colors->number(vertex, 3)) : std::uint8_t{255};
       mesh.colors.push_back({channel(0), channel(1), channel(2), alpha});
     }
   }

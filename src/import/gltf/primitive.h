@@ -50,10 +50,10 @@ public:
 private:
   PrimitiveData dataOf(const Value& primitive);
   void addAccessors(const Value& primitive, PrimitiveData& data);
-  void addVertices(const Value& primitive, const PrimitiveData& data,
-                   const std::vector<std::uint32_t>& vertices, Mesh& mesh);
-  void addNamedAttributes(const Value& primitive, const PrimitiveData& data,
-                          const std::vector<std::uint32_t>& vertices, Mesh& mesh);
+  void addVertices(const Value& primitive, const PrimitiveData& data, const std::vector<std::uint32_t>& vertices,
+                   Mesh& mesh);
+  void addNamedAttributes(const Value& primitive, const PrimitiveData& data, const std::vector<std::uint32_t>& vertices,
+                          Mesh& mesh);
   std::vector<std::uint32_t> compact(std::vector<std::uint32_t>& corners, std::size_t vertexCount);
 
   Document& document_;

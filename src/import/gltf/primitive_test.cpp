@@ -29,8 +29,7 @@ std::vector<Vec3f> cornersOf(const Mesh& mesh) {
 /// Points on a line, so that a corner's x says which vertex it is.
 std::vector<int> cornersOfMode(int mode) {
   GltfText gltf;
-  const std::size_t positions =
-      gltf.addAccessor<float>({0, 0, 0, 1, 5, 0, 2, 0, 0, 3, 5, 0, 4, 0, 0}, "VEC3", 5126);
+  const std::size_t positions = gltf.addAccessor<float>({0, 0, 0, 1, 5, 0, 2, 0, 0, 3, 5, 0, 4, 0, 0}, "VEC3", 5126);
   gltf.show(gltf.addMesh({{{"attributes", {{"POSITION", positions}}}, {"mode", mode}}}));
   std::vector<int> vertices;
   for (const Vec3f corner : cornersOf(onlyMeshOf(gltf)))
@@ -52,16 +51,13 @@ TEST(GltfPrimitive, OfEveryModeBecomesSeparateElements) {
 TEST(GltfPrimitive, ReadsEveryTypeOfNumber) {
   GltfText gltf;
   const std::size_t positions = gltf.addAccessor<std::int16_t>({-1, 0, 0, 300, 0, 0, 0, 4, 0}, "VEC3", 5122);
-  const std::size_t normals =
-      gltf.addAccessor<std::int8_t>({0, 0, 127, 0, -127, 0, -128, 0, 0}, "VEC3", 5120, true);
-  const std::size_t texCoords =
-      gltf.addAccessor<std::uint16_t>({0, 65535, 65535, 0, 0, 0}, "VEC2", 5123, true);
+  const std::size_t normals = gltf.addAccessor<std::int8_t>({0, 0, 127, 0, -127, 0, -128, 0, 0}, "VEC3", 5120, true);
+  const std::size_t texCoords = gltf.addAccessor<std::uint16_t>({0, 65535, 65535, 0, 0, 0}, "VEC2", 5123, true);
   const std::size_t colors =
       gltf.addAccessor<std::uint8_t>({255, 0, 0, 255, 0, 255, 0, 51, 0, 0, 0, 255}, "VEC4", 5121, true);
   const std::size_t indices = gltf.addAccessor<std::uint8_t>({2, 1, 0}, "SCALAR", 5121);
   gltf.show(gltf.addMesh(
-      {{{"attributes",
-         {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", texCoords}, {"COLOR_0", colors}}},
+      {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", texCoords}, {"COLOR_0", colors}}},
         {"indices", indices}}}));
   const Mesh mesh = onlyMeshOf(gltf);
   EXPECT_EQ(cornersOf(mesh), (std::vector<Vec3f>{{0, 4, 0}, {300, 0, 0}, {-1, 0, 0}}));
@@ -95,15 +91,14 @@ TEST(GltfPrimitive, ReadsInterleavedAndSparseAccessors) {
   appendLittle(where, std::uint16_t{2});
   for (const float value : {5.f, 6.f, 7.f})
     appendLittle(values, value);
-  gltf.json["accessors"].push_back(
-      {{"bufferView", view},
-       {"componentType", 5126},
-       {"type", "VEC3"},
-       {"count", 3},
-       {"sparse",
-        {{"count", 1},
-         {"indices", {{"bufferView", gltf.addView(where)}, {"componentType", 5123}}},
-         {"values", {{"bufferView", gltf.addView(values)}}}}}});
+  gltf.json["accessors"].push_back({{"bufferView", view},
+                                    {"componentType", 5126},
+                                    {"type", "VEC3"},
+                                    {"count", 3},
+                                    {"sparse",
+                                     {{"count", 1},
+                                      {"indices", {{"bufferView", gltf.addView(where)}, {"componentType", 5123}}},
+                                      {"values", {{"bufferView", gltf.addView(values)}}}}}});
   gltf.show(gltf.addMesh({{{"attributes", {{"POSITION", 0}}}}}));
   EXPECT_EQ(cornersOf(onlyMeshOf(gltf)), (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {5, 6, 7}}));
 }
@@ -125,8 +120,7 @@ TEST(GltfPrimitive, NamesThePlaceOfWhatIsWrong) {
     GltfText gltf;
     gltf.addTriangle();
     gltf.show(0);
-    gltf.json["meshes"][0]["primitives"][0]["indices"] =
-        gltf.addAccessor<std::uint32_t>({0, 1, 2}, "SCALAR", 5125);
+    gltf.json["meshes"][0]["primitives"][0]["indices"] = gltf.addAccessor<std::uint32_t>({0, 1, 2}, "SCALAR", 5125);
     damage(gltf.json);
     try {
       read(gltf, {.attributes = {}, .folder = "", .outside = false, .strict = true});
@@ -143,24 +137,20 @@ TEST(GltfPrimitive, NamesThePlaceOfWhatIsWrong) {
   expectPlace("accessors[0].bufferView", [](Json& json) { json["accessors"][0]["bufferView"] = 9; });
   expectPlace("bufferViews[0]", [](Json& json) { json["bufferViews"][0]["byteOffset"] = 1000; });
   expectPlace("bufferViews[0].byteStride", [](Json& json) { json["bufferViews"][0]["byteStride"] = 2; });
-  expectPlace("meshes[0].primitives[0].indices",
-              [](Json& json) { json["accessors"][1]["componentType"] = 5126; });
-  expectPlace("meshes[0].primitives[0].mode",
-              [](Json& json) { json["meshes"][0]["primitives"][0]["mode"] = 7; });
+  expectPlace("meshes[0].primitives[0].indices", [](Json& json) { json["accessors"][1]["componentType"] = 5126; });
+  expectPlace("meshes[0].primitives[0].mode", [](Json& json) { json["meshes"][0]["primitives"][0]["mode"] = 7; });
   expectPlace("meshes[0].primitives[0].indices",
               [](Json& json) { json["meshes"][0]["primitives"][0]["attributes"] = Json::object(); });
   expectPlace("nodes[0].mesh", [](Json& json) { json["nodes"][0]["mesh"] = "first"; });
   expectPlace("nodes[0].scale", [](Json& json) { json["nodes"][0]["scale"] = {1, 2}; });
-  expectPlace("extensionsRequired[0]",
-              [](Json& json) { json["extensionsRequired"] = {"KHR_texture_basisu"}; });
+  expectPlace("extensionsRequired[0]", [](Json& json) { json["extensionsRequired"] = {"KHR_texture_basisu"}; });
 }
 
 TEST(GltfPrimitive, ThatIsDamagedIsLeftOutAndTheRestIsRead) {
   GltfText gltf;
   gltf.show(gltf.addTriangle());
   const std::size_t bad = gltf.addTriangle();
-  gltf.json["meshes"][bad]["primitives"][0]["indices"] =
-      gltf.addAccessor<std::uint8_t>({0, 1, 3}, "SCALAR", 5121);
+  gltf.json["meshes"][bad]["primitives"][0]["indices"] = gltf.addAccessor<std::uint8_t>({0, 1, 3}, "SCALAR", 5121);
   gltf.show(bad);
   const Imported imported = read(gltf);
   EXPECT_EQ(placedShapes(imported.scene.graph).size(), 1u);
@@ -170,8 +160,7 @@ TEST(GltfPrimitive, ThatIsDamagedIsLeftOutAndTheRestIsRead) {
 
 TEST(GltfPrimitive, UnfoldsToNoMoreThanItsBytesCanMean) {
   GltfText gltf;
-  gltf.json["accessors"].push_back(
-      {{"componentType", 5126}, {"type", "VEC3"}, {"count", 4000000000u}}); // zeros
+  gltf.json["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 4000000000u}}); // zeros
   gltf.show(gltf.addMesh({{{"attributes", {{"POSITION", 0}}}}}));
   EXPECT_EQ(errorOf(gltf.text(), "a.gltf").kind(), ErrorKind::limit);
 }
@@ -197,10 +186,10 @@ TEST(GltfPrimitive, IsUnpackedWhereMeshoptPackedIt) {
   const std::size_t vertices = arrays.positions.size() / 3;
   Bytes packedVertices(meshopt_encodeVertexBufferBound(vertices, 12)),
       packedIndices(meshopt_encodeIndexBufferBound(arrays.indices.size(), vertices));
-  packedVertices.resize(meshopt_encodeVertexBuffer(packedVertices.data(), packedVertices.size(),
-                                                   arrays.positions.data(), vertices, 12));
-  packedIndices.resize(meshopt_encodeIndexBuffer(packedIndices.data(), packedIndices.size(),
-                                                 arrays.indices.data(), arrays.indices.size()));
+  packedVertices.resize(
+      meshopt_encodeVertexBuffer(packedVertices.data(), packedVertices.size(), arrays.positions.data(), vertices, 12));
+  packedIndices.resize(meshopt_encodeIndexBuffer(packedIndices.data(), packedIndices.size(), arrays.indices.data(),
+                                                 arrays.indices.size()));
   GltfText gltf;
   const auto addPacked = [&](const Bytes& packed, std::size_t count, std::size_t stride, const char* mode) {
     const std::size_t view = gltf.addView(packed);
@@ -227,8 +216,7 @@ TEST(GltfPrimitive, IsUnpackedWhereMeshoptPackedIt) {
   ASSERT_EQ(mesh.corners.size(), arrays.indices.size());
   double area = 0; // triangles come in their order, but turned
   for (std::size_t corner = 0; corner < mesh.corners.size(); corner += 3) {
-    const Vec3d a(mesh.cornerPosition(corner)), b(mesh.cornerPosition(corner + 1)),
-        c(mesh.cornerPosition(corner + 2));
+    const Vec3d a(mesh.cornerPosition(corner)), b(mesh.cornerPosition(corner + 1)), c(mesh.cornerPosition(corner + 2));
     area += length(cross(b - a, c - a)) / 2;
   }
   const Mesh expected = sphere(20, 20);
@@ -249,10 +237,9 @@ TEST(GltfPrimitive, IsUnpackedWhereDracoPackedIt) {
   builder.Start(static_cast<int>(arrays.indices.size() / 3));
   const int attribute = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
   for (std::size_t face = 0; face < arrays.indices.size() / 3; ++face)
-    builder.SetAttributeValuesForFace(attribute, draco::FaceIndex(static_cast<std::uint32_t>(face)),
-                                      &arrays.positions[3 * arrays.indices[3 * face]],
-                                      &arrays.positions[3 * arrays.indices[3 * face + 1]],
-                                      &arrays.positions[3 * arrays.indices[3 * face + 2]]);
+    builder.SetAttributeValuesForFace(
+        attribute, draco::FaceIndex(static_cast<std::uint32_t>(face)), &arrays.positions[3 * arrays.indices[3 * face]],
+        &arrays.positions[3 * arrays.indices[3 * face + 1]], &arrays.positions[3 * arrays.indices[3 * face + 2]]);
   const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
   draco::EncoderBuffer encoded;
   draco::Encoder encoder;
@@ -261,16 +248,14 @@ TEST(GltfPrimitive, IsUnpackedWhereDracoPackedIt) {
 
   GltfText gltf;
   const std::size_t view = gltf.addView(Bytes(encoded.data(), encoded.data() + encoded.size()));
-  gltf.json["accessors"] = {
-      {{"componentType", 5126}, {"type", "VEC3"}, {"count", arrays.positions.size() / 3}},
-      {{"componentType", 5125}, {"type", "SCALAR"}, {"count", arrays.indices.size()}}};
-  gltf.show(
-      gltf.addMesh({{{"attributes", {{"POSITION", 0}}},
-                     {"indices", 1},
-                     {"extensions",
-                      {{"KHR_draco_mesh_compression",
-                        {{"bufferView", view},
-                         {"attributes", {{"POSITION", mesh->attribute(attribute)->unique_id()}}}}}}}}}));
+  gltf.json["accessors"] = {{{"componentType", 5126}, {"type", "VEC3"}, {"count", arrays.positions.size() / 3}},
+                            {{"componentType", 5125}, {"type", "SCALAR"}, {"count", arrays.indices.size()}}};
+  gltf.show(gltf.addMesh(
+      {{{"attributes", {{"POSITION", 0}}},
+        {"indices", 1},
+        {"extensions",
+         {{"KHR_draco_mesh_compression",
+           {{"bufferView", view}, {"attributes", {{"POSITION", mesh->attribute(attribute)->unique_id()}}}}}}}}}));
   const Mesh read = onlyMeshOf(gltf);
   EXPECT_EQ(read.elementCount(), mesh->num_faces());
   const Box3d box = boxOf(read), expected = boxOf(sphere(20, 20));

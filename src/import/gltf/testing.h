@@ -25,8 +25,7 @@ public:
 
   std::size_t addView(const Bytes& bytes) {
     buffer.resize((buffer.size() + 3) / 4 * 4);
-    json["bufferViews"].push_back(
-        {{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}});
+    json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}});
     buffer.insert(buffer.end(), bytes.begin(), bytes.end());
     return json["bufferViews"].size() - 1;
   }
@@ -81,9 +80,8 @@ public:
     std::string text = whole.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
     Bytes bytes;
-    for (const std::uint32_t word :
-         {0x46546c67u, 2u, static_cast<std::uint32_t>(28 + text.size() + buffer.size()),
-          static_cast<std::uint32_t>(text.size()), 0x4e4f534au})
+    for (const std::uint32_t word : {0x46546c67u, 2u, static_cast<std::uint32_t>(28 + text.size() + buffer.size()),
+                                     static_cast<std::uint32_t>(text.size()), 0x4e4f534au})
       appendLittle(bytes, word);
     bytes.insert(bytes.end(), text.begin(), text.end());
     appendLittle(bytes, static_cast<std::uint32_t>(buffer.size()));

@@ -20,9 +20,7 @@ public:
   Value(const Json& json, std::string place, const char* separator = ".")
       : json_(&json), place_(std::move(place)), separator_(separator) {}
 
-  [[noreturn]] void fail(ErrorKind kind, const std::string& message) const {
-    throw Error(kind, place_, message);
-  }
+  [[noreturn]] void fail(ErrorKind kind, const std::string& message) const { throw Error(kind, place_, message); }
   const Json& json() const { return *json_; }
   const std::string& place() const { return place_; }
 

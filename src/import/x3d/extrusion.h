@@ -11,7 +11,7 @@ namespace imgeo::x3d {
 struct Extrusion {
   std::vector<Vec2<double>> crossSection{{1, 1}, {1, -1}, {-1, -1}, {-1, 1}, {1, 1}}; ///< x and z
   std::vector<Vec3d> spine{{0, 0, 0}, {0, 1, 0}};
-  std::vector<Vec2<double>> scale{{1, 1}}; ///< one for each point of the spine, or for all
+  std::vector<Vec2<double>> scale{{1, 1}};                      ///< one for each point of the spine, or for all
   std::vector<std::array<double, 4>> orientation{{0, 0, 1, 0}}; ///< likewise: axis and angle
   bool beginCap = true, endCap = true;
 };

@@ -26,8 +26,7 @@ public:
       : data_(data), mesh_(mesh), localPosition_(data.positions.size(), none) {}
 
   void addCorner(const Corner& corner) {
-    const auto [wedge, isNew] =
-        wedges_.try_emplace(corner, static_cast<std::uint32_t>(mesh_.wedgePositions.size()));
+    const auto [wedge, isNew] = wedges_.try_emplace(corner, static_cast<std::uint32_t>(mesh_.wedgePositions.size()));
     if (isNew)
       addWedge(corner);
     mesh_.corners.push_back(wedge->second);
@@ -59,8 +58,8 @@ private:
 Vec3d faceNormal(const VertexData& data, std::span<const Corner> face) {
   Vec3d sum;
   for (std::size_t i = 0; i < face.size(); ++i)
-    sum = sum + cross(Vec3d(data.positions[face[i].position]),
-                      Vec3d(data.positions[face[(i + 1) % face.size()].position]));
+    sum = sum +
+          cross(Vec3d(data.positions[face[i].position]), Vec3d(data.positions[face[(i + 1) % face.size()].position]));
   const double size = length(sum);
   return size > 0 ? sum * (1 / size) : Vec3d{};
 }

@@ -26,8 +26,7 @@ struct Corner {
 struct Faces {
   Topology topology = Topology::triangles;
   std::vector<Corner> corners;
-  std::vector<std::size_t>
-      ends; ///< of each face among the corners; lines and points have as many as they need
+  std::vector<std::size_t> ends; ///< of each face among the corners; lines and points have as many as they need
 };
 
 /// Normals for faces without: each corner has the mean of the faces around its

@@ -51,9 +51,7 @@ public:
   }
 
 private:
-  [[noreturn]] void fail(ErrorKind kind, const std::string& message) const {
-    source_.fail(node_, kind, message);
-  }
+  [[noreturn]] void fail(ErrorKind kind, const std::string& message) const { source_.fail(node_, kind, message); }
 
   Indices integers(const char* field) const { return source_.integers(node_, field); }
 
@@ -257,14 +255,11 @@ private:
   /// 13.3.4: heights over a grid in x and z, seen from above.
   void readElevationGrid() {
     const std::vector<double> heights = source_.reals(node_, "height");
-    const double columnsField = source_.real(node_, "xDimension", 0),
-                 rowsField = source_.real(node_, "zDimension", 0);
-    if (!(columnsField >= 0 && rowsField >= 0 &&
-          columnsField * rowsField <= static_cast<double>(heights.size())))
+    const double columnsField = source_.real(node_, "xDimension", 0), rowsField = source_.real(node_, "zDimension", 0);
+    if (!(columnsField >= 0 && rowsField >= 0 && columnsField * rowsField <= static_cast<double>(heights.size())))
       fail(ErrorKind::malformed,
            fmt::format("has {} heights and needs {} x {}", heights.size(), columnsField, rowsField));
-    const auto columns = static_cast<std::uint32_t>(columnsField),
-               rows = static_cast<std::uint32_t>(rowsField);
+    const auto columns = static_cast<std::uint32_t>(columnsField), rows = static_cast<std::uint32_t>(rowsField);
     if (columns < 2 || rows < 2)
       return;
     const double stepX = source_.real(node_, "xSpacing", 1), stepZ = source_.real(node_, "zSpacing", 1);
@@ -286,8 +281,7 @@ private:
   }
 
   /// As many tuples as a field has, where it is there.
-  template <std::size_t size, typename Tuple>
-  void readTuples(const char* field, std::vector<Tuple>& values) const {
+  template <std::size_t size, typename Tuple> void readTuples(const char* field, std::vector<Tuple>& values) const {
     if (!node_.attribute(field))
       return;
     const std::vector<double> numbers = tuples(node_, field, size);

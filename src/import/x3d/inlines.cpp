@@ -12,12 +12,10 @@ namespace fs = std::filesystem;
 
 void Inlines::requireNoCircle(const fs::path& file) const {
   if (std::ranges::find(options_.inlinedBy, file) != options_.inlinedBy.end())
-    throw Error(ErrorKind::malformed, "",
-                fmt::format("names {}, which it stands in itself", file.filename().string()));
+    throw Error(ErrorKind::malformed, "", fmt::format("names {}, which it stands in itself", file.filename().string()));
   if (options_.inlinedBy.size() > maxInlineDepth)
-    throw Error(
-        ErrorKind::unsupported, "",
-        fmt::format("names {}, more than {} documents deep", file.filename().string(), maxInlineDepth));
+    throw Error(ErrorKind::unsupported, "",
+                fmt::format("names {}, more than {} documents deep", file.filename().string(), maxInlineDepth));
 }
 
 Inlines::Document Inlines::read(const std::string& url) {

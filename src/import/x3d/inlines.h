@@ -17,8 +17,7 @@ inline constexpr std::size_t maxInlineDepth = 16, maxInlinedDocuments = 1000;
 class Inlines {
 public:
   /// `scene` takes the documents up; `warnings` what there is to say of them.
-  Inlines(const References& references, const ImportOptions& options, Scene& scene,
-          std::vector<std::string>& warnings)
+  Inlines(const References& references, const ImportOptions& options, Scene& scene, std::vector<std::string>& warnings)
       : references_(references), options_(options), scene_(scene), warnings_(warnings) {}
 
   struct Document {

@@ -145,8 +145,7 @@ private:
   /// Names of a body are its own: each copy of it needs others.
   void rename(pugi::xml_node element, std::map<std::string, std::string>& names, std::size_t offset) {
     if (++written_ > maxWritten)
-      throw Error(ErrorKind::limit, name_,
-                  fmt::format("prototypes stand for more than {} elements", maxWritten));
+      throw Error(ErrorKind::limit, name_, fmt::format("prototypes stand for more than {} elements", maxWritten));
     elements_.offsets[element.internal_object()] = offset;
     if (pugi::xml_attribute def = element.attribute("DEF")) {
       std::string own = def.value();
@@ -190,8 +189,7 @@ private:
       set(target, field, given.value());
     for (const pugi::xml_node& node : elementsIn(value)) {
       if (++written_ > maxWritten)
-        throw Error(ErrorKind::limit, name_,
-                    fmt::format("prototypes stand for more than {} elements", maxWritten));
+        throw Error(ErrorKind::limit, name_, fmt::format("prototypes stand for more than {} elements", maxWritten));
       pugi::xml_node copy = target.append_copy(node);
       elements_.offsets[copy.internal_object()] = elements_.offsetOf(node);
       const bool isSaid = target == element && field != defaultContainerField(copy.name());

@@ -56,11 +56,9 @@ void Summary::noteScale(Vec3d scale) {
 
 void Summary::addTo(std::vector<std::string>& warnings) const {
   if (remoteImages > 0)
-    warnings.push_back(
-        fmt::format("{} left on other hosts.", counted(remoteImages, "texture is", "textures are")));
+    warnings.push_back(fmt::format("{} left on other hosts.", counted(remoteImages, "texture is", "textures are")));
   if (remoteInlines > 0)
-    warnings.push_back(
-        fmt::format("{} left on other hosts.", counted(remoteInlines, "Inline is", "Inlines are")));
+    warnings.push_back(fmt::format("{} left on other hosts.", counted(remoteInlines, "Inline is", "Inlines are")));
   warnOfElements(warnings, "Files named by these nodes are not copied", notCopied);
   warnOfElements(warnings, "Geometry that stays as it is and that imgeo's pages do not draw", notDrawn);
   warnOfElements(warnings, "Geometry without faces, lines or points", empty);
@@ -69,9 +67,8 @@ void Summary::addTo(std::vector<std::string>& warnings) const {
     warnings.push_back(fmt::format("{} by 0: what stands there is flat, or not seen at all.",
                                    counted(flatTransforms, "Transform scales", "Transforms scale")));
   if (absurdTransforms > 0)
-    warnings.push_back(
-        fmt::format("{} by more than 10^15 or less than 10^-15: what stands there cannot be drawn.",
-                    counted(absurdTransforms, "Transform scales", "Transforms scale")));
+    warnings.push_back(fmt::format("{} by more than 10^15 or less than 10^-15: what stands there cannot be drawn.",
+                                   counted(absurdTransforms, "Transform scales", "Transforms scale")));
   warnOfFans(warnings, fans);
 }
 

@@ -33,8 +33,7 @@ bool isNodesType(std::string_view type) {
 
 class VrmlParser {
 public:
-  VrmlParser(std::string_view text, const std::string& name)
-      : tokens_(text, name), text_(text), elements_(tokens_) {}
+  VrmlParser(std::string_view text, const std::string& name) : tokens_(text, name), text_(text), elements_(tokens_) {}
 
   Elements parse() {
     readHeader();
@@ -186,8 +185,7 @@ private:
   }
 
   void readBodyPart(pugi::xml_node element, pugi::xml_node prototype) {
-    const bool isStatement =
-        tokens_.nextIs("ROUTE") || tokens_.nextIs("PROTO") || tokens_.nextIs("EXTERNPROTO");
+    const bool isStatement = tokens_.nextIs("ROUTE") || tokens_.nextIs("PROTO") || tokens_.nextIs("EXTERNPROTO");
     if (isStatement)
       return readStatement(element, "");
     const Token token = tokens_.take(TokenKind::word, "a field or }");
@@ -206,10 +204,8 @@ private:
     if (tokens_.nextIs("IS"))
       return readConnection(element, std::string(field.text), field);
     const std::string name(field.text);
-    const pugi::xml_node interface =
-        prototype.child("ProtoInterface") ? prototype.child("ProtoInterface") : prototype;
-    const std::string type =
-        interface.find_child_by_attribute("field", "name", name.c_str()).attribute("type").value();
+    const pugi::xml_node interface = prototype.child("ProtoInterface") ? prototype.child("ProtoInterface") : prototype;
+    const std::string type = interface.find_child_by_attribute("field", "name", name.c_str()).attribute("type").value();
     pugi::xml_node value = elements_.add(element, "fieldValue", field);
     set(value, "name", name);
     readValue({value, "value", "", type == "MFString", isNodesType(type)});
@@ -228,8 +224,7 @@ private:
 
   /// accessType type name, and a value where it has one.
   void readDeclaration(pugi::xml_node parent, const Token& access, bool hasValues) {
-    const std::string accessType(accessTypeOf(access.text)), type = takeWord("a type"),
-                                                             name = takeWord("a name");
+    const std::string accessType(accessTypeOf(access.text)), type = takeWord("a type"), name = takeWord("a name");
     pugi::xml_node field = elements_.add(parent, "field", access);
     set(field, "accessType", accessType);
     set(field, "type", type);
@@ -305,10 +300,7 @@ private:
     } else if (isValue()) {
       do {
         const std::string_view word = tokens_.take().text;
-        text.append(text.empty() ? "" : " ")
-            .append(word == "TRUE"    ? "true"
-                    : word == "FALSE" ? "false"
-                                      : word);
+        text.append(text.empty() ? "" : " ").append(word == "TRUE" ? "true" : word == "FALSE" ? "false" : word);
       } while (isValue());
     } else {
       return readNodes(target, isList);

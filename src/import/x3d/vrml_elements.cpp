@@ -20,8 +20,7 @@ void VrmlElements::requireName(const Token& where, std::string_view name) const 
   const auto isLetter = [](unsigned char c) { return std::isalpha(c) || c == '_' || c >= 0x80; };
   const auto isInner = [&](unsigned char c) { return isLetter(c) || std::isdigit(c) || c == '-'; };
   if (name.empty() || !isLetter(static_cast<unsigned char>(name[0])) || !std::ranges::all_of(name, isInner))
-    tokens_.fail(where, ErrorKind::malformed,
-                 fmt::format("\"{}\" is no name of a node or field", asPrintable(name)));
+    tokens_.fail(where, ErrorKind::malformed, fmt::format("\"{}\" is no name of a node or field", asPrintable(name)));
 }
 
 std::string VrmlElements::define(const std::string& name, const std::string& element) {

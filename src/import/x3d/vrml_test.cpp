@@ -14,8 +14,7 @@ Imported readVrml(const std::string& scene) {
 }
 
 Imported readXml(const std::string& scene) {
-  return importBytes(asBytes("<X3D version='3.3' profile='Immersive'><Scene>" + scene + "</Scene></X3D>"),
-                     "a.wrl");
+  return importBytes(asBytes("<X3D version='3.3' profile='Immersive'><Scene>" + scene + "</Scene></X3D>"), "a.wrl");
 }
 
 /// Both are the same scene, name for name and field for field.
@@ -50,42 +49,38 @@ TEST(Vrml, IsTheSameSceneAsInXml) {
 }
 
 TEST(Vrml, KeepsStringsListsAndTruth) {
-  expectSame(
-      "WorldInfo { title \"a \\\"b\\\" \\\\ c\" info \"one\" }\n"
-      "NavigationInfo { type [ \"WALK\", \"ANY\" ] headlight FALSE avatarSize [] }\n"
-      "Anchor { url \"a.html\" children [] }",
-      "<WorldInfo title='a \"b\" \\ c' info='\"one\"'/>"
-      "<NavigationInfo type='\"WALK\" \"ANY\"' headlight='false' avatarSize=''/><Anchor url='\"a.html\"'/>");
+  expectSame("WorldInfo { title \"a \\\"b\\\" \\\\ c\" info \"one\" }\n"
+             "NavigationInfo { type [ \"WALK\", \"ANY\" ] headlight FALSE avatarSize [] }\n"
+             "Anchor { url \"a.html\" children [] }",
+             "<WorldInfo title='a \"b\" \\ c' info='\"one\"'/>"
+             "<NavigationInfo type='\"WALK\" \"ANY\"' headlight='false' avatarSize=''/><Anchor url='\"a.html\"'/>");
 }
 
 TEST(Vrml, GivesNodesTheFieldTheyStandIn) {
-  expectSame(
-      "Shape { appearance Appearance { material PhysicalMaterial { baseTexture ImageTexture { } } } }\n"
-      "LOD { range [5] level [ Group { } Group { } ] } Switch { choice Group { } whichChoice 0 }\n"
-      "Collision { collide FALSE proxy Group { } children NULL }",
-      "<Shape><Appearance><PhysicalMaterial><ImageTexture containerField='baseTexture'/></PhysicalMaterial>"
-      "</Appearance></Shape><LOD range='5'><Group/><Group/></LOD><Switch whichChoice='0'><Group/></Switch>"
-      "<Collision enabled='false'><Group containerField='proxy'/></Collision>");
+  expectSame("Shape { appearance Appearance { material PhysicalMaterial { baseTexture ImageTexture { } } } }\n"
+             "LOD { range [5] level [ Group { } Group { } ] } Switch { choice Group { } whichChoice 0 }\n"
+             "Collision { collide FALSE proxy Group { } children NULL }",
+             "<Shape><Appearance><PhysicalMaterial><ImageTexture containerField='baseTexture'/></PhysicalMaterial>"
+             "</Appearance></Shape><LOD range='5'><Group/><Group/></LOD><Switch whichChoice='0'><Group/></Switch>"
+             "<Collision enabled='false'><Group containerField='proxy'/></Collision>");
 }
 
 TEST(Vrml, CarriesRoutesAndScriptsOver) {
   const std::string vrml =
       "DEF T TimeSensor { } DEF S Script { url \"javascript:x\" eventIn SFTime now field SFFloat k 2\n"
       "field SFNode n USE T directOutput TRUE } ROUTE T.time TO S.now";
-  expectSame(
-      vrml, "<TimeSensor DEF='T'/><Script DEF='S' url='\"javascript:x\"' directOutput='true'>"
-            "<field accessType='inputOnly' type='SFTime' name='now'/>"
-            "<field accessType='initializeOnly' type='SFFloat' name='k' value='2'/>"
-            "<field accessType='initializeOnly' type='SFNode' name='n'><TimeSensor USE='T'/></field></Script>"
-            "<ROUTE fromNode='T' fromField='time' toNode='S' toField='now'/>");
+  expectSame(vrml, "<TimeSensor DEF='T'/><Script DEF='S' url='\"javascript:x\"' directOutput='true'>"
+                   "<field accessType='inputOnly' type='SFTime' name='now'/>"
+                   "<field accessType='initializeOnly' type='SFFloat' name='k' value='2'/>"
+                   "<field accessType='initializeOnly' type='SFNode' name='n'><TimeSensor USE='T'/></field></Script>"
+                   "<ROUTE fromNode='T' fromField='time' toNode='S' toField='now'/>");
   EXPECT_EQ(readVrml(vrml).warnings.at(0), "What moves or answers stays as it is, at rest in imgeo's pages: "
                                            "ROUTE (1), Script (1), TimeSensor (1).");
 }
 
 TEST(Vrml, TakesANameThatIsGivenAgainForTheLaterNode) {
   const SceneGraph graph =
-      readVrml("DEF A Group { } Transform { children USE A } DEF A Transform { } Group { children USE A }")
-          .scene.graph;
+      readVrml("DEF A Group { } Transform { children USE A } DEF A Transform { } Group { children USE A }").scene.graph;
   const auto childOf = [&](std::size_t root) { return graph.nodes[graph.roots.at(root)].children.at(0); };
   EXPECT_EQ(childOf(1), graph.roots[0]);
   EXPECT_EQ(childOf(3), graph.roots[2]);
@@ -114,8 +109,7 @@ TEST(Vrml, WritesPrototypesOut) {
   EXPECT_EQ(material.fields, (std::vector<FieldText>{{"diffuseColor", "0 1 0"}}));
   const Node& second = graph.nodes[graph.roots[1]];
   const Node& parts = graph.nodes[second.children.at(1)];
-  EXPECT_TRUE(std::holds_alternative<Transform>(graph.nodes[parts.children.at(0)].content))
-      << "a chair on a chair";
+  EXPECT_TRUE(std::holds_alternative<Transform>(graph.nodes[parts.children.at(0)].content)) << "a chair on a chair";
   EXPECT_EQ(graph.nodes[second.children.at(3)].name, "Place2-3");
   for (const Node& node : graph.nodes) {
     const OtherNode* other = std::get_if<OtherNode>(&node.content);
@@ -149,11 +143,11 @@ TEST(Vrml, RefusesPrototypesThatGrowWithoutMeasure) {
 }
 
 TEST(Vrml, ReadsTheClassicEncodingOfX3d) {
-  const Imported imported = importBytes(
-      asBytes("#X3D V3.2 utf8\nPROFILE Interchange\nCOMPONENT Text:1\nMETA \"creator\" \"somebody\"\n"
-              "UNIT length inch 0.0254\n"
-              "Shape { geometry TriangleSet { coord Coordinate { point [0 0 0 1 0 0 0 1 0] } } }"),
-      "a.x3dv");
+  const Imported imported =
+      importBytes(asBytes("#X3D V3.2 utf8\nPROFILE Interchange\nCOMPONENT Text:1\nMETA \"creator\" \"somebody\"\n"
+                          "UNIT length inch 0.0254\n"
+                          "Shape { geometry TriangleSet { coord Coordinate { point [0 0 0 1 0 0 0 1 0] } } }"),
+                  "a.x3dv");
   EXPECT_EQ(imported.format, "X3D Classic");
   EXPECT_EQ(imported.scene.meshes.size(), 1u);
   ASSERT_EQ(imported.scene.graph.head.header.size(), 3u);

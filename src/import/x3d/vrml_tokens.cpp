@@ -88,8 +88,7 @@ void VrmlTokens::fail(const Token& token, ErrorKind kind, const std::string& mes
 void VrmlTokens::failExpecting(const std::string& what) const {
   if (nextIs(TokenKind::end))
     fail(next_, ErrorKind::truncated, "the file ends where " + what + " should stand");
-  fail(next_, ErrorKind::malformed,
-       fmt::format("\"{}\" stands where {} should", asPrintable(next_.text), what));
+  fail(next_, ErrorKind::malformed, fmt::format("\"{}\" stands where {} should", asPrintable(next_.text), what));
 }
 
 std::string unescaped(std::string_view text) {

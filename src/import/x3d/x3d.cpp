@@ -31,8 +31,7 @@ bool isOwn(std::string_view field) {
   return field == "DEF" || field == "USE";
 }
 
-std::vector<FieldText> fieldsOf(pugi::xml_node element,
-                                std::initializer_list<std::string_view> without = {}) {
+std::vector<FieldText> fieldsOf(pugi::xml_node element, std::initializer_list<std::string_view> without = {}) {
   std::vector<FieldText> fields;
   for (const pugi::xml_attribute& attribute : element.attributes())
     if (const std::string_view name = attribute.name();
@@ -49,8 +48,7 @@ bool isShapePart(std::string_view element) {
 class SceneReader {
 public:
   SceneReader(const Source& source, const References& references, const ImportOptions& options)
-      : source_(source), references_(references), isStrict_(options.strict),
-        inlineBytes_(options.inlineBytes),
+      : source_(source), references_(references), isStrict_(options.strict), inlineBytes_(options.inlineBytes),
         inlines_(references, options, imported_.scene, imported_.warnings) {
     if (textOfSmallGeometry() > mostInlineText)
       inlineBytes_ = std::min(inlineBytes_, shortText);
@@ -181,9 +179,7 @@ private:
     return other;
   }
 
-  static bool isRemote(const std::string& url) {
-    return url.starts_with("http:") || url.starts_with("https:");
-  }
+  static bool isRemote(const std::string& url) { return url.starts_with("http:") || url.starts_with("https:"); }
 
   /// The document of the first of an Inline's urls that leads to one.
   std::optional<Inlines::Document> inlined(pugi::xml_node element) {
@@ -242,8 +238,7 @@ private:
   /// Pages ask for the first url of a texture; one that leads to no file here leads to none there.
   void leaveToOtherHosts(std::vector<FieldText>& fields) {
     const auto url = std::ranges::find(fields, "url", &FieldText::name);
-    std::vector<std::string> urls =
-        url == fields.end() ? std::vector<std::string>{} : parseStrings(url->value);
+    std::vector<std::string> urls = url == fields.end() ? std::vector<std::string>{} : parseStrings(url->value);
     std::erase_if(urls, [](const std::string& each) { return !isRemote(each); });
     if (urls.empty())
       return;
@@ -388,18 +383,16 @@ private:
   Summary summary_;
 };
 
-Imported readElements(Elements elements, ByteSpan bytes, const std::string& name,
-                      const ImportOptions& options) {
+Imported readElements(Elements elements, ByteSpan bytes, const std::string& name, const ImportOptions& options) {
   const PrototypeReport prototypes = writeOutPrototypes(elements, name);
   const std::string format = elements.format;
   const Source source(std::move(elements), asText(bytes), name);
   Imported imported = SceneReader(source, References(options, name), options).read();
   imported.format = format;
   if (prototypes.instances + prototypes.prototypes > 0)
-    imported.warnings.push_back(
-        fmt::format("{} of {} written out as the nodes that they stand for.",
-                    counted(prototypes.instances, "instance", "instances"),
-                    counted(prototypes.prototypes, "prototype is", "prototypes are")));
+    imported.warnings.push_back(fmt::format("{} of {} written out as the nodes that they stand for.",
+                                            counted(prototypes.instances, "instance", "instances"),
+                                            counted(prototypes.prototypes, "prototype is", "prototypes are")));
   warnOfElements(imported.warnings, "Left out of prototypes", prototypes.leftOut);
   return imported;
 }

@@ -31,16 +31,11 @@ const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{1, 1, 0}, d{0, 1, 0};
 
 TEST(X3d, ReadsEveryKindOfSurface) {
   const std::vector<Vec3f> two{a, b, c, a, c, d};
-  EXPECT_EQ(cornersOf(meshOf("<IndexedFaceSet coordIndex='0 1 2 3 -1'>" + square + "</IndexedFaceSet>")),
-            two);
-  EXPECT_EQ(cornersOf(meshOf("<IndexedTriangleSet index='0 1 2 0 2 3'>" + square + "</IndexedTriangleSet>")),
-            two);
-  EXPECT_EQ(
-      cornersOf(meshOf("<IndexedTriangleFanSet index='0 1 2 3'>" + square + "</IndexedTriangleFanSet>")),
-      two);
+  EXPECT_EQ(cornersOf(meshOf("<IndexedFaceSet coordIndex='0 1 2 3 -1'>" + square + "</IndexedFaceSet>")), two);
+  EXPECT_EQ(cornersOf(meshOf("<IndexedTriangleSet index='0 1 2 0 2 3'>" + square + "</IndexedTriangleSet>")), two);
+  EXPECT_EQ(cornersOf(meshOf("<IndexedTriangleFanSet index='0 1 2 3'>" + square + "</IndexedTriangleFanSet>")), two);
   EXPECT_EQ(cornersOf(meshOf("<TriangleFanSet fanCount='4'>" + square + "</TriangleFanSet>")), two);
-  EXPECT_EQ(cornersOf(meshOf("<IndexedTriangleStripSet index='0 1 3 2 -1'>" + square +
-                             "</IndexedTriangleStripSet>")),
+  EXPECT_EQ(cornersOf(meshOf("<IndexedTriangleStripSet index='0 1 3 2 -1'>" + square + "</IndexedTriangleStripSet>")),
             (std::vector<Vec3f>{a, b, d, b, c, d}));
   EXPECT_EQ(cornersOf(meshOf("<TriangleStripSet stripCount='3'>" + square + "</TriangleStripSet>")),
             (std::vector<Vec3f>{a, b, c}));
@@ -61,11 +56,9 @@ double volumeOf(const Mesh& mesh) {
 TEST(X3d, CarriesCrossSectionsAlongSpines) {
   EXPECT_NEAR(volumeOf(meshOf("<Extrusion/>")), 4, 1e-6);
   EXPECT_NEAR(volumeOf(meshOf("<Extrusion spine='0 1 0 0 -1 0'/>")), 8, 1e-6);
-  EXPECT_NEAR(
-      volumeOf(meshOf("<Extrusion spine='0 -1 0 0 1 0' scale='1 0.5' orientation='0 1 0 1.5707963'/>")), 4,
-      1e-5);
-  EXPECT_NEAR(volumeOf(meshOf("<Extrusion convex='false' crossSection='0 0 0 3 1 3 1 1 3 1 3 0 0 0'/>")), 5,
-              1e-6);
+  EXPECT_NEAR(volumeOf(meshOf("<Extrusion spine='0 -1 0 0 1 0' scale='1 0.5' orientation='0 1 0 1.5707963'/>")), 4,
+              1e-5);
+  EXPECT_NEAR(volumeOf(meshOf("<Extrusion convex='false' crossSection='0 0 0 3 1 3 1 1 3 1 3 0 0 0'/>")), 5, 1e-6);
   std::string spine;
   for (int i = 0; i <= 32; ++i)
     spine += std::to_string(3 * std::cos(i % 32 * 0.19634954)) + " 0 " +
@@ -81,8 +74,7 @@ TEST(X3d, ReadsLinesAndPoints) {
   const Mesh lines = meshOf("<IndexedLineSet coordIndex='0 1 2 -1 3 0'>" + square + "</IndexedLineSet>");
   EXPECT_EQ(lines.topology, Topology::lines);
   EXPECT_EQ(cornersOf(lines), (std::vector<Vec3f>{a, b, b, c, d, a}));
-  EXPECT_EQ(cornersOf(meshOf("<LineSet vertexCount='2 2'>" + square + "</LineSet>")),
-            (std::vector<Vec3f>{a, b, c, d}));
+  EXPECT_EQ(cornersOf(meshOf("<LineSet vertexCount='2 2'>" + square + "</LineSet>")), (std::vector<Vec3f>{a, b, c, d}));
   const Mesh points =
       meshOf("<PointSet>" + square + "<ColorRGBA color='1 0 0 1 0 1 0 0.5 0 0 1 1 1 1 1 1'/></PointSet>");
   EXPECT_EQ(points.topology, Topology::points);
@@ -91,9 +83,8 @@ TEST(X3d, ReadsLinesAndPoints) {
 }
 
 TEST(X3d, TurnsFacesThatAreClockwise) {
-  EXPECT_EQ(
-      cornersOf(meshOf("<IndexedFaceSet ccw='false' coordIndex='0 1 2'>" + square + "</IndexedFaceSet>")),
-      (std::vector<Vec3f>{c, b, a}));
+  EXPECT_EQ(cornersOf(meshOf("<IndexedFaceSet ccw='false' coordIndex='0 1 2'>" + square + "</IndexedFaceSet>")),
+            (std::vector<Vec3f>{c, b, a}));
 }
 
 TEST(X3d, TakesAttributesByVertexOrByFace) {
@@ -104,8 +95,8 @@ TEST(X3d, TakesAttributesByVertexOrByFace) {
   EXPECT_EQ(byFace.colors.at(byFace.corners[0]), (Rgba8{255, 0, 0, 255}));
   EXPECT_EQ(byFace.colors.at(byFace.corners[3]), (Rgba8{0, 0, 255, 255}));
   EXPECT_EQ(byFace.positions.size(), 4u);
-  const Mesh byIndex = meshOf("<IndexedFaceSet " + two + " colorIndex='1 1 1 -1 0 0 0'>" + square + colors +
-                              "</IndexedFaceSet>");
+  const Mesh byIndex =
+      meshOf("<IndexedFaceSet " + two + " colorIndex='1 1 1 -1 0 0 0'>" + square + colors + "</IndexedFaceSet>");
   EXPECT_EQ(byIndex.colors.at(byIndex.corners[0]), (Rgba8{0, 0, 255, 255}));
   EXPECT_TRUE(byIndex.normals.empty()); // smooth all over: computed with those of every other format
 }
@@ -140,8 +131,7 @@ TEST(X3d, KeepsEverythingElseAsItIs) {
   const Imported imported = readScene(
       "<Viewpoint DEF='V' description='a &amp; b' fieldOfView='1'/><Switch whichChoice='1' id='s'><Group/>"
       "<Shape class='x'><Appearance><Material diffuseColor='1 0 0'/></Appearance><TriangleSet>" +
-      square +
-      "</TriangleSet></Shape></Switch><Shape><Box size='1 2 3'/></Shape><ROUTE fromNode='V' toNode='V'/>");
+      square + "</TriangleSet></Shape></Switch><Shape><Box size='1 2 3'/></Shape><ROUTE fromNode='V' toNode='V'/>");
   const SceneGraph& graph = imported.scene.graph;
   ASSERT_EQ(graph.roots.size(), 4u);
   const Node& viewpoint = graph.nodes[graph.roots[0]];
@@ -162,12 +152,9 @@ TEST(X3d, LeavesGeometryThatIsShortAsTextWhereItIs) {
   options.inlineBytes = 200;
   const Imported small = readScene(shape, options);
   EXPECT_TRUE(small.scene.meshes.empty());
-  EXPECT_EQ(std::get<OtherNode>(small.scene.graph.nodes[small.scene.graph.roots.at(0)].content).element,
-            "Shape");
-  for (const char* drawn :
-       {"<Extrusion/>", "<ElevationGrid xDimension='2' zDimension='2' height='0 0 0 1'/>"})
-    EXPECT_TRUE(readScene("<Shape>" + std::string(drawn) + "</Shape>", options).scene.meshes.empty())
-        << drawn;
+  EXPECT_EQ(std::get<OtherNode>(small.scene.graph.nodes[small.scene.graph.roots.at(0)].content).element, "Shape");
+  for (const char* drawn : {"<Extrusion/>", "<ElevationGrid xDimension='2' zDimension='2' height='0 0 0 1'/>"})
+    EXPECT_TRUE(readScene("<Shape>" + std::string(drawn) + "</Shape>", options).scene.meshes.empty()) << drawn;
   options.inlineBytes = 20;
   EXPECT_EQ(readScene(shape, options).scene.meshes.size(), 1u);
 }
@@ -191,10 +178,9 @@ TEST(X3d, LeavesMuchGeometryWhereItIsOnlyIfItIsAsShortAsABox) {
 TEST(X3d, SaysWhichGeometryPagesDoNotDraw) {
   const Imported imported = readScene("<Shape><Circle2D/></Shape><Shape><Appearance/><NurbsCurve/></Shape>"
                                       "<Shape><Sphere/></Shape><Shape><NurbsCurve/></Shape>");
-  EXPECT_EQ(
-      imported.warnings,
-      std::vector<std::string>{
-          "Geometry that stays as it is and that imgeo's pages do not draw: Circle2D (1), NurbsCurve (2)."});
+  EXPECT_EQ(imported.warnings,
+            std::vector<std::string>{
+                "Geometry that stays as it is and that imgeo's pages do not draw: Circle2D (1), NurbsCurve (2)."});
   EXPECT_TRUE(readScene("<Shape><Text string='" + std::string(5000, 'a') + "'/></Shape>").warnings.empty());
 }
 
@@ -205,8 +191,7 @@ TEST(X3d, TakesTexturesFromItsOwnFolderAlone) {
   writeFile(directory / "out.png", asBytes("\x89PNG\r\n\x1a\n..."));
   const auto read = [&](const std::string& url) {
     const std::string scene = "<X3D><Scene><Shape><Appearance><ImageTexture url='" + url +
-                              "'/></Appearance><TriangleSet>" + square +
-                              "</TriangleSet></Shape></Scene></X3D>";
+                              "'/></Appearance><TriangleSet>" + square + "</TriangleSet></Shape></Scene></X3D>";
     writeFile(directory / "in/a.x3d", asBytes(scene));
     return importFile(directory / "in/a.x3d");
   };
@@ -236,8 +221,7 @@ TEST(X3d, LeavesATextureToOtherHostsOnlyWhereItIsNotHere) {
     return other && other->element == "ImageTexture";
   });
   ASSERT_NE(texture, there.scene.graph.nodes.end());
-  EXPECT_EQ(texture->fields,
-            (std::vector<FieldText>{{"url", "\"http://a.org/wood.png\" \"https://b.org/\""}}));
+  EXPECT_EQ(texture->fields, (std::vector<FieldText>{{"url", "\"http://a.org/wood.png\" \"https://b.org/\""}}));
 }
 
 TEST(X3d, LeavesWhatIsDamagedAsItIsUnlessStrict) {
@@ -258,9 +242,8 @@ TEST(X3d, LeavesWhatIsDamagedAsItIsUnlessStrict) {
 }
 
 TEST(X3d, TakesFieldsThatAreNoNumbersForAbsentAndKeepsAbsurdOnes) {
-  const Imported imported =
-      readScene("<Transform scale='NaN 1 1' translation='1 2 3'/><Transform translation='1 2'/>"
-                "<Transform scale='1e30 1e30 1e30'/><Transform scale='0 0 0'/>");
+  const Imported imported = readScene("<Transform scale='NaN 1 1' translation='1 2 3'/><Transform translation='1 2'/>"
+                                      "<Transform scale='1e30 1e30 1e30'/><Transform scale='0 0 0'/>");
   const SceneGraph& graph = imported.scene.graph;
   const auto transformAt = [&](std::size_t root) {
     return std::get<Transform>(graph.nodes[graph.roots.at(root)].content);
@@ -274,32 +257,29 @@ TEST(X3d, TakesFieldsThatAreNoNumbersForAbsentAndKeepsAbsurdOnes) {
   EXPECT_TRUE(imported.warnings[2].starts_with("1 Transform scales by 0")) << imported.warnings[2];
   EXPECT_TRUE(imported.warnings[3].starts_with("1 Transform scales by more than")) << imported.warnings[3];
   EXPECT_NE(imported.warnings[0].find("a.x3d:1:"), std::string::npos) << imported.warnings[0];
-  EXPECT_NE(imported.warnings[0].find("Transform: scale holds something that is no number"),
-            std::string::npos);
+  EXPECT_NE(imported.warnings[0].find("Transform: scale holds something that is no number"), std::string::npos);
 }
 
 TEST(X3d, WritesPrototypesOutOfXmlToo) {
-  const Imported imported = readScene(
-      "<ProtoDeclare name='P'><ProtoInterface><field name='c' type='SFColor' accessType='inputOutput' "
-      "value='1 1 1'/>"
-      "</ProtoInterface><ProtoBody><Material><IS><connect nodeField='diffuseColor' "
-      "protoField='c'/></IS></Material>"
-      "</ProtoBody></ProtoDeclare><Shape><Appearance><ProtoInstance name='P' containerField='material'>"
-      "<fieldValue name='c' value='0 1 0'/></ProtoInstance></Appearance></Shape>");
+  const Imported imported =
+      readScene("<ProtoDeclare name='P'><ProtoInterface><field name='c' type='SFColor' accessType='inputOutput' "
+                "value='1 1 1'/>"
+                "</ProtoInterface><ProtoBody><Material><IS><connect nodeField='diffuseColor' "
+                "protoField='c'/></IS></Material>"
+                "</ProtoBody></ProtoDeclare><Shape><Appearance><ProtoInstance name='P' containerField='material'>"
+                "<fieldValue name='c' value='0 1 0'/></ProtoInstance></Appearance></Shape>");
   const SceneGraph& graph = imported.scene.graph;
   const Node& look = graph.nodes[graph.nodes[graph.roots.at(0)].children.at(0)];
   const Node& material = graph.nodes[look.children.at(0)];
   EXPECT_EQ(std::get<OtherNode>(material.content).element, "Material");
-  EXPECT_EQ(material.fields,
-            (std::vector<FieldText>{{"diffuseColor", "0 1 0"}, {"containerField", "material"}}));
+  EXPECT_EQ(material.fields, (std::vector<FieldText>{{"diffuseColor", "0 1 0"}, {"containerField", "material"}}));
 }
 
 TEST(X3d, KeepsCommentsAndWhatTheDocumentSaysOfItself) {
   const SceneGraph graph =
-      importBytes(
-          asBytes("<!--of somebody--><X3D profile='Immersive' version='3.1'><head><!--in the head--></head>"
-                  "<Scene><Group><!--within--></Group></Scene></X3D>"),
-          "a.x3d")
+      importBytes(asBytes("<!--of somebody--><X3D profile='Immersive' version='3.1'><head><!--in the head--></head>"
+                          "<Scene><Group><!--within--></Group></Scene></X3D>"),
+                  "a.x3d")
           .scene.graph;
   EXPECT_EQ(graph.head.fields, (std::vector<FieldText>{{"profile", "Immersive"}, {"version", "3.1"}}));
   const auto commentOf = [&](std::size_t node) {
@@ -329,8 +309,8 @@ TEST(X3d, RefusesBombsAndCircles) {
     deep += "</Group>";
   EXPECT_EQ(kindOf(deep + "</Scene></X3D>"), ErrorKind::limit);
   const Imported circle =
-      readScene("<Group DEF='A'><Group DEF='B'><Group USE='A'/></Group></Group><Shape><TriangleSet>" +
-                square + "</TriangleSet></Shape>");
+      readScene("<Group DEF='A'><Group DEF='B'><Group USE='A'/></Group></Group><Shape><TriangleSet>" + square +
+                "</TriangleSet></Shape>");
   EXPECT_EQ(circle.warnings.size(), 1u);
 }
 

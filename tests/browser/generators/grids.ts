@@ -23,7 +23,8 @@ type Shape = (u: number, v: number) => Point;
 /** Hills 4 wide and at most 1 high; heights in 16 bits. */
 export function terrain(columns = 80, rows = 60): GridExample {
   const height: Shape = (u, v) => {
-    const hills = Math.sin(7 * u) * Math.cos(5 * v) + 0.4 * Math.sin(17 * u + 3) * Math.sin(13 * v) + 0.15 * Math.cos(41 * u * v);
+    const hills =
+      Math.sin(7 * u) * Math.cos(5 * v) + 0.4 * Math.sin(17 * u + 3) * Math.sin(13 * v) + 0.15 * Math.cos(41 * u * v);
     return [(hills + 1.6) / 3.2, 0, 0];
   };
   return exampleOf("heightMap", columns, rows, [0.5, 0.25, 0], [4, 1, 3], 2, 1, height);
@@ -43,13 +44,21 @@ export function vase(columns = 64, rows = 48): GridExample {
   return exampleOf("sculpt", columns, rows, [0, 0, 0], [2, 3, 2], 1, 3, (u, v) => {
     const radius = v === 0 || v === 1 ? 0 : 0.5 * Math.sin(Math.PI * v) * (0.6 + 0.4 * Math.cos(9 * v));
     // Columns run right as one looks at it from outside, so around it against the clock.
-    const angle = 2 * Math.PI * u * (columns - 1) / columns;
+    const angle = (2 * Math.PI * u * (columns - 1)) / columns;
     return [0.5 + radius * Math.sin(angle), 1 - v, 0.5 + radius * Math.cos(angle)];
   });
 }
 
-function exampleOf(mode: GridExample["mode"], columns: number, rows: number, position: Point, size: Point,
-                   planes: number, channels: number, shape: Shape): GridExample {
+function exampleOf(
+  mode: GridExample["mode"],
+  columns: number,
+  rows: number,
+  position: Point,
+  size: Point,
+  planes: number,
+  channels: number,
+  shape: Shape,
+): GridExample {
   const largest = 256 ** planes - 1;
   const files = new Map<string, Buffer>();
   for (let plane = 0; plane < planes; ++plane) {
@@ -75,7 +84,10 @@ export function shapeOf({ mode, columns, rows, position, size, files }: GridExam
 }
 
 /** The same surface as plain buffers, from the bytes of the files. */
-export function meshOf({ mode, columns, rows, position, size }: GridExample, planes: { data: Uint8Array; channels: number }[]): PlainPatch {
+export function meshOf(
+  { mode, columns, rows, position, size }: GridExample,
+  planes: { data: Uint8Array; channels: number }[],
+): PlainPatch {
   const largest = 256 ** planes.length - 1;
   const stored = (texel: number, channel: number): number =>
     planes.reduce((value, { data, channels }) => 256 * value + data[texel * channels + channel]!, 0) / largest;
@@ -83,21 +95,35 @@ export function meshOf({ mode, columns, rows, position, size }: GridExample, pla
   const positions = new Float32Array(3 * count);
   for (let n = 0; n < count; ++n) {
     const [column, row] = [n % columns, Math.floor(n / columns)];
-    const share = mode === "heightMap" ? [column / (columns - 1), stored(n, 0), row / (rows - 1)] : [0, 1, 2].map((axis) => stored(n, axis));
-    positions.set(share.map((part, axis) => position[axis]! + size[axis]! * (part - 0.5)), 3 * n);
+    const share =
+      mode === "heightMap"
+        ? [column / (columns - 1), stored(n, 0), row / (rows - 1)]
+        : [0, 1, 2].map((axis) => stored(n, axis));
+    positions.set(
+      share.map((part, axis) => position[axis]! + size[axis]! * (part - 0.5)),
+      3 * n,
+    );
   }
   const triangles: number[] = [];
   const across = mode === "sculpt" ? columns : columns - 1;
   for (let row = 0; row < rows - 1; ++row) {
     for (let column = 0; column < across; ++column) {
       const next = (column + 1) % columns;
-      const [a, b, c, d] = [row * columns + column, row * columns + next, (row + 1) * columns + column, (row + 1) * columns + next];
+      const [a, b, c, d] = [
+        row * columns + column,
+        row * columns + next,
+        (row + 1) * columns + column,
+        (row + 1) * columns + next,
+      ];
       triangles.push(a, c, b, c, d, b);
     }
   }
   return {
-    positions, normals: slopes(positions, columns, rows, mode === "sculpt"),
-    triangles: Uint32Array.from(triangles), lines: new Uint32Array(0), points: new Uint32Array(0),
+    positions,
+    normals: slopes(positions, columns, rows, mode === "sculpt"),
+    triangles: Uint32Array.from(triangles),
+    lines: new Uint32Array(0),
+    points: new Uint32Array(0),
   };
 }
 
@@ -121,7 +147,10 @@ function slopes(positions: Float32Array, columns: number, rows: number, isClosed
       let normal = slope(row, column);
       if (Math.hypot(...normal) < 1e-12) normal = slope(row === 0 ? 1 : row - 1, column);
       const length = Math.hypot(...normal);
-      normals.set(normal.map((part) => part / length), 3 * (row * columns + column));
+      normals.set(
+        normal.map((part) => part / length),
+        3 * (row * columns + column),
+      );
     }
   }
   return normals;

@@ -21,7 +21,8 @@ export function writeShapes(count: number, file: string): void {
       const at = [x + radius * positions[i]!, y + radius * positions[i + 1]!, radius * positions[i + 2]!];
       lines.push(`v ${at.map((coordinate) => coordinate.toFixed(4)).join(" ")}`);
     }
-    for (let i = 0; i < triangles.length; i += 3) lines.push(`f ${[0, 1, 2].map((corner) => first + triangles[i + corner]!).join(" ")}`);
+    for (let i = 0; i < triangles.length; i += 3)
+      lines.push(`f ${[0, 1, 2].map((corner) => first + triangles[i + corner]!).join(" ")}`);
     first += positions.length / 3;
     writeSync(out, `${lines.join("\n")}\n`);
   }

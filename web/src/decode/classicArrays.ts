@@ -41,18 +41,27 @@ export async function classicCoords(job: CoordJob): Promise<VertexArray> {
   const { planes, planeCount, middleOfMissing, count } = job;
   const sums = await sumsOf(job, 3, 3);
   const isWhole = planes.length === planeCount;
-  const array = isWhole && planeCount === 1 ? new Uint8Array(count * 4)
-    : isWhole && planeCount === 2 ? new Uint16Array(count * 4) : new Float32Array(count * 3);
+  const array =
+    isWhole && planeCount === 1
+      ? new Uint8Array(count * 4)
+      : isWhole && planeCount === 2
+        ? new Uint16Array(count * 4)
+        : new Float32Array(count * 3);
   const stride = array instanceof Float32Array ? 3 : 4;
   const shift = 256 ** (planeCount - planes.length);
   for (let record = 0; record < count; ++record) {
-    for (let axis = 0; axis < 3; ++axis) array[record * stride + axis] = (sums[3 * record + axis] ?? 0) * shift + middleOfMissing;
+    for (let axis = 0; axis < 3; ++axis)
+      array[record * stride + axis] = (sums[3 * record + axis] ?? 0) * shift + middleOfMissing;
   }
   return { array, components: 3, stride, offset: 0 };
 }
 
 /** The bytes that are here put together, `stride` numbers a record, of which the first `channels` count. */
-export async function sumsOf({ planes, count, rowLength }: PlanesJob, channels: 1 | 2 | 3 | 4, stride: number): Promise<Float64Array> {
+export async function sumsOf(
+  { planes, count, rowLength }: PlanesJob,
+  channels: 1 | 2 | 3 | 4,
+  stride: number,
+): Promise<Float64Array> {
   const images = await Promise.all(planes.map((plane) => imageOf(plane, channels)));
   const sums = new Float64Array(count * stride);
   for (const image of images) {
@@ -79,7 +88,10 @@ export interface ValueJob extends PlanesJob {
 export async function classicValues({ components, min, size, ...job }: ValueJob): Promise<VertexArray> {
   const sums = await sumsOf(job, components, components);
   const largest = 256 ** job.planes.length - 1;
-  const array = Float32Array.from(sums, (stored, i) => (min[i % components] ?? 0) + (size[i % components] ?? 0) * stored / largest);
+  const array = Float32Array.from(
+    sums,
+    (stored, i) => (min[i % components] ?? 0) + ((size[i % components] ?? 0) * stored) / largest,
+  );
   return { array, components, stride: components, offset: 0 };
 }
 
@@ -106,9 +118,11 @@ export async function classicIndex(job: IndexJob): Promise<{ index: IndexArray; 
   for (let n = 0; n < count; ++n) {
     const at = texelOf(n) * channels;
     const [r = 0, g = 0, b = 0] = [data[at], data[at + 1], data[at + 2]];
-    const record = isWide ? r + 256 * g + 65536 * b
+    const record = isWide
+      ? r + 256 * g + 65536 * b
       : ((g * coordHeight + 128) >> 8) * coordWidth + ((r * coordWidth + 128) >> 8);
-    if (record >= recordCount) throw new DecodeError("malformed", `holds index ${record} where there are ${recordCount} vertices`);
+    if (record >= recordCount)
+      throw new DecodeError("malformed", `holds index ${record} where there are ${recordCount} vertices`);
     index[n] = record;
   }
   return withoutStrips(index, draws);
@@ -167,7 +181,8 @@ interface FirstPixels extends Pixels {
 
 async function imageOf({ png, first }: ImageFile, least: number): Promise<FirstPixels> {
   const pixels = await decodePixels(png);
-  if (pixels.channels < least) throw new DecodeError("malformed", `has ${pixels.channels} channels where ${least} are needed`);
+  if (pixels.channels < least)
+    throw new DecodeError("malformed", `has ${pixels.channels} channels where ${least} are needed`);
   return { ...pixels, first };
 }
 
@@ -185,8 +200,10 @@ function bytesOf(image: FirstPixels, layout: RecordLayout, components: 3 | 4): V
 /** From numbers to texels of the image; throws where it has fewer. */
 function placesOf(image: FirstPixels, { count, rowLength }: RecordLayout): (n: number) => number {
   const { width, first } = image;
-  const place = rowLength === 0 || rowLength === width ? (n: number) => first + n
-    : (n: number) => first + Math.floor(n / rowLength) * width + (n % rowLength);
+  const place =
+    rowLength === 0 || rowLength === width
+      ? (n: number) => first + n
+      : (n: number) => first + Math.floor(n / rowLength) * width + (n % rowLength);
   if (rowLength > width) throw new DecodeError("malformed", `is ${width} texels wide, rows of ${rowLength} do not fit`);
   if (count > 0) requireTexels(image, place(count - 1) - first + 1);
   return place;

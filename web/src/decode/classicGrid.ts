@@ -32,7 +32,11 @@ export async function classicGrid({ grid, largestStored, step, ...job }: GridJob
   for (let record = 0; record < columns * rows; ++record) {
     const stored = (axis: number) => (sums[3 * record + axis] ?? 0) * shift + job.middleOfMissing;
     const place = isHeights
-      ? [(record % columns) * largestStored / (columns - 1), stored(0), Math.floor(record / columns) * largestStored / (rows - 1)]
+      ? [
+          ((record % columns) * largestStored) / (columns - 1),
+          stored(0),
+          (Math.floor(record / columns) * largestStored) / (rows - 1),
+        ]
       : [stored(0), stored(1), stored(2)];
     array.set(place, 3 * record);
   }
@@ -52,7 +56,7 @@ export function gridIndex({ kind, columns, rows }: Grid): IndexArray {
   for (let row = 0; row + 1 < rows; ++row) {
     for (let column = 0; column < cellsAcross; ++column) {
       const here = row * columns + column;
-      const right = row * columns + (column + 1) % columns;
+      const right = row * columns + ((column + 1) % columns);
       index.set([here, here + columns, right, here + columns, right + columns, right], at);
       at += 6;
     }
@@ -60,7 +64,11 @@ export function gridIndex({ kind, columns, rows }: Grid): IndexArray {
   return index;
 }
 
-function slopeNormals(places: Float32Array, { kind, columns, rows }: Grid, step: readonly number[]): Float32Array<ArrayBuffer> {
+function slopeNormals(
+  places: Float32Array,
+  { kind, columns, rows }: Grid,
+  step: readonly number[],
+): Float32Array<ArrayBuffer> {
   const isClosed = kind === "sculpt";
   const normals = new Float32Array(places.length);
   const at = (row: number, column: number, axis: number) => places[3 * (row * columns + column) + axis] ?? 0;
@@ -78,7 +86,10 @@ function slopeNormals(places: Float32Array, { kind, columns, rows }: Grid, step:
       // At a pole all of a row is one point; the next row says where it faces.
       if (normal.every((part) => part === 0)) normal = slopeAt(row === 0 ? 1 : row - 1, column);
       const length = Math.hypot(...normal) || 1;
-      normals.set(normal.map((part) => part / length), 3 * (row * columns + column));
+      normals.set(
+        normal.map((part) => part / length),
+        3 * (row * columns + column),
+      );
     }
   }
   return normals;

@@ -26,7 +26,11 @@ describe("a PNG", () => {
   });
 
   test("with further chunks is taken", () => {
-    assert.deepEqual(checkPng(pngOf({ width: 2, height: 2, extra: [chunkOf("tEXt", new Uint8Array(9))] })), { width: 2, height: 2, channels: 3 });
+    assert.deepEqual(checkPng(pngOf({ width: 2, height: 2, extra: [chunkOf("tEXt", new Uint8Array(9))] })), {
+      width: 2,
+      height: 2,
+      channels: 3,
+    });
   });
 
   for (const type of ["ABCD", "IHDR", "IDAT"]) {
@@ -40,12 +44,19 @@ describe("a PNG", () => {
     "a see-through palette": pngOf({ width: 2, height: 2, colorType: 3, extra: [chunkOf("tRNS", new Uint8Array(1))] }),
     "grey with alpha": pngOf({ width: 2, height: 2, colorType: 4 }),
     "16 bits a channel": pngOf({ width: 2, height: 2, bitDepth: 16 }),
-    "interlacing": pngOf({ width: 2, height: 2, interlace: 1 }),
+    interlacing: pngOf({ width: 2, height: 2, interlace: 1 }),
   })) {
-    test(`with ${what} is refused as unsupported`, () => { assert.throws(() => checkPng(png), refused("unsupported")); });
+    test(`with ${what} is refused as unsupported`, () => {
+      assert.throws(() => checkPng(png), refused("unsupported"));
+    });
   }
 
-  for (const [width, height] of [[0, 1], [1, 0], [largestImageEdge + 1, 1], [1, 2 ** 31]] as const) {
+  for (const [width, height] of [
+    [0, 1],
+    [1, 0],
+    [largestImageEdge + 1, 1],
+    [1, 2 ** 31],
+  ] as const) {
     test(`of ${width} x ${height} texels is beyond the limit`, () => {
       assert.throws(() => checkPng(pngOf({ width, height: Math.min(height, 2 ** 31) })), refused("limit"));
     });
@@ -86,8 +97,11 @@ describe("a PNG", () => {
     "a GIF": [...Buffer.from("GIF89a")],
   })) {
     test(`that has become ${name} is refused by that name`, () => {
-      assert.throws(() => checkPng(Uint8Array.from(head)), (error) =>
-        error instanceof DecodeError && error.kind === "unsupported" && error.message.startsWith(`is ${name} image`));
+      assert.throws(
+        () => checkPng(Uint8Array.from(head)),
+        (error) =>
+          error instanceof DecodeError && error.kind === "unsupported" && error.message.startsWith(`is ${name} image`),
+      );
     });
   }
 });
@@ -97,29 +111,50 @@ describe("an image", () => {
 
   test("that decodes to another size than it claims is refused and closed", async () => {
     let closed = 0;
-    const liar = { width: 2, height: 4, close: () => { closed += 1; } };
-    await assert.rejects(decodeImage(png, () => Promise.resolve(liar)), refused("malformed"));
+    const liar = {
+      width: 2,
+      height: 4,
+      close: () => {
+        closed += 1;
+      },
+    };
+    await assert.rejects(
+      decodeImage(png, () => Promise.resolve(liar)),
+      refused("malformed"),
+    );
     assert.equal(closed, 1);
   });
 
   test("that the browser cannot decode is malformed", async () => {
-    await assert.rejects(decodeImage(png, () => Promise.reject(new DOMException("no", "InvalidStateError"))), refused("malformed"));
+    await assert.rejects(
+      decodeImage(png, () => Promise.reject(new DOMException("no", "InvalidStateError"))),
+      refused("malformed"),
+    );
   });
 
   test("is not given to the browser when its header is refused", async () => {
     let asked = 0;
-    await assert.rejects(decodeImage(pngOf({ width: 4, height: 2, colorType: 4 }), () => {
-      asked += 1;
-      return Promise.reject(new Error("asked"));
-    }), refused("unsupported"));
+    await assert.rejects(
+      decodeImage(pngOf({ width: 4, height: 2, colorType: 4 }), () => {
+        asked += 1;
+        return Promise.reject(new Error("asked"));
+      }),
+      refused("unsupported"),
+    );
     assert.equal(asked, 0);
   });
 });
 
 describe("a typed array", () => {
   const bytes = Uint8Array.from({ length: 40 }, (_, place) => place);
-  const range = (changes: Partial<ElementRange>): ElementRange =>
-    ({ type: "Uint16", byteOffset: 0, byteStride: 0, components: 3, count: 0, ...changes });
+  const range = (changes: Partial<ElementRange>): ElementRange => ({
+    type: "Uint16",
+    byteOffset: 0,
+    byteStride: 0,
+    components: 3,
+    count: 0,
+    ...changes,
+  });
 
   test("is viewed where its elements are aligned and copied where they are not", () => {
     const aligned = vertexArrayOf(bytes, range({ byteOffset: 4, byteStride: 8, count: 2 }));
@@ -132,12 +167,18 @@ describe("a typed array", () => {
 
   test("that is part of larger records is a view of the same bytes as the other parts", () => {
     const parts = [0, 6, 12].map((byteOffset) => vertexArrayOf(bytes, range({ byteOffset, byteStride: 18, count: 2 })));
-    assert.deepEqual(parts.map(({ offset }) => offset), [0, 3, 6]);
+    assert.deepEqual(
+      parts.map(({ offset }) => offset),
+      [0, 3, 6],
+    );
     for (const { array, stride } of parts) {
       assert.equal(stride, 9);
       assert.deepEqual([array.buffer, array.byteOffset, array.length], [bytes.buffer, 0, 18]);
     }
-    const { array, offset } = vertexArrayOf(bytes, range({ byteOffset: 18 + 12, byteStride: 18, components: 2, count: 1 }));
+    const { array, offset } = vertexArrayOf(
+      bytes,
+      range({ byteOffset: 18 + 12, byteStride: 18, components: 2, count: 1 }),
+    );
     assert.equal(array[offset], 0x1f1e);
     const across = vertexArrayOf(bytes, range({ byteOffset: 14, byteStride: 18, count: 1 }));
     assert.deepEqual([across.offset, across.array[0]], [0, 0x0f0e]);
@@ -168,18 +209,26 @@ describe("a typed array", () => {
           for (const count of [fit + 1, 2 ** 32, 2 ** 52]) {
             assert.throws(() => vertexArrayOf(bytes, { ...groups, count }), refused("truncated"));
           }
-          if (fit > 0) assert.equal(vertexArrayOf(bytes, { ...groups, count: fit }).array.length % Math.max(3, byteStride / byteSizeOf(type)), 0);
+          if (fit > 0)
+            assert.equal(
+              vertexArrayOf(bytes, { ...groups, count: fit }).array.length % Math.max(3, byteStride / byteSizeOf(type)),
+              0,
+            );
         }
       }
     }
   });
 
   test("is refused with a stride that splits elements or is less than a group", () => {
-    for (const byteStride of [7, 4, 1]) assert.throws(() => vertexArrayOf(bytes, range({ byteStride, count: 1 })), refused("malformed"));
+    for (const byteStride of [7, 4, 1])
+      assert.throws(() => vertexArrayOf(bytes, range({ byteStride, count: 1 })), refused("malformed"));
   });
 
   test("of 32-bit integers becomes floats", () => {
-    const { array } = vertexArrayOf(new Uint8Array(Uint32Array.from([1, 2 ** 32 - 1, 7]).buffer), range({ type: "Uint32" }));
+    const { array } = vertexArrayOf(
+      new Uint8Array(Uint32Array.from([1, 2 ** 32 - 1, 7]).buffer),
+      range({ type: "Uint32" }),
+    );
     assert.ok(array instanceof Float32Array);
     assert.deepEqual(Array.from(array), [1, 2 ** 32, 7]);
   });
@@ -202,7 +251,10 @@ describe("indices", () => {
 
   test("of a strip become its triangles, each in its orientation, joins among them", () => {
     const strip = Uint16Array.from([0, 1, 2, 3, 3, 4, 4, 5, 6]);
-    assert.deepEqual(Array.from(trianglesFromStrip(strip)), [0, 1, 2, 2, 1, 3, 2, 3, 3, 3, 3, 4, 3, 4, 4, 4, 4, 5, 4, 5, 6]);
+    assert.deepEqual(
+      Array.from(trianglesFromStrip(strip)),
+      [0, 1, 2, 2, 1, 3, 2, 3, 3, 3, 3, 4, 3, 4, 4, 4, 4, 5, 4, 5, 6],
+    );
     assert.equal(trianglesFromStrip(Uint16Array.from([0, 1])).length, 0);
     assert.equal(trianglesFromStrip(new Uint16Array()).length, 0);
   });

@@ -8,7 +8,7 @@ function disk(size: number, centre: number, radius: number): Uint8Array {
     const [x, y] = [texel % size, Math.floor(texel / size)];
     let inside = 0;
     for (let sample = 0; sample < 256; ++sample) {
-      const [dx, dy] = [x + (sample % 16 + 0.5) / 16 - centre, y + (Math.floor(sample / 16) + 0.5) / 16 - centre];
+      const [dx, dy] = [x + ((sample % 16) + 0.5) / 16 - centre, y + (Math.floor(sample / 16) + 0.5) / 16 - centre];
       if (dx * dx + dy * dy < radius * radius) ++inside;
     }
     return Math.round((255 * inside) / 256);
@@ -35,7 +35,9 @@ describe("a field of distances", () => {
     for (const across of [true, false]) {
       const size = across ? { width, height } : { width: height, height: width };
       const place = (texel: number) => (across ? texel % width : Math.floor(texel / height));
-      const coverage = Uint8Array.from({ length: width * height }, (_, texel) => (place(texel) < 6 ? 255 : place(texel) === 6 ? 128 : 0));
+      const coverage = Uint8Array.from({ length: width * height }, (_, texel) =>
+        place(texel) < 6 ? 255 : place(texel) === 6 ? 128 : 0,
+      );
       const field = distanceField(coverage, size.width, size.height, 4);
       field.forEach((value, texel) => {
         const expected = 0.5 + Math.min(Math.max(6 - place(texel), -4), 4) / 8;

@@ -5,8 +5,13 @@ import type { Bounds, ElementArray, IndexArray, VertexArray } from "./arrays.ts"
 import { DecodeError } from "./decodeError.ts";
 
 const arrayTypes = {
-  Int8: Int8Array, Uint8: Uint8Array, Int16: Int16Array, Uint16: Uint16Array,
-  Int32: Int32Array, Uint32: Uint32Array, Float32: Float32Array,
+  Int8: Int8Array,
+  Uint8: Uint8Array,
+  Int16: Int16Array,
+  Uint16: Uint16Array,
+  Int32: Int32Array,
+  Uint32: Uint32Array,
+  Float32: Float32Array,
 } as const;
 
 export type ElementType = keyof typeof arrayTypes;
@@ -73,7 +78,9 @@ export function boundsOf({ array, stride, offset }: VertexArray): Bounds | undef
       if (value > (max[axis] ?? 0)) max[axis] = value;
     }
   }
-  return min.every((value, axis) => value <= (max[axis] ?? NaN) && Number.isFinite(value) && Number.isFinite(max[axis])) ? { min, max } : undefined;
+  return min.every((value, axis) => value <= (max[axis] ?? NaN) && Number.isFinite(value) && Number.isFinite(max[axis]))
+    ? { min, max }
+    : undefined;
 }
 
 /** The last group may end without its padding; buffers want it. */
@@ -93,7 +100,8 @@ export function indexArrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange
   }
   let largest = -1;
   for (const index of indices) if (index > largest) largest = index;
-  if (largest >= vertexCount) throw new DecodeError("malformed", `holds index ${largest} where there are ${vertexCount} vertices`);
+  if (largest >= vertexCount)
+    throw new DecodeError("malformed", `holds index ${largest} where there are ${vertexCount} vertices`);
   return indices;
 }
 
@@ -111,13 +119,15 @@ function arrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange, bytesBefor
   }
   const fit = countIn(bytes.byteLength, range);
   const count = range.count === 0 ? fit : range.count;
-  if (count > fit) throw new DecodeError("truncated", `holds ${fit} of ${count} ${range.components === 1 ? "indices" : "vertices"}`);
+  if (count > fit)
+    throw new DecodeError("truncated", `holds ${fit} of ${count} ${range.components === 1 ? "indices" : "vertices"}`);
   if (count === 0) return new arrayTypes[range.type](0);
   // With the last group's padding, where the file has it.
   const begin = range.byteOffset - bytesBefore;
   const byteLength = Math.min(count * stride, Math.floor((bytes.byteLength - begin) / size) * size);
   const byteOffset = bytes.byteOffset + begin;
   // A view must begin at a multiple of its element; elsewhere the bytes are copied.
-  return byteOffset % size === 0 ? new arrayTypes[range.type](bytes.buffer, byteOffset, byteLength / size)
+  return byteOffset % size === 0
+    ? new arrayTypes[range.type](bytes.buffer, byteOffset, byteLength / size)
     : new arrayTypes[range.type](bytes.buffer.slice(byteOffset, byteOffset + byteLength));
 }

@@ -24,7 +24,9 @@ export type ImageDecoder<Image extends DecodedImage> = (png: Uint8Array<ArrayBuf
  * Rejects with DecodeError; the image is then closed.
  */
 export async function decodeImage<Image extends DecodedImage>(
-  png: Uint8Array<ArrayBuffer>, decoder: ImageDecoder<Image>, largestEdge?: number,
+  png: Uint8Array<ArrayBuffer>,
+  decoder: ImageDecoder<Image>,
+  largestEdge?: number,
 ): Promise<DataImage<Image>> {
   const header = checkPng(png, largestEdge);
   let image: Image;
@@ -35,7 +37,10 @@ export async function decodeImage<Image extends DecodedImage>(
   }
   if (image.width === header.width && image.height === header.height) return { image, channels: header.channels };
   image.close();
-  throw new DecodeError("malformed", `decoded to ${image.width} x ${image.height} texels, not ${header.width} x ${header.height}`);
+  throw new DecodeError(
+    "malformed",
+    `decoded to ${image.width} x ${image.height} texels, not ${header.width} x ${header.height}`,
+  );
 }
 
 /** The browser's decoder, told to leave every byte alone. */

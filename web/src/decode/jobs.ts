@@ -1,12 +1,27 @@
 // What can be computed away from the main thread: pure functions from plain data
 // and bytes to plain data and arrays, by name.
 
-import { classicColors, classicCoords, classicIndex, classicNormals, classicTexCoords, classicValues } from "./classicArrays.ts";
+import {
+  classicColors,
+  classicCoords,
+  classicIndex,
+  classicNormals,
+  classicTexCoords,
+  classicValues,
+} from "./classicArrays.ts";
 import { classicGrid } from "./classicGrid.ts";
 import { compactBases, compactPatches } from "./compact/jobs.ts";
 
 export const jobs = {
-  classicCoords, classicIndex, classicNormals, classicColors, classicTexCoords, classicValues, classicGrid, compactPatches, compactBases,
+  classicCoords,
+  classicIndex,
+  classicNormals,
+  classicColors,
+  classicTexCoords,
+  classicValues,
+  classicGrid,
+  compactPatches,
+  compactBases,
 } as const;
 
 export type JobName = keyof typeof jobs;
@@ -14,4 +29,8 @@ export type InputOf<Name extends JobName> = Parameters<(typeof jobs)[Name]>[0];
 export type OutputOf<Name extends JobName> = Awaited<ReturnType<(typeof jobs)[Name]>>;
 
 /** Rejects with what the job throws, a DecodeError for bytes that are wrong, or with the signal's reason. */
-export type RunJob = <Name extends JobName>(name: Name, input: InputOf<Name>, signal: AbortSignal) => Promise<OutputOf<Name>>;
+export type RunJob = <Name extends JobName>(
+  name: Name,
+  input: InputOf<Name>,
+  signal: AbortSignal,
+) => Promise<OutputOf<Name>>;

@@ -6,18 +6,29 @@ import { LateFonts } from "./lateFonts.ts";
 const plain = { family: '"My Font", serif', isBold: false, isItalic: false };
 
 /** A page whose fonts come when `come` says so. */
-function fakeFonts(isHere: (font: string) => boolean): { fonts: Fonts; asked: string[]; come: (...families: string[]) => void } {
+function fakeFonts(isHere: (font: string) => boolean): {
+  fonts: Fonts;
+  asked: string[];
+  come: (...families: string[]) => void;
+} {
   const asked: string[] = [];
   const listeners: Parameters<Fonts["addEventListener"]>[1][] = [];
   return {
     asked,
-    come: (...families) => { for (const listener of listeners) listener({ fontfaces: families.map((family) => ({ family })) }); },
+    come: (...families) => {
+      for (const listener of listeners) listener({ fontfaces: families.map((family) => ({ family })) });
+    },
     fonts: {
       check: (font) => isHere(font),
-      load: (font, letters) => { asked.push(`${font}: ${letters}`); return Promise.reject(new Error("nobody serves it")); },
+      load: (font, letters) => {
+        asked.push(`${font}: ${letters}`);
+        return Promise.reject(new Error("nobody serves it"));
+      },
       addEventListener: (_, listener, { signal }) => {
         listeners.push(listener);
-        signal.addEventListener("abort", () => { listeners.splice(listeners.indexOf(listener), 1); });
+        signal.addEventListener("abort", () => {
+          listeners.splice(listeners.indexOf(listener), 1);
+        });
       },
     },
   };
@@ -37,7 +48,13 @@ describe("fonts that come late", () => {
     const { fonts, come } = fakeFonts(() => true);
     const listening = new AbortController();
     let heard = 0;
-    const late = new LateFonts(fonts, () => { heard += 1; }, listening.signal);
+    const late = new LateFonts(
+      fonts,
+      () => {
+        heard += 1;
+      },
+      listening.signal,
+    );
     const editions = () => [plain, { ...plain, family: "serif" }].map((font) => late.editionOf(font, "a"));
     assert.deepEqual(editions(), [0, 0]);
     come("'my font'", "my font"); // two faces of one family

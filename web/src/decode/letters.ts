@@ -22,17 +22,30 @@ let canvas: OffscreenCanvasRenderingContext2D | undefined;
 const measuredSize = 512;
 
 /** In em, as document/textLayout.ts has it. */
-export function measureRun({ family, isBold, isItalic }: { family: string; isBold: boolean; isItalic: boolean }, text: string): {
-  advance: number; ink: { left: number; right: number; up: number; down: number }; ascent: number; descent: number;
+export function measureRun(
+  { family, isBold, isItalic }: { family: string; isBold: boolean; isItalic: boolean },
+  text: string,
+): {
+  advance: number;
+  ink: { left: number; right: number; up: number; down: number };
+  ascent: number;
+  descent: number;
 } {
   canvas ??= contextOf(1, 1);
   canvas.font = `${isItalic ? "italic " : ""}${isBold ? "bold " : ""}${measuredSize}px ${family}`;
   const metrics = canvas.measureText(text);
-  const { actualBoundingBoxLeft: left, actualBoundingBoxRight: right, actualBoundingBoxAscent: up, actualBoundingBoxDescent: down } = metrics;
+  const {
+    actualBoundingBoxLeft: left,
+    actualBoundingBoxRight: right,
+    actualBoundingBoxAscent: up,
+    actualBoundingBoxDescent: down,
+  } = metrics;
   const inEm = (pixels: number) => pixels / measuredSize;
   return {
-    advance: inEm(metrics.width), ink: { left: inEm(left), right: inEm(right), up: inEm(up), down: inEm(down) },
-    ascent: inEm(metrics.fontBoundingBoxAscent), descent: inEm(metrics.fontBoundingBoxDescent),
+    advance: inEm(metrics.width),
+    ink: { left: inEm(left), right: inEm(right), up: inEm(up), down: inEm(down) },
+    ascent: inEm(metrics.fontBoundingBoxAscent),
+    descent: inEm(metrics.fontBoundingBoxDescent),
   };
 }
 
@@ -44,10 +57,21 @@ export async function drawLetters(bytes: Uint8Array<ArrayBuffer>): Promise<Image
   context.fillStyle = "white";
   for (const { text, x, y } of runs) context.fillText(text, x, y);
   const image = context.getImageData(0, 0, width, height);
-  const field = distanceField(Uint8Array.from({ length: width * height }, (_, texel) => image.data[4 * texel + 3] ?? 0), width, height, spread);
+  const field = distanceField(
+    Uint8Array.from({ length: width * height }, (_, texel) => image.data[4 * texel + 3] ?? 0),
+    width,
+    height,
+    spread,
+  );
   image.data.fill(255);
-  field.forEach((distance, texel) => { image.data[4 * texel + 3] = distance; });
-  return createImageBitmap(image, { premultiplyAlpha: "none", imageOrientation: "flipY", colorSpaceConversion: "none" });
+  field.forEach((distance, texel) => {
+    image.data[4 * texel + 3] = distance;
+  });
+  return createImageBitmap(image, {
+    premultiplyAlpha: "none",
+    imageOrientation: "flipY",
+    colorSpaceConversion: "none",
+  });
 }
 
 function contextOf(width: number, height: number): OffscreenCanvasRenderingContext2D {

@@ -18,10 +18,16 @@ export interface PictureKind {
 }
 
 /** Larger ones are made smaller. Rejects with DecodeError. */
-export async function decodePicture(bytes: Uint8Array<ArrayBuffer>, largestEdge: number, { isData, isDistanceField }: PictureKind): Promise<DecodedPicture> {
+export async function decodePicture(
+  bytes: Uint8Array<ArrayBuffer>,
+  largestEdge: number,
+  { isData, isDistanceField }: PictureKind,
+): Promise<DecodedPicture> {
   if (isDistanceField === true) return { bitmap: await drawLetters(bytes), hasAlpha: true };
   const options: ImageBitmapOptions = {
-    premultiplyAlpha: "none", imageOrientation: "flipY", colorSpaceConversion: isData ? "none" : "default",
+    premultiplyAlpha: "none",
+    imageOrientation: "flipY",
+    colorSpaceConversion: isData ? "none" : "default",
   };
   let bitmap: ImageBitmap;
   try {

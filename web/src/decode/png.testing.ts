@@ -25,7 +25,14 @@ export function chunkOf(type: string, data: Uint8Array): Uint8Array<ArrayBuffer>
 }
 
 /** An image of zeros. */
-export function pngOf({ width, height, bitDepth = 8, colorType = 2, interlace = 0, extra = [] }: TestPng): Uint8Array<ArrayBuffer> {
+export function pngOf({
+  width,
+  height,
+  bitDepth = 8,
+  colorType = 2,
+  interlace = 0,
+  extra = [],
+}: TestPng): Uint8Array<ArrayBuffer> {
   const header = Buffer.alloc(13);
   header.writeUInt32BE(width, 0);
   header.writeUInt32BE(height, 4);
@@ -34,7 +41,8 @@ export function pngOf({ width, height, bitDepth = 8, colorType = 2, interlace = 
   const isHuge = width * height > 2 ** 22;
   return joined([
     Uint8Array.from(signature),
-    chunkOf("IHDR", header), ...extra,
+    chunkOf("IHDR", header),
+    ...extra,
     chunkOf("IDAT", deflateSync(new Uint8Array(isHuge ? 16 : rowLength * height))),
     chunkOf("IEND", new Uint8Array()),
   ]);
@@ -45,8 +53,12 @@ export function joined(parts: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
 }
 
 /** An image of the values that `byteOf` gives for texel n and channel. */
-export function pngWithTexels(width: number, height: number, channels: 1 | 3 | 4,
-                              byteOf: (texel: number, channel: number) => number): Uint8Array<ArrayBuffer> {
+export function pngWithTexels(
+  width: number,
+  height: number,
+  channels: 1 | 3 | 4,
+  byteOf: (texel: number, channel: number) => number,
+): Uint8Array<ArrayBuffer> {
   const header = Buffer.alloc(13);
   header.writeUInt32BE(width, 0);
   header.writeUInt32BE(height, 4);
@@ -58,6 +70,9 @@ export function pngWithTexels(width: number, height: number, channels: 1 | 3 | 4
     }
   }
   return joined([
-    Uint8Array.from(signature), chunkOf("IHDR", header), chunkOf("IDAT", deflateSync(rows)), chunkOf("IEND", new Uint8Array()),
+    Uint8Array.from(signature),
+    chunkOf("IHDR", header),
+    chunkOf("IDAT", deflateSync(rows)),
+    chunkOf("IEND", new Uint8Array()),
   ]);
 }

@@ -29,7 +29,8 @@ const channelsOfColorType: Readonly<Record<number, PngHeader["channels"]>> = { 0
 export function checkPng(bytes: Uint8Array, largestEdge = largestImageEdge): PngHeader {
   if (!signature.every((byte, place) => bytes[place] === byte)) {
     const other = foreignFormatOf(bytes);
-    if (other !== undefined) throw new DecodeError("unsupported", `is ${other}; vertex data must be PNG, which keeps every byte`);
+    if (other !== undefined)
+      throw new DecodeError("unsupported", `is ${other}; vertex data must be PNG, which keeps every byte`);
     throw new DecodeError(bytes.length < signature.length ? "truncated" : "malformed", "is no PNG image");
   }
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
@@ -50,23 +51,29 @@ function checkOrder(types: readonly string[]): void {
   }
   const runs = types.filter((type, place) => type === "IDAT" && types[place - 1] !== "IDAT").length;
   if (runs === 0) throw new DecodeError("malformed", "holds no image data");
-  if (runs > 1 || types.indexOf("PLTE") !== types.lastIndexOf("PLTE")) throw new DecodeError("malformed", "has its chunks out of order");
+  if (runs > 1 || types.indexOf("PLTE") !== types.lastIndexOf("PLTE"))
+    throw new DecodeError("malformed", "has its chunks out of order");
 }
 
 function readHeader(view: DataView, offset: number, largestEdge: number): PngHeader {
   const width = view.getUint32(offset);
   const height = view.getUint32(offset + 4);
-  const [bitDepth, colorType, compression, filter, interlace] =
-    [8, 9, 10, 11, 12].map((place) => view.getUint8(offset + place));
+  const [bitDepth, colorType, compression, filter, interlace] = [8, 9, 10, 11, 12].map((place) =>
+    view.getUint8(offset + place),
+  );
   if (width < 1 || height < 1 || width > largestEdge || height > largestEdge) {
     throw new DecodeError("limit", `is ${width} x ${height} texels large; 1 to ${largestEdge} are allowed`);
   }
   const channels = channelsOfColorType[colorType ?? NaN];
   if (bitDepth !== 8 || channels === undefined) {
-    throw new DecodeError("unsupported", `has ${String(bitDepth)} bits a channel and PNG colour type ${String(colorType)}, not 8-bit gray, RGB, RGBA or palette`);
+    throw new DecodeError(
+      "unsupported",
+      `has ${String(bitDepth)} bits a channel and PNG colour type ${String(colorType)}, not 8-bit gray, RGB, RGBA or palette`,
+    );
   }
   if (interlace !== 0) throw new DecodeError("unsupported", "is interlaced");
-  if (compression !== 0 || filter !== 0) throw new DecodeError("malformed", "has an unknown compression or filter method");
+  if (compression !== 0 || filter !== 0)
+    throw new DecodeError("malformed", "has an unknown compression or filter method");
   return { width, height, channels };
 }
 

@@ -13,13 +13,21 @@ interface Sample {
 }
 
 function sampleOf(width: number, height: number, channels: 1 | 3 | 4): Sample {
-  return { width, height, channels, texels: Uint8Array.from({ length: width * height * channels }, (_, n) => (n * 2654435761) >>> 23) };
+  return {
+    width,
+    height,
+    channels,
+    texels: Uint8Array.from({ length: width * height * channels }, (_, n) => (n * 2654435761) >>> 23),
+  };
 }
 
 /** The specification's filters the other way round, written from its formulas. */
-function filtered({ width, height, channels, texels }: Sample, filterOf: (row: number) => number): Uint8Array<ArrayBuffer> {
+function filtered(
+  { width, height, channels, texels }: Sample,
+  filterOf: (row: number) => number,
+): Uint8Array<ArrayBuffer> {
   const length = width * channels;
-  const byte = (row: number, n: number) => (row < 0 || n < 0 ? 0 : texels[row * length + n] ?? 0);
+  const byte = (row: number, n: number) => (row < 0 || n < 0 ? 0 : (texels[row * length + n] ?? 0));
   const bytes: number[] = [];
   for (let row = 0; row < height; ++row) {
     const filter = filterOf(row);
@@ -34,7 +42,11 @@ function filtered({ width, height, channels, texels }: Sample, filterOf: (row: n
   return Uint8Array.from(bytes);
 }
 
-function pngWith(sample: Sample, data: Uint8Array, { colorType = { 1: 0, 3: 2, 4: 6 }[sample.channels], extra = [] as Uint8Array[], parts = 1, level = 6 } = {}) {
+function pngWith(
+  sample: Sample,
+  data: Uint8Array,
+  { colorType = { 1: 0, 3: 2, 4: 6 }[sample.channels], extra = [] as Uint8Array[], parts = 1, level = 6 } = {},
+) {
   const header = Buffer.alloc(13);
   header.writeUInt32BE(sample.width, 0);
   header.writeUInt32BE(sample.height, 4);
@@ -42,7 +54,9 @@ function pngWith(sample: Sample, data: Uint8Array, { colorType = { 1: 0, 3: 2, 4
   const packed = deflateSync(data, { level });
   const size = Math.ceil(packed.length / parts);
   return joined([
-    Uint8Array.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]), chunkOf("IHDR", header), ...extra,
+    Uint8Array.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]),
+    chunkOf("IHDR", header),
+    ...extra,
     ...Array.from({ length: parts }, (_, part) => chunkOf("IDAT", packed.subarray(part * size, (part + 1) * size))),
     chunkOf("IEND", new Uint8Array()),
   ]);
@@ -61,7 +75,11 @@ describe("the texels of a PNG", () => {
 
   test("may come in several chunks, behind a view of a larger buffer", async () => {
     const sample = sampleOf(9, 5, 3);
-    const png = pngWith(sample, filtered(sample, () => 4), { parts: 3 });
+    const png = pngWith(
+      sample,
+      filtered(sample, () => 4),
+      { parts: 3 },
+    );
     const larger = joined([new Uint8Array(7), png, new Uint8Array(5)]);
     assert.deepEqual((await decodePixels(larger.subarray(7, 7 + png.length))).data, sample.texels);
   });
@@ -69,11 +87,25 @@ describe("the texels of a PNG", () => {
   test("are looked up in a palette", async () => {
     const numbers: Sample = { width: 4, height: 1, channels: 1, texels: Uint8Array.from([0, 2, 1, 2]) };
     const palette = chunkOf("PLTE", Uint8Array.from([1, 2, 3, 4, 5, 6, 7, 8, 9]));
-    const png = (texels: number[]) => pngWith(numbers, filtered({ ...numbers, texels: Uint8Array.from(texels) }, () => 0), { colorType: 3, extra: [palette] });
+    const png = (texels: number[]) =>
+      pngWith(
+        numbers,
+        filtered({ ...numbers, texels: Uint8Array.from(texels) }, () => 0),
+        { colorType: 3, extra: [palette] },
+      );
     const { data, channels } = await decodePixels(png([0, 2, 1, 2]));
     assert.deepEqual([channels, Array.from(data)], [3, [1, 2, 3, 7, 8, 9, 4, 5, 6, 7, 8, 9]]);
     await assert.rejects(decodePixels(png([0, 3, 1, 2])), { message: /colour that its palette does not have/ });
-    await assert.rejects(decodePixels(pngWith(numbers, filtered(numbers, () => 0), { colorType: 3 })), { message: /no palette/ });
+    await assert.rejects(
+      decodePixels(
+        pngWith(
+          numbers,
+          filtered(numbers, () => 0),
+          { colorType: 3 },
+        ),
+      ),
+      { message: /no palette/ },
+    );
   });
 
   const sample = sampleOf(6, 4, 3);
@@ -88,7 +120,10 @@ describe("the texels of a PNG", () => {
     });
   }
 
-  for (const [how, level] of [["deflated", 6], ["stored", 0]] as const) {
+  for (const [how, level] of [
+    ["deflated", 6],
+    ["stored", 0],
+  ] as const) {
     test(`${how}, are refused whichever byte of their stream is changed, or come back the same`, async () => {
       const png = pngWith(sample, whole, { level });
       assert.deepEqual((await decodePixels(png)).data, sample.texels);
@@ -98,15 +133,28 @@ describe("the texels of a PNG", () => {
         const changed = png.slice(begin, begin + length);
         changed[at] = (changed[at] ?? 0) ^ 0x41;
         // With a sum of its own, so that what is inside has to tell.
-        const outcome = await decodePixels(joined([png.subarray(0, begin - 8), chunkOf("IDAT", changed), png.subarray(begin + length + 4)]))
-          .catch((error: unknown) => error);
-        if (!(outcome instanceof DecodeError)) assert.deepEqual((outcome as { data: Uint8Array }).data, sample.texels, `byte ${at}`);
+        const outcome = await decodePixels(
+          joined([png.subarray(0, begin - 8), chunkOf("IDAT", changed), png.subarray(begin + length + 4)]),
+        ).catch((error: unknown) => error);
+        if (!(outcome instanceof DecodeError))
+          assert.deepEqual((outcome as { data: Uint8Array }).data, sample.texels, `byte ${at}`);
       }
     });
   }
 
   test("stored in several blocks come back", async () => {
     const large = sampleOf(300, 250, 1);
-    assert.deepEqual((await decodePixels(pngWith(large, filtered(large, () => 0), { level: 0 }))).data, large.texels);
+    assert.deepEqual(
+      (
+        await decodePixels(
+          pngWith(
+            large,
+            filtered(large, () => 0),
+            { level: 0 },
+          ),
+        )
+      ).data,
+      large.texels,
+    );
   });
 });

@@ -23,11 +23,13 @@ export async function decodePixels(png: Uint8Array<ArrayBuffer>): Promise<Pixels
   const rowLength = width * (isPalette ? 1 : channels);
   const packed = chunks.filter(({ type }) => type === "IDAT").map(({ data }) => data);
   for (const chunk of chunks) checkSum(chunk);
-  if (isPalette && !isPaletteLength(palette?.length ?? 0)) throw new DecodeError("malformed", "has no palette of 1 to 256 colours");
+  if (isPalette && !isPaletteLength(palette?.length ?? 0))
+    throw new DecodeError("malformed", "has no palette of 1 to 256 colours");
   const length = height * (1 + rowLength);
-  if (length > png.length * largestDeflateRatio) throw new DecodeError("truncated", "is too short for the size in its header");
+  if (length > png.length * largestDeflateRatio)
+    throw new DecodeError("truncated", "is too short for the size in its header");
   const [only, ...others] = packed;
-  const filtered = (only && others.length === 0 ? stored(only, length) : undefined) ?? await inflate(packed, length);
+  const filtered = (only && others.length === 0 ? stored(only, length) : undefined) ?? (await inflate(packed, length));
   const data = unfiltered(filtered, height, rowLength, isPalette ? 1 : channels);
   return { width, height, channels, data: isPalette ? throughPalette(data, palette ?? new Uint8Array()) : data };
 }
@@ -42,7 +44,7 @@ const largestDeflateRatio = 1032;
 function chunksOf(png: Uint8Array<ArrayBuffer>): { type: string; data: Uint8Array<ArrayBuffer> }[] {
   const view = new DataView(png.buffer, png.byteOffset, png.byteLength);
   const chunks: { type: string; data: Uint8Array<ArrayBuffer> }[] = [];
-  for (let at = signatureLength; at < png.length; ) {
+  for (let at = signatureLength; at < png.length;) {
     const length = view.getUint32(at);
     const type = String.fromCharCode(...png.subarray(at + 4, at + 8));
     chunks.push({ type, data: png.subarray(at + 8, at + 8 + length) });
@@ -77,18 +79,27 @@ function stored(packed: Uint8Array, length: number): Uint8Array | undefined {
   const bytes = new Uint8Array(length);
   let at = 2;
   let filled = 0;
-  if (packed.length < at + sumLength || (view.getUint8(0) & 15) !== 8 || (view.getUint8(1) & 32) !== 0 || view.getUint16(0) % 31 !== 0) return undefined;
+  if (
+    packed.length < at + sumLength ||
+    (view.getUint8(0) & 15) !== 8 ||
+    (view.getUint8(1) & 32) !== 0 ||
+    view.getUint16(0) % 31 !== 0
+  )
+    return undefined;
   for (let isLast = false; !isLast;) {
     if (at + 5 + sumLength > packed.length || view.getUint8(at) > 1) return undefined;
     isLast = view.getUint8(at) === 1;
     const size = view.getUint16(at + 1, true);
     const begin = at + 5;
     at = begin + size;
-    if ((view.getUint16(begin - 2, true) ^ size) !== 0xffff || at + sumLength > packed.length || filled + size > length) return undefined;
+    if ((view.getUint16(begin - 2, true) ^ size) !== 0xffff || at + sumLength > packed.length || filled + size > length)
+      return undefined;
     bytes.set(packed.subarray(begin, at), filled);
     filled += size;
   }
-  return filled === length && at + sumLength === packed.length && view.getUint32(at) === adler32(bytes) ? bytes : undefined;
+  return filled === length && at + sumLength === packed.length && view.getUint32(at) === adler32(bytes)
+    ? bytes
+    : undefined;
 }
 
 function adler32(bytes: Uint8Array): number {
@@ -135,7 +146,12 @@ async function feed(stream: WritableStream<BufferSource>, parts: readonly Uint8A
 }
 
 /** Undoes the five filters of PNG, row by row: a byte is told relative to those left of it, above it, and left above it. */
-function unfiltered(filtered: Uint8Array, rows: number, rowLength: number, texelLength: number): Uint8Array<ArrayBuffer> {
+function unfiltered(
+  filtered: Uint8Array,
+  rows: number,
+  rowLength: number,
+  texelLength: number,
+): Uint8Array<ArrayBuffer> {
   const bytes = new Uint8Array(rows * rowLength);
   for (let row = 0; row < rows; ++row) {
     const from = row * (rowLength + 1) + 1;
@@ -148,12 +164,20 @@ function unfiltered(filtered: Uint8Array, rows: number, rowLength: number, texel
   return bytes;
 }
 
-function unfilterRow(filter: number, source: Uint8Array, line: Uint8Array, above: Uint8Array, texelLength: number): void {
+function unfilterRow(
+  filter: number,
+  source: Uint8Array,
+  line: Uint8Array,
+  above: Uint8Array,
+  texelLength: number,
+): void {
   // Bytes left of the first texel count as 0; typed arrays wrap at 256 as PNG does.
-  const at = (bytes: Uint8Array, n: number) => (n < 0 ? 0 : bytes[n] ?? 0);
+  const at = (bytes: Uint8Array, n: number) => (n < 0 ? 0 : (bytes[n] ?? 0));
   const length = source.length;
   switch (filter) {
-    case 0: line.set(source); return;
+    case 0:
+      line.set(source);
+      return;
     case 1:
       for (let n = 0; n < length; ++n) line[n] = at(source, n) + at(line, n - texelLength);
       return;
@@ -168,7 +192,8 @@ function unfilterRow(filter: number, source: Uint8Array, line: Uint8Array, above
         line[n] = at(source, n) + paeth(at(line, n - texelLength), at(above, n), at(above, n - texelLength));
       }
       return;
-    default: throw new DecodeError("malformed", `has a row with filter ${filter}`);
+    default:
+      throw new DecodeError("malformed", `has a row with filter ${filter}`);
   }
 }
 

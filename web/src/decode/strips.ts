@@ -21,22 +21,26 @@ export function trianglesFromStrip(strip: IndexArray): IndexArray {
 
 /** The same draws with every strip turned into triangles behind an index of their own. */
 export function withoutStrips<Index extends IndexArray | undefined>(
-  index: Index, draws: readonly DrawRange[],
+  index: Index,
+  draws: readonly DrawRange[],
 ): { index: Index | IndexArray; draws: readonly DrawRange[] } {
   if (!draws.some((draw) => draw.primitive === "triangleStrip")) return { index, draws };
   const parts: IndexArray[] = [];
   let first = 0;
   const separate = draws.map((draw): DrawRange => {
-    const numbers = index?.subarray(draw.first, draw.first + draw.count)
-      ?? Uint32Array.from({ length: draw.count }, (_, n) => draw.first + n);
+    const numbers =
+      index?.subarray(draw.first, draw.first + draw.count) ??
+      Uint32Array.from({ length: draw.count }, (_, n) => draw.first + n);
     const isStrip = draw.primitive === "triangleStrip";
-    const part = (isStrip ? trianglesFromStrip(numbers) : numbers);
+    const part = isStrip ? trianglesFromStrip(numbers) : numbers;
     parts.push(part);
-    const range = { primitive: isStrip ? "triangles" as const : draw.primitive, first, count: part.length };
+    const range = { primitive: isStrip ? ("triangles" as const) : draw.primitive, first, count: part.length };
     first += part.length;
     return range;
   });
   const joined = new Uint32Array(first);
-  separate.forEach((draw, place) => { joined.set(parts[place] ?? [], draw.first); });
+  separate.forEach((draw, place) => {
+    joined.set(parts[place] ?? [], draw.first);
+  });
   return { index: joined, draws: separate };
 }

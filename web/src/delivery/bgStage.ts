@@ -24,7 +24,11 @@ interface Here {
   value?: StoredVertices;
 }
 
-export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription, { storeBytes }: BuilderTools): StageBuilder {
+export function bgBuilder(
+  geometry: GeometryDescription,
+  patch: PatchDescription,
+  { storeBytes }: BuilderTools,
+): StageBuilder {
   const holdings = new Holdings(storeBytes);
   let here: Here = {};
   const normalCode = normalCodeOf(geometry);
@@ -34,7 +38,8 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
     isDivisible: false,
 
     async accept(part, content, signal) {
-      if (content.kind !== "bytes" || part.role === "patch" || part.role === "base") throw new DecodeError("malformed", "is no typed array");
+      if (content.kind !== "bytes" || part.role === "patch" || part.role === "base")
+        throw new DecodeError("malformed", "is no typed array");
       const range = rangeOf(geometry, patch, part.role, part.reference);
       const present = here;
       if (part.role === "index") {
@@ -53,7 +58,7 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
       if (patch.index !== undefined) return;
       // Strips without an index get one, since buffers are drawn as separate triangles.
       const { index, draws } = unindexed(patch.vertexCount || countIn(content.bytes.byteLength, range));
-      present.index = { stored: index && await holdings.storeIndex(index, signal), draws };
+      present.index = { stored: index && (await holdings.storeIndex(index, signal)), draws };
     },
 
     stage(): BufferStage | undefined {
@@ -62,11 +67,24 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
       const name = stageNameOf(patch, { index, normal, color, coord: [coord], value: value ? [value] : [] });
       const points = { stored: undefined, draws: [{ primitive: "points", first: 0, count: countOf(coord) } as const] };
       const { stored, draws } = index ?? points;
-      return { kind: "buffers", name, index: stored, draws, coord, bounds, normal, normalCode, color, texCoord,
-               value: value && { ...value, largest: undefined } };
+      return {
+        kind: "buffers",
+        name,
+        index: stored,
+        draws,
+        coord,
+        bounds,
+        normal,
+        normalCode,
+        color,
+        texCoord,
+        value: value && { ...value, largest: undefined },
+      };
     },
 
-    get storedBytes() { return holdings.byteLength; },
+    get storedBytes() {
+      return holdings.byteLength;
+    },
     drop: () => undefined,
     clear() {
       // Normals in coordinates are those of the coordinates.
@@ -74,7 +92,9 @@ export function bgBuilder(geometry: GeometryDescription, patch: PatchDescription
       holdings.retire(here.index?.stored, here.coord, normal, here.texCoord, here.color, here.value);
       here = {};
     },
-    sweep: () => { holdings.sweep(); },
+    sweep: () => {
+      holdings.sweep();
+    },
   };
 }
 
@@ -98,8 +118,12 @@ function drawRangesFor(patch: PatchDescription, available: number): readonly Dra
   return draws;
 }
 
-function rangeOf(geometry: GeometryDescription, patch: PatchDescription, role: PartRole,
-                 reference: Reference): ElementRange {
+function rangeOf(
+  geometry: GeometryDescription,
+  patch: PatchDescription,
+  role: PartRole,
+  reference: Reference,
+): ElementRange {
   return {
     type: typeOf(geometry, role),
     byteOffset: reference.first,

@@ -15,17 +15,25 @@ function shownFrom(geometry: GeometryDescription, site: Site) {
   const deliveries = { geometries: new SharedDeliveries(site.pool), textures: new TextureDeliveries(site.pool) };
   const stages: (string | undefined)[] = [];
   const joined = deliveries.geometries.join(geometry, {
-    onStage: (patch, stage) => { stages[patch] = stage?.name; },
+    onStage: (patch, stage) => {
+      stages[patch] = stage?.name;
+    },
     onError: ({ message }) => assert.fail(message),
     onSettled: () => undefined,
   });
   const rest = async () => {
-    do await soon(); while (!joined.isSettled);
+    do await soon();
+    while (!joined.isSettled);
   };
   /** Steers a few times, as a view that stands still does. */
   const demand = async (priority: Demand, mostBytes: number) => {
     for (let turn = 0; turn < 4; ++turn) {
-      demandWithin(deliveries, () => priority, () => undefined, mostBytes);
+      demandWithin(
+        deliveries,
+        () => priority,
+        () => undefined,
+        mostBytes,
+      );
       await rest();
     }
     return stages.map((stage) => stage ?? "none").join(" ");
@@ -92,28 +100,51 @@ describe("images within a budget", () => {
 
   test("that several patches share take it once", async () => {
     const site = siteOf(sigFiles(1));
-    const shared = geometryOf(`<ImageGeometry>${Array.from({ length: 3 }, () => `<GeometryPatch recordCount="500" vertexCount="600"
-      implicitMeshSize="256 4" index="i0.png" coord='"a0.png" "b0.png"' normal="n0.png"/>`).join("")}</ImageGeometry>`);
+    const shared = geometryOf(
+      `<ImageGeometry>${Array.from(
+        { length: 3 },
+        () => `<GeometryPatch recordCount="500" vertexCount="600"
+      implicitMeshSize="256 4" index="i0.png" coord='"a0.png" "b0.png"' normal="n0.png"/>`,
+      ).join("")}</ImageGeometry>`,
+    );
     assert.equal(await shownFrom(shared, site).demand(everything, patch), "full full full");
   });
 });
 
 describe("arrays within a budget", () => {
   const bytes = (length: number) => new Uint8Array(length);
-  const geometry = geometryOf(`<BinaryGeometry coordType="Uint16" normalType="Int8">${[0, 1].map((n) =>
-    `<GeometryPatch recordCount="100" vertexCount="300" coord="c${n}.bin#0+8" normal="n${n}.bin#0+4" index="i${n}.bin"/>`).join("")}</BinaryGeometry>`);
-  const files = Object.fromEntries([0, 1].flatMap((n) => [[`c${n}.bin`, bytes(800)], [`n${n}.bin`, bytes(400)], [`i${n}.bin`, bytes(600)]]));
+  const geometry = geometryOf(
+    `<BinaryGeometry coordType="Uint16" normalType="Int8">${[0, 1]
+      .map(
+        (n) =>
+          `<GeometryPatch recordCount="100" vertexCount="300" coord="c${n}.bin#0+8" normal="n${n}.bin#0+4" index="i${n}.bin"/>`,
+      )
+      .join("")}</BinaryGeometry>`,
+  );
+  const files = Object.fromEntries(
+    [0, 1].flatMap((n) => [
+      [`c${n}.bin`, bytes(800)],
+      [`n${n}.bin`, bytes(400)],
+      [`i${n}.bin`, bytes(600)],
+    ]),
+  );
 
   test("go and come patch by patch", async () => {
     const site = siteOf(files);
     const { demand, joined } = shownFrom(geometry, site);
-    const near = (nearest: number): Demand => (place, part) => priorityOf(1, part.chunk, { pixels: place === nearest ? 1000 : 10, isInView: true, pixelsPerUnit: 1 });
+    const near =
+      (nearest: number): Demand =>
+      (place, part) =>
+        priorityOf(1, part.chunk, { pixels: place === nearest ? 1000 : 10, isInView: true, pixelsPerUnit: 1 });
     assert.equal(await demand(near(0), 3600), "full full");
     assert.equal(site.arrays.size, 6);
     assert.equal(await demand(near(0), 3599), "full none");
     assert.equal(site.arrays.size, 3);
     assert.equal(await demand(near(1), 3599), "none full");
-    assert.equal(Array.from(site.arrays.keys()).reduce((sum, { byteLength }) => sum + byteLength, 0), 1800);
+    assert.equal(
+      Array.from(site.arrays.keys()).reduce((sum, { byteLength }) => sum + byteLength, 0),
+      1800,
+    );
     assert.equal(await demand(near(1), Infinity), "full full");
     joined.cancel();
     await soon();

@@ -8,16 +8,29 @@ import { storedFrameOf } from "../document/storedFrame.ts";
 import { everything, geometryOf, held, record, siteOf, soon } from "./delivery.testing.ts";
 
 /** A geometry of patches of files, as documents describe them. */
-function geometryFor(patches: readonly (readonly [file: string, number: number])[], changes: Record<string, string> = {}, base = "") {
+function geometryFor(
+  patches: readonly (readonly [file: string, number: number])[],
+  changes: Record<string, string> = {},
+  base = "",
+) {
   const patchAt = (file: string, number: number) => decodeVector(file)[number] ?? assert.fail("no such patch");
-  const { header } = patchAt(...patches[0] ?? assert.fail("no patches"));
+  const { header } = patchAt(...(patches[0] ?? assert.fail("no patches")));
   const markup = patches.map(([file, number]) => {
     const { index, vertexCount, topology } = buffersOf(patchAt(file, number));
-    const fields = { recordCount: String(vertexCount), vertexCount: String(index?.length ?? vertexCount),
-                     primType: topology.toUpperCase(), data: `${file}.png#${number}`, ...changes };
-    return `<GeometryPatch ${Object.entries(fields).map(([name, value]) => `${name}="${value}"`).join(" ")}/>`;
+    const fields = {
+      recordCount: String(vertexCount),
+      vertexCount: String(index?.length ?? vertexCount),
+      primType: topology.toUpperCase(),
+      data: `${file}.png#${number}`,
+      ...changes,
+    };
+    return `<GeometryPatch ${Object.entries(fields)
+      .map(([name, value]) => `${name}="${value}"`)
+      .join(" ")}/>`;
   });
-  return geometryOf(`<ImageGeometry profile="compact" positionBits="${changes.positionBits ?? header.positionBits}" base="${base}">${markup.join("")}</ImageGeometry>`);
+  return geometryOf(
+    `<ImageGeometry profile="compact" positionBits="${changes.positionBits ?? header.positionBits}" base="${base}">${markup.join("")}</ImageGeometry>`,
+  );
 }
 
 const hasParts = (name: string) => decodeVector(name).some(({ parts }) => parts);
@@ -37,10 +50,15 @@ describe("a geometry of compact", () => {
       const [{ stage } = assert.fail("no stage")] = stages;
       assert.ok(stages.length === 1 && stage.kind === "buffers" && stage.name === "full");
       const { index, coord, normal, color } = buffersOf(decodeVector(name)[0] ?? assert.fail());
-      assert.deepEqual([stage.index, stage.coord, stage.normal, stage.color].map((stored) => stored && site.arrayOf(stored)),
-                       [index, coord.array, normal?.array, color?.array]);
+      assert.deepEqual(
+        [stage.index, stage.coord, stage.normal, stage.color].map((stored) => stored && site.arrayOf(stored)),
+        [index, coord.array, normal?.array, color?.array],
+      );
       const { type, components, stride, offset } = stage.coord;
-      assert.deepEqual([`${type}Array`, components, stride, offset], [coord.array.constructor.name, coord.components, coord.stride, coord.offset]);
+      assert.deepEqual(
+        [`${type}Array`, components, stride, offset],
+        [coord.array.constructor.name, coord.components, coord.stride, coord.offset],
+      );
     }
   });
 
@@ -51,15 +69,33 @@ describe("a geometry of compact", () => {
     await Promise.all(recordings.map(({ settled }) => settled));
     assert.deepEqual([site.asked, site.jobs], [["alike.png"], ["compactPatches"]]);
     const patches = decodeVector("alike");
-    for (const [place, { stages: [only, ...others], errors }] of recordings.entries()) {
+    for (const [
+      place,
+      {
+        stages: [only, ...others],
+        errors,
+      },
+    ] of recordings.entries()) {
       assert.ok(only?.stage.kind === "buffers");
       assert.deepEqual([errors, others.length], [[], 0]);
       const { index, coord } = buffersOf(patches[numbers[place] ?? 0] ?? assert.fail());
-      assert.deepEqual([only.stage.index, only.stage.coord].map((stored) => site.arrayOf(stored)), [index, coord.array]);
+      assert.deepEqual(
+        [only.stage.index, only.stage.coord].map((stored) => site.arrayOf(stored)),
+        [index, coord.array],
+      );
     }
-    const both = record(geometryFor([["cube", 0], ["cube", 0]]), siteOf(filesOf("cube")).pool);
+    const both = record(
+      geometryFor([
+        ["cube", 0],
+        ["cube", 0],
+      ]),
+      siteOf(filesOf("cube")).pool,
+    );
     await both.settled;
-    assert.deepEqual(both.stages.map(({ patch }) => patch), [0, 1]);
+    assert.deepEqual(
+      both.stages.map(({ patch }) => patch),
+      [0, 1],
+    );
   });
 
   test("that shares a file leaves and comes back alone, for which the file is fetched again, and counts what it takes itself", async () => {
@@ -87,8 +123,13 @@ describe("a geometry of compact", () => {
     const site = siteOf({ "alike.png": 404 });
     const recordings = [1, 2].map((number) => record(geometryFor([["alike", number]]), site.pool));
     await Promise.all(recordings.map(({ settled }) => settled));
-    assert.deepEqual(recordings.map(({ errors, stages }) => [errors.length, errors[0]?.url, errors[0]?.kind, stages.length]),
-                     [[1, "alike.png", "http", 0], [1, "alike.png", "http", 0]]);
+    assert.deepEqual(
+      recordings.map(({ errors, stages }) => [errors.length, errors[0]?.url, errors[0]?.kind, stages.length]),
+      [
+        [1, "alike.png", "http", 0],
+        [1, "alike.png", "http", 0],
+      ],
+    );
     assert.deepEqual(site.asked, ["alike.png"]);
   });
 
@@ -120,7 +161,10 @@ describe("a geometry of compact", () => {
     const patch = decodeVector("others")[0] ?? assert.fail();
     const plain = geometryFor([["others", 0]]);
     const box = { files: 0, min: [0], size: [1] };
-    const [bits24, bits3] = [{ ...box, name: "heat", components: 1, bits: 24 }, { ...box, name: "flow", components: 4, bits: 3 }] as const;
+    const [bits24, bits3] = [
+      { ...box, name: "heat", components: 1, bits: 24 },
+      { ...box, name: "flow", components: 4, bits: 3 },
+    ] as const;
     for (const value of [bits24, bits3]) {
       const site = siteOf(filesOf("others"));
       const { stages, errors, settled, delivery } = record({ ...plain, attributes: [bits24, bits3], value }, site.pool);
@@ -131,13 +175,22 @@ describe("a geometry of compact", () => {
       const { components, stride, offset, largest } = stage.value;
       assert.deepEqual([components, largest], [value.components, 2 ** value.bits - 1]);
       const array = site.arrayOf(stage.value);
-      const values = Array.from({ length: patch.header.wedgeCount * components }, (_, i) => array[Math.floor(i / components) * stride + offset + i % components]);
+      const values = Array.from(
+        { length: patch.header.wedgeCount * components },
+        (_, i) => array[Math.floor(i / components) * stride + offset + (i % components)],
+      );
       assert.deepEqual(values, Array.from(patch.attributes[value === bits24 ? 2 : 3] ?? assert.fail()));
       delivery.cancel();
       assert.equal(site.arrays.size, 0);
     }
-    for (const value of [{ ...bits24, bits: 16 }, { ...bits24, components: 2 as const }]) {
-      const { stages, errors, settled } = record({ ...plain, attributes: [value, bits3], value }, siteOf(filesOf("others")).pool);
+    for (const value of [
+      { ...bits24, bits: 16 },
+      { ...bits24, components: 2 as const },
+    ]) {
+      const { stages, errors, settled } = record(
+        { ...plain, attributes: [value, bits3], value },
+        siteOf(filesOf("others")).pool,
+      );
       await settled;
       assert.deepEqual([stages.length, errors[0]?.kind], [0, "malformed"]);
     }
@@ -148,8 +201,10 @@ describe("a geometry of compact", () => {
   });
 
   for (const [what, changes] of Object.entries({
-    "position bits": { positionBits: "15" }, "a number of vertices": { recordCount: "7" },
-    "a number of corners": { vertexCount: "3" }, "a primitive": { primType: "LINES" },
+    "position bits": { positionBits: "15" },
+    "a number of vertices": { recordCount: "7" },
+    "a number of corners": { vertexCount: "3" },
+    "a primitive": { primType: "LINES" },
     "a number": { data: "torus.png#1" },
   })) {
     test(`refuses a file that has not ${what} which the document states`, async () => {
@@ -163,19 +218,50 @@ describe("a geometry of compact", () => {
   test("shows the other patches where one file is damaged, of colours, or missing", async () => {
     const damaged = readVectorFile("sphere");
     damaged[damaged.length >> 1] = (damaged[damaged.length >> 1] ?? 0) ^ 1;
-    const geometry = geometryFor([["torus", 0], ["sphere", 0], ["cone", 0], ["cube", 0]], { positionBits: "10" });
-    const site = siteOf({ ...filesOf("cube"), "torus.png": 404, "sphere.png": damaged, "cone.png": pngWithTexels(9, 9, 3, () => 0) });
+    const geometry = geometryFor(
+      [
+        ["torus", 0],
+        ["sphere", 0],
+        ["cone", 0],
+        ["cube", 0],
+      ],
+      { positionBits: "10" },
+    );
+    const site = siteOf({
+      ...filesOf("cube"),
+      "torus.png": 404,
+      "sphere.png": damaged,
+      "cone.png": pngWithTexels(9, 9, 3, () => 0),
+    });
     const { stages, errors, settled } = record(geometry, site.pool);
     await settled;
-    assert.deepEqual(stages.map(({ patch }) => patch), [3]);
-    assert.deepEqual(errors.map(({ url, kind }) => `${url} ${kind}`).sort(), ["cone.png malformed", "sphere.png malformed", "torus.png http"]);
+    assert.deepEqual(
+      stages.map(({ patch }) => patch),
+      [3],
+    );
+    assert.deepEqual(errors.map(({ url, kind }) => `${url} ${kind}`).sort(), [
+      "cone.png malformed",
+      "sphere.png malformed",
+      "torus.png http",
+    ]);
   });
 
   test("is shown by its base, of one file, part by part until the patches are there", async () => {
     const sphere = held(readVectorFile("sphere"));
     const soup = held(readVectorFile("soup"));
     const site = siteOf({ ...filesOf("base"), "sphere.png": sphere.promise, "soup.png": soup.promise });
-    const { stages, errors, settled } = record(geometryFor([["sphere", 0], ["soup", 0], ["soup", 0]], {}, "base.png#0"), site.pool);
+    const { stages, errors, settled } = record(
+      geometryFor(
+        [
+          ["sphere", 0],
+          ["soup", 0],
+          ["soup", 0],
+        ],
+        {},
+        "base.png#0",
+      ),
+      site.pool,
+    );
     await until(() => stages.filter(({ stage }) => stage.name === "base").length === 3);
     soup.release();
     await until(() => stages.some(({ stage }) => stage.name === "full"));
@@ -188,40 +274,76 @@ describe("a geometry of compact", () => {
       const [first, last, ...others] = stages.filter((one) => one.patch === patch).map(({ stage }) => stage);
       assert.deepEqual([first?.name, last?.name, others.length], ["base", "full", 0]);
       assert.ok(first?.kind === "buffers");
-      assert.deepEqual([first.index, first.coord, first.normal].map((stored) => site.arrayOf(stored)),
-                       [parts[patch]?.index, parts[patch]?.coord.array, parts[patch]?.normal?.array]);
+      assert.deepEqual(
+        [first.index, first.coord, first.normal].map((stored) => site.arrayOf(stored)),
+        [parts[patch]?.index, parts[patch]?.coord.array, parts[patch]?.normal?.array],
+      );
       assert.deepEqual(first.draws, [{ primitive: "triangles", first: 0, count: parts[patch]?.index?.length }]);
     }
   });
 
   test("has the texture and the values of its base, in the bits that this has of them", async () => {
     const site = siteOf({ ...filesOf("base-seams"), "sphere.png": 404 });
-    const plain = geometryFor([["sphere", 0], ["sphere", 0], ["sphere", 0]], {}, "base-seams.png");
+    const plain = geometryFor(
+      [
+        ["sphere", 0],
+        ["sphere", 0],
+        ["sphere", 0],
+      ],
+      {},
+      "base-seams.png",
+    );
     const value = { name: "flow", components: 2, bits: 16, files: 0, min: [0, 0], size: [1, 1] } as const;
     const { stages, settled } = record({ ...plain, attributes: [value], value }, site.pool);
     await settled;
     const parts = new Base(decodeVector("base-seams")[0] ?? assert.fail()).parts;
-    assert.deepEqual(new Set(stages.map(({ patch }) => patch)), new Set(parts.flatMap((part, place) => (part ? [place] : []))));
+    assert.deepEqual(
+      new Set(stages.map(({ patch }) => patch)),
+      new Set(parts.flatMap((part, place) => (part ? [place] : []))),
+    );
     for (const { patch, stage } of stages) {
       assert.ok(stage.kind === "buffers" && stage.name === "base");
-      assert.deepEqual([site.arrayOf(stage.texCoord), site.arrayOf(stage.value)], [parts[patch]?.texCoord?.array, parts[patch]?.others[0]?.vertices.array]);
+      assert.deepEqual(
+        [site.arrayOf(stage.texCoord), site.arrayOf(stage.value)],
+        [parts[patch]?.texCoord?.array, parts[patch]?.others[0]?.vertices.array],
+      );
       assert.equal(stage.value?.largest, 2 ** 11 - 1);
     }
   });
 
   test("goes back to its base where there is no room for a patch", async () => {
     const site = siteOf(filesOf("base", "sphere"));
-    const { stages, delivery, settled } = record(geometryFor([["sphere", 0], ["sphere", 0], ["sphere", 0]], {}, "base.png"), site.pool);
+    const { stages, delivery, settled } = record(
+      geometryFor(
+        [
+          ["sphere", 0],
+          ["sphere", 0],
+          ["sphere", 0],
+        ],
+        {},
+        "base.png",
+      ),
+      site.pool,
+    );
     await settled;
     const held = site.arrays.size;
     const claims = delivery.claims(everything);
-    assert.deepEqual(claims.map((each) => each.length), [2, 2, 2]);
+    assert.deepEqual(
+      claims.map((each) => each.length),
+      [2, 2, 2],
+    );
     const all = claims.flat();
     const bytes = all.reduce((sum, claim) => sum + claim.bytes, 0);
-    assert.equal(bytes, Array.from(site.arrays.values(), (array) => array.byteLength).reduce((sum, length) => sum + length, 0));
+    assert.equal(
+      bytes,
+      Array.from(site.arrays.values(), (array) => array.byteLength).reduce((sum, length) => sum + length, 0),
+    );
     stages.length = 0;
     delivery.demand(everything, new Set(all.filter((claim) => claim !== claims[1]?.[1])));
-    assert.deepEqual(stages.map(({ patch, stage }) => [patch, stage.name]), [[1, "base"]]);
+    assert.deepEqual(
+      stages.map(({ patch, stage }) => [patch, stage.name]),
+      [[1, "base"]],
+    );
     assert.equal(site.arrays.size, held - 3);
     delivery.claims(everything);
     delivery.demand(everything);
@@ -234,20 +356,49 @@ describe("a geometry of compact", () => {
   test("does not go back to a base that comes late", async () => {
     const { promise, release } = held(readVectorFile("base"));
     const site = siteOf({ ...filesOf("sphere"), "base.png": promise });
-    const { stages, settled } = record(geometryFor([["sphere", 0], ["sphere", 0], ["sphere", 0]], {}, "base.png"), site.pool);
+    const { stages, settled } = record(
+      geometryFor(
+        [
+          ["sphere", 0],
+          ["sphere", 0],
+          ["sphere", 0],
+        ],
+        {},
+        "base.png",
+      ),
+      site.pool,
+    );
     await until(() => stages.length === 3);
     release();
     await settled;
-    assert.deepEqual(stages.map(({ stage }) => stage.name), ["full", "full", "full"]);
+    assert.deepEqual(
+      stages.map(({ stage }) => stage.name),
+      ["full", "full", "full"],
+    );
   });
 
   test("does without a base that is missing or not its own", async () => {
-    for (const [base, kind, patches] of [["none.png", "http", 3], ["sphere.png", "malformed", 3], ["base.png", "malformed", 2], ["base-colors.png#7", "malformed", 3]] as const) {
-      const geometry = geometryFor(Array.from({ length: patches }, () => ["soup", 0] as const), {}, base);
-      const { stages, errors, settled } = record(geometry, siteOf(filesOf("soup", "sphere", "base", "base-colors")).pool);
+    for (const [base, kind, patches] of [
+      ["none.png", "http", 3],
+      ["sphere.png", "malformed", 3],
+      ["base.png", "malformed", 2],
+      ["base-colors.png#7", "malformed", 3],
+    ] as const) {
+      const geometry = geometryFor(
+        Array.from({ length: patches }, () => ["soup", 0] as const),
+        {},
+        base,
+      );
+      const { stages, errors, settled } = record(
+        geometry,
+        siteOf(filesOf("soup", "sphere", "base", "base-colors")).pool,
+      );
       await settled;
       assert.deepEqual([errors.length, errors[0]?.kind, errors[0]?.url], [1, kind, base.replace(/#.*/, "")]);
-      assert.deepEqual(stages.map(({ stage }) => stage.name), Array.from({ length: patches }, () => "full"));
+      assert.deepEqual(
+        stages.map(({ stage }) => stage.name),
+        Array.from({ length: patches }, () => "full"),
+      );
     }
   });
 
@@ -269,7 +420,9 @@ describe("a geometry of compact", () => {
 
   test("spreads its lattice as classic does: over whole bytes, of which it has the upper bits", () => {
     for (const bits of [8, 10, 16, 20]) {
-      const geometry = geometryOf(`<ImageGeometry profile="compact" position="1 2 3" size="4 4 4" positionBits="${bits}" data="x.png"/>`);
+      const geometry = geometryOf(
+        `<ImageGeometry profile="compact" position="1 2 3" size="4 4 4" positionBits="${bits}" data="x.png"/>`,
+      );
       const classic = geometryOf(`<ImageGeometry position="1 2 3" size="4 4 4" positionBits="${bits}"
         coord='${Array.from({ length: Math.ceil(bits / 8) }, (_, plane) => `"${plane}.png"`).join(" ")}'/>`);
       const [frame, same] = [geometry, classic].map((one) => storedFrameOf(one, one.patches[0] ?? assert.fail()));

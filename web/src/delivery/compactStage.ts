@@ -12,21 +12,42 @@ import { Holdings } from "./holdings.ts";
 import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
 import { drawRangesOf } from "./stageBuilder.ts";
 
-export function compactBuilder(geometry: GeometryDescription, patch: PatchDescription, place: number,
-                               { storeBytes }: Pick<BuilderTools, "storeBytes">): StageBuilder {
+export function compactBuilder(
+  geometry: GeometryDescription,
+  patch: PatchDescription,
+  place: number,
+  { storeBytes }: Pick<BuilderTools, "storeBytes">,
+): StageBuilder {
   const holdings = new Holdings(storeBytes);
   let standIn: BufferStage | undefined;
   let full: BufferStage | undefined;
-  const store = async (name: StageName, buffers: PatchBuffers, draws: readonly DrawRange[], signal: AbortSignal): Promise<BufferStage> => {
+  const store = async (
+    name: StageName,
+    buffers: PatchBuffers,
+    draws: readonly DrawRange[],
+    signal: AbortSignal,
+  ): Promise<BufferStage> => {
     const { index, coord, normal, color, texCoord } = buffers;
     const value = geometry.value && valuesOf(buffers, geometry, geometry.value);
     const some = (array: VertexArray | undefined) => array && holdings.storeVertices(array, signal);
     const [ownIndex, ownCoord, ownNormal, ownColor, ownTexCoord, ownValue] = await Promise.all([
-      index && holdings.storeIndex(index, signal), holdings.storeVertices(coord, signal), some(normal), some(color), some(texCoord), some(value?.vertices),
+      index && holdings.storeIndex(index, signal),
+      holdings.storeVertices(coord, signal),
+      some(normal),
+      some(color),
+      some(texCoord),
+      some(value?.vertices),
     ]);
     return {
-      kind: "buffers", name, draws, normalCode: { kind: "vector" },
-      index: ownIndex, coord: ownCoord, normal: ownNormal, color: ownColor, texCoord: ownTexCoord,
+      kind: "buffers",
+      name,
+      draws,
+      normalCode: { kind: "vector" },
+      index: ownIndex,
+      coord: ownCoord,
+      normal: ownNormal,
+      color: ownColor,
+      texCoord: ownTexCoord,
       value: value && ownValue && { ...ownValue, largest: 2 ** value.bits - 1 },
     };
   };
@@ -50,7 +71,7 @@ export function compactBuilder(geometry: GeometryDescription, patch: PatchDescri
         const buffers = parts[place];
         if (buffers) checkBits(buffers, geometry);
         const draws: DrawRange[] = [{ primitive: "triangles", first: 0, count: buffers?.index?.length ?? 0 }];
-        standIn = buffers && await store("base", buffers, draws, signal);
+        standIn = buffers && (await store("base", buffers, draws, signal));
       } else if (content.kind === "patches") {
         const buffers = pieceOf(content.patches, first);
         check(buffers, geometry, patch);
@@ -60,28 +81,42 @@ export function compactBuilder(geometry: GeometryDescription, patch: PatchDescri
       }
     },
     stage: () => full ?? standIn,
-    get storedBytes() { return holdings.byteLength; },
-    drop: (part) => { drop(part.role); },
+    get storedBytes() {
+      return holdings.byteLength;
+    },
+    drop: (part) => {
+      drop(part.role);
+    },
     clear() {
       drop("base");
       drop("patch");
     },
-    sweep: () => { holdings.sweep(); },
+    sweep: () => {
+      holdings.sweep();
+    },
   };
 }
 
 /** The one of several that a reference means. */
 function pieceOf<Piece>(pieces: readonly Piece[], first: number): Piece {
   const piece = pieces[first];
-  if (piece === undefined) throw new DecodeError("malformed", `holds ${pieces.length} patches, of which none has number ${first}`);
+  if (piece === undefined)
+    throw new DecodeError("malformed", `holds ${pieces.length} patches, of which none has number ${first}`);
   return piece;
 }
 
 /** Those of the attribute that colours the geometry; undefined in a base that is without. */
-function valuesOf({ others }: PatchBuffers, { attributes }: GeometryDescription, attribute: AttributeDescription): OtherValues | undefined {
+function valuesOf(
+  { others }: PatchBuffers,
+  { attributes }: GeometryDescription,
+  attribute: AttributeDescription,
+): OtherValues | undefined {
   const values = others[attributes.indexOf(attribute)];
   if (values !== undefined && values.vertices.components !== attribute.components) {
-    throw new DecodeError("malformed", `has ${values.vertices.components} numbers where "${attribute.name}" has ${attribute.components}`);
+    throw new DecodeError(
+      "malformed",
+      `has ${values.vertices.components} numbers where "${attribute.name}" has ${attribute.components}`,
+    );
   }
   return values;
 }
@@ -93,16 +128,23 @@ function check(buffers: PatchBuffers, geometry: GeometryDescription, { vertexCou
     throw new DecodeError("malformed", `holds other values of "${geometry.value.name}" than the document states`);
   }
   if (vertexCount !== 0 && vertexCount !== buffers.vertexCount) {
-    throw new DecodeError("malformed", `holds ${buffers.vertexCount} vertices where the document states ${vertexCount}`);
+    throw new DecodeError(
+      "malformed",
+      `holds ${buffers.vertexCount} vertices where the document states ${vertexCount}`,
+    );
   }
   const corners = buffers.index?.length ?? buffers.vertexCount;
   const [draw, ...others] = draws;
   if (others.length > 0 || draw?.primitive !== buffers.topology || draw.count !== corners) {
-    throw new DecodeError("malformed", `draws ${corners} corners of ${buffers.topology}, other than the document states`);
+    throw new DecodeError(
+      "malformed",
+      `draws ${corners} corners of ${buffers.topology}, other than the document states`,
+    );
   }
 }
 
 function checkBits({ positionBits }: PatchBuffers, geometry: GeometryDescription): void {
   const stated = latticeBitsOf(geometry);
-  if (positionBits !== stated) throw new DecodeError("malformed", `has positions of ${positionBits} bits where the node states ${stated}`);
+  if (positionBits !== stated)
+    throw new DecodeError("malformed", `has positions of ${positionBits} bits where the node states ${stated}`);
 }

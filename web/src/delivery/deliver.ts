@@ -122,7 +122,10 @@ class GeometryDelivery implements Delivery {
   }
 
   get storedBytes(): number {
-    this.#storedBytes ??= this.#needs.reduce((sum, { storedBytes, state }) => sum + (state === "failed" ? 0 : storedBytes), 0);
+    this.#storedBytes ??= this.#needs.reduce(
+      (sum, { storedBytes, state }) => sum + (state === "failed" ? 0 : storedBytes),
+      0,
+    );
     return this.#storedBytes;
   }
 
@@ -133,7 +136,8 @@ class GeometryDelivery implements Delivery {
 
   demand(priorityOf: Demand, granted?: ReadonlySet<Claim>): void {
     for (const patch of this.#patches) {
-      const denied = granted && new Set(patch.claims.filter((claim) => !granted.has(claim)).flatMap(({ needs }) => needs));
+      const denied =
+        granted && new Set(patch.claims.filter((claim) => !granted.has(claim)).flatMap(({ needs }) => needs));
       for (const need of patch.needs) {
         if (need.state === "here" || need.state === "failed") continue;
         const priority = denied?.has(need) === true ? undefined : priorityOf(patch.place, need.part);
@@ -141,7 +145,11 @@ class GeometryDelivery implements Delivery {
         else if (need.lease !== undefined) need.lease.setPriority(priority);
         else this.#ask(patch, need, priority);
       }
-      if (denied !== undefined) this.#evict(patch, patch.needs.filter((need) => need.state === "here" && denied.has(need)));
+      if (denied !== undefined)
+        this.#evict(
+          patch,
+          patch.needs.filter((need) => need.state === "here" && denied.has(need)),
+        );
     }
   }
 
@@ -183,7 +191,8 @@ class GeometryDelivery implements Delivery {
   #evict(patch: Patch, evicted: readonly Need[]): void {
     const { builder, needs } = patch;
     if (evicted.length === 0) return;
-    if (!builder.isDivisible || evicted.length === needs.filter(({ state }) => state === "here").length) builder.clear();
+    if (!builder.isDivisible || evicted.length === needs.filter(({ state }) => state === "here").length)
+      builder.clear();
     else for (const { part } of evicted) builder.drop(part);
     this.#show(patch);
     for (const need of evicted) {
@@ -237,7 +246,9 @@ class GeometryDelivery implements Delivery {
       need.storedBytes = builder.storedBytes - others.reduce((sum, { storedBytes }) => sum + storedBytes, 0);
     } else if (needs.every(({ state }) => state !== "absent" && state !== "asked")) {
       // Arrays of a patch are one claim: it does not matter which of its files they are counted for.
-      needs.forEach((each, place) => { each.storedBytes = place === 0 ? builder.storedBytes : 0; });
+      needs.forEach((each, place) => {
+        each.storedBytes = place === 0 ? builder.storedBytes : 0;
+      });
     }
   }
 
@@ -248,24 +259,42 @@ class GeometryDelivery implements Delivery {
   }
 }
 
-function builderOf(geometry: GeometryDescription, place: number, patch: PatchDescription, pool: ResourcePool): StageBuilder {
+function builderOf(
+  geometry: GeometryDescription,
+  place: number,
+  patch: PatchDescription,
+  pool: ResourcePool,
+): StageBuilder {
   switch (geometry.container) {
-    case "bg": return bgBuilder(geometry, patch, pool);
-    case "compact": return compactBuilder(geometry, patch, place, pool);
-    case "sig": return sigBuilder(geometry, patch, pool);
+    case "bg":
+      return bgBuilder(geometry, patch, pool);
+    case "compact":
+      return compactBuilder(geometry, patch, place, pool);
+    case "sig":
+      return sigBuilder(geometry, patch, pool);
   }
 }
 
 function needsOf(geometry: GeometryDescription, patch: PatchDescription, largestTexture: number): Need[] {
   const kindOfPatch = contentKindOf(geometry, patch, largestTexture);
-  return partsOf(geometry, patch).sort((a, b) => useOf(a) - useOf(b)).map((part): Need => ({
-    part, kind: part.role === "base" ? "bases" : kindOfPatch, lease: undefined, transfer: undefined, aborter: new AbortController(), state: "absent", storedBytes: part.storedBytes,
-  }));
+  return partsOf(geometry, patch)
+    .sort((a, b) => useOf(a) - useOf(b))
+    .map((part): Need => ({
+      part,
+      kind: part.role === "base" ? "bases" : kindOfPatch,
+      lease: undefined,
+      transfer: undefined,
+      aborter: new AbortController(),
+      state: "absent",
+      storedBytes: part.storedBytes,
+    }));
 }
 
 /** What each is of no use without comes before it. */
 function useOf({ role, plane }: Part): number {
-  return plane > 0 ? 6 + plane : ["base", "patch", "coord", "index", "normal", "texCoord", "color", "value"].indexOf(role);
+  return plane > 0
+    ? 6 + plane
+    : ["base", "patch", "coord", "index", "normal", "texCoord", "color", "value"].indexOf(role);
 }
 
 function claimsOf({ place, builder, needs }: Patch, priorityOf: Demand): PatchClaim[] {
@@ -278,16 +307,22 @@ function claimsOf({ place, builder, needs }: Patch, priorityOf: Demand): PatchCl
   if (wanted.length === 0) return [];
   if (builder.isDivisible && wanted.every(({ need }) => isSeparate(need))) {
     return wanted.map(({ need, priority }) => ({
-      needs: [need], key: isImage(need) ? need.part.reference.url : need, bytes: need.storedBytes, priority, isHeld: need.state !== "absent",
+      needs: [need],
+      key: isImage(need) ? need.part.reference.url : need,
+      bytes: need.storedBytes,
+      priority,
+      isHeld: need.state !== "absent",
     }));
   }
-  return [{
-    needs: wanted.map(({ need }) => need),
-    key: builder,
-    bytes: wanted.reduce((sum, { need }) => sum + need.storedBytes, 0),
-    priority: Math.max(...wanted.map(({ priority }) => priority)),
-    isHeld: wanted.some(({ need }) => need.state !== "absent"),
-  }];
+  return [
+    {
+      needs: wanted.map(({ need }) => need),
+      key: builder,
+      bytes: wanted.reduce((sum, { need }) => sum + need.storedBytes, 0),
+      priority: Math.max(...wanted.map(({ priority }) => priority)),
+      isHeld: wanted.some(({ need }) => need.state !== "absent"),
+    },
+  ];
 }
 
 function isImage({ kind }: Need): boolean {

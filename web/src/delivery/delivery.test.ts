@@ -1,7 +1,18 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { pngOf } from "../decode/png.testing.ts";
-import { geometryOf, held, indices, record, records, sigFiles, sigGeometry, sigPatch, siteOf, soon } from "./delivery.testing.ts";
+import {
+  geometryOf,
+  held,
+  indices,
+  record,
+  records,
+  sigFiles,
+  sigGeometry,
+  sigPatch,
+  siteOf,
+  soon,
+} from "./delivery.testing.ts";
 import type { Transfer } from "./progress.ts";
 import { noProgress, progressOf } from "./progress.ts";
 
@@ -9,12 +20,17 @@ describe("the order of requests", () => {
   test("is the first coordinate byte of all patches, index, normals, further bytes", async () => {
     const site = siteOf(sigFiles(3), 1);
     await record(sigGeometry(3), site.pool).settled;
-    assert.deepEqual(site.asked, ["a0", "a1", "a2", "i0", "i1", "i2", "n0", "n1", "n2", "b0", "b1", "b2"].map((name) => `${name}.png`));
+    assert.deepEqual(
+      site.asked,
+      ["a0", "a1", "a2", "i0", "i1", "i2", "n0", "n1", "n2", "b0", "b1", "b2"].map((name) => `${name}.png`),
+    );
   });
 
   test("holds across shapes that begin together", async () => {
     const site = siteOf(sigFiles(2), 1);
-    const [first, second] = [0, 1].map((n) => record(geometryOf(`<ImageGeometry>${sigPatch(n)}</ImageGeometry>`), site.pool));
+    const [first, second] = [0, 1].map((n) =>
+      record(geometryOf(`<ImageGeometry>${sigPatch(n)}</ImageGeometry>`), site.pool),
+    );
     await Promise.all([first?.settled, second?.settled]);
     assert.deepEqual(site.asked.slice(0, 2), ["a0.png", "a1.png"]);
   });
@@ -25,7 +41,10 @@ describe("the order of requests", () => {
     const all = [record(twice, site.pool), record(sigGeometry(1), site.pool)];
     await Promise.all(all.map(({ settled }) => settled));
     assert.equal(site.asked.length, 4);
-    assert.deepEqual(all.map(({ stages }) => stages.at(-1)?.stage.name), ["full", "full"]);
+    assert.deepEqual(
+      all.map(({ stages }) => stages.at(-1)?.stage.name),
+      ["full", "full"],
+    );
   });
 });
 
@@ -34,9 +53,17 @@ describe("the stages of a patch of images", () => {
     const site = siteOf(sigFiles(1), 1);
     const { stages, settled } = record(sigGeometry(1), site.pool);
     await settled;
-    assert.deepEqual(stages.map(({ stage }) => stage.name), ["points", "surface", "shaded", "full"]);
+    assert.deepEqual(
+      stages.map(({ stage }) => stage.name),
+      ["points", "surface", "shaded", "full"],
+    );
     const [points, surface, shaded, full] = stages.map(({ stage }) => stage);
-    assert.ok(points?.kind === "textures" && surface?.kind === "textures" && shaded?.kind === "textures" && full?.kind === "textures");
+    assert.ok(
+      points?.kind === "textures" &&
+        surface?.kind === "textures" &&
+        shaded?.kind === "textures" &&
+        full?.kind === "textures",
+    );
     assert.deepEqual(points.draws, [{ primitive: "points", first: 0, count: 500 }]);
     assert.deepEqual(surface.draws, [{ primitive: "triangles", first: 0, count: 600 }]);
     assert.equal(surface.normal, undefined);
@@ -53,13 +80,20 @@ describe("the stages of a patch of images", () => {
     assert.equal(stages.length, 0); // without the first byte nothing can be shown
     first.release();
     await settled;
-    assert.deepEqual(stages.map(({ stage }) => stage.name), ["full"]);
+    assert.deepEqual(
+      stages.map(({ stage }) => stage.name),
+      ["full"],
+    );
   });
 
   test("never use a byte plane whose higher plane is missing", async () => {
     const site = siteOf({ "0.png": records, "2.png": records });
-    const { stages, errors, settled } = record(geometryOf(
-      `<ImageGeometry recordCount="500" vertexCount="500" implicitMeshSize="256 2" coord='"0.png" "1.png" "2.png"'/>`), site.pool);
+    const { stages, errors, settled } = record(
+      geometryOf(
+        `<ImageGeometry recordCount="500" vertexCount="500" implicitMeshSize="256 2" coord='"0.png" "1.png" "2.png"'/>`,
+      ),
+      site.pool,
+    );
     await settled;
     assert.equal(errors.length, 1);
     const last = stages.at(-1)?.stage;
@@ -68,7 +102,12 @@ describe("the stages of a patch of images", () => {
     assert.equal(last.middleOfMissing, (2 ** 16 - 1) / 2);
   });
 
-  for (const [missing, name] of [["i0.png", "points"], ["n0.png", "surface"], ["b0.png", "shaded"], ["a0.png", undefined]] as const) {
+  for (const [missing, name] of [
+    ["i0.png", "points"],
+    ["n0.png", "surface"],
+    ["b0.png", "shaded"],
+    ["a0.png", undefined],
+  ] as const) {
     for (const status of [404, 500]) {
       test(`end with ${name ?? "nothing"} and one error when ${missing} answers ${status}`, async () => {
         const site = siteOf({ ...sigFiles(2), [missing]: status });
@@ -76,7 +115,10 @@ describe("the stages of a patch of images", () => {
         await settled;
         assert.equal(stages.filter(({ patch }) => patch === 0).at(-1)?.stage.name, name);
         assert.equal(stages.filter(({ patch }) => patch === 1).at(-1)?.stage.name, "full");
-        assert.deepEqual(errors.map(({ url, kind }) => [url, kind]), [[missing, "http"]]);
+        assert.deepEqual(
+          errors.map(({ url, kind }) => [url, kind]),
+          [[missing, "http"]],
+        );
         assert.match(errors[0]?.message ?? "", new RegExp(`^${missing}: .*${status}`));
         assert.equal(site.scheduler.running, 0);
       });
@@ -97,24 +139,34 @@ describe("an image that lies", () => {
       const site = siteOf({ ...sigFiles(1), "b0.png": bytes });
       const { stages, errors, settled } = record(sigGeometry(1), site.pool);
       await settled;
-      assert.deepEqual(errors.map(({ url }) => url), ["b0.png"]);
+      assert.deepEqual(
+        errors.map(({ url }) => url),
+        ["b0.png"],
+      );
       assert.notEqual(errors[0]?.kind, "http");
       assert.equal(stages.at(-1)?.stage.name, "shaded");
     });
   }
 
   test("about the index is an error: rows narrower or fewer than the draws need", async () => {
-    for (const size of [{ width: 128, height: 8 }, { width: 256, height: 2 }]) {
+    for (const size of [
+      { width: 128, height: 8 },
+      { width: 256, height: 2 },
+    ]) {
       const site = siteOf({ ...sigFiles(1), "i0.png": pngOf(size) });
       const { stages, errors, settled } = record(sigGeometry(1), site.pool);
       await settled;
-      assert.deepEqual(errors.map(({ url, kind }) => [url, kind]), [["i0.png", "malformed"]]);
+      assert.deepEqual(
+        errors.map(({ url, kind }) => [url, kind]),
+        [["i0.png", "malformed"]],
+      );
       assert.equal(stages.at(-1)?.stage.name, "points");
     }
   });
 
   test("about normals of two numbers is an error: half of it ends before the records do", async () => {
-    const pairs = (fields: string) => geometryOf(`<ImageGeometry normalEncoding="octahedral" ${fields}>${sigPatch(0)}</ImageGeometry>`);
+    const pairs = (fields: string) =>
+      geometryOf(`<ImageGeometry normalEncoding="octahedral" ${fields}>${sigPatch(0)}</ImageGeometry>`);
     const gray = (height: number) => pngOf({ width: 256, height, colorType: 0 });
     const good = siteOf({ ...sigFiles(1), "n0.png": gray(4) });
     const full = record(pairs(""), good.pool);
@@ -125,15 +177,24 @@ describe("an image that lies", () => {
     const short = siteOf({ ...sigFiles(1), "n0.png": gray(3) });
     const { errors, settled } = record(pairs(""), short.pool);
     await settled;
-    assert.deepEqual(errors.map(({ url, kind }) => [url, kind]), [["n0.png", "malformed"]]);
+    assert.deepEqual(
+      errors.map(({ url, kind }) => [url, kind]),
+      [["n0.png", "malformed"]],
+    );
   });
 
   test("about where a patch begins is an error", async () => {
     const site = siteOf(sigFiles(1));
-    const { errors, settled } = record(geometryOf(`<ImageGeometry><GeometryPatch recordCount="500" vertexCount="600"
-      implicitMeshSize="256 4" index="i0.png" coord='"a0.png#13"'/></ImageGeometry>`), site.pool);
+    const { errors, settled } = record(
+      geometryOf(`<ImageGeometry><GeometryPatch recordCount="500" vertexCount="600"
+      implicitMeshSize="256 4" index="i0.png" coord='"a0.png#13"'/></ImageGeometry>`),
+      site.pool,
+    );
     await settled;
-    assert.deepEqual(errors.map(({ url }) => url), ["a0.png"]);
+    assert.deepEqual(
+      errors.map(({ url }) => url),
+      ["a0.png"],
+    );
   });
 });
 
@@ -145,10 +206,16 @@ describe("typed arrays", () => {
 
   test("become stages of buffers in the same order", async () => {
     const site = siteOf({ "c.bin": coord, "n.bin": normal, "i.bin": index }, 1);
-    const { stages, errors, settled } = record(geometry('recordCount="5" vertexCount="6" coord="c.bin#0+8" normal="n.bin#0+4" index="i.bin"'), site.pool);
+    const { stages, errors, settled } = record(
+      geometry('recordCount="5" vertexCount="6" coord="c.bin#0+8" normal="n.bin#0+4" index="i.bin"'),
+      site.pool,
+    );
     await settled;
     assert.deepEqual(errors, []);
-    assert.deepEqual(stages.map(({ stage }) => stage.name), ["points", "surface", "full"]);
+    assert.deepEqual(
+      stages.map(({ stage }) => stage.name),
+      ["points", "surface", "full"],
+    );
     const full = stages.at(-1)?.stage;
     assert.ok(full?.kind === "buffers");
     assert.deepEqual(full.draws, [{ primitive: "triangles", first: 0, count: 6 }]);
@@ -156,19 +223,32 @@ describe("typed arrays", () => {
   });
 
   test("draw strips as the triangles they stand for, after what stands before them", async () => {
-    const site = siteOf({ "c.bin": coord, "i.bin": new Uint8Array(Uint16Array.from([0, 1, 2, 0, 1, 2, 3, 3, 4]).buffer) });
-    const { stages, settled } = record(geometry(
-      `recordCount="5" primType='"TRIANGLES" "TRIANGLESTRIP"' vertexCount="3 6" coord="c.bin#0+8" index="i.bin"`), site.pool);
+    const site = siteOf({
+      "c.bin": coord,
+      "i.bin": new Uint8Array(Uint16Array.from([0, 1, 2, 0, 1, 2, 3, 3, 4]).buffer),
+    });
+    const { stages, settled } = record(
+      geometry(
+        `recordCount="5" primType='"TRIANGLES" "TRIANGLESTRIP"' vertexCount="3 6" coord="c.bin#0+8" index="i.bin"`,
+      ),
+      site.pool,
+    );
     await settled;
     const full = stages.at(-1)?.stage;
     assert.ok(full?.kind === "buffers");
-    assert.deepEqual(full.draws, [{ primitive: "triangles", first: 0, count: 3 }, { primitive: "triangles", first: 3, count: 12 }]);
+    assert.deepEqual(full.draws, [
+      { primitive: "triangles", first: 0, count: 3 },
+      { primitive: "triangles", first: 3, count: 12 },
+    ]);
     assert.deepEqual(Array.from(site.arrayOf(full.index)), [0, 1, 2, 0, 1, 2, 2, 1, 3, 2, 3, 3, 3, 3, 4]);
   });
 
   test("with spherical normals are shaded with nothing but their coordinates", async () => {
     const site = siteOf({ "c.bin": coord });
-    const { stages, settled } = record(geometry('normalAsSphericalCoordinates="true" primType="POINTS" vertexCount="5" coord="c.bin#0+8"'), site.pool);
+    const { stages, settled } = record(
+      geometry('normalAsSphericalCoordinates="true" primType="POINTS" vertexCount="5" coord="c.bin#0+8"'),
+      site.pool,
+    );
     await settled;
     const full = stages.at(-1)?.stage;
     assert.ok(full?.kind === "buffers");
@@ -180,8 +260,12 @@ describe("typed arrays", () => {
 
   test("with octahedral normals of two numbers say how to read them", async () => {
     const site = siteOf({ "c.bin": coord, "n.bin": normal });
-    const { stages, settled } = record(geometryOf(
-      '<BinaryGeometry coordType="Uint16" normalType="Uint16" normalEncoding="octahedral" primType="POINTS" vertexCount="5" coord="c.bin#0+8" normal="n.bin"/>'), site.pool);
+    const { stages, settled } = record(
+      geometryOf(
+        '<BinaryGeometry coordType="Uint16" normalType="Uint16" normalEncoding="octahedral" primType="POINTS" vertexCount="5" coord="c.bin#0+8" normal="n.bin"/>',
+      ),
+      site.pool,
+    );
     await settled;
     const full = stages.at(-1)?.stage;
     assert.ok(full?.kind === "buffers");
@@ -191,8 +275,12 @@ describe("typed arrays", () => {
 
   test("in the records of one file are views of the same bytes, fetched once", async () => {
     const site = siteOf({ "v.bin": new Uint8Array(5 * 16) });
-    const { stages, settled } = record(geometryOf(
-      '<BinaryGeometry coordType="Int16" normalType="Int16" primType="POINTS" vertexCount="5" coord="v.bin#0+16" normal="v.bin#8+16"/>'), site.pool);
+    const { stages, settled } = record(
+      geometryOf(
+        '<BinaryGeometry coordType="Int16" normalType="Int16" primType="POINTS" vertexCount="5" coord="v.bin#0+16" normal="v.bin#8+16"/>',
+      ),
+      site.pool,
+    );
     await settled;
     const full = stages.at(-1)?.stage;
     assert.ok(full?.kind === "buffers" && full.normal);
@@ -216,9 +304,15 @@ describe("typed arrays", () => {
   ] as const) {
     test(`with ${what} are an error`, async () => {
       const site = siteOf({ "c.bin": coord, "i.bin": index, ...files });
-      const { errors, settled } = record(geometry('recordCount="5" vertexCount="6" coord="c.bin#0+8" index="i.bin"'), site.pool);
+      const { errors, settled } = record(
+        geometry('recordCount="5" vertexCount="6" coord="c.bin#0+8" index="i.bin"'),
+        site.pool,
+      );
       await settled;
-      assert.deepEqual(errors.map((error) => error.url), [url]);
+      assert.deepEqual(
+        errors.map((error) => error.url),
+        [url],
+      );
     });
   }
 });
@@ -262,10 +356,18 @@ describe("a cancelled delivery", () => {
 });
 
 describe("progress", () => {
-  const transfer = (loadedBytes: number, totalBytes: number, state: Transfer["state"] = "loading") => ({ loadedBytes, totalBytes, state });
+  const transfer = (loadedBytes: number, totalBytes: number, state: Transfer["state"] = "loading") => ({
+    loadedBytes,
+    totalBytes,
+    state,
+  });
 
   test("is the share of bytes", () => {
-    assert.deepEqual(progressOf([transfer(10, 40), transfer(10, 40)], noProgress), { totalProgress: 0.25, loadedBytes: 20, totalBytes: 80 });
+    assert.deepEqual(progressOf([transfer(10, 40), transfer(10, 40)], noProgress), {
+      totalProgress: 0.25,
+      loadedBytes: 20,
+      totalBytes: 80,
+    });
   });
 
   test("does not fall when a server tells a larger size than was expected", () => {
@@ -291,7 +393,14 @@ describe("progress", () => {
     await settled;
     clearInterval(timer);
     progress = progressOf(delivery.transfers, progress);
-    assert.deepEqual(seen, seen.toSorted((a, b) => a - b));
-    assert.deepEqual(progress, { totalProgress: 1, loadedBytes: 5 * records.length + 2 * indices.length, totalBytes: 5 * records.length + 2 * indices.length });
+    assert.deepEqual(
+      seen,
+      seen.toSorted((a, b) => a - b),
+    );
+    assert.deepEqual(progress, {
+      totalProgress: 1,
+      loadedBytes: 5 * records.length + 2 * indices.length,
+      totalBytes: 5 * records.length + 2 * indices.length,
+    });
   });
 });

@@ -37,17 +37,28 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
     signal.addEventListener("abort", () => aborted.push(name));
     const file = files[name] ?? 404;
     if (typeof file === "number") return new Response("no", { status: file });
-    const bytes = await Promise.race([file, new Promise<never>((_, reject) => {
-      signal.addEventListener("abort", () => { reject(signal.reason as Error); });
-    })]);
+    const bytes = await Promise.race([
+      file,
+      new Promise<never>((_, reject) => {
+        signal.addEventListener("abort", () => {
+          reject(signal.reason as Error);
+        });
+      }),
+    ]);
     return new Response(bytes, { headers: { "content-length": String(bytes.length) } });
   };
   const pool = new ResourcePool({
     scheduler,
-    makeImage: (png) => decodeImage(png, (): Promise<DecodedImage> => {
-      images.open += 1;
-      return Promise.resolve({ ...checkPng(png), close: () => { images.open -= 1; } });
-    }),
+    makeImage: (png) =>
+      decodeImage(png, (): Promise<DecodedImage> => {
+        images.open += 1;
+        return Promise.resolve({
+          ...checkPng(png),
+          close: () => {
+            images.open -= 1;
+          },
+        });
+      }),
     readsTextures: () => Promise.resolve(readsTextures),
     largestTexture: 4096,
     runJob: (name, input) => {
@@ -57,20 +68,39 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
     runHere: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
     makePicture: (png) => {
       pictures.open += 1;
-      return Promise.resolve({ hasAlpha: false, image: { ...checkPng(png), close: () => { pictures.open -= 1; } } });
+      return Promise.resolve({
+        hasAlpha: false,
+        image: {
+          ...checkPng(png),
+          close: () => {
+            pictures.open -= 1;
+          },
+        },
+      });
     },
     storeBytes: (array, _, signal) => {
       signal.throwIfAborted();
-      const stored = { byteLength: array.byteLength, close: () => { assert.ok(arrays.delete(stored), "closed twice"); } };
+      const stored = {
+        byteLength: array.byteLength,
+        close: () => {
+          assert.ok(arrays.delete(stored), "closed twice");
+        },
+      };
       arrays.set(stored, array);
       return Promise.resolve(stored);
     },
-    download: { fetch: (url, init) => answer(url as string, init?.signal ?? new AbortController().signal), silenceMs: 1000, retries: 0, backoffMs: 1 },
+    download: {
+      fetch: (url, init) => answer(url as string, init?.signal ?? new AbortController().signal),
+      silenceMs: 1000,
+      retries: 0,
+      backoffMs: 1,
+    },
     resolve: (url) => new URL(url, "https://site/").href,
     onTransfer: () => undefined,
   });
   /** What has been stored. */
-  const arrayOf = (stored: { readonly bytes: StoredBytes } | undefined) => arrays.get(stored?.bytes ?? assert.fail("nothing there")) ?? assert.fail("closed");
+  const arrayOf = (stored: { readonly bytes: StoredBytes } | undefined) =>
+    arrays.get(stored?.bytes ?? assert.fail("nothing there")) ?? assert.fail("closed");
   return { asked, aborted, jobs: done, images, pictures, arrays, arrayOf, scheduler, pool };
 }
 
@@ -92,14 +122,18 @@ export function record(geometry: GeometryDescription, pool: ResourcePool, demand
   const errors: DeliveryError[] = [];
   const shown: Recording["shown"] = new Map();
   let resolve: () => void = () => undefined;
-  const settled = new Promise<void>((done) => { resolve = done; });
+  const settled = new Promise<void>((done) => {
+    resolve = done;
+  });
   const delivery = deliver(geometry, pool, {
     onStage: (patch, stage) => {
       shown.set(patch, stage);
       if (stage !== undefined) stages.push({ patch, stage });
     },
     onError: (error) => errors.push(error),
-    onSettled: () => { resolve(); },
+    onSettled: () => {
+      resolve();
+    },
   });
   delivery.demand(demand);
   return { stages, shown, errors, delivery, settled };
@@ -113,15 +147,20 @@ export function geometryOf(markup: string): GeometryDescription {
 
 export const sigPatch = (n: number) => `<GeometryPatch recordCount="500" vertexCount="600" implicitMeshSize="256 4"
   index="i${n}.png" coord='"a${n}.png" "b${n}.png"' normal="n${n}.png"/>`;
-export const sigGeometry = (patches: number) => geometryOf(
-  `<ImageGeometry>${Array.from({ length: patches }, (_, n) => sigPatch(n)).join("")}</ImageGeometry>`);
+export const sigGeometry = (patches: number) =>
+  geometryOf(`<ImageGeometry>${Array.from({ length: patches }, (_, n) => sigPatch(n)).join("")}</ImageGeometry>`);
 export const records = pngOf({ width: 256, height: 2 });
 export const indices = pngOf({ width: 256, height: 4 });
 
 export function sigFiles(patches: number): Record<string, Answer> {
   const files: Record<string, Answer> = {};
   for (let n = 0; n < patches; ++n) {
-    Object.assign(files, { [`a${n}.png`]: records, [`b${n}.png`]: records, [`n${n}.png`]: records, [`i${n}.png`]: indices });
+    Object.assign(files, {
+      [`a${n}.png`]: records,
+      [`b${n}.png`]: records,
+      [`n${n}.png`]: records,
+      [`i${n}.png`]: indices,
+    });
   }
   return files;
 }
@@ -129,7 +168,11 @@ export function sigFiles(patches: number): Record<string, Answer> {
 /** A promise and the function that fulfils it. */
 export function held(bytes: Uint8Array<ArrayBuffer>) {
   let release: () => void = () => undefined;
-  const promise = new Promise<Uint8Array<ArrayBuffer>>((resolve) => { release = () => { resolve(bytes); }; });
+  const promise = new Promise<Uint8Array<ArrayBuffer>>((resolve) => {
+    release = () => {
+      resolve(bytes);
+    };
+  });
   return { promise, release };
 }
 

@@ -16,6 +16,7 @@ export class DeliveryError extends Error {
 
 export function asDeliveryError(error: unknown, url: string): DeliveryError {
   if (error instanceof DeliveryError) return error;
-  if (error instanceof RequestError || error instanceof DecodeError) return new DeliveryError(error.kind, url, error.message);
+  if (error instanceof RequestError || error instanceof DecodeError)
+    return new DeliveryError(error.kind, url, error.message);
   return new DeliveryError("malformed", url, error instanceof Error ? error.message : String(error));
 }

@@ -6,13 +6,25 @@ import type { Camera, Matrix } from "../scheduler/view.ts";
 import { planesOf } from "../scheduler/view.ts";
 import type { Demand } from "./deliver.ts";
 import { demandFor, placeGeometry } from "./demand.ts";
-import { everything, geometryOf, held, record, records, sigFiles, sigGeometry, siteOf, soon } from "./delivery.testing.ts";
+import {
+  everything,
+  geometryOf,
+  held,
+  record,
+  records,
+  sigFiles,
+  sigGeometry,
+  siteOf,
+  soon,
+} from "./delivery.testing.ts";
 import type { Part } from "./parts.ts";
 import { partsOf } from "./parts.ts";
 
 /** At the origin, looking along -z with 90 degrees and 1000 pixels both ways. */
 const camera: Camera = {
-  position: [0, 0, 0], pixelsPerUnit: 500, near: 1e-3,
+  position: [0, 0, 0],
+  pixelsPerUnit: 500,
+  near: 1e-3,
   planes: planesOf([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, -1, 0, 0, -2e-3, 0]),
 };
 
@@ -39,7 +51,8 @@ function firstPart(geometry: GeometryDescription): Part {
 }
 
 const cube = 'position="0 0 0" size="1 1 1"';
-const patch = (fields: string) => `<GeometryPatch bboxSize="1 1 1" recordCount="9" vertexCount="9" coord='"a" "b" "c"' ${fields}/>`;
+const patch = (fields: string) =>
+  `<GeometryPatch bboxSize="1 1 1" recordCount="9" vertexCount="9" coord='"a" "b" "c"' ${fields}/>`;
 const lit = geometryOf(`<ImageGeometry ${cube}>${patch('index="i" normal="n"')}</ImageGeometry>`);
 
 describe("a byte plane", () => {
@@ -145,7 +158,10 @@ describe("a delivery", () => {
     const { delivery, errors, stages } = record(sigGeometry(1), site.pool);
     await soon();
     delivery.demand(() => undefined);
-    assert.deepEqual(site.aborted.filter((name) => name === "b0.png"), ["b0.png"]);
+    assert.deepEqual(
+      site.aborted.filter((name) => name === "b0.png"),
+      ["b0.png"],
+    );
     assert.equal(delivery.isSettled, true);
     assert.equal(site.images.open, 3);
     late.release();
@@ -178,13 +194,17 @@ describe("a delivery", () => {
     delivery.demand((place, part) => (everything(place, part) ?? 0) * (place === 2 ? 1000 : 1));
     first.release();
     await soon();
-    assert.deepEqual(site.asked, ["a0", "a2", "i2", "n2", "b2", "a1", "i0", "i1", "n0", "n1", "b0", "b1"].map((name) => `${name}.png`));
+    assert.deepEqual(
+      site.asked,
+      ["a0", "a2", "i2", "n2", "b2", "a1", "i0", "i1", "n0", "n1", "b0", "b1"].map((name) => `${name}.png`),
+    );
   });
 
   test("shares a file with another at the larger of both priorities", async () => {
     const first = held(records);
     const site = siteOf({ ...sigFiles(2), "a0.png": first.promise }, 1);
-    const files = (names: string) => geometryOf(`<ImageGeometry recordCount="500" vertexCount="500" implicitMeshSize="256 2" coord='${names}'/>`);
+    const files = (names: string) =>
+      geometryOf(`<ImageGeometry recordCount="500" vertexCount="500" implicitMeshSize="256 2" coord='${names}'/>`);
     record(files('"a0.png"'), site.pool, () => 99);
     await soon();
     record(files('"b1.png"'), site.pool, () => 5);

@@ -31,14 +31,25 @@ export interface PlacedGeometry {
 /** Around what may lie wherever it likes: it counts as before the camera, and as large. */
 const anywhere: Sphere = { center: [0, 0, 0], radius: 1e12 };
 
-export function placeGeometry(geometry: GeometryDescription, sceneFromShape: Matrix, content: number, isTextured = false): PlacedGeometry {
+export function placeGeometry(
+  geometry: GeometryDescription,
+  sceneFromShape: Matrix,
+  content: number,
+  isTextured = false,
+): PlacedGeometry {
   const scale = scaleOf(sceneFromShape);
   return {
-    geometry, content, isTextured,
+    geometry,
+    content,
+    isTextured,
     spheres: geometry.patches.map((patch) =>
-      (isUnbounded(geometry, patch) ? anywhere : sphereOf(patch.box ?? boxAround(geometry.position, geometry.size), sceneFromShape))),
-    coarseSteps: geometry.patches.map((patch) =>
-      Math.max(...storedFrameOf(geometry, patch).step) * 256 ** (patch.coord.length - 1) * scale),
+      isUnbounded(geometry, patch)
+        ? anywhere
+        : sphereOf(patch.box ?? boxAround(geometry.position, geometry.size), sceneFromShape),
+    ),
+    coarseSteps: geometry.patches.map(
+      (patch) => Math.max(...storedFrameOf(geometry, patch).step) * 256 ** (patch.coord.length - 1) * scale,
+    ),
   };
 }
 
@@ -65,9 +76,16 @@ export function demandFor(places: Iterable<PlacedGeometry>, viewing: Viewing): D
 }
 
 /** How soon a texture, or its preview, is wanted that is laid over a geometry in these places; undefined where it is seen in none. */
-export function textureDemandFor(places: Iterable<PlacedGeometry>, type: TextureChunk, { camera, weights }: Viewing): number | undefined {
-  const priorities = Array.from(places).flatMap(({ spheres, content }) => spheres.map((sphere) =>
-    priorityOf(content, { type, plane: 0 }, camera ? viewOf(sphere, camera) : unknownView, weights)));
+export function textureDemandFor(
+  places: Iterable<PlacedGeometry>,
+  type: TextureChunk,
+  { camera, weights }: Viewing,
+): number | undefined {
+  const priorities = Array.from(places).flatMap(({ spheres, content }) =>
+    spheres.map((sphere) =>
+      priorityOf(content, { type, plane: 0 }, camera ? viewOf(sphere, camera) : unknownView, weights),
+    ),
+  );
   return priorities.length > 0 ? Math.max(...priorities) : undefined;
 }
 
@@ -91,8 +109,9 @@ function demandAt(placed: PlacedGeometry, { camera, weights }: Viewing): Demand 
  */
 function isTooFine(part: Part, patch: PatchDescription, coarseStep: number, view: ViewOf): boolean {
   if (part.chunk.type !== "refinement") return false;
-  const isShadedBySlope = patch.normal === undefined && patch.draws.some(({ primitive }) =>
-    primitive === "triangles" || primitive === "triangleStrip");
+  const isShadedBySlope =
+    patch.normal === undefined &&
+    patch.draws.some(({ primitive }) => primitive === "triangles" || primitive === "triangleStrip");
   const stepAbove = coarseStep / 256 ** (part.plane - 1);
   return !isShadedBySlope && stepAbove * view.pixelsPerUnit < finestStepInPixels;
 }

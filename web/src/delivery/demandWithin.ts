@@ -22,11 +22,17 @@ export function storedBytesOf({ geometries, textures }: SceneDeliveries): number
  * `mostBytes` on the GPU, what matters most is asked for, and what matters less than
  * that is given up.
  */
-export function demandWithin(deliveries: SceneDeliveries, demandOf: (geometry: GeometryDescription) => Demand,
-                             textureDemand: TextureDemand, mostBytes = Infinity): void {
+export function demandWithin(
+  deliveries: SceneDeliveries,
+  demandOf: (geometry: GeometryDescription) => Demand,
+  textureDemand: TextureDemand,
+  mostBytes = Infinity,
+): void {
   const { geometries, textures } = deliveries;
-  const granted = storedBytesOf(deliveries) > mostBytes
-    ? grantedOf([...geometries.claims(demandOf), ...textures.claims(textureDemand)], mostBytes) : undefined;
+  const granted =
+    storedBytesOf(deliveries) > mostBytes
+      ? grantedOf([...geometries.claims(demandOf), ...textures.claims(textureDemand)], mostBytes)
+      : undefined;
   geometries.demand(demandOf, granted);
   textures.demand(textureDemand, granted);
 }

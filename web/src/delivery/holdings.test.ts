@@ -12,24 +12,42 @@ function memory() {
     stored += 1;
     await gate;
     signal.throwIfAborted();
-    const bytes = { byteLength, close: () => { assert.ok(open.delete(bytes), "closed twice"); } };
+    const bytes = {
+      byteLength,
+      close: () => {
+        assert.ok(open.delete(bytes), "closed twice");
+      },
+    };
     open.add(bytes);
     return bytes;
   };
-  return { holdings: new Holdings(store), open, stored: () => stored, hold: (promise: Promise<unknown>) => { gate = promise; } };
+  return {
+    holdings: new Holdings(store),
+    open,
+    stored: () => stored,
+    hold: (promise: Promise<unknown>) => {
+      gate = promise;
+    },
+  };
 }
 
 const never = new AbortController().signal;
-const vertices = (array: ElementArray, offset = 0) => ({ array, components: 3, stride: 8, offset } as const);
+const vertices = (array: ElementArray, offset = 0) => ({ array, components: 3, stride: 8, offset }) as const;
 
 describe("arrays that are held", () => {
   test("are stored once for all attributes of their records, and closed with the last", async () => {
     const { holdings, open, stored } = memory();
     const { buffer } = new Uint8Array(64);
-    const all = await Promise.all([vertices(new Uint16Array(buffer)), vertices(new Uint16Array(buffer), 4), vertices(new Int8Array(buffer))]
-      .map((array) => holdings.storeVertices(array, never)));
+    const all = await Promise.all(
+      [vertices(new Uint16Array(buffer)), vertices(new Uint16Array(buffer), 4), vertices(new Int8Array(buffer))].map(
+        (array) => holdings.storeVertices(array, never),
+      ),
+    );
     assert.deepEqual([stored(), open.size, holdings.byteLength], [1, 1, 64]);
-    assert.deepEqual(all.map(({ type, offset }) => `${type} ${offset}`), ["Uint16 0", "Uint16 4", "Int8 0"]);
+    assert.deepEqual(
+      all.map(({ type, offset }) => `${type} ${offset}`),
+      ["Uint16 0", "Uint16 4", "Int8 0"],
+    );
     for (const array of all) {
       assert.equal(open.size, 1);
       holdings.retire(array);

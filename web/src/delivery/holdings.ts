@@ -26,8 +26,17 @@ export class Holdings {
     return sum;
   }
 
-  async storeVertices({ array, components, stride, offset }: VertexArray, signal: AbortSignal): Promise<StoredVertices> {
-    return { bytes: await this.#bytesOf(array, "vertices", signal), type: elementTypeOf(array), components, stride, offset };
+  async storeVertices(
+    { array, components, stride, offset }: VertexArray,
+    signal: AbortSignal,
+  ): Promise<StoredVertices> {
+    return {
+      bytes: await this.#bytesOf(array, "vertices", signal),
+      type: elementTypeOf(array),
+      components,
+      stride,
+      offset,
+    };
   }
 
   async storeIndex(array: IndexArray, signal: AbortSignal): Promise<StoredIndex> {

@@ -12,14 +12,16 @@ export function requireHttp(url: string): void {
 /** Rejects document types that define entities, and whatever is no X3D in XML. Urls become absolute. */
 export function parseInlined(bytes: Uint8Array, url: string): Element {
   const text = new TextDecoder().decode(bytes);
-  if (/^#(VRML|X3D) V/.test(text)) throw new DecodeError("unsupported", "is in VRML encoding; pages read X3D in XML, which imgeo convert makes of it");
+  if (/^#(VRML|X3D) V/.test(text))
+    throw new DecodeError("unsupported", "is in VRML encoding; pages read X3D in XML, which imgeo convert makes of it");
   // Entities are what XML bombs are made of.
   if (/<!DOCTYPE[^>[]*\[/.test(text)) throw new DecodeError("unsupported", "its document type defines entities");
   const parsed = new DOMParser().parseFromString(text, "application/xml");
   const problem = parsed.querySelector("parsererror")?.textContent.trim().split("\n")[0];
   if (problem !== undefined) throw new DecodeError("malformed", `not well-formed: ${problem}`);
   const x3d = parsed.documentElement;
-  if (x3d.localName.toLowerCase() !== "x3d") throw new DecodeError("malformed", `is XML, but its element is ${x3d.localName} and no X3D`);
+  if (x3d.localName.toLowerCase() !== "x3d")
+    throw new DecodeError("malformed", `is XML, but its element is ${x3d.localName} and no X3D`);
   absoluteUrls(x3d, url);
   return x3d;
 }

@@ -18,49 +18,77 @@ function sceneOf(markup: string, files: Record<string, Answer>) {
   const nameOf = (inline: SceneElement) => inline.getAttribute("DEF") ?? "";
   const x3d = elementsOf(markup);
   const url = "https://site/main.x3d";
-  const inlines: Inlines = new Inlines({
-    pool,
-    own: { url, x3d },
-    urlOf: (url) => {
-      if (url.startsWith("data:")) throw new DecodeError("unsupported", "no file");
-      return new URL(url, "https://site/").href;
+  const inlines: Inlines = new Inlines(
+    {
+      pool,
+      own: { url, x3d },
+      urlOf: (url) => {
+        if (url.startsWith("data:")) throw new DecodeError("unsupported", "no file");
+        return new URL(url, "https://site/").href;
+      },
+      parse: (bytes) => elementsOf(new TextDecoder().decode(bytes)),
     },
-    parse: (bytes) => elementsOf(new TextDecoder().decode(bytes)),
-  }, {
-    onBegin: (inline) => log.push(`begin ${nameOf(inline)}`),
-    onEnd: (inline, error) => {
-      log.push(`end ${nameOf(inline)}${error ? `: ${error.message}` : ""}`);
-      reader.touch(inline);
-      inlines.follow(reader.read().inlines);
+    {
+      onBegin: (inline) => log.push(`begin ${nameOf(inline)}`),
+      onEnd: (inline, error) => {
+        log.push(`end ${nameOf(inline)}${error ? `: ${error.message}` : ""}`);
+        reader.touch(inline);
+        inlines.follow(reader.read().inlines);
+      },
+      onLeave: (inline) => log.push(`leave ${nameOf(inline)}`),
     },
-    onLeave: (inline) => log.push(`leave ${nameOf(inline)}`),
-  });
+  );
   const reader = new SceneReader(x3d, { url, inlined: (inline) => inlines.documentOf(inline) });
   inlines.follow(reader.read().inlines);
-  const settled = async () => { while (!inlines.isSettled) await soon(); };
-  return { inlines, log, asked, aborted, settled, shapes: () => shapesOf(reader.read().root).length, warnings: () => reader.read().warnings.map(({ message }) => message) };
+  const settled = async () => {
+    while (!inlines.isSettled) await soon();
+  };
+  return {
+    inlines,
+    log,
+    asked,
+    aborted,
+    settled,
+    shapes: () => shapesOf(reader.read().root).length,
+    warnings: () => reader.read().warnings.map(({ message }) => message),
+  };
 }
 
 const x3d = (...inlines: string[]) => `<X3D><Scene>${inlines.join("")}</Scene></X3D>`;
 
 describe("documents that Inlines name", () => {
   test("are asked for once each, those in them too, and those that are hidden are not", async () => {
-    const scene = sceneOf(x3d('<Inline DEF="a" url="part.x3d"/>', '<Inline DEF="b" url="part.x3d"/>', '<Group visible="false"><Inline DEF="c" url="hidden.x3d"/></Group>'),
-      { "part.x3d": bytesOf('<X3D><Scene><Inline DEF="inner" url="deep.x3d"/></Scene></X3D>'), "deep.x3d": shape });
+    const scene = sceneOf(
+      x3d(
+        '<Inline DEF="a" url="part.x3d"/>',
+        '<Inline DEF="b" url="part.x3d"/>',
+        '<Group visible="false"><Inline DEF="c" url="hidden.x3d"/></Group>',
+      ),
+      { "part.x3d": bytesOf('<X3D><Scene><Inline DEF="inner" url="deep.x3d"/></Scene></X3D>'), "deep.x3d": shape },
+    );
     assert.ok(!scene.inlines.isSettled);
     await scene.settled();
     assert.deepEqual(scene.asked, ["part.x3d", "deep.x3d"]);
     assert.deepEqual(scene.log, ["begin a", "begin b", "end a", "begin inner", "end b", "end inner"]);
     assert.ok(scene.inlines.isSettled);
     assert.equal(scene.shapes(), 2);
-    assert.deepEqual(scene.inlines.transfers.map(({ state }) => state), ["ready", "ready", "ready"]);
+    assert.deepEqual(
+      scene.inlines.transfers.map(({ state }) => state),
+      ["ready", "ready", "ready"],
+    );
   });
 
   test("are the first that a url leads to; one without tells why of its last", async () => {
-    const scene = sceneOf(x3d(`<Inline DEF="a" url='"data:," "lost.x3d" "part.x3d"'/>`, `<Inline DEF="b" url='"lost.x3d" "data:,"'/>`), { "part.x3d": shape });
+    const scene = sceneOf(
+      x3d(`<Inline DEF="a" url='"data:," "lost.x3d" "part.x3d"'/>`, `<Inline DEF="b" url='"lost.x3d" "data:,"'/>`),
+      { "part.x3d": shape },
+    );
     await scene.settled();
     assert.equal(scene.shapes(), 1);
-    assert.deepEqual(scene.log.filter((line) => line.startsWith("end")).toSorted(), ["end a", "end b: data:,: no file"]);
+    assert.deepEqual(scene.log.filter((line) => line.startsWith("end")).toSorted(), [
+      "end a",
+      "end b: data:,: no file",
+    ]);
     assert.ok(scene.inlines.isSettled);
   });
 
@@ -71,7 +99,10 @@ describe("documents that Inlines name", () => {
     await scene.settled();
     assert.equal(scene.shapes(), 1);
     assert.deepEqual(scene.asked, ["circle.x3d"]);
-    assert.deepEqual(scene.warnings(), ["names https://site/circle.x3d, which it stands in itself", "names https://site/main.x3d, which it stands in itself"]);
+    assert.deepEqual(scene.warnings(), [
+      "names https://site/circle.x3d, which it stands in itself",
+      "names https://site/main.x3d, which it stands in itself",
+    ]);
   });
 
   test("are given up when nobody is left to follow them", async () => {

@@ -24,18 +24,30 @@ export interface Part {
 
 export function partsOf(geometry: GeometryDescription, patch: PatchDescription): Part[] {
   if (geometry.container === "compact") {
-    return [...(geometry.base ? [basePart(patch, geometry.base)] : []), ...(patch.data ? [compactPart(patch, patch.data)] : [])];
+    return [
+      ...(geometry.base ? [basePart(patch, geometry.base)] : []),
+      ...(patch.data ? [compactPart(patch, patch.data)] : []),
+    ];
   }
   const corners = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
   const vertices = patch.vertexCount;
   const part = (role: PartRole, reference: Reference | undefined, elements: number, plane = 0): Part[] =>
-    reference === undefined ? [] : [{
-      role, plane, reference,
-      expectedBytes: elements * (geometry.container === "sig" ? sigBytes[role] : reference.stride || bytesOf(geometry, role)),
-      storedBytes: geometry.container === "sig" ? bytesPerTexel * texelsOf(patch, role, elements)
-        : elements * (reference.stride || bytesOf(geometry, role)),
-      chunk: role === "value" ? { type: "color", plane } : { type: plane > 0 ? "refinement" : role, plane },
-    }];
+    reference === undefined
+      ? []
+      : [
+          {
+            role,
+            plane,
+            reference,
+            expectedBytes:
+              elements * (geometry.container === "sig" ? sigBytes[role] : reference.stride || bytesOf(geometry, role)),
+            storedBytes:
+              geometry.container === "sig"
+                ? bytesPerTexel * texelsOf(patch, role, elements)
+                : elements * (reference.stride || bytesOf(geometry, role)),
+            chunk: role === "value" ? { type: "color", plane } : { type: plane > 0 ? "refinement" : role, plane },
+          },
+        ];
   return [
     ...patch.coord.flatMap((plane, place) => part("coord", plane, vertices, place)),
     ...part("index", patch.index, corners),
@@ -56,8 +68,12 @@ const shareOfBase = 0.03;
 function basePart(patch: PatchDescription, reference: Reference): Part {
   const { expectedBytes, storedBytes } = compactSizes(patch);
   return {
-    role: "base", plane: 0, reference, chunk: { type: "base", plane: 0 },
-    expectedBytes: shareOfBase * expectedBytes, storedBytes: shareOfBase * storedBytes,
+    role: "base",
+    plane: 0,
+    reference,
+    chunk: { type: "base", plane: 0 },
+    expectedBytes: shareOfBase * expectedBytes,
+    storedBytes: shareOfBase * storedBytes,
   };
 }
 
@@ -90,12 +106,18 @@ export function typeOf(geometry: GeometryDescription, role: PartRole): ElementTy
 /** The numbers of one element in typed arrays. */
 export function componentsOf(geometry: GeometryDescription, role: PartRole): 1 | 2 | 3 | 4 {
   switch (role) {
-    case "index": return 1;
-    case "coord": return 3;
-    case "normal": return isPair(geometry.normalEncoding) ? 2 : 3;
-    case "texCoord": return 2;
-    case "color": return geometry.colorComponents;
-    case "value": return geometry.value?.components ?? 1;
+    case "index":
+      return 1;
+    case "coord":
+      return 3;
+    case "normal":
+      return isPair(geometry.normalEncoding) ? 2 : 3;
+    case "texCoord":
+      return 2;
+    case "color":
+      return geometry.colorComponents;
+    case "value":
+      return geometry.value?.components ?? 1;
   }
 }
 

@@ -33,7 +33,10 @@ export const noProgress: Progress = { totalProgress: 0, loadedBytes: 0, totalByt
  * estimates, so the bare quotient may fall when a server tells a larger one;
  * people are shown the largest share so far, and 1 only at the very end.
  */
-export function progressOf(transfers: readonly Pick<Transfer, "state" | "loadedBytes" | "totalBytes">[], before: Progress): Progress {
+export function progressOf(
+  transfers: readonly Pick<Transfer, "state" | "loadedBytes" | "totalBytes">[],
+  before: Progress,
+): Progress {
   let loadedBytes = 0;
   let totalBytes = 0;
   for (const transfer of transfers) {

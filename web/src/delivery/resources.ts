@@ -16,8 +16,8 @@ import type { StoreBytes } from "./holdings.ts";
 import type { Transfer } from "./progress.ts";
 
 export type Content =
-  | { readonly kind: "image" } & DataImage
-  | { readonly kind: "picture" } & Picture
+  | ({ readonly kind: "image" } & DataImage)
+  | ({ readonly kind: "picture" } & Picture)
   | { readonly kind: "bytes"; readonly bytes: Uint8Array<ArrayBuffer> }
   | { readonly kind: "patches"; readonly patches: readonly PatchBuffers[] }
   | { readonly kind: "bases"; readonly bases: readonly BaseBuffers[] };
@@ -35,7 +35,11 @@ export interface Picture {
 }
 
 /** Brings a picture to where it can be laid over a surface. Rejects with DecodeError, or with the signal's reason. */
-export type MakePicture = (bytes: Uint8Array<ArrayBuffer>, sampling: SamplingDescription, signal: AbortSignal) => Promise<Picture>;
+export type MakePicture = (
+  bytes: Uint8Array<ArrayBuffer>,
+  sampling: SamplingDescription,
+  signal: AbortSignal,
+) => Promise<Picture>;
 
 export interface ResourceRequest {
   readonly kind: ContentKind;
@@ -121,10 +125,14 @@ export class ResourcePool {
     const leased = { priority: request.priority, expectedBytes: request.expectedBytes };
     resource.add(leased);
     scheduler.reorder();
-    const forget = () => { if (this.#resources.get(key) === resource) this.#resources.delete(key); };
+    const forget = () => {
+      if (this.#resources.get(key) === resource) this.#resources.delete(key);
+    };
     return {
       transfer: resource.transfer,
-      get content() { return resource.content; },
+      get content() {
+        return resource.content;
+      },
       setPriority(priority) {
         leased.priority = priority;
         resource.reconsider();
@@ -178,7 +186,14 @@ class Resource {
     this.#backlog = backlog;
     this.#priority = request.priority;
     this.#isInPieces = request.kind === "patches" || request.kind === "bases";
-    this.transfer = { url: request.url, state: "waiting", loadedBytes: 0, totalBytes: this.#isInPieces ? 0 : request.expectedBytes, tries: 0, error: undefined };
+    this.transfer = {
+      url: request.url,
+      state: "waiting",
+      loadedBytes: 0,
+      totalBytes: this.#isInPieces ? 0 : request.expectedBytes,
+      tries: 0,
+      error: undefined,
+    };
     this.#content = this.#fetch(request);
   }
 
@@ -238,7 +253,9 @@ class Resource {
     this.#aborter.abort();
     this.#leave();
     this.#content?.then(
-      (content) => { if ("image" in content) content.image.close(); },
+      (content) => {
+        if ("image" in content) content.image.close();
+      },
       () => undefined, // whoever held a lease has been told
     );
   }
@@ -252,7 +269,8 @@ class Resource {
     const { transfer } = this;
     try {
       const file = request.kind === "bases" ? this.#options.early?.(this.#options.resolve(request.url)) : undefined;
-      const content = (file && await this.#takeOver(file)) ?? await this.#decode(request, await this.#download(request.url));
+      const content =
+        (file && (await this.#takeOver(file))) ?? (await this.#decode(request, await this.#download(request.url)));
       transfer.state = "ready";
       return content;
     } catch (error) {
@@ -294,13 +312,24 @@ class Resource {
         onTransfer();
       },
     };
-    return downloadInSlot(scheduler, this, resolve(url), this.#aborter.signal, download, listener, async (bytes, signal) => {
-      transfer.state = "decoding";
-      return { bytes, leave: await this.#backlog.enter(bytes.byteLength, signal) };
-    });
+    return downloadInSlot(
+      scheduler,
+      this,
+      resolve(url),
+      this.#aborter.signal,
+      download,
+      listener,
+      async (bytes, signal) => {
+        transfer.state = "decoding";
+        return { bytes, leave: await this.#backlog.enter(bytes.byteLength, signal) };
+      },
+    );
   }
 
-  async #decode(request: ResourceRequest, { bytes, leave }: { bytes: Uint8Array<ArrayBuffer>; leave: () => void }): Promise<Content> {
+  async #decode(
+    request: ResourceRequest,
+    { bytes, leave }: { bytes: Uint8Array<ArrayBuffer>; leave: () => void },
+  ): Promise<Content> {
     this.#leave = leave;
     try {
       const content = await this.#contentOf(request, bytes);
@@ -312,13 +341,14 @@ class Resource {
   }
 
   async #contentOf({ kind, sampling }: ResourceRequest, bytes: Uint8Array<ArrayBuffer>): Promise<Content> {
-    if (kind === "picture" && sampling !== undefined) return { kind, ...await this.#options.makePicture(bytes, sampling, this.#aborter.signal) };
+    if (kind === "picture" && sampling !== undefined)
+      return { kind, ...(await this.#options.makePicture(bytes, sampling, this.#aborter.signal)) };
     const { runJob, runHere = runJob } = this.#options;
     if (kind === "patches") return { kind, patches: await runJob("compactPatches", bytes, this.#aborter.signal) };
     if (kind === "bases") return { kind, bases: await runHere("compactBases", bytes, this.#aborter.signal) };
-    const isTexture = kind === "texture" || (kind === "either" && await this.#options.readsTextures());
+    const isTexture = kind === "texture" || (kind === "either" && (await this.#options.readsTextures()));
     if (!isTexture) return { kind: "bytes", bytes };
-    return { kind: "image", ...await this.#options.makeImage(bytes, this.#aborter.signal) };
+    return { kind: "image", ...(await this.#options.makeImage(bytes, this.#aborter.signal)) };
   }
 }
 

@@ -42,11 +42,13 @@ export class ShapeTextures {
   /** These from now on. New ones are joined before old ones are left: what both show is not fetched again. */
   follow(textures: readonly TextureDescription[]): void {
     const before = this.#followed;
-    this.#followed = new Map(textures.map((texture) => {
-      const known = before.get(texture.role);
-      const key = pictureKeyOf(texture);
-      return [texture.role, known?.key === key ? known : { key, joined: this.#join(texture) }];
-    }));
+    this.#followed = new Map(
+      textures.map((texture) => {
+        const known = before.get(texture.role);
+        const key = pictureKeyOf(texture);
+        return [texture.role, known?.key === key ? known : { key, joined: this.#join(texture) }];
+      }),
+    );
     const left = Array.from(before).filter(([role, followed]) => this.#followed.get(role) !== followed);
     for (const [role] of left) this.#listener.onPicture(role, undefined);
     for (const [, { joined }] of left) joined.cancel();
@@ -60,9 +62,15 @@ export class ShapeTextures {
 
   #join(texture: TextureDescription): JoinedTexture {
     return this.#deliveries.join(texture, {
-      onPicture: (picture) => { this.#listener.onPicture(texture.role, picture); },
-      onError: (error) => { this.#listener.onError(error); },
-      onSettled: () => { this.#listener.onSettled(); },
+      onPicture: (picture) => {
+        this.#listener.onPicture(texture.role, picture);
+      },
+      onError: (error) => {
+        this.#listener.onError(error);
+      },
+      onSettled: () => {
+        this.#listener.onSettled();
+      },
     });
   }
 }

@@ -8,8 +8,10 @@ import type { DeliveryListener } from "./deliver.ts";
 import { ResourcePool } from "./resources.ts";
 import { SharedDeliveries } from "./sharedDeliveries.ts";
 
-const [geometry] = shapesOf(readScene(elementsOf(`<X3D><Shape><BinaryGeometry vertexCount="3" coord="c.bin" normal="n.bin"/></Shape></X3D>`)).root)
-  .map((shape) => shape.geometry);
+const [geometry] = shapesOf(
+  readScene(elementsOf(`<X3D><Shape><BinaryGeometry vertexCount="3" coord="c.bin" normal="n.bin"/></Shape></X3D>`))
+    .root,
+).map((shape) => shape.geometry);
 
 /** Deliveries from a server that has coordinates but no normals, and what it was asked for. */
 function deliveriesOf() {
@@ -19,25 +21,46 @@ function deliveriesOf() {
   const answer = Promise.withResolvers<undefined>();
   const fetchFile = async (url: string, signal: AbortSignal): Promise<Response> => {
     asked.push(url);
-    signal.addEventListener("abort", () => { aborted += 1; answer.reject(signal.reason as Error); });
+    signal.addEventListener("abort", () => {
+      aborted += 1;
+      answer.reject(signal.reason as Error);
+    });
     await answer.promise;
     return url === "c.bin" ? new Response(new Uint8Array(36)) : new Response("", { status: 404 });
   };
-  const deliveries = new SharedDeliveries(new ResourcePool({
-    scheduler: new Scheduler(6),
-    makeImage: () => Promise.reject(new Error("no images here")),
-    readsTextures: () => Promise.resolve(true),
-    largestTexture: 2048,
-    runJob: () => Promise.reject(new Error("no jobs here")),
-    makePicture: () => Promise.reject(new Error("no pictures here")),
-    storeBytes: ({ byteLength }) => Promise.resolve({ byteLength, close: () => undefined }),
-    download: { fetch: (url, init) => fetchFile(url as string, init?.signal ?? new AbortController().signal), silenceMs: 1000, retries: 0, backoffMs: 1 },
-    resolve: (url) => url,
-    onTransfer: () => undefined,
-  }));
+  const deliveries = new SharedDeliveries(
+    new ResourcePool({
+      scheduler: new Scheduler(6),
+      makeImage: () => Promise.reject(new Error("no images here")),
+      readsTextures: () => Promise.resolve(true),
+      largestTexture: 2048,
+      runJob: () => Promise.reject(new Error("no jobs here")),
+      makePicture: () => Promise.reject(new Error("no pictures here")),
+      storeBytes: ({ byteLength }) => Promise.resolve({ byteLength, close: () => undefined }),
+      download: {
+        fetch: (url, init) => fetchFile(url as string, init?.signal ?? new AbortController().signal),
+        silenceMs: 1000,
+        retries: 0,
+        backoffMs: 1,
+      },
+      resolve: (url) => url,
+      onTransfer: () => undefined,
+    }),
+  );
   /** Asks for all files of all who have joined. */
-  const demand = () => { deliveries.demand(() => () => 1); };
-  return { geometry, deliveries, demand, asked, aborted: () => aborted, open: () => { answer.resolve(undefined); } };
+  const demand = () => {
+    deliveries.demand(() => () => 1);
+  };
+  return {
+    geometry,
+    deliveries,
+    demand,
+    asked,
+    aborted: () => aborted,
+    open: () => {
+      answer.resolve(undefined);
+    },
+  };
 }
 
 function logged() {
@@ -45,9 +68,17 @@ function logged() {
   const settled = Promise.withResolvers<undefined>();
   const stages: unknown[] = [];
   const listener: DeliveryListener = {
-    onStage: (_, stage) => { log.push(stage?.name ?? "nothing"); stages.push(stage); },
-    onError: (error) => { log.push(error.url); },
-    onSettled: () => { log.push("settled"); settled.resolve(undefined); },
+    onStage: (_, stage) => {
+      log.push(stage?.name ?? "nothing");
+      stages.push(stage);
+    },
+    onError: (error) => {
+      log.push(error.url);
+    },
+    onSettled: () => {
+      log.push("settled");
+      settled.resolve(undefined);
+    },
   };
   return { log, stages, listener, settled: settled.promise };
 }

@@ -49,9 +49,15 @@ export class SharedDeliveries {
       if (delivery.isSettled) listener.onSettled();
     });
     return {
-      get transfers() { return delivery.transfers; },
-      get isSettled() { return delivery.isSettled; },
-      get isExhausted() { return delivery.isExhausted; },
+      get transfers() {
+        return delivery.transfers;
+      },
+      get isSettled() {
+        return delivery.isSettled;
+      },
+      get isExhausted() {
+        return delivery.isExhausted;
+      },
       cancel: () => {
         if (isCancelled) return;
         isCancelled = true;

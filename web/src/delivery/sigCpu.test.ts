@@ -6,37 +6,55 @@ import { sigCpuBuilder } from "./sigCpuStage.ts";
 import { geometryOf, held, record, records, sigPatch, siteOf, soon } from "./delivery.testing.ts";
 
 describe("images that are decoded on the CPU", () => {
-  const coordAt = (first: number) => pngWithTexels(256, 2, 3, (n, channel) => first + (n + channel) % 100);
+  const coordAt = (first: number) => pngWithTexels(256, 2, 3, (n, channel) => first + ((n + channel) % 100));
   const files = () => ({
     "i0.png": pngWithTexels(256, 4, 3, (n, channel) => [n % 200, 0, 0][channel] ?? 0),
-    "a0.png": coordAt(1), "b0.png": coordAt(100), "n0.png": records,
+    "a0.png": coordAt(1),
+    "b0.png": coordAt(100),
+    "n0.png": records,
   });
 
-  for (const [why, attribute, readsTextures] of [["the document says so", 'decode="cpu"', true], ["textures are not read right", "", false]] as const) {
+  for (const [why, attribute, readsTextures] of [
+    ["the document says so", 'decode="cpu"', true],
+    ["textures are not read right", "", false],
+  ] as const) {
     test(`give stages of buffers where ${why}`, async () => {
       const site = siteOf(files(), 6, readsTextures);
-      const { stages, errors, settled } = record(geometryOf(`<ImageGeometry ${attribute}>${sigPatch(0)}</ImageGeometry>`), site.pool);
+      const { stages, errors, settled } = record(
+        geometryOf(`<ImageGeometry ${attribute}>${sigPatch(0)}</ImageGeometry>`),
+        site.pool,
+      );
       await settled;
       assert.deepEqual(errors, []);
       assert.equal(site.images.open, 0);
       const full = stages.at(-1)?.stage;
       assert.ok(full?.kind === "buffers");
       assert.deepEqual([full.name, full.draws], ["full", [{ primitive: "triangles", first: 0, count: 600 }]]);
-      assert.deepEqual([site.arrayOf(full.coord)[4], site.arrayOf(full.index)[201], full.normalCode.kind], [2 * 256 + 101, 1, "byteVector"]);
+      assert.deepEqual(
+        [site.arrayOf(full.coord)[4], site.arrayOf(full.index)[201], full.normalCode.kind],
+        [2 * 256 + 101, 1, "byteVector"],
+      );
     });
   }
 
   test("are textures where the document insists", async () => {
     const site = siteOf(files(), 6, false);
-    const { stages, settled } = record(geometryOf(`<ImageGeometry decode="gpu">${sigPatch(0)}</ImageGeometry>`), site.pool);
+    const { stages, settled } = record(
+      geometryOf(`<ImageGeometry decode="gpu">${sigPatch(0)}</ImageGeometry>`),
+      site.pool,
+    );
     await settled;
     assert.equal(stages.at(-1)?.stage.kind, "textures");
   });
 
   test("need not fit into a texture", async () => {
     const site = siteOf({ "c.png": pngWithTexels(16, 8, 3, (n, channel) => n + channel) });
-    const patch = (width: number) => `<ImageGeometry primType="POINTS" vertexCount="20" implicitMeshSize="${width} 2" coord="c.png"/>`;
-    for (const [width, kind] of [[16, "textures"], [5000, "buffers"]] as const) {
+    const patch = (width: number) =>
+      `<ImageGeometry primType="POINTS" vertexCount="20" implicitMeshSize="${width} 2" coord="c.png"/>`;
+    for (const [width, kind] of [
+      [16, "textures"],
+      [5000, "buffers"],
+    ] as const) {
       const { stages, errors, settled } = record(geometryOf(patch(width)), site.pool);
       await settled;
       // The file itself is too narrow for the rows that it is said to have.
@@ -50,7 +68,10 @@ describe("images that are decoded on the CPU", () => {
       const all = files();
       const { promise, release } = held(all[late]);
       const site = siteOf({ ...all, [late]: promise });
-      const { stages, errors, settled } = record(geometryOf(`<ImageGeometry decode="cpu">${sigPatch(0)}</ImageGeometry>`), site.pool);
+      const { stages, errors, settled } = record(
+        geometryOf(`<ImageGeometry decode="cpu">${sigPatch(0)}</ImageGeometry>`),
+        site.pool,
+      );
       while (stages.length < (late === "a0.png" ? 0 : 2)) await soon();
       const names = stages.map(({ stage }) => stage.name);
       assert.equal(names.at(-1), { "a0.png": undefined, "i0.png": "points", "b0.png": "shaded" }[late]);
@@ -61,8 +82,12 @@ describe("images that are decoded on the CPU", () => {
   });
 
   test("of a grid take slopes with the positions they are of, whichever job ends first", async () => {
-    const files = ["a.png", "b.png"].map((_, plane) => pngWithTexels(8, 8, 3, (n, channel) => (plane ? 40 * n * n : 9 * n + 70 * channel) % 256));
-    const geometry = geometryOf('<ImageGeometry implicitMeshMode="geometryImage" implicitMeshSize="8 8" coord=\'"a.png" "b.png"\' decode="cpu"/>');
+    const files = ["a.png", "b.png"].map((_, plane) =>
+      pngWithTexels(8, 8, 3, (n, channel) => (plane ? 40 * n * n : 9 * n + 70 * channel) % 256),
+    );
+    const geometry = geometryOf(
+      '<ImageGeometry implicitMeshMode="geometryImage" implicitMeshSize="8 8" coord=\'"a.png" "b.png"\' decode="cpu"/>',
+    );
     const patch = geometry.patches[0] ?? assert.fail("no patch");
     const bytesOf = async (order: readonly number[]): Promise<unknown> => {
       const site = siteOf({});
@@ -70,11 +95,13 @@ describe("images that are decoded on the CPU", () => {
       let begun = 0;
       const builder = sigCpuBuilder(geometry, patch, {
         storeBytes: site.pool.storeBytes,
-        runJob: (name, input, signal) => (gates[begun++] ?? assert.fail("a third job")).promise.then(() => site.pool.runJob(name, input, signal)),
+        runJob: (name, input, signal) =>
+          (gates[begun++] ?? assert.fail("a third job")).promise.then(() => site.pool.runJob(name, input, signal)),
       });
       const { signal } = new AbortController();
       const accepted = partsOf(geometry, patch).map((part) =>
-        builder.accept(part, { kind: "bytes", bytes: files[part.plane] ?? assert.fail("no such plane") }, signal));
+        builder.accept(part, { kind: "bytes", bytes: files[part.plane] ?? assert.fail("no such plane") }, signal),
+      );
       for (const job of order) {
         gates[job]?.release();
         await accepted[job];
@@ -82,16 +109,24 @@ describe("images that are decoded on the CPU", () => {
       const stage = builder.stage() ?? assert.fail("no stage");
       builder.sweep();
       assert.equal(site.arrays.size, 3, "index, positions and slopes are left");
-      return [stage.kind === "buffers" && [stage.coord, stage.normal, stage.index].map((stored) => site.arrayOf(stored))];
+      return [
+        stage.kind === "buffers" && [stage.coord, stage.normal, stage.index].map((stored) => site.arrayOf(stored)),
+      ];
     };
     assert.deepEqual(await bytesOf([1, 0]), await bytesOf([0, 1]));
   });
 
   test("name the file that is wrong, whichever it was that led to it", async () => {
     const site = siteOf({ ...files(), "i0.png": pngWithTexels(256, 4, 3, () => 255) });
-    const { stages, errors, settled } = record(geometryOf(`<ImageGeometry decode="cpu">${sigPatch(0)}</ImageGeometry>`), site.pool);
+    const { stages, errors, settled } = record(
+      geometryOf(`<ImageGeometry decode="cpu">${sigPatch(0)}</ImageGeometry>`),
+      site.pool,
+    );
     await settled;
-    assert.deepEqual(errors.map(({ url, kind }) => [url, kind]), [["i0.png", "malformed"]]);
+    assert.deepEqual(
+      errors.map(({ url, kind }) => [url, kind]),
+      [["i0.png", "malformed"]],
+    );
     assert.equal(stages.at(-1)?.stage.name, "points");
   });
 });

@@ -46,7 +46,11 @@ class Parts {
   value: StoredVertices | undefined;
 }
 
-export function sigCpuBuilder(geometry: GeometryDescription, patch: PatchDescription, tools: BuilderTools): StageBuilder {
+export function sigCpuBuilder(
+  geometry: GeometryDescription,
+  patch: PatchDescription,
+  tools: BuilderTools,
+): StageBuilder {
   return new SigCpuBuilder(geometry, patch, tools);
 }
 
@@ -81,7 +85,11 @@ class SigCpuBuilder implements StageBuilder {
         await this.#decodeIndex(here, signal);
         return;
       case "normal": {
-        const normals = await this.#run("classicNormals", { file, code: normalCodeOf(this.#geometry), ...this.#layout(header) }, signal);
+        const normals = await this.#run(
+          "classicNormals",
+          { file, code: normalCodeOf(this.#geometry), ...this.#layout(header) },
+          signal,
+        );
         here.normal = await this.#holdings.storeVertices(normals, signal);
         return;
       }
@@ -91,7 +99,11 @@ class SigCpuBuilder implements StageBuilder {
         return;
       }
       case "color": {
-        const colors = await this.#run("classicColors", { file, components: this.#geometry.colorComponents, ...this.#layout(header) }, signal);
+        const colors = await this.#run(
+          "classicColors",
+          { file, components: this.#geometry.colorComponents, ...this.#layout(header) },
+          signal,
+        );
         here.color = await this.#holdings.storeVertices(colors, signal);
         return;
       }
@@ -124,34 +136,62 @@ class SigCpuBuilder implements StageBuilder {
     const { coord, texCoord, color, value } = here;
     if (coord === undefined) return undefined;
     const normal = here.normal ?? here.slope;
-    const normalCode = here.normal ? normalCodeOf(this.#geometry) : { kind: "vector" } as const;
+    const normalCode = here.normal ? normalCodeOf(this.#geometry) : ({ kind: "vector" } as const);
     const name = stageNameOf(this.#patch, {
-      index: here.drawn, normal: here.normal, color, coord: Array.from({ length: here.coordPlanes }),
+      index: here.drawn,
+      normal: here.normal,
+      color,
+      coord: Array.from({ length: here.coordPlanes }),
       value: value ? this.#patch.value : [],
     });
     const count = coord.bytes.byteLength / byteSizeOf(coord.type) / coord.stride;
     const points = { index: undefined, draws: [{ primitive: "points", first: 0, count } as const] };
     const { index, draws } = (name === "points" ? undefined : here.drawn) ?? points;
-    return { kind: "buffers", name, index, draws, coord, normal, normalCode, color, texCoord, value: value && { ...value, largest: undefined } };
+    return {
+      kind: "buffers",
+      name,
+      index,
+      draws,
+      coord,
+      normal,
+      normalCode,
+      color,
+      texCoord,
+      value: value && { ...value, largest: undefined },
+    };
   }
 
   /** A plane is of use only when all above it are here. */
   async #decodeCoords(here: Parts, signal: AbortSignal): Promise<void> {
     const header = here.coordHeader;
-    const missing = Array.from({ length: this.#patch.coord.length }, (_, plane) => here.planes[plane]).indexOf(undefined);
+    const missing = Array.from({ length: this.#patch.coord.length }, (_, plane) => here.planes[plane]).indexOf(
+      undefined,
+    );
     const planes = here.planes.slice(0, missing < 0 ? undefined : missing).filter((plane) => plane !== undefined);
     if (header === undefined || planes.length <= here.coordPlanes) return;
     const planeCount = this.#patch.coord.length;
     const job = {
-      planes, planeCount, middleOfMissing: middleOfMissing(this.#geometry, planeCount, planes.length), ...this.#layout(header, planes[0]),
+      planes,
+      planeCount,
+      middleOfMissing: middleOfMissing(this.#geometry, planeCount, planes.length),
+      ...this.#layout(header, planes[0]),
     };
     const grid = this.#patch.grid;
-    const arrays: CoordArrays = grid === undefined ? { coord: await this.#run("classicCoords", job, signal) }
-      : await this.#run("classicGrid", {
-          ...job, grid, largestStored: largestStoredOf(this.#geometry, this.#patch), step: storedFrameOf(this.#geometry, this.#patch).step,
-        }, signal);
+    const arrays: CoordArrays =
+      grid === undefined
+        ? { coord: await this.#run("classicCoords", job, signal) }
+        : await this.#run(
+            "classicGrid",
+            {
+              ...job,
+              grid,
+              largestStored: largestStoredOf(this.#geometry, this.#patch),
+              step: storedFrameOf(this.#geometry, this.#patch).step,
+            },
+            signal,
+          );
     const drawn = await this.#drawnWithoutFile(here, arrays.index, signal);
-    const slope = arrays.normal && await this.#holdings.storeVertices(arrays.normal, signal);
+    const slope = arrays.normal && (await this.#holdings.storeVertices(arrays.normal, signal));
     const coord = await this.#holdings.storeVertices(arrays.coord, signal);
     // Jobs of fewer and of more planes may end in any order. What was stored
     // meanwhile is taken all at once, so that slopes are those of the positions.
@@ -175,16 +215,25 @@ class SigCpuBuilder implements StageBuilder {
     if (attribute === undefined || planes.length < this.#patch.value.length) return;
     here.valuePlanes = [];
     const { components, min, size } = attribute;
-    const values = await this.#run("classicValues", { planes, components, min, size, ...this.#layout(header, planes[0]) }, signal);
+    const values = await this.#run(
+      "classicValues",
+      { planes, components, min, size, ...this.#layout(header, planes[0]) },
+      signal,
+    );
     here.value = await this.#holdings.storeVertices(values, signal);
   }
 
   /** What is drawn where no file says it: a grid, or records in their order. Undefined where one does, or it is known. */
-  async #drawnWithoutFile(here: Parts, gridIndex: IndexArray | undefined, signal: AbortSignal): Promise<Drawn | undefined> {
+  async #drawnWithoutFile(
+    here: Parts,
+    gridIndex: IndexArray | undefined,
+    signal: AbortSignal,
+  ): Promise<Drawn | undefined> {
     if (here.drawn !== undefined || this.#patch.index !== undefined) return undefined;
-    const { index, draws } = gridIndex ? { index: gridIndex, draws: drawRangesOf(this.#patch) }
+    const { index, draws } = gridIndex
+      ? { index: gridIndex, draws: drawRangesOf(this.#patch) }
       : withoutStrips(undefined, drawRangesOf(this.#patch));
-    return { index: index && await this.#holdings.storeIndex(index, signal), draws };
+    return { index: index && (await this.#holdings.storeIndex(index, signal)), draws };
   }
 
   /** The size of a coordinate image says what the index's columns and rows are. */
@@ -195,11 +244,19 @@ class SigCpuBuilder implements StageBuilder {
     here.waitingIndex = undefined;
     const { index } = this.#patch;
     try {
-      const drawn = await this.#run("classicIndex", {
-        file, rowLength: this.#patch.implicitWidth, draws: drawRangesOf(this.#patch),
-        isWide: this.#geometry.indexType === "Uint32",
-        coordWidth: header.width, coordHeight: header.height, recordCount: this.#layout(header).count,
-      }, signal);
+      const drawn = await this.#run(
+        "classicIndex",
+        {
+          file,
+          rowLength: this.#patch.implicitWidth,
+          draws: drawRangesOf(this.#patch),
+          isWide: this.#geometry.indexType === "Uint32",
+          coordWidth: header.width,
+          coordHeight: header.height,
+          recordCount: this.#layout(header).count,
+        },
+        signal,
+      );
       here.drawn = { index: await this.#holdings.storeIndex(drawn.index, signal), draws: drawn.draws };
     } catch (error) {
       if (signal.aborted) {
@@ -214,7 +271,8 @@ class SigCpuBuilder implements StageBuilder {
   #layout({ width, height }: PngHeader, { first }: { first: number } = { first: 0 }): RecordLayout {
     const { index, grid, vertexCount, implicitWidth, draws } = this.#patch;
     if (grid !== undefined) return { count: vertexCount, rowLength: implicitWidth };
-    if (index === undefined) return { count: draws.reduce((sum, draw) => sum + draw.count, 0), rowLength: implicitWidth };
+    if (index === undefined)
+      return { count: draws.reduce((sum, draw) => sum + draw.count, 0), rowLength: implicitWidth };
     return { count: vertexCount || width * height - first, rowLength: 0 };
   }
 }

@@ -22,11 +22,21 @@ export function sigBuilder(geometry: GeometryDescription, patch: PatchDescriptio
       return builder.accept(part, content, signal);
     },
     stage: () => builder?.stage(),
-    get isDivisible() { return builder?.isDivisible ?? true; },
-    get storedBytes() { return builder?.storedBytes ?? 0; },
-    drop(part) { builder?.drop(part); },
-    clear() { builder?.clear(); },
-    sweep() { builder?.sweep(); },
+    get isDivisible() {
+      return builder?.isDivisible ?? true;
+    },
+    get storedBytes() {
+      return builder?.storedBytes ?? 0;
+    },
+    drop(part) {
+      builder?.drop(part);
+    },
+    clear() {
+      builder?.clear();
+    },
+    sweep() {
+      builder?.sweep();
+    },
   };
 }
 
@@ -39,12 +49,18 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
 
   function channelsOf(role: Part["role"]): number {
     switch (role) {
-      case "coord": return patch.grid?.kind === "heightMap" ? 1 : 3;
-      case "normal": return isPairCode(normalCode) ? 1 : 3;
-      case "texCoord": return 4;
-      case "color": return geometry.colorComponents;
-      case "value": return geometry.value?.components ?? 1;
-      default: return 3;
+      case "coord":
+        return patch.grid?.kind === "heightMap" ? 1 : 3;
+      case "normal":
+        return isPairCode(normalCode) ? 1 : 3;
+      case "texCoord":
+        return 4;
+      case "color":
+        return geometry.colorComponents;
+      case "value":
+        return geometry.value?.components ?? 1;
+      default:
+        return 3;
     }
   }
 
@@ -91,7 +107,11 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
       const first = coord[0];
       if (first === undefined) return undefined;
       const name = stageNameOf(patch, { index: here.index, normal: here.normal, color: here.color, coord, value });
-      const points = { primitive: "points", first: 0, count: patch.vertexCount || texelsOf(first.image) - first.first } as const;
+      const points = {
+        primitive: "points",
+        first: 0,
+        count: patch.vertexCount || texelsOf(first.image) - first.first,
+      } as const;
       return {
         kind: "textures",
         name,
@@ -108,9 +128,14 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
         color: here.color,
         colorComponents: geometry.colorComponents,
         texCoord: here.texCoord,
-        value: value.length === 0 ? undefined : {
-          planes: value, planeCount: patch.value.length, middleOfMissing: (256 ** (patch.value.length - value.length) - 1) / 2,
-        },
+        value:
+          value.length === 0
+            ? undefined
+            : {
+                planes: value,
+                planeCount: patch.value.length,
+                middleOfMissing: (256 ** (patch.value.length - value.length) - 1) / 2,
+              },
       };
     },
   };
@@ -133,7 +158,9 @@ function checkHolds({ image, first }: TexelRange, count: number, implicitWidth: 
   const last = count - 1;
   const lastTexel = first + Math.floor(last / implicitWidth) * image.width + Math.min(last, implicitWidth - 1);
   if (implicitWidth > image.width || lastTexel >= texelsOf(image)) {
-    throw new DecodeError("malformed",
-      `has ${image.width} x ${image.height} texels; ${count} in rows of ${implicitWidth} from texel ${first} on do not fit`);
+    throw new DecodeError(
+      "malformed",
+      `has ${image.width} x ${image.height} texels; ${count} in rows of ${implicitWidth} from texel ${first} on do not fit`,
+    );
   }
 }

@@ -88,8 +88,12 @@ export class TextureDeliveries {
       if (isSettled(shared) && !shared.sources.every(({ state }) => state === "absent")) listener.onSettled();
     });
     return {
-      get transfers() { return transfersOf(shared); },
-      get isSettled() { return isSettled(shared); },
+      get transfers() {
+        return transfersOf(shared);
+      },
+      get isSettled() {
+        return isSettled(shared);
+      },
       cancel: () => {
         if (isCancelled) return;
         isCancelled = true;
@@ -105,7 +109,8 @@ export class TextureDeliveries {
   /** What all of them would take on the GPU, as far as is known. */
   get storedBytes(): number {
     let bytes = 0;
-    for (const { sources } of this.#shared.values()) for (const source of sources) if (source.state !== "failed") bytes += source.storedBytes;
+    for (const { sources } of this.#shared.values())
+      for (const source of sources) if (source.state !== "failed") bytes += source.storedBytes;
     return bytes;
   }
 
@@ -115,13 +120,17 @@ export class TextureDeliveries {
 
   /** What they want, and have, of the GPU: for each in the order of use. */
   claims(priorityOf: TextureDemand): readonly (readonly Claim[])[] {
-    return Array.from(this.#shared, ([key, shared]) => shared.sources.flatMap((source) => {
-      const isNeedless = source.chunk === "preview" && hasTexture(shared);
-      const priority = isNeedless ? undefined : priorityOf(key, source.chunk);
-      source.claim = source.state === "failed" || (priority === undefined && source.state === "absent") ? undefined
-        : { key: source, bytes: source.storedBytes, priority: priority ?? 0, isHeld: source.state !== "absent" };
-      return source.claim ?? [];
-    }));
+    return Array.from(this.#shared, ([key, shared]) =>
+      shared.sources.flatMap((source) => {
+        const isNeedless = source.chunk === "preview" && hasTexture(shared);
+        const priority = isNeedless ? undefined : priorityOf(key, source.chunk);
+        source.claim =
+          source.state === "failed" || (priority === undefined && source.state === "absent")
+            ? undefined
+            : { key: source, bytes: source.storedBytes, priority: priority ?? 0, isHeld: source.state !== "absent" };
+        return source.claim ?? [];
+      }),
+    );
   }
 
   /**
@@ -130,7 +139,9 @@ export class TextureDeliveries {
    */
   demand(priorityOf: TextureDemand, granted?: ReadonlySet<Claim>): void {
     for (const [key, shared] of this.#shared) {
-      const denied = shared.sources.filter(({ claim }) => granted !== undefined && claim !== undefined && !granted.has(claim));
+      const denied = shared.sources.filter(
+        ({ claim }) => granted !== undefined && claim !== undefined && !granted.has(claim),
+      );
       const evicted = denied.filter(({ state }) => state === "here");
       if (evicted.length > 0) {
         show(shared, evicted);
@@ -149,7 +160,13 @@ export class TextureDeliveries {
 
   #ask(shared: Shared, source: Source, priority: number): void {
     const { url, chunk } = source;
-    source.lease = this.#pool.lease({ kind: "picture", url, sampling: shared.sampling, priority, expectedBytes: expected[chunk].bytes });
+    source.lease = this.#pool.lease({
+      kind: "picture",
+      url,
+      sampling: shared.sampling,
+      priority,
+      expectedBytes: expected[chunk].bytes,
+    });
     source.state = "asked";
     void this.#await(shared, source, source.lease);
   }
@@ -178,10 +195,20 @@ export class TextureDeliveries {
 
 function sharedOf({ url, preview, sampling }: TextureDescription): Shared {
   const source = (chunk: TextureChunk, of: string): Source => ({
-    chunk, url: of, lease: undefined, state: "absent", picture: undefined, storedBytes: bytesWithMipmaps(expected[chunk].texels), claim: undefined,
+    chunk,
+    url: of,
+    lease: undefined,
+    state: "absent",
+    picture: undefined,
+    storedBytes: bytesWithMipmaps(expected[chunk].texels),
+    claim: undefined,
   });
   return {
-    sampling, listeners: new Set(), members: 0, shown: undefined, error: undefined,
+    sampling,
+    listeners: new Set(),
+    members: 0,
+    shown: undefined,
+    error: undefined,
     sources: [...(preview === "" ? [] : [source("preview", preview)]), source("texture", url)],
   };
 }

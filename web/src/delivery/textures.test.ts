@@ -16,7 +16,14 @@ const [small, large] = [pngOf({ width: 8, height: 8 }), pngOf({ width: 256, heig
 const bytesOnGpu = (edge: number) => (edge * edge * 4 * 4) / 3;
 
 function textureOf(url: string, preview = "", role: TextureDescription["role"] = "color"): TextureDescription {
-  const sampling = { isData: false, wrapS: "repeat", wrapT: "repeat", isSmooth: true, hasMipmaps: true, anisotropy: 1 } as const;
+  const sampling = {
+    isData: false,
+    wrapS: "repeat",
+    wrapT: "repeat",
+    isSmooth: true,
+    hasMipmaps: true,
+    anisotropy: 1,
+  } as const;
   return { role, url, preview, sampling, transform: [1, 0, 0, 0, 1, 0, 0, 0, 1] };
 }
 
@@ -37,7 +44,8 @@ function shapeWith(textures: readonly TextureDescription[], files: Record<string
     for (let turn = 0; turn < 3; ++turn) {
       await soon(); // who has joined is told in the next microtask
       demandWithin(deliveries, () => () => undefined, priority, mostBytes);
-      do await soon(); while (!shape.isSettled);
+      do await soon();
+      while (!shape.isSettled);
     }
     return told.splice(0);
   };
@@ -47,7 +55,10 @@ function shapeWith(textures: readonly TextureDescription[], files: Record<string
 describe("a texture", () => {
   test("shows its preview until it is there itself", async () => {
     const { promise, release } = held(large);
-    const { site, shape, demand } = shapeWith([textureOf("full.png", "small.png")], { "full.png": promise, "small.png": small });
+    const { site, shape, demand } = shapeWith([textureOf("full.png", "small.png")], {
+      "full.png": promise,
+      "small.png": small,
+    });
     const end = demand();
     while (site.pictures.open === 0) await soon();
     assert.deepEqual(site.asked, ["small.png", "full.png"]);
@@ -88,7 +99,10 @@ describe("a texture", () => {
 
   test("that several roles show is fetched once, and again for another one alone", async () => {
     const files = { "a.png": large, "b.png": large };
-    const { site, shape, demand } = shapeWith([textureOf("a.png", "", "occlusion"), textureOf("a.png", "", "metallicRoughness")], files);
+    const { site, shape, demand } = shapeWith(
+      [textureOf("a.png", "", "occlusion"), textureOf("a.png", "", "metallicRoughness")],
+      files,
+    );
     assert.deepEqual(await demand(), ["occlusion 256", "metallicRoughness 256"]);
     shape.follow([textureOf("a.png", "", "occlusion"), textureOf("b.png", "", "metallicRoughness")]);
     assert.deepEqual(await demand(), ["metallicRoughness none", "metallicRoughness 256"]);
@@ -100,11 +114,28 @@ describe("a texture", () => {
 });
 
 test("textures are the last files that a scene asks for, and their previews come with its first shape", async () => {
-  const { site, shape, deliveries } = shapeWith([textureOf("full.png", "small.png")], { ...sigFiles(2), "full.png": large, "small.png": small }, 1);
+  const { site, shape, deliveries } = shapeWith(
+    [textureOf("full.png", "small.png")],
+    { ...sigFiles(2), "full.png": large, "small.png": small },
+    1,
+  );
   const { settled } = record(sigGeometry(2), site.pool);
   deliveries.textures.demand(wanted);
   await settled;
   while (!shape.isSettled) await soon();
-  const kinds = site.asked.map((name) => ({ a: "coord", s: "preview", i: "index", n: "normal", b: "refinement", f: "texture" })[name[0] ?? ""]);
-  assert.deepEqual(kinds, ["coord", "coord", "preview", "index", "index", "normal", "normal", "refinement", "refinement", "texture"]);
+  const kinds = site.asked.map(
+    (name) => ({ a: "coord", s: "preview", i: "index", n: "normal", b: "refinement", f: "texture" })[name[0] ?? ""],
+  );
+  assert.deepEqual(kinds, [
+    "coord",
+    "coord",
+    "preview",
+    "index",
+    "index",
+    "normal",
+    "normal",
+    "refinement",
+    "refinement",
+    "texture",
+  ]);
 });

@@ -11,8 +11,14 @@ export interface WritableElement extends SceneElement {
 /** Fields that are urls, by element; of geometry nodes every reference. */
 const references = ["index", "coord", "normal", "texcoord", "color", "data", "base", "attrib"];
 const urlFields: Readonly<Record<string, readonly string[]>> = {
-  imagegeometry: references, binarygeometry: references, geometrypatch: references,
-  imagetexture: ["url", "preview"], inline: ["url"], anchor: ["url"], movietexture: ["url"], audioclip: ["url"],
+  imagegeometry: references,
+  binarygeometry: references,
+  geometrypatch: references,
+  imagetexture: ["url", "preview"],
+  inline: ["url"],
+  anchor: ["url"],
+  movietexture: ["url"],
+  audioclip: ["url"],
 };
 
 export function absoluteUrls(element: WritableElement, base: string): void {

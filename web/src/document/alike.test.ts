@@ -3,7 +3,12 @@ import { test } from "node:test";
 import { areAlike } from "./alike.ts";
 
 test("descriptions are alike where every value is", () => {
-  const description = () => ({ kind: "phong", color: [1, 0.5, 0], texture: undefined, alpha: { mode: "AUTO", cutoff: Infinity } });
+  const description = () => ({
+    kind: "phong",
+    color: [1, 0.5, 0],
+    texture: undefined,
+    alpha: { mode: "AUTO", cutoff: Infinity },
+  });
   assert.ok(areAlike(description(), description()));
   assert.ok(!areAlike(description(), { ...description(), color: [1, 0.5, 0.1] }));
   assert.ok(!areAlike(description(), { ...description(), color: [1, 0.5] }));

@@ -4,5 +4,8 @@ export function areAlike(a: unknown, b: unknown): boolean {
   if (typeof a !== "object" || typeof b !== "object" || a === null || b === null) return false;
   const [own, others] = [a as Readonly<Record<string, unknown>>, b as Readonly<Record<string, unknown>>];
   const names = Object.keys(own);
-  return names.length === Object.keys(others).length && names.every((name) => name in others && areAlike(own[name], others[name]));
+  return (
+    names.length === Object.keys(others).length &&
+    names.every((name) => name in others && areAlike(own[name], others[name]))
+  );
 }

@@ -1,8 +1,16 @@
 // Appearance -> what a shape looks like.
 
 import type {
-  AlphaDescription, AppearanceDescription, ColorMapDescription, MaterialDescription, PointDescription, SamplingDescription, TextureDescription, TextureRole,
-  Warning, WrapMode,
+  AlphaDescription,
+  AppearanceDescription,
+  ColorMapDescription,
+  MaterialDescription,
+  PointDescription,
+  SamplingDescription,
+  TextureDescription,
+  TextureRole,
+  Warning,
+  WrapMode,
 } from "./description.ts";
 import { textureRoles } from "./description.ts";
 import { dataUrl } from "./dataUrl.ts";
@@ -19,11 +27,19 @@ export type ChildrenOf = (element: SceneElement) => readonly SceneElement[];
 /** By the material's name, the fields that its textures are in. */
 const textureFields: Readonly<Record<string, Partial<Readonly<Record<TextureRole, string>>>>> = {
   material: {
-    color: "diffuseTexture", emissive: "emissiveTexture", normal: "normalTexture", occlusion: "occlusionTexture",
-    ambient: "ambientTexture", specular: "specularTexture", shininess: "shininessTexture",
+    color: "diffuseTexture",
+    emissive: "emissiveTexture",
+    normal: "normalTexture",
+    occlusion: "occlusionTexture",
+    ambient: "ambientTexture",
+    specular: "specularTexture",
+    shininess: "shininessTexture",
   },
   physicalmaterial: {
-    color: "baseTexture", emissive: "emissiveTexture", metallicRoughness: "metallicRoughnessTexture", normal: "normalTexture",
+    color: "baseTexture",
+    emissive: "emissiveTexture",
+    metallicRoughness: "metallicRoughnessTexture",
+    normal: "normalTexture",
     occlusion: "occlusionTexture",
   },
   unlitmaterial: { color: "emissiveTexture" },
@@ -32,9 +48,14 @@ const textureFields: Readonly<Record<string, Partial<Readonly<Record<TextureRole
 const dataRoles: readonly TextureRole[] = ["metallicRoughness", "normal", "occlusion", "shininess"];
 
 /** `colorMap`: the shape has it, as X3D's Appearance knows of no such thing. */
-export function readAppearance(element: SceneElement | undefined, colorMap: ColorMapDescription | undefined, childrenOf: ChildrenOf,
-                               warnings: Warning[]): AppearanceDescription {
-  const parts = element === undefined ? [] : childrenOf(element).flatMap((part) => firstTextureOf(part, childrenOf, warnings));
+export function readAppearance(
+  element: SceneElement | undefined,
+  colorMap: ColorMapDescription | undefined,
+  childrenOf: ChildrenOf,
+  warnings: Warning[],
+): AppearanceDescription {
+  const parts =
+    element === undefined ? [] : childrenOf(element).flatMap((part) => firstTextureOf(part, childrenOf, warnings));
   const named = (name: string) => parts.find((part) => lowerNameOf(part) === name);
   const material = parts.find((part) => lowerNameOf(part) in textureFields);
   const points = named("pointproperties");
@@ -51,11 +72,15 @@ export function readAppearance(element: SceneElement | undefined, colorMap: Colo
 
 function readMaterial(element: SceneElement | undefined, warnings: Warning[]): MaterialDescription {
   switch (element && lowerNameOf(element)) {
-    case "physicalmaterial": return { kind: "physical", ...readFields(element ?? nothing, nodeFields.PhysicalMaterial, warnings) };
-    case "unlitmaterial": return { kind: "unlit", ...readFields(element ?? nothing, nodeFields.UnlitMaterial, warnings) };
-    case "material": return { kind: "phong", ...readFields(element ?? nothing, nodeFields.Material, warnings) };
+    case "physicalmaterial":
+      return { kind: "physical", ...readFields(element ?? nothing, nodeFields.PhysicalMaterial, warnings) };
+    case "unlitmaterial":
+      return { kind: "unlit", ...readFields(element ?? nothing, nodeFields.UnlitMaterial, warnings) };
+    case "material":
+      return { kind: "phong", ...readFields(element ?? nothing, nodeFields.Material, warnings) };
     // Without a material no light counts (ISO/IEC 19775-1, 17.2.2.2): what is seen is white, a texture, or colours.
-    default: return { kind: "unlit", ...readFields(nothing, nodeFields.UnlitMaterial, warnings) };
+    default:
+      return { kind: "unlit", ...readFields(nothing, nodeFields.UnlitMaterial, warnings) };
   }
 }
 
@@ -81,8 +106,12 @@ function isTexture(part: SceneElement): boolean {
 }
 
 /** A texture of the main colour stands in its material, or where X3D has it since version 3. */
-function readTextures(parts: readonly SceneElement[], material: SceneElement | undefined, childrenOf: ChildrenOf,
-                      warnings: Warning[]): TextureDescription[] {
+function readTextures(
+  parts: readonly SceneElement[],
+  material: SceneElement | undefined,
+  childrenOf: ChildrenOf,
+  warnings: Warning[],
+): TextureDescription[] {
   const inMaterial = material ? childrenOf(material).filter(isTexture) : [];
   const fields = textureFields[material ? lowerNameOf(material) : "material"] ?? {};
   return textureRoles.flatMap((role) => {
@@ -90,9 +119,15 @@ function readTextures(parts: readonly SceneElement[], material: SceneElement | u
     if (field === undefined) return [];
     const isOfField = (texture: SceneElement) => fieldOf(texture) === field.toLowerCase();
     const within = inMaterial.find(isOfField);
-    const element = within ?? (role === "color" ? parts.find((part) => isTexture(part) && (["", "texture"].includes(fieldOf(part)) || isOfField(part))) : undefined);
-    const mapping = within && material ? attributeOf(material, `${field}Mapping`) ?? "" : "";
-    return element ? readTexture(role, element, matrixOf(transformFor(mapping, parts, childrenOf), warnings), childrenOf, warnings) : [];
+    const element =
+      within ??
+      (role === "color"
+        ? parts.find((part) => isTexture(part) && (["", "texture"].includes(fieldOf(part)) || isOfField(part)))
+        : undefined);
+    const mapping = within && material ? (attributeOf(material, `${field}Mapping`) ?? "") : "";
+    return element
+      ? readTexture(role, element, matrixOf(transformFor(mapping, parts, childrenOf), warnings), childrenOf, warnings)
+      : [];
   });
 }
 
@@ -100,19 +135,38 @@ function fieldOf(texture: SceneElement): string {
   return attributeOf(texture, "containerField")?.toLowerCase() ?? "";
 }
 
-function readTexture(role: TextureRole, element: SceneElement, transform: TextureDescription["transform"], childrenOf: ChildrenOf,
-                     warnings: Warning[]): TextureDescription[] {
-  const { url, preview, repeatS, repeatT } = lowerNameOf(element) === "pixeltexture" ? readPixels(element, warnings) : readImage(element, warnings);
+function readTexture(
+  role: TextureRole,
+  element: SceneElement,
+  transform: TextureDescription["transform"],
+  childrenOf: ChildrenOf,
+  warnings: Warning[],
+): TextureDescription[] {
+  const { url, preview, repeatS, repeatT } =
+    lowerNameOf(element) === "pixeltexture" ? readPixels(element, warnings) : readImage(element, warnings);
   if (url === undefined) return [];
   const properties = childrenOf(element).find((part) => lowerNameOf(part) === "textureproperties");
-  return [{ role, url, preview, sampling: { ...samplingOf(properties, repeatS, repeatT, warnings), isData: dataRoles.includes(role) }, transform }];
+  return [
+    {
+      role,
+      url,
+      preview,
+      sampling: { ...samplingOf(properties, repeatS, repeatT, warnings), isData: dataRoles.includes(role) },
+      transform,
+    },
+  ];
 }
 
 /** What textures say, wherever their picture is; no url: there is none. */
-type ReadTexture = Pick<Values<typeof nodeFields.ImageTexture>, "preview" | "repeatS" | "repeatT"> & { readonly url: string | undefined };
+type ReadTexture = Pick<Values<typeof nodeFields.ImageTexture>, "preview" | "repeatS" | "repeatT"> & {
+  readonly url: string | undefined;
+};
 
 function readImage(element: SceneElement, warnings: Warning[]): ReadTexture {
-  const { url: [url], ...rest } = readFields(element, nodeFields.ImageTexture, warnings);
+  const {
+    url: [url],
+    ...rest
+  } = readFields(element, nodeFields.ImageTexture, warnings);
   return { ...rest, url };
 }
 
@@ -121,13 +175,20 @@ function readPixels(element: SceneElement, warnings: Warning[]): ReadTexture {
   return { ...rest, preview: "", url: image.pixels.length > 0 ? dataUrl("image/png", pngOfPixels(image)) : undefined };
 }
 
-function samplingOf(element: SceneElement | undefined, repeatS: boolean, repeatT: boolean, warnings: Warning[]): Omit<SamplingDescription, "isData"> {
+function samplingOf(
+  element: SceneElement | undefined,
+  repeatS: boolean,
+  repeatT: boolean,
+  warnings: Warning[],
+): Omit<SamplingDescription, "isData"> {
   const wrap = (repeats: boolean): WrapMode => (repeats ? "repeat" : "clamp");
-  if (element === undefined) return { wrapS: wrap(repeatS), wrapT: wrap(repeatT), isSmooth: true, hasMipmaps: true, anisotropy: 1 };
+  if (element === undefined)
+    return { wrapS: wrap(repeatS), wrapT: wrap(repeatT), isSmooth: true, hasMipmaps: true, anisotropy: 1 };
   const values = readFields(element, nodeFields.TextureProperties, warnings);
   const isNearest = (filter: string) => /^(NEAREST|FASTEST)/i.test(filter.trim());
   return {
-    wrapS: wrapOf(values.boundaryModeS), wrapT: wrapOf(values.boundaryModeT),
+    wrapS: wrapOf(values.boundaryModeS),
+    wrapT: wrapOf(values.boundaryModeT),
     isSmooth: !isNearest(values.magnificationFilter),
     // A picture that is seen small without them glitters: only who asks for it gets that.
     hasMipmaps: !/^(NEAREST|AVG|AVG_PIXEL|FASTEST|NEAREST_PIXEL)$/i.test(values.minificationFilter.trim()),
@@ -140,10 +201,18 @@ function wrapOf(mode: string): WrapMode {
   return word.startsWith("CLAMP") ? "clamp" : word === "MIRRORED_REPEAT" ? "mirror" : "repeat";
 }
 
-function transformFor(mapping: string, parts: readonly SceneElement[], childrenOf: ChildrenOf): SceneElement | undefined {
-  const all = parts.flatMap((part) => (lowerNameOf(part) === "multitexturetransform" ? childrenOf(part) : [part]))
+function transformFor(
+  mapping: string,
+  parts: readonly SceneElement[],
+  childrenOf: ChildrenOf,
+): SceneElement | undefined {
+  const all = parts
+    .flatMap((part) => (lowerNameOf(part) === "multitexturetransform" ? childrenOf(part) : [part]))
     .filter((part) => lowerNameOf(part) === "texturetransform");
-  return all.find((part) => mapping !== "" && attributeOf(part, "mapping") === mapping) ?? all.find((part) => (attributeOf(part, "mapping") ?? "") === "");
+  return (
+    all.find((part) => mapping !== "" && attributeOf(part, "mapping") === mapping) ??
+    all.find((part) => (attributeOf(part, "mapping") ?? "") === "")
+  );
 }
 
 const identity = [1, 0, 0, 0, 1, 0, 0, 0, 1] as const;
@@ -151,7 +220,12 @@ const identity = [1, 0, 0, 0, 1, 0, 0, 0, 1] as const;
 /** X3D's -C S R C T (ISO/IEC 19775-1, 18.4.8), column by column: what is applied first stands last. */
 function matrixOf(element: SceneElement | undefined, warnings: Warning[]): TextureDescription["transform"] {
   if (element === undefined) return identity;
-  const { translation, rotation, scale, center: [cx, cy] } = readFields(element, nodeFields.TextureTransform, warnings);
+  const {
+    translation,
+    rotation,
+    scale,
+    center: [cx, cy],
+  } = readFields(element, nodeFields.TextureTransform, warnings);
   const [cos, sin] = [Math.cos(rotation), Math.sin(rotation)];
   const [a, b, c, d] = [scale[0] * cos, scale[1] * sin, -scale[0] * sin, scale[1] * cos];
   const [x, y] = [translation[0] + cx, translation[1] + cy];
@@ -159,6 +233,15 @@ function matrixOf(element: SceneElement | undefined, warnings: Warning[]): Textu
 }
 
 function readPoints(element: SceneElement, warnings: Warning[]): PointDescription {
-  const { pointSizeScaleFactor, pointSizeMinValue, pointSizeMaxValue, attenuation } = readFields(element, nodeFields.PointProperties, warnings);
-  return { size: pointSizeScaleFactor, least: pointSizeMinValue ?? 0, most: pointSizeMaxValue ?? Infinity, attenuation };
+  const { pointSizeScaleFactor, pointSizeMinValue, pointSizeMaxValue, attenuation } = readFields(
+    element,
+    nodeFields.PointProperties,
+    warnings,
+  );
+  return {
+    size: pointSizeScaleFactor,
+    least: pointSizeMinValue ?? 0,
+    most: pointSizeMaxValue ?? Infinity,
+    attenuation,
+  };
 }

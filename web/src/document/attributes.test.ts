@@ -22,22 +22,40 @@ describe("a shape's colorBy", () => {
   test("brings the files of the attribute that it names, and the range of its numbers", () => {
     const heat = read(`colorBy="heat"`);
     assert.equal(heat.geometry.value?.name, "heat");
-    assert.deepEqual(heat.geometry.patches[0]?.value.map(({ url, first }) => `${url} ${first}`), ["h1.png 9", "h0.png 0"]);
+    assert.deepEqual(
+      heat.geometry.patches[0]?.value.map(({ url, first }) => `${url} ${first}`),
+      ["h1.png 9", "h0.png 0"],
+    );
     assert.deepEqual(heat.shape.appearance.colorMap?.range, [-2, 3]);
     const flow = read(`colorBy="flow"`);
-    assert.deepEqual(flow.geometry.patches[0]?.value.map(({ url }) => url), ["f2.png", "f1.png", "f0.png"]);
+    assert.deepEqual(
+      flow.geometry.patches[0]?.value.map(({ url }) => url),
+      ["f2.png", "f1.png", "f0.png"],
+    );
     assert.deepEqual(flow.shape.appearance.colorMap?.range, [0, 5]); // of the length of (-3 … -2, 0 … 4)
   });
 
   test("of typed arrays brings one file", () => {
-    const { geometry } = read(`colorBy="flow"`, `<BinaryGeometry coord="c.bin"><FloatVertexAttribute name="heat" numComponents="1"/>
-      <FloatVertexAttribute name="flow" numComponents="3"/><GeometryPatch attrib="h.bin f.bin#4+16"/></BinaryGeometry>`);
+    const { geometry } = read(
+      `colorBy="flow"`,
+      `<BinaryGeometry coord="c.bin"><FloatVertexAttribute name="heat" numComponents="1"/>
+      <FloatVertexAttribute name="flow" numComponents="3"/><GeometryPatch attrib="h.bin f.bin#4+16"/></BinaryGeometry>`,
+    );
     assert.deepEqual(geometry.patches[0]?.value, [{ url: "f.bin", first: 4, stride: 16 }]);
   });
 
   test("of compact brings none but its patches', which say of how many bits they must be", () => {
-    const { geometry: { value, patches: [patch] }, shape } = read(`colorBy="heat"`, `<ImageGeometry profile="compact" data="p.png">
-      <FloatVertexAttribute name="heat" numComponents="1" valueBits="24" valueMin="-1" valueSize="3"/></ImageGeometry>`);
+    const {
+      geometry: {
+        value,
+        patches: [patch],
+      },
+      shape,
+    } = read(
+      `colorBy="heat"`,
+      `<ImageGeometry profile="compact" data="p.png">
+      <FloatVertexAttribute name="heat" numComponents="1" valueBits="24" valueMin="-1" valueSize="3"/></ImageGeometry>`,
+    );
     assert.deepEqual([value?.bits, value?.files, patch?.value, shape.appearance.colorMap?.range], [24, 0, [], [-1, 2]]);
   });
 
@@ -50,7 +68,8 @@ describe("a shape's colorBy", () => {
   });
 
   test("makes one geometry of one attribute, however often the document is read", () => {
-    const scene = elementsOf(`<X3D><Shape colorBy="heat">${geometry.replace("<ImageGeometry", `<ImageGeometry DEF="g"`)}</Shape>
+    const scene =
+      elementsOf(`<X3D><Shape colorBy="heat">${geometry.replace("<ImageGeometry", `<ImageGeometry DEF="g"`)}</Shape>
       <Shape colorBy="heat" colorMap="gray"><ImageGeometry USE="g"/></Shape><Shape colorBy="flow"><ImageGeometry USE="g"/></Shape></X3D>`);
     const reader = new SceneReader(scene, { inlineGeometry: readInlineGeometry });
     const [first, second, third] = shapesOf(reader.read().root);
@@ -63,8 +82,15 @@ describe("a shape's colorBy", () => {
 
   test("takes its colours from a map by name or from a list", () => {
     const colors = (text: string) => read(`colorBy="heat" colorMap="${text}"`);
-    assert.deepEqual(colors("gray").shape.appearance.colorMap?.colors, [[0, 0, 0], [1, 1, 1]]);
-    assert.deepEqual(colors("1 0 0, 0 1 0, 0 0 1").shape.appearance.colorMap?.colors, [[1, 0, 0], [0, 1, 0], [0, 0, 1]]);
+    assert.deepEqual(colors("gray").shape.appearance.colorMap?.colors, [
+      [0, 0, 0],
+      [1, 1, 1],
+    ]);
+    assert.deepEqual(colors("1 0 0, 0 1 0, 0 0 1").shape.appearance.colorMap?.colors, [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+    ]);
     const viridis = read(`colorBy="heat"`).shape.appearance.colorMap?.colors;
     assert.equal(viridis?.length, 10);
     for (const wrong of ["rainbows", "1 0 0", "1 0 0 1", "1 0 0 1 0 x"]) {

@@ -7,23 +7,39 @@ import { childrenOf, lowerNameOf } from "./element.ts";
 import type { Values, Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
-export function readAttributes(element: SceneElement, container: GeometryDescription["container"], warnings: Warning[]): AttributeDescription[] {
+export function readAttributes(
+  element: SceneElement,
+  container: GeometryDescription["container"],
+  warnings: Warning[],
+): AttributeDescription[] {
   const elements = childrenOf(element).filter((child) => lowerNameOf(child) === "floatvertexattribute");
   return elements.map((child) => {
-    const { name, numComponents, valueBits, valueMin, valueSize } = readFields(child, nodeFields.FloatVertexAttribute, warnings);
+    const { name, numComponents, valueBits, valueMin, valueSize } = readFields(
+      child,
+      nodeFields.FloatVertexAttribute,
+      warnings,
+    );
     const components = ([1, 2, 3, 4] as const).find((count) => count === numComponents) ?? 4;
     const bits = container === "bg" ? undefined : valueBits;
     const files = { sig: valueBits / 8, bg: 1, compact: 0 }[container];
     if (components !== numComponents || (bits !== undefined && ![8, 16, 24].includes(bits))) {
-      warnings.push({ element: child, message: `numComponents="${numComponents}" valueBits="${valueBits}" are no numbers that are read` });
+      warnings.push({
+        element: child,
+        message: `numComponents="${numComponents}" valueBits="${valueBits}" are no numbers that are read`,
+      });
     }
-    const each = (values: readonly number[], missing: number) => Array.from({ length: components }, (_, c) => values[c] ?? missing);
+    const each = (values: readonly number[], missing: number) =>
+      Array.from({ length: components }, (_, c) => values[c] ?? missing);
     return { name, components, files, bits, min: each(valueMin, 0), size: each(valueSize, 1) };
   });
 }
 
 /** The files of an attribute among all that a patch has, which stand one after the other. */
-function filesOf(attributes: readonly AttributeDescription[], attribute: AttributeDescription, references: readonly Reference[]): readonly Reference[] {
+function filesOf(
+  attributes: readonly AttributeDescription[],
+  attribute: AttributeDescription,
+  references: readonly Reference[],
+): readonly Reference[] {
   const first = attributes.slice(0, attributes.indexOf(attribute)).reduce((sum, { files }) => sum + files, 0);
   return references.slice(first, first + attribute.files);
 }
@@ -32,7 +48,10 @@ function filesOf(attributes: readonly AttributeDescription[], attribute: Attribu
 export function withValues(geometry: GeometryDescription, name: string): GeometryDescription | undefined {
   const value = geometry.attributes.find((attribute) => attribute.name === name);
   if (value === undefined) return undefined;
-  const patches = geometry.patches.map((patch) => ({ ...patch, value: filesOf(geometry.attributes, value, patch.attributes) }));
+  const patches = geometry.patches.map((patch) => ({
+    ...patch,
+    value: filesOf(geometry.attributes, value, patch.attributes),
+  }));
   return { ...geometry, value, patches };
 }
 
@@ -43,11 +62,16 @@ function rangeOf({ components, min, size }: AttributeDescription): readonly [num
   return [0, Math.hypot(...min.map((low, c) => Math.max(Math.abs(low), Math.abs(low + (size[c] ?? 0)))))];
 }
 
-export function colorMapOf(element: SceneElement, values: Values<typeof nodeFields.Shape>, geometry: GeometryDescription | undefined,
-                           warnings: Warning[]): ColorMapDescription | undefined {
+export function colorMapOf(
+  element: SceneElement,
+  values: Values<typeof nodeFields.Shape>,
+  geometry: GeometryDescription | undefined,
+  warnings: Warning[],
+): ColorMapDescription | undefined {
   if (values.colorBy === "") return undefined;
   if (geometry?.value === undefined) {
-    if (geometry !== undefined) warnings.push({ element, message: `colorBy="${values.colorBy}" is no attribute of the geometry` });
+    if (geometry !== undefined)
+      warnings.push({ element, message: `colorBy="${values.colorBy}" is no attribute of the geometry` });
     return undefined;
   }
   return { colors: values.colorMap, range: values.colorRange ?? rangeOf(geometry.value) };

@@ -14,7 +14,9 @@ const named: Readonly<Record<string, string>> = {
 };
 
 function colorsOf(hexes: string): Vec3[] {
-  return hexes.split(" ").map((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255) as unknown as Vec3);
+  return hexes
+    .split(" ")
+    .map((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255) as unknown as Vec3);
 }
 
 const colorMap: FieldType<readonly Vec3[]> = {
@@ -25,9 +27,13 @@ const colorMap: FieldType<readonly Vec3[]> = {
     const words = text.split(/[\s,]+/).filter((word) => word !== "");
     const numbers = words.map(Number);
     const count = numbers.length / 3;
-    if (!numbers.every(Number.isFinite) || !Number.isInteger(count) || count < 2 || count > mostMapColors) return undefined;
+    if (!numbers.every(Number.isFinite) || !Number.isInteger(count) || count < 2 || count > mostMapColors)
+      return undefined;
     return Array.from({ length: count }, (_, i) => numbers.slice(3 * i, 3 * i + 3) as unknown as Vec3);
   },
 };
 
-export const ColorMap = (name: string): Field<readonly Vec3[]> => ({ type: colorMap, defaultValue: colorsOf(named[name] ?? "") });
+export const ColorMap = (name: string): Field<readonly Vec3[]> => ({
+  type: colorMap,
+  defaultValue: colorsOf(named[name] ?? ""),
+});

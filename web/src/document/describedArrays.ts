@@ -12,21 +12,51 @@ export function describe(arrays: Drawn | undefined, solid: boolean): GeometryDes
   const { positions, normals, texCoords, colors, colorComponents, primitive } = arrays;
   const count = positions.length / 3;
   return {
-    container: "bg", position: [0, 0, 0], size: [1, 1, 1], positionBits: 0, solid,
-    texCoordMin: [0, 0], texCoordSize: [1, 1], colorComponents, normalEncoding: "rgb", decode: "auto", base: undefined, attributes: [], value: undefined,
-    indexType: "Uint32", coordType: "Float32", normalType: "Float32", texCoordType: "Float32", colorType: "Uint8",
-    patches: [{
-      box: boxAroundAll(positions), vertexCount: count, draws: [{ primitive, count }], implicitWidth: 1, implicitHeight: 1, grid: undefined,
-      index: undefined, coord: [dataReference(positions)], normal: normals && dataReference(normals),
-      texCoord: texCoords && dataReference(texCoords), color: colors && dataReference(colors), attributes: [], value: [], data: undefined,
-    }],
+    container: "bg",
+    position: [0, 0, 0],
+    size: [1, 1, 1],
+    positionBits: 0,
+    solid,
+    texCoordMin: [0, 0],
+    texCoordSize: [1, 1],
+    colorComponents,
+    normalEncoding: "rgb",
+    decode: "auto",
+    base: undefined,
+    attributes: [],
+    value: undefined,
+    indexType: "Uint32",
+    coordType: "Float32",
+    normalType: "Float32",
+    texCoordType: "Float32",
+    colorType: "Uint8",
+    patches: [
+      {
+        box: boxAroundAll(positions),
+        vertexCount: count,
+        draws: [{ primitive, count }],
+        implicitWidth: 1,
+        implicitHeight: 1,
+        grid: undefined,
+        index: undefined,
+        coord: [dataReference(positions)],
+        normal: normals && dataReference(normals),
+        texCoord: texCoords && dataReference(texCoords),
+        color: colors && dataReference(colors),
+        attributes: [],
+        value: [],
+        data: undefined,
+      },
+    ],
   };
 }
 
 function boxAroundAll(positions: Float32Array): Box3 {
   const edge = (choose: (...values: number[]) => number, start: number): Vec3 => {
     const corner: [number, number, number] = [start, start, start];
-    positions.forEach((value, i) => { corner[i % 3] = choose(corner[i % 3] ?? start, value); });
+    positions.forEach((value, i) => {
+      corner[i % 3] = choose(corner[i % 3] ?? start, value);
+    });
     return corner;
   };
   return { min: edge(Math.min, Infinity), max: edge(Math.max, -Infinity) };

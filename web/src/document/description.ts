@@ -162,7 +162,14 @@ export type TextureMatrix = readonly [number, number, number, number, number, nu
 
 /** The part of a material that a texture modulates. `color` is that of diffuseColor, baseColor or an UnlitMaterial's emissiveColor. */
 export const textureRoles = [
-  "color", "emissive", "metallicRoughness", "normal", "occlusion", "ambient", "specular", "shininess",
+  "color",
+  "emissive",
+  "metallicRoughness",
+  "normal",
+  "occlusion",
+  "ambient",
+  "specular",
+  "shininess",
 ] as const;
 export type TextureRole = (typeof textureRoles)[number];
 

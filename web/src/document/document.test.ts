@@ -1,6 +1,12 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import type { GeometryDescription, NodeDescription, SceneDescription, ShapeDescription, ViewpointDescription } from "./description.ts";
+import type {
+  GeometryDescription,
+  NodeDescription,
+  SceneDescription,
+  ShapeDescription,
+  ViewpointDescription,
+} from "./description.ts";
 import { shapesOf, viewpointsOf } from "./description.ts";
 import { elementsOf } from "./elements.testing.ts";
 import { referenceOf } from "./geometry.ts";
@@ -46,7 +52,11 @@ const patches = `
 
 describe("a field", () => {
   test("is found without regard to case, as HTML and XML write it", () => {
-    for (const markup of ['<Viewpoint fieldOfView="0.5"/>', '<viewpoint fieldofview="0.5"/>', '<VIEWPOINT FIELDOFVIEW="0.5"/>']) {
+    for (const markup of [
+      '<Viewpoint fieldOfView="0.5"/>',
+      '<viewpoint fieldofview="0.5"/>',
+      '<VIEWPOINT FIELDOFVIEW="0.5"/>',
+    ]) {
       assert.equal(viewpointsIn(sceneOf(markup))[0]?.fieldOfView, 0.5);
     }
   });
@@ -85,10 +95,20 @@ describe("a scene", () => {
   });
 
   test("has its viewpoints in document order, wherever they stand, and takes the first background", () => {
-    const scene = sceneOf(`<Group><Viewpoint description="a"/></Group><Transform><Viewpoint description="b" set_bind="true"/></Transform>
+    const scene =
+      sceneOf(`<Group><Viewpoint description="a"/></Group><Transform><Viewpoint description="b" set_bind="true"/></Transform>
       <Background skyColor="1 0 0 0 1 0"/><Background skyColor="0 0 1"/>`);
-    assert.deepEqual(viewpointsIn(scene).map(({ description, set_bind }) => [description, set_bind]), [["a", false], ["b", true]]);
-    assert.deepEqual(scene.background?.sky.map(({ color }) => color), [[1, 0, 0]]);
+    assert.deepEqual(
+      viewpointsIn(scene).map(({ description, set_bind }) => [description, set_bind]),
+      [
+        ["a", false],
+        ["b", true],
+      ],
+    );
+    assert.deepEqual(
+      scene.background?.sky.map(({ color }) => color),
+      [[1, 0, 0]],
+    );
   });
 
   test("takes the first NavigationInfo, or one that wants to be bound", () => {
@@ -99,7 +119,10 @@ describe("a scene", () => {
   test("keeps shapes in document order below unknown nodes, groups and transforms", () => {
     const scene = sceneOf(`<Shape DEF="a"/><Unknown><Shape DEF="b"/></Unknown>
       <Transform translation="1 0 0"><Group><Shape DEF="c"/></Group></Transform>`);
-    assert.deepEqual(shapesOf(scene.root).map((shape) => shape.element.getAttribute("DEF")), ["a", "b", "c"]);
+    assert.deepEqual(
+      shapesOf(scene.root).map((shape) => shape.element.getAttribute("DEF")),
+      ["a", "b", "c"],
+    );
   });
 
   test("follows USE for shapes, materials and geometries, and tells shapes apart by who uses them", () => {
@@ -107,69 +130,136 @@ describe("a scene", () => {
       <Shape DEF="s"><Appearance DEF="a"><Material diffuseColor="1 0 0"/></Appearance>${patches}</Shape>
       <Shape USE="s"/><Shape><Appearance USE="a"/></Shape>`);
     const shapes = shapesOf(scene.root);
-    assert.deepEqual(shapes.map(({ appearance: { material } }) => material.kind === "phong" && material.diffuseColor), [[1, 0, 0], [1, 0, 0], [1, 0, 0]]);
+    assert.deepEqual(
+      shapes.map(({ appearance: { material } }) => material.kind === "phong" && material.diffuseColor),
+      [
+        [1, 0, 0],
+        [1, 0, 0],
+        [1, 0, 0],
+      ],
+    );
     assert.ok(shapes[0]?.geometry);
     assert.equal(shapes[1]?.geometry, shapes[0].geometry); // the same object: it is delivered once
     assert.equal(new Set(shapes.map((shape) => shape.element)).size, 3);
   });
 
   test("takes each texture for the field that it stands in, or is USEd in", () => {
-    const texturesOf = (markup: string) => shapesOf(sceneOf(`<Shape><Appearance>${markup}</Appearance></Shape>`).root)[0]?.appearance.textures
-      .map(({ role, url, preview, sampling: { isData } }) => [role, url, preview, isData].join(" "));
-    assert.deepEqual(texturesOf('<Material/><ImageTexture url="a.png" preview="small.webp"/>'), ["color a.png small.webp false"]);
-    assert.deepEqual(texturesOf('<Material/><MultiTexture><MovieTexture/><ImageTexture url="a.png"/><ImageTexture url="b.png"/></MultiTexture>'), ["color a.png  false"]);
-    assert.deepEqual(texturesOf(`<PhysicalMaterial><ImageTexture DEF="ORM" url="orm.png" containerField="occlusionTexture"/>
+    const texturesOf = (markup: string) =>
+      shapesOf(sceneOf(`<Shape><Appearance>${markup}</Appearance></Shape>`).root)[0]?.appearance.textures.map(
+        ({ role, url, preview, sampling: { isData } }) => [role, url, preview, isData].join(" "),
+      );
+    assert.deepEqual(texturesOf('<Material/><ImageTexture url="a.png" preview="small.webp"/>'), [
+      "color a.png small.webp false",
+    ]);
+    assert.deepEqual(
+      texturesOf(
+        '<Material/><MultiTexture><MovieTexture/><ImageTexture url="a.png"/><ImageTexture url="b.png"/></MultiTexture>',
+      ),
+      ["color a.png  false"],
+    );
+    assert.deepEqual(
+      texturesOf(`<PhysicalMaterial><ImageTexture DEF="ORM" url="orm.png" containerField="occlusionTexture"/>
       <ImageTexture USE="ORM" containerField="metallicRoughnessTexture"/><ImageTexture url="n.png" containerField="normalTexture"/>
       <ImageTexture url="s.png" containerField="specularTexture"/></PhysicalMaterial><ImageTexture url="a.png"/>`),
-    ["color a.png  false", "metallicRoughness orm.png  true", "normal n.png  true", "occlusion orm.png  true"]);
-    assert.deepEqual(texturesOf('<UnlitMaterial><ImageTexture url="a.png" containerField="emissiveTexture"/></UnlitMaterial>'), ["color a.png  false"]);
+      ["color a.png  false", "metallicRoughness orm.png  true", "normal n.png  true", "occlusion orm.png  true"],
+    );
+    assert.deepEqual(
+      texturesOf('<UnlitMaterial><ImageTexture url="a.png" containerField="emissiveTexture"/></UnlitMaterial>'),
+      ["color a.png  false"],
+    );
   });
 
   test("knows the three kinds of material, and lights with and without a place", () => {
-    const materialIn = (markup: string) => shapesOf(sceneOf(`<Shape><Appearance>${markup}</Appearance></Shape>`).root)[0]?.appearance.material;
+    const materialIn = (markup: string) =>
+      shapesOf(sceneOf(`<Shape><Appearance>${markup}</Appearance></Shape>`).root)[0]?.appearance.material;
     assert.deepEqual(materialIn(""), { kind: "unlit", emissiveColor: [1, 1, 1], transparency: 0 });
     assert.equal(materialIn("<Material/>")?.kind, "phong");
     assert.deepEqual(materialIn('<PhysicalMaterial baseColor="1 0.5 0" metallic="0"/>'), {
-      kind: "physical", baseColor: [1, 0.5, 0], metallic: 0, roughness: 1, emissiveColor: [0, 0, 0], transparency: 0, normalScale: 1, occlusionStrength: 1,
+      kind: "physical",
+      baseColor: [1, 0.5, 0],
+      metallic: 0,
+      roughness: 1,
+      emissiveColor: [0, 0, 0],
+      transparency: 0,
+      normalScale: 1,
+      occlusionStrength: 1,
     });
-    assert.deepEqual(materialIn('<UnlitMaterial transparency="0.5"/>'), { kind: "unlit", emissiveColor: [1, 1, 1], transparency: 0.5 });
-    const lights = sceneOf('<DirectionalLight/><PointLight location="1 2 3"/><SpotLight cutOffAngle="1"/>').root.children;
-    assert.deepEqual(lights.map((node) => node.kind === "light" && node.light.kind), ["directional", "point", "spot"]);
+    assert.deepEqual(materialIn('<UnlitMaterial transparency="0.5"/>'), {
+      kind: "unlit",
+      emissiveColor: [1, 1, 1],
+      transparency: 0.5,
+    });
+    const lights = sceneOf('<DirectionalLight/><PointLight location="1 2 3"/><SpotLight cutOffAngle="1"/>').root
+      .children;
+    assert.deepEqual(
+      lights.map((node) => node.kind === "light" && node.light.kind),
+      ["directional", "point", "spot"],
+    );
     const [, point] = lights;
     assert.ok(point?.kind === "light" && point.light.kind === "point");
     assert.deepEqual([point.light.location, point.light.attenuation, point.light.radius], [[1, 2, 3], [1, 0, 0], 100]);
   });
 
   test("has lines as wide and as broken as LineProperties say, and thin solid ones where they say nothing else", () => {
-    const linesOf = (fields: string) => onlyShape(`<Shape><Appearance><LineProperties ${fields}/></Appearance></Shape>`).appearance.lines;
+    const linesOf = (fields: string) =>
+      onlyShape(`<Shape><Appearance><LineProperties ${fields}/></Appearance></Shape>`).appearance.lines;
     assert.deepEqual(linesOf('linewidthScaleFactor="2.5"'), { width: 2.5, dashes: [] });
     assert.deepEqual(linesOf('linetype="3"'), { width: 1, dashes: [1, 2] });
-    assert.deepEqual(linesOf('linetype="13" linewidthScaleFactor="1e30"'), { width: 1024, dashes: [14, 3, 4, 3, 4, 3] });
-    for (const fields of ["", 'linewidthScaleFactor="1"', 'linewidthScaleFactor="-4"', 'linetype="2" linewidthScaleFactor="4" applied="false"']) {
+    assert.deepEqual(linesOf('linetype="13" linewidthScaleFactor="1e30"'), {
+      width: 1024,
+      dashes: [14, 3, 4, 3, 4, 3],
+    });
+    for (const fields of [
+      "",
+      'linewidthScaleFactor="1"',
+      'linewidthScaleFactor="-4"',
+      'linetype="2" linewidthScaleFactor="4" applied="false"',
+    ]) {
       assert.equal(linesOf(fields), undefined, fields);
     }
     const arrows = sceneOf('<Shape><Appearance><LineProperties linetype="6"/></Appearance></Shape>');
-    assert.deepEqual(arrows.warnings.map(({ message }) => message), ["lines of linetype 6 are not drawn so; they are solid"]);
+    assert.deepEqual(
+      arrows.warnings.map(({ message }) => message),
+      ["lines of linetype 6 are not drawn so; they are solid"],
+    );
   });
 
   test("has a shape once for each place where a group around it is USEd", () => {
-    const shapes = shapesOf(sceneOf(`<Group DEF="g"><Shape>${patches}</Shape></Group><Transform><Group USE="g"/></Transform>`).root);
+    const shapes = shapesOf(
+      sceneOf(`<Group DEF="g"><Shape>${patches}</Shape></Group><Transform><Group USE="g"/></Transform>`).root,
+    );
     assert.equal(shapes.length, 2);
     assert.equal(shapes[0]?.element, shapes[1]?.element);
   });
 
   test("is seen where `visible` and X3DOM's `render` both say so, and a Switch shows one child or none", () => {
-    const seen = (markup: string) => visibleShapes(sceneOf(markup).root).map((shape) => shape.element.getAttribute("DEF"));
+    const seen = (markup: string) =>
+      visibleShapes(sceneOf(markup).root).map((shape) => shape.element.getAttribute("DEF"));
     assert.deepEqual(seen('<Shape DEF="a"/><Shape DEF="b" visible="false"/><Shape DEF="c" render="false"/>'), ["a"]);
-    assert.deepEqual(seen('<Group render="false"><Shape DEF="a"/></Group><Transform visible="false"><Shape DEF="b"/></Transform>'), []);
-    for (const [choice, expected] of [["0", ["a", "b"]], ["1", ["c"]], ["-1", []], ["7", []]] as const) {
-      assert.deepEqual(seen(`<Switch whichChoice="${choice}"><Group><Shape DEF="a"/><Shape DEF="b"/></Group><Shape DEF="c"/></Switch>`), expected);
+    assert.deepEqual(
+      seen('<Group render="false"><Shape DEF="a"/></Group><Transform visible="false"><Shape DEF="b"/></Transform>'),
+      [],
+    );
+    for (const [choice, expected] of [
+      ["0", ["a", "b"]],
+      ["1", ["c"]],
+      ["-1", []],
+      ["7", []],
+    ] as const) {
+      assert.deepEqual(
+        seen(
+          `<Switch whichChoice="${choice}"><Group><Shape DEF="a"/><Shape DEF="b"/></Group><Shape DEF="c"/></Switch>`,
+        ),
+        expected,
+      );
     }
     assert.deepEqual(seen('<Switch><Shape DEF="a"/></Switch>'), []);
   });
 
   test("ends where USE leads in a circle or nowhere, with a warning", () => {
-    const scene = sceneOf('<Group DEF="g"><Group USE="h"/></Group><Group DEF="h"><Group USE="g"/></Group><Shape USE="none"/>');
+    const scene = sceneOf(
+      '<Group DEF="g"><Group USE="h"/></Group><Group DEF="h"><Group USE="g"/></Group><Shape USE="none"/>',
+    );
     assert.deepEqual(shapesOf(scene.root), []);
     assert.ok(scene.warnings.some(({ message }) => message.includes("itself")));
     assert.ok(scene.warnings.some(({ message }) => message.includes("no DEF")));
@@ -184,7 +274,10 @@ describe("what the author prefers", () => {
       <Group priority="2"><Transform priority="high"><Shape priority="0.5"><ImageGeometry priority="3"/></Shape></Transform></Group>
       <Group priority="low"><Shape><BinaryGeometry priority="0"/></Shape></Group><Shape priority="auto"/>
       <Group priority="8"><Shape priority="low"/></Group>`);
-    assert.deepEqual([first, second, third, fourth].map((shape) => shape?.priority), [2 * 4 * 0.5 * 3, 0, 1, 8 / 4]);
+    assert.deepEqual(
+      [first, second, third, fourth].map((shape) => shape?.priority),
+      [2 * 4 * 0.5 * 3, 0, 1, 8 / 4],
+    );
   });
 
   test("is no part of the geometry: another priority is not another geometry", () => {
@@ -207,7 +300,10 @@ describe("what the author prefers", () => {
   test("is worth nothing in a shape that is hidden, or stands in a group that is", () => {
     const shapes = shapesIn(`<Group visible="false"><Transform><Shape/></Transform></Group>
       <Transform visible="false"><Group><Shape/></Group></Transform><Shape visible="false"/><Group><Shape/></Group>`);
-    assert.deepEqual(shapes.map(({ visible }) => visible), [false, false, false, true]);
+    assert.deepEqual(
+      shapes.map(({ visible }) => visible),
+      [false, false, false, true],
+    );
   });
 });
 
@@ -218,9 +314,15 @@ describe("a geometry", () => {
     assert.equal(geometry.patches.length, 2);
     assert.equal(geometry.container, "sig");
     assert.equal(geometry.solid, false);
-    assert.deepEqual(first?.draws, [{ primitive: "triangles", count: 900 }, { primitive: "triangleStrip", count: 12 }]);
+    assert.deepEqual(first?.draws, [
+      { primitive: "triangles", count: 900 },
+      { primitive: "triangleStrip", count: 12 },
+    ]);
     assert.deepEqual(first.index, { url: "i.png", first: 1024, stride: 0 });
-    assert.deepEqual(first.coord, [{ url: "a.png", first: 0, stride: 0 }, { url: "b.png", first: 512, stride: 0 }]);
+    assert.deepEqual(first.coord, [
+      { url: "a.png", first: 0, stride: 0 },
+      { url: "b.png", first: 512, stride: 0 },
+    ]);
     assert.equal(first.implicitWidth, 512);
     assert.deepEqual(first.box, { min: [0, 1.5, 2.5], max: [2, 2.5, 3.5] });
     assert.deepEqual(second?.draws, [{ primitive: "lineStrip", count: 4 }]);
@@ -235,14 +337,20 @@ describe("a geometry", () => {
         <ImageTexture containerField="coord" url="low.png"/><ImageTexture containerField="normal" url="n.png"/>
       </ImageGeometry>`).patches;
     assert.deepEqual(others, []);
-    assert.deepEqual(patch?.coord.map((plane) => plane.url), ["high.png", "low.png"]);
+    assert.deepEqual(
+      patch?.coord.map((plane) => plane.url),
+      ["high.png", "low.png"],
+    );
     assert.equal(patch.index?.url, "i.png");
     assert.equal(patch.normal?.url, "n.png");
     assert.equal(patch.box, undefined);
   });
 
   test("of typed arrays reads types, offsets and strides, and X3DOM's stride in a file's name", () => {
-    const { patches: [patch], ...geometry } = geometryOf(`
+    const {
+      patches: [patch],
+      ...geometry
+    } = geometryOf(`
       <BinaryGeometry coordType="uint16" normalType="Int8" indexType="Uint32" rgbaColors="true" vertexCount="3"
         coord="c.bin#12+8" normal="n.bin+4" index="i.bin"/>`);
     assert.equal(geometry.coordType, "Uint16");
@@ -259,14 +367,29 @@ describe("a geometry", () => {
 
   test("with normals of two numbers says which, and where X3DOM has them", () => {
     assert.equal(geometryOf('<ImageGeometry coord="a" normal="n" vertexCount="3"/>').normalEncoding, "rgb");
-    assert.equal(geometryOf('<ImageGeometry coord="a" normal="n" normalEncoding="Octahedral"/>').normalEncoding, "octahedral");
-    for (const [coord, first, stride] of [["c.bin", 6, 8], ["c.bin?+8", 6, 8], ["c.bin#24+32", 30, 32]] as const) {
-      const { patches: [patch], ...geometry } = geometryOf(`
+    assert.equal(
+      geometryOf('<ImageGeometry coord="a" normal="n" normalEncoding="Octahedral"/>').normalEncoding,
+      "octahedral",
+    );
+    for (const [coord, first, stride] of [
+      ["c.bin", 6, 8],
+      ["c.bin?+8", 6, 8],
+      ["c.bin#24+32", 30, 32],
+    ] as const) {
+      const {
+        patches: [patch],
+        ...geometry
+      } = geometryOf(`
         <BinaryGeometry coordType="Uint16" normalAsSphericalCoordinates="true" normal="ignored" coord="${coord}"/>`);
       assert.deepEqual([geometry.normalEncoding, geometry.normalType], ["spherical", "Uint8"]);
-      assert.deepEqual([patch?.normal?.url, patch?.normal?.first, patch?.normal?.stride], [patch?.coord[0]?.url, first, stride]);
+      assert.deepEqual(
+        [patch?.normal?.url, patch?.normal?.first, patch?.normal?.stride],
+        [patch?.coord[0]?.url, first, stride],
+      );
     }
-    const wrong = sceneOf('<Shape><BinaryGeometry coord="c" normalAsSphericalCoordinates="true" normalEncoding="cube"/></Shape>');
+    const wrong = sceneOf(
+      '<Shape><BinaryGeometry coord="c" normalAsSphericalCoordinates="true" normalEncoding="cube"/></Shape>',
+    );
     assert.equal(wrong.warnings.length, 2);
   });
 
@@ -274,20 +397,32 @@ describe("a geometry", () => {
     const scene = sceneOf('<Shape><BinaryGeometry coordType="Float64" primType="QUADS" vertexCount="3 -1"/></Shape>');
     const geometry = shapesOf(scene.root)[0]?.geometry;
     assert.equal(geometry?.coordType, "Float32");
-    assert.deepEqual(geometry.patches[0]?.draws, [{ primitive: "triangles", count: 3 }, { primitive: "triangles", count: 0 }]);
+    assert.deepEqual(geometry.patches[0]?.draws, [
+      { primitive: "triangles", count: 3 },
+      { primitive: "triangles", count: 0 },
+    ]);
     assert.equal(scene.warnings.length, 3);
   });
 
   test("of more than four byte planes uses the highest four, and says so", () => {
     const scene = sceneOf('<Shape><ImageGeometry coord="a b c d e"/></Shape>');
-    assert.deepEqual(shapesOf(scene.root)[0]?.geometry?.patches[0]?.coord.map(({ url }) => url), ["a", "b", "c", "d"]);
+    assert.deepEqual(
+      shapesOf(scene.root)[0]?.geometry?.patches[0]?.coord.map(({ url }) => url),
+      ["a", "b", "c", "d"],
+    );
     assert.match(scene.warnings[0]?.message ?? "", /4 of 5/);
   });
 
   test("gives its shape the union of the patches' boxes where the shape has none", () => {
     assert.deepEqual(onlyShape(`<Shape>${patches}</Shape>`).box, { min: [0, 1, 2.5], max: [2, 3, 3.5] });
-    assert.deepEqual(onlyShape(`<Shape bboxCenter="0 0 0" bboxSize="2 2 2">${patches}</Shape>`).box, { min: [-1, -1, -1], max: [1, 1, 1] });
-    assert.deepEqual(onlyShape('<Shape><ImageGeometry position="1 1 1" size="2 2 2"/></Shape>').box, { min: [0, 0, 0], max: [2, 2, 2] });
+    assert.deepEqual(onlyShape(`<Shape bboxCenter="0 0 0" bboxSize="2 2 2">${patches}</Shape>`).box, {
+      min: [-1, -1, -1],
+      max: [1, 1, 1],
+    });
+    assert.deepEqual(onlyShape('<Shape><ImageGeometry position="1 1 1" size="2 2 2"/></Shape>').box, {
+      min: [0, 0, 0],
+      max: [2, 2, 2],
+    });
   });
 
   test("reads references of both containers", () => {
@@ -324,22 +459,36 @@ describe("what is read again", () => {
 
 test("geometries that name the same files in the same way are one, however often they are written, and as long as they do", () => {
   const copy = '<ImageGeometry coord="a.png" index="i.png" vertexCount="3"/>';
-  const shapes = [copy, copy, copy.replace("a.png", "b.png"), copy.replace("index", 'decode="cpu" index'), "<Box/>", "<Box/>"];
+  const shapes = [
+    copy,
+    copy,
+    copy.replace("a.png", "b.png"),
+    copy.replace("index", 'decode="cpu" index'),
+    "<Box/>",
+    "<Box/>",
+  ];
   const x3d = elementsOf(`<X3D>${shapes.map((geometry) => `<Shape>${geometry}</Shape>`).join("")}</X3D>`);
   const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
   const read = () => shapesOf(reader.read().root).map(({ geometry }) => geometry);
   const before = read();
-  assert.deepEqual(before.map((geometry) => before.indexOf(geometry)), [0, 0, 2, 3, 4, 5]);
+  assert.deepEqual(
+    before.map((geometry) => before.indexOf(geometry)),
+    [0, 0, 2, 3, 4, 5],
+  );
   const changed = x3d.children[1]?.children[0];
   assert.ok(changed);
   changed.attributes.set("coord", "b.png");
   reader.touch(changed);
   const after = read();
-  assert.deepEqual(after.map((geometry) => before.indexOf(geometry)), [0, 2, 2, 3, 4, 5]);
+  assert.deepEqual(
+    after.map((geometry) => before.indexOf(geometry)),
+    [0, 2, 2, 3, 4, 5],
+  );
 });
 
 describe("stored integers", () => {
-  const planesOf = (count: number, bits = 8 * count) => geometryOf(`
+  const planesOf = (count: number, bits = 8 * count) =>
+    geometryOf(`
     <ImageGeometry position="10 0 0" size="4 4 4" positionBits="${bits}" vertexCount="3"
       coord='${Array.from({ length: count }, (_, plane) => `"${plane}.png"`).join(" ")}'/>`);
   const placed = (geometry: GeometryDescription, stored: number) => {
@@ -357,7 +506,8 @@ describe("stored integers", () => {
   }
 
   test("of typed arrays follow X3DOM: unsigned from the corner, signed around the centre, floats as they are", () => {
-    const typed = (type: string) => geometryOf(`<BinaryGeometry position="10 0 0" size="4 4 4" coordType="${type}" vertexCount="3"/>`);
+    const typed = (type: string) =>
+      geometryOf(`<BinaryGeometry position="10 0 0" size="4 4 4" coordType="${type}" vertexCount="3"/>`);
     assert.equal(placed(typed("Uint16"), 65535), 12);
     assert.equal(placed(typed("Int16"), 0), 10);
     assert.ok(Math.abs(placed(typed("Int16"), -16383) - 8) < 1e-3);
@@ -371,12 +521,23 @@ describe("stored integers", () => {
   });
 
   test("whose low bytes have not come stand in the middle of what these may hold", () => {
-    for (const [planes, bits] of [[2, 16], [2, 12], [2, 9], [3, 24], [3, 17], [4, 32], [1, 8]] as const) {
+    for (const [planes, bits] of [
+      [2, 16],
+      [2, 12],
+      [2, 9],
+      [3, 24],
+      [3, 17],
+      [4, 32],
+      [1, 8],
+    ] as const) {
       for (let present = 1; present <= planes; ++present) {
         // The values that the missing bytes can take, given that the lowest bits are 0.
         const low = 0;
         const high = 2 ** (8 * (planes - present)) - 2 ** Math.min(8 * planes - bits, 8 * (planes - present));
-        assert.equal(middleOfMissing(planesOf(planes, bits), planes, present), present === planes ? 0 : (low + high) / 2);
+        assert.equal(
+          middleOfMissing(planesOf(planes, bits), planes, present),
+          present === planes ? 0 : (low + high) / 2,
+        );
       }
     }
   });

@@ -47,9 +47,12 @@ const origin: Point = [0, 0];
 
 function isConvex(flat: readonly Point[]): boolean {
   const at = (i: number) => flat[i % flat.length] ?? origin;
-  return flat.every((point, i) => area(point, at(i + 1), at(i + 2)) >= 0 &&
-    // Every corner of a star is convex too: it is told by its fan.
-    (i === 0 || i + 1 >= flat.length || area(at(0), point, at(i + 1)) >= 0));
+  return flat.every(
+    (point, i) =>
+      area(point, at(i + 1), at(i + 2)) >= 0 &&
+      // Every corner of a star is convex too: it is told by its fan.
+      (i === 0 || i + 1 >= flat.length || area(at(0), point, at(i + 1)) >= 0),
+  );
 }
 
 function clipEars(flat: readonly Point[]): number[] {

@@ -31,21 +31,53 @@ export class Dice {
 
 const names = ["A", "B", "C", "D"];
 const geometries = [
-  '<Box size="1 2 3"/>', '<Box size="no"/>', '<PointSet><Coordinate DEF="C" point="1 2 3"/></PointSet>', '<PointSet DEF="E"><Coordinate USE="C"/></PointSet>',
+  '<Box size="1 2 3"/>',
+  '<Box size="no"/>',
+  '<PointSet><Coordinate DEF="C" point="1 2 3"/></PointSet>',
+  '<PointSet DEF="E"><Coordinate USE="C"/></PointSet>',
   '<PointSet USE="E"/>',
-  '<ImageGeometry DEF="B" vertexCount="3" coord="a.png" priority="2"/>', '<ImageGeometry USE="B"/>',
+  '<ImageGeometry DEF="B" vertexCount="3" coord="a.png" priority="2"/>',
+  '<ImageGeometry USE="B"/>',
 ];
 const snippets = [
-  "<Group/>", "<Transform/>", "<Billboard><Shape/></Billboard>", '<Anchor url="a.html"><Collision><Shape/></Collision></Anchor>', '<Switch whichChoice="0"/>', "<LOD range='5'/>", "<Unknown/>", '<Viewpoint description="v"/>', "<DirectionalLight/>", '<PointLight global="false" ambientIntensity="1"/>',
+  "<Group/>",
+  "<Transform/>",
+  "<Billboard><Shape/></Billboard>",
+  '<Anchor url="a.html"><Collision><Shape/></Collision></Anchor>',
+  '<Switch whichChoice="0"/>',
+  "<LOD range='5'/>",
+  "<Unknown/>",
+  '<Viewpoint description="v"/>',
+  "<DirectionalLight/>",
+  '<PointLight global="false" ambientIntensity="1"/>',
   '<Transform><SpotLight global="false"/><Group><DirectionalLight/><Shape/></Group></Transform>',
-  '<NavigationInfo speed="3"/>', '<Background skyColor="1 0 0"/>', "<Group USE='A'/>", "<Shape USE='D'/>", "<Inline url='a.x3d'/>", '<MetadataString name="m"/>',
-  '<Shape><Appearance DEF="A"><Material DEF="D"/></Appearance><Box/></Shape>', '<Shape><Appearance USE="A"/><Box/></Shape>',
+  '<NavigationInfo speed="3"/>',
+  '<Background skyColor="1 0 0"/>',
+  "<Group USE='A'/>",
+  "<Shape USE='D'/>",
+  "<Inline url='a.x3d'/>",
+  '<MetadataString name="m"/>',
+  '<Shape><Appearance DEF="A"><Material DEF="D"/></Appearance><Box/></Shape>',
+  '<Shape><Appearance USE="A"/><Box/></Shape>',
   ...geometries.map((geometry) => `<Shape>${geometry}</Shape>`),
 ];
 const attributes: Readonly<Record<string, readonly string[]>> = {
-  DEF: names, USE: names, visible: ["true", "false", "perhaps"], priority: ["2", "high"], translation: ["1 2 3", "x"], bboxSize: ["1 1 1", "2 2 2"],
-  whichChoice: ["0", "1", "-1"], diffuseColor: ["1 0 0", "0 1 0"], bind: ["true"], load: ["false"], url: ["a.x3d", "b.x3d"], solid: ["false"],
-  point: ["3 4 5", "6 7 8"], global: ["true", "false"], on: ["false"], axisOfRotation: ["0 0 1", "1 0 0", "0 0 0"],
+  DEF: names,
+  USE: names,
+  visible: ["true", "false", "perhaps"],
+  priority: ["2", "high"],
+  translation: ["1 2 3", "x"],
+  bboxSize: ["1 1 1", "2 2 2"],
+  whichChoice: ["0", "1", "-1"],
+  diffuseColor: ["1 0 0", "0 1 0"],
+  bind: ["true"],
+  load: ["false"],
+  url: ["a.x3d", "b.x3d"],
+  solid: ["false"],
+  point: ["3 4 5", "6 7 8"],
+  global: ["true", "false"],
+  on: ["false"],
+  axisOfRotation: ["0 0 1", "1 0 0", "0 0 0"],
 };
 const inlinable = {
   "a.x3d": `<X3D><Group DEF="A"><Shape><Box/></Shape></Group><Group USE="A"/><Inline url="b.x3d"/><NavigationInfo speed="9"/></X3D>`,
@@ -66,7 +98,9 @@ export class EditedDocument implements Supplements {
   }
 
   readonly inlined = (inline: SceneElement) =>
-    (this.#arrived.has(inline) ? this.#documents.find(({ url }) => inline.getAttribute("url")?.includes(url)) : undefined);
+    this.#arrived.has(inline)
+      ? this.#documents.find(({ url }) => inline.getAttribute("url")?.includes(url))
+      : undefined;
 
   readonly levelOf = (lod: SceneElement) => this.#levels.get(lod);
 
@@ -75,12 +109,24 @@ export class EditedDocument implements Supplements {
     const element = dice.of(elementsIn(this.x3d));
     const others = elementsIn(this.x3d).slice(2);
     switch (dice.below(8)) {
-      case 0: case 1: this.#insert(elementsOf(dice.of(snippets)), element); break;
-      case 2: if (others.length > 0) this.#remove(dice.of(others)); break;
-      case 3: if (others.length > 0) this.#move(dice.of(others), element); break;
-      case 4: this.#rearrange(element); break;
-      case 5: this.#supplement(); break;
-      default: this.#set(element);
+      case 0:
+      case 1:
+        this.#insert(elementsOf(dice.of(snippets)), element);
+        break;
+      case 2:
+        if (others.length > 0) this.#remove(dice.of(others));
+        break;
+      case 3:
+        if (others.length > 0) this.#move(dice.of(others), element);
+        break;
+      case 4:
+        this.#rearrange(element);
+        break;
+      case 5:
+        this.#supplement();
+        break;
+      default:
+        this.#set(element);
     }
   }
 

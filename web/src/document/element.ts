@@ -31,9 +31,13 @@ export function inPlaceOf(user: SceneElement, used: SceneElement): SceneElement 
   if (user === used) return used;
   const field = attributeOf(user, "containerField") ?? null;
   return {
-    localName: used.localName, children: used.children,
+    localName: used.localName,
+    children: used.children,
     getAttribute: (name) => (name === "containerField" ? field : used.getAttribute(name)),
-    getAttributeNames: () => [...used.getAttributeNames().filter((name) => name.toLowerCase() !== "containerfield"), ...(field === null ? [] : ["containerField"])],
+    getAttributeNames: () => [
+      ...used.getAttributeNames().filter((name) => name.toLowerCase() !== "containerfield"),
+      ...(field === null ? [] : ["containerField"]),
+    ],
   };
 }
 

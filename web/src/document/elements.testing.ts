@@ -11,7 +11,9 @@ export interface TestElement extends SceneElement {
 export function elementsOf(markup: string): TestElement {
   const top = elementNamed("");
   const open = [top];
-  for (const [, end, name, attributes = "", selfClosing] of markup.matchAll(/<(\/)?(\w+)((?:\s+\w+=(?:"[^"]*"|'[^']*'))*)\s*(\/)?>/g)) {
+  for (const [, end, name, attributes = "", selfClosing] of markup.matchAll(
+    /<(\/)?(\w+)((?:\s+\w+=(?:"[^"]*"|'[^']*'))*)\s*(\/)?>/g,
+  )) {
     if (end !== undefined) {
       open.pop();
       continue;
@@ -31,7 +33,9 @@ export function elementsOf(markup: string): TestElement {
 function elementNamed(localName: string): TestElement {
   const attributes = new Map<string, string>();
   return {
-    localName, attributes, children: [],
+    localName,
+    attributes,
+    children: [],
     getAttribute: (name) => attributes.get(name) ?? null,
     getAttributeNames: () => Array.from(attributes.keys()),
   };

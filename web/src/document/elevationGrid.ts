@@ -14,7 +14,8 @@ export interface Surface {
 export function elevationGrid(values: Values<typeof nodeFields.ElevationGrid>, given: VertexData): Surface | undefined {
   const { xDimension: columns, zDimension: rows, xSpacing, zSpacing, height, normalPerVertex, colorPerVertex } = values;
   if (columns < 2 || rows < 2 || columns * rows > height.length) return undefined;
-  const positions: number[] = [], texCoords: number[] = [];
+  const positions: number[] = [],
+    texCoords: number[] = [];
   for (let z = 0; z < rows; ++z) {
     for (let x = 0; x < columns; ++x) {
       positions.push(xSpacing * x, height[z * columns + x] ?? 0, zSpacing * z);
@@ -25,11 +26,14 @@ export function elevationGrid(values: Values<typeof nodeFields.ElevationGrid>, g
   for (let z = 0; z + 1 < rows; ++z) {
     for (let x = 0; x + 1 < columns; ++x) {
       const [corner, face] = [z * columns + x, faces.length];
-      faces.push([corner, corner + columns, corner + columns + 1, corner + 1].map((position) => ({
-        position, texCoord: position,
-        normal: given.normals.length === 0 ? -1 : normalPerVertex ? position : face,
-        color: given.colors.length === 0 ? -1 : colorPerVertex ? position : face,
-      })));
+      faces.push(
+        [corner, corner + columns, corner + columns + 1, corner + 1].map((position) => ({
+          position,
+          texCoord: position,
+          normal: given.normals.length === 0 ? -1 : normalPerVertex ? position : face,
+          color: given.colors.length === 0 ? -1 : colorPerVertex ? position : face,
+        })),
+      );
     }
   }
   return { data: { ...given, positions, texCoords: given.texCoords.length > 0 ? given.texCoords : texCoords }, faces };

@@ -15,7 +15,8 @@ export function extrusion(values: Values<typeof nodeFields.Extrusion>): Surface 
   const spine = vectorsOf(values.spine, 3).map(([x = 0, y = 0, z = 0]): Vec3 => [x, y, z]);
   const section = vectorsOf(values.crossSection, 2).map(([x = 0, z = 0]): readonly [number, number] => [x, z]);
   if (spine.length < 2 || section.length < 2) return undefined;
-  const scales = vectorsOf(values.scale, 2), turns = vectorsOf(values.orientation, 4);
+  const scales = vectorsOf(values.scale, 2),
+    turns = vectorsOf(values.orientation, 4);
   const positions = framesAlong(spine).flatMap((frame, i) => {
     const [scaleX = 1, scaleZ = 1] = scales[Math.min(i, scales.length - 1)] ?? [];
     const turn = turns[Math.min(i, turns.length - 1)] ?? [];
@@ -44,11 +45,18 @@ function isClosed(first: readonly number[] | undefined, last: readonly number[] 
 
 /** The planes across the spine (13.3.5.4): y along it, z out of its bend. */
 function framesAlong(spine: readonly Vec3[]): Frame[] {
-  const count = spine.length, closed = count > 2 && isClosed(spine[0], spine[count - 1]);
-  const at = (i: number) => spine[closed ? (i + count - 1) % (count - 1) : Math.min(Math.max(i, 0), count - 1)] ?? nowhere;
+  const count = spine.length,
+    closed = count > 2 && isClosed(spine[0], spine[count - 1]);
+  const at = (i: number) =>
+    spine[closed ? (i + count - 1) % (count - 1) : Math.min(Math.max(i, 0), count - 1)] ?? nowhere;
   const tangents = filled(spine.map((_, i) => unit(minus(at(i + 1), at(i - 1)))));
   const bends = filled(spine.map((_, i) => unit(cross(minus(at(i + 1), at(i)), minus(at(i - 1), at(i))))));
-  if (tangents === undefined) return spine.map(() => [[1, 0, 0], [0, 1, 0], [0, 0, 1]]);
+  if (tangents === undefined)
+    return spine.map(() => [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+    ]);
   if (bends === undefined) return tangents.map((tangent) => straight(tangent));
   let before: Vec3 | undefined;
   return tangents.map((y, i): Frame => {
@@ -70,7 +78,8 @@ function filled(vectors: readonly (Vec3 | undefined)[]): Vec3[] | undefined {
 /** Of a straight spine: the y axis turned the shortest way onto it. */
 function straight(tangent: Vec3): Frame {
   const up: Vec3 = [0, 1, 0];
-  const axis = cross(up, tangent), sine = Math.hypot(...axis);
+  const axis = cross(up, tangent),
+    sine = Math.hypot(...axis);
   const turn = sine > 1e-12 ? [...axis, Math.atan2(sine, tangent[1])] : [1, 0, 0, tangent[1] < 0 ? Math.PI : 0];
   return [turned([1, 0, 0], turn), turned(up, turn), turned([0, 0, 1], turn)];
 }
@@ -92,15 +101,21 @@ class FaceBuilder {
   addSides(): void {
     const [rows, columns] = [this.#spine.length, this.#section.length];
     const ringClosed = columns > 2 && isClosed(this.#section[0], this.#section[columns - 1]);
-    const spineClosed = rows > 2 && isClosed(this.#spine[0], this.#spine[rows - 1]) &&
+    const spineClosed =
+      rows > 2 &&
+      isClosed(this.#spine[0], this.#spine[rows - 1]) &&
       isClosed(this.#positions.slice(0, 3 * columns), this.#positions.slice(-3 * columns));
-    for (let i = 0; i < rows; ++i) for (let j = 0; j < columns; ++j) this.#texCoords.push(j / (columns - 1), i / (rows - 1));
+    for (let i = 0; i < rows; ++i)
+      for (let j = 0; j < columns; ++j) this.#texCoords.push(j / (columns - 1), i / (rows - 1));
     const corner = (i: number, j: number): Corner => ({
       position: (spineClosed ? i % (rows - 1) : i) * columns + (ringClosed ? j % (columns - 1) : j),
-      texCoord: i * columns + j, normal: -1, color: -1,
+      texCoord: i * columns + j,
+      normal: -1,
+      color: -1,
     });
     for (let i = 0; i + 1 < rows; ++i) {
-      for (let j = 0; j + 1 < columns; ++j) this.#faces.push([corner(i, j), corner(i, j + 1), corner(i + 1, j + 1), corner(i + 1, j)]);
+      for (let j = 0; j + 1 < columns; ++j)
+        this.#faces.push([corner(i, j), corner(i, j + 1), corner(i + 1, j + 1), corner(i + 1, j)]);
     }
   }
 

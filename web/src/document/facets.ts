@@ -34,57 +34,75 @@ export interface Drawn {
 
 /** Polygons as fans about their first corner. */
 export function fansOf(faces: readonly (readonly Corner[])[]): Corner[] {
-  return faces.flatMap((face) => face.slice(2).flatMap((corner, i) => {
-    const [first, second] = [face[0], face[i + 1]];
-    return first && second ? [first, second, corner] : [];
-  }));
+  return faces.flatMap((face) =>
+    face.slice(2).flatMap((corner, i) => {
+      const [first, second] = [face[0], face[i + 1]];
+      return first && second ? [first, second, corner] : [];
+    }),
+  );
 }
 
 /** Polygons that may be concave. */
 export function trianglesOf(positions: readonly number[], faces: readonly (readonly Corner[])[]): Corner[] {
   return faces.flatMap((face) => {
-    const ring = face.map(({ position }): readonly [number, number, number] =>
-      [positions[3 * position] ?? 0, positions[3 * position + 1] ?? 0, positions[3 * position + 2] ?? 0]);
+    const ring = face.map(({ position }): readonly [number, number, number] => [
+      positions[3 * position] ?? 0,
+      positions[3 * position + 1] ?? 0,
+      positions[3 * position + 2] ?? 0,
+    ]);
     return triangulate(ring).flatMap((place) => face[place] ?? []);
   });
 }
 
 /** The lines of runs. */
 export function linesOf(runs: readonly (readonly Corner[])[]): Corner[] {
-  return runs.flatMap((run) => run.slice(1).flatMap((corner, i) => {
-    const before = run[i];
-    return before ? [before, corner] : [];
-  }));
+  return runs.flatMap((run) =>
+    run.slice(1).flatMap((corner, i) => {
+      const before = run[i];
+      return before ? [before, corner] : [];
+    }),
+  );
 }
 
 /**
  * Normals for faces without: each corner has the mean of the faces around its
  * position that are turned from its own by no more than `creaseAngle`, in radians.
  */
-export function withCreasedNormals(data: VertexData, faces: readonly (readonly Corner[])[],
-                                   creaseAngle: number): { data: VertexData; faces: Corner[][] } {
+export function withCreasedNormals(
+  data: VertexData,
+  faces: readonly (readonly Corner[])[],
+  creaseAngle: number,
+): { data: VertexData; faces: Corner[][] } {
   const faceNormals = faces.map((face) => newellNormal(data.positions, face));
   const around = new Map<number, number[]>();
   faces.forEach((face, number) => {
-    for (const { position } of face) around.set(position, [...around.get(position) ?? [], number]);
+    for (const { position } of face) around.set(position, [...(around.get(position) ?? []), number]);
   });
   const least = Math.cos(Math.min(creaseAngle, Math.PI)) - 1e-9;
   const normals: number[] = [];
-  const creased = faces.map((face, number) => face.map((corner) => {
-    const own = faceNormals[number] ?? [0, 0, 0];
-    const sum = [0, 0, 0];
-    for (const other of around.get(corner.position) ?? []) {
-      const normal = faceNormals[other] ?? [0, 0, 0];
-      if (other === number || dot(own, normal) >= least) normal.forEach((value, axis) => { sum[axis] = (sum[axis] ?? 0) + value; });
-    }
-    normals.push(...unit(sum));
-    return { ...corner, normal: normals.length / 3 - 1 };
-  }));
+  const creased = faces.map((face, number) =>
+    face.map((corner) => {
+      const own = faceNormals[number] ?? [0, 0, 0];
+      const sum = [0, 0, 0];
+      for (const other of around.get(corner.position) ?? []) {
+        const normal = faceNormals[other] ?? [0, 0, 0];
+        if (other === number || dot(own, normal) >= least)
+          normal.forEach((value, axis) => {
+            sum[axis] = (sum[axis] ?? 0) + value;
+          });
+      }
+      normals.push(...unit(sum));
+      return { ...corner, normal: normals.length / 3 - 1 };
+    }),
+  );
   return { data: { ...data, normals }, faces: creased };
 }
 
 /** Where the document has no texture coordinates: over the box, s along its longest side and t along the next (ISO/IEC 19775-1, 13.3.6). */
-export function withSpreadTexCoords(data: VertexData, faces: readonly (readonly Corner[])[]): { data: VertexData; faces: Corner[][] } {
+export function withSpreadTexCoords(
+  data: VertexData,
+  faces: readonly (readonly Corner[])[],
+): { data: VertexData; faces: Corner[][] } {
   const along = (axis: number) => {
     let [least, most] = [Infinity, -Infinity];
     for (let at = axis; at < data.positions.length; at += 3) {
@@ -96,9 +114,13 @@ export function withSpreadTexCoords(data: VertexData, faces: readonly (readonly 
   const [s, t] = [0, 1, 2].map(along).sort((a, b) => b.extent - a.extent || a.axis - b.axis);
   const texCoords: number[] = [];
   for (let first = 0; s && t && first < data.positions.length; first += 3) {
-    for (const { axis, least } of [s, t]) texCoords.push(((data.positions[first + axis] ?? 0) - least) / (s.extent || 1));
+    for (const { axis, least } of [s, t])
+      texCoords.push(((data.positions[first + axis] ?? 0) - least) / (s.extent || 1));
   }
-  return { data: { ...data, texCoords }, faces: faces.map((face) => face.map((corner) => ({ ...corner, texCoord: corner.position }))) };
+  return {
+    data: { ...data, texCoords },
+    faces: faces.map((face) => face.map((corner) => ({ ...corner, texCoord: corner.position }))),
+  };
 }
 
 function newellNormal(positions: readonly number[], face: readonly Corner[]): number[] {
@@ -139,12 +161,17 @@ export function drawn(primitive: Drawn["primitive"], data: VertexData, corners: 
   const normals = data.normals.length > 0 ? take(data.normals, 3, ({ normal }) => normal) : [];
   const texCoords = data.texCoords.length > 0 ? take(data.texCoords, 2, ({ texCoord }) => texCoord) : [];
   const colors = data.colors.length > 0 ? take(data.colors, colorComponents, ({ color }) => color) : [];
-  if (positions === undefined || normals === undefined || texCoords === undefined || colors === undefined) return undefined;
+  if (positions === undefined || normals === undefined || texCoords === undefined || colors === undefined)
+    return undefined;
   return {
-    primitive, colorComponents,
+    primitive,
+    colorComponents,
     positions: Float32Array.from(positions),
     normals: normals.length > 0 ? Float32Array.from(normals) : undefined,
     texCoords: texCoords.length > 0 ? Float32Array.from(texCoords) : undefined,
-    colors: colors.length > 0 ? Uint8Array.from(colors, (value) => Math.round(255 * Math.min(Math.max(value, 0), 1))) : undefined,
+    colors:
+      colors.length > 0
+        ? Uint8Array.from(colors, (value) => Math.round(255 * Math.min(Math.max(value, 0), 1)))
+        : undefined,
   };
 }

@@ -103,7 +103,10 @@ const mfString: FieldType<readonly string[]> = {
 };
 
 /** The same, but a text without quotes is one string. */
-const mfText: FieldType<readonly string[]> = { name: "MFString", parse: (text) => (text.includes('"') ? mfString.parse(text) : text === "" ? [] : [text]) };
+const mfText: FieldType<readonly string[]> = {
+  name: "MFString",
+  parse: (text) => (text.includes('"') ? mfString.parse(text) : text === "" ? [] : [text]),
+};
 
 const sfImage: FieldType<PixelImage> = {
   name: "SFImage",

@@ -4,7 +4,15 @@
 // give the references.
 
 import type {
-  Box3, Draw, ElementType, GeometryDescription, MeshMode, NormalEncoding, PatchDescription, Primitive, Reference,
+  Box3,
+  Draw,
+  ElementType,
+  GeometryDescription,
+  MeshMode,
+  NormalEncoding,
+  PatchDescription,
+  Primitive,
+  Reference,
   Warning,
 } from "./description.ts";
 import { decodePlaces, elementTypes, meshModes, normalEncodings, profiles } from "./description.ts";
@@ -26,8 +34,10 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
   const profile = choiceOf(element, "profile", values.profile, profiles, "classic", warnings);
   const container = profile === "compact" ? "compact" : "sig";
   // Compact has its own connectivity.
-  const mode = container === "compact" ? "sig"
-    : choiceOf(element, "implicitMeshMode", values.implicitMeshMode, meshModes, "sig", warnings);
+  const mode =
+    container === "compact"
+      ? "sig"
+      : choiceOf(element, "implicitMeshMode", values.implicitMeshMode, meshModes, "sig", warnings);
   return {
     ...commonOf(element, values, warnings),
     attributes: readAttributes(element, container, warnings),
@@ -36,7 +46,10 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
     decode: choiceOf(element, "decode", values.decode, decodePlaces, "auto", warnings),
     // The bytes of an image are its only element type; indices are made of two or three.
     base: container === "compact" && values.base !== "" ? referenceOf(values.base, container) : undefined,
-    coordType: "Uint8", normalType: "Uint8", texCoordType: "Uint8", colorType: "Uint8",
+    coordType: "Uint8",
+    normalType: "Uint8",
+    texCoordType: "Uint8",
+    colorType: "Uint8",
     patches: readPatches(element, container, warnings).map((patch) => withGrid(element, patch, mode, warnings)),
   };
 }
@@ -44,7 +57,14 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
 export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): GeometryDescription {
   const values = readFields(element, nodeFields.BinaryGeometry, warnings);
   const typeOf = (field: "coordType" | "normalType" | "texCoordType" | "colorType"): ElementType =>
-    choiceOf(element, field, values[field], elementTypes, nodeFields.BinaryGeometry[field].defaultValue as ElementType, warnings);
+    choiceOf(
+      element,
+      field,
+      values[field],
+      elementTypes,
+      nodeFields.BinaryGeometry[field].defaultValue as ElementType,
+      warnings,
+    );
   const geometry: GeometryDescription = {
     ...commonOf(element, values, warnings),
     attributes: readAttributes(element, "bg", warnings),
@@ -80,12 +100,19 @@ export function hasNormalsInCoords(geometry: GeometryDescription, patch: PatchDe
   const isBytePair = geometry.normalType === "Uint8" && isPair(geometry.normalEncoding);
   if (geometry.container !== "bg" || !isBytePair || !geometry.coordType.endsWith("16")) return false;
   const place = fourthElementOf(patch);
-  return place !== undefined && patch.normal?.url === place.url && patch.normal.first === place.first &&
-    patch.normal.stride === place.stride;
+  return (
+    place !== undefined &&
+    patch.normal?.url === place.url &&
+    patch.normal.first === place.first &&
+    patch.normal.stride === place.stride
+  );
 }
 
 /** Whether nothing tells where a patch lies before its coordinates are here: floats need not lie in the decode box. */
-export function isUnbounded({ container, coordType }: Pick<GeometryDescription, "container" | "coordType">, { box }: PatchDescription): boolean {
+export function isUnbounded(
+  { container, coordType }: Pick<GeometryDescription, "container" | "coordType">,
+  { box }: PatchDescription,
+): boolean {
   return container === "bg" && coordType === "Float32" && box === undefined;
 }
 
@@ -97,17 +124,36 @@ export function isPair(encoding: NormalEncoding): encoding is "octahedral" | "sp
 /** What only images have. */
 type ImageFields = "numColorComponents" | "decode" | "profile" | "base" | "implicitMeshMode";
 
-function commonOf(element: SceneElement, values: Omit<Values<typeof nodeFields.ImageGeometry>, ImageFields>,
-                  warnings: Warning[]) {
+function commonOf(
+  element: SceneElement,
+  values: Omit<Values<typeof nodeFields.ImageGeometry>, ImageFields>,
+  warnings: Warning[],
+) {
   const { position, size, positionBits, solid, texCoordMin, texCoordSize } = values;
   const indexType = choiceOf(element, "indexType", values.indexType, elementTypes, "Uint16", warnings);
   const normalEncoding = choiceOf(element, "normalEncoding", values.normalEncoding, normalEncodings, "rgb", warnings);
-  return { position, size, positionBits, solid, texCoordMin, texCoordSize, indexType, normalEncoding, value: undefined };
+  return {
+    position,
+    size,
+    positionBits,
+    solid,
+    texCoordMin,
+    texCoordSize,
+    indexType,
+    normalEncoding,
+    value: undefined,
+  };
 }
 
 /** The one of `choices` that the text names, without regard to case. */
-function choiceOf<Choice extends string>(element: SceneElement, field: string, text: string, choices: readonly Choice[],
-                                         fallback: Choice, warnings: Warning[]): Choice {
+function choiceOf<Choice extends string>(
+  element: SceneElement,
+  field: string,
+  text: string,
+  choices: readonly Choice[],
+  fallback: Choice,
+  warnings: Warning[],
+): Choice {
   const found = choices.find((choice) => choice.toLowerCase() === text.trim().toLowerCase());
   if (found === undefined) warnings.push({ element, message: `${field}="${text}" is none of ${choices.join(", ")}` });
   return found ?? fallback;
@@ -129,11 +175,18 @@ export function boxAround(center: Vec3, size: Vec3): Box3 {
 function readPatches(element: SceneElement, container: Container, warnings: Warning[]): PatchDescription[] {
   const patchElements = childrenOf(element).filter((child) => lowerNameOf(child) === "geometrypatch");
   if (patchElements.length === 0) {
-    return [patchOf(element, { ...readFields(element, nodeFields.GeometryPatch, warnings),
-                               ...texturesOf(element, warnings) }, container, warnings)];
+    return [
+      patchOf(
+        element,
+        { ...readFields(element, nodeFields.GeometryPatch, warnings), ...texturesOf(element, warnings) },
+        container,
+        warnings,
+      ),
+    ];
   }
   return patchElements.map((child) =>
-    patchOf(child, readFields(child, nodeFields.GeometryPatch, warnings), container, warnings));
+    patchOf(child, readFields(child, nodeFields.GeometryPatch, warnings), container, warnings),
+  );
 }
 
 /** References given by ImageTexture children; `coord` children count in document order. */
@@ -147,18 +200,28 @@ function texturesOf(element: SceneElement, warnings: Warning[]): Partial<PatchVa
     if (first === undefined) continue;
     // X3DOM matches these values by their exact case.
     if (containerField === "coord") coord.push(first);
-    else if (containerField === "index" || containerField === "normal" || containerField === "texCoord" ||
-             containerField === "color") single[containerField] = first;
+    else if (
+      containerField === "index" ||
+      containerField === "normal" ||
+      containerField === "texCoord" ||
+      containerField === "color"
+    )
+      single[containerField] = first;
     else warnings.push({ element: child, message: `containerField="${containerField}" names no part of a geometry` });
   }
   return coord.length > 0 ? { ...single, coord } : single;
 }
 
-function patchOf(element: SceneElement, values: PatchValues, container: Container,
-                 warnings: Warning[]): PatchDescription {
+function patchOf(
+  element: SceneElement,
+  values: PatchValues,
+  container: Container,
+  warnings: Warning[],
+): PatchDescription {
   const reference = (text: string) => (text === "" ? undefined : referenceOf(text, container));
   const planes = container === "sig" ? mostCoordPlanes : 1;
-  if (values.coord.length > planes) warnings.push({ element, message: `only the first ${planes} of ${values.coord.length} coord are used` });
+  if (values.coord.length > planes)
+    warnings.push({ element, message: `only the first ${planes} of ${values.coord.length} coord are used` });
   const coord = values.coord.slice(0, planes);
   return {
     box: boxOf(values),
@@ -179,7 +242,12 @@ function patchOf(element: SceneElement, values: PatchValues, container: Containe
 }
 
 /** Of a grid the size says all: its vertices, and two triangles between each four of them. */
-function withGrid(element: SceneElement, patch: PatchDescription, kind: MeshMode, warnings: Warning[]): PatchDescription {
+function withGrid(
+  element: SceneElement,
+  patch: PatchDescription,
+  kind: MeshMode,
+  warnings: Warning[],
+): PatchDescription {
   if (kind === "sig") return patch;
   const { implicitWidth: columns, implicitHeight: rows } = patch;
   if (columns < 2 || rows < 2) {
@@ -188,20 +256,28 @@ function withGrid(element: SceneElement, patch: PatchDescription, kind: MeshMode
   }
   const cells = (kind === "sculpt" ? columns : columns - 1) * (rows - 1);
   return {
-    ...patch, index: undefined, vertexCount: columns * rows, draws: [{ primitive: "triangles", count: 6 * cells }],
+    ...patch,
+    index: undefined,
+    vertexCount: columns * rows,
+    draws: [{ primitive: "triangles", count: 6 * cells }],
     grid: { kind, columns, rows },
   };
 }
 
 const primitives: Readonly<Record<string, Primitive>> = {
-  POINTS: "points", LINES: "lines", LINESTRIP: "lineStrip", TRIANGLES: "triangles", TRIANGLESTRIP: "triangleStrip",
+  POINTS: "points",
+  LINES: "lines",
+  LINESTRIP: "lineStrip",
+  TRIANGLES: "triangles",
+  TRIANGLESTRIP: "triangleStrip",
 };
 
 function drawsOf(element: SceneElement, values: PatchValues, warnings: Warning[]): Draw[] {
   return values.vertexCount.map((count, place) => {
     const name = values.primType[place] ?? "TRIANGLES";
     const primitive = primitives[name.toUpperCase()];
-    if (primitive === undefined) warnings.push({ element, message: `primType "${name}" is not drawn as such but as TRIANGLES` });
+    if (primitive === undefined)
+      warnings.push({ element, message: `primType "${name}" is not drawn as such but as TRIANGLES` });
     if (count < 0) warnings.push({ element, message: `vertexCount ${count} is negative; nothing is drawn` });
     return { primitive: primitive ?? "triangles", count: Math.max(0, count) };
   });

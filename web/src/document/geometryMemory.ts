@@ -12,7 +12,11 @@ import type { Warning } from "./nodes.ts";
 export type Lookup = (name: string) => SceneElement | undefined;
 
 /** Makes a geometry of an element, or nothing of what is none. */
-export type ReadGeometry = (element: SceneElement, lookup: Lookup, warnings: Warning[]) => GeometryDescription | undefined;
+export type ReadGeometry = (
+  element: SceneElement,
+  lookup: Lookup,
+  warnings: Warning[],
+) => GeometryDescription | undefined;
 
 interface Remembered {
   readonly geometry: GeometryDescription;
@@ -43,7 +47,12 @@ export class GeometryMemory {
   }
 
   /** What `read` makes of the element, which is called only where that is not known; `lookup` is asked for all that it USEs either way. */
-  recall(element: SceneElement, lookup: Lookup, warnings: Warning[], read: ReadGeometry): GeometryDescription | undefined {
+  recall(
+    element: SceneElement,
+    lookup: Lookup,
+    warnings: Warning[],
+    read: ReadGeometry,
+  ): GeometryDescription | undefined {
     const known = this.#known.get(element);
     if (known !== undefined && this.#isSure(element, known)) {
       known.names.forEach(lookup);
@@ -52,23 +61,32 @@ export class GeometryMemory {
     }
     const names: string[] = [];
     const own: Warning[] = [];
-    const fresh = read(element, (name) => {
-      names.push(name);
-      return lookup(name);
-    }, own);
+    const fresh = read(
+      element,
+      (name) => {
+        names.push(name);
+        return lookup(name);
+      },
+      own,
+    );
     warnings.push(...own);
     this.#touched.delete(element);
     if (fresh === undefined) {
       this.#known.delete(element);
       return undefined;
     }
-    const geometry = known !== undefined && JSON.stringify(known.geometry) === JSON.stringify(fresh) ? known.geometry : fresh;
+    const geometry =
+      known !== undefined && JSON.stringify(known.geometry) === JSON.stringify(fresh) ? known.geometry : fresh;
     this.#known.set(element, { geometry, warnings: own, names, checkedIn: this.#reading });
     return geometry;
   }
 
   /** What `make` makes of the geometry, which is called once for each key; the geometry itself where that is nothing. */
-  variant(geometry: GeometryDescription, key: string, make: (geometry: GeometryDescription) => GeometryDescription | undefined): GeometryDescription {
+  variant(
+    geometry: GeometryDescription,
+    key: string,
+    make: (geometry: GeometryDescription) => GeometryDescription | undefined,
+  ): GeometryDescription {
     const variants = this.#variants.get(geometry) ?? new Map<string, GeometryDescription>();
     this.#variants.set(geometry, variants);
     const known = variants.get(key) ?? make(geometry) ?? geometry;

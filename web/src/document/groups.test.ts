@@ -12,15 +12,23 @@ function groupIn(markup: string): GroupDescription {
 }
 
 test("an Anchor tells where it leads, what that is called, and in which window", () => {
-  const { anchor, children } = groupIn(`<Anchor url='"a.html" "#there"' description="A" parameter='"x=y" "target=_blank"'><Shape/></Anchor>`);
-  assert.deepEqual([anchor?.urls, anchor?.description, anchor?.target, children.length], [["a.html", "#there"], "A", "_blank", 1]);
+  const { anchor, children } = groupIn(
+    `<Anchor url='"a.html" "#there"' description="A" parameter='"x=y" "target=_blank"'><Shape/></Anchor>`,
+  );
+  assert.deepEqual(
+    [anchor?.urls, anchor?.description, anchor?.target, children.length],
+    [["a.html", "#there"], "A", "_blank", 1],
+  );
   assert.equal(groupIn("<Anchor><Shape/></Anchor>").anchor, undefined);
   assert.equal(groupIn('<Anchor url="a.html"/>').anchor?.target, "");
 });
 
 test("a Collision's proxy is not seen", () => {
   const shapes = shapesOf(groupIn('<Collision><Shape id="a"/><Shape id="b" containerField="proxy"/></Collision>'));
-  assert.deepEqual(shapes.map(({ element }) => element.getAttribute("id")), ["a"]);
+  assert.deepEqual(
+    shapes.map(({ element }) => element.getAttribute("id")),
+    ["a"],
+  );
 });
 
 test("a Billboard turns about the y axis, or about the one that it names", () => {

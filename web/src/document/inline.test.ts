@@ -23,29 +23,57 @@ const shape = (id: string, more = "") => `<Shape id="${id}" ${more}><Box/></Shap
 
 describe("Inline", () => {
   test("shows a document where it stands, with names of its own", () => {
-    const page = elementsOf(`<X3D><Scene>${shape("own", 'DEF="S"')}<Transform translation="1 0 0"><Inline id="in" url='"a.x3d"'/></Transform>
+    const page =
+      elementsOf(`<X3D><Scene>${shape("own", 'DEF="S"')}<Transform translation="1 0 0"><Inline id="in" url='"a.x3d"'/></Transform>
       <Inline url="lost.x3d"/><Switch whichChoice="-1"><Inline url='"b.x3d"'/></Switch><Inline load="false" url='"c.x3d"'/></Scene></X3D>`);
-    const inlined = reader({ "a.x3d": `<X3D><Scene>${shape("inner", 'DEF="S"')}<Shape USE="S"/><NavigationInfo headlight="false"/></Scene></X3D>` });
+    const inlined = reader({
+      "a.x3d": `<X3D><Scene>${shape("inner", 'DEF="S"')}<Shape USE="S"/><NavigationInfo headlight="false"/></Scene></X3D>`,
+    });
     const scene = readScene(page, { inlined });
-    assert.deepEqual(shapesOf(scene.root).map(({ element, host }) => [element.getAttribute("id"), host.getAttribute("id")]),
-      [["own", "own"], ["inner", "in"], [null, "in"]]);
+    assert.deepEqual(
+      shapesOf(scene.root).map(({ element, host }) => [element.getAttribute("id"), host.getAttribute("id")]),
+      [
+        ["own", "own"],
+        ["inner", "in"],
+        [null, "in"],
+      ],
+    );
     assert.equal(scene.navigation.headlight, true, "of the whole scene it says nothing");
-    assert.deepEqual(scene.inlines.map(({ urls, visible }) => [urls[0], visible]), [["a.x3d", true], ["lost.x3d", true], ["b.x3d", false]]);
+    assert.deepEqual(
+      scene.inlines.map(({ urls, visible }) => [urls[0], visible]),
+      [
+        ["a.x3d", true],
+        ["lost.x3d", true],
+        ["b.x3d", false],
+      ],
+    );
     assert.deepEqual(scene.warnings, []);
   });
 
   test("ends where documents inline one another in a circle, or too deeply", () => {
-    const circle = reader({ "a.x3d": `<X3D><Inline url="b.x3d"/>${shape("a")}</X3D>`, "b.x3d": `<X3D><Inline url="a.x3d"/>${shape("b")}</X3D>` });
+    const circle = reader({
+      "a.x3d": `<X3D><Inline url="b.x3d"/>${shape("a")}</X3D>`,
+      "b.x3d": `<X3D><Inline url="a.x3d"/>${shape("b")}</X3D>`,
+    });
     const scene = readScene(elementsOf('<X3D><Inline url="a.x3d"/></X3D>'), { inlined: circle });
-    assert.deepEqual(shapesOf(scene.root).map(({ element }) => element.getAttribute("id")), ["b", "a"]);
-    assert.deepEqual(scene.warnings.map(({ message }) => message), ["names a.x3d, which it stands in itself"]);
-    const chain = reader(Object.fromEntries(Array.from({ length: 40 }, (_, i) => [`${i}`, `<X3D><Inline url="${i + 1}"/></X3D>`])));
+    assert.deepEqual(
+      shapesOf(scene.root).map(({ element }) => element.getAttribute("id")),
+      ["b", "a"],
+    );
+    assert.deepEqual(
+      scene.warnings.map(({ message }) => message),
+      ["names a.x3d, which it stands in itself"],
+    );
+    const chain = reader(
+      Object.fromEntries(Array.from({ length: 40 }, (_, i) => [`${i}`, `<X3D><Inline url="${i + 1}"/></X3D>`])),
+    );
     const deep = readScene(elementsOf('<X3D><Inline url="0"/></X3D>'), { inlined: chain });
     assert.match(deep.warnings[0]?.message ?? "", /more than 16 documents deep/);
   });
 
   test("is read with the urls of its own folder", () => {
-    const x3d = elementsOf(`<X3D><ImageTexture url='"a.png" "../b.png" "https://c.org/d.png"'/><ImageGeometry base="g/b.png#12">
+    const x3d =
+      elementsOf(`<X3D><ImageTexture url='"a.png" "../b.png" "https://c.org/d.png"'/><ImageGeometry base="g/b.png#12">
       <GeometryPatch index="g/i.png#7" coord='"g/x.png#1" "g/y.png"' bboxCenter="1 2 3"/></ImageGeometry>
       <IndexedTriangleSet index="0 1 2"/><Inline url="deep.x3d"/></X3D>`);
     absoluteUrls(withWrites(x3d), "https://h.org/w/a.x3d");
@@ -55,12 +83,23 @@ describe("Inline", () => {
       element.children.forEach(list);
     };
     list(x3d);
-    assert.deepEqual(attributes, ['"https://h.org/w/a.png" "https://h.org/b.png" "https://c.org/d.png"', "https://h.org/w/g/b.png#12",
-      "https://h.org/w/g/i.png#7", '"https://h.org/w/g/x.png#1" "https://h.org/w/g/y.png"', "1 2 3", "0 1 2", "https://h.org/w/deep.x3d"]);
+    assert.deepEqual(attributes, [
+      '"https://h.org/w/a.png" "https://h.org/b.png" "https://c.org/d.png"',
+      "https://h.org/w/g/b.png#12",
+      "https://h.org/w/g/i.png#7",
+      '"https://h.org/w/g/x.png#1" "https://h.org/w/g/y.png"',
+      "1 2 3",
+      "0 1 2",
+      "https://h.org/w/deep.x3d",
+    ]);
   });
 });
 
 function withWrites(element: TestElement): TestElement & { setAttribute(name: string, value: string): void } {
   element.children.forEach(withWrites);
-  return Object.assign(element, { setAttribute: (name: string, value: string) => { element.attributes.set(name, value); } });
+  return Object.assign(element, {
+    setAttribute: (name: string, value: string) => {
+      element.attributes.set(name, value);
+    },
+  });
 }

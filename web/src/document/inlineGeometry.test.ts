@@ -14,7 +14,9 @@ interface Triangles {
 function bytesOf(reference: Reference | undefined): ArrayBuffer {
   assert.ok(reference);
   assert.ok(reference.url.startsWith("data:"));
-  return Uint8Array.from(atob(reference.url.slice(reference.url.indexOf(",") + 1)), (character) => character.charCodeAt(0)).buffer;
+  return Uint8Array.from(atob(reference.url.slice(reference.url.indexOf(",") + 1)), (character) =>
+    character.charCodeAt(0),
+  ).buffer;
 }
 
 function read(markup: string): { geometry: GeometryDescription | undefined; warnings: number } {
@@ -49,7 +51,7 @@ const square = '<Coordinate point="0 0 0, 1 0 0, 1 1 0, 0 1 0"/>';
 describe("geometry in the document", () => {
   for (const [markup, volume, size] of [
     ['<Box size="1 2 3"/>', 6, [1, 2, 3]],
-    ["<Sphere/>", 4 / 3 * Math.PI, [2, 2, 2]],
+    ["<Sphere/>", (4 / 3) * Math.PI, [2, 2, 2]],
     ['<Cylinder radius="0.5" height="3"/>', 0.75 * Math.PI, [1, 3, 1]],
     ['<Cone bottomRadius="1" height="3"/>', Math.PI, [2, 3, 2]],
     ['<Extrusion spine="0 -0.5 0 0 0.5 0"/>', 4, [2, 1, 2]],
@@ -61,9 +63,13 @@ describe("geometry in the document", () => {
       const { geometry, positions, normals } = trianglesOf(markup);
       assert.ok(Math.abs(volumeOf(positions) / volume - 1) < 0.01, `${volumeOf(positions)} instead of ${volume}`);
       const box = geometry.patches[0]?.box;
-      box?.max.forEach((edge, axis) => { assert.ok(Math.abs(edge - (box.min[axis] ?? 0) - (size[axis] ?? 0)) < 1e-5); });
+      box?.max.forEach((edge, axis) => {
+        assert.ok(Math.abs(edge - (box.min[axis] ?? 0) - (size[axis] ?? 0)) < 1e-5);
+      });
       for (let i = 0; i < normals.length; i += 3) {
-        const outwards = normals.slice(i, i + 3).reduce((sum, value, axis) => sum + value * (positions[i + axis] ?? 0), 0);
+        const outwards = normals
+          .slice(i, i + 3)
+          .reduce((sum, value, axis) => sum + value * (positions[i + axis] ?? 0), 0);
         assert.ok(outwards > 0 && Math.abs(Math.hypot(...normals.slice(i, i + 3)) - 1) < 1e-5);
       }
     });
@@ -81,23 +87,31 @@ describe("geometry in the document", () => {
     ]) {
       const { positions, normals } = trianglesOf(markup);
       // The polygon that was turned begins elsewhere: compare what they enclose with a point behind them.
-      const raised = (numbers: readonly number[]) => volumeOf(numbers.map((value, i) => i % 3 === 2 ? value + 1 : value));
+      const raised = (numbers: readonly number[]) =>
+        volumeOf(numbers.map((value, i) => (i % 3 === 2 ? value + 1 : value)));
       assert.equal(positions.length, two.length, markup);
       assert.ok(Math.abs(raised(positions) - raised(two)) < 1e-6, markup);
-      assert.ok(normals.every((value, i) => Math.abs(value - (i % 3 === 2 ? 1 : 0)) < 1e-6), markup);
+      assert.ok(
+        normals.every((value, i) => Math.abs(value - (i % 3 === 2 ? 1 : 0)) < 1e-6),
+        markup,
+      );
     }
-    assert.deepEqual(trianglesOf(`<IndexedTriangleStripSet index="0 1 3 2">${square}</IndexedTriangleStripSet>`).positions,
-      [0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]);
+    assert.deepEqual(
+      trianglesOf(`<IndexedTriangleStripSet index="0 1 3 2">${square}</IndexedTriangleStripSet>`).positions,
+      [0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0],
+    );
   });
 
   test("cuts concave polygons and caps within their outline", () => {
     const hook = "0 0 0 3 0 0 3 1 0 1 1 0 1 3 0 0 3 0"; // of area 5, in the order of a fan of 7
-    const prism = (positions: number[]) => volumeOf(positions.map((value, i) => i % 3 === 2 ? value + 3 : value));
-    const faces = (convex: boolean) => `<IndexedFaceSet convex="${convex}" coordIndex="4 5 0 1 2 3"><Coordinate point="${hook}"/></IndexedFaceSet>`;
-    const areaOf = (positions: number[]) => Array.from({ length: positions.length / 9 }, (_, i) => {
-      const [ax = 0, ay = 0, , bx = 0, by = 0, , cx = 0, cy = 0] = positions.slice(9 * i, 9 * i + 9);
-      return Math.abs((bx - ax) * (cy - ay) - (cx - ax) * (by - ay)) / 2;
-    }).reduce((sum, area) => sum + area, 0);
+    const prism = (positions: number[]) => volumeOf(positions.map((value, i) => (i % 3 === 2 ? value + 3 : value)));
+    const faces = (convex: boolean) =>
+      `<IndexedFaceSet convex="${convex}" coordIndex="4 5 0 1 2 3"><Coordinate point="${hook}"/></IndexedFaceSet>`;
+    const areaOf = (positions: number[]) =>
+      Array.from({ length: positions.length / 9 }, (_, i) => {
+        const [ax = 0, ay = 0, , bx = 0, by = 0, , cx = 0, cy = 0] = positions.slice(9 * i, 9 * i + 9);
+        return Math.abs((bx - ax) * (cy - ay) - (cx - ax) * (by - ay)) / 2;
+      }).reduce((sum, area) => sum + area, 0);
     assert.ok(Math.abs(prism(trianglesOf(faces(false)).positions) - 5) < 1e-6);
     assert.ok(Math.abs(areaOf(trianglesOf(faces(false)).positions) - 5) < 1e-6);
     assert.ok(areaOf(trianglesOf(faces(true)).positions) > 6, "a fan overlaps itself");
@@ -106,13 +120,28 @@ describe("geometry in the document", () => {
   });
 
   test("carries a cross-section around a closed spine, smoothly", () => {
-    const points = Array.from({ length: 33 }, (_, i) => [3 * Math.cos(i * Math.PI / 16), 0, -3 * Math.sin(i * Math.PI / 16)]);
+    const points = Array.from({ length: 33 }, (_, i) => [
+      3 * Math.cos((i * Math.PI) / 16),
+      0,
+      -3 * Math.sin((i * Math.PI) / 16),
+    ]);
     points[32] = points[0] ?? [];
-    const { positions, normals } = trianglesOf(`<Extrusion beginCap="false" endCap="false" creaseAngle="3.2" spine="${points.flat().join(" ")}"
+    const { positions, normals } =
+      trianglesOf(`<Extrusion beginCap="false" endCap="false" creaseAngle="3.2" spine="${points.flat().join(" ")}"
       crossSection="0.5 0 0.35 -0.35 0 -0.5 -0.35 -0.35 -0.5 0 -0.35 0.35 0 0.5 0.35 0.35 0.5 0"/>`);
     assert.ok(Math.abs(Math.abs(volumeOf(positions)) / (2 * Math.PI * 3 * 0.7) - 1) < 0.03, `${volumeOf(positions)}`);
-    const atStart = new Set(positions.flatMap((x, i) => i % 3 === 0 && Math.abs(x - 3.5) < 1e-4 && Math.abs(positions[i + 2] ?? 1) < 1e-4
-      ? [normals.slice(i, i + 3).map((value) => value.toFixed(3)).join()] : []));
+    const atStart = new Set(
+      positions.flatMap((x, i) =>
+        i % 3 === 0 && Math.abs(x - 3.5) < 1e-4 && Math.abs(positions[i + 2] ?? 1) < 1e-4
+          ? [
+              normals
+                .slice(i, i + 3)
+                .map((value) => value.toFixed(3))
+                .join(),
+            ]
+          : [],
+      ),
+    );
     assert.equal(atStart.size, 1, [...atStart].join(" | "));
   });
 
@@ -121,32 +150,55 @@ describe("geometry in the document", () => {
     const { geometry, positions, normals } = trianglesOf(`${grid}/>`);
     assert.equal(positions.length, 4 * 9);
     assert.deepEqual(geometry.patches[0]?.box, { min: [0, 0, 0], max: [4, 1, 1] });
-    assert.ok(normals.every((value, i) => i % 3 !== 1 || value > 0.5), "it is seen from above");
+    assert.ok(
+      normals.every((value, i) => i % 3 !== 1 || value > 0.5),
+      "it is seen from above",
+    );
     assert.equal(read('<ElevationGrid xDimension="3" zDimension="3" height="0 1"/>').warnings, 1);
-    assert.deepEqual([...new Uint8Array(bytesOf(read(`${grid}><Color color="1 0 0 1 0 0 1 0 0 0 0 1 0 0 1 0 0 1"/></ElevationGrid>`)
-      .geometry?.patches[0]?.color))].slice(0, 8), [255, 0, 0, 0, 0, 255, 0, 0]);
+    assert.deepEqual(
+      [
+        ...new Uint8Array(
+          bytesOf(
+            read(`${grid}><Color color="1 0 0 1 0 0 1 0 0 0 0 1 0 0 1 0 0 1"/></ElevationGrid>`).geometry?.patches[0]
+              ?.color,
+          ),
+        ),
+      ].slice(0, 8),
+      [255, 0, 0, 0, 0, 255, 0, 0],
+    );
   });
 
   test("has edges where faces turn by more than creaseAngle", () => {
-    const roof = (angle: number) => trianglesOf(`<IndexedFaceSet creaseAngle="${angle}" coordIndex="0 3 2 1 -1 1 2 5 4">
+    const roof = (angle: number) =>
+      trianglesOf(`<IndexedFaceSet creaseAngle="${angle}" coordIndex="0 3 2 1 -1 1 2 5 4">
       <Coordinate point="0 0 0 1 0 0 1 0 1 0 0 1 1 -1 0 1 -1 1"/></IndexedFaceSet>`).normals;
-    const distinct = (normals: number[]) => new Set(normals.flatMap((_, i) => i % 3 === 0 ? [normals.slice(i, i + 3).join()] : [])).size;
+    const distinct = (normals: number[]) =>
+      new Set(normals.flatMap((_, i) => (i % 3 === 0 ? [normals.slice(i, i + 3).join()] : []))).size;
     assert.equal(distinct(roof(0.5)), 2);
     assert.equal(distinct(roof(2)), 3); // those of the edge are between
   });
 
   test("draws lines and points, in colours of vertices or of lines", () => {
     const draws = (markup: string) => read(markup).geometry?.patches[0]?.draws;
-    assert.deepEqual(draws(`<IndexedLineSet coordIndex="0 1 2 -1 3 0">${square}</IndexedLineSet>`), [{ primitive: "lines", count: 6 }]);
+    assert.deepEqual(draws(`<IndexedLineSet coordIndex="0 1 2 -1 3 0">${square}</IndexedLineSet>`), [
+      { primitive: "lines", count: 6 },
+    ]);
     assert.deepEqual(draws(`<LineSet vertexCount="2 2">${square}</LineSet>`), [{ primitive: "lines", count: 4 }]);
     assert.deepEqual(draws(`<PointSet>${square}</PointSet>`), [{ primitive: "points", count: 4 }]);
-    const { geometry } = read(`<IndexedLineSet colorPerVertex="false" coordIndex="0 1 -1 2 3">${square}<ColorRGBA color="1 0 0 1 0 1 0 0.5"/></IndexedLineSet>`);
-    assert.deepEqual([...new Uint8Array(bytesOf(geometry?.patches[0]?.color))], [255, 0, 0, 255, 255, 0, 0, 255, 0, 255, 0, 128, 0, 255, 0, 128]);
+    const { geometry } = read(
+      `<IndexedLineSet colorPerVertex="false" coordIndex="0 1 -1 2 3">${square}<ColorRGBA color="1 0 0 1 0 1 0 0.5"/></IndexedLineSet>`,
+    );
+    assert.deepEqual(
+      [...new Uint8Array(bytesOf(geometry?.patches[0]?.color))],
+      [255, 0, 0, 255, 255, 0, 0, 255, 0, 255, 0, 128, 0, 255, 0, 128],
+    );
   });
 
   test("finds parts that it USEs, and says where there are none", () => {
-    const scene = readScene(elementsOf(`<X3D><Scene><Shape><PointSet><Coordinate DEF="C" point="1 2 3"/></PointSet></Shape>
-      <Shape><PointSet><Coordinate USE="C"/></PointSet></Shape></Scene></X3D>`));
+    const scene = readScene(
+      elementsOf(`<X3D><Scene><Shape><PointSet><Coordinate DEF="C" point="1 2 3"/></PointSet></Shape>
+      <Shape><PointSet><Coordinate USE="C"/></PointSet></Shape></Scene></X3D>`),
+    );
     assert.ok(shapesOf(scene.root).every(({ geometry }) => geometry?.patches[0]?.vertexCount === 1));
     assert.equal(read(`<IndexedFaceSet coordIndex="0 1 9">${square}</IndexedFaceSet>`).warnings, 1);
     assert.equal(read("<TriangleSet/>").geometry, undefined);

@@ -47,23 +47,41 @@ const runReaders: Readonly<Record<string, (fields: Fields, data: VertexData) => 
   trianglefanset: (fields, data) => byVertex(fields, data, counted(fields.fanCount).flatMap(fan)),
   indexedtrianglefanset: (fields, data) => byVertex(fields, data, between(fields.index).flatMap(fan)),
   lineset: (fields, data) => byVertex(fields, data, counted(fields.vertexCount)),
-  pointset: (fields, data) => byVertex(fields, data, numbersTo(data.positions.length / 3).map((vertex) => [vertex])),
+  pointset: (fields, data) =>
+    byVertex(
+      fields,
+      data,
+      numbersTo(data.positions.length / 3).map((vertex) => [vertex]),
+    ),
 };
 
 /** Surfaces that are made of other numbers than their vertices'. */
-const surfaces: Readonly<Record<string, (element: SceneElement, given: VertexData, warnings: Warning[]) => Surface | undefined>> = {
-  elevationgrid: (element, given, warnings) => elevationGrid(readFields(element, nodeFields.ElevationGrid, warnings), given),
+const surfaces: Readonly<
+  Record<string, (element: SceneElement, given: VertexData, warnings: Warning[]) => Surface | undefined>
+> = {
+  elevationgrid: (element, given, warnings) =>
+    elevationGrid(readFields(element, nodeFields.ElevationGrid, warnings), given),
   extrusion: (element, _, warnings) => extrusion(readFields(element, nodeFields.Extrusion, warnings)),
 };
 
-const primitives: Readonly<Record<string, Drawn["primitive"]>> = { indexedlineset: "lines", lineset: "lines", pointset: "points" };
+const primitives: Readonly<Record<string, Drawn["primitive"]>> = {
+  indexedlineset: "lines",
+  lineset: "lines",
+  pointset: "points",
+};
 
 /** How geometry is read whose numbers stand in the document: undefined for nodes that are none, and for those without elements. */
-export type InlineGeometryReader = (element: SceneElement, resolve: Resolve, warnings: Warning[]) => GeometryDescription | undefined;
+export type InlineGeometryReader = (
+  element: SceneElement,
+  resolve: Resolve,
+  warnings: Warning[],
+) => GeometryDescription | undefined;
 
 export const readInlineGeometry: InlineGeometryReader = (element, resolve, warnings) => {
   const name = lowerNameOf(element);
-  const readSolid = solids[name], readRuns = runReaders[name], readSurface = surfaces[name];
+  const readSolid = solids[name],
+    readRuns = runReaders[name],
+    readSurface = surfaces[name];
   if (!readSolid && !readRuns && !readSurface) return undefined;
   const solid = readSolid?.(element, warnings);
   const fields = readFields(element, nodeFields.InlineGeometry, solid ? [] : warnings);
@@ -71,18 +89,26 @@ export const readInlineGeometry: InlineGeometryReader = (element, resolve, warni
   const given = vertexDataOf(element, resolve, warnings);
   const surface = readSurface?.(element, given, warnings);
   if (readSurface && !surface) warnings.push({ element, message: "its numbers make no surface; nothing is drawn" });
-  const data = surface?.data ?? given, runs = surface?.faces ?? readRuns?.(fields, given) ?? [];
+  const data = surface?.data ?? given,
+    runs = surface?.faces ?? readRuns?.(fields, given) ?? [];
   const isCreased = readSurface !== undefined || name === "indexedfaceset";
   const arrays = drawnOf(primitives[name] ?? "triangles", data, runs, fields, isCreased);
   if (arrays === undefined) warnings.push({ element, message: "it names vertices that it lacks; nothing is drawn" });
   return describe(arrays, fields.solid);
 };
 
-function drawnOf(primitive: Drawn["primitive"], given: VertexData, runs: Runs, fields: Fields, isCreased: boolean): Drawn | undefined {
+function drawnOf(
+  primitive: Drawn["primitive"],
+  given: VertexData,
+  runs: Runs,
+  fields: Fields,
+  isCreased: boolean,
+): Drawn | undefined {
   if (primitive === "points") return drawn(primitive, given, runs.flat());
   if (primitive === "lines") return drawn(primitive, given, linesOf(runs));
   const turned = fields.ccw ? runs : runs.map((run) => run.toReversed());
-  const { data, faces } = given.texCoords.length > 0 ? { data: given, faces: turned } : withSpreadTexCoords(given, turned);
+  const { data, faces } =
+    given.texCoords.length > 0 ? { data: given, faces: turned } : withSpreadTexCoords(given, turned);
   const cornersOf = fields.convex ? fansOf : (polygons: Runs) => trianglesOf(data.positions, polygons);
   if (data.normals.length > 0) return drawn(primitive, data, cornersOf(faces));
   // Triangles of one number are smooth, faces have edges unless creaseAngle says otherwise.
@@ -96,7 +122,12 @@ function vertexDataOf(element: SceneElement, resolve: Resolve, warnings: Warning
     const child = childrenOf(element).find((candidate) => names.includes(lowerNameOf(candidate)));
     return child && resolve(child);
   };
-  const [coordinate, normal, texCoord, color] = [part("coordinate"), part("normal"), part("texturecoordinate"), part("color", "colorrgba")];
+  const [coordinate, normal, texCoord, color] = [
+    part("coordinate"),
+    part("normal"),
+    part("texturecoordinate"),
+    part("color", "colorrgba"),
+  ];
   return {
     positions: coordinate ? readFields(coordinate, nodeFields.Coordinate, warnings).point : [],
     normals: normal ? readFields(normal, nodeFields.Normal, warnings).vector : [],
@@ -112,7 +143,7 @@ function indexedRuns(fields: Fields, data: VertexData): Runs {
   const runs: Corner[][] = [[]];
   const beside = (index: readonly number[], perVertex: boolean, at: number, position: number) => {
     const place = perVertex ? at : runs.length - 1;
-    return index.length > 0 ? index[place] ?? -1 : perVertex ? position : place;
+    return index.length > 0 ? (index[place] ?? -1) : perVertex ? position : place;
   };
   coordIndex.forEach((position, at) => {
     if (position < 0) {
@@ -131,12 +162,14 @@ function indexedRuns(fields: Fields, data: VertexData): Runs {
 
 /** Corners all of whose values have the vertex's number, or the face's. */
 function byVertex(fields: Fields, data: VertexData, runs: readonly (readonly number[])[]): Runs {
-  return runs.map((run, face) => run.map((position) => ({
-    position,
-    normal: data.normals.length === 0 ? -1 : fields.normalPerVertex ? position : face,
-    texCoord: data.texCoords.length === 0 ? -1 : position,
-    color: data.colors.length === 0 ? -1 : fields.colorPerVertex ? position : face,
-  })));
+  return runs.map((run, face) =>
+    run.map((position) => ({
+      position,
+      normal: data.normals.length === 0 ? -1 : fields.normalPerVertex ? position : face,
+      texCoord: data.texCoords.length === 0 ? -1 : position,
+      color: data.colors.length === 0 ? -1 : fields.colorPerVertex ? position : face,
+    })),
+  );
 }
 
 function numbersTo(count: number): number[] {

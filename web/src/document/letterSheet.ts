@@ -36,7 +36,8 @@ export function sheetOf(runs: readonly PlacedRun[]): LetterSheet | undefined {
   const inked = new Map(runs.filter(hasInk).map((run) => [run.text, run]));
   for (const texelsPerEm of resolutions) {
     const sheet = packed(Array.from(inked.values()), texelsPerEm);
-    if (sheet.width <= largestEdge && sheet.height <= largestEdge && sheet.width * sheet.height <= mostTexels) return sheet;
+    if (sheet.width <= largestEdge && sheet.height <= largestEdge && sheet.width * sheet.height <= mostTexels)
+      return sheet;
   }
   return undefined;
 }
@@ -48,7 +49,9 @@ export function hasInk({ metrics: { ink } }: PlacedRun): boolean {
 /** One row after the other, of about the width that makes a square. */
 function packed(runs: readonly PlacedRun[], texelsPerEm: number): LetterSheet {
   const sizes = runs.map(({ text, metrics: { ink } }) => ({
-    text, penX: Math.ceil(ink.left * texelsPerEm) + fieldSpread, penY: Math.ceil(ink.up * texelsPerEm) + fieldSpread,
+    text,
+    penX: Math.ceil(ink.left * texelsPerEm) + fieldSpread,
+    penY: Math.ceil(ink.up * texelsPerEm) + fieldSpread,
     width: Math.ceil(ink.left * texelsPerEm) + Math.ceil(ink.right * texelsPerEm) + 2 * fieldSpread,
     height: Math.ceil(ink.up * texelsPerEm) + Math.ceil(ink.down * texelsPerEm) + 2 * fieldSpread,
   }));
@@ -67,8 +70,15 @@ function packed(runs: readonly PlacedRun[], texelsPerEm: number): LetterSheet {
 }
 
 /** What decode/letters.ts reads; the edition of the font only makes it another url. */
-export function sheetUrl({ width, height, texelsPerEm, cells }: LetterSheet, { family, isBold, isItalic }: Font, edition: number): string {
+export function sheetUrl(
+  { width, height, texelsPerEm, cells }: LetterSheet,
+  { family, isBold, isItalic }: Font,
+  edition: number,
+): string {
   const font = `${isItalic ? "italic " : ""}${isBold ? "bold " : ""}${texelsPerEm}px ${family}`;
   const runs = Array.from(cells, ([text, { penX, penY }]) => ({ text, x: penX, y: penY }));
-  return dataUrl("application/json", new TextEncoder().encode(JSON.stringify({ width, height, spread: fieldSpread, font, edition, runs })));
+  return dataUrl(
+    "application/json",
+    new TextEncoder().encode(JSON.stringify({ width, height, spread: fieldSpread, font, edition, runs })),
+  );
 }

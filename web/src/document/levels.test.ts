@@ -14,7 +14,8 @@ describe("levels of detail", () => {
   });
 
   test("do not change to and fro on a bound", () => {
-    let level = 0, changes = 0;
+    let level = 0,
+      changes = 0;
     for (const distance of [9.8, 10.2, 9.8, 10.2, 9.8, 10.6, 10.2, 9.8, 10.2, 9.4, 9.8]) {
       const next = levelAt(distance, [10], 2, level);
       changes += Number(next !== level);
@@ -25,13 +26,21 @@ describe("levels of detail", () => {
   });
 
   test("are read as a choice, of which nothing but the chosen is seen", () => {
-    const x3d = elementsOf(`<X3D><Scene><LOD range="5 50" center="1 2 3"><Shape id="a"><Box/></Shape><Group><Shape id="b"><Box/></Shape></Group>
+    const x3d =
+      elementsOf(`<X3D><Scene><LOD range="5 50" center="1 2 3"><Shape id="a"><Box/></Shape><Group><Shape id="b"><Box/></Shape></Group>
       <Shape id="c"><Box/></Shape></LOD></Scene></X3D>`);
-    const seenAt = (level: number | undefined) => shapesOf(readScene(x3d, { levelOf: () => level }).root)
-      .filter(({ visible }) => visible).map(({ element }) => element.getAttribute("id"));
+    const seenAt = (level: number | undefined) =>
+      shapesOf(readScene(x3d, { levelOf: () => level }).root)
+        .filter(({ visible }) => visible)
+        .map(({ element }) => element.getAttribute("id"));
     assert.deepEqual(seenAt(undefined), ["c"]);
     assert.deepEqual([0, 1, 2, 9].map(seenAt), [["a"], ["b"], ["c"], ["c"]]);
     const [lod] = readScene(x3d).root.children;
-    assert.deepEqual(lod?.kind === "group" && { ...lod.levels, element: undefined }, { element: undefined, center: [1, 2, 3], range: [5, 50], count: 3 });
+    assert.deepEqual(lod?.kind === "group" && { ...lod.levels, element: undefined }, {
+      element: undefined,
+      center: [1, 2, 3],
+      range: [5, 50],
+      count: 3,
+    });
   });
 });

@@ -4,7 +4,12 @@
 const slack = 0.05;
 
 /** `current`: the level that is seen now. Without a range the first of `count` levels is. */
-export function levelAt(distance: number, range: readonly number[], count: number, current: number | undefined): number {
+export function levelAt(
+  distance: number,
+  range: readonly number[],
+  count: number,
+  current: number | undefined,
+): number {
   const plain = (at: number) => Math.min(range.filter((bound) => bound <= at).length, count - 1);
   if (current === undefined) return plain(distance);
   const [nearest, farthest] = [plain(distance * (1 - slack)), plain(distance * (1 + slack))];

@@ -31,7 +31,8 @@ export function readLines(element: SceneElement, warnings: Warning[]): LineDescr
   const { applied, linetype, linewidthScaleFactor } = readFields(element, nodeFields.LineProperties, warnings);
   if (!applied) return undefined;
   const known = dashesOf.get(linetype);
-  if (known === undefined) warnings.push({ element, message: `lines of linetype ${linetype} are not drawn so; they are solid` });
+  if (known === undefined)
+    warnings.push({ element, message: `lines of linetype ${linetype} are not drawn so; they are solid` });
   const dashes = known ?? [];
   const width = Math.min(Math.max(linewidthScaleFactor, leastWidth), mostWidth);
   return width === leastWidth && dashes.length === 0 ? undefined : { width, dashes };

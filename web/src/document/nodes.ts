@@ -6,7 +6,21 @@ import type { SceneElement } from "./element.ts";
 import { attributesOf } from "./element.ts";
 import type { Field } from "./fieldTypes.ts";
 import {
-  MFColor, MFFloat, MFInt32, MFString, MFText, optional, Priority, SFBool, SFColor, SFFloat, SFImage, SFInt32, SFRotation, SFString, SFVec2f,
+  MFColor,
+  MFFloat,
+  MFInt32,
+  MFString,
+  MFText,
+  optional,
+  Priority,
+  SFBool,
+  SFColor,
+  SFFloat,
+  SFImage,
+  SFInt32,
+  SFRotation,
+  SFString,
+  SFVec2f,
   SFVec3f,
 } from "./fieldTypes.ts";
 import { ColorMap } from "./colorMaps.ts";
@@ -83,7 +97,12 @@ export const nodeFields = {
     transitionType: MFString(["LINEAR"]),
     transitionTime: SFFloat(1),
   },
-  Background: { skyColor: MFColor([[0, 0, 0]]), skyAngle: MFFloat([]), groundColor: MFColor([]), groundAngle: MFFloat([]) },
+  Background: {
+    skyColor: MFColor([[0, 0, 0]]),
+    skyAngle: MFFloat([]),
+    groundColor: MFColor([]),
+    groundAngle: MFFloat([]),
+  },
   Viewpoint: {
     ...bindable,
     description: SFString(""),
@@ -110,7 +129,14 @@ export const nodeFields = {
     cutOffAngle: SFFloat(1.5708),
   },
   Group: { ...ranked, ...boundedObject, ...seenObject },
-  Anchor: { ...ranked, ...boundedObject, ...seenObject, url: MFString([]), description: SFString(""), parameter: MFString([]) },
+  Anchor: {
+    ...ranked,
+    ...boundedObject,
+    ...seenObject,
+    url: MFString([]),
+    description: SFString(""),
+    parameter: MFString([]),
+  },
   Billboard: { ...ranked, ...boundedObject, ...seenObject, axisOfRotation: SFVec3f([0, 1, 0]) },
   LOD: { ...ranked, ...boundedObject, ...seenObject, center: SFVec3f([0, 0, 0]), range: MFFloat([]) },
   Inline: { ...ranked, ...boundedObject, ...seenObject, load: SFBool(true), url: MFString([]) },
@@ -261,7 +287,13 @@ export const nodeFields = {
   TextureCoordinate: { point: MFFloat([]) },
   Color: { color: MFFloat([]) },
   GeometryPatch: { ...boundedObject, ...patchFields, recordCount: SFInt32(0) },
-  ImageTexture: { containerField: SFString(""), url: MFString([]), preview: SFString(""), repeatS: SFBool(true), repeatT: SFBool(true) },
+  ImageTexture: {
+    containerField: SFString(""),
+    url: MFString([]),
+    preview: SFString(""),
+    repeatS: SFBool(true),
+    repeatT: SFBool(true),
+  },
   PixelTexture: { image: SFImage(noPixels), repeatS: SFBool(true), repeatT: SFBool(true) },
 } as const;
 
@@ -278,7 +310,9 @@ export interface Warning {
 
 /** The node's values: what the element says, the default where it is silent or says something malformed. */
 export function readFields<Fields extends Record<string, Field<unknown>>>(
-  element: SceneElement, fields: Fields, warnings: Warning[],
+  element: SceneElement,
+  fields: Fields,
+  warnings: Warning[],
 ): Values<Fields> {
   const values: Record<string, unknown> = {};
   const textOf = attributesOf(element);

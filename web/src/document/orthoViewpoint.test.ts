@@ -6,8 +6,10 @@ import { readScene } from "./readScene.ts";
 import { cross, dot, minus, turned } from "./vectors.ts";
 
 test("an OrthoViewpoint shows what it says, of the same size near and far", () => {
-  const scene = readScene(elementsOf(`<X3D><OrthoViewpoint description="plan" position="1 10 2" orientation="1 0 0 -1.5707963"
-    fieldOfView="-4 -3 8 5" centerOfRotation="1 0 2"/></X3D>`));
+  const scene = readScene(
+    elementsOf(`<X3D><OrthoViewpoint description="plan" position="1 10 2" orientation="1 0 0 -1.5707963"
+    fieldOfView="-4 -3 8 5" centerOfRotation="1 0 2"/></X3D>`),
+  );
   const viewpoint = viewpointsOf(scene.root)[0]?.viewpoint;
   assert.ok(viewpoint);
   assert.equal(viewpoint.description, "plan");
@@ -21,7 +23,11 @@ test("an OrthoViewpoint shows what it says, of the same size near and far", () =
     return [dot(from, right) / half, dot(from, up) / half];
   };
   // It looks down on y = 0; the picture reaches from z = 5 at its bottom to z = -3 at its top, around x = 3.
-  for (const [point, x, y] of [[[3, 0, 5], 0, -1], [[3, 0, -3], 0, 1], [[7, 0, 1], 1, 0]] as const) {
+  for (const [point, x, y] of [
+    [[3, 0, 5], 0, -1],
+    [[3, 0, -3], 0, 1],
+    [[7, 0, 1], 1, 0],
+  ] as const) {
     const [seenX = 9, seenY = 9] = seen(point);
     assert.ok(Math.abs(seenX - x) < 1e-3 && Math.abs(seenY - y) < 1e-3, `${seenX} ${seenY}`);
     assert.ok(Math.abs(Math.hypot(...seen([point[0], 4, point[2]])) - Math.hypot(x, y)) < 0.01);

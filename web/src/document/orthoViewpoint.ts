@@ -11,7 +11,13 @@ import { dot, minus, turned } from "./vectors.ts";
 const longLens = 0.01;
 
 /** What is as far as `centerOfRotation` fills the view exactly as the node says. */
-export function asViewpoint({ fieldOfView, position, orientation, centerOfRotation, ...values }: Values<typeof nodeFields.OrthoViewpoint>): ViewpointDescription {
+export function asViewpoint({
+  fieldOfView,
+  position,
+  orientation,
+  centerOfRotation,
+  ...values
+}: Values<typeof nodeFields.OrthoViewpoint>): ViewpointDescription {
   const [left = -1, bottom = -1, right = 1, top = 1] = fieldOfView;
   const [width, height] = [Math.abs(right - left), Math.abs(top - bottom)];
   const proportion = (width || 2) / (height || 2);
@@ -21,5 +27,12 @@ export function asViewpoint({ fieldOfView, position, orientation, centerOfRotati
   const away = half / Math.tan(longLens / 2) - dot(minus(position, centerOfRotation), back);
   const [x, y] = [(left + right) / 2, (bottom + top) / 2];
   const along = (i: 0 | 1 | 2) => position[i] + aside[i] * x + up[i] * y + back[i] * away;
-  return { ...values, orientation, centerOfRotation, position: [along(0), along(1), along(2)], fieldOfView: longLens, proportion };
+  return {
+    ...values,
+    orientation,
+    centerOfRotation,
+    position: [along(0), along(1), along(2)],
+    fieldOfView: longLens,
+    proportion,
+  };
 }

@@ -32,16 +32,34 @@ function pngOf(...numbers: number[]): ReturnType<typeof contentOf> {
 }
 
 function texturesIn(markup: string): { urls: string[]; warnings: string[] } {
-  const { root, warnings } = readScene(elementsOf(`<X3D><Scene><Shape><Appearance>${markup}</Appearance></Shape></Scene></X3D>`));
-  return { urls: shapesOf(root).flatMap(({ appearance }) => appearance.textures.map(({ role, url }) => `${role} ${url}`)), warnings: warnings.map(({ message }) => message) };
+  const { root, warnings } = readScene(
+    elementsOf(`<X3D><Scene><Shape><Appearance>${markup}</Appearance></Shape></Scene></X3D>`),
+  );
+  return {
+    urls: shapesOf(root).flatMap(({ appearance }) => appearance.textures.map(({ role, url }) => `${role} ${url}`)),
+    warnings: warnings.map(({ message }) => message),
+  };
 }
 
 describe("pictures written as numbers", () => {
   test("are PNGs of as many channels, their last row the first", () => {
     assert.deepEqual(pngOf(1, 2, 1, 7, 0xfe), { width: 1, height: 2, colorType: 0, rows: [[0xfe], [7]] });
     assert.deepEqual(pngOf(2, 1, 2, 0x12f0, 3), { width: 2, height: 1, colorType: 4, rows: [[0x12, 0xf0, 0, 3]] });
-    assert.deepEqual(pngOf(1, 2, 3, 0xff8040, 1), { width: 1, height: 2, colorType: 2, rows: [[0, 0, 1], [0xff, 0x80, 0x40]] });
-    assert.deepEqual(pngOf(1, 1, 4, 0xfedcba98), { width: 1, height: 1, colorType: 6, rows: [[0xfe, 0xdc, 0xba, 0x98]] });
+    assert.deepEqual(pngOf(1, 2, 3, 0xff8040, 1), {
+      width: 1,
+      height: 2,
+      colorType: 2,
+      rows: [
+        [0, 0, 1],
+        [0xff, 0x80, 0x40],
+      ],
+    });
+    assert.deepEqual(pngOf(1, 1, 4, 0xfedcba98), {
+      width: 1,
+      height: 1,
+      colorType: 6,
+      rows: [[0xfe, 0xdc, 0xba, 0x98]],
+    });
   });
 
   test("may be larger than a block of deflate", () => {
@@ -51,8 +69,20 @@ describe("pictures written as numbers", () => {
   });
 
   test("are none where numbers are missing, too many, too large, or of a size that cannot be", () => {
-    for (const numbers of [[], [1, 1], [1, 1, 3], [1, 1, 3, 0, 0], [1, 1, 1, 256], [1, 1, 1, -1], [1, 1, 1, 0.5], [1, 1, 5, 0], [-1, -1, 1, 0],
-      [1e9, 1e9, 4, 0], [0.5, 2, 1, 0], [16385, 1, 1, ...new Array<number>(16385).fill(0)]]) {
+    for (const numbers of [
+      [],
+      [1, 1],
+      [1, 1, 3],
+      [1, 1, 3, 0, 0],
+      [1, 1, 1, 256],
+      [1, 1, 1, -1],
+      [1, 1, 1, 0.5],
+      [1, 1, 5, 0],
+      [-1, -1, 1, 0],
+      [1e9, 1e9, 4, 0],
+      [0.5, 2, 1, 0],
+      [16385, 1, 1, ...new Array<number>(16385).fill(0)],
+    ]) {
       assert.equal(pixelImageOf(numbers), undefined, String(numbers.slice(0, 5)));
     }
     assert.deepEqual(pixelImageOf([0, 0, 0])?.pixels, []);
@@ -60,10 +90,16 @@ describe("pictures written as numbers", () => {
 
   test("are textures like others; one that is none is a warning, and no texture", () => {
     const pixel = '<PixelTexture image="1 1 3 0xff0000"/>';
-    const { urls: [plain] } = texturesIn(`<Material/>${pixel}`);
+    const {
+      urls: [plain],
+    } = texturesIn(`<Material/>${pixel}`);
     assert.match(plain ?? "", /^color data:image\/png;base64,/);
-    assert.deepEqual(texturesIn(`<Material/><MultiTexture>${pixel}<ImageTexture url="b.png"/></MultiTexture>`).urls, [plain]);
-    const { urls: [emissive] } = texturesIn('<Material><PixelTexture containerField="emissiveTexture" image="1 1 3 0xff0000"/></Material>');
+    assert.deepEqual(texturesIn(`<Material/><MultiTexture>${pixel}<ImageTexture url="b.png"/></MultiTexture>`).urls, [
+      plain,
+    ]);
+    const {
+      urls: [emissive],
+    } = texturesIn('<Material><PixelTexture containerField="emissiveTexture" image="1 1 3 0xff0000"/></Material>');
     assert.equal(emissive, plain?.replace("color", "emissive"));
     const wrong = texturesIn('<Material/><PixelTexture image="2 2 3 0xff0000"/>');
     assert.deepEqual(wrong.urls, []);

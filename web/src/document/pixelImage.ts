@@ -46,14 +46,22 @@ export function pngOfPixels({ width, height, components, pixels }: PixelImage): 
       for (let shift = 8 * (components - 1); shift >= 0; shift -= 8) rows[at++] = pixel >>> shift;
     }
   }
-  return joined([Uint8Array.from(signature), chunk("IHDR", header), chunk("IDAT", storedZlib(rows)), chunk("IEND", new Uint8Array())]);
+  return joined([
+    Uint8Array.from(signature),
+    chunk("IHDR", header),
+    chunk("IDAT", storedZlib(rows)),
+    chunk("IEND", new Uint8Array()),
+  ]);
 }
 
 function chunk(type: string, data: Uint8Array): Uint8Array {
   const bytes = new Uint8Array(data.length + 12);
   const numbers = new DataView(bytes.buffer);
   numbers.setUint32(0, data.length);
-  bytes.set(Array.from(type, (letter) => letter.charCodeAt(0)), 4);
+  bytes.set(
+    Array.from(type, (letter) => letter.charCodeAt(0)),
+    4,
+  );
   bytes.set(data, 8);
   numbers.setUint32(data.length + 8, crc32(bytes.subarray(4, data.length + 8)));
   return bytes;

@@ -53,7 +53,11 @@ export class Place {
   /** What it has said where this was handed down. */
   saidTo(inherited: Inherited): Said | undefined {
     const before = this.#inherited;
-    return before?.visible === inherited.visible && before.reaches === inherited.reaches && before.priority === inherited.priority ? this.#said : undefined;
+    return before?.visible === inherited.visible &&
+      before.reaches === inherited.reaches &&
+      before.priority === inherited.priority
+      ? this.#said
+      : undefined;
   }
 
   remember(inherited: Inherited, said: Said, children: readonly Place[]): void {

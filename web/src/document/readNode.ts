@@ -40,14 +40,21 @@ export function isReadAsWhole(node: SceneElement): boolean {
 export function readNode(element: SceneElement, node: SceneElement, reading: NodeReading): Saying {
   const { warnings } = reading;
   switch (lowerNameOf(node)) {
-    case "shape": return sayShape(element, node, reading);
-    case "group": case "staticgroup": return sayGroup(node, readFields(node, nodeFields.Group, warnings), reading);
+    case "shape":
+      return sayShape(element, node, reading);
+    case "group":
+    case "staticgroup":
+      return sayGroup(node, readFields(node, nodeFields.Group, warnings), reading);
     case "anchor": {
       const { url, description, parameter, ...fields } = readFields(node, nodeFields.Anchor, warnings);
       const anchor: AnchorDescription = { element: node, urls: url, description, target: targetIn(parameter) };
       return sayGroup(node, fields, reading, url.length > 0 ? { anchor } : {});
     }
-    case "collision": return sayGroup(node, readFields(node, nodeFields.Group, warnings), { ...reading, childrenOf: (of) => reading.childrenOf(of).filter(isSeenChild) });
+    case "collision":
+      return sayGroup(node, readFields(node, nodeFields.Group, warnings), {
+        ...reading,
+        childrenOf: (of) => reading.childrenOf(of).filter(isSeenChild),
+      });
     case "billboard": {
       const { axisOfRotation, ...fields } = readFields(node, nodeFields.Billboard, warnings);
       return sayGroup(node, fields, reading, { billboardAxis: axisOfRotation });
@@ -56,19 +63,34 @@ export function readNode(element: SceneElement, node: SceneElement, reading: Nod
       const transform = readFields(node, nodeFields.Transform, warnings);
       return sayGroup(node, transform, reading, { transform });
     }
-    case "switch": return saySwitch(node, reading);
-    case "lod": return sayLevels(node, reading);
-    case "inline": return sayInline(node, reading);
-    case "directionallight": return sayLight({ kind: "directional", ...readFields(node, nodeFields.DirectionalLight, warnings) }, warnings);
-    case "pointlight": return sayLight({ kind: "point", ...readFields(node, nodeFields.PointLight, warnings) }, warnings);
-    case "spotlight": return sayLight({ kind: "spot", ...readFields(node, nodeFields.SpotLight, warnings) }, warnings);
+    case "switch":
+      return saySwitch(node, reading);
+    case "lod":
+      return sayLevels(node, reading);
+    case "inline":
+      return sayInline(node, reading);
+    case "directionallight":
+      return sayLight({ kind: "directional", ...readFields(node, nodeFields.DirectionalLight, warnings) }, warnings);
+    case "pointlight":
+      return sayLight({ kind: "point", ...readFields(node, nodeFields.PointLight, warnings) }, warnings);
+    case "spotlight":
+      return sayLight({ kind: "spot", ...readFields(node, nodeFields.SpotLight, warnings) }, warnings);
     case "viewpoint":
-      return say([{ kind: "viewpoint", element, viewpoint: readFields(node, nodeFields.Viewpoint, warnings) }], warned(warnings));
+      return say(
+        [{ kind: "viewpoint", element, viewpoint: readFields(node, nodeFields.Viewpoint, warnings) }],
+        warned(warnings),
+      );
     case "orthoviewpoint":
-      return say([{ kind: "viewpoint", element, viewpoint: asViewpoint(readFields(node, nodeFields.OrthoViewpoint, warnings)) }], warned(warnings));
-    case "navigationinfo": return say([], asidesOf({ navigation: readFields(node, nodeFields.NavigationInfo, warnings), warnings }));
-    case "background": return say([], asidesOf({ background: readBackground(node, warnings), warnings }));
-    default: return (inherited, below) => below(reading.childrenOf(node), inherited);
+      return say(
+        [{ kind: "viewpoint", element, viewpoint: asViewpoint(readFields(node, nodeFields.OrthoViewpoint, warnings)) }],
+        warned(warnings),
+      );
+    case "navigationinfo":
+      return say([], asidesOf({ navigation: readFields(node, nodeFields.NavigationInfo, warnings), warnings }));
+    case "background":
+      return say([], asidesOf({ background: readBackground(node, warnings), warnings }));
+    default:
+      return (inherited, below) => below(reading.childrenOf(node), inherited);
   }
 }
 
@@ -86,7 +108,15 @@ function sayShape(element: SceneElement, node: SceneElement, reading: NodeReadin
   const shape = readShape(element, reading.host, node, reading);
   const asides = warned(reading.warnings);
   return ({ visible, reaches, priority }) => ({
-    nodes: [{ ...shape, visible: visible && shape.visible, reaches: reaches && shape.reaches, priority: priority * shape.priority }], asides,
+    nodes: [
+      {
+        ...shape,
+        visible: visible && shape.visible,
+        reaches: reaches && shape.reaches,
+        priority: priority * shape.priority,
+      },
+    ],
+    asides,
   });
 }
 
@@ -94,8 +124,11 @@ function readBackground(node: SceneElement, warnings: Warning[]): BackgroundDesc
   const { skyColor, skyAngle, groundColor, groundAngle } = readFields(node, nodeFields.Background, warnings);
   // The first colour is at the pole, each further one at its angle.
   const rings = (colors: readonly Vec3[], angles: readonly number[]) =>
-    colors.slice(0, angles.length + 1).map((color, i) => ({ color, angle: i === 0 ? 0 : angles[i - 1] ?? 0 }));
-  return { sky: rings(skyColor.length > 0 ? skyColor : [[0, 0, 0]], skyAngle), ground: rings(groundColor, groundAngle) };
+    colors.slice(0, angles.length + 1).map((color, i) => ({ color, angle: i === 0 ? 0 : (angles[i - 1] ?? 0) }));
+  return {
+    sky: rings(skyColor.length > 0 ? skyColor : [[0, 0, 0]], skyAngle),
+    ground: rings(groundColor, groundAngle),
+  };
 }
 
 interface GroupFields {
@@ -113,19 +146,29 @@ function isSeen({ visible, render }: Pick<GroupFields, "visible" | "render">): b
 /** What a node with these fields hands down. */
 function within(fields: GroupFields, inherited: Inherited): Inherited {
   const seen = isSeen(fields);
-  return { visible: inherited.visible && seen, reaches: inherited.reaches && seen, priority: inherited.priority * fields.priority };
+  return {
+    visible: inherited.visible && seen,
+    reaches: inherited.reaches && seen,
+    priority: inherited.priority * fields.priority,
+  };
 }
 
 /** What groups of a kind have besides. */
 type GroupTraits = Partial<Pick<GroupDescription, "transform" | "billboardAxis" | "anchor">>;
 
-function groupOf(fields: GroupFields, children: readonly NodeDescription[], traits: GroupTraits = {}): GroupDescription {
+function groupOf(
+  fields: GroupFields,
+  children: readonly NodeDescription[],
+  traits: GroupTraits = {},
+): GroupDescription {
   return { kind: "group", visible: isSeen(fields), box: boxOf(fields), transform: undefined, ...traits, children };
 }
 
 /** An Anchor's parameters are pairs `name=value`. */
 function targetIn(parameter: readonly string[]): string {
-  return parameter.map((pair) => /^\s*target\s*=\s*(\S+)\s*$/i.exec(pair)?.[1]).find((target) => target !== undefined) ?? "";
+  return (
+    parameter.map((pair) => /^\s*target\s*=\s*(\S+)\s*$/i.exec(pair)?.[1]).find((target) => target !== undefined) ?? ""
+  );
 }
 
 /** A Collision's proxy stands in for its children where people walk, not where they look. */
@@ -133,7 +176,12 @@ function isSeenChild(child: SceneElement): boolean {
   return attributeOf(child, "containerField") !== "proxy";
 }
 
-function sayGroup(node: SceneElement, fields: GroupFields, { warnings, childrenOf }: NodeReading, traits?: GroupTraits): Saying {
+function sayGroup(
+  node: SceneElement,
+  fields: GroupFields,
+  { warnings, childrenOf }: NodeReading,
+  traits?: GroupTraits,
+): Saying {
   const own = warned(warnings);
   return (inherited, below) => {
     const { nodes, asides } = below(childrenOf(node), within(fields, inherited));
@@ -145,7 +193,8 @@ function sayGroup(node: SceneElement, fields: GroupFields, { warnings, childrenO
 function saySwitch(node: SceneElement, { warnings, childrenOf }: NodeReading): Saying {
   const fields = readFields(node, nodeFields.Switch, warnings);
   const own = warned(warnings);
-  return (inherited, below) => sayChoice(choicesIn(childrenOf(node)), fields.whichChoice, false, fields, inherited, below, own);
+  return (inherited, below) =>
+    sayChoice(choicesIn(childrenOf(node)), fields.whichChoice, false, fields, inherited, below, own);
 }
 
 /** Children that are no nodes of their own are none of the choices. */
@@ -154,17 +203,47 @@ function choicesIn(children: readonly SceneElement[]): SceneElement[] {
 }
 
 /** `allReach`: the scene reaches as far as those that are not chosen. */
-function sayChoice(choices: readonly SceneElement[], choice: number, allReach: boolean, fields: GroupFields, inherited: Inherited, below: Below,
-                   own: Asides, levels?: GroupDescription["levels"]): Said {
+function sayChoice(
+  choices: readonly SceneElement[],
+  choice: number,
+  allReach: boolean,
+  fields: GroupFields,
+  inherited: Inherited,
+  below: Below,
+  own: Asides,
+  levels?: GroupDescription["levels"],
+): Said {
   const each = choices.map((child, place) => {
     const visible = place === choice;
-    const said = below([child], within(fields, { ...inherited, visible: inherited.visible && visible, reaches: inherited.reaches && (visible || allReach) }));
-    const group: GroupDescription = { kind: "group", box: undefined, visible, transform: undefined, children: said.nodes };
+    const said = below(
+      [child],
+      within(fields, {
+        ...inherited,
+        visible: inherited.visible && visible,
+        reaches: inherited.reaches && (visible || allReach),
+      }),
+    );
+    const group: GroupDescription = {
+      kind: "group",
+      box: undefined,
+      visible,
+      transform: undefined,
+      children: said.nodes,
+    };
     return { group, asides: said.asides };
   });
   const children = each.map(({ group }) => group);
-  const group: GroupDescription = { kind: "group", box: undefined, visible: isSeen(fields), transform: undefined, children };
-  return { nodes: [levels === undefined ? group : { ...group, levels }], asides: joined([own, ...each.map(({ asides }) => asides)]) };
+  const group: GroupDescription = {
+    kind: "group",
+    box: undefined,
+    visible: isSeen(fields),
+    transform: undefined,
+    children,
+  };
+  return {
+    nodes: [levels === undefined ? group : { ...group, levels }],
+    asides: joined([own, ...each.map(({ asides }) => asides)]),
+  };
 }
 
 /** A choice that the distance makes. Until it is known the last level is seen, which asks for least. */
@@ -175,7 +254,12 @@ function sayLevels(node: SceneElement, { warnings, childrenOf, levelOf }: NodeRe
     const choices = choicesIn(childrenOf(node));
     const last = choices.length - 1;
     const level = Math.min(levelOf(node) ?? last, last);
-    return sayChoice(choices, level, true, fields, inherited, below, own, { element: node, center, range, count: choices.length });
+    return sayChoice(choices, level, true, fields, inherited, below, own, {
+      element: node,
+      center,
+      range,
+      count: choices.length,
+    });
   };
 }
 
@@ -186,9 +270,13 @@ function sayInline(node: SceneElement, { warnings, inlined }: NodeReading): Sayi
   const own = warned(warnings);
   return (inherited, below) => {
     const inner = within(fields, inherited);
-    const inlines = load && url.length > 0 ? [{ element: node, urls: url, visible: inner.visible, priority: inner.priority }] : [];
+    const inlines =
+      load && url.length > 0 ? [{ element: node, urls: url, visible: inner.visible, priority: inner.priority }] : [];
     const { nodes, asides } = below(x3d ? [x3d] : [], inner);
     const ofItsScene = { ...asides, navigation: undefined, background: undefined };
-    return { nodes: [{ ...groupOf(fields, nodes), ...(inlines.length > 0 && { inline: node }) }], asides: joined([asidesOf({ inlines }), own, ofItsScene]) };
+    return {
+      nodes: [{ ...groupOf(fields, nodes), ...(inlines.length > 0 && { inline: node }) }],
+      asides: joined([asidesOf({ inlines }), own, ofItsScene]),
+    };
   };
 }

@@ -27,30 +27,50 @@ export interface ShapeReading {
 }
 
 /** `element` is the shape's identity, `host` the page's element for it, `node` what describes it: the same but for USE. */
-export function readShape(element: SceneElement, host: SceneElement, node: SceneElement, reading: ShapeReading): ShapeDescription {
+export function readShape(
+  element: SceneElement,
+  host: SceneElement,
+  node: SceneElement,
+  reading: ShapeReading,
+): ShapeDescription {
   const { warnings } = reading;
   const values = readFields(node, nodeFields.Shape, warnings);
   const parts = childrenOf(node);
   const ownBox = boxOf(values);
   const [geometry, priorityOfGeometry] = readGeometryOf(parts, reading, ownBox, values.colorBy);
-  const nodesIn = (part: SceneElement) => childrenOf(part).flatMap((child) => {
-    const used = usedBy(child, reading);
-    return used === undefined ? [] : [inPlaceOf(child, used)];
-  });
+  const nodesIn = (part: SceneElement) =>
+    childrenOf(part).flatMap((child) => {
+      const used = usedBy(child, reading);
+      return used === undefined ? [] : [inPlaceOf(child, used)];
+    });
   const appearance = firstOf(parts, reading, (part) => (lowerNameOf(part) === "appearance" ? part : undefined));
   const isSeen = values.visible && values.render;
   const look = readAppearance(appearance, colorMapOf(node, values, geometry, warnings), nodesIn, warnings);
   return {
-    kind: "shape", element, geometry, host, isUnread: geometry === undefined && parts.some(isGeometry),
-    visible: isSeen, reaches: isSeen, priority: values.priority * priorityOfGeometry, isPickable: values.isPickable,
+    kind: "shape",
+    element,
+    geometry,
+    host,
+    isUnread: geometry === undefined && parts.some(isGeometry),
+    visible: isSeen,
+    reaches: isSeen,
+    priority: values.priority * priorityOfGeometry,
+    isPickable: values.isPickable,
     box: ownBox ?? (geometry && boxOfGeometry(geometry)),
-    appearance: geometry?.letters === undefined || reading.text === undefined ? look : reading.text.appearanceOf(look, geometry.letters, node, warnings),
+    appearance:
+      geometry?.letters === undefined || reading.text === undefined
+        ? look
+        : reading.text.appearanceOf(look, geometry.letters, node, warnings),
   };
 }
 
 /** The geometry of a shape that has these parts, with its priority: beside it, as with another it is the same geometry. */
-function readGeometryOf(parts: readonly SceneElement[], reading: ShapeReading, box: Box3 | undefined,
-                        colorBy: string): readonly [geometry: GeometryDescription | undefined, priority: number] {
+function readGeometryOf(
+  parts: readonly SceneElement[],
+  reading: ShapeReading,
+  box: Box3 | undefined,
+  colorBy: string,
+): readonly [geometry: GeometryDescription | undefined, priority: number] {
   const { geometries, lookup, warnings } = reading;
   const found = firstOf(parts, reading, (part) => {
     if (lowerNameOf(part) === "text") reading.listen(part);
@@ -59,16 +79,25 @@ function readGeometryOf(parts: readonly SceneElement[], reading: ShapeReading, b
   });
   if (found === undefined) return [undefined, 1];
   const { priority } = readFields(found.part, { priority: nodeFields.ImageGeometry.priority }, []);
-  const boxed = box === undefined ? found.geometry : geometries.variant(found.geometry, JSON.stringify(box), (plain) => withBox(plain, box));
+  const boxed =
+    box === undefined
+      ? found.geometry
+      : geometries.variant(found.geometry, JSON.stringify(box), (plain) => withBox(plain, box));
   return [colorBy === "" ? boxed : geometries.variant(boxed, colorBy, (plain) => withValues(plain, colorBy)), priority];
 }
 
 const geometryReaders: Readonly<Record<string, typeof readImageGeometry>> = {
-  imagegeometry: readImageGeometry, binarygeometry: readBinaryGeometry,
+  imagegeometry: readImageGeometry,
+  binarygeometry: readBinaryGeometry,
 };
 
 /** Undefined for what is no geometry. */
-function readGeometry({ geometries, inlineGeometry, text }: ShapeReading, element: SceneElement, lookup: Lookup, warnings: Warning[]): GeometryDescription | undefined {
+function readGeometry(
+  { geometries, inlineGeometry, text }: ShapeReading,
+  element: SceneElement,
+  lookup: Lookup,
+  warnings: Warning[],
+): GeometryDescription | undefined {
   const resolve = (part: SceneElement) => {
     const name = attributeOf(part, "USE");
     return name === undefined ? part : lookup(name);
@@ -101,8 +130,11 @@ function usedBy(element: SceneElement, { lookup, warnings }: ShapeReading): Scen
   return node;
 }
 
-function firstOf<Result>(elements: readonly SceneElement[], reading: ShapeReading,
-                         read: (element: SceneElement) => Result | undefined): Result | undefined {
+function firstOf<Result>(
+  elements: readonly SceneElement[],
+  reading: ShapeReading,
+  read: (element: SceneElement) => Result | undefined,
+): Result | undefined {
   for (const element of elements) {
     const used = usedBy(element, reading);
     const result = used && read(used);

@@ -1,7 +1,12 @@
 // What elements say: nodes of the scene where they stand, and things that count for
 // the scene as a whole. What has nothing to say says one and the same nothing.
 
-import type { BackgroundDescription, InlineDescription, NavigationDescription, NodeDescription } from "./description.ts";
+import type {
+  BackgroundDescription,
+  InlineDescription,
+  NavigationDescription,
+  NodeDescription,
+} from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import type { Warning } from "./nodes.ts";
 
@@ -59,7 +64,10 @@ export function joined(all: readonly Asides[]): Asides {
 }
 
 /** Of two NavigationInfos in document order the first counts, unless the second wants to be bound. */
-function laterOf(first: NavigationDescription | undefined, second: NavigationDescription | undefined): NavigationDescription | undefined {
+function laterOf(
+  first: NavigationDescription | undefined,
+  second: NavigationDescription | undefined,
+): NavigationDescription | undefined {
   if (first === undefined || second === undefined) return first ?? second;
   return second.set_bind || second.bind ? second : first;
 }

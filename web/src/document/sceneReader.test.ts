@@ -40,7 +40,8 @@ describe("a document that changes", () => {
     assert.ok(shapes > 5000, `only ${shapes} shapes have been read`);
   });
 
-  const x3d = elementsOf(`<X3D><Scene><Transform id="t"><Shape><Appearance DEF="A"><Material id="m"/></Appearance><Box/></Shape></Transform>
+  const x3d =
+    elementsOf(`<X3D><Scene><Transform id="t"><Shape><Appearance DEF="A"><Material id="m"/></Appearance><Box/></Shape></Transform>
     <Group id="g"><Shape id="user"><Appearance USE="A"/><Sphere/></Shape></Group><Group><Shape><Box id="b"/></Shape></Group></Scene></X3D>`);
   const named = (id: string) => {
     const element = elementsIn(x3d).find(({ attributes: own }) => own.get("id") === id);
@@ -58,9 +59,25 @@ describe("a document that changes", () => {
   test("is the same object where nothing has, and the same objects but for what has", () => {
     const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
     assert.equal(reader.read(), reader.read());
-    assert.deepEqual(changedBy((other) => { other.touch(named("t")); }), [true, false, false]);
-    assert.deepEqual(changedBy((other) => { other.touch(named("m")); }), [true, true, false], "what is USEd says the same everywhere");
-    assert.deepEqual(changedBy((other) => { other.touch(named("b")); }), [false, false, true]);
+    assert.deepEqual(
+      changedBy((other) => {
+        other.touch(named("t"));
+      }),
+      [true, false, false],
+    );
+    assert.deepEqual(
+      changedBy((other) => {
+        other.touch(named("m"));
+      }),
+      [true, true, false],
+      "what is USEd says the same everywhere",
+    );
+    assert.deepEqual(
+      changedBy((other) => {
+        other.touch(named("b"));
+      }),
+      [false, false, true],
+    );
   });
 
   test("gives the geometry of a shape that is moved or coloured as the same object", () => {
@@ -68,16 +85,27 @@ describe("a document that changes", () => {
     const geometryOf = () => shapesOf(reader.read().root).map(({ geometry }) => geometry);
     const before = geometryOf();
     for (const id of ["t", "m", "b", "user"]) reader.touch(named(id));
-    assert.deepEqual(geometryOf().map((geometry, place) => geometry === before[place]), [true, true, true]);
+    assert.deepEqual(
+      geometryOf().map((geometry, place) => geometry === before[place]),
+      [true, true, true],
+    );
   });
 });
 
 test("groups that USE one another without measure are shown as far as there may be places", () => {
-  const bomb = Array.from({ length: 40 }, (_, i) => `<Group DEF="g${i + 1}"><Group USE="g${i}"/><Group USE="g${i}"/></Group>`);
-  const x3d = elementsOf(`<X3D><Scene><Group DEF="g0"><Shape><Box/></Shape></Group>${bomb.join("")}<Shape><Sphere/></Shape></Scene></X3D>`);
+  const bomb = Array.from(
+    { length: 40 },
+    (_, i) => `<Group DEF="g${i + 1}"><Group USE="g${i}"/><Group USE="g${i}"/></Group>`,
+  );
+  const x3d = elementsOf(
+    `<X3D><Scene><Group DEF="g0"><Shape><Box/></Shape></Group>${bomb.join("")}<Shape><Sphere/></Shape></Scene></X3D>`,
+  );
   const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry }, 1000);
   const shown = reader.read();
-  assert.deepEqual(shown.warnings.map(({ message }) => message), ["has more than 1000 nodes in all their places: the rest is left out"]);
+  assert.deepEqual(
+    shown.warnings.map(({ message }) => message),
+    ["has more than 1000 nodes in all their places: the rest is left out"],
+  );
   const count = shapesOf(shown.root).length;
   assert.ok(count > 300 && count < 1000, `${count} shapes`);
 

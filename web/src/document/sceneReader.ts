@@ -95,13 +95,19 @@ export class SceneReader {
     const { nodes, asides } = this.#ask(this.#root, everything);
     const warnings: Warning[] = [...asides.warnings];
     if (this.#cutPlaces.size > 0) {
-      warnings.push({ element: this.#x3d, message: `has more than ${this.#mostPlaces} nodes in all their places: the rest is left out` });
+      warnings.push({
+        element: this.#x3d,
+        message: `has more than ${this.#mostPlaces} nodes in all their places: the rest is left out`,
+      });
     }
     const { chunkPriority } = readFields(this.#x3d, nodeFields.X3D, warnings);
     this.#scene = {
       root: { kind: "group", visible: true, box: undefined, transform: undefined, children: nodes },
-      navigation: asides.navigation ?? usualNavigation, background: asides.background, chunkPriority,
-      inlines: asides.inlines, warnings,
+      navigation: asides.navigation ?? usualNavigation,
+      background: asides.background,
+      chunkPriority,
+      inlines: asides.inlines,
+      warnings,
     };
     return this.#scene;
   }
@@ -111,7 +117,8 @@ export class SceneReader {
     for (const touched of this.#touched) {
       for (let element: SceneElement | undefined = touched; element !== undefined; element = page.parentOf(element)) {
         this.#geometries.touch(element);
-        for (const place of this.#readers.get(element) ?? []) if (element === touched || place.readsAllBelow) place.forget();
+        for (const place of this.#readers.get(element) ?? [])
+          if (element === touched || place.readsAllBelow) place.forget();
       }
       page.lookAtName(touched);
     }
@@ -127,7 +134,7 @@ export class SceneReader {
   #ask(place: Place, inherited: Inherited): Said {
     const known = place.saidTo(inherited);
     if (known !== undefined) return known;
-    const saying = place.saying ??= this.#read(place);
+    const saying = (place.saying ??= this.#read(place));
     const [before, now] = [place.takeChildren(), [] as Place[]];
     this.#cutPlaces.delete(place);
     const below: Below = (elements, inner) => {
@@ -158,7 +165,10 @@ export class SceneReader {
 
   #read(place: Place): Saying {
     this.#stopListening(place);
-    const { element, surroundings: { tree, host } } = place;
+    const {
+      element,
+      surroundings: { tree, host },
+    } = place;
     const warnings: Warning[] = [];
     this.#listen(place, element);
     const lookup = (name: string) => {
@@ -176,9 +186,16 @@ export class SceneReader {
     place.node = node;
     place.readsAllBelow = isReadAsWhole(node);
     return readNode(element, node, {
-      warnings, lookup, geometries: this.#geometries, inlineGeometry: this.#supplements.inlineGeometry, text: this.#supplements.text, host: host ?? element,
+      warnings,
+      lookup,
+      geometries: this.#geometries,
+      inlineGeometry: this.#supplements.inlineGeometry,
+      text: this.#supplements.text,
+      host: host ?? element,
       childrenOf: (of) => tree.childrenOf(of),
-      listen: (part) => { this.#listen(place, part); },
+      listen: (part) => {
+        this.#listen(place, part);
+      },
       levelOf: (lod) => this.#supplements.levelOf?.(lod),
       inlined: (inline) => this.#inlinedAt(place, inline, warnings),
     });
@@ -230,10 +247,19 @@ export class SceneReader {
   }
 }
 
-const withoutAttributes: SceneElement = { localName: "", children: [], getAttribute: () => null, getAttributeNames: () => [] };
+const withoutAttributes: SceneElement = {
+  localName: "",
+  children: [],
+  getAttribute: () => null,
+  getAttributeNames: () => [],
+};
 const usualNavigation = readFields(withoutAttributes, nodeFields.NavigationInfo, []);
 
-function problemWith({ url }: InlinedDocument, inlinedBy: readonly InlinedDocument[], ownUrl: string | undefined): string | undefined {
+function problemWith(
+  { url }: InlinedDocument,
+  inlinedBy: readonly InlinedDocument[],
+  ownUrl: string | undefined,
+): string | undefined {
   if (url === ownUrl || inlinedBy.some((outer) => outer.url === url)) return `names ${url}, which it stands in itself`;
   return inlinedBy.length >= mostInlineDepth ? `names ${url}, more than ${mostInlineDepth} documents deep` : undefined;
 }

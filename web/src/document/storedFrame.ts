@@ -13,15 +13,24 @@ export interface StoredFrame {
 
 /** The largest value of each element type, which stands for 1 (X3DOM's PMAX). */
 const largestValue: Readonly<Record<ElementType, number>> = {
-  Int8: 127, Uint8: 255, Int16: 32767, Uint16: 65535, Int32: 2147483647, Uint32: 4294967295, Float32: 1,
+  Int8: 127,
+  Uint8: 255,
+  Int16: 32767,
+  Uint16: 65535,
+  Int32: 2147483647,
+  Uint32: 4294967295,
+  Float32: 1,
 };
 
 /** The stored value that stands for the far side of the decode box. */
 export function largestStoredOf(geometry: GeometryDescription, patch: PatchDescription): number {
   switch (geometry.container) {
-    case "compact": return largestLatticeValue(latticeBitsOf(geometry));
-    case "sig": return 256 ** Math.max(1, patch.coord.length) - 1;
-    case "bg": return largestValue[geometry.coordType];
+    case "compact":
+      return largestLatticeValue(latticeBitsOf(geometry));
+    case "sig":
+      return 256 ** Math.max(1, patch.coord.length) - 1;
+    case "bg":
+      return largestValue[geometry.coordType];
   }
 }
 

@@ -49,9 +49,16 @@ export interface PlacedRun {
 }
 
 /** `lengths`, by string, and `maxExtent` are in em; 0: as long as the text is. */
-export function layOut(strings: readonly string[], lengths: readonly number[], maxExtent: number, style: TextStyle,
-                       measure: MeasureRun): PlacedRun[] {
-  return style.horizontal ? inLines(strings, lengths, maxExtent, style, measure) : inColumns(strings, lengths, maxExtent, style, measure);
+export function layOut(
+  strings: readonly string[],
+  lengths: readonly number[],
+  maxExtent: number,
+  style: TextStyle,
+  measure: MeasureRun,
+): PlacedRun[] {
+  return style.horizontal
+    ? inLines(strings, lengths, maxExtent, style, measure)
+    : inColumns(strings, lengths, maxExtent, style, measure);
 }
 
 /** By string: what its length is multiplied by. The longest, if it is longer than may be, shortens all by the same. */
@@ -68,33 +75,58 @@ function aligned(alignment: Alignment, extent: number, beginsAtZero: boolean): n
   return (alignment === "END") === beginsAtZero ? -extent : 0;
 }
 
-function inLines(strings: readonly string[], lengths: readonly number[], maxExtent: number, style: TextStyle, measure: MeasureRun): PlacedRun[] {
+function inLines(
+  strings: readonly string[],
+  lengths: readonly number[],
+  maxExtent: number,
+  style: TextStyle,
+  measure: MeasureRun,
+): PlacedRun[] {
   const { font, spacing, leftToRight, topToBottom, major, minor } = style;
   const lines = strings.map((string) => (leftToRight ? string : lettersOf(string).reverse().join("")));
   const metrics = lines.map((line) => measure(font, line));
   const [first] = metrics;
   if (first === undefined) return [];
-  const stretched = stretches(metrics.map(({ advance }) => advance), lengths, maxExtent);
+  const stretched = stretches(
+    metrics.map(({ advance }) => advance),
+    lengths,
+    maxExtent,
+  );
   const { ascent, descent } = first;
   const height = (lines.length - 1) * spacing + ascent + descent;
   // From the lower edge of the lowest line.
-  const toBaseline = minor === "FIRST" ? -(topToBottom ? height - ascent : descent) : aligned(minor, height, !topToBottom);
+  const toBaseline =
+    minor === "FIRST" ? -(topToBottom ? height - ascent : descent) : aligned(minor, height, !topToBottom);
   return lines.map((text, i) => {
     const { advance } = metrics[i] ?? first;
     const stretchX = stretched[i] ?? 1;
     const below = topToBottom ? lines.length - 1 - i : i;
     return {
-      text, metrics: metrics[i] ?? first, stretchX, stretchY: 1,
-      x: aligned(major, advance * stretchX, leftToRight), y: toBaseline + descent + below * spacing,
+      text,
+      metrics: metrics[i] ?? first,
+      stretchX,
+      stretchY: 1,
+      x: aligned(major, advance * stretchX, leftToRight),
+      y: toBaseline + descent + below * spacing,
     };
   });
 }
 
 /** A letter has a square of one em. */
-function inColumns(strings: readonly string[], lengths: readonly number[], maxExtent: number, style: TextStyle, measure: MeasureRun): PlacedRun[] {
+function inColumns(
+  strings: readonly string[],
+  lengths: readonly number[],
+  maxExtent: number,
+  style: TextStyle,
+  measure: MeasureRun,
+): PlacedRun[] {
   const { font, spacing, leftToRight, topToBottom, major, minor } = style;
   const columns = strings.map(lettersOf);
-  const stretched = stretches(columns.map(({ length }) => length), lengths, maxExtent);
+  const stretched = stretches(
+    columns.map(({ length }) => length),
+    lengths,
+    maxExtent,
+  );
   const width = (columns.length - 1) * spacing + 1;
   const left = aligned(minor, width, leftToRight);
   return columns.flatMap((letters, i) => {
@@ -106,8 +138,12 @@ function inColumns(strings: readonly string[], lengths: readonly number[], maxEx
       const { advance, ascent, descent } = metrics;
       const below = topToBottom ? letters.length - 1 - k : k;
       return {
-        text, metrics, stretchX: 1, stretchY,
-        x: left + before * spacing + (1 - advance) / 2, y: bottom + (below + descent / (ascent + descent)) * stretchY,
+        text,
+        metrics,
+        stretchX: 1,
+        stretchY,
+        x: left + before * spacing + (1 - advance) / 2,
+        y: bottom + (below + descent / (ascent + descent)) * stretchY,
       };
     });
   });

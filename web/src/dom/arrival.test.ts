@@ -13,20 +13,34 @@ class FakeRenderer {
   closed = 0;
 
   beginStoring({ byteLength }: { byteLength: number }): BufferUpload {
-    const move = (): void => { this.moved += megabyte; };
+    const move = (): void => {
+      this.moved += megabyte;
+    };
     function* steps(): Generator<number, void, void> {
       for (let left = byteLength; left > 0; left -= megabyte) {
         move();
         yield megabyte;
       }
     }
-    return { bytes: { byteLength, close: () => { this.closed += 1; } }, steps: steps() };
+    return {
+      bytes: {
+        byteLength,
+        close: () => {
+          this.closed += 1;
+        },
+      },
+      steps: steps(),
+    };
   }
 }
 
 describe("what arrives", () => {
   let frames: (() => void)[] = [];
-  const page = { requestAnimationFrame: (callback: () => void) => frames.push(callback), cancelAnimationFrame: () => undefined, document: { hidden: false } };
+  const page = {
+    requestAnimationFrame: (callback: () => void) => frames.push(callback),
+    cancelAnimationFrame: () => undefined,
+    document: { hidden: false },
+  };
 
   beforeEach(() => {
     frames = [];
@@ -44,7 +58,11 @@ describe("what arrives", () => {
   };
 
   const store = (renderer: FakeRenderer, megabytes: number, signal = new AbortController().signal) =>
-    new Arrival(renderer as unknown as SceneRenderer).storeBytes(new Uint8Array(megabytes * megabyte), "vertices", signal);
+    new Arrival(renderer as unknown as SceneRenderer).storeBytes(
+      new Uint8Array(megabytes * megabyte),
+      "vertices",
+      signal,
+    );
 
   test("goes to the GPU a few megabytes before each frame, and all of it in the end", async () => {
     const renderer = new FakeRenderer();
@@ -58,7 +76,10 @@ describe("what arrives", () => {
       moves.push(renderer.moved - sum());
     }
     await nextFrame(); // which finds that there is no more
-    assert.ok(moves.length >= 3 && moves.every((bytes) => bytes > 0 && bytes <= most), `${moves.join(", ")} bytes before a frame`);
+    assert.ok(
+      moves.length >= 3 && moves.every((bytes) => bytes > 0 && bytes <= most),
+      `${moves.join(", ")} bytes before a frame`,
+    );
     assert.equal((await stored).byteLength, 11 * megabyte);
     assert.equal(renderer.closed, 0);
   });

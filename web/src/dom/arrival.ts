@@ -21,7 +21,9 @@ const millisecondsPerFrame = 4;
 export class Arrival {
   readonly #renderer: SceneRenderer;
   readonly #work = new FrameWork({
-    bytesPerFrame, millisecondsPerFrame, now: () => performance.now(),
+    bytesPerFrame,
+    millisecondsPerFrame,
+    now: () => performance.now(),
     // Where there is no picture yet there is none to hold up.
     requestFrame: (callback) => {
       if (this.#renderer.isEmpty) setTimeout(callback);
@@ -45,7 +47,11 @@ export class Arrival {
   }
 
   /** The same of a picture, in any format that the browser knows; its first row is the lowest, as texture coordinates count. */
-  async makePicture(bytes: Uint8Array<ArrayBuffer>, sampling: SamplingDescription, signal: AbortSignal): Promise<Picture> {
+  async makePicture(
+    bytes: Uint8Array<ArrayBuffer>,
+    sampling: SamplingDescription,
+    signal: AbortSignal,
+  ): Promise<Picture> {
     const { bitmap, hasAlpha } = await decodePicture(bytes, this.#renderer.largestTexture, sampling);
     try {
       signal.throwIfAborted();

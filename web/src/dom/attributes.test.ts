@@ -13,7 +13,8 @@ describe("a view's attributes", () => {
   test("have the defaults of the table where the author is silent", () => {
     const { settings, warnings } = settingsOf({});
     assert.deepEqual(warnings, []);
-    for (const [name, { defaultValue }] of Object.entries(viewAttributes)) assert.equal(settings[name as keyof ViewSettings], defaultValue, name);
+    for (const [name, { defaultValue }] of Object.entries(viewAttributes))
+      assert.equal(settings[name as keyof ViewSettings], defaultValue, name);
   });
 
   test("of an orbit are angles with units and a length or a share, each of which may be auto", () => {
@@ -30,9 +31,17 @@ describe("a view's attributes", () => {
   });
 
   for (const [name, text] of [
-    ["camera-orbit", "75deg 105%"], ["camera-orbit", "0 75deg 1m"], ["camera-orbit", "0deg 75deg -1m"], ["camera-orbit", "0deg 75deg 1m 1m"],
-    ["camera-orbit", ""], ["camera-target", "1m 2m"], ["camera-target", "1 2 x"], ["field-of-view", "45"], ["loading", "soon"],
-    ["exposure", "bright"], ["auto-rotate-delay", ""],
+    ["camera-orbit", "75deg 105%"],
+    ["camera-orbit", "0 75deg 1m"],
+    ["camera-orbit", "0deg 75deg -1m"],
+    ["camera-orbit", "0deg 75deg 1m 1m"],
+    ["camera-orbit", ""],
+    ["camera-target", "1m 2m"],
+    ["camera-target", "1 2 x"],
+    ["field-of-view", "45"],
+    ["loading", "soon"],
+    ["exposure", "bright"],
+    ["auto-rotate-delay", ""],
   ] as const) {
     test(`${name}="${text}" counts as absent, with a sentence that names what belongs there`, () => {
       const { settings, warnings } = settingsOf({ [name]: text });
@@ -43,7 +52,14 @@ describe("a view's attributes", () => {
   }
 
   test("that are flags are there or not, and can say no", () => {
-    for (const [text, expected] of [["", true], ["true", true], ["camera-controls", true], ["false", false], ["OFF", false], ["none", false]] as const) {
+    for (const [text, expected] of [
+      ["", true],
+      ["true", true],
+      ["camera-controls", true],
+      ["false", false],
+      ["OFF", false],
+      ["none", false],
+    ] as const) {
       assert.equal(settingsOf({ "camera-controls": text }).settings["camera-controls"], expected, text);
     }
     assert.equal(settingsOf({ "auto-rotate": "" }).settings["auto-rotate"], true);

@@ -66,7 +66,13 @@ const orbit: Kind<OrbitSetting> = {
     const [theta = "", phi = "", distance = "", ...more] = text.trim().split(/\s+/);
     const said = { theta: angle.parse(theta), phi: angle.parse(phi), radius: radius.parse(distance) };
     const isMalformed = (word: string, value: unknown) => value === undefined && word.toLowerCase() !== "auto";
-    if (more.length > 0 || isMalformed(theta, said.theta) || isMalformed(phi, said.phi) || isMalformed(distance, said.radius)) return undefined;
+    if (
+      more.length > 0 ||
+      isMalformed(theta, said.theta) ||
+      isMalformed(phi, said.phi) ||
+      isMalformed(distance, said.radius)
+    )
+      return undefined;
     return said;
   },
 };
@@ -74,7 +80,10 @@ const orbit: Kind<OrbitSetting> = {
 const target: Kind<CameraSetting["target"]> = {
   form: "a point such as 0m 1.2m 0m",
   parse(text) {
-    const lengths = text.trim().split(/\s+/).map((word) => number.parse(word.replace(/m$/i, "")));
+    const lengths = text
+      .trim()
+      .split(/\s+/)
+      .map((word) => number.parse(word.replace(/m$/i, "")));
     const [x, y, z] = lengths;
     return lengths.length === 3 && x !== undefined && y !== undefined && z !== undefined ? [x, y, z] : undefined;
   },
@@ -113,11 +122,16 @@ export const viewAttributes = {
 } as const;
 
 export type ViewSettings = {
-  readonly [Name in keyof typeof viewAttributes]: (typeof viewAttributes)[Name] extends Attribute<infer Value> ? Value : never;
+  readonly [Name in keyof typeof viewAttributes]: (typeof viewAttributes)[Name] extends Attribute<infer Value>
+    ? Value
+    : never;
 };
 
 /** What an element says; `onMalformed` gets a sentence for each attribute that could not be taken as written. */
-export function readSettings(element: Pick<Element, "getAttribute">, onMalformed: (sentence: string) => void): ViewSettings {
+export function readSettings(
+  element: Pick<Element, "getAttribute">,
+  onMalformed: (sentence: string) => void,
+): ViewSettings {
   const settings: Record<string, unknown> = {};
   for (const [name, { kind, defaultValue }] of Object.entries<Attribute<unknown>>(viewAttributes)) {
     const text = element.getAttribute(name);

@@ -30,8 +30,19 @@ export function makeFace(root: ShadowRoot, first?: HTMLCanvasElement): Face {
   const poster = elementOf("div", { class: "poster", hidden: "" }, slotOf("poster", posterImage));
 
   const fill = elementOf("div", {});
-  const bar = elementOf("div", { class: "bar", part: "default-progress-bar", role: "progressbar", "aria-label": "Loading",
-    "aria-valuemin": "0", "aria-valuemax": "100", "aria-valuenow": "0" }, fill);
+  const bar = elementOf(
+    "div",
+    {
+      class: "bar",
+      part: "default-progress-bar",
+      role: "progressbar",
+      "aria-label": "Loading",
+      "aria-valuemin": "0",
+      "aria-valuemax": "100",
+      "aria-valuenow": "0",
+    },
+    fill,
+  );
   const barSlot = slotOf("progress-bar", bar);
 
   const controls = elementOf("div", { class: "controls", part: "default-controls" });
@@ -47,7 +58,12 @@ export function makeFace(root: ShadowRoot, first?: HTMLCanvasElement): Face {
   }
 
   return {
-    canvas, poster, posterImage, hotspots, controls, links,
+    canvas,
+    poster,
+    posterImage,
+    hotspots,
+    controls,
+    links,
     showProgress(share, words) {
       const percent = Math.floor(share * 100); // 100 is said of what is whole alone
       fill.style.transform = `scaleX(${share})`;
@@ -74,7 +90,10 @@ function slotOf(name: string, ...children: Node[]): HTMLSlotElement {
 }
 
 function elementOf<Name extends keyof HTMLElementTagNameMap>(
-  name: Name, attributes: Readonly<Record<string, string>>, ...children: Node[]): HTMLElementTagNameMap[Name] {
+  name: Name,
+  attributes: Readonly<Record<string, string>>,
+  ...children: Node[]
+): HTMLElementTagNameMap[Name] {
   const element = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
   element.append(...children);

@@ -61,19 +61,32 @@ export class FirstLook {
     return undefined;
   }
 
-  private constructor(x3d: Element, wanted: Wanted, early: EarlyBases, canvas: HTMLCanvasElement, context: WebGL2RenderingContext) {
+  private constructor(
+    x3d: Element,
+    wanted: Wanted,
+    early: EarlyBases,
+    canvas: HTMLCanvasElement,
+    context: WebGL2RenderingContext,
+  ) {
     const { promise, resolve } = Promise.withResolvers<undefined>();
     this.canvas = canvas;
     this.settled = promise;
-    this.#settle = () => { resolve(undefined); };
+    this.#settle = () => {
+      resolve(undefined);
+    };
     this.#x3d = x3d;
     this.#wanted = wanted;
     this.#picture = new FirstPicture(context);
     this.#picture.rehearse(wanted.scene, canvas.width, canvas.height);
     this.#follow();
-    const files = Array.from(new Set(wanted.scene.shapes.map(({ base }) => hrefOf(base.url))), (url) => ({ url, ...early.ask(url) }));
+    const files = Array.from(new Set(wanted.scene.shapes.map(({ base }) => hrefOf(base.url))), (url) => ({
+      url,
+      ...early.ask(url),
+    }));
     this.arrived = Promise.all(files.map(({ arrival }) => arrival)).catch(() => undefined);
-    this.#load(files).catch(() => { this.end(); }); // the runtime says why
+    this.#load(files).catch(() => {
+      this.end();
+    }); // the runtime says why
   }
 
   /** All files are here: it will be drawn with the next frame. */
@@ -86,7 +99,8 @@ export class FirstLook {
     if (this.#state !== "drawn") return [];
     const shapes = new Map(this.#wanted.scene.shapes.map((shape) => [shape.element, shape])); // one may stand in several places
     return Array.from(shapes.values(), (shape) => ({
-      element: shape.element, patches: (this.#baseOf(shape)?.parts ?? []).flatMap((part, patch) => (part === undefined ? [] : [patch])),
+      element: shape.element,
+      patches: (this.#baseOf(shape)?.parts ?? []).flatMap((part, patch) => (part === undefined ? [] : [patch])),
     }));
   }
 
@@ -149,12 +163,20 @@ export class FirstLook {
 
   #follow(): void {
     const { signal } = this.#listeners;
-    this.canvas.addEventListener("webglcontextlost", () => { this.end(); }, { signal });
+    this.canvas.addEventListener(
+      "webglcontextlost",
+      () => {
+        this.end();
+      },
+      { signal },
+    );
     const observer = new MutationObserver((records) => {
       if (records.some(({ target }) => isOfScene(target, this.#x3d))) this.#followDocument();
     });
     observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
-    signal.addEventListener("abort", () => { observer.disconnect(); });
+    signal.addEventListener("abort", () => {
+      observer.disconnect();
+    });
     watchSize(this.canvas, signal, (width, height) => {
       if (this.#state === "drawn" && this.#setSize(width, height)) this.#draw();
     });
@@ -162,7 +184,9 @@ export class FirstLook {
 
   #followDocument(): void {
     const wanted = this.#x3d.isConnected ? wantedOf(this.#x3d) : undefined;
-    const needsOthers = wanted?.scene.shapes.some(({ base }) => this.#state === "drawn" && !this.#bases.has(hrefOf(base.url)));
+    const needsOthers = wanted?.scene.shapes.some(
+      ({ base }) => this.#state === "drawn" && !this.#bases.has(hrefOf(base.url)),
+    );
     if (wanted === undefined || needsOthers === true) {
       this.end();
       return;

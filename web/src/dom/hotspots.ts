@@ -55,7 +55,18 @@ export class Hotspots {
       const frame = frames.get(child) ?? document.createElement("div");
       const slot = frame.querySelector("slot") ?? frame.appendChild(document.createElement("slot"));
       slot.name = child.slot;
-      return [{ element: child, frame, position, normal: pointOf(child.getAttribute("data-normal")), pixel: undefined, isFacing: true, isCovered: false, isSeen: undefined }];
+      return [
+        {
+          element: child,
+          frame,
+          position,
+          normal: pointOf(child.getAttribute("data-normal")),
+          pixel: undefined,
+          isFacing: true,
+          isCovered: false,
+          isSeen: undefined,
+        },
+      ];
     });
     this.#layer.replaceChildren(...this.#hotspots.map(({ frame }) => frame));
   }
@@ -65,7 +76,9 @@ export class Hotspots {
     this.#forgetFrame();
     if (this.#hotspots.length === 0) return;
     for (const hotspot of this.#hotspots) placeIn(view, width, height, hotspot);
-    this.#frameRequest = requestAnimationFrame(() => { if (this.#sight.isStill()) void this.#lookAtAll(view.position, this.#frame); });
+    this.#frameRequest = requestAnimationFrame(() => {
+      if (this.#sight.isStill()) void this.#lookAtAll(view.position, this.#frame);
+    });
   }
 
   dispose(): void {
@@ -83,7 +96,8 @@ export class Hotspots {
       if (hotspot.pixel === undefined || !hotspot.isFacing) continue;
       const found = await this.#sight.placeAt(...hotspot.pixel);
       if (frame !== this.#frame) return;
-      hotspot.isCovered = found !== undefined && distanceOf(eye, found) < (1 - slack) * distanceOf(eye, hotspot.position);
+      hotspot.isCovered =
+        found !== undefined && distanceOf(eye, found) < (1 - slack) * distanceOf(eye, hotspot.position);
       tell(hotspot);
     }
   }
@@ -116,7 +130,9 @@ function distanceOf(a: Point, b: Point): number {
 }
 
 function facing(eye: Point, position: Point, normal: Point): boolean {
-  return normal[0] * (eye[0] - position[0]) + normal[1] * (eye[1] - position[1]) + normal[2] * (eye[2] - position[2]) > 0;
+  return (
+    normal[0] * (eye[0] - position[0]) + normal[1] * (eye[1] - position[1]) + normal[2] * (eye[2] - position[2]) > 0
+  );
 }
 
 /** Homogeneous coordinates; the matrix column by column. */
@@ -128,7 +144,10 @@ function clipOf(matrix: readonly number[], [x, y, z]: Point): [number, number, n
 
 /** "1 2 3", also with <model-viewer>'s "m" behind each number. */
 function pointOf(text: string | null): Point | undefined {
-  const numbers = (text ?? "").trim().split(/[\s,]+/).map((word) => (word === "" ? NaN : Number(word.replace(/m$/i, ""))));
+  const numbers = (text ?? "")
+    .trim()
+    .split(/[\s,]+/)
+    .map((word) => (word === "" ? NaN : Number(word.replace(/m$/i, ""))));
   const [x, y, z] = numbers;
   if (numbers.length !== 3 || x === undefined || y === undefined || z === undefined) return undefined;
   return numbers.every(Number.isFinite) ? [x, y, z] : undefined;

@@ -50,7 +50,9 @@ export class ImgeoView extends HTMLElement {
   get viewpoints(): readonly ViewpointEntry[] {
     const navigator = this.#presentation?.viewer.navigator;
     return (navigator?.viewpoints ?? []).map(({ element, viewpoint }) => ({
-      element: element as Element, description: viewpoint.description, isBound: element === navigator?.bound,
+      element: element as Element,
+      description: viewpoint.description,
+      isBound: element === navigator?.bound,
     }));
   }
 
@@ -75,7 +77,9 @@ export class ImgeoView extends HTMLElement {
 
   /** Travels to a viewpoint, given as its element or its description. */
   bindViewpoint(viewpoint: Element | string): void {
-    const entry = this.viewpoints.find(({ element, description }) => element === viewpoint || description === viewpoint);
+    const entry = this.viewpoints.find(
+      ({ element, description }) => element === viewpoint || description === viewpoint,
+    );
     if (entry) this.#presentation?.viewer.navigator.bind(entry.element);
   }
 
@@ -152,12 +156,24 @@ export class ImgeoView extends HTMLElement {
 }
 
 /** What <x3d> can do too, since that is the element that pages know. */
-const lentMethods = ["play", "pause", "dismissPoster", "bindViewpoint", "resetView", "showAll", "getCameraOrbit", "getCameraPosition", "toBlob",
-  "positionAndNormalFromPoint"] as const;
+const lentMethods = [
+  "play",
+  "pause",
+  "dismissPoster",
+  "bindViewpoint",
+  "resetView",
+  "showAll",
+  "getCameraOrbit",
+  "getCameraPosition",
+  "toBlob",
+  "positionAndNormalFromPoint",
+] as const;
 const lentProperties = ["statistics", "viewpoints", "paused"] as const;
 
 /** The properties that the runtime gives to <x3d>. */
-export type ViewElement = Element & Loadable & Pick<ImgeoView, (typeof lentMethods)[number] | (typeof lentProperties)[number]>;
+export type ViewElement = Element &
+  Loadable &
+  Pick<ImgeoView, (typeof lentMethods)[number] | (typeof lentProperties)[number]>;
 
 function lendMembers(view: ImgeoView, x3d: Element): void {
   for (const name of lentMethods) {

@@ -26,22 +26,25 @@ export class InlineLoads {
       requireHttp(url);
       return url;
     };
-    this.#inlines = new Inlines({ pool, urlOf }, {
-      onBegin: (inline) => {
-        this.#loadings.set(inline, new Loading(inline as Element, () => this.#inlines.transfersOf(inline)));
+    this.#inlines = new Inlines(
+      { pool, urlOf },
+      {
+        onBegin: (inline) => {
+          this.#loadings.set(inline, new Loading(inline as Element, () => this.#inlines.transfersOf(inline)));
+        },
+        onEnd: (inline, error) => {
+          const loading = this.#loadings.get(inline);
+          if (error === undefined) loading?.reach("full");
+          else if (loading !== undefined) listener.onError(error, inline as Element, loading);
+          loading?.settle();
+          listener.onChange(inline);
+        },
+        onLeave: (inline) => {
+          this.#loadings.get(inline)?.abandon();
+          this.#loadings.delete(inline);
+        },
       },
-      onEnd: (inline, error) => {
-        const loading = this.#loadings.get(inline);
-        if (error === undefined) loading?.reach("full");
-        else if (loading !== undefined) listener.onError(error, inline as Element, loading);
-        loading?.settle();
-        listener.onChange(inline);
-      },
-      onLeave: (inline) => {
-        this.#loadings.get(inline)?.abandon();
-        this.#loadings.delete(inline);
-      },
-    });
+    );
   }
 
   /** For who reads the scene. */

@@ -47,7 +47,9 @@ export class Links {
 
   /** As if the link had been clicked with these keys held. */
   follow(anchor: AnchorDescription, { ctrlKey, metaKey, shiftKey, altKey }: Keys): void {
-    this.of(anchor)?.dispatchEvent(new MouseEvent("click", { view: window, bubbles: true, cancelable: true, ctrlKey, metaKey, shiftKey, altKey }));
+    this.of(anchor)?.dispatchEvent(
+      new MouseEvent("click", { view: window, bubbles: true, cancelable: true, ctrlKey, metaKey, shiftKey, altKey }),
+    );
   }
 
   #linkOf({ element, urls, description, target }: AnchorDescription): HTMLAnchorElement | undefined {
@@ -63,14 +65,18 @@ export class Links {
     link.target = target;
     link.rel = "noopener";
     link.textContent = description || href;
-    link.onclick = (event) => { this.#bind(href, event); };
+    link.onclick = (event) => {
+      this.#bind(href, event);
+    };
     this.#links.set(element, link);
     return link;
   }
 
   /** `#NAME` is a Viewpoint of the scene, where it has one of that name; else a place of the page. */
   #bind(href: string, event: Event): void {
-    const viewpoint = href.startsWith("#") && this.#navigator.viewpoints.find(({ element }) => attributeOf(element, "DEF") === href.slice(1));
+    const viewpoint =
+      href.startsWith("#") &&
+      this.#navigator.viewpoints.find(({ element }) => attributeOf(element, "DEF") === href.slice(1));
     if (!viewpoint) return;
     event.preventDefault();
     this.#navigator.bind(viewpoint.element);

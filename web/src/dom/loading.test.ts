@@ -23,7 +23,10 @@ const isShape = false;
 
 async function stateOf(promise: Promise<unknown>): Promise<string> {
   const pending = {};
-  return Promise.race([promise, Promise.resolve(pending)]).then((value) => (value === pending ? "pending" : "kept"), () => "broken");
+  return Promise.race([promise, Promise.resolve(pending)]).then(
+    (value) => (value === pending ? "pending" : "kept"),
+    () => "broken",
+  );
 }
 
 describe("loading", () => {
@@ -57,7 +60,10 @@ describe("loading", () => {
   });
 
   test("that failed breaks a shape's promise but keeps the scene's, after the error events", async () => {
-    for (const [who, complete, last] of [[isShape, "broken", "error"], [isScene, "kept", "load"]] as const) {
+    for (const [who, complete, last] of [
+      [isShape, "broken", "error"],
+      [isScene, "kept", "load"],
+    ] as const) {
       const { element, log } = elementWithLog();
       const loading = new Loading(element);
       loading.reach("points");

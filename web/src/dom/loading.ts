@@ -64,15 +64,27 @@ export class Loading {
   readonly #errors: ErrorDetail[] = [];
 
   /** Puts fresh promises, and an empty list of errors, on the element. `shown`: its first image has been seen, and told. */
-  constructor(element: Element, transfers: () => readonly Readonly<Transfer>[] = () => [], shown: StageName | "none" = "none") {
+  constructor(
+    element: Element,
+    transfers: () => readonly Readonly<Transfer>[] = () => [],
+    shown: StageName | "none" = "none",
+  ) {
     this.#element = element;
     this.#stage = this.#shownStage = shown;
     if (shown !== "none") this.#firstImage.resolve(undefined);
-    const properties: Omit<Loadable, "resources"> = { firstImage: this.#firstImage.promise, complete: this.#complete.promise, errors: this.#errors };
+    const properties: Omit<Loadable, "resources"> = {
+      firstImage: this.#firstImage.promise,
+      complete: this.#complete.promise,
+      errors: this.#errors,
+    };
     for (const [name, value] of Object.entries(properties)) {
       Object.defineProperty(element, name, { value: value, configurable: true, enumerable: true });
     }
-    Object.defineProperty(element, "resources", { get: () => transfers().map(entryOf), configurable: true, enumerable: true });
+    Object.defineProperty(element, "resources", {
+      get: () => transfers().map(entryOf),
+      configurable: true,
+      enumerable: true,
+    });
     // Nobody has to listen; a rejection must not show up as an unhandled one.
     for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined);
   }

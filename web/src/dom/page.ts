@@ -44,5 +44,7 @@ function looksOrNone(): readonly FirstLook[] {
 }
 
 if (customElements.get(viewTag) === undefined) {
-  start().catch((error: unknown) => { console.error("imgeo: the runtime could not be loaded:", error); });
+  start().catch((error: unknown) => {
+    console.error("imgeo: the runtime could not be loaded:", error);
+  });
 }

@@ -24,22 +24,63 @@ export interface PointingListener {
 }
 
 const redirected = [
-  "pointerdown", "pointerup", "pointercancel", "mousedown", "mouseup", "click", "auxclick", "dblclick", "contextmenu",
+  "pointerdown",
+  "pointerup",
+  "pointercancel",
+  "mousedown",
+  "mouseup",
+  "click",
+  "auxclick",
+  "dblclick",
+  "contextmenu",
 ] as const;
 
 /** CSS pixels that a finger or hand may tremble in a click; farther is a drag, and the camera's. */
 const mostTremble = 5;
 
 /** Listens until `signal` aborts; before whatever moves the camera, so that it sees what pages have prevented. */
-export function listenForPointing(canvas: HTMLCanvasElement, view: HTMLElement, pickable: Pickable, listener: PointingListener, signal: AbortSignal): void {
+export function listenForPointing(
+  canvas: HTMLCanvasElement,
+  view: HTMLElement,
+  pickable: Pickable,
+  listener: PointingListener,
+  signal: AbortSignal,
+): void {
   const pointing = new Pointing(canvas, view, pickable, listener);
-  for (const type of redirected) canvas.addEventListener(type, (event) => { pointing.redirect(event); }, { signal });
-  canvas.addEventListener("pointermove", (event) => { pointing.move(event); }, { signal });
-  canvas.addEventListener("mousemove", (event) => { pointing.keepBack(event); }, { signal });
+  for (const type of redirected)
+    canvas.addEventListener(
+      type,
+      (event) => {
+        pointing.redirect(event);
+      },
+      { signal },
+    );
+  canvas.addEventListener(
+    "pointermove",
+    (event) => {
+      pointing.move(event);
+    },
+    { signal },
+  );
+  canvas.addEventListener(
+    "mousemove",
+    (event) => {
+      pointing.keepBack(event);
+    },
+    { signal },
+  );
   for (const type of ["pointerout", "mouseout"] as const) {
-    canvas.addEventListener(type, (event) => { pointing.leave(event); }, { signal });
+    canvas.addEventListener(
+      type,
+      (event) => {
+        pointing.leave(event);
+      },
+      { signal },
+    );
   }
-  signal.addEventListener("abort", () => { pointing.end(); });
+  signal.addEventListener("abort", () => {
+    pointing.end();
+  });
 }
 
 /** Where a button went down, and whether the camera has it since. */
@@ -153,10 +194,12 @@ class Pointing {
     if (now !== before) {
       const [left, entered] = [this.#insideScene(before), this.#insideScene(now)];
       this.#sendBoth(native, "out", before, this.#hit, now);
-      for (const element of left) if (!entered.includes(element)) this.#sendBoth(native, "leave", element, this.#hit, now);
+      for (const element of left)
+        if (!entered.includes(element)) this.#sendBoth(native, "leave", element, this.#hit, now);
       this.#hovered = now;
       this.#sendBoth(native, "over", now, hit, before);
-      for (const element of entered.reverse()) if (!left.includes(element)) this.#sendBoth(native, "enter", element, hit, before);
+      for (const element of entered.reverse())
+        if (!left.includes(element)) this.#sendBoth(native, "enter", element, hit, before);
     }
     this.#listener.onHover(hit);
     this.#hit = hit;
@@ -181,13 +224,26 @@ class Pointing {
   }
 
   /** As pointer event and, for a mouse, as mouse event. */
-  #sendBoth(native: MouseEvent, what: string, target: Element, hit: Hit | undefined, relatedTarget: EventTarget | null = null): void {
+  #sendBoth(
+    native: MouseEvent,
+    what: string,
+    target: Element,
+    hit: Hit | undefined,
+    relatedTarget: EventTarget | null = null,
+  ): void {
     this.#send(native, `pointer${what}`, target, hit, relatedTarget);
-    if (!(native instanceof PointerEvent) || native.pointerType === "mouse") this.#send(native, `mouse${what}`, target, hit, relatedTarget);
+    if (!(native instanceof PointerEvent) || native.pointerType === "mouse")
+      this.#send(native, `mouse${what}`, target, hit, relatedTarget);
   }
 
   /** False where a listener has prevented the default. */
-  #send(native: MouseEvent, type: string, target: Element, hit: Hit | undefined, relatedTarget: EventTarget | null = null): boolean {
+  #send(
+    native: MouseEvent,
+    type: string,
+    target: Element,
+    hit: Hit | undefined,
+    relatedTarget: EventTarget | null = null,
+  ): boolean {
     return target.dispatchEvent(eventLike(native, type, hit, relatedTarget));
   }
 
@@ -203,5 +259,8 @@ function targetOf(hit: Hit | undefined): Element | undefined {
 /** The pixel of the canvas' buffer under a point of the window. */
 export function pixelAt(canvas: HTMLCanvasElement, clientX: number, clientY: number): [x: number, y: number] {
   const { left, top, width, height } = canvas.getBoundingClientRect();
-  return [Math.floor(((clientX - left) / width) * canvas.width), Math.floor(((clientY - top) / height) * canvas.height)];
+  return [
+    Math.floor(((clientX - left) / width) * canvas.width),
+    Math.floor(((clientY - top) / height) * canvas.height),
+  ];
 }

@@ -15,8 +15,11 @@ export class Poster {
   #toldVisible = false;
 
   /** `host` is where a page's own poster would be slotted. */
-  constructor(host: Element, face: Pick<Face, "poster" | "posterImage" | "canvas">,
-              send: (event: "poster-dismissed" | "model-visibility", detail: object) => void) {
+  constructor(
+    host: Element,
+    face: Pick<Face, "poster" | "posterImage" | "canvas">,
+    send: (event: "poster-dismissed" | "model-visibility", detail: object) => void,
+  ) {
     this.#host = host;
     this.#face = face;
     this.#send = send;
@@ -49,8 +52,20 @@ export class Poster {
     poster.classList.add("leaving");
     canvas.inert = false;
     // Without a transition there is no end of one.
-    if (getComputedStyle(poster).transitionDuration.split(",").every((time) => parseFloat(time) === 0)) poster.hidden = true;
-    else poster.addEventListener("transitionend", () => { poster.hidden = poster.classList.contains("leaving"); }, { once: true });
+    if (
+      getComputedStyle(poster)
+        .transitionDuration.split(",")
+        .every((time) => parseFloat(time) === 0)
+    )
+      poster.hidden = true;
+    else
+      poster.addEventListener(
+        "transitionend",
+        () => {
+          poster.hidden = poster.classList.contains("leaving");
+        },
+        { once: true },
+      );
     this.#send("poster-dismissed", {});
     this.#tell();
   }

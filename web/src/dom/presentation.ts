@@ -58,44 +58,102 @@ export class Presentation {
       isStill: () => !this.viewer.renderer.statistics.isFrameDue && !this.viewer.navigator.isMoving,
       placeAt: async (x, y) => {
         const { canvas } = face;
-        const hit = await this.viewer.pickSoon(Math.floor((x * canvas.width) / this.#size.width), Math.floor((y * canvas.height) / this.#size.height));
+        const hit = await this.viewer.pickSoon(
+          Math.floor((x * canvas.width) / this.#size.width),
+          Math.floor((y * canvas.height) / this.#size.height),
+        );
         return hit?.position.toArray();
       },
     });
-    this.poster = new Poster(host, face, (name, detail) => { this.#send(name, detail); this.#rotate(); });
-    this.viewer = new Viewer(x3d, face.canvas, context, {
-      onProgress: (share, stage) => { this.#showProgress(share, stage); },
-      onFrame: () => { this.#onFrame(); },
-      onNavigation: () => { this.#describe(); },
-      onAnchors: (anchors) => { this.#links.update(anchors); },
-    }, look?.shown);
+    this.poster = new Poster(host, face, (name, detail) => {
+      this.#send(name, detail);
+      this.#rotate();
+    });
+    this.viewer = new Viewer(
+      x3d,
+      face.canvas,
+      context,
+      {
+        onProgress: (share, stage) => {
+          this.#showProgress(share, stage);
+        },
+        onFrame: () => {
+          this.#onFrame();
+        },
+        onNavigation: () => {
+          this.#describe();
+        },
+        onAnchors: (anchors) => {
+          this.#links.update(anchors);
+        },
+      },
+      look?.shown,
+    );
     const { signal } = this.#listeners;
     const { navigator } = this.viewer;
     this.#hands = new Hands(navigator, this.#limits);
     this.#lists = new Lists(face.controls, navigator, signal);
-    this.#links = new Links(face.links, navigator, (sentence) => { this.#warnOnce(sentence); });
+    this.#links = new Links(face.links, navigator, (sentence) => {
+      this.#warnOnce(sentence);
+    });
     this.#waysBack = new WaysBack(face.controls, navigator, signal);
     this.#settings = this.#readSettings();
     navigator.isInstant = this.#lessMotion.matches;
-    this.#lessMotion.addEventListener("change", ({ matches }) => { navigator.isInstant = matches; this.#rotate(); }, { signal });
+    this.#lessMotion.addEventListener(
+      "change",
+      ({ matches }) => {
+        navigator.isInstant = matches;
+        this.#rotate();
+      },
+      { signal },
+    );
     this.#applyTouchAction = keepTouchAction(
-      face.canvas, () => (this.#hands.type === "none" ? "manipulation" : this.#settings["touch-action"]), signal);
+      face.canvas,
+      () => (this.#hands.type === "none" ? "manipulation" : this.#settings["touch-action"]),
+      signal,
+    );
     adoptSlotted(x3d, host);
     this.#follow(host);
     this.#apply();
     if (look !== undefined) this.#stayBehind(look);
     this.poster.show(this.#settings.poster, this.#label);
-    x3d.addEventListener("first-image", () => { this.poster.onPicture(); }, { signal });
-    x3d.addEventListener("load", () => { face.say("The scene is complete."); }, { signal });
-    listenForPointing(face.canvas, host, this.viewer, {
-      onHover: (hit) => { this.#pointAt(hit); },
-      onClick: (hit, native) => {
-        const anchor = this.viewer.renderer.anchorOf(hit);
-        if (anchor) this.#links.follow(anchor, native);
+    x3d.addEventListener(
+      "first-image",
+      () => {
+        this.poster.onPicture();
       },
-    }, signal);
+      { signal },
+    );
+    x3d.addEventListener(
+      "load",
+      () => {
+        face.say("The scene is complete.");
+      },
+      { signal },
+    );
+    listenForPointing(
+      face.canvas,
+      host,
+      this.viewer,
+      {
+        onHover: (hit) => {
+          this.#pointAt(hit);
+        },
+        onClick: (hit, native) => {
+          const anchor = this.viewer.renderer.anchorOf(hit);
+          if (anchor) this.#links.follow(anchor, native);
+        },
+      },
+      signal,
+    );
     listenForMovement(face.canvas, this.#hands, signal);
-    face.canvas.addEventListener("keydown", (event) => { this.#toggleDrawing(event); }, { signal });
+    face.canvas.addEventListener(
+      "keydown",
+      (event) => {
+        this.#toggleDrawing(event);
+      },
+      { signal },
+    );
     watchSize(face.canvas, signal, (width, height, ratio) => {
       this.#size = { width: width / ratio, height: height / ratio };
       this.viewer.renderer.resize(width, height, ratio);
@@ -123,7 +181,10 @@ export class Presentation {
     this.viewer.start();
     const margin = marginOfLoading[this.#settings.loading];
     if (margin === Infinity) this.viewer.load();
-    else whenNear(this.#face.canvas, margin, this.#listeners.signal, () => { this.viewer.load(); });
+    else
+      whenNear(this.#face.canvas, margin, this.#listeners.signal, () => {
+        this.viewer.load();
+      });
     if (this.#look?.shown.length === 0) this.#look.end(); // its files are the viewer's now
   }
 
@@ -146,8 +207,11 @@ export class Presentation {
 
   /** What the picture is called. */
   get #label(): string {
-    const words = [this.#settings.alt, ...["aria-label", "title"].map((name) => this.#x3d.getAttribute(name)),
-      this.#x3d.querySelector("worldinfo")?.getAttribute("title")];
+    const words = [
+      this.#settings.alt,
+      ...["aria-label", "title"].map((name) => this.#x3d.getAttribute(name)),
+      this.#x3d.querySelector("worldinfo")?.getAttribute("title"),
+    ];
     return words.find((word) => word !== "" && word !== null && word !== undefined) ?? "3D scene";
   }
 
@@ -160,7 +224,9 @@ export class Presentation {
 
   /** Attributes, and elements for slots, that come and go later. */
   #follow(host: Element): void {
-    const onChildren = new MutationObserver(() => { adoptSlotted(this.#x3d, host); });
+    const onChildren = new MutationObserver(() => {
+      adoptSlotted(this.#x3d, host);
+    });
     onChildren.observe(this.#x3d, { childList: true });
     const onAttributes = new MutationObserver(() => {
       this.#settings = this.#readSettings();
@@ -171,7 +237,11 @@ export class Presentation {
       this.#hotspots.read();
       this.viewer.renderer.requestFrame();
     });
-    onHotspots.observe(host, { childList: true, subtree: true, attributeFilter: ["slot", "data-position", "data-normal"] });
+    onHotspots.observe(host, {
+      childList: true,
+      subtree: true,
+      attributeFilter: ["slot", "data-position", "data-normal"],
+    });
     this.#hotspots.read();
     this.#listeners.signal.addEventListener("abort", () => {
       for (const observer of [onChildren, onAttributes, onHotspots]) observer.disconnect();
@@ -179,7 +249,9 @@ export class Presentation {
   }
 
   #readSettings(): ViewSettings {
-    return readSettings(this.#x3d, (sentence) => { this.#warnOnce(`<${this.#x3d.localName}> ${sentence}`); });
+    return readSettings(this.#x3d, (sentence) => {
+      this.#warnOnce(`<${this.#x3d.localName}> ${sentence}`);
+    });
   }
 
   #warnOnce(sentence: string): void {
@@ -214,7 +286,11 @@ export class Presentation {
   /** Turns by itself where the page asks for it, there is something to see, and people do not mind motion. */
   #rotate(): void {
     const { turntable } = this.viewer.navigator;
-    const wanted = this.#settings["auto-rotate"] && this.poster.isModelVisible && this.#look === undefined && !this.#lessMotion.matches;
+    const wanted =
+      this.#settings["auto-rotate"] &&
+      this.poster.isModelVisible &&
+      this.#look === undefined &&
+      !this.#lessMotion.matches;
     if (!wanted) turntable.stop();
     else if (turntable.isStopped) turntable.start(true);
   }
@@ -233,7 +309,8 @@ export class Presentation {
     canvas.classList.toggle("moves", !isStill);
     this.#applyTouchAction();
     this.#lists.update();
-    if (this.#shownType !== undefined && this.#shownType !== type) this.#face.say(`${typeWords[type]}. ${keyWords[type]}`);
+    if (this.#shownType !== undefined && this.#shownType !== type)
+      this.#face.say(`${typeWords[type]}. ${keyWords[type]}`);
     this.#shownType = type;
   }
 

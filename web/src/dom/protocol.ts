@@ -17,5 +17,11 @@ export function watchProtocol(signal: AbortSignal, onProtocol: (protocol: string
     }
   });
   observer.observe({ type: "resource", buffered: true });
-  signal.addEventListener("abort", () => { observer.disconnect(); }, { once: true });
+  signal.addEventListener(
+    "abort",
+    () => {
+      observer.disconnect();
+    },
+    { once: true },
+  );
 }

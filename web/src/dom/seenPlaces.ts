@@ -35,7 +35,14 @@ export class SeenPlaces {
   }
 
   #note(place: object, placed: PlacedShape): void {
-    const { shape: { geometry, priority, appearance: { textures } }, sceneFromShape } = placed;
+    const {
+      shape: {
+        geometry,
+        priority,
+        appearance: { textures },
+      },
+      sceneFromShape,
+    } = placed;
     if (geometry === undefined) return;
     const seen = placeGeometry(geometry, sceneFromShape.elements, priority, textures.length > 0);
     add(this.#geometries, geometry, place, seen);
@@ -43,7 +50,15 @@ export class SeenPlaces {
     this.#shown.set(place, placed);
   }
 
-  #forget(place: object, { shape: { geometry, appearance: { textures } } }: PlacedShape): void {
+  #forget(
+    place: object,
+    {
+      shape: {
+        geometry,
+        appearance: { textures },
+      },
+    }: PlacedShape,
+  ): void {
     this.#shown.delete(place);
     if (geometry) remove(this.#geometries, geometry, place);
     for (const texture of textures) remove(this.#pictures, pictureKeyOf(texture), place);

@@ -40,21 +40,54 @@ export function vector3DOf({ x, y, z }: { x: number; y: number; z: number }): Ve
 }
 
 /** An event like `native` but of that type; without a hit it says nothing of the scene. */
-export function eventLike(native: PointerEvent | MouseEvent, type: string, hit: Hit | undefined,
-                          relatedTarget: EventTarget | null = native.relatedTarget): MouseEvent {
+export function eventLike(
+  native: PointerEvent | MouseEvent,
+  type: string,
+  hit: Hit | undefined,
+  relatedTarget: EventTarget | null = native.relatedTarget,
+): MouseEvent {
   const isInward = type.endsWith("enter") || type.endsWith("leave");
-  const common = { ...initOf(native, mouseFields), relatedTarget, bubbles: !isInward, cancelable: !isInward, composed: true };
-  const event = type.startsWith("mouse") || !(native instanceof PointerEvent) ? new MouseEvent(type, common)
-    : new PointerEvent(type, { ...common, ...initOf(native, pointerFields) });
+  const common = {
+    ...initOf(native, mouseFields),
+    relatedTarget,
+    bubbles: !isInward,
+    cancelable: !isInward,
+    composed: true,
+  };
+  const event =
+    type.startsWith("mouse") || !(native instanceof PointerEvent)
+      ? new MouseEvent(type, common)
+      : new PointerEvent(type, { ...common, ...initOf(native, pointerFields) });
   return hit ? Object.assign(event, propertiesOf(hit)) : event;
 }
 
 const mouseFields = [
-  "view", "detail", "screenX", "screenY", "clientX", "clientY", "movementX", "movementY",
-  "ctrlKey", "shiftKey", "altKey", "metaKey", "button", "buttons",
+  "view",
+  "detail",
+  "screenX",
+  "screenY",
+  "clientX",
+  "clientY",
+  "movementX",
+  "movementY",
+  "ctrlKey",
+  "shiftKey",
+  "altKey",
+  "metaKey",
+  "button",
+  "buttons",
 ] as const;
 const pointerFields = [
-  "pointerId", "width", "height", "pressure", "tangentialPressure", "tiltX", "tiltY", "twist", "pointerType", "isPrimary",
+  "pointerId",
+  "width",
+  "height",
+  "pressure",
+  "tangentialPressure",
+  "tiltX",
+  "tiltY",
+  "twist",
+  "pointerType",
+  "isPrimary",
 ] as const;
 
 function initOf<Source, Name extends keyof Source>(source: Source, names: readonly Name[]): Pick<Source, Name> {
@@ -64,9 +97,18 @@ function initOf<Source, Name extends keyof Source>(source: Source, names: readon
 function propertiesOf({ element, patch, triangle, vertex, position, normal }: Hit): ShapeEventProperties {
   const { x, y, z } = position;
   return {
-    worldPosition: vector3DOf(position), worldNormal: normal ? vector3DOf(normal) : null,
-    patch, vertexId: vertex, triangleId: triangle ?? null,
-    hitObject: element as Element, hitPnt: [x, y, z], worldX: x, worldY: y, worldZ: z,
-    normalX: normal?.x ?? 0, normalY: normal?.y ?? 0, normalZ: normal?.z ?? 0,
+    worldPosition: vector3DOf(position),
+    worldNormal: normal ? vector3DOf(normal) : null,
+    patch,
+    vertexId: vertex,
+    triangleId: triangle ?? null,
+    hitObject: element as Element,
+    hitPnt: [x, y, z],
+    worldX: x,
+    worldY: y,
+    worldZ: z,
+    normalX: normal?.x ?? 0,
+    normalY: normal?.y ?? 0,
+    normalZ: normal?.z ?? 0,
   };
 }

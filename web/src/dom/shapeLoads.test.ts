@@ -11,23 +11,48 @@ import { ShapeLoads } from "./shapeLoads.ts";
 
 /** A scene of as many shapes, each of a file set of its own, and what a renderer is asked for while they load. */
 function loadsOf(count: number) {
-  const markup = Array.from({ length: count }, (_, n) => `<Shape><ImageGeometry>${sigPatch(n)}</ImageGeometry></Shape>`);
+  const markup = Array.from(
+    { length: count },
+    (_, n) => `<Shape><ImageGeometry>${sigPatch(n)}</ImageGeometry></Shape>`,
+  );
   const shapes = shapesOf(readScene(elementsOf(`<X3D>${markup.join("")}</X3D>`)).root);
   const heard: string[] = [];
   for (const { element } of shapes) {
-    Object.assign(element, { dispatchEvent: ({ type }: Event) => { if (type === "load") heard.push(type); return true; } });
+    Object.assign(element, {
+      dispatchEvent: ({ type }: Event) => {
+        if (type === "load") heard.push(type);
+        return true;
+      },
+    });
   }
   const frames = { asked: 0, atPace: 0 };
   const renderer = {
     isContextLost: false,
-    setStage: () => { frames.atPace += 1; },
-    requestFrame: () => { frames.asked += 1; },
-    requestFrameAtPace: () => { frames.atPace += 1; },
+    setStage: () => {
+      frames.atPace += 1;
+    },
+    requestFrame: () => {
+      frames.asked += 1;
+    },
+    requestFrameAtPace: () => {
+      frames.atPace += 1;
+    },
   } as unknown as SceneRenderer;
   const { pool } = siteOf(sigFiles(count));
   const deliveries = new SharedDeliveries(pool);
-  const loads = new ShapeLoads(renderer, deliveries, new TextureDeliveries(pool),
-    { onStage: () => undefined, onError: (error) => { throw error; }, maySettle: () => true }, []);
+  const loads = new ShapeLoads(
+    renderer,
+    deliveries,
+    new TextureDeliveries(pool),
+    {
+      onStage: () => undefined,
+      onError: (error) => {
+        throw error;
+      },
+      maySettle: () => true,
+    },
+    [],
+  );
   loads.follow({ shapes: new Map(shapes.map((shape) => [shape.element, shape])), gone: [], places: new Map() });
   deliveries.demand(() => everything);
   return { loads, frames, heard };
@@ -35,7 +60,10 @@ function loadsOf(count: number) {
 
 test("shapes that come, and those that are complete, ask for frames at the GPU's own pace, the last one at once", async () => {
   const { loads, frames, heard } = loadsOf(20);
-  while (loads.isLoading) await new Promise((resolve) => { setTimeout(resolve, 1); });
+  while (loads.isLoading)
+    await new Promise((resolve) => {
+      setTimeout(resolve, 1);
+    });
   assert.deepEqual(heard, []); // events wait for the frame
   assert.equal(frames.asked, 1);
   assert.ok(frames.atPace > 20 * 4); // a stage for each file, and the end

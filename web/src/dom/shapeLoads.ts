@@ -51,8 +51,13 @@ export class ShapeLoads {
   /** Those that are here and have said all: of ten thousand no frame asks once more. */
   #isQuiet = false;
 
-  constructor(renderer: SceneRenderer, deliveries: SharedDeliveries, textures: TextureDeliveries, listener: ShapeLoadsListener,
-              shownBefore: Iterable<SceneElement>) {
+  constructor(
+    renderer: SceneRenderer,
+    deliveries: SharedDeliveries,
+    textures: TextureDeliveries,
+    listener: ShapeLoadsListener,
+    shownBefore: Iterable<SceneElement>,
+  ) {
     this.#renderer = renderer;
     this.#deliveries = deliveries;
     this.#textures = textures;
@@ -107,11 +112,25 @@ export class ShapeLoads {
     const stages = geometry?.patches.map(() => "none" as const) ?? [];
     const loading = new Loading(element, () => transfersOf(shape), this.#shownBefore.delete(element) ? "base" : "none");
     const textures = new ShapeTextures(this.#textures, {
-      onPicture: (role, picture) => { this.#renderer.setPicture(element, role, picture); },
-      onError: (error) => { this.#fail(shape, element, error); },
-      onSettled: () => { this.#settle(shape); },
+      onPicture: (role, picture) => {
+        this.#renderer.setPicture(element, role, picture);
+      },
+      onError: (error) => {
+        this.#fail(shape, element, error);
+      },
+      onSettled: () => {
+        this.#settle(shape);
+      },
     });
-    const shape: LoadedShape = { geometry, stages, isVisible: visible, loading, delivery: undefined, textures, described: [] };
+    const shape: LoadedShape = {
+      geometry,
+      stages,
+      isVisible: visible,
+      loading,
+      delivery: undefined,
+      textures,
+      described: [],
+    };
     this.#shapes.set(element, shape);
     this.#isQuiet = false;
     if (geometry === undefined) shape.loading.settle();
@@ -132,21 +151,29 @@ export class ShapeLoads {
   /** Whether these patches of a shape have something on the screen, as far as there will be anything. */
   shows(element: SceneElement, patches: readonly number[]): boolean {
     const shape = this.#shapes.get(element);
-    return shape === undefined || !shape.isVisible || shape.loading.isSettled || patches.every((patch) => shape.stages[patch] !== "none");
+    return (
+      shape === undefined ||
+      !shape.isVisible ||
+      shape.loading.isSettled ||
+      patches.every((patch) => shape.stages[patch] !== "none")
+    );
   }
 
   /** Patches whose files are for workers to decode, whatever the GPU can do. */
   get jobsToCome(): number {
     let sum = 0;
     for (const { geometry, isVisible } of this.#shapes.values()) {
-      if (isVisible && (geometry?.container === "compact" || geometry?.decode === "cpu")) sum += geometry.patches.length;
+      if (isVisible && (geometry?.container === "compact" || geometry?.decode === "cpu"))
+        sum += geometry.patches.length;
     }
     return sum;
   }
 
   /** Loadings of what is seen: what is hidden is fetched when it is shown. */
   get awaited(): readonly Loading[] {
-    return Array.from(this.#shapes.values()).filter(({ isVisible }) => isVisible).map(({ loading }) => loading);
+    return Array.from(this.#shapes.values())
+      .filter(({ isVisible }) => isVisible)
+      .map(({ loading }) => loading);
   }
 
   /** Shapes from which this view needs nothing (more) are complete, even if they could be finer. */
@@ -157,7 +184,8 @@ export class ShapeLoads {
   tellProgress(): void {
     for (const shape of this.#shapes.values()) {
       const { loading, delivery } = shape;
-      if (delivery && shape.isVisible && !loading.isEnded) loading.moveOn(progressOf(transfersOf(shape), loading.progress));
+      if (delivery && shape.isVisible && !loading.isEnded)
+        loading.moveOn(progressOf(transfersOf(shape), loading.progress));
     }
   }
 
@@ -208,8 +236,12 @@ export class ShapeLoads {
         shape.loading.reach(stageShown(shape.stages));
         this.#isQuiet = false;
       },
-      onError: (error) => { this.#fail(shape, element, error); },
-      onSettled: () => { this.#settle(shape); },
+      onError: (error) => {
+        this.#fail(shape, element, error);
+      },
+      onSettled: () => {
+        this.#settle(shape);
+      },
     });
   }
 

@@ -39,7 +39,8 @@ export class Steering {
 
   /** Steers by what the scene is now, its bound viewpoint too; `onProblem` is told what cannot be read of its weights. */
   follow(chunkPriority: string, { places }: SceneChanges, onProblem: (problem: string) => void): void {
-    if (places.size === 0 && chunkPriority === this.#chunkPriority && isSameView(this.#renderer.view, this.#view)) return;
+    if (places.size === 0 && chunkPriority === this.#chunkPriority && isSameView(this.#renderer.view, this.#view))
+      return;
     if (chunkPriority !== this.#chunkPriority) this.#weights = chunkWeightsOf(chunkPriority, onProblem);
     this.#chunkPriority = chunkPriority;
     this.#places.follow(places);
@@ -65,7 +66,9 @@ export class Steering {
     const storedBytes = storedBytesOf(this.#deliveries);
     const isOverBudget = storedBytes > this.#mostBytes && storedBytes !== this.#knownBytes;
     if (!isOverBudget && isSameView(this.#renderer.view, this.#view)) return;
-    this.#timer = setTimeout(() => { this.steer(); }, steeringIntervalMs);
+    this.#timer = setTimeout(() => {
+      this.steer();
+    }, steeringIntervalMs);
   }
 
   /** Now. */
@@ -74,8 +77,12 @@ export class Steering {
     if (this.#isHeld) return;
     this.#view = this.#renderer.view;
     const viewing = viewingOf(this.#view, this.#weights);
-    demandWithin(this.#deliveries, (geometry) => demandFor(this.#places.ofGeometry(geometry), viewing),
-                 (key, chunk) => textureDemandFor(this.#places.ofPicture(key), chunk, viewing), this.#mostBytes);
+    demandWithin(
+      this.#deliveries,
+      (geometry) => demandFor(this.#places.ofGeometry(geometry), viewing),
+      (key, chunk) => textureDemandFor(this.#places.ofPicture(key), chunk, viewing),
+      this.#mostBytes,
+    );
     this.#knownBytes = storedBytesOf(this.#deliveries);
     this.#onSteered();
   }
@@ -92,5 +99,7 @@ function viewingOf(view: View | undefined, weights: ChunkWeights): Viewing {
 
 function isSameView(a: View | undefined, b: View | undefined): boolean {
   if (a === undefined || b === undefined) return a === b;
-  return a.pixelsPerUnit === b.pixelsPerUnit && a.clipFromScene.every((value, place) => value === b.clipFromScene[place]);
+  return (
+    a.pixelsPerUnit === b.pixelsPerUnit && a.clipFromScene.every((value, place) => value === b.clipFromScene[place])
+  );
 }

@@ -8,7 +8,11 @@
 export type TouchAction = "none" | "pan-x" | "pan-y" | "manipulation";
 
 /** Keeps the canvas' style; the function that comes back says that `setting` may tell another. "auto": as is best. */
-export function keepTouchAction(canvas: HTMLCanvasElement, setting: () => TouchAction | "auto", signal: AbortSignal): () => void {
+export function keepTouchAction(
+  canvas: HTMLCanvasElement,
+  setting: () => TouchAction | "auto",
+  signal: AbortSignal,
+): () => void {
   let hasFocus = false;
   const apply = () => {
     const wanted = setting();
@@ -23,7 +27,9 @@ export function keepTouchAction(canvas: HTMLCanvasElement, setting: () => TouchA
   const onSize = new ResizeObserver(apply);
   for (const element of [document.documentElement, document.body]) onSize.observe(element);
   window.addEventListener("resize", apply, { signal });
-  signal.addEventListener("abort", () => { onSize.disconnect(); });
+  signal.addEventListener("abort", () => {
+    onSize.disconnect();
+  });
   apply();
   return apply;
 }

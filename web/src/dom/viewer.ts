@@ -91,17 +91,36 @@ export class Viewer {
   #hasAnchors = false;
   #progressTimer: ReturnType<typeof setTimeout> | undefined;
 
-  readonly #transfers = (): Readonly<Transfer>[] => [...this.#deliveries.transfers(), ...this.#textures.transfers(), ...this.#inlines.transfers];
+  readonly #transfers = (): Readonly<Transfer>[] => [
+    ...this.#deliveries.transfers(),
+    ...this.#textures.transfers(),
+    ...this.#inlines.transfers,
+  ];
 
   /** `shown`: what people see of the scene already, by other means. */
-  constructor(x3d: Element, canvas: HTMLCanvasElement, context: WebGL2RenderingContext, listener: ViewerListener, shown: readonly ShownShape[] = []) {
+  constructor(
+    x3d: Element,
+    canvas: HTMLCanvasElement,
+    context: WebGL2RenderingContext,
+    listener: ViewerListener,
+    shown: readonly ShownShape[] = [],
+  ) {
     this.#x3d = x3d;
     this.#canvas = canvas;
     this.#listener = listener;
     this.#wasShown = shown.length > 0;
     this.#loading = new Loading(x3d, this.#transfers, shown.length > 0 ? "base" : "none");
-    this.navigator = new Navigator(() => { this.renderer.requestFrame(); }, () => { listener.onNavigation(); });
-    this.renderer = new SceneRenderer(canvas, context, this.navigator, () => { this.#onFrame(); });
+    this.navigator = new Navigator(
+      () => {
+        this.renderer.requestFrame();
+      },
+      () => {
+        listener.onNavigation();
+      },
+    );
+    this.renderer = new SceneRenderer(canvas, context, this.navigator, () => {
+      this.#onFrame();
+    });
     this.#readsTextures = this.renderer.mayReadTextures;
     if (!this.#readsTextures) this.#warnOfGpu();
     const arrival = new Arrival(this.renderer);
@@ -119,35 +138,54 @@ export class Viewer {
       download: defaultDownloadOptions,
       early: takeBases,
       resolve,
-      onTransfer: () => { this.#progressSoon(); },
+      onTransfer: () => {
+        this.#progressSoon();
+      },
     });
     this.#deliveries = new SharedDeliveries(this.#pool);
     this.#textures = new TextureDeliveries(this.#pool);
-    this.#shapes = new ShapeLoads(this.renderer, this.#deliveries, this.#textures, {
-      onStage: (stage) => {
-        this.#followSphere();
-        if (stage?.kind === "textures" && this.#trial === "needless") this.#trial = "due";
+    this.#shapes = new ShapeLoads(
+      this.renderer,
+      this.#deliveries,
+      this.#textures,
+      {
+        onStage: (stage) => {
+          this.#followSphere();
+          if (stage?.kind === "textures" && this.#trial === "needless") this.#trial = "due";
+        },
+        onError: (error, element, loading) => {
+          this.#fail(error, element, loading);
+        },
+        maySettle: () => this.#trial !== "due" && this.#trial !== "running",
       },
-      onError: (error, element, loading) => { this.#fail(error, element, loading); },
-      maySettle: () => this.#trial !== "due" && this.#trial !== "running",
-    }, shown.map(({ element }) => element));
+      shown.map(({ element }) => element),
+    );
     this.#inlines = new InlineLoads(this.#pool, resolve, {
       onChange: (inline) => {
         this.#reader.touch(inline);
         this.#readDocument();
       },
-      onError: (error, element, loading) => { this.#fail(error, element, loading); },
+      onError: (error, element, loading) => {
+        this.#fail(error, element, loading);
+      },
     });
-    const fonts = new LateFonts(document.fonts, () => {
-      this.#reader.touchTexts();
-      this.#readDocument();
-    }, this.#listeners.signal);
+    const fonts = new LateFonts(
+      document.fonts,
+      () => {
+        this.#reader.touchTexts();
+        this.#readDocument();
+      },
+      this.#listeners.signal,
+    );
     this.#reader = new SceneReader(x3d, {
-      inlined: (inline) => this.#inlines.documentOf(inline), levelOf: (lod) => this.#levels.levelOf(lod),
+      inlined: (inline) => this.#inlines.documentOf(inline),
+      levelOf: (lod) => this.#levels.levelOf(lod),
       inlineGeometry: readInlineGeometry,
       text: textReading(measureRun, (font, letters) => fonts.editionOf(font, letters)),
     });
-    this.#steering = new Steering(this.renderer, { geometries: this.#deliveries, textures: this.#textures }, () => { this.#onSteered(); });
+    this.#steering = new Steering(this.renderer, { geometries: this.#deliveries, textures: this.#textures }, () => {
+      this.#onSteered();
+    });
     this.#observer = new MutationObserver((all) => {
       const records = all.filter(({ target }) => isOfScene(target, x3d));
       if (records.length === 0) return;
@@ -164,9 +202,23 @@ export class Viewer {
   start(): void {
     const { signal } = this.#listeners;
     // The renderer has heard of it before: its listeners are older.
-    this.#canvas.addEventListener("webglcontextlost", () => { this.#loseContext(); }, { signal });
-    this.#canvas.addEventListener("webglcontextrestored", () => { this.#deliverAll(); }, { signal });
-    watchProtocol(signal, (protocol) => { this.#scheduler.slotCount = slotsFor(protocol); });
+    this.#canvas.addEventListener(
+      "webglcontextlost",
+      () => {
+        this.#loseContext();
+      },
+      { signal },
+    );
+    this.#canvas.addEventListener(
+      "webglcontextrestored",
+      () => {
+        this.#deliverAll();
+      },
+      { signal },
+    );
+    watchProtocol(signal, (protocol) => {
+      this.#scheduler.slotCount = slotsFor(protocol);
+    });
     this.#observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
     this.#readDocument();
   }
@@ -241,7 +293,7 @@ export class Viewer {
   /** `round`: how often it has been read for the levels of the reading before. */
   #readDocument(round = 0): void {
     const before = this.#scene;
-    const scene = this.#scene = this.#reader.read();
+    const scene = (this.#scene = this.#reader.read());
     if (scene === before) return;
     const built = this.renderer.setScene(scene);
     if (built.anchors.length > 0 || this.#hasAnchors) this.#listener.onAnchors(built.anchors);
@@ -251,7 +303,9 @@ export class Viewer {
     if (hasBase && !this.#wasShown) this.#workers.prepareHere();
     this.#tellNavigator({ ...built, navigation: scene.navigation });
     if (this.#shapes.isLoading && this.#loading.isEnded) this.#loading = new Loading(this.#x3d, this.#transfers);
-    this.#steering.follow(scene.chunkPriority, built.changes, (problem) => { this.#warn(this.#x3d, `chunkPriority: ${problem}`); });
+    this.#steering.follow(scene.chunkPriority, built.changes, (problem) => {
+      this.#warn(this.#x3d, `chunkPriority: ${problem}`);
+    });
     for (const { element, message } of scene.warnings) this.#warn(element, message);
     leave(); // last, so that files that old and new shapes share are not fetched again
     if (this.#isLoading && scene.inlines !== before?.inlines) this.#inlines.follow(scene.inlines);
@@ -261,7 +315,10 @@ export class Viewer {
   #tellNavigator(built: NavigatedScene & { readonly levels: readonly PlacedLevels[] }): void {
     const before = this.#built;
     this.#built = built;
-    const isSame = before?.sphere === built.sphere && before.navigation === built.navigation && isSameList(before.viewpoints, built.viewpoints);
+    const isSame =
+      before?.sphere === built.sphere &&
+      before.navigation === built.navigation &&
+      isSameList(before.viewpoints, built.viewpoints);
     if (!isSame) this.navigator.setScene(built);
   }
 
@@ -313,7 +370,9 @@ export class Viewer {
   }
 
   #progressSoon(): void {
-    this.#progressTimer ??= setTimeout(() => { this.#tellProgress(); }, progressIntervalMs);
+    this.#progressTimer ??= setTimeout(() => {
+      this.#tellProgress();
+    }, progressIntervalMs);
   }
 
   #tellProgress(): void {
@@ -337,7 +396,9 @@ export class Viewer {
   #tellPage(): void {
     const awaited = [...this.#shapes.awaited, ...this.#inlines.loadings];
     // Shapes of which nothing will come do not hold the scene back.
-    this.#loading.reach(stageShown(awaited.filter(({ stage, isSettled }) => stage !== "none" || !isSettled).map(({ stage }) => stage)));
+    this.#loading.reach(
+      stageShown(awaited.filter(({ stage, isSettled }) => stage !== "none" || !isSettled).map(({ stage }) => stage)),
+    );
     this.#tellProgress(); // all of it, and of what is seen, before `load`
     // Asked for only now: until a frame has shown the end, further shapes may join.
     if (awaited.every((loading) => loading.isSettled)) this.#loading.settle();

@@ -4,31 +4,47 @@ export function whenNear(element: Element, margin: number, signal: AbortSignal, 
     onNear();
     return;
   }
-  const observer = new IntersectionObserver((entries) => {
-    if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
-    observer.disconnect();
-    onNear();
-  }, { rootMargin: `${margin * 100}%` });
+  const observer = new IntersectionObserver(
+    (entries) => {
+      if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
+      observer.disconnect();
+      onNear();
+    },
+    { rootMargin: `${margin * 100}%` },
+  );
   observer.observe(element);
-  signal.addEventListener("abort", () => { observer.disconnect(); });
+  signal.addEventListener("abort", () => {
+    observer.disconnect();
+  });
 }
 
 /** Whether any of it is less than `margin` screens away from the visible part of the page. */
 export function isNear({ left, right, top, bottom, width, height }: DOMRect, margin: number): boolean {
-  return width > 0 && height > 0
-    && right >= -margin * innerWidth && left <= (1 + margin) * innerWidth
-    && bottom >= -margin * innerHeight && top <= (1 + margin) * innerHeight;
+  return (
+    width > 0 &&
+    height > 0 &&
+    right >= -margin * innerWidth &&
+    left <= (1 + margin) * innerWidth &&
+    bottom >= -margin * innerHeight &&
+    top <= (1 + margin) * innerHeight
+  );
 }
 
 /** Tells the element's size in device pixels, now and whenever it or the pixel ratio changes. */
-export function watchSize(element: Element, signal: AbortSignal,
-                          onSize: (width: number, height: number, ratio: number) => void): void {
+export function watchSize(
+  element: Element,
+  signal: AbortSignal,
+  onSize: (width: number, height: number, ratio: number) => void,
+): void {
   const observer = new ResizeObserver((entries) => {
     for (const { contentRect, devicePixelContentBoxSize } of entries) {
       // Not every browser tells device pixels.
       const exact = (devicePixelContentBoxSize as readonly ResizeObserverSize[] | undefined)?.[0];
-      onSize(devicePixels(contentRect.width, exact?.inlineSize),
-             devicePixels(contentRect.height, exact?.blockSize), devicePixelRatio);
+      onSize(
+        devicePixels(contentRect.width, exact?.inlineSize),
+        devicePixels(contentRect.height, exact?.blockSize),
+        devicePixelRatio,
+      );
     }
   });
   try {
@@ -36,7 +52,9 @@ export function watchSize(element: Element, signal: AbortSignal,
   } catch {
     observer.observe(element);
   }
-  signal.addEventListener("abort", () => { observer.disconnect(); });
+  signal.addEventListener("abort", () => {
+    observer.disconnect();
+  });
 }
 
 /** The same, asked for. */

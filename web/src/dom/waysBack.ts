@@ -10,8 +10,20 @@ export class WaysBack {
   constructor(controls: HTMLElement, navigator: Navigator, signal: AbortSignal) {
     this.#navigator = navigator;
     this.#buttons = [
-      buttonOf("Show all", () => { navigator.showAll(); }, signal),
-      buttonOf("Start", () => { navigator.reset(); }, signal),
+      buttonOf(
+        "Show all",
+        () => {
+          navigator.showAll();
+        },
+        signal,
+      ),
+      buttonOf(
+        "Start",
+        () => {
+          navigator.reset();
+        },
+        signal,
+      ),
     ];
     controls.append(...this.#buttons);
   }

@@ -15,7 +15,8 @@ export const stageWords: Readonly<Record<StageName | "none", string>> = {
 
 /** Keys, for the description of the picture. */
 export const keyWords: Readonly<Record<NavigationType, string>> = {
-  examine: "Arrow keys turn, with Shift they move, plus and minus zoom, R goes back to the start, A shows all, P shows points or the surface.",
+  examine:
+    "Arrow keys turn, with Shift they move, plus and minus zoom, R goes back to the start, A shows all, P shows points or the surface.",
   walk: "Arrow keys walk and turn, with Shift they look up and down and step aside, R goes back to the start.",
   fly: "Arrow keys fly and turn, with Shift they look up and down and step aside, Page Up and Page Down rise and sink, R goes back to the start.",
   none: "",
@@ -24,10 +25,22 @@ export const keyWords: Readonly<Record<NavigationType, string>> = {
 export const drawingWords = { surface: "Shown as a surface", points: "Shown as points" } as const;
 
 export const typeWords: Readonly<Record<NavigationType, string>> = {
-  examine: "Examining", walk: "Walking", fly: "Flying", none: "Staying",
+  examine: "Examining",
+  walk: "Walking",
+  fly: "Flying",
+  none: "Staying",
 };
 
-const sides = ["the front", "the front right", "the right", "the back right", "the back", "the back left", "the left", "the front left"];
+const sides = [
+  "the front",
+  "the front right",
+  "the right",
+  "the back right",
+  "the back",
+  "the back left",
+  "the left",
+  "the front left",
+];
 
 /** Where one looks from, as eight sides and three heights. */
 export function viewWords({ theta, phi }: Pick<Orbit, "theta" | "phi">): string {

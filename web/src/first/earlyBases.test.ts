@@ -30,8 +30,11 @@ describe("bases that are asked for early", () => {
   });
 
   test("that are no use are told to whoever looks, and to nobody else", async () => {
-    const faults = [() => Promise.reject(new TypeError("no network")), () => Promise.resolve(new Response("", { status: 404 })),
-      () => Promise.resolve(new Response(file.subarray(0, 40)))];
+    const faults = [
+      () => Promise.reject(new TypeError("no network")),
+      () => Promise.resolve(new Response("", { status: 404 })),
+      () => Promise.resolve(new Response(file.subarray(0, 40))),
+    ];
     for (const fault of faults) {
       const { early } = basesFrom(fault);
       const { content } = early.ask("b.png");

@@ -29,15 +29,27 @@ export function lightKindsOf({ lights, headlight }: Pick<FirstScene, "lights" | 
 }
 
 /** As seen by what stands in the scope: what does not shine there is black. */
-export function lightUniformsOf({ lights, headlight }: Pick<FirstScene, "lights" | "headlight">, lightScope: LightScope, viewFromScene: Matrix4): LightUniforms {
-  const all = lights.map((light) => ({ ...numbersOf(light, viewFromScene), ...(!light.scope.holds(lightScope) && { color: [0, 0, 0] }) }));
+export function lightUniformsOf(
+  { lights, headlight }: Pick<FirstScene, "lights" | "headlight">,
+  lightScope: LightScope,
+  viewFromScene: Matrix4,
+): LightUniforms {
+  const all = lights.map((light) => ({
+    ...numbersOf(light, viewFromScene),
+    ...(!light.scope.holds(lightScope) && { color: [0, 0, 0] }),
+  }));
   if (headlight) all.push({ ...fromFarAway, color: [1, 1, 1], direction: [0, 0, -1] });
   const shining = lights.filter(({ scope }) => scope.holds(lightScope));
-  const ambient = [0, 1, 2].map((channel) => shining.reduce((sum, { light }) => sum + (light.color[channel] ?? 0) * light.ambientIntensity, 0));
+  const ambient = [0, 1, 2].map((channel) =>
+    shining.reduce((sum, { light }) => sum + (light.color[channel] ?? 0) * light.ambientIntensity, 0),
+  );
   return {
-    lightColors: all.flatMap(({ color }) => color), lightPlaces: all.flatMap(({ place }) => place),
-    lightDirections: all.flatMap(({ direction }) => direction), lightAttenuations: all.flatMap(({ attenuation }) => attenuation),
-    lightRadii: all.map(({ radius }) => radius), lightCones: all.flatMap(({ cone }) => cone),
+    lightColors: all.flatMap(({ color }) => color),
+    lightPlaces: all.flatMap(({ place }) => place),
+    lightDirections: all.flatMap(({ direction }) => direction),
+    lightAttenuations: all.flatMap(({ attenuation }) => attenuation),
+    lightRadii: all.map(({ radius }) => radius),
+    lightCones: all.flatMap(({ cone }) => cone),
     ambientLight: [ambient[0] ?? 0, ambient[1] ?? 0, ambient[2] ?? 0],
   };
 }
@@ -57,11 +69,19 @@ const fromFarAway = { place: [0, 0, 0], attenuation: [1, 0, 0], radius: 0, cone:
 function numbersOf({ light, sceneFromLight }: PlacedLight, viewFromScene: Matrix4): LightNumbers {
   const color = light.color.map((channel) => channel * light.intensity);
   const viewFromLight = viewFromScene.clone().multiply(sceneFromLight);
-  const directed = (direction: readonly [number, number, number]) => new Vector3(...direction).transformDirection(viewFromLight).toArray();
+  const directed = (direction: readonly [number, number, number]) =>
+    new Vector3(...direction).transformDirection(viewFromLight).toArray();
   if (light.kind === "directional") return { ...fromFarAway, color, direction: directed(light.direction) };
   const place = new Vector3(...light.location).applyMatrix4(viewFromLight).toArray();
   const { radius, attenuation } = scaledFalloff(light, lengthScaleOf(sceneFromLight));
   if (light.kind === "point") return { ...fromFarAway, color, place, direction: [0, 0, -1], attenuation, radius };
   const { edge, beam } = coneOf(light);
-  return { color, place, direction: directed(light.direction), attenuation, radius, cone: [Math.cos(edge), Math.cos(beam)] };
+  return {
+    color,
+    place,
+    direction: directed(light.direction),
+    attenuation,
+    radius,
+    cone: [Math.cos(edge), Math.cos(beam)],
+  };
 }

@@ -21,8 +21,11 @@ export type BaseOf = (shape: FirstShape) => Base | undefined;
 
 /** Whether its base holds what the document says of it, and nothing that is seen through. */
 export function isShowable({ geometry, appearance }: FirstShape, base: Base | undefined): boolean {
-  return base?.partCount === geometry.patches.length && base.whole.positionBits === latticeBitsOf(geometry)
-    && !isBlended(appearance, base.whole.color?.components === 4);
+  return (
+    base?.partCount === geometry.patches.length &&
+    base.whole.positionBits === latticeBitsOf(geometry) &&
+    !isBlended(appearance, base.whole.color?.components === 4)
+  );
 }
 
 /** What is drawn, on the GPU. */
@@ -50,7 +53,9 @@ export class FirstPicture {
    * take longer than the drawing.
    */
   rehearse(scene: FirstScene, width: number, height: number): void {
-    const shapes = Array.from(new Map(scene.shapes.map((shape) => [JSON.stringify(kindOf(shape, scene, standIn)), shape])).values());
+    const shapes = Array.from(
+      new Map(scene.shapes.map((shape) => [JSON.stringify(kindOf(shape, scene, standIn)), shape])).values(),
+    );
     this.#draw({ ...scene, shapes }, () => standIn, width, height, 1);
     resolveUnseen(this.#gl);
   }
@@ -60,7 +65,13 @@ export class FirstPicture {
     this.#draw(scene, (shape) => baseOf(shape)?.whole, width, height, exposure);
   }
 
-  #draw(scene: FirstScene, buffersOf: (shape: FirstShape) => PatchBuffers | undefined, width: number, height: number, exposure: number): void {
+  #draw(
+    scene: FirstScene,
+    buffersOf: (shape: FirstShape) => PatchBuffers | undefined,
+    width: number,
+    height: number,
+    exposure: number,
+  ): void {
     const gl = this.#gl;
     const { background } = scene;
     gl.viewport(0, 0, width, height);
@@ -118,7 +129,11 @@ export class FirstPicture {
     if (normal) this.#storeVertices(attributePlaces.normal, normal, true);
     if (color) this.#storeVertices(attributePlaces.color, color, true);
     if (index) this.#upload(gl.ELEMENT_ARRAY_BUFFER, index);
-    return { vertices, count: index?.length ?? 0, indexType: index instanceof Uint32Array ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT };
+    return {
+      vertices,
+      count: index?.length ?? 0,
+      indexType: index instanceof Uint32Array ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT,
+    };
   }
 
   /** `isSpread`: integers stand for 0 … 1 or -1 … 1. */
@@ -128,7 +143,14 @@ export class FirstPicture {
     this.#upload(gl.ARRAY_BUFFER, array);
     gl.enableVertexAttribArray(place);
     const isFloat = array instanceof Float32Array;
-    gl.vertexAttribPointer(place, components, glTypes[elementTypeOf(array)], isSpread && !isFloat, stride * size, offset * size);
+    gl.vertexAttribPointer(
+      place,
+      components,
+      glTypes[elementTypeOf(array)],
+      isSpread && !isFloat,
+      stride * size,
+      offset * size,
+    );
   }
 
   #upload(target: number, array: ElementArray): void {
@@ -141,14 +163,30 @@ export class FirstPicture {
 }
 
 /** WebGL's constants. */
-const glTypes = { Int8: 0x1400, Uint8: 0x1401, Int16: 0x1402, Uint16: 0x1403, Int32: 0x1404, Uint32: 0x1405, Float32: 0x1406 } as const;
+const glTypes = {
+  Int8: 0x1400,
+  Uint8: 0x1401,
+  Int16: 0x1402,
+  Uint16: 0x1403,
+  Int32: 0x1404,
+  Uint32: 0x1405,
+  Float32: 0x1406,
+} as const;
 
 function kindOf({ geometry, appearance }: FirstShape, scene: FirstScene, { normal }: PatchBuffers): ProgramKind {
-  return { hasNormals: normal !== undefined, material: appearance.material.kind, isTwoSided: !geometry.solid, lights: lightKindsOf(scene) };
+  return {
+    hasNormals: normal !== undefined,
+    material: appearance.material.kind,
+    isTwoSided: !geometry.solid,
+    lights: lightKindsOf(scene),
+  };
 }
 
 /** As three.js' camera of the runtime stands and sees. */
-function camerasOf({ pose, sphere, clearance }: FirstScene, aspect: number): { clipFromView: Matrix4; viewFromScene: Matrix4 } {
+function camerasOf(
+  { pose, sphere, clearance }: FirstScene,
+  aspect: number,
+): { clipFromView: Matrix4; viewFromScene: Matrix4 } {
   const { fieldOfView, near, far } = lensOf(pose, aspect, sphere, clearance);
   const top = near * Math.tan(fieldOfView / 2);
   const sceneFromView = new Matrix4().compose(pose.position, pose.orientation, new Vector3(1, 1, 1));
@@ -158,15 +196,29 @@ function camerasOf({ pose, sphere, clearance }: FirstScene, aspect: number): { c
   };
 }
 
-function setPlace(gl: WebGL2RenderingContext, { uniform }: Program, viewFromShape: Matrix4, { sceneFromShape, shapeFromStored, geometry }: FirstShape): void {
-  gl.uniformMatrix4fv(uniform("viewFromStored"), false, new Matrix4().multiplyMatrices(viewFromShape, shapeFromStored).elements);
+function setPlace(
+  gl: WebGL2RenderingContext,
+  { uniform }: Program,
+  viewFromShape: Matrix4,
+  { sceneFromShape, shapeFromStored, geometry }: FirstShape,
+): void {
+  gl.uniformMatrix4fv(
+    uniform("viewFromStored"),
+    false,
+    new Matrix4().multiplyMatrices(viewFromShape, shapeFromStored).elements,
+  );
   gl.uniformMatrix3fv(uniform("viewFromNormal"), false, new Matrix3().getNormalMatrix(viewFromShape).elements);
   gl.frontFace(sceneFromShape.determinant() < 0 ? gl.CW : gl.CCW);
   if (geometry.solid) gl.enable(gl.CULL_FACE);
   else gl.disable(gl.CULL_FACE);
 }
 
-function setMaterial(gl: WebGL2RenderingContext, { uniform }: Program, { appearance: { material } }: FirstShape, hasColors: boolean): void {
+function setMaterial(
+  gl: WebGL2RenderingContext,
+  { uniform }: Program,
+  { appearance: { material } }: FirstShape,
+  hasColors: boolean,
+): void {
   const { color, specular, shininess, ambientIntensity, metallic, roughness } = litNumbersOf(material, hasColors);
   gl.uniform3fv(uniform("color"), color);
   gl.uniform3fv(uniform("specular"), specular);

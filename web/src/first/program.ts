@@ -130,12 +130,18 @@ export interface Program {
 export function makeProgram(gl: WebGL2RenderingContext, kind: ProgramKind): Program {
   const { material, hasNormals, isTwoSided, lights } = kind;
   const flags: readonly [string, boolean][] = [
-    [physicalDefine, material === "physical"], ["UNLIT", material === "unlit"], ["FLAT", !hasNormals], ["TWO_SIDED", isTwoSided],
+    [physicalDefine, material === "physical"],
+    ["UNLIT", material === "unlit"],
+    ["FLAT", !hasNormals],
+    ["TWO_SIDED", isTwoSided],
   ];
   const defines = flags.map(([name, isSet]) => (isSet ? `#define ${name}\n` : "")).join("");
   const head = `#version 300 es\n${defines}#define LIGHTS ${lights.length}\n`;
   const program = gl.createProgram();
-  for (const [type, text] of [[gl.VERTEX_SHADER, vertexShader], [gl.FRAGMENT_SHADER, fragmentShader(lights)]] as const) {
+  for (const [type, text] of [
+    [gl.VERTEX_SHADER, vertexShader],
+    [gl.FRAGMENT_SHADER, fragmentShader(lights)],
+  ] as const) {
     const shader = gl.createShader(type);
     if (shader === null) continue; // the context is lost: nothing comes of it
     gl.shaderSource(shader, head + text);

@@ -5,10 +5,15 @@ import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 
 /** A triangle without an area, in the numbers that most bases have; others may find less made ready. */
 export const standIn: PatchBuffers = {
-  topology: "triangles", positionBits: 16, vertexCount: 1, index: new Uint16Array(3),
+  topology: "triangles",
+  positionBits: 16,
+  vertexCount: 1,
+  index: new Uint16Array(3),
   coord: { array: new Uint16Array(4), components: 3, stride: 4, offset: 0 },
   normal: { array: new Int8Array(4), components: 3, stride: 4, offset: 0 },
-  color: undefined, texCoord: undefined, others: [],
+  color: undefined,
+  texCoord: undefined,
+  others: [],
 };
 
 /**

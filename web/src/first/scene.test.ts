@@ -23,9 +23,16 @@ function firstOf(markup: string, camera: CameraSetting = unsetCamera): FirstScen
 
 describe("a first scene", () => {
   test("has each shape in each of its places, by its base", () => {
-    const scene = firstOf(`<Transform translation="5 0 0" DEF="t">${shape()}</Transform><Transform scale="2 2 2"><Transform USE="t"/></Transform>`);
-    assert.deepEqual(scene?.shapes.map(({ base, sceneFromShape }) => [base.url, ...sceneFromShape.elements.slice(12, 15)]),
-                     [["b.png", 5, 0, 0], ["b.png", 10, 0, 0]]);
+    const scene = firstOf(
+      `<Transform translation="5 0 0" DEF="t">${shape()}</Transform><Transform scale="2 2 2"><Transform USE="t"/></Transform>`,
+    );
+    assert.deepEqual(
+      scene?.shapes.map(({ base, sceneFromShape }) => [base.url, ...sceneFromShape.elements.slice(12, 15)]),
+      [
+        ["b.png", 5, 0, 0],
+        ["b.png", 10, 0, 0],
+      ],
+    );
   });
 
   test("places the lattice as its node says", () => {
@@ -42,14 +49,14 @@ describe("a first scene", () => {
   });
 
   const refused: Readonly<Record<string, string>> = {
-    "nothing": "",
+    nothing: "",
     "a shape without a base": shape(undefined, geometry("")),
     "a shape without a base beside one with": shape() + shape(undefined, geometry("")),
     "inline geometry": shape() + shape(undefined, "<Box/>"),
     "a text": shape() + shape(undefined, '<Text string="letters"/>'),
     "geometry of another shape": `<Shape><Sphere DEF="s"/></Shape>${shape(undefined, '<Sphere USE="s"/>')}${shape()}`,
     "a texture": shape('<Appearance><Material/><ImageTexture url="t.png"/></Appearance>'),
-    "glass": shape('<Appearance><Material transparency="0.5"/></Appearance>'),
+    glass: shape('<Appearance><Material transparency="0.5"/></Appearance>'),
     "a mask": shape('<Appearance alphaMode="MASK"><Material/></Appearance>'),
     "a LOD": `<LOD range="1">${shape()}${shape()}</LOD>`,
     "an Inline": `${shape()}<Inline url="other.x3d"/>`,
@@ -58,7 +65,9 @@ describe("a first scene", () => {
     "more shapes than are quickly drawn": shape().repeat(300),
   };
   for (const [what, markup] of Object.entries(refused)) {
-    test(`is none where there is ${what}`, () => { assert.equal(firstOf(markup), undefined); });
+    test(`is none where there is ${what}`, () => {
+      assert.equal(firstOf(markup), undefined);
+    });
   }
 });
 
@@ -68,10 +77,11 @@ describe("the camera of a first scene", () => {
     "two viewpoints": `<Viewpoint position="0 0 9"/><Viewpoint position="3 1 9" orientation="0 1 0 0.3"/>${shape()}`,
     "a viewpoint that wants to be bound": `<Viewpoint position="0 0 9"/><Transform rotation="0 1 0 1"><Viewpoint bind="true" position="0 0 4"/></Transform>${shape()}`,
     "who walks": `<NavigationInfo type="WALK" avatarSize="0.5 1.6 0.7"/><Viewpoint position="0 0 9"/>${shape()}`,
-    "lights": `<NavigationInfo headlight="false"/><PointLight location="1 2 3" on="false"/><SpotLight/>${shape()}`,
+    lights: `<NavigationInfo headlight="false"/><PointLight location="1 2 3" on="false"/><SpotLight/>${shape()}`,
   };
   const cameras: readonly CameraSetting[] = [
-    unsetCamera, { ...unsetCamera, orbit: { theta: 0.4, phi: 1, radius: { share: 1.05 } }, target: [0, 0.5, 0], fieldOfView: 0.5 },
+    unsetCamera,
+    { ...unsetCamera, orbit: { theta: 0.4, phi: 1, radius: { share: 1.05 } }, target: [0, 0.5, 0], fieldOfView: 0.5 },
   ];
   for (const [what, markup] of Object.entries(scenes)) {
     test(`stands where the runtime's does, with ${what}`, () => {
@@ -79,7 +89,10 @@ describe("the camera of a first scene", () => {
         const description = new SceneReader(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)).read();
         const first = firstSceneOf(description, camera);
         const { box, viewpoints } = placementOf(description);
-        const navigator = new Navigator(() => undefined, () => undefined);
+        const navigator = new Navigator(
+          () => undefined,
+          () => undefined,
+        );
         navigator.setCamera(camera);
         navigator.setScene({ sphere: sphereAround(box), viewpoints, navigation: description.navigation });
         assert.deepEqual(first?.pose, navigator.pose);

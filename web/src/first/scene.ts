@@ -3,7 +3,13 @@
 // what has anything that it does not know is left to the runtime.
 
 import type { Matrix4, Sphere } from "three";
-import type { AppearanceDescription, GeometryDescription, Reference, SceneDescription, Vec3 } from "../document/description.ts";
+import type {
+  AppearanceDescription,
+  GeometryDescription,
+  Reference,
+  SceneDescription,
+  Vec3,
+} from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { isBlended } from "../lighting/materialNumbers.ts";
 import { BindingStack } from "../navigation/bindingStack.ts";
@@ -50,18 +56,25 @@ export const mostLights = 8;
 /** Undefined where the scene has anything that only the runtime can show, or nothing. */
 export function firstSceneOf(scene: SceneDescription, camera: CameraSetting): FirstScene | undefined {
   const { background, navigation, inlines } = scene;
-  if (inlines.length > 0 || (background && (background.sky.length > 1 || background.ground.length > 0))) return undefined;
+  if (inlines.length > 0 || (background && (background.sky.length > 1 || background.ground.length > 0)))
+    return undefined;
   const placement = placementOf(scene);
   const { viewpoints, levels, billboards } = placement;
   if (levels.length > 0 || billboards.length > 0 || placement.lights.length > mostLights) return undefined;
-  const seen = placement.shapes.filter(({ shape }) => shape.visible && (shape.geometry !== undefined || shape.isUnread));
+  const seen = placement.shapes.filter(
+    ({ shape }) => shape.visible && (shape.geometry !== undefined || shape.isUnread),
+  );
   const shapes = seen.slice(0, mostShapes + 1).flatMap((placed) => firstShapeOf(placed) ?? []);
   if (shapes.length === 0 || shapes.length < seen.length || shapes.length > mostShapes) return undefined;
   const sphere = sphereAround(placement.box);
   const bound = new BindingStack<SceneElement>();
   bindViewpoints(bound, viewpoints);
   return {
-    shapes, lights: placement.lights, headlight: navigation.headlight, background: background?.sky[0]?.color, sphere,
+    shapes,
+    lights: placement.lights,
+    headlight: navigation.headlight,
+    background: background?.sky[0]?.color,
+    sphere,
     pose: homeOf(boundPoseOf(bound, viewpoints), camera, sphere),
     clearance: clearanceOf(navigationTypesOf(navigation.type).first, avatarOf(navigation, sphere)),
   };
@@ -71,7 +84,21 @@ export function firstSceneOf(scene: SceneDescription, camera: CameraSetting): Fi
 function firstShapeOf({ shape, ...place }: PlacedShape): FirstShape | undefined {
   const { element, geometry, appearance } = shape;
   const [patch] = geometry?.patches ?? [];
-  if (geometry?.container !== "compact" || geometry.base === undefined || patch === undefined || appearance.colorMap !== undefined) return undefined;
-  if (appearance.textures.length > 0 || appearance.alpha.mode === "MASK" || isBlended(appearance, false)) return undefined;
-  return { element, geometry, base: geometry.base, appearance, ...place, shapeFromStored: shapeFromStoredOf(geometry, patch) };
+  if (
+    geometry?.container !== "compact" ||
+    geometry.base === undefined ||
+    patch === undefined ||
+    appearance.colorMap !== undefined
+  )
+    return undefined;
+  if (appearance.textures.length > 0 || appearance.alpha.mode === "MASK" || isBlended(appearance, false))
+    return undefined;
+  return {
+    element,
+    geometry,
+    base: geometry.base,
+    appearance,
+    ...place,
+    shapeFromStored: shapeFromStoredOf(geometry, patch),
+  };
 }

@@ -30,7 +30,10 @@ export function scaledFalloff({ radius, attenuation: [constant, linear, square] 
 }
 
 /** Of a SpotLight, in radians: where its light ends, and within what it is full. */
-export function coneOf({ cutOffAngle, beamWidth }: { readonly cutOffAngle: number; readonly beamWidth: number }): { edge: number; beam: number } {
+export function coneOf({ cutOffAngle, beamWidth }: { readonly cutOffAngle: number; readonly beamWidth: number }): {
+  edge: number;
+  beam: number;
+} {
   const edge = Math.min(cutOffAngle, Math.PI / 2);
   return { edge, beam: edge * Math.min(beamWidth / cutOffAngle, 1) };
 }

@@ -4,7 +4,10 @@ import type { AppearanceDescription, MaterialDescription, Vec3 } from "../docume
 import { displayedOf } from "./physicalLighting.ts";
 
 /** `hasAlpha`: colours of vertices or a texture bring some. */
-export function isBlended({ alpha: { mode }, material: { transparency } }: AppearanceDescription, hasAlpha: boolean): boolean {
+export function isBlended(
+  { alpha: { mode }, material: { transparency } }: AppearanceDescription,
+  hasAlpha: boolean,
+): boolean {
   return mode === "BLEND" || (mode === "AUTO" && (transparency > 0 || hasAlpha));
 }
 
@@ -40,14 +43,33 @@ export interface LitNumbers {
 export function litNumbersOf(description: MaterialDescription, hasColors: boolean): LitNumbers {
   switch (description.kind) {
     case "physical":
-      return { ...noNumbers, color: description.baseColor, metallic: description.metallic, roughness: description.roughness };
+      return {
+        ...noNumbers,
+        color: description.baseColor,
+        metallic: description.metallic,
+        roughness: description.roughness,
+      };
     case "phong": {
       const { diffuseColor, specularColor, shininess, ambientIntensity } = description;
-      return { color: hasColors ? [1, 1, 1] : diffuseColor, specular: specularColor, shininess: shininess * 128, ambientIntensity, metallic: 1, roughness: 1 };
+      return {
+        color: hasColors ? [1, 1, 1] : diffuseColor,
+        specular: specularColor,
+        shininess: shininess * 128,
+        ambientIntensity,
+        metallic: 1,
+        roughness: 1,
+      };
     }
     case "unlit":
       return { ...noNumbers, color: unlitColorOf(description, hasColors) };
   }
 }
 
-const noNumbers: LitNumbers = { color: [0, 0, 0], specular: [0, 0, 0], shininess: 0, ambientIntensity: 0, metallic: 1, roughness: 1 };
+const noNumbers: LitNumbers = {
+  color: [0, 0, 0],
+  specular: [0, 0, 0],
+  shininess: 0,
+  ambientIntensity: 0,
+  metallic: 1,
+  roughness: 1,
+};

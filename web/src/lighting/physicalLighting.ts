@@ -68,7 +68,8 @@ export const physicalOutput = /* glsl */ `
 /** Linear -> what the screen gets (IEC 61966-2-1). */
 export function displayedOf(linear: Vec3): Vec3 {
   const [red, green, blue] = linear.map((channel) =>
-    channel <= 0.0031308 ? 12.92 * channel : 1.055 * channel ** (1 / 2.4) - 0.055);
+    channel <= 0.0031308 ? 12.92 * channel : 1.055 * channel ** (1 / 2.4) - 0.055,
+  );
   return [red ?? 0, green ?? 0, blue ?? 0];
 }
 

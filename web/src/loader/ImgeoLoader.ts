@@ -54,20 +54,35 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
    * itself, until its promise `complete` resolves. `onProgress` is called until
    * then. `onError` is called where there is no scene, or nothing to show of it.
    */
-  override load(url: string, onLoad: (scene: ImgeoScene) => void, onProgress?: (event: ProgressEvent) => void,
-                onError?: (error: unknown) => void, options: LoadOptions = {}): void {
+  override load(
+    url: string,
+    onLoad: (scene: ImgeoScene) => void,
+    onProgress?: (event: ProgressEvent) => void,
+    onError?: (error: unknown) => void,
+    options: LoadOptions = {},
+  ): void {
     const { manager } = this;
     const documentUrl = manager.resolveURL(this.path + url);
     manager.itemStart(documentUrl);
-    void this.#load(documentUrl, onProgress, options).then(onLoad, (error: unknown) => {
-      if (onError) onError(error);
-      else console.error("imgeo:", error);
-      manager.itemError(documentUrl);
-    }).finally(() => { manager.itemEnd(documentUrl); });
+    void this.#load(documentUrl, onProgress, options)
+      .then(onLoad, (error: unknown) => {
+        if (onError) onError(error);
+        else console.error("imgeo:", error);
+        manager.itemError(documentUrl);
+      })
+      .finally(() => {
+        manager.itemEnd(documentUrl);
+      });
   }
 
-  override loadAsync(url: string, onProgress?: (event: ProgressEvent) => void, options: LoadOptions = {}): Promise<ImgeoScene> {
-    return new Promise((resolve, reject) => { this.load(url, resolve, onProgress, reject, options); });
+  override loadAsync(
+    url: string,
+    onProgress?: (event: ProgressEvent) => void,
+    options: LoadOptions = {},
+  ): Promise<ImgeoScene> {
+    return new Promise((resolve, reject) => {
+      this.load(url, resolve, onProgress, reject, options);
+    });
   }
 
   /** Reads a document's text; relative URLs in it start at `path`. The scene is there at once, and empty until its files come. */
@@ -90,15 +105,30 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
     this.#workers = undefined;
   }
 
-  async #load(documentUrl: string, onProgress: ((event: ProgressEvent) => void) | undefined, { signal }: LoadOptions): Promise<ImgeoScene> {
-    const ended = AbortSignal.any([...(signal ? [signal] : []), this.#aborter.signal, this.manager.abortController.signal]);
+  async #load(
+    documentUrl: string,
+    onProgress: ((event: ProgressEvent) => void) | undefined,
+    { signal }: LoadOptions,
+  ): Promise<ImgeoScene> {
+    const ended = AbortSignal.any([
+      ...(signal ? [signal] : []),
+      this.#aborter.signal,
+      this.manager.abortController.signal,
+    ]);
     const text = await this.#fetchText(documentUrl, ended);
     const scene = this.#sceneOf(text, documentUrl, new URL(documentUrl, document.baseURI).href);
-    const end = () => { scene.abort(); };
+    const end = () => {
+      scene.abort();
+    };
     ended.addEventListener("abort", end, { once: true });
-    const forget = () => { ended.removeEventListener("abort", end); };
+    const forget = () => {
+      ended.removeEventListener("abort", end);
+    };
     scene.complete.then(forget, forget);
-    if (onProgress) scene.addEventListener("progress", ({ progress }) => { onProgress(progressEventOf(progress)); });
+    if (onProgress)
+      scene.addEventListener("progress", ({ progress }) => {
+        onProgress(progressEventOf(progress));
+      });
     try {
       await scene.firstImage;
       return scene;
@@ -114,8 +144,13 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
     const urlOf = (named: string) => (URL.canParse(named, base) ? new URL(named, base).href : named);
     const resolve = (url: string) => this.manager.resolveURL(url);
     const scene = new ImgeoScene({
-      x3d: readDocument(text, name), url: documentUrl, urlOf, resolve,
-      scheduler: this.#scheduler, makeMaterial: this.#makeMaterial, keepsVertices: this.#keepsVertices,
+      x3d: readDocument(text, name),
+      url: documentUrl,
+      urlOf,
+      resolve,
+      scheduler: this.#scheduler,
+      makeMaterial: this.#makeMaterial,
+      keepsVertices: this.#keepsVertices,
       runJob: (job, input, signal) => (this.#workers ??= pageWorkers(this.#workerUrl)).run(job, input, signal),
       fetch: (input, init) => fetch(input, { ...init, ...this.#requestInit }),
     });

@@ -11,7 +11,10 @@ const bytesPerFrame = 4 * 2 ** 20;
 
 export class Admission {
   readonly #work = new FrameWork({
-    bytesPerFrame, millisecondsPerFrame: Infinity, now: () => performance.now(), requestFrame: beforeNextFrame,
+    bytesPerFrame,
+    millisecondsPerFrame: Infinity,
+    now: () => performance.now(),
+    requestFrame: beforeNextFrame,
   });
 
   /** Resolves before a frame that may show so many bytes more. Rejects with the signal's reason. */

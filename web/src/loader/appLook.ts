@@ -5,8 +5,16 @@
 
 import type { Camera, Material, Sphere, Texture, WebGLRenderer } from "three";
 import {
-  Color, DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshDepthMaterial, MeshDistanceMaterial, MeshStandardMaterial,
-  Points, SRGBColorSpace,
+  Color,
+  DoubleSide,
+  FrontSide,
+  LinearSRGBColorSpace,
+  MeshBasicMaterial,
+  MeshDepthMaterial,
+  MeshDistanceMaterial,
+  MeshStandardMaterial,
+  Points,
+  SRGBColorSpace,
 } from "three";
 import type { AppearanceDescription, MaterialDescription, TextureRole } from "../document/description.ts";
 import { textureRoles } from "../document/description.ts";
@@ -33,16 +41,25 @@ export function standardMaterialOf(description: MaterialDescription, shading: Sh
   const transparent = description.transparency > 0;
   const colorSpace = description.kind === "physical" ? LinearSRGBColorSpace : SRGBColorSpace;
   const emissive = new Color().setRGB(...description.emissiveColor, colorSpace);
-  const color = description.kind === "unlit" ? emissive
-    : new Color().setRGB(...(description.kind === "physical" ? description.baseColor : description.diffuseColor), colorSpace);
+  const color =
+    description.kind === "unlit"
+      ? emissive
+      : new Color().setRGB(
+          ...(description.kind === "physical" ? description.baseColor : description.diffuseColor),
+          colorSpace,
+        );
   if (shading === "unlit" || shading === "distance" || description.kind === "unlit") {
     return new MeshBasicMaterial({ color: emissive.getHex() === 0 ? color : emissive, opacity, transparent });
   }
   return new MeshStandardMaterial({
-    color, opacity, transparent, emissive,
-    ...(description.kind === "physical" ? { roughness: description.roughness, metalness: description.metallic }
-      // As of Blinn's exponent, Walter et al. 2007.
-      : { roughness: Math.sqrt(2 / (description.shininess * 128 + 2)), metalness: 0 }),
+    color,
+    opacity,
+    transparent,
+    emissive,
+    ...(description.kind === "physical"
+      ? { roughness: description.roughness, metalness: description.metallic }
+      : // As of Blinn's exponent, Walter et al. 2007.
+        { roughness: Math.sqrt(2 / (description.shininess * 128 + 2)), metalness: 0 }),
   });
 }
 
@@ -70,10 +87,16 @@ export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings)
       const shadows = shadowMaterialsOf(material, request);
       shadowMaterials.set(material, shadows);
       layPictures(material, shadows, appearance, pictures);
-      return readVertices(material, request, request.shading === "smooth" && !("flatShading" in material && material.flatShading === true));
+      return readVertices(
+        material,
+        request,
+        request.shading === "smooth" && !("flatShading" in material && material.flatShading === true),
+      );
     },
     // The document is read once, so only its pictures come later.
-    applyAppearance: (material, appearance, _, pictures) => { layPictures(material, shadowMaterials.get(material), appearance, pictures); },
+    applyAppearance: (material, appearance, _, pictures) => {
+      layPictures(material, shadowMaterials.get(material), appearance, pictures);
+    },
     prepare(object, request, material) {
       object.castShadow = surroundings.castShadow;
       object.receiveShadow = surroundings.receiveShadow;
@@ -82,7 +105,10 @@ export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings)
       object.customDistanceMaterial = distance;
       // There are no vertices in JavaScript for a ray, and three does not expect that.
       if (request.areImages || request.wideLineStep > 0) object.raycast = () => undefined;
-      if (object instanceof Points || request.wideLineStep > 0) object.onBeforeRender = (renderer, _, camera) => { measure(renderer, camera, request); };
+      if (object instanceof Points || request.wideLineStep > 0)
+        object.onBeforeRender = (renderer, _, camera) => {
+          measure(renderer, camera, request);
+        };
     },
   };
 
@@ -97,12 +123,23 @@ export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings)
 
 /** By role, the maps of three's materials that take it; what is there of each is multiplied by the number beside it, as in X3D. */
 const slots: Readonly<Record<TextureRole, readonly string[]>> = {
-  color: ["map"], emissive: ["emissiveMap"], metallicRoughness: ["roughnessMap", "metalnessMap"], normal: ["normalMap"],
-  occlusion: ["aoMap"], ambient: [], specular: ["specularMap"], shininess: [],
+  color: ["map"],
+  emissive: ["emissiveMap"],
+  metallicRoughness: ["roughnessMap", "metalnessMap"],
+  normal: ["normalMap"],
+  occlusion: ["aoMap"],
+  ambient: [],
+  specular: ["specularMap"],
+  shininess: [],
 };
 
 /** Over the material's own colour. A material with maps of the app's keeps them until there are others. */
-function layPictures(material: Material, shadows: ShadowMaterials | undefined, appearance: AppearanceDescription, pictures: ShownPictures): void {
+function layPictures(
+  material: Material,
+  shadows: ShadowMaterials | undefined,
+  appearance: AppearanceDescription,
+  pictures: ShownPictures,
+): void {
   const { alpha, material: description } = appearance;
   setLetters(material, appearance);
   for (const role of textureRoles) {
@@ -164,7 +201,10 @@ function readVertices<Any extends Material>(material: Any, request: MaterialRequ
   const own = material.onBeforeCompile.bind(material);
   const ownKey = material.customProgramCacheKey();
   material.defines = {
-    ...material.defines, ...vertexDefinesOf(request, readsNormals), ...primitiveDefinesOf(request.primitive), [srgbColorsDefine]: "",
+    ...material.defines,
+    ...vertexDefinesOf(request, readsNormals),
+    ...primitiveDefinesOf(request.primitive),
+    [srgbColorsDefine]: "",
     ...(request.shading === "distance" && { [farnessDefine]: "" }),
     ...request.valueDefines,
   };

@@ -20,7 +20,12 @@ export class ArrayBuffers implements Buffers {
   readonly #kept = new WeakMap<StoredBytes, Kept>();
 
   store(array: ElementArray): StoredBytes {
-    const bytes = { byteLength: array.byteLength, close: () => { this.#kept.delete(bytes); } };
+    const bytes = {
+      byteLength: array.byteLength,
+      close: () => {
+        this.#kept.delete(bytes);
+      },
+    };
     this.#kept.set(bytes, { array, records: new Map() });
     return bytes;
   }

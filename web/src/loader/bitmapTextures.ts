@@ -38,7 +38,11 @@ export class BitmapTextures implements Textures {
   }
 
   /** The same for what is looked at. */
-  async makePicture(bytes: Uint8Array<ArrayBuffer>, sampling: SamplingDescription, signal: AbortSignal): Promise<Picture> {
+  async makePicture(
+    bytes: Uint8Array<ArrayBuffer>,
+    sampling: SamplingDescription,
+    signal: AbortSignal,
+  ): Promise<Picture> {
     const { bitmap, hasAlpha } = await decodePicture(bytes, largestTexture, sampling);
     const texture = new Texture(bitmap);
     texture.flipY = false; // the bitmap is already
@@ -57,7 +61,8 @@ export class BitmapTextures implements Textures {
       throw error;
     }
     const image = {
-      width: bitmap.width, height: bitmap.height,
+      width: bitmap.width,
+      height: bitmap.height,
       close: () => {
         if (!this.#textures.delete(image)) return;
         texture.dispose();

@@ -84,18 +84,40 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       },
       download: { ...defaultDownloadOptions, fetch },
       resolve: (named) => resolve(urlOf(named)),
-      onTransfer: () => { this.#progressTimer ??= setTimeout(() => { this.#tellProgress(); }, progressIntervalMs); },
-    });
-    this.#contents = new SceneContents({ x3d, url, urlOf, pool }, {
-      look: appLook(makeMaterial, surroundingsOf(this)), geometries: new GeometryPool(buffers), buffers, textures, batches: undefined, drawing: { asPoints: false },
-      shared: {
-        pixelRatio: { value: 1 }, viewport: { value: new Vector4() }, depthRange: { value: new Vector2() }, ...makeLightUniforms(),
+      onTransfer: () => {
+        this.#progressTimer ??= setTimeout(() => {
+          this.#tellProgress();
+        }, progressIntervalMs);
       },
-    }, {
-      onChange: () => { this.dispatchEvent({ type: "change" }); },
-      onError: (error) => { this.#fail(error); },
-      onAdvance: () => { this.#advance(); },
     });
+    this.#contents = new SceneContents(
+      { x3d, url, urlOf, pool },
+      {
+        look: appLook(makeMaterial, surroundingsOf(this)),
+        geometries: new GeometryPool(buffers),
+        buffers,
+        textures,
+        batches: undefined,
+        drawing: { asPoints: false },
+        shared: {
+          pixelRatio: { value: 1 },
+          viewport: { value: new Vector4() },
+          depthRange: { value: new Vector2() },
+          ...makeLightUniforms(),
+        },
+      },
+      {
+        onChange: () => {
+          this.dispatchEvent({ type: "change" });
+        },
+        onError: (error) => {
+          this.#fail(error);
+        },
+        onAdvance: () => {
+          this.#advance();
+        },
+      },
+    );
     this.add(this.#contents.root);
     passOnShadows(this);
     this.#contents.start();
@@ -134,7 +156,13 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
    */
   pick(renderer: WebGLRenderer, camera: PerspectiveCamera, x: number, y: number): SceneHit | undefined {
     const { shapes } = this.#contents;
-    return this.#picker.pick(renderer, camera, { x, y }, Math.max(usualPointSize, shapes.largestWidth), shapes.pickCandidates());
+    return this.#picker.pick(
+      renderer,
+      camera,
+      { x, y },
+      Math.max(usualPointSize, shapes.largestWidth),
+      shapes.pickCandidates(),
+    );
   }
 
   /** Ends its requests; what it shows stays. */
@@ -187,9 +215,15 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
 
 function surroundingsOf(scene: ImgeoScene): Surroundings {
   return {
-    get castShadow() { return scene.castShadow; },
-    get receiveShadow() { return scene.receiveShadow; },
-    get sphere() { return scene.box.getBoundingSphere(new Sphere()).applyMatrix4(scene.matrixWorld); },
+    get castShadow() {
+      return scene.castShadow;
+    },
+    get receiveShadow() {
+      return scene.receiveShadow;
+    },
+    get sphere() {
+      return scene.box.getBoundingSphere(new Sphere()).applyMatrix4(scene.matrixWorld);
+    },
   };
 }
 
@@ -198,11 +232,14 @@ function passOnShadows(scene: ImgeoScene): void {
   for (const name of ["castShadow", "receiveShadow"] as const) {
     let flag = false;
     Object.defineProperty(scene, name, {
-      configurable: true, enumerable: true,
+      configurable: true,
+      enumerable: true,
       get: () => flag,
       set: (wanted: boolean) => {
         flag = wanted;
-        scene.traverse((object) => { if (object !== scene) object[name] = wanted; });
+        scene.traverse((object) => {
+          if (object !== scene) object[name] = wanted;
+        });
       },
     });
   }

@@ -117,7 +117,10 @@ export class LoadedShapes implements ShapePlaces {
   /** In CSS pixels; 0 where no shape says. */
   get largestWidth(): number {
     let largest = 0;
-    for (const { object: { largestWidth } } of this.#shapes.values()) largest = Math.max(largest, largestWidth);
+    for (const {
+      object: { largestWidth },
+    } of this.#shapes.values())
+      largest = Math.max(largest, largestWidth);
     return largest;
   }
 
@@ -169,27 +172,49 @@ export class LoadedShapes implements ShapePlaces {
     const object = new ShapeObject(this.#setting, shape);
     const textures = new ShapeTextures(this.#sources.textures, {
       onPicture: (role, picture) => {
-        object.setPicture(role, picture && { texture: this.#setting.textures.textureOf(picture.image), hasAlpha: picture.hasAlpha });
+        object.setPicture(
+          role,
+          picture && { texture: this.#setting.textures.textureOf(picture.image), hasAlpha: picture.hasAlpha },
+        );
         this.#listener.onChange();
       },
-      onError: (error) => { this.#listener.onError(error); },
-      onSettled: () => { this.#listener.onAdvance(); },
+      onError: (error) => {
+        this.#listener.onError(error);
+      },
+      onSettled: () => {
+        this.#listener.onAdvance();
+      },
     });
-    return { object, places: new Map(), textures, delivery: undefined, missing: new Set(shape.geometry?.patches.keys()) };
+    return {
+      object,
+      places: new Map(),
+      textures,
+      delivery: undefined,
+      missing: new Set(shape.geometry?.patches.keys()),
+    };
   }
 
   /** The levels of a LOD are shown by whoever draws it, so that shapes in them are hidden for other reasons alone. */
   #follow(loaded: LoadedShape, shape: ShapeDescription, place: object, group: Group): void {
     group.visible = shape.reaches;
-    const { geometry, priority, appearance: { textures } } = shape;
-    loaded.places.set(place, { shape, geometry: geometry && placeGeometry(geometry, nowhere, priority, textures.length > 0) });
+    const {
+      geometry,
+      priority,
+      appearance: { textures },
+    } = shape;
+    loaded.places.set(place, {
+      shape,
+      geometry: geometry && placeGeometry(geometry, nowhere, priority, textures.length > 0),
+    });
     this.#changed.add(loaded);
   }
 
   /** What has been seen once stays, however often it is hidden. */
   #apply(loaded: LoadedShape): void {
     if (!isWanted(loaded)) return;
-    for (const { shape: { geometry, appearance } } of loaded.places.values()) {
+    for (const {
+      shape: { geometry, appearance },
+    } of loaded.places.values()) {
       loaded.textures.follow(appearance.textures);
       if (geometry !== undefined) loaded.delivery ??= this.#deliver(geometry, loaded);
     }
@@ -204,7 +229,9 @@ export class LoadedShapes implements ShapePlaces {
         this.#listener.onChange();
         this.#listener.onAdvance();
       },
-      onError: (error) => { this.#listener.onError(error); },
+      onError: (error) => {
+        this.#listener.onError(error);
+      },
       onSettled: () => {
         if (isWanted(loaded)) loaded.missing.clear(); // else it may be asked for again
         this.#listener.onAdvance();

@@ -1,6 +1,15 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { BufferAttribute, InterleavedBuffer, type LOD, type Object3D, PerspectiveCamera, Vector2, Vector3, Vector4 } from "three";
+import {
+  BufferAttribute,
+  InterleavedBuffer,
+  type LOD,
+  type Object3D,
+  PerspectiveCamera,
+  Vector2,
+  Vector3,
+  Vector4,
+} from "three";
 import { arrayTypeOf } from "../decode/elements.ts";
 import type { ElementType } from "../decode/elements.ts";
 import type { StoredBytes } from "../decode/stage.ts";
@@ -23,14 +32,43 @@ function appOf(markup: string, files: Record<string, Answer>) {
     recordsOf: (bytes, type, stride) => new InterleavedBuffer(viewOf(bytes, type), stride),
     indexOf: (bytes, type) => new BufferAttribute(viewOf(bytes, type), 1),
     read: (bytes, type, first, count = Infinity) => viewOf(bytes, type).slice(first, first + count),
-    dispose: (geometry) => { geometry.dispose(); },
+    dispose: (geometry) => {
+      geometry.dispose();
+    },
   };
-  const contents = new SceneContents({ x3d: elementsOf(markup), url: "https://site/scene.x3d", urlOf: (url) => new URL(url, "https://site/").href, pool }, {
-    look: appLook(standardMaterialOf, { castShadow: false, receiveShadow: false, sphere: undefined as never }),
-    geometries: new GeometryPool(buffers), buffers, textures: { textureOf: () => { throw new RangeError("there are none"); } },
-    batches: undefined, drawing: { asPoints: false },
-    shared: { pixelRatio: { value: 1 }, viewport: { value: new Vector4() }, depthRange: { value: new Vector2() }, ...makeLightUniforms() },
-  }, { onChange: () => undefined, onError: (error) => { throw error; }, onAdvance: () => undefined });
+  const contents = new SceneContents(
+    {
+      x3d: elementsOf(markup),
+      url: "https://site/scene.x3d",
+      urlOf: (url) => new URL(url, "https://site/").href,
+      pool,
+    },
+    {
+      look: appLook(standardMaterialOf, { castShadow: false, receiveShadow: false, sphere: undefined as never }),
+      geometries: new GeometryPool(buffers),
+      buffers,
+      textures: {
+        textureOf: () => {
+          throw new RangeError("there are none");
+        },
+      },
+      batches: undefined,
+      drawing: { asPoints: false },
+      shared: {
+        pixelRatio: { value: 1 },
+        viewport: { value: new Vector4() },
+        depthRange: { value: new Vector2() },
+        ...makeLightUniforms(),
+      },
+    },
+    {
+      onChange: () => undefined,
+      onError: (error) => {
+        throw error;
+      },
+      onAdvance: () => undefined,
+    },
+  );
   contents.start();
   /** What a frame from there draws: the names of shapes that show something. */
   const look = async (...from: [number, number, number]) => {
@@ -43,7 +81,9 @@ function appOf(markup: string, files: Record<string, Answer>) {
     return seen;
   };
   /** Until everything that is wanted is here. */
-  const settled = async () => { while (!contents.isSettled) await soon(); };
+  const settled = async () => {
+    while (!contents.isSettled) await soon();
+  };
   return { contents, asked, aborted, look, settled };
 }
 
@@ -55,14 +95,20 @@ function isLod(object: object): object is Pick<LOD, "autoUpdate" | "update"> {
 function drawnIn(object: Object3D, camera: PerspectiveCamera): string[] {
   if (!object.visible) return [];
   if (isLod(object) && object.autoUpdate) object.update(camera);
-  return [...(object.type === "Mesh" ? [object.parent?.name ?? ""] : []), ...object.children.flatMap((child) => drawnIn(child, camera))];
+  return [
+    ...(object.type === "Mesh" ? [object.parent?.name ?? ""] : []),
+    ...object.children.flatMap((child) => drawnIn(child, camera)),
+  ];
 }
 
 describe("what is in a scene of an app", () => {
   test("is asked for where it is to be seen, in any of its places", async () => {
     const files = { "a.bin": triangle(), "b.bin": triangle() };
-    const { contents, asked, look, settled } = appOf(`<X3D><Group visible="false"><Transform DEF="t">${shape("a")}</Transform>${shape("b")}</Group>
-      <Transform USE="t"/></X3D>`, files);
+    const { contents, asked, look, settled } = appOf(
+      `<X3D><Group visible="false"><Transform DEF="t">${shape("a")}</Transform>${shape("b")}</Group>
+      <Transform USE="t"/></X3D>`,
+      files,
+    );
     assert.ok(!contents.isShown && !contents.isSettled);
     await settled();
     assert.deepEqual([asked, await look(0, 0, 5), contents.isShown], [["a.bin"], ["a"], true]);
@@ -70,8 +116,11 @@ describe("what is in a scene of an app", () => {
 
   test("of a LOD is the level that the nearest camera sees, and the one before until that has come", async () => {
     const near = held(triangle());
-    const { contents, asked, aborted, look, settled } = appOf(`<X3D><LOD DEF="lod" range="10">${shape("near")}${shape("far")}</LOD>
-      <Transform translation="100 0 0"><LOD USE="lod"/></Transform></X3D>`, { "near.bin": near.promise, "far.bin": triangle() });
+    const { contents, asked, aborted, look, settled } = appOf(
+      `<X3D><LOD DEF="lod" range="10">${shape("near")}${shape("far")}</LOD>
+      <Transform translation="100 0 0"><LOD USE="lod"/></Transform></X3D>`,
+      { "near.bin": near.promise, "far.bin": triangle() },
+    );
     await settled();
     assert.deepEqual(asked, ["far.bin"]);
     assert.deepEqual(await look(0, 0, 50), ["far", "far"]);
@@ -93,19 +142,31 @@ describe("what is in a scene of an app", () => {
   test("turns to the camera where it is a billboard, and hears of none where there are none", async () => {
     const plain = appOf(`<X3D>${shape("a")}</X3D>`, { "a.bin": triangle() });
     assert.equal(plain.contents.root.getObjectByProperty("isLOD", true), undefined);
-    const { contents, look, settled } = appOf(`<X3D><Billboard><Transform translation="0 0 1">${shape("a")}</Transform></Billboard></X3D>`, { "a.bin": triangle() });
+    const { contents, look, settled } = appOf(
+      `<X3D><Billboard><Transform translation="0 0 1">${shape("a")}</Transform></Billboard></X3D>`,
+      { "a.bin": triangle() },
+    );
     await settled();
-    const placeOf = () => new Vector3().setFromMatrixPosition(contents.root.getObjectByName("a")?.matrixWorld ?? contents.root.matrixWorld).round().toArray();
+    const placeOf = () =>
+      new Vector3()
+        .setFromMatrixPosition(contents.root.getObjectByName("a")?.matrixWorld ?? contents.root.matrixWorld)
+        .round()
+        .toArray();
     contents.root.position.set(10, 0, 0); // the app's business
     await look(20, 0, 0);
     assert.deepEqual(placeOf(), [11, 0, 0]);
     await look(10, 0, -9);
-    assert.deepEqual(placeOf().map((part) => part + 0), [10, 0, -1]);
+    assert.deepEqual(
+      placeOf().map((part) => part + 0),
+      [10, 0, -1],
+    );
   });
 
   test("that is stopped asks for nothing more, and goes on to show what there is", async () => {
-    const { contents, asked, look, settled } = appOf(`<X3D><LOD range="10">${shape("near")}${shape("far")}</LOD></X3D>`,
-      { "near.bin": triangle(), "far.bin": triangle() });
+    const { contents, asked, look, settled } = appOf(
+      `<X3D><LOD range="10">${shape("near")}${shape("far")}</LOD></X3D>`,
+      { "near.bin": triangle(), "far.bin": triangle() },
+    );
     await settled();
     contents.stop();
     assert.deepEqual([await look(0, 0, 5), await look(0, 0, 5), asked], [["far"], ["far"], ["far.bin"]]);

@@ -53,7 +53,9 @@ export class SceneContents {
   readonly #pictures: TextureDeliveries;
   readonly #reader: SceneReader;
   readonly #graph: SceneGraph;
-  readonly #billboards = new CameraWatch((camera) => { this.#graph.turnBillboards(camera); });
+  readonly #billboards = new CameraWatch((camera) => {
+    this.#graph.turnBillboards(camera);
+  });
   readonly #inlines: Inlines;
   readonly #levels: SceneLevels[] = [];
   /** What cameras have come to see of each LOD. */
@@ -62,7 +64,9 @@ export class SceneContents {
   readonly #warned = new Set<string>();
   readonly #keeper: LevelsKeeper = {
     presenceOf: (level) => this.#presenceOf(level),
-    onLook: () => { this.#onLook(); },
+    onLook: () => {
+      this.#onLook();
+    },
   };
   #scene: SceneDescription;
   #isLookedAt = false;
@@ -73,23 +77,33 @@ export class SceneContents {
     this.#deliveries = new SharedDeliveries(pool);
     this.#pictures = new TextureDeliveries(pool);
     this.shapes = new LoadedShapes(setting, { geometries: this.#deliveries, textures: this.#pictures }, listener);
-    this.#inlines = new Inlines({ pool, urlOf, own: { url, x3d } }, {
-      onEnd: (inline, error) => {
-        if (error !== undefined) listener.onError(error);
-        this.#reader.touch(inline);
-        this.#read();
-        listener.onChange();
-        listener.onAdvance();
+    this.#inlines = new Inlines(
+      { pool, urlOf, own: { url, x3d } },
+      {
+        onEnd: (inline, error) => {
+          if (error !== undefined) listener.onError(error);
+          this.#reader.touch(inline);
+          this.#read();
+          listener.onChange();
+          listener.onAdvance();
+        },
       },
-    });
+    );
     this.#reader = new SceneReader(x3d, {
-      url, inlined: (inline) => this.#inlines.documentOf(inline), levelOf: (lod) => this.#chosen.get(lod),
-      inlineGeometry: readInlineGeometry, text: textReading(measureRun),
+      url,
+      inlined: (inline) => this.#inlines.documentOf(inline),
+      levelOf: (lod) => this.#chosen.get(lod),
+      inlineGeometry: readInlineGeometry,
+      text: textReading(measureRun),
     });
     this.#scene = this.#reader.read();
     this.#graph = new SceneGraph({
-      onEnter: (shape, place, group) => { this.shapes.onEnter(shape, place, group); },
-      onChange: (shape, place, group) => { this.shapes.onChange(shape, place, group); },
+      onEnter: (shape, place, group) => {
+        this.shapes.onEnter(shape, place, group);
+      },
+      onChange: (shape, place, group) => {
+        this.shapes.onChange(shape, place, group);
+      },
       onLeave: () => undefined, // documents that are read once only ever get more
       makeGroup: (description) => this.#groupOf(description),
     });
@@ -140,10 +154,15 @@ export class SceneContents {
     const { root, inlines, chunkPriority, warnings } = this.#scene;
     this.#graph.follow(withoutLights(root));
     this.box.copy(this.#graph.box);
-    if (this.#graph.hasBillboards && this.#billboards.parent === null) this.root.add(this.#billboards, this.#graph.root); // before what turns
+    if (this.#graph.hasBillboards && this.#billboards.parent === null)
+      this.root.add(this.#billboards, this.#graph.root); // before what turns
     this.shapes.applyChanges();
     for (const levels of this.#levels) levels.fill();
-    this.shapes.demand(chunkWeightsOf(chunkPriority, (problem) => { this.#warn(`chunkPriority: ${problem}`); }));
+    this.shapes.demand(
+      chunkWeightsOf(chunkPriority, (problem) => {
+        this.#warn(`chunkPriority: ${problem}`);
+      }),
+    );
     this.#inlines.follow(inlines);
     for (const { element, message } of warnings) this.#warn(`<${element.localName}> ${message}`);
   }
@@ -161,7 +180,8 @@ export class SceneContents {
   /** What is hidden in it for good does not count. */
   #presenceOf(object: Object3D): Presence {
     const inline = this.#inlineOf.get(object);
-    if (inline !== undefined && this.#inlines.documentOf(inline) === undefined) return this.#inlines.isEnded(inline) ? "failed" : "coming";
+    if (inline !== undefined && this.#inlines.documentOf(inline) === undefined)
+      return this.#inlines.isEnded(inline) ? "failed" : "coming";
     const found = new Set<Presence>();
     for (const part of partsOf(object)) {
       const presence = this.shapes.presenceOf(part) ?? this.#presenceOf(part);
@@ -190,7 +210,15 @@ export class SceneContents {
       if (distance < (nearest.get(element)?.distance ?? Infinity)) nearest.set(element, { levels, distance });
     }
     let isOther = false;
-    for (const [element, { levels: { description: { range, count } }, distance }] of nearest) {
+    for (const [
+      element,
+      {
+        levels: {
+          description: { range, count },
+        },
+        distance,
+      },
+    ] of nearest) {
       const before = this.#chosen.get(element) ?? count - 1; // unknown ones bring their last
       const level = levelAt(distance, range, count, before);
       this.#chosen.set(element, level);
@@ -223,8 +251,11 @@ const unlit = new WeakMap<GroupDescription, GroupDescription>();
 function withoutLights(group: GroupDescription): GroupDescription {
   const known = unlit.get(group);
   if (known !== undefined) return known;
-  const children = group.children.filter(({ kind }) => kind !== "light").map((child) => (child.kind === "group" ? withoutLights(child) : child));
-  const isSame = children.length === group.children.length && children.every((child, place) => child === group.children[place]);
+  const children = group.children
+    .filter(({ kind }) => kind !== "light")
+    .map((child) => (child.kind === "group" ? withoutLights(child) : child));
+  const isSame =
+    children.length === group.children.length && children.every((child, place) => child === group.children[place]);
   const found = isSame ? group : { ...group, children };
   unlit.set(group, found);
   return found;

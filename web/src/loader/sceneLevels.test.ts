@@ -10,10 +10,15 @@ const element = { localName: "LOD", children: [], getAttribute: () => null, getA
 function levelsOf(range: readonly number[], here: Set<number>, empty?: number, others: Presence = "coming") {
   const looks = { count: 0 };
   const placeOf = (level: Object3D) => Number(level.name);
-  const levels = new SceneLevels({ element, center: [1, 0, 0], range, count: range.length + 1 }, {
-    presenceOf: (level) => (!here.has(placeOf(level)) ? others : placeOf(level) === empty ? "nothing" : "shown"),
-    onLook: () => { looks.count += 1; },
-  });
+  const levels = new SceneLevels(
+    { element, center: [1, 0, 0], range, count: range.length + 1 },
+    {
+      presenceOf: (level) => (!here.has(placeOf(level)) ? others : placeOf(level) === empty ? "nothing" : "shown"),
+      onLook: () => {
+        looks.count += 1;
+      },
+    },
+  );
   for (let place = 0; place <= range.length; ++place) {
     const group = new Group();
     group.name = String(place);
@@ -39,7 +44,10 @@ describe("a LOD of a scene in an app", () => {
   test("is three's own, and shows its last level until somebody has looked", () => {
     const { levels } = levelsOf([10, 20], new Set([0, 1, 2]));
     assert.ok(levels instanceof LOD && levels.autoUpdate);
-    assert.deepEqual(levels.levels.map(({ distance }) => distance), [0, 10, 20]);
+    assert.deepEqual(
+      levels.levels.map(({ distance }) => distance),
+      [0, 10, 20],
+    );
     assert.deepEqual([shownOf(levels), levels.getCurrentLevel()], [[2], 2]);
     assert.equal(levels.takeDistance(), Infinity);
   });
@@ -51,7 +59,12 @@ describe("a LOD of a scene in an app", () => {
     around.position.set(100, 0, 0);
     around.add(levels);
     around.updateMatrixWorld(true);
-    for (const [x, level] of [[102 + 18, 0], [102 + 30, 1], [102 + 50, 2], [102 - 18, 0]] as const) {
+    for (const [x, level] of [
+      [102 + 18, 0],
+      [102 + 30, 1],
+      [102 + 50, 2],
+      [102 - 18, 0],
+    ] as const) {
       levels.update(cameraAt(x));
       assert.deepEqual([shownOf(levels), levels.getCurrentLevel()], [[level], level], `from ${x}`);
     }
@@ -96,7 +109,10 @@ describe("a LOD of a scene in an app", () => {
     levels.update(cameraAt(1, 15));
     scene.updateMatrixWorld(true);
     const hits = new Raycaster(new Vector3(0, 0, 50), new Vector3(0, 0, -1)).intersectObject(scene);
-    assert.deepEqual(hits.map(({ object }) => object.parent?.name), ["1", "1"]); // in and out of one box
+    assert.deepEqual(
+      hits.map(({ object }) => object.parent?.name),
+      ["1", "1"],
+    ); // in and out of one box
   });
 
   test("that has no extent is infinitely far", () => {

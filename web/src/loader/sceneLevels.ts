@@ -23,7 +23,8 @@ export interface LevelsKeeper {
 }
 
 // Of a scene of thousands, each is asked in each frame.
-const eye = new Vector3(), center = new Vector3();
+const eye = new Vector3(),
+  center = new Vector3();
 const levelsFromWorld = new Matrix4();
 
 export class SceneLevels extends LOD {
@@ -45,8 +46,15 @@ export class SceneLevels extends LOD {
   /** Its children have come: they are its levels, in their order. */
   fill(): void {
     const { range } = this.description;
-    this.levels.splice(0, Infinity, ...this.children.map((object, place) =>
-      ({ object, distance: place === 0 ? 0 : range[place - 1] ?? Infinity, hysteresis: 0 })));
+    this.levels.splice(
+      0,
+      Infinity,
+      ...this.children.map((object, place) => ({
+        object,
+        distance: place === 0 ? 0 : (range[place - 1] ?? Infinity),
+        hysteresis: 0,
+      })),
+    );
     this.#show();
   }
 
@@ -80,8 +88,10 @@ export class SceneLevels extends LOD {
   }
 
   #show(): void {
-    this.#shown = this.#isReady(this.#wanted) ? this.#wanted : this.#standIn() ?? this.#wanted;
-    this.levels.forEach(({ object }, place) => { object.visible = place === this.#shown; });
+    this.#shown = this.#isReady(this.#wanted) ? this.#wanted : (this.#standIn() ?? this.#wanted);
+    this.levels.forEach(({ object }, place) => {
+      object.visible = place === this.#shown;
+    });
   }
 
   #isReady(place: number): boolean {

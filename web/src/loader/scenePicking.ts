@@ -28,8 +28,13 @@ export class ScenePicker {
   #lent: { readonly renderer: WebGLRenderer; readonly picker: Picker } | undefined;
 
   /** At CSS pixels from the top left of the renderer's canvas; points and lines are at most `largestWidth` of them wide. Waits for the GPU. */
-  pick(renderer: WebGLRenderer, camera: PerspectiveCamera, { x, y }: { readonly x: number; readonly y: number }, largestWidth: number,
-       candidates: Iterable<PickCandidate>): SceneHit | undefined {
+  pick(
+    renderer: WebGLRenderer,
+    camera: PerspectiveCamera,
+    { x, y }: { readonly x: number; readonly y: number },
+    largestWidth: number,
+    candidates: Iterable<PickCandidate>,
+  ): SceneHit | undefined {
     if (this.#lent?.renderer !== renderer) {
       this.dispose();
       this.#lent = { renderer, picker: new Picker(renderer) };
@@ -44,7 +49,12 @@ export class ScenePicker {
     if (hit === undefined) return undefined;
     const { group, position, normal, patch, triangle, vertex } = hit;
     return {
-      object: group, point: position, normal, patch, triangle, vertex,
+      object: group,
+      point: position,
+      normal,
+      patch,
+      triangle,
+      vertex,
       distance: position.distanceTo(camera.getWorldPosition(position.clone())),
     };
   }

@@ -35,7 +35,27 @@ test("without an axis it faces the viewer as the picture does", () => {
 });
 
 test("where there is no telling where to turn it stays", () => {
-  for (const [axis, eye] of [[[0, 1, 0], [0, 5, 0]], [[0, 0, 1], [1, 2, 3]], [[0, 1, 0], [0, 0, 0]], [[0, 0, 0], [0, 2, 0]]] as const) {
-    assert.deepEqual(billboardTurn(axis, new Vector3(...eye), up).toArray(), [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
+  for (const [axis, eye] of [
+    [
+      [0, 1, 0],
+      [0, 5, 0],
+    ],
+    [
+      [0, 0, 1],
+      [1, 2, 3],
+    ],
+    [
+      [0, 1, 0],
+      [0, 0, 0],
+    ],
+    [
+      [0, 0, 0],
+      [0, 2, 0],
+    ],
+  ] as const) {
+    assert.deepEqual(
+      billboardTurn(axis, new Vector3(...eye), up).toArray(),
+      [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
+    );
   }
 });

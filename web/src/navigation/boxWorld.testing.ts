@@ -22,7 +22,7 @@ export function lookAround(lookout: Lookout, boxes: readonly WorldBox[]): Surrou
   });
   const walls: number[] = [];
   for (let ray = 0; ray < rays; ++ray) {
-    const angle = 2 * Math.PI * (ray + 0.5) / rays;
+    const angle = (2 * Math.PI * (ray + 0.5)) / rays;
     const way = inScene({ ...lookout, eye: new Vector3() }, new Vector3(Math.sin(angle), 0, Math.cos(angle)));
     const distance = Math.min(...boxes.map((box) => distanceTo(box, eye, way)));
     if (distance > 2 * reach) continue;

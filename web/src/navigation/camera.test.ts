@@ -28,7 +28,9 @@ const surface = Array.from({ length: 200 }, (_, n) => {
   const y = 1 - (2 * n + 1) / 200;
   const angle = n * 2.399963;
   const radius = Math.sqrt(1 - y * y);
-  return new Vector3(radius * Math.cos(angle), y, radius * Math.sin(angle)).multiplyScalar(sphere.radius).add(sphere.center);
+  return new Vector3(radius * Math.cos(angle), y, radius * Math.sin(angle))
+    .multiplyScalar(sphere.radius)
+    .add(sphere.center);
 });
 
 describe("a pose that frames the scene", () => {
@@ -36,7 +38,10 @@ describe("a pose that frames the scene", () => {
     test(`sees all of it at an aspect of ${aspect}, within the depth range`, () => {
       for (const point of surface) {
         const { x, y, z } = seen(start, aspect, point);
-        assert.ok([x, y, z].every((value) => Math.abs(value) <= 1), `${x} ${y} ${z}`);
+        assert.ok(
+          [x, y, z].every((value) => Math.abs(value) <= 1),
+          `${x} ${y} ${z}`,
+        );
       }
     });
   }
@@ -50,14 +55,24 @@ describe("a pose that frames the scene", () => {
 
 describe("a viewpoint", () => {
   const fields = {
-    set_bind: false, bind: false, description: "", position: [0, 0, 10], orientation: [0, 0, 1, 0], fieldOfView: 1,
+    set_bind: false,
+    bind: false,
+    description: "",
+    position: [0, 0, 10],
+    orientation: [0, 0, 1, 0],
+    fieldOfView: 1,
     centerOfRotation: [0, 0, 0],
   } as const;
   const poseOf = (changes: Partial<ViewpointDescription>, sceneFromViewpoint = new Matrix4()) =>
     poseOfViewpoint({ viewpoint: { ...fields, ...changes }, sceneFromViewpoint });
 
   test("shows all of a field of its own proportion in a view of any", () => {
-    for (const [aspect, width, height] of [[1.5, 1.5, 1], [4 / 3, 1.5, 1.125], [3, 3, 1], [0.5, 1.5, 3]] as const) {
+    for (const [aspect, width, height] of [
+      [1.5, 1.5, 1],
+      [4 / 3, 1.5, 1.125],
+      [3, 3, 1],
+      [0.5, 1.5, 3],
+    ] as const) {
       const camera = new PerspectiveCamera();
       applyPose(camera, poseOf({ proportion: 1.5 }), aspect, sphere);
       near(Math.tan(MathUtils.degToRad(camera.fov) / 2), height * Math.tan(0.5));
@@ -80,7 +95,10 @@ describe("a viewpoint", () => {
   });
 
   test("is moved and turned by the transforms around it", () => {
-    const matrix = new Matrix4().makeTranslation(5, 0, 0).multiply(new Matrix4().makeRotationY(Math.PI / 2)).multiply(new Matrix4().makeScale(2, 2, 2));
+    const matrix = new Matrix4()
+      .makeTranslation(5, 0, 0)
+      .multiply(new Matrix4().makeRotationY(Math.PI / 2))
+      .multiply(new Matrix4().makeScale(2, 2, 2));
     const pose = poseOf({ centerOfRotation: [0, 0, 1] }, matrix);
     near(pose.position.distanceTo(new Vector3(25, 0, 0)), 0);
     near(pose.center.distanceTo(new Vector3(7, 0, 0)), 0);
@@ -89,7 +107,12 @@ describe("a viewpoint", () => {
 
   test("stands upright when it looks down from above, and keeps its own up when it is tilted", () => {
     near(poseOf({ orientation: [1, 0, 0, -0.5] }).up.distanceTo(new Vector3(0, 1, 0)), 0);
-    near(poseOf({ orientation: [1, 0, 0, -0.5] }, new Matrix4().makeRotationX(1)).up.distanceTo(new Vector3(0, Math.cos(1), Math.sin(1))), 0);
+    near(
+      poseOf({ orientation: [1, 0, 0, -0.5] }, new Matrix4().makeRotationX(1)).up.distanceTo(
+        new Vector3(0, Math.cos(1), Math.sin(1)),
+      ),
+      0,
+    );
     near(poseOf({ orientation: [0, 0, 1, 0.4] }).up.distanceTo(new Vector3(-Math.sin(0.4), Math.cos(0.4), 0)), 0);
     near(poseOf({ orientation: [1, 0, 0, -Math.PI / 2] }).up.distanceTo(new Vector3(0, 0, -1)), 0);
   });

@@ -30,7 +30,9 @@ export function poseOfViewpoint({ viewpoint, sceneFromViewpoint }: Omit<PlacedVi
   const [x, y, z, angle] = viewpoint.orientation;
   const frame = new Quaternion();
   sceneFromViewpoint.decompose(new Vector3(), frame, new Vector3());
-  const orientation = frame.clone().multiply(new Quaternion().setFromAxisAngle(new Vector3(x, y, z).normalize(), angle));
+  const orientation = frame
+    .clone()
+    .multiply(new Quaternion().setFromAxisAngle(new Vector3(x, y, z).normalize(), angle));
   return {
     position: new Vector3(...viewpoint.position).applyMatrix4(sceneFromViewpoint),
     orientation,
@@ -43,8 +45,9 @@ export function poseOfViewpoint({ viewpoint, sceneFromViewpoint }: Omit<PlacedVi
 
 /** X3D's up, +y around the viewpoint, so that a statue keeps standing; the camera's own where it is tilted or looks along it. */
 function uprightOf(orientation: Quaternion, upright: Vector3): Vector3 {
-  const [right, up, back] = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)]
-    .map((axis) => axis.applyQuaternion(orientation)) as [Vector3, Vector3, Vector3];
+  const [right, up, back] = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].map((axis) =>
+    axis.applyQuaternion(orientation),
+  ) as [Vector3, Vector3, Vector3];
   const isLevel = Math.abs(right.dot(upright)) < 0.02 && up.dot(upright) > 0;
   return isLevel && Math.abs(back.dot(upright)) < 0.98 ? upright : up;
 }
@@ -53,11 +56,16 @@ const defaultFieldOfView = 0.7854;
 
 /** Sees the whole sphere from slightly above and beside, where the document has no Viewpoint. */
 export function poseFraming(sphere: Sphere): Pose {
-  return poseShowingAll({
-    position: sphere.center.clone().add(new Vector3(0.35, 0.25, 1)),
-    orientation: lookRotation(new Vector3(-0.35, -0.25, -1), new Vector3(0, 1, 0)),
-    center: sphere.center.clone(), up: new Vector3(0, 1, 0), fieldOfView: defaultFieldOfView,
-  }, sphere);
+  return poseShowingAll(
+    {
+      position: sphere.center.clone().add(new Vector3(0.35, 0.25, 1)),
+      orientation: lookRotation(new Vector3(-0.35, -0.25, -1), new Vector3(0, 1, 0)),
+      center: sphere.center.clone(),
+      up: new Vector3(0, 1, 0),
+      fieldOfView: defaultFieldOfView,
+    },
+    sphere,
+  );
 }
 
 /** From where the sphere just fills the shorter side of the view. */
@@ -88,7 +96,8 @@ export function turnOf(pose: Pose, right: number, down: number): Quaternion {
   const towards = forwardOf(pose).angleTo(pose.up); // 0: looks along up; pi: straight down, from over the top
   const nearestToPole = 0.02;
   const pitch = MathUtils.clamp(down, nearestToPole - towards, Math.PI - nearestToPole - towards);
-  return new Quaternion().setFromAxisAngle(pose.up, -right)
+  return new Quaternion()
+    .setFromAxisAngle(pose.up, -right)
     .multiply(new Quaternion().setFromAxisAngle(sideways, -pitch));
 }
 
@@ -98,7 +107,10 @@ export function zoomed(pose: Pose, factor: number, sphere: Sphere): Pose {
   const least = Math.min(distance, sphere.radius / 1000);
   const most = Math.max(distance, sphere.radius * 1000);
   const wanted = MathUtils.clamp(distance * factor, least, most);
-  return { ...pose, position: pose.center.clone().addScaledVector(pose.position.clone().sub(pose.center), wanted / (distance || 1)) };
+  return {
+    ...pose,
+    position: pose.center.clone().addScaledVector(pose.position.clone().sub(pose.center), wanted / (distance || 1)),
+  };
 }
 
 /** Shifts what is seen by shares of the view's shorter side, as seen at the centre. */

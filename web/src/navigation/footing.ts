@@ -81,7 +81,7 @@ export class Footing {
   /** The cells that a body stands over, at least the one in its middle. */
   *#cellsAround({ x, z }: Place): Generator<number> {
     const { cells } = this.#map;
-    const size = 2 * this.#reach / cells;
+    const size = (2 * this.#reach) / cells;
     const [column, row] = [this.#lineOf(x), this.#lineOf(z)];
     const wide = Math.floor(this.#radius / size);
     for (let down = Math.max(row - wide, 0); down <= Math.min(row + wide, cells - 1); ++down) {
@@ -93,14 +93,14 @@ export class Footing {
 
   #lineOf(place: number): number {
     const { cells } = this.#map;
-    return Math.min(Math.max(Math.floor((place / this.#reach + 1) / 2 * cells), 0), cells - 1);
+    return Math.min(Math.max(Math.floor(((place / this.#reach + 1) / 2) * cells), 0), cells - 1);
   }
 
   /** The cell under a body's middle, or the nearest that it stands over. */
   #nearestFloor(place: Place): number | undefined {
     const { cells, heights } = this.#map;
     const [column, row] = [this.#lineOf(place.x), this.#lineOf(place.z)];
-    const distance = (cell: number) => Math.hypot(cell % cells - column, Math.floor(cell / cells) - row);
+    const distance = (cell: number) => Math.hypot((cell % cells) - column, Math.floor(cell / cells) - row);
     const floors = Array.from(this.#cellsAround(place)).filter((cell) => (heights[cell] ?? -Infinity) > -Infinity);
     return floors.sort((a, b) => distance(a) - distance(b))[0];
   }
@@ -114,7 +114,10 @@ export class Footing {
       if (this.#isReached[cell] === 1 || heights[cell] === -Infinity) continue;
       forNeighbours(cell, cells, (next) => {
         if (this.#isReached[next] !== 1) return;
-        places.push(placeOf((cell % cells + next % cells) / 2), placeOf((Math.floor(cell / cells) + Math.floor(next / cells)) / 2));
+        places.push(
+          placeOf(((cell % cells) + (next % cells)) / 2),
+          placeOf((Math.floor(cell / cells) + Math.floor(next / cells)) / 2),
+        );
       });
     }
     return places;

@@ -13,8 +13,13 @@ import { poseWith } from "./orbit.ts";
 
 /** Those that are new to the stack, and say that they want to, are bound. */
 export function bindViewpoints(stack: BindingStack<SceneElement>, viewpoints: readonly PlacedViewpoint[]): void {
-  const wanted = new Set(viewpoints.filter(({ viewpoint }) => viewpoint.set_bind || viewpoint.bind).map(({ element }) => element));
-  stack.setNodes(viewpoints.map(({ element }) => element), (element) => wanted.has(element));
+  const wanted = new Set(
+    viewpoints.filter(({ viewpoint }) => viewpoint.set_bind || viewpoint.bind).map(({ element }) => element),
+  );
+  stack.setNodes(
+    viewpoints.map(({ element }) => element),
+    (element) => wanted.has(element),
+  );
 }
 
 /** At the bound viewpoint, or so that all is seen; and what the author says of the camera. */
@@ -22,7 +27,10 @@ export function homeOf(viewpoint: Pose | undefined, camera: CameraSetting, spher
   return poseWith(viewpoint ?? poseFraming(sphere), camera, sphere);
 }
 
-export function boundPoseOf(stack: BindingStack<SceneElement>, viewpoints: readonly PlacedViewpoint[]): Pose | undefined {
+export function boundPoseOf(
+  stack: BindingStack<SceneElement>,
+  viewpoints: readonly PlacedViewpoint[],
+): Pose | undefined {
   const placed = viewpoints.find(({ element }) => element === stack.bound);
   return placed && poseOfViewpoint(placed);
 }

@@ -14,12 +14,19 @@ function placed(markup: string): Placement {
 
 /** Of each light the ids of the shapes that it shines on. */
 function litBy({ lights, shapes }: Placement): string[] {
-  return lights.map(({ scope }) => shapes.filter(({ lightScope }) => scope.holds(lightScope)).map(({ shape }) => shape.element.getAttribute("id")).join(""));
+  return lights.map(({ scope }) =>
+    shapes
+      .filter(({ lightScope }) => scope.holds(lightScope))
+      .map(({ shape }) => shape.element.getAttribute("id"))
+      .join(""),
+  );
 }
 
 test("a light shines on what stands in its group, at any depth; a point or a spot on everything unless it says otherwise", () => {
-  const lights = (attributes: string) => `<DirectionalLight ${attributes}/><PointLight ${attributes}/><SpotLight ${attributes}/>`;
-  const around = (attributes: string) => `<Shape id="a"/><Group><Shape id="b"/>${lights(attributes)}<Transform><Group><Shape id="c"/></Group></Transform></Group><Shape id="d"/>`;
+  const lights = (attributes: string) =>
+    `<DirectionalLight ${attributes}/><PointLight ${attributes}/><SpotLight ${attributes}/>`;
+  const around = (attributes: string) =>
+    `<Shape id="a"/><Group><Shape id="b"/>${lights(attributes)}<Transform><Group><Shape id="c"/></Group></Transform></Group><Shape id="d"/>`;
   assert.deepEqual(litBy(placed(around(""))), ["bc", "abcd", "abcd"]);
   assert.deepEqual(litBy(placed(around('global="false"'))), ["bc", "bc", "bc"]);
   assert.deepEqual(litBy(placed(around('global="true"'))), ["abcd", "abcd", "abcd"]);
@@ -31,16 +38,32 @@ test("a light of the scene itself shines on everything", () => {
 });
 
 test("a light that is USEd shines in each of its groups, and a group that is USEd is lit where it stands", () => {
-  const twice = '<Group><DirectionalLight DEF="sun"/><Shape id="a"/></Group><Transform><DirectionalLight USE="sun"/><Shape id="b"/></Transform>';
+  const twice =
+    '<Group><DirectionalLight DEF="sun"/><Shape id="a"/></Group><Transform><DirectionalLight USE="sun"/><Shape id="b"/></Transform>';
   assert.deepEqual(litBy(placed(twice)), ["a", "b"]);
   const lit = placed('<Group DEF="G"><Shape id="a"/></Group><Group><DirectionalLight/><Group USE="G"/></Group>');
   assert.deepEqual(litBy(lit), ["a"]);
-  assert.deepEqual(lit.shapes.map(({ lightScope }) => lightScope === everywhere), [true, false]);
+  assert.deepEqual(
+    lit.shapes.map(({ lightScope }) => lightScope === everywhere),
+    [true, false],
+  );
 });
 
 test("a choice of a Switch and a level of a LOD light themselves alone", () => {
-  assert.deepEqual(litBy(placed('<Switch whichChoice="0"><Group><DirectionalLight/><Shape id="a"/></Group><Shape id="b"/></Switch><Shape id="c"/>')), ["a"]);
-  assert.deepEqual(litBy(placed('<LOD range="1"><Shape id="a"/><Group><DirectionalLight/><Shape id="b"/></Group></LOD><Shape id="c"/>')), ["b"]);
+  assert.deepEqual(
+    litBy(
+      placed(
+        '<Switch whichChoice="0"><Group><DirectionalLight/><Shape id="a"/></Group><Shape id="b"/></Switch><Shape id="c"/>',
+      ),
+    ),
+    ["a"],
+  );
+  assert.deepEqual(
+    litBy(
+      placed('<LOD range="1"><Shape id="a"/><Group><DirectionalLight/><Shape id="b"/></Group></LOD><Shape id="c"/>'),
+    ),
+    ["b"],
+  );
 });
 
 test("a document that is inlined is a group of its own", () => {
@@ -63,7 +86,11 @@ test("numbers of scopes tell what lies in what, in documents of any form", () =>
       for (const outer of all) {
         for (const inner of all) {
           const isIn = outer.value <= inner.value && inner.value <= outer.last;
-          assert.equal(isIn, outer.holds(inner), `seed ${seed}, round ${round}: ${outer.value} … ${outer.last} and ${inner.value}`);
+          assert.equal(
+            isIn,
+            outer.holds(inner),
+            `seed ${seed}, round ${round}: ${outer.value} … ${outer.last} and ${inner.value}`,
+          );
           if (isIn && outer !== inner && outer !== everywhere) nested += 1;
         }
       }

@@ -20,7 +20,8 @@ export class LightScope {
 
   /** Whether it is the other one or has it in it. */
   holds(other: LightScope): boolean {
-    for (let scope: LightScope | undefined = other; scope !== undefined; scope = scope.around) if (scope === this) return true;
+    for (let scope: LightScope | undefined = other; scope !== undefined; scope = scope.around)
+      if (scope === this) return true;
     return false;
   }
 }

@@ -1,7 +1,13 @@
 // Matrices of Transforms, and boxes through them.
 
 import { Box3, Matrix4, Quaternion, Vector3 } from "three";
-import type { GeometryDescription, PatchDescription, Rotation, TransformDescription, Vec3 } from "../document/description.ts";
+import type {
+  GeometryDescription,
+  PatchDescription,
+  Rotation,
+  TransformDescription,
+  Vec3,
+} from "../document/description.ts";
 import { storedFrameOf } from "../document/storedFrame.ts";
 
 /** Lengths whose squares single precision still holds: beyond, no GPU draws anything, and the rest must be seen. */

@@ -25,7 +25,10 @@ function viewpoint(description: string, fields: Partial<typeof viewpointFields> 
 
 function near(actual: Vector3, expected: Vector3 | [number, number, number], tolerance = 1e-9): void {
   const wanted = Array.isArray(expected) ? new Vector3(...expected) : expected;
-  assert.ok(actual.distanceTo(wanted) <= tolerance, `${actual.toArray().join(" ")} is not ${wanted.toArray().join(" ")}`);
+  assert.ok(
+    actual.distanceTo(wanted) <= tolerance,
+    `${actual.toArray().join(" ")} is not ${wanted.toArray().join(" ")}`,
+  );
 }
 
 function samePose(actual: Pose, expected: Pose, tolerance = 1e-9): void {
@@ -118,7 +121,11 @@ describe("a journey", () => {
 
   test("from or to a centre that is the eye itself stays finite", () => {
     const inside: Pose = { ...from, center: from.position.clone() };
-    for (const [a, b] of [[from, inside], [inside, from], [inside, inside]] as const) {
+    for (const [a, b] of [
+      [from, inside],
+      [inside, from],
+      [inside, inside],
+    ] as const) {
       const { position, orientation } = poseBetween(a, b, 0.5);
       assert.ok([...position.toArray(), ...orientation.toArray()].every(Number.isFinite));
     }
@@ -127,8 +134,11 @@ describe("a journey", () => {
 
 describe("walking and flying", () => {
   const upright: Pose = {
-    position: new Vector3(0, 1.6, 0), orientation: new Quaternion(), center: new Vector3(0, 1.6, -4),
-    up: new Vector3(0, 1, 0), fieldOfView: 0.8,
+    position: new Vector3(0, 1.6, 0),
+    orientation: new Quaternion(),
+    center: new Vector3(0, 1.6, -4),
+    up: new Vector3(0, 1, 0),
+    fieldOfView: 0.8,
   };
 
   test("who walks stays on his level wherever he looks, who flies goes where he looks", () => {
@@ -161,12 +171,20 @@ describe("walking and flying", () => {
 });
 
 describe("the navigator", () => {
-  const [front, side] = [viewpoint("front"), viewpoint("side", { position: [10, 0, 0], orientation: [0, 1, 0, Math.PI / 2] })];
+  const [front, side] = [
+    viewpoint("front"),
+    viewpoint("side", { position: [10, 0, 0], orientation: [0, 1, 0, Math.PI / 2] }),
+  ];
   const [frontPose, sidePose] = [poseOfViewpoint(front), poseOfViewpoint(side)];
 
   function navigating(changes: Partial<typeof navigationInfo> = {}, viewpoints = [front, side]) {
     let calls = 0;
-    const navigator = new Navigator(() => { calls += 1; }, () => undefined);
+    const navigator = new Navigator(
+      () => {
+        calls += 1;
+      },
+      () => undefined,
+    );
     navigator.setScene({ sphere, viewpoints, navigation: { ...navigationInfo, ...changes } });
     return { navigator, calls: () => calls };
   }
@@ -215,7 +233,11 @@ describe("the navigator", () => {
     navigator.turn(0.3, 0);
     const { pose } = navigator;
     const moved = viewpoint("side", { position: [0, 20, 0] });
-    navigator.setScene({ sphere, viewpoints: [front, { ...moved, element: side.element }], navigation: navigationInfo });
+    navigator.setScene({
+      sphere,
+      viewpoints: [front, { ...moved, element: side.element }],
+      navigation: navigationInfo,
+    });
     samePose(navigator.pose, pose);
     navigator.setScene({ sphere, viewpoints: [{ ...moved, element: front.element }], navigation: navigationInfo });
     near(navigator.pose.position, [0, 20, 0]);
@@ -237,9 +259,29 @@ describe("the navigator", () => {
 
   test("does not move at all where the type is NONE, but still binds", () => {
     const { navigator } = navigating({ type: ["NONE"], transitionTime: 0 });
-    for (const act of [() => { navigator.turn(1, 1); }, () => { navigator.zoom(2); }, () => { navigator.pan(1, 1); },
-      () => { navigator.showAll(); }, () => { navigator.reset(); }, () => { navigator.type = "fly"; },
-      () => { navigator.move({ ...standingStill, forward: 1 }); }]) {
+    for (const act of [
+      () => {
+        navigator.turn(1, 1);
+      },
+      () => {
+        navigator.zoom(2);
+      },
+      () => {
+        navigator.pan(1, 1);
+      },
+      () => {
+        navigator.showAll();
+      },
+      () => {
+        navigator.reset();
+      },
+      () => {
+        navigator.type = "fly";
+      },
+      () => {
+        navigator.move({ ...standingStill, forward: 1 });
+      },
+    ]) {
       act();
       samePose(navigator.advance(0), frontPose);
     }

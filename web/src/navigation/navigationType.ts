@@ -5,9 +5,14 @@ export type NavigationType = "examine" | "walk" | "fly" | "none";
 
 /** X3D's names and X3DOM's, by what they come to here. */
 const typesByName: Readonly<Record<string, NavigationType>> = {
-  EXAMINE: "examine", TURNTABLE: "examine", LOOKAT: "examine",
-  WALK: "walk", GAME: "walk",
-  FLY: "fly", HELICOPTER: "fly", LOOKAROUND: "fly",
+  EXAMINE: "examine",
+  TURNTABLE: "examine",
+  LOOKAT: "examine",
+  WALK: "walk",
+  GAME: "walk",
+  FLY: "fly",
+  HELICOPTER: "fly",
+  LOOKAROUND: "fly",
   NONE: "none",
 };
 

@@ -129,7 +129,9 @@ export class Navigator {
   /** The name of the viewpoint at which the camera stands. */
   get placeName(): string | undefined {
     const placed = this.viewpoints.find(({ element }) => element === this.bound);
-    return this.#pose === this.#home && placed?.viewpoint.description !== "" ? placed?.viewpoint.description : undefined;
+    return this.#pose === this.#home && placed?.viewpoint.description !== ""
+      ? placed?.viewpoint.description
+      : undefined;
   }
 
   /** set_bind of a viewpoint of the scene. */
@@ -259,7 +261,9 @@ export class Navigator {
     const way = wanted.position.clone().sub(standing.position);
     if (way.lengthSq() > 0) this.#walker.push(way, this.#speed);
     const looksAbout = this.#motion.turn !== 0 || this.#motion.look !== 0;
-    const facing = looksAbout ? { ...wanted, position: standing.position, center: wanted.center.clone().sub(way) } : standing;
+    const facing = looksAbout
+      ? { ...wanted, position: standing.position, center: wanted.center.clone().sub(way) }
+      : standing;
     this.#pose = this.#walker.walk(facing, seconds);
   }
 

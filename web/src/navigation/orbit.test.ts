@@ -20,16 +20,34 @@ function sameOrbit(actual: Orbit, expected: Partial<Orbit>): void {
 
 describe("an orbit", () => {
   test("is measured from +z towards +x, and down from above", () => {
-    for (const [theta, phi, eye] of [[0, 90, [0, 0, 1]], [90, 90, [1, 0, 0]], [0, 45, [0, Math.SQRT1_2, Math.SQRT1_2]]] as const) {
+    for (const [theta, phi, eye] of [
+      [0, 90, [0, 0, 1]],
+      [90, 90, [1, 0, 0]],
+      [0, 45, [0, Math.SQRT1_2, Math.SQRT1_2]],
+    ] as const) {
       const pose = poseOnOrbit(start, { theta: degrees(theta), phi: degrees(phi), radius: 5 });
-      near(pose.position.clone().sub(sphere.center).distanceTo(new Vector3(...eye).multiplyScalar(5)), 0);
+      near(
+        pose.position
+          .clone()
+          .sub(sphere.center)
+          .distanceTo(new Vector3(...eye).multiplyScalar(5)),
+        0,
+      );
       near(forwardOf(pose).angleTo(sphere.center.clone().sub(pose.position)), 0);
     }
   });
 
   test("leads back to where it was read, also around an up that is not +y", () => {
-    for (const up of [new Vector3(0, 1, 0), new Vector3(1, 1, 0).normalize(), new Vector3(0, 0, 1), new Vector3(0, -1, 0)]) {
-      for (const orbit of [{ theta: 0.3, phi: 1.1, radius: 4 }, { theta: -2.9, phi: 0.2, radius: 0.5 }]) {
+    for (const up of [
+      new Vector3(0, 1, 0),
+      new Vector3(1, 1, 0).normalize(),
+      new Vector3(0, 0, 1),
+      new Vector3(0, -1, 0),
+    ]) {
+      for (const orbit of [
+        { theta: 0.3, phi: 1.1, radius: 4 },
+        { theta: -2.9, phi: 0.2, radius: 0.5 },
+      ]) {
         sameOrbit(orbitOf(poseOnOrbit({ ...start, up }, orbit)), orbit);
       }
     }
@@ -37,7 +55,11 @@ describe("an orbit", () => {
 
   test("turns with the camera: to the right is towards smaller theta", () => {
     const before = orbitOf(start);
-    sameOrbit(orbitOf(turned(start, 0.25, 0.1)), { theta: before.theta - 0.25, phi: before.phi - 0.1, radius: before.radius });
+    sameOrbit(orbitOf(turned(start, 0.25, 0.1)), {
+      theta: before.theta - 0.25,
+      phi: before.phi - 0.1,
+      radius: before.radius,
+    });
   });
 
   test("of an eye in the centre itself is finite", () => {
@@ -85,7 +107,8 @@ describe("what the author says of the camera", () => {
   test("bounds an arc that crosses the back", () => {
     const arc = (theta: number) => ({ theta: degrees(theta), phi: undefined, radius: undefined });
     const bounds = { ...unsetCamera, minOrbit: arc(150), maxOrbit: arc(210) };
-    const thetaOf = (theta: number) => orbitOf(poseWithin(poseOnOrbit(start, { theta: degrees(theta), phi: 1, radius: 5 }), bounds, sphere)).theta;
+    const thetaOf = (theta: number) =>
+      orbitOf(poseWithin(poseOnOrbit(start, { theta: degrees(theta), phi: 1, radius: 5 }), bounds, sphere)).theta;
     near(thetaOf(-170), degrees(-170)); // is 190
     near(thetaOf(-90), degrees(-150)); // 270 is nearest to 210
     near(thetaOf(100), degrees(150));
@@ -95,7 +118,9 @@ describe("what the author says of the camera", () => {
 test("a turntable rests after the start and after each touch, and stops for good when it is told", (context) => {
   context.mock.timers.enable({ apis: ["setTimeout"] });
   let begun = 0;
-  const turntable = new Turntable(() => { begun += 1; });
+  const turntable = new Turntable(() => {
+    begun += 1;
+  });
   turntable.delayMs = 1000;
   turntable.rest();
   assert.ok(turntable.isStopped);

@@ -34,7 +34,13 @@ export interface CameraSetting {
   readonly maxOrbit: OrbitSetting | undefined;
 }
 
-export const unsetCamera: CameraSetting = { orbit: undefined, target: undefined, fieldOfView: undefined, minOrbit: undefined, maxOrbit: undefined };
+export const unsetCamera: CameraSetting = {
+  orbit: undefined,
+  target: undefined,
+  fieldOfView: undefined,
+  minOrbit: undefined,
+  maxOrbit: undefined,
+};
 
 /** So near to a pole the camera has no horizon any more. */
 const nearestToPole = 0.02;
@@ -58,7 +64,11 @@ export function poseOnOrbit(pose: Pose, { theta, phi, radius }: Orbit): Pose {
 
 /** The pose with what the author says of the camera in its place. */
 export function poseWith(pose: Pose, { orbit, target, fieldOfView }: CameraSetting, sphere: Sphere): Pose {
-  const placed = { ...pose, fieldOfView: fieldOfView ?? pose.fieldOfView, center: target ? new Vector3(...target) : pose.center };
+  const placed = {
+    ...pose,
+    fieldOfView: fieldOfView ?? pose.fieldOfView,
+    center: target ? new Vector3(...target) : pose.center,
+  };
   if (orbit === undefined && target === undefined) return placed;
   const before = orbitOf(pose);
   return poseOnOrbit(placed, {
@@ -74,11 +84,19 @@ export function poseWithin(pose: Pose, { minOrbit, maxOrbit }: CameraSetting, sp
   const { theta, phi, radius } = orbitOf(pose);
   const [least, most] = [minOrbit?.theta, maxOrbit?.theta];
   const bounded = {
-    theta: least === undefined || most === undefined ? theta : MathUtils.clamp(turnNearest(theta, (least + most) / 2), least, most),
+    theta:
+      least === undefined || most === undefined
+        ? theta
+        : MathUtils.clamp(turnNearest(theta, (least + most) / 2), least, most),
     phi: MathUtils.clamp(phi, minOrbit?.phi ?? 0, maxOrbit?.phi ?? Math.PI),
-    radius: MathUtils.clamp(radius, lengthOf(minOrbit?.radius, pose, sphere) ?? 0, lengthOf(maxOrbit?.radius, pose, sphere) ?? Infinity),
+    radius: MathUtils.clamp(
+      radius,
+      lengthOf(minOrbit?.radius, pose, sphere) ?? 0,
+      lengthOf(maxOrbit?.radius, pose, sphere) ?? Infinity,
+    ),
   };
-  const isWithin = bounded.phi === phi && bounded.radius === radius && Math.abs(turnNearest(bounded.theta, theta) - theta) < 1e-9;
+  const isWithin =
+    bounded.phi === phi && bounded.radius === radius && Math.abs(turnNearest(bounded.theta, theta) - theta) < 1e-9;
   return isWithin ? pose : poseOnOrbit(pose, bounded);
 }
 

@@ -60,19 +60,28 @@ export class PlacedTree {
 
   constructor(listener?: PlacedTreeListener) {
     this.#listener = listener;
-    this.root = new PlacedNode({ kind: "group", visible: true, box: undefined, transform: undefined, children: [] }, undefined);
+    this.root = new PlacedNode(
+      { kind: "group", visible: true, box: undefined, transform: undefined, children: [] },
+      undefined,
+    );
   }
 
   /** Describes the scene from now on. */
   follow(root: GroupDescription): this {
-    this.#follow(this.root, root, { sceneFromNode: this.root.within?.sceneFromNode ?? new Matrix4(), isSeen: true, counts: true, lightScope: everywhere });
+    this.#follow(this.root, root, {
+      sceneFromNode: this.root.within?.sceneFromNode ?? new Matrix4(),
+      isSeen: true,
+      counts: true,
+      lightScope: everywhere,
+    });
     return this;
   }
 
   #follow(node: PlacedNode, description: NodeDescription, within: Within): void {
     const { description: before, within: withinBefore } = node;
     if (before === description && withinBefore !== undefined && isSame(withinBefore, within)) return;
-    const hasMoved = withinBefore?.sceneFromNode !== within.sceneFromNode || !areAlike(transformOf(before), transformOf(description));
+    const hasMoved =
+      withinBefore?.sceneFromNode !== within.sceneFromNode || !areAlike(transformOf(before), transformOf(description));
     node.description = description;
     node.within = within;
     if (hasMoved) node.sceneFromNode = placedIn(within.sceneFromNode, description);
@@ -86,11 +95,18 @@ export class PlacedTree {
     const { sceneFromNode } = node;
     const isGroupSeen = isSeen && group.visible;
     node.box = isGroupSeen && group.box ? boxIn(sceneFromNode, group.box) : undefined;
-    const inner: Within = { sceneFromNode, isSeen: isGroupSeen, counts: counts && node.box === undefined, lightScope: node.lightScope };
+    const inner: Within = {
+      sceneFromNode,
+      isSeen: isGroupSeen,
+      counts: counts && node.box === undefined,
+      lightScope: node.lightScope,
+    };
     const { kept, gone } = matched(node, group.children);
     for (const child of gone) this.#leave(child);
     node.children = kept;
-    kept.forEach((child, place) => { this.#follow(child, group.children[place] ?? child.description, inner); });
+    kept.forEach((child, place) => {
+      this.#follow(child, group.children[place] ?? child.description, inner);
+    });
     const reach = reachOfAll(kept, {
       box: counts && node.box && isDrawable(node.box) ? node.box : undefined,
       bounded: node.box ? [node] : [],
@@ -109,7 +125,12 @@ export class PlacedTree {
 }
 
 function isSame(a: Within, b: Within): boolean {
-  return a.sceneFromNode === b.sceneFromNode && a.isSeen === b.isSeen && a.counts === b.counts && a.lightScope === b.lightScope;
+  return (
+    a.sceneFromNode === b.sceneFromNode &&
+    a.isSeen === b.isSeen &&
+    a.counts === b.counts &&
+    a.lightScope === b.lightScope
+  );
 }
 
 /** A group with lights of its own has a scope of its own, the same as long as it has any. What is outermost in a scene is in it all. */
@@ -120,7 +141,7 @@ function scopeOf({ description, lightScope: before, parent }: PlacedNode, around
 
 /** What tells how a group stands in that around it. */
 function transformOf(description: NodeDescription): unknown {
-  return description.kind === "group" ? description.transform ?? description.billboardAxis : undefined;
+  return description.kind === "group" ? (description.transform ?? description.billboardAxis) : undefined;
 }
 
 function placedIn(sceneFromParent: Matrix4, description: NodeDescription): Matrix4 {
@@ -136,9 +157,16 @@ function reachOf({ description, sceneFromNode }: PlacedNode, { isSeen, counts, l
       return box && isDrawable(box) ? { ...noReach, box } : noReach;
     }
     case "viewpoint":
-      return { ...noReach, viewpoints: [{ element: description.element, viewpoint: description.viewpoint, sceneFromViewpoint: sceneFromNode }] };
+      return {
+        ...noReach,
+        viewpoints: [
+          { element: description.element, viewpoint: description.viewpoint, sceneFromViewpoint: sceneFromNode },
+        ],
+      };
     case "light":
-      return description.light.on && isSeen ? { ...noReach, lights: [placedLight(description.light, sceneFromNode, lightScope)] } : noReach;
+      return description.light.on && isSeen
+        ? { ...noReach, lights: [placedLight(description.light, sceneFromNode, lightScope)] }
+        : noReach;
     case "group":
       return noReach;
   }
@@ -146,7 +174,11 @@ function reachOf({ description, sceneFromNode }: PlacedNode, { isSeen, counts, l
 
 /** Of what turns about its origin: no box in it stays where it is. */
 function reachOfTurns(reach: Reach, sceneFromNode: Matrix4): Reach {
-  return { ...reach, box: reach.box && boxOfTurns(reach.box, new Vector3().setFromMatrixPosition(sceneFromNode)), bounded: [] };
+  return {
+    ...reach,
+    box: reach.box && boxOfTurns(reach.box, new Vector3().setFromMatrixPosition(sceneFromNode)),
+    bounded: [],
+  };
 }
 
 function isScopedLight(description: NodeDescription): boolean {
@@ -158,7 +190,10 @@ function placedLight(light: LightDescription, sceneFromLight: Matrix4, around: L
 }
 
 /** For each description the child that was it before: the same object, the shape of its element, or a group that stood there. */
-function matched(parent: PlacedNode, descriptions: readonly NodeDescription[]): { kept: PlacedNode[]; gone: readonly PlacedNode[] } {
+function matched(
+  parent: PlacedNode,
+  descriptions: readonly NodeDescription[],
+): { kept: PlacedNode[]; gone: readonly PlacedNode[] } {
   const { children } = parent;
   let begin = 0;
   while (begin < children.length && children[begin]?.description === descriptions[begin]) begin += 1;
@@ -168,8 +203,13 @@ function matched(parent: PlacedNode, descriptions: readonly NodeDescription[]): 
   const others = new Others(children.slice(begin, children.length - end));
   const middle = descriptions.slice(begin, descriptions.length - end);
   const same = middle.map((description) => others.takeSame(description));
-  const between = middle.map((description, place) => same[place] ?? others.takeKin(description) ?? new PlacedNode(description, parent));
-  return { kept: [...children.slice(0, begin), ...between, ...children.slice(children.length - end)], gone: others.rest };
+  const between = middle.map(
+    (description, place) => same[place] ?? others.takeKin(description) ?? new PlacedNode(description, parent),
+  );
+  return {
+    kept: [...children.slice(0, begin), ...between, ...children.slice(children.length - end)],
+    gone: others.rest,
+  };
 }
 
 /** Nodes that wait for what has become of them. */

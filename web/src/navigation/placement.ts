@@ -4,7 +4,12 @@
 
 import type { Matrix4 } from "three";
 import { Box3 } from "three";
-import type { LevelsDescription, LightDescription, SceneDescription, ShapeDescription } from "../document/description.ts";
+import type {
+  LevelsDescription,
+  LightDescription,
+  SceneDescription,
+  ShapeDescription,
+} from "../document/description.ts";
 import type { PlacedViewpoint } from "./camera.ts";
 import type { LightScope } from "./lightScope.ts";
 import type { PlacedNode } from "./placedTree.ts";

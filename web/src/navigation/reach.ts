@@ -27,14 +27,30 @@ export interface Reach {
 }
 
 const none: readonly never[] = [];
-export const noReach: Reach = { box: undefined, lights: none, viewpoints: none, levels: none, bounded: none, anchors: none, billboards: none, scopes: none };
+export const noReach: Reach = {
+  box: undefined,
+  lights: none,
+  viewpoints: none,
+  levels: none,
+  bounded: none,
+  anchors: none,
+  billboards: none,
+  scopes: none,
+};
 
 /** Of these together, and of what the group around them brings itself. One pass: there may be ten thousand. */
-export function reachOfAll(parts: readonly PlacedNode[], own: Pick<Reach, "box" | "levels" | "bounded" | "anchors" | "billboards" | "scopes">): Reach {
+export function reachOfAll(
+  parts: readonly PlacedNode[],
+  own: Pick<Reach, "box" | "levels" | "bounded" | "anchors" | "billboards" | "scopes">,
+): Reach {
   let union: Box3 | undefined;
-  const lights = new Gathered<PlacedLight>(), viewpoints = new Gathered<PlacedViewpoint>();
-  const levels = new Gathered(own.levels), bounded = new Gathered(own.bounded);
-  const anchors = new Gathered(own.anchors), billboards = new Gathered(own.billboards), scopes = new Gathered(own.scopes);
+  const lights = new Gathered<PlacedLight>(),
+    viewpoints = new Gathered<PlacedViewpoint>();
+  const levels = new Gathered(own.levels),
+    bounded = new Gathered(own.bounded);
+  const anchors = new Gathered(own.anchors),
+    billboards = new Gathered(own.billboards),
+    scopes = new Gathered(own.scopes);
   for (const { reach } of parts) {
     if (reach === noReach) continue;
     if (reach.box && own.box === undefined) union = union?.union(reach.box) ?? reach.box.clone();
@@ -47,8 +63,14 @@ export function reachOfAll(parts: readonly PlacedNode[], own: Pick<Reach, "box" 
     scopes.add(reach.scopes);
   }
   return {
-    box: own.box ?? union, lights: lights.all, viewpoints: viewpoints.all, levels: levels.all, bounded: bounded.all,
-    anchors: anchors.all, billboards: billboards.all, scopes: scopes.all,
+    box: own.box ?? union,
+    lights: lights.all,
+    viewpoints: viewpoints.all,
+    levels: levels.all,
+    bounded: bounded.all,
+    anchors: anchors.all,
+    billboards: billboards.all,
+    scopes: scopes.all,
   };
 }
 

@@ -38,7 +38,8 @@ export function stepped(pose: Pose, forward: number, right: number, up: number, 
   if (isWalking) {
     ahead.projectOnPlane(pose.up);
     // Looking straight down, ahead is where the top of the picture is.
-    if (ahead.lengthSq() < 1e-6) ahead.copy(new Vector3(0, 1, 0).applyQuaternion(pose.orientation)).projectOnPlane(pose.up);
+    if (ahead.lengthSq() < 1e-6)
+      ahead.copy(new Vector3(0, 1, 0).applyQuaternion(pose.orientation)).projectOnPlane(pose.up);
     ahead.normalize();
   }
   const sideways = new Vector3(1, 0, 0).applyQuaternion(pose.orientation);
@@ -52,4 +53,3 @@ export function travelled(pose: Pose, motion: Motion, seconds: number, speed: nu
   const facing = looked(pose, motion.turn * turnRate * seconds, motion.look * lookRate * seconds);
   return stepped(facing, motion.forward * way, motion.right * way, motion.up * way, isWalking);
 }
-

@@ -27,7 +27,10 @@ export class Turntable {
   start(isDelayed: boolean): void {
     clearTimeout(this.#timer);
     this.#state = "resting";
-    if (isDelayed) this.#timer = setTimeout(() => { this.#turn(); }, this.delayMs);
+    if (isDelayed)
+      this.#timer = setTimeout(() => {
+        this.#turn();
+      }, this.delayMs);
     else this.#turn();
   }
 

@@ -18,7 +18,13 @@ const ground = box([-20, -1, -20], [20, 0, 20]);
 
 function standing(x: number, y: number, z: number): Pose {
   const position = new Vector3(x, y, z);
-  return { position, orientation: new Quaternion(), center: position.clone().add(new Vector3(0, 0, -4)), up: new Vector3(0, 1, 0), fieldOfView: 0.8 };
+  return {
+    position,
+    orientation: new Quaternion(),
+    center: position.clone().add(new Vector3(0, 0, -4)),
+    up: new Vector3(0, 1, 0),
+    fieldOfView: 0.8,
+  };
 }
 
 /** One frame: walks on what is known, then looks around if that is asked for. */
@@ -64,10 +70,14 @@ describe("who walks", () => {
   });
 
   test("climbs stairs, smoothly, and stands on the landing", () => {
-    const stairs = Array.from({ length: 12 }, (_, i) => box([-1, 0, -1.3 - 0.3 * i], [1, 0.17 * (i + 1), -1 - 0.3 * i]));
+    const stairs = Array.from({ length: 12 }, (_, i) =>
+      box([-1, 0, -1.3 - 0.3 * i], [1, 0.17 * (i + 1), -1 - 0.3 * i]),
+    );
     const eyes = walk(standing(0, 1.6, 0), ahead, 4, [ground, ...stairs, box([-1, 0, -9], [1, 0.17 * 12, -4.6])]);
     near(last(eyes).y, 1.6 + 0.17 * 12);
-    eyes.slice(1).forEach((eye, i) => { assert.ok(Math.abs(eye.y - (eyes[i]?.y ?? 0)) < 0.06, `jumps at ${eye.z}`); });
+    eyes.slice(1).forEach((eye, i) => {
+      assert.ok(Math.abs(eye.y - (eyes[i]?.y ?? 0)) < 0.06, `jumps at ${eye.z}`);
+    });
   });
 
   test("does not climb what is higher than a step", () => {
@@ -86,7 +96,10 @@ describe("who walks", () => {
 
   test("goes through a doorway under its lintel, but not where the lintel is at his eyes", () => {
     const doorway = (lintel: number) => [
-      ground, box([-9, 0, -2.2], [-0.45, 4, -2]), box([0.45, 0, -2.2], [9, 4, -2]), box([-0.45, lintel, -2.2], [0.45, 4, -2]),
+      ground,
+      box([-9, 0, -2.2], [-0.45, 4, -2]),
+      box([0.45, 0, -2.2], [9, 4, -2]),
+      box([-0.45, lintel, -2.2], [0.45, 4, -2]),
     ];
     near(last(walk(standing(0, 1.6, 0), ahead, 2, doorway(2))).z, -4, 0.1);
     near(last(walk(standing(0, 1.6, 0), ahead, 2, doorway(1.5))).z, -2 + avatar.radius);
@@ -95,9 +108,15 @@ describe("who walks", () => {
   test("falls from a ledge, ever faster, onto what is below", () => {
     const eyes = walk(standing(0, 4.6, 0), ahead, 2, [ground, box([-5, 0, -1], [5, 3, 5])]);
     near(last(eyes).y, 1.6);
-    const falls = eyes.slice(1).map((eye, i) => (eyes[i]?.y ?? 0) - eye.y).filter((fall) => fall > 0).slice(0, -1);
+    const falls = eyes
+      .slice(1)
+      .map((eye, i) => (eyes[i]?.y ?? 0) - eye.y)
+      .filter((fall) => fall > 0)
+      .slice(0, -1);
     assert.ok(falls.length > 20, `${falls.length} frames`);
-    falls.slice(1).forEach((fall, i) => { assert.ok(fall > (falls[i] ?? 0)); });
+    falls.slice(1).forEach((fall, i) => {
+      assert.ok(fall > (falls[i] ?? 0));
+    });
   });
 
   test("does not leave the floor for where there is none", () => {
@@ -109,7 +128,10 @@ describe("who walks", () => {
   test("hovers where there has never been a floor, and comes down when he gets to one", () => {
     const platform = box([-5, -1, -9], [5, 0, -2]);
     const eyes = walk(standing(0, 2, 4), ahead, 4, [platform]);
-    assert.ok(eyes.every(({ y, z }) => z < -1.7 || y === 2), "sinks where nothing is");
+    assert.ok(
+      eyes.every(({ y, z }) => z < -1.7 || y === 2),
+      "sinks where nothing is",
+    );
     near(last(eyes).y, 1.6);
     near(last(eyes).z, -4, 0.1);
   });
@@ -126,7 +148,13 @@ describe("who walks", () => {
     const walker = new Walker();
     let pose: Pose = { ...standing(0, 2.5, 0), position: new Vector3(0, 2.5, 0).applyQuaternion(turn), up };
     for (let count = 0; count < 120; ++count) {
-      walker.push(ahead.clone().multiplyScalar(speed * frame).applyQuaternion(turn), speed);
+      walker.push(
+        ahead
+          .clone()
+          .multiplyScalar(speed * frame)
+          .applyQuaternion(turn),
+        speed,
+      );
       pose = walker.walk(pose, frame);
       const lookout = walker.lookoutFor(pose, avatar, speed);
       if (lookout === undefined) continue;
@@ -205,7 +233,9 @@ test("a long walk at random among walls, stairs and holes never ends in one of t
     pose = step(walker, pose, boxes, way);
     const { x, y, z } = pose.position;
     gone += before.distanceTo(pose.position);
-    const inside = boxes.find(({ min, max }) => [x, y, z].every((value, axis) => value > (min[axis] ?? 0) && value < (max[axis] ?? 0)));
+    const inside = boxes.find(({ min, max }) =>
+      [x, y, z].every((value, axis) => value > (min[axis] ?? 0) && value < (max[axis] ?? 0)),
+    );
     assert.equal(inside, undefined, `frame ${count}: at ${x} ${y} ${z} he is in a wall`);
     const beside = [-0.3, 0, 0.3].flatMap((dx) => [-0.3, 0, 0.3].map((dz) => highestBelow(boxes, x + dx, y, z + dz)));
     assert.ok(Math.max(...beside) > -Infinity, `frame ${count}: at ${x} ${y} ${z} there is no floor`);

@@ -17,7 +17,8 @@ function pointsOf(stage: Stage, vertexCount: number): Stage {
   const isAllSurface = stage.draws.every(isSurface);
   // What stands in for several patches has their vertices too, and a grid has no index.
   const isOwn = stage.name !== "base" && stage.index !== undefined && vertexCount > 0;
-  if (!isAllSurface || !isOwn) return { ...stage, draws: stage.draws.map((draw) => (isSurface(draw) ? { ...draw, primitive: "points" } : draw)) };
+  if (!isAllSurface || !isOwn)
+    return { ...stage, draws: stage.draws.map((draw) => (isSurface(draw) ? { ...draw, primitive: "points" } : draw)) };
   const draws = [{ primitive: "points", first: 0, count: vertexCount }] as const;
   if (stage.kind === "buffers") return { ...stage, draws, index: undefined };
   const width = stage.coord[0]?.image.width ?? stage.implicitWidth;

@@ -51,19 +51,31 @@ export function backdropOf(background: BackgroundDescription): Color | Mesh {
     setColor(color, background.sky[0]?.color ?? [0, 0, 0]);
     return color;
   }
-  const triangle = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
-  const mesh = new Mesh(triangle, new ShaderMaterial({
-    vertexShader, fragmentShader, depthTest: false, depthWrite: false,
-    defines: { RINGS: mostRings, PI: Math.PI },
-    uniforms: { ...ringsOf("sky", background.sky), ...ringsOf("ground", background.ground) },
-  }));
+  const triangle = new BufferGeometry().setAttribute(
+    "position",
+    new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3),
+  );
+  const mesh = new Mesh(
+    triangle,
+    new ShaderMaterial({
+      vertexShader,
+      fragmentShader,
+      depthTest: false,
+      depthWrite: false,
+      defines: { RINGS: mostRings, PI: Math.PI },
+      uniforms: { ...ringsOf("sky", background.sky), ...ringsOf("ground", background.ground) },
+    }),
+  );
   mesh.frustumCulled = false;
   mesh.renderOrder = -Infinity;
   return mesh;
 }
 
 function ringsOf(name: "sky" | "ground", rings: BackgroundDescription["sky"]): Record<string, { value: unknown }> {
-  const all = Array.from({ length: mostRings }, (_, i) => rings[Math.min(i, rings.length - 1)] ?? { angle: 0, color: [0, 0, 0] });
+  const all = Array.from(
+    { length: mostRings },
+    (_, i) => rings[Math.min(i, rings.length - 1)] ?? { angle: 0, color: [0, 0, 0] },
+  );
   return {
     [`${name}Colors`]: { value: all.flatMap(({ color }) => color) },
     [`${name}Angles`]: { value: all.map(({ angle }) => angle) },

@@ -43,7 +43,13 @@ interface Kept {
 
 /** WebGL's constants. */
 const glTypes: Readonly<Record<ElementType, number>> = {
-  Int8: 0x1400, Uint8: 0x1401, Int16: 0x1402, Uint16: 0x1403, Int32: 0x1404, Uint32: 0x1405, Float32: 0x1406,
+  Int8: 0x1400,
+  Uint8: 0x1401,
+  Int16: 0x1402,
+  Uint16: 0x1403,
+  Int32: 0x1404,
+  Uint32: 0x1405,
+  Float32: 0x1406,
 };
 
 export class BufferStore implements Buffers {
@@ -83,15 +89,29 @@ export class BufferStore implements Buffers {
   }
 
   recordsOf(bytes: StoredBytes, type: ElementType, stride: number): InterleavedBuffer {
-    const attribute = new GLBufferAttribute(this.#bufferOf(bytes), glTypes[type], stride, byteSizeOf(type) as 1 | 2 | 4,
-                                            Math.floor(bytes.byteLength / byteSizeOf(type) / stride));
+    const attribute = new GLBufferAttribute(
+      this.#bufferOf(bytes),
+      glTypes[type],
+      stride,
+      byteSizeOf(type) as 1 | 2 | 4,
+      Math.floor(bytes.byteLength / byteSizeOf(type) / stride),
+    );
     // What three.js looks at of interleaved buffers: the step from one record to the next, and the type of elements.
-    return Object.assign(attribute, { isInterleavedBuffer: true, stride, array: new (arrayTypeOf(type))(0) }) as unknown as InterleavedBuffer;
+    return Object.assign(attribute, {
+      isInterleavedBuffer: true,
+      stride,
+      array: new (arrayTypeOf(type))(0),
+    }) as unknown as InterleavedBuffer;
   }
 
   indexOf(bytes: StoredBytes, type: ElementType): BufferAttribute {
-    return new GLBufferAttribute(this.#bufferOf(bytes), glTypes[type], 1, byteSizeOf(type) as 1 | 2 | 4,
-                                 bytes.byteLength / byteSizeOf(type)) as unknown as BufferAttribute;
+    return new GLBufferAttribute(
+      this.#bufferOf(bytes),
+      glTypes[type],
+      1,
+      byteSizeOf(type) as 1 | 2 | 4,
+      bytes.byteLength / byteSizeOf(type),
+    ) as unknown as BufferAttribute;
   }
 
   read(bytes: StoredBytes, type: ElementType, first: number, count = Infinity): ElementArray {
@@ -99,7 +119,10 @@ export class BufferStore implements Buffers {
     const held = this.#heldOf(bytes);
     if (!(held instanceof WebGLBuffer)) {
       const { buffer, byteOffset, byteLength } = held.array;
-      return new (arrayTypeOf(type))(buffer, byteOffset, Math.floor(byteLength / byteSizeOf(type))).subarray(first, first + count);
+      return new (arrayTypeOf(type))(buffer, byteOffset, Math.floor(byteLength / byteSizeOf(type))).subarray(
+        first,
+        first + count,
+      );
     }
     const length = Math.max(0, Math.floor(bytes.byteLength / byteSizeOf(type)) - first);
     const elements = new (arrayTypeOf(type))(Math.min(length, count));
@@ -138,7 +161,12 @@ function* keeping(byteLength: number): Generator<number, void, void> {
 }
 
 /** Through a target that no vertex array notes, but for the first step. */
-function* pieces(gl: WebGL2RenderingContext, buffer: WebGLBuffer, array: ElementArray, use: ArrayUse): Generator<number, void, void> {
+function* pieces(
+  gl: WebGL2RenderingContext,
+  buffer: WebGLBuffer,
+  array: ElementArray,
+  use: ArrayUse,
+): Generator<number, void, void> {
   const all = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
   for (let first = 0; first < all.length || first === 0; first += bytesPerStep) {
     const piece = all.subarray(first, first + bytesPerStep);

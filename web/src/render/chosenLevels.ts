@@ -19,10 +19,17 @@ export class ChosenLevels {
     const nearest = new Map<SceneElement, { levels: PlacedLevels; distance: number }>();
     for (const levels of placed) {
       const distance = distanceFrom(levels, viewer);
-      if (distance < (nearest.get(levels.element)?.distance ?? Infinity)) nearest.set(levels.element, { levels, distance });
+      if (distance < (nearest.get(levels.element)?.distance ?? Infinity))
+        nearest.set(levels.element, { levels, distance });
     }
     const changed: SceneElement[] = [];
-    for (const [element, { levels: { range, count }, distance }] of nearest) {
+    for (const [
+      element,
+      {
+        levels: { range, count },
+        distance,
+      },
+    ] of nearest) {
       const before = this.#chosen.get(element);
       const level = levelAt(distance, range, count, before);
       // Unknown ones show their last.

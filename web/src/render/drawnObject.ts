@@ -6,10 +6,20 @@ import type { DrawRange } from "../decode/stage.ts";
 
 export type DrawnObject = Mesh | Points | Line;
 
-export function objectOf({ primitive, isWide }: Pick<DrawRange, "primitive" | "isWide">, geometry: BufferGeometry, material: Mesh["material"]): DrawnObject {
-  return isWide ? unculled(new Mesh(geometry, material)) : primitive === "points" ? new Points(geometry, material)
-    : primitive === "lines" ? new LineSegments(geometry, material)
-    : primitive === "lineStrip" ? new Line(geometry, material) : new Mesh(geometry, material);
+export function objectOf(
+  { primitive, isWide }: Pick<DrawRange, "primitive" | "isWide">,
+  geometry: BufferGeometry,
+  material: Mesh["material"],
+): DrawnObject {
+  return isWide
+    ? unculled(new Mesh(geometry, material))
+    : primitive === "points"
+      ? new Points(geometry, material)
+      : primitive === "lines"
+        ? new LineSegments(geometry, material)
+        : primitive === "lineStrip"
+          ? new Line(geometry, material)
+          : new Mesh(geometry, material);
 }
 
 /** What is wide on the screen reaches beyond bounds that know nothing of it. */

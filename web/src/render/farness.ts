@@ -26,7 +26,10 @@ const fragmentChunk = /* glsl */ `
 `;
 
 /** For `onBeforeCompile`; does nothing where the material does not define it. The uniform is SceneUniforms' `depthRange`. */
-export function shadeByFarnessIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
+export function shadeByFarnessIn(
+  shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
+): void {
   shader.vertexShader = declarations + replaceEach(shader.vertexShader, [["#include <fog_vertex>", vertexChunk]]);
-  shader.fragmentShader = declarations + replaceEach(shader.fragmentShader, [["#include <color_fragment>", fragmentChunk]]);
+  shader.fragmentShader =
+    declarations + replaceEach(shader.fragmentShader, [["#include <color_fragment>", fragmentChunk]]);
 }

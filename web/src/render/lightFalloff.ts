@@ -20,7 +20,9 @@ float getSpotAttenuation(const in float edgeCosine, const in float beamCosine, c
 `;
 
 /** In the place of three's own chunk. */
-export const lightsChunk = chunk + replaceEach(ShaderChunk.lights_pars_begin, [
-  ["float getDistanceAttenuation(", "float usualDistanceAttenuation("],
-  ["float getSpotAttenuation(", "float usualSpotAttenuation("],
-]);
+export const lightsChunk =
+  chunk +
+  replaceEach(ShaderChunk.lights_pars_begin, [
+    ["float getDistanceAttenuation(", "float usualDistanceAttenuation("],
+    ["float getSpotAttenuation(", "float usualSpotAttenuation("],
+  ]);

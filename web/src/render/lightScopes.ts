@@ -48,8 +48,14 @@ vec3 ambientInScope() {
 const lightsInScope = replaceEach(ShaderChunk.lights_fragment_begin, [
   lit("getPointLightInfo( pointLight, geometryPosition, directLight );", "UNROLLED_LOOP_INDEX"),
   lit("getSpotLightInfo( spotLight, geometryPosition, directLight );", "NUM_POINT_LIGHTS + UNROLLED_LOOP_INDEX"),
-  lit("getDirectionalLightInfo( directionalLight, directLight );", "NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + UNROLLED_LOOP_INDEX"),
-  ["getAmbientLightIrradiance( ambientLightColor )", "getAmbientLightIrradiance( ambientLightColor + ambientInScope() )"],
+  lit(
+    "getDirectionalLightInfo( directionalLight, directLight );",
+    "NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + UNROLLED_LOOP_INDEX",
+  ),
+  [
+    "getAmbientLightIrradiance( ambientLightColor )",
+    "getAmbientLightIrradiance( ambientLightColor + ambientInScope() )",
+  ],
 ]);
 
 function lit(statement: string, number: string): readonly [string, string] {
@@ -57,7 +63,9 @@ function lit(statement: string, number: string): readonly [string, string] {
 }
 
 /** For `onBeforeCompile`. */
-export function scopeLightsIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
+export function scopeLightsIn(
+  shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
+): void {
   const fragmentShader = replaceEach(shader.fragmentShader, [["#include <lights_fragment_begin>", lightsInScope]]);
   if (fragmentShader === shader.fragmentShader) return; // unlit
   shader.fragmentShader = fragmentChunk + fragmentShader;

@@ -14,7 +14,12 @@ export interface Look {
   readonly batching: Batching | undefined;
   makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, pictures: ShownPictures): Material;
   /** Changes a material of this look in place. */
-  applyAppearance(material: Material, appearance: AppearanceDescription, colors: VertexColors, pictures: ShownPictures): void;
+  applyAppearance(
+    material: Material,
+    appearance: AppearanceDescription,
+    colors: VertexColors,
+    pictures: ShownPictures,
+  ): void;
   /** Gives an object what it needs besides its material. */
   prepare(object: DrawnObject, request: MaterialRequest, material: Material): void;
 }
@@ -22,9 +27,17 @@ export interface Look {
 /** What shapes that are drawn together have in common, and what each has of its own. */
 export interface Batching {
   /** The same for appearances that one material can show. */
-  keyOf(request: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription, pictures: ShownPictures): string;
+  keyOf(
+    request: Pick<MaterialRequest, "primitive" | "colors">,
+    appearance: AppearanceDescription,
+    pictures: ShownPictures,
+  ): string;
   /** Drawn in the order of their distance, the farthest first. */
-  isBlended(request: Pick<MaterialRequest, "colors">, appearance: AppearanceDescription, pictures: ShownPictures): boolean;
+  isBlended(
+    request: Pick<MaterialRequest, "colors">,
+    appearance: AppearanceDescription,
+    pictures: ShownPictures,
+  ): boolean;
   /** The rest of an appearance, for the shader: the field `look` of a place's record. */
   numbersOf(request: Pick<MaterialRequest, "shading" | "colors">, appearance: AppearanceDescription): readonly number[];
 }

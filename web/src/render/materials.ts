@@ -22,7 +22,14 @@ import { readVerticesIn, replaceEach, srgbColorsDefine, vertexDefinesOf } from "
 import { followViewport } from "./wideLineChunk.ts";
 import { isLine } from "./wideLines.ts";
 import type { OwnMapUniforms } from "./x3dMaps.ts";
-import { layPictures, makeOwnMapUniforms, mapChunks, materialFromMaps, ownMapDeclarations, unlitDefine } from "./x3dMaps.ts";
+import {
+  layPictures,
+  makeOwnMapUniforms,
+  mapChunks,
+  materialFromMaps,
+  ownMapDeclarations,
+  unlitDefine,
+} from "./x3dMaps.ts";
 
 const x3dLightingChunk = /* glsl */ `
 varying vec3 vViewPosition;
@@ -45,19 +52,36 @@ type LitMaterial = MeshPhongMaterial & { userData: { lit?: LitUniforms } };
 type PatchMaterial = LitMaterial | MeshBasicMaterial;
 
 /** Pages look as X3D says. */
-export const x3dLook: Look = { makeMaterial, applyAppearance, prepare: () => undefined, batching: { keyOf, numbersOf, isBlended: ({ colors }, appearance, pictures) => blends(appearance, colors, pictures) } };
+export const x3dLook: Look = {
+  makeMaterial,
+  applyAppearance,
+  prepare: () => undefined,
+  batching: { keyOf, numbersOf, isBlended: ({ colors }, appearance, pictures) => blends(appearance, colors, pictures) },
+};
 
-function makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, pictures: ShownPictures): PatchMaterial {
+function makeMaterial(
+  request: MaterialRequest,
+  appearance: AppearanceDescription,
+  pictures: ShownPictures,
+): PatchMaterial {
   const { shading, colors, solid, uniforms, shared } = request;
-  const lit: LitUniforms = { ambientIntensity: { value: 0 }, metallic: { value: 1 }, roughness: { value: 1 }, ...makeOwnMapUniforms() };
-  const material: PatchMaterial = isUnlit(shading) ? new MeshBasicMaterial()
+  const lit: LitUniforms = {
+    ambientIntensity: { value: 0 },
+    metallic: { value: 1 },
+    roughness: { value: 1 },
+    ...makeOwnMapUniforms(),
+  };
+  const material: PatchMaterial = isUnlit(shading)
+    ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
   material.side = solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
   if (request.wideLineStep > 0) followViewport(material, shared.viewport);
   material.vertexColors = colors !== "none";
   material.defines = {
-    ...vertexDefinesOf(request, shading === "smooth"), ...primitiveDefinesOf(request.primitive),
-    ...request.valueDefines, ...(shading === "distance" && { [farnessDefine]: "" }),
+    ...vertexDefinesOf(request, shading === "smooth"),
+    ...primitiveDefinesOf(request.primitive),
+    ...request.valueDefines,
+    ...(shading === "distance" && { [farnessDefine]: "" }),
   };
   material.userData.lit = lit;
   material.onBeforeCompile = (shader) => {
@@ -68,14 +92,16 @@ function makeMaterial(request: MaterialRequest, appearance: AppearanceDescriptio
     shadeByFarnessIn(shader);
     colorByValueIn(shader);
     cutLettersIn(shader);
-    shader.fragmentShader = ownMapDeclarations + replaceEach(shader.fragmentShader, [
-      ["#include <lights_pars_begin>", lightsChunk],
-      ["#include <lights_phong_pars_fragment>", x3dLightingChunk],
-      ["#include <lights_phong_fragment>", materialFromMaps],
-      ["#include <colorspace_fragment>", physicalOutput],
-      ...mapChunks,
-      ...placeColors,
-    ]);
+    shader.fragmentShader =
+      ownMapDeclarations +
+      replaceEach(shader.fragmentShader, [
+        ["#include <lights_pars_begin>", lightsChunk],
+        ["#include <lights_phong_pars_fragment>", x3dLightingChunk],
+        ["#include <lights_phong_fragment>", materialFromMaps],
+        ["#include <colorspace_fragment>", physicalOutput],
+        ...mapChunks,
+        ...placeColors,
+      ]);
     if (areScoped(shared)) scopeLightsIn(shader);
   };
   // The text of `onBeforeCompile` is the same for all, so programs are shared as they should be.
@@ -85,7 +111,12 @@ function makeMaterial(request: MaterialRequest, appearance: AppearanceDescriptio
 }
 
 /** A texture is multiplied by what is there (X3D 4). */
-function applyAppearance(material: Material, appearance: AppearanceDescription, colors: VertexColors, pictures: ShownPictures): void {
+function applyAppearance(
+  material: Material,
+  appearance: AppearanceDescription,
+  colors: VertexColors,
+  pictures: ShownPictures,
+): void {
   const description = appearance.material;
   const shown = material as PatchMaterial;
   const isLit = shown instanceof MeshPhongMaterial;
@@ -108,22 +139,49 @@ function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number
   return mode === "MASK" ? cutoff : 0;
 }
 
-function keyOf({ primitive, colors }: Pick<MaterialRequest, "primitive" | "colors">, appearance: AppearanceDescription,
-               pictures: ShownPictures): string {
+function keyOf(
+  { primitive, colors }: Pick<MaterialRequest, "primitive" | "colors">,
+  appearance: AppearanceDescription,
+  pictures: ShownPictures,
+): string {
   const { material, points, lines, colorMap, ...rest } = appearance;
   const others = Object.entries(material).filter(([name]) => !numbersOfPlaces.has(name));
-  return JSON.stringify([blends(appearance, colors, pictures), rest, others, Array.from(pictures, ([role, { texture }]) => [role, texture.uuid]).sort(),
-    primitive === "points" && points, isLine({ primitive }) && lines?.dashes, colorMap?.colors]);
+  return JSON.stringify([
+    blends(appearance, colors, pictures),
+    rest,
+    others,
+    Array.from(pictures, ([role, { texture }]) => [role, texture.uuid]).sort(),
+    primitive === "points" && points,
+    isLine({ primitive }) && lines?.dashes,
+    colorMap?.colors,
+  ]);
 }
 
 /** What of a material `numbersOf` tells. */
-const numbersOfPlaces = new Set(["diffuseColor", "baseColor", "specularColor", "shininess", "emissiveColor", "ambientIntensity", "metallic", "roughness", "transparency"]);
+const numbersOfPlaces = new Set([
+  "diffuseColor",
+  "baseColor",
+  "specularColor",
+  "shininess",
+  "emissiveColor",
+  "ambientIntensity",
+  "metallic",
+  "roughness",
+  "transparency",
+]);
 
-function numbersOf({ shading, colors }: { shading: Shading; colors: VertexColors }, appearance: AppearanceDescription): readonly number[] {
+function numbersOf(
+  { shading, colors }: { shading: Shading; colors: VertexColors },
+  appearance: AppearanceDescription,
+): readonly number[] {
   const { material, colorMap: { range } = { range: [0, 1] }, lines: { width } = { width: 0 } } = appearance;
   const opacity = opacityOf(appearance);
-  if (isUnlit(shading)) return [...unlitColorOf(material, colors !== "none"), opacity, 0, 0, 0, 0, 0, 0, 0, 0, ...range, width];
-  const { color, specular, shininess, ambientIntensity, metallic, roughness } = litNumbersOf(material, colors !== "none");
+  if (isUnlit(shading))
+    return [...unlitColorOf(material, colors !== "none"), opacity, 0, 0, 0, 0, 0, 0, 0, 0, ...range, width];
+  const { color, specular, shininess, ambientIntensity, metallic, roughness } = litNumbersOf(
+    material,
+    colors !== "none",
+  );
   const gloss = material.kind === "physical" ? [metallic, roughness, 0, 0] : [...specular, shininess];
   return [...color, opacity, ...gloss, ...material.emissiveColor, ambientIntensity, ...range, width];
 }
@@ -147,7 +205,9 @@ function applyLit(material: LitMaterial, description: MaterialDescription, numbe
 
 /** What a material of a kind defines. */
 const kindDefines: Readonly<Record<MaterialDescription["kind"], readonly string[]>> = {
-  phong: [], physical: [physicalDefine, srgbColorsDefine], unlit: [unlitDefine],
+  phong: [],
+  physical: [physicalDefine, srgbColorsDefine],
+  unlit: [unlitDefine],
 };
 const allKindDefines = Object.values(kindDefines).flat();
 

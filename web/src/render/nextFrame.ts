@@ -10,6 +10,10 @@ export function beforeNextFrame(callback: (isUnseen: boolean) => void): void {
     clearTimeout(timer);
     callback(isUnseen);
   };
-  const frame = requestAnimationFrame(() => { call(false); });
-  const timer = setTimeout(() => { call(document.hidden); }, framelessMs);
+  const frame = requestAnimationFrame(() => {
+    call(false);
+  });
+  const timer = setTimeout(() => {
+    call(document.hidden);
+  }, framelessMs);
 }

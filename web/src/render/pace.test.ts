@@ -6,10 +6,13 @@ import { Pace } from "./pace.ts";
 function renderer(frameMs: number): { pace: Pace; frames: number[]; draw: () => void; ask: () => void } {
   const begun: number[] = [];
   const gl = {
-    TIMEOUT_EXPIRED: 1, SYNC_GPU_COMMANDS_COMPLETE: 2,
+    TIMEOUT_EXPIRED: 1,
+    SYNC_GPU_COMMANDS_COMPLETE: 2,
     fenceSync: () => begun.push(performance.now()) - 1,
     clientWaitSync: (fence: number) => (performance.now() - (begun[fence] ?? 0) < frameMs ? 1 : 3),
-    flush: () => undefined, deleteSync: () => undefined, isContextLost: () => false,
+    flush: () => undefined,
+    deleteSync: () => undefined,
+    isContextLost: () => false,
   };
   const pace = new Pace(gl as unknown as WebGL2RenderingContext);
   const frames: number[] = [];
@@ -19,7 +22,14 @@ function renderer(frameMs: number): { pace: Pace; frames: number[]; draw: () => 
     frames.push(now);
     pace.end(now);
   };
-  return { pace, frames, draw, ask: () => { pace.ask(draw); } };
+  return {
+    pace,
+    frames,
+    draw,
+    ask: () => {
+      pace.ask(draw);
+    },
+  };
 }
 
 let now = 0;
@@ -49,7 +59,9 @@ describe("frames that only refine", () => {
       await pass(10);
     }
     assert.ok(frames.length >= 3 && frames.length <= 4, `${frames.length} frames in a second`);
-    frames.slice(1).forEach((at, i) => { assert.ok(at - (frames[i] ?? 0) >= 300); });
+    frames.slice(1).forEach((at, i) => {
+      assert.ok(at - (frames[i] ?? 0) >= 300);
+    });
     const before = frames.length;
     ask();
     await pass(1000);

@@ -31,7 +31,10 @@ export class Pace {
     if (this.#isAsked) return;
     this.#isAsked = true;
     if (this.#rest === undefined) callback();
-    else void this.#rest.then(() => { if (this.#isAsked) callback(); });
+    else
+      void this.#rest.then(() => {
+        if (this.#isAsked) callback();
+      });
   }
 
   /** A frame is about to be given to the GPU, whoever asked for it. */
@@ -43,7 +46,9 @@ export class Pace {
   /** It has been given to the GPU. */
   end(begunAt: number): void {
     if (!this.#wasAsked || this.#rest !== undefined) return;
-    this.#rest = restAfter(this.#gl, begunAt).then(() => { this.#rest = undefined; });
+    this.#rest = restAfter(this.#gl, begunAt).then(() => {
+      this.#rest = undefined;
+    });
   }
 }
 
@@ -53,5 +58,8 @@ async function restAfter(gl: WebGL2RenderingContext, begunAt: number): Promise<v
   await untilPassed(gl, fence);
   gl.deleteSync(fence);
   const took = performance.now() - begunAt;
-  if (took > quickFrameMs) await new Promise((resolve) => { setTimeout(resolve, Math.min(restPerFrame * took, longestRestMs)); });
+  if (took > quickFrameMs)
+    await new Promise((resolve) => {
+      setTimeout(resolve, Math.min(restPerFrame * took, longestRestMs));
+    });
 }

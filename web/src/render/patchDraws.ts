@@ -49,10 +49,21 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
     const request = materialRequestOf(stage, range, geometry, uniforms.of(range), setting.shared);
     const side = geometry.solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
     const materials = new ScopedMaterials((lightScope) =>
-      look.makeMaterial({ ...request, uniforms: { ...request.uniforms, lightScope } }, shown.appearance, laid(shown.pictures)));
+      look.makeMaterial(
+        { ...request, uniforms: { ...request.uniforms, lightScope } },
+        shown.appearance,
+        laid(shown.pictures),
+      ),
+    );
     const pick = new PickDraw(stage, range, {
-      buffers, bounds: sphere, shapeFromStored,
-      makeParts: () => ({ geometry: shape, request: pickRequestOf(stage, range, side, uniforms.of(range), shown.appearance, shown.pictures), release: () => undefined }),
+      buffers,
+      bounds: sphere,
+      shapeFromStored,
+      makeParts: () => ({
+        geometry: shape,
+        request: pickRequestOf(stage, range, side, uniforms.of(range), shown.appearance, shown.pictures),
+        release: () => undefined,
+      }),
     });
     return [{ range, shape, materials, request, pick }];
   });
@@ -88,7 +99,8 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
       shown = { appearance, pictures };
       setAppearance(uniforms.common, geometry, appearance);
       for (const { materials, pick } of draws) {
-        for (const material of materials.all) look.applyAppearance(material, appearance, colorsOf(stage), laid(pictures));
+        for (const material of materials.all)
+          look.applyAppearance(material, appearance, colorsOf(stage), laid(pictures));
         pick.forgetParts();
       }
     },

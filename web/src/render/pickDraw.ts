@@ -75,7 +75,7 @@ export class PickDraw {
 
   /** To be drawn in the picking pass, under this number. */
   objectFor(drawNumber: number, worldFromStored: Matrix4): DrawnObject {
-    const { parts, material } = this.#made ??= this.#make();
+    const { parts, material } = (this.#made ??= this.#make());
     const object = objectOf(this.range, parts.geometry, material);
     object.frustumCulled = false; // whoever picks has done it
     object.matrixAutoUpdate = false;
@@ -95,7 +95,7 @@ export class PickDraw {
     const { first, count } = this.range;
     const { buffers } = this.#setting;
     this.#contents ??= {
-      index: index && buffers.read(index.bytes, index.type, first, count) as IndexArray,
+      index: index && (buffers.read(index.bytes, index.type, first, count) as IndexArray),
       coord: buffers.read(coord.bytes, coord.type, 0),
       coordStride: coord.stride,
       coordOffset: coord.offset,

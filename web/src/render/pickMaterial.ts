@@ -22,7 +22,14 @@ import { isLine } from "./wideLines.ts";
  * none; the three words of a vertex of the face stand in what the others leave.
  */
 export const pickedWords = {
-  drawNumber: 0, element: 1, vertex: 2, depth: 3, position: 4, normal: 8, faceNormal: 12, facePoint: [7, 11, 15],
+  drawNumber: 0,
+  element: 1,
+  vertex: 2,
+  depth: 3,
+  position: 4,
+  normal: 8,
+  faceNormal: 12,
+  facePoint: [7, 11, 15],
 } as const;
 export const pickedTargets = 4;
 
@@ -161,8 +168,11 @@ export interface AlphaMask {
   readonly cutoff: number;
 }
 
-export function alphaMaskOf({ alpha: { mode, cutoff }, material: { transparency } }: AppearanceDescription, texture: Texture | undefined,
-                            isOfVertices: boolean): AlphaMask | undefined {
+export function alphaMaskOf(
+  { alpha: { mode, cutoff }, material: { transparency } }: AppearanceDescription,
+  texture: Texture | undefined,
+  isOfVertices: boolean,
+): AlphaMask | undefined {
   return mode === "MASK" ? { texture, isOfVertices, factor: 1 - transparency, cutoff } : undefined;
 }
 
@@ -172,7 +182,8 @@ export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
   readVerticesIn(shader);
   shapePointsIn(shader);
   const material = new ShaderMaterial({
-    ...shader, side,
+    ...shader,
+    side,
     glslVersion: GLSL3,
     defines: {
       PRIMITIVE_CORNERS: primitive === "points" ? 1 : isLine(request) ? 2 : 3,
@@ -184,8 +195,12 @@ export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
       ...(alphaMask?.isOfVertices === true && { USE_COLOR_ALPHA: "" }),
     },
     uniforms: {
-      ...uniforms, drawNumber: { value: 0 }, hasNormals: { value: hasNormals }, ...(alphaMask && {
-        alphaMask: { value: alphaMask.texture ?? null }, alphaFactorAndCutoff: { value: [alphaMask.factor, alphaMask.cutoff] },
+      ...uniforms,
+      drawNumber: { value: 0 },
+      hasNormals: { value: hasNormals },
+      ...(alphaMask && {
+        alphaMask: { value: alphaMask.texture ?? null },
+        alphaFactorAndCutoff: { value: [alphaMask.factor, alphaMask.cutoff] },
       }),
     },
   }) as PickMaterial;

@@ -20,8 +20,13 @@ export type PositionOf = (vertex: number) => Vector3;
  * Among the primitives of the index, the one that ends in the vertex `last` and
  * is nearest to `point`; undefined where none ends in it.
  */
-export function primitiveIn(index: IndexArray, primitive: DrawRange["primitive"], last: number, point: Vector3,
-                            positionOf: PositionOf): PickedPrimitive | undefined {
+export function primitiveIn(
+  index: IndexArray,
+  primitive: DrawRange["primitive"],
+  last: number,
+  point: Vector3,
+  positionOf: PositionOf,
+): PickedPrimitive | undefined {
   const { corners, step } = layoutOf(primitive);
   let found: PickedPrimitive | undefined;
   let leastDistance = Infinity;
@@ -43,20 +48,29 @@ export function primitiveEndingAt(last: number, range: DrawRange): PickedPrimiti
 }
 
 /** The primitive of this number. `index`: of the range, where there is one. */
-export function primitiveAt(number: number, { primitive, first }: DrawRange, index: IndexArray | undefined): PickedPrimitive {
+export function primitiveAt(
+  number: number,
+  { primitive, first }: DrawRange,
+  index: IndexArray | undefined,
+): PickedPrimitive {
   const { corners, step } = layoutOf(primitive);
-  const vertexAt = (corner: number) => (index ? index[number * step + corner] ?? 0 : first + number * step + corner);
+  const vertexAt = (corner: number) => (index ? (index[number * step + corner] ?? 0) : first + number * step + corner);
   return { number, vertices: Array.from({ length: corners }, (_, corner) => vertexAt(corner)) };
 }
 
 /** Corners of a primitive, and how many elements on the next one ends. */
 function layoutOf(primitive: DrawRange["primitive"]): { corners: number; step: number } {
   switch (primitive) {
-    case "points": return { corners: 1, step: 1 };
-    case "lines": return { corners: 2, step: 2 };
-    case "lineStrip": return { corners: 2, step: 1 };
-    case "triangles": return { corners: 3, step: 3 };
-    case "triangleStrip": return { corners: 3, step: 1 };
+    case "points":
+      return { corners: 1, step: 1 };
+    case "lines":
+      return { corners: 2, step: 2 };
+    case "lineStrip":
+      return { corners: 2, step: 1 };
+    case "triangles":
+      return { corners: 3, step: 3 };
+    case "triangleStrip":
+      return { corners: 3, step: 1 };
   }
 }
 
@@ -81,8 +95,10 @@ export function faceOf(vertices: readonly number[], positionOf: PositionOf): Fac
 function distanceTo(corners: readonly Vector3[], point: Vector3): number {
   const [a, b, c] = corners;
   if (a === undefined || b === undefined) return Infinity;
-  const nearest = c === undefined ? new Line3(a, b).closestPointToPoint(point, true, new Vector3())
-    : new Triangle(a, b, c).closestPointToPoint(point, new Vector3());
+  const nearest =
+    c === undefined
+      ? new Line3(a, b).closestPointToPoint(point, true, new Vector3())
+      : new Triangle(a, b, c).closestPointToPoint(point, new Vector3());
   return nearest.distanceTo(point);
 }
 

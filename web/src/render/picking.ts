@@ -4,7 +4,16 @@
 
 import type { Camera, Group, WebGLRenderer } from "three";
 import {
-  Matrix3, Matrix4, NearestFilter, PerspectiveCamera, Ray, RGBAIntegerFormat, Scene, Sphere, UnsignedIntType, Vector3,
+  Matrix3,
+  Matrix4,
+  NearestFilter,
+  PerspectiveCamera,
+  Ray,
+  RGBAIntegerFormat,
+  Scene,
+  Sphere,
+  UnsignedIntType,
+  Vector3,
   WebGLRenderTarget,
 } from "three";
 import type { SceneElement } from "../document/element.ts";
@@ -76,8 +85,12 @@ export class Picker {
   }
 
   /** Costs no frame: what the GPU finds is fetched when it is done. "stale" where the scene has moved on by then. */
-  async pickSoon(camera: PerspectiveCamera, place: Place, slack: number,
-                 candidates: Iterable<PickCandidate>): Promise<Hit | "stale" | undefined> {
+  async pickSoon(
+    camera: PerspectiveCamera,
+    place: Place,
+    slack: number,
+    candidates: Iterable<PickCandidate>,
+  ): Promise<Hit | "stale" | undefined> {
     const near = candidatesNear(camera, place, slack, candidates);
     if (near.length === 0) return undefined;
     this.#draw(camera, place, near);
@@ -103,13 +116,20 @@ export class Picker {
     this.#target ??= makePickTarget();
     // The picture's viewport, pushed so far that the wanted pixel is the target's only one.
     this.#target.viewport.set(-x, y - height + 1, width, height);
-    this.#scene.children = candidates.map(({ pick, worldFromStored }, place) => pick.objectFor(place + 1, worldFromStored));
+    this.#scene.children = candidates.map(({ pick, worldFromStored }, place) =>
+      pick.objectFor(place + 1, worldFromStored),
+    );
     this.#renderer.setRenderTarget(this.#target);
     this.#renderer.render(this.#scene, camera);
     this.#scene.children = [];
   }
 
-  #hitOf(words: Uint32Array, camera: PerspectiveCamera, place: Place, candidates: readonly NearCandidate[]): Hit | undefined {
+  #hitOf(
+    words: Uint32Array,
+    camera: PerspectiveCamera,
+    place: Place,
+    candidates: readonly NearCandidate[],
+  ): Hit | undefined {
     const candidate = candidates[(words[pickedWords.drawNumber] ?? 0) - 1];
     if (candidate === undefined) return undefined;
     const { element, group, patch, pick, worldFromStored } = candidate;
@@ -122,7 +142,9 @@ export class Picker {
     if (faceNormal !== undefined && faceNormal.dot(ray.direction) > 0) faceNormal.negate();
     const onFace = faceNormal && intersection(ray, face.point.clone().applyMatrix4(worldFromStored), faceNormal);
     return {
-      element, group, patch,
+      element,
+      group,
+      patch,
       vertex: pick.isStandIn ? -1 : vertex,
       triangle: cornersOf(pick.range) === 3 && !pick.isStandIn ? pick.trianglesBefore + number : undefined,
       position: onFace ?? stored.applyMatrix4(worldFromStored),
@@ -145,9 +167,12 @@ export class Picker {
     if (contents === undefined) return { number: 0, vertex, face };
     const { coord, index, coordStride, coordOffset } = contents;
     const positionOf = (n: number) => new Vector3().fromArray(coord, coordOffset + n * coordStride);
-    const found = pick.range.isWide === true ? primitiveAt(number, pick.range, index)
-      : index ? primitiveIn(index, pick.range.primitive, vertex, point, positionOf)
-      : primitiveEndingAt(vertex - pick.range.first, pick.range);
+    const found =
+      pick.range.isWide === true
+        ? primitiveAt(number, pick.range, index)
+        : index
+          ? primitiveIn(index, pick.range.primitive, vertex, point, positionOf)
+          : primitiveEndingAt(vertex - pick.range.first, pick.range);
     if (found === undefined) return { number: 0, vertex, face };
     return {
       number: found.number,
@@ -160,20 +185,31 @@ export class Picker {
 /** Pixels of what the picking material draws. */
 export function makePickTarget(width = 1, height = 1): WebGLRenderTarget {
   return new WebGLRenderTarget(width, height, {
-    count: pickedTargets, format: RGBAIntegerFormat, type: UnsignedIntType, magFilter: NearestFilter, minFilter: NearestFilter,
+    count: pickedTargets,
+    format: RGBAIntegerFormat,
+    type: UnsignedIntType,
+    magFilter: NearestFilter,
+    minFilter: NearestFilter,
   });
 }
 
 /** Those whose bounds come within `slack` device pixels of the place. */
-function candidatesNear(camera: PerspectiveCamera, { x, y, width, height }: Place, slack: number,
-                        candidates: Iterable<PickCandidate>): NearCandidate[] {
+function candidatesNear(
+  camera: PerspectiveCamera,
+  { x, y, width, height }: Place,
+  slack: number,
+  candidates: Iterable<PickCandidate>,
+): NearCandidate[] {
   const narrow = new PerspectiveCamera().copy(camera, false);
   narrow.setViewOffset(width, height, x - slack, y - slack, 2 * slack + 1, 2 * slack + 1);
   return candidatesSeenBy(narrow, candidates);
 }
 
 /** Those whose bounds come into a camera's view. */
-export function candidatesSeenBy({ projectionMatrix, matrixWorldInverse }: Camera, candidates: Iterable<PickCandidate>): NearCandidate[] {
+export function candidatesSeenBy(
+  { projectionMatrix, matrixWorldInverse }: Camera,
+  candidates: Iterable<PickCandidate>,
+): NearCandidate[] {
   const frustum = frustumOf(projectionMatrix, matrixWorldInverse);
   const sphere = new Sphere();
   const near: NearCandidate[] = [];

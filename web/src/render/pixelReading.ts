@@ -17,7 +17,10 @@ export function readPixel(gl: WebGL2RenderingContext, attachments: number): Uint
 
 /** All zero where the context is lost on the way. The framebuffer is free again when this returns. */
 export function readPixelSoon(gl: WebGL2RenderingContext, attachments: number): Promise<Uint32Array> {
-  return readSoon(gl, Array.from({ length: attachments }, (_, attachment) => ({ attachment, x: 0, y: 0, width: 1, height: 1 })));
+  return readSoon(
+    gl,
+    Array.from({ length: attachments }, (_, attachment) => ({ attachment, x: 0, y: 0, width: 1, height: 1 })),
+  );
 }
 
 /** Pixels of one target. */

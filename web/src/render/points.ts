@@ -13,9 +13,14 @@ const roundFrom = "3.0";
 
 export function primitiveDefinesOf(primitive: DrawRange["primitive"]): Record<string, string> {
   switch (primitive) {
-    case "points": return { [pointsDefine]: "", [backlessDefine]: "" };
-    case "lines": case "lineStrip": return { [backlessDefine]: "" };
-    case "triangles": case "triangleStrip": return {};
+    case "points":
+      return { [pointsDefine]: "", [backlessDefine]: "" };
+    case "lines":
+    case "lineStrip":
+      return { [backlessDefine]: "" };
+    case "triangles":
+    case "triangleStrip":
+      return {};
   }
 }
 
@@ -43,9 +48,14 @@ const normalChunk = /* glsl */ `
 `;
 
 /** For `onBeforeCompile`, after `readVerticesIn`; does nothing where the material does not define it. */
-export function shapePointsIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
+export function shapePointsIn(
+  shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
+): void {
   shader.vertexShader = declarations + replaceEach(shader.vertexShader, [[pointSizeChunk, vertexChunk]]);
-  shader.fragmentShader = declarations + replaceEach(shader.fragmentShader, [
-    ["void main() {", cutChunk], ["#include <normal_fragment_begin>", normalChunk],
-  ]);
+  shader.fragmentShader =
+    declarations +
+    replaceEach(shader.fragmentShader, [
+      ["void main() {", cutChunk],
+      ["#include <normal_fragment_begin>", normalChunk],
+    ]);
 }

@@ -4,7 +4,12 @@
 import type { Camera, Object3D } from "three";
 import { Box3, Group, Vector3 } from "three";
 import { areAlike } from "../document/alike.ts";
-import type { AnchorDescription, GroupDescription, NodeDescription, ShapeDescription } from "../document/description.ts";
+import type {
+  AnchorDescription,
+  GroupDescription,
+  NodeDescription,
+  ShapeDescription,
+} from "../document/description.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
 import { billboardTurn } from "../navigation/billboard.ts";
 import { numberScopes } from "../navigation/lightScope.ts";
@@ -141,7 +146,8 @@ export class SceneGraph implements PlacedTreeListener {
 
   onEnter(node: PlacedNode): void {
     const { description } = node;
-    if (description.kind === "group") this.#hang(node, description, this.#shapes.makeGroup?.(description) ?? new Group());
+    if (description.kind === "group")
+      this.#hang(node, description, this.#shapes.makeGroup?.(description) ?? new Group());
     if (description.kind !== "shape") return;
     const group: PlaceGroup = new Group();
     group.lightScope = node.lightScope;
@@ -157,7 +163,8 @@ export class SceneGraph implements PlacedTreeListener {
     this.#describe(description, group, hasMoved);
     const shapeGroup = this.#shapeGroups.get(node);
     if (shapeGroup) shapeGroup.lightScope = node.lightScope;
-    if (shapeGroup && description.kind === "shape" && before.kind === "shape") this.#shapes.onChange(description, node, shapeGroup, before);
+    if (shapeGroup && description.kind === "shape" && before.kind === "shape")
+      this.#shapes.onChange(description, node, shapeGroup, before);
   }
 
   onLeave(node: PlacedNode): void {

@@ -23,7 +23,11 @@ export interface SceneLightUniforms {
 }
 
 export function makeLightUniforms(): SceneLightUniforms {
-  return { attenuations: { value: [new Vector3(1, 0, 0)] }, lightReaches: { value: [] }, scopedAmbients: { value: [] } };
+  return {
+    attenuations: { value: [new Vector3(1, 0, 0)] },
+    lightReaches: { value: [] },
+    scopedAmbients: { value: [] },
+  };
 }
 
 export interface SceneLights {

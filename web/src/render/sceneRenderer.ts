@@ -1,11 +1,33 @@
 // Draws a described scene into a canvas, and only when something changed.
 
 import type { Object3D, Sphere } from "three";
-import { Color, DirectionalLight, Group, LinearSRGBColorSpace, LinearToneMapping, Matrix4, Mesh, NoToneMapping, PerspectiveCamera, Scene, Vector2, Vector4, WebGLRenderer } from "three";
+import {
+  Color,
+  DirectionalLight,
+  Group,
+  LinearSRGBColorSpace,
+  LinearToneMapping,
+  Matrix4,
+  Mesh,
+  NoToneMapping,
+  PerspectiveCamera,
+  Scene,
+  Vector2,
+  Vector4,
+  WebGLRenderer,
+} from "three";
 import type { ElementArray } from "../decode/arrays.ts";
 import type { DecodedImage } from "../decode/image.ts";
 import type { ArrayUse, Stage } from "../decode/stage.ts";
-import type { AnchorDescription, BackgroundDescription, GeometryDescription, SamplingDescription, SceneDescription, ShapeDescription, TextureRole } from "../document/description.ts";
+import type {
+  AnchorDescription,
+  BackgroundDescription,
+  GeometryDescription,
+  SamplingDescription,
+  SceneDescription,
+  ShapeDescription,
+  TextureRole,
+} from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { applyPose } from "../navigation/camera.ts";
 import { backdropOf, disposeBackdrop } from "./backdrop.ts";
@@ -59,7 +81,10 @@ export class SceneRenderer {
   readonly #drawnCamera = new PerspectiveCamera();
   readonly #headlight = new DirectionalLight();
   readonly #shared: SceneUniforms = {
-    pixelRatio: { value: 1 }, viewport: { value: new Vector4() }, depthRange: { value: new Vector2() }, ...makeLightUniforms(),
+    pixelRatio: { value: 1 },
+    viewport: { value: new Vector4() },
+    depthRange: { value: new Vector2() },
+    ...makeLightUniforms(),
   };
   readonly #textures = new TextureStore();
   readonly #buffers: BufferStore;
@@ -87,8 +112,13 @@ export class SceneRenderer {
     this.#buffers = new BufferStore(context);
     const geometries = new GeometryPool(this.#buffers);
     this.#shapes = new SceneShapes(this.#scene, {
-      look: x3dLook, geometries, buffers: this.#buffers, textures: this.#textures, shared: this.#shared,
-      batches: new Batches(x3dLook, geometries, this.#buffers), drawing: { asPoints: false },
+      look: x3dLook,
+      geometries,
+      buffers: this.#buffers,
+      textures: this.#textures,
+      shared: this.#shared,
+      batches: new Batches(x3dLook, geometries, this.#buffers),
+      drawing: { asPoints: false },
     });
     this.#pace = new Pace(context);
     this.#picker = new ScreenPicker(this.#renderer, this.#drawnCamera, () => this.#shapes.pickCandidates());
@@ -107,9 +137,14 @@ export class SceneRenderer {
   get statistics(): RenderStatistics {
     const { memory, programs } = this.#renderer.info;
     return {
-      frames: this.#frames, drawCalls: this.#drawCalls, isFrameDue: this.#pace.isAsked,
-      textures: memory.textures, geometries: memory.geometries, programs: programs?.length ?? 0,
-      textureBytes: this.#textures.bytes, bufferBytes: this.#buffers.bytes,
+      frames: this.#frames,
+      drawCalls: this.#drawCalls,
+      isFrameDue: this.#pace.isAsked,
+      textures: memory.textures,
+      geometries: memory.geometries,
+      programs: programs?.length ?? 0,
+      textureBytes: this.#textures.bytes,
+      bufferBytes: this.#buffers.bytes,
     };
   }
 
@@ -141,7 +176,8 @@ export class SceneRenderer {
   setScene(description: SceneDescription): BuiltScene {
     const built = this.#shapes.setScene(description);
     this.#headlight.visible = description.navigation.headlight;
-    if (description.background !== this.#background) this.#setBackdrop(description.background && backdropOf(description.background));
+    if (description.background !== this.#background)
+      this.#setBackdrop(description.background && backdropOf(description.background));
     this.#background = description.background;
     this.#compileAhead(built.changes.shapes.values());
     this.requestFrame();
@@ -196,7 +232,11 @@ export class SceneRenderer {
 
   /** Lays a picture over a shape; undefined: none. */
   setPicture(element: SceneElement, role: TextureRole, picture: Picture | undefined): void {
-    this.#shapes.setPicture(element, role, picture && { texture: this.#textures.textureOf(picture.image), hasAlpha: picture.hasAlpha });
+    this.#shapes.setPicture(
+      element,
+      role,
+      picture && { texture: this.#textures.textureOf(picture.image), hasAlpha: picture.hasAlpha },
+    );
     this.requestFrameAtPace();
   }
 
@@ -257,12 +297,17 @@ export class SceneRenderer {
 
   requestFrame(): void {
     this.#picker.forget();
-    if (this.#frameRequest === 0) this.#frameRequest = requestAnimationFrame(() => { this.#drawNow(); });
+    if (this.#frameRequest === 0)
+      this.#frameRequest = requestAnimationFrame(() => {
+        this.#drawNow();
+      });
   }
 
   /** The same for what nobody has asked for, when the GPU has rested: what comes while a scene loads would keep it busy without an end. */
   requestFrameAtPace(): void {
-    this.#pace.ask(() => { this.requestFrame(); });
+    this.#pace.ask(() => {
+      this.requestFrame();
+    });
   }
 
   /** Frees the GPU; nothing may be called after. */

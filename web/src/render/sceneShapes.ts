@@ -5,7 +5,13 @@ import type { Camera, Object3D, Sphere } from "three";
 import { Box3, Material, Vector3 } from "three";
 import type { Bounds } from "../decode/arrays.ts";
 import type { Stage } from "../decode/stage.ts";
-import type { AnchorDescription, GeometryDescription, SceneDescription, ShapeDescription, TextureRole } from "../document/description.ts";
+import type {
+  AnchorDescription,
+  GeometryDescription,
+  SceneDescription,
+  ShapeDescription,
+  TextureRole,
+} from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { PlacedViewpoint } from "../navigation/camera.ts";
 import { sphereAround } from "../navigation/camera.ts";
@@ -78,7 +84,9 @@ export class SceneShapes {
         if (shape.geometry) this.#plan.remove(shape.geometry);
         this.#changes.noteGone(shape, place);
       },
-      onTurn: (shape, group) => { this.#objectOf(shape).follow(group); },
+      onTurn: (shape, group) => {
+        this.#objectOf(shape).follow(group);
+      },
     });
     scene.add(this.#graph.root, this.#batches.root);
   }
@@ -155,9 +163,14 @@ export class SceneShapes {
     }
     const others = this.#plan.takeChanged();
     if (others.size > 0) {
-      for (const object of this.#shapes.values()) if (object.geometry && others.has(object.geometry)) object.drawAs(this.#plan.drawingOf(object.geometry));
+      for (const object of this.#shapes.values())
+        if (object.geometry && others.has(object.geometry)) object.drawAs(this.#plan.drawingOf(object.geometry));
     }
-    if (changes.shapes.size > 0) this.#widestLine = Array.from(this.#shapes.values()).reduce((widest, { lineWidth }) => Math.max(widest, lineWidth), 0);
+    if (changes.shapes.size > 0)
+      this.#widestLine = Array.from(this.#shapes.values()).reduce(
+        (widest, { lineWidth }) => Math.max(widest, lineWidth),
+        0,
+      );
     return { shapes, gone, places: changes.places };
   }
 

@@ -4,7 +4,13 @@
 import type { Bounds } from "../decode/arrays.ts";
 import type { Stage } from "../decode/stage.ts";
 import { areAlike } from "../document/alike.ts";
-import type { AppearanceDescription, GeometryDescription, PatchDescription, ShapeDescription, TextureRole } from "../document/description.ts";
+import type {
+  AppearanceDescription,
+  GeometryDescription,
+  PatchDescription,
+  ShapeDescription,
+  TextureRole,
+} from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { asPoints } from "./asPoints.ts";
 import type { Batches } from "./batches/batches.ts";
@@ -141,13 +147,19 @@ export class ShapeObject {
     const line = this.lineWidth;
     if (points === undefined) return line;
     const [a, b, c] = points.attenuation;
-    return Math.max(line, b === 0 && c === 0 ? Math.min(points.size / a, points.most) : Math.min(points.most, largestPoint));
+    return Math.max(
+      line,
+      b === 0 && c === 0 ? Math.min(points.size / a, points.most) : Math.min(points.most, largestPoint),
+    );
   }
 
   #applyAppearance(): void {
     for (const [place, shown] of Array.from(this.#patches)) {
       const patch = shown.geometry.patches[place];
-      const isSame = patch !== undefined && this.#drawnOf(shown.stage, patch) === shown.drawn && this.#drawnAsOf(shown.stage) === shown.drawnAs;
+      const isSame =
+        patch !== undefined &&
+        this.#drawnOf(shown.stage, patch) === shown.drawn &&
+        this.#drawnAsOf(shown.stage) === shown.drawnAs;
       if (isSame) shown.draws.applyAppearance(this.#appearance, new Map(this.#pictures));
       else this.setStage(shown.geometry, place, shown.stage);
     }
@@ -168,9 +180,17 @@ export class ShapeObject {
     const { batching } = setting.look;
     const drawnAs = this.#drawnAsOf(stage);
     const drawn = this.#drawnOf(stage, patch);
-    const patchSetting = { ...setting, geometry, patch, appearance: this.#appearance, pictures: new Map(this.#pictures) };
-    const draws = batches === undefined || batching === undefined || drawnAs === "alone" ? drawStage(drawn, patchSetting)
-      : new BatchedStage(drawn, patchSetting, { batches, batching, isMerged: drawnAs === "merged" });
+    const patchSetting = {
+      ...setting,
+      geometry,
+      patch,
+      appearance: this.#appearance,
+      pictures: new Map(this.#pictures),
+    };
+    const draws =
+      batches === undefined || batching === undefined || drawnAs === "alone"
+        ? drawStage(drawn, patchSetting)
+        : new BatchedStage(drawn, patchSetting, { batches, batching, isMerged: drawnAs === "merged" });
     for (const group of this.#groups.keys()) draws.hang(group);
     return { geometry, stage, drawn, drawnAs, draws };
   }
@@ -183,12 +203,19 @@ export class ShapeObject {
 
   #drawnAsOf(stage: Stage): DrawnAs {
     const { batching } = this.#setting.look;
-    return batching !== undefined ? drawnAsOf(stage, this.#drawing, this.#appearance, this.#pictures, batching) : "alone";
+    return batching !== undefined
+      ? drawnAsOf(stage, this.#drawing, this.#appearance, this.#pictures, batching)
+      : "alone";
   }
 
   /** Every draw in every place, with the number of its patch and the page's element. */
   *placedDraws(): Generator<PickCandidate> {
-    for (const [patch, { draws: { picks } }] of this.#patches) {
+    for (const [
+      patch,
+      {
+        draws: { picks },
+      },
+    ] of this.#patches) {
       for (const pick of picks) for (const [group, element] of this.#groups) yield { patch, group, element, pick };
     }
   }

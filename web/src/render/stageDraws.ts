@@ -5,7 +5,13 @@ import type { IUniform, Side, Texture } from "three";
 import { Box3, Sphere, Vector3 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
 import type { DrawRange, Stage, TextureStage } from "../decode/stage.ts";
-import type { AppearanceDescription, GeometryDescription, LineDescription, PatchDescription, PointDescription } from "../document/description.ts";
+import type {
+  AppearanceDescription,
+  GeometryDescription,
+  LineDescription,
+  PatchDescription,
+  PointDescription,
+} from "../document/description.ts";
 import { boxAround } from "../document/geometry.ts";
 import { mostDashes } from "../document/lineProperties.ts";
 import { largestStoredOf, middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
@@ -39,11 +45,16 @@ export interface PatchSetting {
 }
 
 /** The patch's bounds among stored integers; the sphere is wide enough for its coarsest stage. */
-export function boundsOf(geometry: GeometryDescription, patch: PatchDescription, stage: Stage): { box: Box3; sphere: Sphere } {
+export function boundsOf(
+  geometry: GeometryDescription,
+  patch: PatchDescription,
+  stage: Stage,
+): { box: Box3; sphere: Sphere } {
   const { origin, step } = storedFrameOf(geometry, patch);
-  const { min, max } = (stage.kind === "buffers" ? stage.bounds : undefined) ?? patch.box ?? boxAround(geometry.position, geometry.size);
-  const stored = (point: readonly [number, number, number]) => new Vector3(
-    (point[0] - origin[0]) / step[0], (point[1] - origin[1]) / step[1], (point[2] - origin[2]) / step[2]);
+  const { min, max } =
+    (stage.kind === "buffers" ? stage.bounds : undefined) ?? patch.box ?? boxAround(geometry.position, geometry.size);
+  const stored = (point: readonly [number, number, number]) =>
+    new Vector3((point[0] - origin[0]) / step[0], (point[1] - origin[1]) / step[1], (point[2] - origin[2]) / step[2]);
   const box = new Box3(stored(min), stored(max));
   const slack = geometry.container === "sig" ? middleOfMissing(geometry, patch.coord.length, 1) * Math.sqrt(3) : 0;
   return { box, sphere: new Sphere(box.getCenter(new Vector3()), box.min.distanceTo(box.max) / 2 + slack) };
@@ -58,7 +69,9 @@ export interface StageUniforms {
 export function uniformsOf(stage: Stage, setting: PatchSetting): StageUniforms {
   const { geometry, patch, shared, textures } = setting;
   const common: VertexUniforms = {
-    ...appearanceUniformsOf(geometry, setting.appearance), pixelRatio: shared.pixelRatio, viewport: shared.viewport,
+    ...appearanceUniformsOf(geometry, setting.appearance),
+    pixelRatio: shared.pixelRatio,
+    viewport: shared.viewport,
     latticeStep: { value: storedFrameOf(geometry, patch).step },
     ...valueUniformsOf(stage, geometry.value, (image) => textures.textureOf(image)),
   };
@@ -67,13 +80,20 @@ export function uniformsOf(stage: Stage, setting: PatchSetting): StageUniforms {
   return {
     common,
     of: (range) => ({
-      ...base, firstNumber: { value: range.first }, isStrip: { value: range.primitive === "triangleStrip" }, lineCount: { value: Math.max(1, lineCountOf(range)) },
+      ...base,
+      firstNumber: { value: range.first },
+      isStrip: { value: range.primitive === "triangleStrip" },
+      lineCount: { value: Math.max(1, lineCountOf(range)) },
     }),
   };
 }
 
 /** Takes over what an appearance says of vertices. */
-export function setAppearance(uniforms: VertexUniforms, geometry: GeometryDescription, appearance: AppearanceDescription): void {
+export function setAppearance(
+  uniforms: VertexUniforms,
+  geometry: GeometryDescription,
+  appearance: AppearanceDescription,
+): void {
   for (const [name, { value }] of Object.entries<IUniform<unknown>>(appearanceUniformsOf(geometry, appearance))) {
     const uniform = uniforms[name];
     if (uniform !== undefined) uniform.value = value;
@@ -86,9 +106,15 @@ const usualPoints: PointDescription = { size: usualPointSize, least: 0, most: In
 const largestPoint = 1e6;
 const usualLines: LineDescription = { width: 1, dashes: [] };
 
-type AppearanceUniforms = Pick<VertexUniforms, "pointSizes" | "attenuation" | "lineWidth" | "dashes" | "dashCount" | "texCoordFrame" | "textureTransforms">;
+type AppearanceUniforms = Pick<
+  VertexUniforms,
+  "pointSizes" | "attenuation" | "lineWidth" | "dashes" | "dashCount" | "texCoordFrame" | "textureTransforms"
+>;
 
-function appearanceUniformsOf({ texCoordMin, texCoordSize }: GeometryDescription, appearance: AppearanceDescription): AppearanceUniforms & Record<string, IUniform> {
+function appearanceUniformsOf(
+  { texCoordMin, texCoordSize }: GeometryDescription,
+  appearance: AppearanceDescription,
+): AppearanceUniforms & Record<string, IUniform> {
   const { points = usualPoints, lines: { width, dashes } = usualLines } = appearance;
   return {
     pointSizes: { value: [points.size, points.least, Math.min(points.most, largestPoint)] },
@@ -104,15 +130,35 @@ function appearanceUniformsOf({ texCoordMin, texCoordSize }: GeometryDescription
 
 /** What a draw needs of a material. */
 export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
-  stage: Stage, range: DrawRange, { solid, value }: GeometryDescription, uniforms: Uniforms, shared: SceneUniforms, arePlaced = false,
+  stage: Stage,
+  range: DrawRange,
+  { solid, value }: GeometryDescription,
+  uniforms: Uniforms,
+  shared: SceneUniforms,
+  arePlaced = false,
 ): Omit<MaterialRequest, "uniforms"> & { readonly uniforms: Uniforms } {
-  return { ...vertexFormOf(stage, range), arePlaced, primitive: range.primitive, shading: shadingOf(stage, range), colors: colorsOf(stage), solid,
-           valueDefines: valueDefinesOf(stage, value), uniforms, shared };
+  return {
+    ...vertexFormOf(stage, range),
+    arePlaced,
+    primitive: range.primitive,
+    shading: shadingOf(stage, range),
+    colors: colorsOf(stage),
+    solid,
+    valueDefines: valueDefinesOf(stage, value),
+    uniforms,
+    shared,
+  };
 }
 
 /** What the picking pass, which draws place by place, needs of its material. */
-export function pickRequestOf(stage: Stage, range: DrawRange, side: Side, uniforms: VertexUniforms, appearance: AppearanceDescription,
-                              pictures: ShownPictures): Omit<PickMaterialRequest, "primitive"> {
+export function pickRequestOf(
+  stage: Stage,
+  range: DrawRange,
+  side: Side,
+  uniforms: VertexUniforms,
+  appearance: AppearanceDescription,
+  pictures: ShownPictures,
+): Omit<PickMaterialRequest, "primitive"> {
   const texture = stage.texCoord === undefined ? undefined : pictures.get("color")?.texture;
   const alphaMask = alphaMaskOf(appearance, texture, colorsOf(stage) === "rgba");
   return { ...vertexFormOf(stage, range), side, hasNormals: hasNormals(stage), uniforms, alphaMask };
@@ -148,9 +194,16 @@ function hasNormals(stage: Stage): boolean {
   return stage.normal !== undefined || (stage.kind === "textures" && stage.grid !== undefined);
 }
 
-function imageUniformsOf(stage: TextureStage, textures: Textures, common: VertexUniforms, largestStored: number): ImageVertexUniforms {
+function imageUniformsOf(
+  stage: TextureStage,
+  textures: Textures,
+  common: VertexUniforms,
+  largestStored: number,
+): ImageVertexUniforms {
   const { index, coord, normal, color, texCoord } = stage;
-  const texture = (range: { image: DecodedImage } | undefined) => ({ value: range ? textures.textureOf(range.image) : null });
+  const texture = (range: { image: DecodedImage } | undefined) => ({
+    value: range ? textures.textureOf(range.image) : null,
+  });
   const first = (range: { first: number } | undefined) => range?.first ?? 0;
   return {
     ...common,

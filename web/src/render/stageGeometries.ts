@@ -36,7 +36,8 @@ export class GeometryPool {
     entry.users -= 1;
     if (entry.users > 0) return;
     for (const geometry of entry.geometries) {
-      if (geometry instanceof InstancedBufferGeometry) geometry.dispose(); // the stage's buffers are not in it
+      if (geometry instanceof InstancedBufferGeometry)
+        geometry.dispose(); // the stage's buffers are not in it
       else this.#buffers.dispose(geometry);
     }
     this.#entries.delete(stage);
@@ -44,7 +45,8 @@ export class GeometryPool {
 }
 
 function geometriesOf(stage: Stage, buffers: Buffers): BufferGeometry[] {
-  const geometryOf = stage.kind === "textures" || stage.draws.every(isWide) ? emptyGeometryOf : inBuffers(stage, buffers);
+  const geometryOf =
+    stage.kind === "textures" || stage.draws.every(isWide) ? emptyGeometryOf : inBuffers(stage, buffers);
   return stage.draws.map((range) => (isWide(range) ? wideLineGeometryOf(stage, range, buffers) : geometryOf(range)));
 }
 
@@ -53,8 +55,12 @@ function isWide({ isWide = false }: DrawRange): boolean {
 }
 
 function inBuffers(stage: BufferStage, buffers: Buffers): (range: DrawRange) => BufferGeometry {
-  const attributes = storedAttributesOf(stage).map(({ name, vertices: { bytes, type, components, stride, offset }, isSpread }) =>
-    ({ name, attribute: new InterleavedBufferAttribute(buffers.recordsOf(bytes, type, stride), components, offset, isSpread) }));
+  const attributes = storedAttributesOf(stage).map(
+    ({ name, vertices: { bytes, type, components, stride, offset }, isSpread }) => ({
+      name,
+      attribute: new InterleavedBufferAttribute(buffers.recordsOf(bytes, type, stride), components, offset, isSpread),
+    }),
+  );
   const index = stage.index && buffers.indexOf(stage.index.bytes, stage.index.type);
   return ({ first, count }) => {
     const geometry = new BufferGeometry();

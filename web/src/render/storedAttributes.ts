@@ -11,7 +11,14 @@ export interface StoredAttribute {
   readonly isSpread: boolean;
 }
 
-export function storedAttributesOf({ coord, normal, normalCode, color, texCoord, value }: BufferStage): StoredAttribute[] {
+export function storedAttributesOf({
+  coord,
+  normal,
+  normalCode,
+  color,
+  texCoord,
+  value,
+}: BufferStage): StoredAttribute[] {
   const attribute = (name: string, vertices: StoredVertices | undefined, isSpread: boolean): StoredAttribute[] =>
     vertices ? [{ name, vertices, isSpread: isSpread && vertices.type !== "Float32" }] : [];
   return [

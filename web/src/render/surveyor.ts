@@ -55,7 +55,10 @@ export class Surveyor {
       const surfaces = candidates.filter(({ pick }) => cornersOf(pick.range) === 3);
       for (const shot of [down, ...around]) this.#take(shot, surfaces);
       const gl = this.#renderer.getContext() as WebGL2RenderingContext;
-      const reading = readSoon(gl, [down, ...around].map((shot) => ({ ...shot, attachment: 0 })));
+      const reading = readSoon(
+        gl,
+        [down, ...around].map((shot) => ({ ...shot, attachment: 0 })),
+      );
       this.#renderer.setRenderTarget(null);
       const words = await reading;
       if (gl.isContextLost()) return undefined;
@@ -76,11 +79,13 @@ export class Surveyor {
 
   /** Leaves the target bound. */
   #take({ camera, x, y, width, height }: Shot, surfaces: readonly PickCandidate[]): void {
-    const target = this.#target ??= makePickTarget(wallRays, floorCells + directions);
+    const target = (this.#target ??= makePickTarget(wallRays, floorCells + directions));
     target.viewport.set(x, y, width, height);
     target.scissor.copy(target.viewport);
     target.scissorTest = true;
-    this.#scene.children = candidatesSeenBy(camera, surfaces).map(({ pick, worldFromStored }) => pick.objectFor(1, worldFromStored));
+    this.#scene.children = candidatesSeenBy(camera, surfaces).map(({ pick, worldFromStored }) =>
+      pick.objectFor(1, worldFromStored),
+    );
     this.#renderer.setRenderTarget(target);
     this.#renderer.render(this.#scene, camera);
     this.#scene.children = [];
@@ -90,7 +95,13 @@ export class Surveyor {
 function downwards({ eye, orientation, reach }: Lookout, depth: number): Shot {
   const projection = new Matrix4().makeOrthographic(-reach, reach, reach, -reach, 0, depth);
   const towardsFeet = new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), -Math.PI / 2);
-  return { camera: cameraAt(eye, orientation.clone().multiply(towardsFeet), projection), x: 0, y: 0, width: floorCells, height: floorCells };
+  return {
+    camera: cameraAt(eye, orientation.clone().multiply(towardsFeet), projection),
+    x: 0,
+    y: 0,
+    width: floorCells,
+    height: floorCells,
+  };
 }
 
 /** A quarter of all directions, as narrow as pixels are, from -z on to the left. */
@@ -99,12 +110,15 @@ function sideways({ eye, orientation }: Lookout, turn: number, nearest: number, 
   const projection = new Matrix4().makePerspective(-nearest, nearest, half, -half, nearest, farthest);
   return {
     camera: cameraAt(eye, orientation.clone().multiply(quarterTurns(turn)), projection),
-    x: 0, y: floorCells + turn, width: wallRays, height: 1,
+    x: 0,
+    y: floorCells + turn,
+    width: wallRays,
+    height: 1,
   };
 }
 
 function quarterTurns(turn: number): Quaternion {
-  return new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), turn * Math.PI / 2);
+  return new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), (turn * Math.PI) / 2);
 }
 
 function cameraAt(eye: Vector3, orientation: Quaternion, projection: Matrix4): Camera {
@@ -122,7 +136,7 @@ function depthsIn(words: Uint32Array): Float32Array {
   const floats = new Float32Array(words.buffer);
   return Float32Array.from({ length: words.length / wordsPerPixel }, (_, pixel) => {
     const first = pixel * wordsPerPixel;
-    return words[first + pickedWords.drawNumber] === 0 ? Infinity : floats[first + pickedWords.depth] ?? Infinity;
+    return words[first + pickedWords.drawNumber] === 0 ? Infinity : (floats[first + pickedWords.depth] ?? Infinity);
   });
 }
 
@@ -131,7 +145,9 @@ function heightsOf(depths: Float32Array, depth: number): Float32Array {
   const heights = new Float32Array(depths.length);
   for (let row = 0; row < floorCells; ++row) {
     const line = depths.subarray((floorCells - 1 - row) * floorCells, (floorCells - row) * floorCells);
-    line.forEach((share, column) => { heights[row * floorCells + column] = -share * depth; });
+    line.forEach((share, column) => {
+      heights[row * floorCells + column] = -share * depth;
+    });
   }
   return heights;
 }
@@ -142,7 +158,7 @@ function wallsOf(depths: Float32Array, nearest: number, farthest: number): Float
   const place = new Vector3();
   depths.forEach((share, pixel) => {
     if (share === Infinity) return;
-    const ahead = nearest * farthest / (farthest - share * (farthest - nearest));
+    const ahead = (nearest * farthest) / (farthest - share * (farthest - nearest));
     const aside = (2 * (pixel % wallRays) + 1) / wallRays - 1;
     place.set(aside * ahead, 0, -ahead).applyQuaternion(quarterTurns(Math.floor(pixel / wallRays)));
     places.push(place.x, place.z);

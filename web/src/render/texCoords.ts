@@ -34,7 +34,8 @@ export const alphaMaskDefine = "USE_ALPHA_MASK";
 export const alphaMaskVarying = "vAlphaMaskUv";
 
 const all = [
-  ...maps, [alphaMaskDefine, alphaMaskVarying, "color"] as const,
+  ...maps,
+  [alphaMaskDefine, alphaMaskVarying, "color"] as const,
   ...ownMapRoles.map((role) => [ownMapDefine(role), `v_${role}Uv`, role] as const),
 ];
 
@@ -52,16 +53,24 @@ export const ownMapDeclarations = ownVaryings("uniform sampler2D ");
 export const texCoordChunk = /* glsl */ `
 vec4 frame = texCoordFrameOfPlace();
 vec3 shapeTexCoord = vec3(frame.xy + frame.zw * vertex.texCoord, 1.0);
-${all.map(([define, varying, role]) => `#ifdef ${define}
+${all
+  .map(
+    ([define, varying, role]) => `#ifdef ${define}
   ${varying} = (textureTransforms[${textureRoles.indexOf(role)}] * shapeTexCoord).xy;
-#endif`).join("\n")}
+#endif`,
+  )
+  .join("\n")}
 `;
 
 function ownVaryings(sampler: string): string {
-  return ownMapRoles.map((role) => `#ifdef ${ownMapDefine(role)}
+  return ownMapRoles
+    .map(
+      (role) => `#ifdef ${ownMapDefine(role)}
   varying vec2 v_${role}Uv;
   ${sampler === "" ? "" : `${sampler}${role}Map;`}
-#endif`).join("\n");
+#endif`,
+    )
+    .join("\n");
 }
 
 /** By role. */

@@ -5,7 +5,15 @@
 // compile the fetch wrong; without this each would show a silent wrong shape.
 
 import {
-  BufferGeometry, FrontSide, Matrix3, Matrix4, OrthographicCamera, Points, Scene, Vector4, type WebGLRenderer,
+  BufferGeometry,
+  FrontSide,
+  Matrix3,
+  Matrix4,
+  OrthographicCamera,
+  Points,
+  Scene,
+  Vector4,
+  type WebGLRenderer,
 } from "three";
 import { decodeWithBrowser } from "../decode/image.ts";
 import { textureRoles } from "../document/description.ts";
@@ -19,7 +27,8 @@ import type { TextureStore } from "./textures.ts";
  * high bytes of a place, texel 1 its low bytes, texel 2 index 0, texel 3 a normal.
  */
 export const testTexels = [1, 128, 255, 0, 254, 3, 64, 7, 0, 0, 0, 255, 255, 0, 51, 1] as const;
-export const testPng = "iVBORw0KGgoAAAANSUhEUgAAAAQAAAABCAYAAAD5PA/NAAAAHElEQVR4AQERAO7/AAGA/wD+A0AHAAAA//8AMwEtuQT7j87v0AAAAABJRU5ErkJggg==";
+export const testPng =
+  "iVBORw0KGgoAAAANSUhEUgAAAAQAAAABCAYAAAD5PA/NAAAAHElEQVR4AQERAO7/AAGA/wD+A0AHAAAA//8AMwEtuQT7j87v0AAAAABJRU5ErkJggg==";
 
 /** Resolves to whether vertices may be read from textures. Never rejects. */
 export async function readsTextures(renderer: WebGLRenderer, textures: TextureStore): Promise<boolean> {
@@ -45,17 +54,48 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
   bitmap.close();
   const texture = { value: textures.textureOf(image) };
   const material = makePickMaterial({
-    primitive: "points", side: FrontSide, hasNormals: true, areImages: true, arePlaced: false, hasTexCoords: false, wideLineStep: 0, alphaMask: undefined, gridDefines: {}, normalDefines: {},
+    primitive: "points",
+    side: FrontSide,
+    hasNormals: true,
+    areImages: true,
+    arePlaced: false,
+    hasTexCoords: false,
+    wideLineStep: 0,
+    alphaMask: undefined,
+    gridDefines: {},
+    normalDefines: {},
     uniforms: {
-      pixelRatio: { value: 1 }, pointSizes: { value: [1, 1, 1] }, attenuation: { value: [1, 0, 0] }, latticeStep: { value: [1, 1, 1] },
-      lineWidth: { value: 1 }, dashes: { value: [] }, dashCount: { value: 0 }, viewport: { value: new Vector4() },
-      indexImage: texture, coordImage0: texture, coordImage1: texture, coordImage2: { value: null }, coordImage3: { value: null },
-      normalImage: texture, colorImage: { value: null }, texCoordImage: { value: null },
-      texCoordFrame: { value: [0, 0, 1, 1] }, textureTransforms: { value: textureRoles.map(() => new Matrix3()) },
-      firstTexels: { value: [2, 3, 0, 0] }, coordFirstTexels: { value: [0, 1, 0, 0] }, coordPlanes: { value: 2 },
-      middleOfMissing: { value: 0 }, hasIndex: { value: true }, isIndexWide: { value: false }, implicitWidth: { value: 4 },
-      gridSize: { value: [0, 0] }, isGridClosed: { value: false }, largestStored: { value: 65535 },
-      firstNumber: { value: 0 }, isStrip: { value: false }, colorHasAlpha: { value: false },
+      pixelRatio: { value: 1 },
+      pointSizes: { value: [1, 1, 1] },
+      attenuation: { value: [1, 0, 0] },
+      latticeStep: { value: [1, 1, 1] },
+      lineWidth: { value: 1 },
+      dashes: { value: [] },
+      dashCount: { value: 0 },
+      viewport: { value: new Vector4() },
+      indexImage: texture,
+      coordImage0: texture,
+      coordImage1: texture,
+      coordImage2: { value: null },
+      coordImage3: { value: null },
+      normalImage: texture,
+      colorImage: { value: null },
+      texCoordImage: { value: null },
+      texCoordFrame: { value: [0, 0, 1, 1] },
+      textureTransforms: { value: textureRoles.map(() => new Matrix3()) },
+      firstTexels: { value: [2, 3, 0, 0] },
+      coordFirstTexels: { value: [0, 1, 0, 0] },
+      coordPlanes: { value: 2 },
+      middleOfMissing: { value: 0 },
+      hasIndex: { value: true },
+      isIndexWide: { value: false },
+      implicitWidth: { value: 4 },
+      gridSize: { value: [0, 0] },
+      isGridClosed: { value: false },
+      largestStored: { value: 65535 },
+      firstNumber: { value: 0 },
+      isStrip: { value: false },
+      colorHasAlpha: { value: false },
     },
   });
   material.uniforms.drawNumber.value = 1;

@@ -3,8 +3,19 @@
 // of an image is kept here when it is on the GPU.
 
 import {
-  Box2, ClampToEdgeWrapping, DataTexture, LinearFilter, LinearMipmapLinearFilter, MirroredRepeatWrapping, NearestFilter, NoColorSpace,
-  RepeatWrapping, RGBAFormat, Texture, UnsignedByteType, Vector2,
+  Box2,
+  ClampToEdgeWrapping,
+  DataTexture,
+  LinearFilter,
+  LinearMipmapLinearFilter,
+  MirroredRepeatWrapping,
+  NearestFilter,
+  NoColorSpace,
+  RepeatWrapping,
+  RGBAFormat,
+  Texture,
+  UnsignedByteType,
+  Vector2,
   type WebGLRenderer,
 } from "three";
 import type { DecodedImage } from "../decode/image.ts";
@@ -46,7 +57,8 @@ export class TextureStore {
     const bytes = width * height * bytesPerTexel * (texture.generateMipmaps ? 4 / 3 : 1);
     this.#bytes += bytes;
     const image = {
-      width, height,
+      width,
+      height,
       close: () => {
         if (!this.#textures.delete(image)) return;
         this.#bytes -= bytes;
@@ -59,7 +71,13 @@ export class TextureStore {
 }
 
 /** Mipmaps are made with the last strip. */
-function* strips(from: Texture, to: Texture, width: number, height: number, renderer: WebGLRenderer): Generator<number, void, void> {
+function* strips(
+  from: Texture,
+  to: Texture,
+  width: number,
+  height: number,
+  renderer: WebGLRenderer,
+): Generator<number, void, void> {
   const { generateMipmaps } = to;
   renderer.initTexture(to);
   const rows = Math.max(1, Math.floor(bytesPerStep / (width * bytesPerTexel)));
@@ -90,7 +108,10 @@ export function readAsData(texture: Texture): void {
 const wrappings = { repeat: RepeatWrapping, clamp: ClampToEdgeWrapping, mirror: MirroredRepeatWrapping } as const;
 
 /** Pages show the colours of pictures by their numbers, as those of materials (materials.ts). */
-export function sampleAs(texture: Texture, { wrapS, wrapT, isSmooth, hasMipmaps, anisotropy }: SamplingDescription): void {
+export function sampleAs(
+  texture: Texture,
+  { wrapS, wrapT, isSmooth, hasMipmaps, anisotropy }: SamplingDescription,
+): void {
   texture.wrapS = wrappings[wrapS];
   texture.wrapT = wrappings[wrapT];
   texture.magFilter = isSmooth ? LinearFilter : NearestFilter;

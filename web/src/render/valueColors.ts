@@ -29,8 +29,11 @@ export function valueDefinesOf(stage: Stage, attribute: AttributeDescription | u
   return { VALUE_COMPONENTS: `${attribute.components}` };
 }
 
-export function valueUniformsOf(stage: Stage, attribute: AttributeDescription | undefined,
-                                textureOf: (image: DecodedImage) => Texture): Record<string, IUniform> {
+export function valueUniformsOf(
+  stage: Stage,
+  attribute: AttributeDescription | undefined,
+  textureOf: (image: DecodedImage) => Texture,
+): Record<string, IUniform> {
   const { value } = stage;
   if (attribute === undefined || value === undefined) return {};
   const { min, step } = valueFrameOf(stage, attribute);
@@ -39,15 +42,27 @@ export function valueUniformsOf(stage: Stage, attribute: AttributeDescription | 
 }
 
 /** What a stored 0 is, and a step, by component: four of each. Without meaning where a stage has no values. */
-export function valueFrameOf(stage: Stage, attribute: AttributeDescription | undefined): { min: readonly number[]; step: readonly number[] } {
+export function valueFrameOf(
+  stage: Stage,
+  attribute: AttributeDescription | undefined,
+): { min: readonly number[]; step: readonly number[] } {
   const { min = [], size = [] } = attribute ?? {};
   const largest = stage.kind === "buffers" ? stage.value?.largest : 256 ** (stage.value?.planeCount ?? 1) - 1;
   const four = (values: readonly number[], missing: number) => [0, 1, 2, 3].map((c) => values[c] ?? missing);
   if (largest === undefined) return { min: four([], 0), step: four([], 1) };
-  return { min: four(min, 0), step: four(size.map((extent) => extent / largest), 0) };
+  return {
+    min: four(min, 0),
+    step: four(
+      size.map((extent) => extent / largest),
+      0,
+    ),
+  };
 }
 
-function imageUniformsOf({ planes, planeCount, middleOfMissing }: ValuePlanes, textureOf: (image: DecodedImage) => Texture): Record<string, IUniform> {
+function imageUniformsOf(
+  { planes, planeCount, middleOfMissing }: ValuePlanes,
+  textureOf: (image: DecodedImage) => Texture,
+): Record<string, IUniform> {
   const image = (plane: number) => ({ value: planes[plane] ? textureOf(planes[plane].image) : null });
   return {
     valueImage0: image(0),
@@ -164,10 +179,16 @@ const fragmentChunk = /* glsl */ `
 `;
 
 /** For `onBeforeCompile`, behind readVerticesIn and shadeByFarnessIn; does nothing where the material does not define it. */
-export function colorByValueIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
+export function colorByValueIn(
+  shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
+): void {
   shader.vertexShader = replaceEach(shader.vertexShader, [
     ["void main() {", `${vertexChunk}\nvoid main() {`],
-    [readVertexStatement, `${readVertexStatement}\n#ifdef VALUE_COMPONENTS\n  vMapPlace = mapPlaceOf(readValue());\n#endif`],
+    [
+      readVertexStatement,
+      `${readVertexStatement}\n#ifdef VALUE_COMPONENTS\n  vMapPlace = mapPlaceOf(readValue());\n#endif`,
+    ],
   ]);
-  shader.fragmentShader = fragmentDeclarations + replaceEach(shader.fragmentShader, [["#include <color_fragment>", fragmentChunk]]);
+  shader.fragmentShader =
+    fragmentDeclarations + replaceEach(shader.fragmentShader, [["#include <color_fragment>", fragmentChunk]]);
 }

@@ -92,7 +92,10 @@ export interface VertexForm {
 }
 
 /** What a material must define to read vertices of this form. */
-export function vertexDefinesOf({ areImages, hasTexCoords, gridDefines, normalDefines, arePlaced, wideLineStep }: VertexForm, readsNormals: boolean): Record<string, string> {
+export function vertexDefinesOf(
+  { areImages, hasTexCoords, gridDefines, normalDefines, arePlaced, wideLineStep }: VertexForm,
+  readsNormals: boolean,
+): Record<string, string> {
   return {
     ...(areImages && { [imageVerticesDefine]: "" }),
     ...(areImages && readsNormals && { [imageNormalsDefine]: "" }),
@@ -392,20 +395,29 @@ export const pointSizeChunk = "gl_PointSize = pointSizeAt(length(mvPosition.xyz)
 export const readVertexStatement = "Vertex vertex = readVertex();";
 
 /** Makes a built-in material's shaders read their vertices here, for use in `onBeforeCompile`. */
-export function readVerticesIn(shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">): void {
-  shader.fragmentShader = ownNormalsChunk + placeFragmentChunk + dashChunk + replaceEach(shader.fragmentShader, [
-    ["void main() {", cutDashesChunk], ["void main() {", cutFacesChunk],
-  ]);
-  shader.vertexShader = ownNormalsChunk + replaceEach(shader.vertexShader, [
-    ["#include <common>", `#include <common>\n${readVertexChunk}${placeVertexChunk}${wideLineChunk}`],
-    ["void main() {", `void main() {\n  ${readVertexStatement}`],
-    ["#include <uv_vertex>", texCoordChunk],
-    ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\nshowPlace();\nwidenLine();`],
-    ["#include <color_vertex>", colorChunk],
-    // Normals are the shape's own.
-    ["#include <beginnormal_vertex>", "vec3 objectNormal = normalInPlace(vertex.normal);"],
-    ["#include <begin_vertex>", "vec3 transformed = inPlace(vertex.position);"],
-  ]);
+export function readVerticesIn(
+  shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
+): void {
+  shader.fragmentShader =
+    ownNormalsChunk +
+    placeFragmentChunk +
+    dashChunk +
+    replaceEach(shader.fragmentShader, [
+      ["void main() {", cutDashesChunk],
+      ["void main() {", cutFacesChunk],
+    ]);
+  shader.vertexShader =
+    ownNormalsChunk +
+    replaceEach(shader.vertexShader, [
+      ["#include <common>", `#include <common>\n${readVertexChunk}${placeVertexChunk}${wideLineChunk}`],
+      ["void main() {", `void main() {\n  ${readVertexStatement}`],
+      ["#include <uv_vertex>", texCoordChunk],
+      ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\nshowPlace();\nwidenLine();`],
+      ["#include <color_vertex>", colorChunk],
+      // Normals are the shape's own.
+      ["#include <beginnormal_vertex>", "vec3 objectNormal = normalInPlace(vertex.normal);"],
+      ["#include <begin_vertex>", "vec3 transformed = inPlace(vertex.position);"],
+    ]);
 }
 
 /** Not every pass has every chunk; `begin_vertex` they all have. */

@@ -15,8 +15,14 @@ const capSides = 8;
 
 /** Triangles of the outline's vertices: 0 … capSides around the line's begin, the others around its end, all to the left. */
 export const outlineTriangles: readonly number[] = [
-  ...fanOf(0), ...fanOf(capSides + 1),
-  0, capSides, capSides + 1, 0, capSides + 1, 2 * capSides + 1,
+  ...fanOf(0),
+  ...fanOf(capSides + 1),
+  0,
+  capSides,
+  capSides + 1,
+  0,
+  capSides + 1,
+  2 * capSides + 1,
 ];
 
 function fanOf(first: number): number[] {
@@ -122,7 +128,14 @@ export const cutDashesChunk = /* glsl */ `void main() {
 /** Lets a material of wide lines know how large the picture is that is being drawn. */
 export function followViewport(material: Material, viewport: { readonly value: Vector4 }): void {
   const own = material.onBeforeRender.bind(material);
-  material.onBeforeRender = (renderer: WebGLRenderer, scene: Scene, camera: Camera, geometry: BufferGeometry, object, group) => {
+  material.onBeforeRender = (
+    renderer: WebGLRenderer,
+    scene: Scene,
+    camera: Camera,
+    geometry: BufferGeometry,
+    object,
+    group,
+  ) => {
     own(renderer, scene, camera, geometry, object, group);
     renderer.getCurrentViewport(viewport.value);
   };

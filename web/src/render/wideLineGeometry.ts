@@ -3,7 +3,12 @@
 // an index; an instance has no index, so of buffers the ends are laid out one after
 // the other, which needs them here once.
 
-import { BufferAttribute, InstancedBufferGeometry, InstancedInterleavedBuffer, InterleavedBufferAttribute } from "three";
+import {
+  BufferAttribute,
+  InstancedBufferGeometry,
+  InstancedInterleavedBuffer,
+  InterleavedBufferAttribute,
+} from "three";
 import type { ElementArray } from "../decode/arrays.ts";
 import { arrayTypeOf, elementTypeOf } from "../decode/elements.ts";
 import type { BufferStage, DrawRange, Stage } from "../decode/stage.ts";
@@ -38,7 +43,8 @@ export function repeatedLines(lines: InstancedBufferGeometry, times: number): In
   for (const [name, attribute] of Object.entries(lines.attributes)) {
     if (!(attribute instanceof InterleavedBufferAttribute)) throw new RangeError(`${name} is not in records of lines`);
     const { data, itemSize, offset, normalized } = attribute;
-    const copy = copies.get(data) ?? new InstancedInterleavedBuffer(repeated(data.array as ElementArray, times), data.stride);
+    const copy =
+      copies.get(data) ?? new InstancedInterleavedBuffer(repeated(data.array as ElementArray, times), data.stride);
     copies.set(data, copy);
     geometry.setAttribute(name, new InterleavedBufferAttribute(copy, itemSize, offset, normalized));
   }
@@ -69,7 +75,10 @@ export class LineRecords {
     for (const { name, components, isSpread, elementsPerVertex, data } of this.#columns) {
       const records = new InstancedInterleavedBuffer(data.used, 2 * elementsPerVertex);
       geometry.setAttribute(name, new InterleavedBufferAttribute(records, components, 0, isSpread));
-      geometry.setAttribute(`${name}End`, new InterleavedBufferAttribute(records, components, elementsPerVertex, isSpread));
+      geometry.setAttribute(
+        `${name}End`,
+        new InterleavedBufferAttribute(records, components, elementsPerVertex, isSpread),
+      );
     }
   }
 }
@@ -78,7 +87,10 @@ export class LineRecords {
 function endsOf(stage: BufferStage, range: DrawRange, buffers: Buffers): Uint32Array {
   const numbers = indicesOf(stage, [range], buffers);
   const step = lineStepOf(range);
-  return Uint32Array.from({ length: 2 * lineCountOf(range) }, (_, end) => numbers[Math.floor(end / 2) * step + end % 2] ?? 0);
+  return Uint32Array.from(
+    { length: 2 * lineCountOf(range) },
+    (_, end) => numbers[Math.floor(end / 2) * step + (end % 2)] ?? 0,
+  );
 }
 
 function repeated(numbers: ElementArray, times: number): ElementArray {

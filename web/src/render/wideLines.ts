@@ -8,7 +8,10 @@ const made = new WeakMap<Stage, Stage>();
 /** The same stage where it has no lines. */
 export function withWideLines(stage: Stage): Stage {
   if (!stage.draws.some(isLine)) return stage;
-  const known = made.get(stage) ?? { ...stage, draws: stage.draws.map((draw) => (isLine(draw) ? { ...draw, isWide: true } : draw)) };
+  const known = made.get(stage) ?? {
+    ...stage,
+    draws: stage.draws.map((draw) => (isLine(draw) ? { ...draw, isWide: true } : draw)),
+  };
   made.set(stage, known);
   return known;
 }

@@ -89,8 +89,12 @@ export { ownMapDeclarations };
 type Slot = "map" | "emissiveMap" | "normalMap" | "aoMap" | "specularMap";
 
 /** Gives a material its maps; another program where some have come or gone. */
-export function layPictures(material: MeshPhongMaterial | MeshBasicMaterial, description: MaterialDescription, pictures: ShownPictures,
-                            ownMaps: OwnMapUniforms | undefined): void {
+export function layPictures(
+  material: MeshPhongMaterial | MeshBasicMaterial,
+  description: MaterialDescription,
+  pictures: ShownPictures,
+  ownMaps: OwnMapUniforms | undefined,
+): void {
   const textureOf = (role: Parameters<ShownPictures["get"]>[0]) => pictures.get(role)?.texture ?? null;
   setMap(material, "map", textureOf("color"));
   if (!("emissiveMap" in material) || ownMaps === undefined) return;
@@ -111,7 +115,12 @@ function setMap(material: MeshPhongMaterial | MeshBasicMaterial, slot: Slot, tex
   maps[slot] = texture;
 }
 
-function setOwnMap(material: MeshPhongMaterial, role: OwnMapRole, texture: Texture | null, uniforms: OwnMapUniforms): void {
+function setOwnMap(
+  material: MeshPhongMaterial,
+  role: OwnMapRole,
+  texture: Texture | null,
+  uniforms: OwnMapUniforms,
+): void {
   uniforms[`${role}Map`].value = texture;
   setDefine(material, ownMapDefine(role), texture !== null);
 }

@@ -13,7 +13,9 @@ function claim(name: string, bytes: number, priority: number, isHeld = false, ke
 }
 
 function namesOf(chains: readonly (readonly TestClaim[])[], mostBytes: number): string {
-  return Array.from(grantedOf(chains, mostBytes), (granted) => (granted as TestClaim).name).sort().join(" ");
+  return Array.from(grantedOf(chains, mostBytes), (granted) => (granted as TestClaim).name)
+    .sort()
+    .join(" ");
 }
 
 describe("within a budget", () => {
@@ -65,13 +67,16 @@ describe("within a budget", () => {
     for (let scene = 0; scene < 200; ++scene) {
       const chains = Array.from({ length: 1 + Math.floor(20 * random()) }, (_, chain) =>
         Array.from({ length: 1 + Math.floor(4 * random()) }, (_, part) =>
-          claim(`${chain}.${part}`, Math.floor(20 * random()), Math.floor(50 * random()), random() < 0.4)));
+          claim(`${chain}.${part}`, Math.floor(20 * random()), Math.floor(50 * random()), random() < 0.4),
+        ),
+      );
       const mostBytes = 300 * random();
       let before = grantedOf(chains, mostBytes);
       for (let turn = 0; turn < 5; ++turn) {
         for (const each of chains.flat()) each.isHeld = before.has(each);
         const now = grantedOf(chains, mostBytes);
-        for (const each of before) assert.ok(now.has(each), `scene ${scene}, turn ${turn}: ${(each as TestClaim).name} goes to and fro`);
+        for (const each of before)
+          assert.ok(now.has(each), `scene ${scene}, turn ${turn}: ${(each as TestClaim).name} goes to and fro`);
         before = now;
       }
       const bytes = Array.from(before).reduce((sum, each) => sum + each.bytes, 0);

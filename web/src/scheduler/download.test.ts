@@ -14,11 +14,16 @@ describe("a download", () => {
   function inTurn(...codes: number[]): { options: DownloadOptions; asked: () => number } {
     let asked = 0;
     return {
-      options: { ...answering(() => {
-        const code = codes[Math.min(asked, codes.length - 1)] ?? 200;
-        asked += 1;
-        return code === 0 ? Promise.reject(new TypeError("fetch failed")) : Promise.resolve(new Response("bytes", { status: code }));
-      }), retries: 2 },
+      options: {
+        ...answering(() => {
+          const code = codes[Math.min(asked, codes.length - 1)] ?? 200;
+          asked += 1;
+          return code === 0
+            ? Promise.reject(new TypeError("fetch failed"))
+            : Promise.resolve(new Response("bytes", { status: code }));
+        }),
+        retries: 2,
+      },
       asked: () => asked,
     };
   }
@@ -31,18 +36,24 @@ describe("a download", () => {
 
   test("gives up after the last retry", async () => {
     const { options, asked } = inTurn(503);
-    await assert.rejects(downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded),
-      (error) => error instanceof RequestError && error.kind === "http" && error.status === 503 && error.url === url);
+    await assert.rejects(
+      downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded),
+      (error) => error instanceof RequestError && error.kind === "http" && error.status === 503 && error.url === url,
+    );
     assert.equal(asked(), 3);
   });
 
   test("waits twice as long before each further attempt", async () => {
     const times: number[] = [];
     const { options } = inTurn(503);
-    const timed: DownloadOptions = { ...options, backoffMs: 20, fetch: (input, init) => {
-      times.push(performance.now());
-      return options.fetch(input, init);
-    } };
+    const timed: DownloadOptions = {
+      ...options,
+      backoffMs: 20,
+      fetch: (input, init) => {
+        times.push(performance.now());
+        return options.fetch(input, init);
+      },
+    };
     await assert.rejects(downloadInSlot(new Scheduler(1), subject, url, signal, timed, listener, decoded));
     const [first = 0, second = 0, third = 0] = times;
     // Timers may be late, and early by the fraction of a millisecond that they round away.
@@ -51,12 +62,19 @@ describe("a download", () => {
 
   test("of which no byte comes is given up as one that has fallen silent, and tried again", async () => {
     let asked = 0;
-    const options: DownloadOptions = { ...silent, silenceMs: 5, retries: 1, fetch: (input, init) => {
-      asked += 1;
-      return silent.fetch(input, init);
-    } };
-    await assert.rejects(downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded),
-      (error) => error instanceof RequestError && error.kind === "timeout" && error.url === url);
+    const options: DownloadOptions = {
+      ...silent,
+      silenceMs: 5,
+      retries: 1,
+      fetch: (input, init) => {
+        asked += 1;
+        return silent.fetch(input, init);
+      },
+    };
+    await assert.rejects(
+      downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded),
+      (error) => error instanceof RequestError && error.kind === "timeout" && error.url === url,
+    );
     assert.equal(asked, 2);
   });
 
@@ -70,24 +88,42 @@ describe("a download", () => {
 
   test("is not asked for again when its bytes do not decode", async () => {
     const { options, asked } = inTurn(200);
-    await assert.rejects(downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, () => Promise.reject(new Error("no image"))));
+    await assert.rejects(
+      downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, () =>
+        Promise.reject(new Error("no image")),
+      ),
+    );
     assert.equal(asked(), 1);
   });
 
   test("tells where it stands", async () => {
     const states: DownloadState[] = [];
     const { options } = inTurn(503, 200);
-    await downloadInSlot(new Scheduler(1), subject, url, signal, options, { ...listener, onState: (state) => states.push(state) }, decoded);
+    await downloadInSlot(
+      new Scheduler(1),
+      subject,
+      url,
+      signal,
+      options,
+      { ...listener, onState: (state) => states.push(state) },
+      decoded,
+    );
     assert.deepEqual(states, ["waiting", "loading", "retrying", "waiting", "loading"]);
   });
 
   test("waits as long as the server asks for", async () => {
     const times: number[] = [];
-    const options = { ...answering(() => {
-      times.push(performance.now());
-      return Promise.resolve(times.length > 1 ? new Response("bytes")
-        : new Response("busy", { status: 503, headers: { "retry-after": "1" } }));
-    }), retries: 1 };
+    const options = {
+      ...answering(() => {
+        times.push(performance.now());
+        return Promise.resolve(
+          times.length > 1
+            ? new Response("bytes")
+            : new Response("busy", { status: 503, headers: { "retry-after": "1" } }),
+        );
+      }),
+      retries: 1,
+    };
     await downloadInSlot(new Scheduler(1), subject, url, signal, options, listener, decoded);
     const [first = 0, second = 0] = times;
     assert.ok(second - first >= 950, `${second - first} ms`);
@@ -97,8 +133,18 @@ describe("a download", () => {
     const scheduler = new Scheduler(1);
     const order: string[] = [];
     const { options } = inTurn(503, 200);
-    const retried = downloadInSlot(scheduler, { priority: 2 }, url, signal, { ...options, backoffMs: 20 }, listener, decoded).then(() => order.push("retried"));
-    const other = downloadInSlot(scheduler, { priority: 1 }, url, signal, ok, listener, decoded).then(() => order.push("other"));
+    const retried = downloadInSlot(
+      scheduler,
+      { priority: 2 },
+      url,
+      signal,
+      { ...options, backoffMs: 20 },
+      listener,
+      decoded,
+    ).then(() => order.push("retried"));
+    const other = downloadInSlot(scheduler, { priority: 1 }, url, signal, ok, listener, decoded).then(() =>
+      order.push("other"),
+    );
     await Promise.all([retried, other]);
     assert.deepEqual(order, ["other", "retried"]);
   });
@@ -112,17 +158,36 @@ describe("a download", () => {
       },
     });
     const options = answering(() => Promise.resolve(new Response(body, { headers: { "content-length": "7" } })));
-    await downloadInSlot(new Scheduler(1), subject, url, signal, options,
-      { ...listener, onBytes: (loaded, total) => counts.push([loaded, total]) }, decoded);
-    assert.deepEqual(counts, [[0, 7], [3, 7], [7, 7]]);
+    await downloadInSlot(
+      new Scheduler(1),
+      subject,
+      url,
+      signal,
+      options,
+      { ...listener, onBytes: (loaded, total) => counts.push([loaded, total]) },
+      decoded,
+    );
+    assert.deepEqual(counts, [
+      [0, 7],
+      [3, 7],
+      [7, 7],
+    ]);
   });
 
   test("does not take the length of a compressed body for its own", async () => {
     const totals = new Set<number | undefined>();
-    const options = answering(() => Promise.resolve(
-      new Response("bytes", { headers: { "content-length": "3", "content-encoding": "br" } })));
-    await downloadInSlot(new Scheduler(1), subject, url, signal, options,
-      { ...listener, onBytes: (_, total) => totals.add(total) }, decoded);
+    const options = answering(() =>
+      Promise.resolve(new Response("bytes", { headers: { "content-length": "3", "content-encoding": "br" } })),
+    );
+    await downloadInSlot(
+      new Scheduler(1),
+      subject,
+      url,
+      signal,
+      options,
+      { ...listener, onBytes: (_, total) => totals.add(total) },
+      decoded,
+    );
     assert.deepEqual(Array.from(totals), [undefined]);
   });
 });
@@ -134,11 +199,13 @@ describe("another attempt", () => {
   test("follows what passes: a lost connection, silence, a busy server", () => {
     assert.equal(retryDelayMs({ kind: "network", status: 0, retryAfter: undefined }, 400, now), 400);
     assert.equal(retryDelayMs({ kind: "timeout", status: 0, retryAfter: undefined }, 400, now), 400);
-    for (const status of [408, 425, 429, 500, 502, 503, 504]) assert.equal(retryDelayMs(failure(status), 400, now), 400, String(status));
+    for (const status of [408, 425, 429, 500, 502, 503, 504])
+      assert.equal(retryDelayMs(failure(status), 400, now), 400, String(status));
   });
 
   test("does not follow what stays", () => {
-    for (const status of [400, 401, 403, 404, 410, 416, 501, 505]) assert.equal(retryDelayMs(failure(status), 400, now), undefined, String(status));
+    for (const status of [400, 401, 403, 404, 410, 416, 501, 505])
+      assert.equal(retryDelayMs(failure(status), 400, now), undefined, String(status));
     assert.equal(retryDelayMs({ kind: "limit", status: 0, retryAfter: undefined }, 400, now), undefined);
   });
 

@@ -14,8 +14,13 @@ export const status = (code: number) => answering(() => Promise.resolve(new Resp
 export const ok = answering(() => Promise.resolve(new Response("bytes")));
 
 /** Answers only to an abort, as a slow server's connection does. */
-export const silent = answering((_, init) => new Promise((_resolve, reject) => {
-  init?.signal?.addEventListener("abort", () => { reject(init.signal?.reason as Error); });
-}));
+export const silent = answering(
+  (_, init) =>
+    new Promise((_resolve, reject) => {
+      init?.signal?.addEventListener("abort", () => {
+        reject(init.signal?.reason as Error);
+      });
+    }),
+);
 
 export const decoded = (bytes: Uint8Array) => Promise.resolve(bytes.byteLength);

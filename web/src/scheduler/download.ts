@@ -62,8 +62,13 @@ export interface DownloadListener {
  * when, is said in retry.ts; all others are final.
  */
 export async function downloadInSlot<Result>(
-  scheduler: Scheduler, subject: Prioritised, url: string, signal: AbortSignal, options: DownloadOptions,
-  listener: DownloadListener, take: (bytes: Uint8Array<ArrayBuffer>, signal: AbortSignal) => Promise<Result>,
+  scheduler: Scheduler,
+  subject: Prioritised,
+  url: string,
+  signal: AbortSignal,
+  options: DownloadOptions,
+  listener: DownloadListener,
+  take: (bytes: Uint8Array<ArrayBuffer>, signal: AbortSignal) => Promise<Result>,
 ): Promise<Result> {
   for (let attempt = 0; ; ++attempt) {
     try {
@@ -73,8 +78,10 @@ export async function downloadInSlot<Result>(
         return take(await download(url, jobSignal, options, listener), jobSignal);
       });
     } catch (error) {
-      const delayMs = attempt < options.retries && error instanceof RequestError
-        ? retryDelayMs(error, options.backoffMs * 2 ** attempt, Date.now()) : undefined;
+      const delayMs =
+        attempt < options.retries && error instanceof RequestError
+          ? retryDelayMs(error, options.backoffMs * 2 ** attempt, Date.now())
+          : undefined;
       if (signal.aborted || delayMs === undefined) throw error;
       listener.onState("retrying");
       await pause(delayMs, signal);
@@ -83,26 +90,38 @@ export async function downloadInSlot<Result>(
 }
 
 /** One attempt. Rejects with RequestError, or with the signal's reason. */
-export async function download(url: string, signal: AbortSignal, options: DownloadOptions,
-                               listener: Pick<DownloadListener, "onBytes">): Promise<Uint8Array<ArrayBuffer>> {
+export async function download(
+  url: string,
+  signal: AbortSignal,
+  options: DownloadOptions,
+  listener: Pick<DownloadListener, "onBytes">,
+): Promise<Uint8Array<ArrayBuffer>> {
   const silence = new AbortController();
   let timer: ReturnType<typeof setTimeout> | undefined;
   const listen = () => {
     clearTimeout(timer);
-    timer = setTimeout(() => { silence.abort(); }, options.silenceMs);
+    timer = setTimeout(() => {
+      silence.abort();
+    }, options.silenceMs);
   };
   listen();
   try {
     const response = await options.fetch(url, { signal: AbortSignal.any([signal, silence.signal]) });
     if (!response.ok) {
       await response.body?.cancel();
-      throw new RequestError("http", url, `the server answered ${response.status} ${response.statusText}`.trim(),
-        response.status, response.headers.get("retry-after") ?? undefined);
+      throw new RequestError(
+        "http",
+        url,
+        `the server answered ${response.status} ${response.statusText}`.trim(),
+        response.status,
+        response.headers.get("retry-after") ?? undefined,
+      );
     }
     return await readBody(url, response, listen, listener);
   } catch (error) {
     if (signal.aborted) throw signal.reason;
-    if (silence.signal.aborted) throw new RequestError("timeout", url, `no byte came for ${options.silenceMs / 1000} s`);
+    if (silence.signal.aborted)
+      throw new RequestError("timeout", url, `no byte came for ${options.silenceMs / 1000} s`);
     if (error instanceof RequestError) throw error;
     throw new RequestError("network", url, networkMessage(url, error));
   } finally {
@@ -118,8 +137,12 @@ function networkMessage(url: string, error: unknown): string {
   return isForeign ? `${reason}; another origin must allow it with Access-Control-Allow-Origin` : reason;
 }
 
-async function readBody(url: string, response: Response, onChunk: () => void,
-                        { onBytes }: Pick<DownloadListener, "onBytes">): Promise<Uint8Array<ArrayBuffer>> {
+async function readBody(
+  url: string,
+  response: Response,
+  onChunk: () => void,
+  { onBytes }: Pick<DownloadListener, "onBytes">,
+): Promise<Uint8Array<ArrayBuffer>> {
   const total = totalBytesOf(response);
   const chunks: Uint8Array[] = [];
   let loaded = 0;
@@ -128,7 +151,8 @@ async function readBody(url: string, response: Response, onChunk: () => void,
     for await (const chunk of chunksOf(response.body)) {
       onChunk();
       loaded += chunk.byteLength;
-      if (loaded > largestDownloadBytes) throw new RequestError("limit", url, `more than ${largestDownloadBytes} bytes came`);
+      if (loaded > largestDownloadBytes)
+        throw new RequestError("limit", url, `more than ${largestDownloadBytes} bytes came`);
       chunks.push(chunk);
       onBytes(loaded, total);
     }

@@ -15,14 +15,23 @@ function framesOf(bytesPerFrame: number, millisecondsPerFrame: number) {
   let due: ((isUnseen: boolean) => void) | undefined;
   let clock = 0;
   const done: string[] = [];
-  const work = new FrameWork({ bytesPerFrame, millisecondsPerFrame, now: () => clock, requestFrame: (callback) => { due = callback; } });
+  const work = new FrameWork({
+    bytesPerFrame,
+    millisecondsPerFrame,
+    now: () => clock,
+    requestFrame: (callback) => {
+      due = callback;
+    },
+  });
   return {
-    work, done,
+    work,
+    done,
     /** Steps named a1, a2, …, each of so many bytes. */
-    steps: (name: string, bytes: number[]) => stepsOf(bytes, (number) => {
-      clock += 1;
-      done.push(`${name}${number}`);
-    }),
+    steps: (name: string, bytes: number[]) =>
+      stepsOf(bytes, (number) => {
+        clock += 1;
+        done.push(`${name}${number}`);
+      }),
     /** What is done before the next frame; undefined where none was asked for. */
     frame: (isUnseen = false): string[] | undefined => {
       const callback = due;
@@ -89,7 +98,12 @@ describe("work before frames", () => {
 
   test("that fails is told, and the others go on", async () => {
     const { work, steps, frame } = framesOf(10, 10);
-    const failing = work.run((function* (): Generator<number> { throw new Error("no room"); })(), signal);
+    const failing = work.run(
+      (function* (): Generator<number> {
+        throw new Error("no room");
+      })(),
+      signal,
+    );
     const stays = work.run(steps("b", [4]), signal);
     assert.deepEqual(frame(), ["b1"]);
     await assert.rejects(failing, { message: "no room" });

@@ -47,7 +47,10 @@ export class FrameWork {
     this.#frameIsDue = true;
     this.#options.requestFrame((isUnseen = false) => {
       this.#frameIsDue = false;
-      this.#workBeforeFrame(isUnseen ? Infinity : this.#options.bytesPerFrame, isUnseen ? Infinity : this.#options.millisecondsPerFrame);
+      this.#workBeforeFrame(
+        isUnseen ? Infinity : this.#options.bytesPerFrame,
+        isUnseen ? Infinity : this.#options.millisecondsPerFrame,
+      );
       if (this.#queue.length > 0) this.#frameSoon();
     });
   }

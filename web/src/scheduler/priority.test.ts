@@ -9,10 +9,21 @@ const seen = (pixels: number, isInView = true): ViewOf => ({ pixels, isInView, p
 
 describe("the number of a request", () => {
   test("orders what a file holds as the paper does", () => {
-    const order = [chunk("coord"), chunk("index"), chunk("normal"), chunk("texCoord"), chunk("color"),
-      chunk("refinement", 1), chunk("refinement", 2), chunk("refinement", 3)];
+    const order = [
+      chunk("coord"),
+      chunk("index"),
+      chunk("normal"),
+      chunk("texCoord"),
+      chunk("color"),
+      chunk("refinement", 1),
+      chunk("refinement", 2),
+      chunk("refinement", 3),
+    ];
     const values = order.map((each) => priorityOf(1, each, seen(100)));
-    assert.deepEqual(values, values.toSorted((a, b) => b - a));
+    assert.deepEqual(
+      values,
+      values.toSorted((a, b) => b - a),
+    );
     assert.equal(new Set(values).size, values.length);
   });
 
@@ -42,7 +53,8 @@ describe("the number of a request", () => {
   });
 
   test("is a number of 0 or more whatever is seen", () => {
-    for (const pixels of [0, -1, 1e300, Infinity]) assert.ok(Number.isFinite(weightOfView(seen(pixels))) && weightOfView(seen(pixels)) > 0);
+    for (const pixels of [0, -1, 1e300, Infinity])
+      assert.ok(Number.isFinite(weightOfView(seen(pixels))) && weightOfView(seen(pixels)) > 0);
   });
 });
 
@@ -60,7 +72,15 @@ describe("weights that an author writes", () => {
     assert.equal(priorityOf(1, chunk("refinement", 2), seen(1), weightsOf("refinement: 100")), 25);
   });
 
-  for (const text of ["normals: 8", "normal: much", "normal: -1", "normal", "normal:", "normal: 1: 2", "normal: Infinity"]) {
+  for (const text of [
+    "normals: 8",
+    "normal: much",
+    "normal: -1",
+    "normal",
+    "normal:",
+    "normal: 1: 2",
+    "normal: Infinity",
+  ]) {
     test(`"${text}" is left out and told`, () => {
       assert.deepEqual(weightsOf(`${text}; color: 3`), { ...defaultChunkWeights, color: 3 });
       assert.equal(problems.length, 1);

@@ -5,7 +5,18 @@
 import type { ViewOf } from "./view.ts";
 
 /** What a file holds, for the second factor. `refinement` is every byte of a coordinate after the first, `patch` all of a patch, `base` a coarse shape of all patches, `preview` a texture in few pixels. */
-export const chunkTypes = ["base", "patch", "coord", "preview", "index", "normal", "texCoord", "color", "refinement", "texture"] as const;
+export const chunkTypes = [
+  "base",
+  "patch",
+  "coord",
+  "preview",
+  "index",
+  "normal",
+  "texCoord",
+  "color",
+  "refinement",
+  "texture",
+] as const;
 export type ChunkType = (typeof chunkTypes)[number];
 export type ChunkWeights = Readonly<Record<ChunkType, number>>;
 
@@ -17,7 +28,16 @@ export type ChunkWeights = Readonly<Record<ChunkType, number>>;
  * fills the screen for the dots of one that is hardly seen.
  */
 export const defaultChunkWeights: ChunkWeights = {
-  base: 4096, patch: 1024, coord: 1024, preview: 512, index: 256, normal: 64, texCoord: 32, color: 16, refinement: 4, texture: 1,
+  base: 4096,
+  patch: 1024,
+  coord: 1024,
+  preview: 512,
+  index: 256,
+  normal: 64,
+  texCoord: 32,
+  color: 16,
+  refinement: 4,
+  texture: 1,
 };
 
 /** Byte planes after the second are worth this much of the one before. */
@@ -37,8 +57,14 @@ export interface Chunk {
 }
 
 /** `content` is the author's factor, 0 or more; 1 where nothing is said. */
-export function priorityOf(content: number, chunk: Chunk, view: ViewOf, weights: ChunkWeights = defaultChunkWeights): number {
-  const type = chunk.type === "refinement" ? weights.refinement * furtherPlane ** (chunk.plane - 1) : weights[chunk.type];
+export function priorityOf(
+  content: number,
+  chunk: Chunk,
+  view: ViewOf,
+  weights: ChunkWeights = defaultChunkWeights,
+): number {
+  const type =
+    chunk.type === "refinement" ? weights.refinement * furtherPlane ** (chunk.plane - 1) : weights[chunk.type];
   return content * type * weightOfView(view);
 }
 

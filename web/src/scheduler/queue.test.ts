@@ -11,7 +11,7 @@ interface Numbered {
 
 /** Numbers that look random and are the same in every run. */
 function* numbers(seed: number): Generator<number, never> {
-  for (let state = seed; ; ) yield (state = (state * 48271) % 2147483647);
+  for (let state = seed; ;) yield (state = (state * 48271) % 2147483647);
 }
 
 /** What a queue of these must give: the plainest way to say it. */
@@ -35,7 +35,8 @@ describe("a queue", () => {
       for (let turn = 0; turn < 300; ++turn) {
         const chosen = entries[below(Math.max(entries.length, 1))];
         switch (below(5)) {
-          case 0: case 1:
+          case 0:
+          case 1:
             entries.push(queue.push({ priority: below(20), turn }));
             break;
           case 2:
@@ -63,7 +64,10 @@ describe("a queue", () => {
     const queue = new PriorityQueue<Numbered>();
     const entries = [1, 2, 3].map((priority, turn) => queue.push({ priority, turn }));
     for (const entry of entries.slice(1).flatMap((each) => [each, each])) queue.remove(entry);
-    assert.deepEqual(drained(queue).map(({ priority }) => priority), [1]);
+    assert.deepEqual(
+      drained(queue).map(({ priority }) => priority),
+      [1],
+    );
     for (const entry of entries) queue.remove(entry);
     assert.equal(queue.size, 0);
   });
@@ -104,7 +108,10 @@ describe("a backlog", () => {
     const backlog = new Backlog(10);
     const small = await backlog.enter(1, signal);
     let isInside = false;
-    const large = backlog.enter(100, signal).then((leave) => { isInside = true; return leave; });
+    const large = backlog.enter(100, signal).then((leave) => {
+      isInside = true;
+      return leave;
+    });
     await soon();
     assert.equal(isInside, false);
     small();

@@ -6,21 +6,41 @@ import { Scheduler } from "./scheduler.ts";
 
 /** Every way in which a job can end: what is asked, and what becomes of it. */
 const outcomes: Record<string, (scheduler: Scheduler, aborter: AbortController) => Promise<unknown>> = {
-  "ok": (scheduler, { signal }) => downloadInSlot(scheduler, subject, url, signal, ok, listener, decoded),
+  ok: (scheduler, { signal }) => downloadInSlot(scheduler, subject, url, signal, ok, listener, decoded),
   "404": (scheduler, { signal }) => downloadInSlot(scheduler, subject, url, signal, status(404), listener, decoded),
   "416": (scheduler, { signal }) => downloadInSlot(scheduler, subject, url, signal, status(416), listener, decoded),
   "503": (scheduler, { signal }) => downloadInSlot(scheduler, subject, url, signal, status(503), listener, decoded),
   "503 with retries": (scheduler, { signal }) =>
     downloadInSlot(scheduler, subject, url, signal, { ...status(503), retries: 2 }, listener, decoded),
   "network error": (scheduler, { signal }) =>
-    downloadInSlot(scheduler, subject, url, signal, answering(() => Promise.reject(new TypeError("fetch failed"))), listener, decoded),
+    downloadInSlot(
+      scheduler,
+      subject,
+      url,
+      signal,
+      answering(() => Promise.reject(new TypeError("fetch failed"))),
+      listener,
+      decoded,
+    ),
   "connection lost amid the body": (scheduler, { signal }) => {
     const body = new ReadableStream({
-      pull(controller) { controller.enqueue(new Uint8Array(3)); controller.error(new TypeError("terminated")); },
+      pull(controller) {
+        controller.enqueue(new Uint8Array(3));
+        controller.error(new TypeError("terminated"));
+      },
     });
-    return downloadInSlot(scheduler, subject, url, signal, answering(() => Promise.resolve(new Response(body))), listener, decoded);
+    return downloadInSlot(
+      scheduler,
+      subject,
+      url,
+      signal,
+      answering(() => Promise.resolve(new Response(body))),
+      listener,
+      decoded,
+    );
   },
-  "silence": (scheduler, { signal }) => downloadInSlot(scheduler, subject, url, signal, { ...silent, silenceMs: 5 }, listener, decoded),
+  silence: (scheduler, { signal }) =>
+    downloadInSlot(scheduler, subject, url, signal, { ...silent, silenceMs: 5 }, listener, decoded),
   "abort before asking": (scheduler, aborter) => {
     aborter.abort();
     return downloadInSlot(scheduler, subject, url, aborter.signal, ok, listener, decoded);
@@ -32,38 +52,87 @@ const outcomes: Record<string, (scheduler: Scheduler, aborter: AbortController) 
   },
   "abort while running": (scheduler, aborter) => {
     const result = downloadInSlot(scheduler, subject, url, aborter.signal, silent, listener, decoded);
-    setTimeout(() => { aborter.abort(); }, 2);
+    setTimeout(() => {
+      aborter.abort();
+    }, 2);
     return result;
   },
   "abort while waiting to retry": (scheduler, aborter) => {
-    const result = downloadInSlot(scheduler, subject, url, aborter.signal, { ...status(503), retries: 1, backoffMs: 1000 }, listener, decoded);
-    setTimeout(() => { aborter.abort(); }, 5);
+    const result = downloadInSlot(
+      scheduler,
+      subject,
+      url,
+      aborter.signal,
+      { ...status(503), retries: 1, backoffMs: 1000 },
+      listener,
+      decoded,
+    );
+    setTimeout(() => {
+      aborter.abort();
+    }, 5);
     return result;
   },
   "abort twice": (scheduler, aborter) => {
     const result = downloadInSlot(scheduler, subject, url, aborter.signal, silent, listener, decoded);
-    setTimeout(() => { aborter.abort(); aborter.abort(); }, 2);
+    setTimeout(() => {
+      aborter.abort();
+      aborter.abort();
+    }, 2);
     return result;
   },
-  "synchronous throw of the job": (scheduler, { signal }) => scheduler.run(subject, signal, () => { throw new Error("at once"); }),
+  "synchronous throw of the job": (scheduler, { signal }) =>
+    scheduler.run(subject, signal, () => {
+      throw new Error("at once");
+    }),
   "synchronous throw of fetch": (scheduler, { signal }) =>
-    downloadInSlot(scheduler, subject, url, signal, answering(() => { throw new Error("at once"); }), listener, decoded),
+    downloadInSlot(
+      scheduler,
+      subject,
+      url,
+      signal,
+      answering(() => {
+        throw new Error("at once");
+      }),
+      listener,
+      decoded,
+    ),
   "decode error": (scheduler, { signal }) =>
     downloadInSlot(scheduler, subject, url, signal, ok, listener, () => Promise.reject(new Error("no image"))),
   "synchronous throw of the decoder": (scheduler, { signal }) =>
-    downloadInSlot(scheduler, subject, url, signal, ok, listener, () => { throw new Error("no image"); }),
+    downloadInSlot(scheduler, subject, url, signal, ok, listener, () => {
+      throw new Error("no image");
+    }),
   "throw of the byte counter": (scheduler, { signal }) =>
-    downloadInSlot(scheduler, subject, url, signal, ok, { ...listener, onBytes: () => { throw new Error("no bar"); } }, decoded),
+    downloadInSlot(
+      scheduler,
+      subject,
+      url,
+      signal,
+      ok,
+      {
+        ...listener,
+        onBytes: () => {
+          throw new Error("no bar");
+        },
+      },
+      decoded,
+    ),
 };
 
 /** The slots that are free: as many jobs as hold one at the same time. */
 async function freeSlots(scheduler: Scheduler): Promise<number> {
   const aborter = new AbortController();
   let started = 0;
-  const jobs = Array.from({ length: scheduler.slotCount + 2 }, () => scheduler.run(subject, aborter.signal, (signal) => {
-    started += 1;
-    return new Promise((_, reject) => { signal.addEventListener("abort", () => { reject(signal.reason as Error); }); });
-  }));
+  const jobs = Array.from({ length: scheduler.slotCount + 2 }, () =>
+    scheduler.run(subject, aborter.signal, (signal) => {
+      started += 1;
+      return new Promise((_, reject) => {
+        signal.addEventListener("abort", () => {
+          reject(signal.reason as Error);
+        });
+      });
+    }),
+  );
   await new Promise((resolve) => setTimeout(resolve, 0));
   aborter.abort();
   await Promise.allSettled(jobs);
@@ -84,7 +153,11 @@ describe("a slot comes back exactly once", () => {
 
   test("after all of them at once, in any order", async () => {
     const scheduler = new Scheduler(3);
-    await Promise.allSettled(Object.values(outcomes).flatMap((run) => [run, run]).map((run) => run(scheduler, new AbortController())));
+    await Promise.allSettled(
+      Object.values(outcomes)
+        .flatMap((run) => [run, run])
+        .map((run) => run(scheduler, new AbortController())),
+    );
     assert.equal(scheduler.running, 0);
     assert.equal(await freeSlots(scheduler), 3);
   });
@@ -94,7 +167,10 @@ describe("jobs", () => {
   const { signal } = new AbortController();
 
   /** Sends jobs of these priorities through one slot and tells their order; `before` runs when all wait. */
-  async function orderOf(priorities: readonly number[], before?: (scheduler: Scheduler, subjects: { priority: number }[]) => void): Promise<number[]> {
+  async function orderOf(
+    priorities: readonly number[],
+    before?: (scheduler: Scheduler, subjects: { priority: number }[]) => void,
+  ): Promise<number[]> {
     const scheduler = new Scheduler(1);
     const order: number[] = [];
     const subjects = priorities.map((priority) => ({ priority }));
@@ -109,24 +185,36 @@ describe("jobs", () => {
   });
 
   test("change places while they wait", async () => {
-    assert.deepEqual(await orderOf([3, 2, 1], (scheduler, [first, , last]) => {
-      Object.assign(first ?? {}, { priority: 0 });
-      Object.assign(last ?? {}, { priority: 9 });
-      scheduler.reorder();
-    }), [2, 1, 0]);
+    assert.deepEqual(
+      await orderOf([3, 2, 1], (scheduler, [first, , last]) => {
+        Object.assign(first ?? {}, { priority: 0 });
+        Object.assign(last ?? {}, { priority: 9 });
+        scheduler.reorder();
+      }),
+      [2, 1, 0],
+    );
   });
 
   test("are ordered by what counted before until a change is told", async () => {
-    assert.deepEqual(await orderOf([3, 2], (_, [first]) => { Object.assign(first ?? {}, { priority: 0 }); }), [0, 1]);
+    assert.deepEqual(
+      await orderOf([3, 2], (_, [first]) => {
+        Object.assign(first ?? {}, { priority: 0 });
+      }),
+      [0, 1],
+    );
   });
 
   test("never run in more slots than there are, and leave none idle", async () => {
     const scheduler = new Scheduler(3);
     let most = 0;
-    await Promise.all(Array.from({ length: 20 }, () => scheduler.run(subject, signal, async () => {
-      most = Math.max(most, scheduler.running);
-      await new Promise((resolve) => setTimeout(resolve, 1));
-    })));
+    await Promise.all(
+      Array.from({ length: 20 }, () =>
+        scheduler.run(subject, signal, async () => {
+          most = Math.max(most, scheduler.running);
+          await new Promise((resolve) => setTimeout(resolve, 1));
+        }),
+      ),
+    );
     assert.equal(most, 3);
     assert.equal(scheduler.started, 20);
   });
@@ -167,15 +255,19 @@ describe("jobs", () => {
     const aborters = Array.from({ length: count }, () => new AbortController());
     const subjects = aborters.map((_, n) => ({ priority: (n * 7919) % count }));
     let ran = 0;
-    const jobs = subjects.map((each, n) => scheduler.run(each, aborters[n]?.signal ?? signal, () => {
-      ran += 1;
-      if (ran % 100 === 0) {
-        for (const other of subjects) other.priority = (other.priority * 31) % count;
-        scheduler.reorder();
-      }
-      return Promise.resolve();
-    }));
-    aborters.forEach((aborter, n) => { if (n % 2 === 1) aborter.abort(); });
+    const jobs = subjects.map((each, n) =>
+      scheduler.run(each, aborters[n]?.signal ?? signal, () => {
+        ran += 1;
+        if (ran % 100 === 0) {
+          for (const other of subjects) other.priority = (other.priority * 31) % count;
+          scheduler.reorder();
+        }
+        return Promise.resolve();
+      }),
+    );
+    aborters.forEach((aborter, n) => {
+      if (n % 2 === 1) aborter.abort();
+    });
     await Promise.allSettled(jobs);
     // With a list that is sorted or searched for each job this would take minutes.
     assert.equal(ran, count / 2);

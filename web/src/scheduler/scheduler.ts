@@ -67,7 +67,9 @@ export class Scheduler {
         reject(signal.reason as Error);
       };
       const entry = this.#queue.push({
-        get priority() { return subject.priority; },
+        get priority() {
+          return subject.priority;
+        },
         start: () => {
           signal.removeEventListener("abort", leave);
           void this.#occupySlot(job, signal).then(resolve, reject);

@@ -13,8 +13,21 @@ const ball = (center: Point, radius: number) => viewOf({ center, radius }, camer
 
 describe("what a camera sees", () => {
   test("is inside of its six planes, or reaches into them", () => {
-    for (const center of [[0, 0, -10], [9.9, -9.9, -10], [0, 0, -1.1], [0, 0, -99]] as const) assert.ok(ball(center, 0).isInView, String(center));
-    for (const center of [[10.1, 0, -10], [0, -10.1, -10], [0, 0, 10], [0, 0, -0.9], [0, 0, -101]] as const) assert.ok(!ball(center, 0).isInView, String(center));
+    for (const center of [
+      [0, 0, -10],
+      [9.9, -9.9, -10],
+      [0, 0, -1.1],
+      [0, 0, -99],
+    ] as const)
+      assert.ok(ball(center, 0).isInView, String(center));
+    for (const center of [
+      [10.1, 0, -10],
+      [0, -10.1, -10],
+      [0, 0, 10],
+      [0, 0, -0.9],
+      [0, 0, -101],
+    ] as const)
+      assert.ok(!ball(center, 0).isInView, String(center));
     assert.ok(ball([11, 0, -10], 1).isInView);
     assert.ok(!ball([12, 0, -10], 1).isInView);
   });
@@ -48,9 +61,12 @@ describe("the sphere around a box", () => {
       const max = [1, 2.5, 7] as const;
       const { center, radius } = sphereOf({ min, max }, matrix);
       const distances = Array.from({ length: 8 }, (_, corner) => {
-        const point = [0, 1, 2].map((axis) => ((corner >> axis & 1) === 1 ? max : min)[axis] ?? 0);
-        const placed = [0, 1, 2].map((row) =>
-          (matrix[12 + row] ?? 0) + [0, 1, 2].reduce((sum, axis) => sum + (matrix[4 * axis + row] ?? 0) * (point[axis] ?? 0), 0));
+        const point = [0, 1, 2].map((axis) => (((corner >> axis) & 1) === 1 ? max : min)[axis] ?? 0);
+        const placed = [0, 1, 2].map(
+          (row) =>
+            (matrix[12 + row] ?? 0) +
+            [0, 1, 2].reduce((sum, axis) => sum + (matrix[4 * axis + row] ?? 0) * (point[axis] ?? 0), 0),
+        );
         return Math.hypot(...placed.map((value, axis) => value - (center[axis] ?? 0)));
       });
       assert.ok(Math.abs(Math.max(...distances) - radius) < 1e-9, `${distances.join(" ")} in ${radius}`);

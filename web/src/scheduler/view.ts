@@ -39,7 +39,11 @@ export interface ViewOf {
 export const unknownView: ViewOf = { pixels: 1, isInView: true, pixelsPerUnit: Infinity };
 
 export function viewOf({ center, radius }: Sphere, camera: Camera): ViewOf {
-  const distance = Math.hypot(center[0] - camera.position[0], center[1] - camera.position[1], center[2] - camera.position[2]);
+  const distance = Math.hypot(
+    center[0] - camera.position[0],
+    center[1] - camera.position[1],
+    center[2] - camera.position[2],
+  );
   return {
     // From inside of it, it is as large as what lies a radius away.
     pixels: (2 * radius * camera.pixelsPerUnit) / Math.max(distance, radius, camera.near),
@@ -52,14 +56,28 @@ export function viewOf({ center, radius }: Sphere, camera: Camera): ViewOf {
 export function sphereOf({ min, max }: Box, sceneFromShape: Matrix): Sphere {
   const half = [0, 1, 2].map((axis) => (at(max, axis) - at(min, axis)) / 2);
   const middle = [0, 1, 2].map((axis) => (at(max, axis) + at(min, axis)) / 2);
-  const center: Point = [0, 1, 2].map((row) =>
-    at(sceneFromShape, 12 + row) + [0, 1, 2].reduce((sum, axis) => sum + at(sceneFromShape, 4 * axis + row) * at(middle, axis), 0),
+  const center: Point = [0, 1, 2].map(
+    (row) =>
+      at(sceneFromShape, 12 + row) +
+      [0, 1, 2].reduce((sum, axis) => sum + at(sceneFromShape, 4 * axis + row) * at(middle, axis), 0),
   ) as unknown as Point;
   // The farthest corner: its coordinates are sums of the half edges' images with some signs.
   let square = 0;
-  for (const [signY, signZ] of [[1, 1], [1, -1], [-1, 1], [-1, -1]] as const) {
-    const corner = [0, 1, 2].reduce((sum, row) => sum + (at(sceneFromShape, row) * at(half, 0)
-      + signY * at(sceneFromShape, 4 + row) * at(half, 1) + signZ * at(sceneFromShape, 8 + row) * at(half, 2)) ** 2, 0);
+  for (const [signY, signZ] of [
+    [1, 1],
+    [1, -1],
+    [-1, 1],
+    [-1, -1],
+  ] as const) {
+    const corner = [0, 1, 2].reduce(
+      (sum, row) =>
+        sum +
+        (at(sceneFromShape, row) * at(half, 0) +
+          signY * at(sceneFromShape, 4 + row) * at(half, 1) +
+          signZ * at(sceneFromShape, 8 + row) * at(half, 2)) **
+          2,
+      0,
+    );
     square = Math.max(square, corner);
   }
   return { center, radius: Math.sqrt(square) };
@@ -67,19 +85,24 @@ export function sphereOf({ min, max }: Box, sceneFromShape: Matrix): Sphere {
 
 /** By how much a shape's longest axis is longer in the scene. */
 export function scaleOf(sceneFromShape: Matrix): number {
-  return Math.max(...[0, 4, 8].map((column) =>
-    Math.hypot(at(sceneFromShape, column), at(sceneFromShape, column + 1), at(sceneFromShape, column + 2))));
+  return Math.max(
+    ...[0, 4, 8].map((column) =>
+      Math.hypot(at(sceneFromShape, column), at(sceneFromShape, column + 1), at(sceneFromShape, column + 2)),
+    ),
+  );
 }
 
 /** The six sides of what a camera sees, from its projection times its view (Gribb and Hartmann 2001). */
 export function planesOf(clipFromScene: Matrix): Camera["planes"] {
   const row = (n: number) => [0, 4, 8, 12].map((column) => at(clipFromScene, column + n));
   const last = row(3);
-  return [0, 1, 2].flatMap((n) => [1, -1].map((sign) => {
-    const [x = 0, y = 0, z = 0, w = 0] = last.map((value, place) => value + sign * at(row(n), place));
-    const length = Math.hypot(x, y, z) || 1;
-    return [x / length, y / length, z / length, w / length] as const;
-  }));
+  return [0, 1, 2].flatMap((n) =>
+    [1, -1].map((sign) => {
+      const [x = 0, y = 0, z = 0, w = 0] = last.map((value, place) => value + sign * at(row(n), place));
+      const length = Math.hypot(x, y, z) || 1;
+      return [x / length, y / length, z / length, w / length] as const;
+    }),
+  );
 }
 
 function at(numbers: ArrayLike<number>, place: number): number {

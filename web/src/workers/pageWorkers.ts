@@ -15,25 +15,32 @@ const besideThis = (): URL => new URL("./imgeo-worker.js", import.meta.url);
 
 export function pageWorkers(url: string | URL = besideThis()): WorkerPool {
   let module: Promise<WorkerModule> | undefined;
-  const load = () => module ??= importedFrom(new URL(url, document.baseURI).href).catch((error: unknown) => {
-    module = undefined; // who asks next tries again
-    throw error;
-  });
+  const load = () =>
+    (module ??= importedFrom(new URL(url, document.baseURI).href).catch((error: unknown) => {
+      module = undefined; // who asks next tries again
+      throw error;
+    }));
   return new WorkerPool({
     // One core is the page's; but while it waits, two workers share what there is.
     size: Math.min(4, Math.max(2, navigator.hardwareConcurrency - 1)),
     idleMs,
     start: () => new Worker(url, { type: "module", name: "imgeo" }),
     runHere: async (message) => (await load()).runJob(message),
-    prepareHere: () => { load().catch(() => undefined); }, // whoever runs a job is told
+    prepareHere: () => {
+      load().catch(() => undefined);
+    }, // whoever runs a job is told
   });
 }
 
 /** Rejects with DecodeError, in words for those who look for the file. */
 async function importedFrom(url: string): Promise<WorkerModule> {
   try {
-    return await import(/* webpackIgnore: true */ /* @vite-ignore */ url) as WorkerModule;
+    return (await import(/* webpackIgnore: true */ /* @vite-ignore */ url)) as WorkerModule;
   } catch (cause) {
-    throw new DecodeError("unsupported", `needs the module of our workers, which cannot be loaded from ${url} (apps of three.js say where it is by setWorkerUrl)`, { cause });
+    throw new DecodeError(
+      "unsupported",
+      `needs the module of our workers, which cannot be loaded from ${url} (apps of three.js say where it is by setWorkerUrl)`,
+      { cause },
+    );
   }
 }

@@ -8,7 +8,8 @@ export interface JobMessage {
   readonly input: unknown;
 }
 
-export type AnswerMessage = { readonly output: unknown }
+export type AnswerMessage =
+  | { readonly output: unknown }
   | { readonly error: { readonly kind: DecodeError["kind"] | undefined; readonly message: string } };
 
 /** Errors lose their class on the way. */

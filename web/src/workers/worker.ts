@@ -20,5 +20,7 @@ async function answer(message: JobMessage): Promise<void> {
 }
 
 if ("WorkerGlobalScope" in globalThis) {
-  addEventListener("message", ({ data }) => { void answer(data as JobMessage); });
+  addEventListener("message", ({ data }) => {
+    void answer(data as JobMessage);
+  });
 }

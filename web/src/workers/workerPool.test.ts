@@ -14,19 +14,24 @@ function fakes({ size = 2, idleMs = 1000, start = true, broken = false } = {}) {
   const workers: { asked: JobMessage[]; isEnded: boolean; answer: (answer: AnswerMessage) => void }[] = [];
   const here: JobMessage[] = [];
   const pool = new WorkerPool({
-    size, idleMs,
+    size,
+    idleMs,
     start: () => {
       if (!start) throw new DOMException("no", "SecurityError");
       const worker: JobWorker = {
-        onmessage: null, onerror: null,
+        onmessage: null,
+        onerror: null,
         postMessage: (message) => {
           fake.asked.push(message);
           if (broken) setTimeout(() => worker.onerror?.({ preventDefault: () => undefined } as ErrorEvent));
         },
-        terminate: () => { fake.isEnded = true; },
+        terminate: () => {
+          fake.isEnded = true;
+        },
       };
       const fake = {
-        asked: [] as JobMessage[], isEnded: false,
+        asked: [] as JobMessage[],
+        isEnded: false,
         answer: (answer: AnswerMessage) => worker.onmessage?.({ data: answer } as MessageEvent<AnswerMessage>),
       };
       workers.push(fake);
@@ -42,7 +47,10 @@ function fakes({ size = 2, idleMs = 1000, start = true, broken = false } = {}) {
 }
 
 const input = (n: number): NormalJob => ({
-  file: { png: pngWithTexels(4, 1, 3, (texel) => n + texel), first: 0 }, code: { kind: "byteVector" }, count: 2, rowLength: 0,
+  file: { png: pngWithTexels(4, 1, 3, (texel) => n + texel), first: 0 },
+  code: { kind: "byteVector" },
+  count: 2,
+  rowLength: 0,
 });
 const forever = new AbortController().signal;
 const output = (n: number) => ({ output: { array: Uint8Array.from([n]), components: 3, stride: 4, offset: 0 } });
@@ -52,12 +60,21 @@ describe("jobs", () => {
   test("run in as many workers as there are jobs, and as are allowed; the rest wait", async () => {
     const { pool, workers } = fakes();
     const jobs = [1, 2, 3].map((n) => pool.run("classicNormals", input(n), forever));
-    assert.deepEqual(workers.map(({ asked }) => asked.length), [1, 1]);
+    assert.deepEqual(
+      workers.map(({ asked }) => asked.length),
+      [1, 1],
+    );
     workers[1]?.answer(output(2));
-    assert.deepEqual(workers.map(({ asked }) => asked.length), [1, 2]);
+    assert.deepEqual(
+      workers.map(({ asked }) => asked.length),
+      [1, 2],
+    );
     workers[0]?.answer(output(1));
     workers[1]?.answer(output(3));
-    assert.deepEqual((await Promise.all(jobs)).map(({ array }) => array[0]), [1, 2, 3]);
+    assert.deepEqual(
+      (await Promise.all(jobs)).map(({ array }) => array[0]),
+      [1, 2, 3],
+    );
     pool.dispose();
     assert.ok(workers.every(({ isEnded }) => isEnded));
   });
@@ -67,7 +84,10 @@ describe("jobs", () => {
     const failing = pool.run("classicNormals", input(1), forever);
     const next = pool.run("classicNormals", input(2), forever);
     workers[0]?.answer(asAnswer(new DecodeError("truncated", "is short")));
-    await assert.rejects(failing, (error) => error instanceof DecodeError && error.kind === "truncated" && error.message === "is short");
+    await assert.rejects(
+      failing,
+      (error) => error instanceof DecodeError && error.kind === "truncated" && error.message === "is short",
+    );
     workers[0]?.answer(output(2));
     assert.equal((await next).array[0], 2);
     pool.dispose();
@@ -97,7 +117,10 @@ describe("jobs", () => {
     pool.prepare(5);
     assert.equal(workers.length, 2);
     const job = pool.run("classicNormals", input(1), forever);
-    assert.deepEqual(workers.map(({ asked }) => asked.length), [1, 0]);
+    assert.deepEqual(
+      workers.map(({ asked }) => asked.length),
+      [1, 0],
+    );
     workers[0]?.answer(output(1));
     await job;
     await soon();
@@ -120,16 +143,27 @@ describe("jobs", () => {
     pool.dispose();
   });
 
-  for (const [why, options] of [["cannot be started", { start: false }], ["do not load", { broken: true }]] as const) {
+  for (const [why, options] of [
+    ["cannot be started", { start: false }],
+    ["do not load", { broken: true }],
+  ] as const) {
     test(`are done in the page where workers ${why}`, async () => {
       const { pool, here } = fakes(options);
       const results = await Promise.all([1, 20, 40].map((n) => pool.run("classicNormals", input(n), forever)));
-      assert.deepEqual(results.map(({ array }) => array[4]), [2, 21, 41]);
+      assert.deepEqual(
+        results.map(({ array }) => array[4]),
+        [2, 21, 41],
+      );
       assert.equal(here.length, 3);
       assert.equal(pool.workerCount, 0);
       const bad: IndexJob = {
-        file: { png: pngWithTexels(4, 1, 3, () => 255), first: 0 }, draws: [{ primitive: "points", first: 0, count: 2 }],
-        rowLength: 4, isWide: true, coordWidth: 1, coordHeight: 1, recordCount: 1,
+        file: { png: pngWithTexels(4, 1, 3, () => 255), first: 0 },
+        draws: [{ primitive: "points", first: 0, count: 2 }],
+        rowLength: 4,
+        isWide: true,
+        coordWidth: 1,
+        coordHeight: 1,
+        recordCount: 1,
       };
       await assert.rejects(pool.run("classicIndex", bad, forever), { name: "DecodeError" });
     });
@@ -138,8 +172,17 @@ describe("jobs", () => {
 
 test("messages hand over the memory of all arrays in them, once, and errors keep their kind", () => {
   const shared = new ArrayBuffer(8);
-  const value = { a: new Uint8Array(shared), b: [new Float32Array(shared), { c: new Uint16Array(2) }], d: "text", e: null, f: 3 };
+  const value = {
+    a: new Uint8Array(shared),
+    b: [new Float32Array(shared), { c: new Uint16Array(2) }],
+    d: "text",
+    e: null,
+    f: 3,
+  };
   assert.equal(buffersIn(value).length, 2);
   const back = (error: unknown) => asError(asAnswer(error) as Parameters<typeof asError>[0]);
-  assert.deepEqual([back(new DecodeError("limit", "m")).name, back(new RangeError("m")).name, back("m").message], ["DecodeError", "Error", "m"]);
+  assert.deepEqual(
+    [back(new DecodeError("limit", "m")).name, back(new RangeError("m")).name, back("m").message],
+    ["DecodeError", "Error", "m"],
+  );
 });

@@ -64,10 +64,14 @@ export class WorkerPool {
         return;
       }
       const job: Job = { message: { name, input }, signal, resolve, reject };
-      signal.addEventListener("abort", () => {
-        this.#waiting = this.#waiting.filter((other) => other !== job);
-        reject(signal.reason as Error); // one that runs is finished, and its result dropped
-      }, { once: true });
+      signal.addEventListener(
+        "abort",
+        () => {
+          this.#waiting = this.#waiting.filter((other) => other !== job);
+          reject(signal.reason as Error); // one that runs is finished, and its result dropped
+        },
+        { once: true },
+      );
       this.#waiting.push(job);
       this.#pump();
     }) as Promise<OutputOf<Name>>;
@@ -137,13 +141,17 @@ export class WorkerPool {
 
   /** Until there is a job, or for good. */
   #rest(busy: Busy): void {
-    busy.idleTimer = setTimeout(() => { this.#end(busy); }, this.#options.idleMs);
+    busy.idleTimer = setTimeout(() => {
+      this.#end(busy);
+    }, this.#options.idleMs);
   }
 
   #start(worker: JobWorker): Busy {
     const busy: Busy = { worker, job: undefined, idleTimer: undefined };
     this.#workers.add(busy);
-    worker.onmessage = ({ data }) => { this.#take(busy, data); };
+    worker.onmessage = ({ data }) => {
+      this.#take(busy, data);
+    };
     worker.onerror = (event) => {
       // Its module did not load: jobs catch their own errors.
       event.preventDefault();
@@ -174,7 +182,9 @@ export class WorkerPool {
   /** One after the other, with room for the page in between. */
   #doHere({ message, signal, resolve, reject }: Job): void {
     this.#here = this.#here.then(async () => {
-      await new Promise((next) => { setTimeout(next); });
+      await new Promise((next) => {
+        setTimeout(next);
+      });
       if (!signal.aborted && !this.#isDisposed) await this.#options.runHere(message).then(resolve, reject);
     });
   }

@@ -18,19 +18,44 @@ describe("the parts of a base", () => {
     test(`of "${name}" have the triangles of the whole, each once, over vertices of their own`, () => {
       const { positions, wedgePositions, corners, parts, partCount } = (readVector(name) as Expected[])[0]!;
       const placeOf = (w: number) => positions.slice(3 * wedgePositions[w]!, 3 * wedgePositions[w]! + 3).join();
-      const expected = Array.from({ length: partCount }, (_, part) => parts.flatMap((p, t) =>
-        p === part ? [corners.slice(3 * t, 3 * t + 3).map(placeOf).join(" ")] : []));
+      const expected = Array.from({ length: partCount }, (_, part) =>
+        parts.flatMap((p, t) =>
+          p === part
+            ? [
+                corners
+                  .slice(3 * t, 3 * t + 3)
+                  .map(placeOf)
+                  .join(" "),
+              ]
+            : [],
+        ),
+      );
       const buffers = new Base(decodeVector(name)[0]!).parts;
       assert.equal(buffers.length, partCount);
-      assert.deepEqual(buffers.map((part) => {
-        if (part === undefined) return [];
-        const { coord: { array, stride }, vertexCount, normal, color, texCoord, others } = part;
-        for (const vertices of [part.coord, normal, color, texCoord, ...others.map((other) => other.vertices)]) if (vertices) assert.equal(vertices.array.length, vertexCount * vertices.stride);
-        const index = Array.from(part.index!);
-        assert.deepEqual(new Set(index), new Set(Array.from({ length: vertexCount }, (_, n) => n)));
-        return Array.from({ length: index.length / 3 }, (_, t) => index.slice(3 * t, 3 * t + 3)
-          .map((n) => Array.from(array.subarray(n * stride, n * stride + 3)).join()).join(" "));
-      }), expected);
+      assert.deepEqual(
+        buffers.map((part) => {
+          if (part === undefined) return [];
+          const {
+            coord: { array, stride },
+            vertexCount,
+            normal,
+            color,
+            texCoord,
+            others,
+          } = part;
+          for (const vertices of [part.coord, normal, color, texCoord, ...others.map((other) => other.vertices)])
+            if (vertices) assert.equal(vertices.array.length, vertexCount * vertices.stride);
+          const index = Array.from(part.index!);
+          assert.deepEqual(new Set(index), new Set(Array.from({ length: vertexCount }, (_, n) => n)));
+          return Array.from({ length: index.length / 3 }, (_, t) =>
+            index
+              .slice(3 * t, 3 * t + 3)
+              .map((n) => Array.from(array.subarray(n * stride, n * stride + 3)).join())
+              .join(" "),
+          );
+        }),
+        expected,
+      );
     });
   }
 
@@ -39,8 +64,13 @@ describe("the parts of a base", () => {
     const { whole, partCount } = new Base(decodeVector("base-seams")[0]!);
     assert.deepEqual(Array.from(whole.index!), corners);
     const { array, stride } = whole.coord;
-    const places = Array.from({ length: whole.vertexCount }, (_, w) => Array.from(array.subarray(stride * w, stride * w + 3)));
-    assert.deepEqual(places, wedgePositions.map((v) => positions.slice(3 * v, 3 * v + 3)));
+    const places = Array.from({ length: whole.vertexCount }, (_, w) =>
+      Array.from(array.subarray(stride * w, stride * w + 3)),
+    );
+    assert.deepEqual(
+      places,
+      wedgePositions.map((v) => positions.slice(3 * v, 3 * v + 3)),
+    );
     assert.ok(partCount > 1);
   });
 

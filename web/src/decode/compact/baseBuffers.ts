@@ -20,7 +20,11 @@ export class Base {
 
   /** Throws DecodeError for what is no base. */
   constructor(patch: CompactPatch) {
-    const { header, parts, wedges: { wedge } } = patch;
+    const {
+      header,
+      parts,
+      wedges: { wedge },
+    } = patch;
     if (parts === undefined) throw new DecodeError("malformed", "holds a patch where a base should be");
     this.partCount = header.partCount;
     this.whole = { ...verticesOf(patch), index: indexOf(wedge, header.wedgeCount) };
@@ -30,7 +34,7 @@ export class Base {
 
   /** Its parts, made when they are first asked for. */
   get parts(): BaseBuffers {
-    return this.#parts ??= partsOf(this.whole, this.#wedge, this.#part, this.partCount);
+    return (this.#parts ??= partsOf(this.whole, this.#wedge, this.#part, this.partCount));
   }
 }
 
@@ -42,15 +46,20 @@ function partsOf(whole: PatchBuffers, wedge: Int32Array, part: Int32Array, partC
     if (corners.length === 0) return undefined;
     const used: number[] = [];
     for (let c = 0; c < corners.length; ++c) {
-      const w = wedge[3 * triangles[firsts[p]! + Math.floor(c / 3)]! + c % 3]!;
+      const w = wedge[3 * triangles[firsts[p]! + Math.floor(c / 3)]! + (c % 3)]!;
       if (numbers[w]! < 0) numbers[w] = used.push(w) - 1;
       corners[c] = numbers[w]!;
     }
     for (const w of used) numbers[w] = -1;
     const some = (all: VertexArray | undefined) => all && gather(all, used);
     return {
-      ...whole, vertexCount: used.length, index: indexOf(corners, used.length),
-      coord: gather(whole.coord, used), normal: some(whole.normal), color: some(whole.color), texCoord: some(whole.texCoord),
+      ...whole,
+      vertexCount: used.length,
+      index: indexOf(corners, used.length),
+      coord: gather(whole.coord, used),
+      normal: some(whole.normal),
+      color: some(whole.color),
+      texCoord: some(whole.texCoord),
       others: whole.others.map((other) => ({ ...other, vertices: gather(other.vertices, used) })),
     };
   });

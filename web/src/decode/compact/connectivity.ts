@@ -27,7 +27,14 @@ const nothing = new Int32Array();
 
 /** What points have. */
 export const unconnected: Connectivity = {
-  vertex: nothing, across: nothing, closing: nothing, ahead: nothing, behind: nothing, second: nothing, fans: nothing, from: nothing,
+  vertex: nothing,
+  across: nothing,
+  closing: nothing,
+  ahead: nothing,
+  behind: nothing,
+  second: nothing,
+  fans: nothing,
+  from: nothing,
 };
 
 /** The corners of a corner's triangle after and before it, in its orientation. */

@@ -52,8 +52,13 @@ class Conquest {
     const none = (count: number) => new Int32Array(count).fill(-1);
     this.#vertex = new Int32Array(3 * triangleCount);
     this.#out = {
-      ...unconnected, vertex: this.#vertex, across: none(triangleCount), closing: none(triangleCount),
-      ahead: none(vertexCount), behind: none(vertexCount), second: none(vertexCount),
+      ...unconnected,
+      vertex: this.#vertex,
+      across: none(triangleCount),
+      closing: none(triangleCount),
+      ahead: none(vertexCount),
+      behind: none(vertexCount),
+      second: none(vertexCount),
     };
     this.#nodes = new Int32Array(3 * triangleCount * nodeSize);
     this.#degrees = new Int32Array(vertexCount);
@@ -72,7 +77,8 @@ class Conquest {
         fans[place++] = this.#node / nodeSize;
       }
     }
-    if (this.#newVertex < this.#vertexCount) throw new DecodeError("malformed", "holds fewer vertices than its header states");
+    if (this.#newVertex < this.#vertexCount)
+      throw new DecodeError("malformed", "holds fewer vertices than its header states");
     return { ...this.#out, fans: fans.subarray(0, place) };
   }
 
@@ -81,10 +87,15 @@ class Conquest {
     const corner = 3 * this.#triangle;
     const node = this.#node;
     const decoder = this.#decoder;
-    const [a, b, c] = [0, 1, 2].map((i) => decoder.bit(oldModels + i) === 1 ? this.#oldVertex() : this.#makeVertex());
+    const [a, b, c] = [0, 1, 2].map((i) => (decoder.bit(oldModels + i) === 1 ? this.#oldVertex() : this.#makeVertex()));
     this.#addTriangle(a!, b!, c!);
     for (let i = 0; i < 3; ++i) {
-      this.#addNode(this.#vertex[corner + i]!, node + (i + 2) % 3 * nodeSize, node + (i + 1) % 3 * nodeSize, corner + (i + 1) % 3);
+      this.#addNode(
+        this.#vertex[corner + i]!,
+        node + ((i + 2) % 3) * nodeSize,
+        node + ((i + 1) % 3) * nodeSize,
+        corner + ((i + 1) % 3),
+      );
     }
   }
 
@@ -98,8 +109,9 @@ class Conquest {
     const behind = nodes[p + previousField]!;
     const vk = nodes[k]!;
     const vp = nodes[p]!;
-    const context = (Math.min(degrees[vk]!, 11) * 12 + Math.min(degrees[vp]!, 11)) * 8
-      + (next < 0 ? 0 : Math.min(degrees[nodes[next]!]!, 7));
+    const context =
+      (Math.min(degrees[vk]!, 11) * 12 + Math.min(degrees[vp]!, 11)) * 8 +
+      (next < 0 ? 0 : Math.min(degrees[nodes[next]!]!, 7));
     if (decoder.bit(makeModels + context) === 1) {
       const x = this.#makeVertex();
       if (next >= 0) this.#out.ahead[x] = nodes[next]!;
@@ -147,7 +159,8 @@ class Conquest {
     closing[t] = opposite;
     this.#addTriangle(vk, vp, vn);
     nodes[k + previousField] = nodes[k + nextField] = -1;
-    if (behind === next) { // the loop is closed
+    if (behind === next) {
+      // the loop is closed
       nodes[p + previousField] = nodes[p + nextField] = -1;
       nodes[next + previousField] = nodes[next + nextField] = -1;
       return;
@@ -217,7 +230,8 @@ class Conquest {
   }
 
   #makeVertex(): number {
-    if (this.#newVertex >= this.#vertexCount) throw new DecodeError("malformed", "holds more vertices than its header states");
+    if (this.#newVertex >= this.#vertexCount)
+      throw new DecodeError("malformed", "holds more vertices than its header states");
     return this.#newVertex++;
   }
 

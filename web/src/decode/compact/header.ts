@@ -61,11 +61,18 @@ export function cornersPerElement(topology: Topology): 1 | 2 | 3 {
 export function readFileHeader(payload: Uint8Array): { header: FileHeader; streams: FileStreams } {
   const reader = new FieldReader(payload);
   const [first, second, third, fileVersion] = [reader.byte(), reader.byte(), reader.byte(), reader.byte()];
-  if (first !== magic[0] || second !== magic[1] || third !== magic[2]) throw new DecodeError("malformed", "is no image of compact");
-  if (fileVersion !== version) throw new DecodeError("unsupported", `is of version ${fileVersion} of compact, not ${version}`);
-  const attributes = Array.from({ length: readCount(reader, "attributes", mostFileAttributes) }, () => readAttributeType(reader));
-  const types = Array.from({ length: readCount(reader, "types of patches", mostTypes) }, () => readPatchType(reader, attributes.length));
-  if (types.some(({ isBase }) => isBase !== types[0]?.isBase)) throw new DecodeError("malformed", "holds bases beside patches");
+  if (first !== magic[0] || second !== magic[1] || third !== magic[2])
+    throw new DecodeError("malformed", "is no image of compact");
+  if (fileVersion !== version)
+    throw new DecodeError("unsupported", `is of version ${fileVersion} of compact, not ${version}`);
+  const attributes = Array.from({ length: readCount(reader, "attributes", mostFileAttributes) }, () =>
+    readAttributeType(reader),
+  );
+  const types = Array.from({ length: readCount(reader, "types of patches", mostTypes) }, () =>
+    readPatchType(reader, attributes.length),
+  );
+  if (types.some(({ isBase }) => isBase !== types[0]?.isBase))
+    throw new DecodeError("malformed", "holds bases beside patches");
   const patchCount = within("number of patches", readCount(reader, "patches", mostPatches), 1, mostPatches);
   return { header: { attributes, types, patchCount }, streams: readStreams(reader, attributes.length) };
 }
@@ -102,8 +109,9 @@ function readAttributeType(reader: FieldReader): AttributeType {
 
 function readStreams(reader: FieldReader, attributeCount: number): FileStreams {
   const lengths = Array.from({ length: 5 + attributeCount }, () => reader.number());
-  const [sizes, connectivity, parts, positions, wedges, ...attributes] = lengths.map((length) => reader.bytes(length)) as
-    [Uint8Array, Uint8Array, Uint8Array, Uint8Array, Uint8Array, ...Uint8Array[]];
+  const [sizes, connectivity, parts, positions, wedges, ...attributes] = lengths.map((length) =>
+    reader.bytes(length),
+  ) as [Uint8Array, Uint8Array, Uint8Array, Uint8Array, Uint8Array, ...Uint8Array[]];
   return { sizes, connectivity, parts, positions, wedges, attributes };
 }
 

@@ -22,21 +22,21 @@ export class NormalSums {
     const x = coordinates[3 * va]!;
     const y = coordinates[3 * va + 1]!;
     const z = coordinates[3 * va + 2]!;
-    const ex = coordinates[3 * vb]! - x >> shift;
-    const ey = coordinates[3 * vb + 1]! - y >> shift;
-    const ez = coordinates[3 * vb + 2]! - z >> shift;
-    const fx = coordinates[3 * vc]! - x >> shift;
-    const fy = coordinates[3 * vc + 1]! - y >> shift;
-    const fz = coordinates[3 * vc + 2]! - z >> shift;
-    let nx = Math.imul(ey, fz) - Math.imul(ez, fy) | 0;
-    let ny = Math.imul(ez, fx) - Math.imul(ex, fz) | 0;
-    let nz = Math.imul(ex, fy) - Math.imul(ey, fx) | 0;
+    const ex = (coordinates[3 * vb]! - x) >> shift;
+    const ey = (coordinates[3 * vb + 1]! - y) >> shift;
+    const ez = (coordinates[3 * vb + 2]! - z) >> shift;
+    const fx = (coordinates[3 * vc]! - x) >> shift;
+    const fy = (coordinates[3 * vc + 1]! - y) >> shift;
+    const fz = (coordinates[3 * vc + 2]! - z) >> shift;
+    let nx = (Math.imul(ey, fz) - Math.imul(ez, fy)) | 0;
+    let ny = (Math.imul(ez, fx) - Math.imul(ex, fz)) | 0;
+    let nz = (Math.imul(ex, fy) - Math.imul(ey, fx)) | 0;
     if (this.#isUniform) {
       const length = Math.abs(nx) + Math.abs(ny) + Math.abs(nz);
       if (length === 0) return;
-      nx = Math.trunc(4096 * nx / length);
-      ny = Math.trunc(4096 * ny / length);
-      nz = Math.trunc(4096 * nz / length);
+      nx = Math.trunc((4096 * nx) / length);
+      ny = Math.trunc((4096 * ny) / length);
+      nz = Math.trunc((4096 * nz) / length);
     }
     this.#addTo(a, nx, ny, nz);
     this.#addTo(b, nx, ny, nz);

@@ -18,7 +18,12 @@ export function decodeNormals(decoder: RangeDecoder, type: AttributeType, shape:
 /** The same of what is not stored: normals are what is predicted, in a base of all triangles around a vertex. */
 export function deriveNormals(type: AttributeType, shape: DecodedShape): Int32Array {
   const previous = shape.header.partCount > 0 ? shape.wedges.seams?.previous : undefined;
-  return new NormalDecoder(undefined, type, shape, Uint8Array.from(previous ?? [], (w) => Number(w >= 0))).run();
+  return new NormalDecoder(
+    undefined,
+    type,
+    shape,
+    Uint8Array.from(previous ?? [], (w) => Number(w >= 0)),
+  ).run();
 }
 
 class NormalDecoder {
@@ -103,7 +108,13 @@ class NormalDecoder {
 
 /** The sum of the triangle normals around each wedge; those that repeat add to the one that they repeat. */
 function sumsOf(type: AttributeType, shape: DecodedShape, repeats: Uint8Array): Int32Array {
-  const { header, connectivity: { vertex }, wedges: { wedge, seams }, coordinates, normalSums } = shape;
+  const {
+    header,
+    connectivity: { vertex },
+    wedges: { wedge, seams },
+    coordinates,
+    normalSums,
+  } = shape;
   if (!type.isUniform && seams === undefined) return normalSums;
   const sums = new NormalSums(header.wedgeCount, coordinates, header.normalShift, type.isUniform);
   const target = new Int32Array(header.wedgeCount);

@@ -33,15 +33,51 @@ interface Refused {
 
 /** All that a reader has to refuse in a payload (docs/formats/compact.md), in this one's words. */
 const refusals = [
-  /is no image of compact/, /of version \d+ of compact/, /number that is too long/, /ends before its streams do/, /bases beside patches/,
-  /parts of points/, /parts of lines/, /attribute of a patch twice/, /stream that nothing reads/,
-  ...["attributes", "types of patches", "patches", "vertices", "wedges", "elements"].map((what) => new RegExp(`holds \\d+ ${what}; \\d+ are allowed`)),
-  ...["kind of an attribute", "number of components", "bits of an attribute", "mode of an attribute", "topology", "bits of a position", "flags",
-      "number of attributes", "attribute", "number of patches", "type of a patch", "number of wedges", "shift of normals", "step of the grid",
-      "origin of the grid", "number of parts", "shift of residuals"].map((what) => new RegExp(`as ${what}; `)),
-  /stream that is longer/, /stream that is shorter/, /more vertices than/, /fewer vertices than/, /vertex that has not come/,
-  /node of the boundary that has not come/, /part that there is not/, /vertex beside its lattice/, /more wedges than/, /fewer wedges than/,
-  /another wedge of a vertex that has one/, /wedge that its vertex has not/, /normal beside its octahedron/, /texture coordinate that its bits cannot/,
+  /is no image of compact/,
+  /of version \d+ of compact/,
+  /number that is too long/,
+  /ends before its streams do/,
+  /bases beside patches/,
+  /parts of points/,
+  /parts of lines/,
+  /attribute of a patch twice/,
+  /stream that nothing reads/,
+  ...["attributes", "types of patches", "patches", "vertices", "wedges", "elements"].map(
+    (what) => new RegExp(`holds \\d+ ${what}; \\d+ are allowed`),
+  ),
+  ...[
+    "kind of an attribute",
+    "number of components",
+    "bits of an attribute",
+    "mode of an attribute",
+    "topology",
+    "bits of a position",
+    "flags",
+    "number of attributes",
+    "attribute",
+    "number of patches",
+    "type of a patch",
+    "number of wedges",
+    "shift of normals",
+    "step of the grid",
+    "origin of the grid",
+    "number of parts",
+    "shift of residuals",
+  ].map((what) => new RegExp(`as ${what}; `)),
+  /stream that is longer/,
+  /stream that is shorter/,
+  /more vertices than/,
+  /fewer vertices than/,
+  /vertex that has not come/,
+  /node of the boundary that has not come/,
+  /part that there is not/,
+  /vertex beside its lattice/,
+  /more wedges than/,
+  /fewer wedges than/,
+  /another wedge of a vertex that has one/,
+  /wedge that its vertex has not/,
+  /normal beside its octahedron/,
+  /texture coordinate that its bits cannot/,
   /value that its bits cannot/,
 ];
 
@@ -73,24 +109,46 @@ describe("a file of compact", () => {
     const files = names.map((name) => headersOf(readPayload(name)));
     assert.ok(files.some((headers) => headers.length > 1));
     const headers = files.flat();
-    for (const topology of ["points", "lines", "triangles"]) assert.ok(headers.some((header) => header.topology === topology), topology);
+    for (const topology of ["points", "lines", "triangles"])
+      assert.ok(
+        headers.some((header) => header.topology === topology),
+        topology,
+      );
     assert.ok(headers.some(({ grid }) => grid));
     assert.ok(headers.some(({ vertexCount, wedgeCount }) => wedgeCount > vertexCount));
     const attributes = headers.flatMap((header) => header.attributes);
-    for (const kind of ["normal", "texCoord", "color", "other"]) assert.ok(attributes.some((type) => type.kind === kind), kind);
+    for (const kind of ["normal", "texCoord", "color", "other"])
+      assert.ok(
+        attributes.some((type) => type.kind === kind),
+        kind,
+      );
     assert.ok(attributes.some(({ isUniform }) => isUniform) && attributes.some(({ isDerived }) => isDerived));
   });
 
   test("is refused as it should be, or decodes as it should, after every edit that the vectors state", () => {
-    for (const edit of readVector("edits") as Edit[]) assert.equal(verdictOn(edited(edit)), edit.verdict, JSON.stringify(edit));
+    for (const edit of readVector("edits") as Edit[])
+      assert.equal(verdictOn(edited(edit)), edit.verdict, JSON.stringify(edit));
   });
 
   test("is refused where the vectors are made to be, and for everything that there is to refuse", () => {
-    const refused = (readVector("refused") as Refused[]).map((each) => ({ ...each, payload: Uint8Array.from(Buffer.from(each.payload, "hex")) }));
+    const refused = (readVector("refused") as Refused[]).map((each) => ({
+      ...each,
+      payload: Uint8Array.from(Buffer.from(each.payload, "hex")),
+    }));
     for (const { name, payload, verdict } of refused) assert.equal(verdictOn(payload), verdict, name);
-    const said = new Set([...refused.map(({ payload }) => payload), ...(readVector("edits") as Edit[]).map(edited)].map(refusalOf));
-    for (const refusal of refusals) assert.ok([...said].some((message) => refusal.test(message)), `no vector is refused with ${String(refusal)}`);
-    for (const message of said) assert.ok(message === "" || refusals.some((refusal) => refusal.test(message)), `"${message}" is of no kind that is listed`);
+    const said = new Set(
+      [...refused.map(({ payload }) => payload), ...(readVector("edits") as Edit[]).map(edited)].map(refusalOf),
+    );
+    for (const refusal of refusals)
+      assert.ok(
+        [...said].some((message) => refusal.test(message)),
+        `no vector is refused with ${String(refusal)}`,
+      );
+    for (const message of said)
+      assert.ok(
+        message === "" || refusals.some((refusal) => refusal.test(message)),
+        `"${message}" is of no kind that is listed`,
+      );
   });
 
   test("is decoded or refused, quickly, whatever its bytes", () => {
@@ -103,7 +161,8 @@ describe("a file of compact", () => {
       const payload = payloads.get(names[random.below(names.length)]!)!.slice();
       for (let edit = random.below(4); edit >= 0; --edit) {
         // Headers are what hostile counts come from.
-        payload[random.below(random.below(2) === 0 ? Math.min(64, payload.length) : payload.length)] = random.below(256);
+        payload[random.below(random.below(2) === 0 ? Math.min(64, payload.length) : payload.length)] =
+          random.below(256);
       }
       const before = milliseconds();
       if (typeof verdictOn(payload) === "string") refusals += 1;
@@ -115,15 +174,26 @@ describe("a file of compact", () => {
 
   test("is refused with a sentence that names what is wrong", () => {
     const payload = readPayload("sphere");
-    const at = (place: number, value: number) => { const changed = payload.slice(); changed[place] = value; return changed; };
+    const at = (place: number, value: number) => {
+      const changed = payload.slice();
+      changed[place] = value;
+      return changed;
+    };
     for (const [changed, kind, message] of [
-      [at(0, 0), "malformed", /no image of compact/], [at(3, 2), "unsupported", /version 2 of compact, not 1/],
-      [at(5, 4), "malformed", /4 as kind of an attribute; 0 to 3/], [at(10, 4), "malformed", /4 as topology; 1 to 3/],
-      [at(11, 31), "malformed", /31 as bits of a position/], [at(13, 17), "malformed", /17 as number of attributes/],
-      [at(14, 1), "malformed", /1 as attribute/], [at(15, 0), "malformed", /0 as number of patches/],
+      [at(0, 0), "malformed", /no image of compact/],
+      [at(3, 2), "unsupported", /version 2 of compact, not 1/],
+      [at(5, 4), "malformed", /4 as kind of an attribute; 0 to 3/],
+      [at(10, 4), "malformed", /4 as topology; 1 to 3/],
+      [at(11, 31), "malformed", /31 as bits of a position/],
+      [at(13, 17), "malformed", /17 as number of attributes/],
+      [at(14, 1), "malformed", /1 as attribute/],
+      [at(15, 0), "malformed", /0 as number of patches/],
       [payload.slice(0, 20), "truncated", /ends before its streams do/],
     ] as const) {
-      assert.throws(() => decode(changed), (error) => error instanceof DecodeError && error.kind === kind && message.test(error.message));
+      assert.throws(
+        () => decode(changed),
+        (error) => error instanceof DecodeError && error.kind === kind && message.test(error.message),
+      );
     }
   });
 });

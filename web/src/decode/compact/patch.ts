@@ -42,8 +42,10 @@ function decodePatch({ header, type }: SizedPatch, streams: StreamDecoders): Com
   const connectivity = connectivityOf(header, streams);
   const parts = type.isBase ? decodeParts(streams.parts, header, connectivity) : undefined;
   const positions = decodePositions(streams.positions, header, connectivity, parts);
-  const wedges: Wedges = header.wedgeCount > header.vertexCount ? decodeWedges(streams.wedges, header, connectivity)
-    : { wedge: connectivity.vertex, seams: undefined };
+  const wedges: Wedges =
+    header.wedgeCount > header.vertexCount
+      ? decodeWedges(streams.wedges, header, connectivity)
+      : { wedge: connectivity.vertex, seams: undefined };
   const shape: DecodedShape = { header, connectivity, wedges, ...positions };
   return { ...shape, attributes: type.attributes.map((place, i) => decodeAttribute(place, i, shape, streams)), parts };
 }

@@ -11,14 +11,20 @@ function at({ array, components, stride, offset }: VertexArray, n: number): numb
 /** Elements as what a GPU would make of them, in an order of their own. */
 function elementsOf(corners: ArrayLike<number>, perElement: number, textOf: (wedge: number) => string): string[] {
   return Array.from({ length: corners.length / perElement }, (_, element) =>
-    Array.from({ length: perElement }, (_, i) => textOf(corners[perElement * element + i]!)).join(" | ")).sort();
+    Array.from({ length: perElement }, (_, i) => textOf(corners[perElement * element + i]!)).join(" | "),
+  ).sort();
 }
 
 describe("buffers", () => {
   for (const name of vectorNames()) {
     test(`of "${name}" draw the patch's elements at its places`, () => {
       const patch = decodeVector(name)[0]!;
-      const { header, wedges: { wedge, seams }, connectivity: { vertex }, coordinates } = patch;
+      const {
+        header,
+        wedges: { wedge, seams },
+        connectivity: { vertex },
+        coordinates,
+      } = patch;
       const buffers = buffersOf(patch);
       const perElement = { points: 1, lines: 2, triangles: 3 }[header.topology];
       const running = Array.from({ length: header.wedgeCount }, (_, n) => n);
@@ -26,8 +32,14 @@ describe("buffers", () => {
         const v = seams ? vertex[seams.corner[w]!]! : w;
         return coordinates.subarray(3 * v, 3 * v + 3);
       };
-      assert.deepEqual(elementsOf(buffers.index ?? running, perElement, (w) => `${w}: ${at(buffers.coord, w).join()}`),
-        elementsOf(header.topology === "points" ? running : wedge, perElement, (w) => `${w}: ${Array.from(placeOf(w), Math.fround).join()}`));
+      assert.deepEqual(
+        elementsOf(buffers.index ?? running, perElement, (w) => `${w}: ${at(buffers.coord, w).join()}`),
+        elementsOf(
+          header.topology === "points" ? running : wedge,
+          perElement,
+          (w) => `${w}: ${Array.from(placeOf(w), Math.fround).join()}`,
+        ),
+      );
       assert.equal(buffers.vertexCount, header.wedgeCount);
       const { BYTES_PER_ELEMENT } = buffers.coord.array;
       assert.equal(BYTES_PER_ELEMENT, header.positionBits <= 8 ? 1 : header.positionBits <= 16 ? 2 : 4);
@@ -44,7 +56,7 @@ describe("buffers", () => {
         const most = kind === "normal" ? 1 : 2 ** bits - 1;
         for (let n = 0; n < buffers.vertexCount; ++n) {
           at(buffer, n).forEach((value, i) => {
-            const exact = patch.attributes[place]![components * n + i]! * largest / most;
+            const exact = (patch.attributes[place]![components * n + i]! * largest) / most;
             assert.ok(Math.abs(value - exact) <= 0.5, `${kind} ${n}: ${value} for ${exact}`);
           });
         }
@@ -54,8 +66,12 @@ describe("buffers", () => {
 
   test("index up to 65,535 vertices with two bytes", () => {
     const patch = decodeVector("triangle")[0]!;
-    const indexOf = (wedgeCount: number) => buffersOf({ ...patch, header: { ...patch.header, wedgeCount, attributes: [] },
-      coordinates: new Int32Array(3 * wedgeCount) }).index;
+    const indexOf = (wedgeCount: number) =>
+      buffersOf({
+        ...patch,
+        header: { ...patch.header, wedgeCount, attributes: [] },
+        coordinates: new Int32Array(3 * wedgeCount),
+      }).index;
     assert.ok(indexOf(65535) instanceof Uint16Array);
     assert.ok(indexOf(65536) instanceof Uint32Array);
   });

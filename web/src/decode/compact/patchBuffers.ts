@@ -55,7 +55,9 @@ export function verticesOf(patch: CompactPatch): Omit<PatchBuffers, "index"> {
     }),
     color: attribute("color", sharesOf),
     texCoord: attribute("texCoord", sharesOf),
-    others: header.attributes.flatMap((type, place) => (type.kind === "other" ? [othersOf(patch.attributes[place]!, type)] : [])),
+    others: header.attributes.flatMap((type, place) =>
+      type.kind === "other" ? [othersOf(patch.attributes[place]!, type)] : [],
+    ),
   };
 }
 
@@ -76,8 +78,12 @@ function emptyIndex(length: number, vertexCount: number): IndexArray {
 
 function coordOf({ header, coordinates, connectivity, wedges: { seams } }: CompactPatch): VertexArray {
   const count = header.wedgeCount;
-  const array = header.positionBits <= 8 ? new Uint8Array(4 * count)
-    : header.positionBits <= 16 ? new Uint16Array(4 * count) : new Float32Array(3 * count);
+  const array =
+    header.positionBits <= 8
+      ? new Uint8Array(4 * count)
+      : header.positionBits <= 16
+        ? new Uint16Array(4 * count)
+        : new Float32Array(3 * count);
   if (seams === undefined) return interleaved(coordinates.subarray(0, 3 * count), 3, array, 1);
   const stride = array.length / count;
   for (let w = 0; w < count; ++w) {
@@ -101,8 +107,12 @@ function sharesOf(values: Int32Array, { components, bits }: AttributeType): Vert
 function othersOf(values: Int32Array, { components, bits }: AttributeType): OtherValues {
   const count = values.length / components;
   const stride = 4 * Math.ceil(components / 4);
-  const array = bits <= 8 ? new Uint8Array(stride * count) : bits <= 16 ? new Uint16Array(components <= 2 ? 2 * count : stride * count)
-    : new Float32Array(components * count);
+  const array =
+    bits <= 8
+      ? new Uint8Array(stride * count)
+      : bits <= 16
+        ? new Uint16Array(components <= 2 ? 2 * count : stride * count)
+        : new Float32Array(components * count);
   return { bits, vertices: interleaved(values, components as 1 | 2 | 3 | 4, array, 1) };
 }
 

@@ -29,15 +29,20 @@ export interface Positions {
 }
 
 /** Safe for untrusted bytes. Throws DecodeError. */
-export function decodePositions(decoder: RangeDecoder, header: PatchHeader, connectivity: Connectivity, parts: Parts | undefined): Positions {
+export function decodePositions(
+  decoder: RangeDecoder,
+  header: PatchHeader,
+  connectivity: Connectivity,
+  parts: Parts | undefined,
+): Positions {
   return new PositionDecoder(decoder, header, connectivity, parts).run();
 }
 
 /** The order in which coordinates come: axis number j, by 3 (3 mask + dominant axis) + j. */
 const orders = Uint8Array.from({ length: 8 }, (_, mask) => mask).reduce<number[]>((all, mask) => {
   for (const dominant of [0, 1, 2]) {
-    const onGrid = [0, 1, 2].filter((axis) => (mask & 1 << axis) !== 0);
-    const offGrid = [1, 2, 3].map((step) => (dominant + step) % 3).filter((axis) => (mask & 1 << axis) === 0);
+    const onGrid = [0, 1, 2].filter((axis) => (mask & (1 << axis)) !== 0);
+    const offGrid = [1, 2, 3].map((step) => (dominant + step) % 3).filter((axis) => (mask & (1 << axis)) === 0);
     all.push(...onGrid, ...offGrid);
   }
   return all;
@@ -78,7 +83,12 @@ class PositionDecoder {
     this.#residualStep = 2 ** header.residualShift;
     this.#coordinates = new Int32Array(3 * (vertexCount + 1));
     this.#coordinates.fill(2 ** (positionBits - 1), 3 * vertexCount);
-    this.#sums = new NormalSums(header.topology === "triangles" ? vertexCount : 0, this.#coordinates, header.normalShift, false);
+    this.#sums = new NormalSums(
+      header.topology === "triangles" ? vertexCount : 0,
+      this.#coordinates,
+      header.normalShift,
+      false,
+    );
   }
 
   run(): Positions {
@@ -95,7 +105,8 @@ class PositionDecoder {
       const vc = vertex[c + 2]!;
       sums.add(va, vb, vc, va, vb, vc);
     }
-    for (; next < this.#vertexCount; ++next) { // points and lines
+    for (; next < this.#vertexCount; ++next) {
+      // points and lines
       if (from.length > 0 && from[next]! >= 0) this.#decodeOnLine(next, from);
       else this.#decodeAlone(next);
     }
@@ -160,9 +171,9 @@ class PositionDecoder {
   #setSlope(k: number, p: number): 0 | 1 | 2 {
     const sums = this.#sums.sums;
     const slope = this.#slope;
-    const x = sums[3 * k]! + sums[3 * p]! | 0;
-    const y = sums[3 * k + 1]! + sums[3 * p + 1]! | 0;
-    const z = sums[3 * k + 2]! + sums[3 * p + 2]! | 0;
+    const x = (sums[3 * k]! + sums[3 * p]!) | 0;
+    const y = (sums[3 * k + 1]! + sums[3 * p + 1]!) | 0;
+    const z = (sums[3 * k + 2]! + sums[3 * p + 2]!) | 0;
     const shift = Math.max(0, lengthInBits(Math.max(Math.abs(x), Math.abs(y), Math.abs(z))) - 15);
     slope[0] = x >> shift;
     slope[1] = y >> shift;
@@ -178,8 +189,11 @@ class PositionDecoder {
     this.#agreement = 0;
     let chosen = 0;
     if (last > 0) {
-      const apart = Math.max(Math.abs(candidates[3]! - candidates[0]!), Math.abs(candidates[4]! - candidates[1]!),
-                             Math.abs(candidates[5]! - candidates[2]!));
+      const apart = Math.max(
+        Math.abs(candidates[3]! - candidates[0]!),
+        Math.abs(candidates[4]! - candidates[1]!),
+        Math.abs(candidates[5]! - candidates[2]!),
+      );
       this.#agreement = 1 + Math.min(14, lengthInBits(apart));
       const models = choiceModels + (this.#candidateSet * 16 + this.#agreement) * 4;
       while (chosen < last && decoder.bit(models + chosen) === 0) ++chosen;
@@ -204,14 +218,22 @@ class PositionDecoder {
     for (let j = 0; j < 3; ++j) {
       const axis = orders[3 * (3 * mask + dominant) + j]!;
       let value: number;
-      if (grid && (mask & 1 << axis) !== 0) {
-        const residual = decoder.small(gridModels + numberModels * ((j * 4 + Math.min(steps, 3)) * 8 + (this.#agreement >> 1)));
+      if (grid && (mask & (1 << axis)) !== 0) {
+        const residual = decoder.small(
+          gridModels + numberModels * ((j * 4 + Math.min(steps, 3)) * 8 + (this.#agreement >> 1)),
+        );
         steps += Math.abs(residual);
         value = lineOf(grid, axis, nearestLine(grid, axis, this.#clamp(guess[axis]!)) + residual);
       } else {
         const expected = j === 2 ? this.#height(x, dominant, mask, axis) : guess[axis]!;
-        const models = length < 0 ? (j === 2 ? loneModels + numberModels * Math.min(steps, 7) : firstModels + numberModels * this.#agreement)
-          : j === 2 && mask === 0 ? thirdModels + numberModels * largest : secondModels + numberModels * length;
+        const models =
+          length < 0
+            ? j === 2
+              ? loneModels + numberModels * Math.min(steps, 7)
+              : firstModels + numberModels * this.#agreement
+            : j === 2 && mask === 0
+              ? thirdModels + numberModels * largest
+              : secondModels + numberModels * length;
         const residual = decoder.signed(models);
         length = lengthInBits(Math.abs(residual));
         largest = Math.max(largest, length);

@@ -15,21 +15,58 @@ function randomCall(random: TestRandom): Call {
   const value = random.below(2 ** random.below(31));
   const signed = random.below(2) === 1 ? -value : value;
   const calls: (() => Call)[] = [
-    () => ({ encode: (encoder) => { encoder.bit(models + 31, value % 3 === 0); },
-             check: (decoder) => { assert.equal(decoder.bit(models + 31), Number(value % 3 === 0)); } }),
+    () => ({
+      encode: (encoder) => {
+        encoder.bit(models + 31, value % 3 === 0);
+      },
+      check: (decoder) => {
+        assert.equal(decoder.bit(models + 31), Number(value % 3 === 0));
+      },
+    }),
     () => {
       const count = random.below(31);
-      const bits = value & 2 ** count - 1;
-      return { encode: (encoder) => { encoder.raw(count, bits); }, check: (decoder) => { assert.equal(decoder.raw(count), bits); } };
+      const bits = value & (2 ** count - 1);
+      return {
+        encode: (encoder) => {
+          encoder.raw(count, bits);
+        },
+        check: (decoder) => {
+          assert.equal(decoder.raw(count), bits);
+        },
+      };
     },
-    () => ({ encode: (encoder) => { encoder.tree(models, 4, value % 16); },
-             check: (decoder) => { assert.equal(decoder.tree(models, 4), value % 16); } }),
-    () => ({ encode: (encoder) => { encoder.number(models, value); },
-             check: (decoder) => { assert.equal(decoder.number(models), value); } }),
-    () => ({ encode: (encoder) => { encoder.signed(models, signed); },
-             check: (decoder) => { assert.ok(decoder.signed(models) === signed); } }),
-    () => ({ encode: (encoder) => { encoder.small(models, signed); },
-             check: (decoder) => { assert.ok(decoder.small(models) === signed); } }),
+    () => ({
+      encode: (encoder) => {
+        encoder.tree(models, 4, value % 16);
+      },
+      check: (decoder) => {
+        assert.equal(decoder.tree(models, 4), value % 16);
+      },
+    }),
+    () => ({
+      encode: (encoder) => {
+        encoder.number(models, value);
+      },
+      check: (decoder) => {
+        assert.equal(decoder.number(models), value);
+      },
+    }),
+    () => ({
+      encode: (encoder) => {
+        encoder.signed(models, signed);
+      },
+      check: (decoder) => {
+        assert.ok(decoder.signed(models) === signed);
+      },
+    }),
+    () => ({
+      encode: (encoder) => {
+        encoder.small(models, signed);
+      },
+      check: (decoder) => {
+        assert.ok(decoder.small(models) === signed);
+      },
+    }),
   ];
   return calls[random.below(calls.length)]!();
 }
@@ -57,8 +94,12 @@ describe("a stream", () => {
 
   test("of bits that are nearly always the same is short, and long ones have their carries", () => {
     const calls = Array.from({ length: 200_000 }, (_, place): Call => ({
-      encode: (encoder) => { encoder.bit(0, place % 997 === 0); },
-      check: (decoder) => { assert.ok(decoder.bit(0) === Number(place % 997 === 0)); },
+      encode: (encoder) => {
+        encoder.bit(0, place % 997 === 0);
+      },
+      check: (decoder) => {
+        assert.ok(decoder.bit(0) === Number(place % 997 === 0));
+      },
     }));
     const bytes = encoded(calls);
     assert.ok(bytes.length < 600, `${bytes.length} bytes`);
@@ -67,25 +108,47 @@ describe("a stream", () => {
 
   test("is refused with a byte more or less at either end", () => {
     const refused = (error: unknown) => error instanceof DecodeError && error.kind === "malformed";
-    for (const calls of [[], [1, 5, 13, 29].map((count): Call => ({
-      encode: (encoder) => { encoder.raw(count, 1); encoder.bit(0, true); },
-      check: (decoder) => { decoder.raw(count); decoder.bit(0); },
-    }))]) {
+    for (const calls of [
+      [],
+      [1, 5, 13, 29].map((count): Call => ({
+        encode: (encoder) => {
+          encoder.raw(count, 1);
+          encoder.bit(0, true);
+        },
+        check: (decoder) => {
+          decoder.raw(count);
+          decoder.bit(0);
+        },
+      })),
+    ]) {
       const bytes = encoded(calls);
       decode(bytes, calls);
-      for (const wrong of [bytes.subarray(1), bytes.subarray(0, -1), Uint8Array.from([...bytes, 0]), Uint8Array.from([0, ...bytes])]) {
-        assert.throws(() => { decode(wrong, calls); }, refused);
+      for (const wrong of [
+        bytes.subarray(1),
+        bytes.subarray(0, -1),
+        Uint8Array.from([...bytes, 0]),
+        Uint8Array.from([0, ...bytes]),
+      ]) {
+        assert.throws(() => {
+          decode(wrong, calls);
+        }, refused);
       }
     }
   });
 
   test("ends every attempt to read on", () => {
-    const calls: ((decoder: RangeDecoder) => void)[] = [(decoder) => decoder.bit(0), (decoder) => decoder.raw(1), (decoder) => decoder.signed(0),
-      (decoder) => decoder.small(0)];
+    const calls: ((decoder: RangeDecoder) => void)[] = [
+      (decoder) => decoder.bit(0),
+      (decoder) => decoder.raw(1),
+      (decoder) => decoder.signed(0),
+      (decoder) => decoder.small(0),
+    ];
     for (const call of calls) {
       for (const byte of [0, 0x55, 0xff]) {
         const decoder = new RangeDecoder(new Uint8Array(1000).fill(byte), 32);
-        assert.throws(() => { for (let i = 0; i < 10_000_000; ++i) call(decoder); }, DecodeError);
+        assert.throws(() => {
+          for (let i = 0; i < 10_000_000; ++i) call(decoder);
+        }, DecodeError);
       }
     }
   });

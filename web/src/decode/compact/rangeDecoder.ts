@@ -25,7 +25,7 @@ export class RangeDecoder {
     this.#models = new Int32Array(modelCount).fill(1 << 20);
     this.#bytes = bytes;
     this.#end = bytes.length;
-    this.#code = bytes[0]! << 16 | bytes[1]! << 8 | bytes[2]!;
+    this.#code = (bytes[0]! << 16) | (bytes[1]! << 8) | bytes[2]!;
   }
 
   /** One adaptive bit. */
@@ -39,12 +39,12 @@ export class RangeDecoder {
     const range = this.#range;
     const bound = Math.imul(range >>> 8, probability) >>> 8;
     if (this.#code < bound) {
-      models[model] = (probability + ((65536 - probability) >>> shift)) << 5 | next;
+      models[model] = ((probability + ((65536 - probability) >>> shift)) << 5) | next;
       this.#range = bound;
       if (bound < 65536) this.#shiftIn();
       return 1;
     }
-    models[model] = (probability - (probability >>> shift)) << 5 | next;
+    models[model] = ((probability - (probability >>> shift)) << 5) | next;
     this.#code -= bound;
     this.#range = range - bound;
     if (range - bound < 65536) this.#shiftIn();
@@ -53,14 +53,14 @@ export class RangeDecoder {
 
   /** `count` raw bits, 0 … 30. */
   raw(count: number): number {
-    if (count > 16) return this.raw(16) | this.raw(count - 16) << 16;
+    if (count > 16) return this.raw(16) | (this.raw(count - 16) << 16);
     while (this.#held < count) {
       if (this.#end <= this.#at) throw crossed();
       this.#end -= 1;
       this.#hold |= this.#bytes[this.#end]! << this.#held;
       this.#held += 8;
     }
-    const value = this.#hold & (1 << count) - 1;
+    const value = this.#hold & ((1 << count) - 1);
     this.#hold >>>= count;
     this.#held -= count;
     return value;
@@ -84,11 +84,11 @@ export class RangeDecoder {
       const bound = Math.imul(range >>> 8, probability) >>> 8;
       node <<= 1;
       if (code < bound) {
-        states[model] = (probability + ((65536 - probability) >>> shift)) << 5 | next;
+        states[model] = ((probability + ((65536 - probability) >>> shift)) << 5) | next;
         range = bound;
         node |= 1;
       } else {
-        states[model] = (probability - (probability >>> shift)) << 5 | next;
+        states[model] = ((probability - (probability >>> shift)) << 5) | next;
         code -= bound;
         range -= bound;
       }
@@ -108,7 +108,7 @@ export class RangeDecoder {
   /** 0 … 2^30 - 1. */
   number(models: number): number {
     const length = this.#length(models);
-    return length === 0 ? 0 : 1 << length - 1 | this.raw(length - 1);
+    return length === 0 ? 0 : (1 << (length - 1)) | this.raw(length - 1);
   }
 
   /** -(2^30 - 1) … 2^30 - 1. */
@@ -138,7 +138,7 @@ export class RangeDecoder {
   #rest(length: number): number {
     if (length === 0) return 0;
     const rest = this.raw(length);
-    const magnitude = 1 << length - 1 | rest >>> 1;
+    const magnitude = (1 << (length - 1)) | (rest >>> 1);
     return (rest & 1) === 0 ? magnitude : -magnitude;
   }
 
@@ -146,7 +146,7 @@ export class RangeDecoder {
     do {
       if (this.#at >= this.#end) throw crossed();
       this.#range <<= 8;
-      this.#code = this.#code << 8 | this.#bytes[this.#at]!;
+      this.#code = (this.#code << 8) | this.#bytes[this.#at]!;
       this.#at += 1;
     } while (this.#range < 65536);
   }

@@ -18,9 +18,9 @@ export class TestEncoder {
     const probability = this.#models[model]! >>> 5;
     const count = this.#models[model]! & 31;
     const shift = Math.floor(Math.log2(count + 1)) + 1;
-    const bound = Math.floor(Math.floor(this.#range / 256) * probability / 256);
+    const bound = Math.floor((Math.floor(this.#range / 256) * probability) / 256);
     const moved = value ? probability + ((65536 - probability) >>> shift) : probability - (probability >>> shift);
-    this.#models[model] = moved << 5 | Math.min(count + 1, 31);
+    this.#models[model] = (moved << 5) | Math.min(count + 1, 31);
     if (value) {
       this.#range = bound;
     } else {
@@ -32,14 +32,14 @@ export class TestEncoder {
   }
 
   raw(count: number, value: number): void {
-    for (let place = 0; place < count; ++place) this.#rawBits.push(value >>> place & 1);
+    for (let place = 0; place < count; ++place) this.#rawBits.push((value >>> place) & 1);
   }
 
   tree(models: number, depth: number, value: number): void {
     for (let node = 1, level = depth - 1; level >= 0; --level) {
-      const bit = value >>> level & 1;
+      const bit = (value >>> level) & 1;
       this.bit(models + node, bit === 1);
-      node = node << 1 | bit;
+      node = (node << 1) | bit;
     }
   }
 
@@ -64,7 +64,9 @@ export class TestEncoder {
   finish(): Uint8Array<ArrayBuffer> {
     for (let place = 0; place < 3; ++place) this.#shiftOut();
     const back: number[] = [];
-    this.#rawBits.forEach((bit, place) => { back[place >>> 3] = (back[place >>> 3] ?? 0) | bit << (place & 7); });
+    this.#rawBits.forEach((bit, place) => {
+      back[place >>> 3] = (back[place >>> 3] ?? 0) | (bit << (place & 7));
+    });
     return Uint8Array.from([...this.#front, ...back.reverse()]);
   }
 
@@ -79,7 +81,7 @@ export class TestEncoder {
 
   #shiftOut(): void {
     this.#front.push(Math.floor(this.#low / 65536));
-    this.#low = this.#low % 65536 * 256;
+    this.#low = (this.#low % 65536) * 256;
   }
 
   #carry(): void {

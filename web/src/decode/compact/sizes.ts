@@ -47,17 +47,32 @@ export function decodeSizes(stream: Uint8Array, { types, attributes, patchCount 
   const decoder = new RangeDecoder(stream, modelCount);
   const patches = Array.from({ length: patchCount }, (): SizedPatch => {
     const type = types[within("type of a patch", decoder.number(typeModels), 0, types.length - 1)]!;
-    return { type, header: decodeHeader(decoder, type, type.attributes.map((place) => attributes[place]!)) };
+    return {
+      type,
+      header: decodeHeader(
+        decoder,
+        type,
+        type.attributes.map((place) => attributes[place]!),
+      ),
+    };
   });
   decoder.finish();
-  for (const [what, field] of [["vertices", "vertexCount"], ["wedges", "wedgeCount"], ["elements", "elementCount"]] as const) {
+  for (const [what, field] of [
+    ["vertices", "vertexCount"],
+    ["wedges", "wedgeCount"],
+    ["elements", "elementCount"],
+  ] as const) {
     const count = patches.reduce((sum, { header }) => sum + header[field], 0);
     if (count > largestCount) throw new DecodeError("limit", `holds ${count} ${what}; ${largestCount} are allowed`);
   }
   return patches;
 }
 
-function decodeHeader(decoder: RangeDecoder, { topology, positionBits, isBase }: PatchType, attributes: readonly AttributeType[]): PatchHeader {
+function decodeHeader(
+  decoder: RangeDecoder,
+  { topology, positionBits, isBase }: PatchType,
+  attributes: readonly AttributeType[],
+): PatchHeader {
   const vertexCount = 1 + decoder.number(vertexModels);
   let wedgeCount = vertexCount;
   let elementCount = vertexCount;
@@ -74,7 +89,18 @@ function decodeHeader(decoder: RangeDecoder, { topology, positionBits, isBase }:
     within("number of parts", partCount, 1, elementCount);
     within("shift of residuals", residualShift, 0, positionBits - 1);
   }
-  return { topology, positionBits, normalShift, grid, vertexCount, wedgeCount, elementCount, attributes, partCount, residualShift };
+  return {
+    topology,
+    positionBits,
+    normalShift,
+    grid,
+    vertexCount,
+    wedgeCount,
+    elementCount,
+    attributes,
+    partCount,
+    residualShift,
+  };
 }
 
 function decodeGrid(decoder: RangeDecoder): Grid {

@@ -21,7 +21,7 @@ class Stream {
   }
 
   get decoder(): RangeDecoder {
-    return this.#decoder ??= new RangeDecoder(this.#bytes, this.#modelCount);
+    return (this.#decoder ??= new RangeDecoder(this.#bytes, this.#modelCount));
   }
 
   finish(): void {
@@ -46,10 +46,18 @@ export class StreamDecoders {
     this.#attributes = attributes.map((stream) => new Stream(stream, attributeModelCount));
   }
 
-  get connectivity(): RangeDecoder { return this.#connectivity.decoder; }
-  get parts(): RangeDecoder { return this.#parts.decoder; }
-  get positions(): RangeDecoder { return this.#positions.decoder; }
-  get wedges(): RangeDecoder { return this.#wedges.decoder; }
+  get connectivity(): RangeDecoder {
+    return this.#connectivity.decoder;
+  }
+  get parts(): RangeDecoder {
+    return this.#parts.decoder;
+  }
+  get positions(): RangeDecoder {
+    return this.#positions.decoder;
+  }
+  get wedges(): RangeDecoder {
+    return this.#wedges.decoder;
+  }
 
   /** Of the attribute at this place of the header's. */
   attribute(place: number): RangeDecoder {
@@ -58,6 +66,7 @@ export class StreamDecoders {
 
   /** To be called when all patches are decoded. Throws DecodeError where a stream is longer than what is in it. */
   finish(): void {
-    for (const stream of [this.#connectivity, this.#parts, this.#positions, this.#wedges, ...this.#attributes]) stream.finish();
+    for (const stream of [this.#connectivity, this.#parts, this.#positions, this.#wedges, ...this.#attributes])
+      stream.finish();
   }
 }

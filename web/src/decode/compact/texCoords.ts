@@ -127,7 +127,10 @@ class TexCoordDecoder {
   }
 
   #vertexOf(w: number): number {
-    const { connectivity, wedges: { seams } } = this.#shape;
+    const {
+      connectivity,
+      wedges: { seams },
+    } = this.#shape;
     return seams ? connectivity.vertex[seams.corner[w]!]! : w;
   }
 }

@@ -36,7 +36,12 @@ class ValueDecoder {
   readonly #neighbours: Neighbours;
   #lastChoice = 0;
 
-  constructor(decoder: RangeDecoder, { kind, components, bits }: AttributeType, shape: DecodedShape, values: Int32Array) {
+  constructor(
+    decoder: RangeDecoder,
+    { kind, components, bits }: AttributeType,
+    shape: DecodedShape,
+    values: Int32Array,
+  ) {
     this.#decoder = decoder;
     this.#isColor = kind === "color";
     this.#components = components;
@@ -71,7 +76,7 @@ class ValueDecoder {
     const { a, b, o } = this.#neighbours;
     const values = this.#values;
     const at = (wedge: number) => values[this.#components * wedge + component]!;
-    if (a >= 0 && b >= 0) return isParallelogram ? at(a) + at(b) - at(o) : at(a) + at(b) >> 1;
+    if (a >= 0 && b >= 0) return isParallelogram ? at(a) + at(b) - at(o) : (at(a) + at(b)) >> 1;
     if (a >= 0 || b >= 0) return at(a >= 0 ? a : b);
     return w > 0 ? at(w - 1) : (this.#largest + 1) / 2;
   }

@@ -10,7 +10,9 @@ const folder = join(import.meta.dirname, "../../../../vectors/compact-1");
 
 /** Of the files that hold patches. */
 export function vectorNames(): string[] {
-  return readdirSync(folder).filter((name) => name.endsWith(".png")).map((name) => name.slice(0, -".png".length));
+  return readdirSync(folder)
+    .filter((name) => name.endsWith(".png"))
+    .map((name) => name.slice(0, -".png".length));
 }
 
 /** What NAME.json states. */

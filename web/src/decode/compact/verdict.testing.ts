@@ -15,11 +15,24 @@ export interface StatedPatch {
   /** Of a base. */
   readonly parts?: number[];
   readonly partCount?: number;
-  readonly attributes: { readonly kind: number; readonly components: number; readonly bits: number; readonly mode: number; readonly values: number[] }[];
+  readonly attributes: {
+    readonly kind: number;
+    readonly components: number;
+    readonly bits: number;
+    readonly mode: number;
+    readonly values: number[];
+  }[];
 }
 
 /** A patch in the words of the vectors; for `decodePatches`. */
-export function stated({ header, coordinates, connectivity, wedges: { wedge, seams }, attributes, parts }: CompactPatch): StatedPatch {
+export function stated({
+  header,
+  coordinates,
+  connectivity,
+  wedges: { wedge, seams },
+  attributes,
+  parts,
+}: CompactPatch): StatedPatch {
   const running = Array.from({ length: header.wedgeCount }, (_, w) => w);
   return {
     topology: ["", "points", "lines", "triangles"].indexOf(header.topology),
@@ -30,8 +43,13 @@ export function stated({ header, coordinates, connectivity, wedges: { wedge, sea
     ...(parts && { parts: Array.from(parts.part), partCount: header.partCount }),
     attributes: attributes.map((values, place) => {
       const { kind, components, bits, isUniform, isDerived } = header.attributes[place]!;
-      return { kind: ["normal", "texCoord", "color", "other"].indexOf(kind), components, bits,
-               mode: Number(isUniform) + 2 * Number(isDerived), values: Array.from(values, (value) => value + 0) };
+      return {
+        kind: ["normal", "texCoord", "color", "other"].indexOf(kind),
+        components,
+        bits,
+        mode: Number(isUniform) + 2 * Number(isDerived),
+        values: Array.from(values, (value) => value + 0),
+      };
     }),
   };
 }
@@ -41,11 +59,12 @@ function sumOf(patches: readonly StatedPatch[]): number {
   let hash = 2166136261;
   const add = (numbers: readonly number[]) => {
     for (const number of numbers) {
-      for (let shift = 0; shift < 32; shift += 8) hash = Math.imul(hash ^ number >>> shift & 255, 16777619);
+      for (let shift = 0; shift < 32; shift += 8) hash = Math.imul(hash ^ ((number >>> shift) & 255), 16777619);
     }
   };
   for (const { positions, wedgePositions, corners, parts = [], attributes } of patches) {
-    for (const numbers of [positions, wedgePositions, corners, parts, ...attributes.map(({ values }) => values)]) add(numbers);
+    for (const numbers of [positions, wedgePositions, corners, parts, ...attributes.map(({ values }) => values)])
+      add(numbers);
   }
   return hash >>> 0;
 }

@@ -47,7 +47,8 @@ function randomFans(random: TestRandom): Fans {
   let [triangles, places] = [0, 1];
   for (let place = 0; place < placeCount; ++place) {
     triangles += random.below(4);
-    places = place + 1 === placeCount ? placeCount : Math.min(placeCount, Math.max(places + random.below(4), place + 2));
+    places =
+      place + 1 === placeCount ? placeCount : Math.min(placeCount, Math.max(places + random.below(4), place + 2));
     fans.push(triangles, places);
   }
   return { corners: Int32Array.from({ length: 3 * triangles }, () => random.below(40)), fans: Int32Array.from(fans) };

@@ -11,7 +11,11 @@ import type { IndexArray } from "../arrays.ts";
 const rings = 4;
 
 /** Corners of triangles into `ordered`, which is as long; `fans` are those of a Connectivity. Each triangle keeps its turn. */
-export function orderForVertexCache<Index extends IndexArray>(corners: Int32Array, fans: Int32Array, ordered: Index): Index {
+export function orderForVertexCache<Index extends IndexArray>(
+  corners: Int32Array,
+  fans: Int32Array,
+  ordered: Index,
+): Index {
   const isDone = new Uint8Array(fans.length / 2);
   // Per ring of the column: the next of the places that are to come, and their end.
   const next = new Int32Array(rings);

@@ -57,7 +57,11 @@ class WedgeDecoder {
   readonly #isSplit: Uint8Array;
   #count = 0;
 
-  constructor(decoder: RangeDecoder, { topology, vertexCount, wedgeCount }: PatchHeader, { vertex, across, closing }: Connectivity) {
+  constructor(
+    decoder: RangeDecoder,
+    { topology, vertexCount, wedgeCount }: PatchHeader,
+    { vertex, across, closing }: Connectivity,
+  ) {
     this.#decoder = decoder;
     this.#isTriangles = topology === "triangles";
     this.#vertex = vertex;
@@ -101,7 +105,8 @@ class WedgeDecoder {
         splits += isSplit[v]!;
       }
     }
-    if (this.#count < this.#corner.length) throw new DecodeError("malformed", "holds fewer wedges than its header states");
+    if (this.#count < this.#corner.length)
+      throw new DecodeError("malformed", "holds fewer wedges than its header states");
     return { wedge: this.#wedge, seams: { corner: this.#corner, previous: this.#previous, isSplit } };
   }
 
@@ -132,7 +137,8 @@ class WedgeDecoder {
       return w;
     }
     w = this.#count - 1 - decoder.number(wedgeModels);
-    if (w < 0 || this.#vertex[this.#corner[w]!] !== v) throw new DecodeError("malformed", "names a wedge that its vertex has not");
+    if (w < 0 || this.#vertex[this.#corner[w]!] !== v)
+      throw new DecodeError("malformed", "names a wedge that its vertex has not");
     return w;
   }
 

@@ -26,7 +26,13 @@ export interface BatchSetting {
 }
 
 /** How the stage is drawn, of a geometry that is drawn so. */
-export function drawnAsOf(stage: Stage, drawing: Drawing, appearance: AppearanceDescription, pictures: ShownPictures, batching: Batching): DrawnAs {
+export function drawnAsOf(
+  stage: Stage,
+  drawing: Drawing,
+  appearance: AppearanceDescription,
+  pictures: ShownPictures,
+  batching: Batching,
+): DrawnAs {
   return isBlended(stage, appearance, pictures, batching) ? drawing.blended : drawing.opaque;
 }
 
@@ -48,7 +54,10 @@ export class BatchedStage implements PatchDraws {
 
   hang(group: PlaceGroup): void {
     const { batches } = this.#batch;
-    this.#members.set(group, this.#draws.map((draw) => batches.add(draw, this.#numbersOf(draw), group)));
+    this.#members.set(
+      group,
+      this.#draws.map((draw) => batches.add(draw, this.#numbersOf(draw), group)),
+    );
   }
 
   follow(group: PlaceGroup): void {
@@ -64,10 +73,13 @@ export class BatchedStage implements PatchDraws {
   applyAppearance(appearance: AppearanceDescription, pictures: ShownPictures): void {
     this.#setting = { ...this.#setting, appearance, pictures };
     for (const pick of this.picks) pick.forgetParts();
-    const isSame = this.#draws.every(({ ranges: [range], lookKey }) =>
-      range && lookKey === lookKeyOf(this.#stage, range, appearance, pictures, this.#batch.batching));
+    const isSame = this.#draws.every(
+      ({ ranges: [range], lookKey }) =>
+        range && lookKey === lookKeyOf(this.#stage, range, appearance, pictures, this.#batch.batching),
+    );
     if (isSame) {
-      for (const here of this.#members.values()) for (const member of here) this.#batch.batches.setLook(member, this.#numbersOf(member.draw));
+      for (const here of this.#members.values())
+        for (const member of here) this.#batch.batches.setLook(member, this.#numbersOf(member.draw));
       return;
     }
     this.#draws = drawsOf(this.#stage, this.#setting, this.#batch);
@@ -95,20 +107,26 @@ function drawsOf(stage: Stage, setting: PatchSetting, { batching, isMerged }: Ba
   return togetherOf(stage, isMerged, blends).flatMap(({ ranges, mayMerge }) => {
     const [first] = ranges;
     if (first === undefined) return [];
-    return [{
-      stage, ranges, bounds, appearance,
-      lookKey: lookKeyOf(stage, first, appearance, pictures, batching),
-      isMerged: isMerged && mayMerge,
-      isBlended: blends,
-      // Files that several shapes share hold more than this stage's.
-      vertexCount: stage.kind !== "buffers" ? 0 : geometry.container === "bg" ? patch.vertexCount : vertexCountOf(stage),
-      shapeFromStored: shapeFromStoredOf(geometry, patch),
-      step: storedFrameOf(geometry, patch).step,
-      texCoordFrame: [...geometry.texCoordMin, ...geometry.texCoordSize],
-      valueFrame: valueFrameOf(stage, geometry.value),
-      request: materialRequestOf(stage, first, geometry, uniforms.of(first), shared, true),
-      pictures: laidOn(stage, pictures),
-    }];
+    return [
+      {
+        stage,
+        ranges,
+        bounds,
+        appearance,
+        lookKey: lookKeyOf(stage, first, appearance, pictures, batching),
+        isMerged: isMerged && mayMerge,
+        isBlended: blends,
+        // Files that several shapes share hold more than this stage's.
+        vertexCount:
+          stage.kind !== "buffers" ? 0 : geometry.container === "bg" ? patch.vertexCount : vertexCountOf(stage),
+        shapeFromStored: shapeFromStoredOf(geometry, patch),
+        step: storedFrameOf(geometry, patch).step,
+        texCoordFrame: [...geometry.texCoordMin, ...geometry.texCoordSize],
+        valueFrame: valueFrameOf(stage, geometry.value),
+        request: materialRequestOf(stage, first, geometry, uniforms.of(first), shared, true),
+        pictures: laidOn(stage, pictures),
+      },
+    ];
   });
 }
 
@@ -116,12 +134,20 @@ function drawsOf(stage: Stage, setting: PatchSetting, { batching, isMerged }: Ba
  * Draws of one kind of primitive are merged as one. A strip of thin lines would go on into the next, and of wide
  * ones, which have no index, a frame could not tell the order.
  */
-function togetherOf({ kind, draws }: Stage, isMerged: boolean, blends: boolean): { ranges: readonly DrawRange[]; mayMerge: boolean }[] {
+function togetherOf(
+  { kind, draws }: Stage,
+  isMerged: boolean,
+  blends: boolean,
+): { ranges: readonly DrawRange[]; mayMerge: boolean }[] {
   const seen = draws.filter(isSeen);
-  const mayMerge = ({ primitive, isWide }: DrawRange) => isMerged && kind === "buffers" && (isWide === true ? !blends : primitive !== "lineStrip");
+  const mayMerge = ({ primitive, isWide }: DrawRange) =>
+    isMerged && kind === "buffers" && (isWide === true ? !blends : primitive !== "lineStrip");
   const primitives = new Set(seen.filter(mayMerge).map(({ primitive }) => primitive));
   return [
-    ...Array.from(primitives, (primitive) => ({ ranges: seen.filter((range) => range.primitive === primitive), mayMerge: true })),
+    ...Array.from(primitives, (primitive) => ({
+      ranges: seen.filter((range) => range.primitive === primitive),
+      mayMerge: true,
+    })),
     ...seen.filter((range) => !mayMerge(range)).map((range) => ({ ranges: [range], mayMerge: false })),
   ];
 }
@@ -130,7 +156,12 @@ function isSeen({ count }: DrawRange): boolean {
   return count > 0;
 }
 
-function isBlended(stage: Stage, appearance: AppearanceDescription, pictures: ShownPictures, batching: Batching): boolean {
+function isBlended(
+  stage: Stage,
+  appearance: AppearanceDescription,
+  pictures: ShownPictures,
+  batching: Batching,
+): boolean {
   return batching.isBlended({ colors: colorsOf(stage) }, appearance, laidOn(stage, pictures));
 }
 
@@ -139,8 +170,13 @@ function laidOn(stage: Stage, pictures: ShownPictures): ShownPictures {
   return stage.texCoord !== undefined ? pictures : noPictures;
 }
 
-function lookKeyOf(stage: Stage, { primitive }: DrawRange, appearance: AppearanceDescription, pictures: ShownPictures,
-                   batching: Batching): string {
+function lookKeyOf(
+  stage: Stage,
+  { primitive }: DrawRange,
+  appearance: AppearanceDescription,
+  pictures: ShownPictures,
+  batching: Batching,
+): string {
   return batching.keyOf({ primitive, colors: colorsOf(stage) }, appearance, laidOn(stage, pictures));
 }
 
@@ -148,14 +184,25 @@ function lookKeyOf(stage: Stage, { primitive }: DrawRange, appearance: Appearanc
 function pickOf(stage: Stage, range: DrawRange, settingNow: () => PatchSetting): PickDraw {
   const { geometry, patch, buffers, geometries } = settingNow();
   return new PickDraw(stage, range, {
-    buffers, bounds: boundsOf(geometry, patch, stage).sphere, shapeFromStored: shapeFromStoredOf(geometry, patch),
+    buffers,
+    bounds: boundsOf(geometry, patch, stage).sphere,
+    shapeFromStored: shapeFromStoredOf(geometry, patch),
     makeParts: () => {
       const shape = geometries.acquire(stage)[stage.draws.indexOf(range)];
       if (shape === undefined) throw new RangeError("the draw is not one of its stage");
       return {
         geometry: shape,
-        request: pickRequestOf(stage, range, geometry.solid ? FrontSide : DoubleSide, uniformsOf(stage, settingNow()).of(range), settingNow().appearance, settingNow().pictures),
-        release: () => { geometries.release(stage); },
+        request: pickRequestOf(
+          stage,
+          range,
+          geometry.solid ? FrontSide : DoubleSide,
+          uniformsOf(stage, settingNow()).of(range),
+          settingNow().appearance,
+          settingNow().pictures,
+        ),
+        release: () => {
+          geometries.release(stage);
+        },
       };
     },
   });

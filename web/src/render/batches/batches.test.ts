@@ -1,7 +1,17 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import type { BufferGeometry, DataTexture, InstancedBufferAttribute } from "three";
-import { BufferAttribute, Group, InstancedBufferGeometry, InterleavedBuffer, Matrix4, MeshBasicMaterial, PerspectiveCamera, Sphere, Vector3 } from "three";
+import {
+  BufferAttribute,
+  Group,
+  InstancedBufferGeometry,
+  InterleavedBuffer,
+  Matrix4,
+  MeshBasicMaterial,
+  PerspectiveCamera,
+  Sphere,
+  Vector3,
+} from "three";
 import type { ElementArray } from "../../decode/arrays.ts";
 import { arrayTypeOf, elementTypeOf } from "../../decode/elements.ts";
 import type { BufferStage, StoredBytes } from "../../decode/stage.ts";
@@ -24,7 +34,9 @@ const buffers: Buffers = {
   recordsOf: (bytes, type, stride) => new InterleavedBuffer(new (arrayTypeOf(type))(bytes.byteLength), stride),
   indexOf: () => new BufferAttribute(new Uint16Array(3), 1),
   read: (bytes, _, first, count = Infinity) => (arrays.get(bytes) ?? new Uint8Array()).subarray(first, first + count),
-  dispose: (geometry) => { geometry.dispose(); },
+  dispose: (geometry) => {
+    geometry.dispose();
+  },
 };
 
 function stored(array: ElementArray) {
@@ -37,9 +49,16 @@ function stored(array: ElementArray) {
 function stageOf(first: number, stride = 4, index = [0, 1, 2]): BufferStage {
   const coord = new Uint16Array(3 * stride).map((_, i) => (i % stride < 3 ? first + i : 7));
   return {
-    kind: "buffers", name: "full", draws: [{ primitive: "triangles", first: 0, count: 3 }], normalCode: { kind: "vector" },
-    index: stored(new Uint16Array(index)), coord: { ...stored(coord), components: 3, stride, offset: 0 },
-    normal: undefined, color: undefined, value: undefined, texCoord: undefined,
+    kind: "buffers",
+    name: "full",
+    draws: [{ primitive: "triangles", first: 0, count: 3 }],
+    normalCode: { kind: "vector" },
+    index: stored(new Uint16Array(index)),
+    coord: { ...stored(coord), components: 3, stride, offset: 0 },
+    normal: undefined,
+    color: undefined,
+    value: undefined,
+    texCoord: undefined,
   };
 }
 
@@ -53,8 +72,20 @@ function drawOf(stage: BufferStage, isMerged: boolean, vertexCount = 3, isBlende
   const wideLineStep = isWide !== true ? 0 : primitive === "lineStrip" ? 1 : 2;
   const request = { primitive, wideLineStep, solid, uniforms: {} } as unknown as MaterialRequest;
   return {
-    stage, ranges: stage.draws, isMerged, isBlended, vertexCount, bounds: new Sphere(new Vector3(), 1), shapeFromStored: new Matrix4(), step: [1, 1, 1],
-    texCoordFrame: [0, 0, 1, 1], valueFrame: { min: [first(stage), 0, 0, 0], step: [2, 0, 0, 0] }, request, appearance: {} as AppearanceDescription, pictures: new Map(), lookKey: isBlended ? "blended" : "",
+    stage,
+    ranges: stage.draws,
+    isMerged,
+    isBlended,
+    vertexCount,
+    bounds: new Sphere(new Vector3(), 1),
+    shapeFromStored: new Matrix4(),
+    step: [1, 1, 1],
+    texCoordFrame: [0, 0, 1, 1],
+    valueFrame: { min: [first(stage), 0, 0, 0], step: [2, 0, 0, 0] },
+    request,
+    appearance: {} as AppearanceDescription,
+    pictures: new Map(),
+    lookKey: isBlended ? "blended" : "",
   };
 }
 
@@ -69,7 +100,9 @@ class Scene {
         this.#table = () => uniforms.places?.value as DataTexture;
         return new MeshBasicMaterial();
       },
-      applyAppearance: () => undefined, prepare: () => undefined, batching: undefined,
+      applyAppearance: () => undefined,
+      prepare: () => undefined,
+      batching: undefined,
     };
     this.batches = new Batches(look, new GeometryPool(buffers), buffers);
     this.#camera.position.z = 10;
@@ -125,7 +158,11 @@ function placesIn({ geometry }: DrawnObject): number[] {
 
 function meshIn({ geometry }: { geometry: BufferGeometry }) {
   const column = (name: string) => Array.from(geometry.getAttribute(name).array);
-  return { index: Array.from(geometry.index?.array ?? []), places: column("place"), coords: (geometry.getAttribute("position") as unknown as { data: InterleavedBuffer }).data.array };
+  return {
+    index: Array.from(geometry.index?.array ?? []),
+    places: column("place"),
+    coords: (geometry.getAttribute("position") as unknown as { data: InterleavedBuffer }).data.array,
+  };
 }
 
 describe("a stage in many places", () => {
@@ -137,7 +174,10 @@ describe("a stage in many places", () => {
     const [drawn, ...others] = scene.frame();
     assert.ok(drawn);
     assert.equal(others.length, 0);
-    assert.deepEqual(placesIn(drawn), members.slice(1, 4).map((member) => member.place));
+    assert.deepEqual(
+      placesIn(drawn),
+      members.slice(1, 4).map((member) => member.place),
+    );
   });
 
   test("is drawn in as many places as there are", () => {
@@ -221,16 +261,31 @@ describe("small meshes", () => {
     assert.deepEqual(index, [0, 1, 2, 3, 4, 5]);
     assert.deepEqual(places, [a.place, a.place, a.place, b.place, b.place, b.place]);
     const vertices = Array.from({ length: 6 }, (_, v) => Array.from(coords.subarray(4 * v, 4 * v + 3)));
-    assert.deepEqual(vertices, [[100, 101, 102], [104, 105, 106], [108, 109, 110], [200, 201, 202], [203, 204, 205], [206, 207, 208]]);
+    assert.deepEqual(vertices, [
+      [100, 101, 102],
+      [104, 105, 106],
+      [108, 109, 110],
+      [200, 201, 202],
+      [203, 204, 205],
+      [206, 207, 208],
+    ]);
   });
 
   test("say in their records whether they are shown, and leave no triangle behind", () => {
     const scene = new Scene();
-    const members = Array.from({ length: 5 }, (_, n) => scene.add(drawOf(stageOf(10 * n), true), 0)) as [Member, Member, Member, ...Member[]];
+    const members = Array.from({ length: 5 }, (_, n) => scene.add(drawOf(stageOf(10 * n), true), 0)) as [
+      Member,
+      Member,
+      Member,
+      ...Member[],
+    ];
     scene.frame();
     scene.hide(members[0]);
     scene.frame();
-    assert.deepEqual(members.map((member) => scene.record(member)[placeFields.shownIn]), [0, 1, 1, 1, 1]);
+    assert.deepEqual(
+      members.map((member) => scene.record(member)[placeFields.shownIn]),
+      [0, 1, 1, 1, 1],
+    );
     scene.batches.remove(members[1]);
     const [drawn] = scene.frame();
     assert.ok(drawn);
@@ -239,7 +294,11 @@ describe("small meshes", () => {
     scene.batches.remove(members[2]);
     const [packed] = scene.frame();
     assert.ok(packed);
-    assert.deepEqual(meshIn(packed).places, members.slice(3).flatMap((member) => Array<number>(3).fill(member.place)), "it is written anew");
+    assert.deepEqual(
+      meshIn(packed).places,
+      members.slice(3).flatMap((member) => Array<number>(3).fill(member.place)),
+      "it is written anew",
+    );
   });
 
   test("do not name the vertices of others, whatever their index says", () => {
@@ -278,13 +337,19 @@ describe("small meshes", () => {
 describe("wide lines", () => {
   /** Two lines between three vertices. */
   function linesOf(start: number): BufferStage {
-    return { ...stageOf(start), index: undefined, draws: [{ primitive: "lineStrip", first: 0, count: 3, isWide: true }] };
+    return {
+      ...stageOf(start),
+      index: undefined,
+      draws: [{ primitive: "lineStrip", first: 0, count: 3, isWide: true }],
+    };
   }
 
   /** Of each line: the place, and the first coordinates of its ends. */
   function linesIn({ geometry }: DrawnObject): number[][] {
     assert.ok(geometry instanceof InstancedBufferGeometry);
-    const [places, begins, ends] = ["place", "position", "positionEnd"].map((name) => geometry.getAttribute(name) as InstancedBufferAttribute);
+    const [places, begins, ends] = ["place", "position", "positionEnd"].map(
+      (name) => geometry.getAttribute(name) as InstancedBufferAttribute,
+    );
     assert.ok(places && begins && ends);
     return Array.from({ length: geometry.instanceCount }, (_, line) => {
       const { meshPerAttribute } = places;
@@ -292,7 +357,10 @@ describe("wide lines", () => {
     });
   }
 
-  const linesAt = ({ place: own }: Member, start: number) => [[own, start, start + 4], [own, start + 4, start + 8]];
+  const linesAt = ({ place: own }: Member, start: number) => [
+    [own, start, start + 4],
+    [own, start + 4, start + 8],
+  ];
 
   test("of small meshes are one draw, of which nothing is left of what is gone", () => {
     const scene = new Scene();
@@ -301,7 +369,10 @@ describe("wide lines", () => {
     assert.ok(drawn);
     assert.equal(others.length, 0);
     assert.equal(drawn.type, "Mesh");
-    assert.deepEqual(linesIn(drawn), members.flatMap((member, n) => linesAt(member, 10 * n + 10)));
+    assert.deepEqual(
+      linesIn(drawn),
+      members.flatMap((member, n) => linesAt(member, 10 * n + 10)),
+    );
     scene.batches.remove(members[1]);
     const [left] = scene.frame();
     assert.ok(left);
@@ -317,35 +388,61 @@ describe("wide lines", () => {
     const [drawn, ...further] = scene.frame();
     assert.ok(drawn);
     assert.equal(further.length, 0);
-    assert.deepEqual(linesIn(drawn), [first, ...others.slice(0, 2)].flatMap((member) => linesAt(member, 10)));
+    assert.deepEqual(
+      linesIn(drawn),
+      [first, ...others.slice(0, 2)].flatMap((member) => linesAt(member, 10)),
+    );
   });
 
   test("of large meshes are a draw for as many places as they may be stored again for", () => {
     const scene = new Scene();
     const lineCount = Math.floor(mostRepeatedLines / 3) + 1;
-    const stage = { ...linesOf(0), draws: [{ primitive: "lineStrip", first: 0, count: lineCount + 1, isWide: true }] } as const;
+    const stage = {
+      ...linesOf(0),
+      draws: [{ primitive: "lineStrip", first: 0, count: lineCount + 1, isWide: true }],
+    } as const;
     const members = [0, 1, 2].map((x) => scene.add(drawOf(stage, false), x));
     const calls = scene.frame();
-    assert.deepEqual(calls.map((call) => new Set(linesIn(call).map(([own]) => own)).size), [2, 1]);
-    assert.deepEqual(new Set(calls.flatMap(linesIn).map(([own]) => own)), new Set(members.map((member) => member.place)));
+    assert.deepEqual(
+      calls.map((call) => new Set(linesIn(call).map(([own]) => own)).size),
+      [2, 1],
+    );
+    assert.deepEqual(
+      new Set(calls.flatMap(linesIn).map(([own]) => own)),
+      new Set(members.map((member) => member.place)),
+    );
   });
 
   test("that blend have their turns, also among what is no line", () => {
     const scene = new Scene();
     const [lines, panes] = [drawOf(linesOf(10), false, 3, true), drawOf(stageOf(0), true, 3, true)];
-    const members = [scene.add(lines, 0, 1, 1), scene.add(panes, 0, 1, 0), scene.add(lines, 0, 1, -1), scene.add(lines, 0, 1, -2)] as [Member, Member, Member, Member];
+    const members = [
+      scene.add(lines, 0, 1, 1),
+      scene.add(panes, 0, 1, 0),
+      scene.add(lines, 0, 1, -1),
+      scene.add(lines, 0, 1, -2),
+    ] as [Member, Member, Member, Member];
     const calls = scene.frame().toSorted((a, b) => a.renderOrder - b.renderOrder);
     assert.equal(calls.length, 3);
     const [far, , near] = calls;
     assert.ok(far && near);
-    assert.deepEqual(linesIn(far).map(([own]) => own), [members[3], members[3], members[2], members[2]].map((member) => member.place));
-    assert.deepEqual(linesIn(near).map(([own]) => own), [members[0], members[0]].map((member) => member.place));
+    assert.deepEqual(
+      linesIn(far).map(([own]) => own),
+      [members[3], members[3], members[2], members[2]].map((member) => member.place),
+    );
+    assert.deepEqual(
+      linesIn(near).map(([own]) => own),
+      [members[0], members[0]].map((member) => member.place),
+    );
   });
 
   test("are drawn as long as their width reaches into the view", () => {
     const scene = new Scene();
     const edge = 10 * Math.tan(Math.PI / 6); // of the view, at z = 0; their bounds are 1 around the middle
-    const [merged, instanced] = [scene.add(drawOf(linesOf(10), true), edge + 1.3), scene.add(drawOf(linesOf(20), false), -edge - 1.3)];
+    const [merged, instanced] = [
+      scene.add(drawOf(linesOf(10), true), edge + 1.3),
+      scene.add(drawOf(linesOf(20), false), -edge - 1.3),
+    ];
     assert.equal(scene.frame().length, 0);
     assert.equal(scene.frame([0, 0.2]).length, 0);
     assert.equal(scene.frame([0.2, 0]).length, 2);
@@ -359,14 +456,22 @@ test("what stored values are is told by place, so that shapes of several ranges 
   const members = [10, 20].map((start) => scene.add(drawOf(stageOf(start), true), 0));
   assert.equal(scene.frame().length, 1);
   const { valueMin, valueStep } = placeFields;
-  assert.deepEqual(members.map((member) => [scene.record(member)[valueMin], scene.record(member)[valueStep]]), [[10, 2], [20, 2]]);
+  assert.deepEqual(
+    members.map((member) => [scene.record(member)[valueMin], scene.record(member)[valueStep]]),
+    [
+      [10, 2],
+      [20, 2],
+    ],
+  );
 });
 
 describe("what blends", () => {
   /** Which members the next frame draws, in their order, call by call. */
   function drawnMembers(scene: Scene, members: readonly Member[]): number[][] {
     const calls = scene.frame().toSorted((a, b) => a.renderOrder - b.renderOrder);
-    return calls.map((call) => placesDrawnBy(call).map((number) => members.findIndex(({ place: own }) => own === number)));
+    return calls.map((call) =>
+      placesDrawnBy(call).map((number) => members.findIndex(({ place: own }) => own === number)),
+    );
   }
 
   /** One number for each triangle, or instance. */
@@ -375,7 +480,10 @@ describe("what blends", () => {
     if (geometry instanceof InstancedBufferGeometry) return placesIn(call);
     const { index, places } = meshIn(call);
     const { start, count } = geometry.drawRange;
-    return index.slice(start, start + count).filter((_, corner) => corner % 3 === 0).map((vertex) => places[vertex] ?? -1);
+    return index
+      .slice(start, start + count)
+      .filter((_, corner) => corner % 3 === 0)
+      .map((vertex) => places[vertex] ?? -1);
   }
 
   const depths = [3, -2, 5, 0, -4];
@@ -397,7 +505,9 @@ describe("what blends", () => {
       scene.hide(first, false);
       scene.batches.remove(second);
       const last = scene.add(draw, 0, 1, 4);
-      assert.deepEqual(drawnMembers(scene, [...members.filter((member) => member !== second), last]), [[3, 2, 0, 4, 1]]);
+      assert.deepEqual(drawnMembers(scene, [...members.filter((member) => member !== second), last]), [
+        [3, 2, 0, 4, 1],
+      ]);
     });
   }
 
@@ -411,8 +521,13 @@ describe("what blends", () => {
     const [opaque] = scene.frame().filter(({ renderOrder }) => renderOrder === 0);
     assert.equal(opaque?.geometry.index?.count, 3);
     const far = members.slice(2, 4);
-    far.forEach((member, n) => { scene.move(member, 0, -6 + n); });
-    assert.deepEqual(drawnMembers(scene, members).slice(1), [[2, 3, 0, 1], [4, 5, 6]]);
+    far.forEach((member, n) => {
+      scene.move(member, 0, -6 + n);
+    });
+    assert.deepEqual(drawnMembers(scene, members).slice(1), [
+      [2, 3, 0, 1],
+      [4, 5, 6],
+    ]);
   });
 
   for (const isMerged of [false, true]) {
@@ -423,7 +538,10 @@ describe("what blends", () => {
       const [call, ...others] = scene.frame();
       assert.ok(call);
       assert.equal(others.length, 0);
-      assert.deepEqual(placesDrawnBy(call), [far, near].flatMap((member) => [member.place + backFaces, member.place + frontFaces]));
+      assert.deepEqual(
+        placesDrawnBy(call),
+        [far, near].flatMap((member) => [member.place + backFaces, member.place + frontFaces]),
+      );
     });
   }
 });

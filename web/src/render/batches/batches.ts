@@ -48,7 +48,15 @@ export class Batches {
 
   /** From now on the draw is in the group's place too. `look`: the field of that name in a place's record. */
   add(draw: BatchedDraw, look: readonly number[], group: PlaceGroup): Member {
-    const member: Member = { draw, group, place: this.#table.allocate(), batch: undefined, isShown: false, isMirrored: false, sphere: new Sphere() };
+    const member: Member = {
+      draw,
+      group,
+      place: this.#table.allocate(),
+      batch: undefined,
+      isShown: false,
+      isMirrored: false,
+      sphere: new Sphere(),
+    };
     this.#table.write(member.place, placeFields.texCoordFrame, draw.texCoordFrame);
     this.#table.write(member.place, placeFields.valueMin, draw.valueFrame.min);
     this.#table.write(member.place, placeFields.valueStep, draw.valueFrame.step);
@@ -146,7 +154,12 @@ export class Batches {
 
   /** Whether what its batch knows of it has changed. */
   #write(member: Member, rootFromScene: Matrix4): boolean {
-    const { draw: { shapeFromStored, bounds, step }, group, place, sphere } = member;
+    const {
+      draw: { shapeFromStored, bounds, step },
+      group,
+      place,
+      sphere,
+    } = member;
     const rootFromStored = new Matrix4().multiplyMatrices(rootFromScene, group.matrixWorld).multiply(shapeFromStored);
     const [xx, xy, xz, , yx, yy, yz, , zx, zy, zz, , ox, oy, oz] = rootFromStored.elements;
     member.isShown = group.visible;
@@ -155,7 +168,21 @@ export class Batches {
     const turn = member.isMirrored ? -1 : 1;
     sphere.copy(bounds).applyMatrix4(rootFromStored);
     return this.#table.write(place, placeFields.matrix, [
-      turn * xx, turn * yx, turn * zx, turn * ox, xy, yy, zy, oy, xz, yz, zz, oz, ...step, member.isShown ? 1 + (group.lightScope?.value ?? 0) : 0]);
+      turn * xx,
+      turn * yx,
+      turn * zx,
+      turn * ox,
+      xy,
+      yy,
+      zy,
+      oy,
+      xz,
+      yz,
+      zz,
+      oz,
+      ...step,
+      member.isShown ? 1 + (group.lightScope?.value ?? 0) : 0,
+    ]);
   }
 
   #join(member: Member): void {
@@ -172,7 +199,10 @@ export class Batches {
   }
 
   #make({ draw, isMirrored }: Member): Batch {
-    const request: MaterialRequest = { ...draw.request, uniforms: { ...draw.request.uniforms, places: this.#table.uniform } };
+    const request: MaterialRequest = {
+      ...draw.request,
+      uniforms: { ...draw.request.uniforms, places: this.#table.uniform },
+    };
     const material = this.#look.makeMaterial(request, draw.appearance, draw.pictures);
     material.forceSinglePass = true; // three.js would draw all back faces of the batch before all front faces
     const hang = (geometry: BufferGeometry) => {
@@ -186,16 +216,23 @@ export class Batches {
       return object;
     };
     const parts = { draw, material, hang };
-    const batch = !draw.isMerged ? new InstancedBatch(parts, this.#geometries)
-      : draw.isBlended ? new OrderedMergedBatch(parts, this.#buffers) : new MergedBatch(parts, this.#buffers);
+    const batch = !draw.isMerged
+      ? new InstancedBatch(parts, this.#geometries)
+      : draw.isBlended
+        ? new OrderedMergedBatch(parts, this.#buffers)
+        : new MergedBatch(parts, this.#buffers);
     if (draw.isBlended) this.#inOrder.add(batch);
     return batch;
   }
 
   /** The same for what one batch can draw. */
   #keyOf({ draw: { stage, ranges, isMerged, request, lookKey }, isMirrored }: Member): string {
-    const mesh = isMerged ? layoutOf(stage as BufferStage) : `${this.#numberOf(stage)} ${ranges.map((range) => stage.draws.indexOf(range)).join()}`;
-    return JSON.stringify([mesh, request, lookKey, isMirrored], (name, value: unknown) => (name === "uniforms" || name === "shared" ? undefined : value));
+    const mesh = isMerged
+      ? layoutOf(stage as BufferStage)
+      : `${this.#numberOf(stage)} ${ranges.map((range) => stage.draws.indexOf(range)).join()}`;
+    return JSON.stringify([mesh, request, lookKey, isMirrored], (name, value: unknown) =>
+      name === "uniforms" || name === "shared" ? undefined : value,
+    );
   }
 
   #numberOf(stage: Stage): number {

@@ -18,7 +18,10 @@ export class InstancedBatch implements Batch {
   readonly #calls: InstancedCall[] = [];
 
   constructor(parts: BatchParts, geometries: GeometryPool) {
-    const { stage, ranges: [range] } = parts.draw;
+    const {
+      stage,
+      ranges: [range],
+    } = parts.draw;
     const shape = range && geometries.acquire(stage)[stage.draws.indexOf(range)];
     if (shape === undefined) throw new RangeError("the draw is not one of its stage");
     this.#parts = parts;
@@ -49,7 +52,9 @@ export class InstancedBatch implements Batch {
   }
 
   update(frustum: Frustum): void {
-    const members = Array.from(this.#members).filter(({ isShown, sphere }) => isShown && frustum.intersectsSphere(sphere));
+    const members = Array.from(this.#members).filter(
+      ({ isShown, sphere }) => isShown && frustum.intersectsSphere(sphere),
+    );
     this.show(members.length > 0 ? [{ members, order: 0 }] : []);
   }
 
@@ -59,7 +64,7 @@ export class InstancedBatch implements Batch {
       const places = members.flatMap(({ place }) => this.#passes.map((pass) => place + pass));
       for (let first = 0; first < places.length; first += this.#mostPlaces) {
         const together = places.slice(first, first + this.#mostPlaces);
-        const call = this.#calls[count] ??= new InstancedCall(this.#shape, this.#parts, together.length);
+        const call = (this.#calls[count] ??= new InstancedCall(this.#shape, this.#parts, together.length));
         call.show(together, order);
         count += 1;
       }

@@ -20,7 +20,8 @@ export class MergedBatch implements Batch {
 
   constructor(parts: BatchParts, buffers: Buffers) {
     this.#parts = parts;
-    this.#mesh = parts.draw.request.wideLineStep > 0 ? new MergedLines(parts.draw, buffers) : new MergedMesh(parts.draw, buffers);
+    this.#mesh =
+      parts.draw.request.wideLineStep > 0 ? new MergedLines(parts.draw, buffers) : new MergedMesh(parts.draw, buffers);
     this.#object = parts.hang(this.#geometry);
   }
 

@@ -22,7 +22,9 @@ export interface Column {
 
 /** The same for stages whose vertices fit into the same columns. */
 export function layoutOf(stage: BufferStage): string {
-  return storedAttributesOf(stage).map(({ name, vertices: { type, components }, isSpread }) => `${name} ${type} ${components} ${isSpread}`).join();
+  return storedAttributesOf(stage)
+    .map(({ name, vertices: { type, components }, isSpread }) => `${name} ${type} ${components} ${isSpread}`)
+    .join();
 }
 
 export function columnsOf(stage: BufferStage): Column[] {
@@ -39,7 +41,12 @@ export function vertexCountOf({ coord: { bytes, type, stride } }: BufferStage): 
 }
 
 /** Appends vertices of the stage to the column of one of its attributes: its first ones, so many, or those of these numbers. */
-export function appendVertices({ name, components, elementsPerVertex, data }: Column, stage: BufferStage, vertices: number | Uint32Array, buffers: Buffers): void {
+export function appendVertices(
+  { name, components, elementsPerVertex, data }: Column,
+  stage: BufferStage,
+  vertices: number | Uint32Array,
+  buffers: Buffers,
+): void {
   const attribute = storedAttributesOf(stage).find((candidate) => candidate.name === name);
   if (attribute === undefined) throw new RangeError(`the stage has no ${name}`);
   const { bytes, type, stride, offset } = attribute.vertices;
@@ -52,7 +59,7 @@ export function appendVertices({ name, components, elementsPerVertex, data }: Co
     return;
   }
   for (let n = 0; n < count; ++n) {
-    const first = (areFirst ? n : vertices[n] ?? 0) * stride + offset;
+    const first = (areFirst ? n : (vertices[n] ?? 0)) * stride + offset;
     for (let c = 0; c < components; ++c) to[n * elementsPerVertex + c] = from[first + c] ?? 0;
   }
 }
@@ -60,7 +67,8 @@ export function appendVertices({ name, components, elementsPerVertex, data }: Co
 /** The numbers of vertices that draws of a stage name, one draw after the other. */
 export function indicesOf({ index }: BufferStage, ranges: readonly DrawRange[], buffers: Buffers): ArrayLike<number> {
   const all = index && buffers.read(index.bytes, index.type, 0);
-  const of = ({ first, count }: DrawRange) => (all ? Array.from(all.subarray(first, first + count)) : Array.from({ length: count }, (_, i) => first + i));
+  const of = ({ first, count }: DrawRange) =>
+    all ? Array.from(all.subarray(first, first + count)) : Array.from({ length: count }, (_, i) => first + i);
   const [only, ...others] = ranges;
   if (all && only && others.length === 0) return all.subarray(only.first, only.first + only.count);
   return ranges.flatMap(of);

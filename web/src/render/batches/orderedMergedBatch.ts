@@ -53,7 +53,8 @@ export class OrderedMergedBatch implements Batch {
   show(runs: readonly Run[]): void {
     if (this.#hasChanged) this.#send();
     const members = runs.flatMap((run) => run.members);
-    if (members.length !== this.#laid.length || members.some((member, n) => member !== this.#laid[n])) this.#lay(members);
+    if (members.length !== this.#laid.length || members.some((member, n) => member !== this.#laid[n]))
+      this.#lay(members);
     let first = 0;
     runs.forEach((run, n) => {
       const object = this.#objectAt(n);
@@ -76,7 +77,7 @@ export class OrderedMergedBatch implements Batch {
   }
 
   #objectAt(n: number): DrawnObject {
-    return this.#objects[n] ??= this.#parts.hang(this.#shared());
+    return (this.#objects[n] ??= this.#parts.hang(this.#shared()));
   }
 
   /** What has been added goes to the GPU with the next frame. */

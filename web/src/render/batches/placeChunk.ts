@@ -19,7 +19,17 @@ export const frontFaces = 2 ** 30;
  * or metallic and roughness, emissive and ambient intensity, the range of the map of
  * colours, and the width of lines; and what stored values are.
  */
-export const placeFields = { matrix: 0, step: 12, shownIn: 15, texCoordFrame: 16, look: 20, mapRange: 32, lineWidth: 34, valueMin: 36, valueStep: 40 } as const;
+export const placeFields = {
+  matrix: 0,
+  step: 12,
+  shownIn: 15,
+  texCoordFrame: 16,
+  look: 20,
+  mapRange: 32,
+  lineWidth: 34,
+  valueMin: 36,
+  valueStep: 40,
+} as const;
 export const texelsPerPlace = 11;
 
 export const placeVertexChunk = /* glsl */ `
@@ -103,18 +113,24 @@ export const cutFacesChunk = /* glsl */ `void main() {
 
 /** In three's fragment shaders: the uniforms of a material, and where they are a place's. */
 export const placeColors: readonly (readonly [string, string])[] = [
-  ["vec4 diffuseColor = vec4( diffuse, opacity );", `
+  [
+    "vec4 diffuseColor = vec4( diffuse, opacity );",
+    `
 #ifdef ${placesDefine}
   vec4 diffuseColor = placeDiffuse;
 #else
   vec4 diffuseColor = vec4(diffuse, opacity);
 #endif
-`],
-  ["vec3 totalEmissiveRadiance = emissive;", `
+`,
+  ],
+  [
+    "vec3 totalEmissiveRadiance = emissive;",
+    `
 #ifdef ${placesDefine}
   vec3 totalEmissiveRadiance = placeEmissive.rgb;
 #else
   vec3 totalEmissiveRadiance = emissive;
 #endif
-`],
+`,
+  ],
 ];

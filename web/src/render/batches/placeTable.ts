@@ -62,7 +62,8 @@ export class PlaceTable {
     if (this.#changedRows.size === 0) return;
     const texture = this.uniform.value;
     // What has not been there yet goes as a whole.
-    if (this.#sent === texture) for (const row of this.#changedRows) texture.addUpdateRange(row * numbersPerRow, numbersPerRow);
+    if (this.#sent === texture)
+      for (const row of this.#changedRows) texture.addUpdateRange(row * numbersPerRow, numbersPerRow);
     texture.needsUpdate = true;
     this.#changedRows.clear();
   }
@@ -86,9 +87,17 @@ export class PlaceTable {
 
   /** Goes to the GPU as a whole. */
   #newTexture(): DataTexture {
-    const texture = new DataTexture(this.#numbers, placesPerRow * texelsPerPlace, this.#numbers.length / numbersPerRow, RGBAFormat, FloatType);
+    const texture = new DataTexture(
+      this.#numbers,
+      placesPerRow * texelsPerPlace,
+      this.#numbers.length / numbersPerRow,
+      RGBAFormat,
+      FloatType,
+    );
     texture.needsUpdate = true;
-    texture.onUpdate = () => { this.#sent = texture; };
+    texture.onUpdate = () => {
+      this.#sent = texture;
+    };
     return texture;
   }
 }

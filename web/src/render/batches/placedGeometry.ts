@@ -30,7 +30,12 @@ export class PlacedGeometry {
     this.geometry = shape instanceof InstancedBufferGeometry ? repeatedLines(shape, capacity) : sharing(shape);
     this.geometry.boundingSphere = new Sphere(); // three.js would make one of the stored numbers
     // Of no place: the first frame writes them all.
-    this.#places = new InstancedBufferAttribute(new Uint32Array(capacity).fill(2 ** 32 - 1), 1, false, this.#instancesPerPlace);
+    this.#places = new InstancedBufferAttribute(
+      new Uint32Array(capacity).fill(2 ** 32 - 1),
+      1,
+      false,
+      this.#instancesPerPlace,
+    );
     this.geometry.setAttribute("place", this.#places);
   }
 

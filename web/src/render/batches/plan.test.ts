@@ -49,13 +49,23 @@ test("a mesh is merged as long as all its places together are small, and instanc
 });
 
 test("vertices that the GPU decodes are not merged, as they are in no buffers", () => {
-  const shapes = [...crowd, geometry("image", 24, "classic"), geometry("images", 24, "classic"), '<ImageGeometry USE="images"/>'];
+  const shapes = [
+    ...crowd,
+    geometry("image", 24, "classic"),
+    geometry("images", 24, "classic"),
+    '<ImageGeometry USE="images"/>',
+  ];
   assert.deepEqual(drawn(shapes).slice(-3), ["alone", "instanced", "instanced"]);
 });
 
 test("shapes that come and go are drawn as if those that are left had always been all", () => {
-  const scene = readScene(elementsOf(`<X3D>${[...crowd, geometry("twin", mostMergedVertices / 2), '<ImageGeometry USE="twin"/>']
-    .map((inner) => `<Shape>${inner}</Shape>`).join("")}</X3D>`));
+  const scene = readScene(
+    elementsOf(
+      `<X3D>${[...crowd, geometry("twin", mostMergedVertices / 2), '<ImageGeometry USE="twin"/>']
+        .map((inner) => `<Shape>${inner}</Shape>`)
+        .join("")}</X3D>`,
+    ),
+  );
   const geometries = shapesOf(scene.root).flatMap(({ geometry: own }) => own ?? []);
   const plan = planOf(shapesOf(scene.root));
   const twin = geometries.at(-1);

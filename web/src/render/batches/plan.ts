@@ -59,7 +59,8 @@ export class DrawingPlan {
 
   /** Geometries that are drawn in another way than when this was last called. */
   takeChanged(): ReadonlySet<GeometryDescription> {
-    const asked = this.#isCrowd === this.#wasCrowd ? this.#touched : new Set([...this.#touched, ...this.#counts.keys()]);
+    const asked =
+      this.#isCrowd === this.#wasCrowd ? this.#touched : new Set([...this.#touched, ...this.#counts.keys()]);
     const changed = new Set<GeometryDescription>();
     for (const geometry of asked) {
       const drawing = this.#counts.has(geometry) ? this.drawingOf(geometry) : undefined;
