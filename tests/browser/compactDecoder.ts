@@ -6,7 +6,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { decodePatches } from "../../web/src/decode/compact/patch.ts";
 import { buffersOf } from "../../web/src/decode/compact/patchBuffers.ts";
-import type { VertexArray } from "../../web/src/decode/arrays.ts";
+import type { VertexArray } from "../../web/src/stage/vertexArray.ts";
 import { decodePng } from "./png.ts";
 import { numbersOf, tagsOf, type PlainPatch } from "./siteDecoder.ts";
 

@@ -1,33 +1,10 @@
 // Typed arrays out of container bytes (BG). Counts and offsets come from the
 // document, so they are checked against the bytes before anything is viewed.
 
-import type { Bounds, ElementArray, IndexArray, VertexArray } from "./arrays.ts";
+import type { Bounds, ElementArray, IndexArray, VertexArray } from "../stage/vertexArray.ts";
+import type { ElementType } from "../stage/elementType.ts";
+import { arrayTypeOf, byteSizeOf } from "../stage/elementType.ts";
 import { DecodeError } from "./decodeError.ts";
-
-const arrayTypes = {
-  Int8: Int8Array,
-  Uint8: Uint8Array,
-  Int16: Int16Array,
-  Uint16: Uint16Array,
-  Int32: Int32Array,
-  Uint32: Uint32Array,
-  Float32: Float32Array,
-} as const;
-
-export type ElementType = keyof typeof arrayTypes;
-
-export function byteSizeOf(type: ElementType): number {
-  return arrayTypes[type].BYTES_PER_ELEMENT;
-}
-
-export function elementTypeOf(array: ElementArray): ElementType {
-  const types = Object.keys(arrayTypes) as ElementType[];
-  return types.find((type) => array instanceof arrayTypes[type]) ?? "Uint8";
-}
-
-export function arrayTypeOf(type: ElementType): (typeof arrayTypes)[ElementType] {
-  return arrayTypes[type];
-}
 
 /** Where an attribute lies in a file. */
 export interface ElementRange {
@@ -121,13 +98,13 @@ function arrayOf(bytes: Uint8Array<ArrayBuffer>, range: ElementRange, bytesBefor
   const count = range.count === 0 ? fit : range.count;
   if (count > fit)
     throw new DecodeError("truncated", `holds ${fit} of ${count} ${range.components === 1 ? "indices" : "vertices"}`);
-  if (count === 0) return new arrayTypes[range.type](0);
+  if (count === 0) return new (arrayTypeOf(range.type))(0);
   // With the last group's padding, where the file has it.
   const begin = range.byteOffset - bytesBefore;
   const byteLength = Math.min(count * stride, Math.floor((bytes.byteLength - begin) / size) * size);
   const byteOffset = bytes.byteOffset + begin;
   // A view must begin at a multiple of its element; elsewhere the bytes are copied.
   return byteOffset % size === 0
-    ? new arrayTypes[range.type](bytes.buffer, byteOffset, byteLength / size)
-    : new arrayTypes[range.type](bytes.buffer.slice(byteOffset, byteOffset + byteLength));
+    ? new (arrayTypeOf(range.type))(bytes.buffer, byteOffset, byteLength / size)
+    : new (arrayTypeOf(range.type))(bytes.buffer.slice(byteOffset, byteOffset + byteLength));
 }

@@ -1,14 +1,7 @@
+import type { DecodedImage } from "../stage/decodedImage.ts";
 import { DecodeError } from "./decodeError.ts";
 import type { PngHeader } from "./png.ts";
 import { checkPng } from "./png.ts";
-
-/** An image of vertex data: an ImageBitmap when it has been decoded, a texture when it is on the GPU. */
-export interface DecodedImage {
-  readonly width: number;
-  readonly height: number;
-  /** Gives its memory back. */
-  close(): void;
-}
 
 /** An image and how many numbers its file has a texel: browsers make four of any. */
 export interface DataImage<Image extends DecodedImage = DecodedImage> {

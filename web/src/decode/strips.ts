@@ -1,8 +1,8 @@
 // Triangle strips as separate triangles: buffers of three.js are drawn as
 // triangles only.
 
-import type { IndexArray } from "./arrays.ts";
-import type { DrawRange } from "./stage.ts";
+import type { IndexArray } from "../stage/vertexArray.ts";
+import type { DrawRange } from "../stage/stage.ts";
 
 /**
  * A strip's triangles in its orientation. Degenerate joins stay, so that the

@@ -1,10 +1,11 @@
 // BG: typed arrays of index, coordinates, normals and colours.
 
-import type { Bounds } from "../decode/arrays.ts";
+import type { Bounds } from "../stage/vertexArray.ts";
 import { DecodeError } from "../decode/decodeError.ts";
 import type { ElementRange } from "../decode/elements.ts";
-import { boundsOf, byteSizeOf, countIn, indexArrayOf, vertexArrayOf } from "../decode/elements.ts";
-import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../decode/stage.ts";
+import { boundsOf, countIn, indexArrayOf, vertexArrayOf } from "../decode/elements.ts";
+import { byteSizeOf } from "../stage/elementType.ts";
+import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../stage/stage.ts";
 import { withoutStrips } from "../decode/strips.ts";
 import type { GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
 import { hasNormalsInCoords, isUnbounded } from "../document/geometry.ts";

@@ -3,9 +3,9 @@
 // until they are here.
 
 import type { OtherValues, PatchBuffers } from "../decode/compact/patchBuffers.ts";
-import type { VertexArray } from "../decode/arrays.ts";
+import type { VertexArray } from "../stage/vertexArray.ts";
 import { DecodeError } from "../decode/decodeError.ts";
-import type { BufferStage, DrawRange, StageName } from "../decode/stage.ts";
+import type { BufferStage, DrawRange, StageName } from "../stage/stage.ts";
 import type { AttributeDescription, GeometryDescription, PatchDescription } from "../document/description.ts";
 import { latticeBitsOf } from "../document/storedFrame.ts";
 import { Holdings } from "./holdings.ts";

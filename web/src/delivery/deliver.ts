@@ -3,7 +3,7 @@
 // costs what it holds and nothing else. What it has it gives up when it is told
 // to, and asks for again.
 
-import type { Stage } from "../decode/stage.ts";
+import type { Stage } from "../stage/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import type { Claim } from "../scheduler/budget.ts";
 import type { DeliveryError } from "./deliveryError.ts";

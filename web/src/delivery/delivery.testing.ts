@@ -1,13 +1,13 @@
 // Sites in memory, for tests of what is asked of them and what comes of it.
 
 import assert from "node:assert/strict";
-import type { ElementArray } from "../decode/arrays.ts";
-import type { DecodedImage } from "../decode/image.ts";
+import type { ElementArray } from "../stage/vertexArray.ts";
+import type { DecodedImage } from "../stage/decodedImage.ts";
 import { decodeImage } from "../decode/image.ts";
 import { jobs } from "../decode/jobs.ts";
 import { checkPng } from "../decode/png.ts";
 import { pngOf } from "../decode/png.testing.ts";
-import type { Stage, StoredBytes } from "../decode/stage.ts";
+import type { Stage, StoredBytes } from "../stage/stage.ts";
 import { elementsOf } from "../document/elements.testing.ts";
 import type { GeometryDescription } from "../document/description.ts";
 import { shapesOf } from "../document/description.ts";

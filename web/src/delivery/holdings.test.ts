@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import type { ElementArray } from "../decode/arrays.ts";
-import type { ArrayUse, StoredBytes } from "../decode/stage.ts";
+import type { ElementArray } from "../stage/vertexArray.ts";
+import type { ArrayUse, StoredBytes } from "../stage/stage.ts";
 import { Holdings } from "./holdings.ts";
 
 function memory() {

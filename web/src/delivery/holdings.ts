@@ -1,9 +1,9 @@
 // The arrays of one patch on their way out of JavaScript: each is stored once,
 // whichever attributes read it, and given back when the last of them is gone.
 
-import type { ElementArray, IndexArray, VertexArray } from "../decode/arrays.ts";
-import { elementTypeOf } from "../decode/elements.ts";
-import type { ArrayUse, StoredBytes, StoredIndex, StoredVertices } from "../decode/stage.ts";
+import type { ElementArray, IndexArray, VertexArray } from "../stage/vertexArray.ts";
+import { elementTypeOf } from "../stage/elementType.ts";
+import type { ArrayUse, StoredBytes, StoredIndex, StoredVertices } from "../stage/stage.ts";
 
 /** Brings an array to where draws read it. Rejects with the signal's reason; nothing is then left behind. */
 export type StoreBytes = (array: ElementArray, use: ArrayUse, signal: AbortSignal) => Promise<StoredBytes>;

@@ -1,6 +1,6 @@
 // The files that a patch needs.
 
-import { byteSizeOf } from "../decode/elements.ts";
+import { byteSizeOf } from "../stage/elementType.ts";
 import type { ElementType, GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
 import { hasNormalsInCoords, isPair } from "../document/geometry.ts";
 import type { Chunk } from "../scheduler/priority.ts";

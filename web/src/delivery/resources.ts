@@ -5,7 +5,8 @@
 
 import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
-import type { DataImage, DecodedImage } from "../decode/image.ts";
+import type { DataImage } from "../decode/image.ts";
+import type { DecodedImage } from "../stage/decodedImage.ts";
 import type { RunJob } from "../decode/jobs.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import { Backlog } from "../scheduler/backlog.ts";

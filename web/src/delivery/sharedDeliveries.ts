@@ -1,7 +1,7 @@
 // One delivery for each geometry, however many shapes show it: a geometry that
 // is USEd is downloaded, decoded and stored once.
 
-import type { Stage } from "../decode/stage.ts";
+import type { Stage } from "../stage/stage.ts";
 import type { GeometryDescription } from "../document/description.ts";
 import type { Delivery, DeliveryListener, Demand } from "./deliver.ts";
 import { deliver } from "./deliver.ts";

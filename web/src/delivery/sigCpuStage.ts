@@ -1,14 +1,14 @@
 // Classic SIG on the CPU: files become arrays in workers, one job for each that
 // comes. The stages are those of buffers.
 
-import type { IndexArray } from "../decode/arrays.ts";
+import type { IndexArray } from "../stage/vertexArray.ts";
 import type { ImageFile, RecordLayout } from "../decode/classicArrays.ts";
 import type { GridArrays } from "../decode/classicGrid.ts";
 import { DecodeError } from "../decode/decodeError.ts";
-import { byteSizeOf } from "../decode/elements.ts";
+import { byteSizeOf } from "../stage/elementType.ts";
 import type { PngHeader } from "../decode/png.ts";
 import { checkPng } from "../decode/png.ts";
-import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../decode/stage.ts";
+import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../stage/stage.ts";
 import { withoutStrips } from "../decode/strips.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { largestStoredOf, middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";

@@ -3,9 +3,9 @@
 // comes as files is decoded on the CPU.
 
 import { DecodeError } from "../decode/decodeError.ts";
-import type { DecodedImage } from "../decode/image.ts";
-import type { TexelRange, TextureStage } from "../decode/stage.ts";
-import { isPairCode } from "../decode/stage.ts";
+import type { DecodedImage } from "../stage/decodedImage.ts";
+import type { TexelRange, TextureStage } from "../stage/stage.ts";
+import { isPairCode } from "../stage/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { middleOfMissing } from "../document/storedFrame.ts";
 import type { Part } from "./parts.ts";

@@ -3,7 +3,7 @@
 // be shown with those that are here. A part that never comes is merely absent.
 
 import type { RunJob } from "../decode/jobs.ts";
-import type { DrawRange, NormalCode, Stage, StageName } from "../decode/stage.ts";
+import type { DrawRange, NormalCode, Stage, StageName } from "../stage/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { isPair } from "../document/geometry.ts";
 import type { StoreBytes } from "./holdings.ts";

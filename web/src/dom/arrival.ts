@@ -2,11 +2,12 @@
 // beside the main thread; both are uploaded in pieces before frames, and kept
 // nowhere else.
 
-import type { ElementArray } from "../decode/arrays.ts";
-import type { DataImage, DecodedImage } from "../decode/image.ts";
+import type { ElementArray } from "../stage/vertexArray.ts";
+import type { DataImage } from "../decode/image.ts";
+import type { DecodedImage } from "../stage/decodedImage.ts";
 import { decodePicture } from "../decode/picture.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
-import type { ArrayUse, StoredBytes } from "../decode/stage.ts";
+import type { ArrayUse, StoredBytes } from "../stage/stage.ts";
 import type { Picture } from "../delivery/resources.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import { beforeNextFrame } from "../render/nextFrame.ts";

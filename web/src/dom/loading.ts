@@ -2,8 +2,8 @@
 // <shape>. Events do not bubble. Those that speak of a picture (first-image,
 // refine, load) are sent after the frame that shows it.
 
-import type { StageName } from "../decode/stage.ts";
-import { stageNames } from "../decode/stage.ts";
+import type { StageName } from "../stage/stage.ts";
+import { stageNames } from "../stage/stage.ts";
 import type { Progress, Transfer } from "../delivery/progress.ts";
 import { noProgress } from "../delivery/progress.ts";
 

@@ -1,7 +1,7 @@
 // Joins a viewer to its face: attributes, poster, progress, lists, hotspots, and
 // what is said to those who do not see the picture.
 
-import type { StageName } from "../decode/stage.ts";
+import type { StageName } from "../stage/stage.ts";
 import { orbitOf } from "../navigation/orbit.ts";
 import type { ViewSettings } from "./attributes.ts";
 import { cameraSettingOf, readSettings, viewAttributes } from "./attributes.ts";

@@ -1,8 +1,8 @@
 // The loading of a scene's shapes: what each has asked for, what of it is on the
 // screen, and what its element says of that.
 
-import type { Stage, StageName } from "../decode/stage.ts";
-import { stageNames } from "../decode/stage.ts";
+import type { Stage, StageName } from "../stage/stage.ts";
+import { stageNames } from "../stage/stage.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { Transfer } from "../delivery/progress.ts";
 import { progressOf } from "../delivery/progress.ts";

@@ -3,7 +3,7 @@
 
 import { LateFonts } from "../decode/lateFonts.ts";
 import { measureRun } from "../decode/letters.ts";
-import type { StageName } from "../decode/stage.ts";
+import type { StageName } from "../stage/stage.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { Transfer } from "../delivery/progress.ts";
 import { progressOf } from "../delivery/progress.ts";

@@ -1,6 +1,6 @@
 // What is said to those who do not see the picture.
 
-import type { StageName } from "../decode/stage.ts";
+import type { StageName } from "../stage/stage.ts";
 import type { NavigationType } from "../navigation/navigationType.ts";
 import type { Orbit } from "../navigation/orbit.ts";
 

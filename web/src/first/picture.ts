@@ -3,8 +3,8 @@
 import { Matrix3, Matrix4, Vector3 } from "three";
 import type { Base } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
-import type { ElementArray, VertexArray } from "../decode/arrays.ts";
-import { elementTypeOf } from "../decode/elements.ts";
+import type { ElementArray, VertexArray } from "../stage/vertexArray.ts";
+import { elementTypeOf } from "../stage/elementType.ts";
 import { latticeBitsOf } from "../document/storedFrame.ts";
 import { isBlended, litNumbersOf } from "../lighting/materialNumbers.ts";
 import { lensOf } from "../navigation/camera.ts";

@@ -4,10 +4,10 @@
 
 import type { BufferGeometry } from "three";
 import { BufferAttribute, InterleavedBuffer } from "three";
-import type { ElementArray } from "../decode/arrays.ts";
-import type { ElementType } from "../decode/elements.ts";
-import { arrayTypeOf, byteSizeOf } from "../decode/elements.ts";
-import type { StoredBytes } from "../decode/stage.ts";
+import type { ElementArray } from "../stage/vertexArray.ts";
+import type { ElementType } from "../stage/elementType.ts";
+import { arrayTypeOf, byteSizeOf } from "../stage/elementType.ts";
+import type { StoredBytes } from "../stage/stage.ts";
 import type { Buffers } from "../render/buffers.ts";
 
 interface Kept {

@@ -3,7 +3,8 @@
 // back by itself.
 
 import { NoColorSpace, SRGBColorSpace, Texture } from "three";
-import type { DataImage, DecodedImage } from "../decode/image.ts";
+import type { DataImage } from "../decode/image.ts";
+import type { DecodedImage } from "../stage/decodedImage.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
 import { decodePicture } from "../decode/picture.ts";
 import { bytesPerTexel } from "../delivery/parts.ts";

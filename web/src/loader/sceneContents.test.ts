@@ -10,9 +10,9 @@ import {
   Vector3,
   Vector4,
 } from "three";
-import { arrayTypeOf } from "../decode/elements.ts";
-import type { ElementType } from "../decode/elements.ts";
-import type { StoredBytes } from "../decode/stage.ts";
+import { arrayTypeOf } from "../stage/elementType.ts";
+import type { ElementType } from "../stage/elementType.ts";
+import type { StoredBytes } from "../stage/stage.ts";
 import { held, siteOf, soon, type Answer } from "../delivery/delivery.testing.ts";
 import { elementsOf } from "../document/elements.testing.ts";
 import type { Buffers } from "../render/buffers.ts";

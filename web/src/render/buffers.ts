@@ -7,10 +7,10 @@
 
 import type { BufferAttribute, BufferGeometry, InterleavedBuffer } from "three";
 import { GLBufferAttribute } from "three";
-import type { ElementArray } from "../decode/arrays.ts";
-import type { ElementType } from "../decode/elements.ts";
-import { arrayTypeOf, byteSizeOf } from "../decode/elements.ts";
-import type { ArrayUse, StoredBytes } from "../decode/stage.ts";
+import type { ElementArray } from "../stage/vertexArray.ts";
+import type { ElementType } from "../stage/elementType.ts";
+import { arrayTypeOf, byteSizeOf } from "../stage/elementType.ts";
+import type { ArrayUse, StoredBytes } from "../stage/stage.ts";
 
 /** An array on its way to the GPU. */
 export interface BufferUpload {

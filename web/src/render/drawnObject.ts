@@ -2,7 +2,7 @@
 
 import type { BufferGeometry } from "three";
 import { Line, LineSegments, Mesh, Points } from "three";
-import type { DrawRange } from "../decode/stage.ts";
+import type { DrawRange } from "../stage/stage.ts";
 
 export type DrawnObject = Mesh | Points | Line;
 

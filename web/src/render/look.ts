@@ -4,7 +4,7 @@
 
 import type { Material, Texture, Vector2, Vector4 } from "three";
 import type { AppearanceDescription, TextureRole } from "../document/description.ts";
-import type { DrawRange } from "../decode/stage.ts";
+import type { DrawRange } from "../stage/stage.ts";
 import type { DrawnObject } from "./drawnObject.ts";
 import type { SceneLightUniforms } from "./sceneLights.ts";
 import type { VertexForm, VertexUniforms } from "./vertexChunk.ts";

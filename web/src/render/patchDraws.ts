@@ -3,7 +3,7 @@
 
 import type { BufferGeometry, Material, Matrix4 } from "three";
 import { DoubleSide, FrontSide } from "three";
-import type { DrawRange, Stage } from "../decode/stage.ts";
+import type { DrawRange, Stage } from "../stage/stage.ts";
 import type { AppearanceDescription } from "../document/description.ts";
 import type { LightScope } from "../navigation/lightScope.ts";
 import { everywhere } from "../navigation/lightScope.ts";

@@ -4,8 +4,8 @@
 // looked up comes back from the GPU, one patch at a time.
 
 import type { BufferGeometry, Matrix4, Sphere } from "three";
-import type { ElementArray, IndexArray } from "../decode/arrays.ts";
-import type { BufferStage, DrawRange, Stage } from "../decode/stage.ts";
+import type { ElementArray, IndexArray } from "../stage/vertexArray.ts";
+import type { BufferStage, DrawRange, Stage } from "../stage/stage.ts";
 import type { Buffers } from "./buffers.ts";
 import type { DrawnObject } from "./drawnObject.ts";
 import { objectOf } from "./drawnObject.ts";

@@ -8,7 +8,7 @@
 
 import type { Side, Texture } from "three";
 import { GLSL3, ShaderMaterial } from "three";
-import type { DrawRange } from "../decode/stage.ts";
+import type { DrawRange } from "../stage/stage.ts";
 import type { AppearanceDescription } from "../document/description.ts";
 import { primitiveDefinesOf, shapePointsIn } from "./points.ts";
 import { alphaMaskDefine, alphaMaskVarying } from "./texCoords.ts";

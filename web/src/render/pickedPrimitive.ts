@@ -3,8 +3,8 @@
 // vertex, and the one that the point lies on is it.
 
 import { Line3, Triangle, Vector3 } from "three";
-import type { IndexArray } from "../decode/arrays.ts";
-import type { DrawRange } from "../decode/stage.ts";
+import type { IndexArray } from "../stage/vertexArray.ts";
+import type { DrawRange } from "../stage/stage.ts";
 
 export interface PickedPrimitive {
   /** Which one of the index, counted from 0. */

@@ -2,7 +2,7 @@
 // lines, which have no back, are lit from whichever side they are seen.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
-import type { DrawRange } from "../decode/stage.ts";
+import type { DrawRange } from "../stage/stage.ts";
 import { pointSizeChunk, replaceEach } from "./vertexChunk.ts";
 
 const pointsDefine = "DRAWS_POINTS";

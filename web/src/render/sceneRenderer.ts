@@ -16,9 +16,9 @@ import {
   Vector4,
   WebGLRenderer,
 } from "three";
-import type { ElementArray } from "../decode/arrays.ts";
-import type { DecodedImage } from "../decode/image.ts";
-import type { ArrayUse, Stage } from "../decode/stage.ts";
+import type { ElementArray } from "../stage/vertexArray.ts";
+import type { DecodedImage } from "../stage/decodedImage.ts";
+import type { ArrayUse, Stage } from "../stage/stage.ts";
 import type {
   AnchorDescription,
   BackgroundDescription,

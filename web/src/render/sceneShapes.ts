@@ -3,8 +3,8 @@
 
 import type { Camera, Object3D, Sphere } from "three";
 import { Box3, Material, Vector3 } from "three";
-import type { Bounds } from "../decode/arrays.ts";
-import type { Stage } from "../decode/stage.ts";
+import type { Bounds } from "../stage/vertexArray.ts";
+import type { Stage } from "../stage/stage.ts";
 import type {
   AnchorDescription,
   GeometryDescription,

@@ -1,8 +1,8 @@
 // A shape on the screen: the draws of each patch's newest stage, in a group for
 // each place where the shape stands in the scene.
 
-import type { Bounds } from "../decode/arrays.ts";
-import type { Stage } from "../decode/stage.ts";
+import type { Bounds } from "../stage/vertexArray.ts";
+import type { Stage } from "../stage/stage.ts";
 import { areAlike } from "../document/alike.ts";
 import type {
   AppearanceDescription,

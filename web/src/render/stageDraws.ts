@@ -3,8 +3,8 @@
 
 import type { IUniform, Side, Texture } from "three";
 import { Box3, Sphere, Vector3 } from "three";
-import type { DecodedImage } from "../decode/image.ts";
-import type { DrawRange, Stage, TextureStage } from "../decode/stage.ts";
+import type { DecodedImage } from "../stage/decodedImage.ts";
+import type { DrawRange, Stage, TextureStage } from "../stage/stage.ts";
 import type {
   AppearanceDescription,
   GeometryDescription,

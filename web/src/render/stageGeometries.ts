@@ -2,7 +2,7 @@
 // shows the stage and freed with the last of it.
 
 import { BufferGeometry, InstancedBufferGeometry, InterleavedBufferAttribute, Sphere } from "three";
-import type { BufferStage, DrawRange, Stage } from "../decode/stage.ts";
+import type { BufferStage, DrawRange, Stage } from "../stage/stage.ts";
 import type { Buffers } from "./buffers.ts";
 import { storedAttributesOf } from "./storedAttributes.ts";
 import { wideLineGeometryOf } from "./wideLineGeometry.ts";

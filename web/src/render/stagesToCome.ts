@@ -3,7 +3,7 @@
 // second for them, and a page that draws with a program that is not ready waits.
 
 import { BufferAttribute, BufferGeometry, type Object3D, Texture } from "three";
-import type { BufferStage, DrawRange, Stage, StoredVertices, TexelRange, TextureStage } from "../decode/stage.ts";
+import type { BufferStage, DrawRange, Stage, StoredVertices, TexelRange, TextureStage } from "../stage/stage.ts";
 import type { GeometryDescription, PatchDescription, ShapeDescription } from "../document/description.ts";
 import { isPair } from "../document/geometry.ts";
 import { drawnAsOf } from "./batches/batchedStage.ts";

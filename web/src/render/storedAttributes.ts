@@ -1,7 +1,7 @@
 // What three.js calls the attributes of a stage in buffers.
 
-import type { BufferStage, StoredVertices } from "../decode/stage.ts";
-import { isPairCode } from "../decode/stage.ts";
+import type { BufferStage, StoredVertices } from "../stage/stage.ts";
+import { isPairCode } from "../stage/stage.ts";
 
 /** An attribute of a stage's vertices, by three.js' name for it. */
 export interface StoredAttribute {

@@ -18,7 +18,7 @@ import {
   Vector2,
   type WebGLRenderer,
 } from "three";
-import type { DecodedImage } from "../decode/image.ts";
+import type { DecodedImage } from "../stage/decodedImage.ts";
 import type { SamplingDescription } from "../document/description.ts";
 
 /** An image on its way to the GPU. */

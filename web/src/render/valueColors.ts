@@ -3,8 +3,8 @@
 // each pixel, so that between two vertices lie the colours of the values between.
 
 import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "three";
-import type { DecodedImage } from "../decode/image.ts";
-import type { Stage, ValuePlanes } from "../decode/stage.ts";
+import type { DecodedImage } from "../stage/decodedImage.ts";
+import type { Stage, ValuePlanes } from "../stage/stage.ts";
 import { mostMapColors } from "../document/colorMaps.ts";
 import type { AttributeDescription, ColorMapDescription } from "../document/description.ts";
 import { toLinearChunk } from "../lighting/physicalLighting.ts";

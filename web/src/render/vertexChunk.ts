@@ -9,8 +9,8 @@
 // that patches share then go through the same arithmetic, and no crack opens.
 
 import type { IUniform, Matrix3, Texture, Vector4, WebGLProgramParametersWithUniforms } from "three";
-import type { Grid, NormalCode } from "../decode/stage.ts";
-import { isPairCode } from "../decode/stage.ts";
+import type { Grid, NormalCode } from "../stage/stage.ts";
+import { isPairCode } from "../stage/stage.ts";
 import type { Vec3 } from "../document/description.ts";
 import { toLinearChunk } from "../lighting/physicalLighting.ts";
 import { cutFacesChunk, placeFragmentChunk, placesDefine, placeVertexChunk } from "./batches/placeChunk.ts";

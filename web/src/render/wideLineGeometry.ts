@@ -9,9 +9,9 @@ import {
   InstancedInterleavedBuffer,
   InterleavedBufferAttribute,
 } from "three";
-import type { ElementArray } from "../decode/arrays.ts";
-import { arrayTypeOf, elementTypeOf } from "../decode/elements.ts";
-import type { BufferStage, DrawRange, Stage } from "../decode/stage.ts";
+import type { ElementArray } from "../stage/vertexArray.ts";
+import { arrayTypeOf, elementTypeOf } from "../stage/elementType.ts";
+import type { BufferStage, DrawRange, Stage } from "../stage/stage.ts";
 import type { Column } from "./batches/meshColumns.ts";
 import { appendVertices, columnsOf, indicesOf } from "./batches/meshColumns.ts";
 import type { Buffers } from "./buffers.ts";

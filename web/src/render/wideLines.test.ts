@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import type { BufferAttribute } from "three";
-import type { ElementArray, IndexArray } from "../decode/arrays.ts";
-import type { BufferStage, DrawRange, StoredBytes } from "../decode/stage.ts";
+import type { ElementArray, IndexArray } from "../stage/vertexArray.ts";
+import type { BufferStage, DrawRange, StoredBytes } from "../stage/stage.ts";
 import type { Buffers } from "./buffers.ts";
 import { outlineTriangles } from "./wideLineChunk.ts";
 import { wideLineGeometryOf } from "./wideLineGeometry.ts";

@@ -1,6 +1,6 @@
 // Lines that are wide: which they are, and how many.
 
-import type { DrawRange, Stage } from "../decode/stage.ts";
+import type { DrawRange, Stage } from "../stage/stage.ts";
 
 /** By the stage that they are made of, so that all its shapes share what they draw. */
 const made = new WeakMap<Stage, Stage>();

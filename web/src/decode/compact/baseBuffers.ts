@@ -1,7 +1,7 @@
 // A decoded base as what a GPU takes: whole for the first look, each part for itself
 // for those after it, since a part goes when its patch comes.
 
-import type { ElementArray, VertexArray } from "../arrays.ts";
+import type { ElementArray, VertexArray } from "../../stage/vertexArray.ts";
 import { DecodeError } from "../decodeError.ts";
 import type { CompactPatch } from "./patch.ts";
 import type { PatchBuffers } from "./patchBuffers.ts";

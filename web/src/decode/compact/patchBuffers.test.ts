@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import type { VertexArray } from "../arrays.ts";
+import type { VertexArray } from "../../stage/vertexArray.ts";
 import { buffersOf } from "./patchBuffers.ts";
 import { decodeVector, vectorNames } from "./vectors.testing.ts";
 

@@ -1,7 +1,7 @@
 // A decoded patch as what a GPU takes: wedges are its vertices. Everything stays
 // as many bits as it needs; positions stay lattice numbers.
 
-import type { ElementArray, IndexArray, VertexArray } from "../arrays.ts";
+import type { ElementArray, IndexArray, VertexArray } from "../../stage/vertexArray.ts";
 import type { AttributeType, Topology } from "./header.ts";
 import type { CompactPatch } from "./patch.ts";
 import { orderForVertexCache } from "./vertexCache.ts";

@@ -5,7 +5,7 @@
 // in columns across several rings it does so for the vertices between columns of
 // rings alone.
 
-import type { IndexArray } from "../arrays.ts";
+import type { IndexArray } from "../../stage/vertexArray.ts";
 
 /** Rings that a column crosses: with more of them, columns beside each other no longer meet in a cache of 16 vertices. */
 const rings = 4;

@@ -1,7 +1,7 @@
 // What is drawn together: members, each of which is a draw of a stage in one place.
 
 import type { BufferGeometry, Frustum, Material, Matrix4, Sphere } from "three";
-import type { DrawRange, Stage } from "../../decode/stage.ts";
+import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { isSurface } from "../asPoints.ts";
 import type { DrawnObject } from "../drawnObject.ts";

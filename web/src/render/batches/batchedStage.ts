@@ -1,7 +1,7 @@
 // A stage of a patch that is drawn together with others.
 
 import { DoubleSide, FrontSide } from "three";
-import type { DrawRange, Stage } from "../../decode/stage.ts";
+import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { storedFrameOf } from "../../document/storedFrame.ts";
 import { shapeFromStoredOf } from "../../navigation/matrices.ts";

@@ -12,9 +12,9 @@ import {
   Sphere,
   Vector3,
 } from "three";
-import type { ElementArray } from "../../decode/arrays.ts";
-import { arrayTypeOf, elementTypeOf } from "../../decode/elements.ts";
-import type { BufferStage, StoredBytes } from "../../decode/stage.ts";
+import type { ElementArray } from "../../stage/vertexArray.ts";
+import { arrayTypeOf, elementTypeOf } from "../../stage/elementType.ts";
+import type { BufferStage, StoredBytes } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import type { Buffers } from "../buffers.ts";
 import type { DrawnObject } from "../drawnObject.ts";

@@ -4,7 +4,7 @@
 
 import type { BufferGeometry, Camera } from "three";
 import { Group, Matrix4, Sphere, Vector3 } from "three";
-import type { BufferStage, Stage } from "../../decode/stage.ts";
+import type { BufferStage, Stage } from "../../stage/stage.ts";
 import type { Buffers } from "../buffers.ts";
 import { objectOf } from "../drawnObject.ts";
 import type { Look, MaterialRequest } from "../look.ts";

@@ -1,4 +1,4 @@
-import type { ElementArray } from "../../decode/arrays.ts";
+import type { ElementArray } from "../../stage/vertexArray.ts";
 
 /** A typed array that is longer than what of it is used, so that it grows by and by. */
 export class GrowingArray<Elements extends ElementArray> {

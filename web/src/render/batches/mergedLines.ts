@@ -3,7 +3,7 @@
 
 import type { BufferGeometry } from "three";
 import { InstancedBufferAttribute } from "three";
-import type { BufferStage } from "../../decode/stage.ts";
+import type { BufferStage } from "../../stage/stage.ts";
 import type { Buffers } from "../buffers.ts";
 import { LineRecords, outlineGeometry } from "../wideLineGeometry.ts";
 import { lineCountOf } from "../wideLines.ts";

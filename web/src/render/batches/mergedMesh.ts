@@ -2,7 +2,7 @@
 // number of its place, and the indices of each mesh together.
 
 import { BufferAttribute, BufferGeometry } from "three";
-import type { BufferStage, DrawRange } from "../../decode/stage.ts";
+import type { BufferStage, DrawRange } from "../../stage/stage.ts";
 import type { Buffers } from "../buffers.ts";
 import type { BatchedDraw, Member, Merged } from "./batch.ts";
 import { passesOf } from "./batch.ts";

@@ -2,9 +2,9 @@
 // own, whatever records they came in, padded to words as GPUs like them.
 
 import { InterleavedBuffer, InterleavedBufferAttribute } from "three";
-import type { ElementArray } from "../../decode/arrays.ts";
-import { arrayTypeOf, byteSizeOf } from "../../decode/elements.ts";
-import type { BufferStage, DrawRange } from "../../decode/stage.ts";
+import type { ElementArray } from "../../stage/vertexArray.ts";
+import { arrayTypeOf, byteSizeOf } from "../../stage/elementType.ts";
+import type { BufferStage, DrawRange } from "../../stage/stage.ts";
 import type { Buffers } from "../buffers.ts";
 import { storedAttributesOf } from "../storedAttributes.ts";
 import { GrowingArray } from "./growingArray.ts";

@@ -2,9 +2,9 @@
 // renderer knows nothing of how a stage came about; it only ever replaces a
 // patch's stage by a newer one.
 
-import type { Bounds, VertexArray } from "./arrays.ts";
-import type { ElementType } from "./elements.ts";
-import type { DecodedImage } from "./image.ts";
+import type { Bounds, VertexArray } from "./vertexArray.ts";
+import type { ElementType } from "./elementType.ts";
+import type { DecodedImage } from "./decodedImage.ts";
 
 /** Running numbers first .. first + count - 1 drawn as one kind of primitive. */
 export interface DrawRange {
