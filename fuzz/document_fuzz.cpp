@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     read = readScene(asText({data, size}), "fuzz.x3d");
   } catch (const Error& error) {
-    require(!error.message().empty() && error.place().starts_with("fuzz.x3d"));
+    require(!error.message().empty() && error.location().starts_with("fuzz.x3d"));
     return 0;
   }
   for (const std::string& text : {writeX3d(read), writeHtml(read, {"runtime.js", "style.css"})}) {

@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         raster.pixels.size() > 4 * mostPixels || decodeRaster(encodeLosslessWebp(raster), "again") != raster)
       std::abort();
   } catch (const Error& error) {
-    if (error.message().empty() || error.place() != "fuzz.image")
+    if (error.message().empty() || error.location() != "fuzz.image")
       std::abort();
   }
   return 0;

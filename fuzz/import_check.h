@@ -53,7 +53,7 @@ inline int importOrRefuse(ByteSpan bytes, const std::string& name) {
           require(std::isfinite(value));
     }
   } catch (const Error& error) {
-    require(!error.message().empty() && error.place().starts_with(name));
+    require(!error.message().empty() && error.location().starts_with(name));
   }
   return 0;
 }

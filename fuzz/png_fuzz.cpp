@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (decodePng(encodePng(image, 0), "again.png") != image)
       std::abort();
   } catch (const Error& error) {
-    if (error.message().empty() || error.place() != "fuzz.png")
+    if (error.message().empty() || error.location() != "fuzz.png")
       std::abort();
   }
   return 0;

@@ -69,7 +69,7 @@ TEST(File, NamesThePathAndTheReasonItCannotBeRead) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::io);
-    EXPECT_EQ(error.place(), missing.string());
+    EXPECT_EQ(error.location(), missing.string());
     EXPECT_NE(error.message().find("No such file"), std::string::npos);
   }
   EXPECT_THROW(readFile(directory.path()), Error);

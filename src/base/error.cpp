@@ -4,9 +4,9 @@
 
 namespace imgeo {
 
-Error::Error(ErrorKind kind, std::string place, std::string message)
-    : kind_(kind), place_(std::move(place)), message_(std::move(message)),
-      what_(place_.empty() ? message_ : place_ + ": " + message_) {}
+Error::Error(ErrorKind kind, std::string location, std::string message)
+    : kind_(kind), location_(std::move(location)), message_(std::move(message)),
+      what_(location_.empty() ? message_ : location_ + ": " + message_) {}
 
 int exitCode(ErrorKind kind) noexcept {
   switch (kind) {

@@ -1,8 +1,9 @@
 #pragma once
-// The one exception of the project. Bad input, files and networks are `Error`s;
-// a caller's mistake is an `assert`. Thrown by import, container readers,
-// documents, serve and cli only; caught in main, in a request handler and in
-// fuzz targets.
+// The exception type of the project. Bad input, files and networks throw `Error`; a violated precondition is an
+// `assert`. An Error that nobody handles ends in `cli/main.cpp`, as one sentence and an exit code, or in an HTTP
+// request handler, as a closed connection. Readers handle an Error of an optional file themselves (a texture, a
+// material library, an Inline): they leave the file out and add a warning. `verify` turns an Error of the site it reads
+// into a difference.
 
 #include <cstdint>
 #include <exception>
@@ -21,20 +22,20 @@ enum class ErrorKind {
 
 class Error : public std::exception {
 public:
-  /// `place` is where a person should look: "bunny.ply:12" (line) or
+  /// `location` is where a person should look: "bunny.ply:12" (line) or
   /// "bunny.ply, byte 1042" or a URL; empty where there is none.
   /// `message` is one sentence without a full stop's worth of jargon.
-  Error(ErrorKind kind, std::string place, std::string message);
+  Error(ErrorKind kind, std::string location, std::string message);
 
   ErrorKind kind() const noexcept { return kind_; }
-  const std::string& place() const noexcept { return place_; }
+  const std::string& location() const noexcept { return location_; }
   const std::string& message() const noexcept { return message_; }
-  /// "place: message", or the message alone.
+  /// "location: message", or the message alone.
   const char* what() const noexcept override { return what_.c_str(); }
 
 private:
   ErrorKind kind_;
-  std::string place_, message_, what_;
+  std::string location_, message_, what_;
 };
 
 /// The process exit code that stands for an error: 1 usage, 2 io,

@@ -70,38 +70,38 @@ PatchDescription describePatch(const IndexedPatch& patch, const GeometryDescript
 }
 
 std::uint32_t recordCountOf(const PatchDescription& patch, std::span<const std::uint32_t> indices,
-                            const std::string& place) {
+                            const std::string& location) {
   if (indices.empty()) {
     const std::uint64_t drawn = drawnCount(patch.draws);
     if (patch.index || drawn == 0)
-      throw Error(ErrorKind::malformed, place, "the patch draws nothing");
+      throw Error(ErrorKind::malformed, location, "the patch draws nothing");
     if (patch.vertexCount != 0 && drawn > patch.vertexCount)
-      throw Error(ErrorKind::malformed, place, "more vertices are drawn than the patch has");
+      throw Error(ErrorKind::malformed, location, "more vertices are drawn than the patch has");
     if (drawn > UINT32_MAX)
-      throw Error(ErrorKind::limit, place, "the patch has too many vertices");
+      throw Error(ErrorKind::limit, location, "the patch has too many vertices");
     return patch.vertexCount != 0 ? patch.vertexCount : static_cast<std::uint32_t>(drawn);
   }
   const std::uint32_t largest = *std::ranges::max_element(indices);
   if (patch.vertexCount == 0 && largest == UINT32_MAX) // one more would be 0
-    throw Error(ErrorKind::limit, place, "the patch has too many vertices");
+    throw Error(ErrorKind::limit, location, "the patch has too many vertices");
   if (patch.vertexCount == 0)
     return largest + 1;
   if (largest >= patch.vertexCount)
-    throw Error(ErrorKind::malformed, place,
+    throw Error(ErrorKind::malformed, location,
                 "index " + std::to_string(largest) + " is beyond the " + std::to_string(patch.vertexCount) +
                     " vertices of its patch");
   return patch.vertexCount;
 }
 
 void checkInsideBox(std::span<const Vec3u> positions, const GeometryDescription& geometry, const Box3d& box,
-                    const std::string& place) {
+                    const std::string& location) {
   if (box.empty())
     return;
   const Box3d decoded = boxOf(positions, geometry);
   const double half = 0.51 * geometry.lattice.step; // a half, and what was rounded on the way
   for (int axis = 0; axis < 3; ++axis)
     if (decoded.min[axis] < box.min[axis] - half || decoded.max[axis] > box.max[axis] + half)
-      throw Error(ErrorKind::malformed, place, "vertices lie outside of the box that their patch states");
+      throw Error(ErrorKind::malformed, location, "vertices lie outside of the box that their patch states");
 }
 
 Reference addFile(EncodedPatch& encoded, EncodedFile file) {

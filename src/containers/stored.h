@@ -34,15 +34,15 @@ Box3d boxOf(std::span<const Vec3u> positions, const GeometryDescription& geometr
 PatchDescription describePatch(const IndexedPatch& patch, const GeometryDescription& geometry);
 
 /// How many records a patch has: as its description says, or by its largest
-/// index. Throws Error{malformed} with `place` for an index beyond them.
+/// index. Throws Error{malformed} with `location` for an index beyond them.
 std::uint32_t recordCountOf(const PatchDescription& patch, std::span<const std::uint32_t> indices,
-                            const std::string& place);
+                            const std::string& location);
 
-/// Throws Error{malformed} with `place` where a point lies outside of the box
+/// Throws Error{malformed} with `location` where a point lies outside of the box
 /// that the description states (if it states one): planes in the wrong order
 /// and files of another patch show here.
 void checkInsideBox(std::span<const Vec3u> positions, const GeometryDescription& geometry, const Box3d& box,
-                    const std::string& place);
+                    const std::string& location);
 
 /// Appends a file to an encoded patch and refers to it by its index.
 Reference addFile(EncodedPatch& encoded, EncodedFile file);

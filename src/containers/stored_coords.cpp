@@ -63,22 +63,22 @@ StoredCoords storedCoords(Container container, ElementType type, std::uint32_t b
   return {width - 1 - bits, -(std::int64_t{1} << (width - 2)), maximumOf(type), largest};
 }
 
-std::uint32_t loadCoord(std::int64_t value, const StoredCoords& stored, const std::string& place) {
+std::uint32_t loadCoord(std::int64_t value, const StoredCoords& stored, const std::string& location) {
   const std::int64_t shifted = value - stored.bias;
   const std::int64_t q = shifted >> stored.shift;
   if (shifted < 0 || q > stored.largest || q << stored.shift != shifted)
-    throw Error(ErrorKind::malformed, place, "a coordinate has more bits than the node's positionBits");
+    throw Error(ErrorKind::malformed, location, "a coordinate has more bits than the node's positionBits");
   return static_cast<std::uint32_t>(q);
 }
 
-Vec3u nearestPoint(Vec3f position, const Lattice& lattice, const std::string& place) {
+Vec3u nearestPoint(Vec3f position, const Lattice& lattice, const std::string& location) {
   Vec3u nearest;
   for (int axis = 0; axis < 3; ++axis) {
     const double value = position[axis], steps = std::round((value - lattice.origin[axis]) / lattice.step);
     // A point on the lattice's border may have been rounded to a single outside of it.
     const double slack = 1 + std::abs(value) * (2 * floatRounding) / lattice.step;
     if (!std::isfinite(value) || steps < -slack || steps > lattice.maximum() + slack)
-      throw Error(ErrorKind::malformed, place, "vertices lie far outside of the box that the node states");
+      throw Error(ErrorKind::malformed, location, "vertices lie far outside of the box that the node states");
     nearest[axis] = static_cast<std::uint32_t>(std::clamp<double>(steps, 0, lattice.maximum()));
   }
   return nearest;

@@ -42,12 +42,12 @@ StoredCoords storedCoords(Container container, ElementType type, std::uint32_t b
 inline std::int64_t storeCoord(std::uint32_t q, const StoredCoords& stored) {
   return (static_cast<std::int64_t>(q) << stored.shift) + stored.bias;
 }
-/// Throws Error{malformed} with `place` for a stored integer that is no lattice point.
-std::uint32_t loadCoord(std::int64_t value, const StoredCoords& stored, const std::string& place);
+/// Throws Error{malformed} with `location` for a stored integer that is no lattice point.
+std::uint32_t loadCoord(std::int64_t value, const StoredCoords& stored, const std::string& location);
 
 /// The lattice point nearest to a Float32 position. Throws Error{malformed} with
-/// `place` for one that lies outside by more than roundings. The lattice is a cube's.
-Vec3u nearestPoint(Vec3f position, const Lattice& lattice, const std::string& place);
+/// `location` for one that lies outside by more than roundings. The lattice is a cube's.
+Vec3u nearestPoint(Vec3f position, const Lattice& lattice, const std::string& location);
 
 /// The node's `position` and `size`.
 struct DecodeFields {

@@ -506,11 +506,11 @@ TEST(Html, NeedsNothingInline) {
   EXPECT_NE(pageStylesheet().find("x3d {"), std::string::npos);
 }
 
-ErrorKind kindOfReading(const std::string& text, const std::string& place = "") {
+ErrorKind kindOfReading(const std::string& text, const std::string& location = "") {
   try {
     readScene(text, "s.x3d");
   } catch (const Error& error) {
-    EXPECT_TRUE(place.empty() || place == error.place()) << error.what();
+    EXPECT_TRUE(location.empty() || location == error.location()) << error.what();
     return error.kind();
   }
   ADD_FAILURE() << "was read: " << text;

@@ -48,7 +48,7 @@ std::size_t offsetOf(const DocumentText& source, const pugi::xml_node& node) {
 } // namespace
 
 void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind, const std::string& message) {
-  throw Error(kind, placeOf(source.text, source.name, offsetOf(source, node)), message);
+  throw Error(kind, locationOf(source.text, source.name, offsetOf(source, node)), message);
 }
 
 void Fields::object(const std::string& message, const char* consequence) const {
@@ -56,7 +56,7 @@ void Fields::object(const std::string& message, const char* consequence) const {
     fail(ErrorKind::malformed, message);
   // The folder may be one that is still to be moved to its place.
   const std::string file = std::filesystem::path(source_.name).filename();
-  warnings_->push_back(fmt::format("{}: {}: {}; {}.", placeOf(source_.text, file, offsetOf(source_, node_)),
+  warnings_->push_back(fmt::format("{}: {}: {}; {}.", locationOf(source_.text, file, offsetOf(source_, node_)),
                                    validText(node_.name()), message, consequence));
 }
 

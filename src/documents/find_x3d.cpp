@@ -45,12 +45,12 @@ public:
     }
     if (begin == std::string_view::npos)
       throw Error(ErrorKind::malformed, name_, "there is no <X3D> element");
-    throw Error(ErrorKind::malformed, placeOf(text_, name_, begin), "the <X3D> element has no end");
+    throw Error(ErrorKind::malformed, locationOf(text_, name_, begin), "the <X3D> element has no end");
   }
 
 private:
   [[noreturn]] void fail(ErrorKind kind, std::size_t at, const char* message) const {
-    throw Error(kind, placeOf(text_, name_, at), message);
+    throw Error(kind, locationOf(text_, name_, at), message);
   }
 
   std::size_t behind(std::string_view end, std::size_t at, const char* message) const {
@@ -132,7 +132,7 @@ TextSpan findX3d(std::string_view text, const std::string& name) {
   return Scanner(text, name).find();
 }
 
-std::string placeOf(std::string_view text, const std::string& name, std::size_t at) {
+std::string locationOf(std::string_view text, const std::string& name, std::size_t at) {
   const auto line = 1 + std::ranges::count(text.substr(0, at), '\n');
   return name + ":" + std::to_string(line);
 }

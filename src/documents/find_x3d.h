@@ -19,7 +19,7 @@ struct TextSpan {
 TextSpan findX3d(std::string_view text, const std::string& name);
 
 /// "name:line" of a byte of the text.
-std::string placeOf(std::string_view text, const std::string& name, std::size_t at);
+std::string locationOf(std::string_view text, const std::string& name, std::size_t at);
 
 /// Whether two ASCII names are equal but for case.
 bool sameName(std::string_view a, std::string_view b);

@@ -301,7 +301,7 @@ void checkReferences(std::string_view text, const std::string& name, TextSpan sp
     const bool known = entity == "amp" || entity == "lt" || entity == "gt" || entity == "quot" || entity == "apos" ||
                        (entity.size() > 1 && entity[0] == '#');
     if (!known || entity.size() == rest.size())
-      throw Error(ErrorKind::malformed, placeOf(text, name, at),
+      throw Error(ErrorKind::malformed, locationOf(text, name, at),
                   "an ampersand begins no character reference that we know");
   }
 }
@@ -324,7 +324,7 @@ SceneDocument readScene(std::string_view text, const std::string& name) {
   const pugi::xml_parse_result result =
       parsed.load_buffer(text.data() + span.begin, span.end - span.begin, pugi::parse_default, pugi::encoding_utf8);
   if (!result)
-    throw Error(ErrorKind::malformed, placeOf(text, name, span.begin + static_cast<std::size_t>(result.offset)),
+    throw Error(ErrorKind::malformed, locationOf(text, name, span.begin + static_cast<std::size_t>(result.offset)),
                 std::string("not well-formed: ") + result.description());
   const DocumentText source{text, name, span.begin};
   return SceneReader(source).read(parsed.document_element());

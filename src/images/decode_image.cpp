@@ -89,10 +89,10 @@ Info infoFor(const std::string& type) {
   return info;
 }
 
-void requireSize(const ::Image& image, const std::string& place, std::uint64_t mostPixels) {
+void requireSize(const ::Image& image, const std::string& location, std::uint64_t mostPixels) {
   const auto width = static_cast<std::uint64_t>(image.columns), height = static_cast<std::uint64_t>(image.rows);
   if (width > maxRasterEdge || height > maxRasterEdge || width * height > mostPixels)
-    throw Error(ErrorKind::limit, place,
+    throw Error(ErrorKind::limit, location,
                 fmt::format("is an image of {} x {} pixels; more than {} along an edge or {} in all are not decoded",
                             width, height, maxRasterEdge, mostPixels));
 }
@@ -106,23 +106,23 @@ bool hasAlpha(const Raster& raster) {
   return false;
 }
 
-Raster decodeRaster(ByteSpan bytes, const std::string& place, std::uint64_t mostPixels) {
+Raster decodeRaster(ByteSpan bytes, const std::string& location, std::uint64_t mostPixels) {
   const std::string type = imageType(bytes);
   if (!isDecodable(type))
-    throw Error(ErrorKind::unsupported, place, "is an image of a kind that imgeo does not decode");
+    throw Error(ErrorKind::unsupported, location, "is an image of a kind that imgeo does not decode");
   const auto refuse = [&] {
-    throw Error(ErrorKind::malformed, place, fmt::format("is a {} image that does not decode", type.substr(1)));
+    throw Error(ErrorKind::malformed, location, fmt::format("is a {} image that does not decode", type.substr(1)));
   };
   const Info info = infoFor(type);
   Outcome outcome(magick());
   if (const Decoded header(magick().pingBlob(info.get(), bytes.data(), bytes.size(), outcome.info())); header)
-    requireSize(*header, place, mostPixels);
+    requireSize(*header, location, mostPixels);
   else
     refuse();
   Decoded image(magick().blobToImage(info.get(), bytes.data(), bytes.size(), outcome.info()));
   if (!image || outcome.isError())
     refuse();
-  requireSize(*image, place, mostPixels);
+  requireSize(*image, location, mostPixels);
   if (image->orientation > TopLeftOrientation)
     if (Decoded upright(magick().autoOrientImage(image.get(), image->orientation, outcome.info())); upright)
       image = std::move(upright);

@@ -69,7 +69,7 @@ TEST(DecodeRaster, RefusesHugeImagesByTheirHeader) {
       ADD_FAILURE() << "decoded";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::limit);
-      EXPECT_EQ(error.place(), "bomb.tga");
+      EXPECT_EQ(error.location(), "bomb.tga");
     }
   };
   expectLimit(255, 0);

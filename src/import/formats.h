@@ -32,7 +32,7 @@ bool looksLikeObj(ByteSpan bytes);
 std::string stemOf(const std::string& name);
 
 /// "bunny.ply, byte 1042"
-std::string bytePlace(const std::string& name, std::size_t byte);
+std::string byteLocation(const std::string& name, std::size_t byte);
 
 /// Adds a mesh and the shape that shows it.
 void addShape(Scene& scene, Mesh mesh, std::string shapeName);

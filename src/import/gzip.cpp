@@ -48,7 +48,7 @@ Bytes gunzip(ByteSpan bytes, const std::string& name) {
     if (!isGzip(rest)) {
       if (read > 0 && std::ranges::all_of(rest, [](std::uint8_t byte) { return byte == 0; }))
         break;
-      throw Error(ErrorKind::malformed, bytePlace(name, read), "what follows here is not gzip data");
+      throw Error(ErrorKind::malformed, byteLocation(name, read), "what follows here is not gzip data");
     }
     std::size_t memberRead = 0, memberWritten = 0;
     const libdeflate_result result =
@@ -61,7 +61,7 @@ Bytes gunzip(ByteSpan bytes, const std::string& name) {
                                 limit / bytes.size()));
       out.resize(std::min(limit, out.size() * 2));
     } else if (result != LIBDEFLATE_SUCCESS) {
-      throw Error(ErrorKind::malformed, bytePlace(name, read),
+      throw Error(ErrorKind::malformed, byteLocation(name, read),
                   "the gzip data that begins here is damaged or ends too early");
     } else {
       read += memberRead;

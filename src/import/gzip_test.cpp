@@ -50,9 +50,10 @@ TEST(Gzip, RefusesDamageAndWhatFollowsWithItsByte) {
   Bytes damaged = gzip(countingBytes(3000));
   damaged[damaged.size() - 6] ^= 1; // its check sum
   EXPECT_EQ(errorOf(damaged, "m.ply.gz").kind(), ErrorKind::malformed);
-  EXPECT_EQ(errorOf(damaged, "m.ply.gz").place(), "m.ply.gz, byte 0");
+  EXPECT_EQ(errorOf(damaged, "m.ply.gz").location(), "m.ply.gz, byte 0");
   const Bytes packed = gzip(countingBytes(3000));
-  EXPECT_EQ(errorOf(joined(packed, {'P', 'K'}), "m.ply.gz").place(), "m.ply.gz, byte " + std::to_string(packed.size()));
+  EXPECT_EQ(errorOf(joined(packed, {'P', 'K'}), "m.ply.gz").location(),
+            "m.ply.gz, byte " + std::to_string(packed.size()));
 }
 
 TEST(Gzip, RefusesABomb) {

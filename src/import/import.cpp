@@ -80,7 +80,7 @@ std::string stemOf(const std::string& name) {
   return withoutGz(name).stem();
 }
 
-std::string bytePlace(const std::string& name, std::size_t byte) {
+std::string byteLocation(const std::string& name, std::size_t byte) {
   return fmt::format("{}, byte {}", name, byte);
 }
 

@@ -30,7 +30,7 @@ TEST(Import, TellsTheFormatFromTheNameWhereTheContentDoesNot) {
 TEST(Import, NamesTheFormatsItReadsWhereItKnowsNone) {
   const Error error = errorOf("BC....", "a.bc");
   EXPECT_EQ(error.kind(), ErrorKind::unsupported);
-  EXPECT_EQ(error.place(), "a.bc");
+  EXPECT_EQ(error.location(), "a.bc");
   EXPECT_NE(error.message().find("glTF, PLY, OBJ, STL"), std::string::npos);
 }
 

@@ -89,7 +89,7 @@ Bytes answerOf(const std::function<Imported()>& read) {
     answer.insert(answer.end(), imported.begin(), imported.end());
   } catch (const Error& error) {
     answer = {static_cast<std::uint8_t>(Outcome::refused), static_cast<std::uint8_t>(error.kind())};
-    append(answer, error.place());
+    append(answer, error.location());
     append(answer, error.message());
   } catch (const std::bad_alloc&) {
     answer = {static_cast<std::uint8_t>(Outcome::outOfMemory)};
@@ -108,20 +108,21 @@ Bytes answerOf(const std::function<Imported()>& read) {
   };
   const auto kind = static_cast<ErrorKind>(answer[1]);
   answer = answer.subspan(2);
-  const std::string place = text(), message = text();
-  throw Error(kind, place, message);
+  const std::string location = text(), message = text();
+  throw Error(kind, location, message);
 }
 
 } // namespace
 
-Imported readIsolated(const std::function<Imported()>& read, const std::string& place, const IsolationLimits& limits) {
+Imported readIsolated(const std::function<Imported()>& read, const std::string& location,
+                      const IsolationLimits& limits) {
   int ends[2];
   if (pipe(ends) != 0)
-    throw Error(ErrorKind::io, place, fmt::format("no pipe to another process: {}", std::strerror(errno)));
+    throw Error(ErrorKind::io, location, fmt::format("no pipe to another process: {}", std::strerror(errno)));
   const pid_t child = fork();
   if (child < 0) {
     close(ends[0]), close(ends[1]);
-    throw Error(ErrorKind::io, place, fmt::format("no other process to read it: {}", std::strerror(errno)));
+    throw Error(ErrorKind::io, location, fmt::format("no other process to read it: {}", std::strerror(errno)));
   }
   if (child == 0) {
     close(ends[0]);
@@ -137,20 +138,20 @@ Imported readIsolated(const std::function<Imported()>& read, const std::string& 
   }
   const bool isOver = WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL);
   if (isOver)
-    throw Error(ErrorKind::limit, place, fmt::format("reading it took more than {} seconds", limits.seconds));
+    throw Error(ErrorKind::limit, location, fmt::format("reading it took more than {} seconds", limits.seconds));
   if (WIFSIGNALED(status) || answer.empty())
-    throw Error(ErrorKind::malformed, place, "the library that reads its format fails over it");
+    throw Error(ErrorKind::malformed, location, "the library that reads its format fails over it");
   switch (static_cast<Outcome>(answer[0])) {
   case Outcome::read:
     return unpacked(ByteSpan(answer).subspan(1));
   case Outcome::refused:
     rethrow(answer);
   case Outcome::outOfMemory:
-    throw Error(ErrorKind::limit, place, "reading it takes more memory than such files are given");
+    throw Error(ErrorKind::limit, location, "reading it takes more memory than such files are given");
   case Outcome::failed:
     break;
   }
-  throw Error(ErrorKind::malformed, place, "the library that reads its format fails over it");
+  throw Error(ErrorKind::malformed, location, "the library that reads its format fails over it");
 }
 
 } // namespace imgeo

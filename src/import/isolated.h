@@ -16,8 +16,8 @@ struct IsolationLimits {
 
 /// Runs `read` in a child process and returns what it returns, or throws the Error
 /// that it throws. A child that dies or takes too much is an Error{malformed} or
-/// {limit} naming `place`.
-Imported readIsolated(const std::function<Imported()>& read, const std::string& place,
+/// {limit} naming `location`.
+Imported readIsolated(const std::function<Imported()>& read, const std::string& location,
                       const IsolationLimits& limits = {});
 
 /// What is imported as bytes, and back: for the way between the two processes, which

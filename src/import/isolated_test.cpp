@@ -105,7 +105,7 @@ TEST(ReadIsolated, EndsWhatTakesTooLong) {
       },
       {.seconds = 1, .memoryBytes = 1u << 30});
   EXPECT_EQ(error.kind(), ErrorKind::limit);
-  EXPECT_EQ(error.place(), "a.fbx");
+  EXPECT_EQ(error.location(), "a.fbx");
 }
 
 } // namespace

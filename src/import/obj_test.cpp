@@ -213,7 +213,7 @@ TEST(Obj, TakesMaterialsAndTexturesFromTheFilesThatItNames) {
 
 TEST(Obj, RefusesWithOneSentenceAndALine) {
   struct {
-    std::string text, place, words;
+    std::string text, location, words;
   } const cases[] = {
       {"v 0 0\nv 1 0 0\n", "m.obj:1", "the line ends"},
       {"v 0 0 nan\n", "m.obj:1", "coordinate"},
@@ -232,7 +232,7 @@ TEST(Obj, RefusesWithOneSentenceAndALine) {
   for (const auto& refused : cases) {
     const Error error = errorOf(refused.text, "m.obj");
     EXPECT_EQ(error.kind(), ErrorKind::malformed) << refused.text;
-    EXPECT_EQ(error.place(), refused.place) << refused.text;
+    EXPECT_EQ(error.location(), refused.location) << refused.text;
     EXPECT_NE(error.message().find(refused.words), std::string::npos) << error.message();
   }
 }

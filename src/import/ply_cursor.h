@@ -116,7 +116,7 @@ public:
   }
   std::size_t trailingBytes() const { return bytesLeft(); }
   [[noreturn]] void fail(ErrorKind kind, const std::string& message) const {
-    throw Error(kind, bytePlace(name_, at_), message);
+    throw Error(kind, byteLocation(name_, at_), message);
   }
 
 private:

@@ -303,7 +303,7 @@ TEST(Ply, RefusesAttributesThatAreNoNumbersOnlyWhereTheyAreKept) {
     EXPECT_EQ(onlyMesh(text, "m.ply").elementCount(), 2u);
     const Error error = errorOf(text, "m.ply", kEveryAttribute);
     EXPECT_EQ(error.kind(), ErrorKind::malformed);
-    EXPECT_EQ(error.place(), "m.ply:11");
+    EXPECT_EQ(error.location(), "m.ply:11");
     EXPECT_NE(error.message().find("attribute"), std::string::npos);
   }
 }
@@ -322,7 +322,7 @@ struct Refused {
   const char* what;
   std::string elements, body;
   ErrorKind kind;
-  std::string place, words;
+  std::string location, words;
 };
 
 TEST(Ply, RefusesWithOneSentenceAndAPlace) {
@@ -376,7 +376,7 @@ TEST(Ply, RefusesWithOneSentenceAndAPlace) {
     SCOPED_TRACE(refused.what);
     const Error error = errorOf(asciiPly(refused.elements, refused.body), "m.ply");
     EXPECT_EQ(error.kind(), refused.kind);
-    EXPECT_EQ(error.place(), refused.place);
+    EXPECT_EQ(error.location(), refused.location);
     EXPECT_NE(error.message().find(refused.words), std::string::npos) << error.message();
   }
 }
@@ -448,7 +448,7 @@ TEST_F(LongPly, NamesTheLineOfAFault) {
     other[beginOf(text, line)] = 'x';
     const Error error = errorOf(other, "m.ply");
     EXPECT_EQ(error.kind(), ErrorKind::malformed);
-    EXPECT_EQ(error.place(), fmt::format("m.ply:{}", line));
+    EXPECT_EQ(error.location(), fmt::format("m.ply:{}", line));
   }
   const Error cut = errorOf(text.substr(0, beginOf(text, faceLine)), "m.ply");
   EXPECT_EQ(cut.kind(), ErrorKind::truncated);
@@ -461,12 +461,12 @@ TEST(Ply, NamesTheByteInBinaryFiles) {
   const std::size_t body = whole.size() - 4 * 12 - 2 * 13;
   const Error cut = errorOf(ByteSpan(whole).first(whole.size() - 14), "m.ply");
   EXPECT_EQ(cut.kind(), ErrorKind::truncated);
-  EXPECT_EQ(cut.place(), fmt::format("m.ply, byte {}", body + 48 + 1)); // within the first face
+  EXPECT_EQ(cut.location(), fmt::format("m.ply, byte {}", body + 48 + 1)); // within the first face
 
   mesh.positions[1].y = std::numeric_limits<float>::quiet_NaN();
   const Error nan = errorOf(plyBytes(mesh, style), "m.ply");
   EXPECT_EQ(nan.kind(), ErrorKind::malformed);
-  EXPECT_EQ(nan.place(), fmt::format("m.ply, byte {}", body + 24)); // behind the vertex
+  EXPECT_EQ(nan.location(), fmt::format("m.ply, byte {}", body + 24)); // behind the vertex
 }
 
 TEST(Ply, RefusesOtherVersionsAndEncodings) {

@@ -34,13 +34,13 @@ std::string shortened(std::string_view url) {
   return std::string(url.substr(0, 60)) + (url.size() > 60 ? "..." : "");
 }
 
-Bytes dataOf(std::string_view url, const std::string& place) {
+Bytes dataOf(std::string_view url, const std::string& location) {
   const std::size_t comma = url.find(',');
   if (comma == url.npos)
-    throw Error(ErrorKind::malformed, place, "a data: url has no comma");
+    throw Error(ErrorKind::malformed, location, "a data: url has no comma");
   const std::string_view data = url.substr(comma + 1);
   if (url.substr(0, comma).ends_with(";base64"))
-    return base64Decoded(data, place);
+    return base64Decoded(data, location);
   const std::string text = percentDecoded(data);
   return Bytes(text.begin(), text.end());
 }
@@ -58,7 +58,7 @@ std::string percentDecoded(std::string_view text) {
   return decoded;
 }
 
-Bytes base64Decoded(std::string_view text, const std::string& place) {
+Bytes base64Decoded(std::string_view text, const std::string& location) {
   static constexpr auto values = [] {
     std::array<std::int8_t, 256> table{};
     table.fill(-1);
@@ -76,7 +76,7 @@ Bytes base64Decoded(std::string_view text, const std::string& place) {
       continue;
     const int value = values[static_cast<unsigned char>(c)];
     if (value < 0)
-      throw Error(ErrorKind::malformed, place, "base64 data has a character that stands for nothing");
+      throw Error(ErrorKind::malformed, location, "base64 data has a character that stands for nothing");
     bits = bits << 6 | static_cast<std::uint32_t>(value);
     count += 6;
     if (count >= 8) {

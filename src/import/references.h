@@ -35,7 +35,7 @@ private:
 /// "a%20b" -> "a b"; what is no escape stays as it is.
 std::string percentDecoded(std::string_view text);
 
-/// RFC 4648, blanks and padding left out. Throws Error{malformed} naming `place`.
-Bytes base64Decoded(std::string_view text, const std::string& place);
+/// RFC 4648, blanks and padding left out. Throws Error{malformed} naming `location`.
+Bytes base64Decoded(std::string_view text, const std::string& location);
 
 } // namespace imgeo

@@ -61,7 +61,7 @@ Imported readBinary(ByteSpan bytes, const std::string& name) {
     throw Error(ErrorKind::truncated, name, "the file is too short for an STL file's header");
   const std::uint64_t count = facetCount(bytes);
   if (count > (bytes.size() - kPrefixBytes) / kFacetBytes)
-    throw Error(ErrorKind::truncated, bytePlace(name, kHeaderBytes),
+    throw Error(ErrorKind::truncated, byteLocation(name, kHeaderBytes),
                 fmt::format("the header promises {} facets of 50 bytes, but only {} bytes follow", count,
                             bytes.size() - kPrefixBytes));
   if (count > std::numeric_limits<std::uint32_t>::max() / 3)
@@ -77,7 +77,8 @@ Imported readBinary(ByteSpan bytes, const std::string& name) {
       const std::uint8_t* from = at + kFacetNormalBytes + 12 * k;
       const Vec3f p{loadLittle<float>(from), loadLittle<float>(from + 4), loadLittle<float>(from + 8)};
       if (!isFinite(p))
-        throw Error(ErrorKind::malformed, bytePlace(name, static_cast<std::size_t>(from - bytes.data())), kNotFinite);
+        throw Error(ErrorKind::malformed, byteLocation(name, static_cast<std::size_t>(from - bytes.data())),
+                    kNotFinite);
       addCorner(mesh, p);
     }
     hasAttributes |= loadLittle<std::uint16_t>(at + kFacetAttributeAt) != 0;

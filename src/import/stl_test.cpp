@@ -92,18 +92,18 @@ TEST(Stl, RefusesWithOneSentenceAndAPlace) {
   Bytes many = binaryStl(grid(1));
   many[83] = 0xff;
   EXPECT_EQ(errorOf(many, "m.stl").kind(), ErrorKind::truncated);
-  EXPECT_EQ(errorOf(many, "m.stl").place(), "m.stl, byte 80");
+  EXPECT_EQ(errorOf(many, "m.stl").location(), "m.stl, byte 80");
 
   Mesh mesh = grid(1);
   mesh.positions[3].z = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(errorOf(binaryStl(mesh), "m.stl").place(), "m.stl, byte 120"); // third corner of the first facet
-  EXPECT_EQ(errorOf(asciiStl(mesh), "m.stl").place(), "m.stl:6");
+  EXPECT_EQ(errorOf(binaryStl(mesh), "m.stl").location(), "m.stl, byte 120"); // third corner of the first facet
+  EXPECT_EQ(errorOf(asciiStl(mesh), "m.stl").location(), "m.stl:6");
 
   EXPECT_EQ(
-      errorOf("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet\nendsolid\n", "m.stl").place(),
+      errorOf("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet\nendsolid\n", "m.stl").location(),
       "m.stl:5");
-  EXPECT_EQ(errorOf("solid\nfacet normal 0 0 1\nvertex 0 0 0\nendsolid\n", "m.stl").place(), "m.stl:4");
-  EXPECT_EQ(errorOf("solid\nfacets\nendsolid\n", "m.stl").place(), "m.stl:2");
+  EXPECT_EQ(errorOf("solid\nfacet normal 0 0 1\nvertex 0 0 0\nendsolid\n", "m.stl").location(), "m.stl:4");
+  EXPECT_EQ(errorOf("solid\nfacets\nendsolid\n", "m.stl").location(), "m.stl:2");
   EXPECT_EQ(errorOf(binaryStl(Mesh{}), "m.stl").kind(), ErrorKind::malformed);
 }
 

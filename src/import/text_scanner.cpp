@@ -131,12 +131,12 @@ void TextScanner::failNumber(const char* what) const {
   fail(ErrorKind::malformed, fmt::format("{} expected, not '{}'", what, asPrintable(peekWord())));
 }
 
-std::string TextScanner::place() const {
+std::string TextScanner::location() const {
   return fmt::format("{}:{}", name_, 1 + std::count(begin_, at_, '\n'));
 }
 
 void TextScanner::fail(ErrorKind kind, const std::string& message) const {
-  throw Error(kind, place(), message);
+  throw Error(kind, location(), message);
 }
 
 } // namespace imgeo

@@ -66,7 +66,7 @@ public:
 
   [[noreturn]] void fail(ErrorKind kind, const std::string& message) const;
   /// "bunny.obj:12", the line of this character.
-  std::string place() const;
+  std::string location() const;
 
 private:
   static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }

@@ -63,13 +63,13 @@ TEST(TextScanner, ContinuesALineBehindABackslash) {
 
 TEST(TextScanner, NamesTheLine) {
   TextScanner scanner(asBytes("one\ntwo\r\n\nfour"), kName);
-  EXPECT_EQ(scanner.place(), "m.txt:1");
+  EXPECT_EQ(scanner.location(), "m.txt:1");
   scanner.skipLine();
-  EXPECT_EQ(scanner.place(), "m.txt:2");
+  EXPECT_EQ(scanner.location(), "m.txt:2");
   EXPECT_EQ(scanner.restOfLine(), "two");
   scanner.skipSpace();
   EXPECT_EQ(scanner.word(), "four");
-  EXPECT_EQ(scanner.place(), "m.txt:4");
+  EXPECT_EQ(scanner.location(), "m.txt:4");
   EXPECT_TRUE(scanner.atEnd());
 }
 

@@ -58,7 +58,7 @@ TEST(Zip, OfMoreThanAModelUnpacksToIsRefused) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::limit);
-    EXPECT_EQ(error.place(), "m.3mf");
+    EXPECT_EQ(error.location(), "m.3mf");
     EXPECT_NE(error.message().find("unpacks to 4362076159 bytes"), std::string::npos) << error.message();
   }
   EXPECT_EQ(errorOf(archiveOf({0xffffffff}), "m.3mf").kind(), ErrorKind::limit);

@@ -25,7 +25,7 @@ public:
     scale_ = std::max(1.0, box_.longestEdge() / 2);
   }
 
-  Vec3d placeOf(const Vec3u& position) const { return (Vec3d(position) - center_) * (1 / scale_); }
+  Vec3d positionOf(const Vec3u& position) const { return (Vec3d(position) - center_) * (1 / scale_); }
   double latticeArea(double area) const { return area * scale_ * scale_; }
 
   /// Within the box of the positions.
@@ -187,7 +187,7 @@ SimplifiedTriangles simplify(std::span<const Vec3u> positions, std::span<const s
   std::vector<Vec3d> places;
   places.reserve(positions.size());
   for (const Vec3u& position : positions)
-    places.push_back(frame.placeOf(position));
+    places.push_back(frame.positionOf(position));
   const std::size_t cellCount = cellsPerTriangle * triangleCount;
   const auto [normals, area] = normalsOf(places, corners);
   const SurfaceCells cells = positions.size() > 2 * cellCount

@@ -194,13 +194,13 @@ void removeShapes(SceneGraph& graph, const std::vector<bool>& isLeftOut) {
     std::erase_if(node.children, leavesOut);
 }
 
-void requireCountableShapes(const SceneGraph& graph, const std::string& place) {
+void requireCountableShapes(const SceneGraph& graph, const std::string& location) {
   if (PlaceCount(graph).below(graph.roots) > maxPlacedShapes)
-    failOfPlaces(place);
+    failOfPlaces(location);
 }
 
-std::vector<PlacedShape> placedShapes(const SceneGraph& graph, const std::string& place) {
-  Placing placing(graph, place);
+std::vector<PlacedShape> placedShapes(const SceneGraph& graph, const std::string& location) {
+  Placing placing(graph, location);
   for (const std::size_t root : graph.roots)
     placing.place(root, {});
   return std::move(placing.placed);

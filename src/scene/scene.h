@@ -203,13 +203,13 @@ struct PlacedShape {
 };
 
 /// Every shape as often as it is seen, in document order. Throws Error{limit} naming
-/// `place` for more than a million: groups of groups that are USEd grow without
+/// `location` for more than a million: groups of groups that are USEd grow without
 /// measure.
-std::vector<PlacedShape> placedShapes(const SceneGraph& graph, const std::string& place = "");
+std::vector<PlacedShape> placedShapes(const SceneGraph& graph, const std::string& location = "");
 
 /// The same limit for all shapes, those included that are no Shape of ours but an X3D
 /// source's element.
-void requireCountableShapes(const SceneGraph& graph, const std::string& place);
+void requireCountableShapes(const SceneGraph& graph, const std::string& location);
 
 /// A viewpoint from which a box is seen whole, from slightly above and beside,
 /// centred on the box; for pages whose source brings none.

@@ -53,7 +53,7 @@ fs::path canonicalDirectory(const fs::path& directory) {
 }
 
 tcp::acceptor listenOn(asio::io_context& context, const std::string& host, std::uint16_t port) {
-  const std::string place = fmt::format("{}:{}", host, port);
+  const std::string location = fmt::format("{}:{}", host, port);
   ErrorCode failure;
   const auto addresses = tcp::resolver(context).resolve(host, std::to_string(port), tcp::resolver::passive, failure);
   if (failure)
@@ -67,9 +67,9 @@ tcp::acceptor listenOn(asio::io_context& context, const std::string& host, std::
   if (!failure)
     acceptor.listen(tcp::acceptor::max_listen_connections, failure);
   if (failure == asio::error::address_in_use)
-    throw Error(ErrorKind::io, place, "the port is in use already");
+    throw Error(ErrorKind::io, location, "the port is in use already");
   if (failure)
-    throw Error(ErrorKind::io, place, fmt::format("cannot listen: {}", failure.message()));
+    throw Error(ErrorKind::io, location, fmt::format("cannot listen: {}", failure.message()));
   return acceptor;
 }
 

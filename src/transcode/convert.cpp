@@ -193,7 +193,8 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   report.importSeconds = step.lapSeconds();
 
   tell(0.2, "preparing");
-  PreparationReport prepared = prepareScene(imported.scene, options.dropped, options.normalWeighting, placeOf(input));
+  PreparationReport prepared =
+      prepareScene(imported.scene, options.dropped, options.normalWeighting, locationOf(input));
   report.weld = prepared.weld;
   report.normalsComputed = prepared.normalsComputed;
   std::ranges::move(prepared.warnings, std::back_inserter(report.warnings));
@@ -241,7 +242,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   report.roles = sumByRole(written.files);
   report.bytesPerTriangle = written.bytesPerTriangle;
   if (options.strict && !written.warnings.empty())
-    throw Error(ErrorKind::malformed, placeOf(input), withoutFullStop(written.warnings.front()));
+    throw Error(ErrorKind::malformed, locationOf(input), withoutFullStop(written.warnings.front()));
   std::ranges::copy(written.warnings, std::back_inserter(report.warnings));
   report.encodeSeconds = step.lapSeconds();
 

@@ -15,11 +15,11 @@ constexpr std::array primitiveKinds{Primitives::triangles, Primitives::strips, P
 constexpr std::array weightings{NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform};
 
 template <typename Value, std::size_t count>
-Value valueNamed(const std::array<Value, count>& values, const std::string& name, const std::string& place) {
+Value valueNamed(const std::array<Value, count>& values, const std::string& name, const std::string& location) {
   for (const Value value : values)
     if (nameOf(value) == name)
       return value;
-  throw Error(ErrorKind::malformed, place, "says \"" + name + "\", which is nothing we know");
+  throw Error(ErrorKind::malformed, location, "says \"" + name + "\", which is nothing we know");
 }
 
 } // namespace

@@ -34,7 +34,7 @@ void addTo(WeldReport& sum, const WeldReport& one) {
 
 } // namespace
 
-std::string placeOf(const std::filesystem::path& input) {
+std::string locationOf(const std::filesystem::path& input) {
   return input == "-" ? "standard input" : input.string();
 }
 
@@ -42,7 +42,7 @@ Imported importInput(const std::filesystem::path& input, const ImportOptions& op
   if (input == "-") {
     const Bytes read = readFile(input);
     bytes = read.size();
-    return importBytes(read, placeOf(input), options);
+    return importBytes(read, locationOf(input), options);
   }
   Imported imported = importFile(input, options);
   std::error_code none;
@@ -51,7 +51,7 @@ Imported importInput(const std::filesystem::path& input, const ImportOptions& op
 }
 
 PreparationReport prepareScene(Scene& scene, const Dropped& dropped, NormalWeighting weighting,
-                               const std::string& place) {
+                               const std::string& location) {
   std::vector<MeshReport> reports(scene.meshes.size());
   parallelFor(scene.meshes.size(),
               [&](std::size_t i) { reports[i] = prepareMesh(scene.meshes[i], dropped, weighting); });
@@ -68,7 +68,7 @@ PreparationReport prepareScene(Scene& scene, const Dropped& dropped, NormalWeigh
   removeShapes(scene.graph, isEmpty);
   const std::size_t shapesLeft = shapeNodes(scene.graph).size();
   if (shapesLeft == 0 && !scene.graph.isComplete)
-    throw Error(ErrorKind::malformed, place, "holds no triangles, lines or points, so there is nothing to show");
+    throw Error(ErrorKind::malformed, location, "holds no triangles, lines or points, so there is nothing to show");
   if (const std::size_t leftOut = shapesBefore - shapesLeft)
     sum.warnings.push_back(fmt::format("left out shapes without triangles, lines or points: {}", leftOut));
   return sum;

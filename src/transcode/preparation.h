@@ -23,7 +23,7 @@ inline constexpr std::size_t inlineBytes = 1024;
 Imported importInput(const std::filesystem::path& input, const ImportOptions& options, std::uint64_t& bytes);
 
 /// The input in messages.
-std::string placeOf(const std::filesystem::path& input);
+std::string locationOf(const std::filesystem::path& input);
 
 struct PreparationReport {
   WeldReport weld;              ///< summed over the meshes
@@ -33,8 +33,8 @@ struct PreparationReport {
 
 /// Welds every mesh, drops what is to be dropped and what no element uses, gives normals to triangle meshes
 /// that bring none, and drops shapes in which nothing is left to see. Throws
-/// Error{malformed} naming `place` where that leaves an empty scene.
+/// Error{malformed} naming `location` where that leaves an empty scene.
 PreparationReport prepareScene(Scene& scene, const Dropped& dropped, NormalWeighting weighting,
-                               const std::string& place);
+                               const std::string& location);
 
 } // namespace imgeo

@@ -16,12 +16,12 @@ namespace imgeo {
 namespace {
 
 /// The kind of element that all draws of a geometry have.
-Topology topologyOf(const GeometryDescription& geometry, const std::string& place) {
+Topology topologyOf(const GeometryDescription& geometry, const std::string& location) {
   std::optional<Topology> topology;
   for (const PatchDescription& patch : geometry.patches)
     for (const Draw& draw : patch.draws) {
       if (topology && *topology != topologyOf(draw.primitive))
-        throw Error(ErrorKind::unsupported, place, "a shape draws triangles, lines or points at once");
+        throw Error(ErrorKind::unsupported, location, "a shape draws triangles, lines or points at once");
       topology = topologyOf(draw.primitive);
     }
   return topology.value_or(Topology::triangles);
@@ -46,10 +46,10 @@ std::vector<std::uint32_t> cornersOf(const IndexedPatch& patch, Topology topolog
   return corners;
 }
 
-void append(Mesh& mesh, const IndexedPatch& patch, const Lattice& lattice, const std::string& place) {
+void append(Mesh& mesh, const IndexedPatch& patch, const Lattice& lattice, const std::string& location) {
   const std::size_t before = mesh.wedgeCount(), records = patch.vertexCount();
   if (before + records > std::numeric_limits<std::uint32_t>::max())
-    throw Error(ErrorKind::limit, place, "a shape has more vertices than 32 bits count");
+    throw Error(ErrorKind::limit, location, "a shape has more vertices than 32 bits count");
   append(mesh, before, patch, records);
   for (const Vec3u& q : patch.positions) {
     mesh.wedgePositions.push_back(narrow<std::uint32_t>(mesh.positions.size()));
@@ -59,13 +59,13 @@ void append(Mesh& mesh, const IndexedPatch& patch, const Lattice& lattice, const
     mesh.corners.push_back(narrow<std::uint32_t>(before + corner));
 }
 
-Mesh readMesh(const ContainerReader& reader, const GeometryDescription& geometry, const std::string& place) {
+Mesh readMesh(const ContainerReader& reader, const GeometryDescription& geometry, const std::string& location) {
   std::vector<IndexedPatch> patches(geometry.patches.size());
   parallelFor(patches.size(), [&](std::size_t i) { patches[i] = reader.decode(geometry.patches[i], geometry); });
   Mesh mesh;
-  mesh.topology = topologyOf(geometry, place);
+  mesh.topology = topologyOf(geometry, location);
   for (IndexedPatch& patch : patches)
-    append(mesh, std::exchange(patch, {}), geometry.lattice, place);
+    append(mesh, std::exchange(patch, {}), geometry.lattice, location);
   const bool isOpaque = std::ranges::all_of(mesh.colors, [](Rgba8 color) { return color.a == 255; });
   mesh.colorComponents = isOpaque ? 3 : 4;
   weld(mesh);
@@ -78,10 +78,10 @@ Scene readMeshes(const OpenedDocument& document) {
   Scene scene;
   scene.graph = document.scene.graph;
   std::vector<bool> isEmpty;
-  const std::string place = (document.root / document.name).string();
+  const std::string location = (document.root / document.name).string();
   const ContainerReader reader(fetchFrom(document));
   for (const GeometryDescription& geometry : document.scene.geometries) {
-    scene.meshes.push_back(readMesh(reader, geometry, place));
+    scene.meshes.push_back(readMesh(reader, geometry, location));
     isEmpty.push_back(scene.meshes.back().corners.empty());
   }
   for (const std::size_t node : shapeNodes(scene.graph)) {
@@ -91,7 +91,7 @@ Scene readMeshes(const OpenedDocument& document) {
   }
   removeShapes(scene.graph, isEmpty);
   if (shapeNodes(scene.graph).empty())
-    throw Error(ErrorKind::malformed, place, "draws nothing");
+    throw Error(ErrorKind::malformed, location, "draws nothing");
   return scene;
 }
 

@@ -317,7 +317,7 @@ Imported prepared(const fs::path& input, const std::optional<Marker>& marker, bo
   for (const Mesh& mesh : imported.scene.meshes)
     hadNormals.push_back(!mesh.normals.empty());
   const Marker made = marker.value_or(Marker{});
-  prepareScene(imported.scene, made.dropped, made.normalWeighting, placeOf(input));
+  prepareScene(imported.scene, made.dropped, made.normalWeighting, locationOf(input));
   for (std::size_t i = 0; i < hadNormals.size(); ++i)
     if (!marker && !hadNormals[i])
       imported.scene.meshes[i].normals.clear();

@@ -18,10 +18,10 @@ namespace {
 class Records {
 public:
   Records(const Reference& reference, const FetchFile& fetch, ElementType type, std::uint32_t components)
-      : bytes_(fetch(reference.url)), place_(reference.url), type_(type), first_(reference.first),
+      : bytes_(fetch(reference.url)), location_(reference.url), type_(type), first_(reference.first),
         recordBytes_(components * byteSizeOf(type)), stride_(reference.stride != 0 ? reference.stride : recordBytes_) {
     if (stride_ < recordBytes_)
-      throw Error(ErrorKind::malformed, place_,
+      throw Error(ErrorKind::malformed, location_,
                   "a stride of " + std::to_string(stride_) + " bytes is less than a record of " +
                       std::to_string(components) + " " + nameOf(type));
   }
@@ -32,7 +32,7 @@ public:
     // whole. Nothing is multiplied that the document states: it might not fit.
     const std::uint64_t begin = first_ - first_ % stride_;
     if (begin > bytes_.size() || (bytes_.size() - begin) / stride_ < count || available() < count)
-      throw Error(ErrorKind::truncated, place_,
+      throw Error(ErrorKind::truncated, location_,
                   std::to_string(bytes_.size()) + " bytes are too few for " + std::to_string(count) + " records of " +
                       std::to_string(stride_) + " bytes from byte " + std::to_string(first_));
   }
@@ -81,14 +81,14 @@ private:
   }
 
   Bytes bytes_;
-  std::string place_;
+  std::string location_;
   ElementType type_;
   std::uint64_t first_, recordBytes_, stride_;
 };
 
-void requireType(bool supported, const std::string& place, const char* attribute, ElementType type) {
+void requireType(bool supported, const std::string& location, const char* attribute, ElementType type) {
   if (!supported)
-    throw Error(ErrorKind::unsupported, place, std::string(attribute) + " of type " + nameOf(type));
+    throw Error(ErrorKind::unsupported, location, std::string(attribute) + " of type " + nameOf(type));
 }
 
 /// A count of 0 in the only draw stands for all indices of the file.
@@ -105,22 +105,22 @@ std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, ElementT
 }
 
 std::vector<Vec3u> decodeIntegers(const Records& records, std::uint32_t count, const GeometryDescription& geometry,
-                                  const std::string& place) {
+                                  const std::string& location) {
   const StoredCoords stored = storedCoords(Container::bg, geometry.coordType, geometry.lattice.bits);
   std::vector<Vec3u> positions(count);
   for (std::uint32_t n = 0; n < count; ++n)
     for (int axis = 0; axis < 3; ++axis)
       if (geometry.lattice.stretch[axis] > 0) // on a flat axis all numbers mean the same
-        positions[n][axis] = loadCoord(records.integerAt(n, static_cast<std::uint32_t>(axis)), stored, place);
+        positions[n][axis] = loadCoord(records.integerAt(n, static_cast<std::uint32_t>(axis)), stored, location);
   return positions;
 }
 
 std::vector<Vec3u> decodeFloats(const Records& records, std::uint32_t count, const Lattice& lattice,
-                                const std::string& place) {
+                                const std::string& location) {
   std::vector<Vec3u> positions;
   for (std::uint32_t n = 0; n < count; ++n)
-    positions.push_back(
-        nearestPoint(Vec3f(Vec3d{records.realAt(n, 0), records.realAt(n, 1), records.realAt(n, 2)}), lattice, place));
+    positions.push_back(nearestPoint(Vec3f(Vec3d{records.realAt(n, 0), records.realAt(n, 1), records.realAt(n, 2)}),
+                                     lattice, location));
   return positions;
 }
 
@@ -135,13 +135,13 @@ std::vector<Vec3f> decodeNormals(const Records& records, std::uint32_t count, co
 }
 
 NamedAttribute decodeAttribute(const Records& records, std::uint32_t count, const AttributeDescription& description,
-                               const std::string& place) {
+                               const std::string& location) {
   NamedAttribute attribute{description.name, description.components, {}};
   for (std::uint32_t n = 0; n < count; ++n)
     for (std::uint32_t c = 0; c < description.components; ++c) {
       attribute.values.push_back(static_cast<float>(records.realAt(n, c)));
       if (!std::isfinite(attribute.values.back()))
-        throw Error(ErrorKind::malformed, place, "an attribute is not a number");
+        throw Error(ErrorKind::malformed, location, "an attribute is not a number");
     }
   return attribute;
 }
@@ -149,9 +149,9 @@ NamedAttribute decodeAttribute(const Records& records, std::uint32_t count, cons
 void checkTypes(const PatchDescription& patch, const GeometryDescription& geometry) {
   if (patch.coord.size() != 1)
     throw Error(ErrorKind::malformed, "", "a BinaryGeometry patch has one file of coordinates");
-  const std::string& place = patch.coord[0].url;
+  const std::string& location = patch.coord[0].url;
   if (!holdsLattice(geometry.coordType, geometry.lattice.bits))
-    throw Error(ErrorKind::malformed, place,
+    throw Error(ErrorKind::malformed, location,
                 std::string(nameOf(geometry.coordType)) + " is no type for coordinates of " +
                     std::to_string(geometry.lattice.bits) + " bits");
   if (patch.normal && isPair(geometry.normalEncoding))
@@ -165,7 +165,7 @@ void checkTypes(const PatchDescription& patch, const GeometryDescription& geomet
 
 IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch) {
   checkTypes(patch, geometry);
-  const std::string& place = patch.coord[0].url;
+  const std::string& location = patch.coord[0].url;
   IndexedPatch decoded;
   decoded.draws = patch.draws;
   decoded.colorComponents = geometry.colorComponents;
@@ -174,7 +174,7 @@ IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& 
     if (decoded.draws.size() == 1)
       decoded.draws[0].count = narrow<std::uint32_t>(decoded.indices.size());
   }
-  const std::uint32_t count = recordCountOf(patch, decoded.indices, patch.index ? patch.index->url : place);
+  const std::uint32_t count = recordCountOf(patch, decoded.indices, patch.index ? patch.index->url : location);
   const auto fetchRecords = [&](const Reference& reference, ElementType type, std::uint32_t components) {
     Records records(reference, fetch, type, components);
     records.require(count);
@@ -182,9 +182,10 @@ IndexedPatch decodeBg(const PatchDescription& patch, const GeometryDescription& 
   };
 
   const Records coords = fetchRecords(patch.coord[0], geometry.coordType, 3);
-  decoded.positions = geometry.coordType == ElementType::float32 ? decodeFloats(coords, count, geometry.lattice, place)
-                                                                 : decodeIntegers(coords, count, geometry, place);
-  checkInsideBox(decoded.positions, geometry, patch.box, place);
+  decoded.positions = geometry.coordType == ElementType::float32
+                          ? decodeFloats(coords, count, geometry.lattice, location)
+                          : decodeIntegers(coords, count, geometry, location);
+  checkInsideBox(decoded.positions, geometry, patch.box, location);
 
   if (patch.normal)
     decoded.normals = decodeNormals(

@@ -19,13 +19,13 @@ class Texels {
 public:
   Texels(const Reference& reference, const FetchFile& fetch, std::uint32_t columns, std::uint32_t fewestChannels)
       : image_(decodePng(fetch(reference.url), reference.url)), columns_(columns != 0 ? columns : image_.width),
-        first_(reference.first), place_(reference.url) {
+        first_(reference.first), location_(reference.url) {
     if (columns > image_.width)
-      throw Error(ErrorKind::malformed, place_,
+      throw Error(ErrorKind::malformed, location_,
                   "the image is " + std::to_string(image_.width) + " texels wide and cannot hold " +
                       std::to_string(columns) + " columns");
     if (image_.channels < fewestChannels)
-      throw Error(ErrorKind::malformed, place_,
+      throw Error(ErrorKind::malformed, location_,
                   "the image has " + std::to_string(image_.channels) + " channels where " +
                       std::to_string(fewestChannels) + " are needed");
   }
@@ -35,7 +35,7 @@ public:
   /// To be called before texels 0 .. count - 1 are read.
   void require(std::uint64_t count) const {
     if (first_ + count > columns_ * image_.height)
-      throw Error(ErrorKind::malformed, place_,
+      throw Error(ErrorKind::malformed, location_,
                   "the image of " + std::to_string(image_.width) + " x " + std::to_string(image_.height) +
                       " texels ends before its patch does");
   }
@@ -48,7 +48,7 @@ public:
 private:
   Image image_;
   std::uint64_t columns_, first_;
-  std::string place_;
+  std::string location_;
 };
 
 constexpr std::uint32_t noTexel = UINT32_MAX;
@@ -141,15 +141,15 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
   // What an index means follows from the height of the record images, and how
   // many records there are may only follow from the indices.
   const std::uint32_t columns = patch.index ? 0 : patch.implicitMeshSize.x;
-  const std::string& place = patch.coord[0].url;
+  const std::string& location = patch.coord[0].url;
   const Texels first(patch.coord[0], fetch, columns, 3);
   IndexedPatch decoded;
   decoded.draws = patch.draws;
   decoded.colorComponents = geometry.colorComponents;
   if (patch.index)
     decoded.indices = geometry.indexType == ElementType::uint32 ? decodeWideIndices(patch, fetch)
-                                                                : decodeIndices(patch, fetch, first.image(), place);
-  const std::uint32_t count = recordCountOf(patch, decoded.indices, patch.index ? patch.index->url : place);
+                                                                : decodeIndices(patch, fetch, first.image(), location);
+  const std::uint32_t count = recordCountOf(patch, decoded.indices, patch.index ? patch.index->url : location);
   first.require(count);
 
   const auto fetchRecords = [&](const Reference& reference, std::uint32_t fewestChannels) {
@@ -165,8 +165,8 @@ IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescript
     addPlane(decoded.positions, fetchRecords(patch.coord[plane], 3));
   for (Vec3u& position : decoded.positions)
     for (int axis = 0; axis < 3; ++axis)
-      position[axis] = loadCoord(position[axis], stored, place);
-  checkInsideBox(decoded.positions, geometry, patch.box, place);
+      position[axis] = loadCoord(position[axis], stored, location);
+  checkInsideBox(decoded.positions, geometry, patch.box, location);
 
   if (patch.normal && isPair(geometry.normalEncoding)) {
     decoded.normals = decodePairs(Texels(*patch.normal, fetch, 0, 1), count, geometry.normalEncoding);

@@ -11,9 +11,9 @@ namespace {
 
 class FileDecoder {
 public:
-  FileDecoder(ByteSpan payload, const PlacedHeader& placed, const std::string& place)
-      : header_(placed.header), place_(place),
-        streams_(payload.subspan(placed.streams), placed.header.streamLengths, place) {}
+  FileDecoder(ByteSpan payload, const PlacedHeader& placed, const std::string& location)
+      : header_(placed.header), location_(location),
+        streams_(payload.subspan(placed.streams), placed.header.streamLengths, location) {}
 
   std::vector<CompactPatch> run() {
     std::vector<CompactPatch> patches;
@@ -33,7 +33,7 @@ public:
     }
     streams_.finish(streamOf(StreamName::sizes));
     if (!sums.fits())
-      throw Error(ErrorKind::limit, place_,
+      throw Error(ErrorKind::limit, location_,
                   "a file has at most " + std::to_string(maxPatchCount) + " vertices and elements");
     return all;
   }
@@ -88,7 +88,7 @@ private:
     const AttributeType& type = header_.attributes[attribute];
     std::vector<Value> values(surface.wedges.count());
     if (type.isDerived()) {
-      RangeDecoder nothing({}, attributeModels::count, place_);
+      RangeDecoder nothing({}, attributeModels::count, location_);
       codeNormals(nothing, surface, type, values);
     } else if (type.kind == AttributeKind::normal) {
       codeNormals(streams_[streamOfAttribute(attribute)], surface, type, values);
@@ -99,20 +99,20 @@ private:
   }
 
   const FileHeader& header_;
-  const std::string& place_;
+  const std::string& location_;
   StreamDecoders streams_;
 };
 
 } // namespace
 
-std::vector<CompactPatch> decodePatches(ByteSpan payload, const std::string& place) {
-  return FileDecoder(payload, readHeader(payload, place), place).run();
+std::vector<CompactPatch> decodePatches(ByteSpan payload, const std::string& location) {
+  return FileDecoder(payload, readHeader(payload, location), location).run();
 }
 
-std::vector<std::vector<AttributeType>> attributesOfPatches(ByteSpan payload, const std::string& place) {
-  const PlacedHeader placed = readHeader(payload, place);
+std::vector<std::vector<AttributeType>> attributesOfPatches(ByteSpan payload, const std::string& location) {
+  const PlacedHeader placed = readHeader(payload, location);
   std::vector<std::vector<AttributeType>> all;
-  for (const PatchSizes& sizes : FileDecoder(payload, placed, place).decodeSizes()) {
+  for (const PatchSizes& sizes : FileDecoder(payload, placed, location).decodeSizes()) {
     all.emplace_back();
     for (const std::uint32_t attribute : placed.header.types[sizes.type].attributes)
       all.back().push_back(placed.header.attributes[attribute]);

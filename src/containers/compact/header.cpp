@@ -16,11 +16,11 @@ constexpr std::uint8_t baseFlag = 1;
 /// Takes numbers off a payload.
 class FieldReader {
 public:
-  FieldReader(ByteSpan bytes, const std::string& place) : bytes_(bytes), place_(place) {}
+  FieldReader(ByteSpan bytes, const std::string& location) : bytes_(bytes), location_(location) {}
 
   std::uint8_t takeByte() {
     if (at_ == bytes_.size())
-      throw Error(ErrorKind::truncated, place_, "the image ends before its header does");
+      throw Error(ErrorKind::truncated, location_, "the image ends before its header does");
     return bytes_[at_++];
   }
   std::uint8_t takeByte(std::uint32_t least, std::uint32_t most, const char* what) {
@@ -37,25 +37,25 @@ public:
       if (byte < 128)
         return value;
     }
-    throw Error(ErrorKind::malformed, place_, "the header states a number that is too long");
+    throw Error(ErrorKind::malformed, location_, "the header states a number that is too long");
   }
   /// 1 .. `most`.
   std::uint32_t takeCount(std::uint32_t most, const char* what) {
     const std::uint32_t value = takeNumber();
     if (value > most)
-      throw Error(ErrorKind::limit, place_, "a file has at most " + std::to_string(most) + " " + what);
+      throw Error(ErrorKind::limit, location_, "a file has at most " + std::to_string(most) + " " + what);
     return value;
   }
   void require(bool condition, const char* what) const {
     if (!condition)
-      throw Error(ErrorKind::malformed, place_, std::string("the header states impossible ") + what);
+      throw Error(ErrorKind::malformed, location_, std::string("the header states impossible ") + what);
   }
   std::size_t at() const { return at_; }
 
 private:
   ByteSpan bytes_;
   std::size_t at_ = 0;
-  const std::string& place_;
+  const std::string& location_;
 };
 
 void appendNumber(Bytes& out, std::uint32_t value) {
@@ -119,15 +119,15 @@ void appendHeader(Bytes& out, const FileHeader& header) {
     appendNumber(out, length);
 }
 
-PlacedHeader readHeader(ByteSpan payload, const std::string& place) {
-  FieldReader reader(payload, place);
+PlacedHeader readHeader(ByteSpan payload, const std::string& location) {
+  FieldReader reader(payload, location);
   std::uint8_t begin[4];
   for (std::uint8_t& byte : begin)
     byte = reader.takeByte();
   if (!std::equal(begin, begin + 3, signature))
-    throw Error(ErrorKind::malformed, place, "is no image of compact");
+    throw Error(ErrorKind::malformed, location, "is no image of compact");
   if (begin[3] != signature[3])
-    throw Error(ErrorKind::unsupported, place, "compact of version " + std::to_string(begin[3]) + " is not known");
+    throw Error(ErrorKind::unsupported, location, "compact of version " + std::to_string(begin[3]) + " is not known");
 
   FileHeader header;
   const std::uint32_t attributeCount = reader.takeCount(maxFileAttributes, "attributes");
@@ -146,7 +146,7 @@ PlacedHeader readHeader(ByteSpan payload, const std::string& place) {
     total += header.streamLengths.back();
   }
   if (total > payload.size() - reader.at())
-    throw Error(ErrorKind::truncated, place, "the image ends before its streams do");
+    throw Error(ErrorKind::truncated, location, "the image ends before its streams do");
   return {std::move(header), reader.at()};
 }
 

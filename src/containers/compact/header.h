@@ -42,6 +42,6 @@ struct PlacedHeader {
   FileHeader header;
   std::size_t streams = 0;
 };
-PlacedHeader readHeader(ByteSpan payload, const std::string& place);
+PlacedHeader readHeader(ByteSpan payload, const std::string& location);
 
 } // namespace imgeo::compact

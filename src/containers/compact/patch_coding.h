@@ -27,10 +27,10 @@ struct EncodedPatches {
 EncodedPatches encodePatches(std::span<const CompactPatch> patches, int effort);
 
 /// Decodes the patches of a payload. Safe for untrusted bytes: takes time and memory in
-/// proportion to counts that are limited. Throws Error naming `place`.
-std::vector<CompactPatch> decodePatches(ByteSpan payload, const std::string& place);
+/// proportion to counts that are limited. Throws Error naming `location`.
+std::vector<CompactPatch> decodePatches(ByteSpan payload, const std::string& location);
 
 /// The attributes of each patch, without decoding them; the same otherwise.
-std::vector<std::vector<AttributeType>> attributesOfPatches(ByteSpan payload, const std::string& place);
+std::vector<std::vector<AttributeType>> attributesOfPatches(ByteSpan payload, const std::string& location);
 
 } // namespace imgeo::compact

@@ -21,10 +21,10 @@ Bytes imageOfPayload(ByteSpan payload) {
   return encodePlainPng(image);
 }
 
-Bytes payloadOfImage(ByteSpan png, const std::string& place) {
-  Image image = decodePng(png, place);
+Bytes payloadOfImage(ByteSpan png, const std::string& location) {
+  Image image = decodePng(png, location);
   if (image.channels != 1)
-    throw Error(ErrorKind::malformed, place, "images of compact are gray");
+    throw Error(ErrorKind::malformed, location, "images of compact are gray");
   return std::move(image.pixels);
 }
 

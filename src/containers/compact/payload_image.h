@@ -13,7 +13,7 @@ inline constexpr std::size_t maxPayloadBytes = std::size_t{4096} * 4096;
 /// At least one byte, at most maxPayloadBytes. Zeros fill the last row.
 Bytes imageOfPayload(ByteSpan payload);
 
-/// Safe for untrusted bytes. Throws Error naming `place`.
-Bytes payloadOfImage(ByteSpan png, const std::string& place);
+/// Safe for untrusted bytes. Throws Error naming `location`.
+Bytes payloadOfImage(ByteSpan png, const std::string& location);
 
 } // namespace imgeo::compact

@@ -46,7 +46,7 @@ template <typename Coder> std::uint32_t code(Coder& coder, const Item& item) {
 // Rare bits make a probability extreme: its bits carry over many bytes and move two at a time.
 TEST(RangeCoder, GivesBackWhatWasCoded) {
   std::mt19937 random(1);
-  const std::string place = "test";
+  const std::string location = "test";
   for (int round = 0; round < 300; ++round) {
     const std::uint32_t rarity = 1u << random() % 14;
     const std::vector<Item> items = randomItems(random, random() % 2000, rarity);
@@ -54,7 +54,7 @@ TEST(RangeCoder, GivesBackWhatWasCoded) {
     for (const Item& item : items)
       code(encoder, item);
     const Bytes bytes = encoder.finish();
-    RangeDecoder decoder(bytes, 32, place);
+    RangeDecoder decoder(bytes, 32, location);
     for (const Item& item : items)
       ASSERT_EQ(code(decoder, {item.kind, item.size, 0}), item.value) << "round " << round;
     EXPECT_NO_THROW(decoder.finish());

@@ -14,9 +14,9 @@ class RangeDecoder {
 public:
   static constexpr bool encodes = false;
 
-  /// `bytes` and `place` outlive the decoder.
-  RangeDecoder(ByteSpan bytes, std::size_t modelCount, const std::string& place)
-      : models_(modelCount), bytes_(bytes), end_(bytes.size()), place_(place) {
+  /// `bytes` and `location` outlive the decoder.
+  RangeDecoder(ByteSpan bytes, std::size_t modelCount, const std::string& location)
+      : models_(modelCount), bytes_(bytes), end_(bytes.size()), location_(location) {
     for (int i = 0; i < 3; ++i)
       shiftIn();
   }
@@ -51,7 +51,7 @@ public:
   /// Throws Error{malformed} where a condition does not hold.
   void require(bool condition, const char* message) const {
     if (!condition)
-      throw Error(ErrorKind::malformed, place_, message);
+      throw Error(ErrorKind::malformed, location_, message);
   }
 
   /// To be called when all is read: a stream is exactly as long as what it holds.
@@ -73,7 +73,7 @@ private:
   std::uint32_t code_ = 0, range_ = 0xffffff;
   std::uint64_t hold_ = 0;
   std::uint32_t held_ = 0;
-  const std::string& place_;
+  const std::string& location_;
 };
 
 } // namespace imgeo::compact

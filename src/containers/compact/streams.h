@@ -52,9 +52,9 @@ private:
 
 class StreamDecoders {
 public:
-  /// `bytes` begin with the streams, which lie within them; they and `place` outlive the decoders.
-  StreamDecoders(ByteSpan bytes, const std::vector<std::uint32_t>& lengths, const std::string& place)
-      : decoders_(lengths.size()), place_(place) {
+  /// `bytes` begin with the streams, which lie within them; they and `location` outlive the decoders.
+  StreamDecoders(ByteSpan bytes, const std::vector<std::uint32_t>& lengths, const std::string& location)
+      : decoders_(lengths.size()), location_(location) {
     for (const std::uint32_t length : lengths) {
       streams_.push_back(bytes.first(length));
       bytes = bytes.subspan(length);
@@ -63,7 +63,7 @@ public:
 
   RangeDecoder& operator[](std::size_t stream) {
     std::optional<RangeDecoder>& decoder = decoders_[stream];
-    return decoder ? *decoder : decoder.emplace(streams_[stream], modelsOf(stream), place_);
+    return decoder ? *decoder : decoder.emplace(streams_[stream], modelsOf(stream), location_);
   }
   RangeDecoder& operator[](StreamName name) { return (*this)[streamOf(name)]; }
 
@@ -72,7 +72,7 @@ public:
     if (decoders_[stream])
       decoders_[stream]->finish();
     else if (!streams_[stream].empty())
-      throw Error(ErrorKind::malformed, place_, "a stream is not as long as what it holds");
+      throw Error(ErrorKind::malformed, location_, "a stream is not as long as what it holds");
   }
   void finish() const {
     for (std::size_t stream = 0; stream < decoders_.size(); ++stream)
@@ -82,7 +82,7 @@ public:
 private:
   std::vector<std::optional<RangeDecoder>> decoders_;
   std::vector<ByteSpan> streams_;
-  const std::string& place_;
+  const std::string& location_;
 };
 
 } // namespace imgeo::compact

@@ -27,9 +27,11 @@ struct Chunk {
 
 /// Throws an Error of one place.
 struct Refusal {
-  const std::string& place;
+  const std::string& location;
 
-  [[noreturn]] void operator()(ErrorKind kind, const std::string& message) const { throw Error(kind, place, message); }
+  [[noreturn]] void operator()(ErrorKind kind, const std::string& message) const {
+    throw Error(kind, location, message);
+  }
   void unless(bool condition, ErrorKind kind, const char* message) const {
     if (!condition)
       (*this)(kind, message);
@@ -125,8 +127,8 @@ void checkSum(const Chunk& chunk, const Refusal& refuse) {
 
 } // namespace
 
-PngChunks readPngChunks(ByteSpan bytes, const std::string& place) {
-  const Refusal refuse{place};
+PngChunks readPngChunks(ByteSpan bytes, const std::string& location) {
+  const Refusal refuse{location};
   checkSignature(bytes, refuse);
   const std::vector<Chunk> chunks = splitChunks(bytes, refuse);
   checkOrder(chunks, refuse);

@@ -18,7 +18,7 @@ struct PngChunks {
 };
 
 /// Views of `png`. Each edge is 1 .. maxImageEdge; all check sums hold. Safe for untrusted
-/// bytes. Throws Error (truncated, malformed, unsupported, limit) with `place`.
-PngChunks readPngChunks(ByteSpan png, const std::string& place);
+/// bytes. Throws Error (truncated, malformed, unsupported, limit) with `location`.
+PngChunks readPngChunks(ByteSpan png, const std::string& location);
 
 } // namespace imgeo

@@ -14,7 +14,7 @@ namespace imgeo {
 namespace {
 
 /// One zlib stream out of several pieces, which has exactly `size` bytes.
-Bytes inflate(const std::vector<ByteSpan>& pieces, std::size_t size, const std::string& place) {
+Bytes inflate(const std::vector<ByteSpan>& pieces, std::size_t size, const std::string& location) {
   Bytes joined;
   ByteSpan packed = pieces[0];
   if (pieces.size() > 1) {
@@ -31,22 +31,22 @@ Bytes inflate(const std::vector<ByteSpan>& pieces, std::size_t size, const std::
   const libdeflate_result result = libdeflate_zlib_decompress_ex(decompressor.get(), packed.data(), packed.size(),
                                                                  out.data(), out.size(), &taken, &given);
   if (result == LIBDEFLATE_INSUFFICIENT_SPACE)
-    throw Error(ErrorKind::malformed, place, "the PNG holds more than its pixels");
+    throw Error(ErrorKind::malformed, location, "the PNG holds more than its pixels");
   if (result != LIBDEFLATE_SUCCESS || taken != packed.size())
-    throw Error(ErrorKind::malformed, place, "the PNG's data does not unpack");
+    throw Error(ErrorKind::malformed, location, "the PNG's data does not unpack");
   if (given < size)
-    throw Error(ErrorKind::truncated, place, "the PNG does not hold all of its pixels");
+    throw Error(ErrorKind::truncated, location, "the PNG does not hold all of its pixels");
   return out;
 }
 
 /// The RGB that a palette makes of its indices, as a browser expands it.
-Image expanded(const Image& indices, ByteSpan palette, const std::string& place) {
+Image expanded(const Image& indices, ByteSpan palette, const std::string& location) {
   Image image{indices.width, indices.height, 3, {}};
   image.pixels.reserve(indices.pixels.size() * 3);
   for (const std::uint8_t index : indices.pixels) {
     const std::size_t entry = std::size_t{3} * index;
     if (entry >= palette.size())
-      throw Error(ErrorKind::malformed, place, "a pixel names an entry that the palette does not have");
+      throw Error(ErrorKind::malformed, location, "a pixel names an entry that the palette does not have");
     image.pixels.insert(image.pixels.end(), &palette[entry], &palette[entry] + 3);
   }
   return image;
@@ -54,16 +54,16 @@ Image expanded(const Image& indices, ByteSpan palette, const std::string& place)
 
 } // namespace
 
-Image decodePng(ByteSpan bytes, const std::string& place) {
-  const PngChunks png = readPngChunks(bytes, place);
+Image decodePng(ByteSpan bytes, const std::string& location) {
+  const PngChunks png = readPngChunks(bytes, location);
   const std::uint64_t rowBytes = std::uint64_t{png.width} * png.channels;
   const std::uint64_t filteredBytes = (rowBytes + 1) * png.height;
   if (filteredBytes > bytes.size() * maxDeflateRatio)
-    throw Error(ErrorKind::truncated, place, "the file is too short for the size its header states");
+    throw Error(ErrorKind::truncated, location, "the file is too short for the size its header states");
   Image image{png.width, png.height, png.channels, {}};
-  if (!unfilterRows(inflate(png.data, filteredBytes, place), image))
-    throw Error(ErrorKind::malformed, place, "the PNG has a row of an unknown filter");
-  return png.isPalette ? expanded(image, png.palette, place) : image;
+  if (!unfilterRows(inflate(png.data, filteredBytes, location), image))
+    throw Error(ErrorKind::malformed, location, "the PNG has a row of an unknown filter");
+  return png.isPalette ? expanded(image, png.palette, location) : image;
 }
 
 } // namespace imgeo

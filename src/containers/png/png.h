@@ -32,7 +32,7 @@ Bytes encodePlainPng(const Image& image);
 /// at most maxImageEdge; ancillary chunks are skipped, sample values
 /// never altered. The file must end where its IEND chunk does and all its check
 /// sums must hold. Safe for untrusted bytes. Throws Error (truncated, malformed,
-/// unsupported, limit) with `place`.
-Image decodePng(ByteSpan bytes, const std::string& place);
+/// unsupported, limit) with `location`.
+Image decodePng(ByteSpan bytes, const std::string& location);
 
 } // namespace imgeo

@@ -61,7 +61,7 @@ ErrorKind kindOfDecoding(const Bytes& png) {
   try {
     decodePng(png, "x.png");
   } catch (const Error& error) {
-    EXPECT_EQ(error.place(), "x.png");
+    EXPECT_EQ(error.location(), "x.png");
     return error.kind();
   }
   ADD_FAILURE() << "was read";

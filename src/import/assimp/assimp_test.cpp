@@ -134,7 +134,7 @@ TEST(Assimp, HasALookOnceHoweverManyMaterialsAreAlike) {
 TEST(Assimp, RefusesWhatItCannotRead) {
   const Error error = errorOf(collada.substr(0, 900), "a.dae");
   EXPECT_EQ(error.kind(), ErrorKind::malformed);
-  EXPECT_EQ(error.place(), "a.dae");
+  EXPECT_EQ(error.location(), "a.dae");
   EXPECT_EQ(errorOf("nothing", "a.fbx").kind(), ErrorKind::malformed);
 }
 

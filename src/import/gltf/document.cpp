@@ -86,9 +86,9 @@ Document::Document(const Json& json, ByteSpan binary, const References& referenc
     : root_(json, name, ", "), binary_(binary), references_(references),
       budget_(std::max(leastBudget, sourceBytes * bytesPerSourceByte)) {}
 
-void Document::spend(const Value& place, std::uint64_t bytes) {
+void Document::spend(const Value& location, std::uint64_t bytes) {
   if (bytes > budget_)
-    place.fail(ErrorKind::limit, "unfolds to more than files of this size hold");
+    location.fail(ErrorKind::limit, "unfolds to more than files of this size hold");
   budget_ -= bytes;
 }
 

@@ -57,7 +57,7 @@ public:
   Accessor accessor(std::size_t index);
 
   /// Takes `count` from what may still be read; see accessor().
-  void spend(const Value& place, std::uint64_t bytes);
+  void spend(const Value& location, std::uint64_t bytes);
 
   const References& references() const { return references_; }
 

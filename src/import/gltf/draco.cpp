@@ -12,13 +12,13 @@ namespace {
 
 /// Numbers of one attribute, one a vertex.
 std::vector<float> valuesOf(const draco::PointCloud& cloud, const draco::PointAttribute& attribute,
-                            const Value& place) {
+                            const Value& location) {
   const auto components = static_cast<std::size_t>(attribute.num_components());
   std::vector<float> values(cloud.num_points() * components);
   for (draco::PointIndex point(0); point < cloud.num_points(); ++point)
     if (!attribute.ConvertValue<float>(attribute.mapped_index(point), static_cast<std::int8_t>(components),
                                        &values[point.value() * components]))
-      place.fail(ErrorKind::malformed, "holds an attribute of no numbers");
+      location.fail(ErrorKind::malformed, "holds an attribute of no numbers");
   return values;
 }
 

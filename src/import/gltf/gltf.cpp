@@ -40,7 +40,7 @@ Chunks chunksOf(ByteSpan bytes, const std::string& name) {
     const std::uint64_t length = loadLittle<std::uint32_t>(bytes.data() + at);
     const std::uint32_t type = loadLittle<std::uint32_t>(bytes.data() + at + 4);
     if (length > bytes.size() - at - 8)
-      throw Error(ErrorKind::truncated, bytePlace(name, at), "a chunk is longer than what is left of the file");
+      throw Error(ErrorKind::truncated, byteLocation(name, at), "a chunk is longer than what is left of the file");
     const ByteSpan content = bytes.subspan(at + 8, length);
     if (type == jsonChunk && chunks.json.empty())
       chunks.json = asText(content);

@@ -129,7 +129,7 @@ std::optional<std::size_t> MaterialReader::texture(std::size_t index) {
     source = value.index("source", images);
   if (!source) {
     losses.images.push_back(
-        fmt::format("A texture is left out: {} has no image of a kind that browsers show.", value.place()));
+        fmt::format("A texture is left out: {} has no image of a kind that browsers show.", value.location()));
     return {};
   }
   const std::optional<std::size_t> image = this->image(*source);

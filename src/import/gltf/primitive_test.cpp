@@ -116,7 +116,7 @@ TEST(GltfPrimitive, CarriesTheAttributesThatAreAskedFor) {
 }
 
 TEST(GltfPrimitive, NamesThePlaceOfWhatIsWrong) {
-  const auto expectPlace = [](const std::string& place, auto damage) {
+  const auto expectLocation = [](const std::string& location, auto damage) {
     GltfText gltf;
     gltf.addTriangle();
     gltf.show(0);
@@ -124,26 +124,26 @@ TEST(GltfPrimitive, NamesThePlaceOfWhatIsWrong) {
     damage(gltf.json);
     try {
       read(gltf, {.attributes = {}, .folder = "", .outside = false, .strict = true});
-      ADD_FAILURE() << "was read: " << place;
+      ADD_FAILURE() << "was read: " << location;
     } catch (const Error& error) {
-      EXPECT_EQ(error.place(), "a.gltf, " + place);
+      EXPECT_EQ(error.location(), "a.gltf, " + location);
     }
   };
-  expectPlace("accessors[0]", [](Json& json) { json["accessors"][0]["count"] = 4; });
-  expectPlace("accessors[0].count", [](Json& json) { json["accessors"][0]["count"] = -1; });
-  expectPlace("accessors[0].count", [](Json& json) { json["accessors"][0]["count"] = 1e15; });
-  expectPlace("accessors[0].type", [](Json& json) { json["accessors"][0]["type"] = "VEC5"; });
-  expectPlace("accessors[0].componentType", [](Json& json) { json["accessors"][0]["componentType"] = 5124; });
-  expectPlace("accessors[0].bufferView", [](Json& json) { json["accessors"][0]["bufferView"] = 9; });
-  expectPlace("bufferViews[0]", [](Json& json) { json["bufferViews"][0]["byteOffset"] = 1000; });
-  expectPlace("bufferViews[0].byteStride", [](Json& json) { json["bufferViews"][0]["byteStride"] = 2; });
-  expectPlace("meshes[0].primitives[0].indices", [](Json& json) { json["accessors"][1]["componentType"] = 5126; });
-  expectPlace("meshes[0].primitives[0].mode", [](Json& json) { json["meshes"][0]["primitives"][0]["mode"] = 7; });
-  expectPlace("meshes[0].primitives[0].indices",
-              [](Json& json) { json["meshes"][0]["primitives"][0]["attributes"] = Json::object(); });
-  expectPlace("nodes[0].mesh", [](Json& json) { json["nodes"][0]["mesh"] = "first"; });
-  expectPlace("nodes[0].scale", [](Json& json) { json["nodes"][0]["scale"] = {1, 2}; });
-  expectPlace("extensionsRequired[0]", [](Json& json) { json["extensionsRequired"] = {"KHR_texture_basisu"}; });
+  expectLocation("accessors[0]", [](Json& json) { json["accessors"][0]["count"] = 4; });
+  expectLocation("accessors[0].count", [](Json& json) { json["accessors"][0]["count"] = -1; });
+  expectLocation("accessors[0].count", [](Json& json) { json["accessors"][0]["count"] = 1e15; });
+  expectLocation("accessors[0].type", [](Json& json) { json["accessors"][0]["type"] = "VEC5"; });
+  expectLocation("accessors[0].componentType", [](Json& json) { json["accessors"][0]["componentType"] = 5124; });
+  expectLocation("accessors[0].bufferView", [](Json& json) { json["accessors"][0]["bufferView"] = 9; });
+  expectLocation("bufferViews[0]", [](Json& json) { json["bufferViews"][0]["byteOffset"] = 1000; });
+  expectLocation("bufferViews[0].byteStride", [](Json& json) { json["bufferViews"][0]["byteStride"] = 2; });
+  expectLocation("meshes[0].primitives[0].indices", [](Json& json) { json["accessors"][1]["componentType"] = 5126; });
+  expectLocation("meshes[0].primitives[0].mode", [](Json& json) { json["meshes"][0]["primitives"][0]["mode"] = 7; });
+  expectLocation("meshes[0].primitives[0].indices",
+                 [](Json& json) { json["meshes"][0]["primitives"][0]["attributes"] = Json::object(); });
+  expectLocation("nodes[0].mesh", [](Json& json) { json["nodes"][0]["mesh"] = "first"; });
+  expectLocation("nodes[0].scale", [](Json& json) { json["nodes"][0]["scale"] = {1, 2}; });
+  expectLocation("extensionsRequired[0]", [](Json& json) { json["extensionsRequired"] = {"KHR_texture_basisu"}; });
 }
 
 TEST(GltfPrimitive, ThatIsDamagedIsLeftOutAndTheRestIsRead) {

@@ -36,17 +36,17 @@ std::size_t depthOf(std::string_view text) {
 } // namespace
 
 Value Value::operator[](const char* name) const {
-  const std::string place = place_ + separator_ + name;
+  const std::string location = location_ + separator_ + name;
   if (json_->is_null())
-    return {absent, place};
+    return {absent, location};
   if (!json_->is_object())
     fail(ErrorKind::malformed, "is no object");
   const auto found = json_->find(name);
-  return {found == json_->end() ? absent : *found, place};
+  return {found == json_->end() ? absent : *found, location};
 }
 
 Value Value::operator[](std::size_t index) const {
-  return {json_->at(index), fmt::format("{}[{}]", place_, index)};
+  return {json_->at(index), fmt::format("{}[{}]", location_, index)};
 }
 
 std::size_t Value::size() const {

@@ -17,12 +17,12 @@ using Json = nlohmann::json;
 class Value {
 public:
   /// `separator` stands between the place and the name of a member.
-  Value(const Json& json, std::string place, const char* separator = ".")
-      : json_(&json), place_(std::move(place)), separator_(separator) {}
+  Value(const Json& json, std::string location, const char* separator = ".")
+      : json_(&json), location_(std::move(location)), separator_(separator) {}
 
-  [[noreturn]] void fail(ErrorKind kind, const std::string& message) const { throw Error(kind, place_, message); }
+  [[noreturn]] void fail(ErrorKind kind, const std::string& message) const { throw Error(kind, location_, message); }
   const Json& json() const { return *json_; }
-  const std::string& place() const { return place_; }
+  const std::string& location() const { return location_; }
 
   bool has(const char* name) const { return json_->is_object() && json_->contains(name); }
   /// A member of an object; a null value, of which nothing can be read, where it is absent.
@@ -52,7 +52,7 @@ public:
 
 private:
   const Json* json_;
-  std::string place_;
+  std::string location_;
   const char* separator_;
 };
 

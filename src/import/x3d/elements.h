@@ -29,6 +29,6 @@ Elements parseXml(std::string_view text, const std::string& name);
 Elements parseVrml(std::string_view text, const std::string& name);
 
 /// "hall.wrl:12:3", the line and column of a byte of the text.
-std::string placeOf(std::string_view text, const std::string& name, std::size_t offset);
+std::string locationOf(std::string_view text, const std::string& name, std::size_t offset);
 
 } // namespace imgeo::x3d

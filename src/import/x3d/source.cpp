@@ -37,7 +37,8 @@ pugi::xml_node Source::resolved(pugi::xml_node element) const {
 }
 
 void Source::fail(pugi::xml_node element, ErrorKind kind, const std::string& message) const {
-  throw Error(kind, placeOf(text_, name_, elements_.offsetOf(element)), fmt::format("{}: {}", element.name(), message));
+  throw Error(kind, locationOf(text_, name_, elements_.offsetOf(element)),
+              fmt::format("{}: {}", element.name(), message));
 }
 
 std::vector<double> Source::reals(pugi::xml_node element, const char* field) const {

@@ -156,10 +156,10 @@ TEST(Vrml, ReadsTheClassicEncodingOfX3d) {
 }
 
 TEST(Vrml, NamesThePlaceOfWhatItRefuses) {
-  const auto expect = [](const std::string& text, ErrorKind kind, const std::string& place) {
+  const auto expect = [](const std::string& text, ErrorKind kind, const std::string& location) {
     const Error error = refusalOf("#VRML V2.0 utf8\n" + text);
     EXPECT_EQ(error.kind(), kind) << text;
-    EXPECT_EQ(error.place(), "a.wrl:" + place) << text << error.what();
+    EXPECT_EQ(error.location(), "a.wrl:" + location) << text << error.what();
   };
   expect("Group { children [", ErrorKind::truncated, "2:19");
   expect("Group {\n  children ]\n}", ErrorKind::malformed, "3:12");

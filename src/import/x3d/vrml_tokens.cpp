@@ -82,7 +82,7 @@ Token VrmlTokens::take(TokenKind kind, const char* what) {
 }
 
 void VrmlTokens::fail(const Token& token, ErrorKind kind, const std::string& message) const {
-  throw Error(kind, placeOf(text_, name_, token.offset), message);
+  throw Error(kind, locationOf(text_, name_, token.offset), message);
 }
 
 void VrmlTokens::failExpecting(const std::string& what) const {

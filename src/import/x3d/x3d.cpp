@@ -192,7 +192,7 @@ private:
       try {
         return inlines_.read(urls[i]);
       } catch (const Error& error) {
-        if (error.kind() == ErrorKind::limit || (i + 1 == urls.size() && !error.place().empty()))
+        if (error.kind() == ErrorKind::limit || (i + 1 == urls.size() && !error.location().empty()))
           throw;
         if (i + 1 == urls.size())
           source_.fail(element, error.kind(), error.message());

@@ -16,7 +16,7 @@ void refuseEntities(std::string_view text, const std::string& name) {
     return;
   const std::size_t bracket = text.find_first_of("[>", doctype);
   if (bracket != text.npos && text[bracket] == '[')
-    throw Error(ErrorKind::unsupported, placeOf(text, name, doctype),
+    throw Error(ErrorKind::unsupported, locationOf(text, name, doctype),
                 "its document type defines entities, which imgeo does not read");
 }
 
@@ -28,7 +28,7 @@ std::size_t Elements::offsetOf(pugi::xml_node element) const {
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(element.offset_debug(), 0));
 }
 
-std::string placeOf(std::string_view text, const std::string& name, std::size_t offset) {
+std::string locationOf(std::string_view text, const std::string& name, std::size_t offset) {
   const std::string_view before = text.substr(0, std::min(offset, text.size()));
   const std::size_t lineBegin = before.rfind('\n') + 1; // npos + 1 is 0
   return fmt::format("{}:{}:{}", name, 1 + std::ranges::count(before, '\n'), before.size() - lineBegin + 1);
@@ -41,7 +41,7 @@ Elements parseXml(std::string_view text, const std::string& name) {
   const pugi::xml_parse_result result = elements.document.load_buffer(
       text.data(), text.size(), pugi::parse_default | pugi::parse_comments, pugi::encoding_utf8);
   if (!result) // pugixml ends its copy of the text with a zero, and may fail behind it
-    throw Error(ErrorKind::malformed, placeOf(text, name, static_cast<std::size_t>(result.offset)),
+    throw Error(ErrorKind::malformed, locationOf(text, name, static_cast<std::size_t>(result.offset)),
                 std::string("not well-formed: ") + result.description());
   if (std::string_view(elements.root().name()) != "X3D")
     throw Error(ErrorKind::malformed, name, "is XML, but its element is no X3D");
