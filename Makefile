@@ -7,7 +7,7 @@ PORT  ?= 8080
 export MODEL PORT
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo app museum test soak check tidy install bench clean
+.PHONY: help build demo app museum test soak check tidy format docs install bench clean
 
 help: ## say what can be made
 	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
@@ -33,9 +33,15 @@ test: install ## run every test: C++, TypeScript and the browser
 check: install ## check the types and the style of the TypeScript
 	@scripts/node --run check
 
-tidy: ## check the C++ with clang-tidy (long)
-	@scripts/install --soak
-	@scripts/build tidy
+tidy: build ## check all of the C++ with clang-tidy
+	@scripts/tidy --all
+
+format: install ## format the C++ and the TypeScript
+	@scripts/format
+
+docs: install ## make the API pages of the C++ library and of the npm package
+	@scripts/install --docs
+	@scripts/docs
 
 soak: ## run what is too long for make test: sanitizers and fuzzing
 	@scripts/install --soak
