@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { afterEach, beforeEach, describe, mock, test } from "node:test";
-import type { BufferUpload } from "../render/buffers.ts";
+import type { BufferUpload } from "../render/uploads/bufferStore.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import { Arrival } from "./arrival.ts";
 

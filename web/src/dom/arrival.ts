@@ -10,7 +10,7 @@ import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
 import type { ArrayUse, StoredBytes } from "../stage/stage.ts";
 import type { Picture } from "../delivery/resources.ts";
 import type { SamplingDescription } from "../document/description.ts";
-import { beforeNextFrame } from "../render/nextFrame.ts";
+import { beforeNextFrame } from "../render/frames/nextFrame.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { Steps } from "../scheduler/frameWork.ts";
 import { FrameWork } from "../scheduler/frameWork.ts";

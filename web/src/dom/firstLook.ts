@@ -11,7 +11,7 @@ import { FirstPicture, isShowable } from "../first/picture.ts";
 import type { FirstScene, FirstShape } from "../first/scene.ts";
 import { firstSceneOf } from "../first/scene.ts";
 import { contextOf } from "../render/context.ts";
-import { beforeNextFrame } from "../render/nextFrame.ts";
+import { beforeNextFrame } from "../render/frames/nextFrame.ts";
 import { cameraSettingOf, readSettings } from "./attributes.ts";
 import { isOfScene } from "./ownNodes.ts";
 import { sizeOf, watchSize } from "./visibility.ts";

@@ -6,7 +6,7 @@
 // Hovering never waits for the GPU; what happens on a press does, because a page
 // that prevents its default must be heard before the camera moves.
 
-import type { Hit } from "../render/picking.ts";
+import type { Hit } from "../render/picking/picker.ts";
 import { eventLike } from "./shapeEvents.ts";
 
 export interface Pickable {

@@ -17,7 +17,7 @@ import { listenForPointing } from "./pointing.ts";
 import { Poster } from "./poster.ts";
 import { Viewer } from "./viewer.ts";
 import { keepTouchAction } from "./touchAction.ts";
-import type { Hit } from "../render/picking.ts";
+import type { Hit } from "../render/picking/picker.ts";
 import { sizeOf, watchSize, whenNear } from "./visibility.ts";
 import { WaysBack } from "./waysBack.ts";
 import { drawingWords, keyWords, stageWords, typeWords, viewWords } from "./words.ts";

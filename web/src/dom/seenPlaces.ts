@@ -5,7 +5,7 @@ import { placeGeometry } from "../delivery/demand.ts";
 import { pictureKeyOf } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription } from "../document/description.ts";
 import type { PlacedShape } from "../navigation/placement.ts";
-import type { SceneChanges } from "../render/shapeChanges.ts";
+import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 
 /** By the places where they are. */
 type Seen = Map<object, PlacedGeometry>;

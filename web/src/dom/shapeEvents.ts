@@ -1,7 +1,7 @@
 // Pointer events as a <shape> sends them: the browser's own event once more, from
 // the element that is seen under the pointer, with what was hit there.
 
-import type { Hit } from "../render/picking.ts";
+import type { Hit } from "../render/picking/picker.ts";
 
 /** A point or direction in the scene's coordinates; as text it is an SFVec3f. */
 export interface Vector3D {

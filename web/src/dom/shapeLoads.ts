@@ -12,7 +12,7 @@ import type { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription, ShapeDescription, TextureDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
-import type { SceneChanges } from "../render/shapeChanges.ts";
+import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import { leastStage, Loading } from "./loading.ts";
 
 interface LoadedShape {

@@ -6,7 +6,7 @@ import { demandFor, textureDemandFor } from "../delivery/demand.ts";
 import type { SceneDeliveries } from "../delivery/demandWithin.ts";
 import { demandWithin, storedBytesOf } from "../delivery/demandWithin.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
-import type { SceneChanges } from "../render/shapeChanges.ts";
+import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { View } from "../render/view.ts";
 import type { ChunkWeights } from "../scheduler/priority.ts";
 import { chunkWeightsOf, defaultChunkWeights } from "../scheduler/priority.ts";

@@ -8,7 +8,7 @@ import type { ElementArray } from "../stage/vertexArray.ts";
 import type { ElementType } from "../stage/elementType.ts";
 import { arrayTypeOf, byteSizeOf } from "../stage/elementType.ts";
 import type { StoredBytes } from "../stage/stage.ts";
-import type { Buffers } from "../render/buffers.ts";
+import type { Buffers } from "../render/uploads/bufferStore.ts";
 
 interface Kept {
   readonly array: ElementArray;

@@ -10,9 +10,9 @@ import { decodePicture } from "../decode/picture.ts";
 import { bytesPerTexel } from "../delivery/parts.ts";
 import type { Picture } from "../delivery/resources.ts";
 import type { SamplingDescription } from "../document/description.ts";
-import type { Textures } from "../render/stageDraws.ts";
-import { readAsData, sampleAs } from "../render/textures.ts";
-import type { Admission } from "./admission.ts";
+import type { Textures } from "../render/stages/stageDraws.ts";
+import { readAsData, sampleAs } from "../render/uploads/textureStore.ts";
+import type { Admission } from "./uploadThrottle.ts";
 
 /** Texels of the longest edge: a renderer that can do less is not in use any more, and we are asked before there is one. */
 export const largestTexture = 4096;

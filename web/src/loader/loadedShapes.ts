@@ -13,11 +13,11 @@ import { pictureKeyOf } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription, ShapeDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
-import type { PickCandidate } from "../render/picking.ts";
-import type { ShapePlaces } from "../render/sceneGraph.ts";
-import type { ShapeSetting } from "../render/shapeObject.ts";
-import { ShapeObject } from "../render/shapeObject.ts";
-import { isShown } from "../render/shown.ts";
+import type { PickCandidate } from "../render/picking/picker.ts";
+import type { ShapePlaces } from "../render/shapes/sceneGroups.ts";
+import type { ShapeSetting } from "../render/shapes/shapeObject.ts";
+import { ShapeObject } from "../render/shapes/shapeObject.ts";
+import { isShown } from "../render/shapes/visibility.ts";
 import type { Presence } from "./sceneLevels.ts";
 
 export interface LoadedShapesListener {

@@ -15,10 +15,10 @@ import type { ElementType } from "../stage/elementType.ts";
 import type { StoredBytes } from "../stage/stage.ts";
 import { held, siteOf, soon, type Answer } from "../delivery/delivery.testing.ts";
 import { elementsOf } from "../document/elements.testing.ts";
-import type { Buffers } from "../render/buffers.ts";
-import { makeLightUniforms } from "../render/sceneLights.ts";
-import { GeometryPool } from "../render/stageGeometries.ts";
-import { appLook, standardMaterialOf } from "./appLook.ts";
+import type { Buffers } from "../render/uploads/bufferStore.ts";
+import { makeLightUniforms } from "../render/lights/sceneLights.ts";
+import { GeometryPool } from "../render/stages/geometryPool.ts";
+import { appLook, standardMaterialOf } from "./standardMaterials.ts";
 import { SceneContents } from "./sceneContents.ts";
 
 const shape = (name: string) => `<Shape DEF="${name}"><BinaryGeometry vertexCount="3" coord="${name}.bin"/></Shape>`;

@@ -4,8 +4,8 @@
 
 import type { Object3D, PerspectiveCamera, WebGLRenderer } from "three";
 import { Color, Vector2, type Vector3 } from "three";
-import type { PickCandidate } from "../render/picking.ts";
-import { Picker } from "../render/picking.ts";
+import type { PickCandidate } from "../render/picking/picker.ts";
+import { Picker } from "../render/picking/picker.ts";
 
 /** The names are those of three's Intersection, where it has them. */
 export interface SceneHit {

@@ -3,11 +3,11 @@
 import type { BufferGeometry, Frustum, Material, Matrix4, Sphere } from "three";
 import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
-import { isSurface } from "../asPoints.ts";
-import type { DrawnObject } from "../drawnObject.ts";
-import type { PlaceGroup } from "../lightScopes.ts";
-import type { MaterialRequest, ShownPictures } from "../look.ts";
-import { backFaces, frontFaces } from "./placeChunk.ts";
+import { isSurface } from "../points/surfaceAsPoints.ts";
+import type { DrawnObject } from "../stages/drawnObject.ts";
+import type { PlaceGroup } from "../lights/lightScopes.ts";
+import type { MaterialRequest, ShownPictures } from "../materials/materialFactory.ts";
+import { backFaces, frontFaces } from "./instanceChunk.ts";
 
 /** What a shape asks to be drawn of a stage. The same for all its places. */
 export interface BatchedDraw {

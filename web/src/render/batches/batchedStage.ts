@@ -5,18 +5,18 @@ import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { storedFrameOf } from "../../document/storedFrame.ts";
 import { shapeFromStoredOf } from "../../navigation/matrices.ts";
-import type { PlaceGroup } from "../lightScopes.ts";
-import type { Batching, ShownPictures } from "../look.ts";
-import { noPictures } from "../look.ts";
-import type { PatchDraws } from "../patchDraws.ts";
-import { PickDraw } from "../pickDraw.ts";
-import type { PatchSetting } from "../stageDraws.ts";
-import { boundsOf, colorsOf, materialRequestOf, pickRequestOf, uniformsOf } from "../stageDraws.ts";
-import { valueFrameOf } from "../valueColors.ts";
+import type { PlaceGroup } from "../lights/lightScopes.ts";
+import type { Batching, ShownPictures } from "../materials/materialFactory.ts";
+import { noPictures } from "../materials/materialFactory.ts";
+import type { PatchDraws } from "../stages/patchDraws.ts";
+import { PickDraw } from "../picking/pickDraw.ts";
+import type { PatchSetting } from "../stages/stageDraws.ts";
+import { boundsOf, colorsOf, materialRequestOf, pickRequestOf, uniformsOf } from "../stages/stageDraws.ts";
+import { valueFrameOf } from "../materials/valueColors.ts";
 import type { BatchedDraw, Member } from "./batch.ts";
 import type { Batches } from "./batches.ts";
-import type { DrawnAs, Drawing } from "./plan.ts";
-import { vertexCountOf } from "./meshColumns.ts";
+import type { DrawnAs, Drawing } from "./batchingPlan.ts";
+import { vertexCountOf } from "../vertices/vertexColumns.ts";
 
 /** How draws go together. */
 export interface BatchSetting {

@@ -16,15 +16,15 @@ import type { ElementArray } from "../../stage/vertexArray.ts";
 import { arrayTypeOf, elementTypeOf } from "../../stage/elementType.ts";
 import type { BufferStage, StoredBytes } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
-import type { Buffers } from "../buffers.ts";
-import type { DrawnObject } from "../drawnObject.ts";
-import type { Look, MaterialRequest } from "../look.ts";
-import { GeometryPool } from "../stageGeometries.ts";
+import type { Buffers } from "../uploads/bufferStore.ts";
+import type { DrawnObject } from "../stages/drawnObject.ts";
+import type { Look, MaterialRequest } from "../materials/materialFactory.ts";
+import { GeometryPool } from "../stages/geometryPool.ts";
 import type { BatchedDraw, Member } from "./batch.ts";
 import { Batches } from "./batches.ts";
 import { mostVertices } from "./mergedMesh.ts";
-import { backFaces, frontFaces, placeFields, texelsPerPlace } from "./placeChunk.ts";
-import { mostRepeatedLines } from "./placedGeometry.ts";
+import { backFaces, frontFaces, placeFields, texelsPerPlace } from "./instanceChunk.ts";
+import { mostRepeatedLines } from "./instancedGeometry.ts";
 
 const white = [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0];
 

@@ -5,20 +5,20 @@
 import type { BufferGeometry, Camera } from "three";
 import { Group, Matrix4, Sphere, Vector3 } from "three";
 import type { BufferStage, Stage } from "../../stage/stage.ts";
-import type { Buffers } from "../buffers.ts";
-import { objectOf } from "../drawnObject.ts";
-import type { Look, MaterialRequest } from "../look.ts";
-import type { PlaceGroup } from "../lightScopes.ts";
-import type { GeometryPool } from "../stageGeometries.ts";
-import { frustumOf } from "../viewFrustum.ts";
+import type { Buffers } from "../uploads/bufferStore.ts";
+import { objectOf } from "../stages/drawnObject.ts";
+import type { Look, MaterialRequest } from "../materials/materialFactory.ts";
+import type { PlaceGroup } from "../lights/lightScopes.ts";
+import type { GeometryPool } from "../stages/geometryPool.ts";
+import { frustumOf } from "../frames/viewFrustum.ts";
 import type { Batch, BatchedDraw, Member } from "./batch.ts";
 import { runsOf } from "./depthOrder.ts";
 import { InstancedBatch } from "./instancedBatch.ts";
 import { MergedBatch } from "./mergedBatch.ts";
-import { layoutOf } from "./meshColumns.ts";
+import { layoutOf } from "../vertices/vertexColumns.ts";
 import { OrderedMergedBatch } from "./orderedMergedBatch.ts";
-import { placeFields } from "./placeChunk.ts";
-import { PlaceTable } from "./placeTable.ts";
+import { placeFields } from "./instanceChunk.ts";
+import { PlaceTable } from "./instanceTable.ts";
 
 export class Batches {
   /** Hangs in the scene, near what is drawn: records of places count from it, in single precision. */

@@ -1,11 +1,11 @@
 // A draw in many places at once: an instance for each that the camera sees.
 
 import type { BufferGeometry, Frustum } from "three";
-import type { DrawnObject } from "../drawnObject.ts";
-import type { GeometryPool } from "../stageGeometries.ts";
+import type { DrawnObject } from "../stages/drawnObject.ts";
+import type { GeometryPool } from "../stages/geometryPool.ts";
 import type { Batch, BatchParts, Member, Run } from "./batch.ts";
 import { passesOf } from "./batch.ts";
-import { mostPlacesOf, PlacedGeometry } from "./placedGeometry.ts";
+import { mostPlacesOf, PlacedGeometry } from "./instancedGeometry.ts";
 
 export class InstancedBatch implements Batch {
   readonly #parts: BatchParts;

@@ -3,8 +3,8 @@
 
 import type { Frustum } from "three";
 import { BufferGeometry, Sphere } from "three";
-import type { Buffers } from "../buffers.ts";
-import type { DrawnObject } from "../drawnObject.ts";
+import type { Buffers } from "../uploads/bufferStore.ts";
+import type { DrawnObject } from "../stages/drawnObject.ts";
 import type { Batch, BatchParts, Member, Merged } from "./batch.ts";
 import { MergedLines } from "./mergedLines.ts";
 import { MergedMesh } from "./mergedMesh.ts";

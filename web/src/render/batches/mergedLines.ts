@@ -4,11 +4,11 @@
 import type { BufferGeometry } from "three";
 import { InstancedBufferAttribute } from "three";
 import type { BufferStage } from "../../stage/stage.ts";
-import type { Buffers } from "../buffers.ts";
-import { LineRecords, outlineGeometry } from "../wideLineGeometry.ts";
-import { lineCountOf } from "../wideLines.ts";
+import type { Buffers } from "../uploads/bufferStore.ts";
+import { LineRecords, outlineGeometry } from "../lines/wideLineGeometry.ts";
+import { lineCountOf } from "../lines/wideLines.ts";
 import type { BatchedDraw, Member, Merged } from "./batch.ts";
-import { GrowingArray } from "./growingArray.ts";
+import { GrowingArray } from "../vertices/growingArray.ts";
 
 /** In one draw: they go to the GPU together whenever one comes or goes. */
 const mostLines = 65536;

@@ -3,12 +3,12 @@
 
 import { BufferAttribute, BufferGeometry } from "three";
 import type { BufferStage, DrawRange } from "../../stage/stage.ts";
-import type { Buffers } from "../buffers.ts";
+import type { Buffers } from "../uploads/bufferStore.ts";
 import type { BatchedDraw, Member, Merged } from "./batch.ts";
 import { passesOf } from "./batch.ts";
-import { GrowingArray } from "./growingArray.ts";
-import type { Column } from "./meshColumns.ts";
-import { appendVertices, attributeOf, columnsOf, indicesOf } from "./meshColumns.ts";
+import { GrowingArray } from "../vertices/growingArray.ts";
+import type { Column } from "../vertices/vertexColumns.ts";
+import { appendVertices, attributeOf, columnsOf, indicesOf } from "../vertices/vertexColumns.ts";
 
 /** The largest 16-bit number means another primitive to WebGL. */
 export const mostVertices = 65535;

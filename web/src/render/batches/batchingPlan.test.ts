@@ -1,0 +1,79 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { ShapeDescription } from "../../document/description.ts";
+import { shapesOf } from "../../document/description.ts";
+import { elementsOf } from "../../document/elements.testing.ts";
+import { readScene } from "../../document/readScene.ts";
+import { DrawingPlan, leastPlaces, mostMergedVertices } from "./batchingPlan.ts";
+
+function geometry(name: string, vertices: number, profile = "compact"): string {
+  return `<ImageGeometry DEF="${name}" profile="${profile}"><GeometryPatch recordCount="${vertices}" coord="${name}.png" data="${name}.png"/></ImageGeometry>`;
+}
+
+function planOf(places: readonly ShapeDescription[]): DrawingPlan {
+  const plan = new DrawingPlan();
+  for (const { geometry: own } of places) if (own) plan.add(own);
+  return plan;
+}
+
+/** How each of the scene's shapes is drawn, as what it `is`. */
+function drawn(shapes: readonly string[], is: "opaque" | "blended" = "opaque"): string[] {
+  const scene = readScene(elementsOf(`<X3D>${shapes.map((inner) => `<Shape>${inner}</Shape>`).join("")}</X3D>`));
+  const places = shapesOf(scene.root);
+  const plan = planOf(places);
+  return places.map(({ geometry: own }) => (own ? plan.drawingOf(own)[is] : "nothing"));
+}
+
+const crowd = Array.from({ length: leastPlaces }, (_, n) => geometry(`small${n}`, 24));
+
+test("a scene of few shapes is drawn one by one, whatever they are", () => {
+  const shapes = [...crowd.slice(2), '<ImageGeometry USE="small3"/>'];
+  assert.deepEqual(new Set(drawn(shapes)), new Set(["alone"]));
+});
+
+test("in a scene of many, small meshes become one, and large ones stand alone", () => {
+  const shapes = [...crowd, geometry("large", mostMergedVertices + 1), geometry("untold", 0)];
+  assert.deepEqual(drawn(shapes), [...crowd.map(() => "merged"), "alone", "alone"]);
+});
+
+test("what blends is never alone in a scene of many: it has its turn among the others", () => {
+  const shapes = [...crowd, geometry("large", mostMergedVertices + 1), geometry("image", 24, "classic")];
+  assert.deepEqual(drawn(shapes, "blended"), [...crowd.map(() => "merged"), "instanced", "instanced"]);
+  assert.deepEqual(new Set(drawn(crowd.slice(1), "blended")), new Set(["alone"]));
+});
+
+test("a mesh is merged as long as all its places together are small, and instanced from then on", () => {
+  const twice = (vertices: number) => [...crowd, geometry("twin", vertices), '<ImageGeometry USE="twin"/>'];
+  assert.deepEqual(drawn(twice(mostMergedVertices / 2)).slice(-2), ["merged", "merged"]);
+  assert.deepEqual(drawn(twice(mostMergedVertices / 2 + 1)).slice(-2), ["instanced", "instanced"]);
+});
+
+test("vertices that the GPU decodes are not merged, as they are in no buffers", () => {
+  const shapes = [
+    ...crowd,
+    geometry("image", 24, "classic"),
+    geometry("images", 24, "classic"),
+    '<ImageGeometry USE="images"/>',
+  ];
+  assert.deepEqual(drawn(shapes).slice(-3), ["alone", "instanced", "instanced"]);
+});
+
+test("shapes that come and go are drawn as if those that are left had always been all", () => {
+  const scene = readScene(
+    elementsOf(
+      `<X3D>${[...crowd, geometry("twin", mostMergedVertices / 2), '<ImageGeometry USE="twin"/>']
+        .map((inner) => `<Shape>${inner}</Shape>`)
+        .join("")}</X3D>`,
+    ),
+  );
+  const geometries = shapesOf(scene.root).flatMap(({ geometry: own }) => own ?? []);
+  const plan = planOf(shapesOf(scene.root));
+  const twin = geometries.at(-1);
+  assert.ok(twin);
+  plan.add(twin);
+  assert.equal(plan.drawingOf(twin).opaque, "instanced");
+  plan.remove(twin);
+  assert.equal(plan.drawingOf(twin).opaque, "merged");
+  for (const gone of geometries.slice(0, 3)) plan.remove(gone);
+  assert.equal(plan.drawingOf(twin).opaque, "alone");
+});

@@ -1,0 +1,89 @@
+// What is behind a scene: X3D's Background (ISO/IEC 19775-1, 24.4.1). One colour
+// clears the picture; several are rings around the zenith and the nadir, drawn by
+// one triangle that covers all and asks each pixel where it looks.
+
+import { BufferAttribute, BufferGeometry, Color, Mesh, ShaderMaterial } from "three";
+import type { BackgroundDescription } from "../../document/description.ts";
+import { setColor } from "../materials/x3dMaterials.ts";
+
+/** The zenith's and the nadir's rings that are drawn, each with its own colour. */
+const mostRings = 16;
+
+const vertexShader = /* glsl */ `
+varying vec3 direction;
+void main() {
+  gl_Position = vec4(position.xy, 1.0, 1.0);
+  vec2 slope = (position.xy + vec2(projectionMatrix[2][0], projectionMatrix[2][1])) / vec2(projectionMatrix[0][0], projectionMatrix[1][1]);
+  direction = transpose(mat3(viewMatrix)) * vec3(slope, -1.0);
+}
+`;
+
+const fragmentShader = /* glsl */ `
+uniform vec3 skyColors[RINGS];
+uniform float skyAngles[RINGS];
+uniform vec3 groundColors[RINGS];
+uniform float groundAngles[RINGS];
+uniform int skyCount;
+uniform int groundCount;
+varying vec3 direction;
+
+void main() {
+  float fromZenith = acos(clamp(normalize(direction).y, -1.0, 1.0));
+  float fromNadir = PI - fromZenith;
+  vec3 color = skyColors[0];
+  for (int i = 1; i < RINGS; ++i) {
+    if (i < skyCount && fromZenith > skyAngles[i - 1]) color = mix(skyColors[i - 1], skyColors[i], clamp((fromZenith - skyAngles[i - 1]) / max(skyAngles[i] - skyAngles[i - 1], 1e-6), 0.0, 1.0));
+  }
+  if (groundCount > 0 && fromNadir <= groundAngles[groundCount - 1]) {
+    color = groundColors[0];
+    for (int i = 1; i < RINGS; ++i) {
+      if (i < groundCount && fromNadir > groundAngles[i - 1]) color = mix(groundColors[i - 1], groundColors[i], clamp((fromNadir - groundAngles[i - 1]) / max(groundAngles[i] - groundAngles[i - 1], 1e-6), 0.0, 1.0));
+    }
+  }
+  gl_FragColor = vec4(color, 1.0);
+}
+`;
+
+/** A colour to clear with, or what is to be drawn behind everything. */
+export function backdropOf(background: BackgroundDescription): Color | Mesh {
+  if (background.sky.length === 1 && background.ground.length === 0) {
+    const color = new Color();
+    setColor(color, background.sky[0]?.color ?? [0, 0, 0]);
+    return color;
+  }
+  const triangle = new BufferGeometry().setAttribute(
+    "position",
+    new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3),
+  );
+  const mesh = new Mesh(
+    triangle,
+    new ShaderMaterial({
+      vertexShader,
+      fragmentShader,
+      depthTest: false,
+      depthWrite: false,
+      defines: { RINGS: mostRings, PI: Math.PI },
+      uniforms: { ...ringsOf("sky", background.sky), ...ringsOf("ground", background.ground) },
+    }),
+  );
+  mesh.frustumCulled = false;
+  mesh.renderOrder = -Infinity;
+  return mesh;
+}
+
+function ringsOf(name: "sky" | "ground", rings: BackgroundDescription["sky"]): Record<string, { value: unknown }> {
+  const all = Array.from(
+    { length: mostRings },
+    (_, i) => rings[Math.min(i, rings.length - 1)] ?? { angle: 0, color: [0, 0, 0] },
+  );
+  return {
+    [`${name}Colors`]: { value: all.flatMap(({ color }) => color) },
+    [`${name}Angles`]: { value: all.map(({ angle }) => angle) },
+    [`${name}Count`]: { value: Math.min(rings.length, mostRings) },
+  };
+}
+
+export function disposeBackdrop(backdrop: Mesh): void {
+  backdrop.geometry.dispose();
+  (backdrop.material as ShaderMaterial).dispose();
+}

@@ -1,0 +1,90 @@
+import assert from "node:assert/strict";
+import { afterEach, beforeEach, describe, mock, test } from "node:test";
+import { Pace } from "./framePacing.ts";
+
+/** A GPU that needs so long for a frame, and a renderer that draws when it is told to. */
+function renderer(frameMs: number): { pace: Pace; frames: number[]; draw: () => void; ask: () => void } {
+  const begun: number[] = [];
+  const gl = {
+    TIMEOUT_EXPIRED: 1,
+    SYNC_GPU_COMMANDS_COMPLETE: 2,
+    fenceSync: () => begun.push(performance.now()) - 1,
+    clientWaitSync: (fence: number) => (performance.now() - (begun[fence] ?? 0) < frameMs ? 1 : 3),
+    flush: () => undefined,
+    deleteSync: () => undefined,
+    isContextLost: () => false,
+  };
+  const pace = new Pace(gl as unknown as WebGL2RenderingContext);
+  const frames: number[] = [];
+  const draw = (): void => {
+    const now = performance.now();
+    pace.begin();
+    frames.push(now);
+    pace.end(now);
+  };
+  return {
+    pace,
+    frames,
+    draw,
+    ask: () => {
+      pace.ask(draw);
+    },
+  };
+}
+
+let now = 0;
+
+async function pass(milliseconds: number): Promise<void> {
+  for (let ms = 0; ms < milliseconds; ++ms) {
+    now += 1;
+    mock.timers.tick(1);
+    for (let turn = 0; turn < 4; ++turn) await Promise.resolve();
+  }
+}
+
+describe("frames that only refine", () => {
+  beforeEach(() => {
+    mock.timers.enable({ apis: ["setTimeout"] });
+    mock.method(performance, "now", () => now);
+  });
+  afterEach(() => {
+    mock.timers.reset();
+    mock.restoreAll();
+  });
+
+  test("leave a slow GPU two thirds of its time, and lose no change", async () => {
+    const { frames, ask } = renderer(100);
+    for (let ms = 0; ms < 1000; ms += 10) {
+      ask();
+      await pass(10);
+    }
+    assert.ok(frames.length >= 3 && frames.length <= 4, `${frames.length} frames in a second`);
+    frames.slice(1).forEach((at, i) => {
+      assert.ok(at - (frames[i] ?? 0) >= 300);
+    });
+    const before = frames.length;
+    ask();
+    await pass(1000);
+    assert.equal(frames.length, before + 1);
+  });
+
+  test("come as they are asked for where the GPU is quick", async () => {
+    const { frames, ask } = renderer(4);
+    for (let ms = 0; ms < 1000; ms += 20) {
+      ask();
+      await pass(20);
+    }
+    assert.equal(frames.length, 50);
+  });
+
+  test("do not hold back others, which show what they would have shown", async () => {
+    const { frames, ask, draw } = renderer(100);
+    ask();
+    ask(); // waits
+    draw();
+    draw();
+    assert.equal(frames.length, 3);
+    await pass(1000);
+    assert.equal(frames.length, 3);
+  });
+});

@@ -1,0 +1,28 @@
+// The falloff of light (lighting/falloff.ts) in three.js, which gives a light of a
+// place one number for it, `decay`. Here that is the place of the light's
+// `attenuation` in a list of the scene's.
+
+import { ShaderChunk } from "three";
+import { falloff } from "../../lighting/falloff.ts";
+import { replaceEach } from "../vertices/vertexChunk.ts";
+
+const chunk = /* glsl */ `
+#define SCENE_LIGHTS ( NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + 1 )
+uniform vec3 attenuations[SCENE_LIGHTS];
+${falloff}
+float getDistanceAttenuation(const in float lightDistance, const in float radius, const in float number) {
+  return shareAtDistance(lightDistance, radius, attenuations[int(number)]);
+}
+
+float getSpotAttenuation(const in float edgeCosine, const in float beamCosine, const in float cosine) {
+  return shareInCone(edgeCosine, beamCosine, cosine);
+}
+`;
+
+/** In the place of three's own chunk. */
+export const lightsChunk =
+  chunk +
+  replaceEach(ShaderChunk.lights_pars_begin, [
+    ["float getDistanceAttenuation(", "float usualDistanceAttenuation("],
+    ["float getSpotAttenuation(", "float usualSpotAttenuation("],
+  ]);

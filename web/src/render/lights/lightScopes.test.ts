@@ -1,0 +1,71 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { ShaderLib } from "three";
+import { elementsOf } from "../../document/elements.testing.ts";
+import { readScene } from "../../document/readScene.ts";
+import { numberScopes } from "../../navigation/lightScope.ts";
+import { PlacedTree } from "../../navigation/placedTree.ts";
+import { areScoped, scopeLightsIn } from "./lightScopes.ts";
+import type { SceneLightUniforms } from "./sceneLights.ts";
+import { makeLights } from "./sceneLights.ts";
+
+function uniformsOf(markup: string): SceneLightUniforms {
+  const { reach } = new PlacedTree().follow(readScene(elementsOf(`<X3D>${markup}</X3D>`)).root).root;
+  numberScopes(reach.scopes);
+  return makeLights(reach.lights).uniforms;
+}
+
+test("programs of scenes whose lights are global know nothing of scopes", () => {
+  assert.ok(
+    !areScoped(
+      uniformsOf(
+        '<DirectionalLight/><Group><PointLight/><DirectionalLight global="true" ambientIntensity="1"/></Group>',
+      ),
+    ),
+  );
+  assert.ok(areScoped(uniformsOf("<Group><DirectionalLight/></Group>")));
+});
+
+test("lights tell what they reach in the order in which three.js counts them", () => {
+  const { lightReaches, scopedAmbients } = uniformsOf(`<DirectionalLight ambientIntensity="1"/>
+    <Group><DirectionalLight color="1 0.5 0" ambientIntensity="0.5"/><Group><SpotLight global="false"/></Group></Group>
+    <Group><PointLight global="false"/></Group>`);
+  const point = [3, 3],
+    spot = [2, 2],
+    sun = [0, 2 ** 24],
+    ofGroup = [1, 2];
+  assert.deepEqual(
+    lightReaches.value.map((reach) => reach.toArray()),
+    [point, spot, sun, ofGroup, sun, sun],
+  );
+  assert.deepEqual(
+    scopedAmbients.value.map((ambient) => ambient.toArray()),
+    [
+      [0, 0, 0],
+      [0, 0, 0],
+      [0, 0, 0],
+      [0.5, 0.25, 0],
+      [0, 0, 0],
+      [0, 0, 0],
+    ],
+  );
+});
+
+test("three.js' shaders ask for each kind of light, and for ambient light, whether it reaches", () => {
+  const lit = { vertexShader: ShaderLib.phong.vertexShader, fragmentShader: ShaderLib.phong.fragmentShader };
+  scopeLightsIn(lit);
+  const asked = [
+    "UNROLLED_LOOP_INDEX",
+    "NUM_POINT_LIGHTS + UNROLLED_LOOP_INDEX",
+    "NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + UNROLLED_LOOP_INDEX",
+  ];
+  for (const number of asked)
+    assert.ok(lit.fragmentShader.includes(`directLight.color *= shareInScope( ${number} )`), number);
+  assert.ok(lit.fragmentShader.includes("ambientLightColor + ambientInScope()"));
+  const unlit = { vertexShader: ShaderLib.basic.vertexShader, fragmentShader: ShaderLib.basic.fragmentShader };
+  scopeLightsIn(unlit);
+  assert.deepEqual(unlit, {
+    vertexShader: ShaderLib.basic.vertexShader,
+    fragmentShader: ShaderLib.basic.fragmentShader,
+  });
+});

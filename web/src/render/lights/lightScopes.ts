@@ -1,0 +1,73 @@
+// What lights reach (navigation/lightScope.ts) in three.js, which shines on all that
+// is in a scene with every light. Programs test it where a scene has scopes, and
+// know nothing of it elsewhere.
+
+import type { Group, WebGLProgramParametersWithUniforms } from "three";
+import { ShaderChunk } from "three";
+import type { LightScope } from "../../navigation/lightScope.ts";
+import type { SceneLightUniforms } from "./sceneLights.ts";
+import { placesDefine, scopedLightsDefine } from "../batches/instanceChunk.ts";
+import { replaceEach } from "../vertices/vertexChunk.ts";
+
+/** A group in which a shape is drawn. */
+export interface PlaceGroup extends Group {
+  /** The innermost that it is in; undefined where every light shines on it that is global. */
+  lightScope?: LightScope;
+}
+
+export function areScoped({ lightReaches }: SceneLightUniforms): boolean {
+  return lightReaches.value.length > 0;
+}
+
+/** By the numbers of lights that three.js fills in, in the order of `lightReaches`. */
+const fragmentChunk = /* glsl */ `
+#define ${scopedLightsDefine}
+#define ALL_LIGHTS ( NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + NUM_DIR_LIGHTS + 1 )
+uniform vec2 lightReaches[ALL_LIGHTS];
+uniform vec3 scopedAmbients[ALL_LIGHTS];
+#ifdef ${placesDefine}
+  flat varying float placeLightScope;
+  #define scopeOfDraw placeLightScope
+#else
+  uniform float lightScope;
+  #define scopeOfDraw lightScope
+#endif
+
+float shareInScope(int light) {
+  vec2 reach = lightReaches[light];
+  return step(reach.x, scopeOfDraw) * step(scopeOfDraw, reach.y);
+}
+
+vec3 ambientInScope() {
+  vec3 sum = vec3(0.0);
+  for (int light = 0; light < ALL_LIGHTS; ++light) sum += shareInScope(light) * scopedAmbients[light];
+  return sum;
+}
+`;
+
+const lightsInScope = replaceEach(ShaderChunk.lights_fragment_begin, [
+  lit("getPointLightInfo( pointLight, geometryPosition, directLight );", "UNROLLED_LOOP_INDEX"),
+  lit("getSpotLightInfo( spotLight, geometryPosition, directLight );", "NUM_POINT_LIGHTS + UNROLLED_LOOP_INDEX"),
+  lit(
+    "getDirectionalLightInfo( directionalLight, directLight );",
+    "NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + UNROLLED_LOOP_INDEX",
+  ),
+  [
+    "getAmbientLightIrradiance( ambientLightColor )",
+    "getAmbientLightIrradiance( ambientLightColor + ambientInScope() )",
+  ],
+]);
+
+function lit(statement: string, number: string): readonly [string, string] {
+  return [statement, `${statement}\n\t\tdirectLight.color *= shareInScope( ${number} );`];
+}
+
+/** For `onBeforeCompile`. */
+export function scopeLightsIn(
+  shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
+): void {
+  const fragmentShader = replaceEach(shader.fragmentShader, [["#include <lights_fragment_begin>", lightsInScope]]);
+  if (fragmentShader === shader.fragmentShader) return; // unlit
+  shader.fragmentShader = fragmentChunk + fragmentShader;
+  shader.vertexShader = `#define ${scopedLightsDefine}\n${shader.vertexShader}`;
+}

@@ -1,0 +1,111 @@
+// The lights of a scene as three.js has them. They hang beside its groups, not in
+// them: those are passed over when they are out of the view, and lights shine on.
+
+import { AmbientLight, Color, DirectionalLight, Group, PointLight, SpotLight, Vector2, Vector3 } from "three";
+import type { LightDescription } from "../../document/description.ts";
+import { coneOf, scaledFalloff } from "../../lighting/falloff.ts";
+import { lengthScaleOf } from "../../navigation/matrices.ts";
+import type { LightScope } from "../../navigation/lightScope.ts";
+import { everywhere } from "../../navigation/lightScope.ts";
+import type { PlacedLight } from "../../navigation/placement.ts";
+import { setColor } from "../materials/x3dMaterials.ts";
+
+/** What three.js does not know of lights, for all materials that they shine on. */
+export interface SceneLightUniforms {
+  /** Of those that have a place, by the number in their `decay`: see lightFalloff.ts. Never empty. */
+  readonly attenuations: { value: Vector3[] };
+  /**
+   * Of each the numbers of the first scope and of the last that it shines in, and its ambient light if these
+   * are not all: points, spots, directional lights, and at the end one that shines everywhere. Empty where all do.
+   */
+  readonly lightReaches: { value: Vector2[] };
+  readonly scopedAmbients: { value: Vector3[] };
+}
+
+export function makeLightUniforms(): SceneLightUniforms {
+  return {
+    attenuations: { value: [new Vector3(1, 0, 0)] },
+    lightReaches: { value: [] },
+    scopedAmbients: { value: [] },
+  };
+}
+
+export interface SceneLights {
+  readonly root: Group;
+  readonly uniforms: SceneLightUniforms;
+}
+
+export function makeLights(lights: readonly PlacedLight[]): SceneLights {
+  const root = new Group();
+  const uniforms = makeLightUniforms();
+  const attenuations = uniforms.attenuations.value;
+  const ambient = new Color(0, 0, 0);
+  for (const { light: description, sceneFromLight, scope } of lights) {
+    const light = lightOf(description);
+    setColor(light.color, description.color);
+    if (!(light instanceof DirectionalLight) && description.kind !== "directional") {
+      const { radius, attenuation } = scaledFalloff(description, lengthScaleOf(sceneFromLight));
+      light.distance = radius;
+      light.decay = attenuations.length;
+      attenuations.push(new Vector3(...attenuation));
+    }
+    const place = new Group();
+    place.matrixAutoUpdate = false;
+    place.matrix.copy(sceneFromLight);
+    place.add(light);
+    if (!(light instanceof PointLight)) place.add(light.target);
+    root.add(place);
+    if (scope === everywhere) ambient.add(ambientOf(description));
+  }
+  if (ambient.r + ambient.g + ambient.b > 0) root.add(new AmbientLight(ambient));
+  if (lights.some(({ scope }) => scope !== everywhere)) setReaches(uniforms, lights);
+  return { root, uniforms };
+}
+
+function ambientOf({ color, ambientIntensity }: LightDescription): Color {
+  const ambient = new Color();
+  setColor(ambient, color);
+  return ambient.multiplyScalar(ambientIntensity);
+}
+
+/** In the order in which three.js' programs count them; the headlight comes last in its scene, and may be missing. */
+function setReaches({ lightReaches, scopedAmbients }: SceneLightUniforms, lights: readonly PlacedLight[]): void {
+  for (const kind of ["point", "spot", "directional"] as const) {
+    for (const { light, scope } of lights.filter((each) => each.light.kind === kind)) {
+      lightReaches.value.push(intervalOf(scope));
+      scopedAmbients.value.push(new Vector3(...(scope === everywhere ? [0, 0, 0] : ambientOf(light).toArray())));
+    }
+  }
+  // One for the headlight, and one because a list in GLSL cannot be empty.
+  for (let more = 0; more < 2; ++more) {
+    lightReaches.value.push(intervalOf(everywhere));
+    scopedAmbients.value.push(new Vector3());
+  }
+}
+
+const mostScopes = 2 ** 24;
+
+function intervalOf({ value, last }: LightScope): Vector2 {
+  return new Vector2(value, Math.min(last, mostScopes));
+}
+
+function lightOf(description: LightDescription): DirectionalLight | PointLight | SpotLight {
+  if (description.kind === "directional") {
+    const light = new DirectionalLight();
+    light.intensity = description.intensity;
+    // three's light shines from its position to its target.
+    light.position.set(0, 0, 0);
+    light.target.position.set(...description.direction);
+    return light;
+  }
+  const light = description.kind === "point" ? new PointLight() : new SpotLight();
+  light.position.set(...description.location);
+  light.intensity = description.intensity;
+  if (light instanceof SpotLight && description.kind === "spot") {
+    light.target.position.copy(light.position).add(new Vector3(...description.direction));
+    const { edge, beam } = coneOf(description);
+    light.angle = edge;
+    light.penumbra = 1 - beam / edge;
+  }
+  return light;
+}

@@ -1,0 +1,42 @@
+// Letters, from a picture whose alpha is the distance to their edges (Green 2007):
+// sharp however near they are. Seen small, the field blurs them as much as it can,
+// and mipmaps of it do the rest.
+
+import type { Material, WebGLProgramParametersWithUniforms } from "three";
+import type { AppearanceDescription } from "../../document/description.ts";
+import { fieldSpread } from "../../document/letterSheet.ts";
+import { setDefine } from "./defines.ts";
+import { replaceEach } from "../vertices/vertexChunk.ts";
+
+const lettersDefine = "LETTERS";
+
+/** What is not within letters is not there: it hides nothing, and before the picture has come that is all. */
+const lettersChunk = /* glsl */ `
+#include <alphamap_fragment>
+#ifdef ${lettersDefine}
+  #ifdef USE_MAP
+    // The edge is as soft as a pixel is wide; the field rises from 0 to 1 over twice its spread.
+    vec2 texelsOfPixel = fwidth(vMapUv) * vec2(textureSize(map, 0));
+    float softness = clamp(length(texelsOfPixel) * ${(Math.SQRT1_2 / (2 * fieldSpread)).toFixed(6)}, 1e-4, 1.0);
+    float field = texture2D(map, vMapUv).a;
+    float share = clamp((field - 0.5) / softness + 0.5, 0.0, 1.0);
+    if (share == 0.0) discard;
+    diffuseColor.a *= share / field; // which the map has multiplied it by
+  #else
+    if (diffuseColor.a >= 0.0) discard; // always: compilers leave out what nothing reaches, which WebGL does not draw
+  #endif
+#endif
+`;
+
+/** For `onBeforeCompile`; does nothing where the material does not define it. */
+export function cutLettersIn(shader: Pick<WebGLProgramParametersWithUniforms, "fragmentShader">): void {
+  shader.fragmentShader = replaceEach(shader.fragmentShader, [["#include <alphamap_fragment>", lettersChunk]]);
+}
+
+export function hasLetters({ textures }: Pick<AppearanceDescription, "textures">): boolean {
+  return textures.some(({ sampling }) => sampling.isDistanceField);
+}
+
+export function setLetters(material: Material, appearance: Pick<AppearanceDescription, "textures">): void {
+  setDefine(material, lettersDefine, hasLetters(appearance));
+}

@@ -1,0 +1,83 @@
+// What draws look like: in pages as X3D says (materials.ts), in other people's
+// three.js apps as those say (loader/appLook.ts). Where their vertices come from
+// is the same for all.
+
+import type { Material, Texture, Vector2, Vector4 } from "three";
+import type { AppearanceDescription, TextureRole } from "../../document/description.ts";
+import type { DrawRange } from "../../stage/stage.ts";
+import type { DrawnObject } from "../stages/drawnObject.ts";
+import type { SceneLightUniforms } from "../lights/sceneLights.ts";
+import type { VertexForm, VertexUniforms } from "../vertices/vertexChunk.ts";
+
+export interface Look {
+  /** How draws of several shapes go together; undefined: they do not. */
+  readonly batching: Batching | undefined;
+  makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, pictures: ShownPictures): Material;
+  /** Changes a material of this look in place. */
+  applyAppearance(
+    material: Material,
+    appearance: AppearanceDescription,
+    colors: VertexColors,
+    pictures: ShownPictures,
+  ): void;
+  /** Gives an object what it needs besides its material. */
+  prepare(object: DrawnObject, request: MaterialRequest, material: Material): void;
+}
+
+/** What shapes that are drawn together have in common, and what each has of its own. */
+export interface Batching {
+  /** The same for appearances that one material can show. */
+  keyOf(
+    request: Pick<MaterialRequest, "primitive" | "colors">,
+    appearance: AppearanceDescription,
+    pictures: ShownPictures,
+  ): string;
+  /** Drawn in the order of their distance, the farthest first. */
+  isBlended(
+    request: Pick<MaterialRequest, "colors">,
+    appearance: AppearanceDescription,
+    pictures: ShownPictures,
+  ): boolean;
+  /** The rest of an appearance, for the shader: the field `look` of a place's record. */
+  numbersOf(request: Pick<MaterialRequest, "shading" | "colors">, appearance: AppearanceDescription): readonly number[];
+}
+
+/** A texture that is laid over a surface. */
+export interface ShownPicture {
+  readonly texture: Texture;
+  readonly hasAlpha: boolean;
+}
+
+export type ShownPictures = ReadonlyMap<TextureRole, ShownPicture>;
+export const noPictures: ShownPictures = new Map();
+
+/** What is blended with less is not there: it would hide what is drawn after it and lies behind, as a cornea its eye. */
+export const leastAlpha = 1 / 512;
+
+/** Unlit for points and lines, by distance for points that stand in for a surface, flat where there are no normals (yet). */
+export type Shading = "unlit" | "distance" | "flat" | "smooth";
+
+/** What colours the vertices bring: those with alpha blend. */
+export type VertexColors = "none" | "rgb" | "rgba";
+
+/** Uniforms that everything in a scene shares. */
+export interface SceneUniforms extends SceneLightUniforms {
+  /** Device pixels in a CSS pixel. */
+  readonly pixelRatio: { value: number };
+  /** Of what is being drawn, in device pixels: origin and size. Wide lines follow it. */
+  readonly viewport: { value: Vector4 };
+  /** Distances along the view between which the scene lies. */
+  readonly depthRange: { value: Vector2 };
+}
+
+export interface MaterialRequest extends VertexForm {
+  readonly primitive: DrawRange["primitive"];
+  readonly shading: Shading;
+  readonly colors: VertexColors;
+  /** False: both sides are seen. */
+  readonly solid: boolean;
+  /** As valueDefinesOf says it. */
+  readonly valueDefines: Readonly<Record<string, string>>;
+  readonly uniforms: Partial<VertexUniforms>;
+  readonly shared: SceneUniforms;
+}

@@ -1,0 +1,194 @@
+// Colours from an attribute's values. A value is read beside its vertex (from the
+// byte planes of an image, or from a buffer) and looked up in the map of colours for
+// each pixel, so that between two vertices lie the colours of the values between.
+
+import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "three";
+import type { DecodedImage } from "../../stage/decodedImage.ts";
+import type { Stage, ValuePlanes } from "../../stage/stage.ts";
+import { mostMapColors } from "../../document/colorMaps.ts";
+import type { AttributeDescription, ColorMapDescription } from "../../document/description.ts";
+import { toLinearChunk } from "../../lighting/physicalLighting.ts";
+import { placeFields, placesDefine } from "../batches/instanceChunk.ts";
+import { imageVerticesDefine, readVertexStatement, replaceEach, srgbColorsDefine } from "../vertices/vertexChunk.ts";
+import { wideLinesDefine } from "../lines/wideLineChunk.ts";
+
+/** Undefined: none, of what values do not colour. */
+export function colorMapUniformsOf(map: ColorMapDescription | undefined): Record<string, IUniform> {
+  if (map === undefined) return {};
+  const numbers = map.colors.flat();
+  return {
+    mapColors: { value: Array.from({ length: 3 * mostMapColors }, (_, i) => numbers[i] ?? 0) },
+    mapColorCount: { value: map.colors.length },
+    mapRange: { value: map.range },
+  };
+}
+
+/** What a material must define to be coloured by the values of a stage. */
+export function valueDefinesOf(stage: Stage, attribute: AttributeDescription | undefined): Record<string, string> {
+  if (attribute === undefined || stage.value === undefined) return {};
+  return { VALUE_COMPONENTS: `${attribute.components}` };
+}
+
+export function valueUniformsOf(
+  stage: Stage,
+  attribute: AttributeDescription | undefined,
+  textureOf: (image: DecodedImage) => Texture,
+): Record<string, IUniform> {
+  const { value } = stage;
+  if (attribute === undefined || value === undefined) return {};
+  const { min, step } = valueFrameOf(stage, attribute);
+  const images = stage.kind === "textures" && stage.value ? imageUniformsOf(stage.value, textureOf) : {};
+  return { valueMin: { value: min }, valueStep: { value: step }, ...images };
+}
+
+/** What a stored 0 is, and a step, by component: four of each. Without meaning where a stage has no values. */
+export function valueFrameOf(
+  stage: Stage,
+  attribute: AttributeDescription | undefined,
+): { min: readonly number[]; step: readonly number[] } {
+  const { min = [], size = [] } = attribute ?? {};
+  const largest = stage.kind === "buffers" ? stage.value?.largest : 256 ** (stage.value?.planeCount ?? 1) - 1;
+  const four = (values: readonly number[], missing: number) => [0, 1, 2, 3].map((c) => values[c] ?? missing);
+  if (largest === undefined) return { min: four([], 0), step: four([], 1) };
+  return {
+    min: four(min, 0),
+    step: four(
+      size.map((extent) => extent / largest),
+      0,
+    ),
+  };
+}
+
+function imageUniformsOf(
+  { planes, planeCount, middleOfMissing }: ValuePlanes,
+  textureOf: (image: DecodedImage) => Texture,
+): Record<string, IUniform> {
+  const image = (plane: number) => ({ value: planes[plane] ? textureOf(planes[plane].image) : null });
+  return {
+    valueImage0: image(0),
+    valueImage1: image(1),
+    valueImage2: image(2),
+    valueFirstTexels: { value: [0, 1, 2].map((plane) => planes[plane]?.first ?? 0) },
+    valuePlanes: { value: planeCount },
+    middleOfMissingValue: { value: middleOfMissing },
+  };
+}
+
+const vertexChunk = /* glsl */ `
+#ifdef VALUE_COMPONENTS
+
+// 0 and 1 are the ends of the map of colours.
+varying float vMapPlace;
+#ifdef ${placesDefine}
+  #define valueMin placeTexel(${placeFields.valueMin / 4})
+  #define valueStep placeTexel(${placeFields.valueStep / 4})
+  #define mapRange placeTexel(${placeFields.mapRange / 4}).xy
+#else
+  uniform vec4 valueMin, valueStep;
+  uniform vec2 mapRange;
+#endif
+
+#ifdef ${imageVerticesDefine}
+
+uniform sampler2D valueImage0, valueImage1, valueImage2;
+uniform ivec3 valueFirstTexels;
+uniform int valuePlanes;
+uniform float middleOfMissingValue;
+
+uvec4 valueBytes(sampler2D image, int first, int n) {
+  return uvec4(texelOf(image, first, n) * 255.0 + 0.5);
+}
+
+vec4 readValues(int end) {
+  int n = recordTexel(recordNumber(drawnNumber(end)));
+  uvec4 stored = valueBytes(valueImage0, valueFirstTexels.x, n);
+  if (valuePlanes > 1) stored = (stored << 8) | valueBytes(valueImage1, valueFirstTexels.y, n);
+  if (valuePlanes > 2) stored = (stored << 8) | valueBytes(valueImage2, valueFirstTexels.z, n);
+  return valueMin + valueStep * (vec4(stored) + middleOfMissingValue);
+}
+
+#else
+
+attribute vec4 vertexValue;
+#ifdef ${wideLinesDefine}
+  attribute vec4 vertexValueEnd;
+#endif
+
+vec4 readValues(int end) {
+  #ifdef ${wideLinesDefine}
+    if (end == 1) return valueMin + valueStep * vertexValueEnd;
+  #endif
+  return valueMin + valueStep * vertexValue;
+}
+
+#endif
+
+float valueAt(int end) {
+  vec4 values = readValues(end);
+  #if VALUE_COMPONENTS == 1
+    return values.x;
+  #elif VALUE_COMPONENTS == 2
+    return length(values.xy);
+  #elif VALUE_COMPONENTS == 3
+    return length(values.xyz);
+  #else
+    return length(values);
+  #endif
+}
+
+float readValue() {
+  #ifdef ${wideLinesDefine}
+    return mix(valueAt(0), valueAt(1), lineShare);
+  #else
+    return valueAt(0);
+  #endif
+}
+
+float mapPlaceOf(float value) {
+  vec2 range = mapRange;
+  float extent = range.y - range.x;
+  return extent == 0.0 ? 0.0 : (value - range.x) / extent;
+}
+
+#endif
+`;
+
+const fragmentDeclarations = /* glsl */ `
+#ifdef VALUE_COMPONENTS
+  varying float vMapPlace;
+  uniform vec3 mapColors[${mostMapColors}];
+  uniform int mapColorCount;
+
+  vec3 mappedColor() {
+    float at = clamp(vMapPlace, 0.0, 1.0) * float(mapColorCount - 1);
+    int before = min(int(at), mapColorCount - 2);
+    vec3 color = mix(mapColors[before], mapColors[before + 1], at - float(before));
+    #ifdef ${srgbColorsDefine}
+      ${toLinearChunk("color")}
+    #endif
+    return color;
+  }
+#endif
+`;
+
+const fragmentChunk = /* glsl */ `
+#include <color_fragment>
+#ifdef VALUE_COMPONENTS
+  diffuseColor.rgb = mappedColor();
+#endif
+`;
+
+/** For `onBeforeCompile`, behind readVerticesIn and shadeByFarnessIn; does nothing where the material does not define it. */
+export function colorByValueIn(
+  shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
+): void {
+  shader.vertexShader = replaceEach(shader.vertexShader, [
+    ["void main() {", `${vertexChunk}\nvoid main() {`],
+    [
+      readVertexStatement,
+      `${readVertexStatement}\n#ifdef VALUE_COMPONENTS\n  vMapPlace = mapPlaceOf(readValue());\n#endif`,
+    ],
+  ]);
+  shader.fragmentShader =
+    fragmentDeclarations + replaceEach(shader.fragmentShader, [["#include <color_fragment>", fragmentChunk]]);
+}

@@ -1,0 +1,126 @@
+// The textures of X3D 4's materials (ISO/IEC 19775-1:2023, 12.2): each is multiplied
+// by the number beside it, and the normal's turns the surface. Colours in pictures
+// are numbers of the screen: a PhysicalMaterial, which computes with light, makes
+// them linear first. What other textures hold is taken as it is.
+
+import type { MeshBasicMaterial, MeshPhongMaterial, Texture } from "three";
+import type { MaterialDescription } from "../../document/description.ts";
+import { toLinearChunk } from "../../lighting/physicalLighting.ts";
+import { placesDefine } from "../batches/instanceChunk.ts";
+import { setDefine } from "./defines.ts";
+import type { ShownPictures } from "./materialFactory.ts";
+import type { OwnMapRole } from "../vertices/texCoords.ts";
+import { ownMapDeclarations, ownMapDefine, ownMapRoles, ownTexel } from "../vertices/texCoords.ts";
+import { srgbColorsDefine } from "../vertices/vertexChunk.ts";
+
+/** Samplers of maps that three.js has no name for. */
+export type OwnMapUniforms = Readonly<Record<`${OwnMapRole}Map`, { value: Texture | null }>>;
+
+export function makeOwnMapUniforms(): OwnMapUniforms {
+  return { metallicRoughnessMap: { value: null }, ambientMap: { value: null }, shininessMap: { value: null } };
+}
+
+const linear = (color: string) => `
+  #ifdef ${srgbColorsDefine}
+    ${toLinearChunk(color)}
+  #endif`;
+
+const colorChunk = /* glsl */ `
+#ifdef USE_MAP
+  vec4 texel = texture2D(map, vMapUv);
+  ${linear("texel.rgb")}
+  diffuseColor *= texel;
+#endif
+`;
+
+const emissiveChunk = /* glsl */ `
+#ifdef USE_EMISSIVEMAP
+  vec3 emissiveTexel = texture2D(emissiveMap, vEmissiveMapUv).rgb;
+  ${linear("emissiveTexel")}
+  totalEmissiveRadiance *= emissiveTexel;
+#endif
+`;
+
+const occlusionChunk = /* glsl */ `
+#include <aomap_fragment>
+#ifdef USE_AOMAP
+  reflectedLight.indirectSpecular *= ambientOcclusion;
+#endif
+`;
+
+/** Defined where no light changes what is seen. */
+export const unlitDefine = "UNLIT";
+
+/** Fills the `X3dMaterial material` of a fragment. */
+export const materialFromMaps = /* glsl */ `
+#ifdef ${unlitDefine}
+  totalEmissiveRadiance = diffuseColor.rgb;
+  X3dMaterial material = X3dMaterial(vec3(0.0), vec3(0.0), 1.0, vec3(0.0), 0.0, 1.0);
+#elif defined(${placesDefine})
+  X3dMaterial material = X3dMaterial(diffuseColor.rgb, placeSpecular.rgb, placeSpecular.a, vec3(placeEmissive.a), placeSpecular.r, placeSpecular.g);
+#else
+  X3dMaterial material = X3dMaterial(diffuseColor.rgb, specular, shininess, vec3(ambientIntensity), metallic, roughness);
+#endif
+#ifdef USE_SPECULARMAP
+  material.specularColor *= texture2D(specularMap, vSpecularMapUv).rgb;
+#endif
+#ifdef ${ownMapDefine("shininess")}
+  material.shininess *= ${ownTexel("shininess")}.a;
+#endif
+#ifdef ${ownMapDefine("ambient")}
+  material.ambient *= ${ownTexel("ambient")}.rgb;
+#endif
+#ifdef ${ownMapDefine("metallicRoughness")}
+  vec4 metallicRoughnessTexel = ${ownTexel("metallicRoughness")};
+  material.roughness *= metallicRoughnessTexel.g;
+  material.metallic *= metallicRoughnessTexel.b;
+#endif
+`;
+
+export const mapChunks: readonly (readonly [string, string])[] = [
+  ["#include <map_fragment>", colorChunk],
+  ["#include <emissivemap_fragment>", emissiveChunk],
+  ["#include <specularmap_fragment>", "float specularStrength = 1.0;"],
+  ["#include <aomap_fragment>", occlusionChunk],
+];
+
+export { ownMapDeclarations };
+
+type Slot = "map" | "emissiveMap" | "normalMap" | "aoMap" | "specularMap";
+
+/** Gives a material its maps; another program where some have come or gone. */
+export function layPictures(
+  material: MeshPhongMaterial | MeshBasicMaterial,
+  description: MaterialDescription,
+  pictures: ShownPictures,
+  ownMaps: OwnMapUniforms | undefined,
+): void {
+  const textureOf = (role: Parameters<ShownPictures["get"]>[0]) => pictures.get(role)?.texture ?? null;
+  setMap(material, "map", textureOf("color"));
+  if (!("emissiveMap" in material) || ownMaps === undefined) return;
+  setMap(material, "emissiveMap", textureOf("emissive"));
+  setMap(material, "normalMap", textureOf("normal"));
+  setMap(material, "aoMap", textureOf("occlusion"));
+  setMap(material, "specularMap", description.kind === "phong" ? textureOf("specular") : null);
+  if (description.kind !== "unlit") {
+    material.normalScale.set(description.normalScale, description.normalScale);
+    material.aoMapIntensity = description.occlusionStrength;
+  }
+  for (const role of ownMapRoles) setOwnMap(material, role, textureOf(role), ownMaps);
+}
+
+function setMap(material: MeshPhongMaterial | MeshBasicMaterial, slot: Slot, texture: Texture | null): void {
+  const maps = material as Record<Slot, Texture | null>;
+  if ((maps[slot] === null) !== (texture === null)) material.needsUpdate = true;
+  maps[slot] = texture;
+}
+
+function setOwnMap(
+  material: MeshPhongMaterial,
+  role: OwnMapRole,
+  texture: Texture | null,
+  uniforms: OwnMapUniforms,
+): void {
+  uniforms[`${role}Map`].value = texture;
+  setDefine(material, ownMapDefine(role), texture !== null);
+}

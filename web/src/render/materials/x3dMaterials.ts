@@ -1,0 +1,227 @@
+// Materials of X3D in three.js. (three.js by default lights in linear space and
+// divides by pi; hence a chunk of our own, lighting/x3dLighting.ts, and
+// `outputColorSpace` linear in the renderer.)
+
+import type { Color, Material } from "three";
+import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshPhongMaterial } from "three";
+import type { AppearanceDescription, MaterialDescription, Vec3 } from "../../document/description.ts";
+import type { LitNumbers } from "../../lighting/materialNumbers.ts";
+import { isBlended, litNumbersOf, opacityOf, unlitColorOf } from "../../lighting/materialNumbers.ts";
+import { physicalDefine, physicalOutput } from "../../lighting/physicalLighting.ts";
+import { x3dLighting } from "../../lighting/x3dLighting.ts";
+import { placeColors } from "../batches/instanceChunk.ts";
+import { farnessDefine, shadeByFarnessIn } from "./depthShading.ts";
+import { lightsChunk } from "../lights/lightFalloff.ts";
+import { areScoped, scopeLightsIn } from "../lights/lightScopes.ts";
+import { cutLettersIn, setLetters } from "./glyphField.ts";
+import { leastAlpha } from "./materialFactory.ts";
+import type { Look, MaterialRequest, Shading, ShownPictures, VertexColors } from "./materialFactory.ts";
+import { primitiveDefinesOf, shapePointsIn } from "../points/roundPoints.ts";
+import { colorByValueIn } from "./valueColors.ts";
+import { readVerticesIn, replaceEach, srgbColorsDefine, vertexDefinesOf } from "../vertices/vertexChunk.ts";
+import { followViewport } from "../lines/wideLineChunk.ts";
+import { isLine } from "../lines/wideLines.ts";
+import type { OwnMapUniforms } from "./x3dMaps.ts";
+import {
+  layPictures,
+  makeOwnMapUniforms,
+  mapChunks,
+  materialFromMaps,
+  ownMapDeclarations,
+  unlitDefine,
+} from "./x3dMaps.ts";
+
+const x3dLightingChunk = /* glsl */ `
+varying vec3 vViewPosition;
+uniform float ambientIntensity;
+uniform float metallic;
+uniform float roughness;
+${x3dLighting}
+#define RE_Direct directX3d
+#define RE_IndirectDiffuse ambientX3d
+`;
+
+/** Uniforms of a lit material. */
+interface LitUniforms extends OwnMapUniforms {
+  readonly ambientIntensity: { value: number };
+  readonly metallic: { value: number };
+  readonly roughness: { value: number };
+}
+
+type LitMaterial = MeshPhongMaterial & { userData: { lit?: LitUniforms } };
+type PatchMaterial = LitMaterial | MeshBasicMaterial;
+
+/** Pages look as X3D says. */
+export const x3dLook: Look = {
+  makeMaterial,
+  applyAppearance,
+  prepare: () => undefined,
+  batching: { keyOf, numbersOf, isBlended: ({ colors }, appearance, pictures) => blends(appearance, colors, pictures) },
+};
+
+function makeMaterial(
+  request: MaterialRequest,
+  appearance: AppearanceDescription,
+  pictures: ShownPictures,
+): PatchMaterial {
+  const { shading, colors, solid, uniforms, shared } = request;
+  const lit: LitUniforms = {
+    ambientIntensity: { value: 0 },
+    metallic: { value: 1 },
+    roughness: { value: 1 },
+    ...makeOwnMapUniforms(),
+  };
+  const material: PatchMaterial = isUnlit(shading)
+    ? new MeshBasicMaterial()
+    : new MeshPhongMaterial({ flatShading: shading === "flat" });
+  material.side = solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
+  if (request.wideLineStep > 0) followViewport(material, shared.viewport);
+  material.vertexColors = colors !== "none";
+  material.defines = {
+    ...vertexDefinesOf(request, shading === "smooth"),
+    ...primitiveDefinesOf(request.primitive),
+    ...request.valueDefines,
+    ...(shading === "distance" && { [farnessDefine]: "" }),
+  };
+  material.userData.lit = lit;
+  material.onBeforeCompile = (shader) => {
+    const { depthRange, attenuations, lightReaches, scopedAmbients } = shared;
+    Object.assign(shader.uniforms, uniforms, { depthRange, attenuations, lightReaches, scopedAmbients, ...lit });
+    readVerticesIn(shader);
+    shapePointsIn(shader);
+    shadeByFarnessIn(shader);
+    colorByValueIn(shader);
+    cutLettersIn(shader);
+    shader.fragmentShader =
+      ownMapDeclarations +
+      replaceEach(shader.fragmentShader, [
+        ["#include <lights_pars_begin>", lightsChunk],
+        ["#include <lights_phong_pars_fragment>", x3dLightingChunk],
+        ["#include <lights_phong_fragment>", materialFromMaps],
+        ["#include <colorspace_fragment>", physicalOutput],
+        ...mapChunks,
+        ...placeColors,
+      ]);
+    if (areScoped(shared)) scopeLightsIn(shader);
+  };
+  // The text of `onBeforeCompile` is the same for all, so programs are shared as they should be.
+  material.customProgramCacheKey = () => (areScoped(shared) ? "imgeo, scoped lights" : "imgeo");
+  applyAppearance(material, appearance, colors, pictures);
+  return material;
+}
+
+/** A texture is multiplied by what is there (X3D 4). */
+function applyAppearance(
+  material: Material,
+  appearance: AppearanceDescription,
+  colors: VertexColors,
+  pictures: ShownPictures,
+): void {
+  const description = appearance.material;
+  const shown = material as PatchMaterial;
+  const isLit = shown instanceof MeshPhongMaterial;
+  if (isLit) applyLit(shown, description, litNumbersOf(description, colors !== "none"));
+  else setColor(shown.color, unlitColorOf(description, colors !== "none"));
+  material.opacity = opacityOf(appearance);
+  layPictures(shown, description, pictures, isLit ? shown.userData.lit : undefined);
+  setLetters(material, appearance);
+  const isTransparent = blends(appearance, colors, pictures);
+  if (material.transparent !== isTransparent) material.needsUpdate = true;
+  material.transparent = isTransparent;
+  material.alphaTest = isTransparent ? leastAlpha : alphaTestOf(appearance);
+}
+
+function blends(appearance: AppearanceDescription, colors: VertexColors, pictures: ShownPictures): boolean {
+  return isBlended(appearance, colors === "rgba" || pictures.get("color")?.hasAlpha === true);
+}
+
+function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number {
+  return mode === "MASK" ? cutoff : 0;
+}
+
+function keyOf(
+  { primitive, colors }: Pick<MaterialRequest, "primitive" | "colors">,
+  appearance: AppearanceDescription,
+  pictures: ShownPictures,
+): string {
+  const { material, points, lines, colorMap, ...rest } = appearance;
+  const others = Object.entries(material).filter(([name]) => !numbersOfPlaces.has(name));
+  return JSON.stringify([
+    blends(appearance, colors, pictures),
+    rest,
+    others,
+    Array.from(pictures, ([role, { texture }]) => [role, texture.uuid]).sort(),
+    primitive === "points" && points,
+    isLine({ primitive }) && lines?.dashes,
+    colorMap?.colors,
+  ]);
+}
+
+/** What of a material `numbersOf` tells. */
+const numbersOfPlaces = new Set([
+  "diffuseColor",
+  "baseColor",
+  "specularColor",
+  "shininess",
+  "emissiveColor",
+  "ambientIntensity",
+  "metallic",
+  "roughness",
+  "transparency",
+]);
+
+function numbersOf(
+  { shading, colors }: { shading: Shading; colors: VertexColors },
+  appearance: AppearanceDescription,
+): readonly number[] {
+  const { material, colorMap: { range } = { range: [0, 1] }, lines: { width } = { width: 0 } } = appearance;
+  const opacity = opacityOf(appearance);
+  if (isUnlit(shading))
+    return [...unlitColorOf(material, colors !== "none"), opacity, 0, 0, 0, 0, 0, 0, 0, 0, ...range, width];
+  const { color, specular, shininess, ambientIntensity, metallic, roughness } = litNumbersOf(
+    material,
+    colors !== "none",
+  );
+  const gloss = material.kind === "physical" ? [metallic, roughness, 0, 0] : [...specular, shininess];
+  return [...color, opacity, ...gloss, ...material.emissiveColor, ambientIntensity, ...range, width];
+}
+
+function isUnlit(shading: Shading): boolean {
+  return shading === "unlit" || shading === "distance";
+}
+
+function applyLit(material: LitMaterial, description: MaterialDescription, numbers: LitNumbers): void {
+  setKind(material, description.kind);
+  const { lit } = material.userData;
+  setColor(material.color, numbers.color);
+  setColor(material.specular, numbers.specular);
+  material.shininess = numbers.shininess;
+  setColor(material.emissive, description.emissiveColor);
+  if (lit === undefined) return;
+  lit.ambientIntensity.value = numbers.ambientIntensity;
+  lit.metallic.value = numbers.metallic;
+  lit.roughness.value = numbers.roughness;
+}
+
+/** What a material of a kind defines. */
+const kindDefines: Readonly<Record<MaterialDescription["kind"], readonly string[]>> = {
+  phong: [],
+  physical: [physicalDefine, srgbColorsDefine],
+  unlit: [unlitDefine],
+};
+const allKindDefines = Object.values(kindDefines).flat();
+
+/** Another program where the kind has changed. */
+function setKind(material: LitMaterial, kind: MaterialDescription["kind"]): void {
+  const defines = material.defines ?? {};
+  const wanted = kindDefines[kind];
+  if (allKindDefines.every((name) => wanted.includes(name) === name in defines)) return;
+  const others = Object.entries(defines).filter(([name]) => !allKindDefines.includes(name));
+  material.defines = { ...Object.fromEntries(others), ...Object.fromEntries(wanted.map((name) => [name, ""])) };
+  material.needsUpdate = true;
+}
+
+export function setColor(color: Color, [red, green, blue]: Vec3): void {
+  // three's working space is linear, so this keeps the numbers as they are.
+  color.setRGB(red, green, blue, LinearSRGBColorSpace);
+}

@@ -1,0 +1,167 @@
+// Looks around for somebody who walks: one picture straight down from the eye and
+// four around it at its level, a row of pixels each, all into one small target. They
+// are drawn by the picking pass, whose vertices are those that are seen, and read
+// when the GPU is done; JavaScript has no copy of them to ask.
+
+import type { WebGLRenderer, WebGLRenderTarget } from "three";
+import { Camera, Matrix4, Quaternion, Scene, Vector3 } from "three";
+import type { Lookout, Surroundings } from "../../navigation/surroundings.ts";
+import { cornersOf } from "./pickDraw.ts";
+import type { PickCandidate } from "./picker.ts";
+import { candidatesSeenBy, makePickTarget } from "./picker.ts";
+import { pickedWords } from "./pickMaterial.ts";
+import { readSoon } from "./pixelReadback.ts";
+
+/** Along an edge of the map of heights. */
+const floorCells = 48;
+/** In each of the four directions. */
+const wallRays = 128;
+const directions = 4;
+const wordsPerPixel = 4;
+
+/** A block of the target, and the camera that fills it. */
+interface Shot {
+  readonly camera: Camera;
+  readonly x: number;
+  readonly y: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+export class Surveyor {
+  readonly #renderer: WebGLRenderer;
+  readonly #scene = new Scene();
+  #target: WebGLRenderTarget | undefined;
+  #isBusy = false;
+
+  constructor(renderer: WebGLRenderer) {
+    this.#renderer = renderer;
+    this.#scene.matrixWorldAutoUpdate = false;
+  }
+
+  /** One look at a time. */
+  get isBusy(): boolean {
+    return this.#isBusy;
+  }
+
+  /** `depth` is how far below the eye the scene may go on. Undefined where the context is lost on the way. */
+  async look(lookout: Lookout, depth: number, candidates: readonly PickCandidate[]): Promise<Surroundings | undefined> {
+    this.#isBusy = true;
+    try {
+      const nearest = lookout.reach * 1e-3;
+      const farthest = lookout.reach * 2;
+      const down = downwards(lookout, depth);
+      const around = Array.from({ length: directions }, (_, turn) => sideways(lookout, turn, nearest, farthest));
+      const surfaces = candidates.filter(({ pick }) => cornersOf(pick.range) === 3);
+      for (const shot of [down, ...around]) this.#take(shot, surfaces);
+      const gl = this.#renderer.getContext() as WebGL2RenderingContext;
+      const reading = readSoon(
+        gl,
+        [down, ...around].map((shot) => ({ ...shot, attachment: 0 })),
+      );
+      this.#renderer.setRenderTarget(null);
+      const words = await reading;
+      if (gl.isContextLost()) return undefined;
+      const depths = depthsIn(words);
+      return {
+        floor: { cells: floorCells, heights: heightsOf(depths.subarray(0, floorCells ** 2), depth) },
+        walls: wallsOf(depths.subarray(floorCells ** 2), nearest, farthest),
+      };
+    } finally {
+      this.#isBusy = false;
+    }
+  }
+
+  dispose(): void {
+    this.#target?.dispose();
+    this.#target = undefined;
+  }
+
+  /** Leaves the target bound. */
+  #take({ camera, x, y, width, height }: Shot, surfaces: readonly PickCandidate[]): void {
+    const target = (this.#target ??= makePickTarget(wallRays, floorCells + directions));
+    target.viewport.set(x, y, width, height);
+    target.scissor.copy(target.viewport);
+    target.scissorTest = true;
+    this.#scene.children = candidatesSeenBy(camera, surfaces).map(({ pick, worldFromStored }) =>
+      pick.objectFor(1, worldFromStored),
+    );
+    this.#renderer.setRenderTarget(target);
+    this.#renderer.render(this.#scene, camera);
+    this.#scene.children = [];
+  }
+}
+
+function downwards({ eye, orientation, reach }: Lookout, depth: number): Shot {
+  const projection = new Matrix4().makeOrthographic(-reach, reach, reach, -reach, 0, depth);
+  const towardsFeet = new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), -Math.PI / 2);
+  return {
+    camera: cameraAt(eye, orientation.clone().multiply(towardsFeet), projection),
+    x: 0,
+    y: 0,
+    width: floorCells,
+    height: floorCells,
+  };
+}
+
+/** A quarter of all directions, as narrow as pixels are, from -z on to the left. */
+function sideways({ eye, orientation }: Lookout, turn: number, nearest: number, farthest: number): Shot {
+  const half = nearest / wallRays;
+  const projection = new Matrix4().makePerspective(-nearest, nearest, half, -half, nearest, farthest);
+  return {
+    camera: cameraAt(eye, orientation.clone().multiply(quarterTurns(turn)), projection),
+    x: 0,
+    y: floorCells + turn,
+    width: wallRays,
+    height: 1,
+  };
+}
+
+function quarterTurns(turn: number): Quaternion {
+  return new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), (turn * Math.PI) / 2);
+}
+
+function cameraAt(eye: Vector3, orientation: Quaternion, projection: Matrix4): Camera {
+  const camera = new Camera();
+  camera.position.copy(eye);
+  camera.quaternion.copy(orientation);
+  camera.projectionMatrix.copy(projection);
+  camera.projectionMatrixInverse.copy(projection).invert();
+  camera.updateMatrixWorld();
+  return camera;
+}
+
+/** 0 … 1, Infinity where nothing is. */
+function depthsIn(words: Uint32Array): Float32Array {
+  const floats = new Float32Array(words.buffer);
+  return Float32Array.from({ length: words.length / wordsPerPixel }, (_, pixel) => {
+    const first = pixel * wordsPerPixel;
+    return words[first + pickedWords.drawNumber] === 0 ? Infinity : (floats[first + pickedWords.depth] ?? Infinity);
+  });
+}
+
+/** The picture's top, its last row, is where -z is: the first row of the map. */
+function heightsOf(depths: Float32Array, depth: number): Float32Array {
+  const heights = new Float32Array(depths.length);
+  for (let row = 0; row < floorCells; ++row) {
+    const line = depths.subarray((floorCells - 1 - row) * floorCells, (floorCells - row) * floorCells);
+    line.forEach((share, column) => {
+      heights[row * floorCells + column] = -share * depth;
+    });
+  }
+  return heights;
+}
+
+/** Places (x, z) in the frame of the lookout. */
+function wallsOf(depths: Float32Array, nearest: number, farthest: number): Float32Array {
+  const places: number[] = [];
+  const place = new Vector3();
+  depths.forEach((share, pixel) => {
+    if (share === Infinity) return;
+    const ahead = (nearest * farthest) / (farthest - share * (farthest - nearest));
+    const aside = (2 * (pixel % wallRays) + 1) / wallRays - 1;
+    place.set(aside * ahead, 0, -ahead).applyQuaternion(quarterTurns(Math.floor(pixel / wallRays)));
+    places.push(place.x, place.z);
+  });
+  return Float32Array.from(places);
+}

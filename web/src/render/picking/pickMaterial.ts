@@ -1,0 +1,209 @@
+// What the picking pass draws: instead of a colour, each pixel gets the draw it
+// shows, the primitive and vertex of it, and the point and normal there. Vertices
+// come from the same chunk as in every other pass, so that what is hit is what is
+// seen.
+//
+// Four targets of 32-bit unsigned integers, which every WebGL 2 can draw into;
+// floats pass through as their bits.
+
+import type { Side, Texture } from "three";
+import { GLSL3, ShaderMaterial } from "three";
+import type { DrawRange } from "../../stage/stage.ts";
+import type { AppearanceDescription } from "../../document/description.ts";
+import { primitiveDefinesOf, shapePointsIn } from "../points/roundPoints.ts";
+import { alphaMaskDefine, alphaMaskVarying } from "../vertices/texCoords.ts";
+import type { VertexForm, VertexUniforms } from "../vertices/vertexChunk.ts";
+import { imageVerticesDefine, readVerticesIn, vertexDefinesOf } from "../vertices/vertexChunk.ts";
+import { followViewport, wideLinesDefine } from "../lines/wideLineChunk.ts";
+import { isLine } from "../lines/wideLines.ts";
+
+/**
+ * Where in a pixel's words each field begins. Normals are zero where there is
+ * none; the three words of a vertex of the face stand in what the others leave.
+ */
+export const pickedWords = {
+  drawNumber: 0,
+  element: 1,
+  vertex: 2,
+  depth: 3,
+  position: 4,
+  normal: 8,
+  faceNormal: 12,
+  facePoint: [7, 11, 15],
+} as const;
+export const pickedTargets = 4;
+
+/** Where alpha is too little, nothing is hit. */
+const alphaCutoffDefine = "HAS_ALPHA_CUTOFF";
+
+const vertexShader = /* glsl */ `
+#include <common>
+uniform bool hasNormals;
+varying vec3 vPosition;
+varying vec3 vNormal;
+flat varying int element;
+flat varying ivec3 cornerVertices;
+flat varying vec3 facePoint;
+flat varying vec3 faceNormal;
+varying vec3 cornerWeights;
+#ifdef ${alphaMaskDefine}
+  varying vec2 ${alphaMaskVarying};
+#endif
+#ifdef USE_COLOR_ALPHA
+  varying float vertexAlpha;
+#endif
+
+void main() {
+  #include <uv_vertex>
+  #include <beginnormal_vertex>
+  #include <begin_vertex>
+  #include <project_vertex>
+  #ifdef USE_COLOR_ALPHA
+    vertexAlpha = vertex.color.a;
+  #endif
+  vPosition = transformed;
+  vNormal = hasNormals ? objectNormal / max(length(objectNormal), 1e-30) : vec3(0.0); // as materials do before they interpolate
+  // Of vertices behind an index buffer, WebGL tells the shader no more than the
+  // number of the primitive's last one; picking.ts finds the rest.
+  element = gl_VertexID;
+  cornerVertices = ivec3(gl_VertexID);
+  cornerWeights = vec3(1.0, 0.0, 0.0);
+  #ifdef ${wideLinesDefine}
+    element = gl_InstanceID;
+    cornerWeights = vec3(1.0 - lineShare, lineShare, 0.0);
+  #endif
+  facePoint = transformed;
+  faceNormal = vec3(0.0);
+  #ifdef ${imageVerticesDefine}
+    #if defined(${wideLinesDefine})
+      cornerVertices.xy = ivec2(recordNumber(drawnNumber(0)), recordNumber(drawnNumber(1)));
+    #elif defined(IS_LINE_STRIP)
+      // A vertex ends one line and begins the next, so even numbers are one corner
+      // and odd ones the other; of flat values the line's last vertex counts.
+      element = gl_VertexID - 1;
+      int other = recordNumber(max(element, 0));
+      bool isEven = (gl_VertexID & 1) == 0;
+      cornerVertices.xy = isEven ? ivec2(recordNumber(gl_VertexID), other) : ivec2(other, recordNumber(gl_VertexID));
+      cornerWeights = isEven ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    #else
+      element = gl_VertexID / PRIMITIVE_CORNERS;
+      int firstCorner = element * PRIMITIVE_CORNERS;
+      for (int corner = 0; corner < PRIMITIVE_CORNERS; ++corner) {
+        cornerVertices[corner] = recordNumber(firstCorner + corner);
+        cornerWeights[corner] = gl_VertexID == firstCorner + corner ? 1.0 : 0.0;
+      }
+    #endif
+    #if PRIMITIVE_CORNERS == 3
+      facePoint = storedPosition(cornerVertices.x);
+      faceNormal = cross(storedPosition(cornerVertices.y) - facePoint, storedPosition(cornerVertices.z) - facePoint);
+    #endif
+  #endif
+}
+`;
+
+const fragmentShader = /* glsl */ `
+uniform uint drawNumber;
+varying vec3 vPosition;
+varying vec3 vNormal;
+flat varying int element;
+flat varying ivec3 cornerVertices;
+flat varying vec3 facePoint;
+flat varying vec3 faceNormal;
+varying vec3 cornerWeights;
+layout(location = 0) out uvec4 what;
+layout(location = 1) out uvec4 where;
+layout(location = 2) out uvec4 shadedNormal;
+layout(location = 3) out uvec4 planeNormal;
+#ifdef ${alphaCutoffDefine}
+  uniform vec2 alphaFactorAndCutoff;
+#endif
+#ifdef ${alphaMaskDefine}
+  uniform sampler2D alphaMask;
+  varying vec2 ${alphaMaskVarying};
+#endif
+#ifdef USE_COLOR_ALPHA
+  varying float vertexAlpha;
+#endif
+
+void main() {
+  #ifdef ${alphaCutoffDefine}
+    float alpha = alphaFactorAndCutoff.x;
+    #ifdef ${alphaMaskDefine}
+      alpha *= texture(alphaMask, ${alphaMaskVarying}).a;
+    #endif
+    #ifdef USE_COLOR_ALPHA
+      alpha *= vertexAlpha;
+    #endif
+    if (alpha < alphaFactorAndCutoff.y) discard;
+  #endif
+  vec3 w = cornerWeights;
+  int nearest = w.x >= w.y && w.x >= w.z ? cornerVertices.x : w.y >= w.z ? cornerVertices.y : cornerVertices.z;
+  vec3 normal = gl_FrontFacing || PRIMITIVE_CORNERS != 3 ? vNormal : -vNormal;
+  what = uvec4(drawNumber, uint(element), uint(nearest), floatBitsToUint(gl_FragCoord.z));
+  uvec3 point = floatBitsToUint(facePoint);
+  where = uvec4(floatBitsToUint(vPosition), point.x);
+  shadedNormal = uvec4(floatBitsToUint(normal), point.y);
+  planeNormal = uvec4(floatBitsToUint(faceNormal), point.z);
+}
+`;
+
+export interface PickMaterialRequest extends VertexForm {
+  readonly primitive: DrawRange["primitive"];
+  readonly side: Side;
+  readonly hasNormals: boolean;
+  readonly alphaMask: AlphaMask | undefined;
+  /** Shared with the material that draws the colours. */
+  readonly uniforms: VertexUniforms;
+}
+
+export type PickMaterial = ShaderMaterial & { uniforms: { drawNumber: { value: number } } };
+
+/** Where what is drawn has holes: alpha below the cutoff. */
+export interface AlphaMask {
+  readonly texture: Texture | undefined;
+  /** Whether the vertices' colours have alpha. */
+  readonly isOfVertices: boolean;
+  /** Multiplies the others. */
+  readonly factor: number;
+  readonly cutoff: number;
+}
+
+export function alphaMaskOf(
+  { alpha: { mode, cutoff }, material: { transparency } }: AppearanceDescription,
+  texture: Texture | undefined,
+  isOfVertices: boolean,
+): AlphaMask | undefined {
+  return mode === "MASK" ? { texture, isOfVertices, factor: 1 - transparency, cutoff } : undefined;
+}
+
+export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
+  const { primitive, side, hasNormals, alphaMask, uniforms } = request;
+  const shader = { vertexShader, fragmentShader };
+  readVerticesIn(shader);
+  shapePointsIn(shader);
+  const material = new ShaderMaterial({
+    ...shader,
+    side,
+    glslVersion: GLSL3,
+    defines: {
+      PRIMITIVE_CORNERS: primitive === "points" ? 1 : isLine(request) ? 2 : 3,
+      ...(primitive === "lineStrip" && { IS_LINE_STRIP: "" }),
+      ...vertexDefinesOf(request, hasNormals),
+      ...primitiveDefinesOf(primitive),
+      ...(alphaMask && { [alphaCutoffDefine]: "" }),
+      ...(alphaMask?.texture && { [alphaMaskDefine]: "" }),
+      ...(alphaMask?.isOfVertices === true && { USE_COLOR_ALPHA: "" }),
+    },
+    uniforms: {
+      ...uniforms,
+      drawNumber: { value: 0 },
+      hasNormals: { value: hasNormals },
+      ...(alphaMask && {
+        alphaMask: { value: alphaMask.texture ?? null },
+        alphaFactorAndCutoff: { value: [alphaMask.factor, alphaMask.cutoff] },
+      }),
+    },
+  }) as PickMaterial;
+  if (request.wideLineStep > 0) followViewport(material, uniforms.viewport);
+  return material;
+}

@@ -1,0 +1,248 @@
+// What lies under a point of the picture: a pass into a target of one pixel,
+// through the same matrices and viewport as the picture's own, so that the pixel
+// is covered exactly as it is on the screen.
+
+import type { Camera, Group, WebGLRenderer } from "three";
+import {
+  Matrix3,
+  Matrix4,
+  NearestFilter,
+  PerspectiveCamera,
+  Ray,
+  RGBAIntegerFormat,
+  Scene,
+  Sphere,
+  UnsignedIntType,
+  Vector3,
+  WebGLRenderTarget,
+} from "three";
+import type { SceneElement } from "../../document/element.ts";
+import type { PickDraw } from "./pickDraw.ts";
+import { cornersOf } from "./pickDraw.ts";
+import type { Face } from "./pickedPrimitive.ts";
+import { faceOf, nearestVertex, primitiveAt, primitiveEndingAt, primitiveIn } from "./pickedPrimitive.ts";
+import { pickedTargets, pickedWords } from "./pickMaterial.ts";
+import { readPixel, readPixelSoon } from "./pixelReadback.ts";
+import { frustumOf } from "../frames/viewFrustum.ts";
+
+/** What was hit, in the scene's coordinates. */
+export interface Hit {
+  /** The page's, of the shape. */
+  readonly element: SceneElement;
+  /** Of the shape, in the place that was hit. */
+  readonly group: Group;
+  readonly patch: number;
+  /** Of the patch's triangles in the order of its draws; in a strip each further element makes one. Undefined for points, lines and bases. */
+  readonly triangle: number | undefined;
+  /** Record number, in the patch, of the primitive's vertex that is nearest to the place; -1 in a base. */
+  readonly vertex: number;
+  readonly position: Vector3;
+  /** Of length 1, as it is shaded, on the side that is seen; undefined for points and lines without normals. */
+  readonly normal: Vector3 | undefined;
+}
+
+export interface PickCandidate {
+  readonly element: SceneElement;
+  readonly patch: number;
+  /** Of the shape, in one of its places. */
+  readonly group: Group;
+  readonly pick: PickDraw;
+}
+
+/** With its place among all. */
+export interface NearCandidate extends PickCandidate {
+  readonly worldFromStored: Matrix4;
+}
+
+/** A pixel of a picture, in device pixels from its top left. */
+export interface Place {
+  readonly x: number;
+  readonly y: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+export class Picker {
+  readonly #renderer: WebGLRenderer;
+  readonly #scene = new Scene();
+  #target: WebGLRenderTarget | undefined;
+  /** The one whose buffers' contents are kept. */
+  #lastHit: PickDraw | undefined;
+
+  constructor(renderer: WebGLRenderer) {
+    this.#renderer = renderer;
+    this.#scene.matrixWorldAutoUpdate = false;
+  }
+
+  /** Waits for the GPU: for clicks. */
+  pick(camera: PerspectiveCamera, place: Place, slack: number, candidates: Iterable<PickCandidate>): Hit | undefined {
+    const near = candidatesNear(camera, place, slack, candidates);
+    if (near.length === 0) return undefined;
+    this.#draw(camera, place, near);
+    const words = readPixel(this.#gl, pickedTargets);
+    this.#renderer.setRenderTarget(null);
+    return this.#hitOf(words, camera, place, near);
+  }
+
+  /** Costs no frame: what the GPU finds is fetched when it is done. "stale" where the scene has moved on by then. */
+  async pickSoon(
+    camera: PerspectiveCamera,
+    place: Place,
+    slack: number,
+    candidates: Iterable<PickCandidate>,
+  ): Promise<Hit | "stale" | undefined> {
+    const near = candidatesNear(camera, place, slack, candidates);
+    if (near.length === 0) return undefined;
+    this.#draw(camera, place, near);
+    const reading = readPixelSoon(this.#gl, pickedTargets);
+    this.#renderer.setRenderTarget(null);
+    const seenBy = new PerspectiveCamera().copy(camera, false); // it may move while we wait
+    const words = await reading;
+    const hit = near[(words[pickedWords.drawNumber] ?? 0) - 1];
+    return hit?.pick.isDisposed === true ? "stale" : this.#hitOf(words, seenBy, place, near);
+  }
+
+  dispose(): void {
+    this.#target?.dispose();
+    this.#target = undefined;
+  }
+
+  get #gl(): WebGL2RenderingContext {
+    return this.#renderer.getContext() as WebGL2RenderingContext;
+  }
+
+  /** Leaves the target bound. */
+  #draw(camera: PerspectiveCamera, { x, y, width, height }: Place, candidates: readonly NearCandidate[]): void {
+    this.#target ??= makePickTarget();
+    // The picture's viewport, pushed so far that the wanted pixel is the target's only one.
+    this.#target.viewport.set(-x, y - height + 1, width, height);
+    this.#scene.children = candidates.map(({ pick, worldFromStored }, place) =>
+      pick.objectFor(place + 1, worldFromStored),
+    );
+    this.#renderer.setRenderTarget(this.#target);
+    this.#renderer.render(this.#scene, camera);
+    this.#scene.children = [];
+  }
+
+  #hitOf(
+    words: Uint32Array,
+    camera: PerspectiveCamera,
+    place: Place,
+    candidates: readonly NearCandidate[],
+  ): Hit | undefined {
+    const candidate = candidates[(words[pickedWords.drawNumber] ?? 0) - 1];
+    if (candidate === undefined) return undefined;
+    const { element, group, patch, pick, worldFromStored } = candidate;
+    const floats = new Float32Array(words.buffer);
+    const stored = new Vector3().fromArray(floats, pickedWords.position);
+    const { number, vertex, face } = this.#primitiveOf(words, pick, stored);
+    const faceNormal = worldNormalOf(face.normal, worldFromStored);
+    const ray = rayThrough(camera, place);
+    // A face is seen from its front, or from behind as if that were its front.
+    if (faceNormal !== undefined && faceNormal.dot(ray.direction) > 0) faceNormal.negate();
+    const onFace = faceNormal && intersection(ray, face.point.clone().applyMatrix4(worldFromStored), faceNormal);
+    return {
+      element,
+      group,
+      patch,
+      vertex: pick.isStandIn ? -1 : vertex,
+      triangle: cornersOf(pick.range) === 3 && !pick.isStandIn ? pick.trianglesBefore + number : undefined,
+      position: onFace ?? stored.applyMatrix4(worldFromStored),
+      normal: worldNormalOf(new Vector3().fromArray(floats, pickedWords.normal), worldFromStored) ?? faceNormal,
+    };
+  }
+
+  #primitiveOf(words: Uint32Array, pick: PickDraw, point: Vector3): { number: number; vertex: number; face: Face } {
+    const number = words[pickedWords.element] ?? 0;
+    const vertex = words[pickedWords.vertex] ?? 0;
+    const floats = new Float32Array(words.buffer);
+    const face = {
+      point: new Vector3(...pickedWords.facePoint.map((place) => floats[place] ?? 0)),
+      normal: new Vector3().fromArray(floats, pickedWords.faceNormal),
+    };
+    if (!pick.hasContents || pick.range.primitive === "points") return { number, vertex, face };
+    if (this.#lastHit !== pick) this.#lastHit?.forget();
+    this.#lastHit = pick;
+    const contents = pick.contents();
+    if (contents === undefined) return { number: 0, vertex, face };
+    const { coord, index, coordStride, coordOffset } = contents;
+    const positionOf = (n: number) => new Vector3().fromArray(coord, coordOffset + n * coordStride);
+    const found =
+      pick.range.isWide === true
+        ? primitiveAt(number, pick.range, index)
+        : index
+          ? primitiveIn(index, pick.range.primitive, vertex, point, positionOf)
+          : primitiveEndingAt(vertex - pick.range.first, pick.range);
+    if (found === undefined) return { number: 0, vertex, face };
+    return {
+      number: found.number,
+      vertex: nearestVertex(found.vertices, point, positionOf),
+      face: faceOf(found.vertices, positionOf),
+    };
+  }
+}
+
+/** Pixels of what the picking material draws. */
+export function makePickTarget(width = 1, height = 1): WebGLRenderTarget {
+  return new WebGLRenderTarget(width, height, {
+    count: pickedTargets,
+    format: RGBAIntegerFormat,
+    type: UnsignedIntType,
+    magFilter: NearestFilter,
+    minFilter: NearestFilter,
+  });
+}
+
+/** Those whose bounds come within `slack` device pixels of the place. */
+function candidatesNear(
+  camera: PerspectiveCamera,
+  { x, y, width, height }: Place,
+  slack: number,
+  candidates: Iterable<PickCandidate>,
+): NearCandidate[] {
+  const narrow = new PerspectiveCamera().copy(camera, false);
+  narrow.setViewOffset(width, height, x - slack, y - slack, 2 * slack + 1, 2 * slack + 1);
+  return candidatesSeenBy(narrow, candidates);
+}
+
+/** Those whose bounds come into a camera's view. */
+export function candidatesSeenBy(
+  { projectionMatrix, matrixWorldInverse }: Camera,
+  candidates: Iterable<PickCandidate>,
+): NearCandidate[] {
+  const frustum = frustumOf(projectionMatrix, matrixWorldInverse);
+  const sphere = new Sphere();
+  const near: NearCandidate[] = [];
+  const worldFromStored = new Matrix4();
+  for (const candidate of candidates) {
+    const { group, pick } = candidate;
+    worldFromStored.multiplyMatrices(group.matrixWorld, pick.shapeFromStored);
+    if (!frustum.intersectsSphere(sphere.copy(pick.bounds).applyMatrix4(worldFromStored))) continue;
+    near.push({ ...candidate, worldFromStored: worldFromStored.clone() });
+  }
+  return near;
+}
+
+/** Undefined for a normal of no length. */
+function worldNormalOf(normal: Vector3, worldFromStored: Matrix4): Vector3 | undefined {
+  if (normal.lengthSq() === 0) return undefined;
+  return normal.clone().applyMatrix3(new Matrix3().getNormalMatrix(worldFromStored)).normalize();
+}
+
+/** Through the middle of the pixel, in the scene's coordinates. */
+function rayThrough(camera: PerspectiveCamera, { x, y, width, height }: Place): Ray {
+  const origin = new Vector3().setFromMatrixPosition(camera.matrixWorld);
+  const through = new Vector3((2 * x + 1) / width - 1, 1 - (2 * y + 1) / height, 0.5).unproject(camera);
+  return new Ray(origin, through.sub(origin).normalize());
+}
+
+/**
+ * Where the ray meets a plane; undefined where it runs along it. GPUs round
+ * vertices to a fraction of a pixel, so the point that they interpolate is a
+ * little off the ray, and far off on a slope.
+ */
+function intersection(ray: Ray, point: Vector3, normal: Vector3): Vector3 | undefined {
+  const slope = normal.dot(ray.direction);
+  if (Math.abs(slope) < 1e-6) return undefined;
+  return ray.at(normal.dot(point.clone().sub(ray.origin)) / slope, new Vector3());
+}

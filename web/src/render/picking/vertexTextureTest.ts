@@ -1,0 +1,127 @@
+// Does this browser's GPU read images as vertices? A picture of four texels takes
+// the way of every other one (the browser's decoder, the upload, the vertex
+// chunk), and what comes back is compared with what went in. Wrong are browsers
+// that multiply by alpha or convert colours against orders, and drivers that
+// compile the fetch wrong; without this each would show a silent wrong shape.
+
+import {
+  BufferGeometry,
+  FrontSide,
+  Matrix3,
+  Matrix4,
+  OrthographicCamera,
+  Points,
+  Scene,
+  Vector4,
+  type WebGLRenderer,
+} from "three";
+import { decodeWithBrowser } from "../../decode/image.ts";
+import { textureRoles } from "../../document/description.ts";
+import { makePickMaterial, pickedTargets, pickedWords } from "./pickMaterial.ts";
+import { makePickTarget } from "./picker.ts";
+import { readPixelSoon } from "./pixelReadback.ts";
+import type { TextureStore } from "../uploads/textureStore.ts";
+
+/**
+ * A PNG of 4 x 1 texels, RGBA, with alphas that would be heard of: texel 0 is the
+ * high bytes of a place, texel 1 its low bytes, texel 2 index 0, texel 3 a normal.
+ */
+export const testTexels = [1, 128, 255, 0, 254, 3, 64, 7, 0, 0, 0, 255, 255, 0, 51, 1] as const;
+export const testPng =
+  "iVBORw0KGgoAAAANSUhEUgAAAAQAAAABCAYAAAD5PA/NAAAAHElEQVR4AQERAO7/AAGA/wD+A0AHAAAA//8AMwEtuQT7j87v0AAAAABJRU5ErkJggg==";
+
+/** Resolves to whether vertices may be read from textures. Never rejects. */
+export async function readsTextures(renderer: WebGLRenderer, textures: TextureStore): Promise<boolean> {
+  try {
+    const words = await readTestVertex(renderer, textures);
+    const floats = new Float32Array(words.buffer);
+    const [hx, hy, hz, , lx, ly, lz] = testTexels;
+    const expected = [256 * hx + lx, 256 * hy + ly, 256 * hz + lz];
+    const stored = [1, -1, 51 / 127.5 - 1];
+    const normal = stored.map((value) => value / Math.hypot(...stored)); // as the picking pass gives it
+    const isPlace = expected.every((value, axis) => floats[pickedWords.position + axis] === value);
+    const isNormal = normal.every((value, axis) => Math.abs((floats[pickedWords.normal + axis] ?? NaN) - value) < 1e-6);
+    return words[pickedWords.drawNumber] === 1 && isPlace && isNormal;
+  } catch {
+    return false;
+  }
+}
+
+async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): Promise<Uint32Array> {
+  const bitmap = await decodeWithBrowser(Uint8Array.from(atob(testPng), (letter) => letter.charCodeAt(0)));
+  const { image, steps } = textures.begin(bitmap, renderer);
+  while (steps.next().done !== true);
+  bitmap.close();
+  const texture = { value: textures.textureOf(image) };
+  const material = makePickMaterial({
+    primitive: "points",
+    side: FrontSide,
+    hasNormals: true,
+    areImages: true,
+    arePlaced: false,
+    hasTexCoords: false,
+    wideLineStep: 0,
+    alphaMask: undefined,
+    gridDefines: {},
+    normalDefines: {},
+    uniforms: {
+      pixelRatio: { value: 1 },
+      pointSizes: { value: [1, 1, 1] },
+      attenuation: { value: [1, 0, 0] },
+      latticeStep: { value: [1, 1, 1] },
+      lineWidth: { value: 1 },
+      dashes: { value: [] },
+      dashCount: { value: 0 },
+      viewport: { value: new Vector4() },
+      indexImage: texture,
+      coordImage0: texture,
+      coordImage1: texture,
+      coordImage2: { value: null },
+      coordImage3: { value: null },
+      normalImage: texture,
+      colorImage: { value: null },
+      texCoordImage: { value: null },
+      texCoordFrame: { value: [0, 0, 1, 1] },
+      textureTransforms: { value: textureRoles.map(() => new Matrix3()) },
+      firstTexels: { value: [2, 3, 0, 0] },
+      coordFirstTexels: { value: [0, 1, 0, 0] },
+      coordPlanes: { value: 2 },
+      middleOfMissing: { value: 0 },
+      hasIndex: { value: true },
+      isIndexWide: { value: false },
+      implicitWidth: { value: 4 },
+      gridSize: { value: [0, 0] },
+      isGridClosed: { value: false },
+      largestStored: { value: 65535 },
+      firstNumber: { value: 0 },
+      isStrip: { value: false },
+      colorHasAlpha: { value: false },
+    },
+  });
+  material.uniforms.drawNumber.value = 1;
+  const geometry = new BufferGeometry();
+  geometry.setDrawRange(0, 1);
+  const target = makePickTarget();
+  try {
+    renderer.setRenderTarget(target);
+    renderer.render(sceneOf(new Points(geometry, material)), wideCamera);
+    const reading = readPixelSoon(renderer.getContext() as WebGL2RenderingContext, pickedTargets);
+    renderer.setRenderTarget(null);
+    return await reading;
+  } finally {
+    image.close();
+    material.dispose();
+    geometry.dispose();
+    target.dispose();
+  }
+}
+
+/** Wherever the vertex comes to lie, it falls into the pixel. */
+function sceneOf(point: Points): Scene {
+  point.frustumCulled = false;
+  point.matrixAutoUpdate = false;
+  point.matrix.copy(new Matrix4().makeScale(1e-9, 1e-9, 1e-9));
+  return new Scene().add(point);
+}
+
+const wideCamera = new OrthographicCamera(-1, 1, 1, -1, -1, 1);

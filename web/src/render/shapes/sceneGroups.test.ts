@@ -1,0 +1,251 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { Object3D } from "three";
+import { PerspectiveCamera, PointLight, Vector3 } from "three";
+import type { SceneDescription, ShapeDescription } from "../../document/description.ts";
+import { Dice, EditedDocument } from "../../document/edits.testing.ts";
+import { elementsOf } from "../../document/elements.testing.ts";
+import { nodeFields } from "../../document/nodes.ts";
+import { readScene } from "../../document/readScene.ts";
+import { readInlineGeometry } from "../../document/inlineGeometry.ts";
+import { SceneReader } from "../../document/sceneReader.ts";
+import { matrixOf } from "../../navigation/matrices.ts";
+import type { PlacedNode } from "../../navigation/placedTree.ts";
+import type { PlaceGroup } from "../lights/lightScopes.ts";
+import { SceneGraph } from "./sceneGroups.ts";
+
+const viewer = new PerspectiveCamera();
+viewer.position.set(3, 1, 5);
+viewer.updateMatrixWorld();
+
+/** The graph of a scene, and the shapes that it has told of. */
+class Watched {
+  readonly shapes = new Map<PlacedNode, { shape: ShapeDescription; group: PlaceGroup }>();
+  readonly graph = new SceneGraph({
+    onEnter: (shape, place, group) => {
+      assert.ok(!this.shapes.has(place));
+      this.shapes.set(place, { shape, group });
+    },
+    onChange: (shape, place, group, before) => {
+      assert.deepEqual([this.shapes.get(place)?.shape, this.shapes.get(place)?.group], [before, group]);
+      this.shapes.set(place, { shape, group });
+    },
+    onLeave: (_, place) => {
+      assert.ok(this.shapes.delete(place));
+    },
+  });
+
+  /** All that somebody who draws it can see. */
+  get seen(): unknown {
+    this.graph.turnBillboards(viewer);
+    const { box, bounded, viewpoints, levels, lightUniforms, root } = this.graph;
+    const groups = (of: Object3D): string =>
+      of.children
+        .map((group) => [group.type, group.visible, group.matrixWorld.elements, groups(group)].join(" "))
+        .sort()
+        .join();
+    const shapes = Array.from(this.shapes.values(), ({ shape, group }) =>
+      [shape.priority, group.visible, group.lightScope?.value, group.matrixWorld.elements].join(" "),
+    );
+    return {
+      box,
+      bounded: bounded.map((each) => each.box),
+      viewpoints,
+      levels,
+      lightUniforms,
+      shapes: shapes.sort(),
+      groups: groups(root),
+    };
+  }
+}
+
+function buildGraph(scene: SceneDescription): SceneGraph {
+  const { graph } = new Watched();
+  graph.follow(scene.root);
+  return graph;
+}
+
+test("a graph that has followed a document shows it as one that is new to it", () => {
+  let shapes = 0;
+  for (let seed = 1; seed <= 30; ++seed) {
+    const edited = new EditedDocument(new Dice(seed));
+    const following = new Watched();
+    for (let round = 0; round < 15; ++round) {
+      for (let edits = seed % 4; edits >= 0; --edits) edited.edit();
+      const { root } = edited.reader.read();
+      const fresh = new Watched();
+      for (const each of [following, fresh]) each.graph.follow(root);
+      assert.deepEqual(following.seen, fresh.seen, `seed ${seed}, round ${round}`);
+      shapes += following.shapes.size;
+    }
+  }
+  assert.ok(shapes > 3000, `only ${shapes} shapes have been shown`);
+});
+
+test("what has not changed is not told of again", () => {
+  const x3d = elementsOf(
+    "<X3D><Transform><Shape/></Transform><Transform><Shape/></Transform><Group><Shape/></Group></X3D>",
+  );
+  const reader = new SceneReader(x3d, { inlineGeometry: readInlineGeometry });
+  const told: string[] = [];
+  const tell = (shape: ShapeDescription) => {
+    told.push(shape.element === x3d.children[1]?.children[0] ? "second" : "another");
+  };
+  const graph = new SceneGraph({ onEnter: tell, onChange: tell, onLeave: tell });
+  graph.follow(reader.read().root);
+  assert.equal(told.splice(0).length, 3);
+  x3d.children[1]?.attributes.set("translation", "1 0 0");
+  for (const element of x3d.children) reader.touch(element);
+  graph.follow(reader.read().root);
+  assert.deepEqual(told, ["second"]);
+});
+
+const identity = Object.fromEntries(
+  Object.entries(nodeFields.Transform).map(([name, field]) => [name, field.defaultValue]),
+) as Parameters<typeof matrixOf>[0];
+
+function placed(changes: Partial<typeof identity>, point: [number, number, number]): number[] {
+  return new Vector3(...point)
+    .applyMatrix4(matrixOf({ ...identity, ...changes }))
+    .toArray()
+    .map((value) => Math.round(value * 1e9) / 1e9);
+}
+
+test("a Transform scales, then turns, then moves", () => {
+  assert.deepEqual(placed({}, [1, 2, 3]), [1, 2, 3]);
+  assert.deepEqual(
+    placed({ translation: [10, 0, 0], rotation: [0, 0, 5, Math.PI / 2], scale: [2, 1, 1] }, [1, 0, 0]),
+    [10, 2, 0],
+  );
+});
+
+test("a Transform's centre stays where it is under turning and scaling", () => {
+  assert.deepEqual(placed({ center: [1, 2, 3], rotation: [1, 1, 0, 2], scale: [3, 4, 5] }, [1, 2, 3]), [1, 2, 3]);
+});
+
+test("a Transform scales along the axes of its scaleOrientation", () => {
+  assert.deepEqual(placed({ scaleOrientation: [0, 0, 1, Math.PI / 4], scale: [3, 1, 1] }, [1, 1, 0]), [3, 3, 0]);
+  assert.deepEqual(placed({ scaleOrientation: [0, 0, 1, Math.PI / 4], scale: [3, 1, 1] }, [1, -1, 0]), [1, -1, 0]);
+});
+
+test("a rotation without an axis turns nothing", () => {
+  assert.deepEqual(placed({ rotation: [0, 0, 0, 1] }, [1, 2, 3]), [1, 2, 3]);
+});
+
+test("a scene's box is that of what is seen, where it stands", () => {
+  const box = (size: string) => `<Shape bboxCenter="0 0 0" bboxSize="${size}"/>`;
+  const scene = readScene(
+    elementsOf(`<X3D><Transform translation="10 0 0" scale="2 1 1">${box("2 2 2")}
+    <Group visible="false">${box("100 100 100")}</Group><Switch whichChoice="1">${box("90 90 90")}${box("1 1 8")}</Switch></Transform></X3D>`),
+  );
+  const {
+    box: { min, max },
+  } = buildGraph(scene);
+  assert.deepEqual(
+    [min.toArray(), max.toArray()],
+    [
+      [8, -1, -4],
+      [12, 1, 4],
+    ],
+  );
+});
+
+test("a light that is scaled up reaches further, and what lies there is as bright as it was", () => {
+  const scene = readScene(
+    elementsOf(`<X3D><Transform scale="4 4 4"><Transform scale="-1 1 1">
+    <PointLight radius="10" attenuation="1 0.5 0.25"/></Transform></Transform></X3D>`),
+  );
+  const {
+    root,
+    lightUniforms: { attenuations },
+  } = buildGraph(scene);
+  const lights: PointLight[] = [];
+  root.traverse((object) => {
+    if (object instanceof PointLight) lights.push(object);
+  });
+  assert.deepEqual(
+    lights.map(({ distance, decay }) => [distance, attenuations.value[decay]?.toArray()]),
+    [[40, [1, 0.125, 0.015625]]],
+  );
+});
+
+test("what absurd scales blow up, shrink to nothing or turn over leaves the rest in view", () => {
+  const shape = '<Shape bboxCenter="0 0 0" bboxSize="2 2 2"/>';
+  const scaled = ["1e30 1e30 1e30", "1e308 1e308 1e308", "0 0 0", "1e-300 1 1", "-1 1 1"].map(
+    (scale) => `<Transform scale="${scale}">${shape}</Transform>`,
+  );
+  const {
+    box: { min, max },
+  } = buildGraph(readScene(elementsOf(`<X3D>${shape}${scaled.join("")}</X3D>`)));
+  assert.deepEqual(
+    [min.toArray(), max.toArray()],
+    [
+      [-1, -1, -1],
+      [1, 1, 1],
+    ],
+  );
+  const scene = readScene(elementsOf(`<X3D><Transform scale="NaN 1 1">${shape}</Transform></X3D>`));
+  assert.match(scene.warnings[0]?.message ?? "", /scale="NaN 1 1" is no SFVec3f/);
+});
+
+test("the box that a group tells stands for those of its children, and lets them be passed over together", () => {
+  const scene = readScene(
+    elementsOf(`<X3D><Transform translation="10 0 0" scale="2 1 1" bboxCenter="1 0 0" bboxSize="4 2 2">
+    <Shape bboxCenter="0 0 0" bboxSize="90 90 90"/><Group bboxCenter="0 0 0" bboxSize="1 1 1"><Shape/></Group></Transform>
+    <Group visible="false" bboxCenter="0 0 0" bboxSize="500 1 1"><Shape/></Group></X3D>`),
+  );
+  const {
+    box: { min, max },
+    bounded,
+  } = buildGraph(scene);
+  assert.deepEqual(
+    [min.toArray(), max.toArray()],
+    [
+      [8, -1, -1],
+      [16, 1, 1],
+    ],
+  );
+  assert.deepEqual(
+    bounded.map(({ box }) => [box.min.x, box.max.x]),
+    [
+      [8, 16],
+      [9, 11],
+    ],
+  );
+});
+
+test("a billboard turns its z axis to the viewer, and what stands in it turns along", () => {
+  const scene = readScene(
+    elementsOf(`<X3D><Transform translation="3 0 0" rotation="0 1 0 1.5708"><Billboard><Transform translation="0 2 1">
+    <Shape bboxCenter="0 0 0" bboxSize="0.1 0.1 0.1"/></Transform></Billboard></Transform></X3D>`),
+  );
+  const watched = new Watched();
+  watched.graph.follow(scene.root);
+  const seenFrom = (...eye: [number, number, number]): number[] => {
+    const camera = new PerspectiveCamera();
+    camera.position.set(...eye);
+    camera.updateMatrixWorld();
+    watched.graph.turnBillboards(camera);
+    const [{ group } = { group: undefined }] = watched.shapes.values();
+    return new Vector3()
+      .setFromMatrixPosition(group?.matrixWorld ?? viewer.matrixWorld)
+      .toArray()
+      .map((value) => Math.round(value * 1e3) / 1e3 + 0);
+  };
+  assert.deepEqual(
+    [seenFrom(3, 9, 7), seenFrom(-4, 0, 0), seenFrom(3, 0, -1), seenFrom(3, 8, 0)],
+    [
+      [3, 2, 1],
+      [2, 2, 0],
+      [3, 2, -1],
+      [4, 2, 0],
+    ],
+  );
+  const { min, max } = watched.graph.box;
+  for (const place of [
+    [3, 2, 1.1],
+    [1.9, 2, 0],
+    [4.1, 2, 0],
+  ] as const)
+    assert.ok(min.x <= place[0] && max.x >= place[0] && max.y >= 2.05 && max.z >= place[2]);
+});

@@ -1,0 +1,204 @@
+// A scene as three.js' groups, kept true to where its nodes stand. Groups own
+// nothing on the GPU; what shapes show is for who makes their groups.
+
+import type { Camera, Object3D } from "three";
+import { Box3, Group, Vector3 } from "three";
+import { areAlike } from "../../document/alike.ts";
+import type {
+  AnchorDescription,
+  GroupDescription,
+  NodeDescription,
+  ShapeDescription,
+} from "../../document/description.ts";
+import type { PlacedViewpoint } from "../../navigation/camera.ts";
+import { billboardTurn } from "../../navigation/billboard.ts";
+import { numberScopes } from "../../navigation/lightScope.ts";
+import { matrixOf } from "../../navigation/matrices.ts";
+import type { PlacedNode, PlacedTreeListener } from "../../navigation/placedTree.ts";
+import { PlacedTree } from "../../navigation/placedTree.ts";
+import type { PlacedLevels, PlacedLight } from "../../navigation/placement.ts";
+import type { PlaceGroup } from "../lights/lightScopes.ts";
+import type { SceneLights, SceneLightUniforms } from "../lights/sceneLights.ts";
+import { makeLights } from "../lights/sceneLights.ts";
+
+/** Who shows the shapes of a scene, in each place in a group, whose world matrix is up to date. */
+export interface ShapePlaces {
+  /** The shape is in one more place. */
+  onEnter(shape: ShapeDescription, place: PlacedNode, group: PlaceGroup): void;
+  /** It is described in another way there, stands elsewhere, or in another light. */
+  onChange(shape: ShapeDescription, place: PlacedNode, group: PlaceGroup, before: ShapeDescription): void;
+  onLeave(shape: ShapeDescription, place: PlacedNode, group: PlaceGroup): void;
+  /** What stands in the scene for a group of it. Undefined: a plain one. */
+  makeGroup?(description: GroupDescription): Object3D | undefined;
+  /** Its group has turned with a billboard. */
+  onTurn?(shape: ShapeDescription, group: PlaceGroup): void;
+}
+
+/** A group that is seen, with its box in the scene's coordinates. */
+export interface BoundedGroup {
+  readonly group: Object3D;
+  readonly box: Box3;
+}
+
+export class SceneGraph implements PlacedTreeListener {
+  readonly root = new Group();
+  readonly #tree = new PlacedTree(this);
+  readonly #groups = new Map<PlacedNode, Object3D>();
+  /** Those of them that are shapes'. */
+  readonly #shapeGroups = new Map<PlacedNode, PlaceGroup>();
+  readonly #anchors = new WeakMap<Object3D, AnchorDescription>();
+  readonly #shapes: ShapePlaces;
+  #placedLights: readonly PlacedLight[] = [];
+  #lights: SceneLights = makeLights([]);
+  #bounded: readonly BoundedGroup[] = [];
+
+  constructor(shapes: ShapePlaces) {
+    this.#shapes = shapes;
+    this.root.matrixAutoUpdate = false;
+    this.root.add(this.#lights.root);
+  }
+
+  /** Of the boxes of all shapes that are seen, in the scene's coordinates. */
+  get box(): Box3 {
+    return this.#tree.root.reach.box ?? new Box3();
+  }
+
+  /** What may be passed over as a whole when it is out of the view. */
+  get bounded(): readonly BoundedGroup[] {
+    return this.#bounded;
+  }
+
+  /** In document order. */
+  get viewpoints(): readonly PlacedViewpoint[] {
+    return this.#tree.root.reach.viewpoints;
+  }
+
+  get levels(): readonly PlacedLevels[] {
+    return this.#tree.root.reach.levels;
+  }
+
+  /** Those that are seen. */
+  get anchors(): readonly AnchorDescription[] {
+    return this.#tree.root.reach.anchors;
+  }
+
+  /** The innermost that a shape's group stands in. */
+  anchorAround(group: Object3D): AnchorDescription | undefined {
+    for (let at: Object3D | null = group; at !== null; at = at.parent) {
+      const anchor = this.#anchors.get(at);
+      if (anchor !== undefined) return anchor;
+    }
+    return undefined;
+  }
+
+  get lightUniforms(): SceneLightUniforms {
+    return this.#lights.uniforms;
+  }
+
+  /** Shows this scene from now on. Whether light scopes have other numbers than before, also those that nobody is told of. */
+  follow(root: GroupDescription): boolean {
+    const { reach } = this.#tree.follow(root).root;
+    this.#bounded = reach.bounded.flatMap((node) => {
+      const group = this.#groups.get(node);
+      return group && node.box ? [{ group, box: node.box }] : [];
+    });
+    const areRenumbered = numberScopes(reach.scopes);
+    if (!areRenumbered && areAlike(reach.lights, this.#placedLights)) return false;
+    this.#placedLights = reach.lights;
+    this.#lights.root.removeFromParent();
+    this.#lights = makeLights(reach.lights);
+    this.root.add(this.#lights.root);
+    return areRenumbered;
+  }
+
+  /** Whether there is anything to turn. */
+  get hasBillboards(): boolean {
+    return this.#tree.root.reach.billboards.length > 0;
+  }
+
+  /** Before a frame: billboards turn to the viewer. The camera's matrix is up to date. */
+  turnBillboards({ matrixWorld }: Camera): void {
+    for (const node of this.#tree.root.reach.billboards) {
+      const group = this.#groups.get(node);
+      if (!group?.parent || node.description.kind !== "group") continue;
+      const parentFromScene = group.parent.matrixWorld.clone().invert();
+      const eye = new Vector3().setFromMatrixPosition(matrixWorld).applyMatrix4(parentFromScene);
+      const up = new Vector3().setFromMatrixColumn(matrixWorld, 1).transformDirection(parentFromScene);
+      const turn = billboardTurn(node.description.billboardAxis ?? [0, 1, 0], eye, up);
+      if (turn.equals(group.matrix)) continue;
+      group.matrix.copy(turn);
+      this.#placeAgain(node);
+    }
+  }
+
+  /** Something around it has turned. */
+  #placeAgain(node: PlacedNode): void {
+    const shapeGroup = this.#shapeGroups.get(node);
+    if (shapeGroup && node.description.kind === "shape") {
+      shapeGroup.updateMatrixWorld(true);
+      this.#shapes.onTurn?.(node.description, shapeGroup);
+      return;
+    }
+    const group = this.#groups.get(node);
+    if (group?.parent) group.matrixWorld.multiplyMatrices(group.parent.matrixWorld, group.matrix);
+    for (const child of node.children) this.#placeAgain(child);
+  }
+
+  onEnter(node: PlacedNode): void {
+    const { description } = node;
+    if (description.kind === "group")
+      this.#hang(node, description, this.#shapes.makeGroup?.(description) ?? new Group());
+    if (description.kind !== "shape") return;
+    const group: PlaceGroup = new Group();
+    group.lightScope = node.lightScope;
+    this.#shapeGroups.set(node, group);
+    this.#hang(node, description, group);
+    this.#shapes.onEnter(description, node, group);
+  }
+
+  onChange(node: PlacedNode, hasMoved: boolean, before: NodeDescription): void {
+    const { description } = node;
+    const group = this.#groups.get(node);
+    if (group === undefined || (description.kind !== "group" && description.kind !== "shape")) return;
+    this.#describe(description, group, hasMoved);
+    const shapeGroup = this.#shapeGroups.get(node);
+    if (shapeGroup) shapeGroup.lightScope = node.lightScope;
+    if (shapeGroup && description.kind === "shape" && before.kind === "shape")
+      this.#shapes.onChange(description, node, shapeGroup, before);
+  }
+
+  onLeave(node: PlacedNode): void {
+    const shapeGroup = this.#shapeGroups.get(node);
+    if (shapeGroup && node.description.kind === "shape") this.#shapes.onLeave(node.description, node, shapeGroup);
+    this.#groups.get(node)?.removeFromParent();
+    this.#groups.delete(node);
+    this.#shapeGroups.delete(node);
+  }
+
+  #hang(node: PlacedNode, description: GroupDescription | ShapeDescription, group: Object3D): void {
+    group.matrixAutoUpdate = false;
+    this.#groups.set(node, group);
+    const around = node.parent === undefined ? this.root : this.#groups.get(node.parent);
+    around?.add(group);
+    this.#describe(description, group, true);
+  }
+
+  #describe(description: GroupDescription | ShapeDescription, group: Object3D, hasMoved: boolean): void {
+    if (description.kind === "group" && description.anchor) this.#anchors.set(group, description.anchor);
+    else this.#anchors.delete(group);
+    describe(description, group, hasMoved);
+  }
+}
+
+function describe(description: GroupDescription | ShapeDescription, group: Object3D, hasMoved: boolean): void {
+  group.visible = description.visible;
+  if (!hasMoved) return;
+  if (description.kind === "shape") {
+    group.updateMatrixWorld(true);
+    return;
+  }
+  if (description.transform) group.matrix.copy(matrixOf(description.transform));
+  else group.matrix.identity();
+  // Groups below it are told next.
+  if (group.parent) group.matrixWorld.multiplyMatrices(group.parent.matrixWorld, group.matrix);
+}

@@ -1,0 +1,263 @@
+// What of a scene is drawn: the shapes of its document by their elements, in the
+// groups that place them, and how far they reach.
+
+import type { Camera, Object3D, Sphere } from "three";
+import { Box3, Material, Vector3 } from "three";
+import type { Bounds } from "../../stage/vertexArray.ts";
+import type { Stage } from "../../stage/stage.ts";
+import type {
+  AnchorDescription,
+  GeometryDescription,
+  SceneDescription,
+  ShapeDescription,
+  TextureRole,
+} from "../../document/description.ts";
+import type { SceneElement } from "../../document/element.ts";
+import type { PlacedViewpoint } from "../../navigation/camera.ts";
+import { sphereAround } from "../../navigation/camera.ts";
+import { isDrawable } from "../../navigation/matrices.ts";
+import type { PlacedLevels } from "../../navigation/placement.ts";
+import type { Batches } from "../batches/batches.ts";
+import { DrawingPlan } from "../batches/batchingPlan.ts";
+import type { ShownPicture } from "../materials/materialFactory.ts";
+import type { PickCandidate } from "../picking/picker.ts";
+import { areScoped } from "../lights/lightScopes.ts";
+import type { BoundedGroup } from "./sceneGroups.ts";
+import { SceneGraph } from "./sceneGroups.ts";
+import type { SceneLightUniforms } from "../lights/sceneLights.ts";
+import type { SceneChanges } from "./shapeChanges.ts";
+import { ShapeChanges } from "./shapeChanges.ts";
+import type { ShapeSetting } from "./shapeObject.ts";
+import { ShapeObject } from "./shapeObject.ts";
+import { isShown } from "./visibility.ts";
+import { frustumOf } from "../frames/viewFrustum.ts";
+
+/** What the scene has in it, in the scene's coordinates. */
+export interface BuiltScene {
+  /** Around all that is seen. */
+  readonly sphere: Sphere;
+  /** In document order. */
+  readonly viewpoints: readonly PlacedViewpoint[];
+  readonly levels: readonly PlacedLevels[];
+  /** Those that are seen. */
+  readonly anchors: readonly AnchorDescription[];
+  readonly changes: SceneChanges;
+}
+
+export class SceneShapes {
+  readonly #setting: ShapeSetting;
+  readonly #batches: Batches;
+  readonly #graph: SceneGraph;
+  readonly #shapes = new Map<SceneElement, ShapeObject>();
+  readonly #plan = new DrawingPlan();
+  #changes = new ShapeChanges();
+  /** Shapes of whose extent the document does not tell all. */
+  readonly #unbounded = new Set<ShapeObject>();
+  #sphere = sphereAround(new Box3());
+  #bounded: readonly BoundedGroup[] = [];
+  /** As the document tells it, and as far as vertices do. */
+  #described = new Box3();
+  #box = new Box3();
+  /** In CSS pixels. */
+  #widestLine = 0;
+
+  /** What is drawn hangs in `scene`. */
+  constructor(scene: Object3D, setting: ShapeSetting & { readonly batches: Batches }) {
+    this.#setting = setting;
+    this.#batches = setting.batches;
+    this.#graph = new SceneGraph({
+      onEnter: (shape, place, group) => {
+        this.#objectOf(shape).enter(group, shape.host);
+        if (shape.geometry) this.#plan.add(shape.geometry);
+        this.#changes.noteThere(shape, place);
+      },
+      onChange: (shape, place, group, before) => {
+        this.#objectOf(shape).follow(group);
+        if (before.geometry !== shape.geometry) {
+          if (before.geometry) this.#plan.remove(before.geometry);
+          if (shape.geometry) this.#plan.add(shape.geometry);
+        }
+        this.#changes.noteThere(shape, place);
+      },
+      onLeave: (shape, place, group) => {
+        this.#shapes.get(shape.element)?.leave(group);
+        if (shape.geometry) this.#plan.remove(shape.geometry);
+        this.#changes.noteGone(shape, place);
+      },
+      onTurn: (shape, group) => {
+        this.#objectOf(shape).follow(group);
+      },
+    });
+    scene.add(this.#graph.root, this.#batches.root);
+  }
+
+  /** How geometries are drawn in this scene. */
+  get plan(): DrawingPlan {
+    return this.#plan;
+  }
+
+  /** No shape shows anything yet. */
+  get isEmpty(): boolean {
+    for (const { isEmpty } of this.#shapes.values()) if (!isEmpty) return false;
+    return true;
+  }
+
+  /** Around all that is seen, in the scene's coordinates. Grows when vertices tell of a box that the document does not. */
+  get sphere(): Sphere {
+    return this.#sphere;
+  }
+
+  /** What points and lines may be wide, in CSS pixels; 0 where no shape says. */
+  get largestWidth(): number {
+    let largest = 0;
+    for (const { largestWidth } of this.#shapes.values()) largest = Math.max(largest, largestWidth);
+    return largest;
+  }
+
+  /** Shows this scene from now on. Shapes that are gone, or have another geometry, give back what they hold on the GPU. */
+  setScene(description: SceneDescription): BuiltScene {
+    const areRenumbered = this.#graph.follow(description.root);
+    this.#setLights(this.#graph.lightUniforms);
+    const changes = this.#applyChanges();
+    if (areRenumbered) this.#batches.followAll();
+    const { box, bounded, viewpoints, levels, anchors } = this.#graph;
+    this.#bounded = bounded;
+    if (!box.equals(this.#described)) {
+      this.#described = box.clone();
+      this.#box = box.clone();
+      this.#sphere = sphereAround(box);
+    }
+    for (const object of this.#unbounded) for (const bounds of object.bounds()) this.#grow(object, bounds);
+    this.#batches.sync(this.#sphere);
+    return { sphere: this.#sphere, viewpoints, levels, anchors, changes };
+  }
+
+  #setLights({ attenuations, lightReaches, scopedAmbients }: SceneLightUniforms): void {
+    const { shared } = this.#setting;
+    const wereScoped = areScoped(shared);
+    shared.attenuations.value = attenuations.value;
+    shared.lightReaches.value = lightReaches.value;
+    shared.scopedAmbients.value = scopedAmbients.value;
+    if (areScoped(shared) === wereScoped) return;
+    for (const root of [this.#graph.root, this.#batches.root]) root.traverse(compileAgain);
+  }
+
+  /** What the graph has told since the last time. */
+  #applyChanges(): SceneChanges {
+    const changes = this.#changes;
+    this.#changes = new ShapeChanges();
+    const shapes = new Map<SceneElement, ShapeDescription>();
+    const gone: SceneElement[] = [];
+    for (const [element, shape] of changes.shapes) {
+      const object = this.#objectOf(shape);
+      if (!object.isPlaced) {
+        object.dispose();
+        this.#shapes.delete(element);
+        this.#unbounded.delete(object);
+        gone.push(element);
+        continue;
+      }
+      object.setShape(shape);
+      if (shape.geometry) object.drawAs(this.#plan.drawingOf(shape.geometry));
+      shapes.set(element, { ...shape, visible: object.isVisible });
+    }
+    const others = this.#plan.takeChanged();
+    if (others.size > 0) {
+      for (const object of this.#shapes.values())
+        if (object.geometry && others.has(object.geometry)) object.drawAs(this.#plan.drawingOf(object.geometry));
+    }
+    if (changes.shapes.size > 0)
+      this.#widestLine = Array.from(this.#shapes.values()).reduce(
+        (widest, { lineWidth }) => Math.max(widest, lineWidth),
+        0,
+      );
+    return { shapes, gone, places: changes.places };
+  }
+
+  /** Replaces what a patch of a shape shows. */
+  setStage(element: SceneElement, geometry: GeometryDescription, patch: number, stage: Stage | undefined): void {
+    const object = this.#shapes.get(element);
+    object?.setStage(geometry, patch, stage);
+    if (object === undefined || stage?.kind !== "buffers" || stage.bounds === undefined) return;
+    this.#unbounded.add(object);
+    this.#grow(object, stage.bounds);
+  }
+
+  setPicture(element: SceneElement, role: TextureRole, picture: ShownPicture | undefined): void {
+    this.#shapes.get(element)?.setPicture(role, picture);
+  }
+
+  /** Surfaces as they are, or their vertices. */
+  drawAsPoints(asPoints: boolean): void {
+    if (asPoints === this.#setting.drawing.asPoints) return;
+    this.#setting.drawing.asPoints = asPoints;
+    for (const object of this.#shapes.values()) object.redraw();
+  }
+
+  /** Takes away what a shape shows. */
+  clearShape(element: SceneElement): void {
+    this.#shapes.get(element)?.clear();
+  }
+
+  /** What a click there leads to. */
+  anchorAround(group: Object3D): AnchorDescription | undefined {
+    return this.#graph.anchorAround(group);
+  }
+
+  /** What is drawn and may be picked. */
+  *pickCandidates(): Generator<PickCandidate> {
+    for (const object of this.#shapes.values()) if (object.isPickable) yield* shownDraws(object);
+  }
+
+  /** What the document shows, also where the last frame has not looked. */
+  drawsAround(): PickCandidate[] {
+    const passedOver = this.#bounded.filter(({ group }) => !group.visible);
+    for (const { group } of passedOver) group.visible = true;
+    const draws = Array.from(this.#shapes.values()).flatMap((object) => Array.from(shownDraws(object)));
+    for (const { group } of passedOver) group.visible = false;
+    return draws;
+  }
+
+  /**
+   * Before a frame: billboards turn to the camera, and groups that tell where they end are not looked into when
+   * they are out of the view. `picture`: its width and height in CSS pixels.
+   */
+  passOver(camera: Camera, picture: readonly [width: number, height: number]): void {
+    camera.updateMatrixWorld();
+    this.#graph.turnBillboards(camera);
+    const margin = picture.map((pixels) => this.#widestLine / pixels) as [number, number];
+    this.#batches.update(camera, margin);
+    if (this.#bounded.length === 0) return;
+    const frustum = frustumOf(camera.projectionMatrix, camera.matrixWorldInverse, margin);
+    for (const { group, box } of this.#bounded) group.visible = frustum.intersectsBox(box);
+  }
+
+  dispose(): void {
+    for (const object of this.#shapes.values()) object.dispose();
+    this.#shapes.clear();
+    this.#batches.dispose();
+  }
+
+  #grow(object: ShapeObject, { min, max }: Bounds): void {
+    for (const group of object.groups) {
+      const box = new Box3(new Vector3(...min), new Vector3(...max)).applyMatrix4(group.matrixWorld);
+      if (isDrawable(box) && !this.#box.containsBox(box)) this.#sphere = sphereAround(this.#box.union(box));
+    }
+  }
+
+  #objectOf(shape: ShapeDescription): ShapeObject {
+    const known = this.#shapes.get(shape.element);
+    if (known !== undefined) return known;
+    const object = new ShapeObject(this.#setting, shape);
+    this.#shapes.set(shape.element, object);
+    return object;
+  }
+}
+
+function compileAgain(object: Object3D): void {
+  if ("material" in object && object.material instanceof Material) object.material.needsUpdate = true;
+}
+
+function* shownDraws(object: ShapeObject): Generator<PickCandidate> {
+  for (const drawn of object.placedDraws()) if (isShown(drawn.group)) yield drawn;
+}

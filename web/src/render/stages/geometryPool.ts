@@ -1,0 +1,79 @@
+// The three.js geometries of a stage, one per draw, shared by everything that
+// shows the stage and freed with the last of it.
+
+import { BufferGeometry, InstancedBufferGeometry, InterleavedBufferAttribute, Sphere } from "three";
+import type { BufferStage, DrawRange, Stage } from "../../stage/stage.ts";
+import type { Buffers } from "../uploads/bufferStore.ts";
+import { storedAttributesOf } from "../vertices/vertexAttributes.ts";
+import { wideLineGeometryOf } from "../lines/wideLineGeometry.ts";
+
+interface Entry {
+  readonly geometries: readonly BufferGeometry[];
+  users: number;
+}
+
+export class GeometryPool {
+  readonly #buffers: Buffers;
+  readonly #entries = new Map<Stage, Entry>();
+
+  constructor(buffers: Buffers) {
+    this.#buffers = buffers;
+  }
+
+  /** One for each draw, in order. */
+  acquire(stage: Stage): readonly BufferGeometry[] {
+    const entry = this.#entries.get(stage) ?? { geometries: geometriesOf(stage, this.#buffers), users: 0 };
+    // Else three.js makes one, of stored numbers that are not here.
+    for (const geometry of entry.geometries) geometry.boundingSphere ??= new Sphere();
+    entry.users += 1;
+    this.#entries.set(stage, entry);
+    return entry.geometries;
+  }
+
+  release(stage: Stage): void {
+    const entry = this.#entries.get(stage);
+    if (entry === undefined) return;
+    entry.users -= 1;
+    if (entry.users > 0) return;
+    for (const geometry of entry.geometries) {
+      if (geometry instanceof InstancedBufferGeometry)
+        geometry.dispose(); // the stage's buffers are not in it
+      else this.#buffers.dispose(geometry);
+    }
+    this.#entries.delete(stage);
+  }
+}
+
+function geometriesOf(stage: Stage, buffers: Buffers): BufferGeometry[] {
+  const geometryOf =
+    stage.kind === "textures" || stage.draws.every(isWide) ? emptyGeometryOf : inBuffers(stage, buffers);
+  return stage.draws.map((range) => (isWide(range) ? wideLineGeometryOf(stage, range, buffers) : geometryOf(range)));
+}
+
+function isWide({ isWide = false }: DrawRange): boolean {
+  return isWide;
+}
+
+function inBuffers(stage: BufferStage, buffers: Buffers): (range: DrawRange) => BufferGeometry {
+  const attributes = storedAttributesOf(stage).map(
+    ({ name, vertices: { bytes, type, components, stride, offset }, isSpread }) => ({
+      name,
+      attribute: new InterleavedBufferAttribute(buffers.recordsOf(bytes, type, stride), components, offset, isSpread),
+    }),
+  );
+  const index = stage.index && buffers.indexOf(stage.index.bytes, stage.index.type);
+  return ({ first, count }) => {
+    const geometry = new BufferGeometry();
+    for (const { name, attribute } of attributes) geometry.setAttribute(name, attribute);
+    geometry.setIndex(index ?? null);
+    geometry.setDrawRange(first, count);
+    return geometry;
+  };
+}
+
+/** No buffers at all: the shader finds its vertices by their number. */
+function emptyGeometryOf({ primitive, count }: DrawRange): BufferGeometry {
+  const geometry = new BufferGeometry();
+  geometry.setDrawRange(0, primitive === "triangleStrip" ? Math.max(0, count - 2) * 3 : count);
+  return geometry;
+}

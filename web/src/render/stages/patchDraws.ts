@@ -1,0 +1,144 @@
+// A stage -> three.js objects, one per draw and place. What a stage says of its
+// vertices, for whoever draws it, is in stageDraws.ts.
+
+import type { BufferGeometry, Material, Matrix4 } from "three";
+import { DoubleSide, FrontSide } from "three";
+import type { DrawRange, Stage } from "../../stage/stage.ts";
+import type { AppearanceDescription } from "../../document/description.ts";
+import type { LightScope } from "../../navigation/lightScope.ts";
+import { everywhere } from "../../navigation/lightScope.ts";
+import { shapeFromStoredOf } from "../../navigation/matrices.ts";
+import type { DrawnObject } from "./drawnObject.ts";
+import { objectOf } from "./drawnObject.ts";
+import type { PlaceGroup } from "../lights/lightScopes.ts";
+import type { ShownPictures } from "../materials/materialFactory.ts";
+import { noPictures } from "../materials/materialFactory.ts";
+import { PickDraw } from "../picking/pickDraw.ts";
+import type { PatchSetting } from "./stageDraws.ts";
+import { boundsOf, colorsOf, materialRequestOf, pickRequestOf, setAppearance, uniformsOf } from "./stageDraws.ts";
+
+/** A stage of a patch on the screen, in all places of its shape. It is drawn by objects of its own, or together with others. */
+export interface PatchDraws {
+  /** For the picking pass: shared by all places. */
+  readonly picks: readonly PickDraw[];
+  /** In one more place of the scene, in the group that stands there. */
+  hang(group: PlaceGroup): void;
+  /** The group has moved, is shown or hidden, or stands in another light scope. */
+  follow(group: PlaceGroup): void;
+  /** Not there any more. */
+  leave(group: PlaceGroup): void;
+  applyAppearance(appearance: AppearanceDescription, pictures: ShownPictures): void;
+  /** Takes it out of the scene and frees what this stage alone uses. */
+  dispose(): void;
+}
+
+/** Each draw is an object in each place. */
+export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
+  const { geometry, patch, look, buffers } = setting;
+  const { box, sphere } = boundsOf(geometry, patch, stage);
+  const shapeFromStored = shapeFromStoredOf(geometry, patch);
+  const uniforms = uniformsOf(stage, setting);
+  // Without texture coordinates there is nowhere to lay it.
+  const laid = (pictures: ShownPictures) => (stage.texCoord !== undefined ? pictures : noPictures);
+  let shown = { appearance: setting.appearance, pictures: setting.pictures };
+  const draws = setting.geometries.acquire(stage).flatMap((shape, place) => {
+    const range = stage.draws[place];
+    if (range === undefined || range.count === 0) return [];
+    shape.boundingBox = box;
+    shape.boundingSphere = sphere;
+    const request = materialRequestOf(stage, range, geometry, uniforms.of(range), setting.shared);
+    const side = geometry.solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
+    const materials = new ScopedMaterials((lightScope) =>
+      look.makeMaterial(
+        { ...request, uniforms: { ...request.uniforms, lightScope } },
+        shown.appearance,
+        laid(shown.pictures),
+      ),
+    );
+    const pick = new PickDraw(stage, range, {
+      buffers,
+      bounds: sphere,
+      shapeFromStored,
+      makeParts: () => ({
+        geometry: shape,
+        request: pickRequestOf(stage, range, side, uniforms.of(range), shown.appearance, shown.pictures),
+        release: () => undefined,
+      }),
+    });
+    return [{ range, shape, materials, request, pick }];
+  });
+  const objects = new Map<PlaceGroup, DrawnObject[]>();
+  const leave = (group: PlaceGroup) => {
+    for (const object of objects.get(group) ?? []) object.removeFromParent();
+    objects.delete(group);
+  };
+  return {
+    picks: draws.map(({ pick }) => pick),
+    hang(group) {
+      const here = draws.map(({ range, shape, materials, request }) => {
+        const material = materials.of(group);
+        const object = placedObject(range, shape, material, shapeFromStored);
+        look.prepare(object, request, material);
+        return object;
+      });
+      if (here.length > 0) group.add(...here);
+      objects.set(group, here);
+    },
+    follow(group) {
+      // Objects in it move by themselves.
+      objects.get(group)?.forEach((object, place) => {
+        const { materials, request } = draws[place] ?? {};
+        const material = materials?.of(group);
+        if (request === undefined || material === undefined || material === object.material) return;
+        object.material = material;
+        look.prepare(object, request, material);
+      });
+    },
+    leave,
+    applyAppearance(appearance, pictures) {
+      shown = { appearance, pictures };
+      setAppearance(uniforms.common, geometry, appearance);
+      for (const { materials, pick } of draws) {
+        for (const material of materials.all)
+          look.applyAppearance(material, appearance, colorsOf(stage), laid(pictures));
+        pick.forgetParts();
+      }
+    },
+    dispose() {
+      for (const group of Array.from(objects.keys())) leave(group);
+      for (const { materials, pick } of draws) {
+        for (const material of materials.all) material.dispose();
+        pick.dispose();
+      }
+      setting.geometries.release(stage);
+    },
+  };
+}
+
+/** Of a draw, one for each light scope that it stands in. */
+class ScopedMaterials {
+  readonly #make: (lightScope: LightScope) => Material;
+  readonly #materials = new Map<LightScope, Material>();
+
+  constructor(make: (lightScope: LightScope) => Material) {
+    this.#make = make;
+  }
+
+  get all(): Iterable<Material> {
+    return this.#materials.values();
+  }
+
+  of({ lightScope = everywhere }: PlaceGroup): Material {
+    const material = this.#materials.get(lightScope) ?? this.#make(lightScope);
+    this.#materials.set(lightScope, material);
+    return material;
+  }
+}
+
+function placedObject(draw: DrawRange, shape: BufferGeometry, material: Material, matrix: Matrix4): DrawnObject {
+  const object = objectOf(draw, shape, material);
+  object.matrixAutoUpdate = false;
+  object.matrix.copy(matrix);
+  object.matrixWorldNeedsUpdate = true;
+  return object;
+}

@@ -1,0 +1,121 @@
+// Images as textures. Their texels go to the GPU in strips, so that no single
+// step holds up a frame; bytes reach the shader as they are in the file. Nothing
+// of an image is kept here when it is on the GPU.
+
+import {
+  Box2,
+  ClampToEdgeWrapping,
+  DataTexture,
+  LinearFilter,
+  LinearMipmapLinearFilter,
+  MirroredRepeatWrapping,
+  NearestFilter,
+  NoColorSpace,
+  RepeatWrapping,
+  RGBAFormat,
+  Texture,
+  UnsignedByteType,
+  Vector2,
+  type WebGLRenderer,
+} from "three";
+import type { DecodedImage } from "../../stage/decodedImage.ts";
+import type { SamplingDescription } from "../../document/description.ts";
+
+/** An image on its way to the GPU. */
+export interface TextureUpload {
+  /** Stands for the texture, which is complete after the last step; closing it frees the texture at any time. */
+  readonly image: DecodedImage;
+  /** Each step yields the bytes that it has moved. */
+  readonly steps: Generator<number, void, void>;
+}
+
+/** WebGL2 stores three channels as four. */
+const bytesPerTexel = 4;
+const bytesPerStep = 2 ** 18;
+
+export class TextureStore {
+  readonly #textures = new WeakMap<DecodedImage, Texture>();
+  #bytes = 0;
+
+  /** Of all textures that are open. */
+  get bytes(): number {
+    return this.#bytes;
+  }
+
+  /** Throws where the image is not one of this store's, or is closed. */
+  textureOf(image: DecodedImage): Texture {
+    const texture = this.#textures.get(image);
+    if (texture === undefined) throw new RangeError("the image is not on the GPU");
+    return texture;
+  }
+
+  /** The bitmap may be closed after the last step. Without `sampling` texels are data, read one by one. */
+  begin(bitmap: ImageBitmap, renderer: WebGLRenderer, sampling?: SamplingDescription): TextureUpload {
+    const { width, height } = bitmap;
+    const texture = emptyTexture(width, height);
+    if (sampling !== undefined) sampleAs(texture, sampling);
+    const bytes = width * height * bytesPerTexel * (texture.generateMipmaps ? 4 / 3 : 1);
+    this.#bytes += bytes;
+    const image = {
+      width,
+      height,
+      close: () => {
+        if (!this.#textures.delete(image)) return;
+        this.#bytes -= bytes;
+        texture.dispose();
+      },
+    };
+    this.#textures.set(image, texture);
+    return { image, steps: strips(new Texture(bitmap), texture, width, height, renderer) };
+  }
+}
+
+/** Mipmaps are made with the last strip. */
+function* strips(
+  from: Texture,
+  to: Texture,
+  width: number,
+  height: number,
+  renderer: WebGLRenderer,
+): Generator<number, void, void> {
+  const { generateMipmaps } = to;
+  renderer.initTexture(to);
+  const rows = Math.max(1, Math.floor(bytesPerStep / (width * bytesPerTexel)));
+  for (let first = 0; first < height; first += rows) {
+    const strip = new Box2(new Vector2(0, first), new Vector2(width, Math.min(first + rows, height)));
+    to.generateMipmaps = generateMipmaps && first + rows >= height;
+    renderer.copyTextureToTexture(from, to, strip, strip.min);
+    yield width * (strip.max.y - strip.min.y) * bytesPerTexel;
+  }
+}
+
+function emptyTexture(width: number, height: number): Texture {
+  const texture = new DataTexture(null, width, height, RGBAFormat, UnsignedByteType);
+  texture.source.dataReady = false;
+  readAsData(texture);
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** Texels reach the shader one by one, as they are in the file. */
+export function readAsData(texture: Texture): void {
+  texture.colorSpace = NoColorSpace;
+  texture.minFilter = NearestFilter;
+  texture.magFilter = NearestFilter;
+  texture.generateMipmaps = false;
+}
+
+const wrappings = { repeat: RepeatWrapping, clamp: ClampToEdgeWrapping, mirror: MirroredRepeatWrapping } as const;
+
+/** Pages show the colours of pictures by their numbers, as those of materials (materials.ts). */
+export function sampleAs(
+  texture: Texture,
+  { wrapS, wrapT, isSmooth, hasMipmaps, anisotropy }: SamplingDescription,
+): void {
+  texture.wrapS = wrappings[wrapS];
+  texture.wrapT = wrappings[wrapT];
+  texture.magFilter = isSmooth ? LinearFilter : NearestFilter;
+  texture.minFilter = hasMipmaps ? LinearMipmapLinearFilter : isSmooth ? LinearFilter : NearestFilter;
+  texture.generateMipmaps = hasMipmaps;
+  texture.anisotropy = anisotropy;
+}

@@ -1,0 +1,82 @@
+// Where each of a material's textures is read: what three.js calls its maps, and
+// those that it has no word for.
+
+import { Matrix3 } from "three";
+import type { AppearanceDescription, TextureRole } from "../../document/description.ts";
+import { textureRoles } from "../../document/description.ts";
+
+/** By what a material defines when it has a map: the varying that its place stands in. */
+const maps: readonly (readonly [define: string, varying: string, role: TextureRole])[] = [
+  ["USE_MAP", "vMapUv", "color"],
+  ["USE_EMISSIVEMAP", "vEmissiveMapUv", "emissive"],
+  ["USE_NORMALMAP", "vNormalMapUv", "normal"],
+  ["USE_AOMAP", "vAoMapUv", "occlusion"],
+  ["USE_SPECULARMAP", "vSpecularMapUv", "specular"],
+  ["USE_METALNESSMAP", "vMetalnessMapUv", "metallicRoughness"],
+  ["USE_ROUGHNESSMAP", "vRoughnessMapUv", "metallicRoughness"],
+];
+
+/** Maps of our own: their samplers are named as their roles, with "Map" behind. */
+export const ownMapRoles = ["metallicRoughness", "ambient", "shininess"] as const satisfies readonly TextureRole[];
+export type OwnMapRole = (typeof ownMapRoles)[number];
+
+export function ownMapDefine(role: OwnMapRole): string {
+  return `USE_OWN_${role.toUpperCase()}`;
+}
+
+/** The texel of a map of our own, in a fragment shader. */
+export function ownTexel(role: OwnMapRole): string {
+  return `texture2D(${role}Map, v_${role}Uv)`;
+}
+
+/** Of the picking pass: the texture whose alpha says what is there. */
+export const alphaMaskDefine = "USE_ALPHA_MASK";
+export const alphaMaskVarying = "vAlphaMaskUv";
+
+const all = [
+  ...maps,
+  [alphaMaskDefine, alphaMaskVarying, "color"] as const,
+  ...ownMapRoles.map((role) => [ownMapDefine(role), `v_${role}Uv`, role] as const),
+];
+
+/** For the head of a vertex shader. */
+export const texCoordDeclarations = /* glsl */ `
+uniform vec4 texCoordFrame;
+uniform mat3 textureTransforms[${textureRoles.length}];
+${ownVaryings("")}
+`;
+
+/** For the head of a fragment shader whose material has maps of our own. */
+export const ownMapDeclarations = ownVaryings("uniform sampler2D ");
+
+/** Once `vertex` has been read. */
+export const texCoordChunk = /* glsl */ `
+vec4 frame = texCoordFrameOfPlace();
+vec3 shapeTexCoord = vec3(frame.xy + frame.zw * vertex.texCoord, 1.0);
+${all
+  .map(
+    ([define, varying, role]) => `#ifdef ${define}
+  ${varying} = (textureTransforms[${textureRoles.indexOf(role)}] * shapeTexCoord).xy;
+#endif`,
+  )
+  .join("\n")}
+`;
+
+function ownVaryings(sampler: string): string {
+  return ownMapRoles
+    .map(
+      (role) => `#ifdef ${ownMapDefine(role)}
+  varying vec2 v_${role}Uv;
+  ${sampler === "" ? "" : `${sampler}${role}Map;`}
+#endif`,
+    )
+    .join("\n");
+}
+
+/** By role. */
+export function textureTransformsOf({ textures }: Pick<AppearanceDescription, "textures">): Matrix3[] {
+  return textureRoles.map((role) => {
+    const texture = textures.find((each) => each.role === role);
+    return texture ? new Matrix3().fromArray(texture.transform) : new Matrix3();
+  });
+}

@@ -1,0 +1,31 @@
+// What three.js calls the attributes of a stage in buffers.
+
+import type { BufferStage, StoredVertices } from "../../stage/stage.ts";
+import { isPairCode } from "../../stage/stage.ts";
+
+/** An attribute of a stage's vertices, by three.js' name for it. */
+export interface StoredAttribute {
+  readonly name: string;
+  readonly vertices: StoredVertices;
+  /** Integers are spread over 0 … 1 or -1 … 1. */
+  readonly isSpread: boolean;
+}
+
+export function storedAttributesOf({
+  coord,
+  normal,
+  normalCode,
+  color,
+  texCoord,
+  value,
+}: BufferStage): StoredAttribute[] {
+  const attribute = (name: string, vertices: StoredVertices | undefined, isSpread: boolean): StoredAttribute[] =>
+    vertices ? [{ name, vertices, isSpread: isSpread && vertices.type !== "Float32" }] : [];
+  return [
+    ...attribute("position", coord, false),
+    ...attribute("normal", normal, !isPairCode(normalCode)),
+    ...attribute("color", color, true),
+    ...attribute("vertexValue", value, false),
+    ...attribute("uv", texCoord, true),
+  ];
+}

@@ -1,0 +1,426 @@
+// The one place where a vertex is read. `readVertex` has two bodies: from images
+// by number (classic SIG, paper section 5.1) and from buffers (BG). The material
+// of every pass takes it in through `readVerticesIn`, so no pass can disagree
+// with another about the shape.
+//
+// Image bytes are put together as integers and only then become floats: with up
+// to 24 bits every lattice point is exact. The matrix of the drawn object places
+// the lattice. It is the same for all patches of a mesh, on purpose: vertices
+// that patches share then go through the same arithmetic, and no crack opens.
+
+import type { IUniform, Matrix3, Texture, Vector4, WebGLProgramParametersWithUniforms } from "three";
+import type { Grid, NormalCode } from "../../stage/stage.ts";
+import { isPairCode } from "../../stage/stage.ts";
+import type { Vec3 } from "../../document/description.ts";
+import { toLinearChunk } from "../../lighting/physicalLighting.ts";
+import { cutFacesChunk, placeFragmentChunk, placesDefine, placeVertexChunk } from "../batches/instanceChunk.ts";
+import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
+import { cutDashesChunk, dashChunk, wideLineChunk, wideLinesDefine } from "../lines/wideLineChunk.ts";
+
+/** What both bodies read, as uniforms. */
+export interface VertexUniforms extends Record<string, IUniform> {
+  /** Device pixels in a CSS pixel. */
+  pixelRatio: IUniform<number>;
+  /** In CSS pixels: the size of a point, and its bounds. */
+  pointSizes: IUniform<Vec3>;
+  /** At distance r points are 1 / (a + b r + c r^2) as large. */
+  attenuation: IUniform<Vec3>;
+  /** Where stored texture coordinates 0 and 1 lie: origin and extent. */
+  texCoordFrame: IUniform<[number, number, number, number]>;
+  /** From there to the pictures, by textureRoles. */
+  textureTransforms: IUniform<readonly Matrix3[]>;
+  /** Along each axis, in the shape's coordinates. */
+  latticeStep: IUniform<Vec3>;
+  /** Of lines that are wide: LineDescription's width and dashes, as many as count. */
+  lineWidth: IUniform<number>;
+  dashes: IUniform<readonly number[]>;
+  dashCount: IUniform<number>;
+  viewport: IUniform<Vector4>;
+}
+
+/** What the image body reads besides. Textures that have not come are null and read as 0. */
+export interface ImageVertexUniforms extends VertexUniforms {
+  indexImage: IUniform<Texture | null>;
+  coordImage0: IUniform<Texture | null>;
+  coordImage1: IUniform<Texture | null>;
+  coordImage2: IUniform<Texture | null>;
+  coordImage3: IUniform<Texture | null>;
+  normalImage: IUniform<Texture | null>;
+  colorImage: IUniform<Texture | null>;
+  texCoordImage: IUniform<Texture | null>;
+  /** First texels: index, normal, colour, texture coordinates. */
+  firstTexels: IUniform<[number, number, number, number]>;
+  coordFirstTexels: IUniform<[number, number, number, number]>;
+  coordPlanes: IUniform<number>;
+  middleOfMissing: IUniform<number>;
+  hasIndex: IUniform<boolean>;
+  isIndexWide: IUniform<boolean>;
+  implicitWidth: IUniform<number>;
+  /** Columns and rows of a grid's vertices, and whether its last column is joined to the first; used with gridDefinesOf. */
+  gridSize: IUniform<[number, number]>;
+  isGridClosed: IUniform<boolean>;
+  /** The stored integer that stands for the far side of the box. */
+  largestStored: IUniform<number>;
+  /** The running number that the draw begins at, and whether it is a strip. */
+  firstNumber: IUniform<number>;
+  isStrip: IUniform<boolean>;
+  /** Of the draw, at least 1: instances are its lines, in one place after the other. */
+  lineCount: IUniform<number>;
+  colorHasAlpha: IUniform<boolean>;
+}
+
+/** Samplers that the image body, values and places declare, and so texture units that a vertex shader must have. */
+export const vertexSamplers = 12;
+
+/** Defined in materials that read images, and in those that read normals from them. */
+export const imageVerticesDefine = "IMAGE_VERTICES";
+const imageNormalsDefine = "IMAGE_NORMALS";
+
+/** How the vertices of a stage are found. */
+export interface VertexForm {
+  /** They come from images, not from buffers. */
+  readonly areImages: boolean;
+  readonly hasTexCoords: boolean;
+  /** As gridDefinesOf says it. */
+  readonly gridDefines: Readonly<Record<string, string>>;
+  /** As normalDefinesOf says it. */
+  readonly normalDefines: Readonly<Record<string, string>>;
+  /** Each in the place whose number comes with it; otherwise the object's matrix says where. */
+  readonly arePlaced: boolean;
+  /** Of wide lines, how many vertices on the next begins; 0: they are none. */
+  readonly wideLineStep: 0 | 1 | 2;
+}
+
+/** What a material must define to read vertices of this form. */
+export function vertexDefinesOf(
+  { areImages, hasTexCoords, gridDefines, normalDefines, arePlaced, wideLineStep }: VertexForm,
+  readsNormals: boolean,
+): Record<string, string> {
+  return {
+    ...(areImages && { [imageVerticesDefine]: "" }),
+    ...(areImages && readsNormals && { [imageNormalsDefine]: "" }),
+    ...(hasTexCoords && { HAS_TEX_COORDS: "" }),
+    ...(arePlaced && { [placesDefine]: "" }),
+    ...(wideLineStep > 0 && { [wideLinesDefine]: `${wideLineStep}` }),
+    ...gridDefines,
+    ...(readsNormals && normalDefines),
+  };
+}
+
+/** How a material's normals are stored, as defines. `isWord`: both numbers in one of 16 bits. */
+export function normalDefinesOf(code: NormalCode, isWord: boolean): Record<string, string> {
+  if (!isPairCode(code)) return code.kind === "byteVector" ? { NORMAL_BYTES: "" } : {};
+  return {
+    [code.kind === "octahedral" ? "OCTAHEDRAL_NORMALS" : "SPHERICAL_NORMALS"]: "",
+    NORMAL_LARGEST: `${2 ** code.bits - 1}.0`,
+    ...(isWord && { NORMAL_WORDS: "" }),
+  };
+}
+
+/** What a grid changes in the image body, as defines: where its vertices are, and its normals where it has no others. */
+export function gridDefinesOf(grid: Grid | undefined, hasNormals: boolean): Record<string, string> {
+  if (grid === undefined) return {};
+  return {
+    GRID: "",
+    ...(grid.kind === "heightMap" && { GRID_HEIGHTS: "" }),
+    ...(!hasNormals && { GRID_NORMALS: "" }),
+  };
+}
+
+// three.js shades flat whatever has no buffer of normals.
+const ownNormalsChunk = /* glsl */ `
+#ifdef ${imageNormalsDefine}
+#undef FLAT_SHADED
+#endif
+`;
+
+const readVertexChunk = /* glsl */ `
+uniform float pixelRatio;
+uniform vec3 pointSizes;
+uniform vec3 attenuation;
+uniform vec3 latticeStep;
+${texCoordDeclarations}
+
+struct Vertex {
+  vec3 position;
+  vec3 normal;
+  vec4 color;
+  vec2 texCoord;
+};
+
+float pointSizeAt(float distance) {
+  float size = pointSizes.x / max(dot(attenuation, vec3(1.0, distance, distance * distance)), 1e-6);
+  return clamp(size, pointSizes.y, pointSizes.z) * pixelRatio;
+}
+
+#if defined(OCTAHEDRAL_NORMALS)
+
+// Meyer et al. 2010; the largest number counts as the one before it, so that the axes are exact.
+vec3 unitOf(vec2 pair) {
+  vec2 p = min(pair, NORMAL_LARGEST - 1.0) * (2.0 / (NORMAL_LARGEST - 1.0)) - 1.0;
+  vec3 unit = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+  if (unit.z < 0.0) unit.xy = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
+  return normalize(unit);
+}
+
+#elif defined(SPHERICAL_NORMALS)
+
+vec3 unitOf(vec2 pair) {
+  vec2 angles = PI * vec2(2.0, 1.0) * pair / NORMAL_LARGEST - vec2(PI, 0.0);
+  return vec3(sin(angles.y) * cos(angles.x), sin(angles.y) * sin(angles.x), cos(angles.y));
+}
+
+#endif
+
+#ifdef ${imageVerticesDefine}
+
+uniform sampler2D indexImage, coordImage0, coordImage1, coordImage2, coordImage3, normalImage, colorImage, texCoordImage;
+uniform ivec4 firstTexels;
+uniform ivec4 coordFirstTexels;
+uniform int coordPlanes;
+uniform float middleOfMissing;
+uniform bool hasIndex;
+uniform bool isIndexWide;
+uniform int implicitWidth;
+uniform ivec2 gridSize;
+uniform bool isGridClosed;
+uniform float largestStored;
+uniform int firstNumber;
+uniform bool isStrip;
+uniform int lineCount;
+uniform bool colorHasAlpha;
+
+#ifdef GRID
+
+// Cell by cell, two triangles each, which turn left where columns run right and
+// rows down. The last column of a closed grid is followed by its first.
+int gridVertex(int drawnNumber) {
+  int cell = drawnNumber / 6;
+  int corner = drawnNumber % 6;
+  int cellsAcross = isGridClosed ? gridSize.x : gridSize.x - 1;
+  ivec2 away = corner == 0 ? ivec2(0, 0) : corner == 1 || corner == 3 ? ivec2(0, 1)
+    : corner == 2 || corner == 5 ? ivec2(1, 0) : ivec2(1, 1);
+  ivec2 at = ivec2(cell % cellsAcross, cell / cellsAcross) + away;
+  return at.y * gridSize.x + at.x % gridSize.x;
+}
+
+#endif
+
+// Strips are drawn as separate triangles, three.js knows no others: triangle t
+// is t, t + 1, t + 2, its first two exchanged where t is odd.
+int runningNumber(int drawnNumber) {
+  #ifdef GRID
+    return gridVertex(drawnNumber);
+  #endif
+  if (!isStrip) return firstNumber + drawnNumber;
+  int triangle = drawnNumber / 3;
+  int corner = drawnNumber % 3;
+  return firstNumber + triangle + (corner == 2 ? 2 : corner ^ (triangle & 1));
+}
+
+// Texel number n, counted row by row, from texel number "first" on.
+vec4 texelOf(sampler2D image, int first, int n) {
+  int width = textureSize(image, 0).x;
+  return texelFetch(image, ivec2((first + n) % width, (first + n) / width), 0);
+}
+
+// Numbers stand in rows of implicitWidth, which may be less than the image's width.
+int texelNumber(sampler2D image, int n) {
+  return (n / implicitWidth) * textureSize(image, 0).x + n % implicitWidth;
+}
+
+uvec3 bytesOf(vec4 texel) {
+  return uvec3(texel.rgb * 255.0 + 0.5);
+}
+
+// An index texel holds the three bytes of a record's number, or column and row in
+// units of 1/256 of the coordinate image (docs/formats/nodes.md, "Stored values").
+int recordNumber(int drawnNumber) {
+  int running = runningNumber(drawnNumber);
+  if (!hasIndex) return running;
+  int n = texelNumber(indexImage, running);
+  ivec3 index = ivec3(bytesOf(texelOf(indexImage, firstTexels.x, n)));
+  if (isIndexWide) return index.r | index.g << 8 | index.b << 16;
+  ivec2 place = index.rg;
+  ivec2 size = textureSize(coordImage0, 0);
+  ivec2 texel = (place * size + 128) >> 8;
+  return texel.y * size.x + texel.x;
+}
+
+// The texel of a record that is one texel: without an index, records stand in rows of implicitWidth.
+int recordTexel(int record) {
+  return hasIndex ? record : texelNumber(coordImage0, record);
+}
+
+vec3 storedPosition(int record) {
+  int n = recordTexel(record);
+  uvec3 stored = bytesOf(texelOf(coordImage0, coordFirstTexels.x, n));
+  if (coordPlanes > 1) stored = (stored << 8) | bytesOf(texelOf(coordImage1, coordFirstTexels.y, n));
+  if (coordPlanes > 2) stored = (stored << 8) | bytesOf(texelOf(coordImage2, coordFirstTexels.z, n));
+  if (coordPlanes > 3) stored = (stored << 8) | bytesOf(texelOf(coordImage3, coordFirstTexels.w, n));
+  vec3 place = vec3(stored) + middleOfMissing;
+  #ifdef GRID_HEIGHTS
+    vec2 across = vec2(record % gridSize.x, record / gridSize.x) * largestStored / vec2(gridSize - 1);
+    return vec3(across.x, place.x, across.y);
+  #else
+    return place;
+  #endif
+}
+
+#ifdef GRID_NORMALS
+
+// Across the neighbours on both sides; at a border, the vertex itself is one of
+// them. Divided by the step because the caller multiplies by it.
+vec3 slopeAt(ivec2 at) {
+  ivec2 last = gridSize - 1;
+  int left = isGridClosed ? (at.x + last.x) % gridSize.x : max(at.x - 1, 0);
+  int right = isGridClosed ? (at.x + 1) % gridSize.x : min(at.x + 1, last.x);
+  vec3 along = storedPosition(at.y * gridSize.x + right) - storedPosition(at.y * gridSize.x + left);
+  vec3 down = storedPosition(min(at.y + 1, last.y) * gridSize.x + at.x) - storedPosition(max(at.y - 1, 0) * gridSize.x + at.x);
+  return cross(down, along) / latticeStep;
+}
+
+// At a pole all of a row is one point; the next row says where it faces.
+vec3 slopeNormal(int record) {
+  ivec2 at = ivec2(record % gridSize.x, record / gridSize.x);
+  vec3 slope = slopeAt(at);
+  return slope != vec3(0.0) ? slope : slopeAt(ivec2(at.x, at.y == 0 ? 1 : at.y - 1));
+}
+
+#endif
+
+vec3 readNormal(int record) {
+  #ifdef GRID_NORMALS
+    return slopeNormal(record);
+  #elif defined(NORMAL_LARGEST)
+    ivec2 size = textureSize(normalImage, 0);
+    int first = firstTexels.y;
+    return unitOf(255.0 * vec2(texelOf(normalImage, first, record).r,
+                               texelOf(normalImage, first + size.x * size.y / 2, record).r));
+  #else
+    return texelOf(normalImage, firstTexels.y, recordTexel(record)).rgb * 2.0 - 1.0;
+  #endif
+}
+
+// Words: red and blue are the bytes of u, green and alpha those of v.
+vec2 readTexCoord(int record) {
+  #ifdef HAS_TEX_COORDS
+    vec4 bytes = texelOf(texCoordImage, firstTexels.w, recordTexel(record)) * 255.0;
+    return (bytes.rg * 256.0 + bytes.ba) / 65535.0;
+  #else
+    return vec2(0.0);
+  #endif
+}
+
+// Of a vertex, or of one end of a wide line.
+int drawnNumber(int end) {
+  #ifdef ${wideLinesDefine}
+    return gl_InstanceID % lineCount * ${wideLinesDefine} + end;
+  #else
+    return gl_VertexID;
+  #endif
+}
+
+Vertex vertexAt(int end) {
+  int record = recordNumber(drawnNumber(end));
+  vec4 color = texelOf(colorImage, firstTexels.z, recordTexel(record));
+  if (!colorHasAlpha) color.a = 1.0;
+  return Vertex(storedPosition(record), readNormal(record), color, readTexCoord(record));
+}
+
+#else
+
+vec3 unitNormal(vec3 normal) {
+  #if defined(NORMAL_WORDS)
+    float word = normal.x < 0.0 ? normal.x + 65536.0 : normal.x; // X3DOM's, in records of Int16
+    return unitOf(vec2(mod(word, 256.0), floor(word / 256.0)));
+  #elif defined(NORMAL_LARGEST)
+    return unitOf(normal.xy);
+  #elif defined(NORMAL_BYTES)
+    return normal * 2.0 - 1.0;
+  #else
+    return normal;
+  #endif
+}
+
+#if defined(USE_COLOR_ALPHA)
+  #define STORED_COLOR(color) color
+#elif defined(USE_COLOR)
+  #define STORED_COLOR(color) vec4(color, 1.0)
+#else
+  #define STORED_COLOR(color) vec4(1.0)
+#endif
+#ifdef HAS_TEX_COORDS
+  #define STORED_TEX_COORD(uv) uv
+#else
+  #define STORED_TEX_COORD(uv) vec2(0.0)
+#endif
+
+#ifdef ${wideLinesDefine}
+  attribute vec3 positionEnd, normalEnd;
+  attribute vec2 uvEnd;
+  #if defined(USE_COLOR_ALPHA)
+    attribute vec4 colorEnd;
+  #elif defined(USE_COLOR)
+    attribute vec3 colorEnd;
+  #endif
+#endif
+
+Vertex vertexAt(int end) {
+  #ifdef ${wideLinesDefine}
+    if (end == 1) return Vertex(positionEnd, unitNormal(normalEnd), STORED_COLOR(colorEnd), STORED_TEX_COORD(uvEnd));
+  #endif
+  return Vertex(position, unitNormal(normal), STORED_COLOR(color), STORED_TEX_COORD(uv));
+}
+
+#endif
+`;
+
+/** Defined in materials that light in linear space: colours of vertices are sRGB, as everything that people see in files. */
+export const srgbColorsDefine = "SRGB_VERTEX_COLORS";
+
+const colorChunk = /* glsl */ `
+#if defined(USE_COLOR) || defined(USE_COLOR_ALPHA)
+  vColor = vertex.color;
+  #ifdef ${srgbColorsDefine}
+    ${toLinearChunk("vColor.rgb")}
+  #endif
+#endif
+`;
+
+/** Where a point has its size. */
+export const pointSizeChunk = "gl_PointSize = pointSizeAt(length(mvPosition.xyz));";
+
+/** The first of a vertex shader. */
+export const readVertexStatement = "Vertex vertex = readVertex();";
+
+/** Makes a built-in material's shaders read their vertices here, for use in `onBeforeCompile`. */
+export function readVerticesIn(
+  shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
+): void {
+  shader.fragmentShader =
+    ownNormalsChunk +
+    placeFragmentChunk +
+    dashChunk +
+    replaceEach(shader.fragmentShader, [
+      ["void main() {", cutDashesChunk],
+      ["void main() {", cutFacesChunk],
+    ]);
+  shader.vertexShader =
+    ownNormalsChunk +
+    replaceEach(shader.vertexShader, [
+      ["#include <common>", `#include <common>\n${readVertexChunk}${placeVertexChunk}${wideLineChunk}`],
+      ["void main() {", `void main() {\n  ${readVertexStatement}`],
+      ["#include <uv_vertex>", texCoordChunk],
+      ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\nshowPlace();\nwidenLine();`],
+      ["#include <color_vertex>", colorChunk],
+      // Normals are the shape's own.
+      ["#include <beginnormal_vertex>", "vec3 objectNormal = normalInPlace(vertex.normal);"],
+      ["#include <begin_vertex>", "vec3 transformed = inPlace(vertex.position);"],
+    ]);
+}
+
+/** Not every pass has every chunk; `begin_vertex` they all have. */
+export function replaceEach(source: string, replacements: readonly (readonly [string, string])[]): string {
+  return replacements.reduce((text, [chunk, replacement]) => text.replace(chunk, () => replacement), source);
+}

@@ -1,0 +1,80 @@
+// The attributes of small meshes on their way into one mesh: each a column of its
+// own, whatever records they came in, padded to words as GPUs like them.
+
+import { InterleavedBuffer, InterleavedBufferAttribute } from "three";
+import type { ElementArray } from "../../stage/vertexArray.ts";
+import { arrayTypeOf, byteSizeOf } from "../../stage/elementType.ts";
+import type { BufferStage, DrawRange } from "../../stage/stage.ts";
+import type { Buffers } from "../uploads/bufferStore.ts";
+import { storedAttributesOf } from "./vertexAttributes.ts";
+import { GrowingArray } from "./growingArray.ts";
+
+const bytesPerWord = 4;
+
+export interface Column {
+  /** three.js' name for the attribute. */
+  readonly name: string;
+  readonly components: number;
+  readonly isSpread: boolean;
+  readonly elementsPerVertex: number;
+  readonly data: GrowingArray<ElementArray>;
+}
+
+/** The same for stages whose vertices fit into the same columns. */
+export function layoutOf(stage: BufferStage): string {
+  return storedAttributesOf(stage)
+    .map(({ name, vertices: { type, components }, isSpread }) => `${name} ${type} ${components} ${isSpread}`)
+    .join();
+}
+
+export function columnsOf(stage: BufferStage): Column[] {
+  return storedAttributesOf(stage).map(({ name, vertices: { type, components }, isSpread }) => {
+    const elementsPerWord = bytesPerWord / byteSizeOf(type);
+    const elementsPerVertex = Math.ceil(components / elementsPerWord) * elementsPerWord;
+    return { name, components, isSpread, elementsPerVertex, data: new GrowingArray<ElementArray>(arrayTypeOf(type)) };
+  });
+}
+
+/** As many as its bytes hold. */
+export function vertexCountOf({ coord: { bytes, type, stride } }: BufferStage): number {
+  return Math.floor(bytes.byteLength / byteSizeOf(type) / stride);
+}
+
+/** Appends vertices of the stage to the column of one of its attributes: its first ones, so many, or those of these numbers. */
+export function appendVertices(
+  { name, components, elementsPerVertex, data }: Column,
+  stage: BufferStage,
+  vertices: number | Uint32Array,
+  buffers: Buffers,
+): void {
+  const attribute = storedAttributesOf(stage).find((candidate) => candidate.name === name);
+  if (attribute === undefined) throw new RangeError(`the stage has no ${name}`);
+  const { bytes, type, stride, offset } = attribute.vertices;
+  const from = buffers.read(bytes, type, 0);
+  const areFirst = typeof vertices === "number";
+  const count = areFirst ? vertices : vertices.length;
+  const to = data.extend(count * elementsPerVertex);
+  if (areFirst && stride === elementsPerVertex && offset === 0) {
+    to.set(from.subarray(0, to.length));
+    return;
+  }
+  for (let n = 0; n < count; ++n) {
+    const first = (areFirst ? n : (vertices[n] ?? 0)) * stride + offset;
+    for (let c = 0; c < components; ++c) to[n * elementsPerVertex + c] = from[first + c] ?? 0;
+  }
+}
+
+/** The numbers of vertices that draws of a stage name, one draw after the other. */
+export function indicesOf({ index }: BufferStage, ranges: readonly DrawRange[], buffers: Buffers): ArrayLike<number> {
+  const all = index && buffers.read(index.bytes, index.type, 0);
+  const of = ({ first, count }: DrawRange) =>
+    all ? Array.from(all.subarray(first, first + count)) : Array.from({ length: count }, (_, i) => first + i);
+  const [only, ...others] = ranges;
+  if (all && only && others.length === 0) return all.subarray(only.first, only.first + only.count);
+  return ranges.flatMap(of);
+}
+
+/** For three.js. It shares the column's memory. */
+export function attributeOf({ components, isSpread, elementsPerVertex, data }: Column): InterleavedBufferAttribute {
+  return new InterleavedBufferAttribute(new InterleavedBuffer(data.used, elementsPerVertex), components, 0, isSpread);
+}
