@@ -3,7 +3,7 @@
 
 #include "base/file.h"
 #include "export/export.h"
-#include "transcode/preparation.h"
+#include "transcode/source/preparation.h"
 
 #include <chrono>
 #include <cstdlib>

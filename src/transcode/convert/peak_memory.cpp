@@ -1,0 +1,17 @@
+#include "transcode/convert/peak_memory.h"
+
+#include <fstream>
+#include <string>
+
+namespace imgeo {
+
+std::uint64_t peakMemoryBytes() {
+  // Not getrusage: its figure survives exec, and so may be that of a larger parent.
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:"))
+      return std::stoull(line.substr(6)) * 1024;
+  return 0;
+}
+
+} // namespace imgeo

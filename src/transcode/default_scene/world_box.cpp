@@ -1,0 +1,38 @@
+#include "transcode/default_scene/world_box.h"
+
+#include <cmath>
+
+namespace imgeo {
+
+namespace {
+
+/// Beyond, single precision cannot hold lengths together with those of the rest.
+constexpr double leastScale = 1e-15, mostScale = 1e15;
+
+bool canBeDrawn(const Affine3d& worldFromShape) {
+  for (const Vec3d& axis : {worldFromShape.x, worldFromShape.y, worldFromShape.z}) {
+    const double scale = length(axis);
+    if (!(scale <= mostScale) || (scale > 0 && scale < leastScale))
+      return false;
+  }
+  return length(worldFromShape.translation) <= mostScale;
+}
+
+} // namespace
+
+WorldBox worldBoxOf(const SceneDocument& document) {
+  WorldBox world;
+  for (const PlacedShape& placed : placedShapes(document.graph)) {
+    const Box3d& box = document.geometries[shapeOf(document.graph, placed.node).mesh].box;
+    if (!canBeDrawn(placed.worldFromShape)) {
+      ++world.absurdShapes;
+      continue;
+    }
+    for (int corner = 0; corner < 8; ++corner)
+      world.box.add(placed.worldFromShape.point({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                                 corner & 4 ? box.max.z : box.min.z}));
+  }
+  return world;
+}
+
+} // namespace imgeo

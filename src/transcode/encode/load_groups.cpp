@@ -1,0 +1,28 @@
+#include "transcode/encode/load_groups.h"
+
+namespace imgeo {
+
+namespace {
+
+bool isChoice(const NodeContent& content) {
+  const OtherNode* other = std::get_if<OtherNode>(&content);
+  return other && (other->element == "Switch" || other->element == "LOD");
+}
+
+} // namespace
+
+std::vector<std::size_t> loadGroups(const SceneGraph& graph) {
+  std::vector<std::size_t> groups(graph.nodes.size());
+  std::vector<bool> isKnown(graph.nodes.size());
+  std::size_t next = 1;
+  for (const std::size_t node : nodesInOrder(graph)) // parents before children
+    for (const std::size_t child : graph.nodes[node].children) {
+      if (isKnown[child])
+        continue; // stands in several places: the first counts
+      isKnown[child] = true;
+      groups[child] = isChoice(graph.nodes[node].content) ? next++ : groups[node];
+    }
+  return groups;
+}
+
+} // namespace imgeo

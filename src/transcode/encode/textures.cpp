@@ -1,0 +1,224 @@
+#include "transcode/encode/textures.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "containers/png/png.h"
+#include "images/decode_image.h"
+#include "images/encode_image.h"
+#include "images/image_type.h"
+#include "images/resize.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace imgeo {
+
+namespace {
+
+constexpr int webpQuality = 80, avifQuality = 60, previewQuality = 60;
+
+/// What comes this soon needs no preview.
+constexpr std::size_t leastPreviewedBytes = 16 * 1024;
+
+/// Of a texture in an X3D source, as the field says that it stands in.
+TextureRole roleOfField(std::string_view field) {
+  static constexpr std::pair<std::string_view, TextureRole> data[] = {
+      {"normalTexture", TextureRole::normal},
+      {"metallicRoughnessTexture", TextureRole::metallicRoughness},
+      {"occlusionTexture", TextureRole::occlusion},
+      {"shininessTexture", TextureRole::shininess}};
+  for (const auto& [name, role] : data)
+    if (name == field)
+      return role;
+  return TextureRole::color;
+}
+
+void note(ImageUse& use, TextureRole role) {
+  use.isSeen = true;
+  switch (role) {
+  case TextureRole::color:
+  case TextureRole::emissive:
+  case TextureRole::ambient:
+  case TextureRole::specular:
+    use.isColor = true;
+    break;
+  case TextureRole::normal:
+    use.isNormal = true;
+    [[fallthrough]];
+  case TextureRole::metallicRoughness:
+  case TextureRole::occlusion:
+  case TextureRole::shininess:
+    use.isData = true;
+    break;
+  }
+}
+
+struct Encoded {
+  Bytes bytes;
+  std::string extension;
+};
+
+Encoded encodedPng(const Raster& raster, int effort) {
+  const std::uint32_t channels = hasAlpha(raster) ? 4 : 3;
+  Image image{raster.width, raster.height, channels, {}, {}};
+  image.pixels.reserve(std::size_t{channels} * raster.width * raster.height);
+  for (std::size_t at = 0; at < raster.pixels.size(); at += 4)
+    image.pixels.insert(image.pixels.end(), &raster.pixels[at], &raster.pixels[at] + channels);
+  return {encodePng(image, effort), ".png"};
+}
+
+/// An image as it will lie in the site.
+struct Prepared {
+  Encoded file;
+  Bytes preview; ///< empty: none
+  bool isResized = false, isReencoded = false;
+  std::string failure; ///< why there is none; empty where there is
+  std::string warning; ///< it is as it was, though another was asked for
+};
+
+/// Prepares one image.
+class Preparation {
+public:
+  Preparation(const ConvertOptions& options, const ImageFile& image, const ImageUse& use)
+      : options_(options), image_(image), use_(use), type_(imageType(image.bytes)) {}
+
+  Prepared prepared() const {
+    Prepared result;
+    if (!needsPixels()) {
+      result.file = {image_.bytes, type_};
+      return result;
+    }
+    try {
+      fromPixels(decodeRaster(image_.bytes, image_.url.empty() ? "an embedded image" : image_.url), result);
+    } catch (const Error& error) {
+      if (isForPages(type_)) {
+        result.file = {image_.bytes, type_};
+        result.warning = wantsOther() ? error.what() : "";
+      } else {
+        result.failure = error.what();
+      }
+    }
+    return result;
+  }
+
+private:
+  /// Something else than the file as it is was asked for.
+  bool wantsOther() const { return options_.textures.format != TextureFormat::keep || options_.textures.size != 0; }
+  bool wantsPreview() const {
+    return options_.textures.previewEdge > 0 && options_.target == Target::web && use_.isColor && !use_.isData &&
+           image_.bytes.size() >= leastPreviewedBytes;
+  }
+  bool needsPixels() const { return !isForPages(type_) || wantsOther() || (isDecodable(type_) && wantsPreview()); }
+  PixelContent content() const {
+    return use_.isNormal ? PixelContent::directions : use_.isData ? PixelContent::numbers : PixelContent::color;
+  }
+
+  void fromPixels(Raster raster, Prepared& result) const {
+    const TextureOptions& wanted = options_.textures;
+    const RasterSize own{raster.width, raster.height};
+    const RasterSize size = wanted.size == 0 ? own : fittedSize(own, wanted.size);
+    result.isResized = size.width != own.width || size.height != own.height;
+    if (result.isResized)
+      raster = shrunk(raster, size, content());
+    const bool mustChange = result.isResized || !isForPages(type_);
+    if (mustChange || wanted.format != TextureFormat::keep) {
+      result.file = encoded(raster);
+      result.isReencoded = mustChange || result.file.bytes.size() < image_.bytes.size();
+    }
+    if (!result.isReencoded)
+      result.file = {image_.bytes, type_};
+    const RasterSize small = fittedSize(size, wanted.previewEdge);
+    if (wantsPreview() && result.file.bytes.size() >= leastPreviewedBytes && small.width < size.width)
+      result.preview = encodeWebp(shrunk(raster, small, PixelContent::color), previewQuality);
+  }
+
+  /// In the format that was asked for; a resized file that was to be kept stays of its kind, or near it.
+  Encoded encoded(const Raster& raster) const {
+    const TextureOptions& wanted = options_.textures;
+    const bool isLossy = !use_.isData && (wanted.format != TextureFormat::keep || type_ == ".jpg");
+    if (wanted.format == TextureFormat::png || (wanted.format == TextureFormat::keep && type_ == ".png"))
+      return encodedPng(raster, options_.effort);
+    if (isLossy && wanted.format == TextureFormat::avif)
+      return {encodeAvif(raster, wanted.quality.value_or(avifQuality)), ".avif"};
+    return {isLossy ? encodeWebp(raster, wanted.quality.value_or(webpQuality)) : encodeLosslessWebp(raster), ".webp"};
+  }
+
+  const ConvertOptions& options_;
+  const ImageFile& image_;
+  const ImageUse& use_;
+  std::string type_;
+};
+
+/// Nothing refers any more to images that have failed.
+void leaveOut(SceneGraph& graph, const std::vector<bool>& hasFailed) {
+  for (Appearance& appearance : graph.appearances)
+    std::erase_if(appearance.textures,
+                  [&](const TextureUse& use) { return hasFailed[graph.textures[use.texture].image]; });
+  for (Node& node : graph.nodes)
+    if (OtherNode* other = std::get_if<OtherNode>(&node.content); other && other->image && hasFailed[*other->image])
+      other->image = {};
+}
+
+void add(TextureReport& report, const ImageFile& image, const Prepared& prepared) {
+  report.files += 1;
+  report.resized += prepared.isResized;
+  report.reencoded += prepared.isReencoded;
+  report.previews += !prepared.preview.empty();
+  report.sourceBytes += image.bytes.size();
+  report.bytes += prepared.file.bytes.size();
+  report.previewBytes += prepared.preview.size();
+}
+
+} // namespace
+
+std::vector<ImageUse> imageUses(const SceneGraph& graph) {
+  std::vector<ImageUse> uses(graph.images.size());
+  for (const std::size_t node : shapeNodes(graph))
+    if (const auto& appearance = shapeOf(graph, node).appearance)
+      for (const TextureUse& use : graph.appearances[*appearance].textures)
+        note(uses[graph.textures[use.texture].image], use.role);
+  for (const std::size_t index : nodesInOrder(graph)) {
+    const Node& node = graph.nodes[index];
+    const OtherNode* other = std::get_if<OtherNode>(&node.content);
+    if (!other || !other->image)
+      continue;
+    const auto field = std::ranges::find(node.fields, "containerField", &FieldText::name);
+    note(uses[*other->image], roleOfField(field == node.fields.end() ? std::string_view{} : field->value));
+  }
+  return uses;
+}
+
+TextureReport writeTextures(SceneGraph& graph, const ConvertOptions& options, ContentFiles& files,
+                            std::vector<std::string>& warnings) {
+  const std::vector<ImageUse> uses = imageUses(graph);
+  std::vector<Prepared> all(graph.images.size());
+  parallelFor(all.size(), [&](std::size_t i) {
+    if (uses[i].isSeen)
+      all[i] = Preparation(options, graph.images[i], uses[i]).prepared();
+  });
+  TextureReport report;
+  std::vector<bool> hasFailed(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!uses[i].isSeen)
+      continue;
+    ImageFile& image = graph.images[i];
+    if (!all[i].failure.empty()) {
+      if (options.strict)
+        throw Error(ErrorKind::malformed, "", all[i].failure);
+      warnings.push_back(fmt::format("A texture is left out: {}.", all[i].failure));
+      hasFailed[i] = true;
+      continue;
+    }
+    if (!all[i].warning.empty())
+      warnings.push_back(fmt::format("A texture stays as it is: {}.", all[i].warning));
+    add(report, image, all[i]);
+    image.url = files.write(all[i].file.bytes, all[i].file.extension);
+    if (!all[i].preview.empty())
+      image.preview = files.write(all[i].preview, ".webp");
+    image.bytes = {};
+  }
+  leaveOut(graph, hasFailed);
+  return report;
+}
+
+} // namespace imgeo

@@ -1,0 +1,132 @@
+// What a site holds and how many bytes each part takes, without decoding it.
+
+#include "base/error.h"
+#include "base/file.h"
+#include "transcode/site/site_document.h"
+#include "transcode/site/site_manifest.h"
+#include "transcode/site/staged_site.h"
+#include "transcode/transcode.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace imgeo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::uint64_t sizeOf(const fs::path& file) {
+  std::error_code reason;
+  const std::uintmax_t bytes = fs::file_size(file, reason);
+  if (reason)
+    throw Error(ErrorKind::io, file.string(), "is named by the document but " + reason.message());
+  return bytes;
+}
+
+void count(const PatchDescription& patch, SiteInfo& info) {
+  for (const Draw& draw : patch.draws)
+    info.elements += elementsOf(draw);
+  info.vertices += patch.vertexCount;
+}
+
+GeometryInfo infoOf(const GeometryDescription& geometry, const ContainerReader& reader) {
+  const bool isBg = geometry.container == Container::bg;
+  const auto anyPatch = [&](auto reference) {
+    return std::ranges::any_of(geometry.patches,
+                               [&](const PatchDescription& patch) { return (patch.*reference).has_value(); });
+  };
+  GeometryInfo info;
+  info.container = geometry.container;
+  info.profile = geometry.profile;
+  info.positionBits = geometry.lattice.bits;
+  if (isBg)
+    info.coordType = nameOf(geometry.coordType);
+  if (anyPatch(&PatchDescription::index))
+    info.indexType = nameOf(geometry.indexType);
+  const StoredPrecision precision = reader.precisionOf(geometry);
+  info.normalBits = precision.normalBits;
+  info.texCoordBits = precision.texCoordBits;
+  info.colorBits = precision.colorBits;
+  if (precision.normalBits > 0)
+    info.normalEncoding = nameOf(precision.normalEncoding);
+  for (const AttributeDescription& attribute : geometry.attributes)
+    info.attributes.push_back(attribute.name);
+  return info;
+}
+
+/// The bytes of the geometry nodes in a document's text, tags and all.
+std::uint64_t geometryNodeBytes(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::uint64_t bytes = 0;
+  for (const std::string node : {"imagegeometry", "binarygeometry"})
+    for (std::size_t begin = text.find("<" + node); begin != text.npos; begin = text.find("<" + node, begin)) {
+      const std::string endTag = "</" + node + ">";
+      const std::size_t endsAt = text.find(endTag, begin);
+      const std::size_t end = endsAt == text.npos ? text.find('>', begin) : endsAt + endTag.size();
+      bytes += std::min(end, text.size()) - begin;
+      begin = std::min(end, text.size());
+    }
+  return bytes;
+}
+
+} // namespace
+
+SiteInfo inspect(const fs::path& site) {
+  const SiteDocument document = openDocument(site);
+  SiteInfo info;
+  const auto add = [&](const std::string& url, const char* role) {
+    info.files.push_back({url, role, sizeOf(fileOf(document, url))});
+    return info.files.back().bytes;
+  };
+  info.documentBytes = add(document.name, "document");
+  std::uint64_t geometryBytes = geometryNodeBytes(document.text);
+  for (const InlinedText& inlined : document.inlined) {
+    info.documentBytes += add(inlined.url, "document");
+    geometryBytes += geometryNodeBytes(inlined.text);
+  }
+  for (const std::string& url : pageFilesOf(document)) {
+    const bool isModule = url.ends_with(".js");
+    const std::uint64_t bytes = add(url, isModule ? "runtime" : "style");
+    if (isModule)
+      info.runtimeBytes += bytes;
+  }
+  for (const NamedFile& file : geometryFilesOf(document.scene))
+    info.containerBytes += add(file.url, nameOf(file.role));
+  const auto addPictures = [&](const std::vector<std::string>& urls, const char* role) {
+    for (const std::string& url : urls)
+      if (isThere(document, url))
+        info.textureBytes += add(url, role);
+      else
+        info.missing.push_back(url);
+  };
+  addPictures(textureFilesOf(document.scene), "texture");
+  addPictures(previewFilesOf(document.scene), "preview");
+  info.warnings = document.scene.warnings;
+
+  const ContainerReader reader(fetchFrom(document));
+  for (const GeometryDescription& geometry : document.scene.geometries) {
+    info.geometries.push_back(infoOf(geometry, reader));
+    info.patches += geometry.patches.size();
+    for (const PatchDescription& patch : geometry.patches)
+      count(patch, info);
+  }
+  std::error_code none;
+  if (document.name == pageName && fs::exists(document.root / sceneName, none))
+    add(sceneName, "scene");
+  if (fs::exists(document.root / manifestName, none)) {
+    add(manifestName, "marker");
+    const SiteManifest manifest =
+        readManifest(asText(readFile(document.root / manifestName)), (document.root / manifestName).string());
+    info.sourceTextureBytes = manifest.sourceTextureBytes;
+    // A strip's joins count as vertices in the document, not as triangles here.
+    if (manifest.primitives == Primitives::strips)
+      info.elements.triangles = manifest.elements.triangles;
+  }
+  if (info.elements.triangles > 0)
+    info.bytesPerTriangle =
+        static_cast<double>(info.containerBytes + geometryBytes) / static_cast<double>(info.elements.triangles);
+  return info;
+}
+
+} // namespace imgeo

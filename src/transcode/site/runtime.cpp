@@ -1,0 +1,57 @@
+#include "transcode/site/runtime.h"
+
+#include "base/file.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <initializer_list>
+
+extern "C" {
+// Placed by runtime_module.S around the bytes of the bundles.
+extern const char imgeoPageBegin[], imgeoPageEnd[];
+extern const char imgeoSharedBegin[], imgeoSharedEnd[];
+extern const char imgeoSceneBegin[], imgeoSceneEnd[];
+extern const char imgeoWorkerBegin[], imgeoWorkerEnd[];
+}
+
+namespace imgeo {
+
+namespace {
+
+/// A bundle as a file of a site, which names those that it uses as they are named there.
+RuntimeFile siteFile(const std::string& stem, std::string_view bundle,
+                     std::initializer_list<std::pair<const char*, const RuntimeFile*>> used) {
+  std::string text(bundle);
+  for (const auto& [bundledName, file] : used) {
+    std::size_t place = text.find(bundledName);
+    assert(place != text.npos);
+    for (; place != text.npos; place = text.find(bundledName, place + file->name.size())) {
+      text.replace(place, std::string_view(bundledName).size(), file->name);
+    }
+  }
+  std::string name = fmt::format("{}-{}.js", stem, contentName(asBytes(text)));
+  return {std::move(name), std::move(text)};
+}
+
+} // namespace
+
+RuntimeModules<std::string_view> bundledRuntime() {
+  return {{imgeoPageBegin, imgeoPageEnd},
+          {imgeoSharedBegin, imgeoSharedEnd},
+          {imgeoSceneBegin, imgeoSceneEnd},
+          {imgeoWorkerBegin, imgeoWorkerEnd}};
+}
+
+Runtime runtimeOfSite() {
+  // The names are those of web/bundle.ts and of web/src/workers/pageWorkers.ts.
+  const auto [page, shared, scene, worker] = bundledRuntime();
+  Runtime site;
+  site.worker = siteFile("imgeo-worker", worker, {});
+  site.shared = siteFile("imgeo-shared", shared, {});
+  site.scene = siteFile("imgeo-scene", scene, {{"imgeo-shared.js", &site.shared}, {"imgeo-worker.js", &site.worker}});
+  site.page = siteFile("imgeo", page, {{"imgeo-shared.js", &site.shared}, {"imgeo-scene.js", &site.scene}});
+  return site;
+}
+
+} // namespace imgeo

@@ -1,0 +1,155 @@
+#include "transcode/site/site_document.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "transcode/site/staged_site.h"
+
+#include <algorithm>
+#include <set>
+
+namespace imgeo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t maxInlinedDocuments = 1000; // as import has it
+
+/// What is inlined becomes the children of its Inlines, of which those that come so
+/// are looked through too: graph.inlined grows meanwhile.
+void addInlined(SiteDocument& document) {
+  SceneGraph& graph = document.scene.graph;
+  for (std::size_t index = 0; index < graph.inlined.size(); ++index) {
+    const std::string url = graph.inlined[index].url;
+    const fs::path file = document.root / url;
+    std::error_code none;
+    if (!fs::is_regular_file(file, none))
+      continue;
+    if (index >= maxInlinedDocuments)
+      throw Error(ErrorKind::limit, file.string(), "documents inline one another without end");
+    InlinedText inlined{url, std::string(asText(readFile(file)))};
+    const std::vector<std::size_t> roots = append(document.scene, readScene(inlined.text, file.string()));
+    for (Node& node : graph.nodes)
+      if (const OtherNode* other = std::get_if<OtherNode>(&node.content); other && other->document == index)
+        node.children = roots;
+    document.inlined.push_back(std::move(inlined));
+  }
+}
+
+/// The urls that images have there, each once; not those of other hosts.
+std::vector<std::string> ownFilesOf(const SceneDocument& scene, std::string ImageFile::*member) {
+  std::vector<std::string> urls;
+  std::set<std::string> seen;
+  for (const ImageFile& image : scene.graph.images) {
+    const std::string& url = image.*member;
+    const bool isElsewhere = url.empty() || url.find(':') != url.npos || url.starts_with("//");
+    if (!isElsewhere && seen.insert(url).second)
+      urls.push_back(url);
+  }
+  return urls;
+}
+
+bool leavesItsFolder(const std::string& url) {
+  const fs::path path = fs::path(url).lexically_normal();
+  return path.empty() || path.is_absolute() || *path.begin() == ".." || url.find(':') != url.npos;
+}
+
+} // namespace
+
+SiteDocument openDocument(const fs::path& site) {
+  fs::path file = site;
+  std::error_code none;
+  if (fs::is_directory(site, none)) {
+    file = site / pageName;
+    if (!fs::exists(file, none) && fs::exists(site / sceneName, none))
+      file = site / sceneName;
+    if (!fs::exists(file, none))
+      throw Error(ErrorKind::io, site.string(), "is no site: it holds neither index.html nor scene.x3d");
+  }
+  SiteDocument document{file.parent_path(), file.filename(), std::string(asText(readFile(file))), {}, {}};
+  document.scene = readScene(document.text, file.string());
+  addInlined(document);
+  return document;
+}
+
+std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene) {
+  std::vector<NamedFile> files;
+  std::set<std::string> seen;
+  const auto add = [&](Role role, const Reference& reference) {
+    if (seen.insert(reference.url).second)
+      files.push_back({reference.url, role});
+  };
+  for (const GeometryDescription& geometry : scene.geometries) {
+    if (geometry.base)
+      add(Role::base, *geometry.base);
+    for (const PatchDescription& patch : geometry.patches)
+      visitReferences(patch, add);
+  }
+  return files;
+}
+
+std::vector<std::string> textureFilesOf(const SceneDocument& scene) {
+  return ownFilesOf(scene, &ImageFile::url);
+}
+
+std::vector<std::string> previewFilesOf(const SceneDocument& scene) {
+  return ownFilesOf(scene, &ImageFile::preview);
+}
+
+std::vector<std::string> pageFilesOf(std::string_view html) {
+  // Read as text: the values of src and href attributes that end in .js and .css.
+  std::vector<std::string> urls;
+  for (const std::string_view attribute : {"src=\"", "href=\""})
+    for (std::size_t at = html.find(attribute); at != html.npos; at = html.find(attribute, at)) {
+      at += attribute.size();
+      const std::string_view url = html.substr(at, html.find('"', at) - at);
+      const bool wanted = url.ends_with(".js") || url.ends_with(".css");
+      const bool ours = url.find(':') == url.npos && !url.starts_with("//");
+      const bool foreign = url.ends_with("x3dom.js") || url.ends_with("x3dom.css");
+      if (wanted && ours && !foreign && std::ranges::find(urls, url) == urls.end())
+        urls.emplace_back(url);
+    }
+  return urls;
+}
+
+std::vector<std::string> pageFilesOf(const SiteDocument& document) {
+  if (document.name == sceneName)
+    return {};
+  std::vector<std::string> urls = pageFilesOf(document.text);
+  // Read as text too: our modules name others as "./imgeo-....js".
+  constexpr std::string_view name = "\"./imgeo-";
+  for (std::size_t i = 0; i < urls.size(); ++i) {
+    std::error_code none;
+    const fs::path file = fileOf(document, urls[i]);
+    if (!urls[i].ends_with(".js") || !fs::is_regular_file(file, none))
+      continue;
+    const Bytes bytes = readFile(file);
+    const std::string_view text = asText(bytes);
+    for (std::size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1)) {
+      const std::size_t begin = at + std::string_view("\"./").size();
+      const std::string_view other = text.substr(begin, std::min(text.find('"', begin), text.size()) - begin);
+      std::string url = (fs::path(urls[i]).parent_path() / other).string();
+      if (other.ends_with(".js") && std::ranges::find(urls, url) == urls.end())
+        urls.push_back(std::move(url));
+    }
+  }
+  return urls;
+}
+
+fs::path fileOf(const SiteDocument& document, const std::string& url) {
+  if (leavesItsFolder(url))
+    throw Error(ErrorKind::unsupported, (document.root / document.name).string(),
+                "refers to \"" + url + "\", which is not a file of the site");
+  return document.root / fs::path(url).lexically_normal();
+}
+
+bool isThere(const SiteDocument& document, const std::string& url) {
+  std::error_code none;
+  return !leavesItsFolder(url) && fs::is_regular_file(fileOf(document, url), none);
+}
+
+FetchFile fetchFrom(const SiteDocument& document) {
+  return [&document](const std::string& url) { return readFile(fileOf(document, url)); };
+}
+
+} // namespace imgeo

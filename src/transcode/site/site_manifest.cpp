@@ -1,0 +1,83 @@
+#include "transcode/site/site_manifest.h"
+
+#include "base/error.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+namespace imgeo {
+
+namespace {
+
+constexpr std::array containers{Container::sig, Container::bg};
+constexpr std::array profiles{Profile::classic, Profile::compact};
+constexpr std::array primitiveKinds{Primitives::triangles, Primitives::strips, Primitives::points};
+constexpr std::array weightings{NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform};
+
+template <typename Value, std::size_t count>
+Value valueNamed(const std::array<Value, count>& values, const std::string& name, const std::string& location) {
+  for (const Value value : values)
+    if (nameOf(value) == name)
+      return value;
+  throw Error(ErrorKind::malformed, location, "says \"" + name + "\", which is nothing we know");
+}
+
+} // namespace
+
+const char* nameOf(Primitives primitives) {
+  return primitives == Primitives::triangles ? "triangles" : primitives == Primitives::strips ? "strips" : "points";
+}
+
+const char* nameOf(NormalWeighting weighting) {
+  return weighting == NormalWeighting::area ? "area" : weighting == NormalWeighting::angle ? "angle" : "uniform";
+}
+
+std::string writeManifest(const SiteManifest& manifest) {
+  nlohmann::ordered_json json;
+  json["generator"] = manifest.generator;
+  json["source"] = manifest.source;
+  json["container"] = nameOf(manifest.container);
+  json["profile"] = nameOf(manifest.profile);
+  json["primitives"] = nameOf(manifest.primitives);
+  json["normals"] = manifest.normalsComputed ? nameOf(manifest.normalWeighting) : "source";
+  json["triangles"] = manifest.elements.triangles;
+  json["lines"] = manifest.elements.lines;
+  json["points"] = manifest.elements.points;
+  if (manifest.dropped.degenerate)
+    json["droppedDegenerate"] = true;
+  if (manifest.dropped.repeated)
+    json["droppedRepeated"] = true;
+  if (!manifest.attributes.empty())
+    json["attributes"] = manifest.attributes;
+  if (manifest.normalErrorDegrees > 0)
+    json["normalErrorDegrees"] = manifest.normalErrorDegrees;
+  if (manifest.sourceTextureBytes > 0)
+    json["sourceTextureBytes"] = manifest.sourceTextureBytes;
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+SiteManifest readManifest(std::string_view text, const std::string& name) {
+  try {
+    const nlohmann::json json = nlohmann::json::parse(text);
+    SiteManifest manifest;
+    manifest.generator = json.at("generator");
+    manifest.source = json.at("source");
+    manifest.container = valueNamed(containers, json.at("container"), name);
+    manifest.profile = valueNamed(profiles, json.value("profile", nameOf(Profile::classic)), name);
+    manifest.primitives = valueNamed(primitiveKinds, json.at("primitives"), name);
+    const std::string normals = json.at("normals");
+    manifest.normalsComputed = normals != "source";
+    if (manifest.normalsComputed)
+      manifest.normalWeighting = valueNamed(weightings, normals, name);
+    manifest.elements = {json.at("triangles"), json.value("lines", std::size_t{0}), json.at("points")};
+    manifest.dropped = {json.value("droppedDegenerate", false), json.value("droppedRepeated", false)};
+    manifest.attributes = json.value("attributes", std::vector<std::string>{});
+    manifest.normalErrorDegrees = json.value("normalErrorDegrees", 0.0);
+    manifest.sourceTextureBytes = json.value("sourceTextureBytes", std::uint64_t{0});
+    return manifest;
+  } catch (const nlohmann::json::exception&) {
+    throw Error(ErrorKind::malformed, name, "is not the marker of a site");
+  }
+}
+
+} // namespace imgeo

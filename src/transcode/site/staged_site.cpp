@@ -1,0 +1,262 @@
+#include "transcode/site/staged_site.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <random>
+#include <set>
+#include <string>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace imgeo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// linux/fs.h has these, and macros that disturb others' headers with them.
+constexpr unsigned renameNoReplace = 1, renameExchange = 2;
+
+[[noreturn]] void fail(const fs::path& place, const char* doing, int reason) {
+  throw Error(ErrorKind::io, place.string(), fmt::format("cannot {}: {}", doing, std::strerror(reason)));
+}
+
+bool isSite(const fs::path& directory) {
+  std::error_code none;
+  return fs::is_regular_file(directory / manifestName, none);
+}
+
+/// Refuses a target whose loss nobody asked for.
+void requireReplaceable(const fs::path& target, bool force) {
+  std::error_code none;
+  const fs::file_status status = fs::status(target, none);
+  if (!fs::exists(status))
+    return;
+  if (!fs::is_directory(status))
+    throw Error(ErrorKind::io, target.string(), "exists and is not a directory");
+  if (force || isSite(target))
+    return;
+  const bool empty = fs::is_empty(target, none);
+  if (none)
+    fail(target, "read", none.value());
+  if (!empty)
+    throw Error(ErrorKind::usage, target.string(),
+                "is not empty and not a site of ours; --force replaces it with everything in it");
+}
+
+bool holdsWorkingDirectory(const fs::path& target) {
+  std::error_code none;
+  const fs::path here = fs::current_path(none);
+  return std::mismatch(target.begin(), target.end(), here.begin(), here.end()).first == target.end();
+}
+
+bool isMountPoint(const fs::path& directory) {
+  struct stat own {
+  }, above{};
+  return stat(directory.c_str(), &own) == 0 && stat((directory / "..").c_str(), &above) == 0 &&
+         (own.st_dev != above.st_dev || own.st_ino == above.st_ino);
+}
+
+/// Locks a directory for as long as the descriptor lives; -1 where another run
+/// holds it or it has gone. Killing a process unlocks what it held.
+int lockDirectory(const fs::path& directory, int operation) {
+  const int descriptor = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor < 0)
+    return -1;
+  struct stat held {
+  }, named{};
+  if (flock(descriptor, operation) == 0 && fstat(descriptor, &held) == 0 && stat(directory.c_str(), &named) == 0 &&
+      held.st_ino == named.st_ino)
+    return descriptor;
+  close(descriptor);
+  return -1;
+}
+
+void removeAbandoned(const fs::path& folder, const std::string& prefix) {
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename();
+    if (!name.starts_with(prefix) || name.size() != prefix.size() + 6)
+      continue;
+    const int lock = lockDirectory(entry.path(), LOCK_EX | LOCK_NB);
+    if (lock < 0)
+      continue;
+    fs::remove_all(entry.path(), none);
+    close(lock);
+  }
+}
+
+std::string randomSuffix() {
+  static constexpr char letters[] = "abcdefghijklmnopqrstuvwxyz0123456789";
+  std::random_device random;
+  std::uniform_int_distribution<std::size_t> pick(0, sizeof letters - 2);
+  std::string suffix(6, ' ');
+  for (char& letter : suffix)
+    letter = letters[pick(random)];
+  return suffix;
+}
+
+/// Every file of a staged site below its root, the document last and what it
+/// needs first.
+std::vector<fs::path> filesInOrderOfNeed(const fs::path& staging) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(staging))
+    if (!entry.is_directory())
+      files.push_back(fs::relative(entry.path(), staging));
+  const auto rank = [](const fs::path& file) {
+    return file == pageName ? 3 : file == manifestName ? 2 : file.has_parent_path() ? 0 : 1;
+  };
+  std::ranges::sort(
+      files, [&](const fs::path& a, const fs::path& b) { return std::pair(rank(a), a) < std::pair(rank(b), b); });
+  return files;
+}
+
+} // namespace
+
+int renameBySystem(const fs::path& from, const fs::path& to, unsigned flags) {
+  return syscall(SYS_renameat2, AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0 ? 0 : errno;
+}
+
+StagedSite::StagedSite(const fs::path& target, bool force) : force_(force) {
+  std::error_code unknown;
+  target_ = fs::weakly_canonical(fs::absolute(target), unknown);
+  if (unknown)
+    fail(target, "write", unknown.value());
+  if (!target_.has_filename())
+    target_ = target_.parent_path();
+  requireReplaceable(target_, force);
+  const bool exists = fs::is_directory(target_, unknown);
+  const fs::path above = target_.parent_path();
+  inPlace_ = exists && (holdsWorkingDirectory(target_) || isMountPoint(target_) || access(above.c_str(), W_OK) != 0);
+  try {
+    if (!exists)
+      makeFoldersAbove();
+    if (inPlace_)
+      create(target_, ".imgeo-");
+    else
+      create(above, fmt::format(".{}.imgeo-", target_.filename().string()));
+  } catch (...) {
+    discard();
+    throw;
+  }
+}
+
+StagedSite::~StagedSite() {
+  discard();
+}
+
+void StagedSite::makeFoldersAbove() {
+  std::vector<fs::path> missing;
+  std::error_code none;
+  for (fs::path folder = target_.parent_path(); !fs::exists(folder, none); folder = folder.parent_path())
+    missing.push_back(folder);
+  for (auto folder = missing.rbegin(); folder != missing.rend(); ++folder) {
+    if (mkdir(folder->c_str(), 0777) != 0 && errno != EEXIST)
+      fail(*folder, "make the directory", errno);
+    foldersMade_.push_back(*folder);
+  }
+}
+
+void StagedSite::create(const fs::path& folder, const std::string& prefix) {
+  removeAbandoned(folder, prefix);
+  while (lock_ < 0) {
+    staging_ = folder / (prefix + randomSuffix());
+    if (mkdir(staging_.c_str(), 0777) != 0) {
+      if (errno == EEXIST)
+        continue;
+      const int reason = errno;
+      staging_.clear();
+      fail(target_, "write", reason);
+    }
+    // Another run may take it for abandoned before it is locked; then it is
+    // gone once we hold the lock, and we make another.
+    lock_ = lockDirectory(staging_, LOCK_EX);
+    std::error_code none;
+    if (lock_ < 0 && fs::exists(staging_, none))
+      break; // a file system without locks
+  }
+}
+
+void StagedSite::publish(const Rename& rename) {
+  std::error_code none;
+  struct stat old {};
+  if (stat(target_.c_str(), &old) == 0)
+    fs::permissions(staging_, fs::perms(old.st_mode & 07777), none);
+  if (inPlace_ || !exchange(rename))
+    publishInPlace(rename);
+  published_ = true;
+}
+
+/// False where the file system knows no renameat2.
+bool StagedSite::exchange(const Rename& rename) {
+  // Another run may add or remove the target between our two attempts.
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    int reason = rename(staging_, target_, renameNoReplace);
+    if (reason == 0)
+      return true;
+    if (reason == EEXIST) {
+      requireReplaceable(target_, force_);
+      reason = rename(staging_, target_, renameExchange);
+      if (reason == 0)
+        return true;
+    }
+    if (reason == EINVAL || reason == ENOSYS || reason == ENOTSUP)
+      break;
+    if (reason != EEXIST && reason != ENOENT)
+      fail(target_, "put the new site in place", reason);
+  }
+  std::error_code none;
+  if (fs::exists(target_, none))
+    return false;
+  const int reason = rename(staging_, target_, 0);
+  if (reason != 0)
+    fail(target_, "put the new site in place", reason);
+  return true;
+}
+
+void StagedSite::publishInPlace(const Rename& rename) {
+  const std::vector<fs::path> files = filesInOrderOfNeed(staging_);
+  std::set<fs::path> kept;
+  for (const fs::path& file : files) {
+    std::error_code reason;
+    fs::create_directories((target_ / file).parent_path(), reason);
+    if (reason)
+      fail((target_ / file).parent_path(), "make the directory", reason.value());
+    const int failure = rename(staging_ / file, target_ / file, 0);
+    if (failure != 0)
+      fail(target_ / file, "put the new file in place", failure);
+    kept.insert(file);
+  }
+  std::error_code none;
+  for (const char* folder : {geometryFolder, textureFolder, runtimeFolder}) {
+    std::vector<fs::path> stale;
+    for (const fs::directory_entry& entry : fs::directory_iterator(target_ / folder, none))
+      if (!entry.is_directory(none) && !kept.contains(fs::path(folder) / entry.path().filename()))
+        stale.push_back(entry.path());
+    for (const fs::path& file : stale)
+      fs::remove(file, none);
+  }
+}
+
+/// Removes what stands at the staging path: an unfinished site, or the old one
+/// after an exchange.
+void StagedSite::discard() noexcept {
+  std::error_code none;
+  if (!staging_.empty())
+    fs::remove_all(staging_, none);
+  if (lock_ >= 0)
+    close(lock_);
+  lock_ = -1;
+  if (!published_)
+    for (auto folder = foldersMade_.rbegin(); folder != foldersMade_.rend(); ++folder)
+      rmdir(folder->c_str());
+}
+
+} // namespace imgeo

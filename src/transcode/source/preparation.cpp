@@ -1,0 +1,77 @@
+#include "transcode/source/preparation.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/parallel.h"
+
+#include <fmt/format.h>
+
+namespace imgeo {
+
+namespace {
+
+struct MeshReport {
+  WeldReport weld;
+  bool normalsComputed = false;
+};
+
+MeshReport prepareMesh(Mesh& mesh, const Dropped& dropped, NormalWeighting weighting) {
+  MeshReport report{weld(mesh, dropped), false};
+  if (mesh.topology == Topology::triangles && mesh.normals.empty() && mesh.elementCount() > 0) {
+    computeNormals(mesh, weighting);
+    report.normalsComputed = true;
+  }
+  return report;
+}
+
+void addTo(WeldReport& sum, const WeldReport& one) {
+  sum.mergedPositions += one.mergedPositions;
+  sum.mergedWedges += one.mergedWedges;
+  sum.unreferencedPositions += one.unreferencedPositions;
+  sum.degenerateElements += one.degenerateElements;
+  sum.duplicateElements += one.duplicateElements;
+}
+
+} // namespace
+
+std::string locationOf(const std::filesystem::path& input) {
+  return input == "-" ? "standard input" : input.string();
+}
+
+Imported importInput(const std::filesystem::path& input, const ImportOptions& options, std::uint64_t& bytes) {
+  if (input == "-") {
+    const Bytes read = readFile(input);
+    bytes = read.size();
+    return importBytes(read, locationOf(input), options);
+  }
+  Imported imported = importFile(input, options);
+  std::error_code none;
+  bytes = std::filesystem::file_size(input, none);
+  return imported;
+}
+
+PreparationReport prepareScene(Scene& scene, const Dropped& dropped, NormalWeighting weighting,
+                               const std::string& location) {
+  std::vector<MeshReport> reports(scene.meshes.size());
+  parallelFor(scene.meshes.size(),
+              [&](std::size_t i) { reports[i] = prepareMesh(scene.meshes[i], dropped, weighting); });
+
+  PreparationReport sum;
+  for (const MeshReport& report : reports) {
+    addTo(sum.weld, report.weld);
+    sum.normalsComputed |= report.normalsComputed;
+  }
+  const std::size_t shapesBefore = shapeNodes(scene.graph).size();
+  std::vector<bool> isEmpty;
+  for (const Mesh& mesh : scene.meshes)
+    isEmpty.push_back(mesh.elementCount() == 0);
+  removeShapes(scene.graph, isEmpty);
+  const std::size_t shapesLeft = shapeNodes(scene.graph).size();
+  if (shapesLeft == 0 && !scene.graph.isComplete)
+    throw Error(ErrorKind::malformed, location, "holds no triangles, lines or points, so there is nothing to show");
+  if (const std::size_t leftOut = shapesBefore - shapesLeft)
+    sum.warnings.push_back(fmt::format("left out shapes without triangles, lines or points: {}", leftOut));
+  return sum;
+}
+
+} // namespace imgeo

@@ -1,0 +1,314 @@
+// Sites as aopt and others wrote them for X3DOM 1.7: made here byte by byte from
+// what X3DOM reads, without our writers, and read back through our readers.
+
+#include "base/file.h"
+#include "base/testing.h"
+#include "containers/png/png.h"
+#include "scene/testing.h"
+#include "transcode/site/read_meshes.h"
+#include "transcode/site/testing.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <functional>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace imgeo {
+namespace {
+
+using testing::TemporaryDirectory;
+
+/// A torus, longer than wide and wider than high, with every attribute, far from the origin.
+Mesh source() {
+  Mesh mesh = testing::torus(24, 11);
+  for (Vec3f& p : mesh.positions)
+    p = {p.x * 3 + 20, p.y * 2 - 7, p.z + 100};
+  testing::Random random(5);
+  for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
+    mesh.colors.push_back(random.color());
+  return mesh;
+}
+
+class AoptSite : public ::testing::Test {
+protected:
+  Mesh mesh = source();
+  Box3d box = boxOf(mesh);
+  TemporaryDirectory directory;
+  Bytes index;
+
+  void SetUp() override {
+    for (const std::uint32_t corner : mesh.corners)
+      appendLittle(index, static_cast<std::uint16_t>(corner));
+  }
+
+  Vec3d position(std::size_t wedge) const { return Vec3d(mesh.positions[mesh.wedgePositions[wedge]]); }
+  /// Where a wedge is in the box: -0.5 .. +0.5 an axis.
+  Vec3d share(std::size_t wedge) const {
+    const Vec3d p = position(wedge) - box.center();
+    return {p.x / box.size().x, p.y / box.size().y, p.z / box.size().z};
+  }
+  std::int16_t int16(double value) const { return static_cast<std::int16_t>(std::lround(32767 * value)); }
+
+  void write(const std::string& name, const Bytes& bytes) { writeFile(directory.path() / name, bytes); }
+
+  std::string boxFields() const {
+    const Vec3d center = box.center(), size = box.size();
+    return fmt::format("position='{} {} {}' size='{} {} {}'", center.x, center.y, center.z, size.x, size.y, size.z);
+  }
+
+  /// What our readers find in a page with this geometry node.
+  Mesh readBack(const std::string& node) {
+    const std::string page = "<!DOCTYPE html><html><body><X3D><Scene><Shape DEF='torus'><Appearance>"
+                             "<Material diffuseColor='1 0 0'></Material></Appearance>" +
+                             node + "</Shape></Scene></X3D></body></html>";
+    writeFile(directory.path() / "index.html", asBytes(page));
+    const Scene scene = readMeshes(openDocument(directory.path()));
+    EXPECT_EQ(testing::shapeName(scene.graph, 0), "torus");
+    EXPECT_EQ(std::get<Material>(testing::appearanceOf(scene.graph, 0).material).diffuseColor, (Vec3f{1, 0, 0}));
+    return scene.meshes.at(0);
+  }
+
+  /// The same triangles in the same order; bounds as absolute errors.
+  void expectEqual(const Mesh& read, double positionShare, double normalDegrees, double texCoord) {
+    ASSERT_EQ(read.corners.size(), mesh.corners.size());
+    EXPECT_EQ(read.positions.size(), mesh.positions.size());
+    EXPECT_EQ(read.normals.empty(), normalDegrees == 0);
+    EXPECT_EQ(read.texCoords.empty(), texCoord == 0);
+    const Vec3d size = box.size();
+    for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
+      const std::uint32_t r = read.corners[corner], w = mesh.corners[corner];
+      const Vec3d off = Vec3d(read.positions[read.wedgePositions[r]]) - position(w);
+      for (int axis = 0; axis < 3; ++axis)
+        ASSERT_LE(std::abs(off[axis]), positionShare * size[axis] + 1e-5) << "axis " << axis; // 1e-5: floats near 100
+      if (normalDegrees > 0) {
+        const Vec3d n = cross(Vec3d(read.normals[r]), Vec3d(mesh.normals[w]));
+        ASSERT_LE(std::asin(std::min(length(n), 1.0)) * 180 / std::numbers::pi, normalDegrees);
+        ASSERT_GT(dot(read.normals[r], mesh.normals[w]), 0);
+      }
+      if (texCoord > 0) {
+        ASSERT_NEAR(read.texCoords[r].x, mesh.texCoords[w].x, texCoord);
+        ASSERT_NEAR(read.texCoords[r].y, mesh.texCoords[w].y, texCoord);
+      }
+      if (!read.colors.empty()) {
+        ASSERT_EQ(read.colors[r], mesh.colors[w]);
+      }
+    }
+  }
+
+  /// What `verify` says of the site against the mesh as a PLY file, without what the site lacks.
+  VerifyReport verified(bool normals, bool texCoords, bool colors) const {
+    Mesh input = mesh;
+    if (!normals)
+      input.normals.clear();
+    if (!texCoords)
+      input.texCoords.clear();
+    if (!colors)
+      input.colors.clear();
+    const TemporaryDirectory inputs;
+    testing::writeMesh(inputs / "in.ply", input);
+    return verify(directory.path(), inputs / "in.ply");
+  }
+  void expectVerified(bool normals, bool texCoords, bool colors) const {
+    const VerifyReport report = verified(normals, texCoords, colors);
+    EXPECT_TRUE(report.isForeign);
+    EXPECT_TRUE(report.equal) << ::testing::PrintToString(report.findings);
+    EXPECT_EQ(report.site.triangles, mesh.elementCount());
+    EXPECT_LE(report.positionError, report.positionBound);
+  }
+
+  /// Writes a site of Int16 around the centre; `round` makes integers of v.
+  void writeSigned(const std::function<std::int16_t(double)>& round) {
+    Bytes coords, normals;
+    for (std::size_t w = 0; w < mesh.wedgeCount(); ++w) {
+      for (int axis = 0; axis < 3; ++axis) {
+        appendLittle(coords, round(32767 * share(w)[axis]));
+        normals.push_back(static_cast<std::uint8_t>(std::lround(127 * mesh.normals[w][axis])));
+      }
+      appendLittle(coords, std::int16_t{0});
+      normals.push_back(0);
+    }
+    write("i.bin", index);
+    write("c.bin+8", coords);
+    write("n.bin+4", normals);
+    readBack("<BinaryGeometry " + boxFields() + " " + draws() +
+             " index='i.bin' coord='c.bin+8' normal='n.bin+4' coordType='Int16' "
+             "normalType='Int8'></BinaryGeometry>");
+  }
+
+  std::string draws() const { return fmt::format("primType='\"TRIANGLES\"' vertexCount='{}'", mesh.corners.size()); }
+};
+
+TEST_F(AoptSite, WithSeparateFilesNamedByTheirStride) {
+  Bytes coords, normals, texCoords, colors;
+  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w) {
+    for (int axis = 0; axis < 3; ++axis) {
+      appendLittle(coords, int16(share(w)[axis]));
+      normals.push_back(static_cast<std::uint8_t>(std::lround(127 * mesh.normals[w][axis])));
+    }
+    appendLittle(coords, std::int16_t{0});
+    normals.push_back(0);
+    appendLittle(texCoords, static_cast<std::uint16_t>(std::lround(65535 * mesh.texCoords[w].x)));
+    appendLittle(texCoords, static_cast<std::uint16_t>(std::lround(65535 * mesh.texCoords[w].y)));
+    colors.insert(colors.end(), {mesh.colors[w].r, mesh.colors[w].g, mesh.colors[w].b, 0});
+  }
+  write("i.bin", index);
+  write("c.bin+8", coords);
+  write("n.bin+4", normals);
+  write("t.bin+4", texCoords);
+  write("k.bin+4", colors);
+  const Mesh read =
+      readBack("<BinaryGeometry " + boxFields() + " " + draws() +
+               " index='i.bin' coord='c.bin+8' normal='n.bin+4' texCoord='t.bin+4' color='k.bin+4'"
+               " coordType='Int16' normalType='Int8' texCoordType='Uint16' colorType='Uint8'></BinaryGeometry>");
+  expectEqual(read, 0.5 / 32767, 0.4, 0.51 / 65535);
+  EXPECT_FALSE(read.colors.empty());
+  expectVerified(true, true, true);
+}
+
+TEST_F(AoptSite, WithInterleavedRecords) {
+  Bytes records;
+  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w) {
+    for (int axis = 0; axis < 3; ++axis)
+      appendLittle(records, int16(share(w)[axis]));
+    appendLittle(records, std::int16_t{0});
+    for (int axis = 0; axis < 3; ++axis)
+      appendLittle(records, int16(mesh.normals[w][axis]));
+    appendLittle(records, std::int16_t{0});
+    appendLittle(records, int16(mesh.texCoords[w].x));
+    appendLittle(records, int16(mesh.texCoords[w].y));
+    appendLittle(records, std::uint32_t{0});
+  }
+  write("i.bin", index);
+  write("v.bin", records);
+  expectEqual(readBack("<BinaryGeometry " + boxFields() + " vertexCount='0'" +
+                       " index='i.bin' coord='v.bin#0+24' normal='v.bin#8+24' texCoord='v.bin#16+24'"
+                       " coordType='Int16' normalType='Int16' texCoordType='Int16'></BinaryGeometry>"),
+              0.5 / 32767, 0.01, 0.51 / 32767);
+  expectVerified(true, true, false);
+}
+
+TEST_F(AoptSite, WithNormalsAsSphericalCoordinates) {
+  Bytes records;
+  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w) {
+    for (int axis = 0; axis < 3; ++axis)
+      appendLittle(records, static_cast<std::uint16_t>(std::lround(65535 * (share(w)[axis] + 0.5))));
+    const Vec3f n = mesh.normals[w];
+    const double theta = std::acos(n.z) / std::numbers::pi * 255;
+    const double phi = (std::atan2(n.y, n.x) / (2 * std::numbers::pi) + 0.5) * 255;
+    appendLittle(records, static_cast<std::uint16_t>(256 * std::lround(theta) + std::lround(phi)));
+  }
+  write("i.bin", index);
+  write("c.bin+8", records);
+  expectEqual(readBack("<BinaryGeometry " + boxFields() + " " + draws() +
+                       " index='i.bin' coord='c.bin+8' coordType='Uint16' "
+                       "normalAsSphericalCoordinates='true'></BinaryGeometry>"),
+              0.5 / 65535, 0.8, 0);
+  expectVerified(true, false, false);
+}
+
+TEST_F(AoptSite, WithPlainFloats) {
+  Bytes coords, normals, texCoords;
+  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w) {
+    for (int axis = 0; axis < 3; ++axis) {
+      appendLittle(coords, static_cast<float>(position(w)[axis]));
+      appendLittle(normals, mesh.normals[w][axis]);
+    }
+    appendLittle(texCoords, mesh.texCoords[w].x + 7); // no type but this holds more than 0..1
+    appendLittle(texCoords, mesh.texCoords[w].y);
+  }
+  write("i.bin", index);
+  write("c.bin", coords);
+  write("n.bin", normals);
+  write("t.bin", texCoords);
+  for (Vec2f& texCoord : mesh.texCoords)
+    texCoord.x += 7;
+  expectEqual(readBack("<BinaryGeometry " + boxFields() + " " + draws() +
+                       " index='i.bin' coord='c.bin' normal='n.bin' texCoord='t.bin'></BinaryGeometry>"),
+              0, 1e-4, 1e-7);
+  expectVerified(true, true, false);
+}
+
+TEST_F(AoptSite, WithImagesAsImageTextures) {
+  constexpr std::uint32_t width = 128, height = 4; // X3DOM counts indices in 1/256 of them
+  ASSERT_LE(mesh.wedgeCount(), width * height);
+  const auto imageOf = [&](std::uint32_t columns, std::uint32_t rows, std::uint32_t channels) {
+    return Image{columns, rows, channels, Bytes(std::size_t{columns} * rows * channels)};
+  };
+  Image high = imageOf(width, height, 3), low = high, normals = high, texCoords = imageOf(width, height, 4);
+  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const long stored = std::lround(65535 * (share(w)[static_cast<int>(axis)] + 0.5));
+      high.pixels[3 * w + axis] = static_cast<std::uint8_t>(stored >> 8);
+      low.pixels[3 * w + axis] = static_cast<std::uint8_t>(stored);
+      normals.pixels[3 * w + axis] =
+          static_cast<std::uint8_t>(std::lround(127.5 * (mesh.normals[w][static_cast<int>(axis)] + 1)));
+    }
+    const long u = std::lround(65535 * mesh.texCoords[w].x), v = std::lround(65535 * mesh.texCoords[w].y);
+    const long channels[] = {u >> 8, v >> 8, u & 255, v & 255};
+    for (std::size_t c = 0; c < 4; ++c)
+      texCoords.pixels[4 * w + c] = static_cast<std::uint8_t>(channels[c]);
+  }
+  Image indices = imageOf(64, 64, 3);
+  const std::uint32_t columns = 60; // of the implicit mesh: fewer than the image has
+  for (std::uint32_t n = 0; n < mesh.corners.size(); ++n) {
+    const std::uint32_t record = mesh.corners[n], texel = n / columns * 64 + n % columns;
+    indices.pixels[3 * texel] = static_cast<std::uint8_t>(record % width * 256 / width);
+    indices.pixels[3 * texel + 1] = static_cast<std::uint8_t>(record / width * 256 / height);
+  }
+  write("i.png", encodePng(indices, 1));
+  write("c0.png", encodePng(high, 1));
+  write("c1.png", encodePng(low, 1));
+  write("n.png", encodePng(normals, 1));
+  write("t.png", encodePng(texCoords, 1));
+  const auto texture = [](const std::string& role, const std::string& url) {
+    return "<ImageTexture containerField='" + role + "' url='" + url +
+           "' scale='false'><TextureProperties></TextureProperties></ImageTexture>";
+  };
+  expectEqual(readBack("<ImageGeometry " + boxFields() + " " + draws() + " implicitMeshSize='60 27'>" +
+                       texture("index", "i.png") + texture("coord", "c0.png") + texture("coord", "c1.png") +
+                       texture("normal", "n.png") + texture("texCoord", "t.png") + "</ImageGeometry>"),
+              0.5 / 65535, 0.4, 0.51 / 65535);
+  expectVerified(true, true, false);
+}
+
+TEST_F(AoptSite, IsVerifiedThoughItsWriterComputedInSinglePrecision) {
+  writeSigned([](double v) { return static_cast<std::int16_t>(std::lround(v + (v > 0 ? 0.03 : -0.03))); });
+  expectVerified(true, false, false);
+}
+
+TEST_F(AoptSite, IsNotVerifiedWhereItsWriterCutOffInsteadOfRounding) {
+  writeSigned([](double v) { return static_cast<std::int16_t>(v); });
+  const VerifyReport report = verified(true, false, false);
+  EXPECT_FALSE(report.equal);
+  EXPECT_GT(report.missing.triangles, 0u);
+}
+
+TEST_F(AoptSite, IsVerifiedWithoutTheNormalsThatItsInputLacks) {
+  writeSigned([](double v) { return static_cast<std::int16_t>(std::lround(v)); });
+  expectVerified(true, false, false);
+  expectVerified(false, false, false);
+  EXPECT_FALSE(verified(true, true, false).equal) << "the input has texture coordinates that the site lacks";
+}
+
+TEST_F(AoptSite, CanBeInspectedAndExported) {
+  Bytes coords;
+  for (std::size_t w = 0; w < mesh.wedgeCount(); ++w)
+    for (int axis = 0; axis < 3; ++axis)
+      appendLittle(coords, static_cast<float>(position(w)[axis]));
+  write("i.bin", index);
+  write("c.bin", coords);
+  readBack("<BinaryGeometry " + boxFields() + " " + draws() +
+           " index='i.bin' coord='c.bin' lit='false'></BinaryGeometry>");
+  const SiteInfo info = inspect(directory.path());
+  EXPECT_EQ(info.elements.triangles, mesh.elementCount());
+  EXPECT_EQ(info.containerBytes, index.size() + coords.size());
+  const ExportReport report = exportSite(directory.path(), directory.path() / "out.ply");
+  EXPECT_EQ(report.elements.triangles, mesh.elementCount());
+  EXPECT_EQ(report.vertices, mesh.positions.size()); // without attributes seams close
+  EXPECT_EQ(report.bytes, std::filesystem::file_size(directory.path() / "out.ply"));
+}
+
+} // namespace
+} // namespace imgeo

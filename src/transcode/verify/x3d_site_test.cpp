@@ -1,0 +1,141 @@
+// An X3D document -> a site: what stays as it was, and that it reads back.
+
+#include "base/file.h"
+#include "base/testing.h"
+#include "transcode/site/staged_site.h"
+#include "transcode/site/testing.h"
+
+#include <gtest/gtest.h>
+#include <pugixml.hpp>
+
+namespace imgeo {
+namespace {
+
+/// Coordinates beyond those that any face names, so that it is worth a file.
+const std::string more = [] {
+  std::string points;
+  for (int i = 0; i < 200; ++i)
+    points += " 9 9 " + std::to_string(i);
+  return points;
+}();
+
+const std::string source = R"(<?xml version="1.0" encoding="UTF-8"?>
+<!DOCTYPE X3D PUBLIC "ISO//Web3D//DTD X3D 3.3//EN" "http://www.web3d.org/specifications/x3d-3.3.dtd">
+<!-- Drawn by somebody & others -->
+<X3D profile="Immersive" version="3.3">
+  <head><meta name="creator" content="somebody"/></head>
+  <Scene>
+    <WorldInfo title="A hall"/>
+    <NavigationInfo type='"WALK"' headlight="false"/>
+    <Viewpoint DEF="Door" position="0 1.6 8"/>
+    <Script DEF="S" url="javascript:x"/>
+    <Switch whichChoice="0"><!-- one row -->
+      <Transform DEF="Seat" translation="1 0 0" id="first">
+        <Shape class="seat"><Appearance DEF="Red"><Material diffuseColor="1 0 0"/></Appearance>
+          <IndexedFaceSet DEF="Plate" coordIndex="0 1 2 3 -1"><Coordinate point="0 0 0 1 0 0 1 1 0 0 1 0)" +
+                           more + R"("/></IndexedFaceSet>
+        </Shape>
+      </Transform>
+    </Switch>
+    <Transform translation="0 0 5" rotation="0 1 0 0" scale="1.0 1 1"><Transform USE="Seat"/></Transform>
+    <Shape><Appearance USE="Red"/><IndexedFaceSet USE="Plate"/></Shape>
+    <Shape><Box size="1 2 3"/></Shape>
+    <Shape><TriangleSet><Coordinate point="0 0 0 1 0 0 0 1 0"/></TriangleSet></Shape>
+  </Scene>
+</X3D>
+)";
+
+bool isGeometry(std::string_view element) {
+  return element == "IndexedFaceSet" || element == "ImageGeometry";
+}
+
+/// One line for each element, its depth, its name and its fields, but for geometry nodes
+/// and the box that each Shape has of its own; one for each comment.
+void outline(pugi::xml_node parent, std::size_t depth, std::vector<std::string>& lines) {
+  for (const pugi::xml_node& node : parent.children()) {
+    if (isGeometry(node.name()) || node.type() == pugi::node_doctype)
+      continue;
+    std::string line = std::string(depth, ' ') + node.name();
+    for (const pugi::xml_attribute& attribute : node.attributes())
+      if (!std::string_view(attribute.name()).starts_with("bbox"))
+        line += std::string(" ") + attribute.name() + "=" + attribute.value();
+    lines.push_back(line + node.value());
+    outline(node, depth + 1, lines);
+  }
+}
+
+std::vector<std::string> outlineOf(const std::string& text) {
+  pugi::xml_document document;
+  EXPECT_TRUE(document.load_string(text.c_str(), pugi::parse_default | pugi::parse_comments));
+  std::vector<std::string> lines;
+  outline(document, 0, lines);
+  return lines;
+}
+
+class X3dSite : public ::testing::Test {
+protected:
+  X3dSite() {
+    writeFile(directory_ / "hall.x3d", asBytes(source));
+    report = convert(directory_ / "hall.x3d", directory_ / "site", {});
+    page = asText(readFile(directory_ / "site/index.html"));
+    file = asText(readFile(directory_ / "site/scene.x3d"));
+  }
+
+  testing::TemporaryDirectory directory_;
+  ConvertReport report;
+  std::string page, file;
+};
+
+TEST_F(X3dSite, HasEverythingButTheGeometryAsItWas) {
+  for (const char* kept : {"<WorldInfo title=\"A hall\">", "<NavigationInfo type='\"WALK\"' headlight=\"false\">",
+                           "<Viewpoint DEF=\"Door\" position=\"0 1.6 8\">", "<Switch whichChoice=\"0\">",
+                           "<Transform DEF=\"Seat\" translation=\"1 0 0\" id=\"first\">", "<Shape class=\"seat\"",
+                           "<Material diffuseColor=\"1 0 0\">", "<Transform USE=\"Seat\">", "<Appearance USE=\"Red\">",
+                           "<Box size=\"1 2 3\">"})
+    for (const std::string& text : {page, file})
+      EXPECT_NE(text.find(kept), std::string::npos) << kept << "\n" << text;
+  EXPECT_EQ(page.find("IndexedFaceSet"), std::string::npos);
+  EXPECT_EQ(page.find("<Script"), std::string::npos);
+  EXPECT_NE(file.find("<Script DEF=\"S\""), std::string::npos);
+  EXPECT_NE(file.find("<meta name=\"creator\" content=\"somebody\">"), std::string::npos);
+  ASSERT_FALSE(report.warnings.empty());
+  EXPECT_NE(report.warnings.back().find("Script (1)"), std::string::npos) << report.warnings.back();
+  EXPECT_EQ(page.find("<DirectionalLight"), std::string::npos) << "a light was added";
+}
+
+TEST_F(X3dSite, ChangesNothingButGeometryNodes) {
+  std::vector<std::string> before = outlineOf(source), after = outlineOf(file);
+  // What stands before <X3D> stands first in the Scene.
+  ASSERT_EQ(before.at(0), " Drawn by somebody & others ");
+  const auto moved = std::ranges::find(after, "   Drawn by somebody & others ");
+  ASSERT_NE(moved, after.end());
+  before.erase(before.begin());
+  after.erase(moved);
+  EXPECT_EQ(after, before);
+}
+
+TEST_F(X3dSite, HastensNothingThatItsViewerMayNeverSee) {
+  const std::string plate =
+      source.substr(source.find("<IndexedFaceSet"), source.find("</Shape>") - source.find("<IndexedFaceSet"));
+  writeFile(directory_ / "lod.x3d",
+            asBytes("<X3D><Scene><LOD range='5'><Group/><Shape>" + plate + "</Shape></LOD></Scene></X3D>"));
+  convert(directory_ / "lod.x3d", directory_ / "lod", {});
+  const Bytes lod = readFile(directory_ / "lod/index.html");
+  EXPECT_EQ(asText(lod).find("rel=\"preload\""), std::string::npos);
+  EXPECT_NE(page.find("rel=\"preload\""), std::string::npos) << "the plate stands outside of its Switch, too";
+}
+
+TEST_F(X3dSite, StoresAGeometryThatIsUsedOnce) {
+  EXPECT_EQ(report.elements.triangles, 2u);
+  EXPECT_EQ(inspect(directory_ / "site").geometries.size(), 1u);
+}
+
+TEST_F(X3dSite, EqualsItsSourceAndCanBeExported) {
+  const VerifyReport verified = verify(directory_ / "site", directory_ / "hall.x3d");
+  EXPECT_TRUE(verified.equal) << verified.findings.at(0);
+  const ExportReport exported = exportSite(directory_ / "site", directory_ / "hall.ply");
+  EXPECT_EQ(exported.elements.triangles, 6u); // in three places
+}
+
+} // namespace
+} // namespace imgeo
