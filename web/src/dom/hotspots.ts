@@ -21,7 +21,7 @@ interface Hotspot {
 }
 
 /** How a picture is looked at. */
-export interface Sight {
+export interface HotspotView {
   /** No other frame is to come unless something happens. */
   readonly isStill: () => boolean;
   /** The place in the scene that is seen at a pixel; undefined where nothing is. */
@@ -34,13 +34,13 @@ const slack = 0.02;
 export class Hotspots {
   readonly #host: Element;
   readonly #layer: HTMLElement;
-  readonly #sight: Sight;
+  readonly #sight: HotspotView;
   #hotspots: Hotspot[] = [];
   #frameRequest = 0;
   /** Counts frames: what is found out about an earlier one no longer counts. */
   #frame = 0;
 
-  constructor(host: Element, layer: HTMLElement, sight: Sight) {
+  constructor(host: Element, layer: HTMLElement, sight: HotspotView) {
     this.#host = host;
     this.#layer = layer;
     this.#sight = sight;

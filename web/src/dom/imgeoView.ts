@@ -4,14 +4,14 @@
 import type { Orbit } from "../navigation/orbit.ts";
 import { orbitOf } from "../navigation/orbit.ts";
 import { contextOf } from "../render/context.ts";
-import { makeFace } from "./face.ts";
-import { takeLook } from "./lookRegistry.ts";
+import { makeUserInterface } from "./userInterface.ts";
+import { takePreview } from "../preview/previewRegistry.ts";
 import type { Loadable } from "./loading.ts";
 import { Loading } from "./loading.ts";
-import { pixelAt } from "./pointing.ts";
-import { Presentation } from "./presentation.ts";
-import type { Vector3D } from "./shapeEvents.ts";
-import { vector3DOf } from "./shapeEvents.ts";
+import { pixelAt } from "./shapePointerEvents.ts";
+import { ViewController } from "./viewController.ts";
+import type { Vector3D } from "./shapePointerEvent.ts";
+import { vector3DOf } from "./shapePointerEvent.ts";
 import type { ViewStatistics } from "./viewer.ts";
 
 const noWebGl = "This page shows a 3D scene, for which the browser needs WebGL 2. It is missing or switched off here.";
@@ -38,7 +38,7 @@ export interface SurfacePoint {
 }
 
 export class ImgeoView extends HTMLElement {
-  #presentation: Presentation | undefined;
+  #presentation: ViewController | undefined;
   #canvas: HTMLCanvasElement | undefined;
 
   /** What has been drawn, requested, and is held on the GPU; undefined without a picture. */
@@ -129,8 +129,8 @@ export class ImgeoView extends HTMLElement {
   connectedCallback(): void {
     const x3d = this.parentElement;
     if (this.#presentation !== undefined || x3d === null) return;
-    const look = takeLook(this);
-    const face = makeFace(this.shadowRoot ?? this.attachShadow({ mode: "open" }), look?.canvas);
+    const look = takePreview(this);
+    const face = makeUserInterface(this.shadowRoot ?? this.attachShadow({ mode: "open" }), look?.canvas);
     const context = contextOf(face.canvas);
     if (context === null) {
       look?.end();
@@ -139,7 +139,7 @@ export class ImgeoView extends HTMLElement {
       return;
     }
     this.#canvas = face.canvas;
-    this.#presentation = new Presentation(x3d, this, face, context, look);
+    this.#presentation = new ViewController(x3d, this, face, context, look);
     lendMembers(this, x3d);
     this.#presentation.start();
   }

@@ -7,7 +7,7 @@ export { ImgeoView };
 export type { BlobOptions, ViewElement, ViewpointEntry } from "./imgeoView.ts";
 export type { ErrorDetail, Loadable, ProgressDetail, ResourceEntry } from "./loading.ts";
 export type { SurfacePoint } from "./imgeoView.ts";
-export type { ShapeEventProperties, ShapePointerEvent, Vector3D } from "./shapeEvents.ts";
+export type { ShapeEventProperties, ShapePointerEvent, Vector3D } from "./shapePointerEvent.ts";
 export type { ViewStatistics } from "./viewer.ts";
 
 registerViews();

@@ -1,9 +1,9 @@
 // What a page loads first: it draws what can be drawn without the runtime, and
 // brings the runtime, which takes the picture over.
 
-import { stylePage, viewTag } from "./faceStyle.ts";
-import type { FirstLook } from "./firstLook.ts";
-import { beginFirstLooks } from "./firstLooks.ts";
+import { stylePage, viewTag } from "../element/viewStyle.ts";
+import type { Preview } from "../preview/preview.ts";
+import { startPreviews } from "../preview/startPreviews.ts";
 
 /** The file of `register.ts` and of all that it takes, beside this one. */
 const runtimeUrl = new URL("imgeo-scene.js", import.meta.url);
@@ -23,7 +23,7 @@ async function start(): Promise<void> {
 }
 
 /** The line is theirs until their files are here, and the processor until they are drawn; the runtime comes in between. */
-async function leaveTheWayTo(looks: readonly FirstLook[]): Promise<void> {
+async function leaveTheWayTo(looks: readonly Preview[]): Promise<void> {
   const patience = new Promise((resolve) => setTimeout(resolve, patienceMs));
   await Promise.race([Promise.all(looks.map(({ arrived, settled }) => Promise.race([arrived, settled]))), patience]);
   const link = document.createElement("link");
@@ -34,9 +34,9 @@ async function leaveTheWayTo(looks: readonly FirstLook[]): Promise<void> {
 }
 
 /** Whatever goes wrong with them, the runtime comes. */
-function looksOrNone(): readonly FirstLook[] {
+function looksOrNone(): readonly Preview[] {
   try {
-    return beginFirstLooks();
+    return startPreviews();
   } catch (error) {
     console.error("imgeo: the scene could not be drawn before the runtime:", error);
     return [];

@@ -1,14 +1,14 @@
 // A poster stands before the picture until there is one to show, or until the
 // page dismisses it.
 
-import type { Face } from "./face.ts";
+import type { UserInterface } from "./userInterface.ts";
 
 export type Reveal = "auto" | "manual";
 
 export class Poster {
   reveal: Reveal = "auto";
   readonly #host: Element;
-  readonly #face: Pick<Face, "poster" | "posterImage" | "canvas">;
+  readonly #face: Pick<UserInterface, "poster" | "posterImage" | "canvas">;
   readonly #send: (event: "poster-dismissed" | "model-visibility", detail: object) => void;
   #hasPicture = false;
   /** What the page has heard of it. */
@@ -17,7 +17,7 @@ export class Poster {
   /** `host` is where a page's own poster would be slotted. */
   constructor(
     host: Element,
-    face: Pick<Face, "poster" | "posterImage" | "canvas">,
+    face: Pick<UserInterface, "poster" | "posterImage" | "canvas">,
     send: (event: "poster-dismissed" | "model-visibility", detail: object) => void,
   ) {
     this.#host = host;

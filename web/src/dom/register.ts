@@ -1,11 +1,11 @@
 // Puts a view into every <x3d> of the page, now and later.
 
-import { stylePage, viewTag } from "./faceStyle.ts";
+import { stylePage, viewTag } from "../element/viewStyle.ts";
 import { ImgeoView } from "./imgeoView.ts";
-import { viewIn } from "./ownNodes.ts";
+import { ensureView } from "../element/sceneNodes.ts";
 
 function fillAll(): void {
-  for (const x3d of document.querySelectorAll("x3d")) viewIn(x3d);
+  for (const x3d of document.querySelectorAll("x3d")) ensureView(x3d);
 }
 
 /** Once; a second time does nothing. */

@@ -27,12 +27,12 @@ import { Scheduler } from "../scheduler/scheduler.ts";
 import { slotsFor } from "../scheduler/slots.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
 import { Arrival } from "./arrival.ts";
-import type { ShownShape } from "./firstLook.ts";
-import { takeBases } from "./lookRegistry.ts";
+import type { PreviewedShape } from "../preview/preview.ts";
+import { takePrefetchedBases } from "../preview/previewRegistry.ts";
 import { InlineLoads } from "./inlineLoads.ts";
 import { Loading } from "./loading.ts";
-import { isOfScene } from "./ownNodes.ts";
-import { watchProtocol } from "./protocol.ts";
+import { isSceneNode } from "../element/sceneNodes.ts";
+import { watchNetworkProtocol } from "./networkProtocol.ts";
 import { ShapeLoads, stageShown } from "./shapeLoads.ts";
 import { Steering } from "./steering.ts";
 
@@ -103,7 +103,7 @@ export class Viewer {
     canvas: HTMLCanvasElement,
     context: WebGL2RenderingContext,
     listener: ViewerListener,
-    shown: readonly ShownShape[] = [],
+    shown: readonly PreviewedShape[] = [],
   ) {
     this.#x3d = x3d;
     this.#canvas = canvas;
@@ -136,7 +136,7 @@ export class Viewer {
       makePicture: (bytes, sampling, signal) => arrival.makePicture(bytes, sampling, signal),
       storeBytes: (array, use, signal) => arrival.storeBytes(array, use, signal),
       download: defaultDownloadOptions,
-      early: takeBases,
+      early: takePrefetchedBases,
       resolve,
       onTransfer: () => {
         this.#progressSoon();
@@ -187,7 +187,7 @@ export class Viewer {
       this.#onSteered();
     });
     this.#observer = new MutationObserver((all) => {
-      const records = all.filter(({ target }) => isOfScene(target, x3d));
+      const records = all.filter(({ target }) => isSceneNode(target, x3d));
       if (records.length === 0) return;
       for (const { target, type } of records) {
         if (type === "childList") this.#reader.rearrange(target as Element);
@@ -216,7 +216,7 @@ export class Viewer {
       },
       { signal },
     );
-    watchProtocol(signal, (protocol) => {
+    watchNetworkProtocol(signal, (protocol) => {
       this.#scheduler.slotCount = slotsFor(protocol);
     });
     this.#observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
@@ -233,7 +233,7 @@ export class Viewer {
   }
 
   /** Whether the last frame has at least these. */
-  shows(shapes: readonly ShownShape[]): boolean {
+  shows(shapes: readonly PreviewedShape[]): boolean {
     return shapes.every(({ element, patches }) => this.#shapes.shows(element, patches));
   }
 

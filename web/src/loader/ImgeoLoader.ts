@@ -10,7 +10,7 @@ import type { WorkerPool } from "../workers/workerPool.ts";
 import type { MaterialMaker } from "./standardMaterials.ts";
 import { standardMaterialOf } from "./standardMaterials.ts";
 import { ImgeoScene } from "./imgeoScene.ts";
-import { reportTransfers } from "./managerItems.ts";
+import { reportToManager } from "./managerProgress.ts";
 import { readDocument } from "./readDocument.ts";
 
 export interface LoadOptions {
@@ -154,7 +154,7 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
       runJob: (job, input, signal) => (this.#workers ??= pageWorkers(this.#workerUrl)).run(job, input, signal),
       fetch: (input, init) => fetch(input, { ...init, ...this.#requestInit }),
     });
-    reportTransfers(scene, this.manager, (named) => resolve(urlOf(named)));
+    reportToManager(scene, this.manager, (named) => resolve(urlOf(named)));
     return scene;
   }
 

@@ -18,7 +18,7 @@ import type { ShapePlaces } from "../render/shapes/sceneGroups.ts";
 import type { ShapeSetting } from "../render/shapes/shapeObject.ts";
 import { ShapeObject } from "../render/shapes/shapeObject.ts";
 import { isShown } from "../render/shapes/visibility.ts";
-import type { Presence } from "./sceneLevels.ts";
+import type { LoadState } from "./sceneLod.ts";
 
 export interface LoadedShapesListener {
   /** Something looks different. */
@@ -107,7 +107,7 @@ export class LoadedShapes implements ShapePlaces {
   }
 
   /** Of the shape in a group; undefined where there is none. */
-  presenceOf(group: object): Presence | undefined {
+  loadStateOf(group: object): LoadState | undefined {
     const shape = this.#byGroup.get(group);
     if (shape === undefined) return undefined;
     if (shape.missing.size > 0) return "coming";

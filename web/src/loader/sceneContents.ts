@@ -20,10 +20,10 @@ import { textReading } from "../document/textGeometry.ts";
 import { SceneGraph } from "../render/shapes/sceneGroups.ts";
 import type { ShapeSetting } from "../render/shapes/shapeObject.ts";
 import { chunkWeightsOf } from "../scheduler/priority.ts";
-import { CameraWatch } from "./cameraWatch.ts";
+import { CameraObserver } from "./cameraObserver.ts";
 import { LoadedShapes } from "./loadedShapes.ts";
-import type { LevelsKeeper, Presence } from "./sceneLevels.ts";
-import { presences, SceneLevels } from "./sceneLevels.ts";
+import type { SceneLodOwner, LoadState } from "./sceneLod.ts";
+import { loadStates, SceneLod } from "./sceneLod.ts";
 
 export interface ContentsSources {
   /** The document's <X3D> and its absolute url. */
@@ -53,18 +53,18 @@ export class SceneContents {
   readonly #pictures: TextureDeliveries;
   readonly #reader: SceneReader;
   readonly #graph: SceneGraph;
-  readonly #billboards = new CameraWatch((camera) => {
+  readonly #billboards = new CameraObserver((camera) => {
     this.#graph.turnBillboards(camera);
   });
   readonly #inlines: Inlines;
-  readonly #levels: SceneLevels[] = [];
+  readonly #levels: SceneLod[] = [];
   /** What cameras have come to see of each LOD. */
   readonly #chosen = new Map<SceneElement, number>();
   readonly #inlineOf = new WeakMap<object, SceneElement>();
   readonly #warned = new Set<string>();
-  readonly #keeper: LevelsKeeper = {
-    presenceOf: (level) => this.#presenceOf(level),
-    onLook: () => {
+  readonly #keeper: SceneLodOwner = {
+    loadStateOf: (level) => this.#presenceOf(level),
+    onCamera: () => {
       this.#onLook();
     },
   };
@@ -170,25 +170,25 @@ export class SceneContents {
   #groupOf({ levels, inline }: GroupDescription): Object3D | undefined {
     const element = levels?.element ?? inline;
     if (element === undefined) return undefined;
-    const group = levels ? new SceneLevels(levels, this.#keeper) : new Group();
+    const group = levels ? new SceneLod(levels, this.#keeper) : new Group();
     group.name = attributeOf(element, "DEF") ?? "";
-    if (group instanceof SceneLevels) this.#levels.push(group);
+    if (group instanceof SceneLod) this.#levels.push(group);
     else this.#inlineOf.set(group, element);
     return group;
   }
 
   /** What is hidden in it for good does not count. */
-  #presenceOf(object: Object3D): Presence {
+  #presenceOf(object: Object3D): LoadState {
     const inline = this.#inlineOf.get(object);
     if (inline !== undefined && this.#inlines.documentOf(inline) === undefined)
       return this.#inlines.isEnded(inline) ? "failed" : "coming";
-    const found = new Set<Presence>();
+    const found = new Set<LoadState>();
     for (const part of partsOf(object)) {
-      const presence = this.shapes.presenceOf(part) ?? this.#presenceOf(part);
+      const presence = this.shapes.loadStateOf(part) ?? this.#presenceOf(part);
       if (presence === "coming") return presence;
       found.add(presence);
     }
-    return presences.find((presence) => found.has(presence)) ?? "nothing";
+    return loadStates.find((presence) => found.has(presence)) ?? "nothing";
   }
 
   /** Cameras look in the middle of a frame, one after the other: what they are to see is asked for after it. */
@@ -203,7 +203,7 @@ export class SceneContents {
 
   /** A LOD that stands in several places brings what the nearest camera to any of them needs. Whether one brings something else than before. */
   #followLooks(): boolean {
-    const nearest = new Map<SceneElement, { readonly levels: SceneLevels; readonly distance: number }>();
+    const nearest = new Map<SceneElement, { readonly levels: SceneLod; readonly distance: number }>();
     for (const levels of this.#levels) {
       const distance = levels.takeDistance();
       const { element } = levels.description;
@@ -240,7 +240,7 @@ export class SceneContents {
 /** Of a group, what is seen of it. */
 function partsOf(object: Object3D): readonly Object3D[] {
   const { children } = object;
-  if (!(object instanceof SceneLevels)) return children.filter(({ visible }) => visible);
+  if (!(object instanceof SceneLod)) return children.filter(({ visible }) => visible);
   const level = object.getCurrentLevel();
   return children.slice(level, level + 1);
 }

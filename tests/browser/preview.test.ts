@@ -1,0 +1,193 @@
+// The picture before the runtime is here: it is the one that the runtime then draws
+// of the same base, it follows the document, and nobody sees the change.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { difference, silhouette, silhouetteDifference } from "./compare.ts";
+import { screenshotOf, until, withPage, type View } from "./harness.ts";
+import { decodePng, type Picture } from "./png.ts";
+import { gate } from "./server.ts";
+import { tagsOf } from "./siteDecoder.ts";
+import { pageOf, siteOfGenerated } from "./sites.ts";
+
+declare global {
+  interface Window {
+    /** What the view's own canvas showed when the first look had gone. */
+    takenOver: string | undefined;
+    /** Of the look's draws of a base: by how many of its programs had something been drawn before, and by how many not. */
+    rehearsed: { ready: number; unready: number };
+    /** Ends what the page waits for bases. */
+    endPatience: (() => void) | undefined;
+  }
+}
+
+/** A closed surface of several patches, with a base. */
+const site = (): string => siteOfGenerated("trefoil-large", "--profile", "compact", "--patch-vertices", "20000");
+
+/** Runs in the page: waits for the view, and then for the end of the look in it; and notes what that draws with. */
+function watchLook(): void {
+  const later = window.setTimeout.bind(window);
+  window.setTimeout = ((call: () => void, ms?: number, ...args: unknown[]) => {
+    if (ms !== 3000) return later(call, ms, ...args);
+    window.endPatience = call; // on a busy machine it could end before what it waits for
+    return 0;
+  }) as typeof setTimeout;
+  const [unseen, seen] = [new Set<unknown>(), new Set<unknown>()];
+  const drawElements = Object.getOwnPropertyDescriptor(WebGL2RenderingContext.prototype, "drawElements")?.value as (
+    ...args: unknown[]
+  ) => void;
+  WebGL2RenderingContext.prototype.drawElements = function (...args) {
+    if (this.canvas instanceof HTMLCanvasElement && this.canvas.classList.contains("preview")) {
+      (args[1] > 3 ? seen : unseen).add(this.getParameter(this.CURRENT_PROGRAM));
+      const ready = Array.from(seen).filter((program) => unseen.has(program)).length;
+      window.rehearsed = { ready, unready: seen.size - ready };
+    }
+    drawElements.apply(this, args);
+  };
+  const prototype = Element.prototype as unknown as Record<
+    "attachShadow",
+    (this: Element, init: ShadowRootInit) => ShadowRoot
+  >;
+  const { attachShadow } = prototype;
+  prototype.attachShadow = function (init) {
+    const root = attachShadow.call(this, init);
+    // Called in the turn of the event loop in which it goes: what has been drawn in it can still be read.
+    new MutationObserver((records) => {
+      const isLook = (node: Node): boolean => node instanceof Element && node.classList.contains("preview");
+      if (records.some(({ removedNodes }) => Array.from(removedNodes).some(isLook)))
+        window.takenOver = root.querySelector("canvas")?.toDataURL();
+    }).observe(root, { childList: true });
+    return root;
+  };
+}
+
+const firstImages = async (view: View): Promise<number> => (await view.events("first-image", "x3d")).length;
+
+/** Waits until the look has followed what has just been changed. */
+async function pictureAfter(view: View, change: () => Promise<unknown>): Promise<Picture> {
+  const { draws } = await view.observed();
+  await change();
+  await until("the look has followed", async () => (await view.observed()).draws > draws);
+  return screenshotOf(view.page);
+}
+
+async function pictureOfTakeOver(view: View): Promise<Picture> {
+  await until("the runtime has taken over", async () => view.page.evaluate(() => window.takenOver !== undefined));
+  const url = await view.page.evaluate(() => window.takenOver ?? "");
+  return decodePng(Buffer.from(url.slice(url.indexOf(",") + 1), "base64"));
+}
+
+const runtimeFile = /imgeo-scene-/;
+
+async function baseIsWaitedFor({ page, server }: View, base: string): Promise<void> {
+  await until(
+    "the look waits for its base",
+    async () =>
+      server.requestsOf(new RegExp(base)).length === 1 && (await page.evaluate(() => window.endPatience !== undefined)),
+  );
+  assert.deepEqual(server.requestsOf(runtimeFile), [], "the runtime is not asked for before the base is here");
+}
+
+test("a base is on the screen before the runtime, which takes it over as it is", async () => {
+  const tags = tagsOf(pageOf(site()));
+  const base = tags.find(({ name }) => name === "imagegeometry")?.attributes.base ?? "";
+  const patches = tags.flatMap(({ attributes: { data } }) => (data ? [data] : []));
+  const [bases, runtime, files] = [gate(), gate(), gate()];
+  const options = {
+    size: { width: 400, height: 300 },
+    deviceScaleFactor: 2,
+    before: watchLook,
+    server: (server: View["server"]): void => {
+      server.when(new RegExp(base), { hold: bases.closed });
+      server.when(runtimeFile, { hold: runtime.closed });
+      server.when((path) => patches.includes(path.slice(1)), { hold: files.closed });
+    },
+  };
+  await withPage(site(), options, async (view) => {
+    await baseIsWaitedFor(view, base);
+    bases.open();
+    await until("the first look has drawn", async () => (await firstImages(view)) === 1);
+    assert.deepEqual(
+      (await view.events("first-image")).map(({ target, detail }) => [target, detail.stage]),
+      [
+        ["shape", "base"],
+        ["x3d", "base"],
+      ],
+    );
+    assert.equal(view.server.requestsOf(runtimeFile)[0]?.status, 0, "the runtime is not here");
+    const first = await screenshotOf(view.page);
+    assert.deepEqual(await view.page.evaluate(() => window.rehearsed), { ready: 1, unready: 0 });
+
+    const red = await pictureAfter(view, () =>
+      view.page.evaluate(() => {
+        document.querySelector("material")?.setAttribute("diffuseColor", "0.9 0.1 0.1");
+      }),
+    );
+    assert.ok(difference(first, red).mean > 2, "another colour is seen");
+    const blank: Picture = { ...first, data: Uint8Array.from(first.data, (_, i) => first.data[i % first.channels]!) };
+    assert.equal(silhouetteDifference(silhouette(first, blank), silhouette(red, blank)), 0);
+    const lit = await pictureAfter(view, () =>
+      view.page.evaluate(() => {
+        const lights =
+          '<PointLight location="2 2 4" color="0.2 0.5 0.2" attenuation="1 0.1 0"></PointLight>' +
+          '<SpotLight location="0 0 6" direction="0 0 -1" color="0.2 0.2 0.6" cutOffAngle="0.3" beamWidth="0.1"></SpotLight>';
+        document.querySelector("scene")?.insertAdjacentHTML("beforeend", lights);
+      }),
+    );
+    assert.ok(difference(red, lit).mean > 1, "lights of other kinds are seen");
+    const seen = await pictureAfter(view, () => view.page.setViewportSize({ width: 300, height: 320 }));
+    assert.equal(seen.width, 600);
+
+    runtime.open();
+    const taken = await pictureOfTakeOver(view);
+    const empty: Picture = { ...seen, data: Uint8Array.from(seen.data, (_, i) => seen.data[i % seen.channels]!) };
+    assert.ok(
+      silhouetteDifference(silhouette(seen, empty), silhouette(taken, empty)) < 1e-4,
+      "the outline is the same",
+    );
+    assert.ok(
+      difference(seen, taken).mean < 0.1,
+      `the runtime draws the same: ${JSON.stringify(difference(seen, taken))}`,
+    );
+
+    files.open();
+    await view.promise("complete");
+    assert.equal(await firstImages(view), 1);
+    assert.deepEqual((await view.events("refine", "x3d")).at(-1)?.detail.stage, "full");
+    assert.equal(view.server.requestsOf(new RegExp(base)).length, 1);
+    assert.equal(
+      await view.page.evaluate(
+        () => document.querySelector("imgeo-view")?.shadowRoot?.querySelectorAll("canvas").length,
+      ),
+      1,
+    );
+    const { resources } = await view.page.evaluate(() => {
+      const { resources: all } = document.querySelector("x3d") as unknown as {
+        resources: { url: string; state: string; tries: number }[];
+      };
+      return { resources: all.map(({ url, state, tries }) => ({ url, state, tries })) };
+    });
+    assert.deepEqual(
+      resources.find(({ url }) => url === base),
+      { url: base, state: "ready", tries: 1 },
+    );
+  });
+});
+
+test("a base that does not come holds the runtime up for a while only", async () => {
+  const base = tagsOf(pageOf(site())).find(({ name }) => name === "imagegeometry")?.attributes.base ?? "";
+  const bases = gate();
+  const options = {
+    before: watchLook,
+    server: (server: View["server"]): void => void server.when(new RegExp(base), { hold: bases.closed }),
+  };
+  await withPage(site(), options, async (view) => {
+    await baseIsWaitedFor(view, base);
+    await view.page.evaluate(() => {
+      window.endPatience?.();
+    });
+    await view.promise("firstImage");
+    assert.ok((await view.events("first-image", "x3d")).every(({ detail }) => detail.stage !== "base"));
+    bases.open();
+  });
+});

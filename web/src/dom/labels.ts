@@ -1,0 +1,52 @@
+// What is said to those who do not see the picture.
+
+import type { StageName } from "../stage/stage.ts";
+import type { NavigationType } from "../navigation/navigationType.ts";
+import type { Orbit } from "../navigation/orbit.ts";
+
+export const stageLabels: Readonly<Record<StageName | "none", string>> = {
+  none: "nothing is shown yet",
+  points: "the shape is shown as points",
+  base: "a coarse shape is shown, all of it is coming",
+  surface: "the surface is shown",
+  shaded: "the shape is shown, details are coming",
+  full: "all of it is shown",
+};
+
+/** Keys, for the description of the picture. */
+export const keyLabels: Readonly<Record<NavigationType, string>> = {
+  examine:
+    "Arrow keys turn, with Shift they move, plus and minus zoom, R goes back to the start, A shows all, P shows points or the surface.",
+  walk: "Arrow keys walk and turn, with Shift they look up and down and step aside, R goes back to the start.",
+  fly: "Arrow keys fly and turn, with Shift they look up and down and step aside, Page Up and Page Down rise and sink, R goes back to the start.",
+  none: "",
+};
+
+export const drawingLabels = { surface: "Shown as a surface", points: "Shown as points" } as const;
+
+export const navigationTypeLabels: Readonly<Record<NavigationType, string>> = {
+  examine: "Examining",
+  walk: "Walking",
+  fly: "Flying",
+  none: "Staying",
+};
+
+const sides = [
+  "the front",
+  "the front right",
+  "the right",
+  "the back right",
+  "the back",
+  "the back left",
+  "the left",
+  "the front left",
+];
+
+/** Where one looks from, as eight sides and three heights. */
+export function viewLabelOf({ theta, phi }: Pick<Orbit, "theta" | "phi">): string {
+  const side = sides[((Math.round(theta / (Math.PI / 4)) % 8) + 8) % 8] ?? "";
+  if (phi < Math.PI / 8) return "View from above";
+  if (phi > (7 * Math.PI) / 8) return "View from below";
+  const height = phi < (3 * Math.PI) / 8 ? ", from above" : phi > (5 * Math.PI) / 8 ? ", from below" : "";
+  return `View from ${side}${height}`;
+}

@@ -1,0 +1,76 @@
+// The lists that a scene may bring: its viewpoints, where it has several with
+// names, and its types of navigation, where NavigationInfo names several. Native
+// lists: keyboard, touch and screen readers know them already.
+
+import type { PlacedViewpoint } from "../navigation/camera.ts";
+import type { NavigationType } from "../navigation/navigationType.ts";
+import type { Navigator } from "../navigation/navigator.ts";
+
+const typeNames: Readonly<Record<NavigationType, string>> = {
+  examine: "Examine",
+  walk: "Walk",
+  fly: "Fly",
+  none: "Stay",
+};
+
+export class Menus {
+  readonly #navigator: Navigator;
+  readonly #viewpoints = listOf("Viewpoint");
+  readonly #types = listOf("Way to move");
+  #named: readonly PlacedViewpoint[] = [];
+  #listedTypes: readonly NavigationType[] = [];
+
+  constructor(controls: HTMLElement, navigator: Navigator, signal: AbortSignal) {
+    this.#navigator = navigator;
+    controls.replaceChildren(this.#types, this.#viewpoints);
+    this.#viewpoints.addEventListener(
+      "change",
+      () => {
+        const chosen = this.#named[this.#viewpoints.selectedIndex];
+        if (chosen) navigator.bind(chosen.element);
+      },
+      { signal },
+    );
+    this.#types.addEventListener(
+      "change",
+      () => {
+        navigator.type = this.#listedTypes[this.#types.selectedIndex] ?? navigator.type;
+      },
+      { signal },
+    );
+  }
+
+  /** Shows what the navigator knows now. */
+  update(): void {
+    const { viewpoints, bound, type } = this.#navigator;
+    this.#named = viewpoints.filter(({ viewpoint }) => viewpoint.description !== "");
+    this.#listedTypes = this.#navigator.listedTypes;
+    fill(
+      this.#viewpoints,
+      this.#named.map(({ viewpoint }) => viewpoint.description),
+      this.#named.findIndex(({ element }) => element === bound),
+    );
+    fill(
+      this.#types,
+      this.#listedTypes.map((listed) => typeNames[listed]),
+      this.#listedTypes.indexOf(type),
+    );
+  }
+}
+
+function listOf(label: string): HTMLSelectElement {
+  const list = document.createElement("select");
+  list.setAttribute("aria-label", label);
+  list.setAttribute("part", label === "Viewpoint" ? "viewpoints" : "navigation-types");
+  list.hidden = true;
+  return list;
+}
+
+/** A list of one is no choice. Options are made anew only where they differ, so that an open list stays open. */
+function fill(list: HTMLSelectElement, names: readonly string[], selected: number): void {
+  const isSame =
+    names.length === list.options.length && names.every((name, place) => list.options[place]?.text === name);
+  if (!isSame) list.replaceChildren(...names.map((name) => new Option(name)));
+  list.hidden = names.length < 2;
+  if (list.selectedIndex !== selected) list.selectedIndex = selected;
+}

@@ -1,0 +1,46 @@
+// Two buttons for those who have lost their way and have no keyboard: they are
+// there while a hand has moved the camera. Keyboards have R and A for the same.
+
+import type { Navigator } from "../navigation/navigator.ts";
+
+export class ResetButtons {
+  readonly #navigator: Navigator;
+  readonly #buttons: readonly HTMLButtonElement[];
+
+  constructor(controls: HTMLElement, navigator: Navigator, signal: AbortSignal) {
+    this.#navigator = navigator;
+    this.#buttons = [
+      buttonOf(
+        "Show all",
+        () => {
+          navigator.showAll();
+        },
+        signal,
+      ),
+      buttonOf(
+        "Start",
+        () => {
+          navigator.reset();
+        },
+        signal,
+      ),
+    ];
+    controls.append(...this.#buttons);
+  }
+
+  update(): void {
+    const { isAtHome, source, type } = this.#navigator;
+    const isLost = source === "user-interaction" && !isAtHome && type !== "none";
+    for (const button of this.#buttons) if (button.hidden === isLost) button.hidden = !isLost;
+  }
+}
+
+function buttonOf(label: string, onClick: () => void, signal: AbortSignal): HTMLButtonElement {
+  const button = document.createElement("button");
+  button.textContent = label;
+  button.setAttribute("part", "ways-back");
+  button.tabIndex = -1;
+  button.hidden = true;
+  button.addEventListener("click", onClick, { signal });
+  return button;
+}

@@ -1,0 +1,114 @@
+// Pointer events as a <shape> sends them: the browser's own event once more, from
+// the element that is seen under the pointer, with what was hit there.
+
+import type { Hit } from "../render/picking/picker.ts";
+
+/** A point or direction in the scene's coordinates; as text it is an SFVec3f. */
+export interface Vector3D {
+  readonly x: number;
+  readonly y: number;
+  readonly z: number;
+  toString(): string;
+}
+
+/** What pointer events on shapes have besides what they have everywhere. */
+export interface ShapeEventProperties {
+  readonly worldPosition: Vector3D;
+  /** Of length 1; null on points and lines without normals. */
+  readonly worldNormal: Vector3D | null;
+  /** Which patch of the geometry; the two that follow count in it. */
+  readonly patch: number;
+  /** The record of the nearest vertex of what was hit. */
+  readonly vertexId: number;
+  /** Null on points and lines. */
+  readonly triangleId: number | null;
+  /** X3DOM's names for the same. */
+  readonly hitObject: Element;
+  readonly hitPnt: readonly [number, number, number];
+  readonly worldX: number;
+  readonly worldY: number;
+  readonly worldZ: number;
+  readonly normalX: number;
+  readonly normalY: number;
+  readonly normalZ: number;
+}
+
+export type ShapePointerEvent = PointerEvent & ShapeEventProperties;
+
+export function vector3DOf({ x, y, z }: { x: number; y: number; z: number }): Vector3D {
+  return Object.freeze({ x, y, z, toString: () => `${x} ${y} ${z}` });
+}
+
+/** An event like `native` but of that type; without a hit it says nothing of the scene. */
+export function shapePointerEventOf(
+  native: PointerEvent | MouseEvent,
+  type: string,
+  hit: Hit | undefined,
+  relatedTarget: EventTarget | null = native.relatedTarget,
+): MouseEvent {
+  const isInward = type.endsWith("enter") || type.endsWith("leave");
+  const common = {
+    ...initOf(native, mouseFields),
+    relatedTarget,
+    bubbles: !isInward,
+    cancelable: !isInward,
+    composed: true,
+  };
+  const event =
+    type.startsWith("mouse") || !(native instanceof PointerEvent)
+      ? new MouseEvent(type, common)
+      : new PointerEvent(type, { ...common, ...initOf(native, pointerFields) });
+  return hit ? Object.assign(event, propertiesOf(hit)) : event;
+}
+
+const mouseFields = [
+  "view",
+  "detail",
+  "screenX",
+  "screenY",
+  "clientX",
+  "clientY",
+  "movementX",
+  "movementY",
+  "ctrlKey",
+  "shiftKey",
+  "altKey",
+  "metaKey",
+  "button",
+  "buttons",
+] as const;
+const pointerFields = [
+  "pointerId",
+  "width",
+  "height",
+  "pressure",
+  "tangentialPressure",
+  "tiltX",
+  "tiltY",
+  "twist",
+  "pointerType",
+  "isPrimary",
+] as const;
+
+function initOf<Source, Name extends keyof Source>(source: Source, names: readonly Name[]): Pick<Source, Name> {
+  return Object.fromEntries(names.map((name) => [name, source[name]])) as Pick<Source, Name>;
+}
+
+function propertiesOf({ element, patch, triangle, vertex, position, normal }: Hit): ShapeEventProperties {
+  const { x, y, z } = position;
+  return {
+    worldPosition: vector3DOf(position),
+    worldNormal: normal ? vector3DOf(normal) : null,
+    patch,
+    vertexId: vertex,
+    triangleId: triangle ?? null,
+    hitObject: element as Element,
+    hitPnt: [x, y, z],
+    worldX: x,
+    worldY: y,
+    worldZ: z,
+    normalX: normal?.x ?? 0,
+    normalY: normal?.y ?? 0,
+    normalZ: normal?.z ?? 0,
+  };
+}

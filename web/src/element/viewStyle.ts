@@ -1,0 +1,66 @@
+// All style of a view stands in constructable sheets: the page's
+// `default-src 'self'` allows no other. Custom properties and parts are the
+// handles that pages have (docs/embedding.md).
+
+/** The custom element that the runtime puts into each <x3d>. */
+export const viewTag = "imgeo-view";
+
+export const viewStyle = sheetOf(`
+  :host { position: absolute; inset: 0; display: block; overflow: hidden; contain: strict; }
+  canvas { display: block; width: 100%; height: 100%; outline: none; -webkit-tap-highlight-color: transparent; }
+  canvas.preview { position: absolute; inset: 0; pointer-events: none; }
+  canvas.preview:not(.drawn) { visibility: hidden; }
+  canvas.covered { opacity: 0; }
+  canvas.moves { cursor: grab; }
+  canvas.moves:active { cursor: grabbing; }
+  canvas.points-at-link { cursor: pointer; }
+  canvas:focus-visible { box-shadow: inset 0 0 0 2px Highlight; outline: 2px solid Highlight; outline-offset: -2px; }
+
+  .poster { position: absolute; inset: 0; display: grid; overflow: hidden; background: var(--poster-color, Canvas); transition: opacity 0.3s; }
+  .poster img { width: 100%; height: 100%; min-height: 0; object-fit: cover; }
+  .poster.leaving { opacity: 0; pointer-events: none; }
+
+  .bar { position: absolute; inset: 0 0 auto 0; height: var(--progress-bar-height, 3px); pointer-events: none; transition: opacity 0.3s; }
+  .bar > div { height: 100%; background: var(--progress-bar-color, #3b82f6); transform-origin: 0 0; transform: scaleX(0); }
+  .bar.done { opacity: 0; }
+
+  .hotspots { position: absolute; inset: 0; overflow: hidden; pointer-events: none; }
+  .hotspots > div { position: absolute; left: 0; top: 0; width: 0; height: 0; display: grid; place-content: center; place-items: center; }
+  .hotspots ::slotted(*) { pointer-events: auto; opacity: var(--max-hotspot-opacity, 1); transition: opacity 0.2s; }
+  .hotspots > .unseen ::slotted(*) { opacity: var(--min-hotspot-opacity, 0.25); pointer-events: none; }
+  .hotspots > .out-of-view { visibility: hidden; }
+
+  .controls { position: absolute; inset: auto 12px 12px auto; display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 8px; max-width: calc(100% - 24px); }
+  .links { position: absolute; inset: 12px 12px auto 12px; pointer-events: none; }
+  .links a { position: absolute; box-sizing: border-box; width: max-content; max-width: 100%; padding: 12px; border-radius: 8px;
+             font: 0.9375rem system-ui, sans-serif; color: LinkText; background: Canvas; }
+  .links a:focus { pointer-events: auto; }
+  .links a:not(:focus) { clip-path: inset(50%); }
+  .links a:focus-visible { outline: 2px solid Highlight; outline-offset: 2px; }
+
+  select, button { min-height: 44px; max-width: 100%; padding: 0 12px; border: 1px solid color-mix(in srgb, CanvasText 30%, transparent); border-radius: 8px;
+           font: 0.9375rem system-ui, sans-serif; color: CanvasText; background: color-mix(in srgb, Canvas 88%, transparent); cursor: pointer; }
+  select:focus-visible, button:focus-visible { outline: 2px solid Highlight; outline-offset: 2px; }
+
+  .message { position: absolute; inset: 0; display: grid; place-content: center; margin: 0; padding: 1em;
+             text-align: center; font: 1rem/1.5 system-ui, sans-serif; background: Canvas; color: CanvasText; }
+  .spoken { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
+  [hidden] { display: none; }
+  @media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
+`);
+
+/** Defaults that any rule of the page outweighs: <x3d> is an unknown inline element otherwise. */
+const pageStyle = sheetOf(`
+  :where(x3d) { display: block; position: relative; width: 100%; aspect-ratio: 4 / 3; }
+  :where(x3d) > :where(:not(${viewTag})) { display: none; }
+`);
+
+export function stylePage(document: Document): void {
+  if (!document.adoptedStyleSheets.includes(pageStyle)) document.adoptedStyleSheets.push(pageStyle);
+}
+
+function sheetOf(css: string): CSSStyleSheet {
+  const sheet = new CSSStyleSheet();
+  sheet.replaceSync(css);
+  return sheet;
+}

@@ -1,0 +1,30 @@
+import type { LoadingManager } from "three";
+import type { Transfer } from "../delivery/progress.ts";
+import { isSettled } from "../delivery/progress.ts";
+import type { ImgeoScene } from "./imgeoScene.ts";
+
+/** Each file of a scene, but not what its documents hold themselves, is an item of the manager, from when it is asked for until it is here, has failed or is given up. */
+export function reportToManager(scene: ImgeoScene, manager: LoadingManager, resolve: (url: string) => string): void {
+  const open = new Set<Readonly<Transfer>>();
+  const known = new WeakSet<Readonly<Transfer>>();
+  const close = (transfer: Readonly<Transfer>) => {
+    const url = resolve(transfer.url);
+    open.delete(transfer);
+    if (transfer.state !== "ready") manager.itemError(url);
+    manager.itemEnd(url);
+  };
+  const report = () => {
+    const transfers = new Set(scene.transfers);
+    for (const transfer of transfers) {
+      if (!known.has(transfer) && !transfer.url.startsWith("data:")) {
+        known.add(transfer);
+        open.add(transfer);
+        manager.itemStart(resolve(transfer.url));
+      }
+    }
+    for (const transfer of open) if (isSettled(transfer) || !transfers.has(transfer)) close(transfer);
+  };
+  report();
+  scene.addEventListener("progress", report);
+  scene.addEventListener("abort", report);
+}

@@ -1,0 +1,125 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { BoxGeometry, Group, LOD, Mesh, type Object3D, PerspectiveCamera, Raycaster, Vector3 } from "three";
+import type { LoadState } from "./sceneLod.ts";
+import { SceneLod } from "./sceneLod.ts";
+
+const element = { localName: "LOD", children: [], getAttribute: () => null, getAttributeNames: () => [] };
+
+/** Levels of a box each, around (1, 0, 0), of which those are here that are in `here`. */
+function levelsOf(range: readonly number[], here: Set<number>, empty?: number, others: LoadState = "coming") {
+  const looks = { count: 0 };
+  const placeOf = (level: Object3D) => Number(level.name);
+  const levels = new SceneLod(
+    { element, center: [1, 0, 0], range, count: range.length + 1 },
+    {
+      loadStateOf: (level) => (!here.has(placeOf(level)) ? others : placeOf(level) === empty ? "nothing" : "shown"),
+      onCamera: () => {
+        looks.count += 1;
+      },
+    },
+  );
+  for (let place = 0; place <= range.length; ++place) {
+    const group = new Group();
+    group.name = String(place);
+    if (place !== empty) group.add(new Mesh(new BoxGeometry()));
+    levels.add(group);
+  }
+  levels.fill();
+  return { levels, looks };
+}
+
+function cameraAt(x: number, y = 0, z = 0): PerspectiveCamera {
+  const camera = new PerspectiveCamera();
+  camera.position.set(x, y, z);
+  camera.updateMatrixWorld();
+  return camera;
+}
+
+function shownOf({ children }: LOD): number[] {
+  return children.flatMap(({ visible }, place) => (visible ? [place] : []));
+}
+
+describe("a LOD of a scene in an app", () => {
+  test("is three's own, and shows its last level until somebody has looked", () => {
+    const { levels } = levelsOf([10, 20], new Set([0, 1, 2]));
+    assert.ok(levels instanceof LOD && levels.autoUpdate);
+    assert.deepEqual(
+      levels.levels.map(({ distance }) => distance),
+      [0, 10, 20],
+    );
+    assert.deepEqual([shownOf(levels), levels.getCurrentLevel()], [[2], 2]);
+    assert.equal(levels.takeDistance(), Infinity);
+  });
+
+  test("shows each camera its level, by the distance from its centre in its own lengths", () => {
+    const { levels, looks } = levelsOf([10, 20], new Set([0, 1, 2]));
+    const around = new Group();
+    around.scale.setScalar(2);
+    around.position.set(100, 0, 0);
+    around.add(levels);
+    around.updateMatrixWorld(true);
+    for (const [x, level] of [
+      [102 + 18, 0],
+      [102 + 30, 1],
+      [102 + 50, 2],
+      [102 - 18, 0],
+    ] as const) {
+      levels.update(cameraAt(x));
+      assert.deepEqual([shownOf(levels), levels.getCurrentLevel()], [[level], level], `from ${x}`);
+    }
+    assert.equal(looks.count, 4);
+    assert.equal(levels.takeDistance(), 9); // the nearest of all that have looked
+    assert.equal(levels.takeDistance(), Infinity);
+  });
+
+  test("keeps what stands there until all of another level shows something", () => {
+    const here = new Set([2]);
+    const { levels } = levelsOf([10, 20], here);
+    const near = cameraAt(1, 5);
+    levels.update(near);
+    assert.deepEqual(shownOf(levels), [2]);
+    here.add(1);
+    levels.update(near);
+    assert.deepEqual(shownOf(levels), [2]);
+    here.add(0);
+    levels.update(near);
+    assert.deepEqual(shownOf(levels), [0]);
+    here.clear(); // what has shown something always does
+    levels.update(near);
+    assert.deepEqual(shownOf(levels), [0]);
+  });
+
+  test("shows what is wanted while it comes where nothing could stand in for it", () => {
+    const { levels } = levelsOf([10], new Set([1]), 1);
+    assert.deepEqual(shownOf(levels), [1]);
+    levels.update(cameraAt(1, 5));
+    assert.deepEqual(shownOf(levels), [0]);
+  });
+
+  test("keeps what stands there for a level of which nothing has come", () => {
+    const { levels } = levelsOf([10, 20], new Set([2]), undefined, "failed");
+    levels.update(cameraAt(1, 5));
+    assert.deepEqual([shownOf(levels), levels.getCurrentLevel()], [[2], 2]);
+  });
+
+  test("is met by rays where it is seen alone", () => {
+    const { levels } = levelsOf([10, 20], new Set([0, 1, 2]));
+    const scene = new Group().add(levels);
+    levels.update(cameraAt(1, 15));
+    scene.updateMatrixWorld(true);
+    const hits = new Raycaster(new Vector3(0, 0, 50), new Vector3(0, 0, -1)).intersectObject(scene);
+    assert.deepEqual(
+      hits.map(({ object }) => object.parent?.name),
+      ["1", "1"],
+    ); // in and out of one box
+  });
+
+  test("that has no extent is infinitely far", () => {
+    const { levels } = levelsOf([10], new Set([0, 1]));
+    levels.scale.setScalar(0);
+    levels.updateMatrixWorld(true);
+    levels.update(cameraAt(1));
+    assert.deepEqual(shownOf(levels), [1]);
+  });
+});

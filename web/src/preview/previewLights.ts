@@ -1,0 +1,87 @@
+// The lights of a first scene as its shaders read them, in the coordinates of the
+// view.
+
+import type { Matrix4 } from "three";
+import { Vector3 } from "three";
+import { coneOf, scaledFalloff } from "../lighting/falloff.ts";
+import type { LightScope } from "../navigation/lightScope.ts";
+import type { PlacedLight } from "../navigation/placement.ts";
+import { lengthScaleOf } from "../navigation/matrices.ts";
+import type { PreviewScene } from "./previewScene.ts";
+
+export type LightKind = PlacedLight["light"]["kind"];
+
+/** By the names of the uniforms: the numbers of all lights, one after the other. */
+export interface LightUniforms {
+  readonly lightColors: readonly number[];
+  readonly lightPositions: readonly number[];
+  readonly lightDirections: readonly number[];
+  readonly lightAttenuations: readonly number[];
+  readonly lightRadii: readonly number[];
+  /** Cosines of the cone's edge and of its beam. */
+  readonly lightCones: readonly number[];
+  readonly ambientLight: readonly [number, number, number];
+}
+
+/** Of each light, the headlight last. */
+export function lightKindsOf({ lights, headlight }: Pick<PreviewScene, "lights" | "headlight">): LightKind[] {
+  return [...lights.map(({ light }) => light.kind), ...(headlight ? ["directional" as const] : [])];
+}
+
+/** As seen by what stands in the scope: what does not shine there is black. */
+export function lightUniformsOf(
+  { lights, headlight }: Pick<PreviewScene, "lights" | "headlight">,
+  lightScope: LightScope,
+  viewFromScene: Matrix4,
+): LightUniforms {
+  const all = lights.map((light) => ({
+    ...numbersOf(light, viewFromScene),
+    ...(!light.scope.holds(lightScope) && { color: [0, 0, 0] }),
+  }));
+  if (headlight) all.push({ ...fromFarAway, color: [1, 1, 1], direction: [0, 0, -1] });
+  const shining = lights.filter(({ scope }) => scope.holds(lightScope));
+  const ambient = [0, 1, 2].map((channel) =>
+    shining.reduce((sum, { light }) => sum + (light.color[channel] ?? 0) * light.ambientIntensity, 0),
+  );
+  return {
+    lightColors: all.flatMap(({ color }) => color),
+    lightPositions: all.flatMap(({ position }) => position),
+    lightDirections: all.flatMap(({ direction }) => direction),
+    lightAttenuations: all.flatMap(({ attenuation }) => attenuation),
+    lightRadii: all.map(({ radius }) => radius),
+    lightCones: all.flatMap(({ cone }) => cone),
+    ambientLight: [ambient[0] ?? 0, ambient[1] ?? 0, ambient[2] ?? 0],
+  };
+}
+
+interface LightNumbers {
+  readonly color: readonly number[];
+  readonly position: readonly number[];
+  readonly direction: readonly number[];
+  readonly attenuation: readonly number[];
+  readonly radius: number;
+  readonly cone: readonly number[];
+}
+
+/** What a light's kind has no use for. */
+const fromFarAway = { position: [0, 0, 0], attenuation: [1, 0, 0], radius: 0, cone: [0, 0] };
+
+function numbersOf({ light, sceneFromLight }: PlacedLight, viewFromScene: Matrix4): LightNumbers {
+  const color = light.color.map((channel) => channel * light.intensity);
+  const viewFromLight = viewFromScene.clone().multiply(sceneFromLight);
+  const directed = (direction: readonly [number, number, number]) =>
+    new Vector3(...direction).transformDirection(viewFromLight).toArray();
+  if (light.kind === "directional") return { ...fromFarAway, color, direction: directed(light.direction) };
+  const position = new Vector3(...light.location).applyMatrix4(viewFromLight).toArray();
+  const { radius, attenuation } = scaledFalloff(light, lengthScaleOf(sceneFromLight));
+  if (light.kind === "point") return { ...fromFarAway, color, position, direction: [0, 0, -1], attenuation, radius };
+  const { edge, beam } = coneOf(light);
+  return {
+    color,
+    position,
+    direction: directed(light.direction),
+    attenuation,
+    radius,
+    cone: [Math.cos(edge), Math.cos(beam)],
+  };
+}

@@ -1,0 +1,240 @@
+// Draws a first scene into a WebGL context that is its own.
+
+import { Matrix3, Matrix4, Vector3 } from "three";
+import type { Base } from "../decode/compact/baseBuffers.ts";
+import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
+import type { ElementArray, VertexArray } from "../stage/vertexArray.ts";
+import { elementTypeOf } from "../stage/elementType.ts";
+import { latticeBitsOf } from "../document/storedFrame.ts";
+import { isBlended, litNumbersOf } from "../lighting/materialNumbers.ts";
+import { lensOf } from "../navigation/camera.ts";
+import type { LightScope } from "../navigation/lightScope.ts";
+import type { LightUniforms } from "./previewLights.ts";
+import { lightKindsOf, lightUniformsOf } from "./previewLights.ts";
+import type { Program, ProgramKind } from "./previewProgram.ts";
+import { attributeLocations, makeProgram } from "./previewProgram.ts";
+import { resolveOffScreen, warmUpBuffers } from "./warmUp.ts";
+import type { PreviewScene, PreviewShape } from "./previewScene.ts";
+
+/** A shape's base, if it has come. */
+export type BaseOf = (shape: PreviewShape) => Base | undefined;
+
+/** Whether its base holds what the document says of it, and nothing that is seen through. */
+export function isDrawable({ geometry, appearance }: PreviewShape, base: Base | undefined): boolean {
+  return (
+    base?.partCount === geometry.patches.length &&
+    base.whole.positionBits === latticeBitsOf(geometry) &&
+    !isBlended(appearance, base.whole.color?.components === 4)
+  );
+}
+
+/** What is drawn, on the GPU. */
+interface Stored {
+  readonly vertices: WebGLVertexArrayObject;
+  readonly count: number;
+  readonly indexType: number;
+}
+
+export class PreviewRenderer {
+  readonly #gl: WebGL2RenderingContext;
+  readonly #programs = new Map<string, Program>();
+  readonly #stored = new Map<PatchBuffers, Stored>();
+  readonly #buffers: WebGLBuffer[] = [];
+
+  constructor(gl: WebGL2RenderingContext) {
+    this.#gl = gl;
+    gl.vertexAttrib3f(attributeLocations.color, 1, 1, 1);
+  }
+
+  /**
+   * Has the GPU make ready what the picture will take, as far as that is known before
+   * the bases are here. Drivers translate a program for their GPU when something is
+   * first drawn with it, and give a canvas memory when it is first drawn into, which can
+   * take longer than the drawing.
+   */
+  warmUp(scene: PreviewScene, width: number, height: number): void {
+    const shapes = Array.from(
+      new Map(scene.shapes.map((shape) => [JSON.stringify(kindOf(shape, scene, warmUpBuffers)), shape])).values(),
+    );
+    this.#draw({ ...scene, shapes }, () => warmUpBuffers, width, height, 1);
+    resolveOffScreen(this.#gl);
+  }
+
+  /** All of it, in device pixels. Every base has come and is showable. */
+  draw(scene: PreviewScene, baseOf: BaseOf, width: number, height: number, exposure: number): void {
+    this.#draw(scene, (shape) => baseOf(shape)?.whole, width, height, exposure);
+  }
+
+  #draw(
+    scene: PreviewScene,
+    buffersOf: (shape: PreviewShape) => PatchBuffers | undefined,
+    width: number,
+    height: number,
+    exposure: number,
+  ): void {
+    const gl = this.#gl;
+    const { background } = scene;
+    gl.viewport(0, 0, width, height);
+    gl.clearColor(...(background ?? [0, 0, 0]), background ? 1 : 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
+    const { clipFromView, viewFromScene } = camerasOf(scene, width / height);
+    const lightsIn = new Map<LightScope, LightUniforms>();
+    for (const shape of scene.shapes) {
+      const lights = lightsIn.get(shape.lightScope) ?? lightUniformsOf(scene, shape.lightScope, viewFromScene);
+      lightsIn.set(shape.lightScope, lights);
+      const buffers = buffersOf(shape);
+      if (buffers === undefined) continue;
+      const program = this.#programFor(kindOf(shape, scene, buffers));
+      gl.useProgram(program.program);
+      gl.uniformMatrix4fv(program.uniform("clipFromView"), false, clipFromView.elements);
+      gl.uniform1f(program.uniform("exposure"), exposure);
+      setLights(gl, program, lights);
+      setMaterial(gl, program, shape, buffers.color !== undefined);
+      setGeometryState(gl, program, new Matrix4().multiplyMatrices(viewFromScene, shape.sceneFromShape), shape);
+      this.#drawBuffers(buffers);
+    }
+  }
+
+  /** Gives everything back, the context too. */
+  dispose(): void {
+    const gl = this.#gl;
+    for (const { vertices } of this.#stored.values()) gl.deleteVertexArray(vertices);
+    for (const buffer of this.#buffers) gl.deleteBuffer(buffer);
+    for (const { program } of this.#programs.values()) gl.deleteProgram(program);
+    gl.getExtension("WEBGL_lose_context")?.loseContext();
+  }
+
+  #programFor(kind: ProgramKind): Program {
+    const key = JSON.stringify(kind);
+    const known = this.#programs.get(key) ?? makeProgram(this.#gl, kind);
+    this.#programs.set(key, known);
+    return known;
+  }
+
+  #drawBuffers(buffers: PatchBuffers): void {
+    const gl = this.#gl;
+    const stored = this.#stored.get(buffers) ?? this.#store(buffers);
+    this.#stored.set(buffers, stored);
+    gl.bindVertexArray(stored.vertices);
+    gl.drawElements(gl.TRIANGLES, stored.count, stored.indexType, 0);
+  }
+
+  #store({ coord, normal, color, index }: PatchBuffers): Stored {
+    const gl = this.#gl;
+    const vertices = gl.createVertexArray();
+    gl.bindVertexArray(vertices);
+    this.#storeVertices(attributeLocations.position, coord, false);
+    if (normal) this.#storeVertices(attributeLocations.normal, normal, true);
+    if (color) this.#storeVertices(attributeLocations.color, color, true);
+    if (index) this.#upload(gl.ELEMENT_ARRAY_BUFFER, index);
+    return {
+      vertices,
+      count: index?.length ?? 0,
+      indexType: index instanceof Uint32Array ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT,
+    };
+  }
+
+  /** `isSpread`: integers stand for 0 … 1 or -1 … 1. */
+  #storeVertices(place: number, { array, components, stride, offset }: VertexArray, isSpread: boolean): void {
+    const gl = this.#gl;
+    const size = array.BYTES_PER_ELEMENT;
+    this.#upload(gl.ARRAY_BUFFER, array);
+    gl.enableVertexAttribArray(place);
+    const isFloat = array instanceof Float32Array;
+    gl.vertexAttribPointer(
+      place,
+      components,
+      glTypes[elementTypeOf(array)],
+      isSpread && !isFloat,
+      stride * size,
+      offset * size,
+    );
+  }
+
+  #upload(target: number, array: ElementArray): void {
+    const gl = this.#gl;
+    const buffer = gl.createBuffer();
+    this.#buffers.push(buffer);
+    gl.bindBuffer(target, buffer);
+    gl.bufferData(target, array, gl.STATIC_DRAW);
+  }
+}
+
+/** WebGL's constants. */
+const glTypes = {
+  Int8: 0x1400,
+  Uint8: 0x1401,
+  Int16: 0x1402,
+  Uint16: 0x1403,
+  Int32: 0x1404,
+  Uint32: 0x1405,
+  Float32: 0x1406,
+} as const;
+
+function kindOf({ geometry, appearance }: PreviewShape, scene: PreviewScene, { normal }: PatchBuffers): ProgramKind {
+  return {
+    hasNormals: normal !== undefined,
+    material: appearance.material.kind,
+    isTwoSided: !geometry.solid,
+    lights: lightKindsOf(scene),
+  };
+}
+
+/** As three.js' camera of the runtime stands and sees. */
+function camerasOf(
+  { pose, sphere, clearance }: PreviewScene,
+  aspect: number,
+): { clipFromView: Matrix4; viewFromScene: Matrix4 } {
+  const { fieldOfView, near, far } = lensOf(pose, aspect, sphere, clearance);
+  const top = near * Math.tan(fieldOfView / 2);
+  const sceneFromView = new Matrix4().compose(pose.position, pose.orientation, new Vector3(1, 1, 1));
+  return {
+    clipFromView: new Matrix4().makePerspective(-top * aspect, top * aspect, top, -top, near, far),
+    viewFromScene: sceneFromView.invert(),
+  };
+}
+
+function setGeometryState(
+  gl: WebGL2RenderingContext,
+  { uniform }: Program,
+  viewFromShape: Matrix4,
+  { sceneFromShape, shapeFromStored, geometry }: PreviewShape,
+): void {
+  gl.uniformMatrix4fv(
+    uniform("viewFromStored"),
+    false,
+    new Matrix4().multiplyMatrices(viewFromShape, shapeFromStored).elements,
+  );
+  gl.uniformMatrix3fv(uniform("viewFromNormal"), false, new Matrix3().getNormalMatrix(viewFromShape).elements);
+  gl.frontFace(sceneFromShape.determinant() < 0 ? gl.CW : gl.CCW);
+  if (geometry.solid) gl.enable(gl.CULL_FACE);
+  else gl.disable(gl.CULL_FACE);
+}
+
+function setMaterial(
+  gl: WebGL2RenderingContext,
+  { uniform }: Program,
+  { appearance: { material } }: PreviewShape,
+  hasColors: boolean,
+): void {
+  const { color, specular, shininess, ambientIntensity, metallic, roughness } = litNumbersOf(material, hasColors);
+  gl.uniform3fv(uniform("color"), color);
+  gl.uniform3fv(uniform("specular"), specular);
+  gl.uniform3fv(uniform("emissive"), material.emissiveColor);
+  gl.uniform1f(uniform("shininess"), shininess);
+  gl.uniform1f(uniform("ambientIntensity"), ambientIntensity);
+  gl.uniform1f(uniform("metallic"), metallic);
+  gl.uniform1f(uniform("roughness"), roughness);
+}
+
+function setLights(gl: WebGL2RenderingContext, { uniform }: Program, lights: LightUniforms): void {
+  gl.uniform3fv(uniform("lightColors"), lights.lightColors);
+  gl.uniform3fv(uniform("lightPositions"), lights.lightPositions);
+  gl.uniform3fv(uniform("lightDirections"), lights.lightDirections);
+  gl.uniform3fv(uniform("lightAttenuations"), lights.lightAttenuations);
+  gl.uniform1fv(uniform("lightRadii"), lights.lightRadii);
+  gl.uniform2fv(uniform("lightCones"), lights.lightCones);
+  gl.uniform3fv(uniform("ambientLight"), lights.ambientLight);
+}

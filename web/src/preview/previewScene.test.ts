@@ -1,0 +1,108 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { Sphere } from "three";
+import { elementsOf } from "../document/elements.testing.ts";
+import { SceneReader } from "../document/sceneReader.ts";
+import { poseFraming } from "../navigation/camera.ts";
+import { Navigator } from "../navigation/navigator.ts";
+import type { CameraSetting } from "../navigation/orbit.ts";
+import { unsetCamera } from "../navigation/orbit.ts";
+import { placementOf } from "../navigation/placement.ts";
+import { sphereAround } from "../navigation/camera.ts";
+import type { PreviewScene } from "./previewScene.ts";
+import { previewSceneOf, maxLights } from "./previewScene.ts";
+
+const geometry = (base = 'base="b.png"') => `<ImageGeometry profile="compact" position="0 0 0" size="2 2 2" ${base}>
+  <GeometryPatch bboxCenter="0 0 0" bboxSize="2 2 1" recordCount="3" vertexCount="3" data="p.png"/></ImageGeometry>`;
+const shape = (appearance = "<Appearance><Material/></Appearance>", drawn = geometry(), attributes = "") =>
+  `<Shape ${attributes}>${appearance}${drawn}</Shape>`;
+
+function firstOf(markup: string, camera: CameraSetting = unsetCamera): PreviewScene | undefined {
+  return previewSceneOf(new SceneReader(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)).read(), camera);
+}
+
+describe("a first scene", () => {
+  test("has each shape in each of its places, by its base", () => {
+    const scene = firstOf(
+      `<Transform translation="5 0 0" DEF="t">${shape()}</Transform><Transform scale="2 2 2"><Transform USE="t"/></Transform>`,
+    );
+    assert.deepEqual(
+      scene?.shapes.map(({ base, sceneFromShape }) => [base.url, ...sceneFromShape.elements.slice(12, 15)]),
+      [
+        ["b.png", 5, 0, 0],
+        ["b.png", 10, 0, 0],
+      ],
+    );
+  });
+
+  test("places the lattice as its node says", () => {
+    const [first] = firstOf(shape())?.shapes ?? [];
+    assert.ok(first);
+    const { elements } = first.shapeFromStored;
+    assert.deepEqual(elements.slice(12, 15), [-1, -1, -1]);
+    assert.equal(elements[0], 2 / 65535);
+  });
+
+  test("leaves out what is hidden", () => {
+    assert.equal(firstOf(`${shape()}${shape(undefined, geometry(""), 'visible="false"')}`)?.shapes.length, 1);
+    assert.equal(firstOf(`<Switch whichChoice="-1">${shape()}</Switch>`), undefined);
+  });
+
+  const refused: Readonly<Record<string, string>> = {
+    nothing: "",
+    "a shape without a base": shape(undefined, geometry("")),
+    "a shape without a base beside one with": shape() + shape(undefined, geometry("")),
+    "inline geometry": shape() + shape(undefined, "<Box/>"),
+    "a text": shape() + shape(undefined, '<Text string="letters"/>'),
+    "geometry of another shape": `<Shape><Sphere DEF="s"/></Shape>${shape(undefined, '<Sphere USE="s"/>')}${shape()}`,
+    "a texture": shape('<Appearance><Material/><ImageTexture url="t.png"/></Appearance>'),
+    glass: shape('<Appearance><Material transparency="0.5"/></Appearance>'),
+    "a mask": shape('<Appearance alphaMode="MASK"><Material/></Appearance>'),
+    "a LOD": `<LOD range="1">${shape()}${shape()}</LOD>`,
+    "an Inline": `${shape()}<Inline url="other.x3d"/>`,
+    "a sky of several colours": `<Background skyColor="0 0 1 1 1 1" skyAngle="1.5"/>${shape()}`,
+    "more lights than a shader should have": "<DirectionalLight/>".repeat(maxLights + 1) + shape(),
+    "more shapes than are quickly drawn": shape().repeat(300),
+  };
+  for (const [what, markup] of Object.entries(refused)) {
+    test(`is none where there is ${what}`, () => {
+      assert.equal(firstOf(markup), undefined);
+    });
+  }
+});
+
+describe("the camera of a first scene", () => {
+  const scenes: Readonly<Record<string, string>> = {
+    "no viewpoint": shape(),
+    "two viewpoints": `<Viewpoint position="0 0 9"/><Viewpoint position="3 1 9" orientation="0 1 0 0.3"/>${shape()}`,
+    "a viewpoint that wants to be bound": `<Viewpoint position="0 0 9"/><Transform rotation="0 1 0 1"><Viewpoint bind="true" position="0 0 4"/></Transform>${shape()}`,
+    "who walks": `<NavigationInfo type="WALK" avatarSize="0.5 1.6 0.7"/><Viewpoint position="0 0 9"/>${shape()}`,
+    lights: `<NavigationInfo headlight="false"/><PointLight location="1 2 3" on="false"/><SpotLight/>${shape()}`,
+  };
+  const cameras: readonly CameraSetting[] = [
+    unsetCamera,
+    { ...unsetCamera, orbit: { theta: 0.4, phi: 1, radius: { share: 1.05 } }, target: [0, 0.5, 0], fieldOfView: 0.5 },
+  ];
+  for (const [what, markup] of Object.entries(scenes)) {
+    test(`stands where the runtime's does, with ${what}`, () => {
+      for (const camera of cameras) {
+        const description = new SceneReader(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)).read();
+        const first = previewSceneOf(description, camera);
+        const { box, viewpoints } = placementOf(description);
+        const navigator = new Navigator(
+          () => undefined,
+          () => undefined,
+        );
+        navigator.setCamera(camera);
+        navigator.setScene({ sphere: sphereAround(box), viewpoints, navigation: description.navigation });
+        assert.deepEqual(first?.pose, navigator.pose);
+        assert.equal(first.clearance, navigator.clearance);
+        assert.deepEqual(first.sphere, sphereAround(box));
+      }
+    });
+  }
+
+  test("sees all where nothing else is said", () => {
+    assert.deepEqual(firstOf(shape())?.pose, poseFraming(new Sphere(undefined, 1.5)));
+  });
+});
