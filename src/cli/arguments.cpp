@@ -68,7 +68,7 @@ std::string messageOf(const CLI::ParseError& error, const CLI::App& app, const C
       return fmt::format("there is no option {}{}", word.substr(0, word.find('=')), suggestion(word, names));
     return fmt::format("one argument too many: \"{}\"", word);
   }
-  const std::string message = error.what();
+  std::string message = error.what();
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
     const bool tooMany = message.find("At Most") != message.npos;
     return message.substr(0, message.find(':')) + (tooMany ? " is given more than once" : " lacks its value");

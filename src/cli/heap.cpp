@@ -28,6 +28,7 @@ void prepareHeap() {
   mallopt(M_TOP_PAD, largePageBytes);
   if (first) {
     const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(first) + largePageBytes - 1) & ~(largePageBytes - 1);
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): std::align takes a size, and madvise goes beyond what malloc gave.
     madvise(reinterpret_cast<void*>(begin), heapBytes, MADV_HUGEPAGE);
   }
   std::free(first);

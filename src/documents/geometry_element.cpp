@@ -37,6 +37,7 @@ Attributes boxAttributes(const Box3d& box, const Lattice& lattice) {
 
 std::string primTypes(const std::vector<Draw>& draws) {
   std::vector<std::string> types;
+  types.reserve(draws.size());
   for (const Draw& draw : draws)
     types.push_back(nameOf(draw.primitive));
   return strings(types);

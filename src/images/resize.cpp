@@ -115,7 +115,8 @@ Raster shrunk(const Raster& raster, RasterSize size, PixelContent content) {
   for (std::size_t y = 0; y < size.height; ++y) {
     std::ranges::fill(means, Pixel{});
     for (std::size_t i = 0; i < down[y].shares.size(); ++i)
-      addRow(&raster.pixels[4 * raster.width * (down[y].first + i)], across, down[y].shares[i], averaging, means);
+      addRow(&raster.pixels[std::size_t{4} * raster.width * (down[y].first + i)], across, down[y].shares[i], averaging,
+             means);
     for (std::size_t x = 0; x < size.width; ++x)
       averaging.store(means[x], &smaller.pixels[4 * (y * size.width + x)]);
   }

@@ -102,7 +102,7 @@ Bytes answerOf(const std::function<Imported()>& read) {
 [[noreturn]] void rethrow(ByteSpan answer) {
   const auto text = [&] {
     const auto size = loadLittle<std::uint64_t>(answer.data());
-    const std::string taken(asText(answer.subspan(8, size)));
+    std::string taken(asText(answer.subspan(8, size)));
     answer = answer.subspan(8 + size);
     return taken;
   };

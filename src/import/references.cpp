@@ -74,7 +74,7 @@ Bytes base64Decoded(std::string_view text, const std::string& location) {
   for (const char c : text) {
     if (c == '=' || c == ' ' || c == '\n' || c == '\r' || c == '\t')
       continue;
-    const int value = values[static_cast<unsigned char>(c)];
+    const std::int8_t value = values[static_cast<unsigned char>(c)];
     if (value < 0)
       throw Error(ErrorKind::malformed, location, "base64 data has a character that stands for nothing");
     bits = bits << 6 | static_cast<std::uint32_t>(value);

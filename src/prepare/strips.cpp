@@ -138,7 +138,7 @@ private:
     turnCosts_.resize(std::size_t{4} * trails_.count());
     for (TrailEnd end = 0; end < 2 * trails_.count(); ++end)
       for (std::size_t parity = 0; parity < 2; ++parity)
-        turnCosts_[2 * end + parity] = turnCost(end, parity);
+        turnCosts_[std::size_t{2} * end + parity] = turnCost(end, parity);
   }
 
   /// Indices that wrong first turns cost along a trail whose first triangle begins at an even or odd place.
@@ -166,7 +166,7 @@ private:
     int bestCost = 0;
     const auto consider = [&](TrailEnd end, std::uint32_t joins) {
       // Compared with what this trail would cost on average: it has to come some time.
-      int cost = static_cast<int>(4 * (joins + turnCosts_[2 * end + (strip.size() + joins) % 2]));
+      int cost = static_cast<int>(4 * (joins + turnCosts_[std::size_t{2} * end + (strip.size() + joins) % 2]));
       for (std::uint32_t i = 0; i < 4; ++i)
         cost -= static_cast<int>(turnCosts_[std::size_t{4} * (end / 2) + i]);
       if (!best || cost < bestCost)

@@ -19,7 +19,8 @@ class Records {
 public:
   Records(const Reference& reference, const FetchFile& fetch, ElementType type, std::uint32_t components)
       : bytes_(fetch(reference.url)), location_(reference.url), type_(type), first_(reference.first),
-        recordBytes_(components * byteSizeOf(type)), stride_(reference.stride != 0 ? reference.stride : recordBytes_) {
+        recordBytes_(std::uint64_t{components} * byteSizeOf(type)),
+        stride_(reference.stride != 0 ? reference.stride : recordBytes_) {
     if (stride_ < recordBytes_)
       throw Error(ErrorKind::malformed, location_,
                   "a stride of " + std::to_string(stride_) + " bytes is less than a record of " +
@@ -77,7 +78,7 @@ public:
 
 private:
   const std::uint8_t* at(std::uint64_t record, std::uint32_t component) const {
-    return &bytes_[first_ + record * stride_ + component * byteSizeOf(type_)];
+    return &bytes_[first_ + record * stride_ + std::size_t{component} * byteSizeOf(type_)];
   }
 
   Bytes bytes_;

@@ -76,7 +76,7 @@ Vec3f normalOf(const std::uint8_t* texel) {
 double paletteErrorOf(const IndexedPatch& patch, const Image& image) {
   double worst = 0;
   for (std::size_t n = 0; n < patch.vertexCount(); ++n)
-    worst = std::max(worst, angleBetween(patch.normals[n], normalOf(&image.palette[3 * image.pixels[n]])));
+    worst = std::max(worst, angleBetween(patch.normals[n], normalOf(&image.palette[std::size_t{3} * image.pixels[n]])));
   return worst;
 }
 

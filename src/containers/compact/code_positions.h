@@ -11,10 +11,10 @@
 namespace imgeo::compact {
 
 namespace positionModels {
-inline constexpr std::size_t choice = 0, first = choice + 8 * 16 * 4, second = first + 16 * numberModels,
+inline constexpr std::size_t choice = 0, first = choice + std::size_t{8} * 16 * 4, second = first + 16 * numberModels,
                              third = second + 31 * numberModels, count = third + 31 * numberModels, lone = count,
                              line = lone + 8 * numberModels, mask = line + 96 * numberModels,
-                             countWithGrid = mask + 512 * 8;
+                             countWithGrid = mask + std::size_t{512} * 8;
 } // namespace positionModels
 
 /// Three coordinates in the order in which they are coded.
@@ -112,7 +112,7 @@ private:
         neighbours = neighbours * 8 + masks_[connectivity_.vertex[corner]];
     if constexpr (Coder::encodes)
       mask = gridMask(*grid_, positions_[vertex]);
-    mask = codeTree(coder_, positionModels::mask + 8 * neighbours, 3, mask);
+    mask = codeTree(coder_, positionModels::mask + std::size_t{8} * neighbours, 3, mask);
     masks_[vertex] = static_cast<std::uint8_t>(mask);
     return mask;
   }
@@ -136,7 +136,7 @@ private:
   template <typename C>
   static std::uint32_t codeChoice(C& coder, const Candidates& candidates, const VertexContext& context,
                                   std::uint32_t choice) {
-    const std::size_t models = positionModels::choice + (candidates.set * 16 + context.agreement) * 4;
+    const std::size_t models = positionModels::choice + (std::size_t{candidates.set} * 16 + context.agreement) * 4;
     std::uint32_t i = 0;
     while (i + 1 < candidates.count && !coder.bit(models + i, i == choice))
       ++i;

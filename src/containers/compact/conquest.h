@@ -17,7 +17,7 @@ namespace imgeo::compact {
 enum class Step : std::uint8_t { make, close, back, hole, join, reuse };
 
 namespace conquestModels {
-inline constexpr std::size_t degreeContexts = 12 * 12 * 8;
+inline constexpr std::size_t degreeContexts = std::size_t{12} * 12 * 8;
 inline constexpr std::size_t make = 0, close = make + degreeContexts, back = close + degreeContexts,
                              hole = back + degreeContexts, join = hole + 4, old = join + 1, node = old + 3,
                              vertex = node + numberModels, count = vertex + numberModels;

@@ -95,7 +95,9 @@ public:
   LineGuide(std::span<const std::uint32_t> vertices, std::uint32_t vertexCount)
       : vertices_(vertices), numbers_(vertexCount, none) {}
 
-  bool isChained(std::uint32_t line) const { return vertices_[2 * line] == vertices_[2 * line - 1]; }
+  bool isChained(std::uint32_t line) const {
+    return vertices_[std::size_t{2} * line] == vertices_[std::size_t{2} * line - 1];
+  }
   std::uint32_t number(std::uint32_t corner) const { return numbers_[vertices_[corner]]; }
   void giveNumber(std::uint32_t corner, std::uint32_t number) { numbers_[vertices_[corner]] = number; }
 

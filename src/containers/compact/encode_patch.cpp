@@ -292,7 +292,7 @@ private:
     return as.isDerived() ? error : static_cast<double>(encoder.finish().size());
   }
   static constexpr std::uint32_t sampledNormals = 4096;
-  static constexpr double smallSample = sampledNormals / 16; ///< half a bit a normal: the mode is right
+  static constexpr double smallSample = sampledNormals / 16.0; ///< half a bit a normal: the mode is right
   static constexpr int effortOfWholeTrials = 7;
 
   int effort_;

@@ -101,7 +101,7 @@ private:
 
   bool codeIsSame(std::uint32_t corner, std::uint32_t guess, std::uint32_t differing) {
     const std::uint32_t extra = std::min(extra_[connectivity_.vertex[corner]], 2u);
-    return coder_.bit(wedgeModels::same + extra * 3 + differing, wanted(corner) == guess);
+    return coder_.bit(wedgeModels::same + std::size_t{extra} * 3 + differing, wanted(corner) == guess);
   }
 
   std::uint32_t codeOther(std::uint32_t corner, std::uint32_t guess) {

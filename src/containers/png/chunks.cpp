@@ -141,7 +141,7 @@ PngChunks readPngChunks(ByteSpan bytes, const std::string& location) {
       png.palette = chunk.data;
   }
   const std::size_t size = png.palette.size();
-  refuse.unless(!png.isPalette || (size > 0 && size <= 3 * 256 && size % 3 == 0), ErrorKind::malformed,
+  refuse.unless(!png.isPalette || (size > 0 && size <= std::size_t{3} * 256 && size % 3 == 0), ErrorKind::malformed,
                 "the PNG has no palette of 1 to 256 colours");
   return png;
 }

@@ -50,7 +50,7 @@ struct Effort {
 };
 
 /// Records of a patch fill no more than this; what is larger holds indices.
-constexpr std::size_t largeImageBytes = 256 * 256 * 4;
+constexpr std::size_t largeImageBytes = std::size_t{256} * 256 * 4;
 
 /// Rows that deflate to less than this part of themselves at the probe level repeat.
 constexpr double repetitiveRatio = 0.3;
@@ -129,7 +129,7 @@ Bytes pngOf(const Image& image, const Bytes& data) {
   header.insert(header.end(), {8, colorType, 0, 0, 0}); // depth; deflate, adaptive filters, not interlaced
 
   Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  png.reserve(png.size() + 4 * 12 + header.size() + image.palette.size() + data.size());
+  png.reserve(png.size() + std::size_t{4} * 12 + header.size() + image.palette.size() + data.size());
   appendChunk(png, "IHDR", header);
   if (!image.palette.empty())
     appendChunk(png, "PLTE", image.palette);

@@ -26,7 +26,7 @@ void VrmlElements::requireName(const Token& where, std::string_view name) const 
 std::string VrmlElements::define(const std::string& name, const std::string& element) {
   Scope& scope = scopes_.back();
   const std::size_t times = ++scope.timesGiven[name];
-  const std::string own = times == 1 ? name : fmt::format("{}-{}", name, times);
+  std::string own = times == 1 ? name : fmt::format("{}-{}", name, times);
   scope.names[name] = {own, element};
   return own;
 }
