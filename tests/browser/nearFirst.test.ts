@@ -7,7 +7,7 @@ import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { slotsOfHttp1, slotsOfHttp2 } from "../../web/src/scheduler/slots.ts";
+import { http1SlotCount, http2SlotCount } from "../../web/src/scheduler/downloadSlots.ts";
 import { until, withPage, type View } from "./harness.ts";
 import { converter, outputDirectory } from "./paths.ts";
 import { gate } from "./server.ts";
@@ -35,7 +35,7 @@ const visitors: readonly Visitor[] = [
     gaze: [1, 0, 0],
     orientation: `0 1 0 ${-Math.PI / 2}`,
     protocol: "h2",
-    slots: slotsOfHttp2,
+    slots: http2SlotCount,
   },
   {
     name: "right",
@@ -43,7 +43,7 @@ const visitors: readonly Visitor[] = [
     gaze: [-1, 0, 0],
     orientation: `0 1 0 ${Math.PI / 2}`,
     protocol: "http/1.1",
-    slots: slotsOfHttp1,
+    slots: http1SlotCount,
   },
 ];
 

@@ -9,11 +9,11 @@ import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../sta
 import { withoutStrips } from "../decode/strips.ts";
 import type { GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
 import { hasNormalsInCoords, isUnbounded } from "../document/geometry.ts";
-import { Holdings } from "./holdings.ts";
-import type { PartRole } from "./parts.ts";
-import { componentsOf, typeOf } from "./parts.ts";
+import { ArrayUploads } from "./arrayUploads.ts";
+import type { FileRole } from "./patchFiles.ts";
+import { componentsOf, typeOf } from "./patchFiles.ts";
 import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
-import { drawRangesOf, normalCodeOf, stageNameOf } from "./stageBuilder.ts";
+import { drawRangesOf, normalCodeOf, attainedStageName } from "./stageBuilder.ts";
 
 interface Here {
   index?: { readonly stored: StoredIndex | undefined; readonly draws: readonly DrawRange[] };
@@ -30,7 +30,7 @@ export function bgBuilder(
   patch: PatchDescription,
   { storeBytes }: BuilderTools,
 ): StageBuilder {
-  const holdings = new Holdings(storeBytes);
+  const holdings = new ArrayUploads(storeBytes);
   let here: Here = {};
   const normalCode = normalCodeOf(geometry);
   const unindexed = (count: number) => withoutStrips(undefined, drawRangesFor(patch, count));
@@ -65,7 +65,7 @@ export function bgBuilder(
     stage(): BufferStage | undefined {
       const { coord, bounds, normal, texCoord, color, value, index } = here;
       if (coord === undefined) return undefined;
-      const name = stageNameOf(patch, { index, normal, color, coord: [coord], value: value ? [value] : [] });
+      const name = attainedStageName(patch, { index, normal, color, coord: [coord], value: value ? [value] : [] });
       const points = { stored: undefined, draws: [{ primitive: "points", first: 0, count: countOf(coord) } as const] };
       const { stored, draws } = index ?? points;
       return {
@@ -122,7 +122,7 @@ function drawRangesFor(patch: PatchDescription, available: number): readonly Dra
 function rangeOf(
   geometry: GeometryDescription,
   patch: PatchDescription,
-  role: PartRole,
+  role: FileRole,
   reference: Reference,
 ): ElementRange {
   return {

@@ -3,16 +3,16 @@ import { describe, test } from "node:test";
 import { pngWithTexels } from "../decode/png.testing.ts";
 import type { GeometryDescription } from "../document/description.ts";
 import { priorityOf } from "../scheduler/priority.ts";
-import type { Demand } from "./deliver.ts";
+import type { FilePriority } from "./geometryDelivery.ts";
 import { everything, geometryOf, sigFiles, sigGeometry, siteOf, soon } from "./delivery.testing.ts";
-import { demandWithin } from "./demandWithin.ts";
+import { requestWithinBudget } from "./requestWithinBudget.ts";
 import { TextureDeliveries } from "./textureDeliveries.ts";
-import { SharedDeliveries } from "./sharedDeliveries.ts";
+import { GeometryDeliveries } from "./geometryDeliveries.ts";
 
 type Site = ReturnType<typeof siteOf>;
 
 function shownFrom(geometry: GeometryDescription, site: Site) {
-  const deliveries = { geometries: new SharedDeliveries(site.pool), textures: new TextureDeliveries(site.pool) };
+  const deliveries = { geometries: new GeometryDeliveries(site.pool), textures: new TextureDeliveries(site.pool) };
   const stages: (string | undefined)[] = [];
   const joined = deliveries.geometries.join(geometry, {
     onStage: (patch, stage) => {
@@ -26,9 +26,9 @@ function shownFrom(geometry: GeometryDescription, site: Site) {
     while (!joined.isSettled);
   };
   /** Steers a few times, as a view that stands still does. */
-  const demand = async (priority: Demand, mostBytes: number) => {
+  const demand = async (priority: FilePriority, mostBytes: number) => {
     for (let turn = 0; turn < 4; ++turn) {
-      demandWithin(
+      requestWithinBudget(
         deliveries,
         () => priority,
         () => undefined,
@@ -42,7 +42,7 @@ function shownFrom(geometry: GeometryDescription, site: Site) {
 }
 
 /** A camera to which patch 0 is near, patch 1 far, and patch 2 lies behind. */
-function seenFrom(order: readonly number[]): Demand {
+function seenFrom(order: readonly number[]): FilePriority {
   const near = { pixels: 1000, isInView: true, pixelsPerUnit: 1 };
   const views = [near, { ...near, pixels: 10 }, { ...near, isInView: false }];
   return (place, part) => priorityOf(1, part.chunk, views[order[place] ?? 0] ?? near);
@@ -133,7 +133,7 @@ describe("arrays within a budget", () => {
     const site = siteOf(files);
     const { demand, joined } = shownFrom(geometry, site);
     const near =
-      (nearest: number): Demand =>
+      (nearest: number): FilePriority =>
       (place, part) =>
         priorityOf(1, part.chunk, { pixels: place === nearest ? 1000 : 10, isInView: true, pixelsPerUnit: 1 });
     assert.equal(await demand(near(0), 3600), "full full");

@@ -107,11 +107,11 @@ describe("a geometry of compact", () => {
     const all = each.reduce((sum, bytes) => sum + bytes);
     assert.equal(stored(), all);
     const [, { delivery, stages } = assert.fail()] = recordings;
-    delivery.claims(everything);
-    delivery.demand(everything, new Set());
+    delivery.budgetRequests(everything);
+    delivery.request(everything, new Set());
     assert.deepEqual([stored(), delivery.storedBytes], [all - (each[1] ?? 0), each[1]]);
-    delivery.claims(everything);
-    delivery.demand(everything);
+    delivery.budgetRequests(everything);
+    delivery.request(everything);
     await until(() => stages.length === 2);
     assert.deepEqual([stored(), recordings.map(({ stages: shown }) => shown.length)], [all, [1, 2, 1]]);
     assert.deepEqual(site.asked, ["alike.png", "alike.png"]);
@@ -144,7 +144,7 @@ describe("a geometry of compact", () => {
     const totals = low.delivery.transfers.map(({ totalBytes }) => totalBytes);
     high.delivery.cancel();
     assert.ok((low.delivery.transfers[0]?.totalBytes ?? 0) < (totals[0] ?? 0), "what one waits for is added up");
-    low.delivery.demand(wanted(8));
+    low.delivery.request(wanted(8));
     release();
     await Promise.all([first.settled, low.settled, middle.settled]);
     assert.deepEqual(site.asked, ["sphere.png", "alike.png", "torus.png"]);
@@ -327,7 +327,7 @@ describe("a geometry of compact", () => {
     );
     await settled;
     const held = site.arrays.size;
-    const claims = delivery.claims(everything);
+    const claims = delivery.budgetRequests(everything);
     assert.deepEqual(
       claims.map((each) => each.length),
       [2, 2, 2],
@@ -339,14 +339,14 @@ describe("a geometry of compact", () => {
       Array.from(site.arrays.values(), (array) => array.byteLength).reduce((sum, length) => sum + length, 0),
     );
     stages.length = 0;
-    delivery.demand(everything, new Set(all.filter((claim) => claim !== claims[1]?.[1])));
+    delivery.request(everything, new Set(all.filter((claim) => claim !== claims[1]?.[1])));
     assert.deepEqual(
       stages.map(({ patch, stage }) => [patch, stage.name]),
       [[1, "base"]],
     );
     assert.equal(site.arrays.size, held - 3);
-    delivery.claims(everything);
-    delivery.demand(everything);
+    delivery.budgetRequests(everything);
+    delivery.request(everything);
     await until(() => stages.length === 2);
     assert.deepEqual([stages[1]?.patch, stages[1]?.stage.name], [1, "full"]);
     delivery.cancel();

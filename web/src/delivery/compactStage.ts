@@ -8,7 +8,7 @@ import { DecodeError } from "../decode/decodeError.ts";
 import type { BufferStage, DrawRange, StageName } from "../stage/stage.ts";
 import type { AttributeDescription, GeometryDescription, PatchDescription } from "../document/description.ts";
 import { latticeBitsOf } from "../document/storedFrame.ts";
-import { Holdings } from "./holdings.ts";
+import { ArrayUploads } from "./arrayUploads.ts";
 import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
 import { drawRangesOf } from "./stageBuilder.ts";
 
@@ -18,7 +18,7 @@ export function compactBuilder(
   place: number,
   { storeBytes }: Pick<BuilderTools, "storeBytes">,
 ): StageBuilder {
-  const holdings = new Holdings(storeBytes);
+  const holdings = new ArrayUploads(storeBytes);
   let standIn: BufferStage | undefined;
   let full: BufferStage | undefined;
   const store = async (

@@ -14,11 +14,11 @@ import { shapesOf } from "../document/description.ts";
 import { readScene } from "../document/readScene.ts";
 import { priorityOf } from "../scheduler/priority.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
-import { unknownView } from "../scheduler/view.ts";
-import type { Delivery, Demand } from "./deliver.ts";
-import { deliver } from "./deliver.ts";
+import { unknownViewMetrics } from "../scheduler/viewMetrics.ts";
+import type { Delivery, FilePriority } from "./geometryDelivery.ts";
+import { deliverGeometry } from "./geometryDelivery.ts";
 import type { DeliveryError } from "./deliveryError.ts";
-import { ResourcePool } from "./resources.ts";
+import { ResourcePool } from "./resourcePool.ts";
 
 export type Answer = Uint8Array<ArrayBuffer> | number | Promise<Uint8Array<ArrayBuffer>>;
 
@@ -60,12 +60,12 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
         });
       }),
     readsTextures: () => Promise.resolve(readsTextures),
-    largestTexture: 4096,
+    maxTextureSize: 4096,
     runJob: (name, input) => {
       done.push(name);
       return (jobs[name] as (input: unknown) => Promise<never>)(input);
     },
-    runHere: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
+    runOnMainThread: (name, input) => (jobs[name] as (input: unknown) => Promise<never>)(input),
     makePicture: (png) => {
       pictures.open += 1;
       return Promise.resolve({
@@ -115,7 +115,7 @@ export interface Recording {
 }
 
 /** Everything, in the order of what files hold. */
-export const everything: Demand = (_, part) => priorityOf(1, part.chunk, unknownView);
+export const everything: FilePriority = (_, part) => priorityOf(1, part.chunk, unknownViewMetrics);
 
 export function record(geometry: GeometryDescription, pool: ResourcePool, demand = everything): Recording {
   const stages: Recording["stages"] = [];
@@ -125,7 +125,7 @@ export function record(geometry: GeometryDescription, pool: ResourcePool, demand
   const settled = new Promise<void>((done) => {
     resolve = done;
   });
-  const delivery = deliver(geometry, pool, {
+  const delivery = deliverGeometry(geometry, pool, {
     onStage: (patch, stage) => {
       shown.set(patch, stage);
       if (stage !== undefined) stages.push({ patch, stage });
@@ -135,7 +135,7 @@ export function record(geometry: GeometryDescription, pool: ResourcePool, demand
       resolve();
     },
   });
-  delivery.demand(demand);
+  delivery.request(demand);
   return { stages, shown, errors, delivery, settled };
 }
 

@@ -9,7 +9,7 @@ import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
 import { parseInlined } from "./inlinedDocument.ts";
 import type { Transfer } from "./progress.ts";
-import type { Lease, ResourcePool } from "./resources.ts";
+import type { ResourceHandle, ResourcePool } from "./resourcePool.ts";
 
 /** Before every vertex that is known already: what it holds is not even known. */
 const documentWeight = 2 ** 24;
@@ -36,7 +36,7 @@ export interface InlinesOptions {
 
 interface Followed {
   readonly urls: readonly string[];
-  lease: Lease | undefined;
+  lease: ResourceHandle | undefined;
   document: InlinedDocument | undefined;
   isEnded: boolean;
 }
@@ -134,7 +134,7 @@ export class Inlines {
     const url = urlOf(named);
     const known = url === own?.url ? own : this.#documents.get(url);
     if (known !== undefined) return known;
-    const lease = pool.lease({ kind: "bytes", url, priority, expectedBytes });
+    const lease = pool.acquire({ kind: "bytes", url, priority, expectedBytes });
     followed.lease?.release();
     followed.lease = lease;
     const content = await lease.content;

@@ -4,7 +4,7 @@
 import type { TextureDescription, TextureRole } from "../document/description.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import type { Transfer } from "./progress.ts";
-import type { Picture } from "./resources.ts";
+import type { Picture } from "./resourcePool.ts";
 import type { JoinedTexture, TextureDeliveries } from "./textureDeliveries.ts";
 import { pictureKeyOf } from "./textureDeliveries.ts";
 

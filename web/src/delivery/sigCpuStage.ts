@@ -13,11 +13,11 @@ import { withoutStrips } from "../decode/strips.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { largestStoredOf, middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
 import { asDeliveryError } from "./deliveryError.ts";
-import { Holdings } from "./holdings.ts";
-import type { Part } from "./parts.ts";
-import type { Content } from "./resources.ts";
+import { ArrayUploads } from "./arrayUploads.ts";
+import type { PatchFile } from "./patchFiles.ts";
+import type { Content } from "./resourcePool.ts";
 import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
-import { drawRangesOf, normalCodeOf, stageNameOf } from "./stageBuilder.ts";
+import { drawRangesOf, normalCodeOf, attainedStageName } from "./stageBuilder.ts";
 
 interface Drawn {
   readonly index: StoredIndex | undefined;
@@ -59,17 +59,17 @@ class SigCpuBuilder implements StageBuilder {
   readonly #geometry: GeometryDescription;
   readonly #patch: PatchDescription;
   readonly #run: BuilderTools["runJob"];
-  readonly #holdings: Holdings;
+  readonly #holdings: ArrayUploads;
   #here = new Parts();
 
   constructor(geometry: GeometryDescription, patch: PatchDescription, { runJob, storeBytes }: BuilderTools) {
     this.#geometry = geometry;
     this.#patch = patch;
     this.#run = runJob;
-    this.#holdings = new Holdings(storeBytes);
+    this.#holdings = new ArrayUploads(storeBytes);
   }
 
-  async accept(part: Part, content: Content, signal: AbortSignal): Promise<void> {
+  async accept(part: PatchFile, content: Content, signal: AbortSignal): Promise<void> {
     if (content.kind !== "bytes") throw new DecodeError("malformed", "is on the GPU already");
     const here = this.#here;
     const file = { png: content.bytes, first: part.reference.first };
@@ -137,7 +137,7 @@ class SigCpuBuilder implements StageBuilder {
     if (coord === undefined) return undefined;
     const normal = here.normal ?? here.slope;
     const normalCode = here.normal ? normalCodeOf(this.#geometry) : ({ kind: "vector" } as const);
-    const name = stageNameOf(this.#patch, {
+    const name = attainedStageName(this.#patch, {
       index: here.drawn,
       normal: here.normal,
       color,

@@ -8,10 +8,10 @@ import type { TexelRange, TextureStage } from "../stage/stage.ts";
 import { isPairCode } from "../stage/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { middleOfMissing } from "../document/storedFrame.ts";
-import type { Part } from "./parts.ts";
+import type { PatchFile } from "./patchFiles.ts";
 import { sigCpuBuilder } from "./sigCpuStage.ts";
 import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
-import { drawRangesOf, normalCodeOf, stageNameOf } from "./stageBuilder.ts";
+import { drawRangesOf, normalCodeOf, attainedStageName } from "./stageBuilder.ts";
 
 /** Which of the two is known when the first file is here. */
 export function sigBuilder(geometry: GeometryDescription, patch: PatchDescription, tools: BuilderTools): StageBuilder {
@@ -47,7 +47,7 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
   const normalCode = normalCodeOf(geometry);
   const corners = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
 
-  function channelsOf(role: Part["role"]): number {
+  function channelsOf(role: PatchFile["role"]): number {
     switch (role) {
       case "coord":
         return patch.grid?.kind === "heightMap" ? 1 : 3;
@@ -106,7 +106,13 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
       const value = firstOf(values);
       const first = coord[0];
       if (first === undefined) return undefined;
-      const name = stageNameOf(patch, { index: here.index, normal: here.normal, color: here.color, coord, value });
+      const name = attainedStageName(patch, {
+        index: here.index,
+        normal: here.normal,
+        color: here.color,
+        coord,
+        value,
+      });
       const points = {
         primitive: "points",
         first: 0,

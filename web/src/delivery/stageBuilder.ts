@@ -6,16 +6,16 @@ import type { RunJob } from "../decode/jobs.ts";
 import type { DrawRange, NormalCode, Stage, StageName } from "../stage/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { isPair } from "../document/geometry.ts";
-import type { StoreBytes } from "./holdings.ts";
-import type { Part } from "./parts.ts";
-import type { Content } from "./resources.ts";
+import type { StoreBytes } from "./arrayUploads.ts";
+import type { PatchFile } from "./patchFiles.ts";
+import type { Content } from "./resourcePool.ts";
 
 export interface StageBuilder {
   /**
    * Throws, or rejects with, DecodeError where the content does not hold what the
    * document says, or the signal's reason; the part then counts as absent.
    */
-  accept(part: Part, content: Content, signal: AbortSignal): void | Promise<void>;
+  accept(part: PatchFile, content: Content, signal: AbortSignal): void | Promise<void>;
   /** Undefined while nothing can be shown. */
   stage(): Stage | undefined;
   /** Whether parts can be given up one by one; otherwise only all of them, with `clear`. */
@@ -23,7 +23,7 @@ export interface StageBuilder {
   /** Of stored arrays; images belong to whoever leases them. */
   readonly storedBytes: number;
   /** The part counts as absent from now on; where parts can be given up one by one. */
-  drop(part: Part): void;
+  drop(part: PatchFile): void;
   /** All parts count as absent. */
   clear(): void;
   /** Gives back what earlier stages used and the next one does not; they must no longer be drawn. */
@@ -52,7 +52,7 @@ export function drawRangesOf(patch: PatchDescription): DrawRange[] {
 }
 
 /** What is here of a patch, for its stage's name. */
-export interface Inventory {
+export interface AvailableAttributes {
   readonly index: unknown;
   readonly coord: readonly unknown[];
   readonly normal: unknown;
@@ -61,7 +61,7 @@ export interface Inventory {
   readonly value: readonly unknown[];
 }
 
-export function stageNameOf(patch: PatchDescription, here: Inventory): StageName {
+export function attainedStageName(patch: PatchDescription, here: AvailableAttributes): StageName {
   const lacks = (part: "index" | "normal" | "color") => patch[part] !== undefined && here[part] === undefined;
   if (lacks("index")) return "points";
   if (lacks("normal")) return "surface";

@@ -3,12 +3,12 @@
 // document names one, is shown first, and again where the picture has to go.
 
 import type { SamplingDescription, TextureDescription } from "../document/description.ts";
-import type { Claim } from "../scheduler/budget.ts";
+import type { BudgetRequest } from "../scheduler/budget.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
-import { bytesPerTexel } from "./parts.ts";
+import { bytesPerTexel } from "./patchFiles.ts";
 import type { Transfer } from "./progress.ts";
-import type { Lease, Picture, ResourcePool } from "./resources.ts";
+import type { ResourceHandle, Picture, ResourcePool } from "./resourcePool.ts";
 
 export interface TextureListener {
   /** Another picture; undefined: there is none any more. The one before is used no more after this. */
@@ -32,18 +32,18 @@ export interface JoinedTexture {
 export type TextureChunk = "preview" | "texture";
 
 /** How soon a file of a texture is wanted, by the key of its picture; undefined: not now. */
-export type TextureDemand = (key: string, chunk: TextureChunk) => number | undefined;
+export type TexturePriority = (key: string, chunk: TextureChunk) => number | undefined;
 
 /** A file of a texture, and how far it is. */
 interface Source {
   readonly chunk: TextureChunk;
   readonly url: string;
-  lease: Lease | undefined;
+  lease: ResourceHandle | undefined;
   state: "absent" | "asked" | "here" | "failed";
   picture: Picture | undefined;
   /** On the GPU: an estimate until it has been there. */
   storedBytes: number;
-  claim: Claim | undefined;
+  claim: BudgetRequest | undefined;
 }
 
 interface Shared {
@@ -119,7 +119,7 @@ export class TextureDeliveries {
   }
 
   /** What they want, and have, of the GPU: for each in the order of use. */
-  claims(priorityOf: TextureDemand): readonly (readonly Claim[])[] {
+  budgetRequests(priorityOf: TexturePriority): readonly (readonly BudgetRequest[])[] {
     return Array.from(this.#shared, ([key, shared]) =>
       shared.sources.flatMap((source) => {
         const isNeedless = source.chunk === "preview" && hasTexture(shared);
@@ -137,7 +137,7 @@ export class TextureDeliveries {
    * Asks for what is wanted and aborts what is no longer. What is here stays, but of
    * claims only what is granted. A preview is not asked for where its picture is here.
    */
-  demand(priorityOf: TextureDemand, granted?: ReadonlySet<Claim>): void {
+  request(priorityOf: TexturePriority, granted?: ReadonlySet<BudgetRequest>): void {
     for (const [key, shared] of this.#shared) {
       const denied = shared.sources.filter(
         ({ claim }) => granted !== undefined && claim !== undefined && !granted.has(claim),
@@ -160,7 +160,7 @@ export class TextureDeliveries {
 
   #ask(shared: Shared, source: Source, priority: number): void {
     const { url, chunk } = source;
-    source.lease = this.#pool.lease({
+    source.lease = this.#pool.acquire({
       kind: "picture",
       url,
       sampling: shared.sampling,
@@ -171,7 +171,7 @@ export class TextureDeliveries {
     void this.#await(shared, source, source.lease);
   }
 
-  async #await(shared: Shared, source: Source, lease: Lease): Promise<void> {
+  async #await(shared: Shared, source: Source, lease: ResourceHandle): Promise<void> {
     // Given up in between, or given up and asked for again.
     const isOver = () => source.lease !== lease;
     try {

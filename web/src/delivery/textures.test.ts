@@ -3,13 +3,13 @@ import { describe, test } from "node:test";
 import { pngOf } from "../decode/png.testing.ts";
 import type { TextureDescription } from "../document/description.ts";
 import { priorityOf } from "../scheduler/priority.ts";
-import { unknownView } from "../scheduler/view.ts";
+import { unknownViewMetrics } from "../scheduler/viewMetrics.ts";
 import type { Answer } from "./delivery.testing.ts";
 import { held, record, sigFiles, sigGeometry, siteOf, soon } from "./delivery.testing.ts";
-import { demandWithin } from "./demandWithin.ts";
-import { SharedDeliveries } from "./sharedDeliveries.ts";
+import { requestWithinBudget } from "./requestWithinBudget.ts";
+import { GeometryDeliveries } from "./geometryDeliveries.ts";
 import { ShapeTextures } from "./shapeTextures.ts";
-import type { TextureDemand } from "./textureDeliveries.ts";
+import type { TexturePriority } from "./textureDeliveries.ts";
 import { TextureDeliveries } from "./textureDeliveries.ts";
 
 const [small, large] = [pngOf({ width: 8, height: 8 }), pngOf({ width: 256, height: 256 })];
@@ -27,12 +27,12 @@ function textureOf(url: string, preview = "", role: TextureDescription["role"] =
   return { role, url, preview, sampling, transform: [1, 0, 0, 0, 1, 0, 0, 0, 1] };
 }
 
-const wanted: TextureDemand = (_, chunk) => priorityOf(1, { type: chunk, plane: 0 }, unknownView);
+const wanted: TexturePriority = (_, chunk) => priorityOf(1, { type: chunk, plane: 0 }, unknownViewMetrics);
 
 /** A shape with these textures, and the width of what it shows of each role. */
 function shapeWith(textures: readonly TextureDescription[], files: Record<string, Answer>, slots = 6) {
   const site = siteOf(files, slots);
-  const deliveries = { geometries: new SharedDeliveries(site.pool), textures: new TextureDeliveries(site.pool) };
+  const deliveries = { geometries: new GeometryDeliveries(site.pool), textures: new TextureDeliveries(site.pool) };
   const told: string[] = [];
   const shape = new ShapeTextures(deliveries.textures, {
     onPicture: (role, picture) => told.push(`${role} ${picture?.image.width ?? "none"}`),
@@ -43,7 +43,7 @@ function shapeWith(textures: readonly TextureDescription[], files: Record<string
   const demand = async (mostBytes = Infinity, priority = wanted) => {
     for (let turn = 0; turn < 3; ++turn) {
       await soon(); // who has joined is told in the next microtask
-      demandWithin(deliveries, () => () => undefined, priority, mostBytes);
+      requestWithinBudget(deliveries, () => () => undefined, priority, mostBytes);
       do await soon();
       while (!shape.isSettled);
     }
@@ -120,7 +120,7 @@ test("textures are the last files that a scene asks for, and their previews come
     1,
   );
   const { settled } = record(sigGeometry(2), site.pool);
-  deliveries.textures.demand(wanted);
+  deliveries.textures.request(wanted);
   await settled;
   while (!shape.isSettled) await soon();
   const kinds = site.asked.map(

@@ -8,12 +8,12 @@ import type { DecodedImage } from "../stage/decodedImage.ts";
 import { decodePicture } from "../decode/picture.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
 import type { ArrayUse, StoredBytes } from "../stage/stage.ts";
-import type { Picture } from "../delivery/resources.ts";
+import type { Picture } from "../delivery/resourcePool.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
-import type { Steps } from "../scheduler/frameWork.ts";
-import { FrameWork } from "../scheduler/frameWork.ts";
+import type { Steps } from "../scheduler/frameTaskQueue.ts";
+import { FrameTaskQueue } from "../scheduler/frameTaskQueue.ts";
 
 /** 240 MB in a second of 60 frames; the time leaves most of a frame to drawing. */
 const bytesPerFrame = 4 * 2 ** 20;
@@ -21,7 +21,7 @@ const millisecondsPerFrame = 4;
 
 export class Arrival {
   readonly #renderer: SceneRenderer;
-  readonly #work = new FrameWork({
+  readonly #work = new FrameTaskQueue({
     bytesPerFrame,
     millisecondsPerFrame,
     now: () => performance.now(),

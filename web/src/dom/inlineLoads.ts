@@ -4,7 +4,7 @@ import type { DeliveryError } from "../delivery/deliveryError.ts";
 import { requireHttp } from "../delivery/inlinedDocument.ts";
 import { Inlines } from "../delivery/inlines.ts";
 import type { Transfer } from "../delivery/progress.ts";
-import type { ResourcePool } from "../delivery/resources.ts";
+import type { ResourcePool } from "../delivery/resourcePool.ts";
 import type { InlineDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { InlinedDocument } from "../document/readScene.ts";

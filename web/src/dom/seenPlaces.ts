@@ -1,14 +1,14 @@
 // Where geometries and pictures are seen in a scene, kept true to what changes in it.
 
-import type { PlacedGeometry } from "../delivery/demand.ts";
-import { placeGeometry } from "../delivery/demand.ts";
+import type { GeometryInstance } from "../delivery/filePriority.ts";
+import { geometryInstance } from "../delivery/filePriority.ts";
 import { pictureKeyOf } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription } from "../document/description.ts";
 import type { PlacedShape } from "../navigation/placement.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 
 /** By the places where they are. */
-type Seen = Map<object, PlacedGeometry>;
+type Seen = Map<object, GeometryInstance>;
 
 const nowhere: Seen = new Map();
 
@@ -26,11 +26,11 @@ export class SeenPlaces {
     }
   }
 
-  ofGeometry(geometry: GeometryDescription): Iterable<PlacedGeometry> {
+  ofGeometry(geometry: GeometryDescription): Iterable<GeometryInstance> {
     return (this.#geometries.get(geometry) ?? nowhere).values();
   }
 
-  ofPicture(key: string): Iterable<PlacedGeometry> {
+  ofPicture(key: string): Iterable<GeometryInstance> {
     return (this.#pictures.get(key) ?? nowhere).values();
   }
 
@@ -44,7 +44,7 @@ export class SeenPlaces {
       sceneFromShape,
     } = placed;
     if (geometry === undefined) return;
-    const seen = placeGeometry(geometry, sceneFromShape.elements, priority, textures.length > 0);
+    const seen = geometryInstance(geometry, sceneFromShape.elements, priority, textures.length > 0);
     add(this.#geometries, geometry, place, seen);
     for (const texture of textures) add(this.#pictures, pictureKeyOf(texture), place, seen);
     this.#shown.set(place, placed);
@@ -65,7 +65,7 @@ export class SeenPlaces {
   }
 }
 
-function add<Key>(all: Map<Key, Seen>, key: Key, place: object, placed: PlacedGeometry): void {
+function add<Key>(all: Map<Key, Seen>, key: Key, place: object, placed: GeometryInstance): void {
   const seen = all.get(key);
   if (seen === undefined) all.set(key, new Map([[place, placed]]));
   else seen.set(place, placed);

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { everything, sigFiles, sigPatch, siteOf } from "../delivery/delivery.testing.ts";
-import { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
+import { GeometryDeliveries } from "../delivery/geometryDeliveries.ts";
 import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import { shapesOf } from "../document/description.ts";
 import { elementsOf } from "../document/elements.testing.ts";
@@ -39,7 +39,7 @@ function loadsOf(count: number) {
     },
   } as unknown as SceneRenderer;
   const { pool } = siteOf(sigFiles(count));
-  const deliveries = new SharedDeliveries(pool);
+  const deliveries = new GeometryDeliveries(pool);
   const loads = new ShapeLoads(
     renderer,
     deliveries,
@@ -54,7 +54,7 @@ function loadsOf(count: number) {
     [],
   );
   loads.follow({ shapes: new Map(shapes.map((shape) => [shape.element, shape])), gone: [], places: new Map() });
-  deliveries.demand(() => everything);
+  deliveries.request(() => everything);
   return { loads, frames, heard };
 }
 

@@ -6,7 +6,7 @@ import { stageNames } from "../stage/stage.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { Transfer } from "../delivery/progress.ts";
 import { progressOf } from "../delivery/progress.ts";
-import type { JoinedDelivery, SharedDeliveries } from "../delivery/sharedDeliveries.ts";
+import type { JoinedDelivery, GeometryDeliveries } from "../delivery/geometryDeliveries.ts";
 import { ShapeTextures } from "../delivery/shapeTextures.ts";
 import type { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription, ShapeDescription, TextureDescription } from "../document/description.ts";
@@ -40,7 +40,7 @@ export type Leave = () => void;
 
 export class ShapeLoads {
   readonly #renderer: SceneRenderer;
-  readonly #deliveries: SharedDeliveries;
+  readonly #deliveries: GeometryDeliveries;
   readonly #textures: TextureDeliveries;
   readonly #listener: ShapeLoadsListener;
   readonly #shapes = new Map<SceneElement, LoadedShape>();
@@ -53,7 +53,7 @@ export class ShapeLoads {
 
   constructor(
     renderer: SceneRenderer,
-    deliveries: SharedDeliveries,
+    deliveries: GeometryDeliveries,
     textures: TextureDeliveries,
     listener: ShapeLoadsListener,
     shownBefore: Iterable<SceneElement>,

@@ -1,16 +1,16 @@
 // Steers deliveries by what the camera sees: says which files each geometry
 // needs, and how soon, when the scene or the view has changed.
 
-import type { Viewing } from "../delivery/demand.ts";
-import { demandFor, textureDemandFor } from "../delivery/demand.ts";
-import type { SceneDeliveries } from "../delivery/demandWithin.ts";
-import { demandWithin, storedBytesOf } from "../delivery/demandWithin.ts";
+import type { ViewState } from "../delivery/filePriority.ts";
+import { filePriorityFor, texturePriorityFor } from "../delivery/filePriority.ts";
+import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
+import { requestWithinBudget, storedBytesOf } from "../delivery/requestWithinBudget.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { View } from "../render/view.ts";
 import type { ChunkWeights } from "../scheduler/priority.ts";
 import { chunkWeightsOf, defaultChunkWeights } from "../scheduler/priority.ts";
-import { planesOf } from "../scheduler/view.ts";
+import { planesOf } from "../scheduler/viewMetrics.ts";
 import { SeenPlaces } from "./seenPlaces.ts";
 
 /** While the camera moves, the order changes this often; a few files' time on a fast line. */
@@ -77,10 +77,10 @@ export class Steering {
     if (this.#isHeld) return;
     this.#view = this.#renderer.view;
     const viewing = viewingOf(this.#view, this.#weights);
-    demandWithin(
+    requestWithinBudget(
       this.#deliveries,
-      (geometry) => demandFor(this.#places.ofGeometry(geometry), viewing),
-      (key, chunk) => textureDemandFor(this.#places.ofPicture(key), chunk, viewing),
+      (geometry) => filePriorityFor(this.#places.ofGeometry(geometry), viewing),
+      (key, chunk) => texturePriorityFor(this.#places.ofPicture(key), chunk, viewing),
       this.#mostBytes,
     );
     this.#knownBytes = storedBytesOf(this.#deliveries);
@@ -93,7 +93,7 @@ export class Steering {
   }
 }
 
-function viewingOf(view: View | undefined, weights: ChunkWeights): Viewing {
+function viewingOf(view: View | undefined, weights: ChunkWeights): ViewState {
   return { weights, camera: view && { ...view, planes: planesOf(view.clipFromScene) } };
 }
 

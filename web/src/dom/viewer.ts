@@ -7,8 +7,8 @@ import type { StageName } from "../stage/stage.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { Transfer } from "../delivery/progress.ts";
 import { progressOf } from "../delivery/progress.ts";
-import { ResourcePool } from "../delivery/resources.ts";
-import { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
+import { ResourcePool } from "../delivery/resourcePool.ts";
+import { GeometryDeliveries } from "../delivery/geometryDeliveries.ts";
 import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { AnchorDescription, SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
@@ -24,7 +24,7 @@ import type { RenderStatistics } from "../render/sceneRenderer.ts";
 import { SceneRenderer } from "../render/sceneRenderer.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
-import { slotsFor } from "../scheduler/slots.ts";
+import { slotCountFor } from "../scheduler/downloadSlots.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
 import { Arrival } from "./arrival.ts";
 import type { PreviewedShape } from "../preview/preview.ts";
@@ -64,9 +64,9 @@ export class Viewer {
   readonly navigator: Navigator;
   readonly #x3d: Element;
   readonly #canvas: HTMLCanvasElement;
-  readonly #scheduler = new Scheduler(slotsFor(""));
+  readonly #scheduler = new Scheduler(slotCountFor(""));
   readonly #pool: ResourcePool;
-  readonly #deliveries: SharedDeliveries;
+  readonly #deliveries: GeometryDeliveries;
   readonly #textures: TextureDeliveries;
   readonly #workers = pageWorkers();
   readonly #reader: SceneReader;
@@ -130,19 +130,19 @@ export class Viewer {
       scheduler: this.#scheduler,
       makeImage: (png, signal) => arrival.makeImage(png, signal),
       readsTextures: () => Promise.resolve(this.#readsTextures),
-      largestTexture: this.renderer.largestTexture,
+      maxTextureSize: this.renderer.largestTexture,
       runJob: (name, input, signal) => this.#workers.run(name, input, signal),
-      runHere: (name, input, signal) => this.#workers.runHere(name, input, signal),
+      runOnMainThread: (name, input, signal) => this.#workers.runOnMainThread(name, input, signal),
       makePicture: (bytes, sampling, signal) => arrival.makePicture(bytes, sampling, signal),
       storeBytes: (array, use, signal) => arrival.storeBytes(array, use, signal),
       download: defaultDownloadOptions,
-      early: takePrefetchedBases,
+      prefetchedBases: takePrefetchedBases,
       resolve,
       onTransfer: () => {
         this.#progressSoon();
       },
     });
-    this.#deliveries = new SharedDeliveries(this.#pool);
+    this.#deliveries = new GeometryDeliveries(this.#pool);
     this.#textures = new TextureDeliveries(this.#pool);
     this.#shapes = new ShapeLoads(
       this.renderer,
@@ -217,7 +217,7 @@ export class Viewer {
       { signal },
     );
     watchNetworkProtocol(signal, (protocol) => {
-      this.#scheduler.slotCount = slotsFor(protocol);
+      this.#scheduler.slotCount = slotCountFor(protocol);
     });
     this.#observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
     this.#readDocument();
@@ -300,7 +300,7 @@ export class Viewer {
     this.#hasAnchors = built.anchors.length > 0;
     const leave = this.#shapes.follow(built.changes);
     const hasBase = Array.from(built.changes.shapes.values()).some(({ geometry }) => geometry?.base !== undefined);
-    if (hasBase && !this.#wasShown) this.#workers.prepareHere();
+    if (hasBase && !this.#wasShown) this.#workers.prepareMainThread();
     this.#tellNavigator({ ...built, navigation: scene.navigation });
     if (this.#shapes.isLoading && this.#loading.isEnded) this.#loading = new Loading(this.#x3d, this.#transfers);
     this.#steering.follow(scene.chunkPriority, built.changes, (problem) => {

@@ -4,7 +4,7 @@
 import { Loader } from "three";
 import type { Progress } from "../delivery/progress.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
-import { slotsFor } from "../scheduler/slots.ts";
+import { slotCountFor } from "../scheduler/downloadSlots.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
 import type { WorkerPool } from "../workers/workerPool.ts";
 import type { MaterialMaker } from "./standardMaterials.ts";
@@ -19,7 +19,7 @@ export interface LoadOptions {
 }
 
 export class ImgeoLoader extends Loader<ImgeoScene> {
-  readonly #scheduler = new Scheduler(slotsFor(""));
+  readonly #scheduler = new Scheduler(slotCountFor(""));
   #makeMaterial: MaterialMaker = standardMaterialOf;
   #keepsVertices = false;
   #workerUrl: string | URL | undefined;
@@ -163,7 +163,7 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
     if (!response.ok) throw new Error(`${url}: the server answered ${response.status} ${response.statusText}`.trim());
     const text = await response.text();
     const [timing] = performance.getEntriesByName(response.url).slice(-1);
-    if (timing instanceof PerformanceResourceTiming) this.#scheduler.slotCount = slotsFor(timing.nextHopProtocol);
+    if (timing instanceof PerformanceResourceTiming) this.#scheduler.slotCount = slotCountFor(timing.nextHopProtocol);
     return text;
   }
 

@@ -6,7 +6,7 @@ import type { RunJob } from "../decode/jobs.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { Progress, Transfer } from "../delivery/progress.ts";
 import { noProgress, progressOf } from "../delivery/progress.ts";
-import { ResourcePool } from "../delivery/resources.ts";
+import { ResourcePool } from "../delivery/resourcePool.ts";
 import type { SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { makeLightUniforms } from "../render/lights/sceneLights.ts";
@@ -75,7 +75,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       scheduler,
       makeImage: (png, signal) => textures.makeImage(png, signal),
       readsTextures: () => Promise.resolve(!keepsVertices),
-      largestTexture,
+      maxTextureSize: largestTexture,
       runJob,
       makePicture: (bytes, sampling, signal) => textures.makePicture(bytes, sampling, signal),
       storeBytes: async (array, _, signal) => {

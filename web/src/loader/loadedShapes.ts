@@ -2,11 +2,11 @@
 // object, and a delivery of its geometry from when it is first to be seen.
 
 import type { Group } from "three";
-import type { DeliveryListener } from "../delivery/deliver.ts";
-import type { PlacedGeometry, Viewing } from "../delivery/demand.ts";
-import { demandFor, placeGeometry, textureDemandFor } from "../delivery/demand.ts";
+import type { DeliveryListener } from "../delivery/geometryDelivery.ts";
+import type { GeometryInstance, ViewState } from "../delivery/filePriority.ts";
+import { filePriorityFor, geometryInstance, texturePriorityFor } from "../delivery/filePriority.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
-import type { JoinedDelivery, SharedDeliveries } from "../delivery/sharedDeliveries.ts";
+import type { JoinedDelivery, GeometryDeliveries } from "../delivery/geometryDeliveries.ts";
 import { ShapeTextures } from "../delivery/shapeTextures.ts";
 import type { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import { pictureKeyOf } from "../delivery/textureDeliveries.ts";
@@ -30,7 +30,7 @@ export interface LoadedShapesListener {
 
 /** Where what they show comes from. */
 export interface ShapeSources {
-  readonly geometries: SharedDeliveries;
+  readonly geometries: GeometryDeliveries;
   readonly textures: TextureDeliveries;
 }
 
@@ -38,7 +38,7 @@ export interface ShapeSources {
 interface Placed {
   readonly shape: ShapeDescription;
   /** The same for as long as it is described so. */
-  readonly geometry: PlacedGeometry | undefined;
+  readonly geometry: GeometryInstance | undefined;
 }
 
 interface LoadedShape {
@@ -132,9 +132,9 @@ export class LoadedShapes implements ShapePlaces {
   }
 
   /** Asks for everything that is to be seen, coarse before fine. */
-  demand(weights: Viewing["weights"]): void {
-    const byGeometry = new Map<GeometryDescription, PlacedGeometry[]>();
-    const byPicture = new Map<string, PlacedGeometry[]>();
+  demand(weights: ViewState["weights"]): void {
+    const byGeometry = new Map<GeometryDescription, GeometryInstance[]>();
+    const byPicture = new Map<string, GeometryInstance[]>();
     for (const { places } of this.#shapes.values()) {
       for (const { geometry, shape } of places.values()) {
         if (geometry === undefined || !shape.visible) continue;
@@ -143,14 +143,14 @@ export class LoadedShapes implements ShapePlaces {
       }
     }
     const viewing = { camera: undefined, weights };
-    this.#sources.geometries.demand((geometry) => demandFor(byGeometry.get(geometry) ?? [], viewing));
-    this.#sources.textures.demand((key, chunk) => textureDemandFor(byPicture.get(key) ?? [], chunk, viewing));
+    this.#sources.geometries.request((geometry) => filePriorityFor(byGeometry.get(geometry) ?? [], viewing));
+    this.#sources.textures.request((key, chunk) => texturePriorityFor(byPicture.get(key) ?? [], chunk, viewing));
   }
 
   /** Asks for nothing any more; what is shown stays. */
   stop(): void {
-    this.#sources.geometries.demand(() => () => undefined);
-    this.#sources.textures.demand(() => undefined);
+    this.#sources.geometries.request(() => () => undefined);
+    this.#sources.textures.request(() => undefined);
   }
 
   dispose(): void {
@@ -204,7 +204,7 @@ export class LoadedShapes implements ShapePlaces {
     } = shape;
     loaded.places.set(place, {
       shape,
-      geometry: geometry && placeGeometry(geometry, nowhere, priority, textures.length > 0),
+      geometry: geometry && geometryInstance(geometry, nowhere, priority, textures.length > 0),
     });
     this.#changed.add(loaded);
   }

@@ -6,9 +6,9 @@ import { Box3, Group } from "three";
 import { measureRun } from "../decode/letters.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import { Inlines } from "../delivery/inlines.ts";
-import type { ResourcePool } from "../delivery/resources.ts";
+import type { ResourcePool } from "../delivery/resourcePool.ts";
 import type { Transfer } from "../delivery/progress.ts";
-import { SharedDeliveries } from "../delivery/sharedDeliveries.ts";
+import { GeometryDeliveries } from "../delivery/geometryDeliveries.ts";
 import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { GroupDescription, SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
@@ -49,7 +49,7 @@ export class SceneContents {
   readonly shapes: LoadedShapes;
   /** Where all of it hangs. */
   readonly root = new Group();
-  readonly #deliveries: SharedDeliveries;
+  readonly #deliveries: GeometryDeliveries;
   readonly #pictures: TextureDeliveries;
   readonly #reader: SceneReader;
   readonly #graph: SceneGraph;
@@ -74,7 +74,7 @@ export class SceneContents {
 
   /** Nothing is asked for, and the listener is not called, before `start`. */
   constructor({ x3d, url, urlOf, pool }: ContentsSources, setting: ShapeSetting, listener: ContentsListener) {
-    this.#deliveries = new SharedDeliveries(pool);
+    this.#deliveries = new GeometryDeliveries(pool);
     this.#pictures = new TextureDeliveries(pool);
     this.shapes = new LoadedShapes(setting, { geometries: this.#deliveries, textures: this.#pictures }, listener);
     this.#inlines = new Inlines(

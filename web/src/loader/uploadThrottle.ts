@@ -4,13 +4,13 @@
 // at a time, and no frame waits for many.
 
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
-import { FrameWork } from "../scheduler/frameWork.ts";
+import { FrameTaskQueue } from "../scheduler/frameTaskQueue.ts";
 
 /** As the element takes (dom/arrival.ts); what is larger comes alone. */
 const bytesPerFrame = 4 * 2 ** 20;
 
 export class Admission {
-  readonly #work = new FrameWork({
+  readonly #work = new FrameTaskQueue({
     bytesPerFrame,
     millisecondsPerFrame: Infinity,
     now: () => performance.now(),

@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import type { Claim } from "./budget.ts";
-import { grantedOf } from "./budget.ts";
+import type { BudgetRequest } from "./budget.ts";
+import { grantedRequests } from "./budget.ts";
 
-interface TestClaim extends Claim {
+interface TestClaim extends BudgetRequest {
   readonly name: string;
   isHeld: boolean;
 }
@@ -13,7 +13,7 @@ function claim(name: string, bytes: number, priority: number, isHeld = false, ke
 }
 
 function namesOf(chains: readonly (readonly TestClaim[])[], mostBytes: number): string {
-  return Array.from(grantedOf(chains, mostBytes), (granted) => (granted as TestClaim).name)
+  return Array.from(grantedRequests(chains, mostBytes), (granted) => (granted as TestClaim).name)
     .sort()
     .join(" ");
 }
@@ -71,10 +71,10 @@ describe("within a budget", () => {
         ),
       );
       const mostBytes = 300 * random();
-      let before = grantedOf(chains, mostBytes);
+      let before = grantedRequests(chains, mostBytes);
       for (let turn = 0; turn < 5; ++turn) {
         for (const each of chains.flat()) each.isHeld = before.has(each);
-        const now = grantedOf(chains, mostBytes);
+        const now = grantedRequests(chains, mostBytes);
         for (const each of before)
           assert.ok(now.has(each), `scene ${scene}, turn ${turn}: ${(each as TestClaim).name} goes to and fro`);
         before = now;

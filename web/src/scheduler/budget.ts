@@ -4,7 +4,7 @@
 // coarse shape of what is large before the camera.
 
 /** Something that takes room, or would. */
-export interface Claim {
+export interface BudgetRequest {
   /** Claims of one key share their room: a file of several patches is stored once. */
   readonly key: unknown;
   readonly bytes: number;
@@ -22,9 +22,9 @@ export interface Claim {
 const inertia = 2;
 
 interface Ranked {
-  readonly claim: Claim;
+  readonly claim: BudgetRequest;
   /** Of use only with this one, the one before it in its chain. */
-  readonly before: Claim | undefined;
+  readonly before: BudgetRequest | undefined;
   readonly rank: number;
 }
 
@@ -33,8 +33,11 @@ interface Ranked {
  * one thing in the order of their use: none is granted without those before it.
  * What is wanted and does not fit is passed over for what does.
  */
-export function grantedOf(chains: Iterable<readonly Claim[]>, mostBytes: number): ReadonlySet<Claim> {
-  const granted = new Set<Claim>();
+export function grantedRequests(
+  chains: Iterable<readonly BudgetRequest[]>,
+  mostBytes: number,
+): ReadonlySet<BudgetRequest> {
+  const granted = new Set<BudgetRequest>();
   const keys = new Set<unknown>();
   let bytes = 0;
   for (const { claim, before } of ranked(chains)) {
@@ -49,12 +52,12 @@ export function grantedOf(chains: Iterable<readonly Claim[]>, mostBytes: number)
 }
 
 /** In order; a claim comes after those before it in its chain, whatever its own priority. */
-function ranked(chains: Iterable<readonly Claim[]>): Ranked[] {
+function ranked(chains: Iterable<readonly BudgetRequest[]>): Ranked[] {
   const all: Ranked[] = [];
   for (const chain of chains) {
     let priority = Infinity;
     let isHeld = true;
-    let before: Claim | undefined;
+    let before: BudgetRequest | undefined;
     for (const claim of chain) {
       priority = Math.min(priority, claim.priority);
       isHeld &&= claim.isHeld;

@@ -3,9 +3,9 @@ import { describe, test } from "node:test";
 import type { DownloadOptions, DownloadState } from "./download.ts";
 import { downloadInSlot, RequestError } from "./download.ts";
 import { answering, decoded, listener, ok, silent, subject, url } from "./download.testing.ts";
-import { mostPatienceMs, retryDelayMs } from "./retry.ts";
+import { maxRetryAfterMs, retryDelayMs } from "./retry.ts";
 import { Scheduler } from "./scheduler.ts";
-import { slotsFor, slotsOfHttp1, slotsOfHttp2 } from "./slots.ts";
+import { slotCountFor, http1SlotCount, http2SlotCount } from "./downloadSlots.ts";
 
 describe("a download", () => {
   const { signal } = new AbortController();
@@ -218,11 +218,11 @@ describe("another attempt", () => {
   });
 
   test("never comes where the server asks for more than people wait", () => {
-    assert.equal(retryDelayMs(failure(503, String(mostPatienceMs / 1000 + 1)), 400, now), undefined);
+    assert.equal(retryDelayMs(failure(503, String(maxRetryAfterMs / 1000 + 1)), 400, now), undefined);
   });
 });
 
 test("there are more slots where one connection carries all requests", () => {
-  for (const protocol of ["h2", "h3", "h3-29"]) assert.equal(slotsFor(protocol), slotsOfHttp2);
-  for (const protocol of ["http/1.1", "http/1.0", ""]) assert.equal(slotsFor(protocol), slotsOfHttp1);
+  for (const protocol of ["h2", "h3", "h3-29"]) assert.equal(slotCountFor(protocol), http2SlotCount);
+  for (const protocol of ["http/1.1", "http/1.0", ""]) assert.equal(slotCountFor(protocol), http1SlotCount);
 });

@@ -1,7 +1,7 @@
 // One URL -> its bytes, counted as they come, with a limit on silence and
 // retries where trying again can help.
 
-import type { Prioritised } from "./queue.ts";
+import type { Prioritised } from "./priorityQueue.ts";
 import { retryDelayMs } from "./retry.ts";
 import type { Scheduler } from "./scheduler.ts";
 
@@ -26,7 +26,7 @@ export class RequestError extends Error {
 }
 
 /** No container file comes near; a server that sends more is not sending one. */
-export const largestDownloadBytes = 2 ** 30;
+export const maxDownloadBytes = 2 ** 30;
 
 export interface DownloadOptions {
   readonly fetch: typeof fetch;
@@ -151,8 +151,7 @@ async function readBody(
     for await (const chunk of chunksOf(response.body)) {
       onChunk();
       loaded += chunk.byteLength;
-      if (loaded > largestDownloadBytes)
-        throw new RequestError("limit", url, `more than ${largestDownloadBytes} bytes came`);
+      if (loaded > maxDownloadBytes) throw new RequestError("limit", url, `more than ${maxDownloadBytes} bytes came`);
       chunks.push(chunk);
       onBytes(loaded, total);
     }

@@ -2,10 +2,10 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import type { Chunk } from "./priority.ts";
 import { chunkWeightsOf, defaultChunkWeights, priorityOf, weightOfView } from "./priority.ts";
-import type { ViewOf } from "./view.ts";
+import type { ViewMetrics } from "./viewMetrics.ts";
 
 const chunk = (type: Chunk["type"], plane = 1): Chunk => ({ type, plane });
-const seen = (pixels: number, isInView = true): ViewOf => ({ pixels, isInView, pixelsPerUnit: 1 });
+const seen = (pixels: number, isInView = true): ViewMetrics => ({ pixels, isInView, pixelsPerUnit: 1 });
 
 describe("the number of a request", () => {
   test("orders what a file holds as the paper does", () => {

@@ -2,7 +2,7 @@
 // Rendering"): what the author says, times what the file holds, times what the
 // camera sees. Larger goes first.
 
-import type { ViewOf } from "./view.ts";
+import type { ViewMetrics } from "./viewMetrics.ts";
 
 /** What a file holds, for the second factor. `refinement` is every byte of a coordinate after the first, `patch` all of a patch, `base` a coarse shape of all patches, `preview` a texture in few pixels. */
 export const chunkTypes = [
@@ -41,14 +41,14 @@ export const defaultChunkWeights: ChunkWeights = {
 };
 
 /** Byte planes after the second are worth this much of the one before. */
-const furtherPlane = 1 / 4;
+const furtherPlaneFactor = 1 / 4;
 
 /** Off the screen is fetched too, since turning the head is quick, but after what is seen. */
-const outOfView = 1 / 4096;
+const outOfViewFactor = 1 / 4096;
 
 /** Neither is more than this worth telling apart. */
-const leastPixels = 1;
-const mostPixels = 4096;
+const minPixels = 1;
+const maxPixels = 4096;
 
 export interface Chunk {
   readonly type: ChunkType;
@@ -60,18 +60,18 @@ export interface Chunk {
 export function priorityOf(
   content: number,
   chunk: Chunk,
-  view: ViewOf,
+  view: ViewMetrics,
   weights: ChunkWeights = defaultChunkWeights,
 ): number {
   const type =
-    chunk.type === "refinement" ? weights.refinement * furtherPlane ** (chunk.plane - 1) : weights[chunk.type];
+    chunk.type === "refinement" ? weights.refinement * furtherPlaneFactor ** (chunk.plane - 1) : weights[chunk.type];
   return content * type * weightOfView(view);
 }
 
 /** Grows with the square root of the size on the screen: size differs by thousands, and must not drown the other factors. */
-export function weightOfView({ pixels, isInView }: ViewOf): number {
-  const size = Math.sqrt(Math.min(Math.max(pixels, leastPixels), mostPixels));
-  return isInView ? size : size * outOfView;
+export function weightOfView({ pixels, isInView }: ViewMetrics): number {
+  const size = Math.sqrt(Math.min(Math.max(pixels, minPixels), maxPixels));
+  return isInView ? size : size * outOfViewFactor;
 }
 
 /**

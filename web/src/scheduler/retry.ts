@@ -9,7 +9,7 @@ export interface Failure {
 }
 
 /** A server that asks for more patience than this is taken at its word: the file has failed. */
-export const mostPatienceMs = 60_000;
+export const maxRetryAfterMs = 60_000;
 
 /** The server is busy or in trouble (RFC 9110, 15.5.9, 15.6; RFC 6585, 4); every other answer stays what it is. */
 function isPassing(status: number): boolean {
@@ -21,7 +21,7 @@ export function retryDelayMs(failure: Failure, backoffMs: number, nowMs: number)
   if (failure.kind === "limit") return undefined;
   if (failure.kind === "http" && !isPassing(failure.status)) return undefined;
   const asked = failure.retryAfter === undefined ? 0 : patienceAsked(failure.retryAfter, nowMs);
-  return asked > mostPatienceMs ? undefined : Math.max(backoffMs, asked);
+  return asked > maxRetryAfterMs ? undefined : Math.max(backoffMs, asked);
 }
 
 function patienceAsked(retryAfter: string, nowMs: number): number {

@@ -2,8 +2,8 @@
 // once, in one `finally`, whatever becomes of the job: X3DOM's download manager
 // stood still after six network errors because an error kept its slot.
 
-import type { Prioritised } from "./queue.ts";
-import { PriorityQueue } from "./queue.ts";
+import type { Prioritised } from "./priorityQueue.ts";
+import { PriorityQueue } from "./priorityQueue.ts";
 
 /** Told to stop through `signal`; its slot is free when the promise settles. */
 export type Job<Result> = (signal: AbortSignal) => Promise<Result>;

@@ -25,8 +25,8 @@ export function pageWorkers(url: string | URL = besideThis()): WorkerPool {
     size: Math.min(4, Math.max(2, navigator.hardwareConcurrency - 1)),
     idleMs,
     start: () => new Worker(url, { type: "module", name: "imgeo" }),
-    runHere: async (message) => (await load()).runJob(message),
-    prepareHere: () => {
+    runOnMainThread: async (message) => (await load()).runJob(message),
+    prepareMainThread: () => {
       load().catch(() => undefined);
     }, // whoever runs a job is told
   });

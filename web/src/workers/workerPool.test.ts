@@ -37,8 +37,8 @@ function fakes({ size = 2, idleMs = 1000, start = true, broken = false } = {}) {
       workers.push(fake);
       return worker;
     },
-    prepareHere: () => undefined,
-    runHere: (message) => {
+    prepareMainThread: () => undefined,
+    runOnMainThread: (message) => {
       here.push(message);
       return runJob(message);
     },

@@ -19,9 +19,9 @@ export interface WorkerPoolOptions {
   readonly size: number;
   /** May throw. */
   readonly start: () => JobWorker;
-  readonly runHere: (message: JobMessage) => Promise<unknown>;
+  readonly runOnMainThread: (message: JobMessage) => Promise<unknown>;
   /** Fetches what `runHere` needs, ahead of whatever else is asked for. */
-  readonly prepareHere: () => void;
+  readonly prepareMainThread: () => void;
   /** A worker without work ends after so long. */
   readonly idleMs: number;
 }
@@ -86,14 +86,18 @@ export class WorkerPool {
   }
 
   /** There will be jobs for `runHere`. */
-  prepareHere(): void {
-    this.#options.prepareHere();
+  prepareMainThread(): void {
+    this.#options.prepareMainThread();
   }
 
   /** The same at once, and here, with what a worker would do it with. */
-  async runHere<Name extends JobName>(name: Name, input: InputOf<Name>, signal: AbortSignal): Promise<OutputOf<Name>> {
+  async runOnMainThread<Name extends JobName>(
+    name: Name,
+    input: InputOf<Name>,
+    signal: AbortSignal,
+  ): Promise<OutputOf<Name>> {
     signal.throwIfAborted();
-    const output = await this.#options.runHere({ name, input });
+    const output = await this.#options.runOnMainThread({ name, input });
     signal.throwIfAborted();
     return output as OutputOf<Name>;
   }
@@ -185,7 +189,7 @@ export class WorkerPool {
       await new Promise((next) => {
         setTimeout(next);
       });
-      if (!signal.aborted && !this.#isDisposed) await this.#options.runHere(message).then(resolve, reject);
+      if (!signal.aborted && !this.#isDisposed) await this.#options.runOnMainThread(message).then(resolve, reject);
     });
   }
 }

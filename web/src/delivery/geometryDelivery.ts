@@ -5,13 +5,13 @@
 
 import type { Stage } from "../stage/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
-import type { Claim } from "../scheduler/budget.ts";
+import type { BudgetRequest } from "../scheduler/budget.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
-import type { Part } from "./parts.ts";
-import { bytesPerTexel, partsOf } from "./parts.ts";
+import type { PatchFile } from "./patchFiles.ts";
+import { bytesPerTexel, patchFilesOf } from "./patchFiles.ts";
 import type { Transfer } from "./progress.ts";
-import type { Content, ContentKind, Lease, ResourcePool } from "./resources.ts";
+import type { Content, ContentKind, ResourceHandle, ResourcePool } from "./resourcePool.ts";
 import { bgBuilder } from "./bgStage.ts";
 import { compactBuilder } from "./compactStage.ts";
 import { sigBuilder } from "./sigStage.ts";
@@ -27,7 +27,7 @@ export interface DeliveryListener {
 }
 
 /** The priority of a file that is wanted now; undefined: not now. */
-export type Demand = (place: number, part: Part) => number | undefined;
+export type FilePriority = (place: number, part: PatchFile) => number | undefined;
 
 export interface Delivery {
   /** Of the files that were asked for. */
@@ -39,22 +39,22 @@ export interface Delivery {
   /** What all of it takes on the GPU, as far as that is known. */
   readonly storedBytes: number;
   /** What it wants, and has, of the GPU: for each patch in the order of use. */
-  claims(priorityOf: Demand): readonly (readonly Claim[])[];
+  budgetRequests(priorityOf: FilePriority): readonly (readonly BudgetRequest[])[];
   /**
    * Asks for what is wanted, gives new priorities to what is on its way, and aborts
    * what is no longer wanted. What is here stays, but of claims only what is granted.
    */
-  demand(priorityOf: Demand, granted?: ReadonlySet<Claim>): void;
+  request(priorityOf: FilePriority, granted?: ReadonlySet<BudgetRequest>): void;
   /** No call to the listener follows. Stages must no longer be used. */
   cancel(): void;
 }
 
 /** A file that a patch needs, and how far it is. */
 interface Need {
-  readonly part: Part;
+  readonly part: PatchFile;
   readonly kind: ContentKind;
   /** While it is asked for; of an image, also while it is here. */
-  lease: Lease | undefined;
+  lease: ResourceHandle | undefined;
   transfer: Readonly<Transfer> | undefined;
   /** Stops what is done with the content. */
   aborter: AbortController;
@@ -71,16 +71,20 @@ interface Patch {
   /** In the order of their use. */
   readonly needs: readonly Need[];
   /** As last asked for. */
-  claims: readonly PatchClaim[];
+  claims: readonly PatchBudgetRequest[];
 }
 
 /** To be granted together. */
-interface PatchClaim extends Claim {
+interface PatchBudgetRequest extends BudgetRequest {
   readonly needs: readonly Need[];
 }
 
 /** Asks for nothing before `demand`. Never calls the listener before it returns. */
-export function deliver(geometry: GeometryDescription, pool: ResourcePool, listener: DeliveryListener): Delivery {
+export function deliverGeometry(
+  geometry: GeometryDescription,
+  pool: ResourcePool,
+  listener: DeliveryListener,
+): Delivery {
   return new GeometryDelivery(geometry, pool, listener);
 }
 
@@ -101,7 +105,7 @@ class GeometryDelivery implements Delivery {
     this.#patches = geometry.patches.map((patch, place) => ({
       place,
       builder: builderOf(geometry, place, patch, pool),
-      needs: needsOf(geometry, patch, pool.largestTexture),
+      needs: needsOf(geometry, patch, pool.maxTextureSize),
       claims: [],
       stage: undefined,
     }));
@@ -129,12 +133,12 @@ class GeometryDelivery implements Delivery {
     return this.#storedBytes;
   }
 
-  claims(priorityOf: Demand): readonly (readonly Claim[])[] {
+  budgetRequests(priorityOf: FilePriority): readonly (readonly BudgetRequest[])[] {
     for (const patch of this.#patches) patch.claims = claimsOf(patch, priorityOf);
     return this.#patches.map(({ claims }) => claims);
   }
 
-  demand(priorityOf: Demand, granted?: ReadonlySet<Claim>): void {
+  request(priorityOf: FilePriority, granted?: ReadonlySet<BudgetRequest>): void {
     for (const patch of this.#patches) {
       const denied =
         granted && new Set(patch.claims.filter((claim) => !granted.has(claim)).flatMap(({ needs }) => needs));
@@ -164,7 +168,7 @@ class GeometryDelivery implements Delivery {
 
   #ask(patch: Patch, need: Need, priority: number): void {
     const { reference, expectedBytes } = need.part;
-    const lease = this.#pool.lease({ kind: need.kind, url: reference.url, priority, expectedBytes });
+    const lease = this.#pool.acquire({ kind: need.kind, url: reference.url, priority, expectedBytes });
     need.lease = lease;
     need.transfer = lease.transfer;
     need.aborter = new AbortController();
@@ -202,7 +206,7 @@ class GeometryDelivery implements Delivery {
     builder.sweep();
   }
 
-  async #await(patch: Patch, need: Need, lease: Lease): Promise<void> {
+  async #await(patch: Patch, need: Need, lease: ResourceHandle): Promise<void> {
     const { signal } = need.aborter;
     // Given up in between, or given up and asked for again.
     const isOver = () => this.#isCancelled || need.lease !== lease;
@@ -277,7 +281,7 @@ function builderOf(
 
 function needsOf(geometry: GeometryDescription, patch: PatchDescription, largestTexture: number): Need[] {
   const kindOfPatch = contentKindOf(geometry, patch, largestTexture);
-  return partsOf(geometry, patch)
+  return patchFilesOf(geometry, patch)
     .sort((a, b) => useOf(a) - useOf(b))
     .map((part): Need => ({
       part,
@@ -291,13 +295,13 @@ function needsOf(geometry: GeometryDescription, patch: PatchDescription, largest
 }
 
 /** What each is of no use without comes before it. */
-function useOf({ role, plane }: Part): number {
+function useOf({ role, plane }: PatchFile): number {
   return plane > 0
     ? 6 + plane
     : ["base", "patch", "coord", "index", "normal", "texCoord", "color", "value"].indexOf(role);
 }
 
-function claimsOf({ place, builder, needs }: Patch, priorityOf: Demand): PatchClaim[] {
+function claimsOf({ place, builder, needs }: Patch, priorityOf: FilePriority): PatchBudgetRequest[] {
   const wanted = needs.flatMap((need) => {
     if (need.state === "failed") return [];
     const priority = priorityOf(place, need.part);

@@ -27,7 +27,7 @@ export interface Camera {
 }
 
 /** What the camera sees of something. */
-export interface ViewOf {
+export interface ViewMetrics {
   /** Its diameter on the screen, if the camera were turned to it. */
   readonly pixels: number;
   readonly isInView: boolean;
@@ -36,9 +36,9 @@ export interface ViewOf {
 }
 
 /** Before a camera is known: everything is seen, and everything matters. */
-export const unknownView: ViewOf = { pixels: 1, isInView: true, pixelsPerUnit: Infinity };
+export const unknownViewMetrics: ViewMetrics = { pixels: 1, isInView: true, pixelsPerUnit: Infinity };
 
-export function viewOf({ center, radius }: Sphere, camera: Camera): ViewOf {
+export function viewMetricsOf({ center, radius }: Sphere, camera: Camera): ViewMetrics {
   const distance = Math.hypot(
     center[0] - camera.position[0],
     center[1] - camera.position[1],

@@ -8,7 +8,7 @@ import type { ArrayUse, StoredBytes, StoredIndex, StoredVertices } from "../stag
 /** Brings an array to where draws read it. Rejects with the signal's reason; nothing is then left behind. */
 export type StoreBytes = (array: ElementArray, use: ArrayUse, signal: AbortSignal) => Promise<StoredBytes>;
 
-export class Holdings {
+export class ArrayUploads {
   readonly #store: StoreBytes;
   /** By the memory that the bytes come from, and their place in it: records of a file hold several attributes. */
   readonly #stored = new WeakMap<ArrayBuffer, Map<string, Promise<StoredBytes>>>();

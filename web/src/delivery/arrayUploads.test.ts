@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import type { ElementArray } from "../stage/vertexArray.ts";
 import type { ArrayUse, StoredBytes } from "../stage/stage.ts";
-import { Holdings } from "./holdings.ts";
+import { ArrayUploads } from "./arrayUploads.ts";
 
 function memory() {
   const open = new Set<StoredBytes>();
@@ -22,7 +22,7 @@ function memory() {
     return bytes;
   };
   return {
-    holdings: new Holdings(store),
+    holdings: new ArrayUploads(store),
     open,
     stored: () => stored,
     hold: (promise: Promise<unknown>) => {

@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { Backlog } from "./backlog.ts";
-import type { QueueEntry } from "./queue.ts";
-import { PriorityQueue } from "./queue.ts";
+import { ByteSemaphore } from "./byteSemaphore.ts";
+import type { QueueEntry } from "./priorityQueue.ts";
+import { PriorityQueue } from "./priorityQueue.ts";
 
 interface Numbered {
   priority: number;
@@ -78,10 +78,10 @@ describe("a backlog", () => {
   const soon = () => new Promise((resolve) => setTimeout(resolve, 0));
 
   test("lets in what fits, in order, and the next when something leaves", async () => {
-    const backlog = new Backlog(10);
+    const backlog = new ByteSemaphore(10);
     const inside: number[] = [];
     const entered = [6, 4, 5, 1].map(async (bytes) => {
-      const leave = await backlog.enter(bytes, signal);
+      const leave = await backlog.acquire(bytes, signal);
       inside.push(bytes);
       return leave;
     });
@@ -94,9 +94,9 @@ describe("a backlog", () => {
   });
 
   test("gets its room back once for each entry", async () => {
-    const backlog = new Backlog(10);
-    const leave = await backlog.enter(10, signal);
-    const second = await backlog.enter(0, signal);
+    const backlog = new ByteSemaphore(10);
+    const leave = await backlog.acquire(10, signal);
+    const second = await backlog.acquire(0, signal);
     leave();
     leave();
     assert.equal(backlog.bytes, 0);
@@ -105,10 +105,10 @@ describe("a backlog", () => {
   });
 
   test("lets in alone what is larger than all of it", async () => {
-    const backlog = new Backlog(10);
-    const small = await backlog.enter(1, signal);
+    const backlog = new ByteSemaphore(10);
+    const small = await backlog.acquire(1, signal);
     let isInside = false;
-    const large = backlog.enter(100, signal).then((leave) => {
+    const large = backlog.acquire(100, signal).then((leave) => {
       isInside = true;
       return leave;
     });
@@ -120,16 +120,16 @@ describe("a backlog", () => {
   });
 
   test("is left by what is aborted while it waits, to the good of what is behind", async () => {
-    const backlog = new Backlog(10);
-    const leave = await backlog.enter(8, signal);
+    const backlog = new ByteSemaphore(10);
+    const leave = await backlog.acquire(8, signal);
     const aborter = new AbortController();
-    const gone = backlog.enter(9, aborter.signal);
-    const behind = backlog.enter(2, signal);
+    const gone = backlog.acquire(9, aborter.signal);
+    const behind = backlog.acquire(2, signal);
     aborter.abort(new Error("removed"));
     await assert.rejects(gone, { message: "removed" });
     (await behind)();
     leave();
     assert.equal(backlog.bytes, 0);
-    await assert.rejects(backlog.enter(1, aborter.signal), { message: "removed" });
+    await assert.rejects(backlog.acquire(1, aborter.signal), { message: "removed" });
   });
 });

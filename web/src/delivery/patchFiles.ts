@@ -6,11 +6,11 @@ import { hasNormalsInCoords, isPair } from "../document/geometry.ts";
 import type { Chunk } from "../scheduler/priority.ts";
 
 /** What a file may hold of a patch. */
-export type PartRole = "index" | "coord" | "normal" | "texCoord" | "color" | "value";
+export type FileRole = "index" | "coord" | "normal" | "texCoord" | "color" | "value";
 
-export interface Part {
+export interface PatchFile {
   /** `patch`: all of it. `base`: what stands in for it, and for others. */
-  readonly role: PartRole | "patch" | "base";
+  readonly role: FileRole | "patch" | "base";
   /** Which byte plane, for `coord` and `value` of images. */
   readonly plane: number;
   readonly reference: Reference;
@@ -22,7 +22,7 @@ export interface Part {
   readonly storedBytes: number;
 }
 
-export function partsOf(geometry: GeometryDescription, patch: PatchDescription): Part[] {
+export function patchFilesOf(geometry: GeometryDescription, patch: PatchDescription): PatchFile[] {
   if (geometry.container === "compact") {
     return [
       ...(geometry.base ? [basePart(patch, geometry.base)] : []),
@@ -31,7 +31,7 @@ export function partsOf(geometry: GeometryDescription, patch: PatchDescription):
   }
   const corners = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
   const vertices = patch.vertexCount;
-  const part = (role: PartRole, reference: Reference | undefined, elements: number, plane = 0): Part[] =>
+  const part = (role: FileRole, reference: Reference | undefined, elements: number, plane = 0): PatchFile[] =>
     reference === undefined
       ? []
       : [
@@ -58,14 +58,14 @@ export function partsOf(geometry: GeometryDescription, patch: PatchDescription):
   ];
 }
 
-function compactPart(patch: PatchDescription, reference: Reference): Part {
+function compactPart(patch: PatchDescription, reference: Reference): PatchFile {
   return { role: "patch", plane: 0, reference, chunk: { type: "patch", plane: 0 }, ...compactSizes(patch) };
 }
 
 /** What a base has of its patches' triangles, and bytes, roughly. */
 const shareOfBase = 0.03;
 
-function basePart(patch: PatchDescription, reference: Reference): Part {
+function basePart(patch: PatchDescription, reference: Reference): PatchFile {
   const { expectedBytes, storedBytes } = compactSizes(patch);
   return {
     role: "base",
@@ -77,7 +77,7 @@ function basePart(patch: PatchDescription, reference: Reference): Part {
   };
 }
 
-function compactSizes({ draws, vertexCount }: PatchDescription): Pick<Part, "expectedBytes" | "storedBytes"> {
+function compactSizes({ draws, vertexCount }: PatchDescription): Pick<PatchFile, "expectedBytes" | "storedBytes"> {
   const corners = draws.reduce((sum, draw) => sum + draw.count, 0);
   return {
     expectedBytes: 2 * vertexCount + corners / 6,
@@ -86,7 +86,7 @@ function compactSizes({ draws, vertexCount }: PatchDescription): Pick<Part, "exp
 }
 
 /** Of an image, as our writer lays it out: records in a power of two of rows of 256. */
-function texelsOf({ implicitWidth }: PatchDescription, role: PartRole, elements: number): number {
+function texelsOf({ implicitWidth }: PatchDescription, role: FileRole, elements: number): number {
   if (role === "index") return Math.ceil(elements / implicitWidth) * implicitWidth;
   return 256 * 2 ** Math.ceil(Math.log2(Math.max(1, elements / 256)));
 }
@@ -94,17 +94,17 @@ function texelsOf({ implicitWidth }: PatchDescription, role: PartRole, elements:
 /** Of textures: three channels are stored as four. */
 export const bytesPerTexel = 4;
 
-function bytesOf(geometry: GeometryDescription, role: PartRole): number {
+function bytesOf(geometry: GeometryDescription, role: FileRole): number {
   return byteSizeOf(typeOf(geometry, role)) * componentsOf(geometry, role);
 }
 
 /** Of the elements of typed arrays. */
-export function typeOf(geometry: GeometryDescription, role: PartRole): ElementType {
+export function typeOf(geometry: GeometryDescription, role: FileRole): ElementType {
   return role === "value" ? "Float32" : geometry[`${role}Type`];
 }
 
 /** The numbers of one element in typed arrays. */
-export function componentsOf(geometry: GeometryDescription, role: PartRole): 1 | 2 | 3 | 4 {
+export function componentsOf(geometry: GeometryDescription, role: FileRole): 1 | 2 | 3 | 4 {
   switch (role) {
     case "index":
       return 1;

@@ -9,11 +9,11 @@ import type { DataImage } from "../decode/image.ts";
 import type { DecodedImage } from "../stage/decodedImage.ts";
 import type { RunJob } from "../decode/jobs.ts";
 import type { SamplingDescription } from "../document/description.ts";
-import { Backlog } from "../scheduler/backlog.ts";
+import { ByteSemaphore } from "../scheduler/byteSemaphore.ts";
 import type { DownloadOptions } from "../scheduler/download.ts";
 import { downloadInSlot } from "../scheduler/download.ts";
 import type { Scheduler } from "../scheduler/scheduler.ts";
-import type { StoreBytes } from "./holdings.ts";
+import type { StoreBytes } from "./arrayUploads.ts";
 import type { Transfer } from "./progress.ts";
 
 export type Content =
@@ -54,7 +54,7 @@ export interface ResourceRequest {
   readonly sampling?: SamplingDescription;
 }
 
-export interface Lease {
+export interface ResourceHandle {
   readonly transfer: Readonly<Transfer>;
   /** Rejects with RequestError, DecodeError, or an AbortError after the last release. To be asked for before `finish`. */
   readonly content: Promise<Content>;
@@ -73,12 +73,12 @@ export interface DeliveryOptions {
   /** Whether shaders read textures as they should; asked when a file is here that may become one. */
   readonly readsTextures: () => Promise<boolean>;
   /** Texels of the longest edge that a texture may have. */
-  readonly largestTexture: number;
+  readonly maxTextureSize: number;
   readonly runJob: RunJob;
   /** The same on the main thread, for what is small and must not wait for a worker; where it is not given, it waits. */
-  readonly runHere?: RunJob;
+  readonly runOnMainThread?: RunJob;
   /** Bases that are on their way, or here, for who asks first; undefined for all other URLs. */
-  readonly early?: (url: string) => Promise<FetchedBases> | undefined;
+  readonly prefetchedBases?: (url: string) => Promise<PrefetchedBases> | undefined;
   readonly storeBytes: StoreBytes;
   readonly makePicture: MakePicture;
   readonly download: DownloadOptions;
@@ -89,17 +89,17 @@ export interface DeliveryOptions {
 }
 
 /** A file that somebody else has asked for. */
-export interface FetchedBases {
+export interface PrefetchedBases {
   readonly byteLength: number;
   readonly bases: readonly BaseBuffers[];
 }
 
 /** Downloaded bytes that may wait for their decoder, and for their way to the GPU. */
-const mostBacklogBytes = 8 * 2 ** 20;
+const maxPendingBytes = 8 * 2 ** 20;
 
 export class ResourcePool {
   readonly #options: DeliveryOptions;
-  readonly #backlog = new Backlog(mostBacklogBytes);
+  readonly #backlog = new ByteSemaphore(maxPendingBytes);
   /** Those that can be leased once more. */
   readonly #resources = new Map<string, Resource>();
 
@@ -115,11 +115,11 @@ export class ResourcePool {
     return this.#options.storeBytes;
   }
 
-  get largestTexture(): number {
-    return this.#options.largestTexture;
+  get maxTextureSize(): number {
+    return this.#options.maxTextureSize;
   }
 
-  lease(request: ResourceRequest): Lease {
+  acquire(request: ResourceRequest): ResourceHandle {
     const { scheduler, resolve } = this.#options;
     const key = `${request.kind} ${resolve(request.url)} ${JSON.stringify(request.sampling)}`;
     const resource = this.#resources.get(key) ?? this.#start(key, request);
@@ -169,7 +169,7 @@ interface Leased {
 class Resource {
   readonly transfer: Transfer;
   readonly #options: DeliveryOptions;
-  readonly #backlog: Backlog;
+  readonly #backlog: ByteSemaphore;
   readonly #aborter = new AbortController();
   readonly #leases = new Set<Leased>();
   /** Those of them who still look at the content: of files that thousands share, all but the last keep the bytes. */
@@ -182,7 +182,7 @@ class Resource {
   #hasBytes = false;
   #priority: number | undefined;
 
-  constructor(request: ResourceRequest, options: DeliveryOptions, backlog: Backlog) {
+  constructor(request: ResourceRequest, options: DeliveryOptions, backlog: ByteSemaphore) {
     this.#options = options;
     this.#backlog = backlog;
     this.#priority = request.priority;
@@ -269,7 +269,8 @@ class Resource {
   async #fetch(request: ResourceRequest): Promise<Content> {
     const { transfer } = this;
     try {
-      const file = request.kind === "bases" ? this.#options.early?.(this.#options.resolve(request.url)) : undefined;
+      const file =
+        request.kind === "bases" ? this.#options.prefetchedBases?.(this.#options.resolve(request.url)) : undefined;
       const content =
         (file && (await this.#takeOver(file))) ?? (await this.#decode(request, await this.#download(request.url)));
       transfer.state = "ready";
@@ -284,7 +285,7 @@ class Resource {
   }
 
   /** What was asked for before there was anybody to ask; where it has come to nothing it is asked for again. */
-  async #takeOver(file: Promise<FetchedBases>): Promise<Content | undefined> {
+  async #takeOver(file: Promise<PrefetchedBases>): Promise<Content | undefined> {
     const { transfer } = this;
     transfer.state = "loading";
     try {
@@ -322,7 +323,7 @@ class Resource {
       listener,
       async (bytes, signal) => {
         transfer.state = "decoding";
-        return { bytes, leave: await this.#backlog.enter(bytes.byteLength, signal) };
+        return { bytes, leave: await this.#backlog.acquire(bytes.byteLength, signal) };
       },
     );
   }
@@ -344,7 +345,7 @@ class Resource {
   async #contentOf({ kind, sampling }: ResourceRequest, bytes: Uint8Array<ArrayBuffer>): Promise<Content> {
     if (kind === "picture" && sampling !== undefined)
       return { kind, ...(await this.#options.makePicture(bytes, sampling, this.#aborter.signal)) };
-    const { runJob, runHere = runJob } = this.#options;
+    const { runJob, runOnMainThread: runHere = runJob } = this.#options;
     if (kind === "patches") return { kind, patches: await runJob("compactPatches", bytes, this.#aborter.signal) };
     if (kind === "bases") return { kind, bases: await runHere("compactBases", bytes, this.#aborter.signal) };
     const isTexture = kind === "texture" || (kind === "either" && (await this.#options.readsTextures()));

@@ -6,17 +6,17 @@ import { boxAround, isUnbounded } from "../document/geometry.ts";
 import { storedFrameOf } from "../document/storedFrame.ts";
 import type { ChunkWeights } from "../scheduler/priority.ts";
 import { priorityOf } from "../scheduler/priority.ts";
-import type { Camera, Matrix, Sphere, ViewOf } from "../scheduler/view.ts";
-import { scaleOf, sphereOf, unknownView, viewOf } from "../scheduler/view.ts";
-import type { Demand } from "./deliver.ts";
-import type { Part } from "./parts.ts";
+import type { Camera, Matrix, Sphere, ViewMetrics } from "../scheduler/viewMetrics.ts";
+import { scaleOf, sphereOf, unknownViewMetrics, viewMetricsOf } from "../scheduler/viewMetrics.ts";
+import type { FilePriority } from "./geometryDelivery.ts";
+import type { PatchFile } from "./patchFiles.ts";
 import type { TextureChunk } from "./textureDeliveries.ts";
 
 /** A vertex that moves by less than half of this many device pixels moves unseen. */
-const finestStepInPixels = 0.5;
+const minVisibleStepPixels = 0.5;
 
 /** A geometry in one of the places where it stands in the scene; stays the same while only the camera moves. */
-export interface PlacedGeometry {
+export interface GeometryInstance {
   readonly geometry: GeometryDescription;
   /** The author's priority, there. */
   readonly content: number;
@@ -31,12 +31,12 @@ export interface PlacedGeometry {
 /** Around what may lie wherever it likes: it counts as before the camera, and as large. */
 const anywhere: Sphere = { center: [0, 0, 0], radius: 1e12 };
 
-export function placeGeometry(
+export function geometryInstance(
   geometry: GeometryDescription,
   sceneFromShape: Matrix,
   content: number,
   isTextured = false,
-): PlacedGeometry {
+): GeometryInstance {
   const scale = scaleOf(sceneFromShape);
   return {
     geometry,
@@ -54,18 +54,18 @@ export function placeGeometry(
 }
 
 /** What is the same for all shapes of a scene. */
-export interface Viewing {
+export interface ViewState {
   /** Undefined while there is no picture: everything is then wanted. */
   readonly camera: Camera | undefined;
   readonly weights: ChunkWeights;
 }
 
 /** What is wanted of a geometry that is seen in these places; nothing where it is seen in none. */
-export function demandFor(places: Iterable<PlacedGeometry>, viewing: Viewing): Demand {
+export function filePriorityFor(places: Iterable<GeometryInstance>, viewing: ViewState): FilePriority {
   // Of a geometry of which nothing is asked, nobody looks where its places are.
-  let demands: readonly Demand[] | undefined;
+  let demands: readonly FilePriority[] | undefined;
   return (patch, part) => {
-    demands ??= Array.from(places, (placed) => demandAt(placed, viewing));
+    demands ??= Array.from(places, (placed) => filePriorityAt(placed, viewing));
     let most: number | undefined;
     for (const demand of demands) {
       const priority = demand(patch, part);
@@ -76,25 +76,25 @@ export function demandFor(places: Iterable<PlacedGeometry>, viewing: Viewing): D
 }
 
 /** How soon a texture, or its preview, is wanted that is laid over a geometry in these places; undefined where it is seen in none. */
-export function textureDemandFor(
-  places: Iterable<PlacedGeometry>,
+export function texturePriorityFor(
+  places: Iterable<GeometryInstance>,
   type: TextureChunk,
-  { camera, weights }: Viewing,
+  { camera, weights }: ViewState,
 ): number | undefined {
   const priorities = Array.from(places).flatMap(({ spheres, content }) =>
     spheres.map((sphere) =>
-      priorityOf(content, { type, plane: 0 }, camera ? viewOf(sphere, camera) : unknownView, weights),
+      priorityOf(content, { type, plane: 0 }, camera ? viewMetricsOf(sphere, camera) : unknownViewMetrics, weights),
     ),
   );
   return priorities.length > 0 ? Math.max(...priorities) : undefined;
 }
 
-function demandAt(placed: PlacedGeometry, { camera, weights }: Viewing): Demand {
-  let views: readonly ViewOf[] | undefined;
+function filePriorityAt(placed: GeometryInstance, { camera, weights }: ViewState): FilePriority {
+  let views: readonly ViewMetrics[] | undefined;
   return (place, part) => {
     if (part.chunk.type === "texCoord" && !placed.isTextured) return undefined;
-    views ??= placed.spheres.map((sphere) => (camera ? viewOf(sphere, camera) : unknownView));
-    const view = views[place] ?? unknownView;
+    views ??= placed.spheres.map((sphere) => (camera ? viewMetricsOf(sphere, camera) : unknownViewMetrics));
+    const view = views[place] ?? unknownViewMetrics;
     const patch = placed.geometry.patches[place];
     const coarseStep = placed.coarseSteps[place] ?? Infinity;
     if (patch !== undefined && isTooFine(part, patch, coarseStep, view)) return undefined;
@@ -107,11 +107,11 @@ function demandAt(placed: PlacedGeometry, { camera, weights }: Viewing): Demand 
  * would see it anyway. Not where a surface has no normals: its shading comes from
  * the slope between vertices, which shows steps that are far smaller.
  */
-function isTooFine(part: Part, patch: PatchDescription, coarseStep: number, view: ViewOf): boolean {
+function isTooFine(part: PatchFile, patch: PatchDescription, coarseStep: number, view: ViewMetrics): boolean {
   if (part.chunk.type !== "refinement") return false;
   const isShadedBySlope =
     patch.normal === undefined &&
     patch.draws.some(({ primitive }) => primitive === "triangles" || primitive === "triangleStrip");
   const stepAbove = coarseStep / 256 ** (part.plane - 1);
-  return !isShadedBySlope && stepAbove * view.pixelsPerUnit < finestStepInPixels;
+  return !isShadedBySlope && stepAbove * view.pixelsPerUnit < minVisibleStepPixels;
 }

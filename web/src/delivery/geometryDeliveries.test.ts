@@ -4,9 +4,9 @@ import { elementsOf } from "../document/elements.testing.ts";
 import { shapesOf } from "../document/description.ts";
 import { readScene } from "../document/readScene.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
-import type { DeliveryListener } from "./deliver.ts";
-import { ResourcePool } from "./resources.ts";
-import { SharedDeliveries } from "./sharedDeliveries.ts";
+import type { DeliveryListener } from "./geometryDelivery.ts";
+import { ResourcePool } from "./resourcePool.ts";
+import { GeometryDeliveries } from "./geometryDeliveries.ts";
 
 const [geometry] = shapesOf(
   readScene(elementsOf(`<X3D><Shape><BinaryGeometry vertexCount="3" coord="c.bin" normal="n.bin"/></Shape></X3D>`))
@@ -28,12 +28,12 @@ function deliveriesOf() {
     await answer.promise;
     return url === "c.bin" ? new Response(new Uint8Array(36)) : new Response("", { status: 404 });
   };
-  const deliveries = new SharedDeliveries(
+  const deliveries = new GeometryDeliveries(
     new ResourcePool({
       scheduler: new Scheduler(6),
       makeImage: () => Promise.reject(new Error("no images here")),
       readsTextures: () => Promise.resolve(true),
-      largestTexture: 2048,
+      maxTextureSize: 2048,
       runJob: () => Promise.reject(new Error("no jobs here")),
       makePicture: () => Promise.reject(new Error("no pictures here")),
       storeBytes: ({ byteLength }) => Promise.resolve({ byteLength, close: () => undefined }),
@@ -49,7 +49,7 @@ function deliveriesOf() {
   );
   /** Asks for all files of all who have joined. */
   const demand = () => {
-    deliveries.demand(() => () => 1);
+    deliveries.request(() => () => 1);
   };
   return {
     geometry,

@@ -1,8 +1,8 @@
 // What has come and is not on the GPU yet. When downloads are faster than
 // decoding and upload, downloads wait, so that memory stays small.
 
-import type { Prioritised } from "./queue.ts";
-import { PriorityQueue } from "./queue.ts";
+import type { Prioritised } from "./priorityQueue.ts";
+import { PriorityQueue } from "./priorityQueue.ts";
 
 interface Waiting extends Prioritised {
   readonly bytes: number;
@@ -10,9 +10,9 @@ interface Waiting extends Prioritised {
 }
 
 /** Gives the room back; a second call does nothing. */
-export type Leave = () => void;
+export type Release = () => void;
 
-export class Backlog {
+export class ByteSemaphore {
   readonly #mostBytes: number;
   readonly #queue = new PriorityQueue<Waiting>();
   #bytes = 0;
@@ -31,7 +31,7 @@ export class Backlog {
    * is larger than all the room enters alone. Rejects with the signal's reason
    * when aborted while waiting.
    */
-  enter(bytes: number, signal: AbortSignal): Promise<Leave> {
+  acquire(bytes: number, signal: AbortSignal): Promise<Release> {
     return new Promise((resolve, reject) => {
       if (signal.aborted) {
         reject(signal.reason as Error);
@@ -56,7 +56,7 @@ export class Backlog {
     });
   }
 
-  #leaveOnce(bytes: number): Leave {
+  #leaveOnce(bytes: number): Release {
     let isInside = true;
     return () => {
       if (!isInside) return;

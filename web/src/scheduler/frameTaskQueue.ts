@@ -2,7 +2,7 @@
 // many milliseconds before each one. Bursts are what freezes a page while a
 // scene arrives, not the work as a whole.
 
-export interface FrameWorkOptions {
+export interface FrameTaskQueueOptions {
   /** At least one step is taken before each frame, and none that begins beyond these. */
   readonly bytesPerFrame: number;
   readonly millisecondsPerFrame: number;
@@ -21,13 +21,13 @@ interface Work {
   readonly reject: (reason: Error) => void;
 }
 
-export class FrameWork {
-  readonly #options: FrameWorkOptions;
+export class FrameTaskQueue {
+  readonly #options: FrameTaskQueueOptions;
   /** In order of arrival, which is that of the requests: what matters most came first. */
   readonly #queue: Work[] = [];
   #frameIsDue = false;
 
-  constructor(options: FrameWorkOptions) {
+  constructor(options: FrameTaskQueueOptions) {
     this.#options = options;
   }
 

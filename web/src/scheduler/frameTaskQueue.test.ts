@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { FrameWork } from "./frameWork.ts";
+import { FrameTaskQueue } from "./frameTaskQueue.ts";
 
 /** Steps of so many bytes, each told to `note` by its number. */
 function* stepsOf(bytes: number[], note: (number: number) => void): Generator<number> {
@@ -15,7 +15,7 @@ function framesOf(bytesPerFrame: number, millisecondsPerFrame: number) {
   let due: ((isUnseen: boolean) => void) | undefined;
   let clock = 0;
   const done: string[] = [];
-  const work = new FrameWork({
+  const work = new FrameTaskQueue({
     bytesPerFrame,
     millisecondsPerFrame,
     now: () => clock,

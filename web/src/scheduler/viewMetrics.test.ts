@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import type { Camera, Point } from "./view.ts";
-import { planesOf, scaleOf, sphereOf, viewOf } from "./view.ts";
+import type { Camera, Point } from "./viewMetrics.ts";
+import { planesOf, scaleOf, sphereOf, viewMetricsOf } from "./viewMetrics.ts";
 
 const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
@@ -9,7 +9,7 @@ const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 const clipFromScene = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -101 / 99, -1, 0, 0, -200 / 99, 0];
 const camera: Camera = { position: [0, 0, 0], planes: planesOf(clipFromScene), pixelsPerUnit: 500, near: 1 };
 
-const ball = (center: Point, radius: number) => viewOf({ center, radius }, camera);
+const ball = (center: Point, radius: number) => viewMetricsOf({ center, radius }, camera);
 
 describe("what a camera sees", () => {
   test("is inside of its six planes, or reaches into them", () => {

@@ -2,10 +2,10 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import type { GeometryDescription } from "../document/description.ts";
 import { defaultChunkWeights } from "../scheduler/priority.ts";
-import type { Camera, Matrix } from "../scheduler/view.ts";
-import { planesOf } from "../scheduler/view.ts";
-import type { Demand } from "./deliver.ts";
-import { demandFor, placeGeometry } from "./demand.ts";
+import type { Camera, Matrix } from "../scheduler/viewMetrics.ts";
+import { planesOf } from "../scheduler/viewMetrics.ts";
+import type { FilePriority } from "./geometryDelivery.ts";
+import { filePriorityFor, geometryInstance } from "./filePriority.ts";
 import {
   everything,
   geometryOf,
@@ -17,8 +17,8 @@ import {
   siteOf,
   soon,
 } from "./delivery.testing.ts";
-import type { Part } from "./parts.ts";
-import { partsOf } from "./parts.ts";
+import type { PatchFile } from "./patchFiles.ts";
+import { patchFilesOf } from "./patchFiles.ts";
 
 /** At the origin, looking along -z with 90 degrees and 1000 pixels both ways. */
 const camera: Camera = {
@@ -30,22 +30,22 @@ const camera: Camera = {
 
 const away = (distance: number, right = 0): Matrix => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, right, 0, -distance, 1];
 
-function demandAt(geometry: GeometryDescription, matrix: Matrix, content = 1): Demand {
-  return demandFor([placeGeometry(geometry, matrix, content)], { camera, weights: defaultChunkWeights });
+function demandAt(geometry: GeometryDescription, matrix: Matrix, content = 1): FilePriority {
+  return filePriorityFor([geometryInstance(geometry, matrix, content)], { camera, weights: defaultChunkWeights });
 }
 
 /** The parts of the first patch that are wanted, most important first. */
-function wanted(geometry: GeometryDescription, demand: Demand): string[] {
+function wanted(geometry: GeometryDescription, demand: FilePriority): string[] {
   const [patch] = geometry.patches;
-  return (patch ? partsOf(geometry, patch) : [])
+  return (patch ? patchFilesOf(geometry, patch) : [])
     .map((part) => ({ name: `${part.role}${part.plane || ""}`, priority: demand(0, part) }))
     .filter(({ priority }) => priority !== undefined)
     .sort((a, b) => (b.priority ?? 0) - (a.priority ?? 0))
     .map(({ name }) => name);
 }
 
-function firstPart(geometry: GeometryDescription): Part {
-  const [part] = geometry.patches.flatMap((each) => partsOf(geometry, each));
+function firstPart(geometry: GeometryDescription): PatchFile {
+  const [part] = geometry.patches.flatMap((each) => patchFilesOf(geometry, each));
   assert.ok(part);
   return part;
 }
@@ -89,7 +89,10 @@ describe("a byte plane", () => {
   });
 
   test("does not wait while there is no picture", () => {
-    const demand = demandFor([placeGeometry(lit, away(500), 1)], { camera: undefined, weights: defaultChunkWeights });
+    const demand = filePriorityFor([geometryInstance(lit, away(500), 1)], {
+      camera: undefined,
+      weights: defaultChunkWeights,
+    });
     assert.equal(wanted(lit, demand).length, 5);
   });
 });
@@ -114,19 +117,19 @@ describe("a geometry in several places", () => {
   const viewing = { camera, weights: defaultChunkWeights };
 
   test("is wanted as much as where it is wanted most", () => {
-    const places = [away(50), away(3), away(9)].map((matrix) => placeGeometry(lit, matrix, 1));
+    const places = [away(50), away(3), away(9)].map((matrix) => geometryInstance(lit, matrix, 1));
     const part = firstPart(lit);
-    assert.equal(demandFor(places, viewing)(0, part), demandAt(lit, away(3))(0, part));
-    assert.ok(wanted(lit, demandFor(places, viewing)).includes("coord1"));
+    assert.equal(filePriorityFor(places, viewing)(0, part), demandAt(lit, away(3))(0, part));
+    assert.ok(wanted(lit, filePriorityFor(places, viewing)).includes("coord1"));
   });
 
   test("is not wanted where it is seen in none", () => {
-    assert.deepEqual(wanted(lit, demandFor([], viewing)), []);
+    assert.deepEqual(wanted(lit, filePriorityFor([], viewing)), []);
   });
 });
 
 describe("a delivery", () => {
-  const withoutSecondByte: Demand = (place, part) => (part.plane > 0 ? undefined : everything(place, part));
+  const withoutSecondByte: FilePriority = (place, part) => (part.plane > 0 ? undefined : everything(place, part));
 
   test("asks for nothing before it is told to, and then for what is wanted", async () => {
     const site = siteOf(sigFiles(1));
@@ -134,7 +137,7 @@ describe("a delivery", () => {
     await soon();
     assert.deepEqual(site.asked, []);
     assert.equal(delivery.isExhausted, false);
-    delivery.demand(withoutSecondByte);
+    delivery.request(withoutSecondByte);
     await settled;
     assert.deepEqual(site.asked.toSorted(), ["a0.png", "i0.png", "n0.png"]);
     assert.equal(stages.at(-1)?.stage.name, "shaded");
@@ -145,7 +148,7 @@ describe("a delivery", () => {
     const site = siteOf(sigFiles(1));
     const { delivery, settled, stages } = record(sigGeometry(1), site.pool, withoutSecondByte);
     await settled;
-    delivery.demand(everything);
+    delivery.request(everything);
     assert.equal(delivery.isSettled, false);
     await soon();
     assert.equal(stages.at(-1)?.stage.name, "full");
@@ -157,7 +160,7 @@ describe("a delivery", () => {
     const site = siteOf({ ...sigFiles(1), "b0.png": late.promise });
     const { delivery, errors, stages } = record(sigGeometry(1), site.pool);
     await soon();
-    delivery.demand(() => undefined);
+    delivery.request(() => undefined);
     assert.deepEqual(
       site.aborted.filter((name) => name === "b0.png"),
       ["b0.png"],
@@ -167,7 +170,7 @@ describe("a delivery", () => {
     late.release();
     await soon();
     assert.equal(stages.at(-1)?.stage.name, "shaded");
-    delivery.demand(everything);
+    delivery.request(everything);
     await soon();
     assert.equal(stages.at(-1)?.stage.name, "full");
     assert.deepEqual(errors, []);
@@ -180,7 +183,7 @@ describe("a delivery", () => {
     const site = siteOf({ ...sigFiles(1), "a0.png": first.promise }, 1);
     const { delivery } = record(sigGeometry(1), site.pool);
     await soon();
-    delivery.demand((place, part) => (part.role === "coord" ? everything(place, part) : undefined));
+    delivery.request((place, part) => (part.role === "coord" ? everything(place, part) : undefined));
     first.release();
     await soon();
     assert.deepEqual(site.asked, ["a0.png", "b0.png"]);
@@ -191,7 +194,7 @@ describe("a delivery", () => {
     const site = siteOf({ ...sigFiles(3), "a0.png": first.promise }, 1);
     const { delivery } = record(sigGeometry(3), site.pool);
     await soon();
-    delivery.demand((place, part) => (everything(place, part) ?? 0) * (place === 2 ? 1000 : 1));
+    delivery.request((place, part) => (everything(place, part) ?? 0) * (place === 2 ? 1000 : 1));
     first.release();
     await soon();
     assert.deepEqual(
@@ -211,7 +214,7 @@ describe("a delivery", () => {
     const low = record(files('"a1.png"'), site.pool, () => 1);
     const high = record(files('"a1.png"'), site.pool, () => 9);
     record(files('"b0.png"'), site.pool, () => 7);
-    low.delivery.demand(() => 2);
+    low.delivery.request(() => 2);
     first.release();
     await high.settled;
     await soon();

@@ -2,13 +2,13 @@
 // may take on the GPU together.
 
 import type { GeometryDescription } from "../document/description.ts";
-import { grantedOf } from "../scheduler/budget.ts";
-import type { Demand } from "./deliver.ts";
-import type { SharedDeliveries } from "./sharedDeliveries.ts";
-import type { TextureDeliveries, TextureDemand } from "./textureDeliveries.ts";
+import { grantedRequests } from "../scheduler/budget.ts";
+import type { FilePriority } from "./geometryDelivery.ts";
+import type { GeometryDeliveries } from "./geometryDeliveries.ts";
+import type { TextureDeliveries, TexturePriority } from "./textureDeliveries.ts";
 
 export interface SceneDeliveries {
-  readonly geometries: SharedDeliveries;
+  readonly geometries: GeometryDeliveries;
   readonly textures: TextureDeliveries;
 }
 
@@ -22,17 +22,17 @@ export function storedBytesOf({ geometries, textures }: SceneDeliveries): number
  * `mostBytes` on the GPU, what matters most is asked for, and what matters less than
  * that is given up.
  */
-export function demandWithin(
+export function requestWithinBudget(
   deliveries: SceneDeliveries,
-  demandOf: (geometry: GeometryDescription) => Demand,
-  textureDemand: TextureDemand,
+  demandOf: (geometry: GeometryDescription) => FilePriority,
+  textureDemand: TexturePriority,
   mostBytes = Infinity,
 ): void {
   const { geometries, textures } = deliveries;
   const granted =
     storedBytesOf(deliveries) > mostBytes
-      ? grantedOf([...geometries.claims(demandOf), ...textures.claims(textureDemand)], mostBytes)
+      ? grantedRequests([...geometries.budgetRequests(demandOf), ...textures.budgetRequests(textureDemand)], mostBytes)
       : undefined;
-  geometries.demand(demandOf, granted);
-  textures.demand(textureDemand, granted);
+  geometries.request(demandOf, granted);
+  textures.request(textureDemand, granted);
 }

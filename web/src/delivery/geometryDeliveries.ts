@@ -3,12 +3,12 @@
 
 import type { Stage } from "../stage/stage.ts";
 import type { GeometryDescription } from "../document/description.ts";
-import type { Delivery, DeliveryListener, Demand } from "./deliver.ts";
-import { deliver } from "./deliver.ts";
+import type { Delivery, DeliveryListener, FilePriority } from "./geometryDelivery.ts";
+import { deliverGeometry } from "./geometryDelivery.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import type { Transfer } from "./progress.ts";
-import type { ResourcePool } from "./resources.ts";
-import type { Claim } from "../scheduler/budget.ts";
+import type { ResourcePool } from "./resourcePool.ts";
+import type { BudgetRequest } from "../scheduler/budget.ts";
 
 /** What one of those who share a delivery sees of it. */
 export type JoinedDelivery = Pick<Delivery, "transfers" | "isSettled" | "isExhausted" | "cancel">;
@@ -23,7 +23,7 @@ interface Shared {
   readonly errors: DeliveryError[];
 }
 
-export class SharedDeliveries {
+export class GeometryDeliveries {
   readonly #pool: ResourcePool;
   readonly #shared = new Map<GeometryDescription, Shared>();
 
@@ -85,14 +85,14 @@ export class SharedDeliveries {
   }
 
   /** What they want, and have, of the GPU. */
-  claims(demandOf: (geometry: GeometryDescription) => Demand): readonly (readonly Claim[])[] {
-    return Array.from(this.#shared).flatMap(([geometry, { delivery }]) => delivery.claims(demandOf(geometry)));
+  budgetRequests(demandOf: (geometry: GeometryDescription) => FilePriority): readonly (readonly BudgetRequest[])[] {
+    return Array.from(this.#shared).flatMap(([geometry, { delivery }]) => delivery.budgetRequests(demandOf(geometry)));
   }
 
   /** Says what is wanted of each geometry, for all who show it; of claims what is granted, and the rest is given up. */
-  demand(demandOf: (geometry: GeometryDescription) => Demand, granted?: ReadonlySet<Claim>): void {
+  request(demandOf: (geometry: GeometryDescription) => FilePriority, granted?: ReadonlySet<BudgetRequest>): void {
     for (const [geometry, { delivery }] of this.#shared) {
-      if (granted !== undefined || !delivery.isExhausted) delivery.demand(demandOf(geometry), granted);
+      if (granted !== undefined || !delivery.isExhausted) delivery.request(demandOf(geometry), granted);
     }
   }
 
@@ -100,7 +100,7 @@ export class SharedDeliveries {
     const listeners = new Set<DeliveryListener>();
     const stages = new Map<number, Stage>();
     const errors: DeliveryError[] = [];
-    const delivery = deliver(geometry, this.#pool, {
+    const delivery = deliverGeometry(geometry, this.#pool, {
       onStage(patch, stage) {
         if (stage === undefined) stages.delete(patch);
         else stages.set(patch, stage);
