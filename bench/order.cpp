@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "bench/models.h"
 #include "containers/container.h"
-#include "prepare/dual_graph.h"
+#include "prepare/half_edges.h"
 
 #include <algorithm>
 #include <array>
@@ -53,7 +53,7 @@ std::vector<std::array<std::uint32_t, 9>> drawnTriangles(const IndexedPatch& pat
 /// serves three triangles at most, which follow one another around it, so a fan of n
 /// triangles takes n / 3 of its centre.
 std::size_t fewestStripIndices(const Patch& patch) {
-  const std::vector<std::uint32_t> across = sidesAcross(patch.corners);
+  const std::vector<std::uint32_t> across = oppositeHalfEdges(patch.corners);
   std::vector<bool> isSeen(patch.corners.size());
   std::size_t fewest = 0;
   for (std::uint32_t corner = 0; corner < patch.corners.size(); ++corner) {
@@ -61,9 +61,9 @@ std::size_t fewestStripIndices(const Patch& patch) {
     if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
       continue;
     std::uint32_t first = corner, size = 0;
-    while (across[first] != noSide && sideAfter(across[first]) != corner)
-      first = sideAfter(across[first]);
-    for (std::uint32_t at = first; at != noSide && !isSeen[at]; at = across[sideBefore(at)]) {
+    while (across[first] != noHalfEdge && nextHalfEdge(across[first]) != corner)
+      first = nextHalfEdge(across[first]);
+    for (std::uint32_t at = first; at != noHalfEdge && !isSeen[at]; at = across[previousHalfEdge(at)]) {
       isSeen[at] = true;
       ++size;
     }

@@ -9,7 +9,7 @@
 #include "bench/models.h"
 #include "containers/container.h"
 #include "containers/raw_size.h"
-#include "documents/element.h"
+#include "documents/element_writer.h"
 
 #include <array>
 #include <cstdio>

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "import/import.h"
+#include "scene/shape_instances.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -35,7 +36,7 @@ inline void requireGraph(const Scene& scene) {
       require(use.texture < graph.textures.size());
   for (const Texture& texture : graph.textures)
     require(texture.image < graph.images.size());
-  require(graph.isComplete || !placedShapes(graph).empty());
+  require(graph.isComplete || !shapeInstances(graph).empty());
 }
 
 inline int importOrRefuse(ByteSpan bytes, const std::string& name) {

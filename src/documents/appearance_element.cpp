@@ -1,7 +1,7 @@
 #include "documents/appearance_element.h"
 
 #include "documents/appearance_names.h"
-#include "documents/field_text.h"
+#include "documents/node_fields_writer.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #pragma once
 // The elements of an Appearance: its material, textures and their transforms.
 
-#include "documents/element.h"
+#include "documents/element_writer.h"
 #include "scene/scene.h"
 
 #include <functional>

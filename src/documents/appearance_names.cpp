@@ -24,19 +24,20 @@ std::string minificationFilter(const Texture& texture) {
 }
 
 void setMagnificationFilter(Texture& texture, std::string_view name) {
-  if (sameName(name, nearestPixel))
+  if (equalIgnoringCase(name, nearestPixel))
     texture.magnification = Filter::nearest;
-  if (sameName(name, averagePixel))
+  if (equalIgnoringCase(name, averagePixel))
     texture.magnification = Filter::linear;
 }
 
 void setMinificationFilter(Texture& texture, std::string_view name) {
   for (const bool nearest : {true, false}) {
     const std::string_view pixel = nearest ? nearestPixel : averagePixel;
-    if (name.size() < pixel.size() || !sameName(name.substr(0, pixel.size()), pixel))
+    if (name.size() < pixel.size() || !equalIgnoringCase(name.substr(0, pixel.size()), pixel))
       continue;
     const std::string_view mipMap = name.substr(pixel.size());
-    const bool betweenNearest = sameName(mipMap, nearestMipMap), betweenAverage = sameName(mipMap, averageMipMap);
+    const bool betweenNearest = equalIgnoringCase(mipMap, nearestMipMap),
+               betweenAverage = equalIgnoringCase(mipMap, averageMipMap);
     if (!mipMap.empty() && !betweenNearest && !betweenAverage)
       continue;
     texture.minification = nearest ? Filter::nearest : Filter::linear;

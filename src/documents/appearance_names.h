@@ -31,7 +31,7 @@ inline const char* nameOf(TextureRole role) {
 template <typename Value, std::size_t count>
 std::optional<Value> valueNamed(const std::array<const char*, count>& names, std::string_view name) {
   for (std::size_t i = 0; i < count; ++i)
-    if (sameName(names[i], name))
+    if (equalIgnoringCase(names[i], name))
       return static_cast<Value>(i);
   return {};
 }

@@ -19,10 +19,10 @@ struct SceneDocument {
 };
 
 struct PageOptions {
-  std::string runtimeUrl;               ///< the ES module, relative
-  std::string stylesheetUrl;            ///< relative
-  std::vector<std::string> firstUrls{}; ///< modules that it needs at once; relative
-  std::vector<std::string> laterUrls{}; ///< those that it needs when it has shown what bases it can; relative
+  std::string runtimeUrl;                        ///< the ES module, relative
+  std::string stylesheetUrl;                     ///< relative
+  std::vector<std::string> eagerModuleUrls{};    ///< modules that it needs at once; relative
+  std::vector<std::string> deferredModuleUrls{}; ///< those that it needs when it has shown what bases it can; relative
 };
 
 /// `scene.x3d`: the scene as XML, readable by a person.
@@ -40,8 +40,8 @@ std::string writeHtml(const SceneDocument& document, const PageOptions& options)
 /// Where a page finds X3DOM; the sums are "sha384-..." of the files (W3C
 /// Subresource Integrity) or empty.
 struct X3domFiles {
-  std::string scriptUrl, scriptSum;
-  std::string stylesheetUrl, stylesheetSum;
+  std::string scriptUrl, scriptIntegrity;
+  std::string stylesheetUrl, stylesheetIntegrity;
 };
 
 /// The same two documents for X3DOM (docs/formats/x3dom.md), of containers that

@@ -5,7 +5,8 @@
 #include "containers/stored_coords.h"
 #include "containers/testing.h"
 #include "documents/appearance_element.h"
-#include "documents/element.h"
+#include "documents/element_writer.h"
+#include "scene/shape_instances.h"
 
 #include <gtest/gtest.h>
 #include <map>
@@ -764,7 +765,7 @@ TEST(Documents, WriteWhatStandsInSeveralPlacesOnce) {
   EXPECT_EQ(countOf("<ImageGeometry DEF=\"geometry\""), 1u);
   EXPECT_EQ(countOf("<ImageGeometry USE=\"geometry\""), 1u);
   EXPECT_EQ(countOf("<GeometryPatch "), 1u);
-  EXPECT_EQ(placedShapes(readScene(text, "x").graph).size(), 5u);
+  EXPECT_EQ(shapeInstances(readScene(text, "x").graph).size(), 5u);
 }
 
 TEST(ReadScene, RefusesEveryBeginningOfAText) {

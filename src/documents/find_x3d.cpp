@@ -17,7 +17,7 @@ bool isSpace(char c) {
 }
 
 bool startsWith(std::string_view text, std::string_view prefix) {
-  return text.size() >= prefix.size() && sameName(text.substr(0, prefix.size()), prefix);
+  return text.size() >= prefix.size() && equalIgnoringCase(text.substr(0, prefix.size()), prefix);
 }
 
 class Scanner {
@@ -34,11 +34,11 @@ public:
       }
       const std::size_t behind = behindTag(at);
       const std::string_view tag = tagName(rest);
-      if (begin == std::string_view::npos && sameName(tag, "x3d")) {
+      if (begin == std::string_view::npos && equalIgnoringCase(tag, "x3d")) {
         begin = at;
         if (text_[behind - 2] == '/')
           return {begin, behind};
-      } else if (begin != std::string_view::npos && sameName(tag, "/x3d")) {
+      } else if (begin != std::string_view::npos && equalIgnoringCase(tag, "/x3d")) {
         return {begin, behind};
       }
       at = begin == std::string_view::npos ? behindRawText(tag, behind) : behind;
@@ -79,7 +79,7 @@ private:
       type.remove_prefix(1);
     while (!type.empty() && isSpace(type.back()))
       type.remove_suffix(1);
-    if (!sameName(type, "html"))
+    if (!equalIgnoringCase(type, "html"))
       fail(ErrorKind::unsupported, at, "document types other than html are not read");
     return end;
   }
@@ -111,7 +111,7 @@ private:
   /// Past the content of an HTML element in which tags mean nothing.
   std::size_t behindRawText(std::string_view tag, std::size_t at) const {
     for (const std::string_view raw : {"script", "style", "title", "textarea"}) {
-      if (!sameName(tag, raw))
+      if (!equalIgnoringCase(tag, raw))
         continue;
       const std::string end = "</" + std::string(raw);
       for (std::size_t i = text_.find("</", at); i != std::string_view::npos; i = text_.find("</", i + 2))
@@ -137,7 +137,7 @@ std::string locationOf(std::string_view text, const std::string& name, std::size
   return name + ":" + std::to_string(line);
 }
 
-bool sameName(std::string_view a, std::string_view b) {
+bool equalIgnoringCase(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, {}, lower, lower);
 }
 

@@ -22,6 +22,6 @@ TextSpan findX3d(std::string_view text, const std::string& name);
 std::string locationOf(std::string_view text, const std::string& name, std::size_t at);
 
 /// Whether two ASCII names are equal but for case.
-bool sameName(std::string_view a, std::string_view b);
+bool equalIgnoringCase(std::string_view a, std::string_view b);
 
 } // namespace imgeo

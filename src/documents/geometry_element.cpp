@@ -158,7 +158,7 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
   return {element.name, {std::move(all)}};
 }
 
-Element attributeElement(const AttributeDescription& attribute, Container container) {
+Element vertexAttributeElement(const AttributeDescription& attribute, Container container) {
   Attributes fields{{"name", attribute.name}, {"numComponents", std::to_string(attribute.components)}};
   if (container == Container::sig)
     fields.push_back({"valueBits", std::to_string(8 * attribute.bytes)});

@@ -2,7 +2,7 @@
 // The elements of one geometry: ImageGeometry or BinaryGeometry and its patches.
 
 #include "containers/geometry.h"
-#include "documents/element.h"
+#include "documents/element_writer.h"
 
 #include <string>
 #include <vector>
@@ -24,7 +24,7 @@ bool isOwnPatch(const GeometryDescription& geometry);
 /// The geometry's element without its patches. `names` is its DEF, if any.
 Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names);
 /// One further attribute of its vertices.
-Element attributeElement(const AttributeDescription& attribute, Container container);
+Element vertexAttributeElement(const AttributeDescription& attribute, Container container);
 /// The element of a patch; not where the geometry's element is that of its only patch.
 Element patchElement(const PatchDescription& patch, const GeometryDescription& geometry);
 

@@ -1,10 +1,10 @@
 #include "documents/scene_writer.h"
 
 #include "documents/appearance_element.h"
-#include "documents/field_text.h"
 #include "documents/find_x3d.h"
 #include "documents/geometry_element.h"
-#include "documents/page_markup.h"
+#include "documents/node_fields_writer.h"
+#include "documents/page_sanitizer.h"
 
 #include <algorithm>
 
@@ -58,7 +58,7 @@ Attributes SceneWriter::Names::defOrUse(std::size_t index) {
   return {{wasWritten ? "USE" : "DEF", names_[index]}};
 }
 
-SceneWriter::SceneWriter(const SceneDocument& document, std::size_t level, Medium medium,
+SceneWriter::SceneWriter(const SceneDocument& document, std::size_t level, DocumentKind medium,
                          std::optional<std::size_t> inlineNode)
     : document_(document), writer_(level), nodeNames_(document.graph.nodes.size()),
       appearanceNames_(document.graph.appearances.size()), textureNames_(document.graph.textures.size()),
@@ -77,7 +77,7 @@ void SceneWriter::giveNames() {
   for (const std::size_t root : roots_)
     ++nodeUses[root];
   for (const std::size_t index : order) {
-    if (!showsDocument(graph.nodes[index]))
+    if (!inlinesDocument(graph.nodes[index]))
       for (const std::size_t child : graph.nodes[index].children)
         ++nodeUses[child];
     if (const Shape* shape = std::get_if<Shape>(&graph.nodes[index].content)) {
@@ -103,7 +103,7 @@ void SceneWriter::giveNames() {
 /// Whether the source brings an element of its own.
 bool SceneWriter::hasOther(std::string_view element) const {
   return std::ranges::any_of(document_.graph.nodes, [&](const Node& node) {
-    const OtherNode* other = std::get_if<OtherNode>(&node.content);
+    const GenericNode* other = std::get_if<GenericNode>(&node.content);
     return other && other->element == element;
   });
 }
@@ -126,7 +126,7 @@ void SceneWriter::writeHead() {
 
 /// What an X3D file says of itself; HTML has a head of its own.
 void SceneWriter::writeHeader() {
-  if (head_.header.empty() || medium_ == Medium::page)
+  if (head_.header.empty() || medium_ == DocumentKind::page)
     return;
   const Element head{"head", {}};
   writer_.open(head);
@@ -170,14 +170,14 @@ Attributes SceneWriter::furtherFields(const Node& node) const {
 Attributes SceneWriter::allowedFields(const std::vector<FieldText>& all) const {
   Attributes fields;
   for (const FieldText& field : all) {
-    if (medium_ == Medium::file) {
+    if (medium_ == DocumentKind::file) {
       fields.push_back({field.name, field.value});
       continue;
     }
-    if (!isInertInPage(field.name))
+    if (!isInertAttribute(field.name))
       continue;
-    const bool isUrl = sameName(field.name, "url") || field.name.ends_with("Url");
-    const std::string value = isUrl ? pageUrls(field.value) : field.value;
+    const bool isUrl = equalIgnoringCase(field.name, "url") || field.name.ends_with("Url");
+    const std::string value = isUrl ? safeUrls(field.value) : field.value;
     if (!isUrl || !value.empty())
       fields.push_back({field.name, value});
   }
@@ -189,8 +189,8 @@ Attribute SceneWriter::letterStyle(const std::string& style) const {
 }
 
 /// A page has a Group where it may not have an element that others stand in.
-Element SceneWriter::otherElement(const OtherNode& other, const Node& node, const Attributes& names) const {
-  const bool isWritten = medium_ == Medium::file || mayStandInPage(other.element);
+Element SceneWriter::otherElement(const GenericNode& other, const Node& node, const Attributes& names) const {
+  const bool isWritten = medium_ == DocumentKind::file || isAllowedInPage(other.element);
   Element element{isWritten ? other.element : "Group", {names}};
   if (!isWritten)
     return element;
@@ -204,7 +204,7 @@ Element SceneWriter::otherElement(const OtherNode& other, const Node& node, cons
       field.value = strings({document_.graph.inlined.at(*other.document).url});
     element.groups.back().push_back(std::move(field));
   }
-  if (medium_ == Medium::page && other.element == "FontStyle")
+  if (medium_ == DocumentKind::page && other.element == "FontStyle")
     for (const FieldText& field : node.fields)
       if (field.name == "style")
         element.groups.back().push_back(letterStyle(field.value));
@@ -214,11 +214,11 @@ Element SceneWriter::otherElement(const OtherNode& other, const Node& node, cons
 }
 
 Element SceneWriter::elementOf(const Node& node, const Attributes& names) const {
-  if (const OtherNode* other = std::get_if<OtherNode>(&node.content))
+  if (const GenericNode* other = std::get_if<GenericNode>(&node.content))
     return otherElement(*other, node, names);
   Element element = std::visit(
       [&](const auto& content) {
-        if constexpr (std::is_same_v<decltype(content), const OtherNode&>)
+        if constexpr (std::is_same_v<decltype(content), const GenericNode&>)
           return Element{};
         else
           return contentElement(content, names);
@@ -233,17 +233,17 @@ Element SceneWriter::elementOf(const Node& node, const Attributes& names) const 
 }
 
 /// In a page comments are left out: HTML ends some of them sooner than XML.
-void SceneWriter::writeComment(const OtherNode& comment) {
-  if (medium_ == Medium::file)
+void SceneWriter::writeComment(const GenericNode& comment) {
+  if (medium_ == DocumentKind::file)
     writer_.comment(comment.text);
 }
 
 void SceneWriter::writeNode(std::size_t index) {
   const Node& node = document_.graph.nodes[index];
-  const OtherNode* other = std::get_if<OtherNode>(&node.content);
+  const GenericNode* other = std::get_if<GenericNode>(&node.content);
   if (other && other->element == commentElement)
     return writeComment(*other);
-  if (other && medium_ == Medium::page && node.children.empty() && !mayStandInPage(other->element))
+  if (other && medium_ == DocumentKind::page && node.children.empty() && !isAllowedInPage(other->element))
     return;
   const Attributes names = nodeNames_.defOrUse(index);
   if (isUse(names))
@@ -251,8 +251,8 @@ void SceneWriter::writeNode(std::size_t index) {
   if (std::holds_alternative<Shape>(node.content))
     return writeShape(node, names);
   const Element element = elementOf(node, names);
-  if ((node.children.empty() || showsDocument(node)) && node.extras.empty())
-    return writer_.leaf(element, other && medium_ == Medium::file ? other->text : "");
+  if ((node.children.empty() || inlinesDocument(node)) && node.extras.empty())
+    return writer_.leaf(element, other && medium_ == DocumentKind::file ? other->text : "");
   writer_.open(element);
   writeParts(node);
   writer_.close(element);
@@ -279,7 +279,7 @@ void SceneWriter::writeGeometryOf(const Shape& shape) {
     return writer_.leaf(node);
   writer_.open(node);
   for (const AttributeDescription& attribute : geometry.attributes)
-    writer_.leaf(attributeElement(attribute, geometry.container));
+    writer_.leaf(vertexAttributeElement(attribute, geometry.container));
   for (std::size_t i = 0; i < geometry.patches.size() && hasPatchElements; ++i)
     writer_.leaf(patchElement(geometry.patches[i], geometry));
   writer_.close(node);

@@ -3,8 +3,8 @@
 // dialect of another runtime.
 
 #include "documents/documents.h"
-#include "documents/element.h"
-#include "documents/text.h"
+#include "documents/element_writer.h"
+#include "documents/xml_text.h"
 
 #include <optional>
 #include <string>
@@ -13,13 +13,13 @@
 namespace imgeo {
 
 /// A page runs what stands in it, a file does not (page_markup.h).
-enum class Medium : std::uint8_t { page, file };
+enum class DocumentKind : std::uint8_t { page, file };
 
 class SceneWriter {
 public:
   /// `document` outlives the writer; `level` is the element's indent. With an Inline's
   /// node, the document that it shows is written instead.
-  SceneWriter(const SceneDocument& document, std::size_t level, Medium medium,
+  SceneWriter(const SceneDocument& document, std::size_t level, DocumentKind medium,
               std::optional<std::size_t> inlineNode = {});
   virtual ~SceneWriter() = default;
   SceneWriter(const SceneWriter&) = delete;
@@ -56,15 +56,15 @@ protected:
 
   const SceneDocument& document_;
   ElementWriter writer_;
-  NameTable table_;
+  DefNames table_;
   Names nodeNames_, appearanceNames_, textureNames_;
 
 private:
   void giveNames();
   void writeHeader();
-  void writeComment(const OtherNode& comment);
+  void writeComment(const GenericNode& comment);
   Element elementOf(const Node& node, const Attributes& names) const;
-  Element otherElement(const OtherNode& other, const Node& node, const Attributes& names) const;
+  Element otherElement(const GenericNode& other, const Node& node, const Attributes& names) const;
   bool hasOther(std::string_view element) const;
   void writeHead();
   void writeNode(std::size_t index);
@@ -73,7 +73,7 @@ private:
 
   const std::vector<std::size_t>& roots_;
   const DocumentHead& head_;
-  const Medium medium_;
+  const DocumentKind medium_;
   Names geometryNames_; ///< two for each: solid and not
 };
 

@@ -1,6 +1,7 @@
 #include "export/export.h"
 
 #include "import/import.h"
+#include "scene/shape_instances.h"
 #include "scene/testing.h"
 
 #include <assimp/Importer.hpp>
@@ -41,7 +42,7 @@ std::vector<Corner> cornersOf(const Mesh& mesh) {
 
 std::vector<Corner> cornersOf(const Scene& scene) {
   std::vector<Corner> corners;
-  for (const PlacedShape& placed : placedShapes(scene.graph))
+  for (const ShapeInstance& placed : shapeInstances(scene.graph))
     for (const Corner& corner : cornersOf(scene.meshes[shapeOf(scene.graph, placed.node).mesh]))
       corners.push_back(corner);
   return corners;

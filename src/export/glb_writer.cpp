@@ -6,6 +6,7 @@
 #include "export/gltf_material.h"
 #include "scene/color.h"
 #include "scene/mf_string.h"
+#include "scene/shape_instances.h"
 
 #include <algorithm>
 #include <array>
@@ -189,7 +190,7 @@ std::optional<PlacedLight> lightOf(const NodeContent& content) {
 class GltfBuilder {
 public:
   explicit GltfBuilder(const Scene& scene) : scene_(scene), primitives_(scene.meshes.size()) {
-    placedShapes(scene.graph); // refuses more than can be listed: glTF knows no node in two places
+    shapeInstances(scene.graph); // refuses more than can be listed: glTF knows no node in two places
     for (const std::size_t root : scene.graph.roots)
       if (const std::optional<std::size_t> node = addNode(root))
         roots.push_back(*node);
@@ -351,7 +352,7 @@ void appendChunk(Bytes& glb, std::uint32_t type, ByteSpan data, std::uint8_t pad
 std::vector<std::string> navigationTypes(const SceneGraph& graph) {
   for (const std::size_t index : nodesInOrder(graph)) {
     const Node& node = graph.nodes[index];
-    const OtherNode* other = std::get_if<OtherNode>(&node.content);
+    const GenericNode* other = std::get_if<GenericNode>(&node.content);
     const auto type = std::ranges::find(node.fields, "type", &FieldText::name);
     if (other && other->element == "NavigationInfo" && type != node.fields.end())
       return parseStrings(type->value);

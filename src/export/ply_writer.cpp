@@ -4,6 +4,7 @@
 #include "base/narrow.h"
 #include "export/export.h"
 #include "export/world_shapes.h"
+#include "scene/shape_instances.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@ struct Layout {
 
 /// Calls `visit` for the mesh of every shape, where its positions do not count.
 template <typename Visit> void forEachMesh(const Scene& scene, Visit visit) {
-  for (const PlacedShape& placed : placedShapes(scene.graph))
+  for (const ShapeInstance& placed : shapeInstances(scene.graph))
     visit(scene.meshes[shapeOf(scene.graph, placed.node).mesh]);
 }
 

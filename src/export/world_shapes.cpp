@@ -1,5 +1,7 @@
 #include "export/world_shapes.h"
 
+#include "scene/shape_instances.h"
+
 #include <utility>
 
 namespace imgeo {
@@ -21,7 +23,7 @@ Mesh transformed(Mesh mesh, const Affine3d& world) {
 
 void forEachWorldShape(const Scene& scene, const VisitWorldShape& visit) {
   static const Appearance plain;
-  for (const PlacedShape& placed : placedShapes(scene.graph)) {
+  for (const ShapeInstance& placed : shapeInstances(scene.graph)) {
     const Shape& shape = shapeOf(scene.graph, placed.node);
     const Appearance& appearance = shape.appearance ? scene.graph.appearances.at(*shape.appearance) : plain;
     const std::string& name = scene.graph.nodes[placed.node].name;

@@ -5,6 +5,7 @@
 #include "import/formats.h"
 #include "import/gzip.h"
 #include "import/warnings.h"
+#include "scene/shape_instances.h"
 
 #include <algorithm>
 #include <cctype>
@@ -103,14 +104,14 @@ Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOption
     bytes = bytes.subspan(3); // byte order mark
 
   Imported imported = readerFor(bytes, name)(bytes, name, options);
-  const auto hasElements = [&](const PlacedShape& placed) {
+  const auto hasElements = [&](const ShapeInstance& placed) {
     return !imported.scene.meshes[shapeOf(imported.scene.graph, placed.node).mesh].corners.empty();
   };
-  if (!imported.scene.graph.isComplete && std::ranges::none_of(placedShapes(imported.scene.graph, name), hasElements))
+  if (!imported.scene.graph.isComplete && std::ranges::none_of(shapeInstances(imported.scene.graph, name), hasElements))
     throw Error(ErrorKind::malformed, name,
                 "the file has no triangles, lines or points" +
                     (imported.warnings.empty() ? "" : "; " + withoutFullStop(imported.warnings[0])));
-  requireCountableShapes(imported.scene.graph, name);
+  checkShapeInstanceLimit(imported.scene.graph, name);
   makeNamesUnique(imported.scene.graph);
   if (imported.scene.graph.title.empty())
     imported.scene.graph.title = stemOf(name);

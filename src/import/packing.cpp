@@ -31,7 +31,7 @@ void members(auto& archive, auto& v, const Node*) {
 void members(auto& archive, auto& v, const FieldText*) {
   archive(v.name, v.value);
 }
-void members(auto& archive, auto& v, const OtherNode*) {
+void members(auto& archive, auto& v, const GenericNode*) {
   archive(v.element, v.text, v.image, v.document);
 }
 void members(auto& archive, auto& v, const Texture*) {

@@ -1,8 +1,8 @@
 #include "prepare/base_mesh.h"
 
 #include "base/parallel.h"
-#include "prepare/base_seams.h"
-#include "prepare/index_table.h"
+#include "prepare/base_wedges.h"
+#include "prepare/index_hash_table.h"
 #include "prepare/simplify.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ public:
   std::vector<Vec3u> positions;
 
 private:
-  IndexTable table_;
+  IndexHashTable table_;
 };
 
 /// Positions by their numbers in all patches together, and which of them several have.
@@ -248,7 +248,7 @@ private:
 
   BaseMesh base_;
   PositionTable positions_;
-  IndexTable wedges_;
+  IndexHashTable wedges_;
   std::vector<std::uint64_t> places_; ///< in the texture, per wedge
 };
 
@@ -280,7 +280,7 @@ std::optional<BaseMesh> baseOf(const PatchedMesh& mesh, double percent) {
   std::size_t elementCount = 0;
   for (const Patch& patch : mesh.patches)
     elementCount += patch.elementCount();
-  if (mesh.patches.empty() || mesh.patches[0].topology != Topology::triangles || elementCount < leastTrianglesOfBase ||
+  if (mesh.patches.empty() || mesh.patches[0].topology != Topology::triangles || elementCount < minTrianglesForBase ||
       !(percent > 0))
     return std::nullopt;
   const std::vector<std::vector<bool>> isFixed = sharedPositions(mesh.patches);

@@ -26,13 +26,13 @@ struct BaseMesh : VertexAttributes {
 
 /// A mesh of about `percent` of the triangles, and one for each edge at which patches
 /// meet, as those edges stay. Nothing where no base is worth its bytes: for points
-/// and lines, for fewer than `leastTrianglesOfBase`, where it would have more than a
+/// and lines, for fewer than `minTrianglesForBase`, where it would have more than a
 /// fourth of the triangles (patches that are nearly all border), and where less than
 /// half of the area is left (loose triangles).
 std::optional<BaseMesh> baseOf(const PatchedMesh& mesh, double percent);
 
 /// The bytes of fewer arrive within the first few round trips anyway.
-inline constexpr std::size_t leastTrianglesOfBase = 10'000;
+inline constexpr std::size_t minTrianglesForBase = 10'000;
 
 /// The triangles of a patch over lattice points, of which some may be alike.
 struct PatchTriangles {

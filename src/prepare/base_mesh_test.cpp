@@ -1,6 +1,6 @@
 #include "prepare/base_mesh.h"
 
-#include "prepare/base_testing.h"
+#include "prepare/base_mesh_testing.h"
 #include "prepare/weld.h"
 #include "scene/testing.h"
 

@@ -1,6 +1,6 @@
 #include "prepare/edge_collapse.h"
 
-#include "prepare/wide_heap.h"
+#include "prepare/d_ary_heap.h"
 
 #include <algorithm>
 #include <bit>
@@ -137,7 +137,7 @@ private:
       return vertices_[a].place;
     if (vertices_[b].isFixed)
       return vertices_[b].place;
-    return quadric.bestPlace((vertices_[a].place + vertices_[b].place) * 0.5);
+    return quadric.minimizerNear((vertices_[a].place + vertices_[b].place) * 0.5);
   }
 
   void offer(std::uint32_t a, std::uint32_t b) {
@@ -239,7 +239,7 @@ private:
   std::vector<std::uint32_t> versions_;            ///< how often a vertex has changed
   std::vector<std::uint32_t> marks_, neighbours_;
   std::uint32_t mark_ = 0;
-  WideHeap<Candidate> heap_;
+  DaryHeap<Candidate> heap_;
 };
 
 } // namespace

@@ -1,7 +1,7 @@
 #include "prepare/patches.h"
 
 #include "base/parallel.h"
-#include "prepare/index_table.h"
+#include "prepare/index_hash_table.h"
 
 #include <algorithm>
 #include <iterator>
@@ -156,7 +156,7 @@ public:
   std::uint32_t numberOf(std::uint32_t value) {
     // Most values have come a moment ago.
     Recent& recent = recent_[value % recentCount];
-    if (recent.value != value || recent.number == IndexTable::none)
+    if (recent.value != value || recent.number == IndexHashTable::none)
       recent = {value, find(value)};
     return recent.number;
   }
@@ -165,7 +165,7 @@ public:
 
 private:
   struct Recent {
-    std::uint32_t value = 0, number = IndexTable::none;
+    std::uint32_t value = 0, number = IndexHashTable::none;
   };
   static constexpr std::uint32_t recentCount = 1 << 12;
 
@@ -178,7 +178,7 @@ private:
     return number;
   }
 
-  IndexTable table_;
+  IndexHashTable table_;
   std::vector<Recent> recent_{recentCount};
 };
 

@@ -2,8 +2,8 @@
 
 #include "base/narrow.h"
 #include "prepare/fan_order.h"
-#include "prepare/strips.h"
-#include "prepare/trails.h"
+#include "prepare/line_strips.h"
+#include "prepare/triangle_strips.h"
 
 #include <algorithm>
 #include <cassert>
@@ -63,11 +63,11 @@ std::vector<std::uint32_t> inFanOrder(const Patch& patch) {
 /// of the document and a call each frame, and saves less than an index a line.
 constexpr std::size_t fewestStripLines = 64;
 
-/// Trails of at least so many lines as strips, all others as separate lines behind them.
+/// LineStrips of at least so many lines as strips, all others as separate lines behind them.
 IndexedPatch drawTrails(const Patch& patch, std::size_t fewestInStrip) {
   assert(patch.topology == Topology::lines);
   const std::vector<std::uint32_t>& corners = patch.corners;
-  const Trails trails = findTrails(corners, patch.wedgeCount());
+  const LineStrips trails = findLineStrips(corners, patch.wedgeCount());
   std::vector<Draw> draws;
   std::vector<std::uint32_t> wedges, separate;
   for (std::size_t i = 0; i < trails.count(); ++i) {

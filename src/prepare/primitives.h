@@ -42,7 +42,7 @@ IndexedPatch asTriangles(const Patch& patch);
 /// each; 1.13 to 1.3 at effort 9, for fifteen. Effort is 0 .. 9.
 IndexedPatch asStrips(const Patch& patch, int effort);
 
-/// Indexed lines, one behind the other along trails (prepare/trails.h), each
+/// Indexed lines, one behind the other along trails (prepare/line_strips.h), each
 /// between the wedges it has in the patch, in either direction.
 IndexedPatch asLines(const Patch& patch);
 

@@ -34,7 +34,7 @@ public:
 
   /// Where the error is least; of places that are hardly worse, as on a plane, the
   /// one nearest to `near`.
-  Vec3d bestPlace(Vec3d near) const {
+  Vec3d minimizerNear(Vec3d near) const {
     const double hold = 1e-3 * (xx_ + yy_ + zz_);
     const double a = xx_ + hold, d = yy_ + hold, f = zz_ + hold;
     // The inverse of a symmetric matrix, by its cofactors.

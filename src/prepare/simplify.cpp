@@ -1,7 +1,7 @@
 #include "prepare/simplify.h"
 
 #include "prepare/edge_collapse.h"
-#include "prepare/surface_cells.h"
+#include "prepare/vertex_clustering.h"
 
 #include <algorithm>
 #include <array>
@@ -118,7 +118,7 @@ TriangleNormals normalsOf(std::span<const Vec3d> places, std::span<const std::ui
 /// One vertex a cell, in the middle of its vertices, with the planes of all their triangles.
 CollapsingSurface surfaceOf(std::span<const Vec3d> places, std::span<const std::uint32_t> corners,
                             std::span<const Vec3d> normals, const std::vector<bool>& isFixed,
-                            const SurfaceCells& cells) {
+                            const VertexClusters& cells) {
   CollapsingSurface surface;
   surface.vertices.resize(cells.count);
   std::vector<std::uint32_t> members(cells.count);
@@ -157,7 +157,7 @@ CollapsingSurface surfaceOf(std::span<const Vec3d> places, std::span<const std::
 
 /// The vertices that are in use, on the lattice.
 SimplifiedTriangles resultOf(const CollapsingSurface& surface, const UnitFrame& frame, std::span<const Vec3u> positions,
-                             const SurfaceCells& cells) {
+                             const VertexClusters& cells) {
   constexpr std::uint32_t none = SimplifiedTriangles::none;
   SimplifiedTriangles result;
   result.triangles = surface.sources;
@@ -190,14 +190,14 @@ SimplifiedTriangles simplify(std::span<const Vec3u> positions, std::span<const s
     places.push_back(frame.positionOf(position));
   const std::size_t cellCount = cellsPerTriangle * triangleCount;
   const auto [normals, area] = normalsOf(places, corners);
-  const SurfaceCells cells = positions.size() > 2 * cellCount
-                                 ? gatherInCells(places, corners, normals, area, isFixed, cellCount)
-                                 : separateCells(positions.size());
+  const VertexClusters cells = positions.size() > 2 * cellCount
+                                   ? clusterVertices(places, corners, normals, area, isFixed, cellCount)
+                                   : singletonClusters(positions.size());
   CollapsingSurface surface = surfaceOf(places, corners, normals, isFixed, cells);
   if (cells.count < positions.size())
     for (CollapsingSurface::Vertex& vertex : surface.vertices)
       if (!vertex.isFixed)
-        vertex.place = vertex.quadric.bestPlace(vertex.place);
+        vertex.place = vertex.quadric.minimizerNear(vertex.place);
   collapseEdges(surface, triangleCount);
   SimplifiedTriangles result = resultOf(surface, frame, positions, cells);
   result.areaBefore = frame.latticeArea(area);

@@ -6,7 +6,7 @@
 
 #include "prepare/strip_links.h"
 
-#include "prepare/dual_graph.h"
+#include "prepare/half_edges.h"
 
 #include <algorithm>
 
@@ -126,7 +126,7 @@ public:
     center_ = links_.corners_[3 * (star.corner / 4) + star.corner % 4];
   }
 
-  void run(const WeightTables& tables, RepeatableRandom& random) {
+  void run(const WeightTables& tables, XorShift64Star& random) {
     weigh(tables);
     sumForward();
     if (drawBackward(links_.oddTips_[center_], tables.odd, random))
@@ -171,7 +171,7 @@ private:
   }
 
   /// Draws the spokes; false where nothing has any weight.
-  bool drawBackward(std::uint32_t centerOdd, float oddWeight, RepeatableRandom& random) {
+  bool drawBackward(std::uint32_t centerOdd, float oddWeight, XorShift64Star& random) {
     const std::uint32_t last = size_ - 1;
     std::array<float, 32> ends{}; // by parity, the last two spokes, and the first two
     float total = 0;
@@ -238,7 +238,8 @@ StripLinks::StripLinks(std::span<const std::uint32_t> corners, std::span<const s
                        std::size_t vertexCount)
     : triangles_(corners.size() / 3), corners_(corners), oddTips_(vertexCount) {
   for (std::uint32_t side = 0; side < corners.size(); ++side)
-    triangles_[side / 3].across[side % 3] = across[side] == noSide ? noSide : 4 * (across[side] / 3) + across[side] % 3;
+    triangles_[side / 3].across[side % 3] =
+        across[side] == noHalfEdge ? noHalfEdge : 4 * (across[side] / 3) + across[side] % 3;
   findStars(across);
 }
 
@@ -250,11 +251,11 @@ void StripLinks::findStars(std::span<const std::uint32_t> across) {
     if (isFound[corner])
       continue;
     std::uint32_t first = corner;
-    while (across[first] != noSide && sideAfter(across[first]) != corner)
-      first = sideAfter(across[first]);
-    const bool isOpen = across[first] == noSide;
+    while (across[first] != noHalfEdge && nextHalfEdge(across[first]) != corner)
+      first = nextHalfEdge(across[first]);
+    const bool isOpen = across[first] == noHalfEdge;
     Star star{4 * (first / 3) + first % 3, isOpen, isOpen};
-    for (std::uint32_t at = first; at != noSide && !isFound[at]; at = across[sideBefore(at)]) {
+    for (std::uint32_t at = first; at != noHalfEdge && !isFound[at]; at = across[previousHalfEdge(at)]) {
       isFound[at] = true;
       ++star.size;
     }
@@ -263,7 +264,7 @@ void StripLinks::findStars(std::span<const std::uint32_t> across) {
   }
 }
 
-void StripLinks::redraw(float factor, RepeatableRandom& random) {
+void StripLinks::redraw(float factor, XorShift64Star& random) {
   const WeightTables tables(factor);
   for (const Star& star : stars_)
     StarDraw(*this, star).run(tables, random);
@@ -319,12 +320,12 @@ int StripLinks::toggle(const Change& change) {
   return cost;
 }
 
-/// A linked side of a triangle other than `besides`; noSide where there is none.
+/// A linked side of a triangle other than `besides`; noHalfEdge where there is none.
 std::uint32_t StripLinks::linkedSide(std::uint32_t triangle, std::uint32_t besides) const {
   for (std::uint32_t side = 4 * triangle; side < 4 * triangle + 3; ++side)
     if (side != besides && isLinked(triangle, side % 4))
       return side;
-  return noSide;
+  return noHalfEdge;
 }
 
 void StripLinks::openRings() {
@@ -332,10 +333,10 @@ void StripLinks::openRings() {
   std::vector<std::uint32_t> sides; // by which the triangles of a path or ring are left
   const auto walk = [&](std::uint32_t triangle) {
     sides.clear();
-    for (std::uint32_t entered = noSide; !isSeen[triangle];) {
+    for (std::uint32_t entered = noHalfEdge; !isSeen[triangle];) {
       isSeen[triangle] = true;
       const std::uint32_t side = linkedSide(triangle, entered);
-      if (side == noSide)
+      if (side == noHalfEdge)
         break;
       sides.push_back(side);
       entered = triangles_[triangle].across[side % 4];
@@ -370,7 +371,7 @@ void StripLinks::openRing(std::span<const std::uint32_t> ring) {
     for (const auto& [joined, other] : {std::pair(triangle, next / 4), std::pair(next / 4, triangle)})
       for (std::uint32_t free = 0; free < 3; ++free) {
         const std::uint32_t beside = triangles_[joined].across[free];
-        if (!isLinked(joined, free) && beside != noSide && degree(beside / 4) < 2)
+        if (!isLinked(joined, free) && beside != noHalfEdge && degree(beside / 4) < 2)
           consider({{side, beside}, {joined, other, beside / 4}, 2, 3});
       }
   }

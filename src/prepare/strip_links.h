@@ -9,7 +9,7 @@
 namespace imgeo {
 
 /// xorshift64* (Marsaglia 2003, Vigna 2016): the same numbers everywhere.
-class RepeatableRandom {
+class XorShift64Star {
 public:
   std::uint32_t bits() {
     state_ ^= state_ >> 12;
@@ -34,13 +34,13 @@ private:
 ///    Another half for each path, whose first turn is as likely as not the wrong one.
 class StripLinks {
 public:
-  /// No links yet. `across` is sidesAcross(corners).
+  /// No links yet. `across` is oppositeHalfEdges(corners).
   StripLinks(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> across, std::size_t vertexCount);
 
   /// Draws the links around every vertex anew, all those of one vertex at once and
   /// as likely as factor^cost each; `factor` is 0 .. 1, and the lower it is, the fewer dear
   /// ones there are. Time is linear in the number of triangles.
-  void redraw(float factor, RepeatableRandom& random);
+  void redraw(float factor, XorShift64Star& random);
 
   /// Opens every ring where that costs least: at a link, or by leading a path that ends beside
   /// it all around it.
@@ -55,7 +55,7 @@ public:
 
 private:
   struct Triangle {
-    std::array<std::uint32_t, 3> across{}; ///< by side: 4 * triangle + side, or noSide
+    std::array<std::uint32_t, 3> across{}; ///< by side: 4 * triangle + side, or noHalfEdge
     std::uint32_t linked = 0;              ///< a bit for each side
   };
 

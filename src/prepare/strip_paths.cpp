@@ -3,7 +3,7 @@
 
 #include "prepare/strip_paths.h"
 
-#include "prepare/dual_graph.h"
+#include "prepare/half_edges.h"
 #include "prepare/strip_links.h"
 
 #include <cassert>
@@ -20,7 +20,7 @@ constexpr int sweepsAt[] = {2, 3, 4, 5, 6, 8, 16, 32, 64, 128};
 /// rounds a power differently.
 void anneal(StripLinks& links, int sweeps) {
   const float hot = sweeps < 64 ? 0.5f : 0.65f, cold = 0.37f; // the weight of a quarter of an index
-  RepeatableRandom random;
+  XorShift64Star random;
   for (int sweep = 0; sweep < sweeps; ++sweep)
     links.redraw(hot + (cold - hot) * static_cast<float>(sweep) / static_cast<float>(sweeps - 1), random);
 }
@@ -44,20 +44,20 @@ private:
     return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
   }
 
-  /// The linked side of a triangle that is not `entered`, or else noSide.
+  /// The linked side of a triangle that is not `entered`, or else noHalfEdge.
   std::uint32_t otherLink(std::uint32_t triangle, std::uint32_t entered) const {
     for (std::uint32_t i = 0; i < 3; ++i)
       if (3 * triangle + i != entered && links_.isLinked(triangle, i))
         return 3 * triangle + i;
-    return noSide;
+    return noHalfEdge;
   }
 
   void readFrom(std::uint32_t triangle) {
-    for (std::uint32_t entered = noSide;;) {
+    for (std::uint32_t entered = noHalfEdge;;) {
       isRead_[triangle] = true;
       const std::uint32_t left = otherLink(triangle, entered);
-      paths_.sides.push_back(left != noSide ? left : entered != noSide ? sideAfter(entered) : 3 * triangle);
-      if (left == noSide)
+      paths_.sides.push_back(left != noHalfEdge ? left : entered != noHalfEdge ? nextHalfEdge(entered) : 3 * triangle);
+      if (left == noHalfEdge)
         break;
       entered = across_[left];
       triangle = entered / 3;

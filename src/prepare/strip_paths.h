@@ -23,7 +23,7 @@ struct StripPaths {
 };
 
 /// Every non-degenerate triangle of `corners` (three vertices below `vertexCount`
-/// each) in exactly one path. `across` is sidesAcross(corners). The search is
+/// each) in exactly one path. `across` is oppositeHalfEdges(corners). The search is
 /// random but repeatable; its time is linear in the number of triangles, and 64
 /// times as long at effort 9 as at 0.
 StripPaths findStripPaths(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> across,

@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 #include "prepare/incidence.h"
-#include "prepare/index_table.h"
+#include "prepare/index_hash_table.h"
 
 #include <algorithm>
 #include <array>
@@ -33,14 +33,14 @@ std::uint64_t hashOf(std::uint64_t seed, const Vec3f& v) {
 
 /// Gives each index of the corners' array a new number, in the order of first use.
 struct Renumbering {
-  std::vector<std::uint32_t> newOf; ///< old -> new; IndexTable::none where unused
+  std::vector<std::uint32_t> newOf; ///< old -> new; IndexHashTable::none where unused
   std::vector<std::uint32_t> kept;  ///< new -> the first old one
   std::size_t merged = 0;
 
-  explicit Renumbering(std::size_t oldCount) : newOf(oldCount, IndexTable::none) {}
+  explicit Renumbering(std::size_t oldCount) : newOf(oldCount, IndexHashTable::none) {}
 
   template <typename Equals>
-  std::uint32_t number(std::uint32_t old, IndexTable& table, std::uint64_t hash, Equals equals) {
+  std::uint32_t number(std::uint32_t old, IndexHashTable& table, std::uint64_t hash, Equals equals) {
     const auto next = static_cast<std::uint32_t>(kept.size());
     const std::uint32_t found = table.findOrInsert(hash, next, [&](std::uint32_t i) { return equals(kept[i]); });
     if (found == next)
@@ -60,7 +60,7 @@ std::span<const float> valuesOf(const NamedAttribute& attribute, std::uint32_t v
 /// of those to come can be fetched ahead: most of the time of a large table goes into waiting.
 std::vector<std::uint32_t> firstAlike(const std::vector<Vec3f>& positions) {
   constexpr std::size_t ahead = 16;
-  IndexTable table(positions.size());
+  IndexHashTable table(positions.size());
   std::vector<std::uint32_t> first(positions.size());
   for (std::uint32_t i = 0; i < positions.size(); ++i) {
     if (i + ahead < positions.size())
@@ -73,14 +73,14 @@ std::vector<std::uint32_t> firstAlike(const std::vector<Vec3f>& positions) {
 
 Renumbering weldPositions(const Mesh& mesh) {
   const std::vector<std::uint32_t> first = firstAlike(mesh.positions);
-  std::vector<std::uint32_t> numberOfFirst(mesh.positions.size(), IndexTable::none);
+  std::vector<std::uint32_t> numberOfFirst(mesh.positions.size(), IndexHashTable::none);
   Renumbering numbers(mesh.positions.size());
   for (const std::uint32_t wedge : mesh.corners) {
     const std::uint32_t old = mesh.wedgePositions[wedge];
-    if (numbers.newOf[old] != IndexTable::none)
+    if (numbers.newOf[old] != IndexHashTable::none)
       continue;
     std::uint32_t& number = numberOfFirst[first[old]];
-    if (number == IndexTable::none) {
+    if (number == IndexHashTable::none) {
       number = static_cast<std::uint32_t>(numbers.kept.size());
       numbers.kept.push_back(old);
     } else {
@@ -96,7 +96,7 @@ Renumbering weldPositions(const Mesh& mesh) {
 Renumbering weldPlainWedges(const Mesh& mesh) {
   Renumbering numbers(mesh.wedgeCount());
   for (const std::uint32_t old : mesh.corners) {
-    if (numbers.newOf[old] != IndexTable::none)
+    if (numbers.newOf[old] != IndexHashTable::none)
       continue;
     const std::uint32_t position = mesh.wedgePositions[old];
     numbers.newOf[old] = position;
@@ -115,7 +115,7 @@ Renumbering weldWedges(const Mesh& mesh, std::size_t positionCount) {
   if (arePlain || mesh.wedgeCount() == positionCount) // as many: each has a position of its own
     return weldPlainWedges(mesh);
   Renumbering numbers(mesh.wedgeCount());
-  IndexTable table(mesh.wedgeCount());
+  IndexHashTable table(mesh.wedgeCount());
   const auto hash = [&](std::uint32_t w) {
     std::uint64_t result = mixHash(0, mesh.wedgePositions[w]);
     if (!mesh.normals.empty())
@@ -141,7 +141,7 @@ Renumbering weldWedges(const Mesh& mesh, std::size_t positionCount) {
            });
   };
   for (const std::uint32_t old : mesh.corners)
-    if (numbers.newOf[old] == IndexTable::none)
+    if (numbers.newOf[old] == IndexHashTable::none)
       numbers.number(old, table, hash(old), [&](std::uint32_t other) { return equal(old, other); });
   return numbers;
 }

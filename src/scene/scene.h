@@ -7,8 +7,10 @@
 // elsewhere. The graph has no cycles.
 
 #include "scene/appearance.h"
+#include "scene/lights.h"
 #include "scene/mesh.h"
 #include "scene/transform.h"
+#include "scene/viewpoint.h"
 
 #include <optional>
 #include <string>
@@ -30,88 +32,29 @@ struct Shape {
   friend bool operator==(const Shape&, const Shape&) = default;
 };
 
-/// X3D Viewpoint: looks along -z of `orientation`.
-struct Viewpoint {
-  std::string description;
-  Vec3d position{0, 0, 10};
-  Rotation orientation;
-  double fieldOfView = 0.7854; ///< radians, along the shorter side
-  Vec3d centerOfRotation;
-  friend bool operator==(const Viewpoint&, const Viewpoint&) = default;
-};
-
-/// X3D OrthoViewpoint: the same without perspective.
-struct OrthoViewpoint {
-  std::string description;
-  Vec3d position{0, 0, 10};
-  Rotation orientation;
-  Vec2<double> min{-1, -1}, max{1, 1}; ///< what is seen, in units of the scene
-  Vec3d centerOfRotation;
-  friend bool operator==(const OrthoViewpoint&, const OrthoViewpoint&) = default;
-};
-
-/// X3D DirectionalLight: shines along `direction`. Intensities of lights are 0 .. 1 in X3D
-/// and any number in glTF.
-struct DirectionalLight {
-  Vec3d direction{0, 0, -1};
-  Vec3f color{1, 1, 1};
-  float intensity = 1;
-  bool global = false;        ///< false: lights what stands below the light's parent
-  float ambientIntensity = 0; ///< 0 .. 1; reaches surfaces whichever way they face
-  friend bool operator==(const DirectionalLight&, const DirectionalLight&) = default;
-};
-
-/// X3D PointLight: at distance d its light is divided by a + b d + c d^2 of
-/// `attenuation`, or 1 where that is less, and ends at `radius`.
-struct PointLight {
-  Vec3d location;
-  Vec3d attenuation{1, 0, 0};
-  double radius = 100;
-  Vec3f color{1, 1, 1};
-  float intensity = 1;
-  bool global = true;
-  float ambientIntensity = 0;
-  friend bool operator==(const PointLight&, const PointLight&) = default;
-};
-
-/// X3D SpotLight: a cone that is full up to `beamWidth` from its axis and fades
-/// to nothing at `cutOffAngle`, both in radians.
-struct SpotLight {
-  Vec3d location;
-  Vec3d direction{0, 0, -1};
-  double beamWidth = 0.7854, cutOffAngle = 1.5708;
-  Vec3d attenuation{1, 0, 0};
-  double radius = 100;
-  Vec3f color{1, 1, 1};
-  float intensity = 1;
-  bool global = true;
-  float ambientIntensity = 0;
-  friend bool operator==(const SpotLight&, const SpotLight&) = default;
-};
-
 /// An attribute of an element of X3D, as its source has it.
 struct FieldText {
   std::string name, value;
   friend bool operator==(const FieldText&, const FieldText&) = default;
 };
 
-/// OtherNode::element of a comment.
+/// GenericNode::element of a comment.
 inline constexpr const char* commentElement = "#comment";
 
 /// An element of X3D that goes through as it is: its attributes are Node::fields,
 /// what stands in it is Node::children. A comment likewise, which is its text alone.
-struct OtherNode {
+struct GenericNode {
   std::string element;
   std::string text;                 ///< its character data: a Script's
   std::optional<std::size_t> image; ///< index into SceneGraph::images: what its url leads to
   /// Of an Inline, index into SceneGraph::inlined: the document that its url leads to,
   /// whose top nodes are Node::children.
   std::optional<std::size_t> document = {};
-  friend bool operator==(const OtherNode&, const OtherNode&) = default;
+  friend bool operator==(const GenericNode&, const GenericNode&) = default;
 };
 
 using NodeContent = std::variant<Group, Transform, Shape, Viewpoint, OrthoViewpoint, DirectionalLight, PointLight,
-                                 SpotLight, OtherNode>;
+                                 SpotLight, GenericNode>;
 
 struct Node {
   std::string name; ///< becomes its DEF; of several nodes of one name the later get a number
@@ -171,7 +114,7 @@ std::size_t addNode(SceneGraph& graph, Node node);
 std::size_t addRoot(SceneGraph& graph, Node node);
 
 /// Whether a node is an Inline whose document is part of the scene.
-bool showsDocument(const Node& node);
+bool inlinesDocument(const Node& node);
 /// The document of one that is.
 const InlinedDocument& inlinedDocumentOf(const SceneGraph& graph, std::size_t node);
 
@@ -195,24 +138,5 @@ const Shape& shapeOf(const SceneGraph& graph, std::size_t node);
 
 /// Takes the Shape nodes of some meshes out of the graph; `isLeftOut` is by mesh.
 void removeShapes(SceneGraph& graph, const std::vector<bool>& isLeftOut);
-
-/// A shape in one of the places where it stands.
-struct PlacedShape {
-  std::size_t node = 0;
-  Affine3d worldFromShape;
-};
-
-/// Every shape as often as it is seen, in document order. Throws Error{limit} naming
-/// `location` for more than a million: groups of groups that are USEd grow without
-/// measure.
-std::vector<PlacedShape> placedShapes(const SceneGraph& graph, const std::string& location = "");
-
-/// The same limit for all shapes, those included that are no Shape of ours but an X3D
-/// source's element.
-void requireCountableShapes(const SceneGraph& graph, const std::string& location);
-
-/// A viewpoint from which a box is seen whole, from slightly above and beside,
-/// centred on the box; for pages whose source brings none.
-Viewpoint viewpointFor(const Box3d& box);
 
 } // namespace imgeo

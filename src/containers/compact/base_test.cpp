@@ -1,7 +1,7 @@
 #include "containers/compact/base.h"
 
 #include "base/error.h"
-#include "prepare/base_testing.h"
+#include "prepare/base_mesh_testing.h"
 #include "prepare/weld.h"
 
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 #include "containers/compact/code_normals.h"
 #include "containers/named_attributes.h"
 #include "containers/stored.h"
+#include "prepare/line_strips.h"
 #include "prepare/primitives.h"
-#include "prepare/trails.h"
 
 #include <cmath>
 #include <numeric>
@@ -91,7 +91,7 @@ Patch separatePoints(const Patch& patch) {
 /// The lines' corners in the order in which a pen would draw them.
 std::vector<std::uint32_t> alongTrails(const Patch& patch) {
   std::vector<std::uint32_t> corners;
-  for (const std::uint32_t corner : findTrails(patch.corners, patch.wedgeCount()).corners)
+  for (const std::uint32_t corner : findLineStrips(patch.corners, patch.wedgeCount()).corners)
     corners.insert(corners.end(), {patch.corners[corner], patch.corners[corner ^ 1]});
   return corners;
 }

@@ -1,6 +1,7 @@
 #include "base/file.h"
 #include "base/testing.h"
 #include "import/error_testing.h"
+#include "scene/shape_instances.h"
 #include "scene/testing.h"
 
 #include <gtest/gtest.h>
@@ -57,7 +58,7 @@ TEST(Assimp, BringsNodesMaterialsTexturesCamerasAndLights) {
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.meshes[0].elementCount(), 2u);
   EXPECT_EQ(scene.meshes[0].texCoords.size(), 4u);
-  const std::vector<PlacedShape> placed = placedShapes(scene.graph);
+  const std::vector<ShapeInstance> placed = shapeInstances(scene.graph);
   ASSERT_EQ(placed.size(), 2u);
   EXPECT_EQ(placed[0].worldFromShape.point({}), (Vec3d{-2, 0, 0}));
   EXPECT_EQ(placed[1].worldFromShape.point({}), (Vec3d{2, 0, 0}));

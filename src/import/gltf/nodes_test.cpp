@@ -1,5 +1,6 @@
 #include "import/error_testing.h"
 #include "import/gltf/testing.h"
+#include "scene/shape_instances.h"
 #include "scene/testing.h"
 
 #include <fmt/format.h>
@@ -9,7 +10,7 @@
 namespace imgeo::testing {
 namespace {
 
-Vec3d originOf(const PlacedShape& placed) {
+Vec3d originOf(const ShapeInstance& placed) {
   return placed.worldFromShape.point({0, 0, 0});
 }
 
@@ -31,7 +32,7 @@ TEST(GltfNodes, KeepNamesTransformsAndTheirTree) {
   EXPECT_EQ(arm.name, "arm");
   EXPECT_EQ(std::get<Transform>(arm.content).translation, (Vec3d{1, 0, 0}));
   EXPECT_EQ(graph.nodes[arm.children.at(0)].name, "hand");
-  const std::vector<PlacedShape> placed = placedShapes(graph);
+  const std::vector<ShapeInstance> placed = shapeInstances(graph);
   ASSERT_EQ(placed.size(), 1u);
   EXPECT_LE(length(placed[0].worldFromShape.point({1, 0, 0}) - Vec3d{1, 1, 0}), 1e-7);
 }
@@ -44,7 +45,7 @@ TEST(GltfNodes, ShareTheMeshThatTheyShow) {
   const Scene scene = read(gltf).scene;
   EXPECT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(shapeNodes(scene.graph).size(), 1u);
-  const std::vector<PlacedShape> placed = placedShapes(scene.graph);
+  const std::vector<ShapeInstance> placed = shapeInstances(scene.graph);
   ASSERT_EQ(placed.size(), 100u);
   EXPECT_EQ(originOf(placed[7]), (Vec3d{7, 0, 0}));
 }
@@ -70,7 +71,7 @@ TEST(GltfNodes, ShareAMeshWhereOnlyTheMaterialsDiffer) {
 TEST(GltfNodes, TakeMatricesEvenWhereTheyShear) {
   GltfText gltf;
   gltf.addNode({{"mesh", gltf.addTriangle()}, {"matrix", {1, 0, 0, 0, 0.5, 2, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1}}});
-  const std::vector<PlacedShape> placed = placedShapes(read(gltf).scene.graph);
+  const std::vector<ShapeInstance> placed = shapeInstances(read(gltf).scene.graph);
   EXPECT_LE(length(placed.at(0).worldFromShape.point({0, 1, 0}) - Vec3d{7.5, 10, 9}), 1e-7);
 }
 
@@ -82,7 +83,7 @@ TEST(GltfNodes, StandAsOftenAsTheyAreInstanced) {
                 {"translation", {0, 5, 0}},
                 {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}});
   const Scene scene = read(gltf).scene;
-  const std::vector<PlacedShape> placed = placedShapes(scene.graph);
+  const std::vector<ShapeInstance> placed = shapeInstances(scene.graph);
   ASSERT_EQ(placed.size(), 3u);
   EXPECT_EQ(originOf(placed[2]), (Vec3d{3, 5, 0}));
   EXPECT_EQ(shapeNodes(scene.graph).size(), 1u);
@@ -157,7 +158,7 @@ TEST(GltfNodes, SayHowOneMovesWhereTheSceneCameFromX3d) {
     gltf.json["scenes"] = {{{"nodes", {0}}, {"extras", extras}}};
     const SceneGraph graph = read(gltf).scene.graph;
     const Node& first = graph.nodes[graph.roots.at(0)];
-    return std::holds_alternative<OtherNode>(first.content) ? first.fields : std::vector<FieldText>{};
+    return std::holds_alternative<GenericNode>(first.content) ? first.fields : std::vector<FieldText>{};
   };
   EXPECT_EQ(fieldsOf({{"NavigationInfo", {{"type", {"WALK", 7, "ANY"}}}}}),
             (std::vector<FieldText>{{"type", "\"WALK\" \"ANY\""}}));
@@ -189,7 +190,7 @@ TEST(GltfNodes, ThatGoInCirclesAreLeftOutAndRefusedWhereStrict) {
   gltf.addNode({{"children", {0}}});
   gltf.json["scenes"] = {{{"nodes", {0}}}};
   const Imported imported = read(gltf);
-  EXPECT_EQ(placedShapes(imported.scene.graph).size(), 1u);
+  EXPECT_EQ(shapeInstances(imported.scene.graph).size(), 1u);
   EXPECT_TRUE(warnsOf(imported, "nodes[0]: is the child of two nodes"));
   EXPECT_THROW(read(gltf, {.attributes = {}, .folder = {}, .outside = false, .strict = true}), Error);
 }

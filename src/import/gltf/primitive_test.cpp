@@ -1,5 +1,6 @@
 #include "import/error_testing.h"
 #include "import/gltf/testing.h"
+#include "scene/shape_instances.h"
 #include "scene/testing.h"
 
 #include <draco/compression/encode.h>
@@ -153,7 +154,7 @@ TEST(GltfPrimitive, ThatIsDamagedIsLeftOutAndTheRestIsRead) {
   gltf.json["meshes"][bad]["primitives"][0]["indices"] = gltf.addAccessor<std::uint8_t>({0, 1, 3}, "SCALAR", 5121);
   gltf.show(bad);
   const Imported imported = read(gltf);
-  EXPECT_EQ(placedShapes(imported.scene.graph).size(), 1u);
+  EXPECT_EQ(shapeInstances(imported.scene.graph).size(), 1u);
   ASSERT_EQ(imported.warnings.size(), 1u);
   EXPECT_EQ(imported.warnings[0], "Left out: a.gltf, meshes[1].primitives[0].indices: name vertex 3 of 3.");
 }

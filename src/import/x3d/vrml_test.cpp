@@ -112,7 +112,7 @@ TEST(Vrml, WritesPrototypesOut) {
   EXPECT_TRUE(std::holds_alternative<Transform>(graph.nodes[parts.children.at(0)].content)) << "a chair on a chair";
   EXPECT_EQ(graph.nodes[second.children.at(3)].name, "Place2-3");
   for (const Node& node : graph.nodes) {
-    const OtherNode* other = std::get_if<OtherNode>(&node.content);
+    const GenericNode* other = std::get_if<GenericNode>(&node.content);
     EXPECT_FALSE(other && other->element.starts_with("Proto")) << other->element;
   }
   const std::string all = ::testing::PrintToString(imported.warnings);
@@ -126,7 +126,7 @@ TEST(Vrml, ListsPrototypesOfOtherFiles) {
                "Door { size 1 2 3 parts [ Group { } ] }")
           .scene.graph;
   const Node& instance = graph.nodes[graph.roots.at(1)];
-  EXPECT_EQ(std::get<OtherNode>(instance.content).element, "ProtoInstance");
+  EXPECT_EQ(std::get<GenericNode>(instance.content).element, "ProtoInstance");
   EXPECT_EQ(instance.fields, (std::vector<FieldText>{{"name", "Door"}}));
   EXPECT_EQ(graph.nodes[instance.children.at(0)].fields,
             (std::vector<FieldText>{{"name", "size"}, {"value", "1 2 3"}}));

@@ -96,7 +96,7 @@ private:
 
   std::optional<std::size_t> readElement(pugi::xml_node element) {
     if (element.type() == pugi::node_comment)
-      return addNode(imported_.scene.graph, {"", OtherNode{commentElement, element.value(), {}}, {}, ""});
+      return addNode(imported_.scene.graph, {"", GenericNode{commentElement, element.value(), {}}, {}, ""});
     if (element.type() != pugi::node_element)
       return {};
     if (const pugi::xml_attribute use = element.attribute("USE"))
@@ -149,7 +149,7 @@ private:
     } else {
       node.content = otherNode(element);
       node.fields = fieldsOf(element);
-      if (name == "ImageTexture" && !std::get<OtherNode>(node.content).image)
+      if (name == "ImageTexture" && !std::get<GenericNode>(node.content).image)
         leaveToOtherHosts(node.fields);
     }
     if (name == "Inline")
@@ -165,8 +165,8 @@ private:
         addTo(node.children, child);
   }
 
-  OtherNode otherNode(pugi::xml_node element) {
-    OtherNode other{element.name(), element.text().get(), {}};
+  GenericNode otherNode(pugi::xml_node element) {
+    GenericNode other{element.name(), element.text().get(), {}};
     if (isLeftAtRest(other.element))
       ++summary_.atRest[other.element];
     const pugi::xml_attribute url = element.attribute("url");
@@ -207,7 +207,7 @@ private:
         attempt("An Inline is left as it is", [&] { return inlined(element); });
     if (!document)
       return;
-    std::get<OtherNode>(node.content).document = document->index;
+    std::get<GenericNode>(node.content).document = document->index;
     node.children = document->roots;
   }
 
@@ -363,7 +363,7 @@ private:
   void addTitle() {
     SceneGraph& graph = imported_.scene.graph;
     for (const std::size_t index : nodesOfDocument(graph, graph.roots))
-      if (const OtherNode* other = std::get_if<OtherNode>(&graph.nodes[index].content))
+      if (const GenericNode* other = std::get_if<GenericNode>(&graph.nodes[index].content))
         if (other->element == "WorldInfo" && graph.title.empty())
           for (const FieldText& field : graph.nodes[index].fields)
             if (field.name == "title")

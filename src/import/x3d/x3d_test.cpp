@@ -1,6 +1,7 @@
 #include "base/file.h"
 #include "base/testing.h"
 #include "import/error_testing.h"
+#include "scene/shape_instances.h"
 #include "scene/testing.h"
 
 #include <gtest/gtest.h>
@@ -120,7 +121,7 @@ TEST(X3d, SharesAMeshThatIsUsedAndFindsDataThatIsUsed) {
                 "<Shape><IndexedFaceSet USE='G'/></Shape>"
                 "<Shape><TriangleSet><Coordinate USE='C'/></TriangleSet></Shape>");
   EXPECT_EQ(imported.scene.meshes.size(), 2u);
-  const std::vector<PlacedShape> placed = placedShapes(imported.scene.graph);
+  const std::vector<ShapeInstance> placed = shapeInstances(imported.scene.graph);
   ASSERT_EQ(placed.size(), 4u);
   EXPECT_EQ(placed[1].node, placed[0].node);
   EXPECT_EQ(placed[1].worldFromShape.translation, (Vec3d{1, 2, 3}));
@@ -138,12 +139,12 @@ TEST(X3d, KeepsEverythingElseAsItIs) {
   EXPECT_EQ(viewpoint.name, "V");
   EXPECT_EQ(viewpoint.fields, (std::vector<FieldText>{{"description", "a & b"}, {"fieldOfView", "1"}}));
   const Node& choice = graph.nodes[graph.roots[1]];
-  EXPECT_EQ(std::get<OtherNode>(choice.content).element, "Switch");
+  EXPECT_EQ(std::get<GenericNode>(choice.content).element, "Switch");
   const Node& shape = graph.nodes[choice.children.at(1)];
   EXPECT_TRUE(std::holds_alternative<Shape>(shape.content));
   EXPECT_EQ(shape.fields, (std::vector<FieldText>{{"class", "x"}}));
-  EXPECT_EQ(std::get<OtherNode>(graph.nodes[shape.children.at(0)].content).element, "Appearance");
-  EXPECT_EQ(std::get<OtherNode>(graph.nodes[graph.roots[2]].content).element, "Shape");
+  EXPECT_EQ(std::get<GenericNode>(graph.nodes[shape.children.at(0)].content).element, "Appearance");
+  EXPECT_EQ(std::get<GenericNode>(graph.nodes[graph.roots[2]].content).element, "Shape");
 }
 
 TEST(X3d, LeavesGeometryThatIsShortAsTextWhereItIs) {
@@ -152,7 +153,7 @@ TEST(X3d, LeavesGeometryThatIsShortAsTextWhereItIs) {
   options.inlineBytes = 200;
   const Imported small = readScene(shape, options);
   EXPECT_TRUE(small.scene.meshes.empty());
-  EXPECT_EQ(std::get<OtherNode>(small.scene.graph.nodes[small.scene.graph.roots.at(0)].content).element, "Shape");
+  EXPECT_EQ(std::get<GenericNode>(small.scene.graph.nodes[small.scene.graph.roots.at(0)].content).element, "Shape");
   for (const char* drawn : {"<Extrusion/>", "<ElevationGrid xDimension='2' zDimension='2' height='0 0 0 1'/>"})
     EXPECT_TRUE(readScene("<Shape>" + std::string(drawn) + "</Shape>", options).scene.meshes.empty()) << drawn;
   options.inlineBytes = 20;
@@ -217,7 +218,7 @@ TEST(X3d, LeavesATextureToOtherHostsOnlyWhereItIsNotHere) {
   const Imported there = read("\"lost.png\" \"http://a.org/wood.png\" \"https://b.org/\" \"lost.gif\"");
   EXPECT_EQ(there.warnings, (std::vector<std::string>{"1 texture is left on other hosts."}));
   const auto texture = std::ranges::find_if(there.scene.graph.nodes, [](const Node& node) {
-    const OtherNode* other = std::get_if<OtherNode>(&node.content);
+    const GenericNode* other = std::get_if<GenericNode>(&node.content);
     return other && other->element == "ImageTexture";
   });
   ASSERT_NE(texture, there.scene.graph.nodes.end());
@@ -271,7 +272,7 @@ TEST(X3d, WritesPrototypesOutOfXmlToo) {
   const SceneGraph& graph = imported.scene.graph;
   const Node& look = graph.nodes[graph.nodes[graph.roots.at(0)].children.at(0)];
   const Node& material = graph.nodes[look.children.at(0)];
-  EXPECT_EQ(std::get<OtherNode>(material.content).element, "Material");
+  EXPECT_EQ(std::get<GenericNode>(material.content).element, "Material");
   EXPECT_EQ(material.fields, (std::vector<FieldText>{{"diffuseColor", "0 1 0"}, {"containerField", "material"}}));
 }
 
@@ -283,7 +284,7 @@ TEST(X3d, KeepsCommentsAndWhatTheDocumentSaysOfItself) {
           .scene.graph;
   EXPECT_EQ(graph.head.fields, (std::vector<FieldText>{{"profile", "Immersive"}, {"version", "3.1"}}));
   const auto commentOf = [&](std::size_t node) {
-    const OtherNode& other = std::get<OtherNode>(graph.nodes[node].content);
+    const GenericNode& other = std::get<GenericNode>(graph.nodes[node].content);
     return other.element == commentElement ? other.text : "no comment";
   };
   EXPECT_EQ(commentOf(graph.roots.at(0)), "of somebody");

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "documents/page_markup.h"
+#include "documents/page_sanitizer.h"
 #include "import/warnings.h"
 #include "transcode/convert/peak_memory.h"
 #include "transcode/convert/resolve_options.h"
@@ -83,7 +83,7 @@ void nameScene(SceneGraph& graph, const std::string& title, bool isWanted) {
 }
 
 std::size_t documentOf(const SceneGraph& graph, std::size_t inlineNode) {
-  return *std::get<OtherNode>(graph.nodes[inlineNode].content).document;
+  return *std::get<GenericNode>(graph.nodes[inlineNode].content).document;
 }
 
 /// The documents that the scene inlines, the innermost first: they are named by their
@@ -92,7 +92,7 @@ void writeInlinedDocuments(SceneDocument& document, Target target, const fs::pat
   std::vector<std::size_t> firstInlines; // of each document; what stands in it comes behind
   std::set<std::size_t> seen;
   for (const std::size_t node : nodesInOrder(document.graph))
-    if (showsDocument(document.graph.nodes[node]) && seen.insert(documentOf(document.graph, node)).second)
+    if (inlinesDocument(document.graph.nodes[node]) && seen.insert(documentOf(document.graph, node)).second)
       firstInlines.push_back(node);
   for (const std::size_t node : firstInlines | std::views::reverse) {
     const std::string text =
@@ -136,7 +136,7 @@ void warnOfCollapsed(ConvertReport& report) {
 
 void warnOfPage(const SceneGraph& graph, ConvertReport& report) {
   std::vector<std::string> elements;
-  for (const auto& [element, count] : leftOutOfPage(graph))
+  for (const auto& [element, count] : elementsLeftOutOfPage(graph))
     elements.push_back(fmt::format("{} ({})", element, count));
   if (!elements.empty())
     report.warnings.push_back(

@@ -1,5 +1,7 @@
 #include "transcode/default_scene/world_box.h"
 
+#include "scene/shape_instances.h"
+
 #include <cmath>
 
 namespace imgeo {
@@ -22,7 +24,7 @@ bool canBeDrawn(const Affine3d& worldFromShape) {
 
 WorldBox worldBoxOf(const SceneDocument& document) {
   WorldBox world;
-  for (const PlacedShape& placed : placedShapes(document.graph)) {
+  for (const ShapeInstance& placed : shapeInstances(document.graph)) {
     const Box3d& box = document.geometries[shapeOf(document.graph, placed.node).mesh].box;
     if (!canBeDrawn(placed.worldFromShape)) {
       ++world.absurdShapes;

@@ -7,7 +7,7 @@
 #include "containers/normals.h"
 #include "containers/stored.h"
 #include "containers/stored_coords.h"
-#include "prepare/collapsed.h"
+#include "prepare/degenerate_elements.h"
 #include "prepare/patches.h"
 #include "transcode/convert/resolve_options.h"
 #include "transcode/site/staged_site.h"
@@ -122,7 +122,7 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
       latticeFor(box, options.coordType.value_or(ElementType::uint32), positionBitsFor(box, options));
   EncodedMesh result;
   std::vector<Vec3u> points = quantise(mesh.positions, lattice);
-  result.collapsed.of(mesh.topology) = collapsedElements(mesh, points, lattice.bits);
+  result.collapsed.of(mesh.topology) = countCollapsedElements(mesh, points, lattice.bits);
   PatchedMesh patched = cutIntoPatches(std::move(mesh), std::move(points), lattice, options.patchVertices);
 
   const EncodeOptions encoding{options.container, options.normalBits,   options.effort,   options.target,

@@ -5,7 +5,7 @@ namespace imgeo {
 namespace {
 
 bool isChoice(const NodeContent& content) {
-  const OtherNode* other = std::get_if<OtherNode>(&content);
+  const GenericNode* other = std::get_if<GenericNode>(&content);
   return other && (other->element == "Switch" || other->element == "LOD");
 }
 

@@ -11,7 +11,7 @@ TEST(LoadGroups, SetTheChoicesOfASwitchApart) {
     return addNode(graph, {"", std::move(content), std::move(children), "", {}});
   };
   const std::size_t a = add(Shape{}, {}), b = add(Shape{}, {}), c = add(Shape{}, {}), d = add(Shape{}, {});
-  const std::size_t near = add(Group{}, {a, b}), levels = add(OtherNode{"LOD", "", {}}, {near, c});
+  const std::size_t near = add(Group{}, {a, b}), levels = add(GenericNode{"LOD", "", {}}, {near, c});
   graph.roots = {levels, d};
   const std::vector<std::size_t> groups = loadGroups(graph);
   EXPECT_EQ(groups[a], groups[b]);

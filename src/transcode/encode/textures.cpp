@@ -155,7 +155,7 @@ void leaveOut(SceneGraph& graph, const std::vector<bool>& hasFailed) {
     std::erase_if(appearance.textures,
                   [&](const TextureUse& use) { return hasFailed[graph.textures[use.texture].image]; });
   for (Node& node : graph.nodes)
-    if (OtherNode* other = std::get_if<OtherNode>(&node.content); other && other->image && hasFailed[*other->image])
+    if (GenericNode* other = std::get_if<GenericNode>(&node.content); other && other->image && hasFailed[*other->image])
       other->image = {};
 }
 
@@ -179,7 +179,7 @@ std::vector<ImageUse> imageUses(const SceneGraph& graph) {
         note(uses[graph.textures[use.texture].image], use.role);
   for (const std::size_t index : nodesInOrder(graph)) {
     const Node& node = graph.nodes[index];
-    const OtherNode* other = std::get_if<OtherNode>(&node.content);
+    const GenericNode* other = std::get_if<GenericNode>(&node.content);
     if (!other || !other->image)
       continue;
     const auto field = std::ranges::find(node.fields, "containerField", &FieldText::name);

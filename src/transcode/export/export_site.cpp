@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "export/export.h"
+#include "scene/shape_instances.h"
 #include "transcode/site/read_meshes.h"
 #include "transcode/site/site_document.h"
 #include "transcode/transcode.h"
@@ -38,7 +39,7 @@ ExportReport exportSite(const fs::path& site, const fs::path& output) {
   if (*format == MeshFormat::glb)
     report.lightsLeftOut = lightsLeftOut(scene.graph);
   report.format = nameOf(*format);
-  for (const PlacedShape& placed : placedShapes(scene.graph)) {
+  for (const ShapeInstance& placed : shapeInstances(scene.graph)) {
     const Mesh& mesh = scene.meshes[shapeOf(scene.graph, placed.node).mesh];
     ++report.shapes;
     report.vertices += mesh.wedgeCount();

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "export/export.h"
+#include "scene/shape_instances.h"
 #include "transcode/sample/sample_hall.h"
 #include "transcode/transcode.h"
 
@@ -14,7 +15,7 @@ ExportReport writeSampleHall(std::uint32_t seats, const std::filesystem::path& o
   const Scene scene = hallScene(seats);
   ExportReport report;
   report.format = nameOf(MeshFormat::glb);
-  for (const PlacedShape& placed : placedShapes(scene.graph)) {
+  for (const ShapeInstance& placed : shapeInstances(scene.graph)) {
     const Mesh& mesh = scene.meshes[shapeOf(scene.graph, placed.node).mesh];
     ++report.shapes;
     report.vertices += mesh.wedgeCount();

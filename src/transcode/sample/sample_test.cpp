@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "base/testing.h"
+#include "scene/shape_instances.h"
 #include "transcode/sample/sample_hall.h"
 #include "transcode/transcode.h"
 
@@ -11,7 +12,7 @@ namespace {
 TEST(SampleHall, HasOneMeshForAllItsSeats) {
   const Scene scene = hallScene(95);
   std::size_t seats = 0;
-  for (const PlacedShape& placed : placedShapes(scene.graph))
+  for (const ShapeInstance& placed : shapeInstances(scene.graph))
     seats += scene.graph.nodes[placed.node].name == "seat";
   EXPECT_EQ(seats, 95u);
   EXPECT_LT(scene.meshes.size(), 10u);

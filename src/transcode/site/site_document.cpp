@@ -30,7 +30,7 @@ void addInlined(SiteDocument& document) {
     InlinedText inlined{url, std::string(asText(readFile(file)))};
     const std::vector<std::size_t> roots = append(document.scene, readScene(inlined.text, file.string()));
     for (Node& node : graph.nodes)
-      if (const OtherNode* other = std::get_if<OtherNode>(&node.content); other && other->document == index)
+      if (const GenericNode* other = std::get_if<GenericNode>(&node.content); other && other->document == index)
         node.children = roots;
     document.inlined.push_back(std::move(inlined));
   }

@@ -5,7 +5,7 @@ namespace imgeo {
 namespace {
 
 struct Published {
-  const char *version, *scriptSum, *stylesheetSum;
+  const char *version, *scriptIntegrity, *stylesheetIntegrity;
 };
 
 constexpr Published lastWithImages{"1.7.2", "sha384-oQ9tNXncaw82KCZEOw04VVSHG3NtBhpBNgFO7k34hf/gtRbwB/a6f9w5swP8aFlx",
@@ -20,7 +20,8 @@ X3domRelease x3domReleaseFor(Container container, const std::string& folderUrl) 
   const std::string version = published.version;
   if (folderUrl.empty()) {
     const std::string folder = "https://cdn.jsdelivr.net/npm/x3dom@" + version + "/";
-    return {version, {folder + "x3dom.js", published.scriptSum, folder + "x3dom.css", published.stylesheetSum}};
+    return {version,
+            {folder + "x3dom.js", published.scriptIntegrity, folder + "x3dom.css", published.stylesheetIntegrity}};
   }
   const std::string folder = folderUrl + (folderUrl.ends_with('/') ? "" : "/");
   return {version, {folder + "x3dom.js", "", folder + "x3dom.css", ""}};

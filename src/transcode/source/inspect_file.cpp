@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "containers/png/png.h"
+#include "scene/shape_instances.h"
 #include "transcode/source/preparation.h"
 #include "transcode/transcode.h"
 
@@ -15,9 +16,9 @@ SourceInfo inspectSource(const std::filesystem::path& file, bool outside) {
   info.format = imported.format;
   info.warnings = imported.warnings;
   info.attributes = imported.attributes;
-  const std::vector<PlacedShape> placed = placedShapes(imported.scene.graph);
+  const std::vector<ShapeInstance> placed = shapeInstances(imported.scene.graph);
   info.shapes = placed.size();
-  for (const PlacedShape& shape : placed)
+  for (const ShapeInstance& shape : placed)
     for (const Vec3f& position : imported.scene.meshes[shapeOf(imported.scene.graph, shape.node).mesh].positions)
       info.box.add(shape.worldFromShape.point(Vec3d(position)));
   for (const Mesh& mesh : imported.scene.meshes) {

@@ -36,7 +36,7 @@ bool haveEqualAppearances(const SceneGraph& siteGraph, const Shape& inSite, cons
 std::set<std::string> texturesLeftIn(const SceneGraph& input) {
   std::set<std::string> urls;
   for (const Node& node : input.nodes)
-    if (const OtherNode* other = std::get_if<OtherNode>(&node.content);
+    if (const GenericNode* other = std::get_if<GenericNode>(&node.content);
         other && other->element == "ImageTexture" && !other->image)
       for (const FieldText& field : node.fields)
         if (field.name == "url")

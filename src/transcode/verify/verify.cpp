@@ -8,6 +8,7 @@
 #include "containers/stored.h"
 #include "containers/stored_coords.h"
 #include "prepare/patches.h"
+#include "scene/shape_instances.h"
 #include "transcode/site/site_document.h"
 #include "transcode/site/site_manifest.h"
 #include "transcode/site/staged_site.h"
@@ -328,8 +329,8 @@ Imported prepared(const fs::path& input, const std::optional<SiteManifest>& mani
 void compareScenes(const SiteDocument& document, const Scene& input, const std::optional<SiteManifest>& manifest,
                    VerifyReport& report, Findings& findings) {
   const SceneGraph& siteGraph = document.scene.graph;
-  const std::vector<PlacedShape> inSite = placedShapes(siteGraph, (document.root / document.name).string()),
-                                 inInput = placedShapes(input.graph);
+  const std::vector<ShapeInstance> inSite = shapeInstances(siteGraph, (document.root / document.name).string()),
+                                   inInput = shapeInstances(input.graph);
   if (inSite.size() != inInput.size())
     return findings.add("The site has {} shapes, the input {}.", inSite.size(), inInput.size());
   const ContainerReader reader(fetchFrom(document));

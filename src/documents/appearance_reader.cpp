@@ -1,0 +1,145 @@
+#include "documents/appearance_reader.h"
+
+#include "documents/appearance_element.h"
+#include "documents/appearance_names.h"
+#include "documents/find_x3d.h"
+#include "documents/node_fields_reader.h"
+
+#include <algorithm>
+
+namespace imgeo {
+
+namespace {
+
+bool isNamed(const pugi::xml_node& node, std::string_view name) {
+  return equalIgnoringCase(node.name(), name);
+}
+
+void readProperties(const FieldReader& fields, Texture& texture) {
+  texture.boundaryS = valueNamed<Boundary>(boundaryNames, fields.text("boundaryModeS")).value_or(Boundary::repeat);
+  texture.boundaryT = valueNamed<Boundary>(boundaryNames, fields.text("boundaryModeT")).value_or(Boundary::repeat);
+  setMagnificationFilter(texture, fields.text("magnificationFilter"));
+  setMinificationFilter(texture, fields.text("minificationFilter"));
+}
+
+} // namespace
+
+/// What the element's USE names; null where it has none, or it names nothing.
+template <typename T>
+const T* AppearanceReader::used(const FieldReader& fields, const std::map<std::string, T>& defined) const {
+  const std::string use = fields.text("USE");
+  if (use.empty())
+    return nullptr;
+  const auto found = defined.find(use);
+  if (found != defined.end())
+    return &found->second;
+  fields.object(std::string("USE names no ") + fields.node().name() + " that stands before", "it has its defaults");
+  return nullptr;
+}
+
+std::size_t AppearanceReader::readTexture(const FieldReader& fields) {
+  if (const std::size_t* index = used(fields, textures_))
+    return *index;
+  Texture texture;
+  texture.name = fields.text("DEF");
+  const std::vector<std::string> urls = fields.strings("url");
+  const std::string url = urls.empty() ? "" : urls[0];
+  const auto [image, isNew] = images_.try_emplace(url, graph_.images.size());
+  if (isNew)
+    graph_.images.push_back({url, {}, fields.text("preview")});
+  texture.image = image->second;
+  if (!fields.boolean("repeatS", true))
+    texture.boundaryS = Boundary::clamp;
+  if (!fields.boolean("repeatT", true))
+    texture.boundaryT = Boundary::clamp;
+  for (const pugi::xml_node& child : fields.node().children())
+    if (isNamed(child, "TextureProperties"))
+      readProperties(fieldsOf(child), texture);
+  graph_.textures.push_back(texture);
+  if (!texture.name.empty())
+    textures_[texture.name] = graph_.textures.size() - 1;
+  return graph_.textures.size() - 1;
+}
+
+void AppearanceReader::readTextures(const FieldReader& fields, DefinedMaterial& read) {
+  for (const pugi::xml_node& child : fields.node().children()) {
+    if (!isNamed(child, "ImageTexture"))
+      continue;
+    const FieldReader texture = fieldsOf(child);
+    const std::string field = texture.text("containerField");
+    for (std::size_t i = 0; i < textureRoleNames.size(); ++i) {
+      const auto role = static_cast<TextureRole>(i);
+      const std::string name = textureField(read.material, role);
+      const auto isRole = [role](const TextureUse& use) { return use.role == role; };
+      if (name.empty() || !equalIgnoringCase(name, field) || std::ranges::any_of(read.textures, isRole))
+        continue;
+      read.textures.push_back({role, readTexture(texture), {}});
+      read.mappings[nameOf(role)] = fields.text((name + "Mapping").c_str());
+    }
+  }
+}
+
+AppearanceReader::DefinedMaterial AppearanceReader::readMaterial(const FieldReader& fields) {
+  if (const DefinedMaterial* defined = used(fields, materials_))
+    return *defined;
+  DefinedMaterial read;
+  if (isNamed(fields.node(), "Material"))
+    read.material = readNode<Material>(fields);
+  else if (isNamed(fields.node(), "PhysicalMaterial"))
+    read.material = readNode<PhysicalMaterial>(fields);
+  else
+    read.material = readNode<UnlitMaterial>(fields);
+  readTextures(fields, read);
+  if (const std::string def = fields.text("DEF"); !def.empty())
+    materials_[def] = read;
+  return read;
+}
+
+/// Transforms by the name of their mapping; "" for one without.
+void AppearanceReader::readTransforms(const FieldReader& fields,
+                                      std::map<std::string, TextureTransform>& transforms) const {
+  if (isNamed(fields.node(), "TextureTransform"))
+    transforms[fields.text("mapping")] = readNode<TextureTransform>(fields);
+  if (isNamed(fields.node(), "MultiTextureTransform"))
+    for (const pugi::xml_node& child : fields.node().children())
+      if (isNamed(child, "TextureTransform"))
+        readTransforms(fieldsOf(child), transforms);
+}
+
+std::size_t AppearanceReader::read(const pugi::xml_node& node) {
+  const FieldReader fields = fieldsOf(node);
+  if (const std::size_t* index = used(fields, appearances_))
+    return *index;
+  Appearance appearance;
+  appearance.name = fields.text("DEF");
+  appearance.alphaMode = valueNamed<AlphaMode>(alphaModeNames, fields.text("alphaMode")).value_or(AlphaMode::automatic);
+  appearance.alphaCutoff = fields.real("alphaCutoff", 0.5f);
+
+  DefinedMaterial material;
+  std::map<std::string, TextureTransform> transforms;
+  std::optional<std::size_t> colorTexture;
+  for (const pugi::xml_node& child : node.children()) {
+    const FieldReader childFields = fieldsOf(child);
+    if (isNamed(child, "Material") || isNamed(child, "PhysicalMaterial") || isNamed(child, "UnlitMaterial"))
+      material = readMaterial(childFields);
+    else if (isNamed(child, "ImageTexture"))
+      colorTexture = readTexture(childFields);
+    else
+      readTransforms(childFields, transforms);
+  }
+  const auto isColor = [](const TextureUse& use) { return use.role == TextureRole::color; };
+  if (colorTexture && std::ranges::none_of(material.textures, isColor))
+    material.textures.insert(material.textures.begin(), {TextureRole::color, *colorTexture, {}});
+  for (TextureUse& use : material.textures)
+    if (const auto found = transforms.find(material.mappings[nameOf(use.role)]); found != transforms.end())
+      use.transform = found->second;
+  appearance.material = material.material;
+  appearance.textures = std::move(material.textures);
+  graph_.appearances.push_back(std::move(appearance));
+  const std::size_t index = graph_.appearances.size() - 1;
+  if (const std::string& def = graph_.appearances[index].name; !def.empty())
+    appearances_[def] = index;
+  return index;
+}
+
+} // namespace imgeo

@@ -1,0 +1,42 @@
+#pragma once
+// Appearance elements -> appearances, textures and images of a graph.
+
+#include "documents/field_reader.h"
+#include "scene/scene.h"
+
+#include <map>
+#include <string>
+
+namespace imgeo {
+
+class AppearanceReader {
+public:
+  AppearanceReader(const DocumentText& source, SceneGraph& graph, DocumentWarnings& warnings)
+      : source_(source), graph_(graph), warnings_(warnings) {}
+
+  /// Reads an Appearance, or finds the one that it USEs; returns its index. What is wrong
+  /// in it counts as absent, with a warning.
+  std::size_t read(const pugi::xml_node& node);
+
+private:
+  struct DefinedMaterial {
+    AnyMaterial material;
+    std::vector<TextureUse> textures;
+    std::map<std::string, std::string> mappings;
+  };
+
+  FieldReader fieldsOf(const pugi::xml_node& node) const { return {source_, node, &warnings_}; }
+  DefinedMaterial readMaterial(const FieldReader& fields);
+  void readTextures(const FieldReader& material, DefinedMaterial& read);
+  std::size_t readTexture(const FieldReader& fields);
+  void readTransforms(const FieldReader& fields, std::map<std::string, TextureTransform>& transforms) const;
+  template <typename T> const T* used(const FieldReader& fields, const std::map<std::string, T>& defined) const;
+
+  const DocumentText& source_;
+  SceneGraph& graph_;
+  DocumentWarnings& warnings_;
+  std::map<std::string, std::size_t> appearances_, textures_, images_;
+  std::map<std::string, DefinedMaterial> materials_;
+};
+
+} // namespace imgeo

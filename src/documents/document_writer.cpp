@@ -1,0 +1,166 @@
+#include "documents/documents.h"
+
+#include "documents/scene_writer.h"
+#include "documents/x3dom_writer.h"
+#include "documents/xml_text.h"
+
+#include <algorithm>
+#include <set>
+
+namespace imgeo {
+
+namespace {
+
+/// More hints than this compete with what they are to hasten.
+constexpr std::size_t maxPreloads = 16;
+
+/// The Shapes that a page shows whatever its viewer does: of a LOD and of a Switch only
+/// he knows which child.
+void addShapesForAll(const SceneGraph& graph, std::size_t node, std::set<std::size_t>& seen,
+                     std::vector<std::size_t>& shapes) {
+  const GenericNode* other = std::get_if<GenericNode>(&graph.nodes[node].content);
+  if (!seen.insert(node).second || (other && (other->element == "LOD" || other->element == "Switch")))
+    return;
+  if (std::holds_alternative<Shape>(graph.nodes[node].content))
+    shapes.push_back(node);
+  for (const std::size_t child : graph.nodes[node].children)
+    addShapesForAll(graph, child, seen, shapes);
+}
+
+/// What the runtime requests first, in its order: bases, of geometries without one all
+/// of each patch in compact or the most significant coordinate bytes of all patches,
+/// then their indices. Patches behind a base would only take its share of the line.
+std::vector<std::string> firstRequests(const SceneDocument& document) {
+  std::vector<std::string> urls;
+  const auto add = [&](const Reference& reference) {
+    if (urls.size() < maxPreloads && std::ranges::find(urls, reference.url) == urls.end())
+      urls.push_back(reference.url);
+  };
+  std::vector<std::size_t> shapes;
+  std::set<std::size_t> seen;
+  for (const std::size_t root : document.graph.roots)
+    addShapesForAll(document.graph, root, seen, shapes);
+  const auto forEachGeometry = [&](auto visit) {
+    for (const std::size_t node : shapes)
+      visit(document.geometries.at(shapeOf(document.graph, node).mesh));
+  };
+  const auto forEachPatch = [&](auto visit) {
+    forEachGeometry([&](const GeometryDescription& geometry) {
+      for (const PatchDescription& patch : geometry.patches)
+        if (!geometry.base)
+          visit(patch);
+    });
+  };
+  forEachGeometry([&](const GeometryDescription& geometry) {
+    if (geometry.base)
+      add(*geometry.base);
+  });
+  forEachPatch([&](const PatchDescription& patch) {
+    if (patch.data)
+      add(*patch.data);
+    if (!patch.coord.empty())
+      add(patch.coord[0]);
+  });
+  forEachPatch([&](const PatchDescription& patch) {
+    if (patch.index)
+      add(*patch.index);
+  });
+  return urls;
+}
+
+std::string link(const char* relation, const std::string& url, const std::string& more = "") {
+  return std::string("    <link rel=\"") + relation + "\"" + more + " href=" + quoteAttribute(url) + ">\n";
+}
+
+/// `head` and `x3d` are whole lines.
+std::string page(const SceneDocument& document, const std::string& head, const std::string& x3d) {
+  return "<!doctype html>\n"
+         "<html lang=\"en\">\n"
+         "  <head>\n"
+         "    <meta charset=\"utf-8\">\n"
+         "    <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+         "    <title>" +
+         escapeText(document.graph.title.empty() ? "imgeo" : document.graph.title) + "</title>\n" + head +
+         "  </head>\n"
+         "  <body>\n"
+         "    <noscript>This page shows a 3D model and needs JavaScript to draw it.</noscript>\n" +
+         x3d +
+         "  </body>\n"
+         "</html>\n";
+}
+
+constexpr const char* xmlDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+
+} // namespace
+
+std::string writeX3d(const SceneDocument& document) {
+  return xmlDeclaration + SceneWriter(document, 0, DocumentKind::file).write();
+}
+
+std::string writeInlinedX3d(const SceneDocument& document, std::size_t inlineNode) {
+  return xmlDeclaration + SceneWriter(document, 0, DocumentKind::file, inlineNode).write();
+}
+
+std::string writeHtml(const SceneDocument& document, const PageOptions& options) {
+  // In the order in which they are needed, and what is largest first: where a server's connections
+  // serve one request each, the first goes out on the page's own, a round trip before all others.
+  std::string head;
+  for (const std::string& url : options.eagerModuleUrls)
+    head += link("modulepreload", url);
+  head += link("modulepreload", options.runtimeUrl) + link("stylesheet", options.stylesheetUrl);
+  // A base is shown without them, and would have to share the line.
+  const auto hasBase = [](const GeometryDescription& geometry) { return geometry.base.has_value(); };
+  if (std::ranges::none_of(document.geometries, hasBase))
+    for (const std::string& url : options.deferredModuleUrls)
+      head += link("modulepreload", url);
+  for (const std::string& url : firstRequests(document))
+    head += link("preload", url, " as=\"fetch\" crossorigin=\"anonymous\" fetchpriority=\"high\"");
+  head += "    <script type=\"module\" src=" + quoteAttribute(options.runtimeUrl) + "></script>\n";
+  return page(document, head, SceneWriter(document, 2, DocumentKind::page).write());
+}
+
+std::string writeX3domX3d(const SceneDocument& document) {
+  return xmlDeclaration + x3domElement(document, 0, DocumentKind::file);
+}
+
+std::string writeInlinedX3domX3d(const SceneDocument& document, std::size_t inlineNode) {
+  return xmlDeclaration + x3domElement(document, 0, DocumentKind::file, inlineNode);
+}
+
+std::string writeX3domHtml(const SceneDocument& document, const X3domFiles& x3dom, const std::string& stylesheetUrl) {
+  const auto checked = [](const std::string& sum) {
+    return sum.empty() ? "" : " integrity=" + quoteAttribute(sum) + " crossorigin=\"anonymous\"";
+  };
+  const std::string head = link("stylesheet", x3dom.stylesheetUrl, checked(x3dom.stylesheetIntegrity)) +
+                           link("stylesheet", stylesheetUrl) + "    <script src=" + quoteAttribute(x3dom.scriptUrl) +
+                           checked(x3dom.scriptIntegrity) + "></script>\n";
+  return page(document, head, x3domElement(document, 2, DocumentKind::page));
+}
+
+std::string_view pageStylesheet() {
+  return R"css(html,
+body {
+  height: 100%;
+  margin: 0;
+  background: #edf0f2;
+  color: #333;
+  font: 1rem/1.5 system-ui, sans-serif;
+}
+
+x3d {
+  display: block;
+  border: 0;
+  width: 100%;
+  height: 100%;
+  overflow: hidden;
+}
+
+noscript {
+  display: block;
+  padding: 2rem;
+  text-align: center;
+}
+)css";
+}
+
+} // namespace imgeo

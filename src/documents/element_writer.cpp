@@ -1,0 +1,102 @@
+#include "documents/element_writer.h"
+
+#include "documents/xml_text.h"
+
+#include <fmt/format.h>
+
+namespace imgeo {
+
+namespace {
+
+constexpr std::size_t lineLength = 110;
+
+} // namespace
+
+void ElementWriter::startTag(const Element& element) {
+  std::size_t length = 2 * level_ + element.name.size() + 2;
+  std::vector<std::string> lines;
+  for (const auto& group : element.groups) {
+    if (group.empty())
+      continue;
+    std::string line;
+    for (const Attribute& attribute : group)
+      line.append(line.empty() ? "" : " ").append(attribute.name).append("=").append(quoteAttribute(attribute.value));
+    length += 1 + line.size();
+    lines.push_back(std::move(line));
+  }
+  text_.append(2 * level_, ' ');
+  text_ += "<" + element.name;
+  std::string separator = " ";
+  if (length > lineLength)
+    separator.assign("\n").append(2 * level_ + 4, ' ');
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    text_ += (i == 0 ? " " : separator) + lines[i];
+  text_ += ">";
+}
+
+void ElementWriter::open(const Element& element) {
+  const std::size_t begin = text_.size();
+  startTag(element);
+  opened_.push_back({begin, text_.size()});
+  text_ += "\n";
+  ++level_;
+}
+
+/// Around one short line everything stands in that line: of what is seen in a thousand
+/// places, indentation would be a third.
+void ElementWriter::close(const Element& element) {
+  --level_;
+  const auto [begin, end] = opened_.back();
+  opened_.pop_back();
+  const std::string endTag = "</" + element.name + ">\n";
+  const std::size_t only = end + 1 + 2 * (level_ + 1), newline = text_.find('\n', end + 1);
+  const bool isTagOfOneLine = text_.find('\n', begin) == end;
+  const bool hasOneLine = newline != std::string::npos && newline + 1 == text_.size();
+  if (isTagOfOneLine && hasOneLine && end - begin + newline - only + endTag.size() - 1 <= lineLength) {
+    text_.erase(newline);
+    text_.erase(end, only - end);
+  } else {
+    text_.append(2 * level_, ' ');
+  }
+  text_ += endTag;
+}
+
+void ElementWriter::leaf(const Element& element) {
+  leaf(element, "");
+}
+
+void ElementWriter::leaf(const Element& element, std::string_view content) {
+  startTag(element);
+  text_ += escapeText(content) + "</" + element.name + ">\n";
+}
+
+void ElementWriter::comment(std::string_view content) {
+  std::string kept;
+  for (const char c : validText(content)) {
+    if (c == '-' && kept.ends_with('-'))
+      kept += ' ';
+    kept += c;
+  }
+  if (kept.ends_with('-'))
+    kept += ' ';
+  text_.append(2 * level_, ' ');
+  text_ += "<!--" + kept + "-->\n";
+}
+
+std::string number(double value) {
+  return fmt::format("{}", value);
+}
+std::string number(float value) {
+  return fmt::format("{}", value);
+}
+
+std::string numbers(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) {
+    text += text.empty() ? "" : " ";
+    text += number(value);
+  }
+  return text;
+}
+
+} // namespace imgeo

@@ -1,0 +1,179 @@
+#include "documents/field_reader.h"
+
+#include "documents/find_x3d.h"
+#include "documents/xml_text.h"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <limits>
+
+namespace imgeo {
+
+namespace {
+
+constexpr std::string_view separators = " \t\r\n,";
+
+/// The next word of `text`, which it removes; empty at the end.
+std::string_view nextWord(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(separators));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+template <typename T> std::optional<T> parseNumber(std::string_view word) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-')
+    word.remove_prefix(1);
+  T value{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || end != word.data() + word.size())
+    return std::nullopt;
+  if constexpr (std::is_floating_point_v<T>) // X3D's numbers are single, so sums of ours never overflow
+    if (!(std::abs(value) <= std::numeric_limits<float>::max()))
+      return std::nullopt;
+  return value;
+}
+
+} // namespace
+
+namespace {
+
+/// Where an element begins in its document.
+std::size_t offsetOf(const DocumentText& source, const pugi::xml_node& node) {
+  return source.begin + static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
+}
+
+} // namespace
+
+void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind, const std::string& message) {
+  throw Error(kind, locationOf(source.text, source.name, offsetOf(source, node)), message);
+}
+
+void FieldReader::object(const std::string& message, const char* consequence) const {
+  if (!warnings_)
+    fail(ErrorKind::malformed, message);
+  // The folder may be one that is still to be moved to its place.
+  const std::string file = std::filesystem::path(source_.name).filename();
+  warnings_->push_back(fmt::format("{}: {}: {}; {}.", locationOf(source_.text, file, offsetOf(source_, node_)),
+                                   validText(node_.name()), message, consequence));
+}
+
+std::string FieldReader::text(const char* name) const {
+  for (const pugi::xml_attribute& attribute : node_.attributes())
+    if (equalIgnoringCase(attribute.name(), name))
+      return validText(attribute.value());
+  return {};
+}
+
+template <typename T> std::vector<T> FieldReader::parse(const char* name) const {
+  const std::string value = text(name);
+  std::string_view rest = value;
+  std::vector<T> numbers;
+  for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) {
+    const std::optional<T> number = parseNumber<T>(word);
+    if (!number) {
+      objectToField(std::string(name) + " holds a word that is no number of its kind");
+      return {};
+    }
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+template <typename T> std::vector<T> FieldReader::parse(const char* name, std::size_t count) const {
+  std::vector<T> numbers = parse<T>(name);
+  if (numbers.empty() || numbers.size() == count)
+    return numbers;
+  objectToField(fmt::format("{} has {} numbers and needs {}", name, numbers.size(), count));
+  return {};
+}
+
+bool FieldReader::boolean(const char* name, bool fallback) const {
+  const std::string value = text(name);
+  if (value.empty())
+    return fallback;
+  if (equalIgnoringCase(value, "true"))
+    return true;
+  if (equalIgnoringCase(value, "false"))
+    return false;
+  objectToField(std::string(name) + " is neither true nor false");
+  return fallback;
+}
+
+double FieldReader::real(const char* name, double fallback) const {
+  const auto numbers = parse<double>(name, 1);
+  return numbers.empty() ? fallback : numbers[0];
+}
+float FieldReader::real(const char* name, float fallback) const {
+  const auto numbers = parse<float>(name, 1);
+  return numbers.empty() ? fallback : numbers[0];
+}
+Vec2f FieldReader::vec2(const char* name, Vec2f fallback) const {
+  const auto numbers = parse<float>(name, 2);
+  return numbers.empty() ? fallback : Vec2f{numbers[0], numbers[1]};
+}
+Vec3f FieldReader::vec3(const char* name, Vec3f fallback) const {
+  const auto numbers = parse<float>(name, 3);
+  return numbers.empty() ? fallback : Vec3f{numbers[0], numbers[1], numbers[2]};
+}
+Vec3d FieldReader::vec3(const char* name, Vec3d fallback) const {
+  const auto numbers = parse<double>(name, 3);
+  return numbers.empty() ? fallback : Vec3d{numbers[0], numbers[1], numbers[2]};
+}
+Rotation FieldReader::rotation(const char* name, const Rotation& fallback) const {
+  const auto numbers = parse<double>(name, 4);
+  return numbers.empty() ? fallback : Rotation{{numbers[0], numbers[1], numbers[2]}, numbers[3]};
+}
+std::vector<double> FieldReader::reals(const char* name) const {
+  return parse<double>(name);
+}
+std::vector<double> FieldReader::reals(const char* name, std::size_t count) const {
+  return parse<double>(name, count);
+}
+std::vector<std::uint32_t> FieldReader::integers(const char* name) const {
+  return parse<std::uint32_t>(name);
+}
+std::uint32_t FieldReader::integer(const char* name, std::uint32_t fallback) const {
+  const auto numbers = parse<std::uint32_t>(name, 1);
+  return numbers.empty() ? fallback : numbers[0];
+}
+
+std::vector<std::string> FieldReader::strings(const char* name) const {
+  const std::string value = text(name);
+  const std::size_t first = value.find_first_not_of(separators);
+  if (first == std::string::npos)
+    return {};
+  if (value[first] != '"')
+    return {value.substr(first, value.find_last_not_of(separators) + 1 - first)};
+  std::vector<std::string> strings;
+  for (std::size_t at = first; at < value.size(); ++at) {
+    if (separators.find(value[at]) != std::string_view::npos)
+      continue;
+    if (value[at] != '"') {
+      objectToField(std::string(name) + " has text between its strings");
+      return {};
+    }
+    std::string& string = strings.emplace_back();
+    for (++at; at < value.size() && value[at] != '"'; ++at) {
+      if (value[at] == '\\' && at + 1 < value.size())
+        ++at;
+      string += value[at];
+    }
+    if (at >= value.size()) {
+      objectToField(std::string(name) + " has a string without an end");
+      return {};
+    }
+  }
+  return strings;
+}
+
+Box3d FieldReader::box() const {
+  const Vec3d center = vec3("bboxCenter", Vec3d{0, 0, 0}), size = vec3("bboxSize", Vec3d{-1, -1, -1});
+  if (size.x < 0 || size.y < 0 || size.z < 0)
+    return {};
+  return {center - size * 0.5, center + size * 0.5};
+}
+
+} // namespace imgeo

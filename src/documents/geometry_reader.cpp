@@ -1,0 +1,269 @@
+#include "documents/geometry_reader.h"
+
+#include "containers/stored_coords.h"
+#include "documents/find_x3d.h"
+#include "documents/vertex_attribute_reader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace imgeo {
+
+namespace {
+
+ElementType elementTypeOf(const FieldReader& fields, const char* name, ElementType fallback) {
+  const std::string text = fields.text(name);
+  if (text.empty())
+    return fallback;
+  for (const ElementType type : {ElementType::int8, ElementType::uint8, ElementType::int16, ElementType::uint16,
+                                 ElementType::int32, ElementType::uint32, ElementType::float32})
+    if (equalIgnoringCase(text, nameOf(type)))
+      return type;
+  fields.fail(ErrorKind::unsupported, std::string(name) + " is no element type we know");
+}
+
+NormalEncoding normalEncodingOf(const FieldReader& fields) {
+  const std::string text = fields.text("normalEncoding");
+  for (const NormalEncoding encoding : {NormalEncoding::octahedral, NormalEncoding::spherical, NormalEncoding::palette})
+    if (equalIgnoringCase(text, nameOf(encoding)))
+      return encoding;
+  if (!text.empty() && !equalIgnoringCase(text, nameOf(NormalEncoding::rgb)))
+    fields.fail(ErrorKind::unsupported, "normalEncoding is none that we know");
+  return NormalEncoding::rgb;
+}
+
+bool parseWhole(std::string_view text, std::uint32_t& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+/// The ending "+S" of a url: X3DOM's stride, part of the file's name unless a '?'
+/// separates them. Any other '+' means nothing.
+Reference stridedReference(const std::string& url) {
+  Reference reference{url, 0, 0};
+  const std::size_t plus = url.rfind('+');
+  if (plus == std::string::npos || !parseWhole(std::string_view(url).substr(plus + 1), reference.stride))
+    return {url, 0, 0};
+  if (plus > 0 && url[plus - 1] == '?')
+    reference.url.resize(plus - 1);
+  return reference;
+}
+
+/// SIG, classic and compact: url, url#N. BG: url, url+S, url?+S, url#O+S.
+Reference referenceOf(const FieldReader& fields, const std::string& url, Container container) {
+  const std::size_t hash = url.rfind('#');
+  if (hash == std::string::npos && container == Container::bg)
+    return stridedReference(url);
+  Reference reference{url.substr(0, hash), 0, 0};
+  if (reference.url.empty())
+    fields.fail(ErrorKind::malformed, "a reference has no url");
+  if (reference.url.find('#') != std::string::npos)
+    fields.fail(ErrorKind::malformed, "a reference has two fragments");
+  if (hash == std::string::npos)
+    return reference;
+  const std::string_view fragment = std::string_view(url).substr(hash + 1);
+  const std::size_t plus = container == Container::bg ? fragment.find('+') : std::string_view::npos;
+  bool good = parseWhole(fragment.substr(0, plus), reference.first) &&
+              (container == Container::bg) == (plus != std::string_view::npos);
+  if (plus != std::string_view::npos)
+    good = good && parseWhole(fragment.substr(plus + 1), reference.stride);
+  if (!good)
+    fields.fail(ErrorKind::malformed, "a reference's fragment states no place in its file");
+  return reference;
+}
+
+Primitive primitiveNamed(const FieldReader& fields, const std::string& name) {
+  for (const Primitive primitive :
+       {Primitive::points, Primitive::lines, Primitive::lineStrip, Primitive::triangles, Primitive::triangleStrip})
+    if (equalIgnoringCase(name, nameOf(primitive)))
+      return primitive;
+  fields.fail(ErrorKind::unsupported, "primType is none of those we read");
+}
+
+std::vector<Draw> drawsOf(const FieldReader& fields) {
+  const std::vector<std::string> types = fields.strings("primType");
+  std::vector<std::uint32_t> counts = fields.integers("vertexCount");
+  if (counts.empty())
+    counts = {0}; // all of the indices, in X3DOM
+  if (!types.empty() && types.size() != counts.size())
+    fields.fail(ErrorKind::malformed, "primType and vertexCount differ in their number of draws");
+  std::vector<Draw> draws;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    draws.push_back({types.empty() ? Primitive::triangles : primitiveNamed(fields, types[i]), counts[i]});
+  return draws;
+}
+
+/// An ImageTexture child: X3DOM's way to name an image.
+void readTexture(const DocumentText& source, const pugi::xml_node& node, PatchDescription& patch) {
+  const FieldReader fields(source, node);
+  const std::vector<std::string> urls = fields.strings("url");
+  if (urls.empty())
+    fields.fail(ErrorKind::malformed, "an ImageTexture has no url");
+  const Reference reference = referenceOf(fields, urls[0], Container::sig);
+  const std::string role = fields.text("containerField");
+  if (equalIgnoringCase(role, "coord"))
+    patch.coord.push_back(reference);
+  else if (equalIgnoringCase(role, "normal"))
+    patch.normal = reference;
+  else if (equalIgnoringCase(role, "texCoord"))
+    patch.texCoord = reference;
+  else if (equalIgnoringCase(role, "color"))
+    patch.color = reference;
+  else if (equalIgnoringCase(role, "index"))
+    patch.index = reference;
+  else
+    fields.fail(ErrorKind::malformed, "an ImageTexture in an ImageGeometry has no containerField that we know");
+}
+
+PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& node, const GeometryDescription& geometry,
+                           Vec2<std::uint32_t> implicitMeshSize) {
+  const Container container = geometry.container;
+  const FieldReader fields(source, node);
+  PatchDescription patch;
+  patch.box = fields.box();
+  patch.vertexCount = fields.integer("recordCount", 0);
+  patch.draws = drawsOf(fields);
+  patch.implicitMeshSize = implicitMeshSize;
+  const auto read = [&](const char* name, std::optional<Reference>& reference) {
+    if (const std::string url = fields.text(name); !url.empty())
+      reference = referenceOf(fields, url, container);
+  };
+  if (geometry.profile == Profile::compact) {
+    read("data", patch.data);
+    if (!patch.data)
+      fields.fail(ErrorKind::malformed, "a patch of compact has no data");
+    return patch;
+  }
+  read("index", patch.index);
+  read("normal", patch.normal);
+  read("texCoord", patch.texCoord);
+  read("color", patch.color);
+  for (const std::string& url : fields.strings("coord"))
+    patch.coord.push_back(referenceOf(fields, url, container));
+  if (container == Container::sig)
+    for (const pugi::xml_node& child : node.children())
+      if (equalIgnoringCase(child.name(), "ImageTexture"))
+        readTexture(source, child, patch);
+  if (patch.coord.empty())
+    fields.fail(ErrorKind::malformed, "there are no coordinates");
+  if (container == Container::bg && patch.coord.size() != 1)
+    fields.fail(ErrorKind::malformed, "a BinaryGeometry has one file of coordinates");
+  std::vector<Reference> attributes;
+  for (const std::string& url : fields.strings("attrib"))
+    attributes.push_back(referenceOf(fields, url, container));
+  patch.attributes = referencesByAttribute(fields, attributes, geometry.attributes, container);
+  return patch;
+}
+
+Vec2<std::uint32_t> implicitMeshSizeOf(const FieldReader& fields, Vec2<std::uint32_t> fallback) {
+  const std::vector<double> size = fields.reals("implicitMeshSize", 2);
+  if (size.empty())
+    return fallback;
+  const auto whole = [&](double value) {
+    if (value < 0 || value > 65536 || value != std::floor(value))
+      fields.fail(ErrorKind::malformed, "implicitMeshSize is no size of an image");
+    return static_cast<std::uint32_t>(value);
+  };
+  const std::uint32_t x = whole(size[0]), y = whole(size[1]);
+  if (x == 0)
+    fields.fail(ErrorKind::malformed, "implicitMeshSize has no columns");
+  return {x, y == 0 ? x : y};
+}
+
+/// Bits that the stored coordinates have where the node does not say how many count.
+std::uint32_t storedBits(const FieldReader& fields, const GeometryDescription& geometry) {
+  if (geometry.container == Container::bg)
+    return geometry.coordType == ElementType::float32 ? sourceBits : 8 * byteSizeOf(geometry.coordType);
+  if (geometry.profile == Profile::compact)
+    return 16;
+  const std::size_t planes = geometry.patches[0].coord.size();
+  if (planes > 4)
+    fields.fail(ErrorKind::unsupported, "coordinates of more than four bytes");
+  for (const PatchDescription& patch : geometry.patches)
+    if (patch.coord.size() != planes)
+      fields.fail(ErrorKind::malformed, "patches differ in their coordinate images");
+  return 8 * static_cast<std::uint32_t>(planes);
+}
+
+Lattice latticeOf(const FieldReader& fields, const GeometryDescription& geometry) {
+  const std::uint32_t stored = storedBits(fields, geometry), bits = fields.integer("positionBits", stored);
+  const bool isHeld = geometry.container == Container::bg ? holdsLattice(geometry.coordType, bits)
+                                                          : bits >= 8 && bits <= 32 &&
+                                                                (geometry.profile == Profile::compact ||
+                                                                 8 * coordBytes(Container::sig, bits) == stored);
+  if (!isHeld)
+    fields.fail(ErrorKind::malformed,
+                "positionBits is no precision of coordinates of " + std::to_string(stored / 8) + " bytes");
+  const DecodeFields box{fields.vec3("position", Vec3d{0, 0, 0}), fields.vec3("size", Vec3d{1, 1, 1})};
+  if (!(std::min({box.size.x, box.size.y, box.size.z}) >= 0 && std::max({box.size.x, box.size.y, box.size.z}) > 0))
+    fields.fail(ErrorKind::malformed, "size is the extent of no box");
+  return imgeo::latticeOf(box, geometry.container, geometry.coordType, bits);
+}
+
+/// Which of SIG's profiles a node has: classic where it does not say.
+Profile profileOf(const FieldReader& fields) {
+  const std::string profile = fields.text("profile");
+  if (equalIgnoringCase(profile, nameOf(Profile::compact)))
+    return Profile::compact;
+  if (!profile.empty() && !equalIgnoringCase(profile, nameOf(Profile::classic)))
+    fields.fail(ErrorKind::unsupported, "profile is neither classic nor compact");
+  return Profile::classic;
+}
+
+void takeNormalsFromCoords(const FieldReader& fields, GeometryDescription& geometry) {
+  if (byteSizeOf(geometry.coordType) != 2)
+    fields.fail(ErrorKind::unsupported,
+                std::string("spherical normals in coordinates of type ") + nameOf(geometry.coordType));
+  geometry.normalEncoding = NormalEncoding::spherical;
+  geometry.normalType = ElementType::uint8;
+  for (PatchDescription& patch : geometry.patches)
+    patch.normal = normalInCoords(patch.coord[0]);
+}
+
+} // namespace
+
+GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node, Container container) {
+  const FieldReader fields(source, node);
+  GeometryDescription geometry;
+  geometry.container = container;
+  if (container == Container::sig)
+    geometry.profile = profileOf(fields);
+  if (const std::string base = fields.text("base"); geometry.profile == Profile::compact && !base.empty())
+    geometry.base = referenceOf(fields, base, container);
+  geometry.texCoordMin = fields.vec2("texCoordMin", {0, 0});
+  geometry.texCoordSize = fields.vec2("texCoordSize", {1, 1});
+  geometry.normalEncoding = normalEncodingOf(fields);
+  geometry.indexType = elementTypeOf(fields, "indexType", ElementType::uint16);
+  if (container == Container::bg) {
+    geometry.coordType = elementTypeOf(fields, "coordType", ElementType::float32);
+    geometry.normalType = elementTypeOf(fields, "normalType", ElementType::float32);
+    geometry.texCoordType = elementTypeOf(fields, "texCoordType", ElementType::float32);
+    geometry.colorType = elementTypeOf(fields, "colorType", ElementType::float32);
+    geometry.colorComponents = fields.boolean("rgbaColors", false) ? 4 : 3;
+    if (fields.boolean("compressed", false))
+      fields.fail(ErrorKind::unsupported, "compressed containers are not read");
+    if (!fields.boolean("normalPerVertex", true))
+      fields.fail(ErrorKind::unsupported, "normals for faces are not read");
+  } else {
+    geometry.colorComponents = fields.integer("numColorComponents", 3);
+    if (geometry.colorComponents != 3 && geometry.colorComponents != 4)
+      fields.fail(ErrorKind::malformed, "numColorComponents is neither 3 nor 4");
+    if (geometry.indexType != ElementType::uint16 && geometry.indexType != ElementType::uint32)
+      fields.fail(ErrorKind::unsupported, "images hold indices of type Uint16 or Uint32");
+  }
+  geometry.attributes = readVertexAttributes(source, node, container);
+  const Vec2<std::uint32_t> implicitMeshSize = implicitMeshSizeOf(fields, {256, 256});
+  for (const pugi::xml_node& child : node.children())
+    if (equalIgnoringCase(child.name(), "GeometryPatch"))
+      geometry.patches.push_back(
+          readPatch(source, child, geometry, implicitMeshSizeOf(FieldReader(source, child), implicitMeshSize)));
+  if (geometry.patches.empty())
+    geometry.patches.push_back(readPatch(source, node, geometry, implicitMeshSize));
+  if (container == Container::bg && fields.boolean("normalAsSphericalCoordinates", false))
+    takeNormalsFromCoords(fields, geometry);
+  geometry.lattice = latticeOf(fields, geometry);
+  return geometry;
+}
+
+} // namespace imgeo

@@ -1,0 +1,14 @@
+#pragma once
+// ImageGeometry and BinaryGeometry elements -> descriptions.
+
+#include "containers/geometry.h"
+#include "documents/field_reader.h"
+
+namespace imgeo {
+
+/// Reads a geometry node with its patches, in either form of docs/formats/nodes.md:
+/// GeometryPatch children, or the node as its own only patch with url fields or
+/// ImageTexture children. Throws Error for what no lattice of ours can stand for.
+GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node, Container container);
+
+} // namespace imgeo

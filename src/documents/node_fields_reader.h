@@ -1,0 +1,28 @@
+#pragma once
+// A node's fields from an element: the reader's side of node_fields.h.
+
+#include "documents/field_reader.h"
+#include "documents/node_fields.h"
+
+namespace imgeo {
+
+/// What the element says, the defaults of `Node` where it is silent.
+template <typename Node> Node readNode(const FieldReader& fields) {
+  struct Read {
+    const FieldReader& fields;
+    void operator()(const char* name, std::string& member, Written = {}) { member = fields.text(name); }
+    void operator()(const char* name, bool& member, Written = {}) { member = fields.boolean(name, member); }
+    void operator()(const char* name, float& member, Written = {}) { member = fields.real(name, member); }
+    void operator()(const char* name, double& member, Written = {}) { member = fields.real(name, member); }
+    void operator()(const char* name, Vec2f& member, Written = {}) { member = fields.vec2(name, member); }
+    void operator()(const char* name, Vec3f& member, Written = {}) { member = fields.vec3(name, member); }
+    void operator()(const char* name, Vec3d& member, Written = {}) { member = fields.vec3(name, member); }
+    void operator()(const char* name, Rotation& member, Written = {}) { member = fields.rotation(name, member); }
+    void line() {}
+  };
+  Node node;
+  visitFields(node, Read{fields});
+  return node;
+}
+
+} // namespace imgeo

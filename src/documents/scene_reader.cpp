@@ -1,0 +1,334 @@
+#include "documents/documents.h"
+
+#include "documents/appearance_reader.h"
+#include "documents/field_reader.h"
+#include "documents/find_x3d.h"
+#include "documents/geometry_reader.h"
+#include "documents/node_fields_reader.h"
+#include "scene/mf_string.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+namespace imgeo {
+
+namespace {
+
+constexpr std::size_t maxDocumentBytes = 64u << 20; // some hundred thousand patches
+constexpr std::size_t maxDepth = 256;               // of elements, and of nodes with what they USE
+
+constexpr std::array nodeNames{"Shape",      "Group",    "Transform", "Viewpoint", "OrthoViewpoint", "DirectionalLight",
+                               "PointLight", "SpotLight"};
+
+/// "0123456789abcdef.x3d": a document that `convert` wrote beside its scene.
+bool isNamedByContent(std::string_view url) {
+  return url.size() == 20 && url.ends_with(".x3d") && url.find_first_not_of("0123456789abcdef") == 16;
+}
+
+bool hasElements(const pugi::xml_node& node) {
+  return std::ranges::any_of(node.children(), [](const auto& child) { return child.type() == pugi::node_element; });
+}
+
+class SceneReader {
+public:
+  SceneReader(const DocumentText& source)
+      : source_(source), appearances_(source, document_.graph, document_.warnings) {}
+
+  SceneDocument read(const pugi::xml_node& x3d) {
+    bool found = false;
+    for (const pugi::xml_node& child : x3d.children())
+      if (equalIgnoringCase(child.name(), "Scene")) {
+        if (found)
+          fail(child, ErrorKind::malformed, "there are two Scenes");
+        found = true;
+        document_.graph.roots = readChildren(child, 1);
+      }
+    if (!found)
+      fail(x3d, ErrorKind::malformed, "there is no Scene in the X3D element");
+    return std::move(document_);
+  }
+
+private:
+  [[noreturn]] void fail(const pugi::xml_node& node, ErrorKind kind, const std::string& message) const {
+    imgeo::fail(source_, node, kind, message);
+  }
+
+  std::vector<std::size_t> readChildren(const pugi::xml_node& parent, std::size_t depth) {
+    if (depth > maxDepth)
+      fail(parent, ErrorKind::limit, "elements are nested too deeply");
+    std::vector<std::size_t> children;
+    for (const pugi::xml_node& node : parent.children())
+      if (const std::optional<std::size_t> child = readChild(FieldReader(source_, node, &document_.warnings), depth))
+        children.push_back(*child);
+    return children;
+  }
+
+  /// The node that an element stands for, if it stands for one.
+  std::optional<std::size_t> readChild(const FieldReader& fields, std::size_t depth) {
+    const auto is = [&](const char* name) { return equalIgnoringCase(fields.node().name(), name); };
+    if (is("WorldInfo")) {
+      document_.graph.title = fields.text("title");
+      document_.graph.info = fields.strings("info");
+    } else if (is("NavigationInfo")) {
+      document_.graph.headlight = fields.boolean("headlight", true);
+      if (const std::vector<std::string> types = fields.strings("type"); !types.empty()) {
+        const std::size_t node = add(fields, GenericNode{"NavigationInfo", "", {}});
+        document_.graph.nodes[node].fields = {{"type", strings(types)}};
+        return node;
+      }
+    } else if (is("Background")) {
+      readBackground(fields);
+    } else if (is("Inline")) {
+      return readInline(fields);
+    } else if (std::ranges::any_of(nodeNames, is)) {
+      const std::string use = fields.text("USE");
+      return use.empty() ? readNodeElement(fields, depth) : defined(fields, use);
+    } else if (const std::string use = fields.text("USE"); !use.empty()) {
+      if (const auto found = defined_.find(use); found != defined_.end())
+        return found->second;
+    } else if (hasElements(fields.node())) {
+      return add(fields, Group{}, readChildren(fields.node(), depth + 1)); // whatever it is, shapes may stand in it
+    }
+    return {};
+  }
+
+  /// One of our own: its document lies beside this one, and is left to who opens files.
+  std::optional<std::size_t> readInline(const FieldReader& fields) {
+    if (const std::string use = fields.text("USE"); !use.empty())
+      return defined_.contains(use) ? std::optional(defined_.at(use)) : std::nullopt;
+    const std::vector<std::string> urls = fields.strings("url");
+    if (urls.size() != 1 || !isNamedByContent(urls[0]))
+      return {};
+    std::vector<InlinedDocument>& inlined = document_.graph.inlined;
+    const auto found = std::ranges::find(inlined, urls[0], &InlinedDocument::url);
+    const std::size_t index = static_cast<std::size_t>(found - inlined.begin());
+    if (found == inlined.end())
+      inlined.push_back({urls[0], {}});
+    const std::size_t node = add(fields, GenericNode{"Inline", "", {}, index});
+    document_.graph.nodes[node].fields = {{"url", urls[0]}};
+    return node;
+  }
+
+  std::optional<std::size_t> defined(const FieldReader& fields, const std::string& use) const {
+    if (passedOver_.contains(use))
+      return {};
+    const auto found = defined_.find(use);
+    if (found == defined_.end())
+      fields.fail(ErrorKind::malformed, std::string("USE names no ") + fields.node().name() + " that stands before");
+    return found->second;
+  }
+
+  std::optional<std::size_t> readNodeElement(const FieldReader& fields, std::size_t depth) {
+    const auto is = [&](const char* name) { return equalIgnoringCase(fields.node().name(), name); };
+    if (is("Shape"))
+      return readShape(fields);
+    if (is("Viewpoint"))
+      return add(fields, readNode<Viewpoint>(fields));
+    if (is("OrthoViewpoint"))
+      return add(fields, readOrthoViewpoint(fields));
+    if (is("Group") || is("Transform"))
+      return readGrouping(fields, depth);
+    return readLight(fields);
+  }
+
+  std::size_t add(const FieldReader& fields, NodeContent content, std::vector<std::size_t> children = {}) {
+    Node node{fields.text("DEF"), std::move(content), std::move(children), extrasOf(fields.node())};
+    std::size_t height = 0;
+    for (const std::size_t child : node.children)
+      height = std::max(height, heights_[child] + 1);
+    if (height > maxDepth)
+      fail(fields.node(), ErrorKind::limit, "elements that USE one another are nested too deeply");
+    heights_.push_back(height);
+    const std::size_t index = addNode(document_.graph, std::move(node));
+    if (const std::string& name = document_.graph.nodes[index].name; !name.empty())
+      defined_[name] = index;
+    return index;
+  }
+
+  std::string extrasOf(const pugi::xml_node& node) {
+    for (const pugi::xml_node& child : node.children()) {
+      const FieldReader fields(source_, child, &document_.warnings);
+      if (!equalIgnoringCase(child.name(), "MetadataString") || fields.text("name") != "extras")
+        continue;
+      const std::vector<std::string> values = fields.strings("value");
+      return values.empty() ? "" : values[0];
+    }
+    return "";
+  }
+
+  std::size_t readGrouping(const FieldReader& fields, std::size_t depth) {
+    const bool isTransform = equalIgnoringCase(fields.node().name(), "Transform");
+    const std::size_t geometriesBefore = document_.geometries.size();
+    std::vector<std::size_t> children = readChildren(fields.node(), depth + 1);
+    if (isTransform)
+      return add(fields, readNode<Transform>(fields), std::move(children));
+    if (joinPatches(fields, children, geometriesBefore))
+      return add(fields, document_.graph.nodes[children[0]].content);
+    return add(fields, Group{}, std::move(children));
+  }
+
+  /// A Group with a box stands for one Shape (see x3dom_element.h) where it holds
+  /// nothing but Shapes that look alike and differ in their patches alone. Joins
+  /// the geometries to the first Shape's.
+  bool joinPatches(const FieldReader& fields, const std::vector<std::size_t>& children, std::size_t first) {
+    const Box3d box = fields.box();
+    if (box.empty() || children.empty() || document_.geometries.size() - first != children.size())
+      return false;
+    const auto shapeAt = [&](std::size_t i) { return std::get_if<Shape>(&document_.graph.nodes[children[i]].content); };
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      const Shape* shape = shapeAt(i);
+      if (!shape || !shape->appearance || shape->appearance != shapeAt(0)->appearance || shape->mesh != first + i ||
+          !isJoinable_[shape->mesh] || !document_.graph.nodes[children[i]].name.empty() ||
+          !sameButForPatches(document_.geometries[first + i], document_.geometries[first]))
+        return false;
+    }
+    GeometryDescription& geometry = document_.geometries[first];
+    for (std::size_t i = first + 1; i < document_.geometries.size(); ++i)
+      for (PatchDescription& patch : document_.geometries[i].patches)
+        geometry.patches.push_back(std::move(patch));
+    geometry.box = box;
+    document_.geometries.resize(first + 1);
+    isJoinable_.resize(first + 1);
+    return true;
+  }
+
+  static bool sameButForPatches(GeometryDescription a, const GeometryDescription& b) {
+    a.patches = b.patches;
+    a.box = b.box;
+    return a == b;
+  }
+
+  static OrthoViewpoint readOrthoViewpoint(const FieldReader& fields) {
+    OrthoViewpoint viewpoint = readNode<OrthoViewpoint>(fields);
+    if (const std::vector<double> edges = fields.reals("fieldOfView", 4); !edges.empty()) {
+      viewpoint.min = {edges[0], edges[1]};
+      viewpoint.max = {edges[2], edges[3]};
+    }
+    return viewpoint;
+  }
+
+  std::optional<std::size_t> readLight(const FieldReader& fields) {
+    if (!fields.boolean("on", true))
+      return {};
+    if (equalIgnoringCase(fields.node().name(), "DirectionalLight"))
+      return add(fields, readNode<DirectionalLight>(fields));
+    if (equalIgnoringCase(fields.node().name(), "PointLight"))
+      return add(fields, readNode<PointLight>(fields));
+    return add(fields, readNode<SpotLight>(fields));
+  }
+
+  void readBackground(const FieldReader& fields) {
+    const std::vector<double> colors = fields.reals("skyColor");
+    if (colors.size() >= 3)
+      document_.graph.background = Background{Vec3f(Vec3d{colors[0], colors[1], colors[2]})};
+  }
+
+  /// Nothing where its geometry stands in the document, or there is none.
+  std::optional<std::size_t> readShape(const FieldReader& fields) {
+    std::optional<Shape> shape;
+    std::optional<std::size_t> appearance;
+    for (const pugi::xml_node& child : fields.node().children()) {
+      if (child.type() != pugi::node_element)
+        continue;
+      if (equalIgnoringCase(child.name(), "Appearance")) {
+        appearance = appearances_.read(child);
+      } else if (equalIgnoringCase(child.name(), "ImageGeometry") ||
+                 equalIgnoringCase(child.name(), "BinaryGeometry")) {
+        if (shape)
+          fail(child, ErrorKind::malformed, "a Shape has more than one geometry");
+        shape = readGeometryOf(fields, FieldReader(source_, child));
+      }
+    }
+    if (!shape) {
+      passedOver_.insert(fields.text("DEF"));
+      return {};
+    }
+    shape->appearance = appearance;
+    return add(fields, *shape);
+  }
+
+  Shape readGeometryOf(const FieldReader& shape, const FieldReader& fields) {
+    if (const std::string use = fields.text("USE"); !use.empty()) {
+      const auto found = definedGeometries_.find(use);
+      if (found == definedGeometries_.end())
+        fields.fail(ErrorKind::malformed, "USE names no geometry that stands before");
+      return found->second;
+    }
+    Shape read;
+    read.mesh = document_.geometries.size();
+    read.solid = fields.boolean("solid", true);
+    const bool isSig = equalIgnoringCase(fields.node().name(), "ImageGeometry");
+    GeometryDescription geometry = readGeometry(source_, fields.node(), isSig ? Container::sig : Container::bg);
+    geometry.box = shape.box();
+    const bool hasPatches = std::ranges::any_of(
+        fields.node().children(), [](const auto& child) { return equalIgnoringCase(child.name(), "GeometryPatch"); });
+    if (!hasPatches)
+      geometry.patches[0].box = geometry.box;
+    // Only X3DOM's words for a patch are those of a shape.
+    const bool isWhole = hasPatches || geometry.profile == Profile::compact;
+    document_.geometries.push_back(std::move(geometry));
+    const std::string def = fields.text("DEF");
+    isJoinable_.push_back(!isWhole && def.empty());
+    if (!def.empty())
+      definedGeometries_[def] = read;
+    return read;
+  }
+
+  const DocumentText& source_;
+  SceneDocument document_;
+  AppearanceReader appearances_;
+  std::vector<std::size_t> heights_;           ///< by node: how deep the nodes below it go
+  std::vector<bool> isJoinable_;               ///< by geometry: it is its only patch, and nothing can USE it
+  std::map<std::string, std::size_t> defined_; ///< nodes by their DEF
+  std::set<std::string> passedOver_;           ///< DEFs of Shapes whose geometry stands in the document, or nowhere
+  std::map<std::string, Shape> definedGeometries_;
+};
+
+/// pugixml leaves references that it does not know as text; we refuse them, but in comments.
+void checkReferences(std::string_view text, const std::string& name, TextSpan span) {
+  std::size_t comment = text.find("<!--", span.begin);
+  for (std::size_t at = text.find('&', span.begin); at < span.end; at = text.find('&', at + 1)) {
+    while (comment < at) {
+      const std::size_t end = std::min(text.find("-->", comment), text.size());
+      at = std::max(at, std::min(text.find('&', end), text.size()));
+      comment = text.find("<!--", end);
+    }
+    if (at >= span.end)
+      return;
+    const std::string_view rest = text.substr(at + 1, 12);
+    const std::string_view entity = rest.substr(0, rest.find(';'));
+    const bool known = entity == "amp" || entity == "lt" || entity == "gt" || entity == "quot" || entity == "apos" ||
+                       (entity.size() > 1 && entity[0] == '#');
+    if (!known || entity.size() == rest.size())
+      throw Error(ErrorKind::malformed, locationOf(text, name, at),
+                  "an ampersand begins no character reference that we know");
+  }
+}
+
+} // namespace
+
+std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more) {
+  std::vector<std::size_t> roots = append(document.graph, std::move(more.graph), document.geometries.size());
+  std::ranges::move(more.geometries, std::back_inserter(document.geometries));
+  std::ranges::move(more.warnings, std::back_inserter(document.warnings));
+  return roots;
+}
+
+SceneDocument readScene(std::string_view text, const std::string& name) {
+  if (text.size() > maxDocumentBytes)
+    throw Error(ErrorKind::limit, name, "the document is larger than 64 MiB");
+  const TextSpan span = findX3d(text, name);
+  checkReferences(text, name, span);
+  pugi::xml_document parsed;
+  const pugi::xml_parse_result result =
+      parsed.load_buffer(text.data() + span.begin, span.end - span.begin, pugi::parse_default, pugi::encoding_utf8);
+  if (!result)
+    throw Error(ErrorKind::malformed, locationOf(text, name, span.begin + static_cast<std::size_t>(result.offset)),
+                std::string("not well-formed: ") + result.description());
+  const DocumentText source{text, name, span.begin};
+  return SceneReader(source).read(parsed.document_element());
+}
+
+} // namespace imgeo

@@ -1,0 +1,224 @@
+#include "documents/x3dom_writer.h"
+
+#include "containers/normals.h"
+#include "containers/stored_coords.h"
+#include "documents/appearance_element.h"
+#include "documents/geometry_element.h"
+#include "documents/scene_writer.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace imgeo {
+
+namespace {
+
+/// The one implicit mesh that X3DOM keeps for a page: as wide as every image
+/// that is counted through, and enough rows for the patch that needs most.
+Vec2<std::uint32_t> implicitMeshSizeOf(const SceneDocument& document) {
+  Vec2<std::uint32_t> size{0, 0};
+  for (const GeometryDescription& geometry : document.geometries)
+    for (const PatchDescription& patch : geometry.patches) {
+      assert(geometry.container == Container::bg || size.x == 0 || size.x == patch.implicitMeshSize.x);
+      size = {patch.implicitMeshSize.x, std::max(size.y, patch.implicitMeshSize.y)};
+    }
+  return size;
+}
+
+class X3domWriter : public SceneWriter {
+public:
+  X3domWriter(const SceneDocument& document, std::size_t level, DocumentKind medium,
+              std::optional<std::size_t> inlineNode)
+      : SceneWriter(document, level, medium, inlineNode), sampling_(table_.take("exactTexels")),
+        shiningNames_(document.graph.appearances.size()), implicitMeshSize_(implicitMeshSizeOf(document)) {}
+
+private:
+  void writeShape(const Node& node, const Attributes& names) override {
+    const Shape& shape = std::get<Shape>(node.content);
+    const GeometryDescription& geometry = document_.geometries.at(shape.mesh);
+    if (geometry.patches.size() == 1)
+      return writePatch(node, names, geometry, geometry.patches[0]);
+    if (shape.appearance) { // so that all but the first patch can USE it
+      std::string& look = appearanceNames(shines(geometry.patches[0]))[*shape.appearance];
+      if (look.empty())
+        look = table_.take(names.empty() ? "look" : names[0].value + "-look");
+    }
+    const Element group{"Group", {names, furtherFields(node), boxAttributes(geometry.box, geometry.lattice)}};
+    writer_.open(group);
+    writeExtras(node);
+    for (const PatchDescription& patch : geometry.patches)
+      writePatch({"", shape, node.children, "", {}}, {}, geometry, patch);
+    writer_.close(group);
+  }
+
+  /// X3DOM knows no other attribute for it. To HTML X3D's four words are no style at all; what
+  /// else a source says here might be one.
+  Attribute letterStyle(const std::string& style) const override {
+    constexpr std::string_view styles[] = {"PLAIN", "BOLD", "ITALIC", "BOLDITALIC"};
+    return {"style", std::ranges::find(styles, style) != std::end(styles) ? style : "PLAIN"};
+  }
+
+  /// X3DOM lights triangles alone; other elements shine in their emissive colour.
+  static bool shines(const PatchDescription& patch) { return !isLit(patch) && !patch.color; }
+
+  Names& appearanceNames(bool shining) { return shining ? shiningNames_ : appearanceNames_; }
+
+  void writeAppearanceOf(const Shape& shape, bool shining) {
+    if (!shape.appearance)
+      return;
+    const Attributes names = appearanceNames(shining).defOrUse(*shape.appearance);
+    if (isUse(names))
+      return writer_.leaf({"Appearance", {names}});
+    const Appearance& source = document_.graph.appearances.at(*shape.appearance);
+    Material material = phongOf(source.material);
+    if (shining)
+      material.emissiveColor = material.diffuseColor;
+    Appearance appearance{"", material, {}, AlphaMode::automatic, 0.5f};
+    for (const TextureUse& use : source.textures)
+      if (use.role == TextureRole::color)
+        appearance.textures.push_back(use);
+    writeAppearance(writer_, document_.graph, appearance, names,
+                    [&](std::size_t texture) { return textureNames_.defOrUse(texture); });
+  }
+
+  /// Without normals X3DOM would light by what it finds in other textures.
+  static bool isLit(const PatchDescription& patch) {
+    const auto isTriangles = [](const Draw& draw) {
+      return draw.primitive == Primitive::triangles || draw.primitive == Primitive::triangleStrip;
+    };
+    return patch.normal && std::ranges::all_of(patch.draws, isTriangles);
+  }
+
+  void writePatch(const Node& node, Attributes names, const GeometryDescription& geometry,
+                  const PatchDescription& patch) {
+    const Shape& shape = std::get<Shape>(node.content);
+    const bool isSig = geometry.container == Container::sig;
+    if (isSig)
+      names.push_back({"isPickable", "false"}); // the shader that picks images does not compile
+    const Element element{"Shape", {names, furtherFields(node), boxAttributes(patch.box, geometry.lattice)}};
+    writer_.open(element);
+    writeParts(node);
+    writeAppearanceOf(shape, shines(patch));
+    if (isSig)
+      writeImages(geometry, patch, shape.solid);
+    else
+      writer_.leaf(binaryGeometry(geometry, patch, shape.solid));
+    writer_.close(element);
+  }
+
+  static Attributes boxFields(const GeometryDescription& geometry, bool solid) {
+    Attributes fields = decodeAttributes(geometry);
+    const std::uint32_t bits = geometry.lattice.bits;
+    const std::uint32_t stored = geometry.container == Container::sig         ? 8 * coordBytes(Container::sig, bits)
+                                 : geometry.coordType == ElementType::float32 ? sourceBits
+                                                                              : 8 * byteSizeOf(geometry.coordType);
+    if (bits != stored)
+      fields.push_back({"positionBits", std::to_string(bits)});
+    addUnless(fields, "solid", solid, true, "false");
+    return fields;
+  }
+
+  static Attributes drawFields(const PatchDescription& patch) {
+    Attributes fields{{"primType", primTypes(patch.draws)},
+                      {"vertexCount", counts(patch.draws)},
+                      {"recordCount", std::to_string(patch.vertexCount)}};
+    if (!isLit(patch))
+      fields.push_back({"lit", "false"});
+    return fields;
+  }
+
+  void writeImages(const GeometryDescription& geometry, const PatchDescription& patch, bool solid) {
+    assert(geometry.texCoordMin == Vec2f{} && geometry.texCoordSize == (Vec2f{1, 1}));
+    assert(!isPair(geometry.normalEncoding) && geometry.indexType == ElementType::uint16);
+    Attributes draws = drawFields(patch);
+    draws.push_back(
+        {"implicitMeshSize", std::to_string(implicitMeshSize_.x) + " " + std::to_string(implicitMeshSize_.y)});
+    draws.push_back({"numColorComponents", std::to_string(geometry.colorComponents)});
+    if (geometry.normalEncoding == NormalEncoding::palette)
+      draws.push_back({"normalEncoding", nameOf(geometry.normalEncoding)});
+    const Element node{"ImageGeometry", {boxFields(geometry, solid), draws}};
+    writer_.open(node);
+    const auto write = [&](const char* role, const std::optional<Reference>& image) {
+      if (image)
+        writeImage(role, *image);
+    };
+    write("index", patch.index);
+    for (const Reference& plane : patch.coord)
+      write("coord", plane);
+    write("normal", patch.normal);
+    write("texCoord", patch.texCoord);
+    write("color", patch.color);
+    writer_.close(node);
+  }
+
+  /// Texels must arrive as they are: not resized, not filtered, not repeated.
+  void writeImage(const char* role, const Reference& image) {
+    assert(image.first == 0);
+    const Element texture{"ImageTexture",
+                          {{{"containerField", role}, {"url", strings({image.url})}, {"scale", "false"}}}};
+    writer_.open(texture);
+    if (samplingIsDefined_)
+      writer_.leaf({"TextureProperties", {{{"USE", sampling_}}}});
+    else
+      writer_.leaf(
+          {"TextureProperties",
+           {{{"DEF", sampling_},
+             {"boundaryModeS", "CLAMP_TO_EDGE"},
+             {"boundaryModeT", "CLAMP_TO_EDGE"},
+             {"boundaryModeR", "CLAMP_TO_EDGE"}},
+            {{"magnificationFilter", "NEAREST"}, {"minificationFilter", "NEAREST"}, {"generateMipMaps", "false"}}}});
+    samplingIsDefined_ = true;
+    writer_.close(texture);
+  }
+
+  /// The stride as a query: a '+' in a file's name is a blank to some hosts.
+  static std::string strided(const Reference& file) {
+    assert(file.first == 0);
+    return file.url + (file.stride == 0 ? "" : "?+" + std::to_string(file.stride));
+  }
+
+  /// Part of a record: X3DOM then takes all attributes from the coordinates' file.
+  static std::string placed(const Reference& file) {
+    return file.url + "#" + std::to_string(file.first) + "+" + std::to_string(file.stride);
+  }
+
+  static Element binaryGeometry(const GeometryDescription& geometry, const PatchDescription& patch, bool solid) {
+    const Reference& coord = patch.coord.at(0);
+    const auto isBeside = [&](const std::optional<Reference>& file) { return file && file->url == coord.url; };
+    const bool isInterleaved =
+        (isBeside(patch.normal) && !hasNormalsInCoords(geometry)) || isBeside(patch.texCoord) || isBeside(patch.color);
+    Attributes types, urls;
+    const auto add = [&](const char* role, const char* typeField, ElementType type,
+                         const std::optional<Reference>& file) {
+      if (!file)
+        return;
+      types.push_back({typeField, nameOf(type)});
+      urls.push_back({role, isInterleaved && role != std::string("index") ? placed(*file) : strided(*file)});
+    };
+    add("index", "indexType", geometry.indexType, patch.index);
+    add("coord", "coordType", geometry.coordType, patch.coord.at(0));
+    if (hasNormalsInCoords(geometry))
+      types.push_back({"normalAsSphericalCoordinates", "true"});
+    else
+      add("normal", "normalType", geometry.normalType, patch.normal);
+    add("texCoord", "texCoordType", geometry.texCoordType, patch.texCoord);
+    add("color", "colorType", geometry.colorType, patch.color);
+    if (geometry.colorComponents == 4)
+      types.push_back({"rgbaColors", "true"});
+    return {"BinaryGeometry", {boxFields(geometry, solid), drawFields(patch), types, urls}};
+  }
+
+  std::string sampling_; ///< DEF of the TextureProperties that all images use
+  bool samplingIsDefined_ = false;
+  Names shiningNames_; ///< of appearances where they shine
+  Vec2<std::uint32_t> implicitMeshSize_;
+};
+
+} // namespace
+
+std::string x3domElement(const SceneDocument& document, std::size_t level, DocumentKind medium,
+                         std::optional<std::size_t> inlineNode) {
+  return X3domWriter(document, level, medium, inlineNode).write();
+}
+
+} // namespace imgeo

@@ -1,0 +1,37 @@
+#include "prepare/d_ary_heap.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace imgeo {
+namespace {
+
+struct Number {
+  unsigned value;
+  bool isBefore(const Number& other) const { return value < other.value; }
+};
+
+TEST(DaryHeap, GivesTheFirstOfThoseThatAreLeft) {
+  std::mt19937 random(1);
+  DaryHeap<Number> heap;
+  std::vector<unsigned> left; // the least comes last
+  for (int i = 0; i < 5000; ++i) {
+    // Grows, and is emptied now and then.
+    const bool isFilling = i / 250 % 4 != 3;
+    if (isFilling || heap.empty()) {
+      const auto value = static_cast<unsigned>(random() % 1000);
+      heap.push({value});
+      left.insert(std::ranges::lower_bound(left, value, std::greater<>()), value);
+    }
+    if (!isFilling || random() % 3 == 0) {
+      ASSERT_EQ(heap.top().value, left.back());
+      heap.pop();
+      left.pop_back();
+    }
+    ASSERT_EQ(heap.empty(), left.empty());
+  }
+}
+
+} // namespace
+} // namespace imgeo

@@ -1,0 +1,90 @@
+#include "prepare/line_strips.h"
+
+#include "scene/testing.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using Lines = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+Lines sorted(Lines lines) {
+  for (auto& [a, b] : lines)
+    if (a > b)
+      std::swap(a, b);
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+Lines linesIn(const std::vector<std::uint32_t>& corners) {
+  Lines lines;
+  for (std::size_t i = 0; i < corners.size(); i += 2)
+    lines.push_back({corners[i], corners[i + 1]});
+  return sorted(lines);
+}
+
+/// The lines in their order, each from where it is walked to where it leads.
+Lines linesIn(std::span<const std::uint32_t> trail, const std::vector<std::uint32_t>& corners) {
+  Lines lines;
+  for (const std::uint32_t corner : trail)
+    lines.push_back({corners[corner], corners[corner ^ 1]});
+  return lines;
+}
+
+/// Half the vertices where an odd number of lines end; a group of connected lines
+/// that has none of those needs one trail.
+std::size_t fewestTrails(const std::vector<std::uint32_t>& corners, std::size_t vertexCount) {
+  std::vector<std::uint32_t> group(vertexCount), valence(vertexCount);
+  for (std::uint32_t v = 0; v < vertexCount; ++v)
+    group[v] = v;
+  const auto rootOf = [&](std::uint32_t v) {
+    while (group[v] != v)
+      v = group[v];
+    return v;
+  };
+  for (std::size_t i = 0; i < corners.size(); i += 2) {
+    ++valence[corners[i]], ++valence[corners[i + 1]];
+    group[rootOf(corners[i])] = rootOf(corners[i + 1]);
+  }
+  std::vector<std::uint32_t> oddOfGroup(vertexCount), linesOfGroup(vertexCount);
+  for (std::uint32_t v = 0; v < vertexCount; ++v) {
+    oddOfGroup[rootOf(v)] += valence[v] % 2;
+    linesOfGroup[rootOf(v)] += valence[v];
+  }
+  std::size_t trails = 0;
+  for (std::uint32_t v = 0; v < vertexCount; ++v)
+    trails += linesOfGroup[v] == 0 ? 0 : std::max(1u, oddOfGroup[v] / 2);
+  return trails;
+}
+
+TEST(LineStrips, DrawEveryLineOnceInAsFewTrailsAsThereCanBe) {
+  testing::Random random(1);
+  for (std::uint32_t round = 0; round < 500; ++round) {
+    const std::uint32_t vertices = 1 + random.below(round % 2 ? 60 : 8);
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t i = random.below(100); i > 0; --i)
+      for (int end = 0; end < 2; ++end)
+        corners.push_back(random.below(vertices));
+    const LineStrips trails = findLineStrips(corners, vertices);
+    EXPECT_EQ(sorted(linesIn(trails.corners, corners)), linesIn(corners));
+    EXPECT_EQ(trails.count(), fewestTrails(corners, vertices));
+    for (std::size_t i = 0; i < trails.count(); ++i) {
+      const Lines lines = linesIn(trails.trail(i), corners);
+      EXPECT_FALSE(lines.empty());
+      for (std::size_t n = 1; n < lines.size(); ++n)
+        EXPECT_EQ(lines[n].first, lines[n - 1].second);
+    }
+  }
+}
+
+TEST(LineStrips, KeepTheDirectionOfAnOpenLine) {
+  const std::vector<std::uint32_t> corners{3, 4, 4, 5, 5, 6, 0, 1, 1, 2};
+  const LineStrips trails = findLineStrips(corners, 7);
+  EXPECT_EQ(trails.corners, (std::vector<std::uint32_t>{6, 8, 0, 2, 4}));
+  EXPECT_EQ(trails.ends, (std::vector<std::uint32_t>{2, 5}));
+}
+
+} // namespace
+} // namespace imgeo

@@ -1,0 +1,34 @@
+#pragma once
+// X3D's viewpoints (ISO/IEC 19775-1, 23), with X3D's defaults, and a default viewpoint for a bounding box.
+
+#include "scene/transform.h"
+
+#include <string>
+
+namespace imgeo {
+
+/// X3D Viewpoint: looks along -z of `orientation`.
+struct Viewpoint {
+  std::string description;
+  Vec3d position{0, 0, 10};
+  Rotation orientation;
+  double fieldOfView = 0.7854; ///< radians, along the shorter side
+  Vec3d centerOfRotation;
+  friend bool operator==(const Viewpoint&, const Viewpoint&) = default;
+};
+
+/// X3D OrthoViewpoint: the same without perspective.
+struct OrthoViewpoint {
+  std::string description;
+  Vec3d position{0, 0, 10};
+  Rotation orientation;
+  Vec2<double> min{-1, -1}, max{1, 1}; ///< what is seen, in units of the scene
+  Vec3d centerOfRotation;
+  friend bool operator==(const OrthoViewpoint&, const OrthoViewpoint&) = default;
+};
+
+/// A viewpoint from which a box is seen whole, from slightly above and beside,
+/// centred on the box; for pages whose source brings none.
+Viewpoint viewpointFor(const Box3d& box);
+
+} // namespace imgeo
