@@ -18,7 +18,7 @@ export class SeenPlaces {
   readonly #pictures = new Map<string, Seen>();
   readonly #shown = new Map<object, PlacedShape>();
 
-  follow(places: SceneChanges["places"]): void {
+  follow(places: SceneChanges["instances"]): void {
     for (const [place, placed] of places) {
       const before = this.#shown.get(place);
       if (before !== undefined) this.#forget(place, before);

@@ -53,7 +53,7 @@ function loadsOf(count: number) {
     },
     [],
   );
-  loads.follow({ shapes: new Map(shapes.map((shape) => [shape.element, shape])), gone: [], places: new Map() });
+  loads.follow({ shapes: new Map(shapes.map((shape) => [shape.element, shape])), removed: [], instances: new Map() });
   deliveries.request(() => everything);
   return { loads, frames, heard };
 }

@@ -76,7 +76,7 @@ export class ShapeLoads {
    * have asked for are given up when what comes back is called: after those of new
    * shapes are asked for.
    */
-  follow({ shapes, gone }: SceneChanges): Leave {
+  follow({ shapes, removed: gone }: SceneChanges): Leave {
     const ended: LoadedShape[] = [];
     for (const element of gone) this.#end(element, ended);
     for (const [element, shape] of shapes) {

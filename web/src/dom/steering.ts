@@ -38,7 +38,7 @@ export class Steering {
   }
 
   /** Steers by what the scene is now, its bound viewpoint too; `onProblem` is told what cannot be read of its weights. */
-  follow(chunkPriority: string, { places }: SceneChanges, onProblem: (problem: string) => void): void {
+  follow(chunkPriority: string, { instances: places }: SceneChanges, onProblem: (problem: string) => void): void {
     if (places.size === 0 && chunkPriority === this.#chunkPriority && isSameView(this.#renderer.view, this.#view))
       return;
     if (chunkPriority !== this.#chunkPriority) this.#weights = chunkWeightsOf(chunkPriority, onProblem);

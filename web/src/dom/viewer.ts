@@ -18,7 +18,7 @@ import { textReading } from "../document/textGeometry.ts";
 import type { NavigatedScene } from "../navigation/navigator.ts";
 import { Navigator } from "../navigation/navigator.ts";
 import type { PlacedLevels } from "../navigation/placement.ts";
-import { ChosenLevels } from "../render/shapes/lodSelection.ts";
+import { LodSelection } from "../render/shapes/lodSelection.ts";
 import type { Hit } from "../render/picking/picker.ts";
 import type { RenderStatistics } from "../render/sceneRenderer.ts";
 import { SceneRenderer } from "../render/sceneRenderer.ts";
@@ -72,7 +72,7 @@ export class Viewer {
   readonly #reader: SceneReader;
   readonly #shapes: ShapeLoads;
   readonly #inlines: InlineLoads;
-  readonly #levels = new ChosenLevels();
+  readonly #levels = new LodSelection();
   readonly #steering: Steering;
   readonly #observer: MutationObserver;
   readonly #listeners = new AbortController();
@@ -253,7 +253,7 @@ export class Viewer {
   }
 
   pickSoon(x: number, y: number): Promise<Hit | undefined> {
-    return this.renderer.pickSoon(x, y);
+    return this.renderer.pickAsync(x, y);
   }
 
   /** Aborts all requests and frees the GPU. */

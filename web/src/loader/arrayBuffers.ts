@@ -8,7 +8,7 @@ import type { ElementArray } from "../stage/vertexArray.ts";
 import type { ElementType } from "../stage/elementType.ts";
 import { arrayTypeOf, byteSizeOf } from "../stage/elementType.ts";
 import type { StoredBytes } from "../stage/stage.ts";
-import type { Buffers } from "../render/uploads/bufferStore.ts";
+import type { BufferProvider } from "../render/uploads/bufferStore.ts";
 
 interface Kept {
   readonly array: ElementArray;
@@ -16,7 +16,7 @@ interface Kept {
   readonly records: Map<string, InterleavedBuffer>;
 }
 
-export class ArrayBuffers implements Buffers {
+export class ArrayBuffers implements BufferProvider {
   readonly #kept = new WeakMap<StoredBytes, Kept>();
 
   store(array: ElementArray): StoredBytes {

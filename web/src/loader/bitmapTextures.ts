@@ -10,14 +10,14 @@ import { decodePicture } from "../decode/picture.ts";
 import { bytesPerTexel } from "../delivery/patchFiles.ts";
 import type { Picture } from "../delivery/resourcePool.ts";
 import type { SamplingDescription } from "../document/description.ts";
-import type { Textures } from "../render/stages/stageDraws.ts";
-import { readAsData, sampleAs } from "../render/uploads/textureStore.ts";
-import type { Admission } from "./uploadThrottle.ts";
+import type { TextureProvider } from "../render/stages/stageDraws.ts";
+import { setDataSampling, setSampling } from "../render/uploads/textureStore.ts";
+import type { UploadThrottle } from "./uploadThrottle.ts";
 
 /** Texels of the longest edge: a renderer that can do less is not in use any more, and we are asked before there is one. */
-export const largestTexture = 4096;
+export const maxTextureSize = 4096;
 
-export class BitmapTextures implements Textures {
+export class BitmapTextures implements TextureProvider {
   readonly #textures = new WeakMap<DecodedImage, Texture>();
 
   textureOf(image: DecodedImage): Texture {
@@ -26,15 +26,15 @@ export class BitmapTextures implements Textures {
     return texture;
   }
 
-  readonly #admission: Admission;
+  readonly #admission: UploadThrottle;
 
-  constructor(admission: Admission) {
+  constructor(admission: UploadThrottle) {
     this.#admission = admission;
   }
 
   /** Rejects with DecodeError, or with the signal's reason; nothing is then left behind. */
   async makeImage(png: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DataImage> {
-    const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, largestTexture);
+    const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, maxTextureSize);
     return { image: await this.#keep(bitmap, dataTextureOf(bitmap), signal), channels };
   }
 
@@ -44,18 +44,18 @@ export class BitmapTextures implements Textures {
     sampling: SamplingDescription,
     signal: AbortSignal,
   ): Promise<Picture> {
-    const { bitmap, hasAlpha } = await decodePicture(bytes, largestTexture, sampling);
+    const { bitmap, hasAlpha } = await decodePicture(bytes, maxTextureSize, sampling);
     const texture = new Texture(bitmap);
     texture.flipY = false; // the bitmap is already
     texture.colorSpace = sampling.isData ? NoColorSpace : SRGBColorSpace;
-    sampleAs(texture, sampling);
+    setSampling(texture, sampling);
     texture.needsUpdate = true;
     return { image: await this.#keep(bitmap, texture, signal), hasAlpha };
   }
 
   async #keep(bitmap: ImageBitmap, texture: Texture, signal: AbortSignal): Promise<DecodedImage> {
     try {
-      await this.#admission.admit(bitmap.width * bitmap.height * bytesPerTexel, signal);
+      await this.#admission.waitForFrame(bitmap.width * bitmap.height * bytesPerTexel, signal);
       signal.throwIfAborted();
     } catch (error) {
       bitmap.close();
@@ -77,7 +77,7 @@ export class BitmapTextures implements Textures {
 
 function dataTextureOf(bitmap: ImageBitmap): Texture {
   const texture = new Texture(bitmap);
-  readAsData(texture);
+  setDataSampling(texture);
   texture.flipY = false;
   texture.premultiplyAlpha = false;
   texture.needsUpdate = true;

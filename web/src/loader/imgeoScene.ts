@@ -10,15 +10,15 @@ import { ResourcePool } from "../delivery/resourcePool.ts";
 import type { SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { makeLightUniforms } from "../render/lights/sceneLights.ts";
-import { usualPointSize } from "../render/stages/stageDraws.ts";
+import { defaultPointSize } from "../render/stages/stageDraws.ts";
 import { GeometryPool } from "../render/stages/geometryPool.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
 import type { Scheduler } from "../scheduler/scheduler.ts";
-import { Admission } from "./uploadThrottle.ts";
-import type { MaterialMaker, Surroundings } from "./standardMaterials.ts";
-import { appLook } from "./standardMaterials.ts";
+import { UploadThrottle } from "./uploadThrottle.ts";
+import type { MaterialMaker, SceneShadowOptions } from "./standardMaterials.ts";
+import { makeStandardMaterials } from "./standardMaterials.ts";
 import { ArrayBuffers } from "./arrayBuffers.ts";
-import { BitmapTextures, largestTexture } from "./bitmapTextures.ts";
+import { BitmapTextures, maxTextureSize } from "./bitmapTextures.ts";
 import { SceneContents } from "./sceneContents.ts";
 import type { SceneHit } from "./scenePicking.ts";
 import { ScenePicker } from "./scenePicking.ts";
@@ -68,18 +68,18 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   constructor({ x3d, url, urlOf, resolve, fetch, scheduler, keepsVertices, makeMaterial, runJob }: SceneSources) {
     super();
     for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined); // nobody has to listen
-    const admission = new Admission();
+    const admission = new UploadThrottle();
     const textures = new BitmapTextures(admission);
     const buffers = new ArrayBuffers();
     const pool = new ResourcePool({
       scheduler,
       makeImage: (png, signal) => textures.makeImage(png, signal),
       readsTextures: () => Promise.resolve(!keepsVertices),
-      maxTextureSize: largestTexture,
+      maxTextureSize,
       runJob,
       makePicture: (bytes, sampling, signal) => textures.makePicture(bytes, sampling, signal),
       storeBytes: async (array, _, signal) => {
-        await admission.admit(array.byteLength, signal);
+        await admission.waitForFrame(array.byteLength, signal);
         return buffers.store(array);
       },
       download: { ...defaultDownloadOptions, fetch },
@@ -93,7 +93,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     this.#contents = new SceneContents(
       { x3d, url, urlOf, pool },
       {
-        look: appLook(makeMaterial, surroundingsOf(this)),
+        materialFactory: makeStandardMaterials(makeMaterial, surroundingsOf(this)),
         geometries: new GeometryPool(buffers),
         buffers,
         textures,
@@ -160,7 +160,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       renderer,
       camera,
       { x, y },
-      Math.max(usualPointSize, shapes.largestWidth),
+      Math.max(defaultPointSize, shapes.largestWidth),
       shapes.pickCandidates(),
     );
   }
@@ -213,7 +213,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   }
 }
 
-function surroundingsOf(scene: ImgeoScene): Surroundings {
+function surroundingsOf(scene: ImgeoScene): SceneShadowOptions {
   return {
     get castShadow() {
       return scene.castShadow;

@@ -14,10 +14,10 @@ import type { GeometryDescription, ShapeDescription } from "../document/descript
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
 import type { PickCandidate } from "../render/picking/picker.ts";
-import type { ShapePlaces } from "../render/shapes/sceneGroups.ts";
-import type { ShapeSetting } from "../render/shapes/shapeObject.ts";
+import type { ShapeInstanceListener } from "../render/shapes/sceneGroups.ts";
+import type { ShapeContext } from "../render/shapes/shapeObject.ts";
 import { ShapeObject } from "../render/shapes/shapeObject.ts";
-import { isShown } from "../render/shapes/visibility.ts";
+import { isVisibleInScene } from "../render/shapes/visibility.ts";
 import type { LoadState } from "./sceneLod.ts";
 
 export interface LoadedShapesListener {
@@ -53,8 +53,8 @@ interface LoadedShape {
 /** Without a camera to measure by, only the order of what files hold counts. */
 const nowhere = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
-export class LoadedShapes implements ShapePlaces {
-  readonly #setting: ShapeSetting;
+export class LoadedShapes implements ShapeInstanceListener {
+  readonly #setting: ShapeContext;
   readonly #sources: ShapeSources;
   readonly #listener: LoadedShapesListener;
   readonly #shapes = new Map<SceneElement, LoadedShape>();
@@ -62,7 +62,7 @@ export class LoadedShapes implements ShapePlaces {
   readonly #changed = new Set<LoadedShape>();
   #hasPicture = false;
 
-  constructor(setting: ShapeSetting, sources: ShapeSources, listener: LoadedShapesListener) {
+  constructor(setting: ShapeContext, sources: ShapeSources, listener: LoadedShapesListener) {
     this.#setting = setting;
     this.#sources = sources;
     this.#listener = listener;
@@ -73,7 +73,7 @@ export class LoadedShapes implements ShapePlaces {
     this.#shapes.set(shape.element, loaded);
     this.#byGroup.set(group, loaded);
     group.name = attributeOf(shape.element, "DEF") ?? "";
-    loaded.object.enter(group, shape.host);
+    loaded.object.addInstance(group, shape.host);
     this.#follow(loaded, shape, place, group);
   }
 
@@ -118,7 +118,7 @@ export class LoadedShapes implements ShapePlaces {
   get largestWidth(): number {
     let largest = 0;
     for (const {
-      object: { largestWidth },
+      object: { maxWidth: largestWidth },
     } of this.#shapes.values())
       largest = Math.max(largest, largestWidth);
     return largest;
@@ -127,7 +127,7 @@ export class LoadedShapes implements ShapePlaces {
   *pickCandidates(): Generator<PickCandidate> {
     for (const { object } of this.#shapes.values()) {
       if (!object.isPickable) continue;
-      for (const drawn of object.placedDraws()) if (isShown(drawn.group)) yield drawn;
+      for (const drawn of object.pickCandidates()) if (isVisibleInScene(drawn.group)) yield drawn;
     }
   }
 
@@ -172,7 +172,7 @@ export class LoadedShapes implements ShapePlaces {
     const object = new ShapeObject(this.#setting, shape);
     const textures = new ShapeTextures(this.#sources.textures, {
       onPicture: (role, picture) => {
-        object.setPicture(
+        object.setTexture(
           role,
           picture && { texture: this.#setting.textures.textureOf(picture.image), hasAlpha: picture.hasAlpha },
         );

@@ -15,10 +15,10 @@ import type { ElementType } from "../stage/elementType.ts";
 import type { StoredBytes } from "../stage/stage.ts";
 import { held, siteOf, soon, type Answer } from "../delivery/delivery.testing.ts";
 import { elementsOf } from "../document/elements.testing.ts";
-import type { Buffers } from "../render/uploads/bufferStore.ts";
+import type { BufferProvider } from "../render/uploads/bufferStore.ts";
 import { makeLightUniforms } from "../render/lights/sceneLights.ts";
 import { GeometryPool } from "../render/stages/geometryPool.ts";
-import { appLook, standardMaterialOf } from "./standardMaterials.ts";
+import { makeStandardMaterials, standardMaterialOf } from "./standardMaterials.ts";
 import { SceneContents } from "./sceneContents.ts";
 
 const shape = (name: string) => `<Shape DEF="${name}"><BinaryGeometry vertexCount="3" coord="${name}.bin"/></Shape>`;
@@ -28,7 +28,7 @@ const triangle = () => new Uint8Array(36);
 function appOf(markup: string, files: Record<string, Answer>) {
   const { pool, asked, aborted, arrayOf } = siteOf(files);
   const viewOf = (bytes: StoredBytes, type: ElementType) => new (arrayTypeOf(type))(arrayOf({ bytes }).buffer);
-  const buffers: Buffers = {
+  const buffers: BufferProvider = {
     recordsOf: (bytes, type, stride) => new InterleavedBuffer(viewOf(bytes, type), stride),
     indexOf: (bytes, type) => new BufferAttribute(viewOf(bytes, type), 1),
     read: (bytes, type, first, count = Infinity) => viewOf(bytes, type).slice(first, first + count),
@@ -44,7 +44,11 @@ function appOf(markup: string, files: Record<string, Answer>) {
       pool,
     },
     {
-      look: appLook(standardMaterialOf, { castShadow: false, receiveShadow: false, sphere: undefined as never }),
+      materialFactory: makeStandardMaterials(standardMaterialOf, {
+        castShadow: false,
+        receiveShadow: false,
+        sphere: undefined as never,
+      }),
       geometries: new GeometryPool(buffers),
       buffers,
       textures: {

@@ -17,8 +17,8 @@ import { levelAt } from "../document/levels.ts";
 import { readInlineGeometry } from "../document/inlineGeometry.ts";
 import { SceneReader } from "../document/sceneReader.ts";
 import { textReading } from "../document/textGeometry.ts";
-import { SceneGraph } from "../render/shapes/sceneGroups.ts";
-import type { ShapeSetting } from "../render/shapes/shapeObject.ts";
+import { SceneGroups } from "../render/shapes/sceneGroups.ts";
+import type { ShapeContext } from "../render/shapes/shapeObject.ts";
 import { chunkWeightsOf } from "../scheduler/priority.ts";
 import { CameraObserver } from "./cameraObserver.ts";
 import { LoadedShapes } from "./loadedShapes.ts";
@@ -52,7 +52,7 @@ export class SceneContents {
   readonly #deliveries: GeometryDeliveries;
   readonly #pictures: TextureDeliveries;
   readonly #reader: SceneReader;
-  readonly #graph: SceneGraph;
+  readonly #graph: SceneGroups;
   readonly #billboards = new CameraObserver((camera) => {
     this.#graph.turnBillboards(camera);
   });
@@ -73,7 +73,7 @@ export class SceneContents {
   #isStopped = false;
 
   /** Nothing is asked for, and the listener is not called, before `start`. */
-  constructor({ x3d, url, urlOf, pool }: ContentsSources, setting: ShapeSetting, listener: ContentsListener) {
+  constructor({ x3d, url, urlOf, pool }: ContentsSources, setting: ShapeContext, listener: ContentsListener) {
     this.#deliveries = new GeometryDeliveries(pool);
     this.#pictures = new TextureDeliveries(pool);
     this.shapes = new LoadedShapes(setting, { geometries: this.#deliveries, textures: this.#pictures }, listener);
@@ -97,7 +97,7 @@ export class SceneContents {
       text: textReading(measureRun),
     });
     this.#scene = this.#reader.read();
-    this.#graph = new SceneGraph({
+    this.#graph = new SceneGroups({
       onEnter: (shape, place, group) => {
         this.shapes.onEnter(shape, place, group);
       },

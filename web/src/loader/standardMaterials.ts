@@ -18,13 +18,18 @@ import {
 } from "three";
 import type { AppearanceDescription, MaterialDescription, TextureRole } from "../document/description.ts";
 import { textureRoles } from "../document/description.ts";
-import { farnessDefine, shadeByFarnessIn } from "../render/materials/depthShading.ts";
-import { cutLettersIn, hasLetters, setLetters } from "../render/materials/glyphField.ts";
-import { leastAlpha } from "../render/materials/materialFactory.ts";
-import type { Look, MaterialRequest, Shading, ShownPictures } from "../render/materials/materialFactory.ts";
-import { colorByValueIn } from "../render/materials/valueColors.ts";
-import { primitiveDefinesOf, shapePointsIn } from "../render/points/roundPoints.ts";
-import { readVerticesIn, srgbColorsDefine, vertexDefinesOf } from "../render/vertices/vertexChunk.ts";
+import { depthShadingDefine, addDepthShading } from "../render/materials/depthShading.ts";
+import { addGlyphField, hasGlyphs, setGlyphDefine } from "../render/materials/glyphField.ts";
+import { minAlpha } from "../render/materials/materialFactory.ts";
+import type {
+  MaterialFactory,
+  MaterialRequest,
+  Shading,
+  SurfaceTextures,
+} from "../render/materials/materialFactory.ts";
+import { addValueColors } from "../render/materials/valueColors.ts";
+import { primitiveDefinesOf, addRoundPoints } from "../render/points/roundPoints.ts";
+import { addVertexReading, srgbColorsDefine, vertexDefinesOf } from "../render/vertices/vertexChunk.ts";
 import { followViewport } from "../render/lines/wideLineChunk.ts";
 
 /**
@@ -64,18 +69,18 @@ export function standardMaterialOf(description: MaterialDescription, shading: Sh
 }
 
 /** What a scene is in the app that it is hung into. */
-export interface Surroundings {
+export interface SceneShadowOptions {
   readonly castShadow: boolean;
   readonly receiveShadow: boolean;
   /** Around the scene, in the app's world. */
   readonly sphere: Sphere;
 }
 
-export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings): Look {
+export function makeStandardMaterials(makeMaterial: MaterialMaker, surroundings: SceneShadowOptions): MaterialFactory {
   const shadowMaterials = new WeakMap<Material, ShadowMaterials>();
   return {
     batching: undefined, // three's Raycaster, and passes with materials of their own, want an object for each place
-    makeMaterial(request, appearance, pictures) {
+    makeMaterial(request, appearance, surfaceTextures) {
       const material = makeMaterial(appearance.material, request.shading);
       material.side = request.solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
       if (request.wideLineStep > 0) followViewport(material, request.shared.viewport);
@@ -86,25 +91,25 @@ export function appLook(makeMaterial: MaterialMaker, surroundings: Surroundings)
       if (material.vertexColors && "color" in material && material.color instanceof Color) material.color.set(0xffffff);
       const shadows = shadowMaterialsOf(material, request);
       shadowMaterials.set(material, shadows);
-      layPictures(material, shadows, appearance, pictures);
-      return readVertices(
+      setTextureMaps(material, shadows, appearance, surfaceTextures);
+      return addVertexReadingTo(
         material,
         request,
         request.shading === "smooth" && !("flatShading" in material && material.flatShading === true),
       );
     },
-    // The document is read once, so only its pictures come later.
-    applyAppearance: (material, appearance, _, pictures) => {
-      layPictures(material, shadowMaterials.get(material), appearance, pictures);
+    // The document is read once, so only its surfaceTextures come later.
+    applyAppearance: (material, appearance, _, surfaceTextures) => {
+      setTextureMaps(material, shadowMaterials.get(material), appearance, surfaceTextures);
     },
-    prepare(object, request, material) {
+    prepareObject(object, request, material) {
       object.castShadow = surroundings.castShadow;
       object.receiveShadow = surroundings.receiveShadow;
       const { depth, distance } = shadowMaterials.get(material) ?? {};
       object.customDepthMaterial = depth;
       object.customDistanceMaterial = distance;
       // There are no vertices in JavaScript for a ray, and three does not expect that.
-      if (request.areImages || request.wideLineStep > 0) object.raycast = () => undefined;
+      if (request.isFromImages || request.wideLineStep > 0) object.raycast = () => undefined;
       if (object instanceof Points || request.wideLineStep > 0)
         object.onBeforeRender = (renderer, _, camera) => {
           measure(renderer, camera, request);
@@ -134,40 +139,40 @@ const slots: Readonly<Record<TextureRole, readonly string[]>> = {
 };
 
 /** Over the material's own colour. A material with maps of the app's keeps them until there are others. */
-function layPictures(
+function setTextureMaps(
   material: Material,
   shadows: ShadowMaterials | undefined,
   appearance: AppearanceDescription,
-  pictures: ShownPictures,
+  surfaceTextures: SurfaceTextures,
 ): void {
   const { alpha, material: description } = appearance;
-  setLetters(material, appearance);
+  setGlyphDefine(material, appearance);
   for (const role of textureRoles) {
     const isMain = role === "color" || description.kind !== "unlit";
-    for (const slot of slots[role]) if (isMain) layMap(material, slot, pictures.get(role)?.texture);
+    for (const slot of slots[role]) if (isMain) setTextureMap(material, slot, surfaceTextures.get(role)?.texture);
   }
   if (material instanceof MeshStandardMaterial && description.kind !== "unlit") {
     material.normalScale.set(description.normalScale, description.normalScale);
     material.aoMapIntensity = description.occlusionStrength;
   }
-  const color = pictures.get("color");
+  const color = surfaceTextures.get("color");
   if (color === undefined) return;
   if (alpha.mode === "BLEND" || (alpha.mode === "AUTO" && color.hasAlpha)) {
     material.transparent = true;
-    material.alphaTest ||= leastAlpha;
+    material.alphaTest ||= minAlpha;
   }
-  const areLetters = hasLetters(appearance);
-  if (alpha.mode !== "MASK" && !areLetters) return;
+  const areGlyphs = hasGlyphs(appearance);
+  if (alpha.mode !== "MASK" && !areGlyphs) return;
   // Holes let light through; letters have their edges in the middle of their field.
-  for (const drawn of [areLetters ? undefined : material, shadows?.depth, shadows?.distance]) {
+  for (const drawn of [areGlyphs ? undefined : material, shadows?.depth, shadows?.distance]) {
     if (drawn === undefined) continue;
-    drawn.alphaTest = areLetters ? 0.5 : alpha.cutoff;
-    layMap(drawn, "map", color.texture);
+    drawn.alphaTest = areGlyphs ? 0.5 : alpha.cutoff;
+    setTextureMap(drawn, "map", color.texture);
   }
 }
 
 /** Undefined: none of ours any more. */
-function layMap(material: Material, slot: string, texture: Texture | undefined): void {
+function setTextureMap(material: Material, slot: string, texture: Texture | undefined): void {
   if (!(slot in material)) return;
   const maps = material as unknown as Record<string, Texture | null>;
   const laid = (material.userData.imgeoMaps ??= {}) as Record<string, Texture>;
@@ -185,8 +190,8 @@ interface ShadowMaterials {
 
 /** For shadows of directional lights and spots, and for those of points; they go with the material that is seen. */
 function shadowMaterialsOf(material: Material, request: MaterialRequest): ShadowMaterials {
-  const depth = readVertices(new MeshDepthMaterial(), request, false);
-  const distance = readVertices(new MeshDistanceMaterial(), request, false);
+  const depth = addVertexReadingTo(new MeshDepthMaterial(), request, false);
+  const distance = addVertexReadingTo(new MeshDistanceMaterial(), request, false);
   const onDispose = () => {
     material.removeEventListener("dispose", onDispose);
     depth.dispose();
@@ -197,7 +202,7 @@ function shadowMaterialsOf(material: Material, request: MaterialRequest): Shadow
 }
 
 /** Lets a material draw vertices of this form, whatever it does besides. */
-function readVertices<Any extends Material>(material: Any, request: MaterialRequest, readsNormals: boolean): Any {
+function addVertexReadingTo<Any extends Material>(material: Any, request: MaterialRequest, readsNormals: boolean): Any {
   const own = material.onBeforeCompile.bind(material);
   const ownKey = material.customProgramCacheKey();
   material.defines = {
@@ -205,17 +210,17 @@ function readVertices<Any extends Material>(material: Any, request: MaterialRequ
     ...vertexDefinesOf(request, readsNormals),
     ...primitiveDefinesOf(request.primitive),
     [srgbColorsDefine]: "",
-    ...(request.shading === "distance" && { [farnessDefine]: "" }),
+    ...(request.shading === "distance" && { [depthShadingDefine]: "" }),
     ...request.valueDefines,
   };
   material.onBeforeCompile = (shader, renderer) => {
     own(shader, renderer);
     Object.assign(shader.uniforms, request.uniforms, { depthRange: request.shared.depthRange });
-    readVerticesIn(shader);
-    shapePointsIn(shader);
-    shadeByFarnessIn(shader);
-    colorByValueIn(shader);
-    cutLettersIn(shader);
+    addVertexReading(shader);
+    addRoundPoints(shader);
+    addDepthShading(shader);
+    addValueColors(shader);
+    addGlyphField(shader);
   };
   material.customProgramCacheKey = () => `imgeo ${ownKey}`;
   return material;

@@ -9,7 +9,7 @@ import { FrameTaskQueue } from "../scheduler/frameTaskQueue.ts";
 /** As the element takes (dom/arrival.ts); what is larger comes alone. */
 const bytesPerFrame = 4 * 2 ** 20;
 
-export class Admission {
+export class UploadThrottle {
   readonly #work = new FrameTaskQueue({
     bytesPerFrame,
     millisecondsPerFrame: Infinity,
@@ -18,7 +18,7 @@ export class Admission {
   });
 
   /** Resolves before a frame that may show so many bytes more. Rejects with the signal's reason. */
-  admit(bytes: number, signal: AbortSignal): Promise<void> {
+  waitForFrame(bytes: number, signal: AbortSignal): Promise<void> {
     return this.#work.run([bytes].values(), signal);
   }
 }

@@ -1,7 +1,7 @@
 // The shaders of a first look: vertices out of buffers of lattice numbers, and the
 // light of X3D in the same words as the runtime's (lighting).
 
-import { falloff } from "../lighting/falloff.ts";
+import { falloffChunk } from "../lighting/falloff.ts";
 import { physicalDefine, toDisplayedChunk, toLinearChunk } from "../lighting/physicalLighting.ts";
 import { x3dLighting } from "../lighting/x3dLighting.ts";
 import type { LightKind } from "./previewLights.ts";
@@ -70,7 +70,7 @@ in vec3 vertexColor;
 out vec4 pixel;
 
 ${x3dLighting}
-${falloff}
+${falloffChunk}
 
 #if LIGHTS > 0
 IncidentLight directionalLight(int i, vec3 place) {

@@ -6,7 +6,7 @@ import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { ElementArray, VertexArray } from "../stage/vertexArray.ts";
 import { elementTypeOf } from "../stage/elementType.ts";
 import { latticeBitsOf } from "../document/storedFrame.ts";
-import { isBlended, litNumbersOf } from "../lighting/materialNumbers.ts";
+import { isBlended, litParametersOf } from "../lighting/materialParameters.ts";
 import { lensOf } from "../navigation/camera.ts";
 import type { LightScope } from "../navigation/lightScope.ts";
 import type { LightUniforms } from "./previewLights.ts";
@@ -219,7 +219,7 @@ function setMaterial(
   { appearance: { material } }: PreviewShape,
   hasColors: boolean,
 ): void {
-  const { color, specular, shininess, ambientIntensity, metallic, roughness } = litNumbersOf(material, hasColors);
+  const { color, specular, shininess, ambientIntensity, metallic, roughness } = litParametersOf(material, hasColors);
   gl.uniform3fv(uniform("color"), color);
   gl.uniform3fv(uniform("specular"), specular);
   gl.uniform3fv(uniform("emissive"), material.emissiveColor);

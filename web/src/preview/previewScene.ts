@@ -11,7 +11,7 @@ import type {
   Vec3,
 } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import { isBlended } from "../lighting/materialNumbers.ts";
+import { isBlended } from "../lighting/materialParameters.ts";
 import { BindingStack } from "../navigation/bindingStack.ts";
 import type { Pose } from "../navigation/camera.ts";
 import { sphereAround } from "../navigation/camera.ts";

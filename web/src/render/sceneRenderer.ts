@@ -30,27 +30,27 @@ import type {
 } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { applyPose } from "../navigation/camera.ts";
-import { backdropOf, disposeBackdrop } from "./frames/background.ts";
+import { makeBackground, disposeBackground } from "./frames/background.ts";
 import { Batches } from "./batches/batches.ts";
 import type { BufferUpload } from "./uploads/bufferStore.ts";
 import { BufferStore } from "./uploads/bufferStore.ts";
 import type { SceneUniforms } from "./materials/materialFactory.ts";
-import { x3dLook } from "./materials/x3dMaterials.ts";
-import { Pace } from "./frames/framePacing.ts";
+import { x3dMaterials } from "./materials/x3dMaterials.ts";
+import { FramePacer } from "./frames/framePacing.ts";
 import type { Hit } from "./picking/picker.ts";
 import { makeLightUniforms } from "./lights/sceneLights.ts";
 import type { BuiltScene } from "./shapes/sceneShapes.ts";
 import { SceneShapes } from "./shapes/sceneShapes.ts";
 import { ScreenPicker } from "./picking/screenPicker.ts";
-import { Surveyor } from "./picking/depthProbe.ts";
+import { DepthProbe } from "./picking/depthProbe.ts";
 import { GeometryPool } from "./stages/geometryPool.ts";
-import { usualPointSize } from "./stages/stageDraws.ts";
-import { objectsToCome } from "./stages/programWarmUp.ts";
+import { defaultPointSize } from "./stages/stageDraws.ts";
+import { warmUpObjects } from "./stages/programWarmUp.ts";
 import type { TextureUpload } from "./uploads/textureStore.ts";
 import { TextureStore } from "./uploads/textureStore.ts";
-import { readsTextures } from "./picking/vertexTextureTest.ts";
-import { vertexSamplers } from "./vertices/vertexChunk.ts";
-import type { CameraMan, View } from "./view.ts";
+import { testVertexTextures } from "./picking/vertexTextureTest.ts";
+import { minVertexTextureUnits } from "./vertices/vertexChunk.ts";
+import type { CameraController, View } from "./view.ts";
 
 /** What has been drawn and what the GPU holds. */
 export interface RenderStatistics {
@@ -89,11 +89,11 @@ export class SceneRenderer {
   readonly #textures = new TextureStore();
   readonly #buffers: BufferStore;
   readonly #shapes: SceneShapes;
-  readonly #cameraMan: CameraMan;
+  readonly #cameraMan: CameraController;
   readonly #onFrame: () => void;
   readonly #picker: ScreenPicker;
-  readonly #surveyor: Surveyor;
-  readonly #pace: Pace;
+  readonly #surveyor: DepthProbe;
+  readonly #pace: FramePacer;
   #background: BackgroundDescription | undefined;
   #backdrop: Mesh | undefined;
   #size = { width: 0, height: 0 };
@@ -105,24 +105,29 @@ export class SceneRenderer {
   readonly #compiled = new Map<string, Object3D>();
 
   /** `onFrame` is called after each frame that has been drawn. */
-  constructor(canvas: HTMLCanvasElement, context: WebGL2RenderingContext, cameraMan: CameraMan, onFrame: () => void) {
+  constructor(
+    canvas: HTMLCanvasElement,
+    context: WebGL2RenderingContext,
+    cameraMan: CameraController,
+    onFrame: () => void,
+  ) {
     this.#cameraMan = cameraMan;
     this.#onFrame = onFrame;
     this.#renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
     this.#buffers = new BufferStore(context);
     const geometries = new GeometryPool(this.#buffers);
     this.#shapes = new SceneShapes(this.#scene, {
-      look: x3dLook,
+      materialFactory: x3dMaterials,
       geometries,
       buffers: this.#buffers,
       textures: this.#textures,
       shared: this.#shared,
-      batches: new Batches(x3dLook, geometries, this.#buffers),
+      batches: new Batches(x3dMaterials, geometries, this.#buffers),
       drawing: { asPoints: false },
     });
-    this.#pace = new Pace(context);
+    this.#pace = new FramePacer(context);
     this.#picker = new ScreenPicker(this.#renderer, this.#drawnCamera, () => this.#shapes.pickCandidates());
-    this.#surveyor = new Surveyor(this.#renderer);
+    this.#surveyor = new DepthProbe(this.#renderer);
     // The numbers of the document are the numbers of the screen: see materials.ts.
     this.#renderer.outputColorSpace = LinearSRGBColorSpace;
     this.#renderer.toneMapping = NoToneMapping;
@@ -139,7 +144,7 @@ export class SceneRenderer {
     return {
       frames: this.#frames,
       drawCalls: this.#drawCalls,
-      isFrameDue: this.#pace.isAsked,
+      isFrameDue: this.#pace.isFramePending,
       textures: memory.textures,
       geometries: memory.geometries,
       programs: programs?.length ?? 0,
@@ -177,7 +182,7 @@ export class SceneRenderer {
     const built = this.#shapes.setScene(description);
     this.#headlight.visible = description.navigation.headlight;
     if (description.background !== this.#background)
-      this.#setBackdrop(description.background && backdropOf(description.background));
+      this.#setBackdrop(description.background && makeBackground(description.background));
     this.#background = description.background;
     this.#compileAhead(built.changes.shapes.values());
     this.requestFrame();
@@ -185,7 +190,7 @@ export class SceneRenderer {
   }
 
   #setBackdrop(backdrop: Color | Mesh | undefined): void {
-    if (this.#backdrop) disposeBackdrop(this.#backdrop);
+    if (this.#backdrop) disposeBackground(this.#backdrop);
     this.#backdrop?.removeFromParent();
     this.#backdrop = backdrop instanceof Mesh ? backdrop : undefined;
     if (this.#backdrop) this.#scene.add(this.#backdrop);
@@ -200,12 +205,12 @@ export class SceneRenderer {
 
   /** Whether shaders of vertices have textures enough. */
   get mayReadTextures(): boolean {
-    return this.#renderer.capabilities.maxVertexTextures >= vertexSamplers;
+    return this.#renderer.capabilities.maxVertexTextures >= minVertexTextureUnits;
   }
 
   /** Whether vertices are read from textures as they should be; tried out once. */
   readsTextures(): Promise<boolean> {
-    this.#readsTextures ??= readsTextures(this.#renderer, this.#textures);
+    this.#readsTextures ??= testVertexTextures(this.#renderer, this.#textures);
     return this.#readsTextures;
   }
 
@@ -232,7 +237,7 @@ export class SceneRenderer {
 
   /** Lays a picture over a shape; undefined: none. */
   setPicture(element: SceneElement, role: TextureRole, picture: Picture | undefined): void {
-    this.#shapes.setPicture(
+    this.#shapes.setTexture(
       element,
       role,
       picture && { texture: this.#textures.textureOf(picture.image), hasAlpha: picture.hasAlpha },
@@ -267,9 +272,9 @@ export class SceneRenderer {
   }
 
   /** The same without waiting; no frame comes late for it. */
-  async pickSoon(x: number, y: number): Promise<Hit | undefined> {
+  async pickAsync(x: number, y: number): Promise<Hit | undefined> {
     if (this.#frames === 0) return undefined;
-    return this.#picker.pickSoon(() => ({ ...this.#size, x, y }), this.#pickSlack);
+    return this.#picker.pickAsync(() => ({ ...this.#size, x, y }), this.#pickSlack);
   }
 
   /** The innermost Anchor around what was hit. */
@@ -305,7 +310,7 @@ export class SceneRenderer {
 
   /** The same for what nobody has asked for, when the GPU has rested: what comes while a scene loads would keep it busy without an end. */
   requestFrameAtPace(): void {
-    this.#pace.ask(() => {
+    this.#pace.request(() => {
       this.requestFrame();
     });
   }
@@ -325,7 +330,7 @@ export class SceneRenderer {
   #compileAhead(shapes: Iterable<ShapeDescription>): void {
     if (this.isContextLost) return;
     const fresh = new Group();
-    for (const [key, object] of objectsToCome(shapes, this.#shapes.plan, x3dLook, this.#shared)) {
+    for (const [key, object] of warmUpObjects(shapes, this.#shapes.plan, x3dMaterials, this.#shared)) {
       if (this.#compiled.has(key)) continue;
       this.#compiled.set(key, object);
       fresh.add(object);
@@ -343,7 +348,7 @@ export class SceneRenderer {
 
   /** How far, in device pixels, a vertex may be from what it covers. */
   get #pickSlack(): number {
-    const largest = Math.max(this.#shapes.largestWidth, usualPointSize);
+    const largest = Math.max(this.#shapes.maxWidth, defaultPointSize);
     return 1 + Math.ceil((largest * this.#shared.pixelRatio.value) / 2);
   }
 
@@ -357,7 +362,7 @@ export class SceneRenderer {
     applyPose(this.#camera, this.#cameraMan.advance(begunAt), this.#aspect, this.sphere, this.#cameraMan.clearance);
     this.#shared.depthRange.value.set(this.#camera.near, this.#camera.far);
     const { pixelRatio } = this.#shared;
-    this.#shapes.passOver(this.#camera, [this.#size.width / pixelRatio.value, this.#size.height / pixelRatio.value]);
+    this.#shapes.cull(this.#camera, [this.#size.width / pixelRatio.value, this.#size.height / pixelRatio.value]);
     this.#renderer.render(this.#scene, this.#camera);
     this.#drawCalls = this.#renderer.info.render.calls;
     this.#pace.end(begunAt);
@@ -373,7 +378,7 @@ export class SceneRenderer {
     const lookout = this.#surveyor.isBusy ? undefined : this.#cameraMan.lookout;
     if (lookout === undefined) return;
     const depth = 2 * this.sphere.radius + this.sphere.center.distanceTo(lookout.eye);
-    const surroundings = await this.#surveyor.look(lookout, depth, this.#shapes.drawsAround());
+    const surroundings = await this.#surveyor.probe(lookout, depth, this.#shapes.candidatesIgnoringCulling());
     if (surroundings === undefined) return;
     this.#cameraMan.learn(lookout, surroundings);
     this.requestFrame();

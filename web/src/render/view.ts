@@ -14,7 +14,7 @@ export interface View {
 }
 
 /** Where the camera is. */
-export interface CameraMan {
+export interface CameraController {
   readonly pose: Pose;
   /** What is nearer need not be seen. */
   readonly clearance: number;

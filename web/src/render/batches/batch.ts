@@ -5,8 +5,8 @@ import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { isSurface } from "../points/surfaceAsPoints.ts";
 import type { DrawnObject } from "../stages/drawnObject.ts";
-import type { PlaceGroup } from "../lights/lightScopes.ts";
-import type { MaterialRequest, ShownPictures } from "../materials/materialFactory.ts";
+import type { ShapeGroup } from "../lights/lightScopes.ts";
+import type { MaterialRequest, SurfaceTextures } from "../materials/materialFactory.ts";
 import { backFaces, frontFaces } from "./instanceChunk.ts";
 
 /** What a shape asks to be drawn of a stage. The same for all its places. */
@@ -29,18 +29,18 @@ export interface BatchedDraw {
   readonly valueFrame: { readonly min: readonly number[]; readonly step: readonly number[] };
   readonly request: MaterialRequest;
   readonly appearance: AppearanceDescription;
-  readonly pictures: ShownPictures;
+  readonly surfaceTextures: SurfaceTextures;
   /** The same where one material will do. */
-  readonly lookKey: string;
+  readonly materialKey: string;
 }
 
 export interface Member {
   readonly draw: BatchedDraw;
-  readonly group: PlaceGroup;
+  readonly group: ShapeGroup;
   /** Its record in the table of places. */
-  readonly place: number;
+  readonly instanceIndex: number;
   batch: Batch | undefined;
-  isShown: boolean;
+  isVisible: boolean;
   /** Its place turns triangles inside out. */
   isMirrored: boolean;
   /** Around it, in the coordinates of what the batches hang in. */
@@ -55,12 +55,12 @@ export interface Run {
 }
 
 /** What a batch is made of. */
-export interface BatchParts {
+export interface BatchResources {
   /** The first of its members. */
   readonly draw: BatchedDraw;
   readonly material: Material;
   /** An object that draws a geometry with the material, where the batch hangs. */
-  readonly hang: (geometry: BufferGeometry) => DrawnObject;
+  readonly addObject: (geometry: BufferGeometry) => DrawnObject;
 }
 
 export interface Batch {
@@ -69,25 +69,25 @@ export interface Batch {
   add(member: Member): void;
   remove(member: Member): void;
   /** A member's place has changed, or whether it is shown. */
-  touch(): void;
+  invalidateBounds(): void;
   /** Before a frame: what of it a camera sees is drawn, as far as that is cheap to tell. */
   update(frustum: Frustum): void;
   /** The same where it blends: these are drawn. */
-  show(runs: readonly Run[]): void;
+  drawRuns(runs: readonly Run[]): void;
   dispose(): void;
 }
 
 /** What members have become one of. */
-export interface Merged {
+export interface MergedGeometry {
   readonly members: Iterable<Member>;
   readonly isEmpty: boolean;
   /** What members have left that are gone takes much room, or would be seen: it is to be written anew. */
-  readonly isWasteful: boolean;
+  readonly needsRebuild: boolean;
   hasRoomFor(member: Member): boolean;
   add(member: Member): void;
   remove(member: Member): void;
   /** Without what has been removed. */
-  writeAnew(): void;
+  rebuild(): void;
   /** Valid until there is more of it: they share memory. */
   makeGeometry(): BufferGeometry;
 }

@@ -5,54 +5,54 @@ import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { storedFrameOf } from "../../document/storedFrame.ts";
 import { shapeFromStoredOf } from "../../navigation/matrices.ts";
-import type { PlaceGroup } from "../lights/lightScopes.ts";
-import type { Batching, ShownPictures } from "../materials/materialFactory.ts";
-import { noPictures } from "../materials/materialFactory.ts";
+import type { ShapeGroup } from "../lights/lightScopes.ts";
+import type { BatchingRules, SurfaceTextures } from "../materials/materialFactory.ts";
+import { noSurfaceTextures } from "../materials/materialFactory.ts";
 import type { PatchDraws } from "../stages/patchDraws.ts";
 import { PickDraw } from "../picking/pickDraw.ts";
-import type { PatchSetting } from "../stages/stageDraws.ts";
+import type { PatchContext } from "../stages/stageDraws.ts";
 import { boundsOf, colorsOf, materialRequestOf, pickRequestOf, uniformsOf } from "../stages/stageDraws.ts";
 import { valueFrameOf } from "../materials/valueColors.ts";
 import type { BatchedDraw, Member } from "./batch.ts";
 import type { Batches } from "./batches.ts";
-import type { DrawnAs, Drawing } from "./batchingPlan.ts";
+import type { DrawMode, DrawModes } from "./batchingPlan.ts";
 import { vertexCountOf } from "../vertices/vertexColumns.ts";
 
 /** How draws go together. */
-export interface BatchSetting {
+export interface BatchContext {
   readonly batches: Batches;
-  readonly batching: Batching;
+  readonly batching: BatchingRules;
   readonly isMerged: boolean;
 }
 
 /** How the stage is drawn, of a geometry that is drawn so. */
-export function drawnAsOf(
+export function drawModeOf(
   stage: Stage,
-  drawing: Drawing,
+  drawing: DrawModes,
   appearance: AppearanceDescription,
-  pictures: ShownPictures,
-  batching: Batching,
-): DrawnAs {
-  return isBlended(stage, appearance, pictures, batching) ? drawing.blended : drawing.opaque;
+  surfaceTextures: SurfaceTextures,
+  batching: BatchingRules,
+): DrawMode {
+  return isBlended(stage, appearance, surfaceTextures, batching) ? drawing.blended : drawing.opaque;
 }
 
 export class BatchedStage implements PatchDraws {
   readonly picks: readonly PickDraw[];
   readonly #stage: Stage;
-  readonly #batch: BatchSetting;
-  readonly #members = new Map<PlaceGroup, readonly Member[]>();
-  #setting: PatchSetting;
+  readonly #batch: BatchContext;
+  readonly #members = new Map<ShapeGroup, readonly Member[]>();
+  #context: PatchContext;
   #draws: readonly BatchedDraw[];
 
-  constructor(stage: Stage, setting: PatchSetting, batch: BatchSetting) {
+  constructor(stage: Stage, context: PatchContext, batch: BatchContext) {
     this.#stage = stage;
-    this.#setting = setting;
+    this.#context = context;
     this.#batch = batch;
-    this.#draws = drawsOf(stage, setting, batch);
-    this.picks = stage.draws.filter(isSeen).map((range) => pickOf(stage, range, () => this.#setting));
+    this.#draws = drawsOf(stage, context, batch);
+    this.picks = stage.draws.filter(isSeen).map((range) => pickOf(stage, range, () => this.#context));
   }
 
-  hang(group: PlaceGroup): void {
+  addInstance(group: ShapeGroup): void {
     const { batches } = this.#batch;
     this.#members.set(
       group,
@@ -60,50 +60,50 @@ export class BatchedStage implements PatchDraws {
     );
   }
 
-  follow(group: PlaceGroup): void {
+  updateInstance(group: ShapeGroup): void {
     for (const member of this.#members.get(group) ?? []) this.#batch.batches.follow(member);
   }
 
-  leave(group: PlaceGroup): void {
+  removeInstance(group: ShapeGroup): void {
     for (const member of this.#members.get(group) ?? []) this.#batch.batches.remove(member);
     this.#members.delete(group);
   }
 
-  /** It must be one for which `drawnAsOf` is still the same. */
-  applyAppearance(appearance: AppearanceDescription, pictures: ShownPictures): void {
-    this.#setting = { ...this.#setting, appearance, pictures };
-    for (const pick of this.picks) pick.forgetParts();
+  /** It must be one for which `drawModeOf` is still the same. */
+  applyAppearance(appearance: AppearanceDescription, surfaceTextures: SurfaceTextures): void {
+    this.#context = { ...this.#context, appearance, surfaceTextures };
+    for (const pick of this.picks) pick.releaseResources();
     const isSame = this.#draws.every(
-      ({ ranges: [range], lookKey }) =>
-        range && lookKey === lookKeyOf(this.#stage, range, appearance, pictures, this.#batch.batching),
+      ({ ranges: [range], materialKey: lookKey }) =>
+        range && lookKey === materialKeyOf(this.#stage, range, appearance, surfaceTextures, this.#batch.batching),
     );
     if (isSame) {
       for (const here of this.#members.values())
-        for (const member of here) this.#batch.batches.setLook(member, this.#numbersOf(member.draw));
+        for (const member of here) this.#batch.batches.setMaterialNumbers(member, this.#numbersOf(member.draw));
       return;
     }
-    this.#draws = drawsOf(this.#stage, this.#setting, this.#batch);
+    this.#draws = drawsOf(this.#stage, this.#context, this.#batch);
     for (const group of Array.from(this.#members.keys())) {
-      this.leave(group);
-      this.hang(group);
+      this.removeInstance(group);
+      this.addInstance(group);
     }
   }
 
   dispose(): void {
-    for (const group of Array.from(this.#members.keys())) this.leave(group);
+    for (const group of Array.from(this.#members.keys())) this.removeInstance(group);
     for (const pick of this.picks) pick.dispose();
   }
 
   #numbersOf({ request }: BatchedDraw): readonly number[] {
-    return this.#batch.batching.numbersOf(request, this.#setting.appearance);
+    return this.#batch.batching.instanceNumbersOf(request, this.#context.appearance);
   }
 }
 
-function drawsOf(stage: Stage, setting: PatchSetting, { batching, isMerged }: BatchSetting): BatchedDraw[] {
-  const { geometry, patch, appearance, pictures, shared } = setting;
-  const uniforms = uniformsOf(stage, setting);
+function drawsOf(stage: Stage, context: PatchContext, { batching, isMerged }: BatchContext): BatchedDraw[] {
+  const { geometry, patch, appearance, surfaceTextures, shared } = context;
+  const uniforms = uniformsOf(stage, context);
   const { sphere: bounds } = boundsOf(geometry, patch, stage);
-  const blends = isBlended(stage, appearance, pictures, batching);
+  const blends = isBlended(stage, appearance, surfaceTextures, batching);
   return togetherOf(stage, isMerged, blends).flatMap(({ ranges, mayMerge }) => {
     const [first] = ranges;
     if (first === undefined) return [];
@@ -113,7 +113,7 @@ function drawsOf(stage: Stage, setting: PatchSetting, { batching, isMerged }: Ba
         ranges,
         bounds,
         appearance,
-        lookKey: lookKeyOf(stage, first, appearance, pictures, batching),
+        materialKey: materialKeyOf(stage, first, appearance, surfaceTextures, batching),
         isMerged: isMerged && mayMerge,
         isBlended: blends,
         // Files that several shapes share hold more than this stage's.
@@ -124,7 +124,7 @@ function drawsOf(stage: Stage, setting: PatchSetting, { batching, isMerged }: Ba
         texCoordFrame: [...geometry.texCoordMin, ...geometry.texCoordSize],
         valueFrame: valueFrameOf(stage, geometry.value),
         request: materialRequestOf(stage, first, geometry, uniforms.of(first), shared, true),
-        pictures: laidOn(stage, pictures),
+        surfaceTextures: laidOn(stage, surfaceTextures),
       },
     ];
   });
@@ -159,35 +159,35 @@ function isSeen({ count }: DrawRange): boolean {
 function isBlended(
   stage: Stage,
   appearance: AppearanceDescription,
-  pictures: ShownPictures,
-  batching: Batching,
+  surfaceTextures: SurfaceTextures,
+  batching: BatchingRules,
 ): boolean {
-  return batching.isBlended({ colors: colorsOf(stage) }, appearance, laidOn(stage, pictures));
+  return batching.isBlended({ colors: colorsOf(stage) }, appearance, laidOn(stage, surfaceTextures));
 }
 
 /** Without texture coordinates there is nowhere to lay them. */
-function laidOn(stage: Stage, pictures: ShownPictures): ShownPictures {
-  return stage.texCoord !== undefined ? pictures : noPictures;
+function laidOn(stage: Stage, surfaceTextures: SurfaceTextures): SurfaceTextures {
+  return stage.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
 }
 
-function lookKeyOf(
+function materialKeyOf(
   stage: Stage,
   { primitive }: DrawRange,
   appearance: AppearanceDescription,
-  pictures: ShownPictures,
-  batching: Batching,
+  surfaceTextures: SurfaceTextures,
+  batching: BatchingRules,
 ): string {
-  return batching.keyOf({ primitive, colors: colorsOf(stage) }, appearance, laidOn(stage, pictures));
+  return batching.materialKeyOf({ primitive, colors: colorsOf(stage) }, appearance, laidOn(stage, surfaceTextures));
 }
 
 /** The picking pass draws place by place, what the pointer is near. */
-function pickOf(stage: Stage, range: DrawRange, settingNow: () => PatchSetting): PickDraw {
-  const { geometry, patch, buffers, geometries } = settingNow();
+function pickOf(stage: Stage, range: DrawRange, contextNow: () => PatchContext): PickDraw {
+  const { geometry, patch, buffers, geometries } = contextNow();
   return new PickDraw(stage, range, {
     buffers,
     bounds: boundsOf(geometry, patch, stage).sphere,
     shapeFromStored: shapeFromStoredOf(geometry, patch),
-    makeParts: () => {
+    acquireResources: () => {
       const shape = geometries.acquire(stage)[stage.draws.indexOf(range)];
       if (shape === undefined) throw new RangeError("the draw is not one of its stage");
       return {
@@ -196,9 +196,9 @@ function pickOf(stage: Stage, range: DrawRange, settingNow: () => PatchSetting):
           stage,
           range,
           geometry.solid ? FrontSide : DoubleSide,
-          uniformsOf(stage, settingNow()).of(range),
-          settingNow().appearance,
-          settingNow().pictures,
+          uniformsOf(stage, contextNow()).of(range),
+          contextNow().appearance,
+          contextNow().surfaceTextures,
         ),
         release: () => {
           geometries.release(stage);

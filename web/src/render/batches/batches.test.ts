@@ -16,21 +16,21 @@ import type { ElementArray } from "../../stage/vertexArray.ts";
 import { arrayTypeOf, elementTypeOf } from "../../stage/elementType.ts";
 import type { BufferStage, StoredBytes } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
-import type { Buffers } from "../uploads/bufferStore.ts";
+import type { BufferProvider } from "../uploads/bufferStore.ts";
 import type { DrawnObject } from "../stages/drawnObject.ts";
-import type { Look, MaterialRequest } from "../materials/materialFactory.ts";
+import type { MaterialFactory, MaterialRequest } from "../materials/materialFactory.ts";
 import { GeometryPool } from "../stages/geometryPool.ts";
 import type { BatchedDraw, Member } from "./batch.ts";
 import { Batches } from "./batches.ts";
-import { mostVertices } from "./mergedMesh.ts";
-import { backFaces, frontFaces, placeFields, texelsPerPlace } from "./instanceChunk.ts";
-import { mostRepeatedLines } from "./instancedGeometry.ts";
+import { maxVertices } from "./mergedMesh.ts";
+import { backFaces, frontFaces, instanceFields, texelsPerInstance } from "./instanceChunk.ts";
+import { maxRepeatedLines } from "./instancedGeometry.ts";
 
 const white = [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0];
 
 const arrays = new WeakMap<StoredBytes, ElementArray>();
 
-const buffers: Buffers = {
+const buffers: BufferProvider = {
   recordsOf: (bytes, type, stride) => new InterleavedBuffer(new (arrayTypeOf(type))(bytes.byteLength), stride),
   indexOf: () => new BufferAttribute(new Uint16Array(3), 1),
   read: (bytes, _, first, count = Infinity) => (arrays.get(bytes) ?? new Uint8Array()).subarray(first, first + count),
@@ -84,8 +84,8 @@ function drawOf(stage: BufferStage, isMerged: boolean, vertexCount = 3, isBlende
     valueFrame: { min: [first(stage), 0, 0, 0], step: [2, 0, 0, 0] },
     request,
     appearance: {} as AppearanceDescription,
-    pictures: new Map(),
-    lookKey: isBlended ? "blended" : "",
+    surfaceTextures: new Map(),
+    materialKey: isBlended ? "blended" : "",
   };
 }
 
@@ -95,13 +95,13 @@ class Scene {
   readonly #camera = new PerspectiveCamera(60, 1, 0.1, 100);
 
   constructor() {
-    const look: Look = {
+    const look: MaterialFactory = {
       makeMaterial: ({ uniforms }) => {
         this.#table = () => uniforms.places?.value as DataTexture;
         return new MeshBasicMaterial();
       },
       applyAppearance: () => undefined,
-      prepare: () => undefined,
+      prepareObject: () => undefined,
       batching: undefined,
     };
     this.batches = new Batches(look, new GeometryPool(buffers), buffers);
@@ -139,9 +139,9 @@ class Scene {
     this.#camera.updateMatrixWorld();
   }
 
-  record({ place: number }: Member): number[] {
+  record({ instanceIndex: number }: Member): number[] {
     const numbers = this.#table?.().image.data as Float32Array;
-    return Array.from(numbers.subarray(number * 4 * texelsPerPlace, (number + 1) * 4 * texelsPerPlace));
+    return Array.from(numbers.subarray(number * 4 * texelsPerInstance, (number + 1) * 4 * texelsPerInstance));
   }
 }
 
@@ -176,7 +176,7 @@ describe("a stage in many places", () => {
     assert.equal(others.length, 0);
     assert.deepEqual(
       placesIn(drawn),
-      members.slice(1, 4).map((member) => member.place),
+      members.slice(1, 4).map((member) => member.instanceIndex),
     );
   });
 
@@ -195,15 +195,15 @@ describe("a stage in many places", () => {
     assert.ok(drawn);
     scene.hide(first);
     scene.frame();
-    assert.deepEqual(placesIn(drawn), [second.place, third.place]);
+    assert.deepEqual(placesIn(drawn), [second.instanceIndex, third.instanceIndex]);
     const before = scene.record(third);
     scene.move(second, 3);
     scene.frame();
-    assert.equal(scene.record(second)[placeFields.matrix + 3], 3);
+    assert.equal(scene.record(second)[instanceFields.matrix + 3], 3);
     assert.deepEqual(scene.record(third), before);
     scene.batches.remove(second);
     scene.frame();
-    assert.deepEqual(placesIn(drawn), [third.place]);
+    assert.deepEqual(placesIn(drawn), [third.instanceIndex]);
     const other = scene.add(drawOf(stageOf(9), false), 0);
     scene.frame();
     scene.move(other, 90);
@@ -226,7 +226,7 @@ describe("a stage in many places", () => {
     assert.equal(others.length, 1);
     const mirrored = [drawn, ...others].find(({ matrixWorld }) => matrixWorld.determinant() < 0);
     assert.ok(mirrored);
-    assert.deepEqual(placesIn(mirrored), [member.place]);
+    assert.deepEqual(placesIn(mirrored), [member.instanceIndex]);
     assert.deepEqual(scene.record(member).slice(0, 4), [1, 0, 0, -1]);
     scene.move(member, 1);
     assert.equal(scene.frame().length, 1, "it has joined the others");
@@ -236,7 +236,7 @@ describe("a stage in many places", () => {
     const scene = new Scene();
     const member = scene.add(draw, 1e7 + 0.25);
     scene.batches.sync(new Sphere(new Vector3(1e7, 0, 0), 10));
-    assert.equal(scene.record(member)[placeFields.matrix + 3], 0.25);
+    assert.equal(scene.record(member)[instanceFields.matrix + 3], 0.25);
   });
 });
 
@@ -259,7 +259,14 @@ describe("small meshes", () => {
     assert.equal(others.length, 0);
     const { index, places, coords } = meshIn(drawn);
     assert.deepEqual(index, [0, 1, 2, 3, 4, 5]);
-    assert.deepEqual(places, [a.place, a.place, a.place, b.place, b.place, b.place]);
+    assert.deepEqual(places, [
+      a.instanceIndex,
+      a.instanceIndex,
+      a.instanceIndex,
+      b.instanceIndex,
+      b.instanceIndex,
+      b.instanceIndex,
+    ]);
     const vertices = Array.from({ length: 6 }, (_, v) => Array.from(coords.subarray(4 * v, 4 * v + 3)));
     assert.deepEqual(vertices, [
       [100, 101, 102],
@@ -283,7 +290,7 @@ describe("small meshes", () => {
     scene.hide(members[0]);
     scene.frame();
     assert.deepEqual(
-      members.map((member) => scene.record(member)[placeFields.shownIn]),
+      members.map((member) => scene.record(member)[instanceFields.visibleInScope]),
       [0, 1, 1, 1, 1],
     );
     scene.batches.remove(members[1]);
@@ -296,7 +303,7 @@ describe("small meshes", () => {
     assert.ok(packed);
     assert.deepEqual(
       meshIn(packed).places,
-      members.slice(3).flatMap((member) => Array<number>(3).fill(member.place)),
+      members.slice(3).flatMap((member) => Array<number>(3).fill(member.instanceIndex)),
       "it is written anew",
     );
   });
@@ -312,7 +319,7 @@ describe("small meshes", () => {
 
   test("are several meshes where 16 bits do not count them, and where some are mirrored", () => {
     const scene = new Scene();
-    const large = (first: number) => drawOf(stageOf(first), true, Math.ceil(mostVertices / 2));
+    const large = (first: number) => drawOf(stageOf(first), true, Math.ceil(maxVertices / 2));
     scene.add(large(0), 0);
     scene.add(large(1), 0);
     assert.equal(scene.frame().length, 2);
@@ -357,7 +364,7 @@ describe("wide lines", () => {
     });
   }
 
-  const linesAt = ({ place: own }: Member, start: number) => [
+  const linesAt = ({ instanceIndex: own }: Member, start: number) => [
     [own, start, start + 4],
     [own, start + 4, start + 8],
   ];
@@ -396,7 +403,7 @@ describe("wide lines", () => {
 
   test("of large meshes are a draw for as many places as they may be stored again for", () => {
     const scene = new Scene();
-    const lineCount = Math.floor(mostRepeatedLines / 3) + 1;
+    const lineCount = Math.floor(maxRepeatedLines / 3) + 1;
     const stage = {
       ...linesOf(0),
       draws: [{ primitive: "lineStrip", first: 0, count: lineCount + 1, isWide: true }],
@@ -409,7 +416,7 @@ describe("wide lines", () => {
     );
     assert.deepEqual(
       new Set(calls.flatMap(linesIn).map(([own]) => own)),
-      new Set(members.map((member) => member.place)),
+      new Set(members.map((member) => member.instanceIndex)),
     );
   });
 
@@ -428,11 +435,11 @@ describe("wide lines", () => {
     assert.ok(far && near);
     assert.deepEqual(
       linesIn(far).map(([own]) => own),
-      [members[3], members[3], members[2], members[2]].map((member) => member.place),
+      [members[3], members[3], members[2], members[2]].map((member) => member.instanceIndex),
     );
     assert.deepEqual(
       linesIn(near).map(([own]) => own),
-      [members[0], members[0]].map((member) => member.place),
+      [members[0], members[0]].map((member) => member.instanceIndex),
     );
   });
 
@@ -455,7 +462,7 @@ test("what stored values are is told by place, so that shapes of several ranges 
   const scene = new Scene();
   const members = [10, 20].map((start) => scene.add(drawOf(stageOf(start), true), 0));
   assert.equal(scene.frame().length, 1);
-  const { valueMin, valueStep } = placeFields;
+  const { valueMin, valueStep } = instanceFields;
   assert.deepEqual(
     members.map((member) => [scene.record(member)[valueMin], scene.record(member)[valueStep]]),
     [
@@ -470,7 +477,7 @@ describe("what blends", () => {
   function drawnMembers(scene: Scene, members: readonly Member[]): number[][] {
     const calls = scene.frame().toSorted((a, b) => a.renderOrder - b.renderOrder);
     return calls.map((call) =>
-      placesDrawnBy(call).map((number) => members.findIndex(({ place: own }) => own === number)),
+      placesDrawnBy(call).map((number) => members.findIndex(({ instanceIndex: own }) => own === number)),
     );
   }
 
@@ -540,7 +547,7 @@ describe("what blends", () => {
       assert.equal(others.length, 0);
       assert.deepEqual(
         placesDrawnBy(call),
-        [far, near].flatMap((member) => [member.place + backFaces, member.place + frontFaces]),
+        [far, near].flatMap((member) => [member.instanceIndex + backFaces, member.instanceIndex + frontFaces]),
       );
     });
   }

@@ -5,10 +5,10 @@
 import type { BufferGeometry, Camera } from "three";
 import { Group, Matrix4, Sphere, Vector3 } from "three";
 import type { BufferStage, Stage } from "../../stage/stage.ts";
-import type { Buffers } from "../uploads/bufferStore.ts";
-import { objectOf } from "../stages/drawnObject.ts";
-import type { Look, MaterialRequest } from "../materials/materialFactory.ts";
-import type { PlaceGroup } from "../lights/lightScopes.ts";
+import type { BufferProvider } from "../uploads/bufferStore.ts";
+import { makeDrawnObject } from "../stages/drawnObject.ts";
+import type { MaterialFactory, MaterialRequest } from "../materials/materialFactory.ts";
+import type { ShapeGroup } from "../lights/lightScopes.ts";
 import type { GeometryPool } from "../stages/geometryPool.ts";
 import { frustumOf } from "../frames/viewFrustum.ts";
 import type { Batch, BatchedDraw, Member } from "./batch.ts";
@@ -17,16 +17,16 @@ import { InstancedBatch } from "./instancedBatch.ts";
 import { MergedBatch } from "./mergedBatch.ts";
 import { layoutOf } from "../vertices/vertexColumns.ts";
 import { OrderedMergedBatch } from "./orderedMergedBatch.ts";
-import { placeFields } from "./instanceChunk.ts";
-import { PlaceTable } from "./instanceTable.ts";
+import { instanceFields } from "./instanceChunk.ts";
+import { InstanceTable } from "./instanceTable.ts";
 
 export class Batches {
   /** Hangs in the scene, near what is drawn: records of places count from it, in single precision. */
   readonly root = new Group();
-  readonly #look: Look;
+  readonly #look: MaterialFactory;
   readonly #geometries: GeometryPool;
-  readonly #buffers: Buffers;
-  readonly #table = new PlaceTable();
+  readonly #buffers: BufferProvider;
+  readonly #table = new InstanceTable();
   readonly #members = new Set<Member>();
   /** Those that are drawn in the order of their distance. */
   readonly #blended = new Set<Member>();
@@ -39,7 +39,7 @@ export class Batches {
   readonly #stageNumbers = new WeakMap<Stage, number>();
   #stageCount = 0;
 
-  constructor(look: Look, geometries: GeometryPool, buffers: Buffers) {
+  constructor(look: MaterialFactory, geometries: GeometryPool, buffers: BufferProvider) {
     this.#look = look;
     this.#geometries = geometries;
     this.#buffers = buffers;
@@ -47,20 +47,20 @@ export class Batches {
   }
 
   /** From now on the draw is in the group's place too. `look`: the field of that name in a place's record. */
-  add(draw: BatchedDraw, look: readonly number[], group: PlaceGroup): Member {
+  add(draw: BatchedDraw, look: readonly number[], group: ShapeGroup): Member {
     const member: Member = {
       draw,
       group,
-      place: this.#table.allocate(),
+      instanceIndex: this.#table.allocate(),
       batch: undefined,
-      isShown: false,
+      isVisible: false,
       isMirrored: false,
       sphere: new Sphere(),
     };
-    this.#table.write(member.place, placeFields.texCoordFrame, draw.texCoordFrame);
-    this.#table.write(member.place, placeFields.valueMin, draw.valueFrame.min);
-    this.#table.write(member.place, placeFields.valueStep, draw.valueFrame.step);
-    this.#table.write(member.place, placeFields.look, look);
+    this.#table.write(member.instanceIndex, instanceFields.texCoordFrame, draw.texCoordFrame);
+    this.#table.write(member.instanceIndex, instanceFields.valueMin, draw.valueFrame.min);
+    this.#table.write(member.instanceIndex, instanceFields.valueStep, draw.valueFrame.step);
+    this.#table.write(member.instanceIndex, instanceFields.material, look);
     this.#members.add(member);
     if (draw.isBlended) this.#blended.add(member);
     this.#write(member, this.#rootFromScene);
@@ -69,15 +69,15 @@ export class Batches {
   }
 
   /** Another look, for the same material. */
-  setLook({ place }: Member, look: readonly number[]): void {
-    this.#table.write(place, placeFields.look, look);
+  setMaterialNumbers({ instanceIndex: place }: Member, look: readonly number[]): void {
+    this.#table.write(place, instanceFields.material, look);
   }
 
   remove(member: Member): void {
     this.#members.delete(member);
     this.#blended.delete(member);
     member.batch?.remove(member);
-    this.#table.release(member.place);
+    this.#table.release(member.instanceIndex);
     if (this.#members.size === 0) this.#disposeBatches(); // of a lost context nothing may be left for the next
   }
 
@@ -119,7 +119,7 @@ export class Batches {
           continue;
         }
         if (batch.isEmpty) this.#empty.add(batch);
-        if (this.#inOrder.has(batch)) batch.show(runs.get(batch) ?? []);
+        if (this.#inOrder.has(batch)) batch.drawRuns(runs.get(batch) ?? []);
         else batch.update(frustum);
       }
       if (kept.length === 0) this.#batches.delete(key);
@@ -146,7 +146,7 @@ export class Batches {
 
   #followIn(rootFromScene: Matrix4, member: Member): void {
     const { isMirrored } = member;
-    if (this.#write(member, rootFromScene)) member.batch?.touch();
+    if (this.#write(member, rootFromScene)) member.batch?.invalidateBounds();
     if (member.isMirrored === isMirrored) return;
     member.batch?.remove(member);
     this.#join(member);
@@ -157,17 +157,17 @@ export class Batches {
     const {
       draw: { shapeFromStored, bounds, step },
       group,
-      place,
+      instanceIndex: place,
       sphere,
     } = member;
     const rootFromStored = new Matrix4().multiplyMatrices(rootFromScene, group.matrixWorld).multiply(shapeFromStored);
     const [xx, xy, xz, , yx, yy, yz, , zx, zy, zz, , ox, oy, oz] = rootFromStored.elements;
-    member.isShown = group.visible;
+    member.isVisible = group.visible;
     member.isMirrored = rootFromStored.determinant() < 0;
     // The object of what is mirrored is mirrored itself, so that three.js knows; its records are not.
     const turn = member.isMirrored ? -1 : 1;
     sphere.copy(bounds).applyMatrix4(rootFromStored);
-    return this.#table.write(place, placeFields.matrix, [
+    return this.#table.write(place, instanceFields.matrix, [
       turn * xx,
       turn * yx,
       turn * zx,
@@ -181,7 +181,7 @@ export class Batches {
       zz,
       oz,
       ...step,
-      member.isShown ? 1 + (group.lightScope?.value ?? 0) : 0,
+      member.isVisible ? 1 + (group.lightScope?.value ?? 0) : 0,
     ]);
   }
 
@@ -203,19 +203,23 @@ export class Batches {
       ...draw.request,
       uniforms: { ...draw.request.uniforms, places: this.#table.uniform },
     };
-    const material = this.#look.makeMaterial(request, draw.appearance, draw.pictures);
+    const material = this.#look.makeMaterial(request, draw.appearance, draw.surfaceTextures);
     material.forceSinglePass = true; // three.js would draw all back faces of the batch before all front faces
-    const hang = (geometry: BufferGeometry) => {
-      const object = objectOf({ primitive: request.primitive, isWide: request.wideLineStep > 0 }, geometry, material);
+    const addObject = (geometry: BufferGeometry) => {
+      const object = makeDrawnObject(
+        { primitive: request.primitive, isWide: request.wideLineStep > 0 },
+        geometry,
+        material,
+      );
       object.frustumCulled = false; // `update` knows better
       object.matrixAutoUpdate = false;
       if (isMirrored) object.matrix.makeScale(-1, 1, 1);
-      this.#look.prepare(object, request, material);
+      this.#look.prepareObject(object, request, material);
       this.root.add(object);
       object.updateMatrixWorld(true);
       return object;
     };
-    const parts = { draw, material, hang };
+    const parts = { draw, material, addObject };
     const batch = !draw.isMerged
       ? new InstancedBatch(parts, this.#geometries)
       : draw.isBlended
@@ -226,7 +230,7 @@ export class Batches {
   }
 
   /** The same for what one batch can draw. */
-  #keyOf({ draw: { stage, ranges, isMerged, request, lookKey }, isMirrored }: Member): string {
+  #keyOf({ draw: { stage, ranges, isMerged, request, materialKey: lookKey }, isMirrored }: Member): string {
     const mesh = isMerged
       ? layoutOf(stage as BufferStage)
       : `${this.#numberOf(stage)} ${ranges.map((range) => stage.draws.indexOf(range)).join()}`;

@@ -4,14 +4,14 @@ import type { ShapeDescription } from "../../document/description.ts";
 import { shapesOf } from "../../document/description.ts";
 import { elementsOf } from "../../document/elements.testing.ts";
 import { readScene } from "../../document/readScene.ts";
-import { DrawingPlan, leastPlaces, mostMergedVertices } from "./batchingPlan.ts";
+import { BatchingPlan, minInstances, maxMergedVertices } from "./batchingPlan.ts";
 
 function geometry(name: string, vertices: number, profile = "compact"): string {
   return `<ImageGeometry DEF="${name}" profile="${profile}"><GeometryPatch recordCount="${vertices}" coord="${name}.png" data="${name}.png"/></ImageGeometry>`;
 }
 
-function planOf(places: readonly ShapeDescription[]): DrawingPlan {
-  const plan = new DrawingPlan();
+function planOf(places: readonly ShapeDescription[]): BatchingPlan {
+  const plan = new BatchingPlan();
   for (const { geometry: own } of places) if (own) plan.add(own);
   return plan;
 }
@@ -21,10 +21,10 @@ function drawn(shapes: readonly string[], is: "opaque" | "blended" = "opaque"): 
   const scene = readScene(elementsOf(`<X3D>${shapes.map((inner) => `<Shape>${inner}</Shape>`).join("")}</X3D>`));
   const places = shapesOf(scene.root);
   const plan = planOf(places);
-  return places.map(({ geometry: own }) => (own ? plan.drawingOf(own)[is] : "nothing"));
+  return places.map(({ geometry: own }) => (own ? plan.drawModesOf(own)[is] : "nothing"));
 }
 
-const crowd = Array.from({ length: leastPlaces }, (_, n) => geometry(`small${n}`, 24));
+const crowd = Array.from({ length: minInstances }, (_, n) => geometry(`small${n}`, 24));
 
 test("a scene of few shapes is drawn one by one, whatever they are", () => {
   const shapes = [...crowd.slice(2), '<ImageGeometry USE="small3"/>'];
@@ -32,20 +32,20 @@ test("a scene of few shapes is drawn one by one, whatever they are", () => {
 });
 
 test("in a scene of many, small meshes become one, and large ones stand alone", () => {
-  const shapes = [...crowd, geometry("large", mostMergedVertices + 1), geometry("untold", 0)];
+  const shapes = [...crowd, geometry("large", maxMergedVertices + 1), geometry("untold", 0)];
   assert.deepEqual(drawn(shapes), [...crowd.map(() => "merged"), "alone", "alone"]);
 });
 
 test("what blends is never alone in a scene of many: it has its turn among the others", () => {
-  const shapes = [...crowd, geometry("large", mostMergedVertices + 1), geometry("image", 24, "classic")];
+  const shapes = [...crowd, geometry("large", maxMergedVertices + 1), geometry("image", 24, "classic")];
   assert.deepEqual(drawn(shapes, "blended"), [...crowd.map(() => "merged"), "instanced", "instanced"]);
   assert.deepEqual(new Set(drawn(crowd.slice(1), "blended")), new Set(["alone"]));
 });
 
 test("a mesh is merged as long as all its places together are small, and instanced from then on", () => {
   const twice = (vertices: number) => [...crowd, geometry("twin", vertices), '<ImageGeometry USE="twin"/>'];
-  assert.deepEqual(drawn(twice(mostMergedVertices / 2)).slice(-2), ["merged", "merged"]);
-  assert.deepEqual(drawn(twice(mostMergedVertices / 2 + 1)).slice(-2), ["instanced", "instanced"]);
+  assert.deepEqual(drawn(twice(maxMergedVertices / 2)).slice(-2), ["merged", "merged"]);
+  assert.deepEqual(drawn(twice(maxMergedVertices / 2 + 1)).slice(-2), ["instanced", "instanced"]);
 });
 
 test("vertices that the GPU decodes are not merged, as they are in no buffers", () => {
@@ -61,7 +61,7 @@ test("vertices that the GPU decodes are not merged, as they are in no buffers", 
 test("shapes that come and go are drawn as if those that are left had always been all", () => {
   const scene = readScene(
     elementsOf(
-      `<X3D>${[...crowd, geometry("twin", mostMergedVertices / 2), '<ImageGeometry USE="twin"/>']
+      `<X3D>${[...crowd, geometry("twin", maxMergedVertices / 2), '<ImageGeometry USE="twin"/>']
         .map((inner) => `<Shape>${inner}</Shape>`)
         .join("")}</X3D>`,
     ),
@@ -71,9 +71,9 @@ test("shapes that come and go are drawn as if those that are left had always bee
   const twin = geometries.at(-1);
   assert.ok(twin);
   plan.add(twin);
-  assert.equal(plan.drawingOf(twin).opaque, "instanced");
+  assert.equal(plan.drawModesOf(twin).opaque, "instanced");
   plan.remove(twin);
-  assert.equal(plan.drawingOf(twin).opaque, "merged");
+  assert.equal(plan.drawModesOf(twin).opaque, "merged");
   for (const gone of geometries.slice(0, 3)) plan.remove(gone);
-  assert.equal(plan.drawingOf(twin).opaque, "alone");
+  assert.equal(plan.drawModesOf(twin).opaque, "alone");
 });

@@ -6,32 +6,32 @@
 import type { GeometryDescription } from "../../document/description.ts";
 
 /** By itself; in all its places at once; or as a part of one mesh with others. */
-export type DrawnAs = "alone" | "instanced" | "merged";
+export type DrawMode = "alone" | "instanced" | "merged";
 
 /** How a geometry is drawn: stages of it that blend, and others. */
-export interface Drawing {
-  readonly opaque: DrawnAs;
-  readonly blended: DrawnAs;
+export interface DrawModes {
+  readonly opaque: DrawMode;
+  readonly blended: DrawMode;
 }
 
-export const alone: Drawing = { opaque: "alone", blended: "alone" };
-const instanced: Drawing = { opaque: "instanced", blended: "instanced" };
-const merged: Drawing = { opaque: "merged", blended: "merged" };
+export const alone: DrawModes = { opaque: "alone", blended: "alone" };
+const instanced: DrawModes = { opaque: "instanced", blended: "instanced" };
+const merged: DrawModes = { opaque: "merged", blended: "merged" };
 /** What blends has its turn among others that do, which batches know of. */
-const byItself: Drawing = { opaque: "alone", blended: "instanced" };
+const byItself: DrawModes = { opaque: "alone", blended: "instanced" };
 
 /** Scenes of fewer places are drawn one by one, each under its own matrix in double precision. */
-export const leastPlaces = 16;
+export const minInstances = 16;
 /** In all its places together, what is merged has no more vertices than this. */
-export const mostMergedVertices = 16384;
+export const maxMergedVertices = 16384;
 
 /**
  * How to draw each geometry of a scene, by the places where shapes show it. All patches
  * of a geometry are drawn alike: their common vertices go through the same arithmetic.
  */
-export class DrawingPlan {
+export class BatchingPlan {
   readonly #counts = new Map<GeometryDescription, number>();
-  readonly #told = new Map<GeometryDescription, Drawing>();
+  readonly #told = new Map<GeometryDescription, DrawModes>();
   #touched = new Set<GeometryDescription>();
   #placeCount = 0;
   #wasCrowd = false;
@@ -50,10 +50,10 @@ export class DrawingPlan {
     this.#touched.add(geometry);
   }
 
-  drawingOf(geometry: GeometryDescription): Drawing {
+  drawModesOf(geometry: GeometryDescription): DrawModes {
     if (!this.#isCrowd) return alone;
     const count = this.#countOf(geometry);
-    if (geometry.container !== "sig" && verticesOf(geometry) * count <= mostMergedVertices) return merged;
+    if (geometry.container !== "sig" && verticesOf(geometry) * count <= maxMergedVertices) return merged;
     return count > 1 ? instanced : byItself;
   }
 
@@ -63,7 +63,7 @@ export class DrawingPlan {
       this.#isCrowd === this.#wasCrowd ? this.#touched : new Set([...this.#touched, ...this.#counts.keys()]);
     const changed = new Set<GeometryDescription>();
     for (const geometry of asked) {
-      const drawing = this.#counts.has(geometry) ? this.drawingOf(geometry) : undefined;
+      const drawing = this.#counts.has(geometry) ? this.drawModesOf(geometry) : undefined;
       if (drawing === this.#told.get(geometry)) continue;
       if (drawing === undefined) this.#told.delete(geometry);
       else this.#told.set(geometry, drawing);
@@ -75,7 +75,7 @@ export class DrawingPlan {
   }
 
   get #isCrowd(): boolean {
-    return this.#placeCount >= leastPlaces;
+    return this.#placeCount >= minInstances;
   }
 
   #countOf(geometry: GeometryDescription): number {

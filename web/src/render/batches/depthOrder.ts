@@ -9,7 +9,7 @@ export function runsOf(members: Iterable<Member>, frustum: Frustum, viewFromRoot
   const [, , xz, , , , yz, , , , zz] = viewFromRoot.elements;
   const seen: { readonly member: Member; readonly batch: Batch; readonly height: number }[] = [];
   for (const member of members) {
-    const { batch, isShown, sphere } = member;
+    const { batch, isVisible: isShown, sphere } = member;
     if (batch === undefined || !isShown || !frustum.intersectsSphere(sphere)) continue;
     const { x, y, z } = sphere.center;
     seen.push({ member, batch, height: xz * x + yz * y + zz * z }); // the camera looks down its own -z

@@ -3,7 +3,7 @@
 // where a mesh is drawn in many places, of each vertex where many are one mesh.
 
 /** Defined in materials whose draws are of many places. */
-export const placesDefine = "PLACES";
+export const instancesDefine = "PLACES";
 
 /** Defined in shaders that test what light reaches a draw: lightScopes.ts. */
 export const scopedLightsDefine = "SCOPED_LIGHTS";
@@ -19,21 +19,21 @@ export const frontFaces = 2 ** 30;
  * or metallic and roughness, emissive and ambient intensity, the range of the map of
  * colours, and the width of lines; and what stored values are.
  */
-export const placeFields = {
+export const instanceFields = {
   matrix: 0,
   step: 12,
-  shownIn: 15,
+  visibleInScope: 15,
   texCoordFrame: 16,
-  look: 20,
+  material: 20,
   mapRange: 32,
   lineWidth: 34,
   valueMin: 36,
   valueStep: 40,
 } as const;
-export const texelsPerPlace = 11;
+export const texelsPerInstance = 11;
 
-export const placeVertexChunk = /* glsl */ `
-#ifdef ${placesDefine}
+export const instanceVertexChunk = /* glsl */ `
+#ifdef ${instancesDefine}
   attribute uint place;
   uniform highp sampler2D places;
   flat varying vec4 placeDiffuse, placeSpecular, placeEmissive;
@@ -43,7 +43,7 @@ export const placeVertexChunk = /* glsl */ `
   #endif
 
   vec4 placeTexel(int n) {
-    int texel = int(place & ${frontFaces - 1}u) * ${texelsPerPlace} + n;
+    int texel = int(place & ${frontFaces - 1}u) * ${texelsPerInstance} + n;
     int width = textureSize(places, 0).x;
     return texelFetch(places, ivec2(texel % width, texel / width), 0);
   }
@@ -97,8 +97,8 @@ export const placeVertexChunk = /* glsl */ `
 `;
 
 /** Before the fragment shader of a material whose colours come from the record. */
-export const placeFragmentChunk = /* glsl */ `
-#ifdef ${placesDefine}
+export const instanceFragmentChunk = /* glsl */ `
+#ifdef ${instancesDefine}
   flat varying vec4 placeDiffuse, placeSpecular, placeEmissive;
   flat varying uint placeFaces;
 #endif
@@ -106,17 +106,17 @@ export const placeFragmentChunk = /* glsl */ `
 
 /** In place of its beginning. */
 export const cutFacesChunk = /* glsl */ `void main() {
-#ifdef ${placesDefine}
+#ifdef ${instancesDefine}
   if (placeFaces == (gl_FrontFacing ? ${backFaces}u : ${frontFaces}u)) discard;
 #endif
 `;
 
 /** In three's fragment shaders: the uniforms of a material, and where they are a place's. */
-export const placeColors: readonly (readonly [string, string])[] = [
+export const instanceColorChunks: readonly (readonly [string, string])[] = [
   [
     "vec4 diffuseColor = vec4( diffuse, opacity );",
     `
-#ifdef ${placesDefine}
+#ifdef ${instancesDefine}
   vec4 diffuseColor = placeDiffuse;
 #else
   vec4 diffuseColor = vec4(diffuse, opacity);
@@ -126,7 +126,7 @@ export const placeColors: readonly (readonly [string, string])[] = [
   [
     "vec3 totalEmissiveRadiance = emissive;",
     `
-#ifdef ${placesDefine}
+#ifdef ${instancesDefine}
   vec3 totalEmissiveRadiance = placeEmissive.rgb;
 #else
   vec3 totalEmissiveRadiance = emissive;

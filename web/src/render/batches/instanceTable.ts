@@ -3,17 +3,17 @@
 // its number, so that moving, hiding or colouring it changes its record alone.
 
 import { DataTexture, FloatType, RGBAFormat } from "three";
-import { texelsPerPlace } from "./instanceChunk.ts";
+import { texelsPerInstance } from "./instanceChunk.ts";
 
-const placesPerRow = 128;
-const numbersPerPlace = 4 * texelsPerPlace;
-const numbersPerRow = numbersPerPlace * placesPerRow;
-const fewestRows = 8;
+const instancesPerRow = 128;
+const numbersPerInstance = 4 * texelsPerInstance;
+const numbersPerRow = numbersPerInstance * instancesPerRow;
+const minRows = 8;
 
-export class PlaceTable {
+export class InstanceTable {
   /** For all materials that read it. */
   readonly uniform: { value: DataTexture };
-  #numbers = new Float32Array(numbersPerRow * fewestRows);
+  #numbers = new Float32Array(numbersPerRow * minRows);
   readonly #free: number[] = [];
   /** Places that have ever been given out, and those that are now. */
   #end = 0;
@@ -29,7 +29,7 @@ export class PlaceTable {
   allocate(): number {
     this.#used += 1;
     const place = this.#free.pop() ?? this.#end++;
-    if ((place + 1) * numbersPerPlace > this.#numbers.length) this.#grow();
+    if ((place + 1) * numbersPerInstance > this.#numbers.length) this.#grow();
     return place;
   }
 
@@ -45,7 +45,7 @@ export class PlaceTable {
 
   /** Sets numbers of a place from number `first` of its record on; whether one of them was another. */
   write(place: number, first: number, numbers: readonly number[]): boolean {
-    const begin = place * numbersPerPlace + first;
+    const begin = place * numbersPerInstance + first;
     let isChanged = false;
     for (let i = 0; i < numbers.length; ++i) {
       const rounded = Math.fround(numbers[i] ?? 0);
@@ -53,7 +53,7 @@ export class PlaceTable {
       this.#numbers[begin + i] = rounded;
       isChanged = true;
     }
-    if (isChanged) this.#changedRows.add(Math.floor(place / placesPerRow));
+    if (isChanged) this.#changedRows.add(Math.floor(place / instancesPerRow));
     return isChanged;
   }
 
@@ -89,7 +89,7 @@ export class PlaceTable {
   #newTexture(): DataTexture {
     const texture = new DataTexture(
       this.#numbers,
-      placesPerRow * texelsPerPlace,
+      instancesPerRow * texelsPerInstance,
       this.#numbers.length / numbersPerRow,
       RGBAFormat,
       FloatType,

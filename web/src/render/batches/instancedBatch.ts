@@ -3,12 +3,12 @@
 import type { BufferGeometry, Frustum } from "three";
 import type { DrawnObject } from "../stages/drawnObject.ts";
 import type { GeometryPool } from "../stages/geometryPool.ts";
-import type { Batch, BatchParts, Member, Run } from "./batch.ts";
+import type { Batch, BatchResources, Member, Run } from "./batch.ts";
 import { passesOf } from "./batch.ts";
-import { mostPlacesOf, PlacedGeometry } from "./instancedGeometry.ts";
+import { maxInstancesOf, InstancedGeometry } from "./instancedGeometry.ts";
 
 export class InstancedBatch implements Batch {
-  readonly #parts: BatchParts;
+  readonly #parts: BatchResources;
   readonly #geometries: GeometryPool;
   readonly #shape: BufferGeometry;
   readonly #passes: readonly number[];
@@ -17,7 +17,7 @@ export class InstancedBatch implements Batch {
   /** Those that the last frame has drawn come first. */
   readonly #calls: InstancedCall[] = [];
 
-  constructor(parts: BatchParts, geometries: GeometryPool) {
+  constructor(parts: BatchResources, geometries: GeometryPool) {
     const {
       stage,
       ranges: [range],
@@ -28,7 +28,7 @@ export class InstancedBatch implements Batch {
     this.#geometries = geometries;
     this.#shape = shape;
     this.#passes = passesOf(parts.draw);
-    this.#mostPlaces = mostPlacesOf(shape);
+    this.#mostPlaces = maxInstancesOf(shape);
   }
 
   get isEmpty(): boolean {
@@ -47,21 +47,21 @@ export class InstancedBatch implements Batch {
     this.#members.delete(member);
   }
 
-  touch(): void {
+  invalidateBounds(): void {
     // Every frame looks at all of them.
   }
 
   update(frustum: Frustum): void {
     const members = Array.from(this.#members).filter(
-      ({ isShown, sphere }) => isShown && frustum.intersectsSphere(sphere),
+      ({ isVisible: isShown, sphere }) => isShown && frustum.intersectsSphere(sphere),
     );
-    this.show(members.length > 0 ? [{ members, order: 0 }] : []);
+    this.drawRuns(members.length > 0 ? [{ members, order: 0 }] : []);
   }
 
-  show(runs: readonly Run[]): void {
+  drawRuns(runs: readonly Run[]): void {
     let count = 0;
     for (const { members, order } of runs) {
-      const places = members.flatMap(({ place }) => this.#passes.map((pass) => place + pass));
+      const places = members.flatMap(({ instanceIndex: place }) => this.#passes.map((pass) => place + pass));
       for (let first = 0; first < places.length; first += this.#mostPlaces) {
         const together = places.slice(first, first + this.#mostPlaces);
         const call = (this.#calls[count] ??= new InstancedCall(this.#shape, this.#parts, together.length));
@@ -83,21 +83,21 @@ export class InstancedBatch implements Batch {
 class InstancedCall {
   readonly object: DrawnObject;
   readonly #shape: BufferGeometry;
-  #placed: PlacedGeometry;
+  #placed: InstancedGeometry;
 
-  constructor(shape: BufferGeometry, { hang }: BatchParts, placeCount: number) {
+  constructor(shape: BufferGeometry, { addObject: hang }: BatchResources, placeCount: number) {
     this.#shape = shape;
-    this.#placed = new PlacedGeometry(shape, placeCount);
+    this.#placed = new InstancedGeometry(shape, placeCount);
     this.object = hang(this.#placed.geometry);
   }
 
   show(places: readonly number[], order: number): void {
     if (places.length > this.#placed.capacity) {
       this.#placed.dispose();
-      this.#placed = new PlacedGeometry(this.#shape, Math.min(mostPlacesOf(this.#shape), 2 * places.length));
+      this.#placed = new InstancedGeometry(this.#shape, Math.min(maxInstancesOf(this.#shape), 2 * places.length));
       this.object.geometry = this.#placed.geometry;
     }
-    this.#placed.setPlaces(places);
+    this.#placed.setInstances(places);
     this.object.visible = true;
     this.object.renderOrder = order;
   }

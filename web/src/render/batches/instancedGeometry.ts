@@ -7,15 +7,15 @@ import { InstancedBufferAttribute, InstancedBufferGeometry, Sphere } from "three
 import { repeatedLines } from "../lines/wideLineGeometry.ts";
 
 /** Wide lines in buffers are stored again for each place of a draw, as no attribute begins anew; so many of them in a draw. */
-export const mostRepeatedLines = 65536;
+export const maxRepeatedLines = 65536;
 
 /** In which one draw can show the geometry. */
-export function mostPlacesOf(shape: BufferGeometry): number {
+export function maxInstancesOf(shape: BufferGeometry): number {
   if (!areStoredLines(shape)) return Infinity;
-  return Math.max(1, Math.floor(mostRepeatedLines / shape.instanceCount));
+  return Math.max(1, Math.floor(maxRepeatedLines / shape.instanceCount));
 }
 
-export class PlacedGeometry {
+export class InstancedGeometry {
   readonly geometry: InstancedBufferGeometry;
   /** In how many places it can be. */
   readonly capacity: number;
@@ -40,7 +40,7 @@ export class PlacedGeometry {
   }
 
   /** From now on it is in these places, at most as many as its capacity. */
-  setPlaces(places: readonly number[]): void {
+  setInstances(places: readonly number[]): void {
     this.geometry.instanceCount = places.length * this.#instancesPerPlace;
     const numbers = this.#places.array;
     if (places.every((place, n) => numbers[n] === place)) return;

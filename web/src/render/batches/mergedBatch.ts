@@ -3,26 +3,26 @@
 
 import type { Frustum } from "three";
 import { BufferGeometry, Sphere } from "three";
-import type { Buffers } from "../uploads/bufferStore.ts";
+import type { BufferProvider } from "../uploads/bufferStore.ts";
 import type { DrawnObject } from "../stages/drawnObject.ts";
-import type { Batch, BatchParts, Member, Merged } from "./batch.ts";
+import type { Batch, BatchResources, Member, MergedGeometry } from "./batch.ts";
 import { MergedLines } from "./mergedLines.ts";
 import { MergedMesh } from "./mergedMesh.ts";
 
 export class MergedBatch implements Batch {
-  readonly #parts: BatchParts;
-  readonly #mesh: Merged;
+  readonly #parts: BatchResources;
+  readonly #mesh: MergedGeometry;
   readonly #object: DrawnObject;
   readonly #sphere = new Sphere();
   #geometry = new BufferGeometry();
   #hasChanged = true;
   #isTouched = true;
 
-  constructor(parts: BatchParts, buffers: Buffers) {
+  constructor(parts: BatchResources, buffers: BufferProvider) {
     this.#parts = parts;
     this.#mesh =
       parts.draw.request.wideLineStep > 0 ? new MergedLines(parts.draw, buffers) : new MergedMesh(parts.draw, buffers);
-    this.#object = parts.hang(this.#geometry);
+    this.#object = parts.addObject(this.#geometry);
   }
 
   get isEmpty(): boolean {
@@ -45,18 +45,18 @@ export class MergedBatch implements Batch {
     this.#isTouched = true;
   }
 
-  touch(): void {
+  invalidateBounds(): void {
     this.#isTouched = true;
   }
 
   update(frustum: Frustum): void {
-    if (this.#mesh.isWasteful) this.#mesh.writeAnew();
+    if (this.#mesh.needsRebuild) this.#mesh.rebuild();
     if (this.#hasChanged) this.#send();
     if (this.#isTouched) this.#measure();
     this.#object.visible = !this.#sphere.isEmpty() && frustum.intersectsSphere(this.#sphere);
   }
 
-  show(): void {
+  drawRuns(): void {
     throw new RangeError("what does not blend has no order");
   }
 
@@ -79,6 +79,6 @@ export class MergedBatch implements Batch {
   #measure(): void {
     this.#isTouched = false;
     this.#sphere.makeEmpty();
-    for (const { isShown, sphere } of this.#mesh.members) if (isShown) this.#sphere.union(sphere);
+    for (const { isVisible: isShown, sphere } of this.#mesh.members) if (isShown) this.#sphere.union(sphere);
   }
 }

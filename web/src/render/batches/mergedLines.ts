@@ -4,24 +4,24 @@
 import type { BufferGeometry } from "three";
 import { InstancedBufferAttribute } from "three";
 import type { BufferStage } from "../../stage/stage.ts";
-import type { Buffers } from "../uploads/bufferStore.ts";
+import type { BufferProvider } from "../uploads/bufferStore.ts";
 import { LineRecords, outlineGeometry } from "../lines/wideLineGeometry.ts";
 import { lineCountOf } from "../lines/wideLines.ts";
-import type { BatchedDraw, Member, Merged } from "./batch.ts";
+import type { BatchedDraw, Member, MergedGeometry } from "./batch.ts";
 import { GrowingArray } from "../vertices/growingArray.ts";
 
 /** In one draw: they go to the GPU together whenever one comes or goes. */
-const mostLines = 65536;
+const maxLines = 65536;
 
-export class MergedLines implements Merged {
-  readonly #buffers: Buffers;
+export class MergedLines implements MergedGeometry {
+  readonly #buffers: BufferProvider;
   readonly #records: LineRecords;
   readonly #places = new GrowingArray(Uint32Array);
   readonly #members = new Set<Member>();
   #isWasteful = false;
 
   /** For draws that are like this one in all that `layoutOf` says. */
-  constructor({ stage }: BatchedDraw, buffers: Buffers) {
+  constructor({ stage }: BatchedDraw, buffers: BufferProvider) {
     this.#buffers = buffers;
     this.#records = new LineRecords(stage as BufferStage);
   }
@@ -35,19 +35,19 @@ export class MergedLines implements Merged {
   }
 
   /** Whatever is left of one that is gone would be seen. */
-  get isWasteful(): boolean {
+  get needsRebuild(): boolean {
     return this.#isWasteful;
   }
 
   hasRoomFor({ draw: { ranges } }: Member): boolean {
-    return this.#places.length + ranges.reduce((sum, range) => sum + lineCountOf(range), 0) <= mostLines;
+    return this.#places.length + ranges.reduce((sum, range) => sum + lineCountOf(range), 0) <= maxLines;
   }
 
   add(member: Member): void {
     const { ranges, stage } = member.draw;
     for (const range of ranges) {
       this.#records.add(stage as BufferStage, range, this.#buffers);
-      this.#places.extend(lineCountOf(range)).fill(member.place);
+      this.#places.extend(lineCountOf(range)).fill(member.instanceIndex);
     }
     this.#members.add(member);
   }
@@ -57,7 +57,7 @@ export class MergedLines implements Merged {
     this.#isWasteful = true;
   }
 
-  writeAnew(): void {
+  rebuild(): void {
     this.#isWasteful = false;
     this.#records.clear();
     this.#places.clear();

@@ -3,24 +3,24 @@
 
 import { BufferAttribute, BufferGeometry } from "three";
 import type { BufferStage, DrawRange } from "../../stage/stage.ts";
-import type { Buffers } from "../uploads/bufferStore.ts";
-import type { BatchedDraw, Member, Merged } from "./batch.ts";
+import type { BufferProvider } from "../uploads/bufferStore.ts";
+import type { BatchedDraw, Member, MergedGeometry } from "./batch.ts";
 import { passesOf } from "./batch.ts";
 import { GrowingArray } from "../vertices/growingArray.ts";
 import type { Column } from "../vertices/vertexColumns.ts";
 import { appendVertices, attributeOf, columnsOf, indicesOf } from "../vertices/vertexColumns.ts";
 
 /** The largest 16-bit number means another primitive to WebGL. */
-export const mostVertices = 65535;
+export const maxVertices = 65535;
 
 interface Entry {
   readonly firstIndex: number;
   readonly indexCount: number;
 }
 
-export class MergedMesh implements Merged {
+export class MergedMesh implements MergedGeometry {
   readonly #primitive: DrawRange["primitive"];
-  readonly #buffers: Buffers;
+  readonly #buffers: BufferProvider;
   readonly #columns: readonly Column[];
   readonly #places = new GrowingArray(Uint32Array);
   readonly #index = new GrowingArray(Uint16Array);
@@ -29,7 +29,7 @@ export class MergedMesh implements Merged {
   #lostIndices = 0;
 
   /** For draws that are like this one in all that `layoutOf` says. */
-  constructor({ stage, request }: BatchedDraw, buffers: Buffers) {
+  constructor({ stage, request }: BatchedDraw, buffers: BufferProvider) {
     this.#primitive = request.primitive;
     this.#buffers = buffers;
     this.#columns = columnsOf(stage as BufferStage);
@@ -48,7 +48,7 @@ export class MergedMesh implements Merged {
     return this.#lostIndices === 0 ? 0 : this.#lostIndices / this.#index.length;
   }
 
-  get isWasteful(): boolean {
+  get needsRebuild(): boolean {
     // A point that is drawn twice would be seen in a place that is not its own.
     return this.lostShare > 0.5 || (this.lostShare > 0 && this.#primitive === "points");
   }
@@ -64,7 +64,7 @@ export class MergedMesh implements Merged {
   }
 
   hasRoomFor({ draw }: Member): boolean {
-    return this.#places.length + draw.vertexCount * passesOf(draw).length <= mostVertices;
+    return this.#places.length + draw.vertexCount * passesOf(draw).length <= maxVertices;
   }
 
   add(member: Member): void {
@@ -75,7 +75,7 @@ export class MergedMesh implements Merged {
     for (const pass of passesOf(member.draw)) {
       const firstVertex = this.#places.length;
       for (const column of this.#columns) appendVertices(column, stage, vertexCount, this.#buffers);
-      this.#places.extend(vertexCount).fill(member.place + pass);
+      this.#places.extend(vertexCount).fill(member.instanceIndex + pass);
       const own = this.#index.extend(indices.length);
       // Whatever a file says, it does not name others' vertices.
       for (let i = 0; i < indices.length; ++i) own[i] = firstVertex + Math.min(indices[i] ?? 0, vertexCount - 1);
@@ -91,7 +91,7 @@ export class MergedMesh implements Merged {
     this.#entries.delete(member);
   }
 
-  writeAnew(): void {
+  rebuild(): void {
     const members = Array.from(this.#entries.keys());
     this.#entries.clear();
     for (const { data } of this.#columns) data.clear();

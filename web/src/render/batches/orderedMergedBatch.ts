@@ -2,13 +2,13 @@
 // which a frame draws them, and each run of them is a part of that.
 
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Sphere } from "three";
-import type { Buffers } from "../uploads/bufferStore.ts";
+import type { BufferProvider } from "../uploads/bufferStore.ts";
 import type { DrawnObject } from "../stages/drawnObject.ts";
-import type { Batch, BatchParts, Member, Run } from "./batch.ts";
+import type { Batch, BatchResources, Member, Run } from "./batch.ts";
 import { MergedMesh } from "./mergedMesh.ts";
 
 export class OrderedMergedBatch implements Batch {
-  readonly #parts: BatchParts;
+  readonly #parts: BatchResources;
   readonly #mesh: MergedMesh;
   /** An object for each run that there has been in a frame. */
   readonly #objects: DrawnObject[] = [];
@@ -19,7 +19,7 @@ export class OrderedMergedBatch implements Batch {
   #laid: readonly Member[] = [];
   #hasChanged = true;
 
-  constructor(parts: BatchParts, buffers: Buffers) {
+  constructor(parts: BatchResources, buffers: BufferProvider) {
     this.#parts = parts;
     this.#mesh = new MergedMesh(parts.draw, buffers);
   }
@@ -42,7 +42,7 @@ export class OrderedMergedBatch implements Batch {
     this.#hasChanged = true;
   }
 
-  touch(): void {
+  invalidateBounds(): void {
     // Every frame looks at all of them.
   }
 
@@ -50,7 +50,7 @@ export class OrderedMergedBatch implements Batch {
     throw new RangeError("what blends is drawn in an order");
   }
 
-  show(runs: readonly Run[]): void {
+  drawRuns(runs: readonly Run[]): void {
     if (this.#hasChanged) this.#send();
     const members = runs.flatMap((run) => run.members);
     if (members.length !== this.#laid.length || members.some((member, n) => member !== this.#laid[n]))
@@ -77,13 +77,13 @@ export class OrderedMergedBatch implements Batch {
   }
 
   #objectAt(n: number): DrawnObject {
-    return (this.#objects[n] ??= this.#parts.hang(this.#shared()));
+    return (this.#objects[n] ??= this.#parts.addObject(this.#shared()));
   }
 
   /** What has been added goes to the GPU with the next frame. */
   #send(): void {
     this.#hasChanged = false;
-    if (this.#mesh.lostShare > 0.5) this.#mesh.writeAnew();
+    if (this.#mesh.lostShare > 0.5) this.#mesh.rebuild();
     for (const { geometry } of this.#objects) geometry.dispose();
     this.#vertices.dispose();
     this.#vertices = new BufferGeometry();

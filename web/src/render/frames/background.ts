@@ -7,7 +7,7 @@ import type { BackgroundDescription } from "../../document/description.ts";
 import { setColor } from "../materials/x3dMaterials.ts";
 
 /** The zenith's and the nadir's rings that are drawn, each with its own colour. */
-const mostRings = 16;
+const maxRings = 16;
 
 const vertexShader = /* glsl */ `
 varying vec3 direction;
@@ -45,7 +45,7 @@ void main() {
 `;
 
 /** A colour to clear with, or what is to be drawn behind everything. */
-export function backdropOf(background: BackgroundDescription): Color | Mesh {
+export function makeBackground(background: BackgroundDescription): Color | Mesh {
   if (background.sky.length === 1 && background.ground.length === 0) {
     const color = new Color();
     setColor(color, background.sky[0]?.color ?? [0, 0, 0]);
@@ -62,7 +62,7 @@ export function backdropOf(background: BackgroundDescription): Color | Mesh {
       fragmentShader,
       depthTest: false,
       depthWrite: false,
-      defines: { RINGS: mostRings, PI: Math.PI },
+      defines: { RINGS: maxRings, PI: Math.PI },
       uniforms: { ...ringsOf("sky", background.sky), ...ringsOf("ground", background.ground) },
     }),
   );
@@ -73,17 +73,17 @@ export function backdropOf(background: BackgroundDescription): Color | Mesh {
 
 function ringsOf(name: "sky" | "ground", rings: BackgroundDescription["sky"]): Record<string, { value: unknown }> {
   const all = Array.from(
-    { length: mostRings },
+    { length: maxRings },
     (_, i) => rings[Math.min(i, rings.length - 1)] ?? { angle: 0, color: [0, 0, 0] },
   );
   return {
     [`${name}Colors`]: { value: all.flatMap(({ color }) => color) },
     [`${name}Angles`]: { value: all.map(({ angle }) => angle) },
-    [`${name}Count`]: { value: Math.min(rings.length, mostRings) },
+    [`${name}Count`]: { value: Math.min(rings.length, maxRings) },
   };
 }
 
-export function disposeBackdrop(backdrop: Mesh): void {
+export function disposeBackground(backdrop: Mesh): void {
   backdrop.geometry.dispose();
   (backdrop.material as ShaderMaterial).dispose();
 }

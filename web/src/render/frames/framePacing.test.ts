@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { afterEach, beforeEach, describe, mock, test } from "node:test";
-import { Pace } from "./framePacing.ts";
+import { FramePacer } from "./framePacing.ts";
 
 /** A GPU that needs so long for a frame, and a renderer that draws when it is told to. */
-function renderer(frameMs: number): { pace: Pace; frames: number[]; draw: () => void; ask: () => void } {
+function renderer(frameMs: number): { pace: FramePacer; frames: number[]; draw: () => void; ask: () => void } {
   const begun: number[] = [];
   const gl = {
     TIMEOUT_EXPIRED: 1,
@@ -14,7 +14,7 @@ function renderer(frameMs: number): { pace: Pace; frames: number[]; draw: () => 
     deleteSync: () => undefined,
     isContextLost: () => false,
   };
-  const pace = new Pace(gl as unknown as WebGL2RenderingContext);
+  const pace = new FramePacer(gl as unknown as WebGL2RenderingContext);
   const frames: number[] = [];
   const draw = (): void => {
     const now = performance.now();
@@ -27,7 +27,7 @@ function renderer(frameMs: number): { pace: Pace; frames: number[]; draw: () => 
     frames,
     draw,
     ask: () => {
-      pace.ask(draw);
+      pace.request(draw);
     },
   };
 }

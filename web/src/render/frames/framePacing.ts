@@ -4,14 +4,14 @@
 // for what they wait for. So after such a frame it rests twice as long as that
 // took. The last change of all waits for nobody.
 
-import { untilPassed } from "../picking/pixelReadback.ts";
+import { fencePassed } from "../picking/pixelReadback.ts";
 
 /** Frames of up to this many milliseconds need no rest after them. */
 const quickFrameMs = 16;
 const restPerFrame = 2;
 const longestRestMs = 2000;
 
-export class Pace {
+export class FramePacer {
   readonly #gl: WebGL2RenderingContext;
   #rest: Promise<void> | undefined;
   #isAsked = false;
@@ -22,12 +22,12 @@ export class Pace {
   }
 
   /** Somebody has asked, and the frame has not come yet. */
-  get isAsked(): boolean {
+  get isFramePending(): boolean {
     return this.#isAsked;
   }
 
   /** Calls back in this turn of the event loop where the GPU has rested, and once however often it is asked. */
-  ask(callback: () => void): void {
+  request(callback: () => void): void {
     if (this.#isAsked) return;
     this.#isAsked = true;
     if (this.#rest === undefined) callback();
@@ -55,7 +55,7 @@ export class Pace {
 async function restAfter(gl: WebGL2RenderingContext, begunAt: number): Promise<void> {
   const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
   gl.flush();
-  await untilPassed(gl, fence);
+  await fencePassed(gl, fence);
   gl.deleteSync(fence);
   const took = performance.now() - begunAt;
   if (took > quickFrameMs)

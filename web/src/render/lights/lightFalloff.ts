@@ -3,13 +3,13 @@
 // `attenuation` in a list of the scene's.
 
 import { ShaderChunk } from "three";
-import { falloff } from "../../lighting/falloff.ts";
-import { replaceEach } from "../vertices/vertexChunk.ts";
+import { falloffChunk } from "../../lighting/falloff.ts";
+import { replaceChunks } from "../vertices/vertexChunk.ts";
 
 const chunk = /* glsl */ `
 #define SCENE_LIGHTS ( NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + 1 )
 uniform vec3 attenuations[SCENE_LIGHTS];
-${falloff}
+${falloffChunk}
 float getDistanceAttenuation(const in float lightDistance, const in float radius, const in float number) {
   return shareAtDistance(lightDistance, radius, attenuations[int(number)]);
 }
@@ -22,7 +22,7 @@ float getSpotAttenuation(const in float edgeCosine, const in float beamCosine, c
 /** In the place of three's own chunk. */
 export const lightsChunk =
   chunk +
-  replaceEach(ShaderChunk.lights_pars_begin, [
+  replaceChunks(ShaderChunk.lights_pars_begin, [
     ["float getDistanceAttenuation(", "float usualDistanceAttenuation("],
     ["float getSpotAttenuation(", "float usualSpotAttenuation("],
   ]);

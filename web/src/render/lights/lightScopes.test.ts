@@ -5,7 +5,7 @@ import { elementsOf } from "../../document/elements.testing.ts";
 import { readScene } from "../../document/readScene.ts";
 import { numberScopes } from "../../navigation/lightScope.ts";
 import { PlacedTree } from "../../navigation/placedTree.ts";
-import { areScoped, scopeLightsIn } from "./lightScopes.ts";
+import { hasLightScopes, addLightScopes } from "./lightScopes.ts";
 import type { SceneLightUniforms } from "./sceneLights.ts";
 import { makeLights } from "./sceneLights.ts";
 
@@ -17,17 +17,17 @@ function uniformsOf(markup: string): SceneLightUniforms {
 
 test("programs of scenes whose lights are global know nothing of scopes", () => {
   assert.ok(
-    !areScoped(
+    !hasLightScopes(
       uniformsOf(
         '<DirectionalLight/><Group><PointLight/><DirectionalLight global="true" ambientIntensity="1"/></Group>',
       ),
     ),
   );
-  assert.ok(areScoped(uniformsOf("<Group><DirectionalLight/></Group>")));
+  assert.ok(hasLightScopes(uniformsOf("<Group><DirectionalLight/></Group>")));
 });
 
 test("lights tell what they reach in the order in which three.js counts them", () => {
-  const { lightReaches, scopedAmbients } = uniformsOf(`<DirectionalLight ambientIntensity="1"/>
+  const { lightScopeRanges: lightScopeRanges, scopedAmbients } = uniformsOf(`<DirectionalLight ambientIntensity="1"/>
     <Group><DirectionalLight color="1 0.5 0" ambientIntensity="0.5"/><Group><SpotLight global="false"/></Group></Group>
     <Group><PointLight global="false"/></Group>`);
   const point = [3, 3],
@@ -35,7 +35,7 @@ test("lights tell what they reach in the order in which three.js counts them", (
     sun = [0, 2 ** 24],
     ofGroup = [1, 2];
   assert.deepEqual(
-    lightReaches.value.map((reach) => reach.toArray()),
+    lightScopeRanges.value.map((reach) => reach.toArray()),
     [point, spot, sun, ofGroup, sun, sun],
   );
   assert.deepEqual(
@@ -53,7 +53,7 @@ test("lights tell what they reach in the order in which three.js counts them", (
 
 test("three.js' shaders ask for each kind of light, and for ambient light, whether it reaches", () => {
   const lit = { vertexShader: ShaderLib.phong.vertexShader, fragmentShader: ShaderLib.phong.fragmentShader };
-  scopeLightsIn(lit);
+  addLightScopes(lit);
   const asked = [
     "UNROLLED_LOOP_INDEX",
     "NUM_POINT_LIGHTS + UNROLLED_LOOP_INDEX",
@@ -63,7 +63,7 @@ test("three.js' shaders ask for each kind of light, and for ambient light, wheth
     assert.ok(lit.fragmentShader.includes(`directLight.color *= shareInScope( ${number} )`), number);
   assert.ok(lit.fragmentShader.includes("ambientLightColor + ambientInScope()"));
   const unlit = { vertexShader: ShaderLib.basic.vertexShader, fragmentShader: ShaderLib.basic.fragmentShader };
-  scopeLightsIn(unlit);
+  addLightScopes(unlit);
   assert.deepEqual(unlit, {
     vertexShader: ShaderLib.basic.vertexShader,
     fragmentShader: ShaderLib.basic.fragmentShader,

@@ -6,26 +6,26 @@ import type { Group, WebGLProgramParametersWithUniforms } from "three";
 import { ShaderChunk } from "three";
 import type { LightScope } from "../../navigation/lightScope.ts";
 import type { SceneLightUniforms } from "./sceneLights.ts";
-import { placesDefine, scopedLightsDefine } from "../batches/instanceChunk.ts";
-import { replaceEach } from "../vertices/vertexChunk.ts";
+import { instancesDefine, scopedLightsDefine } from "../batches/instanceChunk.ts";
+import { replaceChunks } from "../vertices/vertexChunk.ts";
 
 /** A group in which a shape is drawn. */
-export interface PlaceGroup extends Group {
+export interface ShapeGroup extends Group {
   /** The innermost that it is in; undefined where every light shines on it that is global. */
   lightScope?: LightScope;
 }
 
-export function areScoped({ lightReaches }: SceneLightUniforms): boolean {
-  return lightReaches.value.length > 0;
+export function hasLightScopes({ lightScopeRanges: lightScopeRanges }: SceneLightUniforms): boolean {
+  return lightScopeRanges.value.length > 0;
 }
 
-/** By the numbers of lights that three.js fills in, in the order of `lightReaches`. */
+/** By the numbers of lights that three.js fills in, in the order of `lightScopeRanges`. */
 const fragmentChunk = /* glsl */ `
 #define ${scopedLightsDefine}
 #define ALL_LIGHTS ( NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + NUM_DIR_LIGHTS + 1 )
-uniform vec2 lightReaches[ALL_LIGHTS];
+uniform vec2 lightScopeRanges[ALL_LIGHTS];
 uniform vec3 scopedAmbients[ALL_LIGHTS];
-#ifdef ${placesDefine}
+#ifdef ${instancesDefine}
   flat varying float placeLightScope;
   #define scopeOfDraw placeLightScope
 #else
@@ -34,7 +34,7 @@ uniform vec3 scopedAmbients[ALL_LIGHTS];
 #endif
 
 float shareInScope(int light) {
-  vec2 reach = lightReaches[light];
+  vec2 reach = lightScopeRanges[light];
   return step(reach.x, scopeOfDraw) * step(scopeOfDraw, reach.y);
 }
 
@@ -45,7 +45,7 @@ vec3 ambientInScope() {
 }
 `;
 
-const lightsInScope = replaceEach(ShaderChunk.lights_fragment_begin, [
+const lightsInScope = replaceChunks(ShaderChunk.lights_fragment_begin, [
   lit("getPointLightInfo( pointLight, geometryPosition, directLight );", "UNROLLED_LOOP_INDEX"),
   lit("getSpotLightInfo( spotLight, geometryPosition, directLight );", "NUM_POINT_LIGHTS + UNROLLED_LOOP_INDEX"),
   lit(
@@ -63,10 +63,10 @@ function lit(statement: string, number: string): readonly [string, string] {
 }
 
 /** For `onBeforeCompile`. */
-export function scopeLightsIn(
+export function addLightScopes(
   shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
 ): void {
-  const fragmentShader = replaceEach(shader.fragmentShader, [["#include <lights_fragment_begin>", lightsInScope]]);
+  const fragmentShader = replaceChunks(shader.fragmentShader, [["#include <lights_fragment_begin>", lightsInScope]]);
   if (fragmentShader === shader.fragmentShader) return; // unlit
   shader.fragmentShader = fragmentChunk + fragmentShader;
   shader.vertexShader = `#define ${scopedLightsDefine}\n${shader.vertexShader}`;

@@ -18,14 +18,14 @@ export interface SceneLightUniforms {
    * Of each the numbers of the first scope and of the last that it shines in, and its ambient light if these
    * are not all: points, spots, directional lights, and at the end one that shines everywhere. Empty where all do.
    */
-  readonly lightReaches: { value: Vector2[] };
+  readonly lightScopeRanges: { value: Vector2[] };
   readonly scopedAmbients: { value: Vector3[] };
 }
 
 export function makeLightUniforms(): SceneLightUniforms {
   return {
     attenuations: { value: [new Vector3(1, 0, 0)] },
-    lightReaches: { value: [] },
+    lightScopeRanges: { value: [] },
     scopedAmbients: { value: [] },
   };
 }
@@ -58,7 +58,7 @@ export function makeLights(lights: readonly PlacedLight[]): SceneLights {
     if (scope === everywhere) ambient.add(ambientOf(description));
   }
   if (ambient.r + ambient.g + ambient.b > 0) root.add(new AmbientLight(ambient));
-  if (lights.some(({ scope }) => scope !== everywhere)) setReaches(uniforms, lights);
+  if (lights.some(({ scope }) => scope !== everywhere)) setScopeRanges(uniforms, lights);
   return { root, uniforms };
 }
 
@@ -69,24 +69,27 @@ function ambientOf({ color, ambientIntensity }: LightDescription): Color {
 }
 
 /** In the order in which three.js' programs count them; the headlight comes last in its scene, and may be missing. */
-function setReaches({ lightReaches, scopedAmbients }: SceneLightUniforms, lights: readonly PlacedLight[]): void {
+function setScopeRanges(
+  { lightScopeRanges: lightScopeRanges, scopedAmbients }: SceneLightUniforms,
+  lights: readonly PlacedLight[],
+): void {
   for (const kind of ["point", "spot", "directional"] as const) {
     for (const { light, scope } of lights.filter((each) => each.light.kind === kind)) {
-      lightReaches.value.push(intervalOf(scope));
+      lightScopeRanges.value.push(scopeRangeOf(scope));
       scopedAmbients.value.push(new Vector3(...(scope === everywhere ? [0, 0, 0] : ambientOf(light).toArray())));
     }
   }
   // One for the headlight, and one because a list in GLSL cannot be empty.
   for (let more = 0; more < 2; ++more) {
-    lightReaches.value.push(intervalOf(everywhere));
+    lightScopeRanges.value.push(scopeRangeOf(everywhere));
     scopedAmbients.value.push(new Vector3());
   }
 }
 
-const mostScopes = 2 ** 24;
+const maxScopeNumber = 2 ** 24;
 
-function intervalOf({ value, last }: LightScope): Vector2 {
-  return new Vector2(value, Math.min(last, mostScopes));
+function scopeRangeOf({ value, last }: LightScope): Vector2 {
+  return new Vector2(value, Math.min(last, maxScopeNumber));
 }
 
 function lightOf(description: LightDescription): DirectionalLight | PointLight | SpotLight {

@@ -5,7 +5,7 @@
 
 import type { BufferGeometry, Camera, Material, Scene, Vector4, WebGLRenderer } from "three";
 import { mostDashes } from "../../document/lineProperties.ts";
-import { placeFields, placesDefine } from "../batches/instanceChunk.ts";
+import { instanceFields, instancesDefine } from "../batches/instanceChunk.ts";
 
 /** Defined in materials of wide lines: how many vertices on the next line begins. */
 export const wideLinesDefine = "WIDE_LINES";
@@ -34,8 +34,8 @@ export const wideLineChunk = /* glsl */ `
 #ifdef ${wideLinesDefine}
 
 uniform vec4 viewport;
-#ifdef ${placesDefine}
-  #define lineWidth placeTexel(${Math.floor(placeFields.lineWidth / 4)})[${placeFields.lineWidth % 4}]
+#ifdef ${instancesDefine}
+  #define lineWidth placeTexel(${Math.floor(instanceFields.lineWidth / 4)})[${instanceFields.lineWidth % 4}]
 #else
   uniform float lineWidth;
 #endif

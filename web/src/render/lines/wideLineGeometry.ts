@@ -14,12 +14,12 @@ import { arrayTypeOf, elementTypeOf } from "../../stage/elementType.ts";
 import type { BufferStage, DrawRange, Stage } from "../../stage/stage.ts";
 import type { Column } from "../vertices/vertexColumns.ts";
 import { appendVertices, columnsOf, indicesOf } from "../vertices/vertexColumns.ts";
-import type { Buffers } from "../uploads/bufferStore.ts";
+import type { BufferProvider } from "../uploads/bufferStore.ts";
 import { outlineTriangles } from "./wideLineChunk.ts";
 import { lineCountOf, lineStepOf } from "./wideLines.ts";
 
 /** All of it is three.js' own, to be disposed of as such. Of images it has no attributes. */
-export function wideLineGeometryOf(stage: Stage, range: DrawRange, buffers: Buffers): InstancedBufferGeometry {
+export function wideLineGeometryOf(stage: Stage, range: DrawRange, buffers: BufferProvider): InstancedBufferGeometry {
   const geometry = outlineGeometry(lineCountOf(range));
   if (stage.kind === "textures") return geometry;
   const records = new LineRecords(stage);
@@ -61,7 +61,7 @@ export class LineRecords {
   }
 
   /** Appends the lines of a draw. */
-  add(stage: BufferStage, range: DrawRange, buffers: Buffers): void {
+  add(stage: BufferStage, range: DrawRange, buffers: BufferProvider): void {
     const ends = endsOf(stage, range, buffers);
     for (const column of this.#columns) appendVertices(column, stage, ends, buffers);
   }
@@ -72,19 +72,19 @@ export class LineRecords {
 
   /** Attributes are those of the line's begin; of its end they have End behind their names. Valid until there are more lines: they share memory. */
   setOn(geometry: InstancedBufferGeometry): void {
-    for (const { name, components, isSpread, elementsPerVertex, data } of this.#columns) {
+    for (const { name, components, isNormalized, elementsPerVertex, data } of this.#columns) {
       const records = new InstancedInterleavedBuffer(data.used, 2 * elementsPerVertex);
-      geometry.setAttribute(name, new InterleavedBufferAttribute(records, components, 0, isSpread));
+      geometry.setAttribute(name, new InterleavedBufferAttribute(records, components, 0, isNormalized));
       geometry.setAttribute(
         `${name}End`,
-        new InterleavedBufferAttribute(records, components, elementsPerVertex, isSpread),
+        new InterleavedBufferAttribute(records, components, elementsPerVertex, isNormalized),
       );
     }
   }
 }
 
 /** The numbers of the vertices at the begin and the end of each line. */
-function endsOf(stage: BufferStage, range: DrawRange, buffers: Buffers): Uint32Array {
+function endsOf(stage: BufferStage, range: DrawRange, buffers: BufferProvider): Uint32Array {
   const numbers = indicesOf(stage, [range], buffers);
   const step = lineStepOf(range);
   return Uint32Array.from(

@@ -3,7 +3,7 @@ import { describe, test } from "node:test";
 import type { BufferAttribute } from "three";
 import type { ElementArray, IndexArray } from "../../stage/vertexArray.ts";
 import type { BufferStage, DrawRange, StoredBytes } from "../../stage/stage.ts";
-import type { Buffers } from "../uploads/bufferStore.ts";
+import type { BufferProvider } from "../uploads/bufferStore.ts";
 import { outlineTriangles } from "./wideLineChunk.ts";
 import { wideLineGeometryOf } from "./wideLineGeometry.ts";
 import { withWideLines } from "./wideLines.ts";
@@ -16,7 +16,7 @@ function stored(array: ElementArray): StoredBytes {
   return bytes;
 }
 
-const buffers: Buffers = {
+const buffers: BufferProvider = {
   recordsOf: () => assert.fail(),
   indexOf: () => assert.fail(),
   dispose: () => undefined,

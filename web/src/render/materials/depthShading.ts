@@ -2,34 +2,34 @@
 // farther they are, so that they show a shape and not just its outline.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
-import { replaceEach } from "../vertices/vertexChunk.ts";
+import { replaceChunks } from "../vertices/vertexChunk.ts";
 
-export const farnessDefine = "SHADE_BY_FARNESS";
+export const depthShadingDefine = "SHADE_BY_DEPTH";
 
 const declarations = /* glsl */ `
-#ifdef ${farnessDefine}
+#ifdef ${depthShadingDefine}
   uniform vec2 depthRange;
-  varying float vFarness;
+  varying float vDepthShare;
 #endif
 `;
 const vertexChunk = /* glsl */ `
 #include <fog_vertex>
-#ifdef ${farnessDefine}
-  vFarness = clamp((-mvPosition.z - depthRange.x) / (depthRange.y - depthRange.x), 0.0, 1.0);
+#ifdef ${depthShadingDefine}
+  vDepthShare = clamp((-mvPosition.z - depthRange.x) / (depthRange.y - depthRange.x), 0.0, 1.0);
 #endif
 `;
 const fragmentChunk = /* glsl */ `
 #include <color_fragment>
-#ifdef ${farnessDefine}
-  diffuseColor.rgb *= 1.0 - 0.75 * smoothstep(0.15, 0.85, vFarness);
+#ifdef ${depthShadingDefine}
+  diffuseColor.rgb *= 1.0 - 0.75 * smoothstep(0.15, 0.85, vDepthShare);
 #endif
 `;
 
 /** For `onBeforeCompile`; does nothing where the material does not define it. The uniform is SceneUniforms' `depthRange`. */
-export function shadeByFarnessIn(
+export function addDepthShading(
   shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
 ): void {
-  shader.vertexShader = declarations + replaceEach(shader.vertexShader, [["#include <fog_vertex>", vertexChunk]]);
+  shader.vertexShader = declarations + replaceChunks(shader.vertexShader, [["#include <fog_vertex>", vertexChunk]]);
   shader.fragmentShader =
-    declarations + replaceEach(shader.fragmentShader, [["#include <color_fragment>", fragmentChunk]]);
+    declarations + replaceChunks(shader.fragmentShader, [["#include <color_fragment>", fragmentChunk]]);
 }

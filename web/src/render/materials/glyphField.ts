@@ -6,14 +6,14 @@ import type { Material, WebGLProgramParametersWithUniforms } from "three";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { fieldSpread } from "../../document/letterSheet.ts";
 import { setDefine } from "./defines.ts";
-import { replaceEach } from "../vertices/vertexChunk.ts";
+import { replaceChunks } from "../vertices/vertexChunk.ts";
 
-const lettersDefine = "LETTERS";
+const glyphsDefine = "GLYPHS";
 
 /** What is not within letters is not there: it hides nothing, and before the picture has come that is all. */
-const lettersChunk = /* glsl */ `
+const glyphsChunk = /* glsl */ `
 #include <alphamap_fragment>
-#ifdef ${lettersDefine}
+#ifdef ${glyphsDefine}
   #ifdef USE_MAP
     // The edge is as soft as a pixel is wide; the field rises from 0 to 1 over twice its spread.
     vec2 texelsOfPixel = fwidth(vMapUv) * vec2(textureSize(map, 0));
@@ -29,14 +29,14 @@ const lettersChunk = /* glsl */ `
 `;
 
 /** For `onBeforeCompile`; does nothing where the material does not define it. */
-export function cutLettersIn(shader: Pick<WebGLProgramParametersWithUniforms, "fragmentShader">): void {
-  shader.fragmentShader = replaceEach(shader.fragmentShader, [["#include <alphamap_fragment>", lettersChunk]]);
+export function addGlyphField(shader: Pick<WebGLProgramParametersWithUniforms, "fragmentShader">): void {
+  shader.fragmentShader = replaceChunks(shader.fragmentShader, [["#include <alphamap_fragment>", glyphsChunk]]);
 }
 
-export function hasLetters({ textures }: Pick<AppearanceDescription, "textures">): boolean {
+export function hasGlyphs({ textures }: Pick<AppearanceDescription, "textures">): boolean {
   return textures.some(({ sampling }) => sampling.isDistanceField);
 }
 
-export function setLetters(material: Material, appearance: Pick<AppearanceDescription, "textures">): void {
-  setDefine(material, lettersDefine, hasLetters(appearance));
+export function setGlyphDefine(material: Material, appearance: Pick<AppearanceDescription, "textures">): void {
+  setDefine(material, glyphsDefine, hasGlyphs(appearance));
 }

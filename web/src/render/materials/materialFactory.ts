@@ -7,52 +7,55 @@ import type { AppearanceDescription, TextureRole } from "../../document/descript
 import type { DrawRange } from "../../stage/stage.ts";
 import type { DrawnObject } from "../stages/drawnObject.ts";
 import type { SceneLightUniforms } from "../lights/sceneLights.ts";
-import type { VertexForm, VertexUniforms } from "../vertices/vertexChunk.ts";
+import type { VertexFormat, VertexUniforms } from "../vertices/vertexChunk.ts";
 
-export interface Look {
+export interface MaterialFactory {
   /** How draws of several shapes go together; undefined: they do not. */
-  readonly batching: Batching | undefined;
-  makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, pictures: ShownPictures): Material;
+  readonly batching: BatchingRules | undefined;
+  makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, surfaceTextures: SurfaceTextures): Material;
   /** Changes a material of this look in place. */
   applyAppearance(
     material: Material,
     appearance: AppearanceDescription,
     colors: VertexColors,
-    pictures: ShownPictures,
+    surfaceTextures: SurfaceTextures,
   ): void;
   /** Gives an object what it needs besides its material. */
-  prepare(object: DrawnObject, request: MaterialRequest, material: Material): void;
+  prepareObject(object: DrawnObject, request: MaterialRequest, material: Material): void;
 }
 
 /** What shapes that are drawn together have in common, and what each has of its own. */
-export interface Batching {
+export interface BatchingRules {
   /** The same for appearances that one material can show. */
-  keyOf(
+  materialKeyOf(
     request: Pick<MaterialRequest, "primitive" | "colors">,
     appearance: AppearanceDescription,
-    pictures: ShownPictures,
+    surfaceTextures: SurfaceTextures,
   ): string;
   /** Drawn in the order of their distance, the farthest first. */
   isBlended(
     request: Pick<MaterialRequest, "colors">,
     appearance: AppearanceDescription,
-    pictures: ShownPictures,
+    surfaceTextures: SurfaceTextures,
   ): boolean;
   /** The rest of an appearance, for the shader: the field `look` of a place's record. */
-  numbersOf(request: Pick<MaterialRequest, "shading" | "colors">, appearance: AppearanceDescription): readonly number[];
+  instanceNumbersOf(
+    request: Pick<MaterialRequest, "shading" | "colors">,
+    appearance: AppearanceDescription,
+  ): readonly number[];
 }
 
 /** A texture that is laid over a surface. */
-export interface ShownPicture {
+export interface SurfaceTexture {
   readonly texture: Texture;
   readonly hasAlpha: boolean;
 }
 
-export type ShownPictures = ReadonlyMap<TextureRole, ShownPicture>;
-export const noPictures: ShownPictures = new Map();
+export type SurfaceTextures = ReadonlyMap<TextureRole, SurfaceTexture>;
+export const noSurfaceTextures: SurfaceTextures = new Map();
 
 /** What is blended with less is not there: it would hide what is drawn after it and lies behind, as a cornea its eye. */
-export const leastAlpha = 1 / 512;
+export const minAlpha = 1 / 512;
 
 /** Unlit for points and lines, by distance for points that stand in for a surface, flat where there are no normals (yet). */
 export type Shading = "unlit" | "distance" | "flat" | "smooth";
@@ -70,7 +73,7 @@ export interface SceneUniforms extends SceneLightUniforms {
   readonly depthRange: { value: Vector2 };
 }
 
-export interface MaterialRequest extends VertexForm {
+export interface MaterialRequest extends VertexFormat {
   readonly primitive: DrawRange["primitive"];
   readonly shading: Shading;
   readonly colors: VertexColors;

@@ -8,8 +8,8 @@ import type { Stage, ValuePlanes } from "../../stage/stage.ts";
 import { mostMapColors } from "../../document/colorMaps.ts";
 import type { AttributeDescription, ColorMapDescription } from "../../document/description.ts";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
-import { placeFields, placesDefine } from "../batches/instanceChunk.ts";
-import { imageVerticesDefine, readVertexStatement, replaceEach, srgbColorsDefine } from "../vertices/vertexChunk.ts";
+import { instanceFields, instancesDefine } from "../batches/instanceChunk.ts";
+import { imageVerticesDefine, readVertexStatement, replaceChunks, srgbColorsDefine } from "../vertices/vertexChunk.ts";
 import { wideLinesDefine } from "../lines/wideLineChunk.ts";
 
 /** Undefined: none, of what values do not colour. */
@@ -79,10 +79,10 @@ const vertexChunk = /* glsl */ `
 
 // 0 and 1 are the ends of the map of colours.
 varying float vMapPlace;
-#ifdef ${placesDefine}
-  #define valueMin placeTexel(${placeFields.valueMin / 4})
-  #define valueStep placeTexel(${placeFields.valueStep / 4})
-  #define mapRange placeTexel(${placeFields.mapRange / 4}).xy
+#ifdef ${instancesDefine}
+  #define valueMin placeTexel(${instanceFields.valueMin / 4})
+  #define valueStep placeTexel(${instanceFields.valueStep / 4})
+  #define mapRange placeTexel(${instanceFields.mapRange / 4}).xy
 #else
   uniform vec4 valueMin, valueStep;
   uniform vec2 mapRange;
@@ -179,10 +179,10 @@ const fragmentChunk = /* glsl */ `
 `;
 
 /** For `onBeforeCompile`, behind readVerticesIn and shadeByFarnessIn; does nothing where the material does not define it. */
-export function colorByValueIn(
+export function addValueColors(
   shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
 ): void {
-  shader.vertexShader = replaceEach(shader.vertexShader, [
+  shader.vertexShader = replaceChunks(shader.vertexShader, [
     ["void main() {", `${vertexChunk}\nvoid main() {`],
     [
       readVertexStatement,
@@ -190,5 +190,5 @@ export function colorByValueIn(
     ],
   ]);
   shader.fragmentShader =
-    fragmentDeclarations + replaceEach(shader.fragmentShader, [["#include <color_fragment>", fragmentChunk]]);
+    fragmentDeclarations + replaceChunks(shader.fragmentShader, [["#include <color_fragment>", fragmentChunk]]);
 }

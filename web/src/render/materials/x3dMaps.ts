@@ -1,14 +1,14 @@
 // The textures of X3D 4's materials (ISO/IEC 19775-1:2023, 12.2): each is multiplied
-// by the number beside it, and the normal's turns the surface. Colours in pictures
+// by the number beside it, and the normal's turns the surface. Colours in surfaceTextures
 // are numbers of the screen: a PhysicalMaterial, which computes with light, makes
 // them linear first. What other textures hold is taken as it is.
 
 import type { MeshBasicMaterial, MeshPhongMaterial, Texture } from "three";
 import type { MaterialDescription } from "../../document/description.ts";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
-import { placesDefine } from "../batches/instanceChunk.ts";
+import { instancesDefine } from "../batches/instanceChunk.ts";
 import { setDefine } from "./defines.ts";
-import type { ShownPictures } from "./materialFactory.ts";
+import type { SurfaceTextures } from "./materialFactory.ts";
 import type { OwnMapRole } from "../vertices/texCoords.ts";
 import { ownMapDeclarations, ownMapDefine, ownMapRoles, ownTexel } from "../vertices/texCoords.ts";
 import { srgbColorsDefine } from "../vertices/vertexChunk.ts";
@@ -52,11 +52,11 @@ const occlusionChunk = /* glsl */ `
 export const unlitDefine = "UNLIT";
 
 /** Fills the `X3dMaterial material` of a fragment. */
-export const materialFromMaps = /* glsl */ `
+export const x3dMaterialChunk = /* glsl */ `
 #ifdef ${unlitDefine}
   totalEmissiveRadiance = diffuseColor.rgb;
   X3dMaterial material = X3dMaterial(vec3(0.0), vec3(0.0), 1.0, vec3(0.0), 0.0, 1.0);
-#elif defined(${placesDefine})
+#elif defined(${instancesDefine})
   X3dMaterial material = X3dMaterial(diffuseColor.rgb, placeSpecular.rgb, placeSpecular.a, vec3(placeEmissive.a), placeSpecular.r, placeSpecular.g);
 #else
   X3dMaterial material = X3dMaterial(diffuseColor.rgb, specular, shininess, vec3(ambientIntensity), metallic, roughness);
@@ -77,7 +77,7 @@ export const materialFromMaps = /* glsl */ `
 #endif
 `;
 
-export const mapChunks: readonly (readonly [string, string])[] = [
+export const textureMapChunks: readonly (readonly [string, string])[] = [
   ["#include <map_fragment>", colorChunk],
   ["#include <emissivemap_fragment>", emissiveChunk],
   ["#include <specularmap_fragment>", "float specularStrength = 1.0;"],
@@ -89,13 +89,13 @@ export { ownMapDeclarations };
 type Slot = "map" | "emissiveMap" | "normalMap" | "aoMap" | "specularMap";
 
 /** Gives a material its maps; another program where some have come or gone. */
-export function layPictures(
+export function setTextureMaps(
   material: MeshPhongMaterial | MeshBasicMaterial,
   description: MaterialDescription,
-  pictures: ShownPictures,
+  surfaceTextures: SurfaceTextures,
   ownMaps: OwnMapUniforms | undefined,
 ): void {
-  const textureOf = (role: Parameters<ShownPictures["get"]>[0]) => pictures.get(role)?.texture ?? null;
+  const textureOf = (role: Parameters<SurfaceTextures["get"]>[0]) => surfaceTextures.get(role)?.texture ?? null;
   setMap(material, "map", textureOf("color"));
   if (!("emissiveMap" in material) || ownMaps === undefined) return;
   setMap(material, "emissiveMap", textureOf("emissive"));

@@ -5,28 +5,28 @@
 import type { Color, Material } from "three";
 import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshPhongMaterial } from "three";
 import type { AppearanceDescription, MaterialDescription, Vec3 } from "../../document/description.ts";
-import type { LitNumbers } from "../../lighting/materialNumbers.ts";
-import { isBlended, litNumbersOf, opacityOf, unlitColorOf } from "../../lighting/materialNumbers.ts";
+import type { LitParameters } from "../../lighting/materialParameters.ts";
+import { isBlended, litParametersOf, opacityOf, unlitColorOf } from "../../lighting/materialParameters.ts";
 import { physicalDefine, physicalOutput } from "../../lighting/physicalLighting.ts";
 import { x3dLighting } from "../../lighting/x3dLighting.ts";
-import { placeColors } from "../batches/instanceChunk.ts";
-import { farnessDefine, shadeByFarnessIn } from "./depthShading.ts";
+import { instanceColorChunks } from "../batches/instanceChunk.ts";
+import { depthShadingDefine, addDepthShading } from "./depthShading.ts";
 import { lightsChunk } from "../lights/lightFalloff.ts";
-import { areScoped, scopeLightsIn } from "../lights/lightScopes.ts";
-import { cutLettersIn, setLetters } from "./glyphField.ts";
-import { leastAlpha } from "./materialFactory.ts";
-import type { Look, MaterialRequest, Shading, ShownPictures, VertexColors } from "./materialFactory.ts";
-import { primitiveDefinesOf, shapePointsIn } from "../points/roundPoints.ts";
-import { colorByValueIn } from "./valueColors.ts";
-import { readVerticesIn, replaceEach, srgbColorsDefine, vertexDefinesOf } from "../vertices/vertexChunk.ts";
+import { hasLightScopes, addLightScopes } from "../lights/lightScopes.ts";
+import { addGlyphField, setGlyphDefine } from "./glyphField.ts";
+import { minAlpha } from "./materialFactory.ts";
+import type { MaterialFactory, MaterialRequest, Shading, SurfaceTextures, VertexColors } from "./materialFactory.ts";
+import { primitiveDefinesOf, addRoundPoints } from "../points/roundPoints.ts";
+import { addValueColors } from "./valueColors.ts";
+import { addVertexReading, replaceChunks, srgbColorsDefine, vertexDefinesOf } from "../vertices/vertexChunk.ts";
 import { followViewport } from "../lines/wideLineChunk.ts";
 import { isLine } from "../lines/wideLines.ts";
 import type { OwnMapUniforms } from "./x3dMaps.ts";
 import {
-  layPictures,
+  setTextureMaps,
   makeOwnMapUniforms,
-  mapChunks,
-  materialFromMaps,
+  textureMapChunks,
+  x3dMaterialChunk,
   ownMapDeclarations,
   unlitDefine,
 } from "./x3dMaps.ts";
@@ -52,17 +52,21 @@ type LitMaterial = MeshPhongMaterial & { userData: { lit?: LitUniforms } };
 type PatchMaterial = LitMaterial | MeshBasicMaterial;
 
 /** Pages look as X3D says. */
-export const x3dLook: Look = {
+export const x3dMaterials: MaterialFactory = {
   makeMaterial,
   applyAppearance,
-  prepare: () => undefined,
-  batching: { keyOf, numbersOf, isBlended: ({ colors }, appearance, pictures) => blends(appearance, colors, pictures) },
+  prepareObject: () => undefined,
+  batching: {
+    materialKeyOf: keyOf,
+    instanceNumbersOf: numbersOf,
+    isBlended: ({ colors }, appearance, surfaceTextures) => blends(appearance, colors, surfaceTextures),
+  },
 };
 
 function makeMaterial(
   request: MaterialRequest,
   appearance: AppearanceDescription,
-  pictures: ShownPictures,
+  surfaceTextures: SurfaceTextures,
 ): PatchMaterial {
   const { shading, colors, solid, uniforms, shared } = request;
   const lit: LitUniforms = {
@@ -81,32 +85,32 @@ function makeMaterial(
     ...vertexDefinesOf(request, shading === "smooth"),
     ...primitiveDefinesOf(request.primitive),
     ...request.valueDefines,
-    ...(shading === "distance" && { [farnessDefine]: "" }),
+    ...(shading === "distance" && { [depthShadingDefine]: "" }),
   };
   material.userData.lit = lit;
   material.onBeforeCompile = (shader) => {
-    const { depthRange, attenuations, lightReaches, scopedAmbients } = shared;
-    Object.assign(shader.uniforms, uniforms, { depthRange, attenuations, lightReaches, scopedAmbients, ...lit });
-    readVerticesIn(shader);
-    shapePointsIn(shader);
-    shadeByFarnessIn(shader);
-    colorByValueIn(shader);
-    cutLettersIn(shader);
+    const { depthRange, attenuations, lightScopeRanges: lightScopeRanges, scopedAmbients } = shared;
+    Object.assign(shader.uniforms, uniforms, { depthRange, attenuations, lightScopeRanges, scopedAmbients, ...lit });
+    addVertexReading(shader);
+    addRoundPoints(shader);
+    addDepthShading(shader);
+    addValueColors(shader);
+    addGlyphField(shader);
     shader.fragmentShader =
       ownMapDeclarations +
-      replaceEach(shader.fragmentShader, [
+      replaceChunks(shader.fragmentShader, [
         ["#include <lights_pars_begin>", lightsChunk],
         ["#include <lights_phong_pars_fragment>", x3dLightingChunk],
-        ["#include <lights_phong_fragment>", materialFromMaps],
+        ["#include <lights_phong_fragment>", x3dMaterialChunk],
         ["#include <colorspace_fragment>", physicalOutput],
-        ...mapChunks,
-        ...placeColors,
+        ...textureMapChunks,
+        ...instanceColorChunks,
       ]);
-    if (areScoped(shared)) scopeLightsIn(shader);
+    if (hasLightScopes(shared)) addLightScopes(shader);
   };
   // The text of `onBeforeCompile` is the same for all, so programs are shared as they should be.
-  material.customProgramCacheKey = () => (areScoped(shared) ? "imgeo, scoped lights" : "imgeo");
-  applyAppearance(material, appearance, colors, pictures);
+  material.customProgramCacheKey = () => (hasLightScopes(shared) ? "imgeo, scoped lights" : "imgeo");
+  applyAppearance(material, appearance, colors, surfaceTextures);
   return material;
 }
 
@@ -115,24 +119,24 @@ function applyAppearance(
   material: Material,
   appearance: AppearanceDescription,
   colors: VertexColors,
-  pictures: ShownPictures,
+  surfaceTextures: SurfaceTextures,
 ): void {
   const description = appearance.material;
   const shown = material as PatchMaterial;
   const isLit = shown instanceof MeshPhongMaterial;
-  if (isLit) applyLit(shown, description, litNumbersOf(description, colors !== "none"));
+  if (isLit) applyLit(shown, description, litParametersOf(description, colors !== "none"));
   else setColor(shown.color, unlitColorOf(description, colors !== "none"));
   material.opacity = opacityOf(appearance);
-  layPictures(shown, description, pictures, isLit ? shown.userData.lit : undefined);
-  setLetters(material, appearance);
-  const isTransparent = blends(appearance, colors, pictures);
+  setTextureMaps(shown, description, surfaceTextures, isLit ? shown.userData.lit : undefined);
+  setGlyphDefine(material, appearance);
+  const isTransparent = blends(appearance, colors, surfaceTextures);
   if (material.transparent !== isTransparent) material.needsUpdate = true;
   material.transparent = isTransparent;
-  material.alphaTest = isTransparent ? leastAlpha : alphaTestOf(appearance);
+  material.alphaTest = isTransparent ? minAlpha : alphaTestOf(appearance);
 }
 
-function blends(appearance: AppearanceDescription, colors: VertexColors, pictures: ShownPictures): boolean {
-  return isBlended(appearance, colors === "rgba" || pictures.get("color")?.hasAlpha === true);
+function blends(appearance: AppearanceDescription, colors: VertexColors, surfaceTextures: SurfaceTextures): boolean {
+  return isBlended(appearance, colors === "rgba" || surfaceTextures.get("color")?.hasAlpha === true);
 }
 
 function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number {
@@ -142,15 +146,15 @@ function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number
 function keyOf(
   { primitive, colors }: Pick<MaterialRequest, "primitive" | "colors">,
   appearance: AppearanceDescription,
-  pictures: ShownPictures,
+  surfaceTextures: SurfaceTextures,
 ): string {
   const { material, points, lines, colorMap, ...rest } = appearance;
   const others = Object.entries(material).filter(([name]) => !numbersOfPlaces.has(name));
   return JSON.stringify([
-    blends(appearance, colors, pictures),
+    blends(appearance, colors, surfaceTextures),
     rest,
     others,
-    Array.from(pictures, ([role, { texture }]) => [role, texture.uuid]).sort(),
+    Array.from(surfaceTextures, ([role, { texture }]) => [role, texture.uuid]).sort(),
     primitive === "points" && points,
     isLine({ primitive }) && lines?.dashes,
     colorMap?.colors,
@@ -178,7 +182,7 @@ function numbersOf(
   const opacity = opacityOf(appearance);
   if (isUnlit(shading))
     return [...unlitColorOf(material, colors !== "none"), opacity, 0, 0, 0, 0, 0, 0, 0, 0, ...range, width];
-  const { color, specular, shininess, ambientIntensity, metallic, roughness } = litNumbersOf(
+  const { color, specular, shininess, ambientIntensity, metallic, roughness } = litParametersOf(
     material,
     colors !== "none",
   );
@@ -190,7 +194,7 @@ function isUnlit(shading: Shading): boolean {
   return shading === "unlit" || shading === "distance";
 }
 
-function applyLit(material: LitMaterial, description: MaterialDescription, numbers: LitNumbers): void {
+function applyLit(material: LitMaterial, description: MaterialDescription, numbers: LitParameters): void {
   setKind(material, description.kind);
   const { lit } = material.userData;
   setColor(material.color, numbers.color);

@@ -8,9 +8,9 @@ import { Camera, Matrix4, Quaternion, Scene, Vector3 } from "three";
 import type { Lookout, Surroundings } from "../../navigation/surroundings.ts";
 import { cornersOf } from "./pickDraw.ts";
 import type { PickCandidate } from "./picker.ts";
-import { candidatesSeenBy, makePickTarget } from "./picker.ts";
-import { pickedWords } from "./pickMaterial.ts";
-import { readSoon } from "./pixelReadback.ts";
+import { candidatesInView, makePickTarget } from "./picker.ts";
+import { pickedWordOffsets } from "./pickMaterial.ts";
+import { readBlocksAsync } from "./pixelReadback.ts";
 
 /** Along an edge of the map of heights. */
 const floorCells = 48;
@@ -28,7 +28,7 @@ interface Shot {
   readonly height: number;
 }
 
-export class Surveyor {
+export class DepthProbe {
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
   #target: WebGLRenderTarget | undefined;
@@ -45,7 +45,11 @@ export class Surveyor {
   }
 
   /** `depth` is how far below the eye the scene may go on. Undefined where the context is lost on the way. */
-  async look(lookout: Lookout, depth: number, candidates: readonly PickCandidate[]): Promise<Surroundings | undefined> {
+  async probe(
+    lookout: Lookout,
+    depth: number,
+    candidates: readonly PickCandidate[],
+  ): Promise<Surroundings | undefined> {
     this.#isBusy = true;
     try {
       const nearest = lookout.reach * 1e-3;
@@ -55,7 +59,7 @@ export class Surveyor {
       const surfaces = candidates.filter(({ pick }) => cornersOf(pick.range) === 3);
       for (const shot of [down, ...around]) this.#take(shot, surfaces);
       const gl = this.#renderer.getContext() as WebGL2RenderingContext;
-      const reading = readSoon(
+      const reading = readBlocksAsync(
         gl,
         [down, ...around].map((shot) => ({ ...shot, attachment: 0 })),
       );
@@ -83,7 +87,7 @@ export class Surveyor {
     target.viewport.set(x, y, width, height);
     target.scissor.copy(target.viewport);
     target.scissorTest = true;
-    this.#scene.children = candidatesSeenBy(camera, surfaces).map(({ pick, worldFromStored }) =>
+    this.#scene.children = candidatesInView(camera, surfaces).map(({ pick, worldFromStored }) =>
       pick.objectFor(1, worldFromStored),
     );
     this.#renderer.setRenderTarget(target);
@@ -136,7 +140,9 @@ function depthsIn(words: Uint32Array): Float32Array {
   const floats = new Float32Array(words.buffer);
   return Float32Array.from({ length: words.length / wordsPerPixel }, (_, pixel) => {
     const first = pixel * wordsPerPixel;
-    return words[first + pickedWords.drawNumber] === 0 ? Infinity : (floats[first + pickedWords.depth] ?? Infinity);
+    return words[first + pickedWordOffsets.drawNumber] === 0
+      ? Infinity
+      : (floats[first + pickedWordOffsets.depth] ?? Infinity);
   });
 }
 

@@ -6,9 +6,9 @@
 import type { BufferGeometry, Matrix4, Sphere } from "three";
 import type { ElementArray, IndexArray } from "../../stage/vertexArray.ts";
 import type { BufferStage, DrawRange, Stage } from "../../stage/stage.ts";
-import type { Buffers } from "../uploads/bufferStore.ts";
+import type { BufferProvider } from "../uploads/bufferStore.ts";
 import type { DrawnObject } from "../stages/drawnObject.ts";
-import { objectOf } from "../stages/drawnObject.ts";
+import { makeDrawnObject } from "../stages/drawnObject.ts";
 import type { PickMaterial, PickMaterialRequest } from "./pickMaterial.ts";
 import { makePickMaterial } from "./pickMaterial.ts";
 
@@ -22,20 +22,20 @@ export interface BufferContents {
 }
 
 /** What a picking pass draws with: made when the pointer is near for the first time. */
-export interface PickParts {
+export interface PickResources {
   readonly geometry: BufferGeometry;
   readonly request: Omit<PickMaterialRequest, "primitive">;
   /** Gives back what was made. */
   release(): void;
 }
 
-export interface PickDrawSetting {
-  readonly buffers: Buffers;
+export interface PickDrawOptions {
+  readonly buffers: BufferProvider;
   /** Around the stored vertices. */
   readonly bounds: Sphere;
   /** Places what is stored in the shape. */
   readonly shapeFromStored: Matrix4;
-  makeParts(): PickParts;
+  acquireResources(): PickResources;
 }
 
 export class PickDraw {
@@ -48,17 +48,17 @@ export class PickDraw {
   readonly shapeFromStored: Matrix4;
   /** Undefined for vertices from images. */
   readonly #stage: BufferStage | undefined;
-  readonly #setting: PickDrawSetting;
-  #made: { readonly parts: PickParts; readonly material: PickMaterial } | undefined;
+  readonly #context: PickDrawOptions;
+  #made: { readonly parts: PickResources; readonly material: PickMaterial } | undefined;
   #contents: BufferContents | undefined;
   #isDisposed = false;
 
-  constructor(stage: Stage, range: DrawRange, setting: PickDrawSetting) {
+  constructor(stage: Stage, range: DrawRange, context: PickDrawOptions) {
     this.range = range;
     this.isStandIn = stage.name === "base";
-    this.bounds = setting.bounds;
-    this.shapeFromStored = setting.shapeFromStored;
-    this.#setting = setting;
+    this.bounds = context.bounds;
+    this.shapeFromStored = context.shapeFromStored;
+    this.#context = context;
     this.#stage = stage.kind === "buffers" ? stage : undefined;
     const before = stage.draws.slice(0, stage.draws.indexOf(range));
     this.trianglesBefore = before.reduce((sum, draw) => sum + trianglesOf(draw), 0);
@@ -76,7 +76,7 @@ export class PickDraw {
   /** To be drawn in the picking pass, under this number. */
   objectFor(drawNumber: number, worldFromStored: Matrix4): DrawnObject {
     const { parts, material } = (this.#made ??= this.#make());
-    const object = objectOf(this.range, parts.geometry, material);
+    const object = makeDrawnObject(this.range, parts.geometry, material);
     object.frustumCulled = false; // whoever picks has done it
     object.matrixAutoUpdate = false;
     object.matrixWorldAutoUpdate = false;
@@ -93,7 +93,7 @@ export class PickDraw {
     if (this.#stage === undefined || this.#isDisposed) return undefined;
     const { index, coord } = this.#stage;
     const { first, count } = this.range;
-    const { buffers } = this.#setting;
+    const { buffers } = this.#context;
     this.#contents ??= {
       index: index && (buffers.read(index.bytes, index.type, first, count) as IndexArray),
       coord: buffers.read(coord.bytes, coord.type, 0),
@@ -103,12 +103,12 @@ export class PickDraw {
     return this.#contents;
   }
 
-  forget(): void {
+  forgetContents(): void {
     this.#contents = undefined;
   }
 
   /** What it draws with is made anew when it is wanted again. */
-  forgetParts(): void {
+  releaseResources(): void {
     this.#made?.material.dispose();
     this.#made?.parts.release();
     this.#made = undefined;
@@ -117,11 +117,11 @@ export class PickDraw {
   dispose(): void {
     this.#isDisposed = true;
     this.#contents = undefined;
-    this.forgetParts();
+    this.releaseResources();
   }
 
-  #make(): { parts: PickParts; material: PickMaterial } {
-    const parts = this.#setting.makeParts();
+  #make(): { parts: PickResources; material: PickMaterial } {
+    const parts = this.#context.acquireResources();
     return { parts, material: makePickMaterial({ ...parts.request, primitive: this.range.primitive }) };
   }
 }

@@ -10,10 +10,10 @@ import type { Side, Texture } from "three";
 import { GLSL3, ShaderMaterial } from "three";
 import type { DrawRange } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
-import { primitiveDefinesOf, shapePointsIn } from "../points/roundPoints.ts";
+import { primitiveDefinesOf, addRoundPoints } from "../points/roundPoints.ts";
 import { alphaMaskDefine, alphaMaskVarying } from "../vertices/texCoords.ts";
-import type { VertexForm, VertexUniforms } from "../vertices/vertexChunk.ts";
-import { imageVerticesDefine, readVerticesIn, vertexDefinesOf } from "../vertices/vertexChunk.ts";
+import type { VertexFormat, VertexUniforms } from "../vertices/vertexChunk.ts";
+import { imageVerticesDefine, addVertexReading, vertexDefinesOf } from "../vertices/vertexChunk.ts";
 import { followViewport, wideLinesDefine } from "../lines/wideLineChunk.ts";
 import { isLine } from "../lines/wideLines.ts";
 
@@ -21,7 +21,7 @@ import { isLine } from "../lines/wideLines.ts";
  * Where in a pixel's words each field begins. Normals are zero where there is
  * none; the three words of a vertex of the face stand in what the others leave.
  */
-export const pickedWords = {
+export const pickedWordOffsets = {
   drawNumber: 0,
   element: 1,
   vertex: 2,
@@ -31,7 +31,7 @@ export const pickedWords = {
   faceNormal: 12,
   facePoint: [7, 11, 15],
 } as const;
-export const pickedTargets = 4;
+export const pickTargetCount = 4;
 
 /** Where alpha is too little, nothing is hit. */
 const alphaCutoffDefine = "HAS_ALPHA_CUTOFF";
@@ -147,7 +147,7 @@ void main() {
 }
 `;
 
-export interface PickMaterialRequest extends VertexForm {
+export interface PickMaterialRequest extends VertexFormat {
   readonly primitive: DrawRange["primitive"];
   readonly side: Side;
   readonly hasNormals: boolean;
@@ -179,8 +179,8 @@ export function alphaMaskOf(
 export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
   const { primitive, side, hasNormals, alphaMask, uniforms } = request;
   const shader = { vertexShader, fragmentShader };
-  readVerticesIn(shader);
-  shapePointsIn(shader);
+  addVertexReading(shader);
+  addRoundPoints(shader);
   const material = new ShaderMaterial({
     ...shader,
     side,

@@ -21,8 +21,8 @@ import type { PickDraw } from "./pickDraw.ts";
 import { cornersOf } from "./pickDraw.ts";
 import type { Face } from "./pickedPrimitive.ts";
 import { faceOf, nearestVertex, primitiveAt, primitiveEndingAt, primitiveIn } from "./pickedPrimitive.ts";
-import { pickedTargets, pickedWords } from "./pickMaterial.ts";
-import { readPixel, readPixelSoon } from "./pixelReadback.ts";
+import { pickTargetCount, pickedWordOffsets } from "./pickMaterial.ts";
+import { readPixel, readPixelAsync } from "./pixelReadback.ts";
 import { frustumOf } from "../frames/viewFrustum.ts";
 
 /** What was hit, in the scene's coordinates. */
@@ -50,12 +50,12 @@ export interface PickCandidate {
 }
 
 /** With its place among all. */
-export interface NearCandidate extends PickCandidate {
+export interface CandidateInView extends PickCandidate {
   readonly worldFromStored: Matrix4;
 }
 
 /** A pixel of a picture, in device pixels from its top left. */
-export interface Place {
+export interface PixelPosition {
   readonly x: number;
   readonly y: number;
   readonly width: number;
@@ -75,30 +75,35 @@ export class Picker {
   }
 
   /** Waits for the GPU: for clicks. */
-  pick(camera: PerspectiveCamera, place: Place, slack: number, candidates: Iterable<PickCandidate>): Hit | undefined {
-    const near = candidatesNear(camera, place, slack, candidates);
+  pick(
+    camera: PerspectiveCamera,
+    place: PixelPosition,
+    slack: number,
+    candidates: Iterable<PickCandidate>,
+  ): Hit | undefined {
+    const near = candidatesNearPixel(camera, place, slack, candidates);
     if (near.length === 0) return undefined;
     this.#draw(camera, place, near);
-    const words = readPixel(this.#gl, pickedTargets);
+    const words = readPixel(this.#gl, pickTargetCount);
     this.#renderer.setRenderTarget(null);
     return this.#hitOf(words, camera, place, near);
   }
 
   /** Costs no frame: what the GPU finds is fetched when it is done. "stale" where the scene has moved on by then. */
-  async pickSoon(
+  async pickAsync(
     camera: PerspectiveCamera,
-    place: Place,
+    place: PixelPosition,
     slack: number,
     candidates: Iterable<PickCandidate>,
   ): Promise<Hit | "stale" | undefined> {
-    const near = candidatesNear(camera, place, slack, candidates);
+    const near = candidatesNearPixel(camera, place, slack, candidates);
     if (near.length === 0) return undefined;
     this.#draw(camera, place, near);
-    const reading = readPixelSoon(this.#gl, pickedTargets);
+    const reading = readPixelAsync(this.#gl, pickTargetCount);
     this.#renderer.setRenderTarget(null);
     const seenBy = new PerspectiveCamera().copy(camera, false); // it may move while we wait
     const words = await reading;
-    const hit = near[(words[pickedWords.drawNumber] ?? 0) - 1];
+    const hit = near[(words[pickedWordOffsets.drawNumber] ?? 0) - 1];
     return hit?.pick.isDisposed === true ? "stale" : this.#hitOf(words, seenBy, place, near);
   }
 
@@ -112,7 +117,11 @@ export class Picker {
   }
 
   /** Leaves the target bound. */
-  #draw(camera: PerspectiveCamera, { x, y, width, height }: Place, candidates: readonly NearCandidate[]): void {
+  #draw(
+    camera: PerspectiveCamera,
+    { x, y, width, height }: PixelPosition,
+    candidates: readonly CandidateInView[],
+  ): void {
     this.#target ??= makePickTarget();
     // The picture's viewport, pushed so far that the wanted pixel is the target's only one.
     this.#target.viewport.set(-x, y - height + 1, width, height);
@@ -127,14 +136,14 @@ export class Picker {
   #hitOf(
     words: Uint32Array,
     camera: PerspectiveCamera,
-    place: Place,
-    candidates: readonly NearCandidate[],
+    place: PixelPosition,
+    candidates: readonly CandidateInView[],
   ): Hit | undefined {
-    const candidate = candidates[(words[pickedWords.drawNumber] ?? 0) - 1];
+    const candidate = candidates[(words[pickedWordOffsets.drawNumber] ?? 0) - 1];
     if (candidate === undefined) return undefined;
     const { element, group, patch, pick, worldFromStored } = candidate;
     const floats = new Float32Array(words.buffer);
-    const stored = new Vector3().fromArray(floats, pickedWords.position);
+    const stored = new Vector3().fromArray(floats, pickedWordOffsets.position);
     const { number, vertex, face } = this.#primitiveOf(words, pick, stored);
     const faceNormal = worldNormalOf(face.normal, worldFromStored);
     const ray = rayThrough(camera, place);
@@ -148,20 +157,20 @@ export class Picker {
       vertex: pick.isStandIn ? -1 : vertex,
       triangle: cornersOf(pick.range) === 3 && !pick.isStandIn ? pick.trianglesBefore + number : undefined,
       position: onFace ?? stored.applyMatrix4(worldFromStored),
-      normal: worldNormalOf(new Vector3().fromArray(floats, pickedWords.normal), worldFromStored) ?? faceNormal,
+      normal: worldNormalOf(new Vector3().fromArray(floats, pickedWordOffsets.normal), worldFromStored) ?? faceNormal,
     };
   }
 
   #primitiveOf(words: Uint32Array, pick: PickDraw, point: Vector3): { number: number; vertex: number; face: Face } {
-    const number = words[pickedWords.element] ?? 0;
-    const vertex = words[pickedWords.vertex] ?? 0;
+    const number = words[pickedWordOffsets.element] ?? 0;
+    const vertex = words[pickedWordOffsets.vertex] ?? 0;
     const floats = new Float32Array(words.buffer);
     const face = {
-      point: new Vector3(...pickedWords.facePoint.map((place) => floats[place] ?? 0)),
-      normal: new Vector3().fromArray(floats, pickedWords.faceNormal),
+      point: new Vector3(...pickedWordOffsets.facePoint.map((place) => floats[place] ?? 0)),
+      normal: new Vector3().fromArray(floats, pickedWordOffsets.faceNormal),
     };
     if (!pick.hasContents || pick.range.primitive === "points") return { number, vertex, face };
-    if (this.#lastHit !== pick) this.#lastHit?.forget();
+    if (this.#lastHit !== pick) this.#lastHit?.forgetContents();
     this.#lastHit = pick;
     const contents = pick.contents();
     if (contents === undefined) return { number: 0, vertex, face };
@@ -185,7 +194,7 @@ export class Picker {
 /** Pixels of what the picking material draws. */
 export function makePickTarget(width = 1, height = 1): WebGLRenderTarget {
   return new WebGLRenderTarget(width, height, {
-    count: pickedTargets,
+    count: pickTargetCount,
     format: RGBAIntegerFormat,
     type: UnsignedIntType,
     magFilter: NearestFilter,
@@ -194,25 +203,25 @@ export function makePickTarget(width = 1, height = 1): WebGLRenderTarget {
 }
 
 /** Those whose bounds come within `slack` device pixels of the place. */
-function candidatesNear(
+function candidatesNearPixel(
   camera: PerspectiveCamera,
-  { x, y, width, height }: Place,
+  { x, y, width, height }: PixelPosition,
   slack: number,
   candidates: Iterable<PickCandidate>,
-): NearCandidate[] {
+): CandidateInView[] {
   const narrow = new PerspectiveCamera().copy(camera, false);
   narrow.setViewOffset(width, height, x - slack, y - slack, 2 * slack + 1, 2 * slack + 1);
-  return candidatesSeenBy(narrow, candidates);
+  return candidatesInView(narrow, candidates);
 }
 
 /** Those whose bounds come into a camera's view. */
-export function candidatesSeenBy(
+export function candidatesInView(
   { projectionMatrix, matrixWorldInverse }: Camera,
   candidates: Iterable<PickCandidate>,
-): NearCandidate[] {
+): CandidateInView[] {
   const frustum = frustumOf(projectionMatrix, matrixWorldInverse);
   const sphere = new Sphere();
-  const near: NearCandidate[] = [];
+  const near: CandidateInView[] = [];
   const worldFromStored = new Matrix4();
   for (const candidate of candidates) {
     const { group, pick } = candidate;
@@ -230,7 +239,7 @@ function worldNormalOf(normal: Vector3, worldFromStored: Matrix4): Vector3 | und
 }
 
 /** Through the middle of the pixel, in the scene's coordinates. */
-function rayThrough(camera: PerspectiveCamera, { x, y, width, height }: Place): Ray {
+function rayThrough(camera: PerspectiveCamera, { x, y, width, height }: PixelPosition): Ray {
   const origin = new Vector3().setFromMatrixPosition(camera.matrixWorld);
   const through = new Vector3((2 * x + 1) / width - 1, 1 - (2 * y + 1) / height, 0.5).unproject(camera);
   return new Ray(origin, through.sub(origin).normalize());

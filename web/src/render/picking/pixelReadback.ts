@@ -16,8 +16,8 @@ export function readPixel(gl: WebGL2RenderingContext, attachments: number): Uint
 }
 
 /** All zero where the context is lost on the way. The framebuffer is free again when this returns. */
-export function readPixelSoon(gl: WebGL2RenderingContext, attachments: number): Promise<Uint32Array> {
-  return readSoon(
+export function readPixelAsync(gl: WebGL2RenderingContext, attachments: number): Promise<Uint32Array> {
+  return readBlocksAsync(
     gl,
     Array.from({ length: attachments }, (_, attachment) => ({ attachment, x: 0, y: 0, width: 1, height: 1 })),
   );
@@ -33,7 +33,7 @@ export interface PixelBlock {
 }
 
 /** The same of blocks, one after the other, each row by row from the bottom. */
-export function readSoon(gl: WebGL2RenderingContext, blocks: readonly PixelBlock[]): Promise<Uint32Array> {
+export function readBlocksAsync(gl: WebGL2RenderingContext, blocks: readonly PixelBlock[]): Promise<Uint32Array> {
   const buffer = gl.createBuffer();
   const pixels = blocks.reduce((sum, { width, height }) => sum + width * height, 0);
   gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
@@ -49,7 +49,7 @@ export function readSoon(gl: WebGL2RenderingContext, blocks: readonly PixelBlock
   gl.flush();
 
   const words = new Uint32Array(pixels * wordsPerPixel);
-  return untilPassed(gl, fence).then(() => {
+  return fencePassed(gl, fence).then(() => {
     gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
     gl.getBufferSubData(gl.PIXEL_PACK_BUFFER, 0, words);
     gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
@@ -62,7 +62,7 @@ export function readSoon(gl: WebGL2RenderingContext, blocks: readonly PixelBlock
 const pollMs = 2;
 
 /** Of a lost context every fence has passed. */
-export function untilPassed(gl: WebGL2RenderingContext, fence: WebGLSync | null): Promise<void> {
+export function fencePassed(gl: WebGL2RenderingContext, fence: WebGLSync | null): Promise<void> {
   return new Promise((resolve) => {
     const look = () => {
       if (fence === null || gl.isContextLost() || gl.clientWaitSync(fence, 0, 0) !== gl.TIMEOUT_EXPIRED) resolve();

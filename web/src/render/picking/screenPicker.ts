@@ -2,7 +2,7 @@
 // same frame is answered from memory: a click asks for what pointerdown has found.
 
 import type { PerspectiveCamera, WebGLRenderer } from "three";
-import type { Hit, PickCandidate, Place } from "./picker.ts";
+import type { Hit, PickCandidate, PixelPosition } from "./picker.ts";
 import { Picker } from "./picker.ts";
 
 export class ScreenPicker {
@@ -20,7 +20,7 @@ export class ScreenPicker {
   }
 
   /** `slack`: how far, in device pixels, a vertex may be from what it covers. Waits for the GPU. */
-  pick(place: Place, slack: number): Hit | undefined {
+  pick(place: PixelPosition, slack: number): Hit | undefined {
     if (!isInside(place)) return undefined;
     const { x, y } = place;
     if (this.#found?.x !== x || this.#found.y !== y) {
@@ -30,9 +30,9 @@ export class ScreenPicker {
   }
 
   /** The same without waiting; the picture may become larger or smaller meanwhile. */
-  async pickSoon(placeNow: () => Place, slack: number): Promise<Hit | undefined> {
+  async pickAsync(placeNow: () => PixelPosition, slack: number): Promise<Hit | undefined> {
     for (let place = placeNow(); isInside(place); place = placeNow()) {
-      const hit = await this.#picker.pickSoon(this.#camera, place, slack, this.#candidates());
+      const hit = await this.#picker.pickAsync(this.#camera, place, slack, this.#candidates());
       if (hit !== "stale") return hit;
     }
     return undefined;
@@ -48,6 +48,6 @@ export class ScreenPicker {
   }
 }
 
-function isInside({ x, y, width, height }: Place): boolean {
+function isInside({ x, y, width, height }: PixelPosition): boolean {
   return x >= 0 && y >= 0 && x < width && y < height;
 }

@@ -17,9 +17,9 @@ import {
 } from "three";
 import { decodeWithBrowser } from "../../decode/image.ts";
 import { textureRoles } from "../../document/description.ts";
-import { makePickMaterial, pickedTargets, pickedWords } from "./pickMaterial.ts";
+import { makePickMaterial, pickTargetCount, pickedWordOffsets } from "./pickMaterial.ts";
 import { makePickTarget } from "./picker.ts";
-import { readPixelSoon } from "./pixelReadback.ts";
+import { readPixelAsync } from "./pixelReadback.ts";
 import type { TextureStore } from "../uploads/textureStore.ts";
 
 /**
@@ -31,7 +31,7 @@ export const testPng =
   "iVBORw0KGgoAAAANSUhEUgAAAAQAAAABCAYAAAD5PA/NAAAAHElEQVR4AQERAO7/AAGA/wD+A0AHAAAA//8AMwEtuQT7j87v0AAAAABJRU5ErkJggg==";
 
 /** Resolves to whether vertices may be read from textures. Never rejects. */
-export async function readsTextures(renderer: WebGLRenderer, textures: TextureStore): Promise<boolean> {
+export async function testVertexTextures(renderer: WebGLRenderer, textures: TextureStore): Promise<boolean> {
   try {
     const words = await readTestVertex(renderer, textures);
     const floats = new Float32Array(words.buffer);
@@ -39,9 +39,11 @@ export async function readsTextures(renderer: WebGLRenderer, textures: TextureSt
     const expected = [256 * hx + lx, 256 * hy + ly, 256 * hz + lz];
     const stored = [1, -1, 51 / 127.5 - 1];
     const normal = stored.map((value) => value / Math.hypot(...stored)); // as the picking pass gives it
-    const isPlace = expected.every((value, axis) => floats[pickedWords.position + axis] === value);
-    const isNormal = normal.every((value, axis) => Math.abs((floats[pickedWords.normal + axis] ?? NaN) - value) < 1e-6);
-    return words[pickedWords.drawNumber] === 1 && isPlace && isNormal;
+    const isPlace = expected.every((value, axis) => floats[pickedWordOffsets.position + axis] === value);
+    const isNormal = normal.every(
+      (value, axis) => Math.abs((floats[pickedWordOffsets.normal + axis] ?? NaN) - value) < 1e-6,
+    );
+    return words[pickedWordOffsets.drawNumber] === 1 && isPlace && isNormal;
   } catch {
     return false;
   }
@@ -57,8 +59,8 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
     primitive: "points",
     side: FrontSide,
     hasNormals: true,
-    areImages: true,
-    arePlaced: false,
+    isFromImages: true,
+    isInstanced: false,
     hasTexCoords: false,
     wideLineStep: 0,
     alphaMask: undefined,
@@ -105,7 +107,7 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
   try {
     renderer.setRenderTarget(target);
     renderer.render(sceneOf(new Points(geometry, material)), wideCamera);
-    const reading = readPixelSoon(renderer.getContext() as WebGL2RenderingContext, pickedTargets);
+    const reading = readPixelAsync(renderer.getContext() as WebGL2RenderingContext, pickTargetCount);
     renderer.setRenderTarget(null);
     return await reading;
   } finally {

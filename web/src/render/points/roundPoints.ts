@@ -3,21 +3,21 @@
 
 import type { WebGLProgramParametersWithUniforms } from "three";
 import type { DrawRange } from "../../stage/stage.ts";
-import { pointSizeChunk, replaceEach } from "../vertices/vertexChunk.ts";
+import { pointSizeChunk, replaceChunks } from "../vertices/vertexChunk.ts";
 
 const pointsDefine = "DRAWS_POINTS";
-const backlessDefine = "HAS_NO_BACK";
+const twoSidedLightingDefine = "LIT_FROM_BOTH_SIDES";
 
 /** From so many device pixels on. */
-const roundFrom = "3.0";
+const minRoundSize = "3.0";
 
 export function primitiveDefinesOf(primitive: DrawRange["primitive"]): Record<string, string> {
   switch (primitive) {
     case "points":
-      return { [pointsDefine]: "", [backlessDefine]: "" };
+      return { [pointsDefine]: "", [twoSidedLightingDefine]: "" };
     case "lines":
     case "lineStrip":
-      return { [backlessDefine]: "" };
+      return { [twoSidedLightingDefine]: "" };
     case "triangles":
     case "triangleStrip":
       return {};
@@ -37,24 +37,24 @@ ${pointSizeChunk}
 `;
 const cutChunk = /* glsl */ `void main() {
 #ifdef ${pointsDefine}
-  if (vPointSize >= ${roundFrom} && distance(gl_PointCoord, vec2(0.5)) > 0.5) discard;
+  if (vPointSize >= ${minRoundSize} && distance(gl_PointCoord, vec2(0.5)) > 0.5) discard;
 #endif
 `;
 const normalChunk = /* glsl */ `
 #include <normal_fragment_begin>
-#if defined(${backlessDefine}) && !defined(FLAT_SHADED)
+#if defined(${twoSidedLightingDefine}) && !defined(FLAT_SHADED)
   if (dot(normal, vViewPosition) < 0.0) normal = -normal;
 #endif
 `;
 
 /** For `onBeforeCompile`, after `readVerticesIn`; does nothing where the material does not define it. */
-export function shapePointsIn(
+export function addRoundPoints(
   shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
 ): void {
-  shader.vertexShader = declarations + replaceEach(shader.vertexShader, [[pointSizeChunk, vertexChunk]]);
+  shader.vertexShader = declarations + replaceChunks(shader.vertexShader, [[pointSizeChunk, vertexChunk]]);
   shader.fragmentShader =
     declarations +
-    replaceEach(shader.fragmentShader, [
+    replaceChunks(shader.fragmentShader, [
       ["void main() {", cutChunk],
       ["#include <normal_fragment_begin>", normalChunk],
     ]);

@@ -6,7 +6,7 @@ import type { DrawRange, Stage } from "../../stage/stage.ts";
 const made = new WeakMap<Stage, Stage>();
 
 /** `vertexCount`: its records, 0 where nobody has counted them. The same stage where it has no surface. */
-export function asPoints(stage: Stage, vertexCount: number): Stage {
+export function surfaceAsPoints(stage: Stage, vertexCount: number): Stage {
   if (!stage.draws.some(isSurface)) return stage;
   const known = made.get(stage) ?? pointsOf(stage, vertexCount);
   made.set(stage, known);

@@ -6,7 +6,7 @@ import type { SceneElement } from "../../document/element.ts";
 import { levelAt } from "../../document/levels.ts";
 import type { PlacedLevels } from "../../navigation/placement.ts";
 
-export class ChosenLevels {
+export class LodSelection {
   #chosen = new Map<SceneElement, number>();
 
   /** Undefined until the viewer has been near it. */

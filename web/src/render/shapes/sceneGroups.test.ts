@@ -11,8 +11,8 @@ import { readInlineGeometry } from "../../document/inlineGeometry.ts";
 import { SceneReader } from "../../document/sceneReader.ts";
 import { matrixOf } from "../../navigation/matrices.ts";
 import type { PlacedNode } from "../../navigation/placedTree.ts";
-import type { PlaceGroup } from "../lights/lightScopes.ts";
-import { SceneGraph } from "./sceneGroups.ts";
+import type { ShapeGroup } from "../lights/lightScopes.ts";
+import { SceneGroups } from "./sceneGroups.ts";
 
 const viewer = new PerspectiveCamera();
 viewer.position.set(3, 1, 5);
@@ -20,8 +20,8 @@ viewer.updateMatrixWorld();
 
 /** The graph of a scene, and the shapes that it has told of. */
 class Watched {
-  readonly shapes = new Map<PlacedNode, { shape: ShapeDescription; group: PlaceGroup }>();
-  readonly graph = new SceneGraph({
+  readonly shapes = new Map<PlacedNode, { shape: ShapeDescription; group: ShapeGroup }>();
+  readonly graph = new SceneGroups({
     onEnter: (shape, place, group) => {
       assert.ok(!this.shapes.has(place));
       this.shapes.set(place, { shape, group });
@@ -38,7 +38,7 @@ class Watched {
   /** All that somebody who draws it can see. */
   get seen(): unknown {
     this.graph.turnBillboards(viewer);
-    const { box, bounded, viewpoints, levels, lightUniforms, root } = this.graph;
+    const { box, boundedGroups: bounded, viewpoints, levels, lightUniforms, root } = this.graph;
     const groups = (of: Object3D): string =>
       of.children
         .map((group) => [group.type, group.visible, group.matrixWorld.elements, groups(group)].join(" "))
@@ -59,7 +59,7 @@ class Watched {
   }
 }
 
-function buildGraph(scene: SceneDescription): SceneGraph {
+function buildGraph(scene: SceneDescription): SceneGroups {
   const { graph } = new Watched();
   graph.follow(scene.root);
   return graph;
@@ -91,7 +91,7 @@ test("what has not changed is not told of again", () => {
   const tell = (shape: ShapeDescription) => {
     told.push(shape.element === x3d.children[1]?.children[0] ? "second" : "another");
   };
-  const graph = new SceneGraph({ onEnter: tell, onChange: tell, onLeave: tell });
+  const graph = new SceneGroups({ onEnter: tell, onChange: tell, onLeave: tell });
   graph.follow(reader.read().root);
   assert.equal(told.splice(0).length, 3);
   x3d.children[1]?.attributes.set("translation", "1 0 0");
@@ -196,7 +196,7 @@ test("the box that a group tells stands for those of its children, and lets them
   );
   const {
     box: { min, max },
-    bounded,
+    boundedGroups: bounded,
   } = buildGraph(scene);
   assert.deepEqual(
     [min.toArray(), max.toArray()],

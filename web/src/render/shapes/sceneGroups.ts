@@ -17,21 +17,21 @@ import { matrixOf } from "../../navigation/matrices.ts";
 import type { PlacedNode, PlacedTreeListener } from "../../navigation/placedTree.ts";
 import { PlacedTree } from "../../navigation/placedTree.ts";
 import type { PlacedLevels, PlacedLight } from "../../navigation/placement.ts";
-import type { PlaceGroup } from "../lights/lightScopes.ts";
+import type { ShapeGroup } from "../lights/lightScopes.ts";
 import type { SceneLights, SceneLightUniforms } from "../lights/sceneLights.ts";
 import { makeLights } from "../lights/sceneLights.ts";
 
 /** Who shows the shapes of a scene, in each place in a group, whose world matrix is up to date. */
-export interface ShapePlaces {
+export interface ShapeInstanceListener {
   /** The shape is in one more place. */
-  onEnter(shape: ShapeDescription, place: PlacedNode, group: PlaceGroup): void;
+  onEnter(shape: ShapeDescription, place: PlacedNode, group: ShapeGroup): void;
   /** It is described in another way there, stands elsewhere, or in another light. */
-  onChange(shape: ShapeDescription, place: PlacedNode, group: PlaceGroup, before: ShapeDescription): void;
-  onLeave(shape: ShapeDescription, place: PlacedNode, group: PlaceGroup): void;
+  onChange(shape: ShapeDescription, place: PlacedNode, group: ShapeGroup, before: ShapeDescription): void;
+  onLeave(shape: ShapeDescription, place: PlacedNode, group: ShapeGroup): void;
   /** What stands in the scene for a group of it. Undefined: a plain one. */
   makeGroup?(description: GroupDescription): Object3D | undefined;
   /** Its group has turned with a billboard. */
-  onTurn?(shape: ShapeDescription, group: PlaceGroup): void;
+  onTurn?(shape: ShapeDescription, group: ShapeGroup): void;
 }
 
 /** A group that is seen, with its box in the scene's coordinates. */
@@ -40,19 +40,19 @@ export interface BoundedGroup {
   readonly box: Box3;
 }
 
-export class SceneGraph implements PlacedTreeListener {
+export class SceneGroups implements PlacedTreeListener {
   readonly root = new Group();
   readonly #tree = new PlacedTree(this);
   readonly #groups = new Map<PlacedNode, Object3D>();
   /** Those of them that are shapes'. */
-  readonly #shapeGroups = new Map<PlacedNode, PlaceGroup>();
+  readonly #shapeGroups = new Map<PlacedNode, ShapeGroup>();
   readonly #anchors = new WeakMap<Object3D, AnchorDescription>();
-  readonly #shapes: ShapePlaces;
+  readonly #shapes: ShapeInstanceListener;
   #placedLights: readonly PlacedLight[] = [];
   #lights: SceneLights = makeLights([]);
   #bounded: readonly BoundedGroup[] = [];
 
-  constructor(shapes: ShapePlaces) {
+  constructor(shapes: ShapeInstanceListener) {
     this.#shapes = shapes;
     this.root.matrixAutoUpdate = false;
     this.root.add(this.#lights.root);
@@ -64,7 +64,7 @@ export class SceneGraph implements PlacedTreeListener {
   }
 
   /** What may be passed over as a whole when it is out of the view. */
-  get bounded(): readonly BoundedGroup[] {
+  get boundedGroups(): readonly BoundedGroup[] {
     return this.#bounded;
   }
 
@@ -149,7 +149,7 @@ export class SceneGraph implements PlacedTreeListener {
     if (description.kind === "group")
       this.#hang(node, description, this.#shapes.makeGroup?.(description) ?? new Group());
     if (description.kind !== "shape") return;
-    const group: PlaceGroup = new Group();
+    const group: ShapeGroup = new Group();
     group.lightScope = node.lightScope;
     this.#shapeGroups.set(node, group);
     this.#hang(node, description, group);

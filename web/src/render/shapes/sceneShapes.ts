@@ -18,18 +18,18 @@ import { sphereAround } from "../../navigation/camera.ts";
 import { isDrawable } from "../../navigation/matrices.ts";
 import type { PlacedLevels } from "../../navigation/placement.ts";
 import type { Batches } from "../batches/batches.ts";
-import { DrawingPlan } from "../batches/batchingPlan.ts";
-import type { ShownPicture } from "../materials/materialFactory.ts";
+import { BatchingPlan } from "../batches/batchingPlan.ts";
+import type { SurfaceTexture } from "../materials/materialFactory.ts";
 import type { PickCandidate } from "../picking/picker.ts";
-import { areScoped } from "../lights/lightScopes.ts";
+import { hasLightScopes } from "../lights/lightScopes.ts";
 import type { BoundedGroup } from "./sceneGroups.ts";
-import { SceneGraph } from "./sceneGroups.ts";
+import { SceneGroups } from "./sceneGroups.ts";
 import type { SceneLightUniforms } from "../lights/sceneLights.ts";
 import type { SceneChanges } from "./shapeChanges.ts";
 import { ShapeChanges } from "./shapeChanges.ts";
-import type { ShapeSetting } from "./shapeObject.ts";
+import type { ShapeContext } from "./shapeObject.ts";
 import { ShapeObject } from "./shapeObject.ts";
-import { isShown } from "./visibility.ts";
+import { isVisibleInScene } from "./visibility.ts";
 import { frustumOf } from "../frames/viewFrustum.ts";
 
 /** What the scene has in it, in the scene's coordinates. */
@@ -45,11 +45,11 @@ export interface BuiltScene {
 }
 
 export class SceneShapes {
-  readonly #setting: ShapeSetting;
+  readonly #context: ShapeContext;
   readonly #batches: Batches;
-  readonly #graph: SceneGraph;
+  readonly #graph: SceneGroups;
   readonly #shapes = new Map<SceneElement, ShapeObject>();
-  readonly #plan = new DrawingPlan();
+  readonly #plan = new BatchingPlan();
   #changes = new ShapeChanges();
   /** Shapes of whose extent the document does not tell all. */
   readonly #unbounded = new Set<ShapeObject>();
@@ -62,37 +62,37 @@ export class SceneShapes {
   #widestLine = 0;
 
   /** What is drawn hangs in `scene`. */
-  constructor(scene: Object3D, setting: ShapeSetting & { readonly batches: Batches }) {
-    this.#setting = setting;
-    this.#batches = setting.batches;
-    this.#graph = new SceneGraph({
+  constructor(scene: Object3D, context: ShapeContext & { readonly batches: Batches }) {
+    this.#context = context;
+    this.#batches = context.batches;
+    this.#graph = new SceneGroups({
       onEnter: (shape, place, group) => {
-        this.#objectOf(shape).enter(group, shape.host);
+        this.#objectOf(shape).addInstance(group, shape.host);
         if (shape.geometry) this.#plan.add(shape.geometry);
-        this.#changes.noteThere(shape, place);
+        this.#changes.recordPresent(shape, place);
       },
       onChange: (shape, place, group, before) => {
-        this.#objectOf(shape).follow(group);
+        this.#objectOf(shape).updateInstance(group);
         if (before.geometry !== shape.geometry) {
           if (before.geometry) this.#plan.remove(before.geometry);
           if (shape.geometry) this.#plan.add(shape.geometry);
         }
-        this.#changes.noteThere(shape, place);
+        this.#changes.recordPresent(shape, place);
       },
       onLeave: (shape, place, group) => {
-        this.#shapes.get(shape.element)?.leave(group);
+        this.#shapes.get(shape.element)?.removeInstance(group);
         if (shape.geometry) this.#plan.remove(shape.geometry);
-        this.#changes.noteGone(shape, place);
+        this.#changes.recordRemoved(shape, place);
       },
       onTurn: (shape, group) => {
-        this.#objectOf(shape).follow(group);
+        this.#objectOf(shape).updateInstance(group);
       },
     });
     scene.add(this.#graph.root, this.#batches.root);
   }
 
   /** How geometries are drawn in this scene. */
-  get plan(): DrawingPlan {
+  get plan(): BatchingPlan {
     return this.#plan;
   }
 
@@ -108,9 +108,9 @@ export class SceneShapes {
   }
 
   /** What points and lines may be wide, in CSS pixels; 0 where no shape says. */
-  get largestWidth(): number {
+  get maxWidth(): number {
     let largest = 0;
-    for (const { largestWidth } of this.#shapes.values()) largest = Math.max(largest, largestWidth);
+    for (const { maxWidth: largestWidth } of this.#shapes.values()) largest = Math.max(largest, largestWidth);
     return largest;
   }
 
@@ -120,7 +120,7 @@ export class SceneShapes {
     this.#setLights(this.#graph.lightUniforms);
     const changes = this.#applyChanges();
     if (areRenumbered) this.#batches.followAll();
-    const { box, bounded, viewpoints, levels, anchors } = this.#graph;
+    const { box, boundedGroups: bounded, viewpoints, levels, anchors } = this.#graph;
     this.#bounded = bounded;
     if (!box.equals(this.#described)) {
       this.#described = box.clone();
@@ -132,13 +132,13 @@ export class SceneShapes {
     return { sphere: this.#sphere, viewpoints, levels, anchors, changes };
   }
 
-  #setLights({ attenuations, lightReaches, scopedAmbients }: SceneLightUniforms): void {
-    const { shared } = this.#setting;
-    const wereScoped = areScoped(shared);
+  #setLights({ attenuations, lightScopeRanges, scopedAmbients }: SceneLightUniforms): void {
+    const { shared } = this.#context;
+    const wereScoped = hasLightScopes(shared);
     shared.attenuations.value = attenuations.value;
-    shared.lightReaches.value = lightReaches.value;
+    shared.lightScopeRanges.value = lightScopeRanges.value;
     shared.scopedAmbients.value = scopedAmbients.value;
-    if (areScoped(shared) === wereScoped) return;
+    if (hasLightScopes(shared) === wereScoped) return;
     for (const root of [this.#graph.root, this.#batches.root]) root.traverse(compileAgain);
   }
 
@@ -150,7 +150,7 @@ export class SceneShapes {
     const gone: SceneElement[] = [];
     for (const [element, shape] of changes.shapes) {
       const object = this.#objectOf(shape);
-      if (!object.isPlaced) {
+      if (!object.hasInstances) {
         object.dispose();
         this.#shapes.delete(element);
         this.#unbounded.delete(object);
@@ -158,20 +158,21 @@ export class SceneShapes {
         continue;
       }
       object.setShape(shape);
-      if (shape.geometry) object.drawAs(this.#plan.drawingOf(shape.geometry));
+      if (shape.geometry) object.setDrawModes(this.#plan.drawModesOf(shape.geometry));
       shapes.set(element, { ...shape, visible: object.isVisible });
     }
     const others = this.#plan.takeChanged();
     if (others.size > 0) {
       for (const object of this.#shapes.values())
-        if (object.geometry && others.has(object.geometry)) object.drawAs(this.#plan.drawingOf(object.geometry));
+        if (object.geometry && others.has(object.geometry))
+          object.setDrawModes(this.#plan.drawModesOf(object.geometry));
     }
     if (changes.shapes.size > 0)
       this.#widestLine = Array.from(this.#shapes.values()).reduce(
         (widest, { lineWidth }) => Math.max(widest, lineWidth),
         0,
       );
-    return { shapes, gone, places: changes.places };
+    return { shapes, removed: gone, instances: changes.instances };
   }
 
   /** Replaces what a patch of a shape shows. */
@@ -183,14 +184,14 @@ export class SceneShapes {
     this.#grow(object, stage.bounds);
   }
 
-  setPicture(element: SceneElement, role: TextureRole, picture: ShownPicture | undefined): void {
-    this.#shapes.get(element)?.setPicture(role, picture);
+  setTexture(element: SceneElement, role: TextureRole, picture: SurfaceTexture | undefined): void {
+    this.#shapes.get(element)?.setTexture(role, picture);
   }
 
   /** Surfaces as they are, or their vertices. */
   drawAsPoints(asPoints: boolean): void {
-    if (asPoints === this.#setting.drawing.asPoints) return;
-    this.#setting.drawing.asPoints = asPoints;
+    if (asPoints === this.#context.drawing.asPoints) return;
+    this.#context.drawing.asPoints = asPoints;
     for (const object of this.#shapes.values()) object.redraw();
   }
 
@@ -210,7 +211,7 @@ export class SceneShapes {
   }
 
   /** What the document shows, also where the last frame has not looked. */
-  drawsAround(): PickCandidate[] {
+  candidatesIgnoringCulling(): PickCandidate[] {
     const passedOver = this.#bounded.filter(({ group }) => !group.visible);
     for (const { group } of passedOver) group.visible = true;
     const draws = Array.from(this.#shapes.values()).flatMap((object) => Array.from(shownDraws(object)));
@@ -222,7 +223,7 @@ export class SceneShapes {
    * Before a frame: billboards turn to the camera, and groups that tell where they end are not looked into when
    * they are out of the view. `picture`: its width and height in CSS pixels.
    */
-  passOver(camera: Camera, picture: readonly [width: number, height: number]): void {
+  cull(camera: Camera, picture: readonly [width: number, height: number]): void {
     camera.updateMatrixWorld();
     this.#graph.turnBillboards(camera);
     const margin = picture.map((pixels) => this.#widestLine / pixels) as [number, number];
@@ -248,7 +249,7 @@ export class SceneShapes {
   #objectOf(shape: ShapeDescription): ShapeObject {
     const known = this.#shapes.get(shape.element);
     if (known !== undefined) return known;
-    const object = new ShapeObject(this.#setting, shape);
+    const object = new ShapeObject(this.#context, shape);
     this.#shapes.set(shape.element, object);
     return object;
   }
@@ -259,5 +260,5 @@ function compileAgain(object: Object3D): void {
 }
 
 function* shownDraws(object: ShapeObject): Generator<PickCandidate> {
-  for (const drawn of object.placedDraws()) if (isShown(drawn.group)) yield drawn;
+  for (const drawn of object.pickCandidates()) if (isVisibleInScene(drawn.group)) yield drawn;
 }

@@ -9,24 +9,24 @@ export interface SceneChanges {
   /** Shapes that are new, or of which something else is said, by their elements: visible where one of their places is. */
   readonly shapes: ReadonlyMap<SceneElement, ShapeDescription>;
   /** Elements that are shapes no longer. */
-  readonly gone: readonly SceneElement[];
+  readonly removed: readonly SceneElement[];
   /** Places that are new, have moved, or whose shapes say something else; undefined where one is gone. */
-  readonly places: ReadonlyMap<PlacedNode, PlacedShape | undefined>;
+  readonly instances: ReadonlyMap<PlacedNode, PlacedShape | undefined>;
 }
 
 export class ShapeChanges {
   /** As they were described last, also those that may be gone. */
   readonly shapes = new Map<SceneElement, ShapeDescription>();
-  readonly places = new Map<PlacedNode, PlacedShape | undefined>();
+  readonly instances = new Map<PlacedNode, PlacedShape | undefined>();
 
-  noteThere(shape: ShapeDescription, place: PlacedNode): void {
+  recordPresent(shape: ShapeDescription, place: PlacedNode): void {
     this.shapes.set(shape.element, shape);
-    this.places.set(place, { shape, sceneFromShape: place.sceneFromNode, lightScope: place.lightScope });
+    this.instances.set(place, { shape, sceneFromShape: place.sceneFromNode, lightScope: place.lightScope });
   }
 
   /** In its other places it says the same, or will be noted as what it is there. */
-  noteGone(shape: ShapeDescription, place: PlacedNode): void {
+  recordRemoved(shape: ShapeDescription, place: PlacedNode): void {
     if (!this.shapes.has(shape.element)) this.shapes.set(shape.element, shape);
-    this.places.set(place, undefined);
+    this.instances.set(place, undefined);
   }
 }

@@ -12,21 +12,24 @@ import type {
   TextureRole,
 } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
-import { asPoints } from "../points/surfaceAsPoints.ts";
+import { surfaceAsPoints } from "../points/surfaceAsPoints.ts";
 import type { Batches } from "../batches/batches.ts";
-import { BatchedStage, drawnAsOf } from "../batches/batchedStage.ts";
-import type { DrawnAs, Drawing } from "../batches/batchingPlan.ts";
+import { BatchedStage, drawModeOf } from "../batches/batchedStage.ts";
+import type { DrawMode, DrawModes } from "../batches/batchingPlan.ts";
 import { alone } from "../batches/batchingPlan.ts";
-import type { PlaceGroup } from "../lights/lightScopes.ts";
-import type { ShownPicture } from "../materials/materialFactory.ts";
+import type { ShapeGroup } from "../lights/lightScopes.ts";
+import type { SurfaceTexture } from "../materials/materialFactory.ts";
 import type { PatchDraws } from "../stages/patchDraws.ts";
-import { drawStage } from "../stages/patchDraws.ts";
+import { makePatchDraws } from "../stages/patchDraws.ts";
 import type { PickCandidate } from "../picking/picker.ts";
-import type { PatchSetting } from "../stages/stageDraws.ts";
+import type { PatchContext } from "../stages/stageDraws.ts";
 import { withWideLines } from "../lines/wideLines.ts";
 
 /** What all shapes of a scene share. */
-export interface ShapeSetting extends Pick<PatchSetting, "look" | "geometries" | "buffers" | "textures" | "shared"> {
+export interface ShapeContext extends Pick<
+  PatchContext,
+  "materialFactory" | "geometries" | "buffers" | "textures" | "shared"
+> {
   /** Undefined: each shape is drawn alone. */
   readonly batches: Batches | undefined;
   /** Of surfaces, whether their vertices are drawn instead; ShapeObject.redraw follows a change. */
@@ -34,58 +37,58 @@ export interface ShapeSetting extends Pick<PatchSetting, "look" | "geometries" |
 }
 
 /** In CSS pixels; GPUs draw none that are larger. */
-const largestPoint = 1024;
+const maxPointSize = 1024;
 
-interface ShownPatch {
+interface DisplayedPatch {
   readonly geometry: GeometryDescription;
   readonly stage: Stage;
   /** What is drawn of it. */
   readonly drawn: Stage;
-  readonly drawnAs: DrawnAs;
+  readonly drawMode: DrawMode;
   readonly draws: PatchDraws;
 }
 
 export class ShapeObject {
-  readonly #setting: ShapeSetting;
+  readonly #context: ShapeContext;
   /** One for each place, with the page's element for it there. */
-  readonly #groups = new Map<PlaceGroup, SceneElement>();
-  readonly #patches = new Map<number, ShownPatch>();
+  readonly #groups = new Map<ShapeGroup, SceneElement>();
+  readonly #patches = new Map<number, DisplayedPatch>();
   #appearance: AppearanceDescription;
   #geometry: GeometryDescription | undefined;
   #drawing = alone;
-  readonly #pictures = new Map<TextureRole, ShownPicture>();
+  readonly #surfaceTextures = new Map<TextureRole, SurfaceTexture>();
   #isPickable: boolean;
 
-  constructor(setting: ShapeSetting, shape: ShapeDescription) {
-    this.#setting = setting;
+  constructor(context: ShapeContext, shape: ShapeDescription) {
+    this.#context = context;
     this.#appearance = shape.appearance;
     this.#geometry = shape.geometry;
     this.#isPickable = shape.isPickable;
   }
 
   /** It stands in this group too, from now on; `host` is the page's element for it there. */
-  enter(group: PlaceGroup, host: SceneElement): void {
+  addInstance(group: ShapeGroup, host: SceneElement): void {
     this.#groups.set(group, host);
-    for (const { draws } of this.#patches.values()) draws.hang(group);
+    for (const { draws } of this.#patches.values()) draws.addInstance(group);
   }
 
   /** The group has moved, is shown or hidden, or stands in another light scope. */
-  follow(group: PlaceGroup): void {
-    for (const { draws } of this.#patches.values()) draws.follow(group);
+  updateInstance(group: ShapeGroup): void {
+    for (const { draws } of this.#patches.values()) draws.updateInstance(group);
   }
 
-  leave(group: PlaceGroup): void {
+  removeInstance(group: ShapeGroup): void {
     this.#groups.delete(group);
-    for (const { draws } of this.#patches.values()) draws.leave(group);
+    for (const { draws } of this.#patches.values()) draws.removeInstance(group);
   }
 
   /** One for each place. */
-  get groups(): readonly PlaceGroup[] {
+  get groups(): readonly ShapeGroup[] {
     return Array.from(this.#groups.keys());
   }
 
   /** It stands somewhere. */
-  get isPlaced(): boolean {
+  get hasInstances(): boolean {
     return this.#groups.size > 0;
   }
 
@@ -123,16 +126,16 @@ export class ShapeObject {
   }
 
   /** How its geometry is drawn from now on. */
-  drawAs(drawing: Drawing): void {
+  setDrawModes(drawing: DrawModes): void {
     if (drawing === this.#drawing) return;
     this.#drawing = drawing;
     this.#applyAppearance();
   }
 
   /** What is laid over its surface, where it has texture coordinates; undefined: nothing. */
-  setPicture(role: TextureRole, picture: ShownPicture | undefined): void {
-    if (picture) this.#pictures.set(role, picture);
-    else this.#pictures.delete(role);
+  setTexture(role: TextureRole, picture: SurfaceTexture | undefined): void {
+    if (picture) this.#surfaceTextures.set(role, picture);
+    else this.#surfaceTextures.delete(role);
     this.#applyAppearance();
   }
 
@@ -142,14 +145,14 @@ export class ShapeObject {
   }
 
   /** What its points and lines may be wide, in CSS pixels. */
-  get largestWidth(): number {
+  get maxWidth(): number {
     const { points } = this.#appearance;
     const line = this.lineWidth;
     if (points === undefined) return line;
     const [a, b, c] = points.attenuation;
     return Math.max(
       line,
-      b === 0 && c === 0 ? Math.min(points.size / a, points.most) : Math.min(points.most, largestPoint),
+      b === 0 && c === 0 ? Math.min(points.size / a, points.most) : Math.min(points.most, maxPointSize),
     );
   }
 
@@ -159,8 +162,8 @@ export class ShapeObject {
       const isSame =
         patch !== undefined &&
         this.#drawnOf(shown.stage, patch) === shown.drawn &&
-        this.#drawnAsOf(shown.stage) === shown.drawnAs;
-      if (isSame) shown.draws.applyAppearance(this.#appearance, new Map(this.#pictures));
+        this.#drawModeOf(shown.stage) === shown.drawMode;
+      if (isSame) shown.draws.applyAppearance(this.#appearance, new Map(this.#surfaceTextures));
       else this.setStage(shown.geometry, place, shown.stage);
     }
   }
@@ -175,41 +178,41 @@ export class ShapeObject {
     before?.draws.dispose();
   }
 
-  #show(geometry: GeometryDescription, patch: PatchDescription, stage: Stage): ShownPatch {
-    const { batches, ...setting } = this.#setting;
-    const { batching } = setting.look;
-    const drawnAs = this.#drawnAsOf(stage);
+  #show(geometry: GeometryDescription, patch: PatchDescription, stage: Stage): DisplayedPatch {
+    const { batches, ...context } = this.#context;
+    const { batching } = context.materialFactory;
+    const drawMode = this.#drawModeOf(stage);
     const drawn = this.#drawnOf(stage, patch);
-    const patchSetting = {
-      ...setting,
+    const patchContext = {
+      ...context,
       geometry,
       patch,
       appearance: this.#appearance,
-      pictures: new Map(this.#pictures),
+      surfaceTextures: new Map(this.#surfaceTextures),
     };
     const draws =
-      batches === undefined || batching === undefined || drawnAs === "alone"
-        ? drawStage(drawn, patchSetting)
-        : new BatchedStage(drawn, patchSetting, { batches, batching, isMerged: drawnAs === "merged" });
-    for (const group of this.#groups.keys()) draws.hang(group);
-    return { geometry, stage, drawn, drawnAs, draws };
+      batches === undefined || batching === undefined || drawMode === "alone"
+        ? makePatchDraws(drawn, patchContext)
+        : new BatchedStage(drawn, patchContext, { batches, batching, isMerged: drawMode === "merged" });
+    for (const group of this.#groups.keys()) draws.addInstance(group);
+    return { geometry, stage, drawn, drawMode, draws };
   }
 
   /** The same object for the same stage, as long as nothing else is said of points and lines. */
   #drawnOf(stage: Stage, { vertexCount }: PatchDescription): Stage {
-    const shown = this.#setting.drawing.asPoints ? asPoints(stage, vertexCount) : stage;
+    const shown = this.#context.drawing.asPoints ? surfaceAsPoints(stage, vertexCount) : stage;
     return this.#appearance.lines ? withWideLines(shown) : shown;
   }
 
-  #drawnAsOf(stage: Stage): DrawnAs {
-    const { batching } = this.#setting.look;
+  #drawModeOf(stage: Stage): DrawMode {
+    const { batching } = this.#context.materialFactory;
     return batching !== undefined
-      ? drawnAsOf(stage, this.#drawing, this.#appearance, this.#pictures, batching)
+      ? drawModeOf(stage, this.#drawing, this.#appearance, this.#surfaceTextures, batching)
       : "alone";
   }
 
   /** Every draw in every place, with the number of its patch and the page's element. */
-  *placedDraws(): Generator<PickCandidate> {
+  *pickCandidates(): Generator<PickCandidate> {
     for (const [
       patch,
       {
@@ -220,7 +223,7 @@ export class ShapeObject {
     }
   }
 
-  /** Everything anew, as the setting now says. */
+  /** Everything anew, as the context now says. */
   redraw(): void {
     for (const [place, { geometry, stage }] of Array.from(this.#patches)) this.setStage(geometry, place, stage);
   }
@@ -228,7 +231,7 @@ export class ShapeObject {
   clear(): void {
     for (const { draws } of this.#patches.values()) draws.dispose();
     this.#patches.clear();
-    this.#pictures.clear();
+    this.#surfaceTextures.clear();
   }
 
   dispose(): void {

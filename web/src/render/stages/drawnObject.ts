@@ -6,7 +6,7 @@ import type { DrawRange } from "../../stage/stage.ts";
 
 export type DrawnObject = Mesh | Points | Line;
 
-export function objectOf(
+export function makeDrawnObject(
   { primitive, isWide }: Pick<DrawRange, "primitive" | "isWide">,
   geometry: BufferGeometry,
   material: Mesh["material"],

@@ -3,8 +3,8 @@
 
 import { BufferGeometry, InstancedBufferGeometry, InterleavedBufferAttribute, Sphere } from "three";
 import type { BufferStage, DrawRange, Stage } from "../../stage/stage.ts";
-import type { Buffers } from "../uploads/bufferStore.ts";
-import { storedAttributesOf } from "../vertices/vertexAttributes.ts";
+import type { BufferProvider } from "../uploads/bufferStore.ts";
+import { vertexAttributesOf } from "../vertices/vertexAttributes.ts";
 import { wideLineGeometryOf } from "../lines/wideLineGeometry.ts";
 
 interface Entry {
@@ -13,10 +13,10 @@ interface Entry {
 }
 
 export class GeometryPool {
-  readonly #buffers: Buffers;
+  readonly #buffers: BufferProvider;
   readonly #entries = new Map<Stage, Entry>();
 
-  constructor(buffers: Buffers) {
+  constructor(buffers: BufferProvider) {
     this.#buffers = buffers;
   }
 
@@ -44,7 +44,7 @@ export class GeometryPool {
   }
 }
 
-function geometriesOf(stage: Stage, buffers: Buffers): BufferGeometry[] {
+function geometriesOf(stage: Stage, buffers: BufferProvider): BufferGeometry[] {
   const geometryOf =
     stage.kind === "textures" || stage.draws.every(isWide) ? emptyGeometryOf : inBuffers(stage, buffers);
   return stage.draws.map((range) => (isWide(range) ? wideLineGeometryOf(stage, range, buffers) : geometryOf(range)));
@@ -54,11 +54,16 @@ function isWide({ isWide = false }: DrawRange): boolean {
   return isWide;
 }
 
-function inBuffers(stage: BufferStage, buffers: Buffers): (range: DrawRange) => BufferGeometry {
-  const attributes = storedAttributesOf(stage).map(
-    ({ name, vertices: { bytes, type, components, stride, offset }, isSpread }) => ({
+function inBuffers(stage: BufferStage, buffers: BufferProvider): (range: DrawRange) => BufferGeometry {
+  const attributes = vertexAttributesOf(stage).map(
+    ({ name, vertices: { bytes, type, components, stride, offset }, isNormalized }) => ({
       name,
-      attribute: new InterleavedBufferAttribute(buffers.recordsOf(bytes, type, stride), components, offset, isSpread),
+      attribute: new InterleavedBufferAttribute(
+        buffers.recordsOf(bytes, type, stride),
+        components,
+        offset,
+        isNormalized,
+      ),
     }),
   );
   const index = stage.index && buffers.indexOf(stage.index.bytes, stage.index.type);

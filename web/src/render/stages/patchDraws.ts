@@ -9,12 +9,12 @@ import type { LightScope } from "../../navigation/lightScope.ts";
 import { everywhere } from "../../navigation/lightScope.ts";
 import { shapeFromStoredOf } from "../../navigation/matrices.ts";
 import type { DrawnObject } from "./drawnObject.ts";
-import { objectOf } from "./drawnObject.ts";
-import type { PlaceGroup } from "../lights/lightScopes.ts";
-import type { ShownPictures } from "../materials/materialFactory.ts";
-import { noPictures } from "../materials/materialFactory.ts";
+import { makeDrawnObject } from "./drawnObject.ts";
+import type { ShapeGroup } from "../lights/lightScopes.ts";
+import type { SurfaceTextures } from "../materials/materialFactory.ts";
+import { noSurfaceTextures } from "../materials/materialFactory.ts";
 import { PickDraw } from "../picking/pickDraw.ts";
-import type { PatchSetting } from "./stageDraws.ts";
+import type { PatchContext } from "./stageDraws.ts";
 import { boundsOf, colorsOf, materialRequestOf, pickRequestOf, setAppearance, uniformsOf } from "./stageDraws.ts";
 
 /** A stage of a patch on the screen, in all places of its shape. It is drawn by objects of its own, or together with others. */
@@ -22,86 +22,87 @@ export interface PatchDraws {
   /** For the picking pass: shared by all places. */
   readonly picks: readonly PickDraw[];
   /** In one more place of the scene, in the group that stands there. */
-  hang(group: PlaceGroup): void;
+  addInstance(group: ShapeGroup): void;
   /** The group has moved, is shown or hidden, or stands in another light scope. */
-  follow(group: PlaceGroup): void;
+  updateInstance(group: ShapeGroup): void;
   /** Not there any more. */
-  leave(group: PlaceGroup): void;
-  applyAppearance(appearance: AppearanceDescription, pictures: ShownPictures): void;
+  removeInstance(group: ShapeGroup): void;
+  applyAppearance(appearance: AppearanceDescription, surfaceTextures: SurfaceTextures): void;
   /** Takes it out of the scene and frees what this stage alone uses. */
   dispose(): void;
 }
 
 /** Each draw is an object in each place. */
-export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
-  const { geometry, patch, look, buffers } = setting;
+export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws {
+  const { geometry, patch, materialFactory: look, buffers } = context;
   const { box, sphere } = boundsOf(geometry, patch, stage);
   const shapeFromStored = shapeFromStoredOf(geometry, patch);
-  const uniforms = uniformsOf(stage, setting);
+  const uniforms = uniformsOf(stage, context);
   // Without texture coordinates there is nowhere to lay it.
-  const laid = (pictures: ShownPictures) => (stage.texCoord !== undefined ? pictures : noPictures);
-  let shown = { appearance: setting.appearance, pictures: setting.pictures };
-  const draws = setting.geometries.acquire(stage).flatMap((shape, place) => {
+  const laid = (surfaceTextures: SurfaceTextures) =>
+    stage.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
+  let shown = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
+  const draws = context.geometries.acquire(stage).flatMap((shape, place) => {
     const range = stage.draws[place];
     if (range === undefined || range.count === 0) return [];
     shape.boundingBox = box;
     shape.boundingSphere = sphere;
-    const request = materialRequestOf(stage, range, geometry, uniforms.of(range), setting.shared);
+    const request = materialRequestOf(stage, range, geometry, uniforms.of(range), context.shared);
     const side = geometry.solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
     const materials = new ScopedMaterials((lightScope) =>
       look.makeMaterial(
         { ...request, uniforms: { ...request.uniforms, lightScope } },
         shown.appearance,
-        laid(shown.pictures),
+        laid(shown.surfaceTextures),
       ),
     );
     const pick = new PickDraw(stage, range, {
       buffers,
       bounds: sphere,
       shapeFromStored,
-      makeParts: () => ({
+      acquireResources: () => ({
         geometry: shape,
-        request: pickRequestOf(stage, range, side, uniforms.of(range), shown.appearance, shown.pictures),
+        request: pickRequestOf(stage, range, side, uniforms.of(range), shown.appearance, shown.surfaceTextures),
         release: () => undefined,
       }),
     });
     return [{ range, shape, materials, request, pick }];
   });
-  const objects = new Map<PlaceGroup, DrawnObject[]>();
-  const leave = (group: PlaceGroup) => {
+  const objects = new Map<ShapeGroup, DrawnObject[]>();
+  const leave = (group: ShapeGroup) => {
     for (const object of objects.get(group) ?? []) object.removeFromParent();
     objects.delete(group);
   };
   return {
     picks: draws.map(({ pick }) => pick),
-    hang(group) {
+    addInstance(group) {
       const here = draws.map(({ range, shape, materials, request }) => {
         const material = materials.of(group);
-        const object = placedObject(range, shape, material, shapeFromStored);
-        look.prepare(object, request, material);
+        const object = objectWithMatrix(range, shape, material, shapeFromStored);
+        look.prepareObject(object, request, material);
         return object;
       });
       if (here.length > 0) group.add(...here);
       objects.set(group, here);
     },
-    follow(group) {
+    updateInstance(group) {
       // Objects in it move by themselves.
       objects.get(group)?.forEach((object, place) => {
         const { materials, request } = draws[place] ?? {};
         const material = materials?.of(group);
         if (request === undefined || material === undefined || material === object.material) return;
         object.material = material;
-        look.prepare(object, request, material);
+        look.prepareObject(object, request, material);
       });
     },
-    leave,
-    applyAppearance(appearance, pictures) {
-      shown = { appearance, pictures };
+    removeInstance: leave,
+    applyAppearance(appearance, surfaceTextures) {
+      shown = { appearance, surfaceTextures };
       setAppearance(uniforms.common, geometry, appearance);
       for (const { materials, pick } of draws) {
         for (const material of materials.all)
-          look.applyAppearance(material, appearance, colorsOf(stage), laid(pictures));
-        pick.forgetParts();
+          look.applyAppearance(material, appearance, colorsOf(stage), laid(surfaceTextures));
+        pick.releaseResources();
       }
     },
     dispose() {
@@ -110,7 +111,7 @@ export function drawStage(stage: Stage, setting: PatchSetting): PatchDraws {
         for (const material of materials.all) material.dispose();
         pick.dispose();
       }
-      setting.geometries.release(stage);
+      context.geometries.release(stage);
     },
   };
 }
@@ -128,15 +129,15 @@ class ScopedMaterials {
     return this.#materials.values();
   }
 
-  of({ lightScope = everywhere }: PlaceGroup): Material {
+  of({ lightScope = everywhere }: ShapeGroup): Material {
     const material = this.#materials.get(lightScope) ?? this.#make(lightScope);
     this.#materials.set(lightScope, material);
     return material;
   }
 }
 
-function placedObject(draw: DrawRange, shape: BufferGeometry, material: Material, matrix: Matrix4): DrawnObject {
-  const object = objectOf(draw, shape, material);
+function objectWithMatrix(draw: DrawRange, shape: BufferGeometry, material: Material, matrix: Matrix4): DrawnObject {
+  const object = makeDrawnObject(draw, shape, material);
   object.matrixAutoUpdate = false;
   object.matrix.copy(matrix);
   object.matrixWorldNeedsUpdate = true;

@@ -6,25 +6,25 @@ import { BufferAttribute, BufferGeometry, type Object3D, Texture } from "three";
 import type { BufferStage, DrawRange, Stage, StoredVertices, TexelRange, TextureStage } from "../../stage/stage.ts";
 import type { GeometryDescription, PatchDescription, ShapeDescription } from "../../document/description.ts";
 import { isPair } from "../../document/geometry.ts";
-import { drawnAsOf } from "../batches/batchedStage.ts";
-import type { DrawingPlan } from "../batches/batchingPlan.ts";
-import { objectOf } from "./drawnObject.ts";
-import type { Look, SceneUniforms, ShownPicture } from "../materials/materialFactory.ts";
-import { noPictures } from "../materials/materialFactory.ts";
+import { drawModeOf } from "../batches/batchedStage.ts";
+import type { BatchingPlan } from "../batches/batchingPlan.ts";
+import { makeDrawnObject } from "./drawnObject.ts";
+import type { MaterialFactory, SceneUniforms, SurfaceTexture } from "../materials/materialFactory.ts";
+import { noSurfaceTextures } from "../materials/materialFactory.ts";
 import { materialRequestOf } from "./stageDraws.ts";
 import { withWideLines } from "../lines/wideLines.ts";
 
-const nowhere: TexelRange = { image: { width: 1, height: 1, close: () => undefined }, first: 0 };
-const noPicture: ShownPicture = { texture: new Texture(), hasAlpha: false };
+const placeholderTexels: TexelRange = { image: { width: 1, height: 1, close: () => undefined }, first: 0 };
+const placeholderTexture: SurfaceTexture = { texture: new Texture(), hasAlpha: false };
 
 /**
  * An object for each program, by what makes it differ from others. Of images on the GPU, and of what stands in
  * for patches of compact: other buffers need no less, but tell it later.
  */
-export function objectsToCome(
+export function warmUpObjects(
   shapes: Iterable<ShapeDescription>,
-  plan: DrawingPlan,
-  look: Look,
+  plan: BatchingPlan,
+  look: MaterialFactory,
   shared: SceneUniforms,
 ): Map<string, Object3D> {
   const objects = new Map<string, Object3D>();
@@ -40,19 +40,19 @@ export function objectsToCome(
       alpha,
       lines,
     } = appearance;
-    const pictures = new Map(textures.map(({ role }) => [role, noPicture]));
-    for (const bareStage of stagesToCome(described, textures.length > 0)) {
+    const surfaceTextures = new Map(textures.map(({ role }) => [role, placeholderTexture]));
+    for (const bareStage of expectedStages(described, textures.length > 0)) {
       const stage = lines ? withWideLines(bareStage) : bareStage;
       for (const range of stage.draws) {
-        const laid = stage.texCoord !== undefined ? pictures : noPictures;
+        const laid = stage.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
         const isBatched =
           look.batching !== undefined &&
-          drawnAsOf(stage, plan.drawingOf(described), appearance, laid, look.batching) !== "alone";
+          drawModeOf(stage, plan.drawModesOf(described), appearance, laid, look.batching) !== "alone";
         const request = materialRequestOf(stage, range, described, {}, shared, isBatched);
         const key = JSON.stringify([{ ...request, shared: undefined }, kind, transparency > 0, alpha, ...laid.keys()]);
         if (objects.has(key)) continue;
         const geometry = stage.kind === "buffers" ? inBuffers : bare;
-        objects.set(key, objectOf(range, geometry, look.makeMaterial(request, appearance, laid)));
+        objects.set(key, makeDrawnObject(range, geometry, look.makeMaterial(request, appearance, laid)));
       }
     }
   }
@@ -60,16 +60,16 @@ export function objectsToCome(
 }
 
 /** Patches of one geometry hardly differ; the first speaks for all. */
-function stagesToCome(geometry: GeometryDescription, isTextured: boolean): Stage[] {
+function expectedStages(geometry: GeometryDescription, isTextured: boolean): Stage[] {
   const [patch] = geometry.patches;
-  if (geometry.base !== undefined) return [baseToCome];
+  if (geometry.base !== undefined) return [expectedBase];
   if (patch === undefined || patch.coord.length === 0 || geometry.container !== "sig" || geometry.decode === "cpu")
     return [];
   const surface: TextureStage = {
     ...bareStage(geometry, patch),
     name: "surface",
-    draws: patch.draws.map(drawn),
-    index: patch.index && nowhere,
+    draws: patch.draws.map(expectedDraw),
+    index: patch.index && placeholderTexels,
   };
   const stages: Stage[] = [surface];
   if (patch.index !== undefined)
@@ -77,7 +77,7 @@ function stagesToCome(geometry: GeometryDescription, isTextured: boolean): Stage
   let stage = surface;
   const add = (part: "normal" | "texCoord" | "color", isThere: boolean) => {
     if (!isThere) return;
-    stage = { ...stage, name: "shaded", [part]: nowhere };
+    stage = { ...stage, name: "shaded", [part]: placeholderTexels };
     stages.push(stage);
   };
   add("normal", patch.normal !== undefined);
@@ -86,7 +86,7 @@ function stagesToCome(geometry: GeometryDescription, isTextured: boolean): Stage
   return stages;
 }
 
-const nowhereStored: StoredVertices = {
+const placeholderVertices: StoredVertices = {
   bytes: { byteLength: 0, close: () => undefined },
   type: "Int8",
   components: 3,
@@ -95,20 +95,20 @@ const nowhereStored: StoredVertices = {
 };
 
 /** Without the colours that a base may have too. */
-const baseToCome: BufferStage = {
+const expectedBase: BufferStage = {
   kind: "buffers",
   name: "base",
   draws: [{ primitive: "triangles", first: 0, count: 1 }],
   index: undefined,
-  coord: nowhereStored,
-  normal: nowhereStored,
+  coord: placeholderVertices,
+  normal: placeholderVertices,
   normalCode: { kind: "vector" },
   color: undefined,
   value: undefined,
   texCoord: undefined,
 };
 
-function drawn({ primitive }: PatchDescription["draws"][number]): DrawRange {
+function expectedDraw({ primitive }: PatchDescription["draws"][number]): DrawRange {
   return { primitive, first: 0, count: 1 };
 }
 
@@ -121,7 +121,7 @@ function bareStage(
     grid: patch.grid,
     isIndexWide: indexType === "Uint32",
     implicitWidth: patch.implicitWidth,
-    coord: [nowhere],
+    coord: [placeholderTexels],
     coordPlanes: patch.coord.length,
     middleOfMissing: 0,
     normal: undefined,

@@ -15,33 +15,40 @@ import type {
 import { boxAround } from "../../document/geometry.ts";
 import { mostDashes } from "../../document/lineProperties.ts";
 import { largestStoredOf, middleOfMissing, storedFrameOf } from "../../document/storedFrame.ts";
-import type { Buffers } from "../uploads/bufferStore.ts";
-import type { Look, MaterialRequest, SceneUniforms, Shading, ShownPictures, VertexColors } from "../materials/materialFactory.ts";
+import type { BufferProvider } from "../uploads/bufferStore.ts";
+import type {
+  MaterialFactory,
+  MaterialRequest,
+  SceneUniforms,
+  Shading,
+  SurfaceTextures,
+  VertexColors,
+} from "../materials/materialFactory.ts";
 import type { PickMaterialRequest } from "../picking/pickMaterial.ts";
 import { alphaMaskOf } from "../picking/pickMaterial.ts";
 import type { GeometryPool } from "./geometryPool.ts";
 import { textureTransformsOf } from "../vertices/texCoords.ts";
 import { colorMapUniformsOf, valueDefinesOf, valueUniformsOf } from "../materials/valueColors.ts";
-import type { ImageVertexUniforms, VertexForm, VertexUniforms } from "../vertices/vertexChunk.ts";
+import type { ImageVertexUniforms, VertexFormat, VertexUniforms } from "../vertices/vertexChunk.ts";
 import { gridDefinesOf, normalDefinesOf } from "../vertices/vertexChunk.ts";
 import { lineCountOf, lineStepOf } from "../lines/wideLines.ts";
 
 /** Where images are that have become textures. */
-export interface Textures {
+export interface TextureProvider {
   /** Throws where the image is not one of these, or is closed. */
   textureOf(image: DecodedImage): Texture;
 }
 
-export interface PatchSetting {
-  readonly look: Look;
+export interface PatchContext {
+  readonly materialFactory: MaterialFactory;
   readonly geometries: GeometryPool;
-  readonly buffers: Buffers;
-  readonly textures: Textures;
+  readonly buffers: BufferProvider;
+  readonly textures: TextureProvider;
   readonly shared: SceneUniforms;
   readonly geometry: GeometryDescription;
   readonly patch: PatchDescription;
   readonly appearance: AppearanceDescription;
-  readonly pictures: ShownPictures;
+  readonly surfaceTextures: SurfaceTextures;
 }
 
 /** The patch's bounds among stored integers; the sphere is wide enough for its coarsest stage. */
@@ -66,10 +73,10 @@ export interface StageUniforms {
   of(range: DrawRange): VertexUniforms;
 }
 
-export function uniformsOf(stage: Stage, setting: PatchSetting): StageUniforms {
-  const { geometry, patch, shared, textures } = setting;
+export function uniformsOf(stage: Stage, context: PatchContext): StageUniforms {
+  const { geometry, patch, shared, textures } = context;
   const common: VertexUniforms = {
-    ...appearanceUniformsOf(geometry, setting.appearance),
+    ...appearanceUniformsOf(geometry, context.appearance),
     pixelRatio: shared.pixelRatio,
     viewport: shared.viewport,
     latticeStep: { value: storedFrameOf(geometry, patch).step },
@@ -101,10 +108,10 @@ export function setAppearance(
 }
 
 /** Of points that no PointProperties tell about, in CSS pixels. */
-export const usualPointSize = 2;
-const usualPoints: PointDescription = { size: usualPointSize, least: 0, most: Infinity, attenuation: [1, 0, 0] };
-const largestPoint = 1e6;
-const usualLines: LineDescription = { width: 1, dashes: [] };
+export const defaultPointSize = 2;
+const defaultPoints: PointDescription = { size: defaultPointSize, least: 0, most: Infinity, attenuation: [1, 0, 0] };
+const maxPointSize = 1e6;
+const defaultLines: LineDescription = { width: 1, dashes: [] };
 
 type AppearanceUniforms = Pick<
   VertexUniforms,
@@ -115,9 +122,9 @@ function appearanceUniformsOf(
   { texCoordMin, texCoordSize }: GeometryDescription,
   appearance: AppearanceDescription,
 ): AppearanceUniforms & Record<string, IUniform> {
-  const { points = usualPoints, lines: { width, dashes } = usualLines } = appearance;
+  const { points = defaultPoints, lines: { width, dashes } = defaultLines } = appearance;
   return {
-    pointSizes: { value: [points.size, points.least, Math.min(points.most, largestPoint)] },
+    pointSizes: { value: [points.size, points.least, Math.min(points.most, maxPointSize)] },
     attenuation: { value: points.attenuation },
     lineWidth: { value: width },
     dashes: { value: Array.from({ length: mostDashes }, (_, i) => dashes[i] ?? 0) },
@@ -139,7 +146,7 @@ export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
 ): Omit<MaterialRequest, "uniforms"> & { readonly uniforms: Uniforms } {
   return {
     ...vertexFormOf(stage, range),
-    arePlaced,
+    isInstanced: arePlaced,
     primitive: range.primitive,
     shading: shadingOf(stage, range),
     colors: colorsOf(stage),
@@ -157,18 +164,18 @@ export function pickRequestOf(
   side: Side,
   uniforms: VertexUniforms,
   appearance: AppearanceDescription,
-  pictures: ShownPictures,
+  surfaceTextures: SurfaceTextures,
 ): Omit<PickMaterialRequest, "primitive"> {
-  const texture = stage.texCoord === undefined ? undefined : pictures.get("color")?.texture;
+  const texture = stage.texCoord === undefined ? undefined : surfaceTextures.get("color")?.texture;
   const alphaMask = alphaMaskOf(appearance, texture, colorsOf(stage) === "rgba");
   return { ...vertexFormOf(stage, range), side, hasNormals: hasNormals(stage), uniforms, alphaMask };
 }
 
-function vertexFormOf(stage: Stage, range: DrawRange): VertexForm {
+function vertexFormOf(stage: Stage, range: DrawRange): VertexFormat {
   const areImages = stage.kind === "textures";
   return {
-    areImages,
-    arePlaced: false,
+    isFromImages: areImages,
+    isInstanced: false,
     wideLineStep: range.isWide === true ? lineStepOf(range) : 0,
     hasTexCoords: stage.texCoord !== undefined,
     gridDefines: areImages ? gridDefinesOf(stage.grid, stage.normal !== undefined) : {},
@@ -196,7 +203,7 @@ function hasNormals(stage: Stage): boolean {
 
 function imageUniformsOf(
   stage: TextureStage,
-  textures: Textures,
+  textures: TextureProvider,
   common: VertexUniforms,
   largestStored: number,
 ): ImageVertexUniforms {

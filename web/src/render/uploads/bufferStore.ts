@@ -21,7 +21,7 @@ export interface BufferUpload {
 }
 
 /** Where arrays are that have been stored. Throws RangeError where one is not, or is closed. */
-export interface Buffers {
+export interface BufferProvider {
   /** Records of `stride` elements, for three.js. */
   recordsOf(bytes: StoredBytes, type: ElementType, stride: number): InterleavedBuffer;
   indexOf(bytes: StoredBytes, type: ElementType): BufferAttribute;
@@ -34,7 +34,7 @@ export interface Buffers {
 const bytesPerStep = 2 ** 18;
 
 /** Arrays up to this one are small: a step would bring them to the GPU. */
-const mostBytesKept = bytesPerStep;
+const maxBytesKept = bytesPerStep;
 
 interface Kept {
   readonly array: ElementArray;
@@ -52,7 +52,7 @@ const glTypes: Readonly<Record<ElementType, number>> = {
   Float32: 0x1406,
 };
 
-export class BufferStore implements Buffers {
+export class BufferStore implements BufferProvider {
   readonly #gl: WebGL2RenderingContext;
   readonly #buffers = new WeakMap<StoredBytes, WebGLBuffer | Kept>();
   #bytes = 0;
@@ -79,7 +79,7 @@ export class BufferStore implements Buffers {
         if (held instanceof WebGLBuffer) gl.deleteBuffer(held);
       },
     };
-    if (byteLength <= mostBytesKept) {
+    if (byteLength <= maxBytesKept) {
       this.#buffers.set(bytes, { array, use });
       return { bytes, steps: keeping(byteLength) };
     }

@@ -53,7 +53,7 @@ export class TextureStore {
   begin(bitmap: ImageBitmap, renderer: WebGLRenderer, sampling?: SamplingDescription): TextureUpload {
     const { width, height } = bitmap;
     const texture = emptyTexture(width, height);
-    if (sampling !== undefined) sampleAs(texture, sampling);
+    if (sampling !== undefined) setSampling(texture, sampling);
     const bytes = width * height * bytesPerTexel * (texture.generateMipmaps ? 4 / 3 : 1);
     this.#bytes += bytes;
     const image = {
@@ -92,13 +92,13 @@ function* strips(
 function emptyTexture(width: number, height: number): Texture {
   const texture = new DataTexture(null, width, height, RGBAFormat, UnsignedByteType);
   texture.source.dataReady = false;
-  readAsData(texture);
+  setDataSampling(texture);
   texture.needsUpdate = true;
   return texture;
 }
 
 /** Texels reach the shader one by one, as they are in the file. */
-export function readAsData(texture: Texture): void {
+export function setDataSampling(texture: Texture): void {
   texture.colorSpace = NoColorSpace;
   texture.minFilter = NearestFilter;
   texture.magFilter = NearestFilter;
@@ -107,8 +107,8 @@ export function readAsData(texture: Texture): void {
 
 const wrappings = { repeat: RepeatWrapping, clamp: ClampToEdgeWrapping, mirror: MirroredRepeatWrapping } as const;
 
-/** Pages show the colours of pictures by their numbers, as those of materials (materials.ts). */
-export function sampleAs(
+/** Pages show the colours of surfaceTextures by their numbers, as those of materials (materials.ts). */
+export function setSampling(
   texture: Texture,
   { wrapS, wrapT, isSmooth, hasMipmaps, anisotropy }: SamplingDescription,
 ): void {

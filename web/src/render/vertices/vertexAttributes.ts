@@ -4,23 +4,23 @@ import type { BufferStage, StoredVertices } from "../../stage/stage.ts";
 import { isPairCode } from "../../stage/stage.ts";
 
 /** An attribute of a stage's vertices, by three.js' name for it. */
-export interface StoredAttribute {
+export interface VertexAttribute {
   readonly name: string;
   readonly vertices: StoredVertices;
   /** Integers are spread over 0 … 1 or -1 … 1. */
-  readonly isSpread: boolean;
+  readonly isNormalized: boolean;
 }
 
-export function storedAttributesOf({
+export function vertexAttributesOf({
   coord,
   normal,
   normalCode,
   color,
   texCoord,
   value,
-}: BufferStage): StoredAttribute[] {
-  const attribute = (name: string, vertices: StoredVertices | undefined, isSpread: boolean): StoredAttribute[] =>
-    vertices ? [{ name, vertices, isSpread: isSpread && vertices.type !== "Float32" }] : [];
+}: BufferStage): VertexAttribute[] {
+  const attribute = (name: string, vertices: StoredVertices | undefined, isNormalized: boolean): VertexAttribute[] =>
+    vertices ? [{ name, vertices, isNormalized: isNormalized && vertices.type !== "Float32" }] : [];
   return [
     ...attribute("position", coord, false),
     ...attribute("normal", normal, !isPairCode(normalCode)),

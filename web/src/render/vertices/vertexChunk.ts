@@ -13,7 +13,12 @@ import type { Grid, NormalCode } from "../../stage/stage.ts";
 import { isPairCode } from "../../stage/stage.ts";
 import type { Vec3 } from "../../document/description.ts";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
-import { cutFacesChunk, placeFragmentChunk, placesDefine, placeVertexChunk } from "../batches/instanceChunk.ts";
+import {
+  cutFacesChunk,
+  instanceFragmentChunk,
+  instancesDefine,
+  instanceVertexChunk,
+} from "../batches/instanceChunk.ts";
 import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
 import { cutDashesChunk, dashChunk, wideLineChunk, wideLinesDefine } from "../lines/wideLineChunk.ts";
 
@@ -27,7 +32,7 @@ export interface VertexUniforms extends Record<string, IUniform> {
   attenuation: IUniform<Vec3>;
   /** Where stored texture coordinates 0 and 1 lie: origin and extent. */
   texCoordFrame: IUniform<[number, number, number, number]>;
-  /** From there to the pictures, by textureRoles. */
+  /** From there to the surfaceTextures, by textureRoles. */
   textureTransforms: IUniform<readonly Matrix3[]>;
   /** Along each axis, in the shape's coordinates. */
   latticeStep: IUniform<Vec3>;
@@ -70,37 +75,44 @@ export interface ImageVertexUniforms extends VertexUniforms {
 }
 
 /** Samplers that the image body, values and places declare, and so texture units that a vertex shader must have. */
-export const vertexSamplers = 12;
+export const minVertexTextureUnits = 12;
 
 /** Defined in materials that read images, and in those that read normals from them. */
 export const imageVerticesDefine = "IMAGE_VERTICES";
 const imageNormalsDefine = "IMAGE_NORMALS";
 
 /** How the vertices of a stage are found. */
-export interface VertexForm {
+export interface VertexFormat {
   /** They come from images, not from buffers. */
-  readonly areImages: boolean;
+  readonly isFromImages: boolean;
   readonly hasTexCoords: boolean;
   /** As gridDefinesOf says it. */
   readonly gridDefines: Readonly<Record<string, string>>;
   /** As normalDefinesOf says it. */
   readonly normalDefines: Readonly<Record<string, string>>;
   /** Each in the place whose number comes with it; otherwise the object's matrix says where. */
-  readonly arePlaced: boolean;
+  readonly isInstanced: boolean;
   /** Of wide lines, how many vertices on the next begins; 0: they are none. */
   readonly wideLineStep: 0 | 1 | 2;
 }
 
 /** What a material must define to read vertices of this form. */
 export function vertexDefinesOf(
-  { areImages, hasTexCoords, gridDefines, normalDefines, arePlaced, wideLineStep }: VertexForm,
+  {
+    isFromImages: areImages,
+    hasTexCoords,
+    gridDefines,
+    normalDefines,
+    isInstanced: arePlaced,
+    wideLineStep,
+  }: VertexFormat,
   readsNormals: boolean,
 ): Record<string, string> {
   return {
     ...(areImages && { [imageVerticesDefine]: "" }),
     ...(areImages && readsNormals && { [imageNormalsDefine]: "" }),
     ...(hasTexCoords && { HAS_TEX_COORDS: "" }),
-    ...(arePlaced && { [placesDefine]: "" }),
+    ...(arePlaced && { [instancesDefine]: "" }),
     ...(wideLineStep > 0 && { [wideLinesDefine]: `${wideLineStep}` }),
     ...gridDefines,
     ...(readsNormals && normalDefines),
@@ -395,21 +407,21 @@ export const pointSizeChunk = "gl_PointSize = pointSizeAt(length(mvPosition.xyz)
 export const readVertexStatement = "Vertex vertex = readVertex();";
 
 /** Makes a built-in material's shaders read their vertices here, for use in `onBeforeCompile`. */
-export function readVerticesIn(
+export function addVertexReading(
   shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
 ): void {
   shader.fragmentShader =
     ownNormalsChunk +
-    placeFragmentChunk +
+    instanceFragmentChunk +
     dashChunk +
-    replaceEach(shader.fragmentShader, [
+    replaceChunks(shader.fragmentShader, [
       ["void main() {", cutDashesChunk],
       ["void main() {", cutFacesChunk],
     ]);
   shader.vertexShader =
     ownNormalsChunk +
-    replaceEach(shader.vertexShader, [
-      ["#include <common>", `#include <common>\n${readVertexChunk}${placeVertexChunk}${wideLineChunk}`],
+    replaceChunks(shader.vertexShader, [
+      ["#include <common>", `#include <common>\n${readVertexChunk}${instanceVertexChunk}${wideLineChunk}`],
       ["void main() {", `void main() {\n  ${readVertexStatement}`],
       ["#include <uv_vertex>", texCoordChunk],
       ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\nshowPlace();\nwidenLine();`],
@@ -421,6 +433,6 @@ export function readVerticesIn(
 }
 
 /** Not every pass has every chunk; `begin_vertex` they all have. */
-export function replaceEach(source: string, replacements: readonly (readonly [string, string])[]): string {
+export function replaceChunks(source: string, replacements: readonly (readonly [string, string])[]): string {
   return replacements.reduce((text, [chunk, replacement]) => text.replace(chunk, () => replacement), source);
 }

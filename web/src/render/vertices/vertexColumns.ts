@@ -5,8 +5,8 @@ import { InterleavedBuffer, InterleavedBufferAttribute } from "three";
 import type { ElementArray } from "../../stage/vertexArray.ts";
 import { arrayTypeOf, byteSizeOf } from "../../stage/elementType.ts";
 import type { BufferStage, DrawRange } from "../../stage/stage.ts";
-import type { Buffers } from "../uploads/bufferStore.ts";
-import { storedAttributesOf } from "./vertexAttributes.ts";
+import type { BufferProvider } from "../uploads/bufferStore.ts";
+import { vertexAttributesOf } from "./vertexAttributes.ts";
 import { GrowingArray } from "./growingArray.ts";
 
 const bytesPerWord = 4;
@@ -15,23 +15,29 @@ export interface Column {
   /** three.js' name for the attribute. */
   readonly name: string;
   readonly components: number;
-  readonly isSpread: boolean;
+  readonly isNormalized: boolean;
   readonly elementsPerVertex: number;
   readonly data: GrowingArray<ElementArray>;
 }
 
 /** The same for stages whose vertices fit into the same columns. */
 export function layoutOf(stage: BufferStage): string {
-  return storedAttributesOf(stage)
-    .map(({ name, vertices: { type, components }, isSpread }) => `${name} ${type} ${components} ${isSpread}`)
+  return vertexAttributesOf(stage)
+    .map(({ name, vertices: { type, components }, isNormalized }) => `${name} ${type} ${components} ${isNormalized}`)
     .join();
 }
 
 export function columnsOf(stage: BufferStage): Column[] {
-  return storedAttributesOf(stage).map(({ name, vertices: { type, components }, isSpread }) => {
+  return vertexAttributesOf(stage).map(({ name, vertices: { type, components }, isNormalized }) => {
     const elementsPerWord = bytesPerWord / byteSizeOf(type);
     const elementsPerVertex = Math.ceil(components / elementsPerWord) * elementsPerWord;
-    return { name, components, isSpread, elementsPerVertex, data: new GrowingArray<ElementArray>(arrayTypeOf(type)) };
+    return {
+      name,
+      components,
+      isNormalized,
+      elementsPerVertex,
+      data: new GrowingArray<ElementArray>(arrayTypeOf(type)),
+    };
   });
 }
 
@@ -45,9 +51,9 @@ export function appendVertices(
   { name, components, elementsPerVertex, data }: Column,
   stage: BufferStage,
   vertices: number | Uint32Array,
-  buffers: Buffers,
+  buffers: BufferProvider,
 ): void {
-  const attribute = storedAttributesOf(stage).find((candidate) => candidate.name === name);
+  const attribute = vertexAttributesOf(stage).find((candidate) => candidate.name === name);
   if (attribute === undefined) throw new RangeError(`the stage has no ${name}`);
   const { bytes, type, stride, offset } = attribute.vertices;
   const from = buffers.read(bytes, type, 0);
@@ -65,7 +71,11 @@ export function appendVertices(
 }
 
 /** The numbers of vertices that draws of a stage name, one draw after the other. */
-export function indicesOf({ index }: BufferStage, ranges: readonly DrawRange[], buffers: Buffers): ArrayLike<number> {
+export function indicesOf(
+  { index }: BufferStage,
+  ranges: readonly DrawRange[],
+  buffers: BufferProvider,
+): ArrayLike<number> {
   const all = index && buffers.read(index.bytes, index.type, 0);
   const of = ({ first, count }: DrawRange) =>
     all ? Array.from(all.subarray(first, first + count)) : Array.from({ length: count }, (_, i) => first + i);
@@ -75,6 +85,11 @@ export function indicesOf({ index }: BufferStage, ranges: readonly DrawRange[], 
 }
 
 /** For three.js. It shares the column's memory. */
-export function attributeOf({ components, isSpread, elementsPerVertex, data }: Column): InterleavedBufferAttribute {
-  return new InterleavedBufferAttribute(new InterleavedBuffer(data.used, elementsPerVertex), components, 0, isSpread);
+export function attributeOf({ components, isNormalized, elementsPerVertex, data }: Column): InterleavedBufferAttribute {
+  return new InterleavedBufferAttribute(
+    new InterleavedBuffer(data.used, elementsPerVertex),
+    components,
+    0,
+    isNormalized,
+  );
 }

@@ -30,7 +30,7 @@ export function unlitColorOf(description: MaterialDescription, hasColors: boolea
   }
 }
 
-export interface LitNumbers {
+export interface LitParameters {
   readonly color: Vec3;
   readonly specular: Vec3;
   readonly shininess: number;
@@ -40,11 +40,11 @@ export interface LitNumbers {
 }
 
 /** Colours of vertices stand in for the diffuse colour; glTF multiplies them with its base colour. */
-export function litNumbersOf(description: MaterialDescription, hasColors: boolean): LitNumbers {
+export function litParametersOf(description: MaterialDescription, hasColors: boolean): LitParameters {
   switch (description.kind) {
     case "physical":
       return {
-        ...noNumbers,
+        ...blackParameters,
         color: description.baseColor,
         metallic: description.metallic,
         roughness: description.roughness,
@@ -61,11 +61,11 @@ export function litNumbersOf(description: MaterialDescription, hasColors: boolea
       };
     }
     case "unlit":
-      return { ...noNumbers, color: unlitColorOf(description, hasColors) };
+      return { ...blackParameters, color: unlitColorOf(description, hasColors) };
   }
 }
 
-const noNumbers: LitNumbers = {
+const blackParameters: LitParameters = {
   color: [0, 0, 0],
   specular: [0, 0, 0],
   shininess: 0,
