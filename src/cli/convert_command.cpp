@@ -107,7 +107,7 @@ ConvertOptions optionsFrom(const Arguments& arguments) {
   options.normals = chosen(arguments, "normals",
                            {NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical,
                             NormalEncoding::palette, NormalEncoding::derived});
-  options.dropped = chosen<Dropped>(arguments, "drop", {{}, {true, false}, {false, true}, {true, true}});
+  options.dropped = chosen<DroppedElements>(arguments, "drop", {{}, {true, false}, {false, true}, {true, true}});
   options.keepAttributes = attributesNamed(arguments.text("keep-attributes"));
   if (!arguments.text("attribute-bits").empty())
     options.attributeBits = static_cast<std::uint32_t>(arguments.integer("attribute-bits"));

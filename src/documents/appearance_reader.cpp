@@ -33,7 +33,7 @@ const T* AppearanceReader::used(const FieldReader& fields, const std::map<std::s
   const auto found = defined.find(use);
   if (found != defined.end())
     return &found->second;
-  fields.object(std::string("USE names no ") + fields.node().name() + " that stands before", "it has its defaults");
+  fields.warnOrFail(std::string("USE names no ") + fields.node().name() + " that stands before", "it has its defaults");
   return nullptr;
 }
 

@@ -51,7 +51,7 @@ void fail(const DocumentText& source, const pugi::xml_node& node, ErrorKind kind
   throw Error(kind, locationOf(source.text, source.name, offsetOf(source, node)), message);
 }
 
-void FieldReader::object(const std::string& message, const char* consequence) const {
+void FieldReader::warnOrFail(const std::string& message, const char* consequence) const {
   if (!warnings_)
     fail(ErrorKind::malformed, message);
   // The folder may be one that is still to be moved to its place.
@@ -74,7 +74,7 @@ template <typename T> std::vector<T> FieldReader::parse(const char* name) const 
   for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) {
     const std::optional<T> number = parseNumber<T>(word);
     if (!number) {
-      objectToField(std::string(name) + " holds a word that is no number of its kind");
+      warnOrFailField(std::string(name) + " holds a word that is no number of its kind");
       return {};
     }
     numbers.push_back(*number);
@@ -86,7 +86,7 @@ template <typename T> std::vector<T> FieldReader::parse(const char* name, std::s
   std::vector<T> numbers = parse<T>(name);
   if (numbers.empty() || numbers.size() == count)
     return numbers;
-  objectToField(fmt::format("{} has {} numbers and needs {}", name, numbers.size(), count));
+  warnOrFailField(fmt::format("{} has {} numbers and needs {}", name, numbers.size(), count));
   return {};
 }
 
@@ -98,7 +98,7 @@ bool FieldReader::boolean(const char* name, bool fallback) const {
     return true;
   if (equalIgnoringCase(value, "false"))
     return false;
-  objectToField(std::string(name) + " is neither true nor false");
+  warnOrFailField(std::string(name) + " is neither true nor false");
   return fallback;
 }
 
@@ -152,7 +152,7 @@ std::vector<std::string> FieldReader::strings(const char* name) const {
     if (separators.find(value[at]) != std::string_view::npos)
       continue;
     if (value[at] != '"') {
-      objectToField(std::string(name) + " has text between its strings");
+      warnOrFailField(std::string(name) + " has text between its strings");
       return {};
     }
     std::string& string = strings.emplace_back();
@@ -162,7 +162,7 @@ std::vector<std::string> FieldReader::strings(const char* name) const {
       string += value[at];
     }
     if (at >= value.size()) {
-      objectToField(std::string(name) + " has a string without an end");
+      warnOrFailField(std::string(name) + " has a string without an end");
       return {};
     }
   }

@@ -40,7 +40,7 @@ public:
     imgeo::fail(source_, node_, kind, message);
   }
   /// Warns, if that may be, or throws Error{malformed}.
-  void object(const std::string& message, const char* consequence) const;
+  void warnOrFail(const std::string& message, const char* consequence) const;
 
   std::string text(const char* name) const; ///< "" where it is absent
   bool boolean(const char* name, bool fallback) const;
@@ -65,7 +65,7 @@ public:
 private:
   template <typename T> std::vector<T> parse(const char* name) const;
   template <typename T> std::vector<T> parse(const char* name, std::size_t count) const;
-  void objectToField(const std::string& message) const { object(message, "it counts as absent"); }
+  void warnOrFailField(const std::string& message) const { warnOrFail(message, "it counts as absent"); }
 
   const DocumentText& source_;
   pugi::xml_node node_;

@@ -64,7 +64,7 @@ Attributes compactFields(const PatchDescription& patch) {
 
 } // namespace
 
-bool isOwnPatch(const GeometryDescription& geometry) {
+bool isSinglePatch(const GeometryDescription& geometry) {
   return geometry.profile == Profile::compact && geometry.patches.size() == 1 && geometry.patches[0].data &&
          geometry.patches[0].box == geometry.box;
 }
@@ -148,7 +148,7 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
     stored.push_back(geometry.container == Container::bg ? Attribute{"rgbaColors", "true"}
                                                          : Attribute{"numColorComponents", "4"});
   Element element{geometryNodeName(geometry.container), {names, box, stored}};
-  if (!isOwnPatch(geometry))
+  if (!isSinglePatch(geometry))
     return element;
   // In one line: indentation would be a tenth of what a small shape takes.
   Attributes all;

@@ -19,7 +19,7 @@ std::string counts(const std::vector<Draw>& draws);    ///< MFInt32
 
 /// Whether the geometry's element says what there is to say of its only patch, whose box is
 /// the shape's.
-bool isOwnPatch(const GeometryDescription& geometry);
+bool isSinglePatch(const GeometryDescription& geometry);
 
 /// The geometry's element without its patches. `names` is its DEF, if any.
 Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names);

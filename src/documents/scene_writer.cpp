@@ -157,7 +157,7 @@ void SceneWriter::writeExtras(const Node& node) {
         {"MetadataString", {{{"containerField", "metadata"}, {"name", "extras"}, {"value", strings({node.extras})}}}});
 }
 
-void SceneWriter::writeParts(const Node& node) {
+void SceneWriter::writeChildren(const Node& node) {
   writeExtras(node);
   for (const std::size_t child : node.children)
     writeNode(child);
@@ -184,7 +184,7 @@ Attributes SceneWriter::allowedFields(const std::vector<FieldText>& all) const {
   return fields;
 }
 
-Attribute SceneWriter::letterStyle(const std::string& style) const {
+Attribute SceneWriter::fontStyleAttribute(const std::string& style) const {
   return {"data-style", style};
 }
 
@@ -207,7 +207,7 @@ Element SceneWriter::otherElement(const GenericNode& other, const Node& node, co
   if (medium_ == DocumentKind::page && other.element == "FontStyle")
     for (const FieldText& field : node.fields)
       if (field.name == "style")
-        element.groups.back().push_back(letterStyle(field.value));
+        element.groups.back().push_back(fontStyleAttribute(field.value));
   if (image && !image->preview.empty())
     element.groups.back().push_back({"preview", image->preview});
   return element;
@@ -254,7 +254,7 @@ void SceneWriter::writeNode(std::size_t index) {
   if ((node.children.empty() || inlinesDocument(node)) && node.extras.empty())
     return writer_.leaf(element, other && medium_ == DocumentKind::file ? other->text : "");
   writer_.open(element);
-  writeParts(node);
+  writeChildren(node);
   writer_.close(element);
 }
 
@@ -274,7 +274,7 @@ void SceneWriter::writeGeometryOf(const Shape& shape) {
   if (isUse(names))
     return writer_.leaf({geometryNodeName(geometry.container), {names}});
   const Element node = geometryElement(geometry, shape.solid, names);
-  const bool hasPatchElements = !isOwnPatch(geometry);
+  const bool hasPatchElements = !isSinglePatch(geometry);
   if (geometry.attributes.empty() && !hasPatchElements)
     return writer_.leaf(node);
   writer_.open(node);
@@ -290,7 +290,7 @@ void SceneWriter::writeShape(const Node& node, const Attributes& names) {
   const GeometryDescription& geometry = document_.geometries.at(shape.mesh);
   const Element element{"Shape", {names, furtherFields(node), boxAttributes(geometry.box, geometry.lattice)}};
   writer_.open(element);
-  writeParts(node);
+  writeChildren(node);
   writeAppearanceOf(shape);
   writeGeometryOf(shape);
   writer_.close(element);

@@ -33,10 +33,10 @@ protected:
   virtual void writeShape(const Node& node, const Attributes& names);
   /// A page's attribute for the `style` of a FontStyle. `style` itself is HTML's there, and a
   /// strict content policy refuses it.
-  virtual Attribute letterStyle(const std::string& style) const;
+  virtual Attribute fontStyleAttribute(const std::string& style) const;
   void writeExtras(const Node& node);
   /// Extras and children: of an X3D source's Shape, what it has besides its geometry.
-  void writeParts(const Node& node);
+  void writeChildren(const Node& node);
   /// The further fields of a node's element, as far as they may stand in this medium.
   Attributes furtherFields(const Node& node) const;
   Attributes allowedFields(const std::vector<FieldText>& all) const;

@@ -53,7 +53,7 @@ private:
 
   /// X3DOM knows no other attribute for it. To HTML X3D's four words are no style at all; what
   /// else a source says here might be one.
-  Attribute letterStyle(const std::string& style) const override {
+  Attribute fontStyleAttribute(const std::string& style) const override {
     constexpr std::string_view styles[] = {"PLAIN", "BOLD", "ITALIC", "BOLDITALIC"};
     return {"style", std::ranges::find(styles, style) != std::end(styles) ? style : "PLAIN"};
   }
@@ -97,7 +97,7 @@ private:
       names.push_back({"isPickable", "false"}); // the shader that picks images does not compile
     const Element element{"Shape", {names, furtherFields(node), boxAttributes(patch.box, geometry.lattice)}};
     writer_.open(element);
-    writeParts(node);
+    writeChildren(node);
     writeAppearanceOf(shape, shines(patch));
     if (isSig)
       writeImages(geometry, patch, shape.solid);

@@ -192,7 +192,7 @@ public:
   explicit Joint(const std::vector<Part>& parts)
       : positions_(countOf(parts, [](const Part& part) { return part.positions.size(); })),
         wedges_(countOf(parts, [](const Part& part) { return part.wedges.positions.size(); })) {
-    base_.partCount = static_cast<std::uint32_t>(parts.size());
+    base_.segmentCount = static_cast<std::uint32_t>(parts.size());
   }
 
   void add(const Part& part, const Patch& patch, std::uint32_t number) {
@@ -215,7 +215,7 @@ public:
       if (a == b || b == c || c == a)
         continue;
       base_.corners.insert(base_.corners.end(), {at(0), at(1), at(2)});
-      base_.parts.push_back(number);
+      base_.segments.push_back(number);
     }
   }
 
@@ -306,7 +306,7 @@ PatchTriangles trianglesOf(const Patch& patch) {
 }
 
 bool meetsAtBorders(const BaseMesh& base, const std::vector<PatchTriangles>& patches) {
-  if (base.partCount != patches.size())
+  if (base.segmentCount != patches.size())
     return false;
   PositionTable table(positionCountOf(patches) + base.positions.size());
   const CommonPositions common = commonPositions(patches, table);
@@ -315,7 +315,7 @@ bool meetsAtBorders(const BaseMesh& base, const std::vector<PatchTriangles>& pat
     numbersOfBase.push_back(table.numberOf(position));
   std::vector<EdgeSum> differences(patches.size());
   for (std::size_t triangle = 0; triangle < base.triangleCount(); ++triangle)
-    differences[base.parts[triangle]].addTriangles(
+    differences[base.segments[triangle]].addTriangles(
         std::span(base.corners).subspan(3 * triangle, 3),
         [&](std::uint32_t wedge) { return numbersOfBase[base.wedgePositions[wedge]]; });
   bool meets = true;

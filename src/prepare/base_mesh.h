@@ -17,10 +17,10 @@ struct BaseMesh : VertexAttributes {
   std::vector<Vec3u> positions;              ///< on the patches' lattice, no two alike
   std::vector<std::uint32_t> wedgePositions; ///< wedge -> position; several where the texture has a seam
   std::vector<std::uint32_t> corners;        ///< three wedges a triangle
-  std::vector<std::uint32_t> parts;          ///< per triangle: the patch that it stands in for
-  std::uint32_t partCount = 0;               ///< patches
+  std::vector<std::uint32_t> segments;       ///< per triangle: the patch that it stands in for
+  std::uint32_t segmentCount = 0;            ///< patches
 
-  std::size_t triangleCount() const { return parts.size(); }
+  std::size_t triangleCount() const { return segments.size(); }
   const Vec3u& cornerPosition(std::size_t corner) const { return positions[wedgePositions[corners[corner]]]; }
 };
 

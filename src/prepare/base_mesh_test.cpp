@@ -40,7 +40,7 @@ TEST(BaseMesh, ClosesAgainstPatchesInEveryMixture) {
       const PatchedMesh patched = patchedOf(mesh, maxWedges);
       const std::optional<BaseMesh> base = baseOf(patched, 2);
       ASSERT_TRUE(base);
-      EXPECT_EQ(base->partCount, patched.patches.size());
+      EXPECT_EQ(base->segmentCount, patched.patches.size());
       EXPECT_TRUE(meetsAtBorders(*base, trianglesOf(patched)));
       expectClosedMixtures(*base, trianglesOf(patched));
     }
@@ -64,7 +64,7 @@ TEST(BaseMesh, DoesNotMeetPatchesWhenAVertexOfABorderMoves) {
   const BaseMesh base = baseOf(patched, 2).value();
   std::vector<std::set<std::uint32_t>> partsOf(base.positions.size());
   for (std::size_t corner = 0; corner < base.corners.size(); ++corner)
-    partsOf[base.corners[corner]].insert(base.parts[corner / 3]);
+    partsOf[base.corners[corner]].insert(base.segments[corner / 3]);
   const auto isShared = [](const std::set<std::uint32_t>& parts) { return parts.size() > 1; };
   const auto meetsWithout = [&](auto found) {
     BaseMesh changed = base;

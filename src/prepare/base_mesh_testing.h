@@ -43,7 +43,7 @@ inline void expectClosedMixtures(const BaseMesh& base, const std::vector<PatchTr
       hasCome.push_back(mixture > 1 ? random.once(2) : mixture == 1);
     EdgeBalance edges;
     for (std::size_t triangle = 0; triangle < base.triangleCount(); ++triangle)
-      if (!hasCome[base.parts[triangle]]) {
+      if (!hasCome[base.segments[triangle]]) {
         const auto at = [&](std::size_t i) { return base.cornerPosition(3 * triangle + i); };
         edges.add(at(0), at(1), at(2));
       }

@@ -49,7 +49,7 @@ void joinAlike(WedgeSets& sets, const Patch& patch) {
 
 /// Joins wedges of a triangle whose vertices have become one.
 void joinGathered(WedgeSets& sets, const SimplifiedTriangles& simplified, const Patch& patch) {
-  const auto vertexOf = [&](std::uint32_t wedge) { return simplified.ofPosition[patch.wedgePositions[wedge]]; };
+  const auto vertexOf = [&](std::uint32_t wedge) { return simplified.vertexOfInput[patch.wedgePositions[wedge]]; };
   for (std::size_t corner = 0; corner < patch.corners.size(); ++corner) {
     const std::uint32_t a = patch.corners[corner], b = patch.corners[corner % 3 == 2 ? corner - 2 : corner + 1];
     if (vertexOf(a) != SimplifiedTriangles::none && vertexOf(a) == vertexOf(b))
@@ -62,7 +62,7 @@ std::vector<std::uint32_t> nearestOf(WedgeSets& sets, const SimplifiedTriangles&
   std::vector<std::uint32_t> nearest(patch.wedgeCount(), SimplifiedTriangles::none);
   std::vector<double> distances(patch.wedgeCount(), std::numeric_limits<double>::infinity());
   for (std::uint32_t wedge = 0; wedge < patch.wedgeCount(); ++wedge) {
-    const std::uint32_t position = patch.wedgePositions[wedge], vertex = simplified.ofPosition[position];
+    const std::uint32_t position = patch.wedgePositions[wedge], vertex = simplified.vertexOfInput[position];
     if (vertex == SimplifiedTriangles::none)
       continue;
     const Vec3d off = Vec3d(patch.positions[position]) - Vec3d(simplified.positions[vertex]);

@@ -170,11 +170,11 @@ SimplifiedTriangles resultOf(const CollapsingSurface& surface, const UnitFrame& 
     }
     result.corners.push_back(numbers[vertex]);
   }
-  result.ofPosition.reserve(positions.size());
+  result.vertexOfInput.reserve(positions.size());
   for (std::uint32_t vertex : cells.ofVertex) {
     while (surface.vertices[vertex].became != CollapsingSurface::none)
       vertex = surface.vertices[vertex].became;
-    result.ofPosition.push_back(numbers[vertex]);
+    result.vertexOfInput.push_back(numbers[vertex]);
   }
   return result;
 }

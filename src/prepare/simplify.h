@@ -15,11 +15,11 @@ struct SimplifiedTriangles {
   static constexpr std::uint32_t none = UINT32_MAX;
 
   std::vector<Vec3u> positions;
-  std::vector<std::uint32_t> corners;    ///< three positions a triangle
-  std::vector<std::uint32_t> triangles;  ///< per triangle: that of the input which it was
-  std::vector<std::uint32_t> ofPosition; ///< per position of the input: what it has become; none where
-                                         ///< no triangle is left
-  double areaBefore = 0;                 ///< of the input, in units of the lattice
+  std::vector<std::uint32_t> corners;       ///< three positions a triangle
+  std::vector<std::uint32_t> triangles;     ///< per triangle: that of the input which it was
+  std::vector<std::uint32_t> vertexOfInput; ///< per position of the input: what it has become; none where
+                                            ///< no triangle is left
+  double areaBefore = 0;                    ///< of the input, in units of the lattice
 };
 
 /// Simplifies triangles over positions on a lattice to about `triangleCount`, or as

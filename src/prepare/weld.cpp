@@ -237,7 +237,7 @@ bool dropElements(Mesh& mesh, const std::vector<std::uint8_t>& marks) {
 }
 
 /// Finds them, and drops those that are to be dropped. Of welded meshes.
-void sortOut(Mesh& mesh, const Dropped& dropped, WeldReport& report) {
+void sortOut(Mesh& mesh, const DroppedElements& dropped, WeldReport& report) {
   const std::vector<std::uint8_t> degenerate = findDegenerate(mesh), repeated = findRepeated(mesh);
   report.degenerateElements = countOf(degenerate);
   report.duplicateElements = countOf(repeated);
@@ -250,7 +250,7 @@ void sortOut(Mesh& mesh, const Dropped& dropped, WeldReport& report) {
 
 } // namespace
 
-WeldReport weld(Mesh& mesh, const Dropped& dropped) {
+WeldReport weld(Mesh& mesh, const DroppedElements& dropped) {
   WeldReport report;
   const Renumbering positions = weldPositions(mesh);
   report.mergedPositions = positions.merged;

@@ -6,7 +6,7 @@
 namespace imgeo {
 
 /// Elements that add nothing to see; otherwise they are kept.
-struct Dropped {
+struct DroppedElements {
   bool degenerate = false; ///< two corners at one position
   bool repeated = false;   ///< the same corners in the same cyclic order as an earlier element
 };
@@ -23,6 +23,6 @@ struct WeldReport {
 /// position and attributes, and drops what no element references. Never merges
 /// what merely quantises to the same place. Positions and wedges keep the order
 /// of their first use, elements theirs.
-WeldReport weld(Mesh& mesh, const Dropped& dropped = {});
+WeldReport weld(Mesh& mesh, const DroppedElements& dropped = {});
 
 } // namespace imgeo

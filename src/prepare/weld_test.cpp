@@ -160,7 +160,8 @@ TEST(Weld, DropsDegenerateAndRepeatedElementsWhereItIsToldToAndKeepsTheOrderOfTh
     const WeldReport found = weld(kept);
     degenerates += found.degenerateElements;
     repeats += found.duplicateElements;
-    for (const Dropped dropped : {Dropped{true, false}, Dropped{false, true}, Dropped{true, true}}) {
+    for (const DroppedElements dropped :
+         {DroppedElements{true, false}, DroppedElements{false, true}, DroppedElements{true, true}}) {
       auto expected = elementsOf(kept);
       if (dropped.repeated) {
         std::set<decltype(expected)::value_type> seen;

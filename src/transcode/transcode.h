@@ -55,7 +55,7 @@ struct ConvertOptions {
   NormalEncoding normals = NormalEncoding::rgb;
   std::uint32_t normalBits = 0;                            ///< see EncodeOptions; 0: the fewest that cost nothing
   std::uint32_t texCoordBits = 0, colorBits = 0;           ///< 0: 12 and 8 in compact, 16 and 8 elsewhere
-  Dropped dropped;                                         ///< elements that are left out; otherwise none
+  DroppedElements dropped;                                 ///< elements that are left out; otherwise none
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where the source has no normals
   std::uint32_t patchVertices = 65535;                     ///< 256..4,194,304; above 65,535 with 32-bit indices
   AttributeChoice keepAttributes;                          ///< further attributes of vertices

@@ -77,8 +77,8 @@ compact::CompactPatch baseInIntegers(const BaseMesh& base, const GeometryDescrip
   patch.positions = base.positions;
   patch.wedgePositions = base.wedgePositions;
   patch.corners = base.corners;
-  patch.parts = base.parts;
-  patch.partCount = base.partCount;
+  patch.parts = base.segments;
+  patch.partCount = base.segmentCount;
   patch.residualShift = residualShiftFor(base, geometry.lattice.bits);
   compact::Attribute normals{{compact::AttributeKind::normal, 3, 8, compact::NormalMode::derivedArea}, {}};
   normals.values.resize(base.wedgePositions.size()); // whatever they are, they come from the triangles
@@ -108,8 +108,8 @@ BaseMesh meshOfBase(const compact::CompactPatch& patch) {
   base.positions = patch.positions;
   base.wedgePositions = patch.wedgePositions;
   base.corners = patch.corners;
-  base.parts = patch.parts;
-  base.partCount = patch.partCount;
+  base.segments = patch.parts;
+  base.segmentCount = patch.partCount;
   return base;
 }
 

@@ -22,7 +22,7 @@ struct SiteManifest {
   ElementCounts elements;                                  ///< as drawn; a strip's length does not tell
   /// By which normals of a palette and of compact may be off; 0: see normalErrorBound.
   double normalErrorDegrees = 0;
-  Dropped dropped;                      ///< elements of the source that were left out
+  DroppedElements dropped;              ///< elements of the source that were left out
   std::vector<std::string> attributes;  ///< further ones that were kept
   std::uint64_t sourceTextureBytes = 0; ///< of the images of textures, as they were found
 };

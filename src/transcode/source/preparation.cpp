@@ -15,7 +15,7 @@ struct MeshReport {
   bool normalsComputed = false;
 };
 
-MeshReport prepareMesh(Mesh& mesh, const Dropped& dropped, NormalWeighting weighting) {
+MeshReport prepareMesh(Mesh& mesh, const DroppedElements& dropped, NormalWeighting weighting) {
   MeshReport report{weld(mesh, dropped), false};
   if (mesh.topology == Topology::triangles && mesh.normals.empty() && mesh.elementCount() > 0) {
     computeNormals(mesh, weighting);
@@ -50,7 +50,7 @@ Imported importInput(const std::filesystem::path& input, const ImportOptions& op
   return imported;
 }
 
-PreparationReport prepareScene(Scene& scene, const Dropped& dropped, NormalWeighting weighting,
+PreparationReport prepareScene(Scene& scene, const DroppedElements& dropped, NormalWeighting weighting,
                                const std::string& location) {
   std::vector<MeshReport> reports(scene.meshes.size());
   parallelFor(scene.meshes.size(),

@@ -34,7 +34,7 @@ struct PreparationReport {
 /// Welds every mesh, drops what is to be dropped and what no element uses, gives normals to triangle meshes
 /// that bring none, and drops shapes in which nothing is left to see. Throws
 /// Error{malformed} naming `location` where that leaves an empty scene.
-PreparationReport prepareScene(Scene& scene, const Dropped& dropped, NormalWeighting weighting,
+PreparationReport prepareScene(Scene& scene, const DroppedElements& dropped, NormalWeighting weighting,
                                const std::string& location);
 
 } // namespace imgeo
