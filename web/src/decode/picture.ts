@@ -2,7 +2,7 @@
 // with colours.
 
 import { DecodeError } from "./decodeError.ts";
-import { drawLetters } from "./letters.ts";
+import { drawGlyphAtlas, GlyphAtlasError } from "../text/glyphRendering.ts";
 
 export interface DecodedPicture {
   readonly bitmap: ImageBitmap;
@@ -23,7 +23,7 @@ export async function decodePicture(
   largestEdge: number,
   { isData, isDistanceField }: PictureKind,
 ): Promise<DecodedPicture> {
-  if (isDistanceField === true) return { bitmap: await drawLetters(bytes), hasAlpha: true };
+  if (isDistanceField === true) return { bitmap: await glyphsIn(bytes), hasAlpha: true };
   const options: ImageBitmapOptions = {
     premultiplyAlpha: "none",
     imageOrientation: "flipY",
@@ -41,6 +41,15 @@ export async function decodePicture(
   const smaller = await createImageBitmap(bitmap, { resizeWidth, resizeQuality: "high", premultiplyAlpha: "none" });
   bitmap.close();
   return { bitmap: smaller, hasAlpha: mayHaveAlpha(bytes) };
+}
+
+async function glyphsIn(bytes: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
+  try {
+    return await drawGlyphAtlas(bytes);
+  } catch (error) {
+    if (error instanceof GlyphAtlasError) throw new DecodeError(error.kind, error.message);
+    throw error;
+  }
 }
 
 const [pngColorType, grayWithAlpha, rgba] = [25, 4, 6];

@@ -4,7 +4,7 @@ import { Base } from "../decode/compact/baseBuffers.ts";
 import { buffersOf } from "../decode/compact/patchBuffers.ts";
 import { decodeVector, readVectorFile, vectorNames } from "../decode/compact/vectors.testing.ts";
 import { pngWithTexels } from "../decode/png.testing.ts";
-import { storedFrameOf } from "../document/storedFrame.ts";
+import { dequantizationOf } from "../document/dequantization.ts";
 import { everything, geometryOf, held, record, siteOf, soon } from "./delivery.testing.ts";
 
 /** A geometry of patches of files, as documents describe them. */
@@ -160,7 +160,7 @@ describe("a geometry of compact", () => {
   test("has beside its vertices the values that colour it, and no others", async () => {
     const patch = decodeVector("others")[0] ?? assert.fail();
     const plain = geometryFor([["others", 0]]);
-    const box = { files: 0, min: [0], size: [1] };
+    const box = { fileCount: 0, min: [0], size: [1] };
     const [bits24, bits3] = [
       { ...box, name: "heat", components: 1, bits: 24 },
       { ...box, name: "flow", components: 4, bits: 3 },
@@ -293,7 +293,7 @@ describe("a geometry of compact", () => {
       {},
       "base-seams.png",
     );
-    const value = { name: "flow", components: 2, bits: 16, files: 0, min: [0, 0], size: [1, 1] } as const;
+    const value = { name: "flow", components: 2, bits: 16, fileCount: 0, min: [0, 0], size: [1, 1] } as const;
     const { stages, settled } = record({ ...plain, attributes: [value], value }, site.pool);
     await settled;
     const parts = new Base(decodeVector("base-seams")[0] ?? assert.fail()).parts;
@@ -425,7 +425,7 @@ describe("a geometry of compact", () => {
       );
       const classic = geometryOf(`<ImageGeometry position="1 2 3" size="4 4 4" positionBits="${bits}"
         coord='${Array.from({ length: Math.ceil(bits / 8) }, (_, plane) => `"${plane}.png"`).join(" ")}'/>`);
-      const [frame, same] = [geometry, classic].map((one) => storedFrameOf(one, one.patches[0] ?? assert.fail()));
+      const [frame, same] = [geometry, classic].map((one) => dequantizationOf(one, one.patches[0] ?? assert.fail()));
       assert.deepEqual(frame?.origin, same?.origin);
       const stored = 2 ** (8 * Math.ceil(bits / 8) - bits);
       assert.ok(Math.abs((frame?.step[0] ?? 0) - (same?.step[0] ?? 0) * stored) < 1e-15);

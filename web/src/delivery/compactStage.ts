@@ -7,7 +7,7 @@ import type { VertexArray } from "../stage/vertexArray.ts";
 import { DecodeError } from "../decode/decodeError.ts";
 import type { BufferStage, DrawRange, StageName } from "../stage/stage.ts";
 import type { AttributeDescription, GeometryDescription, PatchDescription } from "../document/description.ts";
-import { latticeBitsOf } from "../document/storedFrame.ts";
+import { latticeBitsOf } from "../document/dequantization.ts";
 import { ArrayUploads } from "./arrayUploads.ts";
 import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
 import { drawRangesOf } from "./stageBuilder.ts";

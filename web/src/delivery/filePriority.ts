@@ -3,7 +3,7 @@
 
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
 import { boxAround, isUnbounded } from "../document/geometry.ts";
-import { storedFrameOf } from "../document/storedFrame.ts";
+import { dequantizationOf } from "../document/dequantization.ts";
 import type { ChunkWeights } from "../scheduler/priority.ts";
 import { priorityOf } from "../scheduler/priority.ts";
 import type { Camera, Matrix, Sphere, ViewMetrics } from "../scheduler/viewMetrics.ts";
@@ -48,7 +48,7 @@ export function geometryInstance(
         : sphereOf(patch.box ?? boxAround(geometry.position, geometry.size), sceneFromShape),
     ),
     coarseSteps: geometry.patches.map(
-      (patch) => Math.max(...storedFrameOf(geometry, patch).step) * 256 ** (patch.coord.length - 1) * scale,
+      (patch) => Math.max(...dequantizationOf(geometry, patch).step) * 256 ** (patch.coord.length - 1) * scale,
     ),
   };
 }

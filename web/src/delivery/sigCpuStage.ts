@@ -11,7 +11,7 @@ import { checkPng } from "../decode/png.ts";
 import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../stage/stage.ts";
 import { withoutStrips } from "../decode/strips.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
-import { largestStoredOf, middleOfMissing, storedFrameOf } from "../document/storedFrame.ts";
+import { maxStoredValueOf, missingBytesMidpoint, dequantizationOf } from "../document/dequantization.ts";
 import { asDeliveryError } from "./deliveryError.ts";
 import { ArrayUploads } from "./arrayUploads.ts";
 import type { PatchFile } from "./patchFiles.ts";
@@ -173,7 +173,7 @@ class SigCpuBuilder implements StageBuilder {
     const job = {
       planes,
       planeCount,
-      middleOfMissing: middleOfMissing(this.#geometry, planeCount, planes.length),
+      middleOfMissing: missingBytesMidpoint(this.#geometry, planeCount, planes.length),
       ...this.#layout(header, planes[0]),
     };
     const grid = this.#patch.grid;
@@ -185,8 +185,8 @@ class SigCpuBuilder implements StageBuilder {
             {
               ...job,
               grid,
-              largestStored: largestStoredOf(this.#geometry, this.#patch),
-              step: storedFrameOf(this.#geometry, this.#patch).step,
+              largestStored: maxStoredValueOf(this.#geometry, this.#patch),
+              step: dequantizationOf(this.#geometry, this.#patch).step,
             },
             signal,
           );

@@ -7,7 +7,7 @@ import type { DecodedImage } from "../stage/decodedImage.ts";
 import type { TexelRange, TextureStage } from "../stage/stage.ts";
 import { isPairCode } from "../stage/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../document/description.ts";
-import { middleOfMissing } from "../document/storedFrame.ts";
+import { missingBytesMidpoint } from "../document/dequantization.ts";
 import type { PatchFile } from "./patchFiles.ts";
 import { sigCpuBuilder } from "./sigCpuStage.ts";
 import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
@@ -128,7 +128,7 @@ function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): 
         implicitWidth: name === "points" ? first.image.width : patch.implicitWidth,
         coord,
         coordPlanes: patch.coord.length,
-        middleOfMissing: middleOfMissing(geometry, patch.coord.length, coord.length),
+        middleOfMissing: missingBytesMidpoint(geometry, patch.coord.length, coord.length),
         normal: here.normal,
         normalCode,
         color: here.color,

@@ -240,8 +240,8 @@ function readPoints(element: SceneElement, warnings: Warning[]): PointDescriptio
   );
   return {
     size: pointSizeScaleFactor,
-    least: pointSizeMinValue ?? 0,
-    most: pointSizeMaxValue ?? Infinity,
+    minSize: pointSizeMinValue ?? 0,
+    maxSize: pointSizeMaxValue ?? Infinity,
     attenuation,
   };
 }

@@ -56,7 +56,10 @@ describe("a shape's colorBy", () => {
       `<ImageGeometry profile="compact" data="p.png">
       <FloatVertexAttribute name="heat" numComponents="1" valueBits="24" valueMin="-1" valueSize="3"/></ImageGeometry>`,
     );
-    assert.deepEqual([value?.bits, value?.files, patch?.value, shape.appearance.colorMap?.range], [24, 0, [], [-1, 2]]);
+    assert.deepEqual(
+      [value?.bits, value?.fileCount, patch?.value, shape.appearance.colorMap?.range],
+      [24, 0, [], [-1, 2]],
+    );
   });
 
   test("that is absent, or names nothing that there is, colours nothing", () => {

@@ -21,7 +21,7 @@ export function readAttributes(
     );
     const components = ([1, 2, 3, 4] as const).find((count) => count === numComponents) ?? 4;
     const bits = container === "bg" ? undefined : valueBits;
-    const files = { sig: valueBits / 8, bg: 1, compact: 0 }[container];
+    const fileCount = { sig: valueBits / 8, bg: 1, compact: 0 }[container];
     if (components !== numComponents || (bits !== undefined && ![8, 16, 24].includes(bits))) {
       warnings.push({
         element: child,
@@ -30,7 +30,7 @@ export function readAttributes(
     }
     const each = (values: readonly number[], missing: number) =>
       Array.from({ length: components }, (_, c) => values[c] ?? missing);
-    return { name, components, files, bits, min: each(valueMin, 0), size: each(valueSize, 1) };
+    return { name, components, fileCount, bits, min: each(valueMin, 0), size: each(valueSize, 1) };
   });
 }
 
@@ -40,8 +40,8 @@ function filesOf(
   attribute: AttributeDescription,
   references: readonly Reference[],
 ): readonly Reference[] {
-  const first = attributes.slice(0, attributes.indexOf(attribute)).reduce((sum, { files }) => sum + files, 0);
-  return references.slice(first, first + attribute.files);
+  const first = attributes.slice(0, attributes.indexOf(attribute)).reduce((sum, { fileCount }) => sum + fileCount, 0);
+  return references.slice(first, first + attribute.fileCount);
 }
 
 /** The geometry with the values of one of its attributes beside its vertices; undefined where it has none of the name. */

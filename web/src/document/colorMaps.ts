@@ -3,7 +3,7 @@
 import type { Field, FieldType, Vec3 } from "./fieldTypes.ts";
 
 /** Colours of a map at most: they are uniforms of a shader. */
-export const mostMapColors = 32;
+export const maxMapColors = 32;
 
 const named: Readonly<Record<string, string>> = {
   // Smith and van der Walt 2015, "A better default colormap for matplotlib": as even to the eye as to numbers.
@@ -20,14 +20,14 @@ function colorsOf(hexes: string): Vec3[] {
 }
 
 const colorMap: FieldType<readonly Vec3[]> = {
-  name: `map of colours (${Object.keys(named).join(", ")}, or 2 to ${mostMapColors} colours)`,
+  name: `map of colours (${Object.keys(named).join(", ")}, or 2 to ${maxMapColors} colours)`,
   parse(text) {
     const known = named[text.trim().toLowerCase()];
     if (known !== undefined) return colorsOf(known);
     const words = text.split(/[\s,]+/).filter((word) => word !== "");
     const numbers = words.map(Number);
     const count = numbers.length / 3;
-    if (!numbers.every(Number.isFinite) || !Number.isInteger(count) || count < 2 || count > mostMapColors)
+    if (!numbers.every(Number.isFinite) || !Number.isInteger(count) || count < 2 || count > maxMapColors)
       return undefined;
     return Array.from({ length: count }, (_, i) => numbers.slice(3 * i, 3 * i + 3) as unknown as Vec3);
   },

@@ -64,7 +64,7 @@ export interface AttributeDescription {
   readonly name: string;
   readonly components: 1 | 2 | 3 | 4;
   /** Files that it has in each patch: byte planes, most significant first, or one array; none in compact, whose patches hold it. */
-  readonly files: number;
+  readonly fileCount: number;
   /** Bits of a stored integer; undefined: numbers are stored as they are. */
   readonly bits: number | undefined;
   /** By component: the box that stored integers are spread over, or that numbers lie in. */
@@ -92,8 +92,8 @@ export type NormalEncoding = (typeof normalEncodings)[number];
 /** Of SIG: a file for each of its parts, or one that holds all of a patch. */
 export const profiles = ["classic", "compact"] as const;
 
-export const decodePlaces = ["auto", "gpu", "cpu"] as const;
-export type DecodePlace = (typeof decodePlaces)[number];
+export const decodeModes = ["auto", "gpu", "cpu"] as const;
+export type DecodeMode = (typeof decodeModes)[number];
 
 export interface GeometryDescription {
   /** `compact` is SIG with all of a patch in one file. */
@@ -110,7 +110,7 @@ export interface GeometryDescription {
   readonly colorComponents: 3 | 4;
   readonly normalEncoding: NormalEncoding;
   /** Where images are decoded: by the shader, in workers, or as is best. */
-  readonly decode: DecodePlace;
+  readonly decode: DecodeMode;
   /** In images Uint16: column and row of the record, or Uint32: its number. */
   readonly indexType: ElementType;
   /** Typed arrays only, as the types below. */
@@ -125,7 +125,7 @@ export interface GeometryDescription {
   /** SIG compact: what stands in for the patches until they are here, from this byte of its file's pixels on. */
   readonly base: Reference | undefined;
   /** Of a text: the picture that its letters are cut out with. */
-  readonly letters?: string;
+  readonly glyphAtlas?: string;
 }
 
 /** Phong's model in the numbers of the screen, glTF's metallic-roughness model in linear ones, or a colour that no light changes. */
@@ -186,8 +186,8 @@ export interface TextureDescription {
 /** X3D's PointProperties, in CSS pixels. */
 export interface PointDescription {
   readonly size: number;
-  readonly least: number;
-  readonly most: number;
+  readonly minSize: number;
+  readonly maxSize: number;
   /** At distance r points are 1 / (a + b r + c r^2) as large. */
   readonly attenuation: Vec3;
 }
@@ -213,7 +213,7 @@ export interface AppearanceDescription {
 }
 export interface ViewpointDescription extends Values<typeof nodeFields.Viewpoint> {
   /** Width over height of what a view of any shape has to show at least; 1 where nothing is said. */
-  readonly proportion?: number;
+  readonly aspectRatio?: number;
 }
 export type NavigationDescription = Values<typeof nodeFields.NavigationInfo>;
 export type LightDescription =
@@ -234,7 +234,7 @@ export interface ShapeDescription {
   /** False where it or a group around it is hidden. */
   readonly visible: boolean;
   /** Whether the scene ends no nearer than it: it is seen, or would be in another level of a LOD. */
-  readonly reaches: boolean;
+  readonly contributesToBounds: boolean;
   /** What the author says of it, of its geometry and of the groups around it, multiplied. */
   readonly priority: number;
   /** False: the pointer goes through it to what lies behind. */
@@ -256,7 +256,7 @@ export interface GroupDescription {
   /** Undefined for a plain Group. */
   readonly transform: TransformDescription | undefined;
   /** Of a LOD, whose children these are, one of them visible. */
-  readonly levels?: LevelsDescription;
+  readonly lod?: LodDescription;
   /** Of an Inline that names a document: who this is, as a shape's. */
   readonly inline?: SceneElement;
   /** Of a Billboard: it turns about this axis so that its z axis points to the viewer; 0 0 0: and its y axis up in the picture. */
@@ -277,14 +277,14 @@ export interface AnchorDescription {
 }
 
 /** A LOD whose level depends on how far the viewer is from it. */
-export interface LevelsDescription {
+export interface LodDescription {
   /** Who this is, as a shape's. */
   readonly element: SceneElement;
   readonly center: Vec3;
   /** Where one level ends and the next begins, ascending. */
   readonly range: readonly number[];
   /** The last one is that of all greater distances. */
-  readonly count: number;
+  readonly levelCount: number;
 }
 
 /** A document to be shown where an Inline stands. */

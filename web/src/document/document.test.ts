@@ -14,7 +14,7 @@ import { nodeFields } from "./nodes.ts";
 import { readScene } from "./readScene.ts";
 import { readInlineGeometry } from "./inlineGeometry.ts";
 import { SceneReader } from "./sceneReader.ts";
-import { middleOfMissing, storedFrameOf } from "./storedFrame.ts";
+import { missingBytesMidpoint, dequantizationOf } from "./dequantization.ts";
 
 function sceneOf(markup: string): SceneDescription {
   return readScene(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`));
@@ -494,7 +494,7 @@ describe("stored integers", () => {
   const placed = (geometry: GeometryDescription, stored: number) => {
     const patch = geometry.patches[0];
     assert.ok(patch);
-    const { origin, step } = storedFrameOf(geometry, patch);
+    const { origin, step } = dequantizationOf(geometry, patch);
     return origin[0] + stored * step[0];
   };
 
@@ -517,7 +517,7 @@ describe("stored integers", () => {
   test("keep a step along a flat side of the box, so that the matrix can be inverted", () => {
     const flat = geometryOf('<ImageGeometry size="4 4 0" vertexCount="3" coord="a.png"/>');
     const patch = flat.patches[0];
-    assert.ok(patch && storedFrameOf(flat, patch).step.every((step) => step > 0));
+    assert.ok(patch && dequantizationOf(flat, patch).step.every((step) => step > 0));
   });
 
   test("whose low bytes have not come stand in the middle of what these may hold", () => {
@@ -535,7 +535,7 @@ describe("stored integers", () => {
         const low = 0;
         const high = 2 ** (8 * (planes - present)) - 2 ** Math.min(8 * planes - bits, 8 * (planes - present));
         assert.equal(
-          middleOfMissing(planesOf(planes, bits), planes, present),
+          missingBytesMidpoint(planesOf(planes, bits), planes, present),
           present === planes ? 0 : (low + high) / 2,
         );
       }

@@ -3,7 +3,7 @@
 
 import type { SceneElement } from "./element.ts";
 import { elementsOf, type TestElement } from "./elements.testing.ts";
-import type { Supplements } from "./readScene.ts";
+import type { SceneReaderOptions } from "./readScene.ts";
 import { readInlineGeometry } from "./inlineGeometry.ts";
 import { SceneReader } from "./sceneReader.ts";
 
@@ -84,7 +84,7 @@ const inlinable = {
   "b.x3d": `<X3D><LOD range="1"><Shape id="near"/><Shape id="far"/></LOD><Inline url="a.x3d"/></X3D>`,
 };
 
-export class EditedDocument implements Supplements {
+export class EditedDocument implements SceneReaderOptions {
   readonly x3d = elementsOf(`<X3D><Scene>${snippets.join("")}</Scene></X3D>`);
   readonly inlineGeometry = readInlineGeometry;
   readonly reader = new SceneReader(this.x3d, this);

@@ -47,7 +47,7 @@ export class ElementTree {
   }
 
   /** Looks again at what the element says of itself. */
-  lookAtName(element: SceneElement): void {
+  updateName(element: SceneElement): void {
     const known = this.#known.get(element);
     const name = attributeOf(element, "DEF");
     if (known === undefined || known.name === name) return;
@@ -56,7 +56,7 @@ export class ElementTree {
   }
 
   /** Looks again at what stands in the element. */
-  lookAtChildren(element: SceneElement): void {
+  updateChildren(element: SceneElement): void {
     const known = this.#known.get(element);
     if (known === undefined) return;
     const before = known.children;
@@ -69,7 +69,7 @@ export class ElementTree {
   }
 
   /** Names whose meaning may have changed since this was last called. */
-  takeRenamed(): ReadonlySet<string> {
+  takeChangedNames(): ReadonlySet<string> {
     const renamed = this.#renamed;
     if (renamed.size > 0) this.#renamed = new Set();
     return renamed;

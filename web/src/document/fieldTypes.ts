@@ -2,11 +2,12 @@
 // by white space or commas. Each type says how to read a text; undefined means
 // that the text is not of that type.
 
+import type { Vec3 } from "../tessellate/vectors.ts";
 import type { PixelImage } from "./pixelImage.ts";
 import { pixelImageOf } from "./pixelImage.ts";
 
+export type { Vec3 };
 export type Vec2 = readonly [number, number];
-export type Vec3 = readonly [number, number, number];
 /** Axis and angle in radians. */
 export type Rotation = readonly [number, number, number, number];
 

@@ -15,7 +15,7 @@ import type {
   Reference,
   Warning,
 } from "./description.ts";
-import { decodePlaces, elementTypes, meshModes, normalEncodings, profiles } from "./description.ts";
+import { decodeModes, elementTypes, meshModes, normalEncodings, profiles } from "./description.ts";
 import { readAttributes } from "./attributes.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
@@ -43,7 +43,7 @@ export function readImageGeometry(element: SceneElement, warnings: Warning[]): G
     attributes: readAttributes(element, container, warnings),
     container,
     colorComponents: values.numColorComponents === 4 ? 4 : 3,
-    decode: choiceOf(element, "decode", values.decode, decodePlaces, "auto", warnings),
+    decode: choiceOf(element, "decode", values.decode, decodeModes, "auto", warnings),
     // The bytes of an image are its only element type; indices are made of two or three.
     base: container === "compact" && values.base !== "" ? referenceOf(values.base, container) : undefined,
     coordType: "Uint8",

@@ -2,19 +2,26 @@
 // BG in data: URLs, so that everything behind the document treats it like any
 // other, and what has not changed is the same text.
 
-import { describe } from "./describedArrays.ts";
+import { geometryOfArrays } from "./arrayGeometry.ts";
 import type { GeometryDescription, Warning } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
-import { elevationGrid } from "./elevationGrid.ts";
-import type { Surface } from "./elevationGrid.ts";
-import { extrusion } from "./extrusion.ts";
-import type { Corner, Drawn, VertexData } from "./facets.ts";
-import { drawn, fansOf, linesOf, trianglesOf, withCreasedNormals, withSpreadTexCoords } from "./facets.ts";
+import { elevationGrid } from "../tessellate/elevationGrid.ts";
+import type { Surface } from "../tessellate/elevationGrid.ts";
+import { extrusion } from "../tessellate/extrusion.ts";
+import type { Corner, VertexArrays, VertexData } from "../tessellate/faces.ts";
+import {
+  vertexArraysOf,
+  fansOf,
+  linesOf,
+  trianglesOf,
+  withCreasedNormals,
+  withDefaultTexCoords,
+} from "../tessellate/faces.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
-import type { Solid } from "./solids.ts";
-import { box, round, sphere } from "./solids.ts";
+import type { Solid } from "../tessellate/solids.ts";
+import { box, cylinderOrCone, sphere } from "../tessellate/solids.ts";
 
 /** The element that a USE names, or the element itself; undefined where there is none. */
 export type Resolve = (element: SceneElement) => SceneElement | undefined;
@@ -29,11 +36,11 @@ const solids: Readonly<Record<string, (element: SceneElement, warnings: Warning[
   sphere: (element, warnings) => sphere(readFields(element, nodeFields.Sphere, warnings).radius),
   cylinder: (element, warnings) => {
     const values = readFields(element, nodeFields.Cylinder, warnings);
-    return round(values.radius, values.radius, values.height, values);
+    return cylinderOrCone(values.radius, values.radius, values.height, values);
   },
   cone: (element, warnings) => {
     const values = readFields(element, nodeFields.Cone, warnings);
-    return round(0, values.bottomRadius, values.height, { ...values, top: false });
+    return cylinderOrCone(0, values.bottomRadius, values.height, { ...values, top: false });
   },
 };
 
@@ -64,7 +71,7 @@ const surfaces: Readonly<
   extrusion: (element, _, warnings) => extrusion(readFields(element, nodeFields.Extrusion, warnings)),
 };
 
-const primitives: Readonly<Record<string, Drawn["primitive"]>> = {
+const primitives: Readonly<Record<string, VertexArrays["primitive"]>> = {
   indexedlineset: "lines",
   lineset: "lines",
   pointset: "points",
@@ -85,7 +92,7 @@ export const readInlineGeometry: InlineGeometryReader = (element, resolve, warni
   if (!readSolid && !readRuns && !readSurface) return undefined;
   const solid = readSolid?.(element, warnings);
   const fields = readFields(element, nodeFields.InlineGeometry, solid ? [] : warnings);
-  if (solid) return describe(drawn("triangles", solid.data, fansOf(solid.faces)), fields.solid);
+  if (solid) return geometryOfArrays(vertexArraysOf("triangles", solid.data, fansOf(solid.faces)), fields.solid);
   const given = vertexDataOf(element, resolve, warnings);
   const surface = readSurface?.(element, given, warnings);
   if (readSurface && !surface) warnings.push({ element, message: "its numbers make no surface; nothing is drawn" });
@@ -94,27 +101,27 @@ export const readInlineGeometry: InlineGeometryReader = (element, resolve, warni
   const isCreased = readSurface !== undefined || name === "indexedfaceset";
   const arrays = drawnOf(primitives[name] ?? "triangles", data, runs, fields, isCreased);
   if (arrays === undefined) warnings.push({ element, message: "it names vertices that it lacks; nothing is drawn" });
-  return describe(arrays, fields.solid);
+  return geometryOfArrays(arrays, fields.solid);
 };
 
 function drawnOf(
-  primitive: Drawn["primitive"],
+  primitive: VertexArrays["primitive"],
   given: VertexData,
   runs: Runs,
   fields: Fields,
   isCreased: boolean,
-): Drawn | undefined {
-  if (primitive === "points") return drawn(primitive, given, runs.flat());
-  if (primitive === "lines") return drawn(primitive, given, linesOf(runs));
+): VertexArrays | undefined {
+  if (primitive === "points") return vertexArraysOf(primitive, given, runs.flat());
+  if (primitive === "lines") return vertexArraysOf(primitive, given, linesOf(runs));
   const turned = fields.ccw ? runs : runs.map((run) => run.toReversed());
   const { data, faces } =
-    given.texCoords.length > 0 ? { data: given, faces: turned } : withSpreadTexCoords(given, turned);
+    given.texCoords.length > 0 ? { data: given, faces: turned } : withDefaultTexCoords(given, turned);
   const cornersOf = fields.convex ? fansOf : (polygons: Runs) => trianglesOf(data.positions, polygons);
-  if (data.normals.length > 0) return drawn(primitive, data, cornersOf(faces));
+  if (data.normals.length > 0) return vertexArraysOf(primitive, data, cornersOf(faces));
   // Triangles of one number are smooth, faces have edges unless creaseAngle says otherwise.
   const angle = isCreased ? fields.creaseAngle : fields.normalPerVertex ? Math.PI : 0;
   const creased = withCreasedNormals(data, faces, angle);
-  return drawn(primitive, creased.data, cornersOf(creased.faces));
+  return vertexArraysOf(primitive, creased.data, cornersOf(creased.faces));
 }
 
 function vertexDataOf(element: SceneElement, resolve: Resolve, warnings: Warning[]): VertexData {

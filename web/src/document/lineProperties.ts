@@ -21,7 +21,7 @@ const dashesOf: ReadonlyMap<number, readonly number[]> = new Map([
 ]);
 
 /** The most lengths of any kind. */
-export const mostDashes = 6;
+export const maxDashLengths = 6;
 
 /** In CSS pixels. The least is that of dashes, the most that of points. */
 const [leastWidth, mostWidth] = [1, 1024];

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { viewpointsOf } from "./description.ts";
 import { elementsOf } from "./elements.testing.ts";
 import { readScene } from "./readScene.ts";
-import { cross, dot, minus, turned } from "./vectors.ts";
+import { cross, dot, minus, rotated } from "../tessellate/vectors.ts";
 
 test("an OrthoViewpoint shows what it says, of the same size near and far", () => {
   const scene = readScene(
@@ -13,8 +13,8 @@ test("an OrthoViewpoint shows what it says, of the same size near and far", () =
   const viewpoint = viewpointsOf(scene.root)[0]?.viewpoint;
   assert.ok(viewpoint);
   assert.equal(viewpoint.description, "plan");
-  assert.equal(viewpoint.proportion, 1.5);
-  const [right, up] = [turned([1, 0, 0], viewpoint.orientation), turned([0, 1, 0], viewpoint.orientation)];
+  assert.equal(viewpoint.aspectRatio, 1.5);
+  const [right, up] = [rotated([1, 0, 0], viewpoint.orientation), rotated([0, 1, 0], viewpoint.orientation)];
   const back = cross(right, up);
   /** Where a point is in the picture, from -1 to 1 over its shorter side. */
   const seen = (point: readonly [number, number, number]) => {

@@ -5,7 +5,7 @@
 import type { ViewpointDescription } from "./description.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import type { nodeFields, Values } from "./nodes.ts";
-import { dot, minus, turned } from "./vectors.ts";
+import { dot, minus, rotated } from "../tessellate/vectors.ts";
 
 /** Radians: over the depth of what fills the view, sizes differ by 1 %. */
 const longLens = 0.01;
@@ -22,7 +22,7 @@ export function asViewpoint({
   const [width, height] = [Math.abs(right - left), Math.abs(top - bottom)];
   const proportion = (width || 2) / (height || 2);
   const half = Math.min(width || 2, height || 2) / 2;
-  const axis = (vector: Vec3) => turned(vector, orientation);
+  const axis = (vector: Vec3) => rotated(vector, orientation);
   const [aside, up, back] = [axis([1, 0, 0]), axis([0, 1, 0]), axis([0, 0, 1])];
   const away = half / Math.tan(longLens / 2) - dot(minus(position, centerOfRotation), back);
   const [x, y] = [(left + right) / 2, (bottom + top) / 2];
@@ -33,6 +33,6 @@ export function asViewpoint({
     centerOfRotation,
     position: [along(0), along(1), along(2)],
     fieldOfView: longLens,
-    proportion,
+    aspectRatio: proportion,
   };
 }

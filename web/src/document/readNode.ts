@@ -11,8 +11,8 @@ import { nodeFields, readFields } from "./nodes.ts";
 import { asViewpoint } from "./orthoViewpoint.ts";
 import type { ShapeReading } from "./readShape.ts";
 import { readShape } from "./readShape.ts";
-import type { Asides, Below, Inherited, Said, Saying } from "./said.ts";
-import { asidesOf, joined, warned } from "./said.ts";
+import type { SceneDeclarations, ReadChildren, Inherited, SceneFragment, FragmentReader } from "./sceneFragment.ts";
+import { declarationsOf, joinDeclarations, warningsOnly } from "./sceneFragment.ts";
 
 /** A document that an Inline shows. */
 export interface InlinedDocument {
@@ -37,7 +37,7 @@ export function isReadAsWhole(node: SceneElement): boolean {
 }
 
 /** `element` is who says it, `node` what it is: the same but for USE. */
-export function readNode(element: SceneElement, node: SceneElement, reading: NodeReading): Saying {
+export function readNode(element: SceneElement, node: SceneElement, reading: NodeReading): FragmentReader {
   const { warnings } = reading;
   switch (lowerNameOf(node)) {
     case "shape":
@@ -78,45 +78,48 @@ export function readNode(element: SceneElement, node: SceneElement, reading: Nod
     case "viewpoint":
       return say(
         [{ kind: "viewpoint", element, viewpoint: readFields(node, nodeFields.Viewpoint, warnings) }],
-        warned(warnings),
+        warningsOnly(warnings),
       );
     case "orthoviewpoint":
       return say(
         [{ kind: "viewpoint", element, viewpoint: asViewpoint(readFields(node, nodeFields.OrthoViewpoint, warnings)) }],
-        warned(warnings),
+        warningsOnly(warnings),
       );
     case "navigationinfo":
-      return say([], asidesOf({ navigation: readFields(node, nodeFields.NavigationInfo, warnings), warnings }));
+      return say([], declarationsOf({ navigation: readFields(node, nodeFields.NavigationInfo, warnings), warnings }));
     case "background":
-      return say([], asidesOf({ background: readBackground(node, warnings), warnings }));
+      return say([], declarationsOf({ background: readBackground(node, warnings), warnings }));
     default:
       return (inherited, below) => below(reading.childrenOf(node), inherited);
   }
 }
 
 /** The same whatever is handed down. */
-function say(nodes: readonly NodeDescription[], asides: Asides): Saying {
-  const said: Said = { nodes, asides };
+function say(nodes: readonly NodeDescription[], asides: SceneDeclarations): FragmentReader {
+  const said: SceneFragment = { nodes, declarations: asides };
   return () => said;
 }
 
-function sayLight(light: Extract<NodeDescription, { kind: "light" }>["light"], warnings: readonly Warning[]): Saying {
-  return say([{ kind: "light", light }], warned(warnings));
+function sayLight(
+  light: Extract<NodeDescription, { kind: "light" }>["light"],
+  warnings: readonly Warning[],
+): FragmentReader {
+  return say([{ kind: "light", light }], warningsOnly(warnings));
 }
 
-function sayShape(element: SceneElement, node: SceneElement, reading: NodeReading): Saying {
+function sayShape(element: SceneElement, node: SceneElement, reading: NodeReading): FragmentReader {
   const shape = readShape(element, reading.host, node, reading);
-  const asides = warned(reading.warnings);
-  return ({ visible, reaches, priority }) => ({
+  const asides = warningsOnly(reading.warnings);
+  return ({ visible, contributesToBounds: reaches, priority }) => ({
     nodes: [
       {
         ...shape,
         visible: visible && shape.visible,
-        reaches: reaches && shape.reaches,
+        contributesToBounds: reaches && shape.contributesToBounds,
         priority: priority * shape.priority,
       },
     ],
-    asides,
+    declarations: asides,
   });
 }
 
@@ -148,7 +151,7 @@ function within(fields: GroupFields, inherited: Inherited): Inherited {
   const seen = isSeen(fields);
   return {
     visible: inherited.visible && seen,
-    reaches: inherited.reaches && seen,
+    contributesToBounds: inherited.contributesToBounds && seen,
     priority: inherited.priority * fields.priority,
   };
 }
@@ -181,18 +184,18 @@ function sayGroup(
   fields: GroupFields,
   { warnings, childrenOf }: NodeReading,
   traits?: GroupTraits,
-): Saying {
-  const own = warned(warnings);
+): FragmentReader {
+  const own = warningsOnly(warnings);
   return (inherited, below) => {
-    const { nodes, asides } = below(childrenOf(node), within(fields, inherited));
-    return { nodes: [groupOf(fields, nodes, traits)], asides: joined([own, asides]) };
+    const { nodes, declarations: asides } = below(childrenOf(node), within(fields, inherited));
+    return { nodes: [groupOf(fields, nodes, traits)], declarations: joinDeclarations([own, asides]) };
   };
 }
 
 /** One of its children is seen, or none; the others stay in the scene, so that choosing them shows at once what they have. */
-function saySwitch(node: SceneElement, { warnings, childrenOf }: NodeReading): Saying {
+function saySwitch(node: SceneElement, { warnings, childrenOf }: NodeReading): FragmentReader {
   const fields = readFields(node, nodeFields.Switch, warnings);
-  const own = warned(warnings);
+  const own = warningsOnly(warnings);
   return (inherited, below) =>
     sayChoice(choicesIn(childrenOf(node)), fields.whichChoice, false, fields, inherited, below, own);
 }
@@ -209,10 +212,10 @@ function sayChoice(
   allReach: boolean,
   fields: GroupFields,
   inherited: Inherited,
-  below: Below,
-  own: Asides,
-  levels?: GroupDescription["levels"],
-): Said {
+  below: ReadChildren,
+  own: SceneDeclarations,
+  levels?: GroupDescription["lod"],
+): SceneFragment {
   const each = choices.map((child, place) => {
     const visible = place === choice;
     const said = below(
@@ -220,7 +223,7 @@ function sayChoice(
       within(fields, {
         ...inherited,
         visible: inherited.visible && visible,
-        reaches: inherited.reaches && (visible || allReach),
+        contributesToBounds: inherited.contributesToBounds && (visible || allReach),
       }),
     );
     const group: GroupDescription = {
@@ -230,7 +233,7 @@ function sayChoice(
       transform: undefined,
       children: said.nodes,
     };
-    return { group, asides: said.asides };
+    return { group, asides: said.declarations };
   });
   const children = each.map(({ group }) => group);
   const group: GroupDescription = {
@@ -241,15 +244,15 @@ function sayChoice(
     children,
   };
   return {
-    nodes: [levels === undefined ? group : { ...group, levels }],
-    asides: joined([own, ...each.map(({ asides }) => asides)]),
+    nodes: [levels === undefined ? group : { ...group, lod: levels }],
+    declarations: joinDeclarations([own, ...each.map(({ asides }) => asides)]),
   };
 }
 
 /** A choice that the distance makes. Until it is known the last level is seen, which asks for least. */
-function sayLevels(node: SceneElement, { warnings, childrenOf, levelOf }: NodeReading): Saying {
+function sayLevels(node: SceneElement, { warnings, childrenOf, levelOf }: NodeReading): FragmentReader {
   const { center, range, ...fields } = readFields(node, nodeFields.LOD, warnings);
-  const own = warned(warnings);
+  const own = warningsOnly(warnings);
   return (inherited, below) => {
     const choices = choicesIn(childrenOf(node));
     const last = choices.length - 1;
@@ -258,25 +261,25 @@ function sayLevels(node: SceneElement, { warnings, childrenOf, levelOf }: NodeRe
       element: node,
       center,
       range,
-      count: choices.length,
+      levelCount: choices.length,
     });
   };
 }
 
 /** The document stands where the Inline does, with names of its own; what it says of the whole scene counts for nothing. */
-function sayInline(node: SceneElement, { warnings, inlined }: NodeReading): Saying {
+function sayInline(node: SceneElement, { warnings, inlined }: NodeReading): FragmentReader {
   const { load, url, ...fields } = readFields(node, nodeFields.Inline, warnings);
   const x3d = load ? inlined(node) : undefined;
-  const own = warned(warnings);
+  const own = warningsOnly(warnings);
   return (inherited, below) => {
     const inner = within(fields, inherited);
     const inlines =
       load && url.length > 0 ? [{ element: node, urls: url, visible: inner.visible, priority: inner.priority }] : [];
-    const { nodes, asides } = below(x3d ? [x3d] : [], inner);
+    const { nodes, declarations: asides } = below(x3d ? [x3d] : [], inner);
     const ofItsScene = { ...asides, navigation: undefined, background: undefined };
     return {
       nodes: [{ ...groupOf(fields, nodes), ...(inlines.length > 0 && { inline: node }) }],
-      asides: joined([asidesOf({ inlines }), own, ofItsScene]),
+      declarations: joinDeclarations([declarationsOf({ inlines }), own, ofItsScene]),
     };
   };
 }

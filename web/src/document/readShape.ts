@@ -7,21 +7,21 @@ import type { SceneElement } from "./element.ts";
 import { attributeOf, childrenOf, inPlaceOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import { boxAround, boxOf, isUnbounded, readBinaryGeometry, readImageGeometry } from "./geometry.ts";
-import type { GeometryMemory, Lookup } from "./geometryMemory.ts";
+import type { GeometryCache, Lookup } from "./geometryCache.ts";
 import type { InlineGeometryReader } from "./inlineGeometry.ts";
-import type { TextReading } from "./textGeometry.ts";
+import type { TextReader } from "./textReader.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
 /** What reading a shape needs besides its element. */
 export interface ShapeReading {
-  readonly geometries: GeometryMemory;
+  readonly geometries: GeometryCache;
   readonly lookup: Lookup;
   readonly warnings: Warning[];
   /** Undefined: nothing is seen of what stands in the document. */
   readonly inlineGeometry: InlineGeometryReader | undefined;
   /** Undefined: nothing is seen of texts. */
-  readonly text: TextReading | undefined;
+  readonly text: TextReader | undefined;
   /** Says that the shape is read again when this element of it is touched, in whatever document that stands. */
   readonly listen: (element: SceneElement) => void;
 }
@@ -53,14 +53,14 @@ export function readShape(
     host,
     isUnread: geometry === undefined && parts.some(isGeometry),
     visible: isSeen,
-    reaches: isSeen,
+    contributesToBounds: isSeen,
     priority: values.priority * priorityOfGeometry,
     isPickable: values.isPickable,
     box: ownBox ?? (geometry && boxOfGeometry(geometry)),
     appearance:
-      geometry?.letters === undefined || reading.text === undefined
+      geometry?.glyphAtlas === undefined || reading.text === undefined
         ? look
-        : reading.text.appearanceOf(look, geometry.letters, node, warnings),
+        : reading.text.appearanceOf(look, geometry.glyphAtlas, node, warnings),
   };
 }
 
@@ -105,7 +105,7 @@ function readGeometry(
   const name = lowerNameOf(element);
   if (name === "text") return text?.geometryOf(element, resolve, warnings);
   const ofFiles = geometryReaders[name]?.(element, warnings);
-  return ofFiles ? geometries.alike(ofFiles) : inlineGeometry?.(element, resolve, warnings);
+  return ofFiles ? geometries.intern(ofFiles) : inlineGeometry?.(element, resolve, warnings);
 }
 
 /** As far as can be said without reading it: nothing else stands in shapes. */

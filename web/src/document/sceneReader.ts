@@ -9,19 +9,19 @@ import type { SceneDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
 import { attributeOf, lowerNameOf } from "./element.ts";
 import { ElementTree } from "./elementTree.ts";
-import { GeometryMemory } from "./geometryMemory.ts";
+import { GeometryCache } from "./geometryCache.ts";
 import type { InlineGeometryReader } from "./inlineGeometry.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
-import { Place } from "./place.ts";
+import { ElementInstance } from "./elementInstance.ts";
 import type { InlinedDocument } from "./readNode.ts";
 import { isReadAsWhole, readNode } from "./readNode.ts";
-import type { Below, Inherited, Said, Saying } from "./said.ts";
-import { joined, warned } from "./said.ts";
-import type { TextReading } from "./textGeometry.ts";
+import type { ReadChildren, Inherited, SceneFragment, FragmentReader } from "./sceneFragment.ts";
+import { joinDeclarations, warningsOnly } from "./sceneFragment.ts";
+import type { TextReader } from "./textReader.ts";
 
 /** What a scene shows beyond what its own elements say. Who says something else of an element than before touches it. */
-export interface Supplements {
+export interface SceneReaderOptions {
   /** The absolute url of the document, which it cannot inline; undefined: nobody knows. */
   readonly url?: string;
   /** Undefined while it is not here. */
@@ -31,42 +31,42 @@ export interface Supplements {
   /** How geometry is read that stands in the document; without it nothing is seen of it. */
   readonly inlineGeometry?: InlineGeometryReader;
   /** How texts are read; without it nothing is seen of them. */
-  readonly text?: TextReading;
+  readonly text?: TextReader;
 }
 
 /** Documents that inline one another deeper than this are no scene. */
-const mostInlineDepth = 16;
+const maxInlineDepth = 16;
 
 /** Groups of groups that are USEd, and documents that inline documents, grow without measure: the rest is left out. */
-const usualMostPlaces = 500_000;
+const defaultMaxInstances = 500_000;
 
-const everything: Inherited = { visible: true, reaches: true, priority: 1 };
+const everything: Inherited = { visible: true, contributesToBounds: true, priority: 1 };
 
 /** Unknown nodes are passed over, as a browser passes over unknown tags; what they hold still counts. */
 export class SceneReader {
   readonly #x3d: SceneElement;
-  readonly #supplements: Supplements;
+  readonly #supplements: SceneReaderOptions;
   readonly #mostPlaces: number;
   readonly #page: ElementTree;
-  readonly #geometries = new GeometryMemory();
+  readonly #geometries = new GeometryCache();
   readonly #inlinedTrees = new WeakMap<SceneElement, ElementTree>();
   /** Who has read an element, and who has asked for a name. */
-  readonly #readers = new Map<SceneElement, Set<Place>>();
-  readonly #askers = new Map<string, Set<Place>>();
-  readonly #root: Place;
+  readonly #readers = new Map<SceneElement, Set<ElementInstance>>();
+  readonly #askers = new Map<string, Set<ElementInstance>>();
+  readonly #root: ElementInstance;
   readonly #touched = new Set<SceneElement>();
   readonly #rearranged = new Set<SceneElement>();
   /** How many there are, and those of which some children are left out. */
   #placeCount = 0;
-  readonly #cutPlaces = new Set<Place>();
+  readonly #cutPlaces = new Set<ElementInstance>();
   #scene: SceneDescription | undefined;
 
-  constructor(x3d: SceneElement, supplements: Supplements = {}, mostPlaces = usualMostPlaces) {
+  constructor(x3d: SceneElement, supplements: SceneReaderOptions = {}, mostPlaces = defaultMaxInstances) {
     this.#x3d = x3d;
     this.#supplements = supplements;
     this.#mostPlaces = mostPlaces;
     this.#page = new ElementTree(x3d);
-    this.#root = new Place(x3d, undefined, { tree: this.#page, host: undefined, inlinedBy: [] });
+    this.#root = new ElementInstance(x3d, undefined, { tree: this.#page, host: undefined, inlinedBy: [] });
   }
 
   /** Says that attributes of the element may have changed, or what supplements say of it. */
@@ -88,11 +88,11 @@ export class SceneReader {
   /** The scene now; the same object as before where nothing has been touched. */
   read(): SceneDescription {
     this.#forgetTouched();
-    if (this.#scene !== undefined && this.#root.said !== undefined) return this.#scene;
+    if (this.#scene !== undefined && this.#root.fragment !== undefined) return this.#scene;
     this.#geometries.begin();
     this.#ask(this.#root, everything);
-    if (this.#placeCount < this.#mostPlaces) for (const place of this.#cutPlaces) place.askAgain(); // others have left
-    const { nodes, asides } = this.#ask(this.#root, everything);
+    if (this.#placeCount < this.#mostPlaces) for (const place of this.#cutPlaces) place.invalidate(); // others have left
+    const { nodes, declarations: asides } = this.#ask(this.#root, everything);
     const warnings: Warning[] = [...asides.warnings];
     if (this.#cutPlaces.size > 0) {
       warnings.push({
@@ -103,7 +103,7 @@ export class SceneReader {
     const { chunkPriority } = readFields(this.#x3d, nodeFields.X3D, warnings);
     this.#scene = {
       root: { kind: "group", visible: true, box: undefined, transform: undefined, children: nodes },
-      navigation: asides.navigation ?? usualNavigation,
+      navigation: asides.navigation ?? defaultNavigation,
       background: asides.background,
       chunkPriority,
       inlines: asides.inlines,
@@ -118,56 +118,59 @@ export class SceneReader {
       for (let element: SceneElement | undefined = touched; element !== undefined; element = page.parentOf(element)) {
         this.#geometries.touch(element);
         for (const place of this.#readers.get(element) ?? [])
-          if (element === touched || place.readsAllBelow) place.forget();
+          if (element === touched || place.dependsOnDescendants) place.invalidateReader();
       }
-      page.lookAtName(touched);
+      page.updateName(touched);
     }
-    for (const element of this.#rearranged) page.lookAtChildren(element);
-    for (const name of page.takeRenamed()) {
-      for (const place of this.#askers.get(name) ?? []) place.forget();
+    for (const element of this.#rearranged) page.updateChildren(element);
+    for (const name of page.takeChangedNames()) {
+      for (const place of this.#askers.get(name) ?? []) place.invalidateReader();
     }
     this.#touched.clear();
     this.#rearranged.clear();
   }
 
   /** What the place's element says there. */
-  #ask(place: Place, inherited: Inherited): Said {
-    const known = place.saidTo(inherited);
+  #ask(place: ElementInstance, inherited: Inherited): SceneFragment {
+    const known = place.fragmentFor(inherited);
     if (known !== undefined) return known;
-    const saying = (place.saying ??= this.#read(place));
-    const [before, now] = [place.takeChildren(), [] as Place[]];
+    const saying = (place.reader ??= this.#read(place));
+    const [before, now] = [place.takeChildren(), [] as ElementInstance[]];
     this.#cutPlaces.delete(place);
-    const below: Below = (elements, inner) => {
-      const said: Said[] = [];
+    const below: ReadChildren = (elements, inner) => {
+      const said: SceneFragment[] = [];
       for (const element of elements) {
         const child = before.take(element) ?? this.#newPlace(element, place);
         if (child === undefined) break;
         now.push(child);
         said.push(this.#ask(child, inner));
       }
-      return { nodes: said.flatMap(({ nodes }) => nodes), asides: joined(said.map(({ asides }) => asides)) };
+      return {
+        nodes: said.flatMap(({ nodes }) => nodes),
+        declarations: joinDeclarations(said.map(({ declarations: asides }) => asides)),
+      };
     };
     const said = saying(inherited, below);
     for (const child of before.rest()) this.#leave(child);
-    place.remember(inherited, said, now);
+    place.setFragment(inherited, said, now);
     return said;
   }
 
   /** Undefined where there are too many. */
-  #newPlace(element: SceneElement, parent: Place): Place | undefined {
+  #newPlace(element: SceneElement, parent: ElementInstance): ElementInstance | undefined {
     if (this.#placeCount >= this.#mostPlaces) {
       this.#cutPlaces.add(parent);
       return undefined;
     }
     this.#placeCount += 1;
-    return new Place(element, parent, parent.surroundingsOf(element));
+    return new ElementInstance(element, parent, parent.contextOf(element));
   }
 
-  #read(place: Place): Saying {
+  #read(place: ElementInstance): FragmentReader {
     this.#stopListening(place);
     const {
       element,
-      surroundings: { tree, host },
+      context: { tree, host },
     } = place;
     const warnings: Warning[] = [];
     this.#listen(place, element);
@@ -181,10 +184,10 @@ export class SceneReader {
     const node = name === undefined ? element : lookup(name);
     if (node === undefined || place.isBelowUseOf(node)) {
       warnings.push({ element, message: `USE="${name ?? ""}" names ${node ? "itself" : "no DEF of this scene"}` });
-      return () => ({ nodes: [], asides: warned(warnings) });
+      return () => ({ nodes: [], declarations: warningsOnly(warnings) });
     }
     place.node = node;
-    place.readsAllBelow = isReadAsWhole(node);
+    place.dependsOnDescendants = isReadAsWhole(node);
     return readNode(element, node, {
       warnings,
       lookup,
@@ -201,10 +204,10 @@ export class SceneReader {
     });
   }
 
-  #inlinedAt(place: Place, inline: SceneElement, warnings: Warning[]): SceneElement | undefined {
+  #inlinedAt(place: ElementInstance, inline: SceneElement, warnings: Warning[]): SceneElement | undefined {
     const found = this.#supplements.inlined?.(inline);
     if (found === undefined) return undefined;
-    const { inlinedBy, host } = place.surroundings;
+    const { inlinedBy, host } = place.context;
     const problem = problemWith(found, inlinedBy, this.#supplements.url);
     if (problem !== undefined) {
       warnings.push({ element: place.element, message: problem });
@@ -212,11 +215,11 @@ export class SceneReader {
     }
     const tree = this.#inlinedTrees.get(found.x3d) ?? new ElementTree(found.x3d);
     this.#inlinedTrees.set(found.x3d, tree);
-    place.inlines(found.x3d, { tree, host: host ?? place.element, inlinedBy: [...inlinedBy, found] });
+    place.setInlined(found.x3d, { tree, host: host ?? place.element, inlinedBy: [...inlinedBy, found] });
     return found.x3d;
   }
 
-  #listen(place: Place, element: SceneElement): void {
+  #listen(place: ElementInstance, element: SceneElement): void {
     place.sources.add(element);
     const readers = this.#readers.get(element);
     if (readers === undefined) this.#readers.set(element, new Set([place]));
@@ -224,22 +227,22 @@ export class SceneReader {
   }
 
   /** Documents that are inlined do not change: their names are not listened to. */
-  #listenToName(place: Place, name: string): void {
-    if (place.surroundings.tree !== this.#page) return;
+  #listenToName(place: ElementInstance, name: string): void {
+    if (place.context.tree !== this.#page) return;
     place.names.add(name);
     const askers = this.#askers.get(name);
     if (askers === undefined) this.#askers.set(name, new Set([place]));
     else askers.add(place);
   }
 
-  #stopListening(place: Place): void {
+  #stopListening(place: ElementInstance): void {
     for (const element of place.sources) leaveSet(this.#readers, element, place);
     for (const name of place.names) leaveSet(this.#askers, name, place);
     place.sources.clear();
     place.names.clear();
   }
 
-  #leave(place: Place): void {
+  #leave(place: ElementInstance): void {
     this.#placeCount -= 1;
     this.#cutPlaces.delete(place);
     this.#stopListening(place);
@@ -253,7 +256,7 @@ const withoutAttributes: SceneElement = {
   getAttribute: () => null,
   getAttributeNames: () => [],
 };
-const usualNavigation = readFields(withoutAttributes, nodeFields.NavigationInfo, []);
+const defaultNavigation = readFields(withoutAttributes, nodeFields.NavigationInfo, []);
 
 function problemWith(
   { url }: InlinedDocument,
@@ -261,10 +264,10 @@ function problemWith(
   ownUrl: string | undefined,
 ): string | undefined {
   if (url === ownUrl || inlinedBy.some((outer) => outer.url === url)) return `names ${url}, which it stands in itself`;
-  return inlinedBy.length >= mostInlineDepth ? `names ${url}, more than ${mostInlineDepth} documents deep` : undefined;
+  return inlinedBy.length >= maxInlineDepth ? `names ${url}, more than ${maxInlineDepth} documents deep` : undefined;
 }
 
-function leaveSet<Key>(sets: Map<Key, Set<Place>>, key: Key, place: Place): void {
+function leaveSet<Key>(sets: Map<Key, Set<ElementInstance>>, key: Key, place: ElementInstance): void {
   const set = sets.get(key);
   set?.delete(place);
   if (set?.size === 0) sets.delete(key);

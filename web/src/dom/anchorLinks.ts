@@ -5,18 +5,18 @@
 import type { AnchorDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
-import type { Navigator } from "../navigation/navigator.ts";
+import type { CameraController } from "../navigation/cameraController.ts";
 
 /** What of the native event a link minds. */
 type Keys = Pick<MouseEvent, "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
 
 export class AnchorLinks {
   readonly #nav: HTMLElement;
-  readonly #navigator: Navigator;
+  readonly #navigator: CameraController;
   readonly #warn: (sentence: string) => void;
   readonly #links = new Map<SceneElement, HTMLAnchorElement>();
 
-  constructor(nav: HTMLElement, navigator: Navigator, warn: (sentence: string) => void) {
+  constructor(nav: HTMLElement, navigator: CameraController, warn: (sentence: string) => void) {
     this.#nav = nav;
     this.#navigator = navigator;
     this.#warn = warn;

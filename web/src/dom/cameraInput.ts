@@ -2,8 +2,8 @@
 // the page's author has switched off.
 
 import type { NavigationType } from "../navigation/navigationType.ts";
-import type { Navigator } from "../navigation/navigator.ts";
-import type { Motion } from "../navigation/travel.ts";
+import type { CameraController } from "../navigation/cameraController.ts";
+import type { MovementInput } from "../navigation/firstPerson.ts";
 
 export interface CameraInputLimits {
   /** Nothing moves. */
@@ -13,10 +13,10 @@ export interface CameraInputLimits {
 }
 
 export class CameraInput {
-  readonly #navigator: Navigator;
+  readonly #navigator: CameraController;
   readonly #limits: () => CameraInputLimits;
 
-  constructor(navigator: Navigator, limits: () => CameraInputLimits) {
+  constructor(navigator: CameraController, limits: () => CameraInputLimits) {
     this.#navigator = navigator;
     this.#limits = limits;
   }
@@ -50,7 +50,7 @@ export class CameraInput {
     if (this.type !== "none" && this.#limits().canPan) this.#navigator.pan(right, up);
   }
 
-  move(motion: Motion): void {
+  move(motion: MovementInput): void {
     if (this.type !== "none") this.#navigator.move(motion);
   }
 

@@ -58,7 +58,7 @@ export class ImgeoView extends HTMLElement {
 
   /** Does not turn by itself. */
   get paused(): boolean {
-    return this.#presentation?.viewer.navigator.turntable.isStopped ?? true;
+    return this.#presentation?.viewer.navigator.autoRotation.isStopped ?? true;
   }
 
   /** Turns the scene, as `auto-rotate` does, but at once, and also for people who prefer less motion. */

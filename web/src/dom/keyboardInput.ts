@@ -3,8 +3,8 @@
 // held. Tab and everything else stay the browser's, so that nobody is trapped.
 
 import type { NavigationType } from "../navigation/navigationType.ts";
-import type { Motion } from "../navigation/travel.ts";
-import { standingStill } from "../navigation/travel.ts";
+import type { MovementInput } from "../navigation/firstPerson.ts";
+import { noMovement } from "../navigation/firstPerson.ts";
 import type { CameraInput } from "./cameraInput.ts";
 
 const turnStep = Math.PI / 36;
@@ -13,9 +13,9 @@ const zoomStep = 1.1;
 
 /** Listens until `signal` aborts. */
 export function listenToKeyboard(canvas: HTMLElement, hands: CameraInput, signal: AbortSignal): void {
-  const held = new Map<string, Partial<Motion>>();
+  const held = new Map<string, Partial<MovementInput>>();
   const moveOn = () => {
-    hands.move(Array.from(held.values()).reduce<Motion>(together, standingStill));
+    hands.move(Array.from(held.values()).reduce<MovementInput>(together, noMovement));
   };
   const letGo = () => {
     if (held.size === 0) return;
@@ -56,7 +56,7 @@ function isTravelling(type: NavigationType): boolean {
 }
 
 /** What a key that is held does to who walks or flies. */
-function motionOf({ key, shiftKey }: KeyboardEvent): Partial<Motion> | undefined {
+function motionOf({ key, shiftKey }: KeyboardEvent): Partial<MovementInput> | undefined {
   switch (key) {
     case "ArrowUp":
       return shiftKey ? { look: 1 } : { forward: 1 };
@@ -75,8 +75,8 @@ function motionOf({ key, shiftKey }: KeyboardEvent): Partial<Motion> | undefined
   }
 }
 
-function together(motion: Motion, other: Partial<Motion>): Motion {
-  const sum = (part: keyof Motion) => Math.max(-1, Math.min(1, motion[part] + (other[part] ?? 0)));
+function together(motion: MovementInput, other: Partial<MovementInput>): MovementInput {
+  const sum = (part: keyof MovementInput) => Math.max(-1, Math.min(1, motion[part] + (other[part] ?? 0)));
   return { forward: sum("forward"), right: sum("right"), up: sum("up"), turn: sum("turn"), look: sum("look") };
 }
 

@@ -2,9 +2,9 @@
 // names, and its types of navigation, where NavigationInfo names several. Native
 // lists: keyboard, touch and screen readers know them already.
 
-import type { PlacedViewpoint } from "../navigation/camera.ts";
+import type { ViewpointInstance } from "../scene/instances.ts";
 import type { NavigationType } from "../navigation/navigationType.ts";
-import type { Navigator } from "../navigation/navigator.ts";
+import type { CameraController } from "../navigation/cameraController.ts";
 
 const typeNames: Readonly<Record<NavigationType, string>> = {
   examine: "Examine",
@@ -14,13 +14,13 @@ const typeNames: Readonly<Record<NavigationType, string>> = {
 };
 
 export class Menus {
-  readonly #navigator: Navigator;
+  readonly #navigator: CameraController;
   readonly #viewpoints = listOf("Viewpoint");
   readonly #types = listOf("Way to move");
-  #named: readonly PlacedViewpoint[] = [];
+  #named: readonly ViewpointInstance[] = [];
   #listedTypes: readonly NavigationType[] = [];
 
-  constructor(controls: HTMLElement, navigator: Navigator, signal: AbortSignal) {
+  constructor(controls: HTMLElement, navigator: CameraController, signal: AbortSignal) {
     this.#navigator = navigator;
     controls.replaceChildren(this.#types, this.#viewpoints);
     this.#viewpoints.addEventListener(

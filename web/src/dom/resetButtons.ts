@@ -1,13 +1,13 @@
 // Two buttons for those who have lost their way and have no keyboard: they are
 // there while a hand has moved the camera. Keyboards have R and A for the same.
 
-import type { Navigator } from "../navigation/navigator.ts";
+import type { CameraController } from "../navigation/cameraController.ts";
 
 export class ResetButtons {
-  readonly #navigator: Navigator;
+  readonly #navigator: CameraController;
   readonly #buttons: readonly HTMLButtonElement[];
 
-  constructor(controls: HTMLElement, navigator: Navigator, signal: AbortSignal) {
+  constructor(controls: HTMLElement, navigator: CameraController, signal: AbortSignal) {
     this.#navigator = navigator;
     this.#buttons = [
       buttonOf(

@@ -4,7 +4,7 @@ import type { GeometryInstance } from "../delivery/filePriority.ts";
 import { geometryInstance } from "../delivery/filePriority.ts";
 import { pictureKeyOf } from "../delivery/textureDeliveries.ts";
 import type { GeometryDescription } from "../document/description.ts";
-import type { PlacedShape } from "../navigation/placement.ts";
+import type { ShapeInstance } from "../scene/instances.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 
 /** By the places where they are. */
@@ -16,7 +16,7 @@ export class SeenPlaces {
   readonly #geometries = new Map<GeometryDescription, Seen>();
   /** By their keys. */
   readonly #pictures = new Map<string, Seen>();
-  readonly #shown = new Map<object, PlacedShape>();
+  readonly #shown = new Map<object, ShapeInstance>();
 
   follow(places: SceneChanges["instances"]): void {
     for (const [place, placed] of places) {
@@ -34,7 +34,7 @@ export class SeenPlaces {
     return (this.#pictures.get(key) ?? nowhere).values();
   }
 
-  #note(place: object, placed: PlacedShape): void {
+  #note(place: object, placed: ShapeInstance): void {
     const {
       shape: {
         geometry,
@@ -57,7 +57,7 @@ export class SeenPlaces {
         geometry,
         appearance: { textures },
       },
-    }: PlacedShape,
+    }: ShapeInstance,
   ): void {
     this.#shown.delete(place);
     if (geometry) remove(this.#geometries, geometry, place);

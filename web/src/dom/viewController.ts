@@ -190,11 +190,11 @@ export class ViewController {
 
   /** Turns the scene, from now on. */
   play(): void {
-    this.viewer.navigator.turntable.start(false);
+    this.viewer.navigator.autoRotation.start(false);
   }
 
   pause(): void {
-    this.viewer.navigator.turntable.stop();
+    this.viewer.navigator.autoRotation.stop();
   }
 
   dispose(): void {
@@ -273,8 +273,8 @@ export class ViewController {
     const { renderer, navigator } = this.viewer;
     const settings = this.#settings;
     navigator.setCamera(cameraSettingOf(settings));
-    navigator.turntable.delayMs = settings["auto-rotate-delay"];
-    navigator.turntable.radiansPerSecond = settings["rotation-per-second"];
+    navigator.autoRotation.delayMs = settings["auto-rotate-delay"];
+    navigator.autoRotation.radiansPerSecond = settings["rotation-per-second"];
     renderer.setExposure(settings.exposure);
     renderer.drawAsPoints(settings["draw-as"] === "points");
     this.viewer.setBudget(settings.budget);
@@ -285,7 +285,7 @@ export class ViewController {
 
   /** Turns by itself where the page asks for it, there is something to see, and people do not mind motion. */
   #rotate(): void {
-    const { turntable } = this.viewer.navigator;
+    const { autoRotation: turntable } = this.viewer.navigator;
     const wanted =
       this.#settings["auto-rotate"] &&
       this.poster.isModelVisible &&
@@ -343,7 +343,7 @@ export class ViewController {
     clearTimeout(this.#quietTimer);
     this.#quietTimer = setTimeout(() => {
       const { navigator } = this.viewer;
-      this.#face.announce(navigator.placeName ?? viewLabelOf(orbitOf(navigator.pose)));
+      this.#face.announce(navigator.viewpointName ?? viewLabelOf(orbitOf(navigator.pose)));
     }, quietMs);
   }
 

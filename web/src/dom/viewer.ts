@@ -1,8 +1,8 @@
 // Joins a document to a picture: reads the scene whenever the document changes,
 // says what to load of it, and tells the page.
 
-import { LateFonts } from "../decode/lateFonts.ts";
-import { measureRun } from "../decode/letters.ts";
+import { FontLoading } from "../text/fontLoading.ts";
+import { measureRun } from "../text/glyphRendering.ts";
 import type { StageName } from "../stage/stage.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { Transfer } from "../delivery/progress.ts";
@@ -14,11 +14,11 @@ import type { AnchorDescription, SceneDescription } from "../document/descriptio
 import type { SceneElement } from "../document/element.ts";
 import { readInlineGeometry } from "../document/inlineGeometry.ts";
 import { SceneReader } from "../document/sceneReader.ts";
-import { textReading } from "../document/textGeometry.ts";
-import type { NavigatedScene } from "../navigation/navigator.ts";
-import { Navigator } from "../navigation/navigator.ts";
-import type { PlacedLevels } from "../navigation/placement.ts";
-import { LodSelection } from "../render/shapes/lodSelection.ts";
+import { textReader } from "../text/textGeometry.ts";
+import type { NavigatedScene } from "../navigation/cameraController.ts";
+import { CameraController } from "../navigation/cameraController.ts";
+import type { LodInstance } from "../scene/instances.ts";
+import { LodSelection } from "../scene/lodSelection.ts";
 import type { Hit } from "../render/picking/picker.ts";
 import type { RenderStatistics } from "../render/sceneRenderer.ts";
 import { SceneRenderer } from "../render/sceneRenderer.ts";
@@ -61,7 +61,7 @@ export interface ViewerListener {
 
 export class Viewer {
   readonly renderer: SceneRenderer;
-  readonly navigator: Navigator;
+  readonly navigator: CameraController;
   readonly #x3d: Element;
   readonly #canvas: HTMLCanvasElement;
   readonly #scheduler = new Scheduler(slotCountFor(""));
@@ -86,7 +86,7 @@ export class Viewer {
   #trial: "needless" | "due" | "running" | "ended" = "needless";
   #loading: Loading;
   #isLoading = false;
-  #built: (NavigatedScene & { readonly levels: readonly PlacedLevels[] }) | undefined;
+  #built: (NavigatedScene & { readonly levels: readonly LodInstance[] }) | undefined;
   #scene: SceneDescription | undefined;
   #hasAnchors = false;
   #progressTimer: ReturnType<typeof setTimeout> | undefined;
@@ -110,7 +110,7 @@ export class Viewer {
     this.#listener = listener;
     this.#wasShown = shown.length > 0;
     this.#loading = new Loading(x3d, this.#transfers, shown.length > 0 ? "base" : "none");
-    this.navigator = new Navigator(
+    this.navigator = new CameraController(
       () => {
         this.renderer.requestFrame();
       },
@@ -169,7 +169,7 @@ export class Viewer {
         this.#fail(error, element, loading);
       },
     });
-    const fonts = new LateFonts(
+    const fonts = new FontLoading(
       document.fonts,
       () => {
         this.#reader.touchTexts();
@@ -181,7 +181,7 @@ export class Viewer {
       inlined: (inline) => this.#inlines.documentOf(inline),
       levelOf: (lod) => this.#levels.levelOf(lod),
       inlineGeometry: readInlineGeometry,
-      text: textReading(measureRun, (font, letters) => fonts.editionOf(font, letters)),
+      text: textReader(measureRun, (font, letters) => fonts.editionOf(font, letters)),
     });
     this.#steering = new Steering(this.renderer, { geometries: this.#deliveries, textures: this.#textures }, () => {
       this.#onSteered();
@@ -312,7 +312,7 @@ export class Viewer {
     this.#followLevels(round); // before what has been asked for here is sent
   }
 
-  #tellNavigator(built: NavigatedScene & { readonly levels: readonly PlacedLevels[] }): void {
+  #tellNavigator(built: NavigatedScene & { readonly levels: readonly LodInstance[] }): void {
     const before = this.#built;
     this.#built = built;
     const isSame =
@@ -325,7 +325,7 @@ export class Viewer {
   /** The scene is another where a LOD shows another level. */
   #followLevels(round = 0): void {
     if (this.#built === undefined || round > mostNestedLevels) return;
-    const changed = this.#levels.follow(this.#built.levels, this.navigator.pose.position);
+    const changed = this.#levels.update(this.#built.levels, this.navigator.pose.position);
     for (const lod of changed) this.#reader.touch(lod);
     if (changed.length > 0) this.#readDocument(round + 1);
   }

@@ -196,7 +196,7 @@ export class LoadedShapes implements ShapeInstanceListener {
 
   /** The levels of a LOD are shown by whoever draws it, so that shapes in them are hidden for other reasons alone. */
   #follow(loaded: LoadedShape, shape: ShapeDescription, place: object, group: Group): void {
-    group.visible = shape.reaches;
+    group.visible = shape.contributesToBounds;
     const {
       geometry,
       priority,

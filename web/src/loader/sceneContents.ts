@@ -3,7 +3,7 @@
 
 import type { Object3D } from "three";
 import { Box3, Group } from "three";
-import { measureRun } from "../decode/letters.ts";
+import { measureRun } from "../text/glyphRendering.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import { Inlines } from "../delivery/inlines.ts";
 import type { ResourcePool } from "../delivery/resourcePool.ts";
@@ -13,10 +13,10 @@ import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { GroupDescription, SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
-import { levelAt } from "../document/levels.ts";
+import { lodLevelAt } from "../scene/lodLevel.ts";
 import { readInlineGeometry } from "../document/inlineGeometry.ts";
 import { SceneReader } from "../document/sceneReader.ts";
-import { textReading } from "../document/textGeometry.ts";
+import { textReader } from "../text/textGeometry.ts";
 import { SceneGroups } from "../render/shapes/sceneGroups.ts";
 import type { ShapeContext } from "../render/shapes/shapeObject.ts";
 import { chunkWeightsOf } from "../scheduler/priority.ts";
@@ -94,7 +94,7 @@ export class SceneContents {
       inlined: (inline) => this.#inlines.documentOf(inline),
       levelOf: (lod) => this.#chosen.get(lod),
       inlineGeometry: readInlineGeometry,
-      text: textReading(measureRun),
+      text: textReader(measureRun),
     });
     this.#scene = this.#reader.read();
     this.#graph = new SceneGroups({
@@ -167,7 +167,7 @@ export class SceneContents {
     for (const { element, message } of warnings) this.#warn(`<${element.localName}> ${message}`);
   }
 
-  #groupOf({ levels, inline }: GroupDescription): Object3D | undefined {
+  #groupOf({ lod: levels, inline }: GroupDescription): Object3D | undefined {
     const element = levels?.element ?? inline;
     if (element === undefined) return undefined;
     const group = levels ? new SceneLod(levels, this.#keeper) : new Group();
@@ -214,13 +214,13 @@ export class SceneContents {
       element,
       {
         levels: {
-          description: { range, count },
+          description: { range, levelCount: count },
         },
         distance,
       },
     ] of nearest) {
       const before = this.#chosen.get(element) ?? count - 1; // unknown ones bring their last
-      const level = levelAt(distance, range, count, before);
+      const level = lodLevelAt(distance, range, count, before);
       this.#chosen.set(element, level);
       if (level === before) continue;
       this.#reader.touch(element);

@@ -11,7 +11,7 @@ function levelsOf(range: readonly number[], here: Set<number>, empty?: number, o
   const looks = { count: 0 };
   const placeOf = (level: Object3D) => Number(level.name);
   const levels = new SceneLod(
-    { element, center: [1, 0, 0], range, count: range.length + 1 },
+    { element, center: [1, 0, 0], range, levelCount: range.length + 1 },
     {
       loadStateOf: (level) => (!here.has(placeOf(level)) ? others : placeOf(level) === empty ? "nothing" : "shown"),
       onCamera: () => {

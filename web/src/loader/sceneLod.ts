@@ -4,8 +4,8 @@
 
 import type { Camera, Intersection, Object3D, Raycaster } from "three";
 import { LOD, Matrix4, Vector3 } from "three";
-import type { LevelsDescription } from "../document/description.ts";
-import { levelAt } from "../document/levels.ts";
+import type { LodDescription } from "../document/description.ts";
+import { lodLevelAt } from "../scene/lodLevel.ts";
 
 /**
  * How much of something is there: it is still coming; all of it shows something, as far
@@ -28,7 +28,7 @@ const eye = new Vector3(),
 const levelsFromWorld = new Matrix4();
 
 export class SceneLod extends LOD {
-  readonly description: LevelsDescription;
+  readonly description: LodDescription;
   readonly #keeper: SceneLodOwner;
   /** What the last camera is to see. Before any has looked, what asks for least. */
   #wanted: number;
@@ -36,11 +36,11 @@ export class SceneLod extends LOD {
   readonly #ready = new Set<number>();
   #nearest = Infinity;
 
-  constructor(description: LevelsDescription, keeper: SceneLodOwner) {
+  constructor(description: LodDescription, keeper: SceneLodOwner) {
     super();
     this.description = description;
     this.#keeper = keeper;
-    this.#wanted = description.count - 1;
+    this.#wanted = description.levelCount - 1;
   }
 
   /** Its children have come: they are its levels, in their order. */
@@ -72,10 +72,10 @@ export class SceneLod extends LOD {
 
   /** As the renderer calls it before it draws, unless `autoUpdate` is false. */
   override update(camera: Camera): void {
-    const { range, count } = this.description;
+    const { range, levelCount: count } = this.description;
     const distance = this.#distanceFrom(camera);
     this.#nearest = Math.min(this.#nearest, distance);
-    this.#wanted = levelAt(distance, range, count, this.#wanted);
+    this.#wanted = lodLevelAt(distance, range, count, this.#wanted);
     this.#show();
     this.#keeper.onCamera();
   }

@@ -1,8 +1,8 @@
 // A world of boxes, looked at as the GPU looks at a scene.
 
 import { Vector3 } from "three";
-import type { Lookout, Surroundings } from "./surroundings.ts";
-import { inScene, seenFrom } from "./surroundings.ts";
+import type { DepthCamera, GroundSamples } from "./groundSamples.ts";
+import { sceneFromCamera, cameraFromScene } from "./groundSamples.ts";
 
 export interface WorldBox {
   readonly min: readonly [number, number, number];
@@ -13,20 +13,20 @@ const cells = 48;
 const rays = 512;
 
 /** With y up. */
-export function lookAround(lookout: Lookout, boxes: readonly WorldBox[]): Surroundings {
+export function lookAround(lookout: DepthCamera, boxes: readonly WorldBox[]): GroundSamples {
   const { eye, reach } = lookout;
   const heights = Float32Array.from({ length: cells * cells }, (_, cell) => {
     const line = (at: number) => ((2 * at + 1) / cells - 1) * reach;
-    const { x, z } = inScene(lookout, new Vector3(line(cell % cells), 0, line(Math.floor(cell / cells))));
+    const { x, z } = sceneFromCamera(lookout, new Vector3(line(cell % cells), 0, line(Math.floor(cell / cells))));
     return highestBelow(boxes, x, eye.y, z) - eye.y;
   });
   const walls: number[] = [];
   for (let ray = 0; ray < rays; ++ray) {
     const angle = (2 * Math.PI * (ray + 0.5)) / rays;
-    const way = inScene({ ...lookout, eye: new Vector3() }, new Vector3(Math.sin(angle), 0, Math.cos(angle)));
+    const way = sceneFromCamera({ ...lookout, eye: new Vector3() }, new Vector3(Math.sin(angle), 0, Math.cos(angle)));
     const distance = Math.min(...boxes.map((box) => distanceTo(box, eye, way)));
     if (distance > 2 * reach) continue;
-    const place = seenFrom(lookout, eye.clone().addScaledVector(way, distance));
+    const place = cameraFromScene(lookout, eye.clone().addScaledVector(way, distance));
     walls.push(place.x, place.z);
   }
   return { floor: { cells, heights }, walls: Float32Array.from(walls) };

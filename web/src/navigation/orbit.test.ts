@@ -1,10 +1,10 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { Sphere, Vector3 } from "three";
-import { forwardOf, framingDistance, poseFraming, turned } from "./camera.ts";
+import { forwardOf, framingDistance, poseFraming, orbited } from "./cameraPose.ts";
 import type { Orbit } from "./orbit.ts";
 import { orbitOf, poseOnOrbit, poseWith, poseWithin, unsetCamera } from "./orbit.ts";
-import { Turntable } from "./turntable.ts";
+import { AutoRotation } from "./autoRotation.ts";
 
 const sphere = new Sphere(new Vector3(1, 2, 3), 2);
 const start = poseFraming(sphere);
@@ -55,7 +55,7 @@ describe("an orbit", () => {
 
   test("turns with the camera: to the right is towards smaller theta", () => {
     const before = orbitOf(start);
-    sameOrbit(orbitOf(turned(start, 0.25, 0.1)), {
+    sameOrbit(orbitOf(orbited(start, 0.25, 0.1)), {
       theta: before.theta - 0.25,
       phi: before.phi - 0.1,
       radius: before.radius,
@@ -118,25 +118,25 @@ describe("what the author says of the camera", () => {
 test("a turntable rests after the start and after each touch, and stops for good when it is told", (context) => {
   context.mock.timers.enable({ apis: ["setTimeout"] });
   let begun = 0;
-  const turntable = new Turntable(() => {
+  const turntable = new AutoRotation(() => {
     begun += 1;
   });
   turntable.delayMs = 1000;
-  turntable.rest();
+  turntable.pause();
   assert.ok(turntable.isStopped);
   turntable.start(true);
   context.mock.timers.tick(999);
-  assert.equal(turntable.isTurning, false);
-  turntable.rest();
+  assert.equal(turntable.isRotating, false);
+  turntable.pause();
   context.mock.timers.tick(999);
   assert.equal(begun, 0);
   context.mock.timers.tick(1);
-  assert.ok(turntable.isTurning);
+  assert.ok(turntable.isRotating);
   assert.equal(begun, 1);
   turntable.stop();
-  turntable.rest();
+  turntable.pause();
   context.mock.timers.tick(5000);
   assert.ok(turntable.isStopped);
   turntable.start(false);
-  assert.ok(turntable.isTurning);
+  assert.ok(turntable.isRotating);
 });

@@ -4,8 +4,8 @@
 
 import type { Sphere } from "three";
 import { MathUtils, Matrix4, Quaternion, Vector3 } from "three";
-import type { Pose } from "./camera.ts";
-import { framingDistance } from "./camera.ts";
+import type { Pose } from "./cameraPose.ts";
+import { framingDistance } from "./cameraPose.ts";
 
 /** Angles in radians: theta any, phi 0 (above) … π (below). */
 export interface Orbit {

@@ -3,8 +3,8 @@ import { test } from "node:test";
 import { Matrix4 } from "three";
 import { elementsOf } from "../document/elements.testing.ts";
 import { readScene } from "../document/readScene.ts";
-import { everywhere } from "../navigation/lightScope.ts";
-import { placementOf } from "../navigation/placement.ts";
+import { sceneScope } from "../scene/lightScope.ts";
+import { instancesOf } from "../scene/sceneInstances.ts";
 import type { LightUniforms } from "./previewLights.ts";
 import { lightKindsOf, lightUniformsOf } from "./previewLights.ts";
 
@@ -12,9 +12,9 @@ function uniformsOf(
   markup: string,
   headlight: boolean,
   viewFromScene = new Matrix4(),
-  lightScope = everywhere,
+  lightScope = sceneScope,
 ): LightUniforms {
-  const { lights } = placementOf(readScene(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)));
+  const { lights } = instancesOf(readScene(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)));
   return lightUniformsOf({ lights, headlight }, lightScope, viewFromScene);
 }
 
@@ -64,7 +64,7 @@ test("what stands outside of a light's group gets none of it", () => {
     elementsOf(`<X3D><Scene><Group><PointLight global="false" color="1 0 0" ambientIntensity="0.5"/><Shape/></Group>
     <DirectionalLight/><Shape/></Scene></X3D>`),
   );
-  const { lights, shapes } = placementOf(scene);
+  const { lights, shapes } = instancesOf(scene);
   const seen = shapes.map(({ lightScope }) => lightUniformsOf({ lights, headlight: true }, lightScope, new Matrix4()));
   assert.deepEqual(
     seen.map(({ lightColors }) => lightColors),

@@ -4,12 +4,12 @@
 import type { Matrix4 } from "three";
 import { Vector3 } from "three";
 import { coneOf, scaledFalloff } from "../lighting/falloff.ts";
-import type { LightScope } from "../navigation/lightScope.ts";
-import type { PlacedLight } from "../navigation/placement.ts";
-import { lengthScaleOf } from "../navigation/matrices.ts";
+import type { LightScope } from "../scene/lightScope.ts";
+import type { LightInstance } from "../scene/instances.ts";
+import { lengthScaleOf } from "../scene/transforms.ts";
 import type { PreviewScene } from "./previewScene.ts";
 
-export type LightKind = PlacedLight["light"]["kind"];
+export type LightKind = LightInstance["light"]["kind"];
 
 /** By the names of the uniforms: the numbers of all lights, one after the other. */
 export interface LightUniforms {
@@ -36,10 +36,10 @@ export function lightUniformsOf(
 ): LightUniforms {
   const all = lights.map((light) => ({
     ...numbersOf(light, viewFromScene),
-    ...(!light.scope.holds(lightScope) && { color: [0, 0, 0] }),
+    ...(!light.scope.contains(lightScope) && { color: [0, 0, 0] }),
   }));
   if (headlight) all.push({ ...fromFarAway, color: [1, 1, 1], direction: [0, 0, -1] });
-  const shining = lights.filter(({ scope }) => scope.holds(lightScope));
+  const shining = lights.filter(({ scope }) => scope.contains(lightScope));
   const ambient = [0, 1, 2].map((channel) =>
     shining.reduce((sum, { light }) => sum + (light.color[channel] ?? 0) * light.ambientIntensity, 0),
   );
@@ -66,7 +66,7 @@ interface LightNumbers {
 /** What a light's kind has no use for. */
 const fromFarAway = { position: [0, 0, 0], attenuation: [1, 0, 0], radius: 0, cone: [0, 0] };
 
-function numbersOf({ light, sceneFromLight }: PlacedLight, viewFromScene: Matrix4): LightNumbers {
+function numbersOf({ light, sceneFromLight }: LightInstance, viewFromScene: Matrix4): LightNumbers {
   const color = light.color.map((channel) => channel * light.intensity);
   const viewFromLight = viewFromScene.clone().multiply(sceneFromLight);
   const directed = (direction: readonly [number, number, number]) =>

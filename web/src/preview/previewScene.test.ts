@@ -3,12 +3,12 @@ import { describe, test } from "node:test";
 import { Sphere } from "three";
 import { elementsOf } from "../document/elements.testing.ts";
 import { SceneReader } from "../document/sceneReader.ts";
-import { poseFraming } from "../navigation/camera.ts";
-import { Navigator } from "../navigation/navigator.ts";
+import { poseFraming } from "../navigation/cameraPose.ts";
+import { CameraController } from "../navigation/cameraController.ts";
 import type { CameraSetting } from "../navigation/orbit.ts";
 import { unsetCamera } from "../navigation/orbit.ts";
-import { placementOf } from "../navigation/placement.ts";
-import { sphereAround } from "../navigation/camera.ts";
+import { instancesOf } from "../scene/sceneInstances.ts";
+import { sphereAround } from "../scene/bounds.ts";
 import type { PreviewScene } from "./previewScene.ts";
 import { previewSceneOf, maxLights } from "./previewScene.ts";
 
@@ -88,8 +88,8 @@ describe("the camera of a first scene", () => {
       for (const camera of cameras) {
         const description = new SceneReader(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)).read();
         const first = previewSceneOf(description, camera);
-        const { box, viewpoints } = placementOf(description);
-        const navigator = new Navigator(
+        const { box, viewpoints } = instancesOf(description);
+        const navigator = new CameraController(
           () => undefined,
           () => undefined,
         );

@@ -13,20 +13,20 @@ import type {
 import type { SceneElement } from "../document/element.ts";
 import { isBlended } from "../lighting/materialParameters.ts";
 import { BindingStack } from "../navigation/bindingStack.ts";
-import type { Pose } from "../navigation/camera.ts";
-import { sphereAround } from "../navigation/camera.ts";
-import { avatarOf, bindViewpoints, boundPoseOf, clearanceOf, homeOf } from "../navigation/home.ts";
-import { shapeFromStoredOf } from "../navigation/matrices.ts";
+import type { Pose } from "../navigation/cameraPose.ts";
+import { sphereAround } from "../scene/bounds.ts";
+import { avatarOf, bindViewpoints, boundPoseOf, clearanceOf, homePoseOf } from "../navigation/homePose.ts";
+import { shapeFromStoredOf } from "../scene/transforms.ts";
 import { navigationTypesOf } from "../navigation/navigationType.ts";
-import type { LightScope } from "../navigation/lightScope.ts";
+import type { LightScope } from "../scene/lightScope.ts";
 import type { CameraSetting } from "../navigation/orbit.ts";
-import type { PlacedLight, PlacedShape } from "../navigation/placement.ts";
-import { placementOf } from "../navigation/placement.ts";
+import type { LightInstance, ShapeInstance } from "../scene/instances.ts";
+import { instancesOf } from "../scene/sceneInstances.ts";
 
 export interface PreviewScene {
   /** At least one; once for each place where one stands. */
   readonly shapes: readonly PreviewShape[];
-  readonly lights: readonly PlacedLight[];
+  readonly lights: readonly LightInstance[];
   readonly headlight: boolean;
   /** Undefined: the page shows through. */
   readonly background: Vec3 | undefined;
@@ -58,8 +58,8 @@ export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): 
   const { background, navigation, inlines } = scene;
   if (inlines.length > 0 || (background && (background.sky.length > 1 || background.ground.length > 0)))
     return undefined;
-  const placement = placementOf(scene);
-  const { viewpoints, levels, billboards } = placement;
+  const placement = instancesOf(scene);
+  const { viewpoints, lods: levels, billboards } = placement;
   if (levels.length > 0 || billboards.length > 0 || placement.lights.length > maxLights) return undefined;
   const seen = placement.shapes.filter(
     ({ shape }) => shape.visible && (shape.geometry !== undefined || shape.isUnread),
@@ -75,13 +75,13 @@ export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): 
     headlight: navigation.headlight,
     background: background?.sky[0]?.color,
     sphere,
-    pose: homeOf(boundPoseOf(bound, viewpoints), camera, sphere),
+    pose: homePoseOf(boundPoseOf(bound, viewpoints), camera, sphere),
     clearance: clearanceOf(navigationTypesOf(navigation.type).first, avatarOf(navigation, sphere)),
   };
 }
 
 /** Undefined where it is not drawn from a base in solid colours. */
-function previewShapeOf({ shape, ...place }: PlacedShape): PreviewShape | undefined {
+function previewShapeOf({ shape, ...place }: ShapeInstance): PreviewShape | undefined {
   const { element, geometry, appearance } = shape;
   const [patch] = geometry?.patches ?? [];
   if (

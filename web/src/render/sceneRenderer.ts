@@ -29,7 +29,7 @@ import type {
   TextureRole,
 } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import { applyPose } from "../navigation/camera.ts";
+import { applyPose } from "../navigation/cameraPose.ts";
 import { makeBackground, disposeBackground } from "./frames/background.ts";
 import { Batches } from "./batches/batches.ts";
 import type { BufferUpload } from "./uploads/bufferStore.ts";
@@ -375,12 +375,12 @@ export class SceneRenderer {
 
   /** Tells the camera man what he wants to know, when the GPU has drawn it. */
   async #lookAround(): Promise<void> {
-    const lookout = this.#surveyor.isBusy ? undefined : this.#cameraMan.lookout;
+    const lookout = this.#surveyor.isBusy ? undefined : this.#cameraMan.depthCamera;
     if (lookout === undefined) return;
     const depth = 2 * this.sphere.radius + this.sphere.center.distanceTo(lookout.eye);
     const surroundings = await this.#surveyor.probe(lookout, depth, this.#shapes.candidatesIgnoringCulling());
     if (surroundings === undefined) return;
-    this.#cameraMan.learn(lookout, surroundings);
+    this.#cameraMan.addGroundSamples(lookout, surroundings);
     this.requestFrame();
   }
 }

@@ -1,7 +1,7 @@
 // Where the camera is, between those who move it and those who draw.
 
-import type { Pose } from "../navigation/camera.ts";
-import type { Lookout, Surroundings } from "../navigation/surroundings.ts";
+import type { Pose } from "../navigation/cameraPose.ts";
+import type { DepthCamera, GroundSamples } from "../navigation/groundSamples.ts";
 
 /** Where the camera is and what it sees, as plain numbers. */
 export interface View {
@@ -23,6 +23,6 @@ export interface CameraController {
   /** Another frame is due after this one. */
   readonly isMoving: boolean;
   /** From where he wants to know what is around. */
-  readonly lookout: Lookout | undefined;
-  learn(lookout: Lookout, surroundings: Surroundings): void;
+  readonly depthCamera: DepthCamera | undefined;
+  addGroundSamples(camera: DepthCamera, samples: GroundSamples): void;
 }

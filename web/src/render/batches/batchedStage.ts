@@ -3,8 +3,8 @@
 import { DoubleSide, FrontSide } from "three";
 import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
-import { storedFrameOf } from "../../document/storedFrame.ts";
-import { shapeFromStoredOf } from "../../navigation/matrices.ts";
+import { dequantizationOf } from "../../document/dequantization.ts";
+import { shapeFromStoredOf } from "../../scene/transforms.ts";
 import type { ShapeGroup } from "../lights/lightScopes.ts";
 import type { BatchingRules, SurfaceTextures } from "../materials/materialFactory.ts";
 import { noSurfaceTextures } from "../materials/materialFactory.ts";
@@ -120,7 +120,7 @@ function drawsOf(stage: Stage, context: PatchContext, { batching, isMerged }: Ba
         vertexCount:
           stage.kind !== "buffers" ? 0 : geometry.container === "bg" ? patch.vertexCount : vertexCountOf(stage),
         shapeFromStored: shapeFromStoredOf(geometry, patch),
-        step: storedFrameOf(geometry, patch).step,
+        step: dequantizationOf(geometry, patch).step,
         texCoordFrame: [...geometry.texCoordMin, ...geometry.texCoordSize],
         valueFrame: valueFrameOf(stage, geometry.value),
         request: materialRequestOf(stage, first, geometry, uniforms.of(first), shared, true),

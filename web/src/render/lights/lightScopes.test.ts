@@ -3,15 +3,15 @@ import { test } from "node:test";
 import { ShaderLib } from "three";
 import { elementsOf } from "../../document/elements.testing.ts";
 import { readScene } from "../../document/readScene.ts";
-import { numberScopes } from "../../navigation/lightScope.ts";
-import { PlacedTree } from "../../navigation/placedTree.ts";
+import { numberLightScopes } from "../../scene/lightScope.ts";
+import { InstanceTree } from "../../scene/instanceTree.ts";
 import { hasLightScopes, addLightScopes } from "./lightScopes.ts";
 import type { SceneLightUniforms } from "./sceneLights.ts";
 import { makeLights } from "./sceneLights.ts";
 
 function uniformsOf(markup: string): SceneLightUniforms {
-  const { reach } = new PlacedTree().follow(readScene(elementsOf(`<X3D>${markup}</X3D>`)).root).root;
-  numberScopes(reach.scopes);
+  const { summary: reach } = new InstanceTree().update(readScene(elementsOf(`<X3D>${markup}</X3D>`)).root).root;
+  numberLightScopes(reach.lightScopes);
   return makeLights(reach.lights).uniforms;
 }
 

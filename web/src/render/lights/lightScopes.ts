@@ -4,7 +4,7 @@
 
 import type { Group, WebGLProgramParametersWithUniforms } from "three";
 import { ShaderChunk } from "three";
-import type { LightScope } from "../../navigation/lightScope.ts";
+import type { LightScope } from "../../scene/lightScope.ts";
 import type { SceneLightUniforms } from "./sceneLights.ts";
 import { instancesDefine, scopedLightsDefine } from "../batches/instanceChunk.ts";
 import { replaceChunks } from "../vertices/vertexChunk.ts";

@@ -4,10 +4,10 @@
 import { AmbientLight, Color, DirectionalLight, Group, PointLight, SpotLight, Vector2, Vector3 } from "three";
 import type { LightDescription } from "../../document/description.ts";
 import { coneOf, scaledFalloff } from "../../lighting/falloff.ts";
-import { lengthScaleOf } from "../../navigation/matrices.ts";
-import type { LightScope } from "../../navigation/lightScope.ts";
-import { everywhere } from "../../navigation/lightScope.ts";
-import type { PlacedLight } from "../../navigation/placement.ts";
+import { lengthScaleOf } from "../../scene/transforms.ts";
+import type { LightScope } from "../../scene/lightScope.ts";
+import { sceneScope } from "../../scene/lightScope.ts";
+import type { LightInstance } from "../../scene/instances.ts";
 import { setColor } from "../materials/x3dMaterials.ts";
 
 /** What three.js does not know of lights, for all materials that they shine on. */
@@ -35,7 +35,7 @@ export interface SceneLights {
   readonly uniforms: SceneLightUniforms;
 }
 
-export function makeLights(lights: readonly PlacedLight[]): SceneLights {
+export function makeLights(lights: readonly LightInstance[]): SceneLights {
   const root = new Group();
   const uniforms = makeLightUniforms();
   const attenuations = uniforms.attenuations.value;
@@ -55,10 +55,10 @@ export function makeLights(lights: readonly PlacedLight[]): SceneLights {
     place.add(light);
     if (!(light instanceof PointLight)) place.add(light.target);
     root.add(place);
-    if (scope === everywhere) ambient.add(ambientOf(description));
+    if (scope === sceneScope) ambient.add(ambientOf(description));
   }
   if (ambient.r + ambient.g + ambient.b > 0) root.add(new AmbientLight(ambient));
-  if (lights.some(({ scope }) => scope !== everywhere)) setScopeRanges(uniforms, lights);
+  if (lights.some(({ scope }) => scope !== sceneScope)) setScopeRanges(uniforms, lights);
   return { root, uniforms };
 }
 
@@ -71,17 +71,17 @@ function ambientOf({ color, ambientIntensity }: LightDescription): Color {
 /** In the order in which three.js' programs count them; the headlight comes last in its scene, and may be missing. */
 function setScopeRanges(
   { lightScopeRanges: lightScopeRanges, scopedAmbients }: SceneLightUniforms,
-  lights: readonly PlacedLight[],
+  lights: readonly LightInstance[],
 ): void {
   for (const kind of ["point", "spot", "directional"] as const) {
     for (const { light, scope } of lights.filter((each) => each.light.kind === kind)) {
       lightScopeRanges.value.push(scopeRangeOf(scope));
-      scopedAmbients.value.push(new Vector3(...(scope === everywhere ? [0, 0, 0] : ambientOf(light).toArray())));
+      scopedAmbients.value.push(new Vector3(...(scope === sceneScope ? [0, 0, 0] : ambientOf(light).toArray())));
     }
   }
   // One for the headlight, and one because a list in GLSL cannot be empty.
   for (let more = 0; more < 2; ++more) {
-    lightScopeRanges.value.push(scopeRangeOf(everywhere));
+    lightScopeRanges.value.push(scopeRangeOf(sceneScope));
     scopedAmbients.value.push(new Vector3());
   }
 }

@@ -4,7 +4,7 @@
 // round, and its borders are as smooth as those of any surface.
 
 import type { BufferGeometry, Camera, Material, Scene, Vector4, WebGLRenderer } from "three";
-import { mostDashes } from "../../document/lineProperties.ts";
+import { maxDashLengths } from "../../document/lineProperties.ts";
 import { instanceFields, instancesDefine } from "../batches/instanceChunk.ts";
 
 /** Defined in materials of wide lines: how many vertices on the next line begins. */
@@ -100,7 +100,7 @@ Vertex readVertex() {
 export const dashChunk = /* glsl */ `
 #ifdef ${wideLinesDefine}
 
-uniform float dashes[${mostDashes}];
+uniform float dashes[${maxDashLengths}];
 uniform int dashCount;
 flat varying vec3 dashAxis;
 

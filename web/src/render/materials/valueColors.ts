@@ -5,7 +5,7 @@
 import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "three";
 import type { DecodedImage } from "../../stage/decodedImage.ts";
 import type { Stage, ValuePlanes } from "../../stage/stage.ts";
-import { mostMapColors } from "../../document/colorMaps.ts";
+import { maxMapColors } from "../../document/colorMaps.ts";
 import type { AttributeDescription, ColorMapDescription } from "../../document/description.ts";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { instanceFields, instancesDefine } from "../batches/instanceChunk.ts";
@@ -17,7 +17,7 @@ export function colorMapUniformsOf(map: ColorMapDescription | undefined): Record
   if (map === undefined) return {};
   const numbers = map.colors.flat();
   return {
-    mapColors: { value: Array.from({ length: 3 * mostMapColors }, (_, i) => numbers[i] ?? 0) },
+    mapColors: { value: Array.from({ length: 3 * maxMapColors }, (_, i) => numbers[i] ?? 0) },
     mapColorCount: { value: map.colors.length },
     mapRange: { value: map.range },
   };
@@ -156,7 +156,7 @@ float mapPlaceOf(float value) {
 const fragmentDeclarations = /* glsl */ `
 #ifdef VALUE_COMPONENTS
   varying float vMapPlace;
-  uniform vec3 mapColors[${mostMapColors}];
+  uniform vec3 mapColors[${maxMapColors}];
   uniform int mapColorCount;
 
   vec3 mappedColor() {

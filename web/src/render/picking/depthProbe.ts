@@ -5,7 +5,7 @@
 
 import type { WebGLRenderer, WebGLRenderTarget } from "three";
 import { Camera, Matrix4, Quaternion, Scene, Vector3 } from "three";
-import type { Lookout, Surroundings } from "../../navigation/surroundings.ts";
+import type { DepthCamera, GroundSamples } from "../../navigation/groundSamples.ts";
 import { cornersOf } from "./pickDraw.ts";
 import type { PickCandidate } from "./picker.ts";
 import { candidatesInView, makePickTarget } from "./picker.ts";
@@ -46,10 +46,10 @@ export class DepthProbe {
 
   /** `depth` is how far below the eye the scene may go on. Undefined where the context is lost on the way. */
   async probe(
-    lookout: Lookout,
+    lookout: DepthCamera,
     depth: number,
     candidates: readonly PickCandidate[],
-  ): Promise<Surroundings | undefined> {
+  ): Promise<GroundSamples | undefined> {
     this.#isBusy = true;
     try {
       const nearest = lookout.reach * 1e-3;
@@ -96,7 +96,7 @@ export class DepthProbe {
   }
 }
 
-function downwards({ eye, orientation, reach }: Lookout, depth: number): Shot {
+function downwards({ eye, orientation, reach }: DepthCamera, depth: number): Shot {
   const projection = new Matrix4().makeOrthographic(-reach, reach, reach, -reach, 0, depth);
   const towardsFeet = new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), -Math.PI / 2);
   return {
@@ -109,7 +109,7 @@ function downwards({ eye, orientation, reach }: Lookout, depth: number): Shot {
 }
 
 /** A quarter of all directions, as narrow as pixels are, from -z on to the left. */
-function sideways({ eye, orientation }: Lookout, turn: number, nearest: number, farthest: number): Shot {
+function sideways({ eye, orientation }: DepthCamera, turn: number, nearest: number, farthest: number): Shot {
   const half = nearest / wallRays;
   const projection = new Matrix4().makePerspective(-nearest, nearest, half, -half, nearest, farthest);
   return {

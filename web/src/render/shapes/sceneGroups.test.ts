@@ -9,8 +9,8 @@ import { nodeFields } from "../../document/nodes.ts";
 import { readScene } from "../../document/readScene.ts";
 import { readInlineGeometry } from "../../document/inlineGeometry.ts";
 import { SceneReader } from "../../document/sceneReader.ts";
-import { matrixOf } from "../../navigation/matrices.ts";
-import type { PlacedNode } from "../../navigation/placedTree.ts";
+import { matrixOf } from "../../scene/transforms.ts";
+import type { NodeInstance } from "../../scene/nodeInstance.ts";
 import type { ShapeGroup } from "../lights/lightScopes.ts";
 import { SceneGroups } from "./sceneGroups.ts";
 
@@ -20,7 +20,7 @@ viewer.updateMatrixWorld();
 
 /** The graph of a scene, and the shapes that it has told of. */
 class Watched {
-  readonly shapes = new Map<PlacedNode, { shape: ShapeDescription; group: ShapeGroup }>();
+  readonly shapes = new Map<NodeInstance, { shape: ShapeDescription; group: ShapeGroup }>();
   readonly graph = new SceneGroups({
     onEnter: (shape, place, group) => {
       assert.ok(!this.shapes.has(place));

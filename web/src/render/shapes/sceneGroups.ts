@@ -3,20 +3,20 @@
 
 import type { Camera, Object3D } from "three";
 import { Box3, Group, Vector3 } from "three";
-import { areAlike } from "../../document/alike.ts";
+import { deepEqual } from "../../document/deepEqual.ts";
 import type {
   AnchorDescription,
   GroupDescription,
   NodeDescription,
   ShapeDescription,
 } from "../../document/description.ts";
-import type { PlacedViewpoint } from "../../navigation/camera.ts";
-import { billboardTurn } from "../../navigation/billboard.ts";
-import { numberScopes } from "../../navigation/lightScope.ts";
-import { matrixOf } from "../../navigation/matrices.ts";
-import type { PlacedNode, PlacedTreeListener } from "../../navigation/placedTree.ts";
-import { PlacedTree } from "../../navigation/placedTree.ts";
-import type { PlacedLevels, PlacedLight } from "../../navigation/placement.ts";
+import type { LightInstance, LodInstance, ViewpointInstance } from "../../scene/instances.ts";
+import { billboardRotation } from "../../scene/billboard.ts";
+import { numberLightScopes } from "../../scene/lightScope.ts";
+import { matrixOf } from "../../scene/transforms.ts";
+import type { InstanceTreeListener } from "../../scene/instanceTree.ts";
+import type { NodeInstance } from "../../scene/nodeInstance.ts";
+import { InstanceTree } from "../../scene/instanceTree.ts";
 import type { ShapeGroup } from "../lights/lightScopes.ts";
 import type { SceneLights, SceneLightUniforms } from "../lights/sceneLights.ts";
 import { makeLights } from "../lights/sceneLights.ts";
@@ -24,10 +24,10 @@ import { makeLights } from "../lights/sceneLights.ts";
 /** Who shows the shapes of a scene, in each place in a group, whose world matrix is up to date. */
 export interface ShapeInstanceListener {
   /** The shape is in one more place. */
-  onEnter(shape: ShapeDescription, place: PlacedNode, group: ShapeGroup): void;
+  onEnter(shape: ShapeDescription, place: NodeInstance, group: ShapeGroup): void;
   /** It is described in another way there, stands elsewhere, or in another light. */
-  onChange(shape: ShapeDescription, place: PlacedNode, group: ShapeGroup, before: ShapeDescription): void;
-  onLeave(shape: ShapeDescription, place: PlacedNode, group: ShapeGroup): void;
+  onChange(shape: ShapeDescription, place: NodeInstance, group: ShapeGroup, before: ShapeDescription): void;
+  onLeave(shape: ShapeDescription, place: NodeInstance, group: ShapeGroup): void;
   /** What stands in the scene for a group of it. Undefined: a plain one. */
   makeGroup?(description: GroupDescription): Object3D | undefined;
   /** Its group has turned with a billboard. */
@@ -40,15 +40,15 @@ export interface BoundedGroup {
   readonly box: Box3;
 }
 
-export class SceneGroups implements PlacedTreeListener {
+export class SceneGroups implements InstanceTreeListener {
   readonly root = new Group();
-  readonly #tree = new PlacedTree(this);
-  readonly #groups = new Map<PlacedNode, Object3D>();
+  readonly #tree = new InstanceTree(this);
+  readonly #groups = new Map<NodeInstance, Object3D>();
   /** Those of them that are shapes'. */
-  readonly #shapeGroups = new Map<PlacedNode, ShapeGroup>();
+  readonly #shapeGroups = new Map<NodeInstance, ShapeGroup>();
   readonly #anchors = new WeakMap<Object3D, AnchorDescription>();
   readonly #shapes: ShapeInstanceListener;
-  #placedLights: readonly PlacedLight[] = [];
+  #placedLights: readonly LightInstance[] = [];
   #lights: SceneLights = makeLights([]);
   #bounded: readonly BoundedGroup[] = [];
 
@@ -60,7 +60,7 @@ export class SceneGroups implements PlacedTreeListener {
 
   /** Of the boxes of all shapes that are seen, in the scene's coordinates. */
   get box(): Box3 {
-    return this.#tree.root.reach.box ?? new Box3();
+    return this.#tree.root.summary.box ?? new Box3();
   }
 
   /** What may be passed over as a whole when it is out of the view. */
@@ -69,17 +69,17 @@ export class SceneGroups implements PlacedTreeListener {
   }
 
   /** In document order. */
-  get viewpoints(): readonly PlacedViewpoint[] {
-    return this.#tree.root.reach.viewpoints;
+  get viewpoints(): readonly ViewpointInstance[] {
+    return this.#tree.root.summary.viewpoints;
   }
 
-  get levels(): readonly PlacedLevels[] {
-    return this.#tree.root.reach.levels;
+  get levels(): readonly LodInstance[] {
+    return this.#tree.root.summary.lods;
   }
 
   /** Those that are seen. */
   get anchors(): readonly AnchorDescription[] {
-    return this.#tree.root.reach.anchors;
+    return this.#tree.root.summary.anchors;
   }
 
   /** The innermost that a shape's group stands in. */
@@ -97,13 +97,13 @@ export class SceneGroups implements PlacedTreeListener {
 
   /** Shows this scene from now on. Whether light scopes have other numbers than before, also those that nobody is told of. */
   follow(root: GroupDescription): boolean {
-    const { reach } = this.#tree.follow(root).root;
-    this.#bounded = reach.bounded.flatMap((node) => {
+    const { summary: reach } = this.#tree.update(root).root;
+    this.#bounded = reach.boundedGroups.flatMap((node) => {
       const group = this.#groups.get(node);
       return group && node.box ? [{ group, box: node.box }] : [];
     });
-    const areRenumbered = numberScopes(reach.scopes);
-    if (!areRenumbered && areAlike(reach.lights, this.#placedLights)) return false;
+    const areRenumbered = numberLightScopes(reach.lightScopes);
+    if (!areRenumbered && deepEqual(reach.lights, this.#placedLights)) return false;
     this.#placedLights = reach.lights;
     this.#lights.root.removeFromParent();
     this.#lights = makeLights(reach.lights);
@@ -113,18 +113,18 @@ export class SceneGroups implements PlacedTreeListener {
 
   /** Whether there is anything to turn. */
   get hasBillboards(): boolean {
-    return this.#tree.root.reach.billboards.length > 0;
+    return this.#tree.root.summary.billboards.length > 0;
   }
 
   /** Before a frame: billboards turn to the viewer. The camera's matrix is up to date. */
   turnBillboards({ matrixWorld }: Camera): void {
-    for (const node of this.#tree.root.reach.billboards) {
+    for (const node of this.#tree.root.summary.billboards) {
       const group = this.#groups.get(node);
       if (!group?.parent || node.description.kind !== "group") continue;
       const parentFromScene = group.parent.matrixWorld.clone().invert();
       const eye = new Vector3().setFromMatrixPosition(matrixWorld).applyMatrix4(parentFromScene);
       const up = new Vector3().setFromMatrixColumn(matrixWorld, 1).transformDirection(parentFromScene);
-      const turn = billboardTurn(node.description.billboardAxis ?? [0, 1, 0], eye, up);
+      const turn = billboardRotation(node.description.billboardAxis ?? [0, 1, 0], eye, up);
       if (turn.equals(group.matrix)) continue;
       group.matrix.copy(turn);
       this.#placeAgain(node);
@@ -132,7 +132,7 @@ export class SceneGroups implements PlacedTreeListener {
   }
 
   /** Something around it has turned. */
-  #placeAgain(node: PlacedNode): void {
+  #placeAgain(node: NodeInstance): void {
     const shapeGroup = this.#shapeGroups.get(node);
     if (shapeGroup && node.description.kind === "shape") {
       shapeGroup.updateMatrixWorld(true);
@@ -144,7 +144,7 @@ export class SceneGroups implements PlacedTreeListener {
     for (const child of node.children) this.#placeAgain(child);
   }
 
-  onEnter(node: PlacedNode): void {
+  onEnter(node: NodeInstance): void {
     const { description } = node;
     if (description.kind === "group")
       this.#hang(node, description, this.#shapes.makeGroup?.(description) ?? new Group());
@@ -156,7 +156,7 @@ export class SceneGroups implements PlacedTreeListener {
     this.#shapes.onEnter(description, node, group);
   }
 
-  onChange(node: PlacedNode, hasMoved: boolean, before: NodeDescription): void {
+  onChange(node: NodeInstance, hasMoved: boolean, before: NodeDescription): void {
     const { description } = node;
     const group = this.#groups.get(node);
     if (group === undefined || (description.kind !== "group" && description.kind !== "shape")) return;
@@ -167,7 +167,7 @@ export class SceneGroups implements PlacedTreeListener {
       this.#shapes.onChange(description, node, shapeGroup, before);
   }
 
-  onLeave(node: PlacedNode): void {
+  onLeave(node: NodeInstance): void {
     const shapeGroup = this.#shapeGroups.get(node);
     if (shapeGroup && node.description.kind === "shape") this.#shapes.onLeave(node.description, node, shapeGroup);
     this.#groups.get(node)?.removeFromParent();
@@ -175,7 +175,7 @@ export class SceneGroups implements PlacedTreeListener {
     this.#shapeGroups.delete(node);
   }
 
-  #hang(node: PlacedNode, description: GroupDescription | ShapeDescription, group: Object3D): void {
+  #hang(node: NodeInstance, description: GroupDescription | ShapeDescription, group: Object3D): void {
     group.matrixAutoUpdate = false;
     this.#groups.set(node, group);
     const around = node.parent === undefined ? this.root : this.#groups.get(node.parent);

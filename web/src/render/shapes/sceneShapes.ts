@@ -13,10 +13,8 @@ import type {
   TextureRole,
 } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
-import type { PlacedViewpoint } from "../../navigation/camera.ts";
-import { sphereAround } from "../../navigation/camera.ts";
-import { isDrawable } from "../../navigation/matrices.ts";
-import type { PlacedLevels } from "../../navigation/placement.ts";
+import type { LodInstance, ViewpointInstance } from "../../scene/instances.ts";
+import { isDrawable, sphereAround } from "../../scene/bounds.ts";
 import type { Batches } from "../batches/batches.ts";
 import { BatchingPlan } from "../batches/batchingPlan.ts";
 import type { SurfaceTexture } from "../materials/materialFactory.ts";
@@ -37,8 +35,8 @@ export interface BuiltScene {
   /** Around all that is seen. */
   readonly sphere: Sphere;
   /** In document order. */
-  readonly viewpoints: readonly PlacedViewpoint[];
-  readonly levels: readonly PlacedLevels[];
+  readonly viewpoints: readonly ViewpointInstance[];
+  readonly levels: readonly LodInstance[];
   /** Those that are seen. */
   readonly anchors: readonly AnchorDescription[];
   readonly changes: SceneChanges;

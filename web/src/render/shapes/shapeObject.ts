@@ -3,7 +3,7 @@
 
 import type { Bounds } from "../../stage/vertexArray.ts";
 import type { Stage } from "../../stage/stage.ts";
-import { areAlike } from "../../document/alike.ts";
+import { deepEqual } from "../../document/deepEqual.ts";
 import type {
   AppearanceDescription,
   GeometryDescription,
@@ -120,7 +120,7 @@ export class ShapeObject {
     this.#isPickable = isPickable;
     if (geometry !== this.#geometry) this.clear();
     this.#geometry = geometry;
-    const isSame = areAlike(appearance, this.#appearance);
+    const isSame = deepEqual(appearance, this.#appearance);
     this.#appearance = appearance;
     if (!isSame) this.#applyAppearance();
   }
@@ -152,7 +152,7 @@ export class ShapeObject {
     const [a, b, c] = points.attenuation;
     return Math.max(
       line,
-      b === 0 && c === 0 ? Math.min(points.size / a, points.most) : Math.min(points.most, maxPointSize),
+      b === 0 && c === 0 ? Math.min(points.size / a, points.maxSize) : Math.min(points.maxSize, maxPointSize),
     );
   }
 

@@ -5,9 +5,9 @@ import type { BufferGeometry, Material, Matrix4 } from "three";
 import { DoubleSide, FrontSide } from "three";
 import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
-import type { LightScope } from "../../navigation/lightScope.ts";
-import { everywhere } from "../../navigation/lightScope.ts";
-import { shapeFromStoredOf } from "../../navigation/matrices.ts";
+import type { LightScope } from "../../scene/lightScope.ts";
+import { sceneScope } from "../../scene/lightScope.ts";
+import { shapeFromStoredOf } from "../../scene/transforms.ts";
 import type { DrawnObject } from "./drawnObject.ts";
 import { makeDrawnObject } from "./drawnObject.ts";
 import type { ShapeGroup } from "../lights/lightScopes.ts";
@@ -129,7 +129,7 @@ class ScopedMaterials {
     return this.#materials.values();
   }
 
-  of({ lightScope = everywhere }: ShapeGroup): Material {
+  of({ lightScope = sceneScope }: ShapeGroup): Material {
     const material = this.#materials.get(lightScope) ?? this.#make(lightScope);
     this.#materials.set(lightScope, material);
     return material;

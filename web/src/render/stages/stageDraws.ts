@@ -13,8 +13,8 @@ import type {
   PointDescription,
 } from "../../document/description.ts";
 import { boxAround } from "../../document/geometry.ts";
-import { mostDashes } from "../../document/lineProperties.ts";
-import { largestStoredOf, middleOfMissing, storedFrameOf } from "../../document/storedFrame.ts";
+import { maxDashLengths } from "../../document/lineProperties.ts";
+import { maxStoredValueOf, missingBytesMidpoint, dequantizationOf } from "../../document/dequantization.ts";
 import type { BufferProvider } from "../uploads/bufferStore.ts";
 import type {
   MaterialFactory,
@@ -57,13 +57,13 @@ export function boundsOf(
   patch: PatchDescription,
   stage: Stage,
 ): { box: Box3; sphere: Sphere } {
-  const { origin, step } = storedFrameOf(geometry, patch);
+  const { origin, step } = dequantizationOf(geometry, patch);
   const { min, max } =
     (stage.kind === "buffers" ? stage.bounds : undefined) ?? patch.box ?? boxAround(geometry.position, geometry.size);
   const stored = (point: readonly [number, number, number]) =>
     new Vector3((point[0] - origin[0]) / step[0], (point[1] - origin[1]) / step[1], (point[2] - origin[2]) / step[2]);
   const box = new Box3(stored(min), stored(max));
-  const slack = geometry.container === "sig" ? middleOfMissing(geometry, patch.coord.length, 1) * Math.sqrt(3) : 0;
+  const slack = geometry.container === "sig" ? missingBytesMidpoint(geometry, patch.coord.length, 1) * Math.sqrt(3) : 0;
   return { box, sphere: new Sphere(box.getCenter(new Vector3()), box.min.distanceTo(box.max) / 2 + slack) };
 }
 
@@ -79,11 +79,11 @@ export function uniformsOf(stage: Stage, context: PatchContext): StageUniforms {
     ...appearanceUniformsOf(geometry, context.appearance),
     pixelRatio: shared.pixelRatio,
     viewport: shared.viewport,
-    latticeStep: { value: storedFrameOf(geometry, patch).step },
+    latticeStep: { value: dequantizationOf(geometry, patch).step },
     ...valueUniformsOf(stage, geometry.value, (image) => textures.textureOf(image)),
   };
   if (stage.kind === "buffers") return { common, of: () => common };
-  const base = imageUniformsOf(stage, textures, common, largestStoredOf(geometry, patch));
+  const base = imageUniformsOf(stage, textures, common, maxStoredValueOf(geometry, patch));
   return {
     common,
     of: (range) => ({
@@ -109,7 +109,7 @@ export function setAppearance(
 
 /** Of points that no PointProperties tell about, in CSS pixels. */
 export const defaultPointSize = 2;
-const defaultPoints: PointDescription = { size: defaultPointSize, least: 0, most: Infinity, attenuation: [1, 0, 0] };
+const defaultPoints: PointDescription = { size: defaultPointSize, minSize: 0, maxSize: Infinity, attenuation: [1, 0, 0] };
 const maxPointSize = 1e6;
 const defaultLines: LineDescription = { width: 1, dashes: [] };
 
@@ -124,10 +124,10 @@ function appearanceUniformsOf(
 ): AppearanceUniforms & Record<string, IUniform> {
   const { points = defaultPoints, lines: { width, dashes } = defaultLines } = appearance;
   return {
-    pointSizes: { value: [points.size, points.least, Math.min(points.most, maxPointSize)] },
+    pointSizes: { value: [points.size, points.minSize, Math.min(points.maxSize, maxPointSize)] },
     attenuation: { value: points.attenuation },
     lineWidth: { value: width },
-    dashes: { value: Array.from({ length: mostDashes }, (_, i) => dashes[i] ?? 0) },
+    dashes: { value: Array.from({ length: maxDashLengths }, (_, i) => dashes[i] ?? 0) },
     dashCount: { value: dashes.length },
     texCoordFrame: { value: [...texCoordMin, ...texCoordSize] },
     textureTransforms: { value: textureTransformsOf(appearance) },

@@ -1,0 +1,69 @@
+// Arrays that stand for geometry -> GeometryDescription: BG in data: URLs, so that
+// everything behind the document treats it like any other.
+
+import { dataUrl } from "./dataUrl.ts";
+import type { Box3, GeometryDescription, Reference } from "./description.ts";
+import type { VertexArrays } from "../tessellate/faces.ts";
+import type { Vec3 } from "./fieldTypes.ts";
+
+/** Undefined where there is nothing to draw. */
+export function geometryOfArrays(arrays: VertexArrays | undefined, solid: boolean): GeometryDescription | undefined {
+  if (arrays === undefined || arrays.positions.length === 0) return undefined;
+  const { positions, normals, texCoords, colors, colorComponents, primitive } = arrays;
+  const count = positions.length / 3;
+  return {
+    container: "bg",
+    position: [0, 0, 0],
+    size: [1, 1, 1],
+    positionBits: 0,
+    solid,
+    texCoordMin: [0, 0],
+    texCoordSize: [1, 1],
+    colorComponents,
+    normalEncoding: "rgb",
+    decode: "auto",
+    base: undefined,
+    attributes: [],
+    value: undefined,
+    indexType: "Uint32",
+    coordType: "Float32",
+    normalType: "Float32",
+    texCoordType: "Float32",
+    colorType: "Uint8",
+    patches: [
+      {
+        box: boxAroundAll(positions),
+        vertexCount: count,
+        draws: [{ primitive, count }],
+        implicitWidth: 1,
+        implicitHeight: 1,
+        grid: undefined,
+        index: undefined,
+        coord: [dataReference(positions)],
+        normal: normals && dataReference(normals),
+        texCoord: texCoords && dataReference(texCoords),
+        color: colors && dataReference(colors),
+        attributes: [],
+        value: [],
+        data: undefined,
+      },
+    ],
+  };
+}
+
+function boxAroundAll(positions: Float32Array): Box3 {
+  const edge = (choose: (...values: number[]) => number, start: number): Vec3 => {
+    const corner: [number, number, number] = [start, start, start];
+    positions.forEach((value, i) => {
+      corner[i % 3] = choose(corner[i % 3] ?? start, value);
+    });
+    return corner;
+  };
+  return { min: edge(Math.min, Infinity), max: edge(Math.max, -Infinity) };
+}
+
+/** Typed arrays are little-endian there, as they are on every machine with a browser. */
+function dataReference(array: Float32Array | Uint8Array): Reference {
+  const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+  return { url: dataUrl("application/octet-stream", bytes), first: 0, stride: 0 };
+}

@@ -1,0 +1,245 @@
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { Quaternion, Vector3 } from "three";
+import type { WorldBox } from "./boxWorld.testing.ts";
+import { highestBelow, lookAround } from "./boxWorld.testing.ts";
+import type { Pose } from "./cameraPose.ts";
+import { WalkController } from "./walkController.ts";
+
+const avatar = { radius: 0.25, height: 1.6, step: 0.4 };
+const speed = 2;
+const frame = 1 / 60;
+
+function box(min: WorldBox["min"], max: WorldBox["max"]): WorldBox {
+  return { min, max };
+}
+
+const ground = box([-20, -1, -20], [20, 0, 20]);
+
+function standing(x: number, y: number, z: number): Pose {
+  const position = new Vector3(x, y, z);
+  return {
+    position,
+    orientation: new Quaternion(),
+    center: position.clone().add(new Vector3(0, 0, -4)),
+    up: new Vector3(0, 1, 0),
+    fieldOfView: 0.8,
+  };
+}
+
+/** One frame: walks on what is known, then looks around if that is asked for. */
+function step(walker: WalkController, pose: Pose, boxes: readonly WorldBox[], way?: Vector3): Pose {
+  if (way) walker.push(way.clone().multiplyScalar(speed * frame), speed);
+  const next = walker.walk(pose, frame);
+  const lookout = walker.depthCameraFor(next, avatar, speed);
+  if (lookout) walker.addGroundSamples(lookout, lookAround(lookout, boxes));
+  return next;
+}
+
+/** So many seconds towards `way`, then until nothing moves; the eye of every frame. */
+function walk(start: Pose, way: Vector3, seconds: number, boxes: readonly WorldBox[]): Vector3[] {
+  const walker = new WalkController();
+  const eyes: Vector3[] = [];
+  let pose = start;
+  for (let at = 0; at < seconds || walker.isMoving; at += frame) {
+    assert.ok(at < seconds + 20, "it never comes to rest");
+    pose = step(walker, pose, boxes, at < seconds ? way : undefined);
+    eyes.push(pose.position);
+  }
+  return eyes;
+}
+
+const last = (eyes: readonly Vector3[]): Vector3 => eyes.at(-1) ?? new Vector3();
+
+function near(actual: number, expected: number, tolerance = 0.02): void {
+  assert.ok(Math.abs(actual - expected) <= tolerance, `${actual} is not ${expected}`);
+}
+
+const [ahead, right] = [new Vector3(0, 0, -1), new Vector3(1, 0, 0)];
+
+describe("who walks", () => {
+  test("covers his way at his height above the floor", () => {
+    const { x, y, z } = last(walk(standing(0, 1.6, 0), ahead, 3, [ground]));
+    near(x, 0);
+    near(y, 1.6);
+    near(z, -6, 0.06);
+  });
+
+  test("comes down to the floor from a viewpoint above it, and up from one too low", () => {
+    for (const height of [0.4, 3]) near(last(walk(standing(0, height, 0), ahead, 0.1, [ground])).y, 1.6);
+  });
+
+  test("climbs stairs, smoothly, and stands on the landing", () => {
+    const stairs = Array.from({ length: 12 }, (_, i) =>
+      box([-1, 0, -1.3 - 0.3 * i], [1, 0.17 * (i + 1), -1 - 0.3 * i]),
+    );
+    const eyes = walk(standing(0, 1.6, 0), ahead, 4, [ground, ...stairs, box([-1, 0, -9], [1, 0.17 * 12, -4.6])]);
+    near(last(eyes).y, 1.6 + 0.17 * 12);
+    eyes.slice(1).forEach((eye, i) => {
+      assert.ok(Math.abs(eye.y - (eyes[i]?.y ?? 0)) < 0.06, `jumps at ${eye.z}`);
+    });
+  });
+
+  test("does not climb what is higher than a step", () => {
+    const { y, z } = last(walk(standing(0, 1.6, 0), ahead, 3, [ground, box([-5, 0, -9], [5, 0.5, -2])]));
+    near(y, 1.6);
+    near(z, -2 + avatar.radius, 0.1);
+  });
+
+  test("is stopped by a wall, and slides along it when he comes at an angle", () => {
+    const wall = box([-15, 0, -9], [15, 4, -2]);
+    near(last(walk(standing(0, 1.6, 0), ahead, 3, [ground, wall])).z, -2 + avatar.radius);
+    const aside = last(walk(standing(0, 1.6, 0), new Vector3(1, 0, -1).normalize(), 4, [ground, wall]));
+    near(aside.z, -2 + avatar.radius, 0.05);
+    assert.ok(aside.x > 4, `slid only to ${aside.x}`);
+  });
+
+  test("goes through a doorway under its lintel, but not where the lintel is at his eyes", () => {
+    const doorway = (lintel: number) => [
+      ground,
+      box([-9, 0, -2.2], [-0.45, 4, -2]),
+      box([0.45, 0, -2.2], [9, 4, -2]),
+      box([-0.45, lintel, -2.2], [0.45, 4, -2]),
+    ];
+    near(last(walk(standing(0, 1.6, 0), ahead, 2, doorway(2))).z, -4, 0.1);
+    near(last(walk(standing(0, 1.6, 0), ahead, 2, doorway(1.5))).z, -2 + avatar.radius);
+  });
+
+  test("falls from a ledge, ever faster, onto what is below", () => {
+    const eyes = walk(standing(0, 4.6, 0), ahead, 2, [ground, box([-5, 0, -1], [5, 3, 5])]);
+    near(last(eyes).y, 1.6);
+    const falls = eyes
+      .slice(1)
+      .map((eye, i) => (eyes[i]?.y ?? 0) - eye.y)
+      .filter((fall) => fall > 0)
+      .slice(0, -1);
+    assert.ok(falls.length > 20, `${falls.length} frames`);
+    falls.slice(1).forEach((fall, i) => {
+      assert.ok(fall > (falls[i] ?? 0));
+    });
+  });
+
+  test("does not leave the floor for where there is none", () => {
+    const { y, z } = last(walk(standing(0, 1.6, 0), ahead, 3, [box([-5, -1, -2], [5, 0, 5])]));
+    near(y, 1.6);
+    near(z, -2 - avatar.radius, 0.15);
+  });
+
+  test("hovers where there has never been a floor, and comes down when he gets to one", () => {
+    const platform = box([-5, -1, -9], [5, 0, -2]);
+    const eyes = walk(standing(0, 2, 4), ahead, 4, [platform]);
+    assert.ok(
+      eyes.every(({ y, z }) => z < -1.7 || y === 2),
+      "sinks where nothing is",
+    );
+    near(last(eyes).y, 1.6);
+    near(last(eyes).z, -4, 0.1);
+  });
+
+  test("is not held by what stands at his start, but gets out of it", () => {
+    const pillar = box([-0.2, 0, -0.2], [0.1, 4, 0.2]);
+    near(last(walk(standing(0.2, 1.6, 0), right, 1, [ground, pillar])).x, 2.2, 0.1);
+  });
+
+  test("has any direction for up", () => {
+    const up = new Vector3(1, 2, -0.5).normalize();
+    const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), up);
+    const back = turn.clone().invert();
+    const walker = new WalkController();
+    let pose: Pose = { ...standing(0, 2.5, 0), position: new Vector3(0, 2.5, 0).applyQuaternion(turn), up };
+    for (let count = 0; count < 120; ++count) {
+      walker.push(
+        ahead
+          .clone()
+          .multiplyScalar(speed * frame)
+          .applyQuaternion(turn),
+        speed,
+      );
+      pose = walker.walk(pose, frame);
+      const lookout = walker.depthCameraFor(pose, avatar, speed);
+      if (lookout === undefined) continue;
+      const eye = lookout.eye.clone().applyQuaternion(back);
+      walker.addGroundSamples(lookout, lookAround({ ...lookout, eye, orientation: new Quaternion() }, [ground]));
+    }
+    const { x, y, z } = pose.position.clone().applyQuaternion(back);
+    near(x, 0);
+    near(y, 1.6);
+    near(z, -4, 0.1);
+  });
+});
+
+describe("what is known", () => {
+  test("is asked for only while something moves, once for each look", () => {
+    const walker = new WalkController();
+    const pose = standing(0, 1.6, 0);
+    assert.equal(walker.depthCameraFor(pose, avatar, speed), undefined);
+    walker.push(ahead, speed);
+    const lookout = walker.depthCameraFor(pose, avatar, speed);
+    assert.ok(lookout);
+    assert.equal(walker.depthCameraFor(pose, avatar, speed), lookout);
+    walker.stop();
+    assert.equal(walker.depthCameraFor(pose, avatar, speed), undefined);
+    walker.addGroundSamples(lookout, lookAround(lookout, [ground])); // too late
+    walker.push(ahead, speed);
+    assert.equal(walker.walk(pose, frame), pose);
+  });
+
+  test("is waited for, and what was asked for in the meantime is gone after", () => {
+    const walker = new WalkController();
+    let pose = standing(0, 1.6, 0);
+    for (let count = 0; count < 6; ++count) {
+      walker.push(ahead.clone().multiplyScalar(speed * frame), speed);
+      pose = walker.walk(pose, frame);
+    }
+    near(pose.position.z, 0, 0);
+    while (walker.isMoving) pose = step(walker, pose, [ground]);
+    near(pose.position.z, -6 * speed * frame, 1e-6);
+  });
+
+  test("is never left behind, however late the next look comes", () => {
+    const walker = new WalkController();
+    let pose = standing(0, 1.6, 0);
+    walker.push(ahead, speed);
+    const lookout = walker.depthCameraFor(pose, avatar, speed);
+    assert.ok(lookout);
+    walker.addGroundSamples(lookout, lookAround(lookout, [ground]));
+    for (let count = 0; count < 600; ++count) {
+      walker.push(ahead.clone().multiplyScalar(speed * frame), speed);
+      pose = walker.walk(pose, frame);
+    }
+    assert.ok(pose.position.z < -0.5 && pose.position.z >= -(lookout.reach - avatar.radius), `${pose.position.z}`);
+  });
+});
+
+test("a long walk at random among walls, stairs and holes never ends in one of them", () => {
+  let seed = 7;
+  const random = (): number => {
+    seed = (seed * 48271) % 2147483647;
+    return seed / 2147483647;
+  };
+  const plates = [box([-6, -1, -6], [6, 0, 2]), box([-6, -1, 3], [6, 0, 6])]; // between them nothing
+  const things = Array.from({ length: 25 }, () => {
+    const [x, z] = [12 * random() - 6, 12 * random() - 6];
+    return box([x, 0, z], [x + 0.2 + random(), [0.2, 0.35, 0.9, 3][Math.floor(4 * random())] ?? 1, z + 0.2 + random()]);
+  });
+  const boxes = [...plates, ...things];
+  const walker = new WalkController();
+  let pose = standing(0, 2, 0);
+  let way = ahead;
+  let gone = 0;
+  for (let count = 0; count < 4000; ++count) {
+    if (count % 40 === 0) way = new Vector3(Math.sin(count * 1.7), 0, Math.cos(count * 1.7));
+    const before = pose.position;
+    pose = step(walker, pose, boxes, way);
+    const { x, y, z } = pose.position;
+    gone += before.distanceTo(pose.position);
+    const inside = boxes.find(({ min, max }) =>
+      [x, y, z].every((value, axis) => value > (min[axis] ?? 0) && value < (max[axis] ?? 0)),
+    );
+    assert.equal(inside, undefined, `frame ${count}: at ${x} ${y} ${z} he is in a wall`);
+    const beside = [-0.3, 0, 0.3].flatMap((dx) => [-0.3, 0, 0.3].map((dz) => highestBelow(boxes, x + dx, y, z + dz)));
+    assert.ok(Math.max(...beside) > -Infinity, `frame ${count}: at ${x} ${y} ${z} there is no floor`);
+    assert.ok(y > highestBelow(boxes, x, y, z) + 0.9, `frame ${count}: at ${x} ${y} ${z} he sinks in`);
+  }
+  assert.ok(gone > 20, `he has gone ${gone}`);
+});

@@ -1,0 +1,61 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Vector3 } from "three";
+import { Dice } from "../document/edits.testing.ts";
+import { billboardRotation } from "./billboard.ts";
+
+const up = new Vector3(0, 1, 0);
+
+function axes(turn: ReturnType<typeof billboardRotation>): [Vector3, Vector3, Vector3] {
+  const [x, y, z] = [new Vector3(), new Vector3(), new Vector3()];
+  turn.extractBasis(x, y, z);
+  return [x, y, z];
+}
+
+test("a billboard faces the viewer as far as its axis lets it", () => {
+  const dice = new Dice(7);
+  const number = () => dice.below(2001) / 1000 - 1;
+  for (let round = 0; round < 200; ++round) {
+    const axis = new Vector3(number(), number(), number());
+    const eye = new Vector3(number(), number(), number()).multiplyScalar(10);
+    const turn = billboardRotation(axis.toArray(), eye, up);
+    const [, , z] = axes(turn);
+    axis.normalize();
+    assert.ok(Math.abs(turn.determinant() - 1) < 1e-9);
+    assert.ok(axis.clone().applyMatrix4(turn).distanceTo(axis) < 1e-9, "the axis stays");
+    const [front, toEye] = [z.projectOnPlane(axis), eye.clone().projectOnPlane(axis)];
+    assert.ok(front.angleTo(toEye) < 1e-6, `${front.angleTo(toEye)} off`);
+  }
+});
+
+test("without an axis it faces the viewer as the picture does", () => {
+  const [x, y, z] = axes(billboardRotation([0, 0, 0], new Vector3(3, 4, 12), up));
+  assert.ok(z.distanceTo(new Vector3(3 / 13, 4 / 13, 12 / 13)) < 1e-12);
+  assert.ok(Math.abs(x.y) < 1e-12 && y.y > 0, "it stands upright in the picture");
+});
+
+test("where there is no telling where to turn it stays", () => {
+  for (const [axis, eye] of [
+    [
+      [0, 1, 0],
+      [0, 5, 0],
+    ],
+    [
+      [0, 0, 1],
+      [1, 2, 3],
+    ],
+    [
+      [0, 1, 0],
+      [0, 0, 0],
+    ],
+    [
+      [0, 0, 0],
+      [0, 2, 0],
+    ],
+  ] as const) {
+    assert.deepEqual(
+      billboardRotation(axis, new Vector3(...eye), up).toArray(),
+      [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
+    );
+  }
+});

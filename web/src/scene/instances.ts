@@ -1,0 +1,37 @@
+// Occurrences of nodes in a scene: a node has several where a group around it is USEd or its document is inlined twice.
+
+import type { Matrix4 } from "three";
+import type {
+  LightDescription,
+  LodDescription,
+  ShapeDescription,
+  ViewpointDescription,
+} from "../document/description.ts";
+import type { SceneElement } from "../document/element.ts";
+import type { LightScope } from "./lightScope.ts";
+
+export interface ShapeInstance {
+  readonly shape: ShapeDescription;
+  readonly sceneFromShape: Matrix4;
+  /** The innermost that it stands in. */
+  readonly lightScope: LightScope;
+}
+
+export interface LightInstance {
+  readonly light: LightDescription;
+  readonly sceneFromLight: Matrix4;
+  /** What it shines on. */
+  readonly scope: LightScope;
+}
+
+/** A LOD in one of its places. */
+export interface LodInstance extends LodDescription {
+  readonly sceneFromLod: Matrix4;
+}
+
+export interface ViewpointInstance {
+  readonly element: SceneElement;
+  readonly viewpoint: ViewpointDescription;
+  /** Of the transforms around it. */
+  readonly sceneFromViewpoint: Matrix4;
+}

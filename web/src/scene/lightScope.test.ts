@@ -1,0 +1,100 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Dice, EditedDocument } from "../document/edits.testing.ts";
+import { elementsOf } from "../document/elements.testing.ts";
+import { readScene } from "../document/readScene.ts";
+import { sceneScope, numberLightScopes } from "./lightScope.ts";
+import type { SceneInstances } from "./sceneInstances.ts";
+import { instancesOf } from "./sceneInstances.ts";
+import { InstanceTree } from "./instanceTree.ts";
+
+function placed(markup: string): SceneInstances {
+  return instancesOf(readScene(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)));
+}
+
+/** Of each light the ids of the shapes that it shines on. */
+function litBy({ lights, shapes }: SceneInstances): string[] {
+  return lights.map(({ scope }) =>
+    shapes
+      .filter(({ lightScope }) => scope.contains(lightScope))
+      .map(({ shape }) => shape.element.getAttribute("id"))
+      .join(""),
+  );
+}
+
+test("a light shines on what stands in its group, at any depth; a point or a spot on everything unless it says otherwise", () => {
+  const lights = (attributes: string) =>
+    `<DirectionalLight ${attributes}/><PointLight ${attributes}/><SpotLight ${attributes}/>`;
+  const around = (attributes: string) =>
+    `<Shape id="a"/><Group><Shape id="b"/>${lights(attributes)}<Transform><Group><Shape id="c"/></Group></Transform></Group><Shape id="d"/>`;
+  assert.deepEqual(litBy(placed(around(""))), ["bc", "abcd", "abcd"]);
+  assert.deepEqual(litBy(placed(around('global="false"'))), ["bc", "bc", "bc"]);
+  assert.deepEqual(litBy(placed(around('global="true"'))), ["abcd", "abcd", "abcd"]);
+});
+
+test("a light of the scene itself shines on everything", () => {
+  assert.deepEqual(litBy(placed('<Shape id="a"/><DirectionalLight/><Group><Shape id="b"/></Group>')), ["ab"]);
+  assert.equal(placed("<DirectionalLight/>").lights[0]?.scope, sceneScope);
+});
+
+test("a light that is USEd shines in each of its groups, and a group that is USEd is lit where it stands", () => {
+  const twice =
+    '<Group><DirectionalLight DEF="sun"/><Shape id="a"/></Group><Transform><DirectionalLight USE="sun"/><Shape id="b"/></Transform>';
+  assert.deepEqual(litBy(placed(twice)), ["a", "b"]);
+  const lit = placed('<Group DEF="G"><Shape id="a"/></Group><Group><DirectionalLight/><Group USE="G"/></Group>');
+  assert.deepEqual(litBy(lit), ["a"]);
+  assert.deepEqual(
+    lit.shapes.map(({ lightScope }) => lightScope === sceneScope),
+    [true, false],
+  );
+});
+
+test("a choice of a Switch and a level of a LOD light themselves alone", () => {
+  assert.deepEqual(
+    litBy(
+      placed(
+        '<Switch whichChoice="0"><Group><DirectionalLight/><Shape id="a"/></Group><Shape id="b"/></Switch><Shape id="c"/>',
+      ),
+    ),
+    ["a"],
+  );
+  assert.deepEqual(
+    litBy(
+      placed('<LOD range="1"><Shape id="a"/><Group><DirectionalLight/><Shape id="b"/></Group></LOD><Shape id="c"/>'),
+    ),
+    ["b"],
+  );
+});
+
+test("a document that is inlined is a group of its own", () => {
+  const x3d = elementsOf('<X3D><Scene><DirectionalLight/><Shape id="a"/></Scene></X3D>');
+  const page = elementsOf('<X3D><Scene><Inline url="a.x3d"/><Shape id="b"/></Scene></X3D>');
+  assert.deepEqual(litBy(instancesOf(readScene(page, { inlined: () => ({ url: "a.x3d", x3d }) }))), ["a"]);
+});
+
+test("numbers of scopes tell what lies in what, in documents of any form", () => {
+  let nested = 0;
+  for (let seed = 1; seed <= 20; ++seed) {
+    const edited = new EditedDocument(new Dice(seed));
+    const tree = new InstanceTree();
+    for (let round = 0; round < 10; ++round) {
+      edited.edit();
+      const { lightScopes: scopes } = tree.update(edited.reader.read().root).root.summary;
+      numberLightScopes(scopes);
+      assert.ok(!numberLightScopes(scopes), "they have their numbers");
+      const all = [sceneScope, ...scopes];
+      for (const outer of all) {
+        for (const inner of all) {
+          const isIn = outer.value <= inner.value && inner.value <= outer.last;
+          assert.equal(
+            isIn,
+            outer.contains(inner),
+            `seed ${seed}, round ${round}: ${outer.value} … ${outer.last} and ${inner.value}`,
+          );
+          if (isIn && outer !== inner && outer !== sceneScope) nested += 1;
+        }
+      }
+    }
+  }
+  assert.ok(nested > 100, `only ${nested} scopes lie in others`);
+});

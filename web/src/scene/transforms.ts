@@ -1,0 +1,38 @@
+// Matrices of Transforms, and boxes through them.
+
+import { Matrix4, Quaternion, Vector3 } from "three";
+import type { GeometryDescription, PatchDescription, Rotation, TransformDescription } from "../document/description.ts";
+import { dequantizationOf } from "../document/dequantization.ts";
+
+/** How much longer lengths become, on the average of all directions; 1 where they vanish. */
+export function lengthScaleOf(matrix: Matrix4): number {
+  return Math.cbrt(Math.abs(matrix.determinant())) || 1;
+}
+
+/** Places the lattice: stored integers -> the shape's coordinates. */
+export function shapeFromStoredOf(geometry: GeometryDescription, patch: PatchDescription): Matrix4 {
+  const { origin, step } = dequantizationOf(geometry, patch);
+  return new Matrix4().makeScale(...step).setPosition(...origin);
+}
+
+/** X3D Transform: T C R SR S -SR -C (ISO/IEC 19775-1, 10.4.4). */
+export function matrixOf(transform: TransformDescription): Matrix4 {
+  const { translation, center, rotation, scaleOrientation, scale } = transform;
+  const turn = rotationOf(rotation);
+  const axes = rotationOf(scaleOrientation);
+  const move = (vector: readonly [number, number, number], sign: number) =>
+    new Matrix4().makeTranslation(vector[0] * sign, vector[1] * sign, vector[2] * sign);
+  return move(translation, 1)
+    .multiply(move(center, 1))
+    .multiply(turn)
+    .multiply(axes)
+    .multiply(new Matrix4().makeScale(...scale))
+    .multiply(axes.clone().invert())
+    .multiply(move(center, -1));
+}
+
+function rotationOf([x, y, z, angle]: Rotation): Matrix4 {
+  const axis = new Vector3(x, y, z);
+  if (axis.lengthSq() === 0) return new Matrix4();
+  return new Matrix4().makeRotationFromQuaternion(new Quaternion().setFromAxisAngle(axis.normalize(), angle));
+}

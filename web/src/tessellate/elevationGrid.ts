@@ -1,0 +1,50 @@
+// X3D's ElevationGrid (ISO/IEC 19775-1, 13.3.4): heights over a grid in x and z. The
+// same as in src/import/x3d/geometry.cpp, for what stands in a page.
+
+import type { Corner, VertexData } from "./faces.ts";
+
+export interface Surface {
+  readonly data: VertexData;
+  readonly faces: readonly (readonly Corner[])[];
+}
+
+/** The fields of an ElevationGrid node. */
+export interface ElevationGridFields {
+  readonly xDimension: number;
+  readonly zDimension: number;
+  readonly xSpacing: number;
+  readonly zSpacing: number;
+  /** Row by row, x first. */
+  readonly height: readonly number[];
+  readonly normalPerVertex: boolean;
+  readonly colorPerVertex: boolean;
+}
+
+/** `given`: attributes that stand in the node. Undefined where there are too few heights, or no cell. */
+export function elevationGrid(values: ElevationGridFields, given: VertexData): Surface | undefined {
+  const { xDimension: columns, zDimension: rows, xSpacing, zSpacing, height, normalPerVertex, colorPerVertex } = values;
+  if (columns < 2 || rows < 2 || columns * rows > height.length) return undefined;
+  const positions: number[] = [],
+    texCoords: number[] = [];
+  for (let z = 0; z < rows; ++z) {
+    for (let x = 0; x < columns; ++x) {
+      positions.push(xSpacing * x, height[z * columns + x] ?? 0, zSpacing * z);
+      texCoords.push(x / (columns - 1), z / (rows - 1));
+    }
+  }
+  const faces: Corner[][] = [];
+  for (let z = 0; z + 1 < rows; ++z) {
+    for (let x = 0; x + 1 < columns; ++x) {
+      const [corner, face] = [z * columns + x, faces.length];
+      faces.push(
+        [corner, corner + columns, corner + columns + 1, corner + 1].map((position) => ({
+          position,
+          texCoord: position,
+          normal: given.normals.length === 0 ? -1 : normalPerVertex ? position : face,
+          color: given.colors.length === 0 ? -1 : colorPerVertex ? position : face,
+        })),
+      );
+    }
+  }
+  return { data: { ...given, positions, texCoords: given.texCoords.length > 0 ? given.texCoords : texCoords }, faces };
+}

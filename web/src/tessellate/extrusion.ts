@@ -1,0 +1,155 @@
+// X3D's Extrusion (ISO/IEC 19775-1, 13.3.5): a cross-section carried along a spine. The
+// same as src/import/x3d/extrusion.cpp, for what stands in a page.
+
+import type { Surface } from "./elevationGrid.ts";
+import type { Corner } from "./faces.ts";
+import type { Vec3 } from "./vectors.ts";
+import { cross, dot, minus, rotated, unit } from "./vectors.ts";
+
+/** x, y and z of a cross-section's plane; y is its normal. */
+type Frame = readonly [Vec3, Vec3, Vec3];
+
+/** The fields of an Extrusion node: 2D points, points, 2D scales, and rotations (axis and angle), one number after the other. */
+export interface ExtrusionFields {
+  readonly crossSection: readonly number[];
+  readonly spine: readonly number[];
+  readonly scale: readonly number[];
+  readonly orientation: readonly number[];
+  readonly beginCap: boolean;
+  readonly endCap: boolean;
+}
+
+/** Undefined where the spine or the cross-section has fewer than two points. */
+export function extrusion(values: ExtrusionFields): Surface | undefined {
+  const spine = vectorsOf(values.spine, 3).map(([x = 0, y = 0, z = 0]): Vec3 => [x, y, z]);
+  const section = vectorsOf(values.crossSection, 2).map(([x = 0, z = 0]): readonly [number, number] => [x, z]);
+  if (spine.length < 2 || section.length < 2) return undefined;
+  const scales = vectorsOf(values.scale, 2),
+    turns = vectorsOf(values.orientation, 4);
+  const positions = framesAlong(spine).flatMap((frame, i) => {
+    const [scaleX = 1, scaleZ = 1] = scales[Math.min(i, scales.length - 1)] ?? [];
+    const turn = turns[Math.min(i, turns.length - 1)] ?? [];
+    return section.flatMap(([x, z]) => inFrame(frame, rotated([x * scaleX, 0, z * scaleZ], turn), spine[i] ?? nowhere));
+  });
+  const builder = new FaceBuilder(spine, section, positions);
+  builder.addSides();
+  if (values.beginCap) builder.addCap(0, true);
+  if (values.endCap) builder.addCap(spine.length - 1, false);
+  return builder.surface;
+}
+
+const nowhere: Vec3 = [0, 0, 0];
+
+function vectorsOf(numbers: readonly number[], size: number): number[][] {
+  return Array.from({ length: Math.floor(numbers.length / size) }, (_, i) => numbers.slice(size * i, size * i + size));
+}
+
+function inFrame([x, y, z]: Frame, point: Vec3, at: Vec3): number[] {
+  return [0, 1, 2].map((i) => (at[i] ?? 0) + (x[i] ?? 0) * point[0] + (y[i] ?? 0) * point[1] + (z[i] ?? 0) * point[2]);
+}
+
+function isClosed(first: readonly number[] | undefined, last: readonly number[] | undefined): boolean {
+  return first?.every((value, i) => value === last?.[i]) === true;
+}
+
+/** The planes across the spine (13.3.5.4): y along it, z out of its bend. */
+function framesAlong(spine: readonly Vec3[]): Frame[] {
+  const count = spine.length,
+    closed = count > 2 && isClosed(spine[0], spine[count - 1]);
+  const at = (i: number) =>
+    spine[closed ? (i + count - 1) % (count - 1) : Math.min(Math.max(i, 0), count - 1)] ?? nowhere;
+  const tangents = filled(spine.map((_, i) => unit(minus(at(i + 1), at(i - 1)))));
+  const bends = filled(spine.map((_, i) => unit(cross(minus(at(i + 1), at(i)), minus(at(i - 1), at(i))))));
+  if (tangents === undefined)
+    return spine.map(() => [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+    ]);
+  if (bends === undefined) return tangents.map((tangent) => straight(tangent));
+  let before: Vec3 | undefined;
+  return tangents.map((y, i): Frame => {
+    let z = bends[i] ?? nowhere;
+    if (before !== undefined && dot(z, before) < 0) z = minus(nowhere, z);
+    before = z;
+    const x = unit(cross(y, z)) ?? [1, 0, 0];
+    return [x, y, z];
+  });
+}
+
+/** What has no direction of its own takes that of what comes before, or else behind. Undefined where nothing has one. */
+function filled(vectors: readonly (Vec3 | undefined)[]): Vec3[] | undefined {
+  let before = vectors.find((vector) => vector !== undefined);
+  if (before === undefined) return undefined;
+  return vectors.map((vector) => (before = vector ?? before) ?? nowhere);
+}
+
+/** Of a straight spine: the y axis turned the shortest way onto it. */
+function straight(tangent: Vec3): Frame {
+  const up: Vec3 = [0, 1, 0];
+  const axis = cross(up, tangent),
+    sine = Math.hypot(...axis);
+  const turn = sine > 1e-12 ? [...axis, Math.atan2(sine, tangent[1])] : [1, 0, 0, tangent[1] < 0 ? Math.PI : 0];
+  return [rotated([1, 0, 0], turn), rotated(up, turn), rotated([0, 0, 1], turn)];
+}
+
+class FaceBuilder {
+  readonly #spine: readonly Vec3[];
+  readonly #section: readonly (readonly [number, number])[];
+  readonly #positions: number[];
+  readonly #texCoords: number[] = [];
+  readonly #faces: Corner[][] = [];
+
+  constructor(spine: readonly Vec3[], section: readonly (readonly [number, number])[], positions: readonly number[]) {
+    this.#spine = spine;
+    this.#section = section;
+    this.#positions = [...positions];
+  }
+
+  /** Where a curve is closed its ends are one place, over which the surface is smooth. */
+  addSides(): void {
+    const [rows, columns] = [this.#spine.length, this.#section.length];
+    const ringClosed = columns > 2 && isClosed(this.#section[0], this.#section[columns - 1]);
+    const spineClosed =
+      rows > 2 &&
+      isClosed(this.#spine[0], this.#spine[rows - 1]) &&
+      isClosed(this.#positions.slice(0, 3 * columns), this.#positions.slice(-3 * columns));
+    for (let i = 0; i < rows; ++i)
+      for (let j = 0; j < columns; ++j) this.#texCoords.push(j / (columns - 1), i / (rows - 1));
+    const corner = (i: number, j: number): Corner => ({
+      position: (spineClosed ? i % (rows - 1) : i) * columns + (ringClosed ? j % (columns - 1) : j),
+      texCoord: i * columns + j,
+      normal: -1,
+      color: -1,
+    });
+    for (let i = 0; i + 1 < rows; ++i) {
+      for (let j = 0; j + 1 < columns; ++j)
+        this.#faces.push([corner(i, j), corner(i, j + 1), corner(i + 1, j + 1), corner(i + 1, j)]);
+    }
+  }
+
+  /** With vertices of its own: its rim is an edge. */
+  addCap(row: number, isTurned: boolean): void {
+    const columns = this.#section.length;
+    const corners = isClosed(this.#section[0], this.#section[columns - 1]) ? columns - 1 : columns;
+    if (corners < 3) return;
+    const along = (pick: 0 | 1) => this.#section.map((point) => point[pick]);
+    const [left, low] = [Math.min(...along(0)), Math.min(...along(1))];
+    const extent = Math.max(Math.max(...along(0)) - left, Math.max(...along(1)) - low) || 1;
+    const face: Corner[] = [];
+    for (let j = 0; j < corners; ++j) {
+      const [x = 0, z = 0] = this.#section[j] ?? [];
+      face.push({ position: this.#positions.length / 3, texCoord: this.#texCoords.length / 2, normal: -1, color: -1 });
+      this.#positions.push(...this.#positions.slice(3 * (row * columns + j), 3 * (row * columns + j) + 3));
+      this.#texCoords.push((x - left) / extent, (isTurned ? z - low : extent - (z - low)) / extent);
+    }
+    this.#faces.push(isTurned ? face.reverse() : face);
+  }
+
+  get surface(): Surface {
+    return {
+      data: { positions: this.#positions, normals: [], texCoords: this.#texCoords, colors: [], colorComponents: 3 },
+      faces: this.#faces,
+    };
+  }
+}

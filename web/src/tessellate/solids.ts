@@ -1,0 +1,185 @@
+// X3D's Box, Sphere, Cylinder and Cone (ISO/IEC 19775-1, 13.3) as faces with normals and
+// texture coordinates.
+
+import type { Corner, VertexData } from "./faces.ts";
+
+/** Of round ones, around their axis; a whole circle in steps of 7.5 degrees. */
+const segments = 48;
+
+export interface Solid {
+  readonly data: VertexData;
+  readonly faces: Corner[][];
+}
+
+/** Where a corner is, where the surface looks there, and where it is on a texture. */
+interface SolidCorner {
+  readonly position: readonly number[];
+  readonly normal: readonly number[];
+  readonly texCoord: readonly [number, number];
+}
+
+class SolidBuilder {
+  readonly #positions: number[] = [];
+  readonly #normals: number[] = [];
+  readonly #texCoords: number[] = [];
+  readonly #faces: Corner[][] = [];
+
+  /** Corners against the clock as seen from outside. */
+  addFace(...corners: SolidCorner[]): void {
+    this.#faces.push(
+      corners.map(({ position, normal, texCoord }) => {
+        const number = this.#positions.length / 3;
+        this.#positions.push(...position);
+        this.#normals.push(...normal);
+        this.#texCoords.push(...texCoord);
+        return { position: number, normal: number, texCoord: number, color: -1 };
+      }),
+    );
+  }
+
+  get solid(): Solid {
+    const data = {
+      positions: this.#positions,
+      normals: this.#normals,
+      texCoords: this.#texCoords,
+      colors: [],
+      colorComponents: 3 as const,
+    };
+    return { data, faces: this.#faces };
+  }
+}
+
+/** Of a box's sides: what they face, and where right and up of a texture lie (ISO/IEC 19775-1, 13.3.1). */
+const sides = [
+  [
+    [0, 0, 1],
+    [1, 0, 0],
+    [0, 1, 0],
+  ],
+  [
+    [0, 0, -1],
+    [-1, 0, 0],
+    [0, 1, 0],
+  ],
+  [
+    [1, 0, 0],
+    [0, 0, -1],
+    [0, 1, 0],
+  ],
+  [
+    [-1, 0, 0],
+    [0, 0, 1],
+    [0, 1, 0],
+  ],
+  [
+    [0, 1, 0],
+    [1, 0, 0],
+    [0, 0, -1],
+  ],
+  [
+    [0, -1, 0],
+    [1, 0, 0],
+    [0, 0, 1],
+  ],
+] as const;
+
+export function box(size: readonly [number, number, number]): Solid {
+  const builder = new SolidBuilder();
+  for (const [normal, right, up] of sides) {
+    const corner = (u: 0 | 1, v: 0 | 1): SolidCorner => ({
+      position: size.map(
+        (edge, axis) =>
+          (edge / 2) * ((normal[axis] ?? 0) + (2 * u - 1) * (right[axis] ?? 0) + (2 * v - 1) * (up[axis] ?? 0)),
+      ),
+      normal,
+      texCoord: [u, v],
+    });
+    builder.addFace(corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1));
+  }
+  return builder.solid;
+}
+
+/** Around the y axis from behind, against the clock as seen from above: sine and cosine towards +x and +z. */
+function around(segment: number): readonly [x: number, z: number] {
+  const phi = (2 * Math.PI * segment) / segments;
+  return [-Math.sin(phi), -Math.cos(phi)];
+}
+
+export function sphere(radius: number): Solid {
+  const builder = new SolidBuilder();
+  const rings = segments / 2;
+  const at = (ring: number, segment: number): SolidCorner => {
+    const theta = (Math.PI * ring) / rings;
+    const [x, z] = around(segment);
+    const normal = [Math.sin(theta) * x, Math.cos(theta), Math.sin(theta) * z];
+    return {
+      position: normal.map((value) => value * radius),
+      normal,
+      texCoord: [segment / segments, 1 - ring / rings],
+    };
+  };
+  for (let ring = 0; ring < rings; ++ring) {
+    for (let segment = 0; segment < segments; ++segment) {
+      const quad = [at(ring, segment), at(ring + 1, segment), at(ring + 1, segment + 1), at(ring, segment + 1)];
+      if (ring === 0) quad.pop(); // both are the pole
+      if (ring === rings - 1) quad.splice(2, 1);
+      builder.addFace(...quad);
+    }
+  }
+  return builder.solid;
+}
+
+export interface CylinderSurfaces {
+  readonly side: boolean;
+  readonly top: boolean;
+  readonly bottom: boolean;
+}
+
+/** Along y around the origin; a cone has no radius at its top. */
+export function cylinderOrCone(
+  topRadius: number,
+  bottomRadius: number,
+  height: number,
+  parts: CylinderSurfaces,
+): Solid {
+  const builder = new SolidBuilder();
+  const slope = (bottomRadius - topRadius) / height;
+  const lean = Math.hypot(1, slope);
+  const [top, bottom] = [height / 2, -height / 2];
+  const wall = (segment: number, y: number, radius: number): SolidCorner => {
+    const [x, z] = around(segment);
+    return {
+      position: [x * radius, y, z * radius],
+      normal: [x / lean, slope / lean, z / lean],
+      texCoord: [segment / segments, y / height + 0.5],
+    };
+  };
+  // The largest circle of the texture, upright for who leans over it.
+  const lid = (segment: number, y: number, radius: number, facing: 1 | -1): SolidCorner => {
+    const [x, z] = radius > 0 ? around(segment) : [0, 0];
+    return {
+      position: [x * radius, y, z * radius],
+      normal: [0, facing, 0],
+      texCoord: [0.5 + x / 2, 0.5 - (facing * z) / 2],
+    };
+  };
+  for (let segment = 0; segment < segments; ++segment) {
+    if (parts.side) {
+      const quad = [
+        wall(segment, bottom, bottomRadius),
+        wall(segment + 1, bottom, bottomRadius),
+        wall(segment + 1, top, topRadius),
+      ];
+      builder.addFace(...quad, ...(topRadius > 0 ? [wall(segment, top, topRadius)] : []));
+    }
+    if (parts.top && topRadius > 0)
+      builder.addFace(lid(0, top, 0, 1), lid(segment, top, topRadius, 1), lid(segment + 1, top, topRadius, 1));
+    if (parts.bottom)
+      builder.addFace(
+        lid(0, bottom, 0, -1),
+        lid(segment + 1, bottom, bottomRadius, -1),
+        lid(segment, bottom, bottomRadius, -1),
+      );
+  }
+  return builder.solid;
+}

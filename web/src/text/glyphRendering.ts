@@ -1,0 +1,104 @@
+// Letters of a text, drawn by the browser in the fonts that it has and the page
+// brings, and measured there too.
+
+import { distanceField } from "./distanceField.ts";
+
+const maxEdge = 2048;
+
+/** What document/letterSheet.ts writes: runs whose pen begins at x, y from the upper left, in a font with its size. */
+interface Letters {
+  readonly width: number;
+  readonly height: number;
+  /** Texels over which the field falls from an edge to nothing. */
+  readonly spread: number;
+  readonly font: string;
+  readonly runs: readonly { readonly text: string; readonly x: number; readonly y: number }[];
+}
+
+/** The description of an atlas is malformed, or the browser has no canvas to draw it on. */
+export class GlyphAtlasError extends Error {
+  readonly kind: "malformed" | "unsupported";
+
+  constructor(kind: GlyphAtlasError["kind"], message: string) {
+    super(message);
+    this.kind = kind;
+  }
+}
+
+let canvas: OffscreenCanvasRenderingContext2D | undefined;
+
+/** At this size a font's own numbers, which browsers round to whole pixels, are within a thousandth of an em. */
+const measuredSize = 512;
+
+/** In em, as document/textLayout.ts has it. */
+export function measureRun(
+  { family, isBold, isItalic }: { family: string; isBold: boolean; isItalic: boolean },
+  text: string,
+): {
+  advance: number;
+  ink: { left: number; right: number; up: number; down: number };
+  ascent: number;
+  descent: number;
+} {
+  canvas ??= contextOf(1, 1);
+  canvas.font = `${isItalic ? "italic " : ""}${isBold ? "bold " : ""}${measuredSize}px ${family}`;
+  const metrics = canvas.measureText(text);
+  const {
+    actualBoundingBoxLeft: left,
+    actualBoundingBoxRight: right,
+    actualBoundingBoxAscent: up,
+    actualBoundingBoxDescent: down,
+  } = metrics;
+  const inEm = (pixels: number) => pixels / measuredSize;
+  return {
+    advance: inEm(metrics.width),
+    ink: { left: inEm(left), right: inEm(right), up: inEm(up), down: inEm(down) },
+    ascent: inEm(metrics.fontBoundingBoxAscent),
+    descent: inEm(metrics.fontBoundingBoxDescent),
+  };
+}
+
+/** Draws a white bitmap with the glyphs' distance field as alpha, bottom row first. Rejects with GlyphAtlasError. */
+export async function drawGlyphAtlas(bytes: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
+  const { width, height, spread, font, runs } = lettersIn(bytes);
+  const context = contextOf(width, height);
+  context.font = font;
+  context.fillStyle = "white";
+  for (const { text, x, y } of runs) context.fillText(text, x, y);
+  const image = context.getImageData(0, 0, width, height);
+  const field = distanceField(
+    Uint8Array.from({ length: width * height }, (_, texel) => image.data[4 * texel + 3] ?? 0),
+    width,
+    height,
+    spread,
+  );
+  image.data.fill(255);
+  field.forEach((distance, texel) => {
+    image.data[4 * texel + 3] = distance;
+  });
+  return createImageBitmap(image, {
+    premultiplyAlpha: "none",
+    imageOrientation: "flipY",
+    colorSpaceConversion: "none",
+  });
+}
+
+function contextOf(width: number, height: number): OffscreenCanvasRenderingContext2D {
+  const context = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
+  if (context === null) throw new GlyphAtlasError("unsupported", "is a text, and this browser has no canvas for it");
+  context.textRendering = "geometricPrecision"; // outlines as they are, not moved to whole pixels
+  return context;
+}
+
+function lettersIn(bytes: Uint8Array): Letters {
+  const letters: unknown = JSON.parse(new TextDecoder().decode(bytes));
+  if (!isLetters(letters)) throw new GlyphAtlasError("malformed", "is no sheet of letters");
+  return letters;
+}
+
+function isLetters(value: unknown): value is Letters {
+  if (typeof value !== "object" || value === null) return false;
+  const { width, height, spread, font, runs } = value as Partial<Record<keyof Letters, unknown>>;
+  const isEdge = (edge: unknown) => Number.isInteger(edge) && Number(edge) > 0 && Number(edge) <= maxEdge;
+  return isEdge(width) && isEdge(height) && isEdge(spread) && typeof font === "string" && Array.isArray(runs);
+}

@@ -1,0 +1,156 @@
+// X3D's Text -> a rectangle for each run of its letters, and the picture that is laid
+// over them.
+
+import { geometryOfArrays } from "../document/arrayGeometry.ts";
+import type { AppearanceDescription, TextureDescription, Warning } from "../document/description.ts";
+import type { SceneElement } from "../document/element.ts";
+import { childrenOf, lowerNameOf } from "../document/element.ts";
+import type { TextReader } from "../document/textReader.ts";
+import type { GlyphAtlas } from "./glyphAtlas.ts";
+import { hasInk, glyphAtlasOf, glyphAtlasUrl } from "./glyphAtlas.ts";
+import type { Values } from "../document/nodes.ts";
+import { nodeFields, readFields } from "../document/nodes.ts";
+import type { Alignment, Font, MeasureRun, PositionedRun, TextStyle } from "./textLayout.ts";
+import { alignments, layOut } from "./textLayout.ts";
+
+/**
+ * For who can measure, and draw, letters. `editionOf` says how often faces of a font have
+ * come that were not here at first: a text's picture is another one then.
+ */
+export function textReader(
+  measure: MeasureRun,
+  editionOf: (font: Font, letters: string) => number = () => 0,
+): TextReader {
+  const geometryOf: TextReader["geometryOf"] = (element, resolve, warnings) => {
+    const { string, length, maxExtent, solid } = readFields(element, nodeFields.Text, warnings);
+    const fontStyle = childrenOf(element)
+      .flatMap((child) => resolve(child) ?? [])
+      .find((child) => lowerNameOf(child) === "fontstyle");
+    const fields = readFields(fontStyle ?? nothing, nodeFields.FontStyle, warnings);
+    if (fields.size <= 0) {
+      warnings.push({
+        element,
+        message: `size="${fields.size}" of its FontStyle is no size of letters; nothing is drawn`,
+      });
+      return undefined;
+    }
+    const style = styleOf(fields);
+    const runs = layOut(
+      string,
+      length.map((each) => each / fields.size),
+      maxExtent / fields.size,
+      style,
+      measure,
+    );
+    const sheet = glyphAtlasOf(runs);
+    if (sheet === undefined) {
+      warnings.push({ element, message: "has more letters than one picture holds; nothing is drawn" });
+      return undefined;
+    }
+    const geometry = geometryOfArrays(rectanglesOf(runs, sheet, fields.size), solid);
+    return (
+      geometry && { ...geometry, glyphAtlas: glyphAtlasUrl(sheet, style.font, editionOf(style.font, string.join(""))) }
+    );
+  };
+  return { geometryOf, appearanceOf: lettered };
+}
+
+const nothing: SceneElement = { localName: "", children: [], getAttribute: () => null, getAttributeNames: () => [] };
+
+function styleOf(fields: Values<typeof nodeFields.FontStyle>): TextStyle {
+  const { family, justify, spacing, horizontal, leftToRight, topToBottom } = fields;
+  const [major, minor] = justify.map(
+    (word): Alignment => alignments.find((alignment) => alignment === word.trim().toUpperCase()) ?? "BEGIN",
+  );
+  return {
+    font: fontOf(family, fields["data-style"] || fields.style),
+    spacing,
+    horizontal,
+    leftToRight,
+    topToBottom,
+    major: major ?? "BEGIN",
+    minor: minor ?? "FIRST",
+  };
+}
+
+/** X3D's three families of fonts are three of CSS's. */
+const families: Readonly<Record<string, string>> = { SERIF: "serif", SANS: "sans-serif", TYPEWRITER: "monospace" };
+
+function fontOf(family: readonly string[], style: string): Font {
+  const isGeneric = (name: string) => name.trim().toUpperCase() in families;
+  const generic = family.findIndex(isGeneric);
+  const named = (generic < 0 ? family : family.slice(0, generic))
+    .map((name) => name.trim())
+    .filter((name) => /^[\w -]+$/.test(name));
+  // Behind a generic family there is nothing to fall back on, and Chromium then takes the last one.
+  const last = families[family[generic]?.trim().toUpperCase() ?? ""] ?? "serif";
+  return {
+    family: [...named.map((name) => `"${name}"`), last].join(", "),
+    isBold: /^BOLD/i.test(style.trim()),
+    isItalic: /ITALIC$/i.test(style.trim()),
+  };
+}
+
+/** Two triangles for each run, around its cell of the sheet; they face +z. */
+function rectanglesOf(
+  runs: readonly PositionedRun[],
+  { cells, width, height, texelsPerEm }: GlyphAtlas,
+  size: number,
+): Parameters<typeof geometryOfArrays>[0] {
+  const positions: number[] = [],
+    texCoords: number[] = [];
+  for (const { text, x, y, stretchX, stretchY } of runs.filter(hasInk)) {
+    const cell = cells.get(text);
+    if (cell === undefined) continue;
+    for (const [s, t] of [
+      [0, 0],
+      [1, 0],
+      [1, 1],
+      [0, 0],
+      [1, 1],
+      [0, 1],
+    ] as const) {
+      const [across, down] = [cell.left + s * cell.width, cell.top + (1 - t) * cell.height];
+      positions.push(
+        size * (x + (stretchX * (across - cell.penX)) / texelsPerEm),
+        size * (y + (stretchY * (cell.penY - down)) / texelsPerEm),
+        0,
+      );
+      texCoords.push(across / width, 1 - down / height);
+    }
+  }
+  return {
+    primitive: "triangles",
+    colorComponents: 3,
+    colors: undefined,
+    positions: Float32Array.from(positions),
+    texCoords: Float32Array.from(texCoords),
+    normals: Float32Array.from(positions, (_, i) => (i % 3 === 2 ? 1 : 0)),
+  };
+}
+
+/** Letters are cut out of the shape's colour; pictures of its own it has no room for. */
+function lettered(
+  appearance: AppearanceDescription,
+  letters: string,
+  element: SceneElement,
+  warnings: Warning[],
+): AppearanceDescription {
+  if (appearance.textures.length > 0) warnings.push({ element, message: "is a text: its textures are not shown" });
+  const texture: TextureDescription = {
+    role: "color",
+    url: letters,
+    preview: "",
+    transform: [1, 0, 0, 0, 1, 0, 0, 0, 1],
+    sampling: {
+      isData: false,
+      wrapS: "clamp",
+      wrapT: "clamp",
+      isSmooth: true,
+      hasMipmaps: true,
+      anisotropy: 8,
+      isDistanceField: true,
+    },
+  };
+  return { ...appearance, alpha: { mode: "BLEND", cutoff: appearance.alpha.cutoff }, textures: [texture] };
+}
