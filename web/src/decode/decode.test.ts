@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { DecodeError } from "./decodeError.ts";
-import type { ElementRange } from "./elements.ts";
-import { countIn, indexArrayOf, vertexArrayOf } from "./elements.ts";
+import type { ElementRange } from "./bg/bgArrays.ts";
+import { countIn, indexArrayOf, vertexArrayOf } from "./bg/bgArrays.ts";
 import { byteSizeOf } from "../stage/elementType.ts";
 import { trianglesFromStrip } from "./strips.ts";
 import { decodeImage } from "./image.ts";

@@ -8,8 +8,8 @@ import {
   classicNormals,
   classicTexCoords,
   classicValues,
-} from "./classicArrays.ts";
-import { classicGrid } from "./classicGrid.ts";
+} from "./classic/classicArrays.ts";
+import { classicGrid } from "./classic/classicGrid.ts";
 import { compactBases, compactPatches } from "./compact/jobs.ts";
 
 export const jobs = {

@@ -12,9 +12,9 @@ import type { PatchFile } from "./patchFiles.ts";
 import { bytesPerTexel, patchFilesOf } from "./patchFiles.ts";
 import type { Transfer } from "./progress.ts";
 import type { Content, ContentKind, ResourceHandle, ResourcePool } from "./resourcePool.ts";
-import { bgBuilder } from "./bgStage.ts";
-import { compactBuilder } from "./compactStage.ts";
-import { sigBuilder } from "./sigStage.ts";
+import { bgStageBuilder } from "./encodings/bg/bgStage.ts";
+import { compactStageBuilder } from "./encodings/compact/compactStage.ts";
+import { classicStageBuilder } from "./encodings/classic/classicStage.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
 
 export interface DeliveryListener {
@@ -271,11 +271,11 @@ function builderOf(
 ): StageBuilder {
   switch (geometry.container) {
     case "bg":
-      return bgBuilder(geometry, patch, pool);
+      return bgStageBuilder(geometry, patch, pool);
     case "compact":
-      return compactBuilder(geometry, patch, place, pool);
+      return compactStageBuilder(geometry, patch, place, pool);
     case "sig":
-      return sigBuilder(geometry, patch, pool);
+      return classicStageBuilder(geometry, patch, pool);
   }
 }
 

@@ -24,7 +24,7 @@ describe("bases that are asked for early", () => {
     const { byteLength, bases } = await content;
     assert.equal(byteLength, file.length);
     assert.ok(bases[0] && bases[0].whole.vertexCount > 0);
-    assert.deepEqual(await early.take("b.png"), { byteLength, bases: bases.map((base) => base.parts) });
+    assert.deepEqual(await early.take("b.png"), { byteLength, bases: bases.map((base) => base.segments) });
     assert.equal(early.take("b.png"), undefined);
     assert.deepEqual(asked, ["b.png"]);
   });

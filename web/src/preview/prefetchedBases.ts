@@ -2,7 +2,7 @@
 // are fetched and decoded once; what has failed it asks for anew, and reports.
 
 import type { Base, BaseBuffers } from "../decode/compact/baseBuffers.ts";
-import { wholeBases } from "../decode/compact/jobs.ts";
+import { decodeBases } from "../decode/compact/jobs.ts";
 
 /** Of one file. */
 interface DecodedBases<Decoded> {
@@ -36,12 +36,12 @@ export class PrefetchedBases {
   take(url: string): Promise<DecodedBases<BaseBuffers>> | undefined {
     const file = this.#files.get(url);
     this.#files.delete(url);
-    return file?.decoded.then(({ byteLength, bases }) => ({ byteLength, bases: bases.map((base) => base.parts) }));
+    return file?.decoded.then(({ byteLength, bases }) => ({ byteLength, bases: bases.map((base) => base.segments) }));
   }
 
   #load(url: string): PrefetchedFile {
     const arrival = this.#download(url);
-    const content = arrival.then(async (bytes) => ({ byteLength: bytes.byteLength, bases: await wholeBases(bytes) }));
+    const content = arrival.then(async (bytes) => ({ byteLength: bytes.byteLength, bases: await decodeBases(bytes) }));
     for (const promise of [arrival, content]) promise.catch(() => undefined); // nobody has to look
     return { downloaded: arrival, decoded: content };
   }

@@ -100,7 +100,7 @@ export class Preview {
     const shapes = new Map(this.#wanted.scene.shapes.map((shape) => [shape.element, shape])); // one may stand in several places
     return Array.from(shapes.values(), (shape) => ({
       element: shape.element,
-      patches: (this.#baseOf(shape)?.parts ?? []).flatMap((part, patch) => (part === undefined ? [] : [patch])),
+      patches: (this.#baseOf(shape)?.segments ?? []).flatMap((part, patch) => (part === undefined ? [] : [patch])),
     }));
   }
 

@@ -22,7 +22,7 @@ export type BaseOf = (shape: PreviewShape) => Base | undefined;
 /** Whether its base holds what the document says of it, and nothing that is seen through. */
 export function isDrawable({ geometry, appearance }: PreviewShape, base: Base | undefined): boolean {
   return (
-    base?.partCount === geometry.patches.length &&
+    base?.segmentCount === geometry.patches.length &&
     base.whole.positionBits === latticeBitsOf(geometry) &&
     !isBlended(appearance, base.whole.color?.components === 4)
   );

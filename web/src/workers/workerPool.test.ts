@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import type { IndexJob, NormalJob } from "../decode/classicArrays.ts";
+import type { IndexJob, NormalJob } from "../decode/classic/classicArrays.ts";
 import { DecodeError } from "../decode/decodeError.ts";
 import { pngWithTexels } from "../decode/png.testing.ts";
 import type { AnswerMessage, JobMessage } from "./protocol.ts";

@@ -1,12 +1,12 @@
 // The models that every attribute's stream begins with: docs/formats/compact.md,
 // the end of "Attributes".
 
-import { numberModels } from "./rangeDecoder.ts";
+import { numberModelCount } from "./rangeDecoder.ts";
 
 export const repeatModel = 0;
 export const choiceModels = repeatModel + 1;
 export const exactModels = choiceModels + 24;
 export const flipModel = exactModels + 2;
 export const firstModels = flipModel + 1;
-export const secondModels = firstModels + numberModels;
-export const attributeModelCount = secondModels + 93 * numberModels;
+export const secondModels = firstModels + numberModelCount;
+export const attributeModelCount = secondModels + 93 * numberModelCount;

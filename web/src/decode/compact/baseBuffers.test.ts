@@ -30,7 +30,7 @@ describe("the parts of a base", () => {
             : [],
         ),
       );
-      const buffers = new Base(decodeVector(name)[0]!).parts;
+      const buffers = new Base(decodeVector(name)[0]!).segments;
       assert.equal(buffers.length, partCount);
       assert.deepEqual(
         buffers.map((part) => {
@@ -61,7 +61,7 @@ describe("the parts of a base", () => {
 
   test("are all in one at first", () => {
     const { corners, wedgePositions, positions } = (readVector("base-seams") as Expected[])[0]!;
-    const { whole, partCount } = new Base(decodeVector("base-seams")[0]!);
+    const { whole, segmentCount: partCount } = new Base(decodeVector("base-seams")[0]!);
     assert.deepEqual(Array.from(whole.index!), corners);
     const { array, stride } = whole.coord;
     const places = Array.from({ length: whole.vertexCount }, (_, w) =>
@@ -77,7 +77,7 @@ describe("the parts of a base", () => {
   test("have one normal at each place, whatever seams the texture has", () => {
     const normals = new Map<string, string>();
     let seams = 0;
-    for (const part of new Base(decodeVector("base-seams")[0]!).parts) {
+    for (const part of new Base(decodeVector("base-seams")[0]!).segments) {
       if (part?.normal === undefined) continue;
       const { coord, normal } = part;
       for (let n = 0; n < part.vertexCount; ++n) {

@@ -11,7 +11,7 @@ import { indexOf, verticesOf } from "./patchBuffers.ts";
 export type BaseBuffers = (PatchBuffers | undefined)[];
 
 export class Base {
-  readonly partCount: number;
+  readonly segmentCount: number;
   /** All parts in one. */
   readonly whole: PatchBuffers;
   readonly #part: Int32Array;
@@ -22,19 +22,19 @@ export class Base {
   constructor(patch: CompactPatch) {
     const {
       header,
-      parts,
+      segments: parts,
       wedges: { wedge },
     } = patch;
     if (parts === undefined) throw new DecodeError("malformed", "holds a patch where a base should be");
-    this.partCount = header.partCount;
+    this.segmentCount = header.segmentCount;
     this.whole = { ...verticesOf(patch), index: indexOf(wedge, header.wedgeCount) };
-    this.#part = parts.part;
+    this.#part = parts.segment;
     this.#wedge = wedge;
   }
 
   /** Its parts, made when they are first asked for. */
-  get parts(): BaseBuffers {
-    return (this.#parts ??= partsOf(this.whole, this.#wedge, this.#part, this.partCount));
+  get segments(): BaseBuffers {
+    return (this.#parts ??= partsOf(this.whole, this.#wedge, this.#part, this.segmentCount));
   }
 }
 

@@ -7,7 +7,7 @@ import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
 import { unconnected } from "./connectivity.ts";
 import type { RangeDecoder } from "./rangeDecoder.ts";
-import { numberModels } from "./rangeDecoder.ts";
+import { numberModelCount } from "./rangeDecoder.ts";
 
 const degreeContexts = 12 * 12 * 8;
 const makeModels = 0;
@@ -17,8 +17,8 @@ const holeModels = backModels + degreeContexts;
 const joinModel = holeModels + 4;
 const oldModels = joinModel + 1;
 const nodeModels = oldModels + 3;
-const vertexModels = nodeModels + numberModels;
-export const triangleModelCount = vertexModels + numberModels;
+const vertexModels = nodeModels + numberModelCount;
+export const triangleModelCount = vertexModels + numberModelCount;
 
 // A node is a place on the boundary and stands for the edge from the node before
 // to it. A node's number is where its four fields begin.

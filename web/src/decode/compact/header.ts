@@ -37,7 +37,7 @@ export interface FileHeader {
 export interface FileStreams {
   readonly sizes: Uint8Array;
   readonly connectivity: Uint8Array;
-  readonly parts: Uint8Array;
+  readonly segments: Uint8Array;
   readonly positions: Uint8Array;
   readonly wedges: Uint8Array;
   /** One for each attribute of the header. */
@@ -45,11 +45,11 @@ export interface FileStreams {
 }
 
 /** Of all patches of a file: vertices, wedges and elements each. */
-export const largestCount = 2 ** 20;
-const mostPatches = 65536;
-const mostTypes = 256;
-const mostFileAttributes = 256;
-const mostAttributes = 16;
+export const maxCount = 2 ** 20;
+const maxPatchCount = 65536;
+const maxTypeCount = 256;
+const maxFileAttributeCount = 256;
+const maxPatchAttributeCount = 16;
 const magic = [0x49, 0x47, 0x43]; // IGC
 const version = 1;
 
@@ -65,15 +65,15 @@ export function readFileHeader(payload: Uint8Array): { header: FileHeader; strea
     throw new DecodeError("malformed", "is no image of compact");
   if (fileVersion !== version)
     throw new DecodeError("unsupported", `is of version ${fileVersion} of compact, not ${version}`);
-  const attributes = Array.from({ length: readCount(reader, "attributes", mostFileAttributes) }, () =>
+  const attributes = Array.from({ length: readCount(reader, "attributes", maxFileAttributeCount) }, () =>
     readAttributeType(reader),
   );
-  const types = Array.from({ length: readCount(reader, "types of patches", mostTypes) }, () =>
+  const types = Array.from({ length: readCount(reader, "types of patches", maxTypeCount) }, () =>
     readPatchType(reader, attributes.length),
   );
   if (types.some(({ isBase }) => isBase !== types[0]?.isBase))
     throw new DecodeError("malformed", "holds bases beside patches");
-  const patchCount = within("number of patches", readCount(reader, "patches", mostPatches), 1, mostPatches);
+  const patchCount = within("number of patches", readCount(reader, "patches", maxPatchCount), 1, maxPatchCount);
   return { header: { attributes, types, patchCount }, streams: readStreams(reader, attributes.length) };
 }
 
@@ -88,7 +88,7 @@ function readPatchType(reader: FieldReader, attributeCount: number): PatchType {
   const positionBits = within("bits of a position", reader.byte(), 1, 30);
   const isBase = within("flags", reader.byte(), 0, 1) === 1;
   if (isBase && topology !== "triangles") throw new DecodeError("malformed", `holds parts of ${topology}`);
-  const count = within("number of attributes", reader.byte(), 0, mostAttributes);
+  const count = within("number of attributes", reader.byte(), 0, maxPatchAttributeCount);
   const places: number[] = [];
   while (places.length < count) {
     const place = within("attribute", reader.byte(), 0, attributeCount - 1);
@@ -112,7 +112,7 @@ function readStreams(reader: FieldReader, attributeCount: number): FileStreams {
   const [sizes, connectivity, parts, positions, wedges, ...attributes] = lengths.map((length) =>
     reader.bytes(length),
   ) as [Uint8Array, Uint8Array, Uint8Array, Uint8Array, Uint8Array, ...Uint8Array[]];
-  return { sizes, connectivity, parts, positions, wedges, attributes };
+  return { sizes, connectivity, segments: parts, positions, wedges, attributes };
 }
 
 /** The value, which is refused outside of its range. */

@@ -11,18 +11,18 @@ import { buffersOf } from "./patchBuffers.ts";
 /** All patches of a file. Rejects with DecodeError. Safe for untrusted bytes. */
 export async function compactPatches(png: Uint8Array<ArrayBuffer>): Promise<PatchBuffers[]> {
   return decodePatches(await payloadOf(png), (patch) => {
-    if (patch.parts) throw new DecodeError("malformed", "holds a base where a patch should be");
+    if (patch.segments) throw new DecodeError("malformed", "holds a base where a patch should be");
     return buffersOf(patch);
   });
 }
 
 /** The parts of all bases of a file. Rejects with DecodeError. Safe for untrusted bytes. */
 export async function compactBases(png: Uint8Array<ArrayBuffer>): Promise<BaseBuffers[]> {
-  return (await wholeBases(png)).map((base) => base.parts);
+  return (await decodeBases(png)).map((base) => base.segments);
 }
 
 /** All bases of a file, for who shows them whole first. Rejects with DecodeError. Safe for untrusted bytes. */
-export async function wholeBases(png: Uint8Array<ArrayBuffer>): Promise<Base[]> {
+export async function decodeBases(png: Uint8Array<ArrayBuffer>): Promise<Base[]> {
   return decodePatches(await payloadOf(png), (patch) => new Base(patch));
 }
 

@@ -5,13 +5,13 @@ import type { Connectivity } from "./connectivity.ts";
 import { unconnected } from "./connectivity.ts";
 import { triangleModelCount } from "./conquest.ts";
 import type { RangeDecoder } from "./rangeDecoder.ts";
-import { numberModels } from "./rangeDecoder.ts";
+import { numberModelCount } from "./rangeDecoder.ts";
 
 // Behind those of triangles, in the same stream.
 const chainModel = triangleModelCount;
 const oldModels = chainModel + 1;
 const vertexModels = oldModels + 2;
-export const connectivityModelCount = vertexModels + numberModels;
+export const connectivityModelCount = vertexModels + numberModelCount;
 
 /** Safe for untrusted bytes. Throws DecodeError. */
 export function decodeLines(decoder: RangeDecoder, lineCount: number, vertexCount: number): Connectivity {

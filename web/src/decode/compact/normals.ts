@@ -8,7 +8,7 @@ import type { DecodedShape } from "./neighbours.ts";
 import { decodeRepeats } from "./neighbours.ts";
 import { dominantAxis, NormalSums } from "./normalSums.ts";
 import type { RangeDecoder } from "./rangeDecoder.ts";
-import { lengthInBits, numberModels } from "./rangeDecoder.ts";
+import { bitLength, numberModelCount } from "./rangeDecoder.ts";
 
 /** x, y, z of each wedge, |x| + |y| + |z| = 2^(bits - 1) - 1. Safe for untrusted bytes. Throws DecodeError. */
 export function decodeNormals(decoder: RangeDecoder, type: AttributeType, shape: DecodedShape): Int32Array {
@@ -17,7 +17,7 @@ export function decodeNormals(decoder: RangeDecoder, type: AttributeType, shape:
 
 /** The same of what is not stored: normals are what is predicted, in a base of all triangles around a vertex. */
 export function deriveNormals(type: AttributeType, shape: DecodedShape): Int32Array {
-  const previous = shape.header.partCount > 0 ? shape.wedges.seams?.previous : undefined;
+  const previous = shape.header.segmentCount > 0 ? shape.wedges.seams?.previous : undefined;
   return new NormalDecoder(
     undefined,
     type,
@@ -81,7 +81,7 @@ class NormalDecoder {
     if (decoder && !this.#isExpected(decoder)) {
       const residual = decoder.small(firstModels);
       u += residual;
-      v += decoder.small(secondModels + numberModels * Math.min(lengthInBits(Math.abs(residual)), 7));
+      v += decoder.small(secondModels + numberModelCount * Math.min(bitLength(Math.abs(residual)), 7));
       const left = this.#radius - Math.abs(u) - Math.abs(v);
       if (left < 0) throw new DecodeError("malformed", "holds a normal beside its octahedron");
       isFlipped = left > 0 && decoder.bit(flipModel) === 1;

@@ -7,8 +7,8 @@ import { readFileHeader } from "./header.ts";
 import { decodeLines } from "./lines.ts";
 import type { DecodedShape } from "./neighbours.ts";
 import { decodeNormals, deriveNormals } from "./normals.ts";
-import type { Parts } from "./parts.ts";
-import { decodeParts } from "./parts.ts";
+import type { Segments } from "./segments.ts";
+import { decodeSegments } from "./segments.ts";
 import { decodePositions } from "./positions.ts";
 import type { PatchHeader, SizedPatch } from "./sizes.ts";
 import { decodeSizes } from "./sizes.ts";
@@ -22,7 +22,7 @@ export interface CompactPatch extends DecodedShape {
   /** In the order of the header's attributes: its components of each wedge. */
   readonly attributes: readonly Int32Array[];
   /** Of a base. */
-  readonly parts: Parts | undefined;
+  readonly segments: Segments | undefined;
 }
 
 /**
@@ -40,14 +40,18 @@ export function decodePatches<Taken>(payload: Uint8Array, take: (patch: CompactP
 
 function decodePatch({ header, type }: SizedPatch, streams: StreamDecoders): CompactPatch {
   const connectivity = connectivityOf(header, streams);
-  const parts = type.isBase ? decodeParts(streams.parts, header, connectivity) : undefined;
+  const parts = type.isBase ? decodeSegments(streams.segments, header, connectivity) : undefined;
   const positions = decodePositions(streams.positions, header, connectivity, parts);
   const wedges: Wedges =
     header.wedgeCount > header.vertexCount
       ? decodeWedges(streams.wedges, header, connectivity)
       : { wedge: connectivity.vertex, seams: undefined };
   const shape: DecodedShape = { header, connectivity, wedges, ...positions };
-  return { ...shape, attributes: type.attributes.map((place, i) => decodeAttribute(place, i, shape, streams)), parts };
+  return {
+    ...shape,
+    attributes: type.attributes.map((place, i) => decodeAttribute(place, i, shape, streams)),
+    segments: parts,
+  };
 }
 
 function connectivityOf({ topology, elementCount, vertexCount }: PatchHeader, streams: StreamDecoders): Connectivity {

@@ -30,7 +30,7 @@ export interface OtherValues {
 }
 
 /** An index of 65,535 restarts primitives where it is the largest of its type. */
-const mostShortVertices = 65535;
+const maxUint16VertexCount = 65535;
 
 /** Of normals, colours and texture coordinates the first are shown. */
 export function buffersOf(patch: CompactPatch): PatchBuffers {
@@ -73,7 +73,7 @@ export function indexOf(corners: Int32Array, vertexCount: number): IndexArray {
 }
 
 function emptyIndex(length: number, vertexCount: number): IndexArray {
-  return vertexCount <= mostShortVertices ? new Uint16Array(length) : new Uint32Array(length);
+  return vertexCount <= maxUint16VertexCount ? new Uint16Array(length) : new Uint32Array(length);
 }
 
 function coordOf({ header, coordinates, connectivity, wedges: { seams } }: CompactPatch): VertexArray {

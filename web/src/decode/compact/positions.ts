@@ -5,20 +5,20 @@
 import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
 import { after, before } from "./connectivity.ts";
-import type { Parts } from "./parts.ts";
+import type { Segments } from "./segments.ts";
 import { dominantAxis, NormalSums } from "./normalSums.ts";
 import type { RangeDecoder } from "./rangeDecoder.ts";
-import { lengthInBits, numberModels } from "./rangeDecoder.ts";
+import { bitLength, numberModelCount } from "./rangeDecoder.ts";
 import type { Grid, PatchHeader } from "./sizes.ts";
 
 const choiceModels = 0;
 const firstModels = choiceModels + 8 * 16 * 4;
-const secondModels = firstModels + 16 * numberModels;
-const thirdModels = secondModels + 31 * numberModels;
+const secondModels = firstModels + 16 * numberModelCount;
+const thirdModels = secondModels + 31 * numberModelCount;
 // Of patches with a grid:
-const loneModels = thirdModels + 31 * numberModels;
-const gridModels = loneModels + 8 * numberModels;
-const maskModels = gridModels + 96 * numberModels;
+const loneModels = thirdModels + 31 * numberModelCount;
+const gridModels = loneModels + 8 * numberModelCount;
+const maskModels = gridModels + 96 * numberModelCount;
 export const positionModelCount = maskModels + 512 * 8;
 
 export interface Positions {
@@ -33,7 +33,7 @@ export function decodePositions(
   decoder: RangeDecoder,
   header: PatchHeader,
   connectivity: Connectivity,
-  parts: Parts | undefined,
+  parts: Segments | undefined,
 ): Positions {
   return new PositionDecoder(decoder, header, connectivity, parts).run();
 }
@@ -71,7 +71,7 @@ class PositionDecoder {
   readonly #guess = new Int32Array(3);
   readonly #slope = new Int32Array(3);
 
-  constructor(decoder: RangeDecoder, header: PatchHeader, connectivity: Connectivity, parts: Parts | undefined) {
+  constructor(decoder: RangeDecoder, header: PatchHeader, connectivity: Connectivity, parts: Segments | undefined) {
     const { vertexCount, positionBits, grid } = header;
     this.#decoder = decoder;
     this.#connectivity = connectivity;
@@ -174,7 +174,7 @@ class PositionDecoder {
     const x = (sums[3 * k]! + sums[3 * p]!) | 0;
     const y = (sums[3 * k + 1]! + sums[3 * p + 1]!) | 0;
     const z = (sums[3 * k + 2]! + sums[3 * p + 2]!) | 0;
-    const shift = Math.max(0, lengthInBits(Math.max(Math.abs(x), Math.abs(y), Math.abs(z))) - 15);
+    const shift = Math.max(0, bitLength(Math.max(Math.abs(x), Math.abs(y), Math.abs(z))) - 15);
     slope[0] = x >> shift;
     slope[1] = y >> shift;
     slope[2] = z >> shift;
@@ -194,7 +194,7 @@ class PositionDecoder {
         Math.abs(candidates[4]! - candidates[1]!),
         Math.abs(candidates[5]! - candidates[2]!),
       );
-      this.#agreement = 1 + Math.min(14, lengthInBits(apart));
+      this.#agreement = 1 + Math.min(14, bitLength(apart));
       const models = choiceModels + (this.#candidateSet * 16 + this.#agreement) * 4;
       while (chosen < last && decoder.bit(models + chosen) === 0) ++chosen;
     }
@@ -220,7 +220,7 @@ class PositionDecoder {
       let value: number;
       if (grid && (mask & (1 << axis)) !== 0) {
         const residual = decoder.small(
-          gridModels + numberModels * ((j * 4 + Math.min(steps, 3)) * 8 + (this.#agreement >> 1)),
+          gridModels + numberModelCount * ((j * 4 + Math.min(steps, 3)) * 8 + (this.#agreement >> 1)),
         );
         steps += Math.abs(residual);
         value = lineOf(grid, axis, nearestLine(grid, axis, this.#clamp(guess[axis]!)) + residual);
@@ -229,13 +229,13 @@ class PositionDecoder {
         const models =
           length < 0
             ? j === 2
-              ? loneModels + numberModels * Math.min(steps, 7)
-              : firstModels + numberModels * this.#agreement
+              ? loneModels + numberModelCount * Math.min(steps, 7)
+              : firstModels + numberModelCount * this.#agreement
             : j === 2 && mask === 0
-              ? thirdModels + numberModels * largest
-              : secondModels + numberModels * length;
+              ? thirdModels + numberModelCount * largest
+              : secondModels + numberModelCount * length;
         const residual = decoder.signed(models);
-        length = lengthInBits(Math.abs(residual));
+        length = bitLength(Math.abs(residual));
         largest = Math.max(largest, length);
         value = this.#clamp(expected) + residual * step;
       }

@@ -6,7 +6,7 @@
 import { DecodeError } from "../decodeError.ts";
 
 /** Models that a number takes. */
-export const numberModels = 32;
+export const numberModelCount = 32;
 
 /** Safe for untrusted bytes: every call returns or throws DecodeError. */
 export class RangeDecoder {
@@ -158,6 +158,6 @@ function crossed(): DecodeError {
 }
 
 /** Of a magnitude, 0 … 2^32 - 1. */
-export function lengthInBits(magnitude: number): number {
+export function bitLength(magnitude: number): number {
   return 32 - Math.clz32(magnitude);
 }

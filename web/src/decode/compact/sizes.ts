@@ -3,17 +3,17 @@
 
 import { DecodeError } from "../decodeError.ts";
 import type { AttributeType, FileHeader, PatchType, Topology } from "./header.ts";
-import { cornersPerElement, largestCount, within } from "./header.ts";
-import { numberModels, RangeDecoder } from "./rangeDecoder.ts";
+import { cornersPerElement, maxCount, within } from "./header.ts";
+import { numberModelCount, RangeDecoder } from "./rangeDecoder.ts";
 
 const typeModels = 0;
-const vertexModels = typeModels + numberModels;
-const seamModels = vertexModels + numberModels;
-const elementModels = seamModels + numberModels;
-const shiftModels = elementModels + numberModels;
-const partModels = shiftModels + numberModels;
-const residualModels = partModels + numberModels;
-const gridModel = residualModels + numberModels;
+const vertexModels = typeModels + numberModelCount;
+const seamModels = vertexModels + numberModelCount;
+const elementModels = seamModels + numberModelCount;
+const shiftModels = elementModels + numberModelCount;
+const segmentModels = shiftModels + numberModelCount;
+const residualModels = segmentModels + numberModelCount;
+const gridModel = residualModels + numberModelCount;
 const modelCount = gridModel + 1;
 
 /** The planes on which isosurfaces have their vertices, each axis its own, in 1/65536 lattice steps. */
@@ -32,7 +32,7 @@ export interface PatchHeader {
   readonly elementCount: number;
   readonly attributes: readonly AttributeType[];
   /** Of a base: how many patches it stands in for; 0: it is a patch. */
-  readonly partCount: number;
+  readonly segmentCount: number;
   /** Of a base: positions that one part alone has come in residuals of 2^residualShift. */
   readonly residualShift: number;
 }
@@ -63,7 +63,7 @@ export function decodeSizes(stream: Uint8Array, { types, attributes, patchCount 
     ["elements", "elementCount"],
   ] as const) {
     const count = patches.reduce((sum, { header }) => sum + header[field], 0);
-    if (count > largestCount) throw new DecodeError("limit", `holds ${count} ${what}; ${largestCount} are allowed`);
+    if (count > maxCount) throw new DecodeError("limit", `holds ${count} ${what}; ${maxCount} are allowed`);
   }
   return patches;
 }
@@ -83,7 +83,7 @@ function decodeHeader(
   }
   const normalShift = topology === "triangles" ? within("shift of normals", decoder.number(shiftModels), 0, 30) : 0;
   const grid = positionBits <= 16 && decoder.bit(gridModel) === 1 ? decodeGrid(decoder) : undefined;
-  const partCount = isBase ? 1 + decoder.number(partModels) : 0;
+  const partCount = isBase ? 1 + decoder.number(segmentModels) : 0;
   const residualShift = isBase ? decoder.number(residualModels) : 0;
   if (isBase) {
     within("number of parts", partCount, 1, elementCount);
@@ -98,7 +98,7 @@ function decodeHeader(
     wedgeCount,
     elementCount,
     attributes,
-    partCount,
+    segmentCount: partCount,
     residualShift,
   };
 }

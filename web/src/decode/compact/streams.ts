@@ -5,7 +5,7 @@ import { DecodeError } from "../decodeError.ts";
 import { attributeModelCount } from "./attributeModels.ts";
 import type { FileStreams } from "./header.ts";
 import { connectivityModelCount } from "./lines.ts";
-import { partModelCount } from "./parts.ts";
+import { segmentModelCount } from "./segments.ts";
 import { positionModelCount } from "./positions.ts";
 import { RangeDecoder } from "./rangeDecoder.ts";
 import { wedgeModelCount } from "./wedges.ts";
@@ -38,9 +38,9 @@ export class StreamDecoders {
   readonly #wedges: Stream;
   readonly #attributes: readonly Stream[];
 
-  constructor({ connectivity, parts, positions, wedges, attributes }: FileStreams) {
+  constructor({ connectivity, segments: parts, positions, wedges, attributes }: FileStreams) {
     this.#connectivity = new Stream(connectivity, connectivityModelCount);
-    this.#parts = new Stream(parts, partModelCount);
+    this.#parts = new Stream(parts, segmentModelCount);
     this.#positions = new Stream(positions, positionModelCount);
     this.#wedges = new Stream(wedges, wedgeModelCount);
     this.#attributes = attributes.map((stream) => new Stream(stream, attributeModelCount));
@@ -49,7 +49,7 @@ export class StreamDecoders {
   get connectivity(): RangeDecoder {
     return this.#connectivity.decoder;
   }
-  get parts(): RangeDecoder {
+  get segments(): RangeDecoder {
     return this.#parts.decoder;
   }
   get positions(): RangeDecoder {

@@ -7,7 +7,7 @@ import type { AttributeType } from "./header.ts";
 import type { DecodedShape } from "./neighbours.ts";
 import { decodeRepeats, Neighbours } from "./neighbours.ts";
 import type { RangeDecoder } from "./rangeDecoder.ts";
-import { lengthInBits, numberModels } from "./rangeDecoder.ts";
+import { bitLength, numberModelCount } from "./rangeDecoder.ts";
 
 /** Edges are shortened to so many bits, so that products stay exact. */
 const edgeBits = 12;
@@ -52,7 +52,7 @@ class TexCoordDecoder {
     const decoder = this.#decoder;
     this.#expect(w);
     const first = decoder.signed(firstModels);
-    const second = decoder.signed(secondModels + numberModels * lengthInBits(Math.abs(first)));
+    const second = decoder.signed(secondModels + numberModelCount * bitLength(Math.abs(first)));
     const u = Math.min(Math.max(this.#u, 0), this.#largest) + first;
     const v = Math.min(Math.max(this.#v, 0), this.#largest) + second;
     if (u < 0 || v < 0 || u > this.#largest || v > this.#largest) {
@@ -107,7 +107,7 @@ class TexCoordDecoder {
     let fy = coordinates[xw + 1]! - coordinates[xa + 1]!;
     let fz = coordinates[xw + 2]! - coordinates[xa + 2]!;
     const largest = Math.max(Math.abs(ex), Math.abs(ey), Math.abs(ez), Math.abs(fx), Math.abs(fy), Math.abs(fz));
-    const shift = Math.max(0, lengthInBits(largest) - edgeBits);
+    const shift = Math.max(0, bitLength(largest) - edgeBits);
     ex >>= shift;
     ey >>= shift;
     ez >>= shift;

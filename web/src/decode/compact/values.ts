@@ -7,7 +7,7 @@ import type { AttributeType } from "./header.ts";
 import type { DecodedShape } from "./neighbours.ts";
 import { decodeRepeats, Neighbours } from "./neighbours.ts";
 import type { RangeDecoder } from "./rangeDecoder.ts";
-import { lengthInBits, numberModels } from "./rangeDecoder.ts";
+import { bitLength, numberModelCount } from "./rangeDecoder.ts";
 
 /** `components` of each wedge, each 0 … 2^bits - 1. Safe for untrusted bytes. Throws DecodeError. */
 export function decodeValues(decoder: RangeDecoder, type: AttributeType, shape: DecodedShape): Int32Array {
@@ -63,8 +63,10 @@ class ValueDecoder {
       // Green first: red and blue follow it.
       const component = this.#isColor && j < 2 ? 1 - j : j;
       const expected = Math.min(Math.max(this.#expect(w, component, isParallelogram), 0), this.#largest);
-      const residual = decoder.signed(j === 0 ? firstModels : secondModels + numberModels * (31 * (j - 1) + length));
-      length = lengthInBits(Math.abs(residual));
+      const residual = decoder.signed(
+        j === 0 ? firstModels : secondModels + numberModelCount * (31 * (j - 1) + length),
+      );
+      length = bitLength(Math.abs(residual));
       if (j === 0) first = residual;
       const value = expected + residual + (this.#isColor && (j === 1 || j === 2) ? first : 0);
       if (value < 0 || value > this.#largest) throw new DecodeError("malformed", "holds a value that its bits cannot");

@@ -31,7 +31,7 @@ export function stated({
   connectivity,
   wedges: { wedge, seams },
   attributes,
-  parts,
+  segments: parts,
 }: CompactPatch): StatedPatch {
   const running = Array.from({ length: header.wedgeCount }, (_, w) => w);
   return {
@@ -40,7 +40,7 @@ export function stated({
     positions: Array.from(coordinates.subarray(0, 3 * header.vertexCount)),
     wedgePositions: seams ? Array.from(seams.corner, (corner) => connectivity.vertex[corner]!) : running,
     corners: header.topology === "points" ? running : Array.from(wedge),
-    ...(parts && { parts: Array.from(parts.part), partCount: header.partCount }),
+    ...(parts && { parts: Array.from(parts.segment), partCount: header.segmentCount }),
     attributes: attributes.map((values, place) => {
       const { kind, components, bits, isUniform, isDerived } = header.attributes[place]!;
       return {

@@ -6,7 +6,7 @@ import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
 import { after, before } from "./connectivity.ts";
 import type { RangeDecoder } from "./rangeDecoder.ts";
-import { numberModels } from "./rangeDecoder.ts";
+import { numberModelCount } from "./rangeDecoder.ts";
 import type { PatchHeader } from "./sizes.ts";
 
 const splitModels = 0;
@@ -14,7 +14,7 @@ const sameModels = splitModels + 3;
 const madeModels = sameModels + 9;
 const stepModels = madeModels + 3;
 const wedgeModels = stepModels + 16;
-export const wedgeModelCount = wedgeModels + numberModels;
+export const wedgeModelCount = wedgeModels + numberModelCount;
 const farSteps = 15; // the wedge is named by its number
 
 export interface Wedges {

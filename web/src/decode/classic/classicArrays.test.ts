@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { classicColors, classicCoords, classicIndex, classicNormals } from "./classicArrays.ts";
-import { pngWithTexels } from "./png.testing.ts";
+import { pngWithTexels } from "../png.testing.ts";
 
 /** 3 x 2 texels of RGB from the number on, and others around them. */
 const plane = (first: number) => pngWithTexels(4, 2, 3, (n, channel) => (first + 10 * n + channel) % 256);

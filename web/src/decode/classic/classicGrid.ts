@@ -1,10 +1,10 @@
 // Grids of texels on the CPU: what the vertex shader makes of them without an
 // index (render/vertexChunk.ts), written out for buffers.
 
-import type { IndexArray, VertexArray } from "../stage/vertexArray.ts";
+import type { IndexArray, VertexArray } from "../../stage/vertexArray.ts";
 import type { CoordJob } from "./classicArrays.ts";
 import { sumsOf } from "./classicArrays.ts";
-import type { Grid } from "../stage/stage.ts";
+import type { Grid } from "../../stage/stage.ts";
 
 export interface GridJob extends CoordJob {
   readonly grid: Grid;

@@ -3,13 +3,13 @@
 // read them (render/vertexChunk.ts), so that both ways show the same picture.
 // Pure functions, to be run in workers.
 
-import type { IndexArray, VertexArray } from "../stage/vertexArray.ts";
-import { DecodeError } from "./decodeError.ts";
-import type { Pixels } from "./pngPixels.ts";
-import { decodePixels } from "./pngPixels.ts";
-import type { DrawRange, NormalCode } from "../stage/stage.ts";
-import { isPairCode } from "../stage/stage.ts";
-import { withoutStrips } from "./strips.ts";
+import type { IndexArray, VertexArray } from "../../stage/vertexArray.ts";
+import { DecodeError } from "../decodeError.ts";
+import type { Pixels } from "../pngPixels.ts";
+import { decodePixels } from "../pngPixels.ts";
+import type { DrawRange, NormalCode } from "../../stage/stage.ts";
+import { isPairCode } from "../../stage/stage.ts";
+import { withoutStrips } from "../strips.ts";
 
 /** A file, and the texel that its data begin at. */
 export interface ImageFile {

@@ -1,19 +1,19 @@
 // BG: typed arrays of index, coordinates, normals and colours.
 
-import type { Bounds } from "../stage/vertexArray.ts";
-import { DecodeError } from "../decode/decodeError.ts";
-import type { ElementRange } from "../decode/elements.ts";
-import { boundsOf, countIn, indexArrayOf, vertexArrayOf } from "../decode/elements.ts";
-import { byteSizeOf } from "../stage/elementType.ts";
-import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../stage/stage.ts";
-import { withoutStrips } from "../decode/strips.ts";
-import type { GeometryDescription, PatchDescription, Reference } from "../document/description.ts";
-import { hasNormalsInCoords, isUnbounded } from "../document/geometry.ts";
-import { ArrayUploads } from "./arrayUploads.ts";
-import type { FileRole } from "./patchFiles.ts";
-import { componentsOf, typeOf } from "./patchFiles.ts";
-import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
-import { drawRangesOf, normalCodeOf, attainedStageName } from "./stageBuilder.ts";
+import type { Bounds } from "../../../stage/vertexArray.ts";
+import { DecodeError } from "../../../decode/decodeError.ts";
+import type { ElementRange } from "../../../decode/bg/bgArrays.ts";
+import { boundsOf, countIn, indexArrayOf, vertexArrayOf } from "../../../decode/bg/bgArrays.ts";
+import { byteSizeOf } from "../../../stage/elementType.ts";
+import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../../../stage/stage.ts";
+import { withoutStrips } from "../../../decode/strips.ts";
+import type { GeometryDescription, PatchDescription, Reference } from "../../../document/description.ts";
+import { hasNormalsInCoords, isUnbounded } from "../../../document/geometry.ts";
+import { ArrayUploads } from "../../arrayUploads.ts";
+import type { FileRole } from "../../patchFiles.ts";
+import { componentsOf, typeOf } from "../../patchFiles.ts";
+import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
+import { drawRangesOf, normalCodeOf, attainedStageName } from "../../stageBuilder.ts";
 
 interface Here {
   index?: { readonly stored: StoredIndex | undefined; readonly draws: readonly DrawRange[] };
@@ -25,7 +25,7 @@ interface Here {
   value?: StoredVertices;
 }
 
-export function bgBuilder(
+export function bgStageBuilder(
   geometry: GeometryDescription,
   patch: PatchDescription,
   { storeBytes }: BuilderTools,

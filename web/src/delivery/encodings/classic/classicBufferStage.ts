@@ -1,23 +1,23 @@
 // Classic SIG on the CPU: files become arrays in workers, one job for each that
 // comes. The stages are those of buffers.
 
-import type { IndexArray } from "../stage/vertexArray.ts";
-import type { ImageFile, RecordLayout } from "../decode/classicArrays.ts";
-import type { GridArrays } from "../decode/classicGrid.ts";
-import { DecodeError } from "../decode/decodeError.ts";
-import { byteSizeOf } from "../stage/elementType.ts";
-import type { PngHeader } from "../decode/png.ts";
-import { checkPng } from "../decode/png.ts";
-import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../stage/stage.ts";
-import { withoutStrips } from "../decode/strips.ts";
-import type { GeometryDescription, PatchDescription } from "../document/description.ts";
-import { maxStoredValueOf, missingBytesMidpoint, dequantizationOf } from "../document/dequantization.ts";
-import { asDeliveryError } from "./deliveryError.ts";
-import { ArrayUploads } from "./arrayUploads.ts";
-import type { PatchFile } from "./patchFiles.ts";
-import type { Content } from "./resourcePool.ts";
-import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
-import { drawRangesOf, normalCodeOf, attainedStageName } from "./stageBuilder.ts";
+import type { IndexArray } from "../../../stage/vertexArray.ts";
+import type { ImageFile, RecordLayout } from "../../../decode/classic/classicArrays.ts";
+import type { GridArrays } from "../../../decode/classic/classicGrid.ts";
+import { DecodeError } from "../../../decode/decodeError.ts";
+import { byteSizeOf } from "../../../stage/elementType.ts";
+import type { PngHeader } from "../../../decode/png.ts";
+import { checkPng } from "../../../decode/png.ts";
+import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../../../stage/stage.ts";
+import { withoutStrips } from "../../../decode/strips.ts";
+import type { GeometryDescription, PatchDescription } from "../../../document/description.ts";
+import { maxStoredValueOf, missingBytesMidpoint, dequantizationOf } from "../../../document/dequantization.ts";
+import { asDeliveryError } from "../../deliveryError.ts";
+import { ArrayUploads } from "../../arrayUploads.ts";
+import type { PatchFile } from "../../patchFiles.ts";
+import type { Content } from "../../resourcePool.ts";
+import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
+import { drawRangesOf, normalCodeOf, attainedStageName } from "../../stageBuilder.ts";
 
 interface Drawn {
   readonly index: StoredIndex | undefined;
@@ -46,15 +46,15 @@ class Parts {
   value: StoredVertices | undefined;
 }
 
-export function sigCpuBuilder(
+export function bufferStageBuilder(
   geometry: GeometryDescription,
   patch: PatchDescription,
   tools: BuilderTools,
 ): StageBuilder {
-  return new SigCpuBuilder(geometry, patch, tools);
+  return new BufferStageBuilder(geometry, patch, tools);
 }
 
-class SigCpuBuilder implements StageBuilder {
+class BufferStageBuilder implements StageBuilder {
   readonly isDivisible = false;
   readonly #geometry: GeometryDescription;
   readonly #patch: PatchDescription;

@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { pngWithTexels } from "../decode/png.testing.ts";
-import { patchFilesOf } from "./patchFiles.ts";
-import { sigCpuBuilder } from "./sigCpuStage.ts";
-import { geometryOf, held, record, records, sigPatch, siteOf, soon } from "./delivery.testing.ts";
+import { pngWithTexels } from "../../../decode/png.testing.ts";
+import { patchFilesOf } from "../../patchFiles.ts";
+import { bufferStageBuilder } from "./classicBufferStage.ts";
+import { geometryOf, held, record, records, sigPatch, siteOf, soon } from "../../delivery.testing.ts";
 
 describe("images that are decoded on the CPU", () => {
   const coordAt = (first: number) => pngWithTexels(256, 2, 3, (n, channel) => first + ((n + channel) % 100));
@@ -93,7 +93,7 @@ describe("images that are decoded on the CPU", () => {
       const site = siteOf({});
       const gates = files.map(() => held(new Uint8Array(0)));
       let begun = 0;
-      const builder = sigCpuBuilder(geometry, patch, {
+      const builder = bufferStageBuilder(geometry, patch, {
         storeBytes: site.pool.storeBytes,
         runJob: (name, input, signal) =>
           (gates[begun++] ?? assert.fail("a third job")).promise.then(() => site.pool.runJob(name, input, signal)),

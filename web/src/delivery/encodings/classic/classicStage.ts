@@ -2,23 +2,28 @@
 // they are handed on as they are, and the shader fetches vertices from them; what
 // comes as files is decoded on the CPU.
 
-import { DecodeError } from "../decode/decodeError.ts";
-import type { DecodedImage } from "../stage/decodedImage.ts";
-import type { TexelRange, TextureStage } from "../stage/stage.ts";
-import { isPairCode } from "../stage/stage.ts";
-import type { GeometryDescription, PatchDescription } from "../document/description.ts";
-import { missingBytesMidpoint } from "../document/dequantization.ts";
-import type { PatchFile } from "./patchFiles.ts";
-import { sigCpuBuilder } from "./sigCpuStage.ts";
-import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
-import { drawRangesOf, normalCodeOf, attainedStageName } from "./stageBuilder.ts";
+import { DecodeError } from "../../../decode/decodeError.ts";
+import type { DecodedImage } from "../../../stage/decodedImage.ts";
+import type { TexelRange, TextureStage } from "../../../stage/stage.ts";
+import { isPairCode } from "../../../stage/stage.ts";
+import type { GeometryDescription, PatchDescription } from "../../../document/description.ts";
+import { missingBytesMidpoint } from "../../../document/dequantization.ts";
+import type { PatchFile } from "../../patchFiles.ts";
+import { bufferStageBuilder } from "./classicBufferStage.ts";
+import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
+import { drawRangesOf, normalCodeOf, attainedStageName } from "../../stageBuilder.ts";
 
 /** Which of the two is known when the first file is here. */
-export function sigBuilder(geometry: GeometryDescription, patch: PatchDescription, tools: BuilderTools): StageBuilder {
+export function classicStageBuilder(
+  geometry: GeometryDescription,
+  patch: PatchDescription,
+  tools: BuilderTools,
+): StageBuilder {
   let builder: StageBuilder | undefined;
   return {
     accept(part, content, signal) {
-      builder ??= content.kind === "image" ? sigGpuBuilder(geometry, patch) : sigCpuBuilder(geometry, patch, tools);
+      builder ??=
+        content.kind === "image" ? textureStageBuilder(geometry, patch) : bufferStageBuilder(geometry, patch, tools);
       return builder.accept(part, content, signal);
     },
     stage: () => builder?.stage(),
@@ -40,7 +45,7 @@ export function sigBuilder(geometry: GeometryDescription, patch: PatchDescriptio
   };
 }
 
-function sigGpuBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
+function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescription): StageBuilder {
   let planes: (TexelRange | undefined)[] = [];
   let values: (TexelRange | undefined)[] = [];
   let here: Partial<Record<"index" | "normal" | "texCoord" | "color", TexelRange | undefined>> = {};

@@ -1,11 +1,11 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { Base } from "../decode/compact/baseBuffers.ts";
-import { buffersOf } from "../decode/compact/patchBuffers.ts";
-import { decodeVector, readVectorFile, vectorNames } from "../decode/compact/vectors.testing.ts";
-import { pngWithTexels } from "../decode/png.testing.ts";
-import { dequantizationOf } from "../document/dequantization.ts";
-import { everything, geometryOf, held, record, siteOf, soon } from "./delivery.testing.ts";
+import { Base } from "../../../decode/compact/baseBuffers.ts";
+import { buffersOf } from "../../../decode/compact/patchBuffers.ts";
+import { decodeVector, readVectorFile, vectorNames } from "../../../decode/compact/vectors.testing.ts";
+import { pngWithTexels } from "../../../decode/png.testing.ts";
+import { dequantizationOf } from "../../../document/dequantization.ts";
+import { everything, geometryOf, held, record, siteOf, soon } from "../../delivery.testing.ts";
 
 /** A geometry of patches of files, as documents describe them. */
 function geometryFor(
@@ -33,7 +33,7 @@ function geometryFor(
   );
 }
 
-const hasParts = (name: string) => decodeVector(name).some(({ parts }) => parts);
+const hasParts = (name: string) => decodeVector(name).some(({ segments: parts }) => parts);
 const filesOf = (...names: string[]) => Object.fromEntries(names.map((name) => [`${name}.png`, readVectorFile(name)]));
 
 async function until(condition: () => boolean): Promise<void> {
@@ -269,7 +269,7 @@ describe("a geometry of compact", () => {
     await settled;
     assert.deepEqual(errors, []);
     assert.deepEqual(site.asked, ["base.png", "sphere.png", "soup.png"]);
-    const parts = new Base(decodeVector("base")[0] ?? assert.fail()).parts;
+    const parts = new Base(decodeVector("base")[0] ?? assert.fail()).segments;
     for (const patch of [0, 1, 2]) {
       const [first, last, ...others] = stages.filter((one) => one.patch === patch).map(({ stage }) => stage);
       assert.deepEqual([first?.name, last?.name, others.length], ["base", "full", 0]);
@@ -296,7 +296,7 @@ describe("a geometry of compact", () => {
     const value = { name: "flow", components: 2, bits: 16, fileCount: 0, min: [0, 0], size: [1, 1] } as const;
     const { stages, settled } = record({ ...plain, attributes: [value], value }, site.pool);
     await settled;
-    const parts = new Base(decodeVector("base-seams")[0] ?? assert.fail()).parts;
+    const parts = new Base(decodeVector("base-seams")[0] ?? assert.fail()).segments;
     assert.deepEqual(
       new Set(stages.map(({ patch }) => patch)),
       new Set(parts.flatMap((part, place) => (part ? [place] : []))),

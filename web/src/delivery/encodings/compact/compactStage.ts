@@ -2,17 +2,17 @@
 // together, and another coarse shapes of all patches, whose parts stand in for them
 // until they are here.
 
-import type { OtherValues, PatchBuffers } from "../decode/compact/patchBuffers.ts";
-import type { VertexArray } from "../stage/vertexArray.ts";
-import { DecodeError } from "../decode/decodeError.ts";
-import type { BufferStage, DrawRange, StageName } from "../stage/stage.ts";
-import type { AttributeDescription, GeometryDescription, PatchDescription } from "../document/description.ts";
-import { latticeBitsOf } from "../document/dequantization.ts";
-import { ArrayUploads } from "./arrayUploads.ts";
-import type { BuilderTools, StageBuilder } from "./stageBuilder.ts";
-import { drawRangesOf } from "./stageBuilder.ts";
+import type { OtherValues, PatchBuffers } from "../../../decode/compact/patchBuffers.ts";
+import type { VertexArray } from "../../../stage/vertexArray.ts";
+import { DecodeError } from "../../../decode/decodeError.ts";
+import type { BufferStage, DrawRange, StageName } from "../../../stage/stage.ts";
+import type { AttributeDescription, GeometryDescription, PatchDescription } from "../../../document/description.ts";
+import { latticeBitsOf } from "../../../document/dequantization.ts";
+import { ArrayUploads } from "../../arrayUploads.ts";
+import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
+import { drawRangesOf } from "../../stageBuilder.ts";
 
-export function compactBuilder(
+export function compactStageBuilder(
   geometry: GeometryDescription,
   patch: PatchDescription,
   place: number,

@@ -3,23 +3,23 @@
 import { DecodeError } from "../decodeError.ts";
 import type { Connectivity } from "./connectivity.ts";
 import type { RangeDecoder } from "./rangeDecoder.ts";
-import { numberModels } from "./rangeDecoder.ts";
+import { numberModelCount } from "./rangeDecoder.ts";
 import type { PatchHeader } from "./sizes.ts";
 
 const sameModels = 0;
 const otherModels = sameModels + 4;
-const partModels = otherModels + 4;
-export const partModelCount = partModels + numberModels;
+const segmentModels = otherModels + 4;
+export const segmentModelCount = segmentModels + numberModelCount;
 
-export interface Parts {
+export interface Segments {
   /** Per triangle. */
-  readonly part: Int32Array;
+  readonly segment: Int32Array;
   /** Per vertex: 1 where several parts have it. */
   readonly isShared: Uint8Array;
 }
 
 /** Safe for untrusted bytes. Throws DecodeError. */
-export function decodeParts(decoder: RangeDecoder, header: PatchHeader, { vertex, across }: Connectivity): Parts {
+export function decodeSegments(decoder: RangeDecoder, header: PatchHeader, { vertex, across }: Connectivity): Segments {
   const part = new Int32Array(header.elementCount);
   const isShared = new Uint8Array(header.vertexCount);
   const latest = new Int32Array(header.vertexCount).fill(-1);
@@ -37,8 +37,8 @@ export function decodeParts(decoder: RangeDecoder, header: PatchHeader, { vertex
     }
     let here = guess;
     if (decoder.bit(sameModels + differing) === 0) {
-      here = other >= 0 && decoder.bit(otherModels + differing) === 1 ? other : decoder.number(partModels);
-      if (here >= header.partCount) throw new DecodeError("malformed", "names a part that there is not");
+      here = other >= 0 && decoder.bit(otherModels + differing) === 1 ? other : decoder.number(segmentModels);
+      if (here >= header.segmentCount) throw new DecodeError("malformed", "names a part that there is not");
     }
     part[t] = here;
     for (let i = 0; i < 3; ++i) {
@@ -47,5 +47,5 @@ export function decodeParts(decoder: RangeDecoder, header: PatchHeader, { vertex
       latest[v] = here;
     }
   }
-  return { part, isShared };
+  return { segment: part, isShared };
 }

@@ -1,10 +1,10 @@
 // Typed arrays out of container bytes (BG). Counts and offsets come from the
 // document, so they are checked against the bytes before anything is viewed.
 
-import type { Bounds, ElementArray, IndexArray, VertexArray } from "../stage/vertexArray.ts";
-import type { ElementType } from "../stage/elementType.ts";
-import { arrayTypeOf, byteSizeOf } from "../stage/elementType.ts";
-import { DecodeError } from "./decodeError.ts";
+import type { Bounds, ElementArray, IndexArray, VertexArray } from "../../stage/vertexArray.ts";
+import type { ElementType } from "../../stage/elementType.ts";
+import { arrayTypeOf, byteSizeOf } from "../../stage/elementType.ts";
+import { DecodeError } from "../decodeError.ts";
 
 /** Where an attribute lies in a file. */
 export interface ElementRange {
