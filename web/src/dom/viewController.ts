@@ -15,7 +15,7 @@ import { AnchorLinks } from "./anchorLinks.ts";
 import { Menus } from "./menus.ts";
 import { sendShapePointerEvents } from "./shapePointerEvents.ts";
 import { Poster } from "./poster.ts";
-import { Viewer } from "./viewer.ts";
+import { PageViewer } from "./pageViewer.ts";
 import { keepTouchAction } from "./touchAction.ts";
 import type { Hit } from "../render/picking/picker.ts";
 import { sizeOf, watchSize, whenNear } from "../element/visibility.ts";
@@ -29,7 +29,7 @@ const quietMs = 700;
 const marginOfLoading = { auto: 1, lazy: 0, eager: Infinity } as const;
 
 export class ViewController {
-  readonly viewer: Viewer;
+  readonly viewer: PageViewer;
   readonly poster: Poster;
   readonly #x3d: Element;
   readonly #face: UserInterface;
@@ -69,7 +69,7 @@ export class ViewController {
       this.#send(name, detail);
       this.#rotate();
     });
-    this.viewer = new Viewer(
+    this.viewer = new PageViewer(
       x3d,
       face.canvas,
       context,

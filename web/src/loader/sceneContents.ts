@@ -21,7 +21,7 @@ import { SceneGroups } from "../render/shapes/sceneGroups.ts";
 import type { ShapeContext } from "../render/shapes/shapeObject.ts";
 import { chunkWeightsOf } from "../scheduler/priority.ts";
 import { CameraObserver } from "./cameraObserver.ts";
-import { LoadedShapes } from "./loadedShapes.ts";
+import { AppShapes } from "./appShapes.ts";
 import type { SceneLodOwner, LoadState } from "./sceneLod.ts";
 import { loadStates, SceneLod } from "./sceneLod.ts";
 
@@ -46,7 +46,7 @@ export interface ContentsListener {
 export class SceneContents {
   /** Of all shapes, as documents tell it. */
   readonly box = new Box3();
-  readonly shapes: LoadedShapes;
+  readonly shapes: AppShapes;
   /** Where all of it hangs. */
   readonly root = new Group();
   readonly #deliveries: GeometryDeliveries;
@@ -76,7 +76,7 @@ export class SceneContents {
   constructor({ x3d, url, urlOf, pool }: ContentsSources, setting: ShapeContext, listener: ContentsListener) {
     this.#deliveries = new GeometryDeliveries(pool);
     this.#pictures = new TextureDeliveries(pool);
-    this.shapes = new LoadedShapes(setting, { geometries: this.#deliveries, textures: this.#pictures }, listener);
+    this.shapes = new AppShapes(setting, { geometries: this.#deliveries, textures: this.#pictures }, listener);
     this.#inlines = new Inlines(
       { pool, urlOf, own: { url, x3d } },
       {

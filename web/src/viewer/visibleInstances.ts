@@ -12,7 +12,7 @@ type Seen = Map<object, GeometryInstance>;
 
 const nowhere: Seen = new Map();
 
-export class SeenPlaces {
+export class VisibleInstances {
   readonly #geometries = new Map<GeometryDescription, Seen>();
   /** By their keys. */
   readonly #pictures = new Map<string, Seen>();

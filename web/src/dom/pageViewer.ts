@@ -26,15 +26,15 @@ import { defaultDownloadOptions } from "../scheduler/download.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
 import { slotCountFor } from "../scheduler/downloadSlots.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
-import { Arrival } from "./arrival.ts";
+import { UploadPipeline } from "../viewer/uploadPipeline.ts";
 import type { PreviewedShape } from "../preview/preview.ts";
 import { takePrefetchedBases } from "../preview/previewRegistry.ts";
-import { InlineLoads } from "./inlineLoads.ts";
-import { Loading } from "./loading.ts";
+import { PageInlines } from "./pageInlines.ts";
+import { LoadingEvents } from "./loadingEvents.ts";
 import { isSceneNode } from "../element/sceneNodes.ts";
 import { watchNetworkProtocol } from "./networkProtocol.ts";
-import { ShapeLoads, stageShown } from "./shapeLoads.ts";
-import { Steering } from "./steering.ts";
+import { PageShapes, displayedStageOf } from "./pageShapes.ts";
+import { DeliveryControl } from "../viewer/deliveryControl.ts";
 
 /** The bar moves no more often than people can see. */
 const progressIntervalMs = 50;
@@ -49,7 +49,7 @@ export interface ViewStatistics extends RenderStatistics {
 }
 
 /** Who shows what the viewer knows. */
-export interface ViewerListener {
+export interface PageViewerListener {
   onProgress(share: number, stage: StageName | "none"): void;
   /** After each frame, before the events that wait for it. */
   onFrame(): void;
@@ -59,7 +59,7 @@ export interface ViewerListener {
   onAnchors(anchors: readonly AnchorDescription[]): void;
 }
 
-export class Viewer {
+export class PageViewer {
   readonly renderer: SceneRenderer;
   readonly navigator: CameraController;
   readonly #x3d: Element;
@@ -70,13 +70,13 @@ export class Viewer {
   readonly #textures: TextureDeliveries;
   readonly #workers = pageWorkers();
   readonly #reader: SceneReader;
-  readonly #shapes: ShapeLoads;
-  readonly #inlines: InlineLoads;
+  readonly #shapes: PageShapes;
+  readonly #inlines: PageInlines;
   readonly #levels = new LodSelection();
-  readonly #steering: Steering;
+  readonly #steering: DeliveryControl;
   readonly #observer: MutationObserver;
   readonly #listeners = new AbortController();
-  readonly #listener: ViewerListener;
+  readonly #listener: PageViewerListener;
   readonly #logged = new Set<string>();
   /** By a first look, which has decoded the bases. */
   readonly #wasShown: boolean;
@@ -84,7 +84,7 @@ export class Viewer {
   #readsTextures: boolean;
   /** Due with the first picture of textures. Until it has ended nothing is complete. */
   #trial: "needless" | "due" | "running" | "ended" = "needless";
-  #loading: Loading;
+  #loading: LoadingEvents;
   #isLoading = false;
   #built: (NavigatedScene & { readonly levels: readonly LodInstance[] }) | undefined;
   #scene: SceneDescription | undefined;
@@ -102,14 +102,14 @@ export class Viewer {
     x3d: Element,
     canvas: HTMLCanvasElement,
     context: WebGL2RenderingContext,
-    listener: ViewerListener,
+    listener: PageViewerListener,
     shown: readonly PreviewedShape[] = [],
   ) {
     this.#x3d = x3d;
     this.#canvas = canvas;
     this.#listener = listener;
     this.#wasShown = shown.length > 0;
-    this.#loading = new Loading(x3d, this.#transfers, shown.length > 0 ? "base" : "none");
+    this.#loading = new LoadingEvents(x3d, this.#transfers, shown.length > 0 ? "base" : "none");
     this.navigator = new CameraController(
       () => {
         this.renderer.requestFrame();
@@ -123,7 +123,7 @@ export class Viewer {
     });
     this.#readsTextures = this.renderer.mayReadTextures;
     if (!this.#readsTextures) this.#warnOfGpu();
-    const arrival = new Arrival(this.renderer);
+    const arrival = new UploadPipeline(this.renderer);
     // What is no URL is left for the request to fail on.
     const resolve = (url: string) => (URL.canParse(url, document.baseURI) ? new URL(url, document.baseURI).href : url);
     this.#pool = new ResourcePool({
@@ -144,7 +144,7 @@ export class Viewer {
     });
     this.#deliveries = new GeometryDeliveries(this.#pool);
     this.#textures = new TextureDeliveries(this.#pool);
-    this.#shapes = new ShapeLoads(
+    this.#shapes = new PageShapes(
       this.renderer,
       this.#deliveries,
       this.#textures,
@@ -160,7 +160,7 @@ export class Viewer {
       },
       shown.map(({ element }) => element),
     );
-    this.#inlines = new InlineLoads(this.#pool, resolve, {
+    this.#inlines = new PageInlines(this.#pool, resolve, {
       onChange: (inline) => {
         this.#reader.touch(inline);
         this.#readDocument();
@@ -183,9 +183,13 @@ export class Viewer {
       inlineGeometry: readInlineGeometry,
       text: textReader(measureRun, (font, letters) => fonts.editionOf(font, letters)),
     });
-    this.#steering = new Steering(this.renderer, { geometries: this.#deliveries, textures: this.#textures }, () => {
-      this.#onSteered();
-    });
+    this.#steering = new DeliveryControl(
+      this.renderer,
+      { geometries: this.#deliveries, textures: this.#textures },
+      () => {
+        this.#onSteered();
+      },
+    );
     this.#observer = new MutationObserver((all) => {
       const records = all.filter(({ target }) => isSceneNode(target, x3d));
       if (records.length === 0) return;
@@ -227,7 +231,7 @@ export class Viewer {
   load(): void {
     this.#isLoading = true;
     this.#inlines.follow(this.#scene?.inlines ?? []);
-    this.#steering.begin();
+    this.#steering.start();
     this.#workers.prepare(this.#shapes.jobsToCome);
     this.renderer.requestFrame();
   }
@@ -302,7 +306,7 @@ export class Viewer {
     const hasBase = Array.from(built.changes.shapes.values()).some(({ geometry }) => geometry?.base !== undefined);
     if (hasBase && !this.#wasShown) this.#workers.prepareMainThread();
     this.#tellNavigator({ ...built, navigation: scene.navigation });
-    if (this.#shapes.isLoading && this.#loading.isEnded) this.#loading = new Loading(this.#x3d, this.#transfers);
+    if (this.#shapes.isLoading && this.#loading.isEnded) this.#loading = new LoadingEvents(this.#x3d, this.#transfers);
     this.#steering.follow(scene.chunkPriority, built.changes, (problem) => {
       this.#warn(this.#x3d, `chunkPriority: ${problem}`);
     });
@@ -358,11 +362,11 @@ export class Viewer {
   /** Everything is fetched once more, from the browser's cache as a rule. Events go on where they were. */
   #deliverAll(): void {
     this.#shapes.deliverAll();
-    this.#steering.steer();
+    this.#steering.request();
     this.renderer.requestFrame();
   }
 
-  #fail(error: DeliveryError, element: Element, loading: Loading): void {
+  #fail(error: DeliveryError, element: Element, loading: LoadingEvents): void {
     this.#logOnce("error", error.message);
     const detail = { type: error.kind, url: error.url, element, message: error.message };
     loading.fail(detail, error);
@@ -397,7 +401,9 @@ export class Viewer {
     const awaited = [...this.#shapes.awaited, ...this.#inlines.loadings];
     // Shapes of which nothing will come do not hold the scene back.
     this.#loading.reach(
-      stageShown(awaited.filter(({ stage, isSettled }) => stage !== "none" || !isSettled).map(({ stage }) => stage)),
+      displayedStageOf(
+        awaited.filter(({ stage, isSettled }) => stage !== "none" || !isSettled).map(({ stage }) => stage),
+      ),
     );
     this.#tellProgress(); // all of it, and of what is seen, before `load`
     // Asked for only now: until a frame has shown the end, further shapes may join.

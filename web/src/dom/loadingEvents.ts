@@ -51,7 +51,7 @@ export interface ResourceEntry {
 }
 
 /** The loading of one element, from its start to `load`. */
-export class Loading {
+export class LoadingEvents {
   readonly #element: Element;
   readonly #firstImage = Promise.withResolvers<undefined>();
   readonly #complete = Promise.withResolvers<undefined>();
@@ -179,6 +179,6 @@ function rankOf(stage: StageName | "none"): number {
 }
 
 /** The least of some stages: a scene is as far as its last shape. */
-export function leastStage(stages: readonly (StageName | "none")[]): StageName | "none" {
+export function lowestStageOf(stages: readonly (StageName | "none")[]): StageName | "none" {
   return stages.reduce((least, stage) => (rankOf(stage) < rankOf(least) ? stage : least), stages[0] ?? "none");
 }

@@ -8,19 +8,19 @@ import type { ResourcePool } from "../delivery/resourcePool.ts";
 import type { InlineDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { InlinedDocument } from "../document/readScene.ts";
-import { Loading } from "./loading.ts";
+import { LoadingEvents } from "./loadingEvents.ts";
 
-export interface InlineLoadsListener {
+export interface PageInlinesListener {
   /** Something has come: the Inline is to be read anew. */
   onChange(inline: SceneElement): void;
-  onError(error: DeliveryError, inline: Element, loading: Loading): void;
+  onError(error: DeliveryError, inline: Element, loading: LoadingEvents): void;
 }
 
-export class InlineLoads {
+export class PageInlines {
   readonly #inlines: Inlines;
-  readonly #loadings = new Map<SceneElement, Loading>();
+  readonly #loadings = new Map<SceneElement, LoadingEvents>();
 
-  constructor(pool: ResourcePool, resolve: (url: string) => string, listener: InlineLoadsListener) {
+  constructor(pool: ResourcePool, resolve: (url: string) => string, listener: PageInlinesListener) {
     const urlOf = (named: string) => {
       const url = resolve(named);
       requireHttp(url);
@@ -30,7 +30,7 @@ export class InlineLoads {
       { pool, urlOf },
       {
         onBegin: (inline) => {
-          this.#loadings.set(inline, new Loading(inline as Element, () => this.#inlines.transfersOf(inline)));
+          this.#loadings.set(inline, new LoadingEvents(inline as Element, () => this.#inlines.transfersOf(inline)));
         },
         onEnd: (inline, error) => {
           const loading = this.#loadings.get(inline);
@@ -52,7 +52,7 @@ export class InlineLoads {
     return this.#inlines.documentOf(inline);
   }
 
-  get loadings(): readonly Loading[] {
+  get loadings(): readonly LoadingEvents[] {
     return Array.from(this.#loadings.values());
   }
 

@@ -20,7 +20,7 @@ import { ShapeObject } from "../render/shapes/shapeObject.ts";
 import { isVisibleInScene } from "../render/shapes/visibility.ts";
 import type { LoadState } from "./sceneLod.ts";
 
-export interface LoadedShapesListener {
+export interface AppShapesListener {
   /** Something looks different. */
   onChange(): void;
   onError(error: DeliveryError): void;
@@ -53,16 +53,16 @@ interface LoadedShape {
 /** Without a camera to measure by, only the order of what files hold counts. */
 const nowhere = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
-export class LoadedShapes implements ShapeInstanceListener {
+export class AppShapes implements ShapeInstanceListener {
   readonly #setting: ShapeContext;
   readonly #sources: ShapeSources;
-  readonly #listener: LoadedShapesListener;
+  readonly #listener: AppShapesListener;
   readonly #shapes = new Map<SceneElement, LoadedShape>();
   readonly #byGroup = new WeakMap<object, LoadedShape>();
   readonly #changed = new Set<LoadedShape>();
   #hasPicture = false;
 
-  constructor(setting: ShapeContext, sources: ShapeSources, listener: LoadedShapesListener) {
+  constructor(setting: ShapeContext, sources: ShapeSources, listener: AppShapesListener) {
     this.#setting = setting;
     this.#sources = sources;
     this.#listener = listener;

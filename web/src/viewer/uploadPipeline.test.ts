@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { afterEach, beforeEach, describe, mock, test } from "node:test";
 import type { BufferUpload } from "../render/uploads/bufferStore.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
-import { Arrival } from "./arrival.ts";
+import { UploadPipeline } from "./uploadPipeline.ts";
 
 const megabyte = 2 ** 20;
 
@@ -58,7 +58,7 @@ describe("what arrives", () => {
   };
 
   const store = (renderer: FakeRenderer, megabytes: number, signal = new AbortController().signal) =>
-    new Arrival(renderer as unknown as SceneRenderer).storeBytes(
+    new UploadPipeline(renderer as unknown as SceneRenderer).storeBytes(
       new Uint8Array(megabytes * megabyte),
       "vertices",
       signal,

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import type { Loadable } from "./loading.ts";
-import { leastStage, Loading } from "./loading.ts";
+import type { Loadable } from "./loadingEvents.ts";
+import { lowestStageOf, LoadingEvents } from "./loadingEvents.ts";
 
 /** An element that keeps what it is told. */
 function elementWithLog() {
@@ -32,7 +32,7 @@ async function stateOf(promise: Promise<unknown>): Promise<string> {
 describe("loading", () => {
   test("tells of a picture after the frame that shows it, and of each rise once", async () => {
     const { element, log } = elementWithLog();
-    const loading = new Loading(element);
+    const loading = new LoadingEvents(element);
     loading.onFrame(isShape);
     loading.reach("points");
     assert.deepEqual([log, await stateOf(element.firstImage)], [[], "pending"]);
@@ -53,7 +53,7 @@ describe("loading", () => {
 
   test("tells the same progress once", () => {
     const { element, log } = elementWithLog();
-    const loading = new Loading(element);
+    const loading = new LoadingEvents(element);
     loading.moveOn(half);
     loading.moveOn({ ...half });
     assert.deepEqual(log, ["progress none"]);
@@ -65,7 +65,7 @@ describe("loading", () => {
       [isScene, "kept", "load"],
     ] as const) {
       const { element, log } = elementWithLog();
-      const loading = new Loading(element);
+      const loading = new LoadingEvents(element);
       loading.reach("points");
       loading.fail({ type: "http", url: "a.png", element, message: "a.png: 404" }, new Error("a.png: 404"));
       loading.settle();
@@ -79,7 +79,7 @@ describe("loading", () => {
 
   test("goes on to tell of finer stages after its end, once each", () => {
     const { element, log } = elementWithLog();
-    const loading = new Loading(element);
+    const loading = new LoadingEvents(element);
     loading.reach("shaded");
     loading.settle();
     loading.onFrame(isShape);
@@ -94,18 +94,18 @@ describe("loading", () => {
 
   test("keeps what failed on the element", () => {
     const { element } = elementWithLog();
-    const loading = new Loading(element);
+    const loading = new LoadingEvents(element);
     assert.deepEqual(element.errors, []);
     const detail = { type: "http", url: "a.png", element, message: "a.png: 404" };
     loading.fail(detail, new Error(detail.message));
     assert.deepEqual(element.errors, [detail]);
-    new Loading(element);
+    new LoadingEvents(element);
     assert.deepEqual(element.errors, []);
   });
 
   test("that is abandoned breaks its promises and falls silent", async () => {
     const { element, log } = elementWithLog();
-    const loading = new Loading(element);
+    const loading = new LoadingEvents(element);
     loading.reach("points");
     loading.abandon();
     loading.settle();
@@ -116,15 +116,15 @@ describe("loading", () => {
 
   test("that begins anew puts new promises on the element", () => {
     const { element } = elementWithLog();
-    new Loading(element).abandon();
+    new LoadingEvents(element).abandon();
     const { complete } = element;
-    new Loading(element);
+    new LoadingEvents(element);
     assert.notEqual(element.complete, complete);
   });
 });
 
 test("a scene is as far as its last shape", () => {
-  assert.equal(leastStage(["full", "points", "shaded"]), "points");
-  assert.equal(leastStage(["full", "none"]), "none");
-  assert.equal(leastStage([]), "none");
+  assert.equal(lowestStageOf(["full", "points", "shaded"]), "points");
+  assert.equal(lowestStageOf(["full", "none"]), "none");
+  assert.equal(lowestStageOf([]), "none");
 });

@@ -13,13 +13,13 @@ import type { GeometryDescription, ShapeDescription, TextureDescription } from "
 import type { SceneElement } from "../document/element.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
-import { leastStage, Loading } from "./loading.ts";
+import { lowestStageOf, LoadingEvents } from "./loadingEvents.ts";
 
 interface LoadedShape {
   readonly geometry: GeometryDescription | undefined;
   /** In any of its places. */
   isVisible: boolean;
-  readonly loading: Loading;
+  readonly loading: LoadingEvents;
   readonly stages: (StageName | "none")[];
   delivery: JoinedDelivery | undefined;
   /** What is laid over it, and what is to be. */
@@ -27,10 +27,10 @@ interface LoadedShape {
   described: readonly TextureDescription[];
 }
 
-export interface ShapeLoadsListener {
+export interface PageShapesListener {
   /** A patch shows another stage. */
   onStage(stage: Stage | undefined): void;
-  onError(error: DeliveryError, element: Element, loading: Loading): void;
+  onError(error: DeliveryError, element: Element, loading: LoadingEvents): void;
   /** Whether shapes of which nothing is on its way may be complete. */
   maySettle(): boolean;
 }
@@ -38,11 +38,11 @@ export interface ShapeLoadsListener {
 /** Ends what was begun for shapes that are gone. */
 export type Leave = () => void;
 
-export class ShapeLoads {
+export class PageShapes {
   readonly #renderer: SceneRenderer;
   readonly #deliveries: GeometryDeliveries;
   readonly #textures: TextureDeliveries;
-  readonly #listener: ShapeLoadsListener;
+  readonly #listener: PageShapesListener;
   readonly #shapes = new Map<SceneElement, LoadedShape>();
   /** Those that are seen and not complete. Kept, since each of ten thousand that is complete asks whether it is the last. */
   readonly #coming = new Set<LoadedShape>();
@@ -55,7 +55,7 @@ export class ShapeLoads {
     renderer: SceneRenderer,
     deliveries: GeometryDeliveries,
     textures: TextureDeliveries,
-    listener: ShapeLoadsListener,
+    listener: PageShapesListener,
     shownBefore: Iterable<SceneElement>,
   ) {
     this.#renderer = renderer;
@@ -110,7 +110,11 @@ export class ShapeLoads {
   #begin({ element: described, geometry, visible }: ShapeDescription): LoadedShape {
     const element = described as Element;
     const stages = geometry?.patches.map(() => "none" as const) ?? [];
-    const loading = new Loading(element, () => transfersOf(shape), this.#shownBefore.delete(element) ? "base" : "none");
+    const loading = new LoadingEvents(
+      element,
+      () => transfersOf(shape),
+      this.#shownBefore.delete(element) ? "base" : "none",
+    );
     const textures = new ShapeTextures(this.#textures, {
       onPicture: (role, picture) => {
         this.#renderer.setPicture(element, role, picture);
@@ -170,7 +174,7 @@ export class ShapeLoads {
   }
 
   /** Loadings of what is seen: what is hidden is fetched when it is shown. */
-  get awaited(): readonly Loading[] {
+  get awaited(): readonly LoadingEvents[] {
     return Array.from(this.#shapes.values())
       .filter(({ isVisible }) => isVisible)
       .map(({ loading }) => loading);
@@ -233,7 +237,7 @@ export class ShapeLoads {
         this.#listener.onStage(stage);
         shape.stages[patch] = stage?.name ?? "none";
         // A shape is as far as its last patch; with a first picture as soon as any patch shows.
-        shape.loading.reach(stageShown(shape.stages));
+        shape.loading.reach(displayedStageOf(shape.stages));
         this.#isQuiet = false;
       },
       onError: (error) => {
@@ -268,7 +272,7 @@ function transfersOf({ delivery, textures }: LoadedShape): readonly Readonly<Tra
 }
 
 /** How far something is whose parts are at these stages: with a first picture as soon as any of them shows. */
-export function stageShown(stages: readonly (StageName | "none")[]): StageName | "none" {
-  const least = leastStage(stages);
+export function displayedStageOf(stages: readonly (StageName | "none")[]): StageName | "none" {
+  const least = lowestStageOf(stages);
   return least === "none" && stages.some((stage) => stage !== "none") ? (stageNames[0] ?? "none") : least;
 }

@@ -11,16 +11,16 @@ import type { View } from "../render/view.ts";
 import type { ChunkWeights } from "../scheduler/priority.ts";
 import { chunkWeightsOf, defaultChunkWeights } from "../scheduler/priority.ts";
 import { planesOf } from "../scheduler/viewMetrics.ts";
-import { SeenPlaces } from "./seenPlaces.ts";
+import { VisibleInstances } from "./visibleInstances.ts";
 
 /** While the camera moves, the order changes this often; a few files' time on a fast line. */
 const steeringIntervalMs = 100;
 
-export class Steering {
+export class DeliveryControl {
   readonly #renderer: SceneRenderer;
   readonly #deliveries: SceneDeliveries;
   readonly #onSteered: () => void;
-  readonly #places = new SeenPlaces();
+  readonly #places = new VisibleInstances();
   #chunkPriority = "";
   #weights: ChunkWeights = defaultChunkWeights;
   #view: View | undefined;
@@ -44,20 +44,20 @@ export class Steering {
     if (chunkPriority !== this.#chunkPriority) this.#weights = chunkWeightsOf(chunkPriority, onProblem);
     this.#chunkPriority = chunkPriority;
     this.#places.follow(places);
-    this.steer();
+    this.request();
   }
 
   /** Bytes on the GPU that deliveries may take. */
   setBudget(mostBytes: number): void {
     if (mostBytes === this.#mostBytes) return;
     this.#mostBytes = mostBytes;
-    this.steer();
+    this.request();
   }
 
   /** Asks for nothing before this. */
-  begin(): void {
+  start(): void {
     this.#isHeld = false;
-    this.steer();
+    this.request();
   }
 
   /** Soon, if since the last time the camera has moved, or more has come than may. */
@@ -67,12 +67,12 @@ export class Steering {
     const isOverBudget = storedBytes > this.#mostBytes && storedBytes !== this.#knownBytes;
     if (!isOverBudget && isSameView(this.#renderer.view, this.#view)) return;
     this.#timer = setTimeout(() => {
-      this.steer();
+      this.request();
     }, steeringIntervalMs);
   }
 
   /** Now. */
-  steer(): void {
+  request(): void {
     this.stop();
     if (this.#isHeld) return;
     this.#view = this.#renderer.view;

@@ -19,7 +19,7 @@ import { FrameTaskQueue } from "../scheduler/frameTaskQueue.ts";
 const bytesPerFrame = 4 * 2 ** 20;
 const millisecondsPerFrame = 4;
 
-export class Arrival {
+export class UploadPipeline {
   readonly #renderer: SceneRenderer;
   readonly #work = new FrameTaskQueue({
     bytesPerFrame,

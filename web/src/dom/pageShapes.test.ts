@@ -7,7 +7,7 @@ import { shapesOf } from "../document/description.ts";
 import { elementsOf } from "../document/elements.testing.ts";
 import { readScene } from "../document/readScene.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
-import { ShapeLoads } from "./shapeLoads.ts";
+import { PageShapes } from "./pageShapes.ts";
 
 /** A scene of as many shapes, each of a file set of its own, and what a renderer is asked for while they load. */
 function loadsOf(count: number) {
@@ -40,7 +40,7 @@ function loadsOf(count: number) {
   } as unknown as SceneRenderer;
   const { pool } = siteOf(sigFiles(count));
   const deliveries = new GeometryDeliveries(pool);
-  const loads = new ShapeLoads(
+  const loads = new PageShapes(
     renderer,
     deliveries,
     new TextureDeliveries(pool),
