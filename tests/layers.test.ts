@@ -102,6 +102,31 @@ function checkTree(tree: string): string[] {
   return sourceFiles(tree).flatMap((path) => checkFile(layers, path, readFileSync(join(tree, path), "utf8")));
 }
 
+/** Import and include cycles between files, each as "a -> b -> a"; type-only imports count. */
+function checkCycles(tree: string): string[] {
+  const uses = new Map(
+    sourceFiles(tree).map((path): [string, string[]] => {
+      const text = readFileSync(join(tree, path), "utf8");
+      const found = /\.(h|cpp)$/.test(path) ? usesOfCpp(text) : usesOfTypeScript(path, text);
+      return [path, found.map(({ target }) => target)];
+    }),
+  );
+  const cycles: string[] = [];
+  const isFinished = new Map<string, boolean>();
+  const visit = (path: string, trail: readonly string[]) => {
+    if (isFinished.get(path) === true) return;
+    if (isFinished.get(path) === false) {
+      cycles.push([...trail.slice(trail.indexOf(path)), path].join(" -> "));
+      return;
+    }
+    isFinished.set(path, false);
+    for (const target of uses.get(path) ?? []) if (uses.has(target)) visit(target, [...trail, path]);
+    isFinished.set(path, true);
+  };
+  for (const path of uses.keys()) visit(path, []);
+  return cycles;
+}
+
 /** The table must be a ladder: what a folder uses stands above it. */
 function checkOrder(layers: Layers): string[] {
   const above = new Set<string>();
@@ -135,6 +160,10 @@ const smallTable =
 test("every include and import keeps to docs/layers.txt", () => {
   assert.ok(sourceFiles(root).length > 10, "the sources were not found");
   assert.deepEqual(checkTree(root), []);
+});
+
+test("no file of src or web/src includes or imports itself by way of others", () => {
+  assert.deepEqual(checkCycles(root), []);
 });
 
 test("docs/layers.txt has no cycle: a folder uses only those above it", () => {
@@ -180,6 +209,24 @@ test("the check finds what breaks the rules, and names its line", () => {
       "web/src/decode/lazy.ts:3: web/src/decode may not use three",
       "web/src/decode/png.ts:3: web/src/decode may not use three",
       "web/src/decode/png.ts:4: web/src/decode may not use web/src/render",
+    ]);
+  });
+});
+
+test("the check finds cycles of imports and includes, type-only imports included", () => {
+  const tree = {
+    "src/base/a.h": '#include "base/b.h"\n#include "base/d.h"\n',
+    "src/base/b.h": '#include "base/c.h"\n',
+    "src/base/c.h": '#include "base/a.h"\n',
+    "src/base/d.h": "#include <vector>\n",
+    "web/src/decode/png.ts": 'import type { Zlib } from "./zlib.ts";\n',
+    "web/src/decode/zlib.ts": 'export { png } from "./png.ts";\n',
+    "web/src/decode/strips.ts": 'import { png } from "./png.ts";\n',
+  };
+  withTree(tree, (path) => {
+    assert.deepEqual(checkCycles(path), [
+      "src/base/a.h -> src/base/b.h -> src/base/c.h -> src/base/a.h",
+      "web/src/decode/png.ts -> web/src/decode/zlib.ts -> web/src/decode/png.ts",
     ]);
   });
 });
