@@ -2,9 +2,9 @@
 // divides by pi; hence a chunk of our own, lighting/x3dLighting.ts, and
 // `outputColorSpace` linear in the renderer.)
 
-import type { Color, Material } from "three";
-import { DoubleSide, FrontSide, LinearSRGBColorSpace, MeshBasicMaterial, MeshPhongMaterial } from "three";
-import type { AppearanceDescription, MaterialDescription, Vec3 } from "../../document/description.ts";
+import type { Material } from "three";
+import { DoubleSide, FrontSide, MeshBasicMaterial, MeshPhongMaterial } from "three";
+import type { AppearanceDescription, MaterialDescription } from "../../document/description.ts";
 import type { LitParameters } from "../../lighting/materialParameters.ts";
 import { isBlended, litParametersOf, opacityOf, unlitColorOf } from "../../lighting/materialParameters.ts";
 import { physicalDefine, physicalOutput } from "../../lighting/physicalLighting.ts";
@@ -30,6 +30,7 @@ import {
   ownMapDeclarations,
   unlitDefine,
 } from "./x3dMaps.ts";
+import { setColor } from "./linearColor.ts";
 
 const x3dLightingChunk = /* glsl */ `
 varying vec3 vViewPosition;
@@ -223,9 +224,4 @@ function setKind(material: LitMaterial, kind: MaterialDescription["kind"]): void
   const others = Object.entries(defines).filter(([name]) => !allKindDefines.includes(name));
   material.defines = { ...Object.fromEntries(others), ...Object.fromEntries(wanted.map((name) => [name, ""])) };
   material.needsUpdate = true;
-}
-
-export function setColor(color: Color, [red, green, blue]: Vec3): void {
-  // three's working space is linear, so this keeps the numbers as they are.
-  color.setRGB(red, green, blue, LinearSRGBColorSpace);
 }
