@@ -179,7 +179,7 @@ void measure(const std::filesystem::path& model, const std::string& directory) {
   Mesh mesh = importFile(model).scene.meshes.at(0);
   weld(mesh);
   const PatchedMesh patched = bench::patchesOf(mesh);
-  const EncodeOptions options{.container = Container::sig, .normalBits = 8, .effort = 9};
+  const EncodeOptions options{.encoding = Encoding::classic, .normalBits = 8, .effort = 9};
   const GeometryDescription geometry = describe(patched, options);
   const double diagonal = length(boxOf(mesh).size());
   std::vector<IndexedPatch> exact;

@@ -46,7 +46,7 @@ constexpr int effort = 9;
 
 Measure asWritten(NormalEncoding normals) {
   return [normals](const PatchedMesh& mesh, const IndexedPatch& patch, Outcome& outcome) {
-    const EncodeOptions options{Container::sig, 8, effort, Target::web, normals};
+    const EncodeOptions options{Encoding::classic, 8, effort, Target::web, normals};
     const GeometryDescription geometry = describe(mesh, options);
     const EncodedPatch encoded = encodePatch(patch, geometry, options);
     const auto file = [&](const std::string& url) { return encoded.files.at(std::stoul(url)).bytes; };

@@ -110,7 +110,7 @@ void add(const IndexedPatch& patch, const PatchedMesh& mesh, const EncodeOptions
   for (const EncodedFile& file : encoded.files)
     sum.sig[static_cast<std::size_t>(file.role)] += file.bytes.size();
   EncodeOptions typed = options;
-  typed.container = Container::bg;
+  typed.encoding = Encoding::bg;
   for (const EncodedFile& file : encodePatch(patch, describe(mesh, typed), typed).files)
     sum.bg += file.bytes.size();
 }

@@ -7,7 +7,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::InputReader input({data, size});
   const auto type = [&] { return static_cast<ElementType>(input.bits(8) % 7); };
   GeometryDescription geometry;
-  geometry.container = Container::bg;
+  geometry.encoding = Encoding::bg;
   geometry.lattice.bits = 8 + input.bits(8) % 25;
   geometry.colorComponents = 3 + input.bits(8) % 2;
   geometry.indexType = type();

@@ -8,7 +8,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace imgeo;
   fuzz::InputReader input({data, size});
   GeometryDescription geometry;
-  geometry.container = Container::sig;
+  geometry.encoding = Encoding::classic;
   geometry.lattice.bits = 8 + input.bits(8) % 25;
   const std::uint32_t kinds = input.bits(8);
   geometry.colorComponents = 3 + kinds % 2;

@@ -5,6 +5,7 @@
 #include "cli/element_counts.h"
 #include "cli/interruption.h"
 #include "cli/terminal.h"
+#include "containers/encodings.h"
 #include "transcode/transcode.h"
 
 #include <algorithm>
@@ -76,11 +77,25 @@ TextureOptions texturesFrom(const Arguments& arguments) {
   return textures;
 }
 
+/// The encoding that --container and --profile name; nothing where convert is to choose a profile of sig.
+std::optional<Encoding> encodingFrom(const Arguments& arguments) {
+  const std::string container = arguments.text("container"), profile = arguments.text("profile");
+  std::optional<Encoding> encoding;
+  for (const EncodingRow* row : allEncodings())
+    if (row->container == container && (profile == "auto" || row->profile == profile)) {
+      if (encoding)
+        return std::nullopt;
+      encoding = row->encoding;
+    }
+  if (!encoding)
+    throw Error(ErrorKind::usage, "--profile",
+                fmt::format("{} is a profile of sig, and {} has none", profile, container));
+  return encoding;
+}
+
 ConvertOptions optionsFrom(const Arguments& arguments) {
   ConvertOptions options;
-  options.container = chosen(arguments, "container", {Container::sig, Container::bg});
-  options.profile =
-      chosen<std::optional<Profile>>(arguments, "profile", {std::nullopt, Profile::compact, Profile::classic});
+  options.encoding = encodingFrom(arguments);
   options.target = chosen(arguments, "target", {Target::web, Target::x3dom});
   options.x3domUrl = arguments.text("x3dom-url");
   options.primitives = chosen(arguments, "primitives", {Primitives::triangles, Primitives::strips, Primitives::points});
@@ -139,7 +154,7 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
   json["format"] = report.format;
   json["sourceBytes"] = report.sourceBytes;
   json["container"] = arguments.text("container");
-  json["profile"] = nameOf(report.profile);
+  json["profile"] = rowOf(report.encoding).profile;
   for (const char* name : {"target", "primitives", "index"})
     json[name] = arguments.text(name);
   if (!report.x3domUrl.empty())
@@ -240,7 +255,7 @@ void printTextures(const TextureReport& textures) {
 }
 
 void printChoices(const Arguments& arguments, const ConvertReport& report) {
-  const bool isSig = arguments.text("container") == "sig";
+  const EncodingRow& row = rowOf(report.encoding);
   printLine("source", fmt::format("{}, {}", report.format, byteSize(report.sourceBytes)));
   if (report.patches == 0) { // a scene of a few primitives
     printLine("elements", "none to encode: what geometry there is stays in the document as it is");
@@ -248,8 +263,7 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   }
   printLine("elements", fmt::format("{} of {} vertices", listed(report.elements), grouped(report.vertices)));
   const bool onlyPoints = report.elements.points == report.elements.sum();
-  printLine("container", fmt::format("{}, profile {}, target {}, {}{}",
-                                     isSig ? "sig (PNG images)" : "bg (typed arrays)", nameOf(report.profile),
+  printLine("container", fmt::format("{} ({}), profile {}, target {}, {}{}", row.container, row.fileKind, row.profile,
                                      arguments.text("target"), onlyPoints ? "points" : arguments.text("primitives"),
                                      onlyPoints || arguments.text("index") == "on" ? "" : " without index"));
   if (!report.x3domUrl.empty())
@@ -267,7 +281,9 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
                                                 : arguments.text("normal-weighting") == "angle" ? "their angle"
                                                                                                 : "one each")
                               : "the source's, where it has any"));
-  const auto bitsOf = [&](std::uint32_t bits) { return isSig ? fmt::format("{} bits: ", bits) : ""; };
+  const auto bitsOf = [&](std::uint32_t bits) {
+    return row.storage != PatchStorage::arrays ? fmt::format("{} bits: ", bits) : "";
+  };
   if (report.texCoordError)
     printLine("texcoords", fmt::format("{}off by at most {:.3g}", bitsOf(report.texCoordBits), *report.texCoordError));
   if (report.hasColors)

@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/element_counts.h"
 #include "cli/terminal.h"
+#include "containers/encodings.h"
 #include "transcode/transcode.h"
 
 #include <algorithm>
@@ -22,11 +23,6 @@ void printJson(const Json& json) {
   fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
-/// Of SIG; empty for BG.
-const char* profileOf(const GeometryInfo& geometry) {
-  return geometry.container == Container::sig ? nameOf(geometry.profile) : "";
-}
-
 Json jsonOf(const SiteInfo& info) {
   Json json{{"triangles", info.elements.triangles},
             {"lines", info.elements.lines},
@@ -41,8 +37,8 @@ Json jsonOf(const SiteInfo& info) {
             {"bytesPerTriangle", info.bytesPerTriangle}};
   json["geometries"] = Json::array();
   for (const GeometryInfo& geometry : info.geometries)
-    json["geometries"].push_back({{"container", nameOf(geometry.container)},
-                                  {"profile", profileOf(geometry)},
+    json["geometries"].push_back({{"container", rowOf(geometry.encoding).container},
+                                  {"profile", rowOf(geometry.encoding).node.profile},
                                   {"positionBits", geometry.positionBits},
                                   {"coordType", geometry.coordType},
                                   {"indexType", geometry.indexType},
@@ -65,12 +61,12 @@ bool isFetched(const std::string& role) {
 
 /// "sig: positions of 16 bits, Uint16 indices, octahedral normals of 8 bits"
 std::string textOf(const GeometryInfo& geometry) {
-  const bool isCompact = geometry.profile == Profile::compact;
-  std::string text = fmt::format("{}{}: positions of {} bits", nameOf(geometry.container), isCompact ? " compact" : "",
-                                 geometry.positionBits);
+  const EncodingRow& row = rowOf(geometry.encoding);
+  const std::string profile = row.node.isDefaultProfile ? "" : std::string(" ") + row.node.profile;
+  std::string text = fmt::format("{}{}: positions of {} bits", row.container, profile, geometry.positionBits);
   if (!geometry.coordType.empty())
     text += " as " + geometry.coordType;
-  if (!isCompact)
+  if (row.storage != PatchStorage::packed)
     text += geometry.indexType.empty() ? ", no index" : ", " + geometry.indexType + " indices";
   text += geometry.normalEncoding.empty()
               ? ", no normals"

@@ -30,7 +30,7 @@ void spreadTexCoords(GeometryDescription& geometry, const PatchedMesh& mesh, Tar
   if (target == Target::x3dom) {
     if (min.x >= 0 && min.y >= 0 && max.x <= 1 && max.y <= 1)
       return;
-    if (geometry.container == Container::sig)
+    if (geometry.encoding == Encoding::classic)
       throw Error(ErrorKind::unsupported, "",
                   "X3DOM's images hold texture coordinates of 0..1 alone and these go beyond; container bg "
                   "holds them");
@@ -40,7 +40,7 @@ void spreadTexCoords(GeometryDescription& geometry, const PatchedMesh& mesh, Tar
   geometry.texCoordMin = min;
   geometry.texCoordSize = {max.x - min.x, max.y - min.y};
   // Compact predicts them from the shapes of triangles: one step on both axes.
-  if (geometry.profile == Profile::compact)
+  if (geometry.encoding == Encoding::compact)
     geometry.texCoordSize.x = geometry.texCoordSize.y = std::max(geometry.texCoordSize.x, geometry.texCoordSize.y);
 }
 
@@ -55,34 +55,33 @@ ElementType indexTypeOf(const PatchedMesh& mesh) {
 
 GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& options) {
   GeometryDescription geometry;
-  geometry.container = options.container;
-  geometry.profile = options.profile;
+  geometry.encoding = options.encoding;
   geometry.lattice = mesh.lattice;
   geometry.box = mesh.box;
   spreadTexCoords(geometry, mesh, options.target);
   for (const Patch& patch : mesh.patches)
     geometry.colorComponents = std::max(geometry.colorComponents, patch.colorComponents);
   // X3DOM takes the number of colour components of a page's first ImageGeometry for all.
-  if (options.target == Target::x3dom && options.container == Container::sig)
+  if (options.target == Target::x3dom && options.encoding == Encoding::classic)
     geometry.colorComponents = 4;
   geometry.normalEncoding = options.normals;
-  geometry.attributes = describeAttributes(mesh, options.container, options.attributeBits / 8);
-  if (options.container == Container::bg)
+  geometry.attributes = describeAttributes(mesh, options.encoding, options.attributeBits / 8);
+  if (options.encoding == Encoding::bg)
     chooseTypes(geometry, mesh, options);
-  if (options.profile == Profile::compact) { // its files say
+  if (options.encoding == Encoding::compact) { // its files say
     geometry.normalEncoding = NormalEncoding::rgb;
     return geometry;
   }
   geometry.indexType = indexTypeOf(mesh);
   assert(geometry.indexType == ElementType::uint16 || options.target == Target::web ||
-         options.container == Container::bg);
+         options.encoding == Encoding::bg);
   return geometry;
 }
 
 EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry, const EncodeOptions& options) {
-  assert(geometry.profile == Profile::classic);
-  return geometry.container == Container::sig ? encodeClassic(patch, geometry, options.effort, options.target)
-                                              : encodeBg(patch, geometry, options.layout);
+  assert(geometry.encoding != Encoding::compact);
+  return geometry.encoding == Encoding::classic ? encodeClassic(patch, geometry, options.effort, options.target)
+                                                : encodeBg(patch, geometry, options.layout);
 }
 
 ContainerReader::ContainerReader(FetchFile fetch)
@@ -91,10 +90,10 @@ ContainerReader::ContainerReader(FetchFile fetch)
 ContainerReader::~ContainerReader() = default;
 
 IndexedPatch ContainerReader::decode(const PatchDescription& patch, const GeometryDescription& geometry) const {
-  if (geometry.container == Container::bg)
+  if (geometry.encoding == Encoding::bg)
     return decodeBg(patch, geometry, fetch_);
-  return geometry.profile == Profile::classic ? decodeClassic(patch, geometry, fetch_)
-                                              : compact_->decode(patch, geometry);
+  return geometry.encoding == Encoding::classic ? decodeClassic(patch, geometry, fetch_)
+                                                : compact_->decode(patch, geometry);
 }
 
 BaseMesh ContainerReader::decodeBase(const GeometryDescription& geometry) const {
@@ -106,9 +105,9 @@ IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescriptio
 }
 
 StoredPrecision ContainerReader::precisionOf(const GeometryDescription& geometry) const {
-  if (geometry.profile == Profile::compact)
+  if (geometry.encoding == Encoding::compact)
     return geometry.patches.empty() ? StoredPrecision{} : compact_->precisionOf(geometry.patches[0]);
-  const bool isBg = geometry.container == Container::bg;
+  const bool isBg = geometry.encoding == Encoding::bg;
   const auto bits = [&](auto reference, ElementType type, std::uint32_t inImages) {
     const bool isThere = std::ranges::any_of(
         geometry.patches, [&](const PatchDescription& patch) { return (patch.*reference).has_value(); });

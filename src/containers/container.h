@@ -1,9 +1,9 @@
 #pragma once
 // One patch <-> the files that hold it. Each container has the same functions;
-// these pick by Container.
+// these pick by Encoding.
 
 #include "base/bytes.h"
-#include "containers/geometry.h"
+#include "containers/geometry_description.h"
 #include "prepare/base_mesh.h"
 
 #include <functional>
@@ -23,7 +23,7 @@ enum class Target : std::uint8_t { web, x3dom };
 enum class Layout : std::uint8_t { separate, interleaved };
 
 struct EncodeOptions {
-  Container container = Container::sig;
+  Encoding encoding = Encoding::classic;
   /// Bits of a stored component. SIG: 8. Compact: 4 .. 16. BG: 8, 16 or 32 (Float32); octahedral 8 or
   /// 16, spherical 8, and those of 8 only beside coordinates of 9 .. 16 bits.
   std::uint32_t normalBits = 8;
@@ -33,7 +33,6 @@ struct EncodeOptions {
   std::optional<ElementType> coordType{};         ///< BG; nothing: the smallest unsigned type
   Layout layout = Layout::separate;               ///< BG
   std::uint32_t attributeBits = 16;               ///< SIG: 8, 16 or 24; BG has Float32
-  Profile profile = Profile::classic;             ///< SIG
   std::uint32_t texCoordBits = 16, colorBits = 8; ///< only compact has others
 };
 

@@ -40,7 +40,7 @@ void expectEqualWithinSteps(const NamedAttribute& decoded, const NamedAttribute&
   for (std::size_t i = 0; i < source.values.size(); ++i) {
     const auto component = static_cast<std::uint32_t>(i % source.components);
     ASSERT_NEAR(decoded.values[i], source.values[i],
-                numberBound(geometry.container, geometry.attributes[place], component));
+                numberBound(geometry.encoding, geometry.attributes[place], component));
   }
 }
 
@@ -74,19 +74,19 @@ constexpr std::uint32_t everyPrecision[] = {8, 10, 12, 16, 20, 24, 32};
 
 /// Every way to store normals beside coordinates of so many bits.
 std::vector<EncodeOptions> everyNormalEncoding(std::uint32_t bits) {
-  const auto options = [](Container container, NormalEncoding normals, std::uint32_t normalBits) {
-    return EncodeOptions{container, normalBits, 1, Target::web, normals};
+  const auto options = [](Encoding encoding, NormalEncoding normals, std::uint32_t normalBits) {
+    return EncodeOptions{encoding, normalBits, 1, Target::web, normals};
   };
   std::vector<EncodeOptions> all;
   for (const NormalEncoding normals :
        {NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical, NormalEncoding::palette})
-    all.push_back(options(Container::sig, normals, 8));
+    all.push_back(options(Encoding::classic, normals, 8));
   for (const std::uint32_t normalBits : {8u, 16u, 32u})
-    all.push_back(options(Container::bg, NormalEncoding::rgb, normalBits));
-  all.push_back(options(Container::bg, NormalEncoding::octahedral, 16));
-  if (coordBytes(Container::bg, bits) == 2) {
-    all.push_back(options(Container::bg, NormalEncoding::octahedral, 8));
-    all.push_back(options(Container::bg, NormalEncoding::spherical, 8));
+    all.push_back(options(Encoding::bg, NormalEncoding::rgb, normalBits));
+  all.push_back(options(Encoding::bg, NormalEncoding::octahedral, 16));
+  if (coordBytes(Encoding::bg, bits) == 2) {
+    all.push_back(options(Encoding::bg, NormalEncoding::octahedral, 8));
+    all.push_back(options(Encoding::bg, NormalEncoding::spherical, 8));
   }
   return all;
 }
@@ -125,15 +125,15 @@ Mesh richMesh(std::uint32_t seed) {
 TEST(Containers, GiveBackEveryAttributeOfEveryPrimitiveAtEveryPrecision) {
   using enum Primitive;
   std::uint32_t seed = 0;
-  for (const Container container : {Container::sig, Container::bg})
+  for (const Encoding encoding : {Encoding::classic, Encoding::bg})
     for (const Primitive primitive : {points, lines, lineStrip, triangles, triangleStrip})
       for (const bool indexed : {true, false})
         for (std::uint32_t bits = 8; bits <= 32; ++bits) {
           EncodeOptions options;
-          options.container = container;
+          options.encoding = encoding;
           options.effort = 0;
           options.attributeBits = 8 * (1 + ++seed % 3);
-          SCOPED_TRACE(fmt::format("container {}, primitive {}, {} bits, {}, seed {}", int(container), int(primitive),
+          SCOPED_TRACE(fmt::format("encoding {}, primitive {}, {} bits, {}, seed {}", int(encoding), int(primitive),
                                    bits, indexed ? "indexed" : "without an index", seed));
           const Encoded encoded = encode(richMesh(seed), primitive, indexed, bits, options);
           EXPECT_FALSE(encoded.source.normals.empty() || encoded.source.texCoords.empty() ||
@@ -152,7 +152,7 @@ std::vector<EncodeOptions> everyArray(std::uint32_t bits) {
     for (const Layout layout : {Layout::separate, Layout::interleaved})
       if (holdsLattice(type, bits))
         for (const EncodeOptions& normals : everyNormalEncoding(8 * byteSizeOf(type)))
-          if (normals.container == Container::bg) {
+          if (normals.encoding == Encoding::bg) {
             all.push_back(normals);
             all.back().coordType = type;
             all.back().layout = layout;
@@ -184,7 +184,7 @@ TEST(Containers, GiveBackFloatsAsNearAsSinglesAre) {
         const Mesh mesh = randomMesh(seed);
         const Lattice lattice = latticeFor(boxOf(mesh), ElementType::float32, bits);
         const PatchedMesh patched = cutIntoPatches(mesh, lattice, 65535);
-        const EncodeOptions options{Container::bg,        32,    0, Target::web, NormalEncoding::rgb,
+        const EncodeOptions options{Encoding::bg,         32,    0, Target::web, NormalEncoding::rgb,
                                     ElementType::float32, layout};
         const GeometryDescription geometry = describe(patched, options);
         ASSERT_EQ(patched.patches.size(), 1u);
@@ -204,7 +204,7 @@ TEST(Containers, GiveBackFloatsAsNearAsSinglesAre) {
 TEST(Containers, PutPairsOfNormalsIntoWhatPadsCoordinates) {
   for (const NormalEncoding normals : {NormalEncoding::octahedral, NormalEncoding::spherical}) {
     const Encoded encoded =
-        encode(testing::torus(9, 9), Primitive::triangles, true, 16, {Container::bg, 8, 1, Target::web, normals});
+        encode(testing::torus(9, 9), Primitive::triangles, true, 16, {Encoding::bg, 8, 1, Target::web, normals});
     const PatchDescription& patch = encoded.patch.description;
     EXPECT_EQ(patch.normal, (Reference{patch.coord[0].url, 6, 8}));
     EXPECT_EQ(encoded.patch.files.size(), 3u); // index, coordinates, texture coordinates
@@ -218,27 +218,26 @@ TEST(Containers, GiveBackPairsOfNormalsOfMoreVerticesThanAnIndexCouldName) {
     for (std::uint32_t i = 0; i < count; ++i)
       mesh.normals.push_back(random.direction());
     expectEqualWithinSteps(
-        encode(mesh, Primitive::points, false, 8, {Container::sig, 8, 0, Target::web, NormalEncoding::octahedral}));
+        encode(mesh, Primitive::points, false, 8, {Encoding::classic, 8, 0, Target::web, NormalEncoding::octahedral}));
   }
 }
 
 TEST(Containers, GiveBackAPatchOfEverySizeAroundARow) {
-  for (const Container container : {Container::sig, Container::bg})
+  for (const Encoding encoding : {Encoding::classic, Encoding::bg})
     for (const std::uint32_t count : {1u, 2u, 255u, 256u, 257u, 511u, 512u, 513u, 65535u})
       for (const bool indexed : {false, true})
         expectEqualWithinSteps(
-            encode(testing::pointCloud(count, count), Primitive::points, indexed, 16, {container, 8, 0}));
+            encode(testing::pointCloud(count, count), Primitive::points, indexed, 16, {encoding, 8, 0}));
 }
 
 TEST(Containers, GiveBackMoreVerticesThanAnIndexCouldName) {
-  for (const Container container : {Container::sig, Container::bg})
+  for (const Encoding encoding : {Encoding::classic, Encoding::bg})
     for (const std::uint32_t count : {65536u, 65537u, 262144u, 262145u})
-      expectEqualWithinSteps(
-          encode(testing::pointCloud(count, count), Primitive::points, false, 16, {container, 8, 0}));
+      expectEqualWithinSteps(encode(testing::pointCloud(count, count), Primitive::points, false, 16, {encoding, 8, 0}));
 }
 
 TEST(Containers, GiveBackIndicesOf32Bits) {
-  for (const Container container : {Container::sig, Container::bg})
+  for (const Encoding encoding : {Encoding::classic, Encoding::bg})
     for (const std::uint32_t side : {256u, 300u, 1030u}) { // 66,049, 90,601 and 1,062,961 vertices
       Mesh mesh = testing::grid(side);
       mesh.normals.clear();
@@ -246,7 +245,7 @@ TEST(Containers, GiveBackIndicesOf32Bits) {
       if (side > 1000)
         mesh.corners.resize(100'002); // all vertices, but not all triangles of them
       mesh.corners.back() = static_cast<std::uint32_t>(mesh.wedgeCount() - 1);
-      const Encoded encoded = encode(mesh, Primitive::triangles, true, 12, {container, 8, 0});
+      const Encoded encoded = encode(mesh, Primitive::triangles, true, 12, {encoding, 8, 0});
       EXPECT_EQ(encoded.geometry.indexType, ElementType::uint32);
       expectEqualWithinSteps(encoded);
     }
@@ -267,9 +266,9 @@ TEST(Containers, RefuseMoreVerticesThanTheLargestImageHolds) {
 }
 
 TEST(Containers, GiveBackSeveralDraws) {
-  for (const Container container : {Container::sig, Container::bg}) {
+  for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
     const PatchedMesh patched = onePatch(testing::grid(9), 12);
-    const EncodeOptions options{container};
+    const EncodeOptions options{encoding};
     Encoded encoded{verticesOf(patched.patches[0], Primitive::triangles, true), describe(patched, options), {}};
     const auto count = static_cast<std::uint32_t>(encoded.source.indices.size());
     encoded.source.draws = {
@@ -280,8 +279,8 @@ TEST(Containers, GiveBackSeveralDraws) {
 }
 
 TEST(Containers, RefuseIndicesOf32BitsBeyondTheVertices) {
-  for (const Container container : {Container::sig, Container::bg}) {
-    Encoded encoded = encode(testing::grid(256), Primitive::triangles, true, 12, {container, 8, 0});
+  for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
+    Encoded encoded = encode(testing::grid(256), Primitive::triangles, true, 12, {encoding, 8, 0});
     ASSERT_GE(encoded.patch.description.vertexCount, 65536u);
     encoded.patch.description.vertexCount = encoded.source.indices.back();
     EXPECT_THROW(encoded.decoded(), Error);
@@ -291,7 +290,7 @@ TEST(Containers, RefuseIndicesOf32BitsBeyondTheVertices) {
 }
 
 TEST(Containers, RefuseAnIndexAfterWhichNoNumberOfVerticesIsLeft) {
-  Encoded encoded = encode(testing::grid(256), Primitive::triangles, true, 12, {Container::bg, 8, 0});
+  Encoded encoded = encode(testing::grid(256), Primitive::triangles, true, 12, {Encoding::bg, 8, 0});
   encoded.patch.description.vertexCount = 0;
   EXPECT_NO_THROW(encoded.decoded());
   const std::size_t index = std::stoul(encoded.patch.description.index->url);
@@ -301,17 +300,17 @@ TEST(Containers, RefuseAnIndexAfterWhichNoNumberOfVerticesIsLeft) {
 }
 
 TEST(Containers, FindTheNumberOfVerticesInTheIndicesWhereItIsNotStated) {
-  for (const Container container : {Container::sig, Container::bg}) {
-    Encoded encoded = encode(testing::torus(5, 7), Primitive::triangles, true, 16, {container});
+  for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
+    Encoded encoded = encode(testing::torus(5, 7), Primitive::triangles, true, 16, {encoding});
     encoded.patch.description.vertexCount = 0;
     EXPECT_EQ(encoded.decoded().positions, encoded.source.positions);
   }
 }
 
 TEST(Containers, EncodeTheSameBytesEveryTime) {
-  for (const Container container : {Container::sig, Container::bg}) {
-    const Encoded a = encode(randomMesh(7), Primitive::triangles, true, 16, {container});
-    const Encoded b = encode(randomMesh(7), Primitive::triangles, true, 16, {container});
+  for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
+    const Encoded a = encode(randomMesh(7), Primitive::triangles, true, 16, {encoding});
+    const Encoded b = encode(randomMesh(7), Primitive::triangles, true, 16, {encoding});
     ASSERT_EQ(a.patch.files.size(), b.patch.files.size());
     for (std::size_t i = 0; i < a.patch.files.size(); ++i)
       EXPECT_EQ(a.patch.files[i].bytes, b.patch.files[i].bytes);
@@ -321,8 +320,8 @@ TEST(Containers, EncodeTheSameBytesEveryTime) {
 TEST(Containers, RefuseAFileWhoseEndIsMissing) {
   Mesh mesh = testing::torus(4, 4);
   mesh.colors.resize(mesh.wedgeCount());
-  for (const Container container : {Container::sig, Container::bg}) {
-    Encoded encoded = encode(mesh, Primitive::triangles, true, 16, {container});
+  for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
+    Encoded encoded = encode(mesh, Primitive::triangles, true, 16, {encoding});
     for (EncodedFile& file : encoded.patch.files) {
       const Bytes whole = file.bytes;
       for (std::size_t length = 0; length < whole.size(); ++length) {
@@ -337,7 +336,7 @@ TEST(Containers, RefuseAFileWhoseEndIsMissing) {
 
 TEST(Containers, NoticeSwappedPlanes) {
   for (const std::uint32_t bits : {12u, 16u, 20u, 24u, 32u}) {
-    Encoded encoded = encode(testing::torus(16, 8), Primitive::triangles, true, bits, {Container::sig});
+    Encoded encoded = encode(testing::torus(16, 8), Primitive::triangles, true, bits, {Encoding::classic});
     std::swap(encoded.patch.description.coord[0], encoded.patch.description.coord[1]);
     EXPECT_THROW(encoded.decoded(), Error) << bits << " bits";
   }
@@ -354,7 +353,7 @@ ErrorKind kindOfDecoding(const Encoded& encoded) {
   return ErrorKind::usage;
 }
 
-class HostilePatch : public ::testing::TestWithParam<Container> {
+class HostilePatch : public ::testing::TestWithParam<Encoding> {
 protected:
   Encoded encoded = encode(testing::torus(9, 9), Primitive::triangles, true, 16, {GetParam()});
   PatchDescription& patch = encoded.patch.description;
@@ -422,8 +421,8 @@ TEST_P(HostilePatch, OutsideOfItsStatedBoxIsMalformed) {
   EXPECT_EQ(kindOfDecoding(encoded), ErrorKind::malformed);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfEach, HostilePatch, ::testing::Values(Container::sig, Container::bg),
-                         [](const auto& parameter) { return parameter.param == Container::sig ? "Sig" : "Bg"; });
+INSTANTIATE_TEST_SUITE_P(OfEach, HostilePatch, ::testing::Values(Encoding::classic, Encoding::bg),
+                         [](const auto& parameter) { return parameter.param == Encoding::classic ? "Sig" : "Bg"; });
 
 } // namespace
 } // namespace imgeo

@@ -39,13 +39,13 @@ struct Variant {
 };
 
 const Variant variants[] = {
-    {"sig-classic-1", {Container::sig, 8, 9}},
-    {"sig-classic-1-octahedral", {Container::sig, 8, 9, Target::web, NormalEncoding::octahedral}},
-    {"sig-classic-1-spherical", {Container::sig, 8, 9, Target::web, NormalEncoding::spherical}},
-    {"sig-classic-1-palette", {Container::sig, 8, 9, Target::web, NormalEncoding::palette}},
-    {"bg-1", {Container::bg, 8, 9}},
-    {"bg-1-octahedral", {Container::bg, 16, 9, Target::web, NormalEncoding::octahedral}},
-    {"bg-1-spherical", {Container::bg, 8, 9, Target::web, NormalEncoding::spherical}},
+    {"sig-classic-1", {Encoding::classic, 8, 9}},
+    {"sig-classic-1-octahedral", {Encoding::classic, 8, 9, Target::web, NormalEncoding::octahedral}},
+    {"sig-classic-1-spherical", {Encoding::classic, 8, 9, Target::web, NormalEncoding::spherical}},
+    {"sig-classic-1-palette", {Encoding::classic, 8, 9, Target::web, NormalEncoding::palette}},
+    {"bg-1", {Encoding::bg, 8, 9}},
+    {"bg-1-octahedral", {Encoding::bg, 16, 9, Target::web, NormalEncoding::octahedral}},
+    {"bg-1-spherical", {Encoding::bg, 8, 9, Target::web, NormalEncoding::spherical}},
 };
 
 GoldenPatch encodeGolden(const EncodeOptions& options) {

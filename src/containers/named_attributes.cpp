@@ -1,6 +1,7 @@
 #include "containers/named_attributes.h"
 
 #include "base/error.h"
+#include "containers/encodings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +38,7 @@ std::uint32_t bytesFor(const Values& values, std::uint32_t most) {
   return most;
 }
 
-AttributeDescription describe(const PatchedMesh& mesh, std::size_t place, Container container, std::uint32_t bytes) {
+AttributeDescription describe(const PatchedMesh& mesh, std::size_t place, Encoding encoding, std::uint32_t bytes) {
   const NamedAttribute& first = mesh.patches.front().namedAttributes[place];
   std::vector<Values> values(first.components);
   for (const Patch& patch : mesh.patches) {
@@ -51,7 +52,7 @@ AttributeDescription describe(const PatchedMesh& mesh, std::size_t place, Contai
     description.bytes = std::max(description.bytes, bytesFor(component, bytes));
   for (const Values& component : values) {
     const double extent = component.max - component.min, whole = maximumOf(description.bytes);
-    const bool isExact = container == Container::sig && component.areWhole && extent <= whole;
+    const bool isExact = !hasElementTypes(encoding) && component.areWhole && extent <= whole;
     description.min.push_back(component.min);
     description.size.push_back(isExact ? whole : extent);
   }
@@ -60,13 +61,12 @@ AttributeDescription describe(const PatchedMesh& mesh, std::size_t place, Contai
 
 } // namespace
 
-std::vector<AttributeDescription> describeAttributes(const PatchedMesh& mesh, Container container,
-                                                     std::uint32_t bytes) {
+std::vector<AttributeDescription> describeAttributes(const PatchedMesh& mesh, Encoding encoding, std::uint32_t bytes) {
   std::vector<AttributeDescription> descriptions;
   if (mesh.patches.empty())
     return descriptions;
   for (std::size_t place = 0; place < mesh.patches.front().namedAttributes.size(); ++place)
-    descriptions.push_back(describe(mesh, place, container, bytes));
+    descriptions.push_back(describe(mesh, place, encoding, bytes));
   return descriptions;
 }
 
@@ -82,8 +82,8 @@ float loadNumber(std::uint32_t stored, const AttributeDescription& attribute, st
   return static_cast<float>(attribute.min[component] + attribute.size[component] * stored / maximumOf(attribute.bytes));
 }
 
-double numberBound(Container container, const AttributeDescription& attribute, std::uint32_t component) {
-  if (container == Container::bg)
+double numberBound(Encoding encoding, const AttributeDescription& attribute, std::uint32_t component) {
+  if (hasElementTypes(encoding))
     return 0;
   const double low = attribute.min[component], size = attribute.size[component];
   // What single precision adds.
@@ -95,13 +95,13 @@ void checkAttributes(const PatchDescription& patch, const GeometryDescription& g
   const std::size_t count = geometry.attributes.size();
   bool fits = patch.attributes.size() == count;
   for (std::size_t a = 0; fits && a < count; ++a)
-    fits = patch.attributes[a].size() == filesOf(geometry.container, geometry.attributes[a]);
+    fits = patch.attributes[a].size() == filesOf(geometry.encoding, geometry.attributes[a]);
   if (!fits)
     throw Error(ErrorKind::malformed, "", "a patch has not as many files of attributes as its geometry needs");
 }
 
-std::size_t filesOf(Container container, const AttributeDescription& attribute) {
-  return container == Container::sig ? attribute.bytes : 1;
+std::size_t filesOf(Encoding encoding, const AttributeDescription& attribute) {
+  return hasElementTypes(encoding) ? 1 : attribute.bytes;
 }
 
 std::uint32_t channelsOf(const AttributeDescription& attribute) {

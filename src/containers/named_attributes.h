@@ -1,24 +1,24 @@
 #pragma once
 // How further attributes of vertices are stored: docs/formats/nodes.md, "Stored values".
 
-#include "containers/geometry.h"
+#include "containers/geometry_description.h"
 
 namespace imgeo {
 
 /// What a document says of the attributes of a mesh about to be encoded, in
 /// their order. Images: each number of a vertex takes `bytes` bytes spread over the box of
 /// all its values; where all are whole and fit, fewer bytes that hold them exactly.
-std::vector<AttributeDescription> describeAttributes(const PatchedMesh& mesh, Container container, std::uint32_t bytes);
+std::vector<AttributeDescription> describeAttributes(const PatchedMesh& mesh, Encoding encoding, std::uint32_t bytes);
 
 /// A component's number -> the integer that images hold, and back.
 std::uint32_t storeNumber(float value, const AttributeDescription& attribute, std::uint32_t component);
 float loadNumber(std::uint32_t stored, const AttributeDescription& attribute, std::uint32_t component);
 
 /// By how much a stored number may be off.
-double numberBound(Container container, const AttributeDescription& attribute, std::uint32_t component);
+double numberBound(Encoding encoding, const AttributeDescription& attribute, std::uint32_t component);
 
 /// How many files hold an attribute of a patch.
-std::size_t filesOf(Container container, const AttributeDescription& attribute);
+std::size_t filesOf(Encoding encoding, const AttributeDescription& attribute);
 
 /// Throws Error{malformed} unless a patch has as many files of each attribute as the geometry says.
 void checkAttributes(const PatchDescription& patch, const GeometryDescription& geometry);

@@ -48,7 +48,7 @@ TEST(NamedAttributes, OfWholeNumbersTakeNoMoreBytesThanTheyNeedAndAreExact) {
 TEST(NamedAttributes, AreExactAsTypedArrays) {
   const PatchedMesh mesh = withValues({1e-30f, -3.25f, 1e30f, 0.1f, 7}, 3);
   for (const Layout layout : {Layout::separate, Layout::interleaved})
-    EXPECT_EQ(readBack(mesh, {.container = Container::bg, .layout = layout}), mesh.patches[0].namedAttributes[0]);
+    EXPECT_EQ(readBack(mesh, {.encoding = Encoding::bg, .layout = layout}), mesh.patches[0].namedAttributes[0]);
 }
 
 TEST(NamedAttributes, HaveAStepThatIsTheirRangeOverTheirBits) {
@@ -57,19 +57,19 @@ TEST(NamedAttributes, HaveAStepThatIsTheirRangeOverTheirBits) {
   const AttributeDescription described = describe(mesh, options).attributes.at(0);
   EXPECT_EQ(described.min, std::vector<double>{-1.5});
   EXPECT_EQ(described.size, std::vector<double>{4});
-  EXPECT_NEAR(numberBound(Container::sig, described, 0), 2.0 / 255, 1e-6);
+  EXPECT_NEAR(numberBound(Encoding::classic, described, 0), 2.0 / 255, 1e-6);
   EXPECT_NE(readBack(mesh, options).values[2], 0.3f);
-  EXPECT_NEAR(readBack(mesh, options).values[2], 0.3f, numberBound(Container::sig, described, 0));
+  EXPECT_NEAR(readBack(mesh, options).values[2], 0.3f, numberBound(Encoding::classic, described, 0));
 }
 
 TEST(NamedAttributes, AreRefusedWhereFilesAreMissingOrNoNumbers) {
   const PatchedMesh mesh = withValues({1, 2, 300});
-  for (const Container container : {Container::sig, Container::bg}) {
-    const EncodeOptions options{.container = container};
+  for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
+    const EncodeOptions options{.encoding = encoding};
     const GeometryDescription geometry = describe(mesh, options);
     EncodedPatch encoded =
         encodePatch(testing::verticesOf(mesh.patches[0], Primitive::triangles, true), geometry, options);
-    if (container == Container::bg) {
+    if (encoding == Encoding::bg) {
       Bytes& bytes = encoded.files.back().bytes;
       std::fill(bytes.begin(), bytes.begin() + 4, std::uint8_t{255}); // a NaN
       EXPECT_THROW(decodePatch(encoded.description, geometry, testing::filesOf(encoded)), Error);

@@ -1,5 +1,6 @@
 #include "containers/normals.h"
 
+#include "containers/encodings.h"
 #include "containers/unit_vectors.h"
 
 #include <cassert>
@@ -26,9 +27,9 @@ Vec3f loadNormal(Vec2<std::uint32_t> stored, NormalEncoding encoding, std::uint3
 }
 
 double normalErrorBound(const GeometryDescription& geometry) {
-  if (geometry.profile == Profile::compact)
+  if (rowOf(geometry).hasMeasuredNormalError)
     return 0;
-  const bool isSig = geometry.container == Container::sig;
+  const bool isSig = !hasElementTypes(geometry.encoding);
   const std::uint32_t bits = isSig ? 8 : 8 * byteSizeOf(geometry.normalType);
   switch (geometry.normalEncoding) {
   case NormalEncoding::octahedral:

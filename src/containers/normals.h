@@ -2,7 +2,7 @@
 // Normals that are stored as two numbers, and how far any stored normal may be
 // off: docs/formats/nodes.md, "Stored values".
 
-#include "containers/geometry.h"
+#include "containers/geometry_description.h"
 
 namespace imgeo {
 

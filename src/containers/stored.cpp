@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/narrow.h"
+#include "containers/encodings.h"
 #include "containers/limits.h"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ float loadTexCoord(std::uint16_t stored, float min, float size) {
 }
 
 Vec2<double> texCoordErrorBound(const GeometryDescription& geometry, std::uint32_t bits) {
-  const bool isSig = geometry.container == Container::sig;
+  const bool isSig = !hasElementTypes(geometry.encoding);
   const double steps = isSig ? std::ldexp(1.0, static_cast<int>(bits)) - 1 : maximumOf(geometry.texCoordType);
   const bool isExact = !isSig && geometry.texCoordType == ElementType::float32;
   const auto bound = [&](double low, double size) {
@@ -48,7 +49,7 @@ std::uint64_t drawnCount(std::span<const Draw> draws) {
 }
 
 Box3d boxOf(std::span<const Vec3u> positions, const GeometryDescription& geometry) {
-  const bool isFloat = geometry.container == Container::bg && geometry.coordType == ElementType::float32;
+  const bool isFloat = hasElementTypes(geometry.encoding) && geometry.coordType == ElementType::float32;
   Box3d box;
   for (const Vec3u& q : positions) {
     const Vec3d point = geometry.lattice.point(q);

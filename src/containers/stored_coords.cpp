@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/few_digits.h"
+#include "containers/encodings.h"
 
 #include <algorithm>
 #include <bit>
@@ -26,15 +27,15 @@ double largestMagnitude(const Box3d& box) {
 }
 
 bool isFloat(const GeometryDescription& geometry) {
-  return geometry.container == Container::bg && geometry.coordType == ElementType::float32;
+  return hasElementTypes(geometry.encoding) && geometry.coordType == ElementType::float32;
 }
 
 } // namespace
 
-std::uint32_t coordBytes(Container container, std::uint32_t bits) {
+std::uint32_t coordBytes(Encoding encoding, std::uint32_t bits) {
   assert(bits >= 1 && bits <= 32);
   const std::uint32_t bytes = (bits + 7) / 8;
-  return container == Container::sig ? bytes : std::bit_ceil(bytes);
+  return !hasElementTypes(encoding) ? bytes : std::bit_ceil(bytes);
 }
 
 ElementType unsignedTypeOf(std::uint32_t bytes) {
@@ -48,10 +49,10 @@ bool holdsLattice(ElementType type, std::uint32_t bits) {
   return type == ElementType::float32 ? bits <= 24 || bits == sourceBits : bits <= 8 * byteSizeOf(type);
 }
 
-StoredCoords storedCoords(Container container, ElementType type, std::uint32_t bits) {
+StoredCoords storedCoords(Encoding encoding, ElementType type, std::uint32_t bits) {
   const std::uint32_t largest = UINT32_MAX >> (32 - bits);
-  if (container == Container::sig) {
-    const std::uint32_t stored = 8 * coordBytes(container, bits);
+  if (!hasElementTypes(encoding)) {
+    const std::uint32_t stored = 8 * coordBytes(encoding, bits);
     return {stored - bits, 0, std::ldexp(1.0, static_cast<int>(stored)) - 1, largest};
   }
   assert(type != ElementType::float32 && holdsLattice(type, bits));
@@ -91,23 +92,23 @@ DecodeFields decodeFields(const GeometryDescription& geometry) {
     const double half = lattice.bits == sourceBits ? edge / 2 : edge;
     return {lattice.origin + Vec3d{edge, edge, edge} * 0.5, {half, half, half}};
   }
-  const StoredCoords stored = storedCoords(geometry.container, geometry.coordType, lattice.bits);
+  const StoredCoords stored = storedCoords(geometry.encoding, geometry.coordType, lattice.bits);
   const Vec3d unit = lattice.stretch * std::ldexp(lattice.step, -static_cast<int>(stored.shift));
   const Vec3d zero = lattice.origin - unit * static_cast<double>(stored.bias), size = unit * stored.maximum;
-  const bool isCornered = geometry.container == Container::sig || isUnsigned(geometry.coordType);
+  const bool isCornered = !hasElementTypes(geometry.encoding) || isUnsigned(geometry.coordType);
   return {isCornered ? zero + size * 0.5 : zero, size};
 }
 
-Lattice latticeOf(const DecodeFields& fields, Container container, ElementType type, std::uint32_t bits) {
+Lattice latticeOf(const DecodeFields& fields, Encoding encoding, ElementType type, std::uint32_t bits) {
   const double longest = longestOf(fields.size);
-  if (container == Container::bg && type == ElementType::float32) {
+  if (hasElementTypes(encoding) && type == ElementType::float32) {
     const double edge = bits == sourceBits ? 2 * longest : longest;
     Lattice lattice{fields.position - Vec3d{edge, edge, edge} * 0.5, 0, bits};
     lattice.step = edge / lattice.maximum();
     return lattice;
   }
-  const StoredCoords stored = storedCoords(container, type, bits);
-  const bool isCornered = container == Container::sig || isUnsigned(type);
+  const StoredCoords stored = storedCoords(encoding, type, bits);
+  const bool isCornered = !hasElementTypes(encoding) || isUnsigned(type);
   const Vec3d zero = isCornered ? fields.position - fields.size * 0.5 : fields.position;
   return {zero + fields.size * (static_cast<double>(stored.bias) / stored.maximum),
           std::ldexp(longest / stored.maximum, static_cast<int>(stored.shift)),
@@ -135,7 +136,7 @@ Lattice inFewDigits(Lattice lattice, double edge) {
 Lattice latticeFor(const Box3d& box, ElementType type, std::uint32_t bits) {
   if (type != ElementType::float32 || bits != sourceBits || !(box.longestEdge() > 0))
     return inFewDigits(latticeFor(box, bits), box.longestEdge());
-  return latticeOf({box.center(), box.size()}, Container::bg, type, bits);
+  return latticeOf({box.center(), box.size()}, Encoding::bg, type, bits);
 }
 
 Vec3u pointReadBack(Vec3u q, const Lattice& written, const GeometryDescription& geometry) {

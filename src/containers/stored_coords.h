@@ -3,7 +3,7 @@
 // document's `position` and `size`, over which X3DOM spreads those numbers:
 // docs/formats/nodes.md, "Stored values".
 
-#include "containers/geometry.h"
+#include "containers/geometry_description.h"
 
 #include <cstdint>
 #include <string>
@@ -11,7 +11,7 @@
 namespace imgeo {
 
 /// Bytes a coordinate takes at least: 1, 2, 3 or 4 byte planes (SIG), 1, 2 or 4 bytes (BG).
-std::uint32_t coordBytes(Container container, std::uint32_t bits);
+std::uint32_t coordBytes(Encoding encoding, std::uint32_t bits);
 
 /// The unsigned element type of so many bytes, 1, 2 or 4.
 ElementType unsignedTypeOf(std::uint32_t bytes);
@@ -19,6 +19,9 @@ ElementType unsignedTypeOf(std::uint32_t bytes);
 /// Bits of a lattice by which Float32 coordinates are the source's own numbers: the
 /// lattice is then only what our readers put them on.
 inline constexpr std::uint32_t sourceBits = 32;
+
+/// Bits of packed coordinates where a node states no positionBits.
+inline constexpr std::uint32_t packedPositionBits = 16;
 
 /// Whether BG coordinates of a type can stand for a lattice of so many bits: any up
 /// to the type's; of signed types all of them or one less, of which X3DOM makes use;
@@ -37,7 +40,7 @@ struct StoredCoords {
 };
 
 /// `type` is of BG, and no Float32.
-StoredCoords storedCoords(Container container, ElementType type, std::uint32_t bits);
+StoredCoords storedCoords(Encoding encoding, ElementType type, std::uint32_t bits);
 
 inline std::int64_t storeCoord(std::uint32_t q, const StoredCoords& stored) {
   return (static_cast<std::int64_t>(q) << stored.shift) + stored.bias;
@@ -59,7 +62,7 @@ DecodeFields decodeFields(const GeometryDescription& geometry);
 /// last bits. `size` has no negative edge and not only zeros; `type` holds `bits`. Of
 /// Float32 coordinates a cube, of sourceBits one twice as large, so that what others
 /// wrote for a box that is a little too small is found in it.
-Lattice latticeOf(const DecodeFields& fields, Container container, ElementType type, std::uint32_t bits);
+Lattice latticeOf(const DecodeFields& fields, Encoding encoding, ElementType type, std::uint32_t bits);
 
 /// The lattice on which a mesh is encoded: that of its box, moved and stretched by so
 /// little of a step (a 1024th) that documents say it in few digits.

@@ -14,7 +14,7 @@ const Lattice somewhere{{-3, 1, 700}, 0.37, 8};
 
 GeometryDescription arrays(ElementType type, std::uint32_t bits) {
   GeometryDescription geometry;
-  geometry.container = Container::bg;
+  geometry.encoding = Encoding::bg;
   geometry.coordType = type;
   geometry.lattice = somewhere;
   geometry.lattice.bits = bits;
@@ -40,12 +40,12 @@ std::vector<GeometryDescription> everyGeometry() {
 }
 
 std::string nameOf(const GeometryDescription& geometry) {
-  return std::string(geometry.container == Container::sig ? "images" : nameOf(geometry.coordType)) + " of " +
+  return std::string(geometry.encoding == Encoding::classic ? "images" : nameOf(geometry.coordType)) + " of " +
          std::to_string(geometry.lattice.bits) + " bits";
 }
 
 bool isFloat(const GeometryDescription& geometry) {
-  return geometry.container == Container::bg && geometry.coordType == ElementType::float32;
+  return geometry.encoding == Encoding::bg && geometry.coordType == ElementType::float32;
 }
 
 TEST(StoredCoords, AreWhatX3domSpreadsOverTheBox) {
@@ -54,8 +54,8 @@ TEST(StoredCoords, AreWhatX3domSpreadsOverTheBox) {
       continue;
     SCOPED_TRACE(nameOf(geometry));
     const DecodeFields fields = decodeFields(geometry);
-    const StoredCoords stored = storedCoords(geometry.container, geometry.coordType, geometry.lattice.bits);
-    const bool isSigned = geometry.container == Container::bg && !isUnsigned(geometry.coordType);
+    const StoredCoords stored = storedCoords(geometry.encoding, geometry.coordType, geometry.lattice.bits);
+    const bool isSigned = geometry.encoding == Encoding::bg && !isUnsigned(geometry.coordType);
     const std::uint32_t most = geometry.lattice.maximum();
     for (const std::uint32_t q : {0u, 1u, most / 3, most - 1, most}) {
       // docs/formats/nodes.md, in X3DOM's words.
@@ -68,11 +68,11 @@ TEST(StoredCoords, AreWhatX3domSpreadsOverTheBox) {
 
 TEST(StoredCoords, FitTheirTypeAndComeBack) {
   for (const GeometryDescription& geometry : everyGeometry()) {
-    if (isFloat(geometry) || geometry.container == Container::sig)
+    if (isFloat(geometry) || geometry.encoding == Encoding::classic)
       continue;
     SCOPED_TRACE(nameOf(geometry));
     const std::uint32_t most = geometry.lattice.maximum();
-    const StoredCoords stored = storedCoords(Container::bg, geometry.coordType, geometry.lattice.bits);
+    const StoredCoords stored = storedCoords(Encoding::bg, geometry.coordType, geometry.lattice.bits);
     const double lowest = isUnsigned(geometry.coordType) ? 0 : -maximumOf(geometry.coordType) - 1;
     for (const std::uint32_t q : {0u, 1u, most / 3, most}) {
       const std::int64_t value = storeCoord(q, stored);
@@ -91,7 +91,7 @@ TEST(StoredCoords, FitTheirTypeAndComeBack) {
 TEST(StoredCoords, OfSignedTypesStayWithinTheHalfThatX3domUses) {
   for (std::uint32_t bits = 8; bits <= 15; ++bits) {
     const GeometryDescription geometry = arrays(ElementType::int16, bits);
-    const StoredCoords stored = storedCoords(Container::bg, ElementType::int16, bits);
+    const StoredCoords stored = storedCoords(Encoding::bg, ElementType::int16, bits);
     EXPECT_GE(storeCoord(0, stored), -16384);
     EXPECT_LE(storeCoord(geometry.lattice.maximum(), stored), 16383);
     const double edge = decodeFields(geometry).size.x, extent = geometry.lattice.step * geometry.lattice.maximum();
@@ -120,7 +120,7 @@ TEST(DecodeFields, GiveTheLatticeBack) {
   for (const GeometryDescription& geometry : everyGeometry()) {
     SCOPED_TRACE(nameOf(geometry));
     const Lattice &lattice = geometry.lattice,
-                  back = latticeOf(decodeFields(geometry), geometry.container, geometry.coordType, lattice.bits);
+                  back = latticeOf(decodeFields(geometry), geometry.encoding, geometry.coordType, lattice.bits);
     const double edge = lattice.step * lattice.maximum();
     EXPECT_EQ(back.bits, lattice.bits);
     EXPECT_NEAR(back.step, lattice.step, 1e-13 * lattice.step);
@@ -133,8 +133,8 @@ TEST(DecodeFields, HaveTheSourcesEdgeWhereBitsFillTheirBytes) {
   GeometryDescription geometry = images(16);
   geometry.lattice.step = 2.0 / 65535;
   EXPECT_DOUBLE_EQ(decodeFields(geometry).size.x, 2);
-  EXPECT_EQ(coordBytes(Container::sig, 24), 3u);
-  EXPECT_EQ(coordBytes(Container::bg, 24), 4u);
+  EXPECT_EQ(coordBytes(Encoding::classic, 24), 3u);
+  EXPECT_EQ(coordBytes(Encoding::bg, 24), 4u);
 }
 
 TEST(NearestPoint, KeepsASinglesOwnValueFromTheSourcesLattice) {

@@ -1,7 +1,7 @@
 #pragma once
 // documents: a Scene and the names of written files -> HTML and X3D text, and back.
 
-#include "containers/geometry.h"
+#include "containers/geometry_description.h"
 #include "scene/scene.h"
 
 #include <string>

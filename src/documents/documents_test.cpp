@@ -43,39 +43,39 @@ Box3d randomBox(Random& random) {
   return box;
 }
 
-Reference randomReference(Random& random, Container container) {
+Reference randomReference(Random& random, Encoding encoding) {
   Reference reference{"f" + std::to_string(random.below(1000)) + (random.once(3) ? "\" &'<x>.png" : ".bin"), 0, 0};
   if (random.once(2))
     reference.first = random.bits();
-  if (container == Container::bg && random.once(2))
+  if (encoding == Encoding::bg && random.once(2))
     reference.stride = 1 + random.below(64);
   return reference;
 }
 
-PatchDescription randomPatch(Random& random, Container container, std::size_t planes) {
+PatchDescription randomPatch(Random& random, Encoding encoding, std::size_t planes) {
   PatchDescription patch;
   patch.box = randomBox(random);
   patch.vertexCount = random.bits();
   for (std::uint32_t draws = 1 + random.below(3); draws > 0; --draws)
     patch.draws.push_back({static_cast<Primitive>(random.below(4)), random.bits()});
-  if (container == Container::sig)
+  if (encoding == Encoding::classic)
     patch.implicitMeshSize = {1 + random.below(4096), 1 + random.below(4096)};
   if (random.once(2))
-    patch.index = randomReference(random, container);
+    patch.index = randomReference(random, encoding);
   for (std::size_t plane = 0; plane < planes; ++plane)
-    patch.coord.push_back(randomReference(random, container));
+    patch.coord.push_back(randomReference(random, encoding));
   if (random.once(2))
-    patch.normal = randomReference(random, container);
+    patch.normal = randomReference(random, encoding);
   if (random.once(2))
-    patch.texCoord = randomReference(random, container);
+    patch.texCoord = randomReference(random, encoding);
   if (random.once(2))
-    patch.color = randomReference(random, container);
+    patch.color = randomReference(random, encoding);
   return patch;
 }
 
 GeometryDescription randomGeometry(Random& random) {
   GeometryDescription geometry;
-  geometry.container = random.once(2) ? Container::sig : Container::bg;
+  geometry.encoding = random.once(2) ? Encoding::classic : Encoding::bg;
   geometry.lattice = {randomVector(random), length(randomVector(random)) + 1e-6, 8 + random.below(25)};
   geometry.box = randomBox(random);
   if (random.once(2))
@@ -83,7 +83,7 @@ GeometryDescription randomGeometry(Random& random) {
   if (random.once(2))
     geometry.texCoordSize = {random.between(0, 5), 0};
   geometry.colorComponents = 3 + random.below(2);
-  if (geometry.container == Container::bg) {
+  if (geometry.encoding == Encoding::bg) {
     do
       geometry.coordType = static_cast<ElementType>(random.below(7));
     while (!holdsLattice(geometry.coordType, geometry.lattice.bits));
@@ -93,7 +93,7 @@ GeometryDescription randomGeometry(Random& random) {
   geometry.normalEncoding = static_cast<NormalEncoding>(random.below(4));
   for (std::uint32_t count = random.once(2) ? random.below(3) : 0; count > 0; --count) {
     AttributeDescription attribute{"a" + std::to_string(count) + "<&\"", 1 + random.below(4), 2, {}, {}};
-    if (geometry.container == Container::sig)
+    if (geometry.encoding == Encoding::classic)
       attribute.bytes = 1 + random.below(3);
     for (std::uint32_t c = 0; c < attribute.components; ++c) {
       attribute.min.push_back(random.between(-5, 5));
@@ -101,19 +101,19 @@ GeometryDescription randomGeometry(Random& random) {
     }
     geometry.attributes.push_back(attribute);
   }
-  if (geometry.container == Container::sig && random.once(2))
+  if (geometry.encoding == Encoding::classic && random.once(2))
     geometry.indexType = ElementType::uint32;
   for (std::uint32_t patches = 1 + random.below(4); patches > 0; --patches)
     geometry.patches.push_back(
-        randomPatch(random, geometry.container,
-                    geometry.container == Container::sig ? coordBytes(Container::sig, geometry.lattice.bits) : 1));
+        randomPatch(random, geometry.encoding,
+                    geometry.encoding == Encoding::classic ? coordBytes(Encoding::classic, geometry.lattice.bits) : 1));
   for (PatchDescription& patch : geometry.patches)
     for (const AttributeDescription& attribute : geometry.attributes) {
       patch.attributes.emplace_back();
-      for (std::size_t file = filesOf(geometry.container, attribute); file > 0; --file)
-        patch.attributes.back().push_back(randomReference(random, geometry.container));
+      for (std::size_t file = filesOf(geometry.encoding, attribute); file > 0; --file)
+        patch.attributes.back().push_back(randomReference(random, geometry.encoding));
     }
-  if (geometry.container == Container::bg && byteSizeOf(geometry.coordType) == 2 && random.once(3)) {
+  if (geometry.encoding == Encoding::bg && byteSizeOf(geometry.coordType) == 2 && random.once(3)) {
     geometry.normalEncoding = NormalEncoding::spherical;
     geometry.normalType = ElementType::uint8;
     for (PatchDescription& patch : geometry.patches)
@@ -466,7 +466,7 @@ TEST(Html, HintsAtTheFirstPlanesAndWholePatchesThenAtTheIndices) {
 
 TEST(Html, HintsAtABaseAndWhatDecodesItInThePlaceOfItsPatches) {
   SceneDocument document = documentNamed("a");
-  document.geometries[0].profile = Profile::compact;
+  document.geometries[0].encoding = Encoding::compact;
   document.geometries[0].base = Reference{"base.png", 7, 0};
   document.geometries[0].patches[0].data = Reference{"patch.png", 0, 0};
   const PageOptions options{"r.js", "s.css", {"first.js"}, {"later.js"}};

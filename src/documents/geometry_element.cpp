@@ -1,6 +1,7 @@
 #include "documents/geometry_element.h"
 
 #include "base/few_digits.h"
+#include "containers/encodings.h"
 #include "containers/stored_coords.h"
 
 #include <algorithm>
@@ -10,9 +11,9 @@ namespace imgeo {
 
 namespace {
 
-std::string url(const Reference& reference, Container container) {
+std::string url(const Reference& reference, Encoding encoding) {
   assert(reference.url.find('#') == std::string::npos);
-  if (container == Container::bg && (reference.first != 0 || reference.stride != 0))
+  if (hasElementTypes(encoding) && (reference.first != 0 || reference.stride != 0))
     return reference.url + "#" + std::to_string(reference.first) + "+" + std::to_string(reference.stride);
   if (reference.first != 0)
     return reference.url + "#" + std::to_string(reference.first);
@@ -58,40 +59,40 @@ Attributes compactFields(const PatchDescription& patch) {
   if (patch.draws != std::vector<Draw>{{Primitive::triangles, patch.draws.empty() ? 0 : patch.draws[0].count}})
     fields.push_back({"primType", primTypes(patch.draws)});
   fields.push_back({"vertexCount", counts(patch.draws)});
-  fields.push_back({"data", url(*patch.data, Container::sig)});
+  fields.push_back({"data", url(*patch.data, Encoding::compact)});
   return fields;
 }
 
 } // namespace
 
 bool isSinglePatch(const GeometryDescription& geometry) {
-  return geometry.profile == Profile::compact && geometry.patches.size() == 1 && geometry.patches[0].data &&
-         geometry.patches[0].box == geometry.box;
+  return geometry.patches.size() == 1 && geometry.patches[0].data && geometry.patches[0].box == geometry.box;
 }
 
 Element patchElement(const PatchDescription& patch, const GeometryDescription& geometry) {
-  const Container container = geometry.container;
+  const Encoding encoding = geometry.encoding;
+  const bool hasPlanes = rowOf(encoding).storage == PatchStorage::bytePlanes;
   Attributes draws{{"recordCount", std::to_string(patch.vertexCount)},
                    {"primType", primTypes(patch.draws)},
                    {"vertexCount", counts(patch.draws)}};
   if (patch.data)
     return {"GeometryPatch", {boxAttributes(patch.box, geometry.lattice), compactFields(patch)}};
-  if (container == Container::sig)
+  if (hasPlanes)
     draws.push_back({"implicitMeshSize",
                      std::to_string(patch.implicitMeshSize.x) + " " + std::to_string(patch.implicitMeshSize.y)});
   Attributes references;
   const auto add = [&](const char* name, const std::optional<Reference>& reference) {
     if (reference)
-      references.push_back({name, url(*reference, container)});
+      references.push_back({name, url(*reference, encoding)});
   };
   add("index", patch.index);
-  if (container == Container::sig) {
+  if (hasPlanes) {
     std::vector<std::string> planes;
     for (const Reference& plane : patch.coord)
-      planes.push_back(url(plane, container));
+      planes.push_back(url(plane, encoding));
     references.push_back({"coord", strings(planes)});
   } else if (!patch.coord.empty()) {
-    references.push_back({"coord", url(patch.coord[0], container)});
+    references.push_back({"coord", url(patch.coord[0], encoding)});
   }
   if (!hasNormalsInCoords(geometry))
     add("normal", patch.normal);
@@ -100,14 +101,10 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
   std::vector<std::string> attributes;
   for (const std::vector<Reference>& planes : patch.attributes)
     for (const Reference& plane : planes)
-      attributes.push_back(url(plane, container));
+      attributes.push_back(url(plane, encoding));
   if (!attributes.empty())
     references.push_back({"attrib", strings(attributes)});
   return {"GeometryPatch", {boxAttributes(patch.box, geometry.lattice), draws, references}};
-}
-
-const char* geometryNodeName(Container container) {
-  return container == Container::sig ? "ImageGeometry" : "BinaryGeometry";
 }
 
 Attributes decodeAttributes(const GeometryDescription& geometry) {
@@ -118,26 +115,27 @@ Attributes decodeAttributes(const GeometryDescription& geometry) {
 }
 
 Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names) {
-  const bool isCompact = geometry.profile == Profile::compact;
+  const EncodingRow& row = rowOf(geometry);
+  const bool hasElementTypes = row.storage == PatchStorage::arrays;
   Attributes box = decodeAttributes(geometry);
-  const bool hasDefaultBits = isCompact && geometry.lattice.bits == 16;
-  if (!hasDefaultBits && (geometry.container == Container::sig || geometry.coordType != ElementType::float32 ||
-                          geometry.lattice.bits != sourceBits))
+  const bool hasDefaultBits = row.storage == PatchStorage::packed && geometry.lattice.bits == packedPositionBits;
+  if (!hasDefaultBits &&
+      (!hasElementTypes || geometry.coordType != ElementType::float32 || geometry.lattice.bits != sourceBits))
     box.push_back({"positionBits", std::to_string(geometry.lattice.bits)});
   addUnless(box, "solid", solid, true, "false");
   Attributes stored;
-  if (isCompact)
-    stored = {{"profile", nameOf(geometry.profile)}};
-  else if (geometry.container == Container::bg)
+  if (!row.node.isDefaultProfile)
+    stored = {{"profile", row.node.profile}};
+  if (hasElementTypes)
     stored = {{"indexType", nameOf(geometry.indexType)},
               {"coordType", nameOf(geometry.coordType)},
               {"normalType", nameOf(geometry.normalType)},
               {"texCoordType", nameOf(geometry.texCoordType)},
               {"colorType", nameOf(geometry.colorType)}};
-  else if (geometry.indexType != ElementType::uint16)
-    stored = {{"indexType", nameOf(geometry.indexType)}};
+  else if (row.storage == PatchStorage::bytePlanes && geometry.indexType != ElementType::uint16)
+    stored.push_back({"indexType", nameOf(geometry.indexType)});
   if (geometry.base)
-    stored.push_back({"base", url(*geometry.base, geometry.container)});
+    stored.push_back({"base", url(*geometry.base, geometry.encoding)});
   if (hasNormalsInCoords(geometry))
     stored.push_back({"normalAsSphericalCoordinates", "true"});
   else if (geometry.normalEncoding != NormalEncoding::rgb)
@@ -145,9 +143,8 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
   addUnless(stored, "texCoordMin", geometry.texCoordMin, Vec2f{0, 0}, numbers(geometry.texCoordMin));
   addUnless(stored, "texCoordSize", geometry.texCoordSize, Vec2f{1, 1}, numbers(geometry.texCoordSize));
   if (geometry.colorComponents == 4)
-    stored.push_back(geometry.container == Container::bg ? Attribute{"rgbaColors", "true"}
-                                                         : Attribute{"numColorComponents", "4"});
-  Element element{geometryNodeName(geometry.container), {names, box, stored}};
+    stored.push_back(hasElementTypes ? Attribute{"rgbaColors", "true"} : Attribute{"numColorComponents", "4"});
+  Element element{row.node.name, {names, box, stored}};
   if (!isSinglePatch(geometry))
     return element;
   // In one line: indentation would be a tenth of what a small shape takes.
@@ -158,9 +155,9 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
   return {element.name, {std::move(all)}};
 }
 
-Element vertexAttributeElement(const AttributeDescription& attribute, Container container) {
+Element vertexAttributeElement(const AttributeDescription& attribute, Encoding encoding) {
   Attributes fields{{"name", attribute.name}, {"numComponents", std::to_string(attribute.components)}};
-  if (container == Container::sig)
+  if (!hasElementTypes(encoding))
     fields.push_back({"valueBits", std::to_string(8 * attribute.bytes)});
   fields.push_back({"valueMin", numbers(attribute.min)});
   fields.push_back({"valueSize", numbers(attribute.size)});

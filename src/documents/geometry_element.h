@@ -1,7 +1,7 @@
 #pragma once
 // The elements of one geometry: ImageGeometry or BinaryGeometry and its patches.
 
-#include "containers/geometry.h"
+#include "containers/geometry_description.h"
 #include "documents/element_writer.h"
 
 #include <string>
@@ -24,11 +24,8 @@ bool isSinglePatch(const GeometryDescription& geometry);
 /// The geometry's element without its patches. `names` is its DEF, if any.
 Element geometryElement(const GeometryDescription& geometry, bool solid, const Attributes& names);
 /// One further attribute of its vertices.
-Element vertexAttributeElement(const AttributeDescription& attribute, Container container);
+Element vertexAttributeElement(const AttributeDescription& attribute, Encoding encoding);
 /// The element of a patch; not where the geometry's element is that of its only patch.
 Element patchElement(const PatchDescription& patch, const GeometryDescription& geometry);
-
-/// "ImageGeometry" or "BinaryGeometry".
-const char* geometryNodeName(Container container);
 
 } // namespace imgeo

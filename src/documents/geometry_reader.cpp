@@ -1,5 +1,6 @@
 #include "documents/geometry_reader.h"
 
+#include "containers/encodings.h"
 #include "containers/stored_coords.h"
 #include "documents/find_x3d.h"
 #include "documents/vertex_attribute_reader.h"
@@ -51,9 +52,9 @@ Reference stridedReference(const std::string& url) {
 }
 
 /// SIG, classic and compact: url, url#N. BG: url, url+S, url?+S, url#O+S.
-Reference referenceOf(const FieldReader& fields, const std::string& url, Container container) {
+Reference referenceOf(const FieldReader& fields, const std::string& url, Encoding encoding) {
   const std::size_t hash = url.rfind('#');
-  if (hash == std::string::npos && container == Container::bg)
+  if (hash == std::string::npos && hasElementTypes(encoding))
     return stridedReference(url);
   Reference reference{url.substr(0, hash), 0, 0};
   if (reference.url.empty())
@@ -63,9 +64,9 @@ Reference referenceOf(const FieldReader& fields, const std::string& url, Contain
   if (hash == std::string::npos)
     return reference;
   const std::string_view fragment = std::string_view(url).substr(hash + 1);
-  const std::size_t plus = container == Container::bg ? fragment.find('+') : std::string_view::npos;
-  bool good = parseWhole(fragment.substr(0, plus), reference.first) &&
-              (container == Container::bg) == (plus != std::string_view::npos);
+  const bool isRange = hasElementTypes(encoding);
+  const std::size_t plus = isRange ? fragment.find('+') : std::string_view::npos;
+  bool good = parseWhole(fragment.substr(0, plus), reference.first) && isRange == (plus != std::string_view::npos);
   if (plus != std::string_view::npos)
     good = good && parseWhole(fragment.substr(plus + 1), reference.stride);
   if (!good)
@@ -100,7 +101,7 @@ void readTexture(const DocumentText& source, const pugi::xml_node& node, PatchDe
   const std::vector<std::string> urls = fields.strings("url");
   if (urls.empty())
     fields.fail(ErrorKind::malformed, "an ImageTexture has no url");
-  const Reference reference = referenceOf(fields, urls[0], Container::sig);
+  const Reference reference = referenceOf(fields, urls[0], Encoding::classic);
   const std::string role = fields.text("containerField");
   if (equalIgnoringCase(role, "coord"))
     patch.coord.push_back(reference);
@@ -118,7 +119,7 @@ void readTexture(const DocumentText& source, const pugi::xml_node& node, PatchDe
 
 PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& node, const GeometryDescription& geometry,
                            Vec2<std::uint32_t> implicitMeshSize) {
-  const Container container = geometry.container;
+  const Encoding encoding = geometry.encoding;
   const FieldReader fields(source, node);
   PatchDescription patch;
   patch.box = fields.box();
@@ -127,9 +128,10 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
   patch.implicitMeshSize = implicitMeshSize;
   const auto read = [&](const char* name, std::optional<Reference>& reference) {
     if (const std::string url = fields.text(name); !url.empty())
-      reference = referenceOf(fields, url, container);
+      reference = referenceOf(fields, url, encoding);
   };
-  if (geometry.profile == Profile::compact) {
+  const PatchStorage storage = rowOf(encoding).storage;
+  if (storage == PatchStorage::packed) {
     read("data", patch.data);
     if (!patch.data)
       fields.fail(ErrorKind::malformed, "a patch of compact has no data");
@@ -140,19 +142,19 @@ PatchDescription readPatch(const DocumentText& source, const pugi::xml_node& nod
   read("texCoord", patch.texCoord);
   read("color", patch.color);
   for (const std::string& url : fields.strings("coord"))
-    patch.coord.push_back(referenceOf(fields, url, container));
-  if (container == Container::sig)
+    patch.coord.push_back(referenceOf(fields, url, encoding));
+  if (storage == PatchStorage::bytePlanes)
     for (const pugi::xml_node& child : node.children())
       if (equalIgnoringCase(child.name(), "ImageTexture"))
         readTexture(source, child, patch);
   if (patch.coord.empty())
     fields.fail(ErrorKind::malformed, "there are no coordinates");
-  if (container == Container::bg && patch.coord.size() != 1)
+  if (storage == PatchStorage::arrays && patch.coord.size() != 1)
     fields.fail(ErrorKind::malformed, "a BinaryGeometry has one file of coordinates");
   std::vector<Reference> attributes;
   for (const std::string& url : fields.strings("attrib"))
-    attributes.push_back(referenceOf(fields, url, container));
-  patch.attributes = referencesByAttribute(fields, attributes, geometry.attributes, container);
+    attributes.push_back(referenceOf(fields, url, encoding));
+  patch.attributes = referencesByAttribute(fields, attributes, geometry.attributes, encoding);
   return patch;
 }
 
@@ -173,10 +175,11 @@ Vec2<std::uint32_t> implicitMeshSizeOf(const FieldReader& fields, Vec2<std::uint
 
 /// Bits that the stored coordinates have where the node does not say how many count.
 std::uint32_t storedBits(const FieldReader& fields, const GeometryDescription& geometry) {
-  if (geometry.container == Container::bg)
+  const PatchStorage storage = rowOf(geometry).storage;
+  if (storage == PatchStorage::arrays)
     return geometry.coordType == ElementType::float32 ? sourceBits : 8 * byteSizeOf(geometry.coordType);
-  if (geometry.profile == Profile::compact)
-    return 16;
+  if (storage == PatchStorage::packed)
+    return packedPositionBits;
   const std::size_t planes = geometry.patches[0].coord.size();
   if (planes > 4)
     fields.fail(ErrorKind::unsupported, "coordinates of more than four bytes");
@@ -188,27 +191,32 @@ std::uint32_t storedBits(const FieldReader& fields, const GeometryDescription& g
 
 Lattice latticeOf(const FieldReader& fields, const GeometryDescription& geometry) {
   const std::uint32_t stored = storedBits(fields, geometry), bits = fields.integer("positionBits", stored);
-  const bool isHeld = geometry.container == Container::bg ? holdsLattice(geometry.coordType, bits)
-                                                          : bits >= 8 && bits <= 32 &&
-                                                                (geometry.profile == Profile::compact ||
-                                                                 8 * coordBytes(Container::sig, bits) == stored);
+  const PatchStorage storage = rowOf(geometry).storage;
+  const bool isHeld = storage == PatchStorage::arrays
+                          ? holdsLattice(geometry.coordType, bits)
+                          : bits >= 8 && bits <= 32 &&
+                                (storage == PatchStorage::packed || 8 * coordBytes(geometry.encoding, bits) == stored);
   if (!isHeld)
     fields.fail(ErrorKind::malformed,
                 "positionBits is no precision of coordinates of " + std::to_string(stored / 8) + " bytes");
   const DecodeFields box{fields.vec3("position", Vec3d{0, 0, 0}), fields.vec3("size", Vec3d{1, 1, 1})};
   if (!(std::min({box.size.x, box.size.y, box.size.z}) >= 0 && std::max({box.size.x, box.size.y, box.size.z}) > 0))
     fields.fail(ErrorKind::malformed, "size is the extent of no box");
-  return imgeo::latticeOf(box, geometry.container, geometry.coordType, bits);
+  return imgeo::latticeOf(box, geometry.encoding, geometry.coordType, bits);
 }
 
-/// Which of SIG's profiles a node has: classic where it does not say.
-Profile profileOf(const FieldReader& fields) {
+/// The encoding that a node's name and its `profile` field state.
+Encoding encodingOf(const FieldReader& fields) {
   const std::string profile = fields.text("profile");
-  if (equalIgnoringCase(profile, nameOf(Profile::compact)))
-    return Profile::compact;
-  if (!profile.empty() && !equalIgnoringCase(profile, nameOf(Profile::classic)))
-    fields.fail(ErrorKind::unsupported, "profile is neither classic nor compact");
-  return Profile::classic;
+  for (const EncodingRow* row : allEncodings()) {
+    const GeometryNode& node = row->node;
+    if (!equalIgnoringCase(fields.node().name(), node.name))
+      continue;
+    const bool hasNoProfile = *node.profile == '\0';
+    if (hasNoProfile || (profile.empty() ? node.isDefaultProfile : equalIgnoringCase(profile, node.profile)))
+      return row->encoding;
+  }
+  fields.fail(ErrorKind::unsupported, "profile is neither classic nor compact");
 }
 
 void takeNormalsFromCoords(const FieldReader& fields, GeometryDescription& geometry) {
@@ -223,19 +231,24 @@ void takeNormalsFromCoords(const FieldReader& fields, GeometryDescription& geome
 
 } // namespace
 
-GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node, Container container) {
+bool isGeometryNode(const char* name) {
+  return std::ranges::any_of(allEncodings(),
+                             [&](const EncodingRow* row) { return equalIgnoringCase(name, row->node.name); });
+}
+
+GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node) {
   const FieldReader fields(source, node);
   GeometryDescription geometry;
-  geometry.container = container;
-  if (container == Container::sig)
-    geometry.profile = profileOf(fields);
-  if (const std::string base = fields.text("base"); geometry.profile == Profile::compact && !base.empty())
-    geometry.base = referenceOf(fields, base, container);
+  const Encoding encoding = encodingOf(fields);
+  geometry.encoding = encoding;
+  const EncodingRow& row = rowOf(encoding);
+  if (const std::string base = fields.text("base"); row.capabilities.base && !base.empty())
+    geometry.base = referenceOf(fields, base, encoding);
   geometry.texCoordMin = fields.vec2("texCoordMin", {0, 0});
   geometry.texCoordSize = fields.vec2("texCoordSize", {1, 1});
   geometry.normalEncoding = normalEncodingOf(fields);
   geometry.indexType = elementTypeOf(fields, "indexType", ElementType::uint16);
-  if (container == Container::bg) {
+  if (row.storage == PatchStorage::arrays) {
     geometry.coordType = elementTypeOf(fields, "coordType", ElementType::float32);
     geometry.normalType = elementTypeOf(fields, "normalType", ElementType::float32);
     geometry.texCoordType = elementTypeOf(fields, "texCoordType", ElementType::float32);
@@ -252,7 +265,7 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
     if (geometry.indexType != ElementType::uint16 && geometry.indexType != ElementType::uint32)
       fields.fail(ErrorKind::unsupported, "images hold indices of type Uint16 or Uint32");
   }
-  geometry.attributes = readVertexAttributes(source, node, container);
+  geometry.attributes = readVertexAttributes(source, node, encoding);
   const Vec2<std::uint32_t> implicitMeshSize = implicitMeshSizeOf(fields, {256, 256});
   for (const pugi::xml_node& child : node.children())
     if (equalIgnoringCase(child.name(), "GeometryPatch"))
@@ -260,7 +273,7 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
           readPatch(source, child, geometry, implicitMeshSizeOf(FieldReader(source, child), implicitMeshSize)));
   if (geometry.patches.empty())
     geometry.patches.push_back(readPatch(source, node, geometry, implicitMeshSize));
-  if (container == Container::bg && fields.boolean("normalAsSphericalCoordinates", false))
+  if (row.storage == PatchStorage::arrays && fields.boolean("normalAsSphericalCoordinates", false))
     takeNormalsFromCoords(fields, geometry);
   geometry.lattice = latticeOf(fields, geometry);
   return geometry;

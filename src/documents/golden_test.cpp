@@ -29,7 +29,7 @@ SceneDocument goldenDocument() {
   sig.patches[1].normal->first = 4096;
 
   GeometryDescription bg;
-  bg.container = Container::bg;
+  bg.encoding = Encoding::bg;
   bg.lattice = {{0, 0, 0}, 0.001, 12};
   bg.box = {{0, 0, 0}, {1, 1, 0}};
   bg.texCoordSize = {2, 1};

@@ -1,5 +1,6 @@
 #include "documents/documents.h"
 
+#include "containers/encodings.h"
 #include "documents/appearance_reader.h"
 #include "documents/field_reader.h"
 #include "documents/find_x3d.h"
@@ -234,8 +235,7 @@ private:
         continue;
       if (equalIgnoringCase(child.name(), "Appearance")) {
         appearance = appearances_.read(child);
-      } else if (equalIgnoringCase(child.name(), "ImageGeometry") ||
-                 equalIgnoringCase(child.name(), "BinaryGeometry")) {
+      } else if (isGeometryNode(child.name())) {
         if (shape)
           fail(child, ErrorKind::malformed, "a Shape has more than one geometry");
         shape = readGeometryOf(fields, FieldReader(source_, child));
@@ -259,15 +259,14 @@ private:
     Shape read;
     read.mesh = document_.geometries.size();
     read.solid = fields.boolean("solid", true);
-    const bool isSig = equalIgnoringCase(fields.node().name(), "ImageGeometry");
-    GeometryDescription geometry = readGeometry(source_, fields.node(), isSig ? Container::sig : Container::bg);
+    GeometryDescription geometry = readGeometry(source_, fields.node());
     geometry.box = shape.box();
     const bool hasPatches = std::ranges::any_of(
         fields.node().children(), [](const auto& child) { return equalIgnoringCase(child.name(), "GeometryPatch"); });
     if (!hasPatches)
       geometry.patches[0].box = geometry.box;
     // Only X3DOM's words for a patch are those of a shape.
-    const bool isWhole = hasPatches || geometry.profile == Profile::compact;
+    const bool isWhole = hasPatches || rowOf(geometry).storage == PatchStorage::packed;
     document_.geometries.push_back(std::move(geometry));
     const std::string def = fields.text("DEF");
     isJoinable_.push_back(!isWhole && def.empty());

@@ -1,5 +1,6 @@
 #include "documents/scene_writer.h"
 
+#include "containers/encodings.h"
 #include "documents/appearance_element.h"
 #include "documents/find_x3d.h"
 #include "documents/geometry_element.h"
@@ -272,14 +273,14 @@ void SceneWriter::writeGeometryOf(const Shape& shape) {
   const GeometryDescription& geometry = document_.geometries.at(shape.mesh);
   const Attributes names = geometryNames_.defOrUse(2 * shape.mesh + !shape.solid);
   if (isUse(names))
-    return writer_.leaf({geometryNodeName(geometry.container), {names}});
+    return writer_.leaf({rowOf(geometry).node.name, {names}});
   const Element node = geometryElement(geometry, shape.solid, names);
   const bool hasPatchElements = !isSinglePatch(geometry);
   if (geometry.attributes.empty() && !hasPatchElements)
     return writer_.leaf(node);
   writer_.open(node);
   for (const AttributeDescription& attribute : geometry.attributes)
-    writer_.leaf(vertexAttributeElement(attribute, geometry.container));
+    writer_.leaf(vertexAttributeElement(attribute, geometry.encoding));
   for (std::size_t i = 0; i < geometry.patches.size() && hasPatchElements; ++i)
     writer_.leaf(patchElement(geometry.patches[i], geometry));
   writer_.close(node);

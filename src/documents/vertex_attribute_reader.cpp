@@ -1,5 +1,6 @@
 #include "documents/vertex_attribute_reader.h"
 
+#include "containers/encodings.h"
 #include "containers/named_attributes.h"
 #include "documents/find_x3d.h"
 
@@ -11,7 +12,7 @@ namespace imgeo {
 
 namespace {
 
-AttributeDescription readAttribute(const FieldReader& fields, Container container) {
+AttributeDescription readAttribute(const FieldReader& fields, Encoding encoding) {
   AttributeDescription attribute;
   attribute.name = fields.text("name");
   if (attribute.name.empty())
@@ -20,9 +21,9 @@ AttributeDescription readAttribute(const FieldReader& fields, Container containe
   if (attribute.components < 1 || attribute.components > 4)
     fields.fail(ErrorKind::malformed, "numComponents is none of 1 to 4");
   const std::uint32_t bits = fields.integer("valueBits", 16);
-  if (container == Container::sig && bits != 8 && bits != 16 && bits != 24)
+  if (!hasElementTypes(encoding) && bits != 8 && bits != 16 && bits != 24)
     fields.fail(ErrorKind::malformed, "valueBits is none of 8, 16 and 24");
-  attribute.bytes = container == Container::sig ? bits / 8 : 2;
+  attribute.bytes = hasElementTypes(encoding) ? 2 : bits / 8;
   attribute.min = fields.reals("valueMin", attribute.components);
   attribute.size = fields.reals("valueSize", attribute.components);
   attribute.min.resize(attribute.components, 0);
@@ -37,13 +38,13 @@ AttributeDescription readAttribute(const FieldReader& fields, Container containe
 } // namespace
 
 std::vector<AttributeDescription> readVertexAttributes(const DocumentText& source, const pugi::xml_node& node,
-                                                       Container container) {
+                                                       Encoding encoding) {
   std::vector<AttributeDescription> attributes;
   for (const pugi::xml_node& child : node.children()) {
     if (!equalIgnoringCase(child.name(), "FloatVertexAttribute"))
       continue;
     const FieldReader fields(source, child);
-    AttributeDescription attribute = readAttribute(fields, container);
+    AttributeDescription attribute = readAttribute(fields, encoding);
     if (std::ranges::find(attributes, attribute.name, &AttributeDescription::name) != attributes.end())
       fields.fail(ErrorKind::malformed, "a geometry has two attributes of one name");
     attributes.push_back(std::move(attribute));
@@ -54,15 +55,15 @@ std::vector<AttributeDescription> readVertexAttributes(const DocumentText& sourc
 std::vector<std::vector<Reference>> referencesByAttribute(const FieldReader& fields,
                                                           const std::vector<Reference>& references,
                                                           const std::vector<AttributeDescription>& attributes,
-                                                          Container container) {
+                                                          Encoding encoding) {
   std::vector<std::vector<Reference>> sorted;
   std::size_t used = 0;
   for (const AttributeDescription& attribute : attributes) {
-    const std::size_t count = std::min(filesOf(container, attribute), references.size() - used);
+    const std::size_t count = std::min(filesOf(encoding, attribute), references.size() - used);
     const auto first = references.begin() + static_cast<std::ptrdiff_t>(used);
     sorted.emplace_back(first, first + static_cast<std::ptrdiff_t>(count));
     used += count;
-    if (count != filesOf(container, attribute))
+    if (count != filesOf(encoding, attribute))
       fields.fail(ErrorKind::malformed, "attrib names fewer files than the attributes need");
   }
   if (used != references.size())

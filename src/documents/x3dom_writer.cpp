@@ -1,5 +1,6 @@
 #include "documents/x3dom_writer.h"
 
+#include "containers/encodings.h"
 #include "containers/normals.h"
 #include "containers/stored_coords.h"
 #include "documents/appearance_element.h"
@@ -19,7 +20,7 @@ Vec2<std::uint32_t> implicitMeshSizeOf(const SceneDocument& document) {
   Vec2<std::uint32_t> size{0, 0};
   for (const GeometryDescription& geometry : document.geometries)
     for (const PatchDescription& patch : geometry.patches) {
-      assert(geometry.container == Container::bg || size.x == 0 || size.x == patch.implicitMeshSize.x);
+      assert(rowOf(geometry).storage == PatchStorage::arrays || size.x == 0 || size.x == patch.implicitMeshSize.x);
       size = {patch.implicitMeshSize.x, std::max(size.y, patch.implicitMeshSize.y)};
     }
   return size;
@@ -92,14 +93,14 @@ private:
   void writePatch(const Node& node, Attributes names, const GeometryDescription& geometry,
                   const PatchDescription& patch) {
     const Shape& shape = std::get<Shape>(node.content);
-    const bool isSig = geometry.container == Container::sig;
-    if (isSig)
+    const bool hasImages = rowOf(geometry).storage == PatchStorage::bytePlanes;
+    if (hasImages)
       names.push_back({"isPickable", "false"}); // the shader that picks images does not compile
     const Element element{"Shape", {names, furtherFields(node), boxAttributes(patch.box, geometry.lattice)}};
     writer_.open(element);
     writeChildren(node);
     writeAppearanceOf(shape, shines(patch));
-    if (isSig)
+    if (hasImages)
       writeImages(geometry, patch, shape.solid);
     else
       writer_.leaf(binaryGeometry(geometry, patch, shape.solid));
@@ -109,7 +110,7 @@ private:
   static Attributes boxFields(const GeometryDescription& geometry, bool solid) {
     Attributes fields = decodeAttributes(geometry);
     const std::uint32_t bits = geometry.lattice.bits;
-    const std::uint32_t stored = geometry.container == Container::sig         ? 8 * coordBytes(Container::sig, bits)
+    const std::uint32_t stored = !hasElementTypes(geometry.encoding)          ? 8 * coordBytes(geometry.encoding, bits)
                                  : geometry.coordType == ElementType::float32 ? sourceBits
                                                                               : 8 * byteSizeOf(geometry.coordType);
     if (bits != stored)

@@ -42,7 +42,7 @@ SceneDocument images() {
 SceneDocument arrays() {
   SceneDocument document = images();
   for (GeometryDescription& geometry : document.geometries) {
-    geometry.container = Container::bg;
+    geometry.encoding = Encoding::bg;
     geometry.colorComponents = 3;
     for (PatchDescription& patch : geometry.patches) {
       patch.coord = {{patch.coord[0].url, 0, 8}};

@@ -41,8 +41,7 @@ struct TextureOptions {
 };
 
 struct ConvertOptions {
-  Container container = Container::sig;
-  std::optional<Profile> profile; ///< nothing: compact, unless what else is asked for is classic's alone
+  std::optional<Encoding> encoding; ///< nothing: compact, or classic where compact cannot hold what is asked for
   Target target = Target::web;
   std::string x3domUrl; ///< target x3dom: the folder of x3dom.js and x3dom.css; empty: a public copy
   Primitives primitives = Primitives::triangles; ///< point clouds are always points
@@ -93,7 +92,7 @@ struct TextureReport {
 struct ConvertReport {
   std::string format; ///< of the source
   std::uint64_t sourceBytes = 0;
-  Profile profile = Profile::classic;
+  Encoding encoding = Encoding::classic;
   ElementCounts elements; ///< as they are drawn
   std::size_t vertices = 0, patches = 0;
   WeldReport weld;
@@ -125,7 +124,7 @@ using Progress = std::function<void(double share, const std::string& doing)>;
 /// built beside its target and takes its place in one step; killed at any
 /// moment, the target is the old site or the new one. The same input and options
 /// give the same bytes, whatever the number of threads.
-/// Throws Error{usage} for options that the container cannot honour and for a
+/// Throws Error{usage} for options that the encoding cannot honour and for a
 /// target that must not be replaced, other Errors for the input and the file
 /// system, and what `progress` throws; the target is then untouched.
 ConvertReport convert(const std::filesystem::path& input, const std::filesystem::path& directory,
@@ -140,8 +139,7 @@ struct SiteFile {
 
 /// How the numbers of one geometry are stored.
 struct GeometryInfo {
-  Container container = Container::sig;
-  Profile profile = Profile::classic;
+  Encoding encoding = Encoding::classic;
   std::uint32_t positionBits = 0;
   std::string coordType;                                         ///< BG: "Uint16" ...; SIG: empty
   std::string indexType;                                         ///< empty where there is no index

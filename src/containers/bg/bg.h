@@ -4,8 +4,12 @@
 // Byte by byte in docs/formats/bg.md.
 
 #include "containers/container.h"
+#include "containers/encodings.h"
 
 namespace imgeo {
+
+/// The row of BG in the registry.
+extern const EncodingRow bgEncoding;
 
 /// A file of indices (where there are any) and one for each attribute, or one of
 /// records with all of them, of the node's element types. In records every attribute

@@ -107,7 +107,7 @@ std::vector<std::uint32_t> decodeIndices(const PatchDescription& patch, ElementT
 
 std::vector<Vec3u> decodeIntegers(const Records& records, std::uint32_t count, const GeometryDescription& geometry,
                                   const std::string& location) {
-  const StoredCoords stored = storedCoords(Container::bg, geometry.coordType, geometry.lattice.bits);
+  const StoredCoords stored = storedCoords(Encoding::bg, geometry.coordType, geometry.lattice.bits);
   std::vector<Vec3u> positions(count);
   for (std::uint32_t n = 0; n < count; ++n)
     for (int axis = 0; axis < 3; ++axis)

@@ -48,7 +48,7 @@ void chooseOneType(GeometryDescription& geometry, const PatchedMesh& mesh) {
 
 void chooseTypes(GeometryDescription& geometry, const PatchedMesh& mesh, const EncodeOptions& options) {
   const std::uint32_t bits = mesh.lattice.bits;
-  geometry.coordType = options.coordType.value_or(unsignedTypeOf(coordBytes(Container::bg, bits)));
+  geometry.coordType = options.coordType.value_or(unsignedTypeOf(coordBytes(Encoding::bg, bits)));
   geometry.normalType = normalTypeOf(options);
   assert(holdsLattice(geometry.coordType, bits));
   assert(!isPair(options.normals) || options.normalBits == 16 || byteSizeOf(geometry.coordType) == 2);

@@ -71,7 +71,7 @@ Column coordColumn(const IndexedPatch& patch, const GeometryDescription& geometr
     }
     return column;
   }
-  const StoredCoords stored = storedCoords(Container::bg, type, geometry.lattice.bits);
+  const StoredCoords stored = storedCoords(Encoding::bg, type, geometry.lattice.bits);
   const bool withNormals = areNormalsInCoords(patch, geometry);
   assert(!withNormals || size == 2);
   for (std::size_t n = 0; n < patch.vertexCount(); ++n) {

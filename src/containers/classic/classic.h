@@ -7,8 +7,12 @@
 // docs/formats/sig-classic.md.
 
 #include "containers/container.h"
+#include "containers/encodings.h"
 
 namespace imgeo {
+
+/// The row of SIG classic in the registry.
+extern const EncodingRow classicEncoding;
 
 /// One image for the indices (where there are any), one for each byte of a
 /// coordinate, one each for normals, texture coordinates and colours.

@@ -132,10 +132,10 @@ NamedAttribute decodeAttribute(const std::vector<Texels>& planes, std::uint32_t 
 
 IndexedPatch decodeClassic(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch) {
   const std::uint32_t bits = geometry.lattice.bits;
-  const StoredCoords stored = storedCoords(Container::sig, geometry.coordType, bits);
-  if (patch.coord.size() != coordBytes(Container::sig, bits))
+  const StoredCoords stored = storedCoords(Encoding::classic, geometry.coordType, bits);
+  if (patch.coord.size() != coordBytes(Encoding::classic, bits))
     throw Error(ErrorKind::malformed, "",
-                std::to_string(bits) + "-bit coordinates need " + std::to_string(coordBytes(Container::sig, bits)) +
+                std::to_string(bits) + "-bit coordinates need " + std::to_string(coordBytes(Encoding::classic, bits)) +
                     " images and have " + std::to_string(patch.coord.size()));
 
   // What an index means follows from the height of the record images, and how

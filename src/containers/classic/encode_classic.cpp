@@ -107,13 +107,13 @@ EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription&
   const ImageSize records = recordImageSizeOf(patch, target);
   const ImageSize running = implicitMeshSizeOf(patch, records, target);
   encoded.description.implicitMeshSize = {running.columns, running.rows};
-  const StoredCoords stored = storedCoords(Container::sig, geometry.coordType, geometry.lattice.bits);
+  const StoredCoords stored = storedCoords(Encoding::classic, geometry.coordType, geometry.lattice.bits);
 
   std::vector<RoleImage> images;
   if (!patch.indices.empty())
     images.push_back({Role::index, geometry.indexType == ElementType::uint32 ? wideIndexImage(patch, running)
                                                                              : indexImage(patch, running, records)});
-  for (std::uint32_t plane = coordBytes(Container::sig, geometry.lattice.bits); plane-- > 0;)
+  for (std::uint32_t plane = coordBytes(Encoding::classic, geometry.lattice.bits); plane-- > 0;)
     images.push_back({Role::coord, coordImage(patch, records, stored, plane)});
   if (!patch.normals.empty())
     images.push_back({Role::normal, normalImage(patch, geometry.normalEncoding, records)});

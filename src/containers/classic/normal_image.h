@@ -2,7 +2,7 @@
 // The normal image of a patch, as each encoding has it: docs/formats/sig-classic.md.
 
 #include "containers/classic/layout.h"
-#include "containers/geometry.h"
+#include "containers/geometry_description.h"
 #include "containers/png/png.h"
 
 namespace imgeo {

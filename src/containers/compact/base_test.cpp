@@ -34,7 +34,7 @@ EncodedBase encoded(Mesh mesh, std::uint32_t maxWedges) {
   result.patched = cutIntoPatches(mesh, latticeFor(boxOf(mesh), 16), maxWedges);
   result.base = baseOf(result.patched, 2).value();
   EncodeOptions options;
-  options.profile = Profile::compact;
+  options.encoding = Encoding::compact;
   result.geometry = describe(result.patched, options);
   result.geometry.patches.resize(result.patched.patches.size());
   result.geometry.base = Reference{"base.png", 0, 0};

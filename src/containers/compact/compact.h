@@ -4,11 +4,15 @@
 
 #include "containers/compact/compact_patch.h"
 #include "containers/container.h"
+#include "containers/encodings.h"
 #include "containers/recent.h"
 
 #include <span>
 
 namespace imgeo {
+
+/// The row of SIG compact in the registry.
+extern const EncodingRow compactEncoding;
 
 /// A patch in integers, by the node's fields. Of points, each wedge is one.
 compact::CompactPatch quantisePatch(Patch patch, const GeometryDescription& geometry, const EncodeOptions& options);

@@ -2,7 +2,7 @@
 // A patch's attributes in integers, and back.
 
 #include "containers/compact/compact_patch.h"
-#include "containers/geometry.h"
+#include "containers/geometry_description.h"
 #include "prepare/patches.h"
 
 namespace imgeo::compact {

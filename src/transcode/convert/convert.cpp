@@ -182,7 +182,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
                                   report.sourceBytes);
   requireAttributes(imported, given);
   const ConvertOptions options = resolvedFor(imported.scene, given);
-  report.profile = *options.profile;
+  report.encoding = *options.encoding;
   report.normalBits = options.normalBits;
   report.texCoordBits = options.texCoordBits;
   report.colorBits = options.colorBits;
@@ -216,8 +216,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   warnOfPage(document.graph, report);
   SiteManifest manifest{generator,
                         input == "-" ? "" : input.filename().string(),
-                        options.container,
-                        *options.profile,
+                        *options.encoding,
                         options.primitives,
                         report.normalsComputed,
                         options.normalWeighting,
@@ -231,7 +230,7 @@ ConvertReport convert(const fs::path& input, const fs::path& directory, const Co
   writeFile(site.path() / stylesheetName, asBytes(pageStylesheet()));
   writeFile(site.path() / manifestName, asBytes(writeManifest(manifest)));
   if (options.target == Target::x3dom) {
-    const X3domRelease release = x3domReleaseFor(options.container, options.x3domUrl);
+    const X3domRelease release = x3domReleaseFor(*options.encoding, options.x3domUrl);
     report.x3domVersion = release.version;
     report.x3domUrl = release.files.scriptUrl;
     writeX3domPage(document, release, site.path());

@@ -1,13 +1,14 @@
 #include "transcode/convert/resolve_options.h"
 
 #include "base/error.h"
-#include "containers/compact/compact_patch.h"
+#include "containers/encodings.h"
 #include "containers/limits.h"
 #include "containers/normals.h"
 #include "containers/stored_coords.h"
 #include "images/raster.h"
 #include "prepare/patches.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -24,13 +25,17 @@ void requireWithin(const char* option, std::int64_t value, std::int64_t least, s
     refuse(option, fmt::format("{} is not within {}..{}", value, least, most));
 }
 
+const Capabilities& capabilitiesOf(const ConvertOptions& options) {
+  return rowOf(*options.encoding).capabilities;
+}
+
 /// X3DOM takes all attributes of interleaved records for numbers of the coordinates' type.
 bool isOfOneType(const ConvertOptions& options) {
   return options.target == Target::x3dom && options.layout == Layout::interleaved;
 }
 
 bool has16BitCoords(const ConvertOptions& options) {
-  return (options.coordType ? byteSizeOf(*options.coordType) : coordBytes(Container::bg, options.positionBits)) == 2;
+  return (options.coordType ? byteSizeOf(*options.coordType) : coordBytes(Encoding::bg, options.positionBits)) == 2;
 }
 
 std::uint32_t defaultPositionBits(const ConvertOptions& options) {
@@ -46,7 +51,7 @@ std::uint32_t defaultPositionBits(const ConvertOptions& options) {
 std::uint32_t defaultNormalBits(const ConvertOptions& options) {
   if (isOfOneType(options) && options.normals == NormalEncoding::rgb && options.coordType)
     return 8 * byteSizeOf(*options.coordType);
-  const bool roomless = options.container == Container::bg && !has16BitCoords(options);
+  const bool roomless = options.encoding == Encoding::bg && !has16BitCoords(options);
   return options.normals == NormalEncoding::octahedral && roomless ? 16 : 8;
 }
 
@@ -68,7 +73,7 @@ void requireCoordType(ElementType type, const ConvertOptions& options) {
 }
 
 void requireCoords(const ConvertOptions& options) {
-  if (options.container == Container::sig) {
+  if (!capabilitiesOf(options).elementTypes) {
     if (options.coordType)
       refuse("--coord-type", "images hold bytes; element types belong to bg");
     if (options.layout != Layout::separate)
@@ -84,7 +89,7 @@ void requireCoords(const ConvertOptions& options) {
 
 void requireNormals(const ConvertOptions& options) {
   const std::uint32_t bits = options.normalBits;
-  if (options.container == Container::sig) {
+  if (!hasElementTypes(*options.encoding)) {
     if (bits != 8)
       refuse("--normal-bits", fmt::format("sig stores normals in 8 bits, not {}; bg also in 16 or 32", bits));
     if (options.normals == NormalEncoding::derived)
@@ -129,7 +134,7 @@ void requireAttributes(const ConvertOptions& options) {
   const bool isAny = options.keepAttributes.all || !options.keepAttributes.names.empty();
   if (isAny && options.target == Target::x3dom)
     refuse("--keep-attributes", "X3DOM reads no further attributes out of images and arrays");
-  if (options.container == Container::bg && options.attributeBits != 0)
+  if (!capabilitiesOf(options).attributeBits && options.attributeBits != 0)
     refuse("--attribute-bits", fmt::format("bg stores attributes as Float32, not in {} bits", options.attributeBits));
   if (options.attributeBits % 8 != 0 || options.attributeBits > 24)
     refuse("--attribute-bits", fmt::format("images hold 8, 16 or 24 bits, not {}", options.attributeBits));
@@ -137,23 +142,32 @@ void requireAttributes(const ConvertOptions& options) {
     refuse("--attribute-bits", "only attributes that --keep-attributes names have bits");
 }
 
-std::uint32_t mostPositionBits(const ConvertOptions& options) {
-  return options.profile == Profile::compact ? 30 : 32;
-}
-
 void requireMaxError(const ConvertOptions& options) {
   if (options.positionBits != 0)
     refuse("--max-error", "chooses the bits that --position-bits states");
-  if (options.container == Container::bg)
+  if (!capabilitiesOf(options).maxError)
     refuse("--max-error", "chooses bits for images; bg has --position-bits and --coord-type");
 }
 
-/// What compact has not, and classic and BG have.
-bool isClassicsAlone(const ConvertOptions& options) {
-  const bool isPlain = options.normals == NormalEncoding::spherical || options.normals == NormalEncoding::palette;
-  return options.container == Container::bg || options.target == Target::x3dom ||
-         options.primitives == Primitives::strips || !options.indexed || isPlain || options.positionBits > 30 ||
-         options.patchVertices > compact::maxPatchCount;
+/// Whether an encoding can hold what is asked for, as far as options say it.
+bool canHold(const EncodingRow& row, const ConvertOptions& options) {
+  const Capabilities& can = row.capabilities;
+  return (options.target != Target::x3dom || row.x3domVersion != nullptr) &&
+         (options.primitives != Primitives::strips || can.strips) && (options.indexed || can.unindexed) &&
+         std::ranges::find(can.normals, options.normals) != can.normals.end() &&
+         options.positionBits <= can.maxPositionBits && options.patchVertices <= can.maxPatchVertices;
+}
+
+/// The first encoding among those that convert may choose that holds what is asked for.
+Encoding automaticEncoding(const ConvertOptions& options) {
+  Encoding last = Encoding::classic;
+  for (const EncodingRow* row : allEncodings())
+    if (row->isAutomatic) {
+      last = row->encoding;
+      if (canHold(*row, options))
+        return last;
+    }
+  return last;
 }
 
 void requireTextures(const TextureOptions& textures) {
@@ -171,8 +185,6 @@ void requireTextures(const TextureOptions& textures) {
 
 /// Compact has its own way with normals, its own order, and is for our runtime.
 ConvertOptions resolvedCompact(ConvertOptions options) {
-  if (options.container == Container::bg)
-    refuse("--profile", "compact is a profile of sig, and bg has none");
   if (options.target == Target::x3dom)
     refuse("--profile", "X3DOM reads no compact images; it reads classic ones");
   if (options.primitives == Primitives::strips)
@@ -185,18 +197,18 @@ ConvertOptions resolvedCompact(ConvertOptions options) {
     refuse("--normals", fmt::format("compact stores octahedral normals or derives them, but has no {} ones",
                                     nameOf(options.normals)));
   requireWithin("--normal-bits", options.normalBits, 4, 16);
-  requireWithin("--patch-vertices", options.patchVertices, 256, compact::maxPatchCount);
+  requireWithin("--patch-vertices", options.patchVertices, 256, capabilitiesOf(options).maxPatchVertices);
   return options;
 }
 
 void requireOtherBits(ConvertOptions& options) {
-  const bool isCompact = options.profile == Profile::compact;
-  if (options.texCoordBits == 0)
-    options.texCoordBits = isCompact ? 12 : 16;
-  if (options.colorBits == 0)
-    options.colorBits = 8;
-  requireWithin("--texcoord-bits", options.texCoordBits, isCompact ? 1 : 16, 16);
-  requireWithin("--color-bits", options.colorBits, isCompact ? 1 : 8, 8);
+  const auto resolve = [](const char* option, std::uint32_t& bits, const BitRange& range) {
+    if (bits == 0)
+      bits = range.defaultBits;
+    requireWithin(option, bits, range.min, range.max);
+  };
+  resolve("--texcoord-bits", options.texCoordBits, capabilitiesOf(options).texCoordBits);
+  resolve("--color-bits", options.colorBits, capabilitiesOf(options).colorBits);
 }
 
 } // namespace
@@ -208,7 +220,7 @@ std::uint32_t positionBitsFor(const Box3d& box, const ConvertOptions& options) {
   const double allowed = error.isPercent ? error.value / 100 * box.longestEdge() : error.value;
   // Half a step on each axis is the half diagonal of a cell.
   const double steps = box.longestEdge() * std::sqrt(3.0) / 2 / allowed;
-  const std::uint32_t most = mostPositionBits(options);
+  const std::uint32_t most = capabilitiesOf(options).maxPositionBits;
   for (std::uint32_t bits = 8; bits <= most; ++bits)
     if (std::ldexp(1.0, static_cast<int>(bits)) - 1 >= steps)
       return bits;
@@ -217,48 +229,46 @@ std::uint32_t positionBitsFor(const Box3d& box, const ConvertOptions& options) {
 
 ConvertOptions resolvedFor(const Scene& scene, const ConvertOptions& given) {
   ConvertOptions options = resolved(given);
-  if (options.profile != Profile::compact)
-    return options;
-  std::size_t most = 0;
+  std::size_t attributeCount = 0;
   for (const Mesh& mesh : scene.meshes)
-    most = std::max(most, mesh.namedAttributes.size());
-  constexpr std::size_t mostNamed = compact::maxAttributes - 3; // beside normals, texture coordinates, colours
-  if (most <= mostNamed)
+    attributeCount = std::max(attributeCount, mesh.namedAttributes.size());
+  const std::size_t maxAttributeCount = capabilitiesOf(options).maxNamedAttributes;
+  if (attributeCount <= maxAttributeCount)
     return options;
-  if (given.profile)
+  if (given.encoding)
     refuse("--profile", fmt::format("compact holds {} further attributes of a mesh, not {}; classic holds any "
                                     "number, and --keep-attributes says which",
-                                    mostNamed, most));
+                                    maxAttributeCount, attributeCount));
   options = given;
-  options.profile = Profile::classic;
+  options.encoding = Encoding::classic;
   return resolved(options);
 }
 
 bool hasStatedError(const ConvertOptions& options) {
-  return options.normals == NormalEncoding::palette || options.profile == Profile::compact;
+  return options.normals == NormalEncoding::palette || rowOf(*options.encoding).hasMeasuredNormalError;
 }
 
 ConvertOptions resolved(ConvertOptions options) {
-  if (!options.profile)
-    options.profile = isClassicsAlone(options) ? Profile::classic : Profile::compact;
+  if (!options.encoding)
+    options.encoding = automaticEncoding(options);
   if (options.maxError)
     requireMaxError(options);
   if (options.positionBits == 0)
     options.positionBits = defaultPositionBits(options);
-  requireWithin("--position-bits", options.positionBits, 8, mostPositionBits(options));
+  requireWithin("--position-bits", options.positionBits, 8, capabilitiesOf(options).maxPositionBits);
   requireWithin("--patch-vertices", options.patchVertices, 256, maxPatchWedges);
   requireWithin("--effort", options.effort, 0, 9);
   requireTextures(options.textures);
   if (options.normalBits == 0)
     options.normalBits = defaultNormalBits(options);
   requireCoords(options);
-  if (options.basePercent && options.profile != Profile::compact)
+  if (options.basePercent && !capabilitiesOf(options).base)
     refuse("--base", "only compact has a base; classic shows its first bytes");
   if (options.basePercent && !(*options.basePercent >= 0 && *options.basePercent <= 25))
     refuse("--base", fmt::format("{} is not within 0..25", *options.basePercent));
   if (!options.basePercent)
     options.basePercent = 2;
-  if (options.profile == Profile::compact)
+  if (options.encoding == Encoding::compact)
     options = resolvedCompact(options);
   else
     requireNormals(options);
@@ -266,7 +276,7 @@ ConvertOptions resolved(ConvertOptions options) {
   requireAttributes(options);
   if (options.attributeBits == 0)
     options.attributeBits = 16;
-  if (options.target == Target::x3dom && options.container == Container::sig &&
+  if (options.target == Target::x3dom && options.encoding == Encoding::classic &&
       options.patchVertices > maxShortIndexedVertices)
     refuse("--patch-vertices",
            fmt::format("X3DOM's index images name at most 65,535 vertices, not {}; bg's arrays more",

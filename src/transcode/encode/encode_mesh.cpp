@@ -74,7 +74,7 @@ EncodedPatch encodeAlone(const compact::CompactPatch& patch, const GeometryDescr
 EncodedElements encodeElements(Patch patch, const GeometryDescription& geometry, const ConvertOptions& options,
                                const EncodeOptions& encoding) {
   EncodedElements encoded;
-  if (geometry.profile == Profile::compact) {
+  if (geometry.encoding == Encoding::compact) {
     encoded.patch = encodeAlone(quantisedAs(std::move(patch), geometry, options, encoding), geometry, encoding.effort);
   } else {
     const IndexedPatch indexed = primitivesOf(patch, options);
@@ -125,9 +125,16 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
   result.collapsed.of(mesh.topology) = countCollapsedElements(mesh, points, lattice.bits);
   PatchedMesh patched = cutIntoPatches(std::move(mesh), std::move(points), lattice, options.patchVertices);
 
-  const EncodeOptions encoding{options.container, options.normalBits,   options.effort,   options.target,
-                               options.normals,   options.coordType,    options.layout,   options.attributeBits,
-                               *options.profile,  options.texCoordBits, options.colorBits};
+  const EncodeOptions encoding{.encoding = *options.encoding,
+                               .normalBits = options.normalBits,
+                               .effort = options.effort,
+                               .target = options.target,
+                               .normals = options.normals,
+                               .coordType = options.coordType,
+                               .layout = options.layout,
+                               .attributeBits = options.attributeBits,
+                               .texCoordBits = options.texCoordBits,
+                               .colorBits = options.colorBits};
   result.geometry = describe(patched, encoding);
   for (const Patch& patch : patched.patches) {
     result.hasNormals |= !patch.normals.empty();
@@ -137,10 +144,10 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
       result.texCoordError = std::max(error.x, error.y);
     }
   }
-  if (options.profile == Profile::compact && options.primitives == Primitives::triangles)
+  if (options.encoding == Encoding::compact && options.primitives == Primitives::triangles)
     if (const std::optional<BaseMesh> base = baseOf(patched, options.basePercent.value_or(0)))
       result.base = baseInIntegers(*base, result.geometry, options.texCoordBits, options.colorBits);
-  if (options.profile == Profile::compact && patched.patches.size() == 1 &&
+  if (options.encoding == Encoding::compact && patched.patches.size() == 1 &&
       patched.patches[0].wedgeCount() <= sharedFileVertices) {
     addSmall(result, std::move(patched.patches[0]), options, encoding);
     done(result.small->elementCount());

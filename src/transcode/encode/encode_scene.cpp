@@ -2,6 +2,7 @@
 
 #include "base/few_digits.h"
 #include "containers/compact/base.h"
+#include "containers/encodings.h"
 #include "containers/named_attributes.h"
 #include "import/warnings.h"
 #include "transcode/default_scene/world_box.h"
@@ -211,10 +212,10 @@ void addAttributes(std::vector<AttributeReport>& reports, const GeometryDescript
     auto report = std::ranges::find(reports, attribute.name, &AttributeReport::name);
     if (report == reports.end())
       report = reports.insert(report, {attribute.name, attribute.components, 0, 0});
-    const bool isSig = geometry.container == Container::sig;
-    report->bits = std::max(report->bits, isSig ? 8 * attribute.bytes : 32);
+    const bool isTyped = hasElementTypes(geometry.encoding);
+    report->bits = std::max(report->bits, isTyped ? 32 : 8 * attribute.bytes);
     for (std::uint32_t c = 0; c < attribute.components; ++c)
-      report->error = std::max(report->error, numberBound(geometry.container, attribute, c));
+      report->error = std::max(report->error, numberBound(geometry.encoding, attribute, c));
   }
 }
 

@@ -32,7 +32,7 @@ TEST(ExportSite, GivesBackEveryMeshOfEveryContainer) {
   for (std::uint32_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
     ConvertOptions options;
-    options.container = seed % 2 == 0 ? Container::sig : Container::bg;
+    options.encoding = seed % 2 == 0 ? std::optional<Encoding>() : Encoding::bg;
     options.primitives = seed % 3 == 0 ? Primitives::strips : Primitives::triangles;
     options.positionBits = 8 + seed % 13;
     options.effort = 0;

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "containers/encodings.h"
 #include "transcode/site/site_document.h"
 #include "transcode/site/site_manifest.h"
 #include "transcode/site/staged_site.h"
@@ -31,16 +32,14 @@ void count(const PatchDescription& patch, SiteInfo& info) {
 }
 
 GeometryInfo infoOf(const GeometryDescription& geometry, const ContainerReader& reader) {
-  const bool isBg = geometry.container == Container::bg;
   const auto anyPatch = [&](auto reference) {
     return std::ranges::any_of(geometry.patches,
                                [&](const PatchDescription& patch) { return (patch.*reference).has_value(); });
   };
   GeometryInfo info;
-  info.container = geometry.container;
-  info.profile = geometry.profile;
+  info.encoding = geometry.encoding;
   info.positionBits = geometry.lattice.bits;
-  if (isBg)
+  if (hasElementTypes(geometry.encoding))
     info.coordType = nameOf(geometry.coordType);
   if (anyPatch(&PatchDescription::index))
     info.indexType = nameOf(geometry.indexType);

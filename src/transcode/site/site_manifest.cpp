@@ -1,6 +1,7 @@
 #include "transcode/site/site_manifest.h"
 
 #include "base/error.h"
+#include "containers/encodings.h"
 
 #include <array>
 #include <nlohmann/json.hpp>
@@ -9,8 +10,6 @@ namespace imgeo {
 
 namespace {
 
-constexpr std::array containers{Container::sig, Container::bg};
-constexpr std::array profiles{Profile::classic, Profile::compact};
 constexpr std::array primitiveKinds{Primitives::triangles, Primitives::strips, Primitives::points};
 constexpr std::array weightings{NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform};
 
@@ -20,6 +19,14 @@ Value valueNamed(const std::array<Value, count>& values, const std::string& name
     if (nameOf(value) == name)
       return value;
   throw Error(ErrorKind::malformed, location, "says \"" + name + "\", which is nothing we know");
+}
+
+Encoding encodingNamed(const std::string& container, const std::string& profile, const std::string& location) {
+  const EncodingRow* row = findEncoding(container, profile);
+  if (row == nullptr)
+    throw Error(ErrorKind::malformed, location,
+                "says \"" + container + "\" and \"" + profile + "\", which is nothing we know");
+  return row->encoding;
 }
 
 } // namespace
@@ -36,8 +43,8 @@ std::string writeManifest(const SiteManifest& manifest) {
   nlohmann::ordered_json json;
   json["generator"] = manifest.generator;
   json["source"] = manifest.source;
-  json["container"] = nameOf(manifest.container);
-  json["profile"] = nameOf(manifest.profile);
+  json["container"] = rowOf(manifest.encoding).container;
+  json["profile"] = rowOf(manifest.encoding).profile;
   json["primitives"] = nameOf(manifest.primitives);
   json["normals"] = manifest.normalsComputed ? nameOf(manifest.normalWeighting) : "source";
   json["triangles"] = manifest.elements.triangles;
@@ -62,8 +69,7 @@ SiteManifest readManifest(std::string_view text, const std::string& name) {
     SiteManifest manifest;
     manifest.generator = json.at("generator");
     manifest.source = json.at("source");
-    manifest.container = valueNamed(containers, json.at("container"), name);
-    manifest.profile = valueNamed(profiles, json.value("profile", nameOf(Profile::classic)), name);
+    manifest.encoding = encodingNamed(json.at("container"), json.value("profile", "classic"), name);
     manifest.primitives = valueNamed(primitiveKinds, json.at("primitives"), name);
     const std::string normals = json.at("normals");
     manifest.normalsComputed = normals != "source";

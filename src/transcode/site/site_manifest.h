@@ -14,8 +14,7 @@ namespace imgeo {
 struct SiteManifest {
   std::string generator; ///< "imgeo 0.1.0"
   std::string source;    ///< the input's file name
-  Container container = Container::sig;
-  Profile profile = Profile::classic;
+  Encoding encoding = Encoding::classic;
   Primitives primitives = Primitives::triangles;
   bool normalsComputed = false;
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where normals were computed

@@ -1,23 +1,31 @@
 #include "transcode/site/x3dom_release.h"
 
+#include "containers/encodings.h"
+
+#include <algorithm>
+#include <string_view>
+
 namespace imgeo {
 
 namespace {
 
 struct Published {
-  const char *version, *scriptIntegrity, *stylesheetIntegrity;
+  std::string_view version;
+  const char *scriptIntegrity, *stylesheetIntegrity;
 };
 
-constexpr Published lastWithImages{"1.7.2", "sha384-oQ9tNXncaw82KCZEOw04VVSHG3NtBhpBNgFO7k34hf/gtRbwB/a6f9w5swP8aFlx",
-                                   "sha384-SxENDTJ8EH9KycoVNkxmZ/41CqFFDFc/hjL9GpNIN+Oe0dwqFf7Usel+IODWsBi9"};
-constexpr Published newest{"1.8.3", "sha384-w8ORWjdI7HWkA1nJ1+2+fC+tGuvNaL+vnbcMsCCG5HkvwKXgEgdGBx1uqh2wVuri",
-                           "sha384-rVRMZrgMA6SaDQGaoPcnpA+ILV3OYdc3yMT3eg08bxgtM9OowE4X8gd4AlKOYNl2"};
+constexpr Published releases[] = {
+    {"1.7.2", "sha384-oQ9tNXncaw82KCZEOw04VVSHG3NtBhpBNgFO7k34hf/gtRbwB/a6f9w5swP8aFlx",
+     "sha384-SxENDTJ8EH9KycoVNkxmZ/41CqFFDFc/hjL9GpNIN+Oe0dwqFf7Usel+IODWsBi9"},
+    {"1.8.3", "sha384-w8ORWjdI7HWkA1nJ1+2+fC+tGuvNaL+vnbcMsCCG5HkvwKXgEgdGBx1uqh2wVuri",
+     "sha384-rVRMZrgMA6SaDQGaoPcnpA+ILV3OYdc3yMT3eg08bxgtM9OowE4X8gd4AlKOYNl2"},
+};
 
 } // namespace
 
-X3domRelease x3domReleaseFor(Container container, const std::string& folderUrl) {
-  const Published& published = container == Container::sig ? lastWithImages : newest;
-  const std::string version = published.version;
+X3domRelease x3domReleaseFor(Encoding encoding, const std::string& folderUrl) {
+  const std::string version = rowOf(encoding).x3domVersion;
+  const Published& published = *std::ranges::find(releases, version, &Published::version);
   if (folderUrl.empty()) {
     const std::string folder = "https://cdn.jsdelivr.net/npm/x3dom@" + version + "/";
     return {version,

@@ -1,7 +1,7 @@
 #pragma once
 // The releases of X3DOM that pages are written for, and where they find them.
 
-#include "containers/geometry.h"
+#include "containers/geometry_description.h"
 #include "documents/documents.h"
 
 #include <string>
@@ -16,6 +16,6 @@ struct X3domRelease {
 /// 1.7.2 for SIG, the last release that draws images; 1.8.3 for BG. `folderUrl`
 /// holds x3dom.js and x3dom.css; where it is empty, they are npm's, as a public
 /// CDN serves them, with sums that let nothing else run.
-X3domRelease x3domReleaseFor(Container container, const std::string& folderUrl);
+X3domRelease x3domReleaseFor(Encoding encoding, const std::string& folderUrl);
 
 } // namespace imgeo

@@ -3,7 +3,7 @@
 // input and what a site holds of it can be compared, whatever order, patches or
 // strips they came in.
 
-#include "containers/geometry.h"
+#include "containers/geometry_description.h"
 #include "scene/mesh.h"
 
 #include <array>

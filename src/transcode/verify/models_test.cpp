@@ -44,7 +44,7 @@ private:
 /// 8 tries less than 9, in a fifth of its time: 9 is never larger.
 TEST_P(PaperModels, AreImagesOfFewBytes) {
   ConvertOptions options;
-  options.profile = Profile::classic;
+  options.encoding = Encoding::classic;
   options.effort = 8;
   const std::uint64_t bytes = bytesOf(options);
   EXPECT_GT(bytes, 0u);
@@ -53,7 +53,7 @@ TEST_P(PaperModels, AreImagesOfFewBytes) {
 
 TEST_P(PaperModels, AreStripsOfNoMoreIndicesThanThePapers) {
   ConvertOptions options;
-  options.container = Container::bg;
+  options.encoding = Encoding::bg;
   options.primitives = Primitives::strips;
   const std::uint64_t indices = bytesOf(options, "index") / 2;
   EXPECT_GT(indices, 0u);

@@ -28,10 +28,17 @@ VerifyReport expectRoundTrip(const Mesh& mesh, const ConvertOptions& options, co
   return verified;
 }
 
+/// The encoding of images that convert chooses, and typed arrays.
+constexpr std::array imagesAndArrays{std::optional<Encoding>(), std::optional(Encoding::bg)};
+
+const char* nameOf(std::optional<Encoding> encoding) {
+  return encoding ? imgeo::nameOf(*encoding) : "automatic";
+}
+
 /// One after the other, every way in which these coordinates can have their normals.
 void setNormals(ConvertOptions& options, std::uint32_t seed) {
   using enum NormalEncoding;
-  if (options.container == Container::sig) {
+  if (options.encoding != Encoding::bg) {
     options.normals = std::array{rgb, octahedral, spherical, palette}[seed % 4];
     return;
   }
@@ -43,12 +50,12 @@ void setNormals(ConvertOptions& options, std::uint32_t seed) {
 
 TEST(RoundTrip, EveryContainerPrimitiveAndPrecisionGivesBackEveryMesh) {
   std::uint32_t seed = 1;
-  for (const Container container : {Container::sig, Container::bg})
+  for (const std::optional<Encoding> encoding : imagesAndArrays)
     for (const Primitives primitives : {Primitives::triangles, Primitives::strips, Primitives::points})
       for (const std::uint32_t bits : {8u, 12u, 16u, 24u, 32u})
         for (int mesh = 0; mesh < 6; ++mesh, ++seed) {
           ConvertOptions options;
-          options.container = container;
+          options.encoding = encoding;
           options.primitives = primitives;
           options.indexed = mesh % 2 == 0;
           options.positionBits = bits;
@@ -56,11 +63,11 @@ TEST(RoundTrip, EveryContainerPrimitiveAndPrecisionGivesBackEveryMesh) {
           options.patchVertices = seed % 2 ? 256 : 65535;
           options.effort = static_cast<int>(seed % 4);
           options.keepAttributes.all = seed % 3 > 0;
-          if (container == Container::sig && options.keepAttributes.all)
+          if (encoding != Encoding::bg && options.keepAttributes.all)
             options.attributeBits = 8 * (1 + seed % 3);
           const VerifyReport verified = expectRoundTrip(
               testing::randomMesh(seed), options,
-              fmt::format("seed {} container {} primitives {} indexed {} bits {} patches of {}", seed, int(container),
+              fmt::format("seed {} encoding {} primitives {} indexed {} bits {} patches of {}", seed, nameOf(encoding),
                           int(primitives), options.indexed, bits, options.patchVertices));
           EXPECT_GT(verified.input.sum(), 0u) << seed;
           if (HasFailure())
@@ -74,7 +81,7 @@ TEST(RoundTrip, CompactGivesBackEveryMeshAtEveryPrecision) {
     for (const std::uint32_t bits : {8u, 12u, 16u, 24u, 30u})
       for (int mesh = 0; mesh < 6; ++mesh, ++seed) {
         ConvertOptions options;
-        options.profile = Profile::compact;
+        options.encoding = Encoding::compact;
         options.primitives = primitives;
         options.positionBits = bits;
         options.normals = seed % 5 == 0 ? NormalEncoding::derived : NormalEncoding::octahedral;
@@ -151,7 +158,7 @@ TEST(RoundTrip, CompactGivesBackWhatNoSurfaceIs) {
     }
     for (const std::uint32_t patchVertices : {5'000u, 65'535u}) {
       ConvertOptions options;
-      options.profile = Profile::compact;
+      options.encoding = Encoding::compact;
       options.patchVertices = patchVertices;
       const VerifyReport verified = expectRoundTrip(meshOver(pointCount, triangles), options, what);
       EXPECT_EQ(verified.input.triangles + flat, count) << what;
@@ -164,9 +171,9 @@ TEST(RoundTrip, TheLargestErrorChoosesTheFewestBits) {
   testing::writeMesh(directory / "input.ply", testing::torus(20, 12)); // 2.7 wide
   for (const auto& [error, bits] :
        {std::pair{MaxError{0.01, false}, 8u}, {MaxError{0.001, false}, 12u}, {MaxError{0.01, true}, 14u}})
-    for (const Profile profile : {Profile::classic, Profile::compact}) {
+    for (const Encoding encoding : {Encoding::classic, Encoding::compact}) {
       ConvertOptions options;
-      options.profile = profile;
+      options.encoding = encoding;
       options.maxError = error;
       EXPECT_EQ(convert(directory / "input.ply", directory / "site", options).leastPositionBits, bits);
     }
@@ -191,7 +198,7 @@ TEST(RoundTrip, EveryElementTypeAndLayoutGivesBackEveryMesh) {
       for (const NormalEncoding normals : one.normals)
         for (const Layout layout : {Layout::separate, Layout::interleaved}) {
           ConvertOptions options;
-          options.container = Container::bg;
+          options.encoding = Encoding::bg;
           options.coordType = one.type;
           options.positionBits = bits;
           options.normals = normals;
@@ -209,7 +216,7 @@ TEST(RoundTrip, FloatsAreTheSourcesOwn) {
   const Mesh mesh = testing::torus(40, 20);
   testing::writeMesh(directory / "input.ply", mesh);
   ConvertOptions options;
-  options.container = Container::bg;
+  options.encoding = Encoding::bg;
   options.coordType = ElementType::float32;
   options.indexed = false;
   convert(directory / "input.ply", directory / "site", options);
@@ -231,14 +238,14 @@ TEST(RoundTrip, FloatsAreTheSourcesOwn) {
 }
 
 TEST(RoundTrip, PatchesOfMoreThan16BitIndicesNameGiveBackTheMesh) {
-  for (const Container container : {Container::sig, Container::bg})
+  for (const std::optional<Encoding> encoding : imagesAndArrays)
     for (const Mesh& mesh : {testing::torus(400, 170), testing::polylines(30'000, 7)}) {
       ASSERT_GT(mesh.wedgeCount(), 65'535u);
       ConvertOptions options;
-      options.container = container;
+      options.encoding = encoding;
       options.patchVertices = 4'194'304;
       options.effort = 0;
-      expectRoundTrip(mesh, options, fmt::format("container {}", int(container)));
+      expectRoundTrip(mesh, options, fmt::format("encoding {}", nameOf(encoding)));
     }
 }
 
@@ -251,7 +258,7 @@ TEST(RoundTrip, EveryNormalWeightingIsTheOneThatVerifyRepeats) {
 }
 
 TEST(RoundTrip, AMeshWithoutExtentIsStillAMesh) {
-  for (const Container container : {Container::sig, Container::bg}) {
+  for (const std::optional<Encoding> encoding : imagesAndArrays) {
     Mesh flat = testing::grid(3);
     for (Vec3f& position : flat.positions)
       position.y = 7;
@@ -260,7 +267,7 @@ TEST(RoundTrip, AMeshWithoutExtentIsStillAMesh) {
     for (Vec3f& position : collapsed.positions)
       position = {1e6f, -1e6f, 3};
     ConvertOptions options;
-    options.container = container;
+    options.encoding = encoding;
     expectRoundTrip(flat, options, "flat");
     expectRoundTrip(point, options, "one point");
     expectRoundTrip(collapsed, options, "all in one place");
@@ -282,11 +289,10 @@ TEST(RoundTrip, SitesAreTheSameWhateverTheThreads) {
           << what << " on " << threads;
     }
   };
-  expectSame("classic");
-  options.container = Container::bg;
+  expectSame("automatic");
+  options.encoding = Encoding::bg;
   expectSame("bg");
-  options.container = Container::sig;
-  options.profile = Profile::compact;
+  options.encoding = Encoding::compact;
   expectSame("compact");
 }
 
@@ -297,7 +303,7 @@ TEST(RoundTrip, WhatProgressThrowsLeavesTheOldSite) {
   options.patchVertices = 256;
   convert(directory / "input.ply", directory / "site", options);
   const auto before = testing::contentsOf(directory / "site");
-  options.container = Container::bg;
+  options.encoding = Encoding::bg;
   struct Enough {};
   double last = -1;
   const auto stopAt = [&](double share) {

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "containers/encodings.h"
 #include "containers/named_attributes.h"
 #include "containers/normals.h"
 #include "containers/stored.h"
@@ -47,14 +48,14 @@ private:
 
 /// The bound of a palette and of compact is what convert says; it need not hold for other sites.
 double normalBoundDegrees(const GeometryDescription& geometry, const SiteManifest& manifest) {
-  const bool isStated = geometry.normalEncoding == NormalEncoding::palette || geometry.profile == Profile::compact;
+  const bool isStated = geometry.normalEncoding == NormalEncoding::palette || rowOf(geometry).hasMeasuredNormalError;
   const double bound = isStated ? manifest.normalErrorDegrees : normalErrorBound(geometry) * (180 / std::numbers::pi);
   return std::max(bound, 1e-5);
 }
 
 /// Of images any type but Float32: their lattice is exact.
 ElementType coordTypeOf(const GeometryDescription& geometry) {
-  return geometry.container == Container::bg ? geometry.coordType : ElementType::uint32;
+  return hasElementTypes(geometry.encoding) ? geometry.coordType : ElementType::uint32;
 }
 
 /// Brings colours to those that fewer than 8 bits a component can tell apart.
@@ -72,7 +73,7 @@ std::map<std::string, std::vector<double>> namedBounds(const GeometryDescription
   std::map<std::string, std::vector<double>> bounds;
   for (const AttributeDescription& attribute : geometry.attributes)
     for (std::uint32_t c = 0; c < attribute.components; ++c)
-      bounds[attribute.name].push_back(numberBound(geometry.container, attribute, c));
+      bounds[attribute.name].push_back(numberBound(geometry.encoding, attribute, c));
   return bounds;
 }
 

@@ -19,12 +19,11 @@ using testing::TemporaryDirectory;
 /// A sphere in several patches, which tests then damage.
 class DamagedSite {
 public:
-  explicit DamagedSite(Container container = Container::sig, const Mesh& mesh = testing::sphere(30, 30),
+  explicit DamagedSite(Encoding encoding = Encoding::classic, const Mesh& mesh = testing::sphere(30, 30),
                        NormalEncoding normals = NormalEncoding::rgb) {
     testing::writeMesh(directory_ / "input.ply", mesh);
     ConvertOptions options;
-    options.profile = Profile::classic;
-    options.container = container;
+    options.encoding = encoding;
     options.normals = normals;
     options.patchVertices = 300;
     convert(directory_ / "input.ply", site(), options);
@@ -118,7 +117,7 @@ TEST(Verify, SeesOneIndexOff) {
 }
 
 TEST(Verify, SeesALineThatIsDrawnInThePlaceOfAnother) {
-  DamagedSite site(Container::bg, testing::polylines(60, 1));
+  DamagedSite site(Encoding::bg, testing::polylines(60, 1));
   EXPECT_TRUE(site.verified().equal);
   // Two indices of two bytes a line.
   site.change(*site.geometry().patches[0].index, [](Bytes& indices) { std::copy_n(&indices[8], 4, &indices[0]); });
@@ -175,10 +174,10 @@ TEST(Verify, SeesABoxThatDoesNotFitItsPatch) {
 }
 
 TEST(Verify, SeesNormalsTurned) {
-  for (const Container container : {Container::sig, Container::bg}) {
-    DamagedSite site(container);
+  for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
+    DamagedSite site(encoding);
     Reference& normal = *site.geometry().patches[0].normal;
-    if (container == Container::sig)
+    if (encoding == Encoding::classic)
       site.changeImage(normal, [](Image& image) { image.pixels[0] = static_cast<std::uint8_t>(image.pixels[0] ^ 4); });
     else
       site.change(normal, [](Bytes& bytes) { bytes[0] = static_cast<std::uint8_t>(bytes[0] ^ 4); });
@@ -188,8 +187,8 @@ TEST(Verify, SeesNormalsTurned) {
 
 TEST(Verify, SeesNormalsTurnedInEveryEncoding) {
   for (const NormalEncoding normals : {NormalEncoding::octahedral, NormalEncoding::spherical}) {
-    DamagedSite images(Container::sig, testing::sphere(30, 30), normals),
-        arrays(Container::bg, testing::sphere(30, 30), normals);
+    DamagedSite images(Encoding::classic, testing::sphere(30, 30), normals),
+        arrays(Encoding::bg, testing::sphere(30, 30), normals);
     images.changeImage(*images.geometry().patches[0].normal,
                        [](Image& image) { image.pixels[0] = static_cast<std::uint8_t>(image.pixels[0] ^ 16); });
     expectFinding(images, "Normals are off");
@@ -200,7 +199,7 @@ TEST(Verify, SeesNormalsTurnedInEveryEncoding) {
     arrays.write();
     expectFinding(arrays, "Normals are off");
   }
-  DamagedSite palette(Container::sig, testing::sphere(30, 30), NormalEncoding::palette);
+  DamagedSite palette(Encoding::classic, testing::sphere(30, 30), NormalEncoding::palette);
   EXPECT_TRUE(palette.verified().equal);
   palette.changeImage(*palette.geometry().patches[0].normal, [](Image& image) {
     for (std::size_t i = 0; i < 3; ++i)
@@ -221,7 +220,7 @@ TEST(Verify, SeesOtherColoursAndTextureCoordinates) {
   Mesh mesh = testing::torus(20, 20);
   for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
     mesh.colors.push_back({static_cast<std::uint8_t>(wedge), 7, 9, 255});
-  DamagedSite colored(Container::sig, mesh), mapped(Container::sig, mesh);
+  DamagedSite colored(Encoding::classic, mesh), mapped(Encoding::classic, mesh);
   EXPECT_TRUE(colored.verified().equal);
   colored.changeImage(*colored.geometry().patches[0].color, [](Image& image) { image.pixels[0] ^= 1; });
   expectFinding(colored, "other colours");

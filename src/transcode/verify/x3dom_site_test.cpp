@@ -16,10 +16,10 @@ void writeMesh(const Mesh& mesh, const std::filesystem::path& file) {
   writeFile(file, exportScene(testing::sceneOf({mesh}), MeshFormat::ply));
 }
 
-ConvertOptions optionsFor(Container container) {
+ConvertOptions optionsFor(Encoding encoding) {
   ConvertOptions options;
   options.target = Target::x3dom;
-  options.container = container;
+  options.encoding = encoding;
   options.effort = 0;
   return options;
 }
@@ -29,14 +29,14 @@ TEST(X3domSite, HoldsEveryMesh) {
     SCOPED_TRACE(seed);
     const TemporaryDirectory directory;
     Mesh mesh = testing::randomMesh(seed);
-    ConvertOptions options = optionsFor(seed % 2 == 0 ? Container::sig : Container::bg);
-    if (options.container == Container::sig)
+    ConvertOptions options = optionsFor(seed % 2 == 0 ? Encoding::classic : Encoding::bg);
+    if (options.encoding == Encoding::classic)
       for (Vec2f& texCoord : mesh.texCoords)
         texCoord.x = std::clamp(texCoord.x, 0.0f, 1.0f);
     options.primitives = seed % 3 == 0 ? Primitives::strips : Primitives::triangles;
     options.positionBits = 8 + seed % 9;
     options.patchVertices = 256;
-    if (options.container == Container::sig)
+    if (options.encoding == Encoding::classic)
       options.normals = seed % 3 == 0 ? NormalEncoding::palette : NormalEncoding::rgb;
     else if (options.positionBits > 8)
       options.normals = seed % 3 == 0 ? NormalEncoding::spherical : NormalEncoding::rgb;
@@ -68,7 +68,7 @@ TEST(X3domSite, HoldsEveryMeshInEveryArray) {
       if (one.type != ElementType::float32)
         for (Vec2f& texCoord : mesh.texCoords)
           texCoord.x = std::clamp(texCoord.x, 0.0f, 1.0f);
-      ConvertOptions options = optionsFor(Container::bg);
+      ConvertOptions options = optionsFor(Encoding::bg);
       options.coordType = one.type;
       options.layout = one.layout;
       options.normals = one.normals;
@@ -83,7 +83,7 @@ TEST(X3domSite, HoldsEveryMeshInEveryArray) {
 TEST(X3domSite, HasNoRuntimeOfOurs) {
   const TemporaryDirectory directory;
   writeMesh(testing::torus(9, 9), directory.path() / "in.ply");
-  ConvertOptions options = optionsFor(Container::sig);
+  ConvertOptions options = optionsFor(Encoding::classic);
   options.x3domUrl = "../lib";
   const ConvertReport report = convert(directory.path() / "in.ply", directory.path() / "site", options);
   EXPECT_EQ(report.x3domVersion, "1.7.2");
@@ -106,21 +106,21 @@ ErrorKind kindOfConverting(const Mesh& mesh, const ConvertOptions& options) {
 }
 
 TEST(X3domSite, RefusesWhatX3domCannotHold) {
-  ConvertOptions options = optionsFor(Container::bg);
+  ConvertOptions options = optionsFor(Encoding::bg);
   options.positionBits = 17;
   EXPECT_EQ(kindOfConverting(testing::torus(9, 9), options), ErrorKind::usage);
-  options = optionsFor(Container::sig);
+  options = optionsFor(Encoding::classic);
   options.patchVertices = 65'536;
   EXPECT_EQ(kindOfConverting(testing::torus(9, 9), options), ErrorKind::usage);
-  for (const auto& [container, normals] : {std::pair{Container::sig, NormalEncoding::octahedral},
-                                           {Container::sig, NormalEncoding::spherical},
-                                           {Container::bg, NormalEncoding::octahedral}}) {
-    options = optionsFor(container);
+  for (const auto& [encoding, normals] : {std::pair{Encoding::classic, NormalEncoding::octahedral},
+                                          {Encoding::classic, NormalEncoding::spherical},
+                                          {Encoding::bg, NormalEncoding::octahedral}}) {
+    options = optionsFor(encoding);
     options.normals = normals;
     EXPECT_EQ(kindOfConverting(testing::torus(9, 9), options), ErrorKind::usage);
   }
   const auto arrays = [](ElementType type, Layout layout, std::uint32_t bits) {
-    ConvertOptions typed = optionsFor(Container::bg);
+    ConvertOptions typed = optionsFor(Encoding::bg);
     typed.coordType = type;
     typed.layout = layout;
     typed.positionBits = bits;
@@ -133,7 +133,7 @@ TEST(X3domSite, RefusesWhatX3domCannotHold) {
     EXPECT_EQ(kindOfConverting(testing::torus(9, 9), arrays(type, Layout::interleaved, 0)), ErrorKind::unsupported);
   Mesh mesh = testing::torus(9, 9);
   mesh.texCoords[0] = {1.5f, 0};
-  EXPECT_EQ(kindOfConverting(mesh, optionsFor(Container::sig)), ErrorKind::unsupported);
+  EXPECT_EQ(kindOfConverting(mesh, optionsFor(Encoding::classic)), ErrorKind::unsupported);
   options = {};
   options.x3domUrl = "x3dom/";
   EXPECT_EQ(kindOfConverting(testing::torus(9, 9), options), ErrorKind::usage);

@@ -3,6 +3,7 @@
 // each patch's data lies. Writers of containers produce it, documents carry it,
 // readers of containers consume it. docs/formats/nodes.md is its text form.
 
+#include "containers/encoding.h"
 #include "prepare/lattice.h"
 #include "prepare/primitives.h"
 
@@ -12,13 +13,6 @@
 #include <vector>
 
 namespace imgeo {
-
-enum class Container : std::uint8_t { sig, bg };
-const char* nameOf(Container container); ///< "sig", "bg"
-
-/// How SIG's images hold a patch: as byte planes, or predicted and packed.
-enum class Profile : std::uint8_t { classic, compact };
-const char* nameOf(Profile profile); ///< "classic", "compact"
 
 /// What a file holds; also its row in `info`.
 enum class Role : std::uint8_t { index, coord, normal, texCoord, color, attribute, patch, base };
@@ -95,8 +89,7 @@ struct AttributeDescription {
 
 /// The fields of one ImageGeometry or BinaryGeometry node.
 struct GeometryDescription {
-  Container container = Container::sig;
-  Profile profile = Profile::classic;          ///< SIG only
+  Encoding encoding = Encoding::classic;
   Lattice lattice;                             ///< `position` and `size` follow from it: see decodeFields
   Box3d box;                                   ///< tight box of all patches
   Vec2f texCoordMin{0, 0}, texCoordSize{1, 1}; ///< texture coordinates are stored relative to this box

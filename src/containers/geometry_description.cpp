@@ -1,16 +1,10 @@
-#include "containers/geometry.h"
+#include "containers/geometry_description.h"
+
+#include "containers/encodings.h"
 
 #include <algorithm>
 
 namespace imgeo {
-
-const char* nameOf(Container container) {
-  return container == Container::sig ? "sig" : "bg";
-}
-
-const char* nameOf(Profile profile) {
-  return profile == Profile::classic ? "classic" : "compact";
-}
 
 const char* nameOf(Role role) {
   constexpr const char* names[] = {"index", "coord", "normal", "texCoord", "color", "attribute", "patch", "base"};
@@ -42,7 +36,7 @@ Reference normalInCoords(const Reference& coord) {
 }
 
 bool hasNormalsInCoords(const GeometryDescription& geometry) {
-  return geometry.container == Container::bg && geometry.normalEncoding == NormalEncoding::spherical &&
+  return hasElementTypes(geometry.encoding) && geometry.normalEncoding == NormalEncoding::spherical &&
          geometry.normalType == ElementType::uint8 && byteSizeOf(geometry.coordType) == 2 &&
          std::ranges::all_of(geometry.patches, [](const PatchDescription& patch) {
            return patch.coord.size() == 1 && patch.normal == normalInCoords(patch.coord[0]);

@@ -1,0 +1,82 @@
+#pragma once
+// The registry of encodings: what documents, reports and checks of options need to know of each one.
+
+#include "containers/encoding.h"
+#include "containers/geometry_description.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+
+namespace imgeo {
+
+/// How the values of a patch lie in files.
+enum class PatchStorage : std::uint8_t {
+  packed,     ///< all values in one range of bytes that only the encoding's reader takes apart
+  bytePlanes, ///< an image for each byte of a value; every image has a texel for each vertex
+  arrays,     ///< arrays of an ElementType for each attribute, on their own or interleaved
+};
+
+/// The X3D node that holds a geometry: docs/formats/nodes.md.
+struct GeometryNode {
+  const char* name = "";         ///< "ImageGeometry", "BinaryGeometry"
+  const char* profile = "";      ///< value of the node's `profile` field; empty: the node has no such field
+  bool isDefaultProfile = false; ///< a node of this name without `profile` has this encoding
+};
+
+/// Bits of a stored component that an encoding can be asked for.
+struct BitRange {
+  std::uint32_t min = 0, max = 0, defaultBits = 0;
+};
+
+/// What an encoding can hold, and what convert can be asked for.
+struct Capabilities {
+  std::uint32_t maxPositionBits = 32;
+  std::uint32_t maxPatchVertices = 0; ///< vertices (wedges) of a patch
+  std::size_t maxNamedAttributes = std::numeric_limits<std::size_t>::max();
+  BitRange texCoordBits, colorBits;
+  std::span<const NormalEncoding> normals; ///< ways to store normals
+  bool strips = false;                     ///< triangle strips and line strips
+  bool unindexed = false;                  ///< vertices that are repeated wherever they are drawn
+  bool elementTypes = false;               ///< --coord-type and --layout choose elements and their order
+  bool attributeBits = false;              ///< --attribute-bits chooses the bits of further attributes
+  bool maxError = false;                   ///< --max-error chooses the position bits of each mesh
+  bool base = false;                       ///< a base mesh stands in for patches that have not arrived
+  bool sharedFiles = false;                ///< small patches of several geometries share a file
+};
+
+/// One encoding.
+struct EncodingRow {
+  Encoding encoding = Encoding::classic;
+  const char* name = "";      ///< see nameOf(Encoding)
+  const char* container = ""; ///< value of --container, and of `container` in --json and imgeo.json
+  const char* profile = "";   ///< value of --profile, and of `profile` in imgeo.json and `convert --json`
+  const char* fileKind = "";  ///< for people: "PNG images", "typed arrays"
+  GeometryNode node;
+  PatchStorage storage = PatchStorage::bytePlanes;
+  bool hasMeasuredNormalError = false; ///< the writer measures how far normals are off; no formula bounds it
+  const char* x3domVersion = nullptr;  ///< newest release of X3DOM that reads it; nullptr: none does
+  bool isAutomatic = false;            ///< convert may choose it where nothing names an encoding
+  Capabilities capabilities;
+};
+
+/// The row of each encoding, in the order of the enumeration. Where convert chooses, it takes the first automatic
+/// row that holds what is asked for.
+std::span<const EncodingRow* const> allEncodings();
+
+const EncodingRow& rowOf(Encoding encoding);
+inline const EncodingRow& rowOf(const GeometryDescription& geometry) {
+  return rowOf(geometry.encoding);
+}
+
+/// Whether the values of an encoding are elements of a type, and not bytes of images.
+inline bool hasElementTypes(Encoding encoding) {
+  return rowOf(encoding).storage == PatchStorage::arrays;
+}
+
+/// The row of these values of --container and --profile; nullptr where there is none.
+const EncodingRow* findEncoding(std::string_view container, std::string_view profile);
+
+} // namespace imgeo
