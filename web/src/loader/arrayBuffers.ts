@@ -8,7 +8,7 @@ import type { ElementArray } from "../stage/vertexArray.ts";
 import type { ElementType } from "../stage/elementType.ts";
 import { arrayTypeOf, byteSizeOf } from "../stage/elementType.ts";
 import type { StoredBytes } from "../stage/stage.ts";
-import type { BufferProvider } from "../render/uploads/bufferStore.ts";
+import type { BufferProvider } from "../render/uploads/bufferProvider.ts";
 
 interface Kept {
   readonly array: ElementArray;

@@ -10,8 +10,9 @@ import { decodePicture } from "../decode/picture.ts";
 import { bytesPerTexel } from "../delivery/patchFiles.ts";
 import type { Picture } from "../delivery/resourcePool.ts";
 import type { SamplingDescription } from "../document/description.ts";
-import type { TextureProvider } from "../render/stages/stageDraws.ts";
-import { setDataSampling, setSampling } from "../render/uploads/textureStore.ts";
+import type { TextureProvider } from "../render/uploads/textureProvider.ts";
+import { setSampling } from "../render/uploads/textureSampling.ts";
+import { setDataSampling } from "../render/uploads/textureSampling.ts";
 import type { UploadThrottle } from "./uploadThrottle.ts";
 
 /** Texels of the longest edge: a renderer that can do less is not in use any more, and we are asked before there is one. */

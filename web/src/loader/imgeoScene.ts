@@ -10,7 +10,7 @@ import { ResourcePool } from "../delivery/resourcePool.ts";
 import type { SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { makeLightUniforms } from "../render/lights/sceneLights.ts";
-import { defaultPointSize } from "../render/stages/stageDraws.ts";
+import { defaultPointSize } from "../render/stages/stageUniforms.ts";
 import { GeometryPool } from "../render/stages/geometryPool.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
 import type { Scheduler } from "../scheduler/scheduler.ts";

@@ -15,7 +15,7 @@ import type { ElementType } from "../stage/elementType.ts";
 import type { StoredBytes } from "../stage/stage.ts";
 import { held, siteOf, soon, type Answer } from "../delivery/delivery.testing.ts";
 import { elementsOf } from "../document/elements.testing.ts";
-import type { BufferProvider } from "../render/uploads/bufferStore.ts";
+import type { BufferProvider } from "../render/uploads/bufferProvider.ts";
 import { makeLightUniforms } from "../render/lights/sceneLights.ts";
 import { GeometryPool } from "../render/stages/geometryPool.ts";
 import { makeStandardMaterials, standardMaterialOf } from "./standardMaterials.ts";

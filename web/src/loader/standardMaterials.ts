@@ -21,16 +21,14 @@ import { textureRoles } from "../document/description.ts";
 import { depthShadingDefine, addDepthShading } from "../render/materials/depthShading.ts";
 import { addGlyphField, hasGlyphs, setGlyphDefine } from "../render/materials/glyphField.ts";
 import { minAlpha } from "../render/materials/materialFactory.ts";
-import type {
-  MaterialFactory,
-  MaterialRequest,
-  Shading,
-  SurfaceTextures,
-} from "../render/materials/materialFactory.ts";
+import type { MaterialFactory, MaterialRequest, Shading } from "../render/materials/materialFactory.ts";
+import type { SurfaceTextures } from "../render/materials/surfaceTextures.ts";
 import { addValueColors } from "../render/materials/valueColors.ts";
 import { primitiveDefinesOf, addRoundPoints } from "../render/points/roundPoints.ts";
-import { addVertexReading, srgbColorsDefine, vertexDefinesOf } from "../render/vertices/vertexChunk.ts";
-import { followViewport } from "../render/lines/wideLineChunk.ts";
+import { addVertexReading } from "../render/shaders/vertexChunk.ts";
+import { vertexDefinesOf } from "../render/shaders/vertexFormat.ts";
+import { srgbColorsDefine } from "../render/shaders/vertexFormat.ts";
+import { followViewport } from "../render/shaders/wideLineChunk.ts";
 
 /**
  * Makes the material of a shape from X3D's. `shading` says what there is to shade:

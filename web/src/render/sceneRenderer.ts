@@ -32,7 +32,7 @@ import type { SceneElement } from "../document/element.ts";
 import { applyPose } from "../navigation/cameraPose.ts";
 import { makeBackground, disposeBackground } from "./frames/background.ts";
 import { Batches } from "./batches/batches.ts";
-import type { BufferUpload } from "./uploads/bufferStore.ts";
+import type { BufferUpload } from "./uploads/bufferProvider.ts";
 import { BufferStore } from "./uploads/bufferStore.ts";
 import type { SceneUniforms } from "./materials/materialFactory.ts";
 import { x3dMaterials } from "./materials/x3dMaterials.ts";
@@ -44,12 +44,12 @@ import { SceneShapes } from "./shapes/sceneShapes.ts";
 import { ScreenPicker } from "./picking/screenPicker.ts";
 import { DepthProbe } from "./picking/depthProbe.ts";
 import { GeometryPool } from "./stages/geometryPool.ts";
-import { defaultPointSize } from "./stages/stageDraws.ts";
-import { warmUpObjects } from "./stages/programWarmUp.ts";
+import { defaultPointSize } from "./stages/stageUniforms.ts";
+import { warmUpObjects } from "./shapes/programWarmUp.ts";
 import type { TextureUpload } from "./uploads/textureStore.ts";
 import { TextureStore } from "./uploads/textureStore.ts";
 import { testVertexTextures } from "./picking/vertexTextureTest.ts";
-import { minVertexTextureUnits } from "./vertices/vertexChunk.ts";
+import { minVertexTextureUnits } from "./shaders/vertexFormat.ts";
 import type { CameraController, View } from "./view.ts";
 
 /** What has been drawn and what the GPU holds. */

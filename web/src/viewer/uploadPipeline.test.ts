@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { afterEach, beforeEach, describe, mock, test } from "node:test";
-import type { BufferUpload } from "../render/uploads/bufferStore.ts";
+import type { BufferUpload } from "../render/uploads/bufferProvider.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import { UploadPipeline } from "./uploadPipeline.ts";
 

@@ -3,11 +3,12 @@
 import type { BufferGeometry, Frustum, Material, Matrix4, Sphere } from "three";
 import type { DrawRange, Stage } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
-import { isSurface } from "../points/surfaceAsPoints.ts";
-import type { DrawnObject } from "../stages/drawnObject.ts";
+import { isSurface } from "../primitives/primitives.ts";
+import type { DrawnObject } from "../primitives/drawnObject.ts";
 import type { ShapeGroup } from "../lights/lightScopes.ts";
-import type { MaterialRequest, SurfaceTextures } from "../materials/materialFactory.ts";
-import { backFaces, frontFaces } from "./instanceChunk.ts";
+import type { MaterialRequest } from "../materials/materialFactory.ts";
+import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
+import { backFaces, frontFaces } from "../shaders/instanceRecord.ts";
 
 /** What a shape asks to be drawn of a stage. The same for all its places. */
 export interface BatchedDraw {

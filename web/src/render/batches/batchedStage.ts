@@ -6,17 +6,22 @@ import type { AppearanceDescription } from "../../document/description.ts";
 import { dequantizationOf } from "../../document/dequantization.ts";
 import { shapeFromStoredOf } from "../../scene/transforms.ts";
 import type { ShapeGroup } from "../lights/lightScopes.ts";
-import type { BatchingRules, SurfaceTextures } from "../materials/materialFactory.ts";
-import { noSurfaceTextures } from "../materials/materialFactory.ts";
+import type { BatchingRules } from "../materials/materialFactory.ts";
+import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
+import { noSurfaceTextures } from "../materials/surfaceTextures.ts";
 import type { PatchDraws } from "../stages/patchDraws.ts";
 import { PickDraw } from "../picking/pickDraw.ts";
-import type { PatchContext } from "../stages/stageDraws.ts";
-import { boundsOf, colorsOf, materialRequestOf, pickRequestOf, uniformsOf } from "../stages/stageDraws.ts";
+import type { PatchContext } from "../stages/patchContext.ts";
+import { uniformsOf } from "../stages/stageUniforms.ts";
+import { colorsOf } from "../stages/materialRequests.ts";
+import { pickRequestOf } from "../stages/materialRequests.ts";
+import { materialRequestOf } from "../stages/materialRequests.ts";
+import { boundsOf } from "../stages/stageBounds.ts";
 import { valueFrameOf } from "../materials/valueColors.ts";
 import type { BatchedDraw, Member } from "./batch.ts";
 import type { Batches } from "./batches.ts";
 import type { DrawMode, DrawModes } from "./batchingPlan.ts";
-import { vertexCountOf } from "../vertices/vertexColumns.ts";
+import { vertexCountOf } from "../attributes/vertexColumns.ts";
 
 /** How draws go together. */
 export interface BatchContext {

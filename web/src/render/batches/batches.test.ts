@@ -16,14 +16,14 @@ import type { ElementArray } from "../../stage/vertexArray.ts";
 import { arrayTypeOf, elementTypeOf } from "../../stage/elementType.ts";
 import type { BufferStage, StoredBytes } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
-import type { BufferProvider } from "../uploads/bufferStore.ts";
-import type { DrawnObject } from "../stages/drawnObject.ts";
+import type { BufferProvider } from "../uploads/bufferProvider.ts";
+import type { DrawnObject } from "../primitives/drawnObject.ts";
 import type { MaterialFactory, MaterialRequest } from "../materials/materialFactory.ts";
 import { GeometryPool } from "../stages/geometryPool.ts";
 import type { BatchedDraw, Member } from "./batch.ts";
 import { Batches } from "./batches.ts";
 import { maxVertices } from "./mergedMesh.ts";
-import { backFaces, frontFaces, instanceFields, texelsPerInstance } from "./instanceChunk.ts";
+import { backFaces, frontFaces, instanceFields, texelsPerInstance } from "../shaders/instanceRecord.ts";
 import { maxRepeatedLines } from "./instancedGeometry.ts";
 
 const white = [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0];

@@ -5,8 +5,8 @@
 import type { BufferGeometry, Camera } from "three";
 import { Group, Matrix4, Sphere, Vector3 } from "three";
 import type { BufferStage, Stage } from "../../stage/stage.ts";
-import type { BufferProvider } from "../uploads/bufferStore.ts";
-import { makeDrawnObject } from "../stages/drawnObject.ts";
+import type { BufferProvider } from "../uploads/bufferProvider.ts";
+import { makeDrawnObject } from "../primitives/drawnObject.ts";
 import type { MaterialFactory, MaterialRequest } from "../materials/materialFactory.ts";
 import type { ShapeGroup } from "../lights/lightScopes.ts";
 import type { GeometryPool } from "../stages/geometryPool.ts";
@@ -15,9 +15,9 @@ import type { Batch, BatchedDraw, Member } from "./batch.ts";
 import { runsOf } from "./depthOrder.ts";
 import { InstancedBatch } from "./instancedBatch.ts";
 import { MergedBatch } from "./mergedBatch.ts";
-import { layoutOf } from "../vertices/vertexColumns.ts";
+import { layoutOf } from "../attributes/vertexColumns.ts";
 import { OrderedMergedBatch } from "./orderedMergedBatch.ts";
-import { instanceFields } from "./instanceChunk.ts";
+import { instanceFields } from "../shaders/instanceRecord.ts";
 import { InstanceTable } from "./instanceTable.ts";
 
 export class Batches {

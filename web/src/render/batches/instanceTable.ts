@@ -3,7 +3,7 @@
 // its number, so that moving, hiding or colouring it changes its record alone.
 
 import { DataTexture, FloatType, RGBAFormat } from "three";
-import { texelsPerInstance } from "./instanceChunk.ts";
+import { texelsPerInstance } from "../shaders/instanceRecord.ts";
 
 const instancesPerRow = 128;
 const numbersPerInstance = 4 * texelsPerInstance;

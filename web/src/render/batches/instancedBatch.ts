@@ -1,7 +1,7 @@
 // A draw in many places at once: an instance for each that the camera sees.
 
 import type { BufferGeometry, Frustum } from "three";
-import type { DrawnObject } from "../stages/drawnObject.ts";
+import type { DrawnObject } from "../primitives/drawnObject.ts";
 import type { GeometryPool } from "../stages/geometryPool.ts";
 import type { Batch, BatchResources, Member, Run } from "./batch.ts";
 import { passesOf } from "./batch.ts";

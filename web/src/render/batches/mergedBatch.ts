@@ -3,8 +3,8 @@
 
 import type { Frustum } from "three";
 import { BufferGeometry, Sphere } from "three";
-import type { BufferProvider } from "../uploads/bufferStore.ts";
-import type { DrawnObject } from "../stages/drawnObject.ts";
+import type { BufferProvider } from "../uploads/bufferProvider.ts";
+import type { DrawnObject } from "../primitives/drawnObject.ts";
 import type { Batch, BatchResources, Member, MergedGeometry } from "./batch.ts";
 import { MergedLines } from "./mergedLines.ts";
 import { MergedMesh } from "./mergedMesh.ts";

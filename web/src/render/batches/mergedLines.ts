@@ -4,11 +4,11 @@
 import type { BufferGeometry } from "three";
 import { InstancedBufferAttribute } from "three";
 import type { BufferStage } from "../../stage/stage.ts";
-import type { BufferProvider } from "../uploads/bufferStore.ts";
+import type { BufferProvider } from "../uploads/bufferProvider.ts";
 import { LineRecords, outlineGeometry } from "../lines/wideLineGeometry.ts";
 import { lineCountOf } from "../lines/wideLines.ts";
 import type { BatchedDraw, Member, MergedGeometry } from "./batch.ts";
-import { GrowingArray } from "../vertices/growingArray.ts";
+import { GrowingArray } from "../attributes/growingArray.ts";
 
 /** In one draw: they go to the GPU together whenever one comes or goes. */
 const maxLines = 65536;

@@ -3,12 +3,12 @@
 
 import { BufferAttribute, BufferGeometry } from "three";
 import type { BufferStage, DrawRange } from "../../stage/stage.ts";
-import type { BufferProvider } from "../uploads/bufferStore.ts";
+import type { BufferProvider } from "../uploads/bufferProvider.ts";
 import type { BatchedDraw, Member, MergedGeometry } from "./batch.ts";
 import { passesOf } from "./batch.ts";
-import { GrowingArray } from "../vertices/growingArray.ts";
-import type { Column } from "../vertices/vertexColumns.ts";
-import { appendVertices, attributeOf, columnsOf, indicesOf } from "../vertices/vertexColumns.ts";
+import { GrowingArray } from "../attributes/growingArray.ts";
+import type { Column } from "../attributes/vertexColumns.ts";
+import { appendVertices, attributeOf, columnsOf, indicesOf } from "../attributes/vertexColumns.ts";
 
 /** The largest 16-bit number means another primitive to WebGL. */
 export const maxVertices = 65535;

@@ -2,8 +2,8 @@
 // which a frame draws them, and each run of them is a part of that.
 
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Sphere } from "three";
-import type { BufferProvider } from "../uploads/bufferStore.ts";
-import type { DrawnObject } from "../stages/drawnObject.ts";
+import type { BufferProvider } from "../uploads/bufferProvider.ts";
+import type { DrawnObject } from "../primitives/drawnObject.ts";
 import type { Batch, BatchResources, Member, Run } from "./batch.ts";
 import { MergedMesh } from "./mergedMesh.ts";
 

@@ -4,7 +4,7 @@
 
 import { BufferAttribute, BufferGeometry, Color, Mesh, ShaderMaterial } from "three";
 import type { BackgroundDescription } from "../../document/description.ts";
-import { setColor } from "../materials/linearColor.ts";
+import { setColor } from "../lights/linearColor.ts";
 
 /** The zenith's and the nadir's rings that are drawn, each with its own colour. */
 const maxRings = 16;

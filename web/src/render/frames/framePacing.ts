@@ -4,7 +4,7 @@
 // for what they wait for. So after such a frame it rests twice as long as that
 // took. The last change of all waits for nobody.
 
-import { fencePassed } from "../picking/pixelReadback.ts";
+import { fencePassed } from "./gpuFence.ts";
 
 /** Frames of up to this many milliseconds need no rest after them. */
 const quickFrameMs = 16;

@@ -4,7 +4,7 @@
 
 import { ShaderChunk } from "three";
 import { falloffChunk } from "../../lighting/falloff.ts";
-import { replaceChunks } from "../vertices/vertexChunk.ts";
+import { replaceChunks } from "../shaders/replaceChunks.ts";
 
 const chunk = /* glsl */ `
 #define SCENE_LIGHTS ( NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + 1 )

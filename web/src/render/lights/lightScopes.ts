@@ -6,8 +6,8 @@ import type { Group, WebGLProgramParametersWithUniforms } from "three";
 import { ShaderChunk } from "three";
 import type { LightScope } from "../../scene/lightScope.ts";
 import type { SceneLightUniforms } from "./sceneLights.ts";
-import { instancesDefine, scopedLightsDefine } from "../batches/instanceChunk.ts";
-import { replaceChunks } from "../vertices/vertexChunk.ts";
+import { instancesDefine, scopedLightsDefine } from "../shaders/instanceRecord.ts";
+import { replaceChunks } from "../shaders/replaceChunks.ts";
 
 /** A group in which a shape is drawn. */
 export interface ShapeGroup extends Group {

@@ -8,7 +8,7 @@ import { lengthScaleOf } from "../../scene/transforms.ts";
 import type { LightScope } from "../../scene/lightScope.ts";
 import { sceneScope } from "../../scene/lightScope.ts";
 import type { LightInstance } from "../../scene/instances.ts";
-import { setColor } from "../materials/linearColor.ts";
+import { setColor } from "./linearColor.ts";
 
 /** What three.js does not know of lights, for all materials that they shine on. */
 export interface SceneLightUniforms {

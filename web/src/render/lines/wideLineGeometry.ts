@@ -12,10 +12,10 @@ import {
 import type { ElementArray } from "../../stage/vertexArray.ts";
 import { arrayTypeOf, elementTypeOf } from "../../stage/elementType.ts";
 import type { BufferStage, DrawRange, Stage } from "../../stage/stage.ts";
-import type { Column } from "../vertices/vertexColumns.ts";
-import { appendVertices, columnsOf, indicesOf } from "../vertices/vertexColumns.ts";
-import type { BufferProvider } from "../uploads/bufferStore.ts";
-import { outlineTriangles } from "./wideLineChunk.ts";
+import type { Column } from "../attributes/vertexColumns.ts";
+import { appendVertices, columnsOf, indicesOf } from "../attributes/vertexColumns.ts";
+import type { BufferProvider } from "../uploads/bufferProvider.ts";
+import { outlineTriangles } from "../shaders/wideLineChunk.ts";
 import { lineCountOf, lineStepOf } from "./wideLines.ts";
 
 /** All of it is three.js' own, to be disposed of as such. Of images it has no attributes. */

@@ -3,8 +3,8 @@ import { describe, test } from "node:test";
 import type { BufferAttribute } from "three";
 import type { ElementArray, IndexArray } from "../../stage/vertexArray.ts";
 import type { BufferStage, DrawRange, StoredBytes } from "../../stage/stage.ts";
-import type { BufferProvider } from "../uploads/bufferStore.ts";
-import { outlineTriangles } from "./wideLineChunk.ts";
+import type { BufferProvider } from "../uploads/bufferProvider.ts";
+import { outlineTriangles } from "../shaders/wideLineChunk.ts";
 import { wideLineGeometryOf } from "./wideLineGeometry.ts";
 import { withWideLines } from "./wideLines.ts";
 

@@ -1,6 +1,7 @@
 // Lines that are wide: which they are, and how many.
 
 import type { DrawRange, Stage } from "../../stage/stage.ts";
+import { isLine } from "../primitives/primitives.ts";
 
 /** By the stage that they are made of, so that all its shapes share what they draw. */
 const made = new WeakMap<Stage, Stage>();
@@ -14,10 +15,6 @@ export function withWideLines(stage: Stage): Stage {
   };
   made.set(stage, known);
   return known;
-}
-
-export function isLine({ primitive }: Pick<DrawRange, "primitive">): boolean {
-  return primitive === "lines" || primitive === "lineStrip";
 }
 
 /** How many vertices on the next line begins. */

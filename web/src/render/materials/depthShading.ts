@@ -2,7 +2,7 @@
 // farther they are, so that they show a shape and not just its outline.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
-import { replaceChunks } from "../vertices/vertexChunk.ts";
+import { replaceChunks } from "../shaders/replaceChunks.ts";
 
 export const depthShadingDefine = "SHADE_BY_DEPTH";
 

@@ -6,7 +6,7 @@ import type { Material, WebGLProgramParametersWithUniforms } from "three";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { fieldSpread } from "../../text/glyphAtlas.ts";
 import { setDefine } from "./defines.ts";
-import { replaceChunks } from "../vertices/vertexChunk.ts";
+import { replaceChunks } from "../shaders/replaceChunks.ts";
 
 const glyphsDefine = "GLYPHS";
 

@@ -2,12 +2,14 @@
 // three.js apps as those say (loader/appLook.ts). Where their vertices come from
 // is the same for all.
 
-import type { Material, Texture, Vector2, Vector4 } from "three";
-import type { AppearanceDescription, TextureRole } from "../../document/description.ts";
+import type { Material, Vector2, Vector4 } from "three";
+import type { AppearanceDescription } from "../../document/description.ts";
 import type { DrawRange } from "../../stage/stage.ts";
-import type { DrawnObject } from "../stages/drawnObject.ts";
+import type { DrawnObject } from "../primitives/drawnObject.ts";
 import type { SceneLightUniforms } from "../lights/sceneLights.ts";
-import type { VertexFormat, VertexUniforms } from "../vertices/vertexChunk.ts";
+import type { VertexFormat } from "../shaders/vertexFormat.ts";
+import type { VertexUniforms } from "../shaders/vertexFormat.ts";
+import type { SurfaceTextures } from "./surfaceTextures.ts";
 
 export interface MaterialFactory {
   /** How draws of several shapes go together; undefined: they do not. */
@@ -44,15 +46,6 @@ export interface BatchingRules {
     appearance: AppearanceDescription,
   ): readonly number[];
 }
-
-/** A texture that is laid over a surface. */
-export interface SurfaceTexture {
-  readonly texture: Texture;
-  readonly hasAlpha: boolean;
-}
-
-export type SurfaceTextures = ReadonlyMap<TextureRole, SurfaceTexture>;
-export const noSurfaceTextures: SurfaceTextures = new Map();
 
 /** What is blended with less is not there: it would hide what is drawn after it and lies behind, as a cornea its eye. */
 export const minAlpha = 1 / 512;

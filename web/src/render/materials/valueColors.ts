@@ -8,9 +8,12 @@ import type { Stage, ValuePlanes } from "../../stage/stage.ts";
 import { maxMapColors } from "../../document/colorMaps.ts";
 import type { AttributeDescription, ColorMapDescription } from "../../document/description.ts";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
-import { instanceFields, instancesDefine } from "../batches/instanceChunk.ts";
-import { imageVerticesDefine, readVertexStatement, replaceChunks, srgbColorsDefine } from "../vertices/vertexChunk.ts";
-import { wideLinesDefine } from "../lines/wideLineChunk.ts";
+import { instanceFields, instancesDefine } from "../shaders/instanceRecord.ts";
+import { readVertexStatement } from "../shaders/vertexChunk.ts";
+import { srgbColorsDefine } from "../shaders/vertexFormat.ts";
+import { imageVerticesDefine } from "../shaders/vertexFormat.ts";
+import { replaceChunks } from "../shaders/replaceChunks.ts";
+import { wideLinesDefine } from "../shaders/wideLineChunk.ts";
 
 /** Undefined: none, of what values do not colour. */
 export function colorMapUniformsOf(map: ColorMapDescription | undefined): Record<string, IUniform> {

@@ -6,12 +6,12 @@
 import type { MeshBasicMaterial, MeshPhongMaterial, Texture } from "three";
 import type { MaterialDescription } from "../../document/description.ts";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
-import { instancesDefine } from "../batches/instanceChunk.ts";
+import { instancesDefine } from "../shaders/instanceRecord.ts";
 import { setDefine } from "./defines.ts";
-import type { SurfaceTextures } from "./materialFactory.ts";
-import type { OwnMapRole } from "../vertices/texCoords.ts";
-import { ownMapDeclarations, ownMapDefine, ownMapRoles, ownTexel } from "../vertices/texCoords.ts";
-import { srgbColorsDefine } from "../vertices/vertexChunk.ts";
+import type { SurfaceTextures } from "./surfaceTextures.ts";
+import type { OwnMapRole } from "../shaders/texCoords.ts";
+import { ownMapDeclarations, ownMapDefine, ownMapRoles, ownTexel } from "../shaders/texCoords.ts";
+import { srgbColorsDefine } from "../shaders/vertexFormat.ts";
 
 /** Samplers of maps that three.js has no name for. */
 export type OwnMapUniforms = Readonly<Record<`${OwnMapRole}Map`, { value: Texture | null }>>;

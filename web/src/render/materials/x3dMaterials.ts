@@ -6,21 +6,24 @@ import type { Material } from "three";
 import { DoubleSide, FrontSide, MeshBasicMaterial, MeshPhongMaterial } from "three";
 import type { AppearanceDescription, MaterialDescription } from "../../document/description.ts";
 import type { LitParameters } from "../../lighting/materialParameters.ts";
-import { isBlended, litParametersOf, opacityOf, unlitColorOf } from "../../lighting/materialParameters.ts";
+import { litParametersOf, opacityOf, unlitColorOf } from "../../lighting/materialParameters.ts";
 import { physicalDefine, physicalOutput } from "../../lighting/physicalLighting.ts";
 import { x3dLighting } from "../../lighting/x3dLighting.ts";
-import { instanceColorChunks } from "../batches/instanceChunk.ts";
+import { instanceColorChunks } from "../shaders/instanceRecord.ts";
 import { depthShadingDefine, addDepthShading } from "./depthShading.ts";
 import { lightsChunk } from "../lights/lightFalloff.ts";
 import { hasLightScopes, addLightScopes } from "../lights/lightScopes.ts";
 import { addGlyphField, setGlyphDefine } from "./glyphField.ts";
 import { minAlpha } from "./materialFactory.ts";
-import type { MaterialFactory, MaterialRequest, Shading, SurfaceTextures, VertexColors } from "./materialFactory.ts";
+import type { MaterialFactory, MaterialRequest, VertexColors } from "./materialFactory.ts";
+import type { SurfaceTextures } from "./surfaceTextures.ts";
 import { primitiveDefinesOf, addRoundPoints } from "../points/roundPoints.ts";
 import { addValueColors } from "./valueColors.ts";
-import { addVertexReading, replaceChunks, srgbColorsDefine, vertexDefinesOf } from "../vertices/vertexChunk.ts";
-import { followViewport } from "../lines/wideLineChunk.ts";
-import { isLine } from "../lines/wideLines.ts";
+import { addVertexReading } from "../shaders/vertexChunk.ts";
+import { vertexDefinesOf } from "../shaders/vertexFormat.ts";
+import { srgbColorsDefine } from "../shaders/vertexFormat.ts";
+import { replaceChunks } from "../shaders/replaceChunks.ts";
+import { followViewport } from "../shaders/wideLineChunk.ts";
 import type { OwnMapUniforms } from "./x3dMaps.ts";
 import {
   setTextureMaps,
@@ -30,7 +33,8 @@ import {
   ownMapDeclarations,
   unlitDefine,
 } from "./x3dMaps.ts";
-import { setColor } from "./linearColor.ts";
+import { setColor } from "../lights/linearColor.ts";
+import { blends, isUnlit, keyOf, numbersOf } from "./x3dBatching.ts";
 
 const x3dLightingChunk = /* glsl */ `
 varying vec3 vViewPosition;
@@ -136,63 +140,8 @@ function applyAppearance(
   material.alphaTest = isTransparent ? minAlpha : alphaTestOf(appearance);
 }
 
-function blends(appearance: AppearanceDescription, colors: VertexColors, surfaceTextures: SurfaceTextures): boolean {
-  return isBlended(appearance, colors === "rgba" || surfaceTextures.get("color")?.hasAlpha === true);
-}
-
 function alphaTestOf({ alpha: { mode, cutoff } }: AppearanceDescription): number {
   return mode === "MASK" ? cutoff : 0;
-}
-
-function keyOf(
-  { primitive, colors }: Pick<MaterialRequest, "primitive" | "colors">,
-  appearance: AppearanceDescription,
-  surfaceTextures: SurfaceTextures,
-): string {
-  const { material, points, lines, colorMap, ...rest } = appearance;
-  const others = Object.entries(material).filter(([name]) => !numbersOfPlaces.has(name));
-  return JSON.stringify([
-    blends(appearance, colors, surfaceTextures),
-    rest,
-    others,
-    Array.from(surfaceTextures, ([role, { texture }]) => [role, texture.uuid]).sort(),
-    primitive === "points" && points,
-    isLine({ primitive }) && lines?.dashes,
-    colorMap?.colors,
-  ]);
-}
-
-/** What of a material `numbersOf` tells. */
-const numbersOfPlaces = new Set([
-  "diffuseColor",
-  "baseColor",
-  "specularColor",
-  "shininess",
-  "emissiveColor",
-  "ambientIntensity",
-  "metallic",
-  "roughness",
-  "transparency",
-]);
-
-function numbersOf(
-  { shading, colors }: { shading: Shading; colors: VertexColors },
-  appearance: AppearanceDescription,
-): readonly number[] {
-  const { material, colorMap: { range } = { range: [0, 1] }, lines: { width } = { width: 0 } } = appearance;
-  const opacity = opacityOf(appearance);
-  if (isUnlit(shading))
-    return [...unlitColorOf(material, colors !== "none"), opacity, 0, 0, 0, 0, 0, 0, 0, 0, ...range, width];
-  const { color, specular, shininess, ambientIntensity, metallic, roughness } = litParametersOf(
-    material,
-    colors !== "none",
-  );
-  const gloss = material.kind === "physical" ? [metallic, roughness, 0, 0] : [...specular, shininess];
-  return [...color, opacity, ...gloss, ...material.emissiveColor, ambientIntensity, ...range, width];
-}
-
-function isUnlit(shading: Shading): boolean {
-  return shading === "unlit" || shading === "distance";
 }
 
 function applyLit(material: LitMaterial, description: MaterialDescription, numbers: LitParameters): void {

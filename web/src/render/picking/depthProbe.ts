@@ -6,7 +6,7 @@
 import type { WebGLRenderer, WebGLRenderTarget } from "three";
 import { Camera, Matrix4, Quaternion, Scene, Vector3 } from "three";
 import type { DepthCamera, GroundSamples } from "../../navigation/groundSamples.ts";
-import { cornersOf } from "./pickDraw.ts";
+import { cornersOf } from "../primitives/primitives.ts";
 import type { PickCandidate } from "./picker.ts";
 import { candidatesInView, makePickTarget } from "./picker.ts";
 import { pickedWordOffsets } from "./pickMaterial.ts";

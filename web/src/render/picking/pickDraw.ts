@@ -6,11 +6,12 @@
 import type { BufferGeometry, Matrix4, Sphere } from "three";
 import type { ElementArray, IndexArray } from "../../stage/vertexArray.ts";
 import type { BufferStage, DrawRange, Stage } from "../../stage/stage.ts";
-import type { BufferProvider } from "../uploads/bufferStore.ts";
-import type { DrawnObject } from "../stages/drawnObject.ts";
-import { makeDrawnObject } from "../stages/drawnObject.ts";
+import type { BufferProvider } from "../uploads/bufferProvider.ts";
+import type { DrawnObject } from "../primitives/drawnObject.ts";
+import { makeDrawnObject } from "../primitives/drawnObject.ts";
 import type { PickMaterial, PickMaterialRequest } from "./pickMaterial.ts";
 import { makePickMaterial } from "./pickMaterial.ts";
+import { trianglesOf } from "../primitives/primitives.ts";
 
 export interface BufferContents {
   /** Of the draw alone. */
@@ -124,12 +125,4 @@ export class PickDraw {
     const parts = this.#context.acquireResources();
     return { parts, material: makePickMaterial({ ...parts.request, primitive: this.range.primitive }) };
   }
-}
-
-export function cornersOf({ primitive }: DrawRange): 1 | 2 | 3 {
-  return primitive === "points" ? 1 : primitive === "lines" || primitive === "lineStrip" ? 2 : 3;
-}
-
-function trianglesOf({ primitive, count }: DrawRange): number {
-  return primitive === "triangles" ? Math.floor(count / 3) : primitive === "triangleStrip" ? Math.max(0, count - 2) : 0;
 }

@@ -11,11 +11,14 @@ import { GLSL3, ShaderMaterial } from "three";
 import type { DrawRange } from "../../stage/stage.ts";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { primitiveDefinesOf, addRoundPoints } from "../points/roundPoints.ts";
-import { alphaMaskDefine, alphaMaskVarying } from "../vertices/texCoords.ts";
-import type { VertexFormat, VertexUniforms } from "../vertices/vertexChunk.ts";
-import { imageVerticesDefine, addVertexReading, vertexDefinesOf } from "../vertices/vertexChunk.ts";
-import { followViewport, wideLinesDefine } from "../lines/wideLineChunk.ts";
-import { isLine } from "../lines/wideLines.ts";
+import { alphaMaskDefine, alphaMaskVarying } from "../shaders/texCoords.ts";
+import type { VertexFormat } from "../shaders/vertexFormat.ts";
+import type { VertexUniforms } from "../shaders/vertexFormat.ts";
+import { addVertexReading } from "../shaders/vertexChunk.ts";
+import { vertexDefinesOf } from "../shaders/vertexFormat.ts";
+import { imageVerticesDefine } from "../shaders/vertexFormat.ts";
+import { followViewport, wideLinesDefine } from "../shaders/wideLineChunk.ts";
+import { isLine } from "../primitives/primitives.ts";
 
 /**
  * Where in a pixel's words each field begins. Normals are zero where there is

@@ -18,7 +18,7 @@ import {
 } from "three";
 import type { SceneElement } from "../../document/element.ts";
 import type { PickDraw } from "./pickDraw.ts";
-import { cornersOf } from "./pickDraw.ts";
+import { cornersOf } from "../primitives/primitives.ts";
 import type { Face } from "./pickedPrimitive.ts";
 import { faceOf, nearestVertex, primitiveAt, primitiveEndingAt, primitiveIn } from "./pickedPrimitive.ts";
 import { pickTargetCount, pickedWordOffsets } from "./pickMaterial.ts";

@@ -2,6 +2,8 @@
 // waits for the GPU, or through a pixel pack buffer when a fence says that the GPU
 // is done, which nobody waits for.
 
+import { fencePassed } from "../frames/gpuFence.ts";
+
 const wordsPerPixel = 4;
 const bytesPerPixel = 16;
 
@@ -56,18 +58,5 @@ export function readBlocksAsync(gl: WebGL2RenderingContext, blocks: readonly Pix
     gl.deleteBuffer(buffer);
     gl.deleteSync(fence);
     return words;
-  });
-}
-
-const pollMs = 2;
-
-/** Of a lost context every fence has passed. */
-export function fencePassed(gl: WebGL2RenderingContext, fence: WebGLSync | null): Promise<void> {
-  return new Promise((resolve) => {
-    const look = () => {
-      if (fence === null || gl.isContextLost() || gl.clientWaitSync(fence, 0, 0) !== gl.TIMEOUT_EXPIRED) resolve();
-      else setTimeout(look, pollMs);
-    };
-    setTimeout(look);
   });
 }

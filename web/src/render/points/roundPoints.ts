@@ -3,7 +3,8 @@
 
 import type { WebGLProgramParametersWithUniforms } from "three";
 import type { DrawRange } from "../../stage/stage.ts";
-import { pointSizeChunk, replaceChunks } from "../vertices/vertexChunk.ts";
+import { pointSizeChunk } from "../shaders/vertexChunk.ts";
+import { replaceChunks } from "../shaders/replaceChunks.ts";
 
 const pointsDefine = "DRAWS_POINTS";
 const twoSidedLightingDefine = "LIT_FROM_BOTH_SIDES";

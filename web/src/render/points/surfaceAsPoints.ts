@@ -1,6 +1,7 @@
 // A surface as its vertices alone: the same buffers and images, drawn as points.
 
-import type { DrawRange, Stage } from "../../stage/stage.ts";
+import type { Stage } from "../../stage/stage.ts";
+import { isSurface } from "../primitives/primitives.ts";
 
 /** By the stage that they are made of, so that all its shapes share what they draw. */
 const made = new WeakMap<Stage, Stage>();
@@ -23,8 +24,4 @@ function pointsOf(stage: Stage, vertexCount: number): Stage {
   if (stage.kind === "buffers") return { ...stage, draws, index: undefined };
   const width = stage.coord[0]?.image.width ?? stage.implicitWidth;
   return { ...stage, draws, index: undefined, implicitWidth: width };
-}
-
-export function isSurface({ primitive }: Pick<DrawRange, "primitive">): boolean {
-  return primitive === "triangles" || primitive === "triangleStrip";
 }

@@ -17,7 +17,7 @@ import type { LodInstance, ViewpointInstance } from "../../scene/instances.ts";
 import { isDrawable, sphereAround } from "../../scene/bounds.ts";
 import type { Batches } from "../batches/batches.ts";
 import { BatchingPlan } from "../batches/batchingPlan.ts";
-import type { SurfaceTexture } from "../materials/materialFactory.ts";
+import type { SurfaceTexture } from "../materials/surfaceTextures.ts";
 import type { PickCandidate } from "../picking/picker.ts";
 import { hasLightScopes } from "../lights/lightScopes.ts";
 import type { BoundedGroup } from "./sceneGroups.ts";

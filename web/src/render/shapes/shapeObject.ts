@@ -18,11 +18,11 @@ import { BatchedStage, drawModeOf } from "../batches/batchedStage.ts";
 import type { DrawMode, DrawModes } from "../batches/batchingPlan.ts";
 import { alone } from "../batches/batchingPlan.ts";
 import type { ShapeGroup } from "../lights/lightScopes.ts";
-import type { SurfaceTexture } from "../materials/materialFactory.ts";
+import type { SurfaceTexture } from "../materials/surfaceTextures.ts";
 import type { PatchDraws } from "../stages/patchDraws.ts";
 import { makePatchDraws } from "../stages/patchDraws.ts";
 import type { PickCandidate } from "../picking/picker.ts";
-import type { PatchContext } from "../stages/stageDraws.ts";
+import type { PatchContext } from "../stages/patchContext.ts";
 import { withWideLines } from "../lines/wideLines.ts";
 
 /** What all shapes of a scene share. */

@@ -3,8 +3,8 @@
 
 import { BufferGeometry, InstancedBufferGeometry, InterleavedBufferAttribute, Sphere } from "three";
 import type { BufferStage, DrawRange, Stage } from "../../stage/stage.ts";
-import type { BufferProvider } from "../uploads/bufferStore.ts";
-import { vertexAttributesOf } from "../vertices/vertexAttributes.ts";
+import type { BufferProvider } from "../uploads/bufferProvider.ts";
+import { vertexAttributesOf } from "../attributes/vertexAttributes.ts";
 import { wideLineGeometryOf } from "../lines/wideLineGeometry.ts";
 
 interface Entry {

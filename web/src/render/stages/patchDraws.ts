@@ -8,14 +8,18 @@ import type { AppearanceDescription } from "../../document/description.ts";
 import type { LightScope } from "../../scene/lightScope.ts";
 import { sceneScope } from "../../scene/lightScope.ts";
 import { shapeFromStoredOf } from "../../scene/transforms.ts";
-import type { DrawnObject } from "./drawnObject.ts";
-import { makeDrawnObject } from "./drawnObject.ts";
+import type { DrawnObject } from "../primitives/drawnObject.ts";
+import { makeDrawnObject } from "../primitives/drawnObject.ts";
 import type { ShapeGroup } from "../lights/lightScopes.ts";
-import type { SurfaceTextures } from "../materials/materialFactory.ts";
-import { noSurfaceTextures } from "../materials/materialFactory.ts";
+import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
+import { noSurfaceTextures } from "../materials/surfaceTextures.ts";
 import { PickDraw } from "../picking/pickDraw.ts";
-import type { PatchContext } from "./stageDraws.ts";
-import { boundsOf, colorsOf, materialRequestOf, pickRequestOf, setAppearance, uniformsOf } from "./stageDraws.ts";
+import type { PatchContext } from "./patchContext.ts";
+import { setAppearance, uniformsOf } from "./stageUniforms.ts";
+import { colorsOf } from "./materialRequests.ts";
+import { pickRequestOf } from "./materialRequests.ts";
+import { materialRequestOf } from "./materialRequests.ts";
+import { boundsOf } from "./stageBounds.ts";
 
 /** A stage of a patch on the screen, in all places of its shape. It is drawn by objects of its own, or together with others. */
 export interface PatchDraws {

@@ -2,24 +2,10 @@
 // step holds up a frame; bytes reach the shader as they are in the file. Nothing
 // of an image is kept here when it is on the GPU.
 
-import {
-  Box2,
-  ClampToEdgeWrapping,
-  DataTexture,
-  LinearFilter,
-  LinearMipmapLinearFilter,
-  MirroredRepeatWrapping,
-  NearestFilter,
-  NoColorSpace,
-  RepeatWrapping,
-  RGBAFormat,
-  Texture,
-  UnsignedByteType,
-  Vector2,
-  type WebGLRenderer,
-} from "three";
+import { Box2, DataTexture, RGBAFormat, Texture, UnsignedByteType, Vector2, type WebGLRenderer } from "three";
 import type { DecodedImage } from "../../stage/decodedImage.ts";
 import type { SamplingDescription } from "../../document/description.ts";
+import { setDataSampling, setSampling } from "./textureSampling.ts";
 
 /** An image on its way to the GPU. */
 export interface TextureUpload {
@@ -95,27 +81,4 @@ function emptyTexture(width: number, height: number): Texture {
   setDataSampling(texture);
   texture.needsUpdate = true;
   return texture;
-}
-
-/** Texels reach the shader one by one, as they are in the file. */
-export function setDataSampling(texture: Texture): void {
-  texture.colorSpace = NoColorSpace;
-  texture.minFilter = NearestFilter;
-  texture.magFilter = NearestFilter;
-  texture.generateMipmaps = false;
-}
-
-const wrappings = { repeat: RepeatWrapping, clamp: ClampToEdgeWrapping, mirror: MirroredRepeatWrapping } as const;
-
-/** Pages show the colours of surfaceTextures by their numbers, as those of materials (materials.ts). */
-export function setSampling(
-  texture: Texture,
-  { wrapS, wrapT, isSmooth, hasMipmaps, anisotropy }: SamplingDescription,
-): void {
-  texture.wrapS = wrappings[wrapS];
-  texture.wrapT = wrappings[wrapT];
-  texture.magFilter = isSmooth ? LinearFilter : NearestFilter;
-  texture.minFilter = hasMipmaps ? LinearMipmapLinearFilter : isSmooth ? LinearFilter : NearestFilter;
-  texture.generateMipmaps = hasMipmaps;
-  texture.anisotropy = anisotropy;
 }

@@ -5,7 +5,7 @@
 
 import type { BufferGeometry, Camera, Material, Scene, Vector4, WebGLRenderer } from "three";
 import { maxDashLengths } from "../../document/lineProperties.ts";
-import { instanceFields, instancesDefine } from "../batches/instanceChunk.ts";
+import { instanceFields, instancesDefine } from "./instanceRecord.ts";
 
 /** Defined in materials of wide lines: how many vertices on the next line begins. */
 export const wideLinesDefine = "WIDE_LINES";

@@ -5,7 +5,7 @@ import { InterleavedBuffer, InterleavedBufferAttribute } from "three";
 import type { ElementArray } from "../../stage/vertexArray.ts";
 import { arrayTypeOf, byteSizeOf } from "../../stage/elementType.ts";
 import type { BufferStage, DrawRange } from "../../stage/stage.ts";
-import type { BufferProvider } from "../uploads/bufferStore.ts";
+import type { BufferProvider } from "../uploads/bufferProvider.ts";
 import { vertexAttributesOf } from "./vertexAttributes.ts";
 import { GrowingArray } from "./growingArray.ts";
 

@@ -2,16 +2,18 @@
 // compiled while the first files are on their way: a driver takes a good part of a
 // second for them, and a page that draws with a program that is not ready waits.
 
-import { BufferAttribute, BufferGeometry, type Object3D, Texture } from "three";
+import type { Object3D } from "three";
+import { BufferAttribute, BufferGeometry, Texture } from "three";
 import type { BufferStage, DrawRange, Stage, StoredVertices, TexelRange, TextureStage } from "../../stage/stage.ts";
 import type { GeometryDescription, PatchDescription, ShapeDescription } from "../../document/description.ts";
 import { isPair } from "../../document/geometry.ts";
 import { drawModeOf } from "../batches/batchedStage.ts";
 import type { BatchingPlan } from "../batches/batchingPlan.ts";
-import { makeDrawnObject } from "./drawnObject.ts";
-import type { MaterialFactory, SceneUniforms, SurfaceTexture } from "../materials/materialFactory.ts";
-import { noSurfaceTextures } from "../materials/materialFactory.ts";
-import { materialRequestOf } from "./stageDraws.ts";
+import { makeDrawnObject } from "../primitives/drawnObject.ts";
+import type { MaterialFactory, SceneUniforms } from "../materials/materialFactory.ts";
+import type { SurfaceTexture } from "../materials/surfaceTextures.ts";
+import { noSurfaceTextures } from "../materials/surfaceTextures.ts";
+import { materialRequestOf } from "../stages/materialRequests.ts";
 import { withWideLines } from "../lines/wideLines.ts";
 
 const placeholderTexels: TexelRange = { image: { width: 1, height: 1, close: () => undefined }, first: 0 };

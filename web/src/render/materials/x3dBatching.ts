@@ -1,0 +1,63 @@
+import type { AppearanceDescription } from "../../document/description.ts";
+import { isBlended, unlitColorOf, opacityOf, litParametersOf } from "../../lighting/materialParameters.ts";
+import { isLine } from "../primitives/primitives.ts";
+import type { VertexColors, MaterialRequest, Shading } from "./materialFactory.ts";
+import type { SurfaceTextures } from "./surfaceTextures.ts";
+
+export function blends(
+  appearance: AppearanceDescription,
+  colors: VertexColors,
+  surfaceTextures: SurfaceTextures,
+): boolean {
+  return isBlended(appearance, colors === "rgba" || surfaceTextures.get("color")?.hasAlpha === true);
+}
+
+export function keyOf(
+  { primitive, colors }: Pick<MaterialRequest, "primitive" | "colors">,
+  appearance: AppearanceDescription,
+  surfaceTextures: SurfaceTextures,
+): string {
+  const { material, points, lines, colorMap, ...rest } = appearance;
+  const others = Object.entries(material).filter(([name]) => !numbersOfPlaces.has(name));
+  return JSON.stringify([
+    blends(appearance, colors, surfaceTextures),
+    rest,
+    others,
+    Array.from(surfaceTextures, ([role, { texture }]) => [role, texture.uuid]).sort(),
+    primitive === "points" && points,
+    isLine({ primitive }) && lines?.dashes,
+    colorMap?.colors,
+  ]);
+}
+
+/** What of a material `numbersOf` tells. */
+const numbersOfPlaces = new Set([
+  "diffuseColor",
+  "baseColor",
+  "specularColor",
+  "shininess",
+  "emissiveColor",
+  "ambientIntensity",
+  "metallic",
+  "roughness",
+  "transparency",
+]);
+export function numbersOf(
+  { shading, colors }: { shading: Shading; colors: VertexColors },
+  appearance: AppearanceDescription,
+): readonly number[] {
+  const { material, colorMap: { range } = { range: [0, 1] }, lines: { width } = { width: 0 } } = appearance;
+  const opacity = opacityOf(appearance);
+  if (isUnlit(shading))
+    return [...unlitColorOf(material, colors !== "none"), opacity, 0, 0, 0, 0, 0, 0, 0, 0, ...range, width];
+  const { color, specular, shininess, ambientIntensity, metallic, roughness } = litParametersOf(
+    material,
+    colors !== "none",
+  );
+  const gloss = material.kind === "physical" ? [metallic, roughness, 0, 0] : [...specular, shininess];
+  return [...color, opacity, ...gloss, ...material.emissiveColor, ambientIntensity, ...range, width];
+}
+
+export function isUnlit(shading: Shading): boolean {
+  return shading === "unlit" || shading === "distance";
+}

@@ -1,0 +1,17 @@
+import type { DrawRange } from "../../stage/stage.ts";
+
+export function cornersOf({ primitive }: DrawRange): 1 | 2 | 3 {
+  return primitive === "points" ? 1 : primitive === "lines" || primitive === "lineStrip" ? 2 : 3;
+}
+
+export function trianglesOf({ primitive, count }: DrawRange): number {
+  return primitive === "triangles" ? Math.floor(count / 3) : primitive === "triangleStrip" ? Math.max(0, count - 2) : 0;
+}
+
+export function isSurface({ primitive }: Pick<DrawRange, "primitive">): boolean {
+  return primitive === "triangles" || primitive === "triangleStrip";
+}
+
+export function isLine({ primitive }: Pick<DrawRange, "primitive">): boolean {
+  return primitive === "lines" || primitive === "lineStrip";
+}

@@ -1,0 +1,77 @@
+import type { Side } from "three";
+import type { AppearanceDescription, GeometryDescription } from "../../document/description.ts";
+import type { Stage, DrawRange } from "../../stage/stage.ts";
+import type { SceneUniforms, MaterialRequest, VertexColors, Shading } from "../materials/materialFactory.ts";
+import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
+import { valueDefinesOf } from "../materials/valueColors.ts";
+import type { PickMaterialRequest } from "../picking/pickMaterial.ts";
+import { alphaMaskOf } from "../picking/pickMaterial.ts";
+import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
+import { normalDefinesOf, gridDefinesOf } from "../shaders/vertexFormat.ts";
+import { lineStepOf } from "../lines/wideLines.ts";
+
+/** What a draw needs of a material. */
+export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
+  stage: Stage,
+  range: DrawRange,
+  { solid, value }: GeometryDescription,
+  uniforms: Uniforms,
+  shared: SceneUniforms,
+  arePlaced = false,
+): Omit<MaterialRequest, "uniforms"> & { readonly uniforms: Uniforms } {
+  return {
+    ...vertexFormOf(stage, range),
+    isInstanced: arePlaced,
+    primitive: range.primitive,
+    shading: shadingOf(stage, range),
+    colors: colorsOf(stage),
+    solid,
+    valueDefines: valueDefinesOf(stage, value),
+    uniforms,
+    shared,
+  };
+}
+
+/** What the picking pass, which draws place by place, needs of its material. */
+export function pickRequestOf(
+  stage: Stage,
+  range: DrawRange,
+  side: Side,
+  uniforms: VertexUniforms,
+  appearance: AppearanceDescription,
+  surfaceTextures: SurfaceTextures,
+): Omit<PickMaterialRequest, "primitive"> {
+  const texture = stage.texCoord === undefined ? undefined : surfaceTextures.get("color")?.texture;
+  const alphaMask = alphaMaskOf(appearance, texture, colorsOf(stage) === "rgba");
+  return { ...vertexFormOf(stage, range), side, hasNormals: hasNormals(stage), uniforms, alphaMask };
+}
+
+function vertexFormOf(stage: Stage, range: DrawRange): VertexFormat {
+  const areImages = stage.kind === "textures";
+  return {
+    isFromImages: areImages,
+    isInstanced: false,
+    wideLineStep: range.isWide === true ? lineStepOf(range) : 0,
+    hasTexCoords: stage.texCoord !== undefined,
+    gridDefines: areImages ? gridDefinesOf(stage.grid, stage.normal !== undefined) : {},
+    normalDefines: normalDefinesOf(stage.normalCode, !areImages && stage.normal?.components === 1),
+  };
+}
+
+export function colorsOf(stage: Stage): VertexColors {
+  if (stage.color === undefined) return "none";
+  const components = stage.kind === "textures" ? stage.colorComponents : stage.color.components;
+  return components === 4 ? "rgba" : "rgb";
+}
+
+function shadingOf(stage: Stage, draw: DrawRange): Shading {
+  const isSurface = draw.primitive === "triangles" || draw.primitive === "triangleStrip";
+  if (stage.name === "points") return "distance";
+  if (!isSurface && !hasNormals(stage)) return "unlit"; // a cloud with normals is lit
+  return hasNormals(stage) ? "smooth" : "flat";
+}
+
+/** Stored ones, or those of a grid's slope. */
+export function hasNormals(stage: Stage): boolean {
+  return stage.normal !== undefined || (stage.kind === "textures" && stage.grid !== undefined);
+}

@@ -1,0 +1,18 @@
+import type { GeometryDescription, PatchDescription, AppearanceDescription } from "../../document/description.ts";
+import type { MaterialFactory, SceneUniforms } from "../materials/materialFactory.ts";
+import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
+import type { BufferProvider } from "../uploads/bufferProvider.ts";
+import type { TextureProvider } from "../uploads/textureProvider.ts";
+import type { GeometryPool } from "./geometryPool.ts";
+
+export interface PatchContext {
+  readonly materialFactory: MaterialFactory;
+  readonly geometries: GeometryPool;
+  readonly buffers: BufferProvider;
+  readonly textures: TextureProvider;
+  readonly shared: SceneUniforms;
+  readonly geometry: GeometryDescription;
+  readonly patch: PatchDescription;
+  readonly appearance: AppearanceDescription;
+  readonly surfaceTextures: SurfaceTextures;
+}

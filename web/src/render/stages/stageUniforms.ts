@@ -1,0 +1,133 @@
+// What a stage says of its vertices, for those who draw it: uniforms, bounds, and
+// what its draws need of a material.
+
+import type { IUniform } from "three";
+import type { DecodedImage } from "../../stage/decodedImage.ts";
+import type { DrawRange, Stage, TextureStage } from "../../stage/stage.ts";
+import type {
+  AppearanceDescription,
+  GeometryDescription,
+  LineDescription,
+  PointDescription,
+} from "../../document/description.ts";
+import { maxDashLengths } from "../../document/lineProperties.ts";
+import { maxStoredValueOf, dequantizationOf } from "../../document/dequantization.ts";
+import { textureTransformsOf } from "../shaders/texCoords.ts";
+import { colorMapUniformsOf, valueUniformsOf } from "../materials/valueColors.ts";
+import type { ImageVertexUniforms } from "../shaders/vertexFormat.ts";
+import type { VertexUniforms } from "../shaders/vertexFormat.ts";
+import { lineCountOf } from "../lines/wideLines.ts";
+import type { TextureProvider } from "../uploads/textureProvider.ts";
+import type { PatchContext } from "./patchContext.ts";
+import { colorsOf } from "./materialRequests.ts";
+
+export interface StageUniforms {
+  /** Of all draws of the stage. */
+  readonly common: VertexUniforms;
+  of(range: DrawRange): VertexUniforms;
+}
+
+export function uniformsOf(stage: Stage, context: PatchContext): StageUniforms {
+  const { geometry, patch, shared, textures } = context;
+  const common: VertexUniforms = {
+    ...appearanceUniformsOf(geometry, context.appearance),
+    pixelRatio: shared.pixelRatio,
+    viewport: shared.viewport,
+    latticeStep: { value: dequantizationOf(geometry, patch).step },
+    ...valueUniformsOf(stage, geometry.value, (image) => textures.textureOf(image)),
+  };
+  if (stage.kind === "buffers") return { common, of: () => common };
+  const base = imageUniformsOf(stage, textures, common, maxStoredValueOf(geometry, patch));
+  return {
+    common,
+    of: (range) => ({
+      ...base,
+      firstNumber: { value: range.first },
+      isStrip: { value: range.primitive === "triangleStrip" },
+      lineCount: { value: Math.max(1, lineCountOf(range)) },
+    }),
+  };
+}
+
+/** Takes over what an appearance says of vertices. */
+export function setAppearance(
+  uniforms: VertexUniforms,
+  geometry: GeometryDescription,
+  appearance: AppearanceDescription,
+): void {
+  for (const [name, { value }] of Object.entries<IUniform<unknown>>(appearanceUniformsOf(geometry, appearance))) {
+    const uniform = uniforms[name];
+    if (uniform !== undefined) uniform.value = value;
+  }
+}
+
+/** Of points that no PointProperties tell about, in CSS pixels. */
+export const defaultPointSize = 2;
+const defaultPoints: PointDescription = {
+  size: defaultPointSize,
+  minSize: 0,
+  maxSize: Infinity,
+  attenuation: [1, 0, 0],
+};
+const maxPointSize = 1e6;
+const defaultLines: LineDescription = { width: 1, dashes: [] };
+
+type AppearanceUniforms = Pick<
+  VertexUniforms,
+  "pointSizes" | "attenuation" | "lineWidth" | "dashes" | "dashCount" | "texCoordFrame" | "textureTransforms"
+>;
+
+function appearanceUniformsOf(
+  { texCoordMin, texCoordSize }: GeometryDescription,
+  appearance: AppearanceDescription,
+): AppearanceUniforms & Record<string, IUniform> {
+  const { points = defaultPoints, lines: { width, dashes } = defaultLines } = appearance;
+  return {
+    pointSizes: { value: [points.size, points.minSize, Math.min(points.maxSize, maxPointSize)] },
+    attenuation: { value: points.attenuation },
+    lineWidth: { value: width },
+    dashes: { value: Array.from({ length: maxDashLengths }, (_, i) => dashes[i] ?? 0) },
+    dashCount: { value: dashes.length },
+    texCoordFrame: { value: [...texCoordMin, ...texCoordSize] },
+    textureTransforms: { value: textureTransformsOf(appearance) },
+    ...colorMapUniformsOf(appearance.colorMap),
+  };
+}
+
+function imageUniformsOf(
+  stage: TextureStage,
+  textures: TextureProvider,
+  common: VertexUniforms,
+  largestStored: number,
+): ImageVertexUniforms {
+  const { index, coord, normal, color, texCoord } = stage;
+  const texture = (range: { image: DecodedImage } | undefined) => ({
+    value: range ? textures.textureOf(range.image) : null,
+  });
+  const first = (range: { first: number } | undefined) => range?.first ?? 0;
+  return {
+    ...common,
+    indexImage: texture(index),
+    coordImage0: texture(coord[0]),
+    coordImage1: texture(coord[1]),
+    coordImage2: texture(coord[2]),
+    coordImage3: texture(coord[3]),
+    normalImage: texture(normal),
+    colorImage: texture(color),
+    texCoordImage: texture(texCoord),
+    firstTexels: { value: [first(index), first(normal), first(color), first(texCoord)] },
+    coordFirstTexels: { value: [first(coord[0]), first(coord[1]), first(coord[2]), first(coord[3])] },
+    coordPlanes: { value: stage.coordPlanes },
+    middleOfMissing: { value: stage.middleOfMissing },
+    hasIndex: { value: index !== undefined },
+    isIndexWide: { value: stage.isIndexWide },
+    implicitWidth: { value: stage.implicitWidth },
+    gridSize: { value: [stage.grid?.columns ?? 0, stage.grid?.rows ?? 0] },
+    isGridClosed: { value: stage.grid?.kind === "sculpt" },
+    largestStored: { value: largestStored },
+    firstNumber: { value: 0 },
+    isStrip: { value: false },
+    lineCount: { value: 1 },
+    colorHasAlpha: { value: colorsOf(stage) === "rgba" },
+  };
+}

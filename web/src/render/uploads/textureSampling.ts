@@ -1,0 +1,33 @@
+import type { Texture } from "three";
+import {
+  NoColorSpace,
+  NearestFilter,
+  RepeatWrapping,
+  MirroredRepeatWrapping,
+  ClampToEdgeWrapping,
+  LinearMipmapLinearFilter,
+  LinearFilter,
+} from "three";
+import type { SamplingDescription } from "../../document/description.ts";
+
+/** Texels reach the shader one by one, as they are in the file. */
+export function setDataSampling(texture: Texture): void {
+  texture.colorSpace = NoColorSpace;
+  texture.minFilter = NearestFilter;
+  texture.magFilter = NearestFilter;
+  texture.generateMipmaps = false;
+}
+
+const wrappings = { repeat: RepeatWrapping, clamp: ClampToEdgeWrapping, mirror: MirroredRepeatWrapping } as const;
+/** Pages show the colours of surfaceTextures by their numbers, as those of materials (materials.ts). */
+export function setSampling(
+  texture: Texture,
+  { wrapS, wrapT, isSmooth, hasMipmaps, anisotropy }: SamplingDescription,
+): void {
+  texture.wrapS = wrappings[wrapS];
+  texture.wrapT = wrappings[wrapT];
+  texture.magFilter = isSmooth ? LinearFilter : NearestFilter;
+  texture.minFilter = hasMipmaps ? LinearMipmapLinearFilter : isSmooth ? LinearFilter : NearestFilter;
+  texture.generateMipmaps = hasMipmaps;
+  texture.anisotropy = anisotropy;
+}
