@@ -51,10 +51,10 @@ function(imgeo_folder name)
   endif()
 endfunction()
 
-# imgeo_late_library(FOLDER MACRO PREFIX): sources of imgeo_FOLDER may use the headers of
+# imgeo_dynamic_library(FOLDER MACRO PREFIX): sources of imgeo_FOLDER may use the headers of
 # a library that pkg_check_modules found as PREFIX, and load it by the name MACRO when
-# they need it (src/base/late_library.h).
-function(imgeo_late_library folder macro prefix)
+# they need it (src/base/dynamic_library.h).
+function(imgeo_dynamic_library folder macro prefix)
   list(GET ${prefix}_LINK_LIBRARIES 0 library)
   execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${library} OUTPUT_VARIABLE headers COMMAND_ERROR_IS_FATAL ANY)
   if(NOT headers MATCHES "SONAME +([^ \n]+)")

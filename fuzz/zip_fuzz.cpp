@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "import/zip.h"
+#include "import/archive/zip.h"
 
 #include <cstdlib>
 

@@ -1,9 +1,9 @@
 #include "base/bytes.h"
+#include "base/dynamic_library.h"
 #include "base/error.h"
-#include "base/few_digits.h"
 #include "base/file.h"
-#include "base/late_library.h"
 #include "base/parallel.h"
+#include "base/shortest_decimal.h"
 #include "base/testing.h"
 #include "base/vec.h"
 
@@ -31,9 +31,9 @@ TEST(Error, HasTheDocumentedExitCodes) {
     EXPECT_EQ(exitCode(kind), 3);
 }
 
-TEST(LateLibrary, CallsWhatItFindsAndNamesWhatItDoesNot) {
-  struct Maths : LateLibrary {
-    explicit Maths(const char* name, const char* function = "fabs") : LateLibrary(name), fabs(find(function)) {}
+TEST(DynamicLibrary, CallsWhatItFindsAndNamesWhatItDoesNot) {
+  struct Maths : DynamicLibrary {
+    explicit Maths(const char* name, const char* function = "fabs") : DynamicLibrary(name), fabs(find(function)) {}
     double (*fabs)(double);
   };
   EXPECT_EQ(Maths("libm.so.6").fabs(-3), 3);
@@ -152,15 +152,15 @@ TEST(Box, GrowsByWhatIsAdded) {
 }
 
 TEST(WithFewDigits, StaysWithinTheTolerance) {
-  EXPECT_EQ(withFewDigits(2.009999990463257, 3e-8), 2.01);
-  EXPECT_EQ(withFewDigits(-0.29999, 1e-4), -0.3);
-  EXPECT_EQ(withFewDigits(123456.789, 0.5), 123457);
-  EXPECT_EQ(withFewDigits(123456.789, 5000), 1.2e5);
-  EXPECT_EQ(withFewDigits(1.0 / 3, 0), 1.0 / 3);
-  EXPECT_FALSE(std::signbit(withFewDigits(-1e-9, 1e-8)));
+  EXPECT_EQ(shortestWithin(2.009999990463257, 3e-8), 2.01);
+  EXPECT_EQ(shortestWithin(-0.29999, 1e-4), -0.3);
+  EXPECT_EQ(shortestWithin(123456.789, 0.5), 123457);
+  EXPECT_EQ(shortestWithin(123456.789, 5000), 1.2e5);
+  EXPECT_EQ(shortestWithin(1.0 / 3, 0), 1.0 / 3);
+  EXPECT_FALSE(std::signbit(shortestWithin(-1e-9, 1e-8)));
   for (double value = 1e-12; value < 1e12; value *= 1.37)
     for (const double tolerance : {value * 1e-9, value * 1e-4, 0.3 * value})
-      EXPECT_LE(std::abs(withFewDigits(value, tolerance) - value), tolerance) << value;
+      EXPECT_LE(std::abs(shortestWithin(value, tolerance) - value), tolerance) << value;
 }
 
 } // namespace

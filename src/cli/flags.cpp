@@ -1,5 +1,7 @@
 #include "cli/flags.h"
 
+#include "import/format.h"
+
 #include <algorithm>
 
 namespace imgeo::cli {
@@ -38,8 +40,8 @@ Flag integer(const std::string& name, std::vector<std::string> aliases, std::int
 }
 
 Command convertCommand() {
-  Flag input = positional("input", "INPUT", Value::file,
-                          "X3D, VRML, glTF, GLB, PLY, OBJ or STL file, gzipped or not; \"-\" reads standard input");
+  Flag input =
+      positional("input", "INPUT", Value::file, formatHelp() + " file, gzipped or not; \"-\" reads standard input");
   input.aliases = {"-i"};
   Flag output{.name = "output",
               .aliases = {"-o"},

@@ -1,7 +1,7 @@
 #include "containers/stored_coords.h"
 
 #include "base/error.h"
-#include "base/few_digits.h"
+#include "base/shortest_decimal.h"
 #include "containers/encodings.h"
 
 #include <algorithm>
@@ -126,8 +126,8 @@ Lattice inFewDigits(Lattice lattice, double edge) {
     return lattice;
   const double tolerance = lattice.step / 1024;
   for (int axis = 0; axis < 3; ++axis)
-    lattice.origin[axis] = withFewDigits(lattice.origin[axis], tolerance);
-  lattice.step = withFewDigits(edge, tolerance) / lattice.maximum();
+    lattice.origin[axis] = shortestWithin(lattice.origin[axis], tolerance);
+  lattice.step = shortestWithin(edge, tolerance) / lattice.maximum();
   return lattice;
 }
 

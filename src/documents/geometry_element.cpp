@@ -1,6 +1,6 @@
 #include "documents/geometry_element.h"
 
-#include "base/few_digits.h"
+#include "base/shortest_decimal.h"
 #include "containers/encodings.h"
 #include "containers/stored_coords.h"
 
@@ -23,7 +23,7 @@ std::string url(const Reference& reference, Encoding encoding) {
 /// As short as keeps each number off by no more than a share of the lattice's step.
 std::string shortNumbers(Vec3d vector, const Lattice& lattice, double share) {
   for (int axis = 0; axis < 3; ++axis)
-    vector[axis] = withFewDigits(vector[axis], share * lattice.step);
+    vector[axis] = shortestWithin(vector[axis], share * lattice.step);
   return numbers(vector);
 }
 

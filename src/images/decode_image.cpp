@@ -1,7 +1,7 @@
 #include "images/decode_image.h"
 
+#include "base/dynamic_library.h"
 #include "base/error.h"
-#include "base/late_library.h"
 #include "images/image_type.h"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace imgeo {
 namespace {
 
 /// What we call of GraphicsMagick, which brings fifty libraries with it.
-struct Magick : LateLibrary {
-  Magick() : LateLibrary(IMGEO_GRAPHICSMAGICK) {}
+struct Magick : DynamicLibrary {
+  Magick() : DynamicLibrary(IMGEO_GRAPHICSMAGICK) {}
 
   decltype(&::AutoOrientImage) autoOrientImage = find("AutoOrientImage");
   decltype(&::BlobToImage) blobToImage = find("BlobToImage");

@@ -1,6 +1,6 @@
 #include "images/encode_image.h"
 
-#include "base/late_library.h"
+#include "base/dynamic_library.h"
 
 #include <avif/avif.h>
 #include <cassert>
@@ -20,8 +20,8 @@ void require(bool isDone) {
 }
 
 /// What we call of libavif, which brings seven codecs with it.
-struct Avif : LateLibrary {
-  Avif() : LateLibrary(IMGEO_AVIF) {}
+struct Avif : DynamicLibrary {
+  Avif() : DynamicLibrary(IMGEO_AVIF) {}
 
   decltype(&::avifEncoderCreate) encoderCreate = find("avifEncoderCreate");
   decltype(&::avifEncoderDestroy) encoderDestroy = find("avifEncoderDestroy");

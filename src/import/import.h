@@ -1,30 +1,10 @@
 #pragma once
-// import: the bytes of a file -> Scene. One file per format; this header is all
-// that other folders see.
+// The bytes of a file -> Scene. One folder per input format, whose header NAME/NAME.h says what is read of it; format.h
+// is the table of the formats. Other folders include this header, the table and warnings.h.
 //
-// PLY: ASCII and binary of both byte orders, every scalar type; vertices with
-// x y z, and where they are there nx ny nz, s t (u v, texture_u texture_v), red
-// green blue alpha (diffuse_red ...); `face` with vertex_indices (vertex_index)
-// and texcoord; `tristrips`; `edge` with vertex1 and vertex2, a shape of lines.
-// Without any of these: a point cloud. Other numbers of a vertex are further
-// attributes for those who ask for them (as single precision; they must be
-// finite): NAME, or NAME_0 .. NAME_3 that follow one another for one of two to
-// four components.
-// OBJ: v (with colours), vt, vn, f, l; each `o` is a shape, or two where it has
-// faces and lines; groups are none. Without faces and lines: a point cloud.
-// STL: binary and ASCII; each ASCII solid is a shape, each corner has a position
-// of its own (weld joins them), facet normals are left to the winding.
-// glTF 2.0 and GLB: nodes, meshes (one that several nodes show once), materials,
-// textures, cameras, punctual lights, the authors' extras; compressed by Draco or
-// meshopt, quantised, sparse, instanced. Attributes _NAME are further attributes NAME.
-// What is damaged is left out, with a warning, unless the options are strict.
-// X3D in XML and in classic VRML, VRML97: the sets of faces, triangles, lines and points and elevation grids
-// are meshes; everything else is a node that goes through as it is. Prototypes are written out where they
-// stand, and files that an Inline names are read too: what they hold are the Inline's children. Collada, FBX,
-// 3DS and whatever else Assimp reads: nodes, meshes, materials, textures, cameras and lights, read in a
-// process of its own. Polygons are cut into triangles. Normals are brought to unit length; (0, 0, 1) stands
-// for those without a direction. Everything else is named in a warning. Limits: 2^32 - 1 vertices and
-// corners; OBJ files of 8 GiB; gzipped files, see gzip.h.
+// All formats: polygons are cut into triangles; normals are brought to unit length, and (0, 0, 1) replaces those
+// without a direction; everything that is not carried over is named in a warning. Limits: 2^32 - 1 vertices and
+// corners; gzipped files: archive/gzip.h.
 
 #include "base/bytes.h"
 #include "scene/scene.h"
@@ -38,42 +18,40 @@ namespace imgeo {
 
 struct Imported {
   Scene scene;                         ///< normals only where the file has them
-  std::vector<std::string> attributes; ///< names of all further attributes of the source, kept or not
+  std::vector<std::string> attributes; ///< names of all further vertex attributes of the source, kept or not
   std::string format;                  ///< "PLY", "OBJ", "GLB" ...: for reports
-  std::vector<std::string> warnings;   ///< one sentence per kind of thing not carried over
+  std::vector<std::string> warnings;   ///< one sentence per kind of content that is not carried over
 };
 
-/// Which further attributes of vertices are carried over, by name.
+/// The further vertex attributes that are carried over.
 struct AttributeChoice {
   bool all = false;
-  std::set<std::string> names; ///< where not all
+  std::set<std::string> names; ///< used where `all` is false
 
   bool has(const std::string& name) const { return all || names.contains(name); }
 };
 
 struct ImportOptions {
-  AttributeChoice attributes;     ///< none where nothing is said
-  std::filesystem::path folder{}; ///< where relative urls lead; empty: nowhere
-  bool outside = false;           ///< urls may lead out of the folder
-  /// Geometry of an X3D document whose text is no longer than this stays in it; where there
-  /// is much of that, only what is as short as a box.
+  AttributeChoice attributes;     ///< by default none
+  std::filesystem::path folder{}; ///< relative URLs are resolved against it; empty: they are refused
+  bool outside = false;           ///< URLs may lead out of the folder
+  /// Geometry of an X3D document stays in the document where its text is at most this long. Where the document has more
+  /// than 64 KiB of such text, only geometry of at most 256 bytes stays.
   std::size_t inlineBytes = 0;
   bool strict = false;            ///< damage is an Error, even where the rest could be read
-  std::filesystem::path within{}; ///< the folder that urls may not lead out of; empty: `folder`
-  /// The files on whose account this one is read, outermost first: it is inlined by the last.
+  std::filesystem::path within{}; ///< the folder that URLs may not lead out of; empty: `folder`
+  /// The chain of files whose Inlines led to this one, outermost first. Detects a document that inlines itself.
   std::vector<std::filesystem::path> inlinedBy{};
 };
 
-/// Reads a file of any known format; the format is told from the content first,
-/// the name's ending second. A gzipped file (magic 1f 8b) is unpacked first.
-/// Safe for untrusted bytes: counts are checked against the bytes that are left
-/// before anything is allocated; NaN and infinite coordinates are refused.
-/// Throws Error (io, truncated, malformed, unsupported, limit) with file and
-/// line (text) or byte (binary).
+/// Reads a file of any known format (format.h tells which). A gzipped file (magic 1f 8b) is unpacked first. Safe for
+/// untrusted bytes: counts are checked against the remaining bytes before anything is allocated; NaN and infinite
+/// coordinates are refused. Throws Error (io, truncated, malformed, unsupported, limit) with file and line (text) or
+/// byte (binary).
 Imported importFile(const std::filesystem::path& path, const ImportOptions& options = {});
 
-/// The same for bytes at hand, whose relative urls lead to options.folder; `name` stands for the file in
-/// messages and its ending helps to tell the format.
+/// Reads the bytes of a file. Relative URLs are resolved against options.folder; `name` stands for the file in
+/// messages, and its extension helps to tell the format.
 Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOptions& options = {});
 
 } // namespace imgeo

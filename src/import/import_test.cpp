@@ -1,6 +1,6 @@
 #include "import/import.h"
 
-#include "import/error_testing.h"
+#include "import/testing.h"
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 #include "import/warnings.h"
 
 #include "base/error.h"
-#include "import/triangulate.h"
+#include "import/mesh/triangulate.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,16 +1,16 @@
 // Every format that Assimp reads and we do not: its scene -> ours.
 
+#include "import/assimp/assimp.h"
+#include "import/archive/zip.h"
 #include "import/assimp/files.h"
 #include "import/assimp/library.h"
 #include "import/assimp/materials.h"
-#include "import/creased.h"
-#include "import/formats.h"
-#include "import/isolated.h"
-#include "import/readable.h"
-#include "import/triangulate.h"
-#include "import/unit_normal.h"
+#include "import/isolation/child_process.h"
+#include "import/mesh/crease_normals.h"
+#include "import/mesh/triangulate.h"
+#include "import/mesh/unit_normal.h"
+#include "import/text/rounded_decimal.h"
 #include "import/warnings.h"
-#include "import/zip.h"
 
 #include "base/error.h"
 
@@ -96,7 +96,7 @@ private:
     if (!isFinite(map))
       ++lostTransforms_;
     else if (map != Affine3d{})
-      node.content = readable(transformOf(map));
+      node.content = rounded(transformOf(map));
     for (unsigned i = 0; i < source.mNumMeshes; ++i)
       for (const std::size_t shape : shapesOf_.at(source.mMeshes[i]))
         node.children.push_back(shape);
@@ -119,7 +119,7 @@ private:
         continue;
       addVertices(source, mesh);
       if (topology == Topology::triangles && mesh.normals.empty())
-        mesh = creased(mesh, creaseAngle);
+        mesh = withCreaseNormals(mesh, creaseAngle);
       Shape shape;
       shape.mesh = imported_.scene.meshes.size();
       shape.appearance = materials_.appearance(source.mMaterialIndex);
@@ -280,7 +280,8 @@ private:
               lostTransforms_ = 0, fans_ = 0, badNormals_ = 0;
 };
 
-std::string extensionOf(const std::string& name) {
+/// Keeps a ".gz", unlike source_name.h: no gzipped file is Assimp's.
+std::string lastExtensionOf(const std::string& name) {
   std::string extension = std::filesystem::path(name).extension().string();
   std::ranges::transform(extension, extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
   return extension;
@@ -304,7 +305,7 @@ Imported readHere(ByteSpan bytes, const std::string& name, const ImportOptions& 
     std::ranges::replace(reason, '\n', ' ');
     throw Error(ErrorKind::malformed, name, fmt::format("Assimp cannot read it: {}", reason));
   }
-  const std::string extension = extensionOf(name).substr(1);
+  const std::string extension = lastExtensionOf(name).substr(1);
   std::string format = extension;
   std::ranges::transform(format, format.begin(), [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
   Imported imported = SceneReader(*scene, name, references, options.strict, extension).read(format);
@@ -318,13 +319,13 @@ Imported readHere(ByteSpan bytes, const std::string& name, const ImportOptions& 
 } // namespace
 
 bool isReadByAssimp(const std::string& name) {
-  const std::string extension = extensionOf(name);
+  const std::string extension = lastExtensionOf(name);
   return !extension.empty() && assimp().isExtensionSupported(extension.c_str()) == AI_TRUE;
 }
 
 Imported readByAssimp(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
   refuseZipBomb(bytes, name);
-  return readIsolated([&] { return readHere(bytes, name, options); }, name);
+  return readInChildProcess([&] { return readHere(bytes, name, options); }, name);
 }
 
 } // namespace imgeo

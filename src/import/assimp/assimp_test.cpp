@@ -1,6 +1,6 @@
 #include "base/file.h"
 #include "base/testing.h"
-#include "import/error_testing.h"
+#include "import/testing.h"
 #include "scene/shape_instances.h"
 #include "scene/testing.h"
 

@@ -2,15 +2,15 @@
 // Assimp by its C interface, since a library that is loaded late has no other, and this
 // one alone takes two milliseconds of every start.
 
-#include "base/late_library.h"
+#include "base/dynamic_library.h"
 
 #include <assimp/cimport.h>
 #include <assimp/material.h>
 
 namespace imgeo {
 
-struct AssimpLibrary : LateLibrary {
-  AssimpLibrary() : LateLibrary(IMGEO_ASSIMP) {}
+struct AssimpLibrary : DynamicLibrary {
+  AssimpLibrary() : DynamicLibrary(IMGEO_ASSIMP) {}
 
   decltype(&::aiCreatePropertyStore) createPropertyStore = find("aiCreatePropertyStore");
   decltype(&::aiGetErrorString) getErrorString = find("aiGetErrorString");

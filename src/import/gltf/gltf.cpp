@@ -1,7 +1,9 @@
 // glTF 2.0 and GLB (Khronos Group, "glTF 2.0 Specification", 2021).
 
-#include "import/formats.h"
+#include "import/gltf/gltf.h"
+
 #include "import/gltf/nodes.h"
+#include "import/source_name.h"
 #include "import/warnings.h"
 
 #include <algorithm>
@@ -16,11 +18,14 @@ using namespace gltf;
 
 constexpr std::uint32_t glbMagic = 0x46546c67, jsonChunk = 0x4e4f534a, binaryChunk = 0x004e4942;
 
-/// Those that a document may require and that we read. Materials that we know
-/// nothing of still show their base.
+/// Extensions that a document may require.
 const std::set<std::string> readExtensions{
     "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization",  "KHR_lights_punctual",
     "KHR_texture_transform",      "EXT_texture_webp",        "EXT_mesh_gpu_instancing"};
+
+bool isGlb(ByteSpan bytes) {
+  return bytes.size() >= 12 && loadLittle<std::uint32_t>(bytes.data()) == glbMagic;
+}
 
 struct Chunks {
   std::string_view json;
@@ -28,7 +33,7 @@ struct Chunks {
 };
 
 Chunks chunksOf(ByteSpan bytes, const std::string& name) {
-  if (!looksLikeGlb(bytes))
+  if (!isGlb(bytes))
     return {asText(bytes), {}};
   if (bytes.size() < 20)
     throw Error(ErrorKind::truncated, name, "a GLB file is at least 20 bytes long");
@@ -104,11 +109,9 @@ void addWarnings(const Value& root, const PrimitiveLosses& primitives, const Mat
 
 } // namespace
 
-bool looksLikeGlb(ByteSpan bytes) {
-  return bytes.size() >= 12 && loadLittle<std::uint32_t>(bytes.data()) == glbMagic;
-}
-
 bool looksLikeGltf(ByteSpan bytes) {
+  if (isGlb(bytes))
+    return true;
   const std::string_view text = asText(bytes);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   return first != text.npos && text[first] == '{' && text.find("\"asset\"") != text.npos;
@@ -122,7 +125,7 @@ Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& 
   checkVersion(document.root());
 
   Imported imported;
-  imported.format = looksLikeGlb(bytes) ? "GLB" : "glTF";
+  imported.format = isGlb(bytes) ? "GLB" : "glTF";
   PrimitiveReader primitives(document, options.attributes);
   MaterialReader materials(document, imported.scene.graph, options.strict);
   NodeReader nodes(document, imported.scene, primitives, materials, options.strict);

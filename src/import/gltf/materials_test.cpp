@@ -2,8 +2,8 @@
 
 #include "base/file.h"
 #include "base/testing.h"
-#include "import/error_testing.h"
 #include "import/gltf/testing.h"
+#include "import/testing.h"
 #include "scene/testing.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "import/gltf/nodes.h"
 
-#include "import/readable.h"
+#include "import/text/rounded_decimal.h"
 #include "scene/mf_string.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ Transform transformOfTrs(Vec3d translation, const std::vector<double>& q, Vec3d 
 }
 
 NodeContent groupUnlessMoved(Transform transform) {
-  transform = readable(transform);
+  transform = rounded(transform);
   return transform == Transform{} ? NodeContent(Group{}) : NodeContent(transform);
 }
 

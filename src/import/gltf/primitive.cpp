@@ -1,6 +1,6 @@
 #include "import/gltf/primitive.h"
 
-#include "import/unit_normal.h"
+#include "import/mesh/unit_normal.h"
 #include "scene/color.h"
 
 #include <algorithm>

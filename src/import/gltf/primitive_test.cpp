@@ -1,5 +1,5 @@
-#include "import/error_testing.h"
 #include "import/gltf/testing.h"
+#include "import/testing.h"
 #include "scene/shape_instances.h"
 #include "scene/testing.h"
 

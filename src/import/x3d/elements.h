@@ -23,11 +23,6 @@ struct Elements {
 /// Error{malformed, unsupported} naming `name` and the line.
 Elements parseXml(std::string_view text, const std::string& name);
 
-/// Safe for untrusted text. Prototypes become ProtoDeclare, ProtoInstance and
-/// ExternProtoDeclare, routes ROUTE, and DEFs that are given again get a number.
-/// Throws Error{malformed, unsupported, limit} naming `name`, line and column.
-Elements parseVrml(std::string_view text, const std::string& name);
-
 /// "hall.wrl:12:3", the line and column of a byte of the text.
 std::string locationOf(std::string_view text, const std::string& name, std::size_t offset);
 

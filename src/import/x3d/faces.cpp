@@ -1,7 +1,7 @@
 #include "import/x3d/faces.h"
 
-#include "import/triangulate.h"
-#include "import/unit_normal.h"
+#include "import/mesh/triangulate.h"
+#include "import/mesh/unit_normal.h"
 
 #include <cmath>
 #include <span>

@@ -1,6 +1,6 @@
 #include "import/x3d/geometry.h"
 
-#include "import/unit_normal.h"
+#include "import/mesh/unit_normal.h"
 #include "import/x3d/extrusion.h"
 #include "import/x3d/faces.h"
 

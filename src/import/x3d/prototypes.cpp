@@ -1,7 +1,7 @@
 #include "import/x3d/prototypes.h"
 
 #include "base/error.h"
-#include "import/x3d/vrml_names.h"
+#include "import/vrml/names.h"
 
 #include <fmt/format.h>
 #include <limits>

@@ -1,8 +1,6 @@
-// X3D in any of its encodings: geometry becomes meshes, and everything else stays the
-// element that it was.
+#include "import/x3d/x3d.h"
 
 #include "images/image_type.h"
-#include "import/formats.h"
 #include "import/references.h"
 #include "import/warnings.h"
 #include "import/x3d/geometry.h"
@@ -383,7 +381,9 @@ private:
   Summary summary_;
 };
 
-Imported readElements(Elements elements, ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+} // namespace
+
+Imported x3d::readElements(Elements elements, ByteSpan bytes, const std::string& name, const ImportOptions& options) {
   const PrototypeReport prototypes = writeOutPrototypes(elements, name);
   const std::string format = elements.format;
   const Source source(std::move(elements), asText(bytes), name);
@@ -397,24 +397,14 @@ Imported readElements(Elements elements, ByteSpan bytes, const std::string& name
   return imported;
 }
 
-} // namespace
-
 bool looksLikeX3d(ByteSpan bytes) {
   const std::string_view beginning = asText(bytes).substr(0, 4096);
   return beginning.starts_with("<") && beginning.find("<X3D") != beginning.npos &&
          beginning.find("<html") == beginning.npos;
 }
 
-bool looksLikeVrml(ByteSpan bytes) {
-  return asText(bytes).starts_with("#VRML V") || asText(bytes).starts_with("#X3D V");
-}
-
 Imported readX3d(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
   return readElements(parseXml(asText(bytes), name), bytes, name, options);
-}
-
-Imported readVrml(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
-  return readElements(parseVrml(asText(bytes), name), bytes, name, options);
 }
 
 } // namespace imgeo

@@ -1,6 +1,6 @@
 #include "transcode/encode/encode_scene.h"
 
-#include "base/few_digits.h"
+#include "base/shortest_decimal.h"
 #include "containers/compact/base.h"
 #include "containers/encodings.h"
 #include "containers/named_attributes.h"
@@ -128,11 +128,11 @@ Viewpoint framing(const Box3d& box) {
   Viewpoint viewpoint = viewpointFor(box);
   const double tolerance = 1e-6 * length(viewpoint.position - viewpoint.centerOfRotation);
   for (int axis = 0; axis < 3; ++axis) {
-    viewpoint.position[axis] = withFewDigits(viewpoint.position[axis], tolerance);
-    viewpoint.centerOfRotation[axis] = withFewDigits(viewpoint.centerOfRotation[axis], tolerance);
-    viewpoint.orientation.axis[axis] = withFewDigits(viewpoint.orientation.axis[axis], 1e-6);
+    viewpoint.position[axis] = shortestWithin(viewpoint.position[axis], tolerance);
+    viewpoint.centerOfRotation[axis] = shortestWithin(viewpoint.centerOfRotation[axis], tolerance);
+    viewpoint.orientation.axis[axis] = shortestWithin(viewpoint.orientation.axis[axis], 1e-6);
   }
-  viewpoint.orientation.angle = withFewDigits(viewpoint.orientation.angle, 1e-6);
+  viewpoint.orientation.angle = shortestWithin(viewpoint.orientation.angle, 1e-6);
   return viewpoint;
 }
 

@@ -365,8 +365,7 @@ VerifyReport verify(const fs::path& site, const fs::path& input, bool outside) {
   report.isForeign = !manifest;
   const Imported imported = prepared(input, manifest, outside);
 
-  // What our readers refuse is here a result, not the end: the one place below
-  // main, handlers and fuzz targets that catches an Error.
+  // An Error of a reader is a difference between site and input here, not the end of the program.
   try {
     if (manifest)
       checkDocuments(document, findings);

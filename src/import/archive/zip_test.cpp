@@ -1,0 +1,68 @@
+#include "import/archive/zip.h"
+
+#include "base/error.h"
+#include "import/archive/gzip.h"
+#include "import/testing.h"
+
+#include <gtest/gtest.h>
+
+namespace imgeo::testing {
+namespace {
+
+void append(Bytes& bytes, std::string_view text) {
+  bytes.insert(bytes.end(), text.begin(), text.end());
+}
+
+/// An archive of `packed` bytes that are said to unpack to these sizes.
+Bytes archiveOf(const std::vector<std::uint32_t>& sizes, std::string_view comment = "", std::size_t packed = 0) {
+  Bytes bytes;
+  append(bytes, "PK\3\4 what it holds PK\1\2");
+  bytes.resize(bytes.size() + packed);
+  const auto directory = static_cast<std::uint32_t>(bytes.size());
+  for (const std::uint32_t size : sizes) {
+    append(bytes, "PK\1\2");
+    bytes.resize(bytes.size() + 20);
+    appendLittle(bytes, size);
+    for (const int length : {5, 2, 1})
+      appendLittle(bytes, static_cast<std::uint16_t>(length));
+    bytes.resize(bytes.size() + 12);
+    append(bytes, "a.xmlEXC");
+  }
+  append(bytes, "PK\5\6");
+  bytes.resize(bytes.size() + 12);
+  appendLittle(bytes, directory);
+  appendLittle(bytes, static_cast<std::uint16_t>(comment.size()));
+  append(bytes, comment);
+  return bytes;
+}
+
+TEST(Zip, AddsUpWhatItsEntriesUnpackTo) {
+  EXPECT_EQ(unpackedZipBytes(archiveOf({})), 0u);
+  EXPECT_EQ(unpackedZipBytes(archiveOf({1000, 20, 3})), 1023u);
+  EXPECT_EQ(unpackedZipBytes(archiveOf({1000, 0xffffffff}, "a comment")), 1000 + 0xffffffffull);
+}
+
+TEST(Zip, IsReadToWhereItEndsAndNoFurther) {
+  const Bytes whole = archiveOf({7, 7, 7});
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_LE(unpackedZipBytes(ByteSpan(whole).first(size)), 21u) << size;
+  EXPECT_EQ(unpackedZipBytes(ByteSpan(whole).first(whole.size() - 1)), 0u);
+}
+
+TEST(Zip, OfMoreThanAModelUnpacksToIsRefused) {
+  const auto limit = static_cast<std::uint32_t>(kAnyRatioBytes);
+  EXPECT_NO_THROW(refuseZipBomb(archiveOf({limit}, "", limit / 500), "m.3mf"));
+  EXPECT_NO_THROW(refuseZipBomb(Bytes(1000), "m.3mf")) << "no archive";
+  try {
+    refuseZipBomb(archiveOf({limit, 0xffffffff}), "m.3mf");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_EQ(error.location(), "m.3mf");
+    EXPECT_NE(error.message().find("unpacks to 4362076159 bytes"), std::string::npos) << error.message();
+  }
+  EXPECT_EQ(errorOf(archiveOf({0xffffffff}), "m.3mf").kind(), ErrorKind::limit);
+}
+
+} // namespace
+} // namespace imgeo::testing

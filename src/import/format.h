@@ -1,0 +1,42 @@
+#pragma once
+// The table of input formats. Everything that depends on the set of formats (choice of the reader, messages, command
+// line help) asks this table, so that a format is a folder of import/ and a row in formats.cpp.
+
+#include "import/import.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace imgeo {
+
+/// What a positive answer of a format's `sniff` proves.
+enum class Sniffing {
+  signature, ///< the bytes can be of no other format: decides before the file's name is looked at
+  heuristic, ///< the bytes resemble the format: decides after the name's extension has named no other reader
+};
+
+struct Format {
+  std::string_view name;                          ///< "PLY": in messages
+  std::string_view help{};                        ///< names in the command line help; empty: the help does not name it
+  std::span<const std::string_view> extensions{}; ///< in lower case, with their dot; without a ".gz" behind them
+  bool (*sniff)(ByteSpan bytes) = nullptr;        ///< recognises the format by its content; null: it has no such mark
+  Sniffing sniffing = Sniffing::signature;
+  /// Whether the name's extension stands for the format, where `extensions` cannot list them; null: they do.
+  bool (*readsExtension)(const std::string& name) = nullptr;
+  /// Reads bytes that are unpacked, not empty and without a byte order mark. `name` stands for the file in messages.
+  /// Keeps the promises of import.h, but for unique names, the title and counting the shape instances.
+  Imported (*read)(ByteSpan bytes, const std::string& name, const ImportOptions& options) = nullptr;
+};
+
+/// All formats. Rows with signatures are sniffed in this order.
+std::span<const Format> formats();
+
+/// The row whose reader takes these bytes: by signature, by extension, by heuristic. Throws Error{unsupported} naming
+/// `name` where no row does.
+const Format& formatOf(ByteSpan bytes, const std::string& name);
+
+/// "X3D, VRML, glTF, GLB, PLY, OBJ or STL", for the command line help.
+std::string formatHelp();
+
+} // namespace imgeo

@@ -1,0 +1,101 @@
+#include "import/format.h"
+
+#include "base/error.h"
+#include "import/assimp/assimp.h"
+#include "import/gltf/gltf.h"
+#include "import/obj/obj.h"
+#include "import/ply/ply.h"
+#include "import/source_name.h"
+#include "import/stl/stl.h"
+#include "import/vrml/vrml.h"
+#include "import/x3d/x3d.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <vector>
+
+namespace imgeo {
+
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::array x3dExtensions{".x3d"sv, ".x3dz"sv};
+constexpr std::array vrmlExtensions{".wrl"sv, ".wrz"sv, ".vrml"sv, ".x3dv"sv, ".x3dvz"sv};
+constexpr std::array gltfExtensions{".gltf"sv, ".glb"sv};
+constexpr std::array plyExtensions{".ply"sv};
+constexpr std::array objExtensions{".obj"sv};
+constexpr std::array stlExtensions{".stl"sv};
+
+constexpr std::array<Format, 7> rows{{
+    {.name = "X3D", .help = "X3D", .extensions = x3dExtensions, .sniff = looksLikeX3d, .read = readX3d},
+    {.name = "VRML", .help = "VRML", .extensions = vrmlExtensions, .sniff = looksLikeVrml, .read = readVrml},
+    {.name = "glTF", .help = "glTF, GLB", .extensions = gltfExtensions, .sniff = looksLikeGltf, .read = readGltf},
+    {.name = "PLY", .help = "PLY", .extensions = plyExtensions, .sniff = looksLikePly, .read = readPly},
+    {.name = "OBJ",
+     .help = "OBJ",
+     .extensions = objExtensions,
+     .sniff = looksLikeObj,
+     .sniffing = Sniffing::heuristic,
+     .read = readObj},
+    {.name = "STL", .help = "STL", .extensions = stlExtensions, .sniff = looksLikeStl, .read = readStl},
+    {.name = "those of Assimp (Collada, FBX, 3DS ...)", .readsExtension = isReadByAssimp, .read = readByAssimp},
+}};
+
+const Format* sniffed(ByteSpan bytes, Sniffing sniffing) {
+  const auto row = std::ranges::find_if(
+      rows, [&](const Format& format) { return format.sniff && format.sniffing == sniffing && format.sniff(bytes); });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+const Format* rowOfExtension(const std::string& name) {
+  const std::string extension = extensionOf(name);
+  const auto row = std::ranges::find_if(rows, [&](const Format& format) {
+    return std::ranges::find(format.extensions, extension) != format.extensions.end();
+  });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+/// "a, b or c" of {"a", "b", "c"} and " or ".
+std::string listed(const std::vector<std::string_view>& names, std::string_view beforeLast) {
+  const std::span rest = std::span(names).first(names.size() - 1);
+  return fmt::format("{}{}{}", fmt::join(rest, ", "), beforeLast, names.back());
+}
+
+} // namespace
+
+std::span<const Format> formats() {
+  return rows;
+}
+
+const Format& formatOf(ByteSpan bytes, const std::string& name) {
+  if (const Format* row = sniffed(bytes, Sniffing::signature))
+    return *row;
+  const Format* const byExtension = rowOfExtension(name);
+  if (!byExtension) // before the heuristics: Assimp also reads text in UTF-16, and text that resembles OBJ
+    for (const Format& row : rows)
+      if (row.readsExtension && row.readsExtension(name))
+        return row;
+  if (const Format* row = sniffed(bytes, Sniffing::heuristic))
+    return *row;
+  if (asText(bytes).starts_with("\xff\xfe") || asText(bytes).starts_with("\xfe\xff"))
+    throw Error(ErrorKind::unsupported, name, "is text in UTF-16; imgeo reads ASCII and UTF-8");
+  if (byExtension)
+    return *byExtension;
+  std::vector<std::string_view> names;
+  std::ranges::transform(rows, std::back_inserter(names), &Format::name);
+  throw Error(ErrorKind::unsupported, name,
+              fmt::format("is in no format that imgeo reads, which are {}", listed(names, " and ")));
+}
+
+std::string formatHelp() {
+  std::vector<std::string_view> names;
+  for (const Format& row : rows)
+    if (!row.help.empty())
+      names.push_back(row.help);
+  return listed(names, " or ");
+}
+
+} // namespace imgeo

@@ -1,0 +1,14 @@
+#pragma once
+// glTF 2.0 and GLB: nodes, meshes (one mesh for all nodes that refer to it), materials, textures, cameras, punctual
+// lights, the authors' extras; accessors compressed by Draco or meshopt, quantised, sparse, instanced. An attribute
+// _NAME is the further attribute NAME. Damaged components are left out, with a warning, unless the options are strict.
+
+#include "import/import.h"
+
+namespace imgeo {
+
+/// True for a GLB header, and for a JSON object that mentions "asset".
+bool looksLikeGltf(ByteSpan bytes);
+Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& options);
+
+} // namespace imgeo

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <string>
+#include <utility>
+
+namespace imgeo {
+
+/// Adds a mesh and a root node, called `shapeName`, whose shape draws it.
+inline void addShape(Scene& scene, Mesh mesh, std::string shapeName) {
+  Shape shape;
+  shape.mesh = scene.meshes.size();
+  scene.meshes.push_back(std::move(mesh));
+  addRoot(scene.graph, {std::move(shapeName), shape, {}, ""});
+}
+
+} // namespace imgeo

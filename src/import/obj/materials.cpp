@@ -1,0 +1,228 @@
+#include "import/obj/materials.h"
+
+#include "base/error.h"
+#include "images/image_type.h"
+#include "import/text/text_scanner.h"
+#include "import/warnings.h"
+#include "scene/color.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace imgeo {
+
+namespace {
+
+/// Statements that say nothing which X3D's materials have: the ambient share is
+/// the renderer's, illum chooses among models.
+const std::set<std::string_view> passedOver{"Ka", "illum", "Tf", "Ni", "sharpness"};
+
+float unit(float value) {
+  return value > 0 ? std::min(value, 1.0f) : 0.0f;
+}
+
+Vec3f readColor(TextScanner& scanner) {
+  scanner.skipBlanks();
+  const float red = scanner.float32("a colour");
+  scanner.skipBlanks();
+  if (scanner.atLineEnd())
+    return {unit(red), unit(red), unit(red)};
+  const float green = scanner.float32("a colour");
+  scanner.skipBlanks();
+  return {unit(red), unit(green), unit(scanner.float32("a colour"))};
+}
+
+float readNumber(TextScanner& scanner) {
+  scanner.skipBlanks();
+  return scanner.float32("a number");
+}
+
+Vec3f linearOf(Vec3f color) {
+  const auto linear = [](float value) { return static_cast<float>(linearOfSrgb(value)); };
+  return {linear(color.x), linear(color.y), linear(color.z)};
+}
+
+} // namespace
+
+void ObjMaterials::readLibrary(const std::string& files) {
+  try {
+    readFile(files); // names may have blanks
+    return;
+  } catch (const Error& error) {
+    if (files.find(' ') == files.npos) {
+      missing_.push_back(fmt::format("Materials are left out: {}.", error.what()));
+      return;
+    }
+  }
+  for (std::size_t at = 0; at < files.size();) {
+    const std::size_t end = std::min(files.find(' ', at), files.size());
+    if (end > at)
+      readLibrary(files.substr(at, end - at));
+    at = end + 1;
+  }
+}
+
+void ObjMaterials::readFile(const std::string& file) {
+  std::string url = file;
+  std::ranges::replace(url, '\\', '/');
+  const Bytes bytes = references_.fetch(url);
+  Definition* definition = nullptr;
+  for (TextScanner scanner(bytes, file); !scanner.atEnd(); scanner.skipLine()) {
+    scanner.skipBlanks();
+    TextScanner line = scanner;
+    if (line.word() == "newmtl") {
+      line.skipBlanks();
+      definition = &definitions_[std::string(line.restOfLine())];
+    } else if (definition && !line.atLineEnd()) {
+      readLine(scanner, *definition);
+    }
+  }
+}
+
+void ObjMaterials::readLine(TextScanner& scanner, Definition& definition) {
+  static const std::map<std::string_view, TextureRole> maps{
+      {"map_Kd", TextureRole::color},     {"map_Ks", TextureRole::specular}, {"map_Ke", TextureRole::emissive},
+      {"map_Ns", TextureRole::shininess}, {"norm", TextureRole::normal},     {"map_Ka", TextureRole::ambient}};
+  const std::string keyword(scanner.word());
+  Material& material = definition.material;
+  if (keyword.empty() || keyword.front() == '#')
+    return;
+  if (keyword == "Kd")
+    material.diffuseColor = readColor(scanner);
+  else if (keyword == "Ks")
+    material.specularColor = readColor(scanner);
+  else if (keyword == "Ke")
+    material.emissiveColor = readColor(scanner);
+  else if (keyword == "Ns")
+    material.shininess = unit(readNumber(scanner) / 128);
+  else if (keyword == "d")
+    material.transparency = 1 - unit(readNumber(scanner));
+  else if (keyword == "Tr")
+    material.transparency = unit(readNumber(scanner));
+  else if (keyword == "Pm")
+    definition.metallic = unit(readNumber(scanner));
+  else if (keyword == "Pr")
+    definition.roughness = unit(readNumber(scanner));
+  else if (const auto map = maps.find(keyword); map != maps.end())
+    definition.maps.push_back(readMap(scanner, map->second));
+  else if (!passedOver.contains(keyword))
+    others_.insert(asPrintable(keyword));
+}
+
+/// "-s u v w -o u v w -clamp on file name.png": options, then the rest of the line.
+ObjMaterials::Map ObjMaterials::readMap(TextScanner& scanner, TextureRole role) {
+  Map map;
+  map.role = role;
+  const auto readPair = [&](Vec2f& pair) {
+    float* numbers[] = {&pair.x, &pair.y};
+    float depth = 0;
+    for (int i = 0; i < 3; ++i) {
+      scanner.skipBlanks();
+      TextScanner ahead = scanner;
+      const std::string_view word = ahead.word();
+      if (word.empty() || word.find_first_not_of("+-.0123456789eE") != word.npos)
+        return;
+      (i < 2 ? *numbers[i] : depth) = scanner.float32("a number");
+    }
+  };
+  for (scanner.skipBlanks();; scanner.skipBlanks()) {
+    TextScanner ahead = scanner;
+    const std::string_view option = ahead.word();
+    if (!option.starts_with('-'))
+      break;
+    scanner.word();
+    if (option == "-s") {
+      readPair(map.transform.scale);
+    } else if (option == "-o") {
+      readPair(map.transform.translation);
+    } else if (option == "-mm") {
+      Vec2f unused;
+      readPair(unused);
+    } else { // one word
+      scanner.skipBlanks();
+      const std::string_view value = scanner.word();
+      map.clamps |= option == "-clamp" && value == "on";
+    }
+  }
+  // MTL: u' = s (u) + o; X3D moves first.
+  if (map.transform.scale.x != 0 && map.transform.scale.y != 0)
+    map.transform.translation = {map.transform.translation.x / map.transform.scale.x,
+                                 map.transform.translation.y / map.transform.scale.y};
+  map.file = std::string(scanner.restOfLine());
+  return map;
+}
+
+std::optional<std::size_t> ObjMaterials::image(const std::string& file) {
+  const auto [found, isNew] = images_.try_emplace(file);
+  if (!isNew)
+    return found->second;
+  std::string url = file;
+  std::ranges::replace(url, '\\', '/');
+  try {
+    ImageFile image{url, references_.fetch(url)};
+    if (imageType(image.bytes).empty())
+      throw Error(ErrorKind::unsupported, url, "is an image of a kind that browsers do not show");
+    graph_.images.push_back(std::move(image));
+    found->second = graph_.images.size() - 1;
+  } catch (const Error& error) {
+    missing_.push_back(fmt::format("A texture is left out: {}.", error.what()));
+  }
+  return found->second;
+}
+
+Appearance ObjMaterials::appearanceOf(const std::string& name, const Definition& definition) {
+  Appearance appearance;
+  appearance.name = name;
+  appearance.material = definition.material;
+  if (definition.metallic || definition.roughness) {
+    PhysicalMaterial physical;
+    physical.baseColor = linearOf(definition.material.diffuseColor);
+    physical.emissiveColor = linearOf(definition.material.emissiveColor);
+    physical.transparency = definition.material.transparency;
+    physical.metallic = definition.metallic.value_or(0);
+    physical.roughness = definition.roughness.value_or(0.5f);
+    appearance.material = physical;
+  }
+  for (const Map& map : definition.maps) {
+    const auto hasRole = [&](const TextureUse& use) { return use.role == map.role; };
+    const std::optional<std::size_t> image = this->image(map.file);
+    if (!image || std::ranges::any_of(appearance.textures, hasRole))
+      continue;
+    Texture texture;
+    texture.image = *image;
+    texture.boundaryS = texture.boundaryT = map.clamps ? Boundary::clamp : Boundary::repeat;
+    graph_.textures.push_back(texture);
+    appearance.textures.push_back({map.role, graph_.textures.size() - 1, map.transform});
+  }
+  return appearance;
+}
+
+std::optional<std::size_t> ObjMaterials::appearance(const std::string& name) {
+  const auto [found, isNew] = appearances_.try_emplace(name);
+  if (!isNew)
+    return found->second;
+  const auto definition = definitions_.find(name);
+  if (definition == definitions_.end()) {
+    undefined_.insert(name);
+    return {};
+  }
+  graph_.appearances.push_back(appearanceOf(name, definition->second));
+  return found->second = graph_.appearances.size() - 1;
+}
+
+std::vector<std::string> ObjMaterials::losses() const {
+  std::vector<std::string> losses = missing_;
+  if (!undefined_.empty())
+    losses.push_back(fmt::format("{} named but not defined: {}.",
+                                 counted(undefined_.size(), "material is", "materials are"),
+                                 fmt::join(undefined_, ", ")));
+  return losses;
+}
+
+void ObjMaterials::addWarnings(std::vector<std::string>& warnings) const {
+  if (!others_.empty())
+    warnings.push_back(fmt::format("Statements of MTL files that imgeo does not read: {}.", fmt::join(others_, ", ")));
+}
+
+} // namespace imgeo

@@ -1,0 +1,320 @@
+// Wavefront OBJ ("Object Files", Advanced Visualizer manual, appendix B1):
+// polygons with texture coordinates and normals, and the vertex colours that
+// scanners append to their vertices.
+#include "import/obj/obj.h"
+#include "base/error.h"
+#include "import/mesh/add_shape.h"
+#include "import/mesh/triangulate.h"
+#include "import/mesh/unit_normal.h"
+#include "import/obj/materials.h"
+#include "import/obj/object.h"
+#include "import/source_name.h"
+#include "import/text/text_scanner.h"
+#include "import/warnings.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <map>
+#include <set>
+#include <span>
+#include <vector>
+
+namespace imgeo {
+
+namespace {
+
+/// Bounds corners and vertices to 32 bits: each takes at least two bytes.
+constexpr std::uint64_t kMaxObjBytes = std::uint64_t{8} << 30;
+constexpr std::size_t kMaxNamedKeywords = 8;
+
+class ObjReader {
+public:
+  ObjReader(ByteSpan bytes, const std::string& name, const References& references, bool isStrict)
+      : scanner_(bytes, name), fileName_(name), references_(references), isStrict_(isStrict) {}
+
+  Imported read() {
+    for (; !scanner_.atEnd(); scanner_.skipLine()) {
+      scanner_.skipBlanks();
+      readLine(scanner_.word());
+    }
+    std::erase_if(content_.objects,
+                  [](const ObjObject& object) { return object.triangles.empty() && object.lines.empty(); });
+    Imported imported;
+    imported.format = "OBJ";
+    if (content_.objects.empty())
+      addPoints(imported.scene);
+    else
+      addObjects(imported);
+    addWarnings(imported.warnings);
+    return imported;
+  }
+
+private:
+  void readLine(std::string_view keyword) {
+    if (keyword.empty() || keyword.front() == '#')
+      return;
+    if (keyword == "v")
+      readVertex();
+    else if (keyword == "vt")
+      readTexCoord();
+    else if (keyword == "vn")
+      readNormal();
+    else if (keyword == "f")
+      readFace();
+    else if (keyword == "o")
+      beginObject(std::string(scanner_.restOfLine()));
+    else if (keyword == "l")
+      readLineElement();
+    else if (keyword == "p")
+      ++points_;
+    else if (keyword == "usemtl")
+      useMaterial(std::string(scanner_.restOfLine()));
+    else if (keyword == "mtllib")
+      libraries_.emplace_back(scanner_.restOfLine());
+    else if (keyword != "g" && keyword != "s" && others_.size() < kMaxNamedKeywords)
+      others_.insert(asPrintable(keyword));
+  }
+
+  void beginObject(std::string name) {
+    const ObjObject& last = content_.objects.back();
+    content_.objects.push_back({std::move(name), last.material, last.number + 1, {}, {}});
+    current_ = content_.objects.size() - 1;
+    parts_ = {{content_.objects[current_].material, current_}};
+  }
+
+  /// An object's elements of one material are one part of it, wherever they stand.
+  void useMaterial(std::string name) {
+    if (content_.objects[current_].material == name)
+      return;
+    const auto [part, isNew] = parts_.try_emplace(name, content_.objects.size());
+    if (isNew) {
+      const ObjObject& object = content_.objects[current_];
+      content_.objects.push_back({object.name, std::move(name), object.number, {}, {}});
+    }
+    current_ = part->second;
+  }
+
+  /// The numbers up to the end of the line, at most as many as `out` has room for.
+  std::size_t readNumbers(std::span<float> out, std::size_t atLeast) {
+    std::size_t count = 0;
+    for (scanner_.skipBlanks(); count < out.size(); scanner_.skipBlanks()) {
+      if (count >= atLeast && scanner_.atLineEnd())
+        break;
+      out[count++] = scanner_.float32("a number");
+    }
+    return count;
+  }
+
+  void checkFinite(std::span<const float> values, const char* what) const {
+    if (!std::ranges::all_of(values, [](float value) { return std::isfinite(value); }))
+      scanner_.fail(ErrorKind::malformed, fmt::format("{} is not a number or beyond single precision", what));
+  }
+
+  /// "v x y z", "v x y z w" or "v x y z r g b"; an alpha behind b is left out.
+  void readVertex() {
+    std::array<float, 7> n{};
+    const std::size_t count = readNumbers(n, 3);
+    checkFinite(std::span(n).first(3), "a coordinate");
+    content_.positions.push_back({n[0], n[1], n[2]});
+    constexpr Rgba8 white{255, 255, 255, 255};
+    if (count >= 6) {
+      content_.colors.resize(content_.positions.size() - 1, white); // of vertices before that had none
+      content_.colors.push_back({channel(n[3]), channel(n[4]), channel(n[5]), 255});
+    } else if (!content_.colors.empty()) {
+      content_.colors.push_back(white);
+    }
+  }
+
+  std::uint8_t channel(float value) {
+    const float scaled = value * 255;
+    if (scaled >= 0 && scaled < 255.5f)
+      return static_cast<std::uint8_t>(std::lround(scaled));
+    ++colorsClamped_;
+    return scaled > 0 ? 255 : 0; // what is not a number becomes 0
+  }
+
+  void readTexCoord() {
+    std::array<float, 3> n{};
+    readNumbers(n, 1);
+    checkFinite(n, "a texture coordinate");
+    content_.texCoords.push_back({n[0], n[1]});
+  }
+
+  void readNormal() {
+    std::array<float, 3> n{};
+    readNumbers(n, 3);
+    content_.normals.push_back({n[0], n[1], n[2]});
+    unusableNormals_ += !makeUnit(content_.normals.back());
+  }
+
+  /// Counted from 1, or from the end where negative; only what stands before.
+  std::uint32_t readIndex(std::size_t count, const char* what) {
+    const std::int64_t number = scanner_.integer("an index");
+    const std::int64_t all = static_cast<std::int64_t>(count);
+    if (number == 0 || number > all || number < -all)
+      scanner_.fail(ErrorKind::malformed,
+                    fmt::format("{} {} is named, but {} stand before this line", what, number, count));
+    return static_cast<std::uint32_t>(number > 0 ? number - 1 : all + number);
+  }
+
+  /// "v", "v/vt", "v//vn" or "v/vt/vn".
+  ObjCorner readCorner() {
+    ObjCorner corner;
+    corner.position = readIndex(content_.positions.size(), "vertex");
+    if (scanner_.skipChar('/')) {
+      if (!scanner_.skipChar('/')) {
+        corner.texCoord = readIndex(content_.texCoords.size(), "texture coordinate");
+        if (scanner_.skipChar('/'))
+          corner.normal = readIndex(content_.normals.size(), "normal");
+      } else {
+        corner.normal = readIndex(content_.normals.size(), "normal");
+      }
+    }
+    if (!scanner_.atWordEnd())
+      scanner_.fail(ErrorKind::malformed, "a corner has the form v, v/vt, v//vn or v/vt/vn");
+    return corner;
+  }
+
+  /// The corners of a polygon or of a line of many, which are the rest of the statement.
+  void readCorners() {
+    polygon_.clear();
+    for (scanner_.skipBlanks(); !scanner_.atLineEnd(); scanner_.skipBlanks())
+      polygon_.push_back(readCorner());
+  }
+
+  void readLineElement() {
+    readCorners();
+    linesTooShort_ += polygon_.size() < 2;
+    for (std::size_t i = 1; i < polygon_.size(); ++i)
+      content_.objects[current_].lines.insert(content_.objects[current_].lines.end(), {polygon_[i - 1], polygon_[i]});
+  }
+
+  void readFace() {
+    readCorners();
+    std::vector<ObjCorner>& object = content_.objects[current_].triangles;
+    if (polygon_.size() < 3) {
+      ++facesTooSmall_;
+    } else if (polygon_.size() == 3) {
+      object.insert(object.end(), polygon_.begin(), polygon_.end());
+    } else {
+      ring_.clear(), local_.clear();
+      for (const ObjCorner& corner : polygon_)
+        ring_.push_back(content_.positions[corner.position]);
+      fans_ += !triangulate(ring_, local_);
+      for (const std::uint32_t place : local_)
+        object.push_back(polygon_[place]);
+    }
+  }
+
+  void addObjects(Imported& imported) {
+    ObjMaterials materials(imported.scene.graph, references_);
+    for (const std::string& library : libraries_)
+      materials.readLibrary(library);
+    ObjMeshBuilder builder(content_);
+    // Parts of one object stand one behind the other, but for those of materials that come back.
+    std::ranges::stable_sort(content_.objects, {}, &ObjObject::number);
+    for (auto first = content_.objects.begin(); first != content_.objects.end();) {
+      const auto last = std::find_if(first, content_.objects.end(),
+                                     [&](const ObjObject& object) { return object.number != first->number; });
+      addObject(std::span(first, last), builder, materials, imported.scene);
+      first = last;
+    }
+    if (builder.partlyNormals > 0)
+      imported.warnings.push_back(fmt::format("The normals of {} left out: some corners have none.",
+                                              counted(builder.partlyNormals, "object were", "objects were")));
+    addLosses(imported.warnings, materials.losses(), isStrict_, fileName_);
+    materials.addWarnings(imported.warnings);
+  }
+
+  /// An object of several materials is a group of as many shapes.
+  void addObject(std::span<const ObjObject> parts, ObjMeshBuilder& builder, ObjMaterials& materials, Scene& scene) {
+    std::vector<std::size_t> shapes;
+    for (const ObjObject& part : parts)
+      for (const Topology topology : {Topology::triangles, Topology::lines}) {
+        if ((topology == Topology::triangles ? part.triangles : part.lines).empty())
+          continue;
+        Mesh mesh = builder.build(part, topology);
+        if (mesh.name.empty())
+          mesh.name = stemOf(fileName_);
+        Shape shape;
+        shape.mesh = scene.meshes.size();
+        if (!part.material.empty())
+          shape.appearance = materials.appearance(part.material);
+        scene.meshes.push_back(std::move(mesh));
+        shapes.push_back(addNode(scene.graph, {parts.size() == 1 ? part.name : "", shape, {}, ""}));
+      }
+    if (parts.size() == 1)
+      std::ranges::copy(shapes, std::back_inserter(scene.graph.roots));
+    else
+      addRoot(scene.graph, {parts.front().name, Group{}, std::move(shapes), ""});
+  }
+
+  /// A file without faces and lines is a point cloud.
+  void addPoints(Scene& scene) {
+    Mesh mesh;
+    mesh.name = stemOf(fileName_);
+    mesh.topology = Topology::points;
+    for (std::uint32_t i = 0; i < content_.positions.size(); ++i)
+      mesh.corners.push_back(i);
+    mesh.wedgePositions = mesh.corners;
+    mesh.positions = std::move(content_.positions);
+    mesh.colors = std::move(content_.colors);
+    addShape(scene, std::move(mesh), "");
+  }
+
+  void addWarnings(std::vector<std::string>& warnings) const {
+    if (linesTooShort_ > 0)
+      warnings.push_back(
+          fmt::format("{} left out: fewer than two corners.", counted(linesTooShort_, "line was", "lines were")));
+    if (points_ > 0 && !content_.objects.empty())
+      warnings.push_back(fmt::format("Points of the OBJ file, which has faces or lines, are not carried over ({}).",
+                                     counted(points_, "statement", "statements")));
+    if (!others_.empty())
+      warnings.push_back(
+          fmt::format("Statements of the OBJ file that imgeo does not read: {}.", fmt::join(others_, ", ")));
+    warnOfColors(warnings, colorsClamped_);
+    warnOfNormals(warnings, unusableNormals_);
+    warnOfSmallFaces(warnings, facesTooSmall_);
+    warnOfFans(warnings, fans_);
+  }
+
+  TextScanner scanner_;
+  const std::string& fileName_;
+  ObjContent content_{{}, {}, {}, {}, {ObjObject{}}}; ///< before the first "o": an object without a name
+  std::vector<ObjCorner> polygon_;
+  std::vector<Vec3f> ring_;
+  std::vector<std::uint32_t> local_;
+  const References& references_;
+  bool isStrict_;
+  std::size_t current_ = 0;                           ///< the part that elements go to
+  std::map<std::string, std::size_t> parts_{{"", 0}}; ///< of the current object, by material
+  std::vector<std::string> libraries_;
+  std::size_t linesTooShort_ = 0, points_ = 0, facesTooSmall_ = 0, fans_ = 0, colorsClamped_ = 0, unusableNormals_ = 0;
+  std::set<std::string> others_; ///< some of the keywords that were passed over
+};
+
+} // namespace
+
+bool looksLikeObj(ByteSpan bytes) {
+  constexpr std::string_view keywords[] = {"v", "vt", "vn", "vp", "f", "o", "g", "s", "l", "p", "mtllib", "usemtl"};
+  const std::string name;
+  for (TextScanner scanner(bytes, name); !scanner.atEnd(); scanner.skipLine()) {
+    scanner.skipBlanks();
+    const std::string_view word = scanner.word();
+    if (!word.empty() && word.front() != '#')
+      return std::ranges::find(keywords, word) != std::end(keywords);
+  }
+  return false;
+}
+
+Imported readObj(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+  if (bytes.size() > kMaxObjBytes)
+    throw Error(ErrorKind::limit, name, "OBJ files are read up to 8 GiB; binary PLY has no such limit");
+  const References references(options, name);
+  return ObjReader(bytes, name, references, options.strict).read();
+}
+
+} // namespace imgeo

@@ -1,0 +1,253 @@
+#include "base/file.h"
+#include "base/testing.h"
+#include "import/testing.h"
+
+#include "scene/testing.h"
+
+#include <fmt/format.h>
+
+namespace imgeo::testing {
+namespace {
+
+const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+std::string numbers(const char* keyword, Vec3f p) {
+  return fmt::format("{} {} {} {}\n", keyword, p.x, p.y, p.z);
+}
+
+/// One vt and vn a wedge; faces name them by negative numbers where asked.
+std::string objText(const Mesh& mesh, bool fromTheEnd) {
+  std::string text;
+  for (const Vec3f& p : mesh.positions)
+    text += numbers("v", p);
+  for (const Vec2f& t : mesh.texCoords)
+    text += fmt::format("vt {} {}\n", t.x, t.y);
+  for (const Vec3f& n : mesh.normals)
+    text += numbers("vn", n);
+  const auto index = [&](std::size_t i, std::size_t count) {
+    return fromTheEnd ? static_cast<std::int64_t>(i) - static_cast<std::int64_t>(count)
+                      : static_cast<std::int64_t>(i) + 1;
+  };
+  for (std::size_t at = 0; at < mesh.corners.size(); ++at) {
+    const std::uint32_t wedge = mesh.corners[at];
+    text += at % 3 == 0 ? "f" : "";
+    text += fmt::format(" {}", index(mesh.wedgePositions[wedge], mesh.positions.size()));
+    if (!mesh.texCoords.empty())
+      text += fmt::format("/{}", index(wedge, mesh.texCoords.size()));
+    else if (!mesh.normals.empty())
+      text += "/";
+    if (!mesh.normals.empty())
+      text += fmt::format("/{}", index(wedge, mesh.normals.size()));
+    if (at % 3 == 2)
+      text += "\n";
+  }
+  return text;
+}
+
+TEST(Obj, KeepsWhatEachCornerIs) {
+  for (std::uint32_t seed = 0; seed < 80; ++seed) {
+    SCOPED_TRACE(seed);
+    const Mesh written = randomMesh(seed);
+    if (written.topology != Topology::triangles)
+      continue;
+    const Mesh read = onlyMesh(objText(written, seed % 2 == 1), "m.obj");
+    EXPECT_EQ(read.positions, written.positions);
+    EXPECT_EQ(read.normals.empty(), written.normals.empty());
+    EXPECT_EQ(read.texCoords.empty(), written.texCoords.empty());
+    ASSERT_EQ(read.corners.size(), written.corners.size());
+    for (std::size_t at = 0; at < read.corners.size(); ++at) {
+      const std::uint32_t r = read.corners[at], w = written.corners[at];
+      ASSERT_EQ(read.wedgePositions[r], written.wedgePositions[w]);
+      const auto normal = [](const Mesh& mesh, std::uint32_t wedge) {
+        return mesh.normals.empty() ? Vec3f{} : mesh.normals[wedge];
+      };
+      const auto texCoord = [](const Mesh& mesh, std::uint32_t wedge) {
+        return mesh.texCoords.empty() ? Vec2f{} : mesh.texCoords[wedge];
+      };
+      ASSERT_EQ(normal(read, r), normal(written, w));
+      ASSERT_EQ(texCoord(read, r), texCoord(written, w));
+    }
+  }
+}
+
+TEST(Obj, MakesAWedgeOfEachCombinationOnce) {
+  const Mesh mesh = onlyMesh(kSquare + "vt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/1 3/1 4/1\nf 1/2 3/1 4/1\n", "m.obj");
+  EXPECT_EQ(mesh.positions.size(), 4u);
+  EXPECT_EQ(mesh.wedgeCount(), 5u);
+}
+
+TEST(Obj, MakesAWedgeOfEachCombinationOnceWhereAPositionHasMany) {
+  std::string text = kSquare;
+  constexpr std::uint32_t count = 300;
+  for (std::uint32_t i = 1; i <= count; ++i)
+    text += fmt::format("vt {} 0\n", i);
+  for (int round = 0; round < 2; ++round)
+    for (std::uint32_t i = 1; i <= count; ++i)
+      text += fmt::format("f 1/{} 2/1 3/1\n", i);
+  const Mesh mesh = onlyMesh(text, "m.obj");
+  ASSERT_EQ(mesh.wedgeCount(), count + 2);
+  for (std::uint32_t face = 0; face < 2 * count; ++face) {
+    const std::uint32_t wedge = mesh.corners[3 * face];
+    EXPECT_EQ(mesh.wedgePositions[wedge], mesh.wedgePositions[mesh.corners[0]]);
+    EXPECT_EQ(mesh.texCoords[wedge].x, static_cast<float>(face % count + 1));
+  }
+}
+
+TEST(Obj, KeepsObjectsAsShapesWithNamesThatDiffer) {
+  const Imported imported = importBytes(
+      asBytes("v 9 9 9\n" + kSquare + "o a\nf 2 3 4\no empty\no a\nf 2 4 5\no b c \ng x\nf 2 3 5\ng y\nf 2 3 4\n"),
+      "m.obj");
+  ASSERT_EQ(shapeNodes(imported.scene.graph).size(), 3u);
+  EXPECT_EQ(testing::shapeName(imported.scene.graph, 0), "a");
+  EXPECT_EQ(testing::shapeName(imported.scene.graph, 1), "a-2");
+  EXPECT_EQ(testing::shapeName(imported.scene.graph, 2), "b c");
+  EXPECT_EQ(imported.scene.meshes[1].positions, (std::vector<Vec3f>{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(imported.scene.meshes[2].elementCount(), 2u);
+  for (const Mesh& mesh : imported.scene.meshes)
+    EXPECT_TRUE(isConsistent(mesh));
+}
+
+TEST(Obj, CutsPolygonsIntoTriangles) {
+  const Mesh mesh = onlyMesh("v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 1 2 \\\n 3 4 5\n", "m.obj");
+  EXPECT_EQ(mesh.elementCount(), 3u);
+}
+
+TEST(Obj, ReadsVertexColours) {
+  const Mesh mesh = onlyMesh("v 0 0 0\nv 1 0 0 1 0.5 0\nv 0 1 0 1\nf 1 2 3\n", "m.obj");
+  EXPECT_EQ(mesh.colors, (std::vector<Rgba8>{{255, 255, 255, 255}, {255, 128, 0, 255}, {255, 255, 255, 255}}));
+}
+
+TEST(Obj, HasLinesOfManyCornersAsAMeshOfLines) {
+  const Mesh mesh = onlyMesh("v 0 0 0\nv 1 0 0\nv 2 0 0\nvt 0 0\nvt 1 0\nl 3/1 1/2 -2/2\nl 1/1 2/2\n", "m.obj");
+  EXPECT_EQ(mesh.topology, Topology::lines);
+  EXPECT_EQ(mesh.elementCount(), 3u);
+  std::vector<float> x;
+  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner)
+    x.push_back(mesh.cornerPosition(corner).x);
+  EXPECT_EQ(x, (std::vector<float>{2, 0, 0, 1, 0, 1}));
+  EXPECT_EQ(mesh.wedgeCount(), 4u); // (3, 1), (1, 2), (2, 2), (1, 1)
+}
+
+TEST(Obj, HasAShapeOfLinesBesideThatOfTheFacesOfAnObject) {
+  const Imported imported =
+      importBytes(asBytes("o roof\n" + kSquare + "f 1 2 3 4\nl 4 3\no post\nv 9 9 9\nl 1 5\n"), "m.obj");
+  ASSERT_EQ(shapeNodes(imported.scene.graph).size(), 3u);
+  EXPECT_EQ(testing::shapeName(imported.scene.graph, 0), "roof");
+  EXPECT_EQ(testing::shapeName(imported.scene.graph, 1), "roof-2");
+  EXPECT_EQ(testing::shapeName(imported.scene.graph, 2), "post");
+  EXPECT_EQ(imported.scene.meshes[0].topology, Topology::triangles);
+  EXPECT_EQ(imported.scene.meshes[1].topology, Topology::lines);
+  EXPECT_EQ(imported.scene.meshes[1].positions, (std::vector<Vec3f>{{0, 1, 0}, {1, 1, 0}}));
+  EXPECT_TRUE(imported.warnings.empty());
+}
+
+TEST(Obj, WithoutFacesIsAPointCloud) {
+  const Mesh mesh = onlyMesh("v 0 0 0\nv 1 0 0\np 1\n", "m.obj");
+  EXPECT_EQ(mesh.topology, Topology::points);
+  EXPECT_EQ(mesh.elementCount(), 2u);
+}
+
+TEST(Obj, SaysWhatIsNotCarriedOver) {
+  const auto warningsOf = [](const std::string& text) { return importBytes(asBytes(text), "m.obj").warnings; };
+  EXPECT_TRUE(warningsOf("# a comment\n" + kSquare + "s 1\ng top\nf 1 2 3 4\n").empty());
+  EXPECT_EQ(warningsOf(kSquare + "mtllib a.mtl\nusemtl red\nl 1\np 1\np 2\nf 1 2\nf 1 2 3\nparm u 0\n"),
+            (std::vector<std::string>{
+                "Materials are left out: m.obj: refers to \"a.mtl\", which can only be found beside a file, not "
+                "beside standard input.",
+                "1 material is named but not defined: red.", "1 line was left out: fewer than two corners.",
+                "Points of the OBJ file, which has faces or lines, are not carried over (2 statements).",
+                "Statements of the OBJ file that imgeo does not read: parm.",
+                "1 face was left out: fewer than three corners."}));
+  EXPECT_EQ(warningsOf(kSquare + "vn 0 0 0\nf 1//1 2//1 3//1\n").at(0),
+            "1 normal was replaced by (0, 0, 1): without direction.");
+  EXPECT_EQ(warningsOf(kSquare + "vn 0 0 1\nf 1//1 2//1 3\n").at(0),
+            "The normals of 1 object were left out: some corners have none.");
+}
+
+TEST(Obj, WithoutItsMaterialsOrTexturesIsRefusedIfStrict) {
+  const TemporaryDirectory directory;
+  writeFile(directory / "lost.mtl", asBytes("newmtl red\nmap_Kd lost.png\n"));
+  ImportOptions strict;
+  strict.strict = true;
+  for (const std::string materials : {"mtllib none.mtl\n", "usemtl red\n", "mtllib lost.mtl\nusemtl red\n"}) {
+    writeFile(directory / "a.obj", asBytes(kSquare + materials + "f 1 2 3\n"));
+    EXPECT_FALSE(importFile(directory / "a.obj").warnings.empty()) << materials;
+    EXPECT_THROW(importFile(directory / "a.obj", strict), Error) << materials;
+  }
+}
+
+TEST(Obj, TakesMaterialsAndTexturesFromTheFilesThatItNames) {
+  const TemporaryDirectory directory;
+  writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));
+  writeFile(directory / "my house.mtl", asBytes("newmtl red brick\nKd 1 0 0\nNs 64\nd 0.75\n"
+                                                "newmtl oak\nKd 1 1 1\nmap_Kd -s 2 4 -o 1 0 -clamp on wood.png\n"
+                                                "map_Bump bumps.png\n"
+                                                "newmtl gold\nKd 1 1 0\nPm 1\nPr 0.25\nmap_Kd lost.png\n"));
+  writeFile(directory / "a.obj", asBytes("mtllib my house.mtl\n" + kSquare +
+                                         "o wall\nusemtl red brick\nf 1 2 3\nusemtl oak\nf 1 3 4\nusemtl red brick\n"
+                                         "f 2 3 4\no ring\nusemtl gold\nf 1 2 4\n"));
+  const Imported imported = importFile(directory / "a.obj");
+  const SceneGraph& graph = imported.scene.graph;
+  ASSERT_EQ(shapeNodes(graph).size(), 3u);
+  EXPECT_EQ(graph.nodes[graph.roots.at(0)].name, "wall");
+  EXPECT_EQ(graph.nodes[graph.roots.at(0)].children.size(), 2u);
+  EXPECT_EQ(shapeName(graph, 2), "ring");
+  EXPECT_EQ(imported.scene.meshes[0].elementCount(), 2u);
+
+  const Material brick = std::get<Material>(appearanceOf(graph, 0).material);
+  EXPECT_EQ(appearanceOf(graph, 0).name, "red brick");
+  EXPECT_EQ(brick.diffuseColor, (Vec3f{1, 0, 0}));
+  EXPECT_EQ(brick.shininess, 0.5f);
+  EXPECT_EQ(brick.transparency, 0.25f);
+  const TextureUse wood = appearanceOf(graph, 1).textures.at(0);
+  EXPECT_EQ(wood.transform.scale, (Vec2f{2, 4}));
+  EXPECT_EQ(wood.transform.translation, (Vec2f{0.5f, 0}));
+  EXPECT_EQ(graph.textures[wood.texture].boundaryS, Boundary::clamp);
+  EXPECT_EQ(graph.images[graph.textures[wood.texture].image].url, "wood.png");
+  EXPECT_EQ(std::get<PhysicalMaterial>(appearanceOf(graph, 2).material).metallic, 1);
+  EXPECT_TRUE(appearanceOf(graph, 2).textures.empty());
+  ASSERT_EQ(imported.warnings.size(), 2u);
+  EXPECT_NE(imported.warnings[0].find("lost.png"), std::string::npos);
+  EXPECT_NE(imported.warnings[1].find("map_Bump"), std::string::npos);
+}
+
+TEST(Obj, RefusesWithOneSentenceAndALine) {
+  struct {
+    std::string text, location, words;
+  } const cases[] = {
+      {"v 0 0\nv 1 0 0\n", "m.obj:1", "the line ends"},
+      {"v 0 0 nan\n", "m.obj:1", "coordinate"},
+      {"v 0 0 1e40\n", "m.obj:1", "coordinate"},
+      {kSquare + "vt inf\nf 1 2 3\n", "m.obj:5", "texture coordinate"},
+      {kSquare + "f 1 2 5\n", "m.obj:5", "vertex 5 is named, but 4 stand before this line"},
+      {kSquare + "f 1 2 -5\n", "m.obj:5", "vertex -5"},
+      {kSquare + "f 1 2 0\n", "m.obj:5", "vertex 0"},
+      {kSquare + "f 1/1 2 3\n", "m.obj:5", "texture coordinate 1"},
+      {kSquare + "f 1//1 2 3\n", "m.obj:5", "normal 1"},
+      {kSquare + "f 1/ 2 3\n", "m.obj:5", "an index expected"},
+      {kSquare + "f 1 2 3.5\n", "m.obj:5", "a corner has the form"},
+      {kSquare + "f 1 2 99999999999999999999\n", "m.obj:5", "an index expected"},
+      {"g nothing\n", "m.obj", "no triangles, lines or points"},
+  };
+  for (const auto& refused : cases) {
+    const Error error = errorOf(refused.text, "m.obj");
+    EXPECT_EQ(error.kind(), ErrorKind::malformed) << refused.text;
+    EXPECT_EQ(error.location(), refused.location) << refused.text;
+    EXPECT_NE(error.message().find(refused.words), std::string::npos) << error.message();
+  }
+}
+
+TEST(Obj, EveryPrefixIsReadOrRefused) {
+  const std::string whole = objText(torus(3, 3), true);
+  for (std::size_t size = 0; size <= whole.size(); ++size) {
+    try {
+      for (const Mesh& mesh : importBytes(asBytes(whole).first(size), "m.obj").scene.meshes)
+        EXPECT_TRUE(isConsistent(mesh));
+    } catch (const Error& error) {
+      EXPECT_FALSE(error.message().empty());
+    }
+  }
+}
+
+} // namespace
+} // namespace imgeo::testing

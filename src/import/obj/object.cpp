@@ -1,0 +1,88 @@
+#include "import/obj/object.h"
+
+#include <algorithm>
+
+namespace imgeo {
+
+namespace {
+constexpr std::uint32_t kNone = ObjCorner::kNone;
+}
+
+ObjMeshBuilder::ObjMeshBuilder(const ObjContent& content)
+    : content_(content), localPosition_(content.positions.size(), kNone) {
+  std::size_t meshes = 0;
+  for (const ObjObject& object : content.objects)
+    meshes += !object.triangles.empty() + !object.lines.empty();
+  isOnlyMesh_ = meshes == 1;
+}
+
+Mesh ObjMeshBuilder::build(const ObjObject& object, Topology topology) {
+  const std::vector<ObjCorner>& corners = topology == Topology::lines ? object.lines : object.triangles;
+  Mesh mesh;
+  mesh.name = object.name;
+  mesh.topology = topology;
+  hasTexCoords_ = std::ranges::any_of(corners, [](const ObjCorner& c) { return c.texCoord != kNone; });
+  const auto normals = std::ranges::count_if(corners, [](const ObjCorner& c) { return c.normal != kNone; });
+  hasNormals_ = static_cast<std::size_t>(normals) == corners.size();
+  partlyNormals += normals > 0 && !hasNormals_;
+  firstWedge_.clear(), nextWedge_.clear(), wedgeKeys_.clear(), crowded_.clear();
+
+  if (isOnlyMesh_)
+    addAllPositions(mesh);
+  mesh.corners.reserve(corners.size());
+  for (const ObjCorner& corner : corners)
+    mesh.corners.push_back(wedge(mesh, corner));
+  for (const ObjCorner& corner : corners)
+    localPosition_[corner.position] = kNone;
+  return mesh;
+}
+
+/// Also the wedges, where they are nothing but positions.
+void ObjMeshBuilder::addAllPositions(Mesh& mesh) {
+  mesh.positions = content_.positions;
+  firstWedge_.assign(mesh.positions.size(), kNone);
+  for (std::uint32_t i = 0; i < localPosition_.size(); ++i)
+    localPosition_[i] = i;
+  if (hasTexCoords_ || hasNormals_)
+    return;
+  for (std::uint32_t i = 0; i < localPosition_.size(); ++i)
+    wedge(mesh, {i, kNone, kNone});
+}
+
+std::uint32_t ObjMeshBuilder::wedge(Mesh& mesh, const ObjCorner& corner) {
+  std::uint32_t& local = localPosition_[corner.position];
+  if (local == kNone) {
+    local = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.push_back(content_.positions[corner.position]);
+    firstWedge_.push_back(kNone);
+  }
+  const std::uint32_t texCoord = hasTexCoords_ ? corner.texCoord : kNone;
+  const std::uint32_t normal = hasNormals_ ? corner.normal : kNone;
+  std::uint32_t length = 0;
+  for (std::uint32_t w = firstWedge_[local]; w != kNone; w = nextWedge_[w], ++length)
+    if (wedgeKeys_[w].texCoord == texCoord && wedgeKeys_[w].normal == normal)
+      return w;
+
+  const auto added = static_cast<std::uint32_t>(mesh.wedgeCount());
+  constexpr std::uint32_t longestList = 32;
+  const bool isListed = length < longestList;
+  if (!isListed) {
+    const auto [found, isNew] = crowded_.try_emplace({local, texCoord, normal}, added);
+    if (!isNew)
+      return found->second;
+  }
+  mesh.wedgePositions.push_back(local);
+  nextWedge_.push_back(firstWedge_[local]);
+  if (isListed)
+    firstWedge_[local] = added;
+  wedgeKeys_.push_back({local, texCoord, normal});
+  if (hasTexCoords_)
+    mesh.texCoords.push_back(texCoord == kNone ? Vec2f{} : content_.texCoords[texCoord]);
+  if (hasNormals_)
+    mesh.normals.push_back(content_.normals[normal]);
+  if (!content_.colors.empty())
+    mesh.colors.push_back(content_.colors[corner.position]);
+  return added;
+}
+
+} // namespace imgeo

@@ -1,0 +1,160 @@
+#include "import/ply/content.h"
+
+#include "import/ply/faces.h"
+#include "import/ply/lines.h"
+#include "import/ply/records.h"
+#include "import/ply/vertices.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace imgeo {
+
+namespace {
+
+template <typename Cursor>
+void readVertices(PlyRecords<Cursor>& records, const PlyElement& element, const AttributeChoice& kept,
+                  PlyContent& content) {
+  PlyVertexReader reader(element, kept, content);
+  if (!reader.hasPosition())
+    records.fail(ErrorKind::malformed, "the vertices have no x, y and z");
+  reader.read(records);
+}
+
+template <typename Cursor>
+void skipElement(PlyRecords<Cursor>& records, const PlyElement& element, PlyContent& content) {
+  if (element.count > 0)
+    content.ignored.push_back(fmt::format("element '{}'", asPrintable(element.name)));
+  records.forEach(element, [&] {
+    for (const PlyProperty& property : element.properties)
+      records.skip(property);
+  });
+}
+
+/// Two vertices each, as Blender, MeshLab and Open3D write them.
+bool isEdge(const PlyElement& element) {
+  const auto isIndex = [&](const char* name) {
+    const PlyProperty* property = element.find(name);
+    return property && !property->isList() && isInteger(property->type);
+  };
+  return element.name == "edge" && isIndex("vertex1") && isIndex("vertex2");
+}
+
+template <typename Cursor>
+void readEdges(PlyRecords<Cursor>& records, const PlyElement& element, std::uint64_t vertexCount, PlyContent& content) {
+  records.checkCount(element);
+  content.edges.reserve(2 * element.count);
+  for (const PlyProperty& property : element.properties)
+    if (property.name != "vertex1" && property.name != "vertex2")
+      content.noteIgnored(element, property);
+  records.forEach(element, [&] {
+    std::array<std::uint32_t, 2> edge{};
+    for (const PlyProperty& property : element.properties)
+      if (property.name == "vertex1" || property.name == "vertex2")
+        edge[property.name == "vertex2"] = records.vertexNumber(property.type, vertexCount);
+      else
+        records.skip(property);
+    content.edges.insert(content.edges.end(), edge.begin(), edge.end());
+  });
+}
+
+template <typename Cursor>
+void readElement(PlyRecords<Cursor>& records, const PlyElement& element, std::uint64_t vertexCount,
+                 const AttributeChoice& kept, PlyContent& content) {
+  if (element.name == "vertex")
+    readVertices(records, element, kept, content);
+  else if (element.name == "face")
+    PlyFaceReader<Cursor>(records, content, vertexCount).readFaces(element);
+  else if (element.name == "tristrips")
+    PlyFaceReader<Cursor>(records, content, vertexCount).readStrips(element);
+  else if (isEdge(element))
+    readEdges(records, element, vertexCount, content);
+  else
+    skipElement(records, element, content);
+}
+
+template <typename Cursor>
+PlyContent readContent(ByteSpan bytes, const PlyHeader& header, const std::string& name, const AttributeChoice& kept) {
+  PlyContent content;
+  PlyRecords<Cursor> records(Cursor(bytes, name, header.bodyOffset));
+  [[maybe_unused]] PlyLineReader lines(bytes, name);
+  const PlyElement* vertices = header.find("vertex");
+  if (!vertices)
+    records.fail(ErrorKind::malformed, "the header has no element 'vertex'");
+  if (vertices->count > std::numeric_limits<std::uint32_t>::max())
+    records.fail(ErrorKind::limit, fmt::format("{} vertices are more than 32-bit indices can name", vertices->count));
+
+  for (const PlyElement& element : header.elements) {
+    if constexpr (std::is_same_v<Cursor, AsciiPlyCursor>)
+      if (lines.read(records.cursor(), element, content,
+                     [&](AsciiPlyRecords& of, const PlyElement& part, PlyContent& into) {
+                       readElement(of, part, vertices->count, kept, into);
+                     }))
+        continue;
+    readElement(records, element, vertices->count, kept, content);
+  }
+  if (!content.cornerTexCoords.empty())
+    content.cornerTexCoords.resize(content.indices.size());
+  content.trailingBytes = records.trailingBytes();
+  return content;
+}
+
+} // namespace
+
+void PlyContent::noteIgnored(const PlyElement& element, const PlyProperty& property) {
+  if (element.count > 0)
+    ignored.push_back(fmt::format("'{}' of '{}'", asPrintable(property.name), element.name));
+}
+
+void PlyContent::append(std::vector<PlyContent>& parts) {
+  // The same in all parts.
+  ignored.insert(ignored.end(), parts[0].ignored.begin(), parts[0].ignored.end());
+  namedAttributes.insert(namedAttributes.end(), parts[0].namedAttributes.begin(), parts[0].namedAttributes.end());
+  const auto reserve = [&](auto member) {
+    std::size_t count = (this->*member).size();
+    for (const PlyContent& part : parts)
+      count += (part.*member).size();
+    (this->*member).reserve(count);
+  };
+  reserve(&PlyContent::positions);
+  reserve(&PlyContent::indices);
+  for (PlyContent& part : parts) {
+    append(part);
+    part = {};
+  }
+}
+
+void PlyContent::append(const PlyContent& part) {
+  const auto add = [](auto& values, const auto& more) { values.insert(values.end(), more.begin(), more.end()); };
+  imgeo::append(attributes, positions.size(), part.attributes, part.positions.size());
+  add(positions, part.positions);
+  if (!part.sizes.empty() && sizes.empty())
+    sizes.assign(indices.size() / 3, 3);
+  else if (part.sizes.empty() && !sizes.empty())
+    sizes.insert(sizes.end(), part.indices.size() / 3, 3);
+  add(sizes, part.sizes);
+  if (!part.cornerTexCoords.empty())
+    cornerTexCoords.resize(indices.size());
+  add(cornerTexCoords, part.cornerTexCoords);
+  add(indices, part.indices);
+  add(edges, part.edges);
+  facesTooSmall += part.facesTooSmall;
+  colorsClamped += part.colorsClamped;
+  largestRounding = std::max(largestRounding, part.largestRounding);
+}
+
+PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name,
+                          const AttributeChoice& kept) {
+  switch (header.encoding) {
+  case PlyEncoding::ascii:
+    return readContent<AsciiPlyCursor>(bytes, header, name, kept);
+  case PlyEncoding::littleEndian:
+    return readContent<BinaryPlyCursor<std::endian::little>>(bytes, header, name, kept);
+  case PlyEncoding::bigEndian:
+    break;
+  }
+  return readContent<BinaryPlyCursor<std::endian::big>>(bytes, header, name, kept);
+}
+
+} // namespace imgeo

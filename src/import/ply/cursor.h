@@ -1,0 +1,139 @@
+#pragma once
+// Two cursors over the body of a PLY file with the same functions, so that one
+// reader serves text and both byte orders. Values travel as double, which holds
+// every PLY type exactly. Both are safe for untrusted bytes.
+
+#include "import/ply/header.h"
+#include "import/source_name.h"
+#include "import/text/text_scanner.h"
+
+#include <fmt/format.h>
+#include <span>
+
+namespace imgeo {
+
+/// Which record a cursor is in, for messages.
+struct PlyRecord {
+  const PlyElement* element = nullptr;
+  std::uint64_t number = 0;
+
+  std::string name() const { return fmt::format("{} {} of {}", element->name, number + 1, element->count); }
+};
+
+/// Every record begins on a line of its own and may run over several; what is
+/// left on its last line is an error, so that a missing value is found near its
+/// place and does not shift all that follows.
+class AsciiPlyCursor {
+public:
+  AsciiPlyCursor(ByteSpan bytes, const std::string& name, std::size_t from) : scanner_(bytes, name, from) {}
+
+  /// In bytes: a digit and what separates it.
+  static std::size_t smallestSize(PlyType) { return 2; }
+  /// The last value of a file needs nothing behind it.
+  static constexpr std::size_t kSparedAtEnd = 1;
+  std::size_t bytesLeft() const { return scanner_.bytesLeft(); }
+  /// Between records: the byte at which the line of the next one begins.
+  std::size_t beginOfLine() const {
+    return scanner_.byteOffset() + (scanner_.atEnd() || !scanner_.atLineEnd() ? 0 : 1);
+  }
+  void goTo(std::size_t byteOffset) { scanner_.goTo(byteOffset); }
+
+  void beginRecord(const PlyRecord& record) { record_ = record; }
+  void endRecord() {
+    scanner_.skipBlanks();
+    if (!scanner_.atLineEnd())
+      fail(ErrorKind::malformed, "this line ends " + record_.name() + " and yet goes on");
+  }
+  double scalar(PlyType type) {
+    scanner_.skipSpace();
+    if (scanner_.atEnd())
+      fail(ErrorKind::truncated, "the file ends within " + record_.name());
+    if (type == PlyType::float32)
+      return scanner_.float32("a number");
+    if (type == PlyType::float64)
+      return scanner_.float64("a number");
+    return static_cast<double>(scanner_.integerWord("an integer"));
+  }
+  void values(PlyType type, std::span<double> out) {
+    for (double& value : out)
+      value = scalar(type);
+  }
+  void skip(PlyType type, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+      scalar(type);
+  }
+  std::size_t trailingBytes() {
+    scanner_.skipSpace();
+    return scanner_.bytesLeft();
+  }
+  [[noreturn]] void fail(ErrorKind kind, const std::string& message) const { scanner_.fail(kind, message); }
+
+private:
+  TextScanner scanner_;
+  PlyRecord record_;
+};
+
+template <std::endian order> class BinaryPlyCursor {
+public:
+  BinaryPlyCursor(ByteSpan bytes, const std::string& name, std::size_t from) : bytes_(bytes), at_(from), name_(name) {}
+
+  static std::size_t smallestSize(PlyType type) { return byteSizeOf(type); }
+  static constexpr std::size_t kSparedAtEnd = 0;
+  std::size_t bytesLeft() const { return bytes_.size() - at_; }
+
+  void beginRecord(const PlyRecord& record) { record_ = record; }
+  void endRecord() {}
+
+  double scalar(PlyType type) {
+    double value = 0;
+    values(type, {&value, 1});
+    return value;
+  }
+  void values(PlyType type, std::span<double> out) {
+    switch (type) {
+    case PlyType::int8:
+      return read<std::int8_t>(out);
+    case PlyType::uint8:
+      return read<std::uint8_t>(out);
+    case PlyType::int16:
+      return read<std::int16_t>(out);
+    case PlyType::uint16:
+      return read<std::uint16_t>(out);
+    case PlyType::int32:
+      return read<std::int32_t>(out);
+    case PlyType::uint32:
+      return read<std::uint32_t>(out);
+    case PlyType::float32:
+      return read<float>(out);
+    case PlyType::float64:
+      return read<double>(out);
+    }
+  }
+  void skip(PlyType type, std::size_t count) {
+    if (count > bytesLeft() / byteSizeOf(type))
+      failTruncated();
+    at_ += count * byteSizeOf(type);
+  }
+  std::size_t trailingBytes() const { return bytesLeft(); }
+  [[noreturn]] void fail(ErrorKind kind, const std::string& message) const {
+    throw Error(kind, byteLocation(name_, at_), message);
+  }
+
+private:
+  template <typename T> void read(std::span<double> out) {
+    if (out.size() > bytesLeft() / sizeof(T))
+      failTruncated();
+    const std::uint8_t* from = bytes_.data() + at_;
+    for (std::size_t i = 0; i < out.size(); ++i, from += sizeof(T))
+      out[i] = static_cast<double>(order == std::endian::little ? loadLittle<T>(from) : loadBig<T>(from));
+    at_ += out.size() * sizeof(T);
+  }
+  [[noreturn]] void failTruncated() const { fail(ErrorKind::truncated, "the file ends within " + record_.name()); }
+
+  ByteSpan bytes_;
+  std::size_t at_;
+  const std::string& name_;
+  PlyRecord record_;
+};
+
+} // namespace imgeo

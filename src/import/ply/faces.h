@@ -1,0 +1,146 @@
+#pragma once
+// The elements of a PLY file that hold polygons: `face` and `tristrips`.
+
+#include "import/ply/content.h"
+#include "import/ply/records.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+namespace imgeo {
+
+template <typename Cursor> class PlyFaceReader {
+public:
+  /// Indices must be below `vertexCount`, at most 2^32.
+  PlyFaceReader(PlyRecords<Cursor>& records, PlyContent& content, std::uint64_t vertexCount)
+      : records_(records), content_(content), vertexCount_(vertexCount) {}
+
+  void readFaces(const PlyElement& element) {
+    const PlyType indexType = checkProperties(element, true);
+    content_.indices.reserve(content_.indices.size() +
+                             std::min<std::uint64_t>(3 * element.count, records_.valuesLeft(indexType)));
+    std::vector<Vec2f> texCoords;
+    records_.forEach(element, [&] {
+      std::size_t corners = 0;
+      bool hasTexCoords = false;
+      for (const PlyProperty& property : element.properties) {
+        if (isIndexList(property)) {
+          corners = addPolygon(records_.list(property));
+        } else if (isTexCoordList(property)) {
+          texCoords = readTexCoords(property);
+          hasTexCoords = true;
+        } else {
+          records_.skip(property);
+        }
+      }
+      if (hasTexCoords && corners > 0)
+        addTexCoords(texCoords, corners);
+    });
+  }
+
+  void readStrips(const PlyElement& element) {
+    checkProperties(element, false);
+    records_.forEach(element, [&] {
+      for (const PlyProperty& property : element.properties)
+        if (isIndexList(property))
+          addStrips(records_.list(property));
+        else
+          records_.skip(property);
+    });
+  }
+
+private:
+  static bool isIndexList(const PlyProperty& property) {
+    return property.isList() && (property.name == "vertex_indices" || property.name == "vertex_index");
+  }
+  static bool isTexCoordList(const PlyProperty& property) { return property.isList() && property.name == "texcoord"; }
+
+  /// Finds the one list of indices and returns its type; notes what is not read.
+  PlyType checkProperties(const PlyElement& element, bool texCoordsAreRead) {
+    records_.checkCount(element);
+    const PlyProperty* indices = nullptr;
+    for (const PlyProperty& property : element.properties) {
+      if (isIndexList(property)) {
+        if (indices)
+          records_.fail(ErrorKind::malformed, fmt::format("'{}' has two lists of vertices", element.name));
+        indices = &property;
+      } else if (!texCoordsAreRead || !isTexCoordList(property)) {
+        content_.noteIgnored(element, property);
+      }
+    }
+    if (!indices)
+      records_.fail(ErrorKind::malformed, fmt::format("'{}' has no list 'vertex_indices'", element.name));
+    if (!isInteger(indices->type))
+      records_.fail(ErrorKind::malformed, "vertex_indices are of a type that has fractions");
+    return indices->type;
+  }
+
+  void checkIndex(double index) const { records_.checkVertexNumber(index, vertexCount_); }
+
+  /// The corners added: none for what is no polygon.
+  std::size_t addPolygon(std::span<const double> polygon) {
+    for (const double index : polygon)
+      checkIndex(index);
+    if (polygon.size() < 3) {
+      ++content_.facesTooSmall;
+      return 0;
+    }
+    if (polygon.size() != 3 && content_.sizes.empty())
+      content_.sizes.assign(content_.indices.size() / 3, 3);
+    for (const double index : polygon)
+      content_.indices.push_back(static_cast<std::uint32_t>(index));
+    if (polygon.size() != 3 || !content_.sizes.empty())
+      content_.sizes.push_back(static_cast<std::uint32_t>(polygon.size()));
+    return polygon.size();
+  }
+
+  std::vector<Vec2f> readTexCoords(const PlyProperty& property) {
+    const std::span<const double> numbers = records_.list(property);
+    std::vector<Vec2f> texCoords;
+    for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) {
+      const Vec2f texCoord{static_cast<float>(numbers[i]), static_cast<float>(numbers[i + 1])};
+      if (!std::isfinite(texCoord.x) || !std::isfinite(texCoord.y))
+        records_.fail(ErrorKind::malformed, "a texture coordinate is not a number");
+      texCoords.push_back(texCoord);
+    }
+    return texCoords;
+  }
+
+  /// (0, 0) for faces that come without, before this one and here.
+  void addTexCoords(const std::vector<Vec2f>& texCoords, std::size_t corners) {
+    if (!texCoords.empty() && texCoords.size() != corners)
+      records_.fail(ErrorKind::malformed,
+                    fmt::format("a face of {} corners has {} texture coordinates", corners, texCoords.size()));
+    std::vector<Vec2f>& all = content_.cornerTexCoords;
+    all.resize(content_.indices.size());
+    std::ranges::copy(texCoords, all.end() - static_cast<std::ptrdiff_t>(corners));
+  }
+
+  /// Strips, one after the other, each ended by -1; every second triangle of a
+  /// strip turns the other way. Triangles with two equal corners only join.
+  void addStrips(std::span<const double> indices) {
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      if (indices[i] == -1) {
+        begin = i + 1;
+        continue;
+      }
+      checkIndex(indices[i]);
+      if (i < begin + 2)
+        continue;
+      const bool isOdd = (i - begin) % 2 == 1;
+      const std::array<double, 3> triangle{indices[i - (isOdd ? 1 : 2)], indices[i - (isOdd ? 2 : 1)], indices[i]};
+      if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[0] != triangle[2])
+        addPolygon(triangle);
+    }
+  }
+
+  PlyRecords<Cursor>& records_;
+  PlyContent& content_;
+  std::uint64_t vertexCount_;
+};
+
+} // namespace imgeo

@@ -1,0 +1,153 @@
+#include "import/ply/header.h"
+
+#include "import/text/text_scanner.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+namespace imgeo {
+
+namespace {
+
+struct TypeName {
+  const char *name, *sizedName;
+  PlyType type;
+  std::size_t bytes;
+};
+
+constexpr std::array<TypeName, 8> kTypes{{{"char", "int8", PlyType::int8, 1},
+                                          {"uchar", "uint8", PlyType::uint8, 1},
+                                          {"short", "int16", PlyType::int16, 2},
+                                          {"ushort", "uint16", PlyType::uint16, 2},
+                                          {"int", "int32", PlyType::int32, 4},
+                                          {"uint", "uint32", PlyType::uint32, 4},
+                                          {"float", "float32", PlyType::float32, 4},
+                                          {"double", "float64", PlyType::float64, 8}}};
+
+std::string nextWord(TextScanner& line) {
+  line.skipBlanks();
+  return std::string(line.word());
+}
+
+PlyType typeNamed(const std::string& word, const TextScanner& line) {
+  for (const TypeName& type : kTypes)
+    if (word == type.name || word == type.sizedName)
+      return type.type;
+  line.fail(ErrorKind::malformed, fmt::format("the header names an unknown type '{}'", asPrintable(word)));
+}
+
+PlyProperty readProperty(TextScanner& line) {
+  PlyProperty property;
+  std::string word = nextWord(line);
+  if (word == "list") {
+    property.countType = typeNamed(nextWord(line), line);
+    if (!isInteger(*property.countType))
+      line.fail(ErrorKind::malformed, "the header counts a list with a type that has fractions");
+    word = nextWord(line);
+  }
+  property.type = typeNamed(word, line);
+  property.name = nextWord(line);
+  if (property.name.empty())
+    line.fail(ErrorKind::malformed, "the header has a property without a name");
+  return property;
+}
+
+PlyElement readElement(TextScanner& line) {
+  PlyElement element;
+  element.name = nextWord(line);
+  line.skipBlanks();
+  const std::int64_t count = line.integerWord("a number of elements");
+  if (element.name.empty() || count < 0)
+    line.fail(ErrorKind::malformed, "the header has an element without a name or with a negative count");
+  element.count = static_cast<std::uint64_t>(count);
+  return element;
+}
+
+PlyEncoding readEncoding(TextScanner& line) {
+  const std::string word = nextWord(line), version = nextWord(line);
+  if (version != "1.0")
+    line.fail(ErrorKind::unsupported, fmt::format("this is PLY version '{}'; imgeo reads 1.0", asPrintable(version)));
+  if (word == "ascii")
+    return PlyEncoding::ascii;
+  if (word == "binary_little_endian")
+    return PlyEncoding::littleEndian;
+  if (word == "binary_big_endian")
+    return PlyEncoding::bigEndian;
+  line.fail(ErrorKind::unsupported, fmt::format("the header names an unknown encoding '{}'", asPrintable(word)));
+}
+
+void addElement(PlyHeader& header, TextScanner& line) {
+  PlyElement element = readElement(line);
+  if (header.find(element.name))
+    line.fail(ErrorKind::malformed, fmt::format("the header has two elements '{}'", asPrintable(element.name)));
+  header.elements.push_back(std::move(element));
+}
+
+void addProperty(PlyHeader& header, TextScanner& line) {
+  PlyProperty property = readProperty(line);
+  if (header.elements.empty())
+    line.fail(ErrorKind::malformed, "the header has a property before any element");
+  PlyElement& element = header.elements.back();
+  if (element.find(property.name))
+    line.fail(ErrorKind::malformed,
+              fmt::format("the header gives '{}' two properties '{}'", element.name, property.name));
+  element.properties.push_back(std::move(property));
+}
+
+} // namespace
+
+std::size_t byteSizeOf(PlyType type) {
+  return kTypes[static_cast<std::size_t>(type)].bytes;
+}
+
+const PlyProperty* PlyElement::find(std::string_view property) const {
+  const auto found = std::ranges::find(properties, property, &PlyProperty::name);
+  return found == properties.end() ? nullptr : &*found;
+}
+
+const PlyElement* PlyHeader::find(std::string_view element) const {
+  const auto found = std::ranges::find(elements, element, &PlyElement::name);
+  return found == elements.end() ? nullptr : &*found;
+}
+
+PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name) {
+  TextScanner scanner(bytes, name);
+  if (nextWord(scanner) != "ply")
+    scanner.fail(ErrorKind::malformed, "a PLY file begins with the line 'ply'");
+  scanner.skipLine();
+
+  PlyHeader header;
+  bool hasEncoding = false;
+  for (;;) {
+    const std::string keyword = nextWord(scanner);
+    if (keyword == "comment" || keyword == "obj_info" || (keyword.empty() && !scanner.atEnd())) {
+      scanner.skipLine();
+      continue;
+    }
+    if (keyword == "format") {
+      header.encoding = readEncoding(scanner);
+      hasEncoding = true;
+    } else if (keyword == "element") {
+      addElement(header, scanner);
+    } else if (keyword == "property") {
+      addProperty(header, scanner);
+    } else if (keyword != "end_header" && !scanner.atEnd()) {
+      scanner.fail(ErrorKind::malformed, fmt::format("'{}' is no keyword of a PLY header", asPrintable(keyword)));
+    }
+    scanner.skipBlanks();
+    if (scanner.atEnd())
+      scanner.fail(ErrorKind::truncated, "the file ends within its header");
+    if (!scanner.atLineEnd())
+      scanner.fail(ErrorKind::malformed, "this line of the header has too many words");
+    scanner.skipLine();
+    if (keyword == "end_header")
+      break;
+  }
+  if (!hasEncoding)
+    scanner.fail(ErrorKind::malformed, "the header has no line 'format'");
+  header.bodyOffset = scanner.byteOffset();
+  return header;
+}
+
+} // namespace imgeo

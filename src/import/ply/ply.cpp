@@ -1,0 +1,159 @@
+// PLY (Turk, "The PLY Polygon File Format", 1994) with the properties that
+// Stanford's, Cyberware's, MeshLab's, Blender's and photogrammetry tools write.
+#include "import/ply/ply.h"
+#include "base/error.h"
+#include "import/mesh/add_shape.h"
+#include "import/mesh/triangulate.h"
+#include "import/mesh/unit_normal.h"
+#include "import/ply/content.h"
+#include "import/source_name.h"
+#include "import/warnings.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <limits>
+#include <vector>
+
+namespace imgeo {
+
+namespace {
+
+struct Triangles {
+  std::vector<std::uint32_t> places; ///< three a triangle, into PlyContent::indices
+  std::size_t fans = 0;              ///< concave polygons too large to clip
+};
+
+/// Every polygon's triangles. Empty `sizes` (all are triangles) is the caller's case.
+Triangles triangulateAll(const PlyContent& content) {
+  Triangles result;
+  std::vector<Vec3f> ring;
+  std::vector<std::uint32_t> local;
+  std::uint32_t first = 0;
+  for (const std::uint32_t size : content.sizes) {
+    ring.clear(), local.clear();
+    for (std::uint32_t i = 0; i < size; ++i)
+      ring.push_back(content.positions[content.indices[first + i]]);
+    result.fans += !triangulate(ring, local);
+    for (const std::uint32_t place : local)
+      result.places.push_back(first + place);
+    first += size;
+  }
+  return result;
+}
+
+/// Exporters of point clouds often write an empty `face` element too.
+bool hasFaces(const PlyContent& content) {
+  return !content.indices.empty() || content.facesTooSmall > 0;
+}
+
+/// The edges, and the vertices that they name.
+Mesh edgesOf(const PlyContent& content) {
+  constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
+  Mesh mesh;
+  mesh.topology = Topology::lines;
+  std::vector<std::uint32_t> wedgeOf(content.positions.size(), unseen), vertices;
+  for (const std::uint32_t vertex : content.edges) {
+    if (wedgeOf[vertex] == unseen) {
+      wedgeOf[vertex] = static_cast<std::uint32_t>(vertices.size());
+      mesh.wedgePositions.push_back(wedgeOf[vertex]);
+      vertices.push_back(vertex);
+    }
+    mesh.corners.push_back(wedgeOf[vertex]);
+  }
+  static_cast<VertexAttributes&>(mesh) = gather(content.attributes, vertices);
+  mesh.positions = gather(content.positions, vertices);
+  return mesh;
+}
+
+/// One wedge a vertex; with texture coordinates per corner, one wedge a corner.
+/// The vertices move into it.
+Mesh surfaceOrCloudOf(PlyContent& content, std::size_t& fans) {
+  Mesh mesh;
+  const bool isCloud = !hasFaces(content);
+  mesh.topology = isCloud ? Topology::points : Topology::triangles;
+  const bool perCorner = !isCloud && !content.cornerTexCoords.empty();
+  if (!content.sizes.empty()) {
+    Triangles triangles = triangulateAll(content);
+    fans = triangles.fans;
+    mesh.corners = std::move(triangles.places);
+    if (!perCorner)
+      for (std::uint32_t& corner : mesh.corners)
+        corner = content.indices[corner];
+  } else if (perCorner) {
+    mesh.corners.resize(content.indices.size());
+    for (std::size_t i = 0; i < mesh.corners.size(); ++i)
+      mesh.corners[i] = static_cast<std::uint32_t>(i);
+  } else {
+    mesh.corners = std::move(content.indices);
+  }
+
+  if (perCorner) {
+    mesh.wedgePositions = std::move(content.indices);
+    static_cast<VertexAttributes&>(mesh) = gather(content.attributes, mesh.wedgePositions);
+    mesh.texCoords = std::move(content.cornerTexCoords);
+  } else {
+    static_cast<VertexAttributes&>(mesh) = std::move(content.attributes);
+    mesh.wedgePositions.resize(content.positions.size());
+    for (std::size_t i = 0; i < mesh.wedgePositions.size(); ++i)
+      mesh.wedgePositions[i] = static_cast<std::uint32_t>(i);
+    if (isCloud)
+      mesh.corners = mesh.wedgePositions;
+  }
+  mesh.positions = std::move(content.positions);
+  return mesh;
+}
+
+/// What was left out or changed; `content` has given its vectors away, not its counts.
+void addWarnings(std::vector<std::string>& warnings, const PlyContent& content, const Box3d& box) {
+  if (!content.ignored.empty())
+    warnings.push_back(fmt::format("Not carried over from the PLY file: {}.", fmt::join(content.ignored, ", ")));
+  if (content.trailingBytes > 0)
+    warnings.push_back(fmt::format("{} behind the last element of the PLY file, which imgeo ignored.",
+                                   counted(content.trailingBytes, "byte stands", "bytes stand")));
+  warnOfColors(warnings, content.colorsClamped);
+  warnOfSmallFaces(warnings, content.facesTooSmall);
+  if (content.largestRounding > box.longestEdge() / 131072) // half a step of 16 bits
+    warnings.push_back(fmt::format("Coordinates far from the origin were rounded to single precision, by up to {:.2g}.",
+                                   content.largestRounding));
+}
+
+} // namespace
+
+bool looksLikePly(ByteSpan bytes) {
+  const std::string_view text = asText(bytes).substr(0, 4);
+  return text == "ply\n" || text == "ply\r" || text == "ply ";
+}
+
+Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+  const PlyHeader header = readPlyHeader(bytes, name);
+  PlyContent content = readPlyContent(bytes, header, name, options.attributes);
+  if (std::max(content.indices.size(), content.edges.size()) > std::numeric_limits<std::uint32_t>::max())
+    throw Error(ErrorKind::limit, name, "the polygons or edges have more corners than 32-bit indices can name");
+
+  Imported imported;
+  imported.format = "PLY";
+  std::size_t unusableNormals = 0, fans = 0;
+  for (Vec3f& normal : content.attributes.normals)
+    unusableNormals += !makeUnit(normal);
+  const auto add = [&](Mesh mesh, const char* shapeName) {
+    mesh.name = stemOf(name);
+    addShape(imported.scene, std::move(mesh), shapeName);
+  };
+  Box3d box;
+  for (const Vec3f& position : content.positions)
+    box.add(Vec3d(position));
+  imported.attributes = content.namedAttributes;
+  const bool isSurface = hasFaces(content), hasEdges = !content.edges.empty();
+  Mesh edges = hasEdges ? edgesOf(content) : Mesh{};
+  if (isSurface || !hasEdges)
+    add(surfaceOrCloudOf(content, fans), "");
+  if (hasEdges)
+    add(std::move(edges), isSurface ? "edges" : "");
+  addWarnings(imported.warnings, content, box);
+  warnOfNormals(imported.warnings, unusableNormals);
+  warnOfFans(imported.warnings, fans);
+  return imported;
+}
+
+} // namespace imgeo

@@ -1,0 +1,89 @@
+#pragma once
+// The records of a PLY file's elements over either cursor: counts are checked
+// before memory is asked for, lists are read whole.
+
+#include "import/ply/cursor.h"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+namespace imgeo {
+
+template <typename Cursor> class PlyRecords {
+public:
+  explicit PlyRecords(Cursor cursor) : cursor_(cursor) {}
+
+  Cursor& cursor() { return cursor_; }
+
+  [[noreturn]] void fail(ErrorKind kind, const std::string& message) const { cursor_.fail(kind, message); }
+  std::size_t bytesLeft() const { return cursor_.bytesLeft(); }
+  /// How many values the bytes left can hold at most.
+  std::size_t valuesLeft(PlyType type) const { return roomLeft() / Cursor::smallestSize(type); }
+
+  /// Calls body() between the begin and the end of each record. A promised count
+  /// that the bytes left cannot hold is refused before the first.
+  template <typename Function> void forEach(const PlyElement& element, Function body) {
+    checkCount(element);
+    if (element.properties.empty())
+      return; // records without bytes
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      cursor_.beginRecord({&element, i});
+      body();
+      cursor_.endRecord();
+    }
+  }
+
+  void checkCount(const PlyElement& element) const {
+    std::size_t record = 0;
+    for (const PlyProperty& property : element.properties)
+      record += Cursor::smallestSize(property.countType.value_or(property.type));
+    if (record > 0 && element.count > roomLeft() / record)
+      fail(ErrorKind::truncated,
+           fmt::format("the header promises {} of '{}', at least {} bytes each, but only {} bytes are left",
+                       element.count, element.name, record, bytesLeft()));
+  }
+
+  double scalar(PlyType type) { return cursor_.scalar(type); }
+
+  /// A vertex by its number, which must be below `vertexCount`, at most 2^32.
+  std::uint32_t vertexNumber(PlyType type, std::uint64_t vertexCount) {
+    const double number = scalar(type);
+    checkVertexNumber(number, vertexCount);
+    return static_cast<std::uint32_t>(number);
+  }
+  void checkVertexNumber(double number, std::uint64_t vertexCount) const {
+    if (!(number >= 0 && number < static_cast<double>(vertexCount)))
+      fail(ErrorKind::malformed, fmt::format("vertex {} is named, but there are only {}", number, vertexCount));
+  }
+
+  /// The values of a list, until the next list is read.
+  std::span<const double> list(const PlyProperty& property) {
+    scratch_.resize(listCount(property));
+    cursor_.values(property.type, scratch_);
+    return scratch_;
+  }
+
+  void skip(const PlyProperty& property) { cursor_.skip(property.type, property.isList() ? listCount(property) : 1); }
+
+  /// The bytes behind the last record that are not white space.
+  std::size_t trailingBytes() { return cursor_.trailingBytes(); }
+
+private:
+  std::size_t roomLeft() const { return bytesLeft() + Cursor::kSparedAtEnd; }
+
+  std::size_t listCount(const PlyProperty& property) {
+    const double count = cursor_.scalar(*property.countType);
+    if (count < 0)
+      fail(ErrorKind::malformed, "a list has a negative count");
+    if (count > static_cast<double>(valuesLeft(property.type)))
+      fail(ErrorKind::truncated,
+           fmt::format("a list promises {} values, but only {} bytes are left", count, bytesLeft()));
+    return static_cast<std::size_t>(count);
+  }
+
+  Cursor cursor_;
+  std::vector<double> scratch_;
+};
+
+} // namespace imgeo

@@ -1,0 +1,68 @@
+#pragma once
+// The `vertex` element of a PLY file: which properties are there, and their values.
+
+#include "import/ply/content.h"
+#include "import/ply/records.h"
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+namespace imgeo {
+
+/// What a property of a vertex means; `unknown` ones are passed over or, where
+/// they are asked for, become named attributes.
+enum class PlySlot : std::uint8_t { x, y, z, nx, ny, nz, u, v, red, green, blue, alpha, unknown, count };
+
+class PlyVertexReader {
+public:
+  /// Notes in content.ignored what is not read.
+  PlyVertexReader(const PlyElement& element, const AttributeChoice& kept, PlyContent& content);
+
+  bool hasPosition() const { return has(PlySlot::x, PlySlot::z); }
+
+  template <typename Cursor> void read(PlyRecords<Cursor>& records) {
+    records.checkCount(element_);
+    reserve();
+    records.forEach(element_, [&] {
+      for (std::size_t p = 0; p < slots_.size(); ++p) {
+        const PlyProperty& property = element_.properties[p];
+        if (property.isList()) {
+          records.skip(property);
+          continue;
+        }
+        const double value = records.scalar(property.type);
+        values_[static_cast<std::size_t>(slots_[p])] = value;
+        if (!named_.empty() && named_[p] != nullptr)
+          named_[p]->values.push_back(static_cast<float>(value));
+      }
+      if (const char* fault = addVertex())
+        records.fail(ErrorKind::malformed, fault);
+    });
+  }
+
+private:
+  void chooseNamed(const AttributeChoice& kept);
+  /// True where all slots from `first` to `last` are there.
+  bool has(PlySlot first, PlySlot last) const;
+  double value(PlySlot slot) const { return values_[static_cast<std::size_t>(slot)]; }
+  bool isFinite(PlySlot first, PlySlot last) const;
+  std::uint8_t channel(PlySlot slot);
+  void noteRounding();
+  void reserve();
+  /// Appends a vertex of the current values; returns what is wrong with them, or null.
+  const char* addVertex();
+  bool namedAreFinite() const;
+
+  const PlyElement& element_;
+  PlyContent& content_;
+  std::vector<PlySlot> slots_;         ///< per property
+  std::vector<NamedAttribute*> named_; ///< per property, null for the others; empty where there are none
+  std::array<double, static_cast<std::size_t>(PlySlot::count)> values_{};
+  std::array<PlyType, static_cast<std::size_t>(PlySlot::count)> types_{};
+  std::array<bool, static_cast<std::size_t>(PlySlot::count)> present_{};
+  bool hasNormal_ = false, hasTexCoord_ = false, hasColor_ = false, hasAlpha_ = false, isDouble_ = false;
+};
+
+} // namespace imgeo

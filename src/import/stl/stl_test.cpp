@@ -1,0 +1,111 @@
+#include "import/testing.h"
+
+#include "scene/testing.h"
+
+#include <fmt/format.h>
+#include <limits>
+#include <vector>
+
+namespace imgeo::testing {
+namespace {
+
+std::vector<Vec3f> cornerPositions(const Mesh& mesh) {
+  std::vector<Vec3f> result;
+  for (std::size_t at = 0; at < mesh.corners.size(); ++at)
+    result.push_back(mesh.cornerPosition(at));
+  return result;
+}
+
+Bytes binaryStl(const Mesh& mesh, std::string header = "") {
+  header.resize(80, ' ');
+  Bytes bytes(header.begin(), header.end());
+  appendLittle(bytes, static_cast<std::uint32_t>(mesh.elementCount()));
+  for (std::size_t at = 0; at < mesh.corners.size(); at += 3) {
+    for (int axis = 0; axis < 3; ++axis)
+      appendLittle(bytes, 0.0f);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (int axis = 0; axis < 3; ++axis)
+        appendLittle(bytes, mesh.cornerPosition(at + k)[axis]);
+    appendLittle(bytes, std::uint16_t{0});
+  }
+  return bytes;
+}
+
+std::string asciiStl(const Mesh& mesh, const std::string& name = "thing") {
+  std::string text = "solid " + name + "\n";
+  for (std::size_t at = 0; at < mesh.corners.size(); at += 3) {
+    text += " facet normal 0 0 0\n  outer loop\n";
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3f p = mesh.cornerPosition(at + k);
+      text += fmt::format("   vertex {} {} {}\n", p.x, p.y, p.z);
+    }
+    text += "  endloop\n endfacet\n";
+  }
+  return text + "endsolid " + name + "\n";
+}
+
+TEST(Stl, KeepsEveryTriangleInBothForms) {
+  for (std::uint32_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const Mesh mesh = randomMesh(seed);
+    if (mesh.topology != Topology::triangles)
+      continue;
+    EXPECT_EQ(cornerPositions(onlyMesh(binaryStl(mesh), "m.stl")), cornerPositions(mesh));
+    EXPECT_EQ(cornerPositions(onlyMesh(asciiStl(mesh), "m.stl")), cornerPositions(mesh));
+  }
+}
+
+TEST(Stl, BinaryFilesMayBeginWithSolid) {
+  const Mesh mesh = sphere(4, 5);
+  EXPECT_EQ(onlyMesh(binaryStl(mesh, "solid facet normal"), "m.stl").elementCount(), mesh.elementCount());
+  Bytes longer = binaryStl(mesh, "solid");
+  longer.push_back(0);
+  const Imported imported = importBytes(longer, "m.stl");
+  EXPECT_EQ(imported.scene.meshes.at(0).elementCount(), mesh.elementCount());
+  EXPECT_EQ(imported.warnings,
+            std::vector<std::string>{"1 byte stands behind the last facet of the STL file, which imgeo ignored."});
+}
+
+TEST(Stl, EverySolidIsAShape) {
+  const Imported imported = importBytes(asBytes(asciiStl(grid(1), "a") + asciiStl(grid(2), "b")), "m.stl");
+  ASSERT_EQ(shapeNodes(imported.scene.graph).size(), 2u);
+  EXPECT_EQ(testing::shapeName(imported.scene.graph, 1), "b");
+  EXPECT_EQ(imported.scene.meshes[1].elementCount(), 8u);
+}
+
+TEST(Stl, EveryProperPrefixIsRefused) {
+  const Bytes binary = binaryStl(grid(2));
+  for (std::size_t size = 0; size < binary.size(); ++size)
+    EXPECT_THROW(importBytes(ByteSpan(binary).first(size), "m.stl"), Error) << size;
+  const std::string text = asciiStl(grid(2));
+  for (std::size_t size = 0; size < text.find("endsolid") + 8; ++size)
+    EXPECT_THROW(importBytes(asBytes(text).first(size), "m.stl"), Error) << size;
+}
+
+TEST(Stl, SaysThatFacetColoursAreLeft) {
+  Bytes bytes = binaryStl(grid(1));
+  bytes.back() = 0x80;
+  EXPECT_EQ(importBytes(bytes, "m.stl").warnings.size(), 1u);
+}
+
+TEST(Stl, RefusesWithOneSentenceAndAPlace) {
+  Bytes many = binaryStl(grid(1));
+  many[83] = 0xff;
+  EXPECT_EQ(errorOf(many, "m.stl").kind(), ErrorKind::truncated);
+  EXPECT_EQ(errorOf(many, "m.stl").location(), "m.stl, byte 80");
+
+  Mesh mesh = grid(1);
+  mesh.positions[3].z = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(errorOf(binaryStl(mesh), "m.stl").location(), "m.stl, byte 120"); // third corner of the first facet
+  EXPECT_EQ(errorOf(asciiStl(mesh), "m.stl").location(), "m.stl:6");
+
+  EXPECT_EQ(
+      errorOf("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet\nendsolid\n", "m.stl").location(),
+      "m.stl:5");
+  EXPECT_EQ(errorOf("solid\nfacet normal 0 0 1\nvertex 0 0 0\nendsolid\n", "m.stl").location(), "m.stl:4");
+  EXPECT_EQ(errorOf("solid\nfacets\nendsolid\n", "m.stl").location(), "m.stl:2");
+  EXPECT_EQ(errorOf(binaryStl(Mesh{}), "m.stl").kind(), ErrorKind::malformed);
+}
+
+} // namespace
+} // namespace imgeo::testing

@@ -1,0 +1,22 @@
+#pragma once
+// X3D in XML encoding: sets of faces, triangles, lines and points and elevation grids are meshes; every other element
+// is a node that the output keeps as it is. Prototype instances are replaced by their bodies. The file that an Inline
+// names is read too: its nodes are the Inline's children.
+
+#include "import/import.h"
+#include "import/x3d/elements.h"
+
+namespace imgeo {
+
+/// True where the first 4 KiB are markup with an <X3D> element and without an <html> element.
+bool looksLikeX3d(ByteSpan bytes);
+Imported readX3d(ByteSpan bytes, const std::string& name, const ImportOptions& options);
+
+namespace x3d {
+
+/// Reads a document of either encoding; `bytes` are the text that it was parsed from.
+Imported readElements(Elements elements, ByteSpan bytes, const std::string& name, const ImportOptions& options);
+
+} // namespace x3d
+
+} // namespace imgeo
