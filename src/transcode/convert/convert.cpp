@@ -1,4 +1,4 @@
-// The order of the steps: import, prepare, encode, document, exchange.
+// convert(): the order of the steps from an input file to a published site.
 
 #include "base/error.h"
 #include "base/file.h"
@@ -6,11 +6,14 @@
 #include "import/warnings.h"
 #include "transcode/convert/peak_memory.h"
 #include "transcode/convert/resolve_options.h"
+#include "transcode/default_scene/default_appearances.h"
+#include "transcode/default_scene/default_nodes.h"
 #include "transcode/encode/encode_scene.h"
-#include "transcode/site/runtime.h"
+#include "transcode/encode/textures.h"
+#include "transcode/site/site_files.h"
 #include "transcode/site/site_manifest.h"
+#include "transcode/site/site_pages.h"
 #include "transcode/site/staged_site.h"
-#include "transcode/site/x3dom_release.h"
 #include "transcode/source/preparation.h"
 #include "transcode/transcode.h"
 
@@ -19,8 +22,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <mutex>
-#include <ranges>
-#include <set>
 
 namespace imgeo {
 
@@ -32,7 +33,7 @@ constexpr const char* generator = "imgeo " IMGEO_VERSION;
 
 class Stopwatch {
 public:
-  /// Since it was made, or since the last call.
+  /// Seconds since construction or since the last call.
   double lapSeconds() {
     const Clock::time_point now = Clock::now();
     return std::chrono::duration<double>(now - std::exchange(lap_, now)).count();
@@ -43,7 +44,7 @@ private:
   Clock::time_point lap_ = Clock::now();
 };
 
-/// The exchange would remove the input with the directory it lies in.
+/// Refuses an input inside the target directory: publishing the site would remove it.
 void requireOutside(const fs::path& input, const fs::path& directory) {
   std::error_code none;
   const fs::path file = fs::weakly_canonical(input, none), target = fs::weakly_canonical(directory, none);
@@ -51,7 +52,7 @@ void requireOutside(const fs::path& input, const fs::path& directory) {
     throw Error(ErrorKind::usage, input.string(), "lies inside the directory that is to be replaced");
 }
 
-/// The name of the input without its endings, "statue" for "scans/statue.ply.gz".
+/// The input's file name without extensions: "statue" for "scans/statue.ply.gz".
 std::string titleFrom(const fs::path& input) {
   if (input == "-")
     return "Untitled";
@@ -70,60 +71,21 @@ void requireAttributes(const Imported& imported, const ConvertOptions& options) 
                                                             fmt::join(imported.attributes, ", ")));
 }
 
-/// A title of the user's wins over the source's own, which wins over the file's name.
-void nameScene(SceneGraph& graph, const std::string& title, bool isWanted) {
-  if (isWanted || graph.title.empty())
-    graph.title = title;
+/// Sets the scene's title: the stated one, else the source's own, else the file's name.
+void nameScene(SceneGraph& graph, const std::string& statedTitle, const fs::path& input) {
+  if (!statedTitle.empty())
+    graph.title = statedTitle;
+  else if (graph.title.empty())
+    graph.title = titleFrom(input);
   if (graph.isComplete)
     return;
-  // Scripts find shapes by name, and the only object of a file rarely has one.
+  // Scripts find shapes by name, and files with one object rarely name it.
   const std::vector<std::size_t> shapes = shapeNodes(graph);
   if (shapes.size() == 1 && graph.nodes[shapes[0]].name.empty())
     graph.nodes[shapes[0]].name = graph.title;
 }
 
-std::size_t documentOf(const SceneGraph& graph, std::size_t inlineNode) {
-  return *std::get<GenericNode>(graph.nodes[inlineNode].content).document;
-}
-
-/// The documents that the scene inlines, the innermost first: they are named by their
-/// content, and the url is part of that of the one around.
-void writeInlinedDocuments(SceneDocument& document, Target target, const fs::path& site) {
-  std::vector<std::size_t> firstInlines; // of each document; what stands in it comes behind
-  std::set<std::size_t> seen;
-  for (const std::size_t node : nodesInOrder(document.graph))
-    if (inlinesDocument(document.graph.nodes[node]) && seen.insert(documentOf(document.graph, node)).second)
-      firstInlines.push_back(node);
-  for (const std::size_t node : firstInlines | std::views::reverse) {
-    const std::string text =
-        target == Target::x3dom ? writeInlinedX3domX3d(document, node) : writeInlinedX3d(document, node);
-    std::string& url = document.graph.inlined[documentOf(document.graph, node)].url;
-    url = contentName(asBytes(text)) + ".x3d";
-    writeFile(site / url, asBytes(text));
-  }
-}
-
-/// The documents of a site for X3DOM, which brings its own runtime.
-void writeX3domPage(const SceneDocument& document, const X3domRelease& release, const fs::path& site) {
-  writeFile(site / sceneName, asBytes(writeX3domX3d(document)));
-  writeFile(site / pageName, asBytes(writeX3domHtml(document, release.files, stylesheetName)));
-}
-
-/// The documents of a site with our runtime, and it.
-void writePage(const SceneDocument& document, const fs::path& site) {
-  const Runtime runtime = runtimeOfSite();
-  const auto urlOf = [](const RuntimeFile& file) { return fmt::format("{}/{}", runtimeFolder, file.name); };
-  fs::create_directory(site / runtimeFolder);
-  for (const RuntimeFile& file : {runtime.page, runtime.shared, runtime.scene, runtime.worker})
-    writeFile(site / runtimeFolder / file.name, asBytes(file.text));
-  writeFile(site / sceneName, asBytes(writeX3d(document)));
-  writeFile(site / pageName,
-            asBytes(writeHtml(document,
-                              {urlOf(runtime.page), stylesheetName, {urlOf(runtime.shared)}, {urlOf(runtime.scene)}})));
-}
-
-/// Scans have slivers, a few of which any lattice flattens; more than one element in
-/// a hundred speaks of too few bits.
+/// Warns if more than 1 % of the elements collapsed on the lattice. Fewer are normal: scans contain slivers.
 void warnOfCollapsed(ConvertReport& report) {
   const auto warn = [&](Topology topology, const char* lost) {
     if (const std::size_t count = report.collapsed.of(topology); 100 * count > report.elements.of(topology))
@@ -134,6 +96,7 @@ void warnOfCollapsed(ConvertReport& report) {
   warn(Topology::lines, "length");
 }
 
+/// Warns of elements that are in scene.x3d but may not be in an HTML page.
 void warnOfPage(const SceneGraph& graph, ConvertReport& report) {
   std::vector<std::string> elements;
   for (const auto& [element, count] : elementsLeftOutOfPage(graph))
@@ -143,7 +106,7 @@ void warnOfPage(const SceneGraph& graph, ConvertReport& report) {
         fmt::format("{} alone has what does not go into a page: {}", sceneName, fmt::join(elements, ", ")));
 }
 
-/// Bytes by role, in the order in which `inspect` lists the roles.
+/// Bytes by role, in the order of the roles' first files.
 std::vector<RoleBytes> sumByRole(const std::vector<SiteFile>& files) {
   std::vector<RoleBytes> roles;
   for (const SiteFile& file : files) {
@@ -156,100 +119,160 @@ std::vector<RoleBytes> sumByRole(const std::vector<SiteFile>& files) {
   return roles;
 }
 
+/// One conversion: each member function is one step of convert().
+class Conversion {
+public:
+  Conversion(const fs::path& input, const fs::path& directory, const ConvertOptions& options, const Progress& progress)
+      : input_(input), options_(options), progress_(progress), site_(directory, options.force) {}
+
+  void readSource() {
+    tell(0, "reading");
+    Imported imported = importInput(input_,
+                                    {.attributes = options_.keepAttributes,
+                                     .folder = {},
+                                     .outside = options_.outside,
+                                     .inlineBytes = inlineBytes,
+                                     .strict = options_.strict},
+                                    report_.sourceBytes);
+    requireAttributes(imported, options_);
+    report_.format = imported.format;
+    report_.warnings = std::move(imported.warnings);
+    scene_ = std::move(imported.scene);
+    nameScene(scene_.graph, options_.title, input_);
+  }
+
+  /// Fills in the options that depend on the source.
+  void resolveOptions() {
+    options_ = resolvedFor(scene_, options_);
+    report_.encoding = *options_.encoding;
+    report_.normalEncoding = options_.normals;
+    report_.normalBits = options_.normalBits;
+    report_.texCoordBits = options_.texCoordBits;
+    report_.colorBits = options_.colorBits;
+    report_.importSeconds = step_.lapSeconds();
+  }
+
+  /// Welds meshes, drops elements and computes missing normals.
+  void prepareMeshes() {
+    tell(0.2, "preparing");
+    const PreparationReport prepared =
+        prepareScene(scene_, options_.dropped, options_.normalWeighting, locationOf(input_));
+    report_.weld = prepared.weld;
+    report_.normalsComputed = prepared.normalsComputed;
+    std::ranges::copy(prepared.warnings, std::back_inserter(report_.warnings));
+    report_.prepareSeconds = step_.lapSeconds();
+  }
+
+  void encodeMeshes() {
+    tell(0.3, "writing");
+    std::size_t elementCount = 0, elementsDone = 0;
+    for (const Mesh& mesh : scene_.meshes)
+      elementCount += mesh.elementCount();
+    std::mutex doneMutex;
+    ContentFiles files(site_.path(), geometryFolder);
+    document_ = encodeScene(std::move(scene_), options_, files, report_, [&](std::size_t count) {
+      const std::lock_guard lock(doneMutex);
+      elementsDone += count;
+      tell(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
+    });
+  }
+
+  /// Writes the textures and adds the appearances and nodes that the source lacks. An X3D source is complete.
+  void completeScene() {
+    if (!document_.graph.isComplete)
+      assignDefaultAppearances(document_);
+    ContentFiles files(site_.path(), textureFolder);
+    report_.textures = writeTextures(document_.graph, options_, files, report_.warnings);
+    if (!document_.graph.isComplete)
+      addDefaultNodes(document_, report_.warnings);
+  }
+
+  void writeDocuments() {
+    writeInlinedDocuments(document_, options_.target, site_.path());
+    warnOfCollapsed(report_);
+    warnOfPage(document_.graph, report_);
+    writeFile(site_.path() / manifestName, asBytes(writeManifest(manifest())));
+    if (options_.target == Target::x3dom) {
+      const X3domRelease release = x3domReleaseFor(*options_.encoding, options_.x3domUrl);
+      report_.x3domVersion = release.version;
+      report_.x3domUrl = release.files.scriptUrl;
+      writeX3domPages(document_, release, site_.path());
+    } else {
+      writePages(document_, site_.path());
+    }
+  }
+
+  /// Reads the written documents back, for the sizes of files and for warnings about malformed documents.
+  void inspectSite() {
+    const SiteInfo written = inspect(site_.path());
+    report_.roles = sumByRole(written.files);
+    report_.bytesPerTriangle = written.bytesPerTriangle;
+    if (options_.strict && !written.warnings.empty())
+      throw Error(ErrorKind::malformed, locationOf(input_), withoutFullStop(written.warnings.front()));
+    std::ranges::copy(written.warnings, std::back_inserter(report_.warnings));
+    report_.encodeSeconds = step_.lapSeconds();
+  }
+
+  void publish() {
+    tell(1, "publishing");
+    site_.publish();
+    report_.totalSeconds = total_.lapSeconds();
+    report_.peakMemoryBytes = peakMemoryBytes();
+  }
+
+  ConvertReport takeReport() { return std::move(report_); }
+
+private:
+  void tell(double share, const std::string& doing) const {
+    if (progress_)
+      progress_(share, doing);
+  }
+
+  SiteManifest manifest() const {
+    std::vector<std::string> attributeNames;
+    for (const AttributeReport& attribute : report_.attributes)
+      attributeNames.push_back(attribute.name);
+    return {.generator = generator,
+            .source = input_ == "-" ? "" : input_.filename().string(),
+            .encoding = *options_.encoding,
+            .primitives = options_.primitives,
+            .normalsComputed = report_.normalsComputed,
+            .normalWeighting = options_.normalWeighting,
+            .elements = report_.elements,
+            .normalErrorDegrees = hasStatedError(options_) ? report_.normalErrorDegrees : 0,
+            .dropped = options_.dropped,
+            .attributes = std::move(attributeNames),
+            .sourceTextureBytes = report_.textures.sourceBytes};
+  }
+
+  fs::path input_;
+  ConvertOptions options_;
+  const Progress& progress_;
+  StagedSite site_;
+  ConvertReport report_;
+  Stopwatch total_, step_;
+  Scene scene_;            ///< until encodeMeshes
+  SceneDocument document_; ///< from encodeMeshes on
+};
+
 } // namespace
 
-ConvertReport convert(const fs::path& input, const fs::path& directory, const ConvertOptions& given,
+ConvertReport convert(const fs::path& input, const fs::path& directory, const ConvertOptions& options,
                       const Progress& progress) {
-  resolved(given); // says at once what cannot be
+  resolved(options); // refuses contradictions before anything is written
   if (input != "-")
     requireOutside(input, directory);
-  StagedSite site(directory, given.force);
 
-  ConvertReport report;
-  Stopwatch total, step;
-  const auto tell = [&](double share, const std::string& doing) {
-    if (progress)
-      progress(share, doing);
-  };
-
-  tell(0, "reading");
-  Imported imported = importInput(input,
-                                  {.attributes = given.keepAttributes,
-                                   .folder = {},
-                                   .outside = given.outside,
-                                   .inlineBytes = inlineBytes,
-                                   .strict = given.strict},
-                                  report.sourceBytes);
-  requireAttributes(imported, given);
-  const ConvertOptions options = resolvedFor(imported.scene, given);
-  report.encoding = *options.encoding;
-  report.normalBits = options.normalBits;
-  report.texCoordBits = options.texCoordBits;
-  report.colorBits = options.colorBits;
-  report.normalEncoding = options.normals;
-  report.format = imported.format;
-  report.warnings = std::move(imported.warnings);
-  nameScene(imported.scene.graph, options.title.empty() ? titleFrom(input) : options.title, !options.title.empty());
-  report.importSeconds = step.lapSeconds();
-
-  tell(0.2, "preparing");
-  PreparationReport prepared =
-      prepareScene(imported.scene, options.dropped, options.normalWeighting, locationOf(input));
-  report.weld = prepared.weld;
-  report.normalsComputed = prepared.normalsComputed;
-  std::ranges::move(prepared.warnings, std::back_inserter(report.warnings));
-  report.prepareSeconds = step.lapSeconds();
-
-  tell(0.3, "writing");
-  std::size_t elementCount = 0, elementsDone = 0;
-  for (const Mesh& mesh : imported.scene.meshes)
-    elementCount += mesh.elementCount();
-  std::mutex doneMutex;
-  SiteContent content{{site.path(), geometryFolder}, {site.path(), textureFolder}};
-  SceneDocument document = encodeScene(std::move(imported.scene), options, content, report, [&](std::size_t count) {
-    const std::lock_guard lock(doneMutex);
-    elementsDone += count;
-    tell(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
-  });
-  writeInlinedDocuments(document, options.target, site.path());
-  warnOfCollapsed(report);
-  warnOfPage(document.graph, report);
-  SiteManifest manifest{generator,
-                        input == "-" ? "" : input.filename().string(),
-                        *options.encoding,
-                        options.primitives,
-                        report.normalsComputed,
-                        options.normalWeighting,
-                        report.elements,
-                        hasStatedError(options) ? report.normalErrorDegrees : 0,
-                        options.dropped,
-                        {},
-                        report.textures.sourceBytes};
-  for (const AttributeReport& attribute : report.attributes)
-    manifest.attributes.push_back(attribute.name);
-  writeFile(site.path() / stylesheetName, asBytes(pageStylesheet()));
-  writeFile(site.path() / manifestName, asBytes(writeManifest(manifest)));
-  if (options.target == Target::x3dom) {
-    const X3domRelease release = x3domReleaseFor(*options.encoding, options.x3domUrl);
-    report.x3domVersion = release.version;
-    report.x3domUrl = release.files.scriptUrl;
-    writeX3domPage(document, release, site.path());
-  } else {
-    writePage(document, site.path());
-  }
-  const SiteInfo written = inspect(site.path());
-  report.roles = sumByRole(written.files);
-  report.bytesPerTriangle = written.bytesPerTriangle;
-  if (options.strict && !written.warnings.empty())
-    throw Error(ErrorKind::malformed, locationOf(input), withoutFullStop(written.warnings.front()));
-  std::ranges::copy(written.warnings, std::back_inserter(report.warnings));
-  report.encodeSeconds = step.lapSeconds();
-
-  tell(1, "publishing");
-  site.publish();
-  report.totalSeconds = total.lapSeconds();
-  report.peakMemoryBytes = peakMemoryBytes();
-  return report;
+  Conversion conversion(input, directory, options, progress);
+  conversion.readSource();
+  conversion.resolveOptions();
+  conversion.prepareMeshes();
+  conversion.encodeMeshes();
+  conversion.completeScene();
+  conversion.writeDocuments();
+  conversion.inspectSite();
+  conversion.publish();
+  return conversion.takeReport();
 }
 
 } // namespace imgeo

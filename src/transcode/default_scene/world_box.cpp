@@ -8,16 +8,16 @@ namespace imgeo {
 
 namespace {
 
-/// Beyond, single precision cannot hold lengths together with those of the rest.
-constexpr double leastScale = 1e-15, mostScale = 1e15;
+/// Single precision cannot hold lengths outside of this range together with those of other shapes.
+constexpr double minScale = 1e-15, maxScale = 1e15;
 
 bool canBeDrawn(const Affine3d& worldFromShape) {
   for (const Vec3d& axis : {worldFromShape.x, worldFromShape.y, worldFromShape.z}) {
     const double scale = length(axis);
-    if (!(scale <= mostScale) || (scale > 0 && scale < leastScale))
+    if (!(scale <= maxScale) || (scale > 0 && scale < minScale))
       return false;
   }
-  return length(worldFromShape.translation) <= mostScale;
+  return length(worldFromShape.translation) <= maxScale;
 }
 
 } // namespace
@@ -27,7 +27,7 @@ WorldBox worldBoxOf(const SceneDocument& document) {
   for (const ShapeInstance& placed : shapeInstances(document.graph)) {
     const Box3d& box = document.geometries[shapeOf(document.graph, placed.node).mesh].box;
     if (!canBeDrawn(placed.worldFromShape)) {
-      ++world.absurdShapes;
+      ++world.undrawableShapes;
       continue;
     }
     for (int corner = 0; corner < 8; ++corner)

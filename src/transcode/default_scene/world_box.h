@@ -1,13 +1,13 @@
 #pragma once
-// What a scene fills of the world, for the camera that is to see it whole.
+// The bounding box of a scene in world coordinates.
 
 #include "documents/documents.h"
 
 namespace imgeo {
 
 struct WorldBox {
-  Box3d box;                    ///< of the shapes that can be drawn; empty where there are none
-  std::size_t absurdShapes = 0; ///< scaled or moved beyond what single precision tells apart
+  Box3d box;                        ///< of the shapes that can be drawn; empty if there are none
+  std::size_t undrawableShapes = 0; ///< scaled or moved beyond the range of single precision
 };
 
 WorldBox worldBoxOf(const SceneDocument& document);

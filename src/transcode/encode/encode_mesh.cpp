@@ -1,6 +1,5 @@
 #include "transcode/encode/encode_mesh.h"
 
-#include "base/file.h"
 #include "base/parallel.h"
 #include "containers/compact/base.h"
 #include "containers/compact/compact.h"
@@ -10,7 +9,6 @@
 #include "prepare/degenerate_elements.h"
 #include "prepare/patches.h"
 #include "transcode/convert/resolve_options.h"
-#include "transcode/site/staged_site.h"
 
 #include <algorithm>
 #include <charconv>
@@ -87,23 +85,6 @@ EncodedElements encodeElements(Patch patch, const GeometryDescription& geometry,
     encoded.counts = drawnBy(encoded.patch.description);
   return encoded;
 }
-
-} // namespace
-
-std::string ContentFiles::write(ByteSpan bytes, const std::string& extension) {
-  std::string url = folder_ + "/" + contentName(bytes) + extension;
-  {
-    const std::lock_guard lock(mutex_);
-    if (bytes_.empty())
-      std::filesystem::create_directories(site_ / folder_);
-    if (!bytes_.emplace(url, bytes.size()).second)
-      return url;
-  }
-  writeFile(site_ / url, bytes);
-  return url;
-}
-
-namespace {
 
 /// The only patch of a mesh, to be written with others.
 void addSmall(EncodedMesh& mesh, Patch patch, const ConvertOptions& options, const EncodeOptions& encoding) {

@@ -3,36 +3,13 @@
 
 #include "containers/compact/compact_patch.h"
 #include "containers/container.h"
+#include "transcode/site/content_files.h"
 #include "transcode/transcode.h"
 
-#include <filesystem>
 #include <functional>
-#include <map>
-#include <mutex>
 #include <optional>
-#include <string>
 
 namespace imgeo {
-
-/// The files of one folder of a site under construction, each written once however
-/// often it is referred to. Safe to call from any thread.
-class ContentFiles {
-public:
-  /// `site` is the site's root; its folder is made by the first file.
-  ContentFiles(std::filesystem::path site, std::string folder) : site_(std::move(site)), folder_(std::move(folder)) {}
-
-  /// Writes a file named by its content and returns its url, relative to the site.
-  std::string write(ByteSpan bytes, const std::string& extension);
-
-  /// The length of a written file, in bytes.
-  std::uint64_t bytesOf(const std::string& url) const { return bytes_.at(url); }
-
-private:
-  std::filesystem::path site_;
-  std::string folder_;
-  std::mutex mutex_;
-  std::map<std::string, std::uint64_t> bytes_;
-};
 
 /// What became of a mesh, counted as it is drawn.
 struct EncodedMesh {

@@ -5,6 +5,7 @@
 #include "images/encode_image.h"
 #include "images/image_type.h"
 #include "images/testing.h"
+#include "transcode/site/site_files.h"
 #include "transcode/site/testing.h"
 
 #include <gtest/gtest.h>

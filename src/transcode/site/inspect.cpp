@@ -4,8 +4,8 @@
 #include "base/file.h"
 #include "containers/encodings.h"
 #include "transcode/site/site_document.h"
+#include "transcode/site/site_files.h"
 #include "transcode/site/site_manifest.h"
-#include "transcode/site/staged_site.h"
 #include "transcode/transcode.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "transcode/site/staged_site.h"
+#include "transcode/site/site_files.h"
 
 #include <algorithm>
 #include <set>

@@ -9,17 +9,6 @@
 
 namespace imgeo {
 
-/// The file that marks a directory as one of our sites.
-inline constexpr const char* manifestName = "imgeo.json";
-
-/// The names inside a site.
-inline constexpr const char* pageName = "index.html";
-inline constexpr const char* sceneName = "scene.x3d";
-inline constexpr const char* stylesheetName = "imgeo.css";
-inline constexpr const char* geometryFolder = "geometry";
-inline constexpr const char* textureFolder = "textures";
-inline constexpr const char* runtimeFolder = "runtime";
-
 /// Moves `from` to `to`; `flags` are those of renameat2(2). Returns 0 or an errno.
 using Rename = std::function<int(const std::filesystem::path& from, const std::filesystem::path& to, unsigned flags)>;
 

@@ -1,3 +1,4 @@
+#include "transcode/site/site_files.h"
 #include "transcode/site/staged_site.h"
 
 #include "base/error.h"

@@ -5,6 +5,7 @@
 #include "containers/png/png.h"
 #include "documents/documents.h"
 #include "scene/testing.h"
+#include "transcode/site/site_files.h"
 #include "transcode/site/testing.h"
 
 #include <algorithm>

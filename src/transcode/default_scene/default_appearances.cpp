@@ -1,0 +1,65 @@
+#include "transcode/default_scene/default_appearances.h"
+
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace imgeo {
+
+namespace {
+
+/// A warm stone whose shading shows the shape. It does not clip where all default lights meet:
+/// (1 + 0.4) * (diffuse + specular) + 0.2 * diffuse is about 1.
+constexpr Material stone{.diffuseColor{0.52f, 0.51f, 0.485f}, .specularColor{0.13f, 0.13f, 0.12f}, .shininess = 0.25f};
+
+bool drawsSurface(const GeometryDescription& geometry) {
+  const Primitive primitive = geometry.patches.front().draws.front().primitive;
+  return primitive == Primitive::triangles || primitive == Primitive::triangleStrip;
+}
+
+/// The material for points and lines. X3D does not light them: they show vertex colours or the emissive colour.
+AnyMaterial unlitMaterial(const AnyMaterial& material) {
+  Material unlit = phongOf(material);
+  if (unlit.emissiveColor == Vec3f{})
+    unlit.emissiveColor = unlit.diffuseColor;
+  return unlit;
+}
+
+/// Makes the appearances that shapes lack, each once.
+class DefaultAppearances {
+public:
+  explicit DefaultAppearances(SceneGraph& graph) : graph_(graph) {}
+
+  /// Index of the appearance that a shape is drawn with.
+  std::size_t appearanceFor(const Shape& shape, bool isSurface) {
+    if (shape.appearance && isSurface)
+      return *shape.appearance;
+    const auto [made, isNew] = made_.try_emplace({shape.appearance, isSurface}, graph_.appearances.size());
+    if (isNew) {
+      Appearance appearance;
+      appearance.material = stone;
+      if (shape.appearance)
+        appearance = graph_.appearances[*shape.appearance];
+      if (!isSurface)
+        appearance.material = unlitMaterial(appearance.material);
+      graph_.appearances.push_back(std::move(appearance));
+    }
+    return made->second;
+  }
+
+private:
+  SceneGraph& graph_;
+  std::map<std::pair<std::optional<std::size_t>, bool>, std::size_t> made_; ///< by source appearance and isSurface
+};
+
+} // namespace
+
+void assignDefaultAppearances(SceneDocument& document) {
+  DefaultAppearances defaults(document.graph);
+  for (const std::size_t node : shapeNodes(document.graph)) {
+    Shape& shape = std::get<Shape>(document.graph.nodes[node].content);
+    shape.appearance = defaults.appearanceFor(shape, drawsSurface(document.geometries[shape.mesh]));
+  }
+}
+
+} // namespace imgeo

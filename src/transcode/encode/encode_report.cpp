@@ -1,0 +1,46 @@
+#include "transcode/encode/encode_report.h"
+
+#include "containers/encodings.h"
+#include "containers/named_attributes.h"
+
+#include <algorithm>
+
+namespace imgeo {
+
+namespace {
+
+/// Attributes of the same name in several geometries share one row, with the maximum of bits and error.
+void addAttributes(std::vector<AttributeReport>& reports, const GeometryDescription& geometry) {
+  for (const AttributeDescription& attribute : geometry.attributes) {
+    auto report = std::ranges::find(reports, attribute.name, &AttributeReport::name);
+    if (report == reports.end())
+      report = reports.insert(report, {attribute.name, attribute.components, 0, 0});
+    const bool isTyped = hasElementTypes(geometry.encoding);
+    report->bits = std::max(report->bits, isTyped ? 32 : 8 * attribute.bytes);
+    for (std::uint32_t c = 0; c < attribute.components; ++c)
+      report->error = std::max(report->error, numberBound(geometry.encoding, attribute, c));
+  }
+}
+
+} // namespace
+
+void addToReport(ConvertReport& report, const EncodedMesh& encoded) {
+  report.elements += encoded.elements;
+  report.vertices += encoded.vertices;
+  report.patches += encoded.geometry.patches.size();
+  report.collapsed += encoded.collapsed;
+  report.positionError = std::max(report.positionError, encoded.positionError);
+  report.normalErrorDegrees = std::max(report.normalErrorDegrees, encoded.normalErrorDegrees);
+  const Lattice& lattice = encoded.geometry.lattice;
+  report.largestStep = std::max(report.largestStep, lattice.step);
+  report.leastPositionBits =
+      report.leastPositionBits == 0 ? lattice.bits : std::min(report.leastPositionBits, lattice.bits);
+  report.mostPositionBits = std::max(report.mostPositionBits, lattice.bits);
+  report.hasNormals |= encoded.hasNormals;
+  report.hasColors |= encoded.hasColors;
+  if (encoded.texCoordError)
+    report.texCoordError = std::max(report.texCoordError.value_or(0), *encoded.texCoordError);
+  addAttributes(report.attributes, encoded.geometry);
+}
+
+} // namespace imgeo
