@@ -6,7 +6,7 @@ import { countIn, indexArrayOf, vertexArrayOf } from "./bg/bgArrays.ts";
 import { byteSizeOf } from "../stage/elementType.ts";
 import { trianglesFromStrip } from "./strips.ts";
 import { decodeImage } from "./image.ts";
-import { checkPng, largestImageEdge } from "./png.ts";
+import { checkPng, maxImageEdge } from "./png.ts";
 import { chunkOf, joined, pngOf } from "./png.testing.ts";
 
 function refused(kind: DecodeError["kind"]): (error: unknown) => boolean {
@@ -55,7 +55,7 @@ describe("a PNG", () => {
   for (const [width, height] of [
     [0, 1],
     [1, 0],
-    [largestImageEdge + 1, 1],
+    [maxImageEdge + 1, 1],
     [1, 2 ** 31],
   ] as const) {
     test(`of ${width} x ${height} texels is beyond the limit`, () => {
@@ -79,7 +79,7 @@ describe("a PNG", () => {
         changed[place] = (changed[place] ?? 0) ^ bits;
         try {
           const { width, height } = checkPng(changed);
-          assert.ok(width >= 1 && height >= 1 && width <= largestImageEdge && height <= largestImageEdge);
+          assert.ok(width >= 1 && height >= 1 && width <= maxImageEdge && height <= maxImageEdge);
         } catch (error) {
           assert.ok(error instanceof DecodeError, String(error));
         }

@@ -19,9 +19,9 @@ export type ImageDecoder<Image extends DecodedImage> = (png: Uint8Array<ArrayBuf
 export async function decodeImage<Image extends DecodedImage>(
   png: Uint8Array<ArrayBuffer>,
   decoder: ImageDecoder<Image>,
-  largestEdge?: number,
+  maxEdge?: number,
 ): Promise<DataImage<Image>> {
-  const header = checkPng(png, largestEdge);
+  const header = checkPng(png, maxEdge);
   let image: Image;
   try {
     image = await decoder(png);

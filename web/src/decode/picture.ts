@@ -20,7 +20,7 @@ export interface PictureKind {
 /** Larger ones are made smaller. Rejects with DecodeError. */
 export async function decodePicture(
   bytes: Uint8Array<ArrayBuffer>,
-  largestEdge: number,
+  maxEdge: number,
   { isData, isDistanceField }: PictureKind,
 ): Promise<DecodedPicture> {
   if (isDistanceField === true) return { bitmap: await glyphsIn(bytes), hasAlpha: true };
@@ -36,8 +36,8 @@ export async function decodePicture(
     throw new DecodeError("unsupported", "is no picture that this browser can show");
   }
   const edge = Math.max(bitmap.width, bitmap.height);
-  if (edge <= largestEdge) return { bitmap, hasAlpha: mayHaveAlpha(bytes) };
-  const resizeWidth = Math.max(1, Math.floor((bitmap.width * largestEdge) / edge));
+  if (edge <= maxEdge) return { bitmap, hasAlpha: mayHaveAlpha(bytes) };
+  const resizeWidth = Math.max(1, Math.floor((bitmap.width * maxEdge) / edge));
   const smaller = await createImageBitmap(bitmap, { resizeWidth, resizeQuality: "high", premultiplyAlpha: "none" });
   bitmap.close();
   return { bitmap: smaller, hasAlpha: mayHaveAlpha(bytes) };

@@ -13,7 +13,7 @@ export interface PngHeader {
 }
 
 /** What readers of the format take (docs/formats/sig-classic.md). */
-export const largestImageEdge = 4096;
+export const maxImageEdge = 4096;
 
 const signature = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
 const headerLength = 13;
@@ -23,10 +23,10 @@ const channelsOfColorType: Readonly<Record<number, PngHeader["channels"]>> = { 0
 
 /**
  * Checks that the bytes are one whole PNG of 8-bit gray, RGB, RGBA or of an opaque
- * palette, not interlaced, no edge longer than `largestEdge`, and gives its size.
+ * palette, not interlaced, no edge longer than `maxEdge`, and gives its size.
  * Safe for untrusted bytes. Throws DecodeError.
  */
-export function checkPng(bytes: Uint8Array, largestEdge = largestImageEdge): PngHeader {
+export function checkPng(bytes: Uint8Array, maxEdge = maxImageEdge): PngHeader {
   if (!signature.every((byte, place) => bytes[place] === byte)) {
     const other = foreignFormatOf(bytes);
     if (other !== undefined)
@@ -40,7 +40,7 @@ export function checkPng(bytes: Uint8Array, largestEdge = largestImageEdge): Png
   }
   checkOrder(types);
   if (types.includes("tRNS")) throw new DecodeError("unsupported", "has colours that are see-through");
-  return readHeader(view, signature.length + 8, largestEdge);
+  return readHeader(view, signature.length + 8, maxEdge);
 }
 
 /** The header first, at most one palette, the image's data in a row, and nothing else that a reader must know. */
@@ -55,14 +55,14 @@ function checkOrder(types: readonly string[]): void {
     throw new DecodeError("malformed", "has its chunks out of order");
 }
 
-function readHeader(view: DataView, offset: number, largestEdge: number): PngHeader {
+function readHeader(view: DataView, offset: number, maxEdge: number): PngHeader {
   const width = view.getUint32(offset);
   const height = view.getUint32(offset + 4);
   const [bitDepth, colorType, compression, filter, interlace] = [8, 9, 10, 11, 12].map((place) =>
     view.getUint8(offset + place),
   );
-  if (width < 1 || height < 1 || width > largestEdge || height > largestEdge) {
-    throw new DecodeError("limit", `is ${width} x ${height} texels large; 1 to ${largestEdge} are allowed`);
+  if (width < 1 || height < 1 || width > maxEdge || height > maxEdge) {
+    throw new DecodeError("limit", `is ${width} x ${height} texels large; 1 to ${maxEdge} are allowed`);
   }
   const channels = channelsOfColorType[colorType ?? NaN];
   if (bitDepth !== 8 || channels === undefined) {

@@ -68,8 +68,8 @@ describe("the stages of a patch of images", () => {
     assert.deepEqual(surface.draws, [{ primitive: "triangles", first: 0, count: 600 }]);
     assert.equal(surface.normal, undefined);
     assert.ok(shaded.normal);
-    assert.deepEqual([shaded.coord.length, shaded.middleOfMissing], [1, 127.5]);
-    assert.deepEqual([full.coord.length, full.middleOfMissing], [2, 0]);
+    assert.deepEqual([shaded.coord.length, shaded.missingBytesMidpoint], [1, 127.5]);
+    assert.deepEqual([full.coord.length, full.missingBytesMidpoint], [2, 0]);
   });
 
   test("use what came when files come in another order", async () => {
@@ -99,7 +99,7 @@ describe("the stages of a patch of images", () => {
     const last = stages.at(-1)?.stage;
     assert.ok(last?.kind === "textures");
     assert.equal(last.coord.length, 1);
-    assert.equal(last.middleOfMissing, (2 ** 16 - 1) / 2);
+    assert.equal(last.missingBytesMidpoint, (2 ** 16 - 1) / 2);
   });
 
   for (const [missing, name] of [

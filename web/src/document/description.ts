@@ -26,7 +26,7 @@ export interface Reference {
   readonly stride: number;
 }
 
-/** A surface over a grid of texels: decode/stage.ts says the same to those who draw it. */
+/** A surface over a grid of texels: stage/stage.ts says the same to those who draw it. */
 export interface GridDescription {
   readonly kind: Exclude<MeshMode, "sig">;
   readonly columns: number;

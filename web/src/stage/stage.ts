@@ -31,7 +31,7 @@ interface StageHead {
 /** Texels of an image from the number `first` on, row by row. */
 export interface TexelRange {
   readonly image: DecodedImage;
-  readonly first: number;
+  readonly firstTexel: number;
 }
 
 /** Two numbers for a normal, octahedral x and y or spherical phi and theta, of so many bits. */
@@ -72,9 +72,9 @@ export interface TextureStage extends StageHead {
   /** The byte planes that are here, most significant first. */
   readonly coord: readonly TexelRange[];
   /** The byte planes that there will be. */
-  readonly coordPlanes: number;
+  readonly coordPlaneCount: number;
   /** Added to every coordinate in place of the bytes that are not here. */
-  readonly middleOfMissing: number;
+  readonly missingBytesMidpoint: number;
   readonly normal: TexelRange | undefined;
   readonly normalCode: NormalCode;
   readonly color: TexelRange | undefined;
@@ -90,7 +90,7 @@ export interface ValuePlanes {
   readonly planes: readonly TexelRange[];
   readonly planeCount: number;
   /** Added to every stored number in place of the bytes that are not here. */
-  readonly middleOfMissing: number;
+  readonly missingBytesMidpoint: number;
 }
 
 /** Bytes of typed arrays that are where draws read them, and not here any more. */
@@ -112,7 +112,7 @@ export interface StoredVertices extends Omit<VertexArray, "array"> {
 /** Of the attribute that colours a geometry. */
 export interface StoredValues extends StoredVertices {
   /** The stored integer that stands for the far side of the attribute's box, as 0 for its near side; undefined: numbers as they are. */
-  readonly largest: number | undefined;
+  readonly maxStored: number | undefined;
 }
 
 export interface StoredIndex {

@@ -5,7 +5,7 @@ import { pngWithTexels } from "../png.testing.ts";
 
 /** 3 x 2 texels of RGB from the number on, and others around them. */
 const plane = (first: number) => pngWithTexels(4, 2, 3, (n, channel) => (first + 10 * n + channel) % 256);
-const file = (png: Uint8Array<ArrayBuffer>, first = 0) => ({ png, first });
+const file = (png: Uint8Array<ArrayBuffer>, firstTexel = 0) => ({ png, firstTexel });
 const layout = { count: 5, rowLength: 0 };
 
 describe("coordinates on the CPU", () => {
@@ -14,7 +14,7 @@ describe("coordinates on the CPU", () => {
       ...layout,
       planes: [file(plane(1)), file(plane(101))],
       planeCount: 2,
-      middleOfMissing: 0,
+      missingBytesMidpoint: 0,
     });
     assert.ok(coord.array instanceof Uint16Array);
     assert.deepEqual([coord.components, coord.stride], [3, 4]);
@@ -23,16 +23,21 @@ describe("coordinates on the CPU", () => {
   });
 
   test("of missing bytes have their middle, of three and four bytes their exact sum", async () => {
-    const coarse = await classicCoords({ ...layout, planes: [file(plane(1))], planeCount: 2, middleOfMissing: 127.5 });
+    const coarse = await classicCoords({
+      ...layout,
+      planes: [file(plane(1))],
+      planeCount: 2,
+      missingBytesMidpoint: 127.5,
+    });
     assert.deepEqual(Array.from(coarse.array.subarray(0, 3)), [383.5, 639.5, 895.5]);
     const fine = await classicCoords({
       ...layout,
       planes: [1, 2, 3].map((n) => file(plane(n))),
       planeCount: 3,
-      middleOfMissing: 0,
+      missingBytesMidpoint: 0,
     });
     assert.deepEqual(Array.from(fine.array.subarray(0, 3)), [0x010203, 0x020304, 0x030405]);
-    const byte = await classicCoords({ ...layout, planes: [file(plane(7))], planeCount: 1, middleOfMissing: 0 });
+    const byte = await classicCoords({ ...layout, planes: [file(plane(7))], planeCount: 1, missingBytesMidpoint: 0 });
     assert.deepEqual([byte.array.constructor, byte.array[4]], [Uint8Array, 17]);
   });
 
@@ -42,7 +47,7 @@ describe("coordinates on the CPU", () => {
       rowLength: 0,
       planes: [file(plane(0), 2)],
       planeCount: 1,
-      middleOfMissing: 0,
+      missingBytesMidpoint: 0,
     });
     assert.deepEqual(
       [0, 4, 8].map((at) => shifted.array[at]),
@@ -53,7 +58,7 @@ describe("coordinates on the CPU", () => {
       rowLength: 3,
       planes: [file(plane(0))],
       planeCount: 1,
-      middleOfMissing: 0,
+      missingBytesMidpoint: 0,
     });
     assert.deepEqual(
       [0, 4, 8, 12].map((at) => rows.array[at]),
@@ -68,11 +73,11 @@ describe("coordinates on the CPU", () => {
       [7, 3, 0],
       [2, 5, 0],
     ] as const) {
-      const job = { count, rowLength, planes: [file(plane(0), first)], planeCount: 1, middleOfMissing: 0 };
+      const job = { count, rowLength, planes: [file(plane(0), first)], planeCount: 1, missingBytesMidpoint: 0 };
       await assert.rejects(classicCoords(job), { name: "DecodeError", kind: "malformed" });
     }
     const gray = pngWithTexels(4, 2, 1, () => 0);
-    await assert.rejects(classicCoords({ ...layout, planes: [file(gray)], planeCount: 1, middleOfMissing: 0 }), {
+    await assert.rejects(classicCoords({ ...layout, planes: [file(gray)], planeCount: 1, missingBytesMidpoint: 0 }), {
       message: /1 channels where 3/,
     });
   });

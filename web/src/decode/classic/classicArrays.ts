@@ -14,7 +14,7 @@ import { withoutStrips } from "../strips.ts";
 /** A file, and the texel that its data begin at. */
 export interface ImageFile {
   readonly png: Uint8Array<ArrayBuffer>;
-  readonly first: number;
+  readonly firstTexel: number;
 }
 
 /** Where the records of a patch lie in its images. */
@@ -33,12 +33,12 @@ export interface CoordJob extends PlanesJob {
   /** The byte planes that there will be. */
   readonly planeCount: number;
   /** Added to every coordinate in place of the bytes that are not here. */
-  readonly middleOfMissing: number;
+  readonly missingBytesMidpoint: number;
 }
 
 /** Stored integers; in Float32 where bytes are missing or there are more than two. */
 export async function classicCoords(job: CoordJob): Promise<VertexArray> {
-  const { planes, planeCount, middleOfMissing, count } = job;
+  const { planes, planeCount, missingBytesMidpoint, count } = job;
   const sums = await sumsOf(job, 3, 3);
   const isWhole = planes.length === planeCount;
   const array =
@@ -51,7 +51,7 @@ export async function classicCoords(job: CoordJob): Promise<VertexArray> {
   const shift = 256 ** (planeCount - planes.length);
   for (let record = 0; record < count; ++record) {
     for (let axis = 0; axis < 3; ++axis)
-      array[record * stride + axis] = (sums[3 * record + axis] ?? 0) * shift + middleOfMissing;
+      array[record * stride + axis] = (sums[3 * record + axis] ?? 0) * shift + missingBytesMidpoint;
   }
   return { array, components: 3, stride, offset: 0 };
 }
@@ -142,8 +142,8 @@ export async function classicNormals({ file, code, ...layout }: NormalJob): Prom
   requireTexels(image, half + layout.count);
   const array = new Uint8Array(layout.count * 4);
   for (let record = 0; record < layout.count; ++record) {
-    array[4 * record] = data[(image.first + record) * channels] ?? 0;
-    array[4 * record + 1] = data[(image.first + half + record) * channels] ?? 0;
+    array[4 * record] = data[(image.firstTexel + record) * channels] ?? 0;
+    array[4 * record + 1] = data[(image.firstTexel + half + record) * channels] ?? 0;
   }
   return { array, components: 2, stride: 4, offset: 0 };
 }
@@ -176,14 +176,14 @@ export async function classicColors({ file, components, ...layout }: ColorJob): 
 }
 
 interface FirstPixels extends Pixels {
-  readonly first: number;
+  readonly firstTexel: number;
 }
 
-async function imageOf({ png, first }: ImageFile, least: number): Promise<FirstPixels> {
+async function imageOf({ png, firstTexel: first }: ImageFile, least: number): Promise<FirstPixels> {
   const pixels = await decodePixels(png);
   if (pixels.channels < least)
     throw new DecodeError("malformed", `has ${pixels.channels} channels where ${least} are needed`);
-  return { ...pixels, first };
+  return { ...pixels, firstTexel: first };
 }
 
 function bytesOf(image: FirstPixels, layout: RecordLayout, components: 3 | 4): VertexArray {
@@ -199,7 +199,7 @@ function bytesOf(image: FirstPixels, layout: RecordLayout, components: 3 | 4): V
 
 /** From numbers to texels of the image; throws where it has fewer. */
 function placesOf(image: FirstPixels, { count, rowLength }: RecordLayout): (n: number) => number {
-  const { width, first } = image;
+  const { width, firstTexel: first } = image;
   const place =
     rowLength === 0 || rowLength === width
       ? (n: number) => first + n
@@ -209,7 +209,7 @@ function placesOf(image: FirstPixels, { count, rowLength }: RecordLayout): (n: n
   return place;
 }
 
-function requireTexels({ width, height, first }: FirstPixels, count: number): void {
+function requireTexels({ width, height, firstTexel: first }: FirstPixels, count: number): void {
   if (first + count > width * height) {
     throw new DecodeError("malformed", `has ${width} x ${height} texels; ${count} from texel ${first} on do not fit`);
   }

@@ -9,7 +9,7 @@ import type { Grid } from "../../stage/stage.ts";
 export interface GridJob extends CoordJob {
   readonly grid: Grid;
   /** The stored integer that stands for the far side of the box. */
-  readonly largestStored: number;
+  readonly maxStored: number;
   /** Of the lattice, along each axis. */
   readonly step: readonly [number, number, number];
 }
@@ -23,19 +23,19 @@ export interface GridArrays {
 
 type Vector = [number, number, number];
 
-export async function classicGrid({ grid, largestStored, step, ...job }: GridJob): Promise<GridArrays> {
+export async function classicGrid({ grid, maxStored, step, ...job }: GridJob): Promise<GridArrays> {
   const { columns, rows } = grid;
   const isHeights = grid.kind === "heightMap";
   const sums = await sumsOf(job, isHeights ? 1 : 3, 3);
   const shift = 256 ** (job.planeCount - job.planes.length);
   const array = new Float32Array(columns * rows * 3);
   for (let record = 0; record < columns * rows; ++record) {
-    const stored = (axis: number) => (sums[3 * record + axis] ?? 0) * shift + job.middleOfMissing;
+    const stored = (axis: number) => (sums[3 * record + axis] ?? 0) * shift + job.missingBytesMidpoint;
     const place = isHeights
       ? [
-          ((record % columns) * largestStored) / (columns - 1),
+          ((record % columns) * maxStored) / (columns - 1),
           stored(0),
-          (Math.floor(record / columns) * largestStored) / (rows - 1),
+          (Math.floor(record / columns) * maxStored) / (rows - 1),
         ]
       : [stored(0), stored(1), stored(2)];
     array.set(place, 3 * record);

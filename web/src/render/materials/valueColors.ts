@@ -50,7 +50,7 @@ export function valueFrameOf(
   attribute: AttributeDescription | undefined,
 ): { min: readonly number[]; step: readonly number[] } {
   const { min = [], size = [] } = attribute ?? {};
-  const largest = stage.kind === "buffers" ? stage.value?.largest : 256 ** (stage.value?.planeCount ?? 1) - 1;
+  const largest = stage.kind === "buffers" ? stage.value?.maxStored : 256 ** (stage.value?.planeCount ?? 1) - 1;
   const four = (values: readonly number[], missing: number) => [0, 1, 2, 3].map((c) => values[c] ?? missing);
   if (largest === undefined) return { min: four([], 0), step: four([], 1) };
   return {
@@ -63,7 +63,7 @@ export function valueFrameOf(
 }
 
 function imageUniformsOf(
-  { planes, planeCount, middleOfMissing }: ValuePlanes,
+  { planes, planeCount, missingBytesMidpoint }: ValuePlanes,
   textureOf: (image: DecodedImage) => Texture,
 ): Record<string, IUniform> {
   const image = (plane: number) => ({ value: planes[plane] ? textureOf(planes[plane].image) : null });
@@ -71,9 +71,9 @@ function imageUniformsOf(
     valueImage0: image(0),
     valueImage1: image(1),
     valueImage2: image(2),
-    valueFirstTexels: { value: [0, 1, 2].map((plane) => planes[plane]?.first ?? 0) },
+    valueFirstTexels: { value: [0, 1, 2].map((plane) => planes[plane]?.firstTexel ?? 0) },
     valuePlanes: { value: planeCount },
-    middleOfMissingValue: { value: middleOfMissing },
+    missingBytesMidpointValue: { value: missingBytesMidpoint },
   };
 }
 
@@ -96,7 +96,7 @@ varying float vMapPlace;
 uniform sampler2D valueImage0, valueImage1, valueImage2;
 uniform ivec3 valueFirstTexels;
 uniform int valuePlanes;
-uniform float middleOfMissingValue;
+uniform float missingBytesMidpointValue;
 
 uvec4 valueBytes(sampler2D image, int first, int n) {
   return uvec4(texelOf(image, first, n) * 255.0 + 0.5);
@@ -107,7 +107,7 @@ vec4 readValues(int end) {
   uvec4 stored = valueBytes(valueImage0, valueFirstTexels.x, n);
   if (valuePlanes > 1) stored = (stored << 8) | valueBytes(valueImage1, valueFirstTexels.y, n);
   if (valuePlanes > 2) stored = (stored << 8) | valueBytes(valueImage2, valueFirstTexels.z, n);
-  return valueMin + valueStep * (vec4(stored) + middleOfMissingValue);
+  return valueMin + valueStep * (vec4(stored) + missingBytesMidpointValue);
 }
 
 #else

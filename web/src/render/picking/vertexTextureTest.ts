@@ -88,7 +88,7 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
       firstTexels: { value: [2, 3, 0, 0] },
       coordFirstTexels: { value: [0, 1, 0, 0] },
       coordPlanes: { value: 2 },
-      middleOfMissing: { value: 0 },
+      missingBytesMidpoint: { value: 0 },
       hasIndex: { value: true },
       isIndexWide: { value: false },
       implicitWidth: { value: 4 },

@@ -67,7 +67,7 @@ uniform sampler2D indexImage, coordImage0, coordImage1, coordImage2, coordImage3
 uniform ivec4 firstTexels;
 uniform ivec4 coordFirstTexels;
 uniform int coordPlanes;
-uniform float middleOfMissing;
+uniform float missingBytesMidpoint;
 uniform bool hasIndex;
 uniform bool isIndexWide;
 uniform int implicitWidth;
@@ -147,7 +147,7 @@ vec3 storedPosition(int record) {
   if (coordPlanes > 1) stored = (stored << 8) | bytesOf(texelOf(coordImage1, coordFirstTexels.y, n));
   if (coordPlanes > 2) stored = (stored << 8) | bytesOf(texelOf(coordImage2, coordFirstTexels.z, n));
   if (coordPlanes > 3) stored = (stored << 8) | bytesOf(texelOf(coordImage3, coordFirstTexels.w, n));
-  vec3 place = vec3(stored) + middleOfMissing;
+  vec3 place = vec3(stored) + missingBytesMidpoint;
   #ifdef GRID_HEIGHTS
     vec2 across = vec2(record % gridSize.x, record / gridSize.x) * largestStored / vec2(gridSize - 1);
     return vec3(across.x, place.x, across.y);

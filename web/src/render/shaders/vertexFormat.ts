@@ -40,7 +40,7 @@ export interface ImageVertexUniforms extends VertexUniforms {
   firstTexels: IUniform<[number, number, number, number]>;
   coordFirstTexels: IUniform<[number, number, number, number]>;
   coordPlanes: IUniform<number>;
-  middleOfMissing: IUniform<number>;
+  missingBytesMidpoint: IUniform<number>;
   hasIndex: IUniform<boolean>;
   isIndexWide: IUniform<boolean>;
   implicitWidth: IUniform<number>;

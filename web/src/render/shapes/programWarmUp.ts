@@ -16,7 +16,7 @@ import { noSurfaceTextures } from "../materials/surfaceTextures.ts";
 import { materialRequestOf } from "../stages/materialRequests.ts";
 import { withWideLines } from "../lines/wideLines.ts";
 
-const placeholderTexels: TexelRange = { image: { width: 1, height: 1, close: () => undefined }, first: 0 };
+const placeholderTexels: TexelRange = { image: { width: 1, height: 1, close: () => undefined }, firstTexel: 0 };
 const placeholderTexture: SurfaceTexture = { texture: new Texture(), hasAlpha: false };
 
 /**
@@ -124,8 +124,8 @@ function bareStage(
     isIndexWide: indexType === "Uint32",
     implicitWidth: patch.implicitWidth,
     coord: [placeholderTexels],
-    coordPlanes: patch.coord.length,
-    middleOfMissing: 0,
+    coordPlaneCount: patch.coord.length,
+    missingBytesMidpoint: 0,
     normal: undefined,
     normalCode: isPair(normalEncoding) ? { kind: normalEncoding, bits: 8 } : { kind: "byteVector" },
     color: undefined,

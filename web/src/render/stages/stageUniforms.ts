@@ -104,7 +104,7 @@ function imageUniformsOf(
   const texture = (range: { image: DecodedImage } | undefined) => ({
     value: range ? textures.textureOf(range.image) : null,
   });
-  const first = (range: { first: number } | undefined) => range?.first ?? 0;
+  const first = (range: { firstTexel: number } | undefined) => range?.firstTexel ?? 0;
   return {
     ...common,
     indexImage: texture(index),
@@ -117,8 +117,8 @@ function imageUniformsOf(
     texCoordImage: texture(texCoord),
     firstTexels: { value: [first(index), first(normal), first(color), first(texCoord)] },
     coordFirstTexels: { value: [first(coord[0]), first(coord[1]), first(coord[2]), first(coord[3])] },
-    coordPlanes: { value: stage.coordPlanes },
-    middleOfMissing: { value: stage.middleOfMissing },
+    coordPlanes: { value: stage.coordPlaneCount },
+    missingBytesMidpoint: { value: stage.missingBytesMidpoint },
     hasIndex: { value: index !== undefined },
     isIndexWide: { value: stage.isIndexWide },
     implicitWidth: { value: stage.implicitWidth },

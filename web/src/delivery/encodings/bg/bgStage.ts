@@ -79,7 +79,7 @@ export function bgStageBuilder(
         normalCode,
         color,
         texCoord,
-        value: value && { ...value, largest: undefined },
+        value: value && { ...value, maxStored: undefined },
       };
     },
 

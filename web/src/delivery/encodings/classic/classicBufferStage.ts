@@ -72,7 +72,7 @@ class BufferStageBuilder implements StageBuilder {
   async accept(part: PatchFile, content: Content, signal: AbortSignal): Promise<void> {
     if (content.kind !== "bytes") throw new DecodeError("malformed", "is on the GPU already");
     const here = this.#here;
-    const file = { png: content.bytes, first: part.reference.first };
+    const file = { png: content.bytes, firstTexel: part.reference.first };
     const header = checkPng(file.png);
     switch (part.role) {
       case "coord":
@@ -157,7 +157,7 @@ class BufferStageBuilder implements StageBuilder {
       normalCode,
       color,
       texCoord,
-      value: value && { ...value, largest: undefined },
+      value: value && { ...value, maxStored: undefined },
     };
   }
 
@@ -173,7 +173,7 @@ class BufferStageBuilder implements StageBuilder {
     const job = {
       planes,
       planeCount,
-      middleOfMissing: missingBytesMidpoint(this.#geometry, planeCount, planes.length),
+      missingBytesMidpoint: missingBytesMidpoint(this.#geometry, planeCount, planes.length),
       ...this.#layout(header, planes[0]),
     };
     const grid = this.#patch.grid;
@@ -185,7 +185,7 @@ class BufferStageBuilder implements StageBuilder {
             {
               ...job,
               grid,
-              largestStored: maxStoredValueOf(this.#geometry, this.#patch),
+              maxStored: maxStoredValueOf(this.#geometry, this.#patch),
               step: dequantizationOf(this.#geometry, this.#patch).step,
             },
             signal,
@@ -268,11 +268,11 @@ class BufferStageBuilder implements StageBuilder {
     }
   }
 
-  #layout({ width, height }: PngHeader, { first }: { first: number } = { first: 0 }): RecordLayout {
+  #layout({ width, height }: PngHeader, { firstTexel }: { firstTexel: number } = { firstTexel: 0 }): RecordLayout {
     const { index, grid, vertexCount, implicitWidth, draws } = this.#patch;
     if (grid !== undefined) return { count: vertexCount, rowLength: implicitWidth };
     if (index === undefined)
       return { count: draws.reduce((sum, draw) => sum + draw.count, 0), rowLength: implicitWidth };
-    return { count: vertexCount || width * height - first, rowLength: 0 };
+    return { count: vertexCount || width * height - firstTexel, rowLength: 0 };
   }
 }

@@ -89,7 +89,7 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
     accept(part, content) {
       if (content.kind !== "image") throw new DecodeError("malformed", "is no image");
       const { image, channels } = content;
-      const range = { image, first: part.reference.first };
+      const range = { image, firstTexel: part.reference.first };
       const isPairs = part.role === "normal" && isPairCode(normalCode);
       const needed = channelsOf(part.role);
       if (channels < needed) throw new DecodeError("malformed", `has ${channels} channels where ${needed} are needed`);
@@ -121,7 +121,7 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
       const points = {
         primitive: "points",
         first: 0,
-        count: patch.vertexCount || texelsOf(first.image) - first.first,
+        count: patch.vertexCount || texelsOf(first.image) - first.firstTexel,
       } as const;
       return {
         kind: "textures",
@@ -132,8 +132,8 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
         isIndexWide: geometry.indexType === "Uint32",
         implicitWidth: name === "points" ? first.image.width : patch.implicitWidth,
         coord,
-        coordPlanes: patch.coord.length,
-        middleOfMissing: missingBytesMidpoint(geometry, patch.coord.length, coord.length),
+        coordPlaneCount: patch.coord.length,
+        missingBytesMidpoint: missingBytesMidpoint(geometry, patch.coord.length, coord.length),
         normal: here.normal,
         normalCode,
         color: here.color,
@@ -145,7 +145,7 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
             : {
                 planes: value,
                 planeCount: patch.value.length,
-                middleOfMissing: (256 ** (patch.value.length - value.length) - 1) / 2,
+                missingBytesMidpoint: (256 ** (patch.value.length - value.length) - 1) / 2,
               },
       };
     },
@@ -164,7 +164,7 @@ function texelsOf(image: DecodedImage): number {
 }
 
 /** Running numbers 0 .. count - 1, in rows of `implicitWidth`, must be texels of the image. */
-function checkHolds({ image, first }: TexelRange, count: number, implicitWidth: number): void {
+function checkHolds({ image, firstTexel: first }: TexelRange, count: number, implicitWidth: number): void {
   if (count === 0) return;
   const last = count - 1;
   const lastTexel = first + Math.floor(last / implicitWidth) * image.width + Math.min(last, implicitWidth - 1);

@@ -172,7 +172,7 @@ describe("a geometry of compact", () => {
       assert.deepEqual(errors, []);
       const stage = stages[0]?.stage;
       assert.ok(stage?.kind === "buffers" && stage.value);
-      const { components, stride, offset, largest } = stage.value;
+      const { components, stride, offset, maxStored: largest } = stage.value;
       assert.deepEqual([components, largest], [value.components, 2 ** value.bits - 1]);
       const array = site.arrayOf(stage.value);
       const values = Array.from(
@@ -307,7 +307,7 @@ describe("a geometry of compact", () => {
         [site.arrayOf(stage.texCoord), site.arrayOf(stage.value)],
         [parts[patch]?.texCoord?.array, parts[patch]?.others[0]?.vertices.array],
       );
-      assert.equal(stage.value?.largest, 2 ** 11 - 1);
+      assert.equal(stage.value?.maxStored, 2 ** 11 - 1);
     }
   });
 

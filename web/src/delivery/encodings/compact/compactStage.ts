@@ -48,7 +48,7 @@ export function compactStageBuilder(
       normal: ownNormal,
       color: ownColor,
       texCoord: ownTexCoord,
-      value: value && ownValue && { ...ownValue, largest: 2 ** value.bits - 1 },
+      value: value && ownValue && { ...ownValue, maxStored: 2 ** value.bits - 1 },
     };
   };
   const retire = (stage: BufferStage | undefined) => {
