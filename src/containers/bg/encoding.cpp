@@ -7,7 +7,7 @@ namespace imgeo {
 
 namespace {
 
-constexpr std::array normals{NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical};
+constexpr std::array bgNormals{NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical};
 
 } // namespace
 
@@ -26,7 +26,7 @@ constinit const EncodingRow bgEncoding{
             .maxPatchVertices = maxPatchWedges,
             .texCoordBits = {.min = 16, .max = 16, .defaultBits = 16},
             .colorBits = {.min = 8, .max = 8, .defaultBits = 8},
-            .normals = normals,
+            .normals = bgNormals,
             .strips = true,
             .unindexed = true,
             .elementTypes = true,

@@ -7,8 +7,8 @@ namespace imgeo {
 
 namespace {
 
-constexpr std::array normals{NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical,
-                             NormalEncoding::palette};
+constexpr std::array classicNormals{NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical,
+                                    NormalEncoding::palette};
 
 } // namespace
 
@@ -28,7 +28,7 @@ constinit const EncodingRow classicEncoding{
             .maxPatchVertices = maxPatchWedges,
             .texCoordBits = {.min = 16, .max = 16, .defaultBits = 16},
             .colorBits = {.min = 8, .max = 8, .defaultBits = 8},
-            .normals = normals,
+            .normals = classicNormals,
             .strips = true,
             .unindexed = true,
             .attributeBits = true,

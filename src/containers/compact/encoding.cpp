@@ -7,7 +7,7 @@ namespace imgeo {
 namespace {
 
 /// `rgb` is convert's default and stands for octahedral.
-constexpr std::array normals{NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::derived};
+constexpr std::array compactNormals{NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::derived};
 
 } // namespace
 
@@ -28,7 +28,7 @@ constinit const EncodingRow compactEncoding{
             .maxNamedAttributes = compact::maxAttributes - 3, // beside normals, texture coordinates and colours
             .texCoordBits = {.min = 1, .max = 16, .defaultBits = 12},
             .colorBits = {.min = 1, .max = 8, .defaultBits = 8},
-            .normals = normals,
+            .normals = compactNormals,
             .attributeBits = true,
             .maxError = true,
             .base = true,
