@@ -1,0 +1,70 @@
+// The fields of every node in node_fields.h, as vectors/nodes.json has them for tests/nodes.test.ts, which compares
+// them with the runtime's and the documentation's. IMGEO_REWRITE_GOLDEN=1 writes the file anew.
+#include "documents/node_fields.h"
+
+#include "base/file.h"
+#include "documents/node_fields_writer.h"
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+const char* typeOf(const std::string&) {
+  return "SFString";
+}
+const char* typeOf(bool) {
+  return "SFBool";
+}
+const char* typeOf(float) {
+  return "SFFloat";
+}
+const char* typeOf(double) {
+  return "SFFloat";
+}
+const char* typeOf(Vec2f) {
+  return "SFVec2f";
+}
+const char* typeOf(Vec3f) {
+  return "SFColor"; // colours are the only members of this type
+}
+const char* typeOf(Vec3d) {
+  return "SFVec3f";
+}
+const char* typeOf(const Rotation&) {
+  return "SFRotation";
+}
+
+/// Collects a line of JSON for each field: its name, type and default.
+struct FieldRows {
+  std::string text;
+
+  void operator()(const char* name, const auto& member, Written = Written::unlessDefault) {
+    text += text.empty() ? "\n" : ",\n";
+    text += std::string("    \"") + name + "\": [\"" + typeOf(member) + "\", \"" + fieldText(member) + "\"]";
+  }
+  void line() {}
+};
+
+template <typename Node> std::string rowsOf(const char* name) {
+  FieldRows rows;
+  visitFields(Node{}, rows);
+  return std::string("  \"") + name + "\": {" + rows.text + "\n  }";
+}
+
+TEST(NodeFields, AreThoseOfTheSharedTable) {
+  const std::string now =
+      "{\n" + rowsOf<Transform>("Transform") + ",\n" + rowsOf<Viewpoint>("Viewpoint") + ",\n" +
+      rowsOf<OrthoViewpoint>("OrthoViewpoint") + ",\n" + rowsOf<DirectionalLight>("DirectionalLight") + ",\n" +
+      rowsOf<PointLight>("PointLight") + ",\n" + rowsOf<SpotLight>("SpotLight") + ",\n" + rowsOf<Material>("Material") +
+      ",\n" + rowsOf<PhysicalMaterial>("PhysicalMaterial") + ",\n" + rowsOf<UnlitMaterial>("UnlitMaterial") + ",\n" +
+      rowsOf<TextureTransform>("TextureTransform") + "\n}\n";
+  const std::filesystem::path table = IMGEO_VECTORS "/nodes.json";
+  if (std::getenv("IMGEO_REWRITE_GOLDEN") != nullptr)
+    writeFile(table, asBytes(now));
+  EXPECT_EQ(asText(readFile(table)), now);
+}
+
+} // namespace
+} // namespace imgeo

@@ -1,0 +1,205 @@
+// The three tables of nodes and fields against each other: the converter's (vectors/nodes.json, written by
+// src/documents/node_fields_test.cpp), the runtime's (web/src/document) and the tables of docs/formats/nodes.md.
+import assert from "node:assert/strict";
+import { readFileSync, readdirSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import type { Field } from "../web/src/document/fieldTypes.ts";
+import { nodeFields } from "../web/src/document/nodes.ts";
+
+const root = join(import.meta.dirname, "..");
+const read = (path: string): string => readFileSync(join(root, path), "utf8");
+
+/** A field as a table states it; `defaultText` is in X3D's text encoding. */
+interface Row {
+  readonly type: string;
+  readonly defaultText: string;
+}
+type Table = ReadonlyMap<string, Row>;
+
+/** Documented tables by the heading that they stand under, each with the nodes that it describes. */
+interface Section {
+  readonly nodes: readonly string[];
+  readonly table: Table;
+}
+
+function documentedSections(): Map<string, Section> {
+  const sections = new Map<string, Section>();
+  const text = read("docs/formats/nodes.md").split("\n## What else is read")[0] ?? "";
+  for (const section of text.split("\n### ").slice(1)) {
+    const [heading = "", ...lines] = section.split("\n");
+    const begin = lines.indexOf("| field | type | default | meaning |");
+    if (begin < 0) continue;
+    const rows = lines.slice(begin + 2, lines.indexOf("", begin)).map((line) => line.split(" | "));
+    const table = new Map(
+      rows.map(([name = "", type = "", defaultText = ""]) => [name.replace(/[|`\s]/g, ""), { type, defaultText }]),
+    );
+    const list = lines.find((line) => line.startsWith("Nodes: "));
+    const nodes = list === undefined ? [heading] : [...list.matchAll(/`(\w+)`/g)].map(([, name = ""]) => name);
+    assert.equal(table.size, rows.length, `${heading} names a field twice`);
+    sections.set(heading, { nodes, table });
+  }
+  return sections;
+}
+
+const documented = documentedSections();
+
+/** The documented fields of a node, those of the sections that several nodes share included. */
+function documentedFields(node: string): Map<string, Row> {
+  const shared = [...documented.values()].filter(({ nodes }) => nodes.includes(node));
+  return new Map(shared.flatMap(({ table }) => [...table]));
+}
+
+const runtime: Readonly<Record<string, Readonly<Record<string, Field<unknown>>>>> = nodeFields;
+
+/** Rows of the runtime's table that hold the fields of several nodes; their nodes are in the documented list. */
+const sharedRows: Readonly<Record<string, string>> = { InlineGeometry: "Geometry of polygons, lines and points" };
+
+/** Fields that the converter writes or reads and nodes.ts does not have, by the reason. */
+const notInRuntimeTable: Readonly<Record<string, readonly string[]>> = {
+  "written by src/documents and read by no one": ["X3D.profile", "X3D.version", "TextureProperties.generateMipMaps"],
+  "shown by the page's title, or read by the converter": [
+    "WorldInfo.title",
+    "WorldInfo.info",
+    "MetadataString.name",
+    "MetadataString.value",
+  ],
+  "read as an attribute by web/src/document/appearance.ts": ["PixelTexture.containerField", "TextureTransform.mapping"],
+};
+
+/** Fields of the runtime's table that node_fields.h does not have, of nodes that it has, by the reason. */
+const notInConverterTable: Readonly<Record<string, readonly string[]>> = {
+  "kept as further attributes of the element (Node::fields in src/scene/scene.h)": [
+    ...["priority", "bboxCenter", "bboxSize", "visible", "render"].map((name) => `Transform.${name}`),
+    ...["Viewpoint", "OrthoViewpoint"].flatMap((node) => [`${node}.bind`, `${node}.set_bind`]),
+  ],
+  "X3D sources keep their materials as generic nodes, with all fields; no other source has a Material with these": [
+    "Material.normalScale",
+    "Material.occlusionStrength",
+  ],
+  "two members of a struct, which scene_reader.cpp and scene_writer.cpp handle": ["OrthoViewpoint.fieldOfView"],
+  "read by scene_reader.cpp, which leaves out lights that are off": [
+    "DirectionalLight.on",
+    "PointLight.on",
+    "SpotLight.on",
+  ],
+};
+
+const knownOnlyToTheConverter = new Set(Object.values(notInRuntimeTable).flat());
+
+/** X3D's types of the documented table, by the name of the type that the runtime reads the text with. */
+function isTypeOf(documentedType: string, runtimeType: string): boolean {
+  if (runtimeType.startsWith("priority")) return documentedType === "SFFloat";
+  if (runtimeType.startsWith("map of colours")) return documentedType === "SFString";
+  if (runtimeType === "SFString" && documentedType === "URL") return true;
+  // The runtime reads lists of vectors as one list of numbers.
+  if (runtimeType === "MFFloat") return /^MF(Float|Vec2f|Vec3f|Color|Rotation)$/.test(documentedType);
+  return documentedType === runtimeType;
+}
+
+function valueOf(field: Field<unknown>, defaultText: string): unknown {
+  if (defaultText === "–") return undefined;
+  return field.type.parse(["[]", '""'].includes(defaultText) ? "" : defaultText);
+}
+
+function assertSameField(name: string, field: Field<unknown>, { type, defaultText }: Row): void {
+  assert.ok(isTypeOf(type, field.type.name), `${name}: ${type} is documented, the runtime reads ${field.type.name}`);
+  assert.deepEqual(valueOf(field, defaultText), field.defaultValue, `the default of ${name}`);
+}
+
+test("every field of the runtime is documented with its type and default", () => {
+  for (const [node, fields] of Object.entries(runtime)) {
+    const rows = documented.get(sharedRows[node] ?? "")?.table ?? documentedFields(node);
+    for (const [name, field] of Object.entries(fields)) {
+      const row = rows.get(name);
+      assert.ok(row, `docs/formats/nodes.md does not have ${node}.${name}`);
+      assertSameField(`${node}.${name}`, field, row);
+    }
+  }
+});
+
+test("every documented field is read by the runtime, or listed here with the reason why not", () => {
+  const missing: string[] = [];
+  for (const [heading, { nodes, table }] of documented) {
+    const shared = Object.keys(sharedRows).find((row) => sharedRows[row] === heading);
+    for (const node of shared === undefined ? nodes : [shared]) {
+      // StaticGroup and Collision are read with the fields of a Group.
+      const fields = runtime[node] ?? (["StaticGroup", "Collision"].includes(node) ? runtime.Group : undefined);
+      for (const name of table.keys()) if (!fields?.[name]) missing.push(`${node}.${name}`);
+    }
+  }
+  assert.deepEqual(missing.toSorted(), [...knownOnlyToTheConverter].toSorted());
+});
+
+test("the converter's table has every field of its nodes, but for those that are listed here with the reason", () => {
+  const converter = JSON.parse(read("vectors/nodes.json")) as Record<string, Record<string, unknown>>;
+  const missing = Object.entries(converter).flatMap(([node, fields]) =>
+    Object.keys(runtime[node] ?? {})
+      .filter((name) => !(name in fields))
+      .map((name) => `${node}.${name}`),
+  );
+  assert.deepEqual(missing.toSorted(), Object.values(notInConverterTable).flat().toSorted());
+});
+
+test("the converter and the runtime give every field that both know the same type and default", () => {
+  const converter = JSON.parse(read("vectors/nodes.json")) as Record<string, Record<string, [string, string]>>;
+  assert.ok(Object.keys(converter).length >= 10);
+  for (const [node, fields] of Object.entries(converter))
+    for (const [name, [type, defaultText]] of Object.entries(fields)) {
+      const fullName = `${node}.${name}`;
+      const documentedRow = documentedFields(node).get(name);
+      assert.ok(documentedRow, `docs/formats/nodes.md does not have ${fullName}`);
+      assert.equal(type, documentedRow.type, fullName);
+      if (knownOnlyToTheConverter.has(fullName)) continue;
+      const field = runtime[node]?.[name];
+      assert.ok(field, `web/src/document/nodes.ts does not have ${fullName}`);
+      assertSameField(fullName, field, { type, defaultText: defaultText === "" ? '""' : defaultText });
+    }
+});
+
+/** Types of the fields that a method of the converter's readers returns (field_reader.h, import/x3d/source.h). */
+const typesOfMethod: Readonly<Record<string, RegExp>> = {
+  text: /^(SFString|URL)$/,
+  boolean: /^SFBool$/,
+  real: /^(SFFloat|SFInt32)$/,
+  integer: /^SFInt32$/,
+  integers: /^MFInt32$/,
+  vec2: /^SFVec2f$/,
+  vec3: /^(SFVec3f|SFColor)$/,
+  reals: /^(MF\w+|SFVec2f)$/,
+  strings: /^MFString$/,
+};
+
+/** Attributes that are no fields of one node, and fields of X3DOM that the converter refuses unless they are default. */
+const notDocumented = ["DEF", "USE", "compressed"];
+
+/** Calls such as `fields.real("alphaCutoff", 0.5f)` or `boolean(node_, "ccw", true)`: method, field, default. */
+function fieldsReadBy(folder: string): { where: string; method: string; name: string; fallback: string }[] {
+  const call = /\b(\w+)\((?:node_?, |element, )?"([A-Za-z]+)"(?:, ([^()]*?))?\)/g;
+  return readdirSync(join(root, folder))
+    .filter((file) => file.endsWith(".cpp") && !file.endsWith("_test.cpp"))
+    .flatMap((file) =>
+      [...read(`${folder}/${file}`).matchAll(call)]
+        .map(([, method = "", name = "", fallback = ""]) => ({ where: `${folder}/${file}`, method, name, fallback }))
+        .filter(({ method, name }) => method in typesOfMethod && !notDocumented.includes(name)),
+    );
+}
+
+test("every field that the converter reads by its name is documented, with that type and default", () => {
+  const rowsByName = new Map<string, Row[]>();
+  for (const { table } of documented.values())
+    for (const [name, row] of table) rowsByName.set(name, [...(rowsByName.get(name) ?? []), row]);
+  const reads = ["src/documents", "src/import/x3d"].flatMap(fieldsReadBy);
+  assert.ok(reads.length > 40, "the calls that read fields were not found");
+  for (const { where, method, name, fallback } of reads) {
+    const rows = rowsByName.get(name) ?? [];
+    const typed = rows.filter(({ type }) => typesOfMethod[method]?.test(type));
+    assert.ok(typed.length > 0, `${where} reads ${name} with ${method}(): docs/formats/nodes.md does not have it so`);
+    if (method === "reals" || !/^(true|false|[\d.]+f?)$/.test(fallback)) continue;
+    const text = /^\d/.test(fallback) ? fallback.replace(/f$/, "") : fallback;
+    assert.ok(
+      typed.some(({ defaultText }) => defaultText === text),
+      `${where}: the default of ${name} is ${text}, not what docs/formats/nodes.md says`,
+    );
+  }
+});
