@@ -15,7 +15,7 @@ namespace imgeo {
 
 namespace {
 
-/// Numbers positions in the order in which they come.
+/// Numbers distinct positions in the order of their first occurrence.
 class PositionTable {
 public:
   explicit PositionTable(std::size_t capacity) : table_(capacity) { positions.reserve(capacity); }
@@ -36,7 +36,7 @@ private:
   IndexHashTable table_;
 };
 
-/// Positions by their numbers in all patches together, and which of them several have.
+/// The positions of all patches with common numbers, and which of them several patches share.
 struct CommonPositions {
   std::vector<std::vector<std::uint32_t>> numbers; ///< per patch and position
   std::vector<bool> isShared;                      ///< per number
@@ -46,15 +46,15 @@ template <typename AnyPatch>
 CommonPositions commonPositions(const std::vector<AnyPatch>& patches, PositionTable& table) {
   CommonPositions common;
   std::vector<std::uint32_t> owners;
-  for (std::uint32_t part = 0; part < patches.size(); ++part) {
+  for (std::uint32_t segment = 0; segment < patches.size(); ++segment) {
     std::vector<std::uint32_t>& numbers = common.numbers.emplace_back();
-    for (const Vec3u& position : patches[part].positions) {
+    for (const Vec3u& position : patches[segment].positions) {
       const std::uint32_t number = table.numberOf(position);
       if (number == owners.size()) {
-        owners.push_back(part);
+        owners.push_back(segment);
         common.isShared.push_back(false);
       }
-      common.isShared[number] = common.isShared[number] || owners[number] != part;
+      common.isShared[number] = common.isShared[number] || owners[number] != segment;
       numbers.push_back(number);
     }
   }
@@ -68,9 +68,9 @@ template <typename AnyPatch> std::size_t positionCountOf(const std::vector<AnyPa
   return count;
 }
 
-/// Per patch and position: whether another patch has it too.
+/// By patch and position: whether another patch has the position, too.
 std::vector<std::vector<bool>> sharedPositions(const std::vector<Patch>& patches) {
-  if (patches.size() == 1) // most small models: there is nothing to look up
+  if (patches.size() == 1)
     return {std::vector<bool>(patches[0].positions.size())};
   PositionTable table(positionCountOf(patches));
   const CommonPositions common = commonPositions(patches, table);
@@ -83,15 +83,15 @@ std::vector<std::vector<bool>> sharedPositions(const std::vector<Patch>& patches
   return isShared;
 }
 
-/// A patch's triangles over its positions, but for degenerate ones, and which they are.
-struct WholeTriangles {
-  std::vector<std::uint32_t> corners, numbers;
+/// The non-degenerate triangles of a patch: their corners as positions, and their indices in the patch.
+struct NonDegenerateTriangles {
+  std::vector<std::uint32_t> corners, indices;
 };
 
-WholeTriangles wholeTrianglesOf(const Patch& patch) {
-  WholeTriangles triangles;
+NonDegenerateTriangles nonDegenerateTrianglesOf(const Patch& patch) {
+  NonDegenerateTriangles triangles;
   triangles.corners.reserve(patch.corners.size());
-  triangles.numbers.reserve(patch.elementCount());
+  triangles.indices.reserve(patch.elementCount());
   for (std::size_t corner = 0; corner < patch.corners.size(); corner += 3) {
     const std::uint32_t a = patch.wedgePositions[patch.corners[corner]],
                         b = patch.wedgePositions[patch.corners[corner + 1]],
@@ -99,7 +99,7 @@ WholeTriangles wholeTrianglesOf(const Patch& patch) {
     if (a == b || b == c || c == a)
       continue;
     triangles.corners.insert(triangles.corners.end(), {a, b, c});
-    triangles.numbers.push_back(static_cast<std::uint32_t>(corner / 3));
+    triangles.indices.push_back(static_cast<std::uint32_t>(corner / 3));
   }
   return triangles;
 }
@@ -113,7 +113,8 @@ double areaOf(const std::vector<Vec3u>& positions, const std::vector<std::uint32
   return area;
 }
 
-/// Sums of directed edges in which opposite ones cancel out. Of a surface's triangles: its border.
+/// A formal sum of directed edges, in which opposite edges cancel out (the boundary operator of a simplicial
+/// complex): the sum of all edges of a surface's triangles is its border.
 class EdgeSum {
 public:
   void add(std::uint32_t from, std::uint32_t to, int count = 1) {
@@ -126,7 +127,7 @@ public:
         add(numberOf(corners[corner + i]), numberOf(corners[corner + (i + 1) % 3]));
   }
 
-  /// Calls visit(a, b, count) for each edge that is left, `count` times from a to b.
+  /// Calls visit(a, b, count) for each edge whose coefficient `count`, counted from a to b, is not 0.
   template <typename Visit> void visit(Visit visit) {
     std::ranges::sort(terms_, {}, [](const Term& term) { return std::pair(term.a, term.b); });
     for (std::size_t begin = 0, end = 0; begin < terms_.size(); begin = end) {
@@ -147,17 +148,17 @@ private:
   std::vector<Term> terms_;
 };
 
-/// A part of a base before it is joined to the others.
-struct Part {
+/// A segment of a base mesh before it is joined to the others.
+struct Segment {
   std::vector<Vec3u> positions;
   SimplifiedWedges wedges;
   double area = 0, areaBefore = 0;
   std::size_t triangleCountBefore = 0;
 };
 
-/// The border that no simplification may move: of edges between fixed positions.
+/// Counts the border edges between fixed positions, which simplification keeps.
 std::size_t countFixedEdges(const std::vector<std::uint32_t>& corners, const std::vector<bool>& isFixed) {
-  if (std::ranges::find(isFixed, true) == isFixed.end()) // most small models
+  if (std::ranges::find(isFixed, true) == isFixed.end())
     return 0;
   EdgeSum border;
   for (std::size_t corner = 0; corner < corners.size(); ++corner) {
@@ -170,37 +171,38 @@ std::size_t countFixedEdges(const std::vector<std::uint32_t>& corners, const std
   return count;
 }
 
-Part partOf(const Patch& patch, const std::vector<bool>& isFixed, double percent) {
-  const auto [corners, numbers] = wholeTrianglesOf(patch);
-  Part part;
-  part.triangleCountBefore = corners.size() / 3;
-  // At least half of what is asked for is left to what no border holds.
-  const double wanted = percent / 100 * static_cast<double>(part.triangleCountBefore);
-  const double least = wanted / 2 + static_cast<double>(countFixedEdges(corners, isFixed));
+Segment segmentOf(const Patch& patch, const std::vector<bool>& isFixed, double percent) {
+  const auto [corners, triangleIndices] = nonDegenerateTrianglesOf(patch);
+  Segment segment;
+  segment.triangleCountBefore = corners.size() / 3;
+  // The interior gets at least half of the requested triangles, beside those that fixed border edges need.
+  const double requested = percent / 100 * static_cast<double>(segment.triangleCountBefore);
+  const double minimum = requested / 2 + static_cast<double>(countFixedEdges(corners, isFixed));
   SimplifiedTriangles triangles =
-      simplify(patch.positions, corners, isFixed, static_cast<std::size_t>(std::max(wanted, least)));
-  part.areaBefore = triangles.areaBefore;
-  part.area = areaOf(triangles.positions, triangles.corners);
-  part.wedges = wedgesOf(triangles, patch, numbers);
-  part.positions = std::move(triangles.positions);
-  return part;
+      simplify(patch.positions, corners, isFixed, static_cast<std::size_t>(std::max(requested, minimum)));
+  segment.areaBefore = triangles.areaBefore;
+  segment.area = areaOf(triangles.positions, triangles.corners);
+  segment.wedges = wedgesOf(triangles, patch, triangleIndices);
+  segment.positions = std::move(triangles.positions);
+  return segment;
 }
 
-/// Joins parts: what two of them have at one position becomes one where it is alike.
-class Joint {
+/// Joins segments: equal positions of several segments become one, and so do wedges of equal position and texture
+/// coordinate.
+class SegmentJoiner {
 public:
-  explicit Joint(const std::vector<Part>& parts)
-      : positions_(countOf(parts, [](const Part& part) { return part.positions.size(); })),
-        wedges_(countOf(parts, [](const Part& part) { return part.wedges.positions.size(); })) {
-    base_.segmentCount = static_cast<std::uint32_t>(parts.size());
+  explicit SegmentJoiner(const std::vector<Segment>& segments)
+      : positions_(countOf(segments, [](const Segment& segment) { return segment.positions.size(); })),
+        wedges_(countOf(segments, [](const Segment& segment) { return segment.wedges.positions.size(); })) {
+    base_.segmentCount = static_cast<std::uint32_t>(segments.size());
   }
 
-  void add(const Part& part, const Patch& patch, std::uint32_t number) {
+  void add(const Segment& segment, const Patch& patch, std::uint32_t number) {
     const std::size_t wedgesBefore = base_.wedgePositions.size();
     std::vector<std::uint32_t> wedges, sources;
-    for (std::size_t wedge = 0; wedge < part.wedges.positions.size(); ++wedge) {
-      const std::uint32_t source = part.wedges.sources[wedge];
-      const std::uint32_t position = positions_.numberOf(part.positions[part.wedges.positions[wedge]]);
+    for (std::size_t wedge = 0; wedge < segment.wedges.positions.size(); ++wedge) {
+      const std::uint32_t source = segment.wedges.sources[wedge];
+      const std::uint32_t position = positions_.numberOf(segment.positions[segment.wedges.positions[wedge]]);
       wedges.push_back(wedgeAt(position, patch.texCoords.empty() ? Vec2f{} : patch.texCoords[source]));
       if (wedgesBefore + sources.size() < base_.wedgePositions.size())
         sources.push_back(source);
@@ -208,8 +210,8 @@ public:
     VertexAttributes attributes = gather(patch, sources);
     attributes.normals.clear();
     append(base_, wedgesBefore, attributes, sources.size());
-    for (std::size_t corner = 0; corner < part.wedges.corners.size(); corner += 3) {
-      const auto at = [&](std::size_t i) { return wedges[part.wedges.corners[corner + i]]; };
+    for (std::size_t corner = 0; corner < segment.wedges.corners.size(); corner += 3) {
+      const auto at = [&](std::size_t i) { return wedges[segment.wedges.corners[corner + i]]; };
       const std::uint32_t a = base_.wedgePositions[at(0)], b = base_.wedgePositions[at(1)],
                           c = base_.wedgePositions[at(2)];
       if (a == b || b == c || c == a)
@@ -225,10 +227,10 @@ public:
   }
 
 private:
-  template <typename Count> static std::size_t countOf(const std::vector<Part>& parts, Count countIn) {
+  template <typename Count> static std::size_t countOf(const std::vector<Segment>& segments, Count countIn) {
     std::size_t count = 0;
-    for (const Part& part : parts)
-      count += countIn(part);
+    for (const Segment& segment : segments)
+      count += countIn(segment);
     return count;
   }
 
@@ -237,11 +239,11 @@ private:
     const std::uint64_t bits =
         std::uint64_t{std::bit_cast<std::uint32_t>(texCoord.x)} << 32 | std::bit_cast<std::uint32_t>(texCoord.y);
     const std::uint32_t wedge = wedges_.findOrInsert(mixHash(mixHash(0, position), bits), next, [&](std::uint32_t i) {
-      return base_.wedgePositions[i] == position && places_[i] == bits;
+      return base_.wedgePositions[i] == position && texCoordBits_[i] == bits;
     });
     if (wedge == next) {
       base_.wedgePositions.push_back(position);
-      places_.push_back(bits);
+      texCoordBits_.push_back(bits);
     }
     return wedge;
   }
@@ -249,29 +251,30 @@ private:
   BaseMesh base_;
   PositionTable positions_;
   IndexHashTable wedges_;
-  std::vector<std::uint64_t> places_; ///< in the texture, per wedge
+  std::vector<std::uint64_t> texCoordBits_; ///< by wedge: u and v
 };
 
-/// Numbers in the order in which they come first; `numbers` become these.
-std::vector<std::uint32_t> keepUsed(std::vector<std::uint32_t>& numbers, std::size_t count) {
+/// Renumbers `indices`, all below `count`, in the order of their first occurrence. Returns the old index of each new
+/// one.
+std::vector<std::uint32_t> compactIndices(std::vector<std::uint32_t>& indices, std::size_t count) {
   constexpr std::uint32_t none = UINT32_MAX;
-  std::vector<std::uint32_t> places(count, none), kept;
-  for (std::uint32_t& number : numbers) {
-    if (places[number] == none) {
-      places[number] = static_cast<std::uint32_t>(kept.size());
-      kept.push_back(number);
+  std::vector<std::uint32_t> newIndices(count, none), kept;
+  for (std::uint32_t& index : indices) {
+    if (newIndices[index] == none) {
+      newIndices[index] = static_cast<std::uint32_t>(kept.size());
+      kept.push_back(index);
     }
-    number = places[number];
+    index = newIndices[index];
   }
   return kept;
 }
 
 /// Drops wedges and positions that no triangle uses.
 void dropUnused(BaseMesh& base) {
-  const std::vector<std::uint32_t> wedges = keepUsed(base.corners, base.wedgePositions.size());
+  const std::vector<std::uint32_t> wedges = compactIndices(base.corners, base.wedgePositions.size());
   base.wedgePositions = gather(base.wedgePositions, wedges);
   static_cast<VertexAttributes&>(base) = gather(base, wedges);
-  base.positions = gather(base.positions, keepUsed(base.wedgePositions, base.positions.size()));
+  base.positions = gather(base.positions, compactIndices(base.wedgePositions, base.positions.size()));
 }
 
 } // namespace
@@ -284,17 +287,17 @@ std::optional<BaseMesh> baseOf(const PatchedMesh& mesh, double percent) {
       !(percent > 0))
     return std::nullopt;
   const std::vector<std::vector<bool>> isFixed = sharedPositions(mesh.patches);
-  std::vector<Part> parts(mesh.patches.size());
-  parallelFor(parts.size(), [&](std::size_t i) { parts[i] = partOf(mesh.patches[i], isFixed[i], percent); });
+  std::vector<Segment> segments(mesh.patches.size());
+  parallelFor(segments.size(), [&](std::size_t i) { segments[i] = segmentOf(mesh.patches[i], isFixed[i], percent); });
   double areaBefore = 0, area = 0;
-  for (const Part& part : parts) {
-    areaBefore += part.areaBefore;
-    area += part.area;
+  for (const Segment& segment : segments) {
+    areaBefore += segment.areaBefore;
+    area += segment.area;
   }
-  Joint joint(parts);
-  for (std::uint32_t i = 0; i < parts.size(); ++i)
-    joint.add(parts[i], mesh.patches[i], i);
-  BaseMesh base = joint.finish();
+  SegmentJoiner joiner(segments);
+  for (std::uint32_t i = 0; i < segments.size(); ++i)
+    joiner.add(segments[i], mesh.patches[i], i);
+  BaseMesh base = joiner.finish();
   dropUnused(base);
   if (4 * base.triangleCount() > elementCount || 2 * area < areaBefore || base.corners.empty())
     return std::nullopt;
@@ -302,7 +305,7 @@ std::optional<BaseMesh> baseOf(const PatchedMesh& mesh, double percent) {
 }
 
 PatchTriangles trianglesOf(const Patch& patch) {
-  return {patch.positions, wholeTrianglesOf(patch).corners};
+  return {patch.positions, nonDegenerateTrianglesOf(patch).corners};
 }
 
 bool meetsAtBorders(const BaseMesh& base, const std::vector<PatchTriangles>& patches) {
@@ -319,18 +322,19 @@ bool meetsAtBorders(const BaseMesh& base, const std::vector<PatchTriangles>& pat
         std::span(base.corners).subspan(3 * triangle, 3),
         [&](std::uint32_t wedge) { return numbersOfBase[base.wedgePositions[wedge]]; });
   bool meets = true;
-  for (std::size_t part = 0; part < patches.size(); ++part) {
+  for (std::size_t segment = 0; segment < patches.size(); ++segment) {
     EdgeSum border;
-    border.addTriangles(patches[part].corners, [&](std::uint32_t position) { return common.numbers[part][position]; });
-    // Under a map of vertices an edge of the mesh's own border becomes another or none.
+    border.addTriangles(patches[segment].corners,
+                        [&](std::uint32_t position) { return common.numbers[segment][position]; });
+    // Simplification maps each edge of the mesh's own border to one edge or to none.
     std::size_t ownBorder = 0, changed = 0;
     border.visit([&](std::uint32_t a, std::uint32_t b, int times) {
       if (common.isShared[a] && common.isShared[b])
-        differences[part].add(a, b, -times);
+        differences[segment].add(a, b, -times);
       else
         ownBorder += static_cast<std::size_t>(std::abs(times));
     });
-    differences[part].visit(
+    differences[segment].visit(
         [&](std::uint32_t, std::uint32_t, int times) { changed += static_cast<std::size_t>(std::abs(times)); });
     meets = meets && changed <= ownBorder;
   }

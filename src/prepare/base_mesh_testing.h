@@ -1,5 +1,5 @@
 #pragma once
-// Mixtures of a base's parts and whole patches. Header-only and for tests alone.
+// Mixtures of segments of a base mesh and whole patches. Header-only and for tests alone.
 
 #include "prepare/base_mesh.h"
 #include "scene/testing.h"
@@ -16,8 +16,7 @@ inline PointKey keyOf(const Vec3u& point) {
   return {point.x, point.y, point.z};
 }
 
-/// Directed edges between lattice points, opposite ones cancelling out; each that is
-/// left is a crack.
+/// Directed edges between lattice points, in which opposite edges cancel out; each edge that remains is a crack.
 class EdgeBalance {
 public:
   void add(const Vec3u& a, const Vec3u& b, const Vec3u& c) {
@@ -34,22 +33,22 @@ private:
   std::map<std::pair<PointKey, PointKey>, int> counts_;
 };
 
-/// Of a mesh without borders: whatever patches have come, no edge is left open.
+/// Expects of a closed mesh that no mixture of segments and patches has an open edge.
 inline void expectClosedMixtures(const BaseMesh& base, const std::vector<PatchTriangles>& patches) {
   Random random(static_cast<std::uint32_t>(patches.size()));
   for (int mixture = 0; mixture < 6; ++mixture) {
-    std::vector<bool> hasCome;
-    for (std::size_t part = 0; part < patches.size(); ++part)
-      hasCome.push_back(mixture > 1 ? random.once(2) : mixture == 1);
+    std::vector<bool> hasArrived;
+    for (std::size_t segment = 0; segment < patches.size(); ++segment)
+      hasArrived.push_back(mixture > 1 ? random.once(2) : mixture == 1);
     EdgeBalance edges;
     for (std::size_t triangle = 0; triangle < base.triangleCount(); ++triangle)
-      if (!hasCome[base.segments[triangle]]) {
+      if (!hasArrived[base.segments[triangle]]) {
         const auto at = [&](std::size_t i) { return base.cornerPosition(3 * triangle + i); };
         edges.add(at(0), at(1), at(2));
       }
-    for (std::size_t part = 0; part < patches.size(); ++part)
-      for (std::size_t corner = 0; hasCome[part] && corner < patches[part].corners.size(); corner += 3) {
-        const auto at = [&](std::size_t i) { return patches[part].positions[patches[part].corners[corner + i]]; };
+    for (std::size_t segment = 0; segment < patches.size(); ++segment)
+      for (std::size_t corner = 0; hasArrived[segment] && corner < patches[segment].corners.size(); corner += 3) {
+        const auto at = [&](std::size_t i) { return patches[segment].positions[patches[segment].corners[corner + i]]; };
         edges.add(at(0), at(1), at(2));
       }
     EXPECT_EQ(edges.cracks(), 0u) << "mixture " << mixture << " of " << patches.size() << " patches";

@@ -11,7 +11,7 @@ namespace imgeo {
 
 namespace {
 
-/// Wedges of a patch in sets that grow together.
+/// A union-find structure over the wedges of a patch.
 class WedgeSets {
 public:
   explicit WedgeSets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
@@ -31,8 +31,8 @@ private:
   std::vector<std::uint32_t> parents_;
 };
 
-/// Joins the wedges of each position that have one place in the texture.
-void joinAlike(WedgeSets& sets, const Patch& patch) {
+/// Joins the wedges of each position that have the same texture coordinate.
+void joinEqualTexCoords(WedgeSets& sets, const Patch& patch) {
   if (patch.wedgeCount() == patch.positions.size())
     return;
   std::vector<std::uint32_t> order(patch.wedgeCount());
@@ -47,8 +47,8 @@ void joinAlike(WedgeSets& sets, const Patch& patch) {
       sets.join(order[i], order[i - 1]);
 }
 
-/// Joins wedges of a triangle whose vertices have become one.
-void joinGathered(WedgeSets& sets, const SimplifiedTriangles& simplified, const Patch& patch) {
+/// Joins the wedges of a triangle that simplification has mapped to one vertex.
+void joinCollapsed(WedgeSets& sets, const SimplifiedTriangles& simplified, const Patch& patch) {
   const auto vertexOf = [&](std::uint32_t wedge) { return simplified.vertexOfInput[patch.wedgePositions[wedge]]; };
   for (std::size_t corner = 0; corner < patch.corners.size(); ++corner) {
     const std::uint32_t a = patch.corners[corner], b = patch.corners[corner % 3 == 2 ? corner - 2 : corner + 1];
@@ -57,8 +57,8 @@ void joinGathered(WedgeSets& sets, const SimplifiedTriangles& simplified, const 
   }
 }
 
-/// Of each set, by the number of its wedge that stands for it, the wedge that is nearest to the vertex.
-std::vector<std::uint32_t> nearestOf(WedgeSets& sets, const SimplifiedTriangles& simplified, const Patch& patch) {
+/// For each set, indexed by its representative wedge: the wedge that is nearest to the simplified vertex.
+std::vector<std::uint32_t> nearestWedges(WedgeSets& sets, const SimplifiedTriangles& simplified, const Patch& patch) {
   std::vector<std::uint32_t> nearest(patch.wedgeCount(), SimplifiedTriangles::none);
   std::vector<double> distances(patch.wedgeCount(), std::numeric_limits<double>::infinity());
   for (std::uint32_t wedge = 0; wedge < patch.wedgeCount(); ++wedge) {
@@ -75,49 +75,49 @@ std::vector<std::uint32_t> nearestOf(WedgeSets& sets, const SimplifiedTriangles&
   return nearest;
 }
 
-/// Makes wedges of pieces of surface, one for those of a vertex that lie together in the texture.
-class Pieces {
+/// Makes one wedge of all sets of a vertex whose texture coordinates are close maxDistance.
+class WedgeBuilder {
 public:
-  Pieces(const SimplifiedTriangles& simplified, const Patch& patch, const std::vector<std::uint32_t>& nearest)
+  WedgeBuilder(const SimplifiedTriangles& simplified, const Patch& patch, const std::vector<std::uint32_t>& nearest)
       : patch_(patch), nearest_(nearest), latest_(simplified.positions.size(), SimplifiedTriangles::none),
         numbers_(patch.wedgeCount(), SimplifiedTriangles::none) {}
 
-  /// The next corner, by a set of wedges and the vertex that it stands around.
+  /// Adds the next corner, given its set of wedges and its simplified vertex.
   void add(std::uint32_t set, std::uint32_t position) {
     sets_.push_back(set);
     positions_.push_back(position);
   }
 
   SimplifiedWedges finish() {
-    const double together = patch_.texCoords.empty() ? 0 : meanEdge() / 4;
+    const double maxDistance = patch_.texCoords.empty() ? 0 : meanEdge() / 4;
     for (std::size_t corner = 0; corner < sets_.size(); ++corner) {
       std::uint32_t& number = numbers_[sets_[corner]];
       if (number == SimplifiedTriangles::none)
-        number = wedgeAt(positions_[corner], nearest_[sets_[corner]], together);
+        number = wedgeAt(positions_[corner], nearest_[sets_[corner]], maxDistance);
       wedges_.corners.push_back(number);
     }
     return std::move(wedges_);
   }
 
 private:
-  double between(std::uint32_t a, std::uint32_t b) const {
+  double texCoordDistance(std::uint32_t a, std::uint32_t b) const {
     const Vec2f from = patch_.texCoords[a], to = patch_.texCoords[b];
     return std::hypot(double{to.x} - from.x, double{to.y} - from.y);
   }
 
-  /// Of the triangles in the texture.
+  /// Mean edge length of the simplified triangles in the texture.
   double meanEdge() const {
     double sum = 0;
     for (std::size_t corner = 0; corner < sets_.size(); ++corner)
-      sum += between(nearest_[sets_[corner]], nearest_[sets_[corner % 3 == 2 ? corner - 2 : corner + 1]]);
+      sum += texCoordDistance(nearest_[sets_[corner]], nearest_[sets_[corner % 3 == 2 ? corner - 2 : corner + 1]]);
     return sum / static_cast<double>(sets_.size());
   }
 
-  std::uint32_t wedgeAt(std::uint32_t position, std::uint32_t source, double together) {
-    constexpr int mostToLookAt = 16; // loose triangles may be thousands at one vertex
+  std::uint32_t wedgeAt(std::uint32_t position, std::uint32_t source, double maxDistance) {
+    constexpr int maxCandidates = 16; // one vertex may have thousands of unconnected triangles
     std::uint32_t wedge = latest_[position];
-    for (int looked = 0; wedge != SimplifiedTriangles::none && looked < mostToLookAt; ++looked, wedge = before_[wedge])
-      if (patch_.texCoords.empty() || between(wedges_.sources[wedge], source) <= together)
+    for (int n = 0; wedge != SimplifiedTriangles::none && n < maxCandidates; ++n, wedge = before_[wedge])
+      if (patch_.texCoords.empty() || texCoordDistance(wedges_.sources[wedge], source) <= maxDistance)
         return wedge;
     before_.push_back(latest_[position]);
     latest_[position] = static_cast<std::uint32_t>(wedges_.positions.size());
@@ -127,14 +127,14 @@ private:
   }
 
   const Patch& patch_;
-  const std::vector<std::uint32_t>& nearest_;   ///< per set
-  std::vector<std::uint32_t> sets_, positions_; ///< per corner
-  std::vector<std::uint32_t> latest_, before_;  ///< wedges of a position, in a list
-  std::vector<std::uint32_t> numbers_;          ///< per set: its wedge
+  const std::vector<std::uint32_t>& nearest_;   ///< by set
+  std::vector<std::uint32_t> sets_, positions_; ///< by corner
+  std::vector<std::uint32_t> latest_, before_;  ///< linked list of the wedges of each position
+  std::vector<std::uint32_t> numbers_;          ///< by set: its wedge
   SimplifiedWedges wedges_;
 };
 
-/// Where there is nothing to choose.
+/// One wedge for each position, for patches without attributes.
 SimplifiedWedges plainWedges(const SimplifiedTriangles& simplified) {
   SimplifiedWedges wedges{std::vector<std::uint32_t>(simplified.positions.size()),
                           std::vector<std::uint32_t>(simplified.positions.size()), simplified.corners};
@@ -149,15 +149,15 @@ SimplifiedWedges wedgesOf(const SimplifiedTriangles& simplified, const Patch& pa
   if (patch.texCoords.empty() && patch.colors.empty() && patch.namedAttributes.empty())
     return plainWedges(simplified);
   WedgeSets sets(patch.wedgeCount());
-  joinAlike(sets, patch);
-  joinGathered(sets, simplified, patch);
-  const std::vector<std::uint32_t> nearest = nearestOf(sets, simplified, patch);
-  Pieces pieces(simplified, patch, nearest);
+  joinEqualTexCoords(sets, patch);
+  joinCollapsed(sets, simplified, patch);
+  const std::vector<std::uint32_t> nearest = nearestWedges(sets, simplified, patch);
+  WedgeBuilder builder(simplified, patch, nearest);
   for (std::size_t corner = 0; corner < simplified.corners.size(); ++corner) {
     const std::uint32_t triangle = triangles[simplified.triangles[corner / 3]];
-    pieces.add(sets.setOf(patch.corners[std::size_t{3} * triangle + corner % 3]), simplified.corners[corner]);
+    builder.add(sets.setOf(patch.corners[std::size_t{3} * triangle + corner % 3]), simplified.corners[corner]);
   }
-  return pieces.finish();
+  return builder.finish();
 }
 
 } // namespace imgeo

@@ -1,7 +1,7 @@
 #pragma once
-// Which wedges a simplified patch has. Its vertices stand for many of the patch's, and
-// where the texture has a seam among these, for pieces of surface that lie apart in the
-// texture. Each piece becomes a wedge, so that no triangle stretches from one to another.
+// The wedges of a simplified patch. One of its vertices replaces many vertices of the patch. Where a texture seam
+// runs among these, they belong to several charts of the texture; each chart becomes a wedge, so that no triangle is
+// stretched across the seam.
 
 #include "prepare/patches.h"
 #include "prepare/simplify.h"
@@ -12,14 +12,13 @@ namespace imgeo {
 
 struct SimplifiedWedges {
   std::vector<std::uint32_t> positions; ///< wedge -> position of the simplified triangles
-  std::vector<std::uint32_t> sources;   ///< wedge -> wedge of the patch whose attributes it has
+  std::vector<std::uint32_t> sources;   ///< wedge -> the patch's wedge whose attributes it has
   std::vector<std::uint32_t> corners;   ///< corner of the simplified triangles -> wedge
 };
 
-/// `triangles` says for each of the simplifier's input which of the patch it was. Without
-/// texture coordinates each position has one wedge, with them one for pieces that lie within a
-/// quarter of an edge in the texture. A wedge has the attributes of the nearest of those that
-/// it stands for.
+/// `triangles` maps each triangle of the simplifier's input to its index in the patch. Without texture coordinates
+/// each position has one wedge. With them, pieces of surface share a wedge where their texture coordinates are within
+/// a quarter of the mean edge length in the texture. A wedge has the attributes of the nearest wedge that it replaces.
 SimplifiedWedges wedgesOf(const SimplifiedTriangles& simplified, const Patch& patch,
                           std::span<const std::uint32_t> triangles);
 

@@ -1,8 +1,6 @@
 #pragma once
-// A priority queue of which most of what is put in comes out again soon: a heap with four
-// children a node has half the levels of one with two, and four small items side by side
-// are one line of the cache (LaMarca and Ladner, "The influence of caches on the
-// performance of heaps", 1996).
+// A d-ary heap (d = 4), a priority queue. It has half the levels of a binary heap, and four small items next to each
+// other fit into one cache line (LaMarca and Ladner, "The influence of caches on the performance of heaps", 1996).
 
 #include <cstddef>
 #include <utility>
@@ -10,7 +8,7 @@
 
 namespace imgeo {
 
-/// `T` is small and has a member isBefore(const T&), a total order: the first is on top.
+/// `T` is small and has a member isBefore(const T&), a total order. The top is the first item in that order.
 template <typename T> class DaryHeap {
 public:
   bool empty() const { return items_.empty(); }
@@ -25,7 +23,7 @@ public:
   }
 
   void pop() {
-    const T item = items_.back(); // goes down from the top
+    const T item = items_.back(); // replaces the top and sinks
     items_.pop_back();
     if (items_.empty())
       return;
@@ -43,9 +41,9 @@ public:
 private:
   static constexpr std::size_t width = 4;
 
-  /// Of the children that begin here.
+  /// Index of the first, in order, of the siblings that begin at index `begin`.
   std::size_t firstOf(std::size_t begin) const {
-    if (begin + width <= items_.size()) { // in two rounds, without a branch
+    if (begin + width <= items_.size()) { // a tournament without branches
       const std::size_t a = begin + std::size_t{items_[begin + 1].isBefore(items_[begin])},
                         b = begin + 2 + std::size_t{items_[begin + 3].isBefore(items_[begin + 2])};
       return items_[b].isBefore(items_[a]) ? b : a;

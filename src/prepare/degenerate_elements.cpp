@@ -8,8 +8,8 @@ namespace imgeo {
 
 namespace {
 
-/// Differences of lattice points take a bit more than they, and sums of two products of
-/// them twice that and one: 64 bits hold those of 30, which are quicker.
+/// For coordinates of n bits a difference has n + 1 bits, and a sum of two products of differences 2n + 3 bits with
+/// its sign: 64-bit integers, which are faster, suffice for 30 bits.
 __extension__ using Wide = __int128;
 constexpr std::uint32_t narrowBits = 30;
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a lattice is too coarse for.
+// Elements that quantisation makes degenerate.
 
 #include "scene/mesh.h"
 
@@ -7,9 +7,9 @@
 
 namespace imgeo {
 
-/// Triangles that have an area in the source, and lines that have a length, and none
-/// on the lattice: their corners come to lie in one place or in one line. `points` are
-/// the mesh's positions on a lattice of so many bits.
+/// Counts the triangles that have an area, and the lines that have a length, in the source but none on the lattice:
+/// quantisation moves their corners onto one point or one line. `points` are the mesh's positions on a lattice of
+/// `bits` bits.
 std::size_t countCollapsedElements(const Mesh& mesh, std::span<const Vec3u> points, std::uint32_t bits);
 
 } // namespace imgeo

@@ -9,17 +9,16 @@ namespace imgeo {
 
 namespace {
 
-/// What an edge costs, as it was when both ends had these versions.
+/// An edge in the queue with its cost. The entry is outdated where the sum of its vertices' versions has changed.
 struct Candidate {
-  std::uint64_t rank = 0; ///< its cost, not below 0, as the bits of a float, before `from`
+  std::uint64_t rank = 0; ///< upper half: the bits of its cost, a float of 0 or more; lower half: `from`
   std::uint32_t to = 0, versions = 0;
 
   Candidate(float cost, std::uint32_t from, std::uint32_t other, std::uint32_t sum)
       : rank(std::uint64_t{std::bit_cast<std::uint32_t>(cost)} << 32 | from), to(other), versions(sum) {}
   std::uint32_t from() const { return static_cast<std::uint32_t>(rank); }
 
-  /// The least cost comes first, equal ones in the order of their vertices. No branches:
-  /// which way they would go nobody can predict.
+  /// Orders by cost, then by vertices. Without branches, since they would be unpredictable.
   bool isBefore(const Candidate& other) const { return (rank < other.rank) | ((rank == other.rank) & (to < other.to)); }
 };
 
@@ -31,7 +30,7 @@ struct Edge {
 class EdgeCollapse {
 public:
   EdgeCollapse(CollapsingSurface& surface, std::size_t triangleCount)
-      : vertices_(surface.vertices), corners_(surface.corners), sources_(surface.sources), wanted_(triangleCount),
+      : vertices_(surface.vertices), corners_(surface.corners), sources_(surface.sources), targetCount_(triangleCount),
         triangleCount_(corners_.size() / 3), first_(vertices_.size(), none), last_(vertices_.size(), none),
         next_(corners_.size(), none), isGone_(triangleCount_), isBorder_(vertices_.size()), versions_(vertices_.size()),
         marks_(vertices_.size()) {
@@ -43,10 +42,10 @@ public:
     const std::vector<Edge> edges = allEdges();
     for (const Edge& edge : edges)
       if (edge.triangleCount == 1)
-        holdBorder(edge);
+        addBorderPlane(edge);
     for (const Edge& edge : edges)
-      offer(edge.a, edge.b);
-    while (triangleCount_ > wanted_ && !heap_.empty()) {
+      pushCandidate(edge.a, edge.b);
+    while (triangleCount_ > targetCount_ && !heap_.empty()) {
       const Candidate candidate = heap_.top();
       heap_.pop();
       if (candidate.versions == versions_[candidate.from()] + versions_[candidate.to])
@@ -69,14 +68,14 @@ private:
     last_[vertex] = end;
   }
 
-  /// Calls visit(corner) for each corner of a triangle that is left.
+  /// Calls visit(corner) for each corner of a vertex whose triangle remains.
   template <typename Visit> void visitCorners(std::uint32_t vertex, Visit visit) const {
     for (std::uint32_t corner = first_[vertex]; corner != none; corner = next_[corner])
       if (!isGone_[corner / 3])
         visit(corner);
   }
 
-  /// Valid until the next call.
+  /// The vertices that share an edge with a vertex. The reference is valid until the next call.
   const std::vector<std::uint32_t>& neighboursOf(std::uint32_t vertex) {
     neighbours_.clear();
     ++mark_;
@@ -90,71 +89,71 @@ private:
     return neighbours_;
   }
 
-  /// Each once, with a < b.
+  /// Every edge once, with a < b.
   std::vector<Edge> allEdges() {
     std::vector<Edge> edges;
     edges.reserve(corners_.size() / 2);
-    std::vector<std::size_t> places(vertices_.size()); // of the edges to higher vertices
+    std::vector<std::size_t> edgeTo(vertices_.size()); // by higher vertex: index of its edge
     for (std::uint32_t a = 0; a < vertices_.size(); ++a) {
       const std::size_t first = edges.size();
       visitCorners(a, [&](std::uint32_t corner) {
         for (const std::uint32_t b : {corners_[afterCorner(corner)], corners_[beforeCorner(corner)]})
           if (a < b) {
-            if (places[b] < first || places[b] >= edges.size() || edges[places[b]].b != b) {
-              places[b] = edges.size();
+            if (edgeTo[b] < first || edgeTo[b] >= edges.size() || edges[edgeTo[b]].b != b) {
+              edgeTo[b] = edges.size();
               edges.push_back({a, b, 0});
             }
-            ++edges[places[b]].triangleCount;
+            ++edges[edgeTo[b]].triangleCount;
           }
       });
     }
     return edges;
   }
 
-  /// A border is held by planes through its edges that stand on their triangles.
-  void holdBorder(const Edge& edge) {
-    const std::uint32_t a = edge.a, b = edge.b; // clang 14 lets no lambda have names of a structured binding
+  /// Adds the plane through a border edge that is perpendicular to its triangle (Garland and Heckbert 1997, section 6).
+  void addBorderPlane(const Edge& edge) {
+    const std::uint32_t a = edge.a, b = edge.b; // clang 14: lambdas cannot capture structured bindings
     isBorder_[a] = isBorder_[b] = true;
-    const Vec3d along = vertices_[b].place - vertices_[a].place;
+    const Vec3d along = vertices_[b].position - vertices_[a].position;
     Vec3d normal;
     visitCorners(a, [&](std::uint32_t corner) {
       const std::uint32_t u = corners_[afterCorner(corner)], v = corners_[beforeCorner(corner)];
       if (u == b || v == b)
-        normal = cross(along, vertices_[u == b ? v : u].place - vertices_[a].place);
+        normal = cross(along, vertices_[u == b ? v : u].position - vertices_[a].position);
     });
     const Vec3d across = cross(along, normal);
     const double size = length(across);
     if (!(size > 0))
       return;
-    constexpr double holdOfBorders = 3;
+    constexpr double borderWeight = 3;
     for (const std::uint32_t vertex : {a, b})
-      vertices_[vertex].quadric.addPlane(across * (1 / size), vertices_[a].place, holdOfBorders * dot(along, along));
+      vertices_[vertex].quadric.addPlane(across * (1 / size), vertices_[a].position, borderWeight * dot(along, along));
   }
 
-  /// Where the vertex is to be that two become.
-  Vec3d placeFor(std::uint32_t a, std::uint32_t b, const Quadric& quadric) const {
+  /// Position of the vertex that a and b are merged into.
+  Vec3d mergedPosition(std::uint32_t a, std::uint32_t b, const Quadric& quadric) const {
     if (vertices_[a].isFixed)
-      return vertices_[a].place;
+      return vertices_[a].position;
     if (vertices_[b].isFixed)
-      return vertices_[b].place;
-    return quadric.minimizerNear((vertices_[a].place + vertices_[b].place) * 0.5);
+      return vertices_[b].position;
+    return quadric.minimizerNear((vertices_[a].position + vertices_[b].position) * 0.5);
   }
 
-  void offer(std::uint32_t a, std::uint32_t b) {
+  void pushCandidate(std::uint32_t a, std::uint32_t b) {
     if (vertices_[a].isFixed && vertices_[b].isFixed)
       return;
     Quadric quadric = vertices_[a].quadric;
     quadric += vertices_[b].quadric;
-    const Vec3d edge = vertices_[b].place - vertices_[a].place;
-    // On a plane, where nothing costs anything, short edges go first.
-    constexpr double costOfLength = 1e-5;
-    const double cost =
-        std::max(0.0, quadric.errorAt(placeFor(a, b, quadric))) + costOfLength * quadric.weight() * dot(edge, edge);
+    const Vec3d edge = vertices_[b].position - vertices_[a].position;
+    // In flat regions, where the quadric error is 0, short edges are collapsed first.
+    constexpr double lengthWeight = 1e-5;
+    const double cost = std::max(0.0, quadric.errorAt(mergedPosition(a, b, quadric))) +
+                        lengthWeight * quadric.weight() * dot(edge, edge);
     heap_.push({static_cast<float>(cost), std::min(a, b), std::max(a, b), versions_[a] + versions_[b]});
   }
 
-  /// Two vertices may become one where all that both are joined to are the third
-  /// corners of their edge's triangles, and where this ties no two borders together.
+  /// The link condition (Dey et al. 1999): every common neighbour of the two vertices is the third corner of a
+  /// triangle at their edge. Also, the collapse must not join two borders.
   bool keepsTopology(std::uint32_t a, std::uint32_t b) {
     neighboursOf(b);
     std::uint32_t shared = 0;
@@ -173,20 +172,20 @@ private:
     return !isTied;
   }
 
-  /// Whether a triangle around `vertex`, but for those at `other`, would turn over.
-  bool turnsOver(std::uint32_t vertex, std::uint32_t other, Vec3d place) const {
-    bool turns = false;
+  /// Whether moving `vertex` to `position` would flip, or nearly flip, a triangle that does not contain `other`.
+  bool flipsTriangle(std::uint32_t vertex, std::uint32_t other, Vec3d position) const {
+    bool flips = false;
     visitCorners(vertex, [&](std::uint32_t corner) {
       const std::uint32_t u = corners_[afterCorner(corner)], v = corners_[beforeCorner(corner)];
-      if (turns || u == other || v == other)
+      if (flips || u == other || v == other)
         return;
-      const Vec3d pu = vertices_[u].place, pv = vertices_[v].place;
-      const Vec3d before = cross(pu - vertices_[vertex].place, pv - vertices_[vertex].place);
-      const Vec3d after = cross(pu - place, pv - place);
-      constexpr double leastCosine = 0.2;
-      turns = dot(before, after) < leastCosine * length(before) * length(after);
+      const Vec3d pu = vertices_[u].position, pv = vertices_[v].position;
+      const Vec3d before = cross(pu - vertices_[vertex].position, pv - vertices_[vertex].position);
+      const Vec3d after = cross(pu - position, pv - position);
+      constexpr double minCosine = 0.2;
+      flips = dot(before, after) < minCosine * length(before) * length(after);
     });
-    return turns;
+    return flips;
   }
 
   void collapse(std::uint32_t from, std::uint32_t to) {
@@ -194,8 +193,8 @@ private:
       std::swap(from, to);
     Quadric quadric = vertices_[to].quadric;
     quadric += vertices_[from].quadric;
-    const Vec3d place = placeFor(from, to, quadric);
-    if (!keepsTopology(from, to) || turnsOver(from, to, place) || turnsOver(to, from, place))
+    const Vec3d position = mergedPosition(from, to, quadric);
+    if (!keepsTopology(from, to) || flipsTriangle(from, to, position) || flipsTriangle(to, from, position))
       return;
     visitCorners(from, [&](std::uint32_t corner) {
       if (corners_[afterCorner(corner)] == to || corners_[beforeCorner(corner)] == to) {
@@ -207,14 +206,14 @@ private:
     });
     append(to, first_[from], last_[from]);
     first_[from] = none;
-    vertices_[from].became = to;
-    vertices_[to].place = place;
+    vertices_[from].mergedInto = to;
+    vertices_[to].position = position;
     vertices_[to].quadric = quadric;
     isBorder_[to] = isBorder_[to] || isBorder_[from];
     ++versions_[to];
     ++versions_[from];
     for (const std::uint32_t neighbour : neighboursOf(to))
-      offer(to, neighbour);
+      pushCandidate(to, neighbour);
   }
 
   void keepTriangles() {
@@ -232,11 +231,11 @@ private:
   std::vector<CollapsingSurface::Vertex>& vertices_;
   std::vector<std::uint32_t>& corners_;
   std::vector<std::uint32_t>& sources_;
-  std::size_t wanted_, triangleCount_;
-  std::vector<std::uint32_t> first_, last_, next_; ///< lists of corners, one a vertex
-  std::vector<bool> isGone_;                       ///< per triangle
-  std::vector<bool> isBorder_;                     ///< per vertex
-  std::vector<std::uint32_t> versions_;            ///< how often a vertex has changed
+  std::size_t targetCount_, triangleCount_;
+  std::vector<std::uint32_t> first_, last_, next_; ///< linked list of the corners of each vertex
+  std::vector<bool> isGone_;                       ///< by triangle
+  std::vector<bool> isBorder_;                     ///< by vertex
+  std::vector<std::uint32_t> versions_;            ///< by vertex: number of its changes
   std::vector<std::uint32_t> marks_, neighbours_;
   std::uint32_t mark_ = 0;
   DaryHeap<Candidate> heap_;

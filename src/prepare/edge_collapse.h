@@ -1,7 +1,7 @@
 #pragma once
-// Edges collapse, the least harmful first: Garland and Heckbert, "Surface
-// simplification using quadric error metrics", 1997, where that leaves the surface
-// what it is (Dey et al., "Topology preserving edge contraction", 1999).
+// Simplification by edge collapse in the order of the quadric error (Garland and Heckbert, "Surface simplification
+// using quadric error metrics", 1997), limited to collapses that keep the topology (Dey et al., "Topology preserving
+// edge contraction", 1999).
 
 #include "prepare/quadric.h"
 
@@ -13,22 +13,22 @@ namespace imgeo {
 /// A surface that is being simplified.
 struct CollapsingSurface {
   struct Vertex {
-    Vec3d place;
+    Vec3d position;
     Quadric quadric;
-    std::uint32_t source = 0;    ///< whatever the caller wants to know of it
-    bool isFixed = false;        ///< stays where it is
-    std::uint32_t became = none; ///< the vertex that it is now part of, if it is another
+    std::uint32_t source = 0;        ///< for the caller; not used here
+    bool isFixed = false;            ///< its position does not change
+    std::uint32_t mergedInto = none; ///< the vertex with which a collapse has merged it, or none
   };
   static constexpr std::uint32_t none = UINT32_MAX;
 
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> corners; ///< three vertices a triangle, all different
-  std::vector<std::uint32_t> sources; ///< per triangle: whatever the caller wants to know of it
+  std::vector<std::uint32_t> sources; ///< by triangle: for the caller; not used here
 };
 
-/// Collapses edges until `triangleCount` are left or none can go; two fixed vertices
-/// never become one. Then triangles that are left alone stand in `corners`, with their
-/// `sources`; vertices keep their numbers. Edges of the border are held by planes of their own.
+/// Collapses edges until `triangleCount` triangles are left or no edge can be collapsed. Two fixed vertices are never
+/// merged. Afterwards `corners` and `sources` hold the remaining triangles; vertices keep their indices. Planes
+/// through the border's edges keep the border in position.
 void collapseEdges(CollapsingSurface& surface, std::size_t triangleCount);
 
 } // namespace imgeo

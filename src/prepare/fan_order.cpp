@@ -10,17 +10,17 @@ namespace imgeo {
 
 namespace {
 
-/// Opposite a vertex, a triangle has the link edge from -> to.
+/// An edge of a vertex's link: the edge from -> to of a triangle, opposite the vertex.
 struct LinkEdge {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   std::uint32_t corner = 0; ///< the vertex's own corner of the triangle
   std::uint32_t from = 0, to = 0;
-  std::uint32_t nextFrom = none; ///< the next edge that leaves `from`
+  std::uint32_t nextFrom = none; ///< linked list of the edges that begin at `from`
   bool used = false;
 };
 
-/// Where a path may begin; the first is that of the largest key, then of the first edge.
+/// A candidate for the first edge of a path along the link. Candidates are sorted by descending key, then by edge.
 struct Start {
   std::uint64_t key;
   std::uint32_t edge;
@@ -89,7 +89,7 @@ private:
       edge.to = vertexOf_[first + (corner + 2) % 3];
       link_.push_back(edge);
     }
-    // Chained from the back, so that edges leave a vertex in the order of the input.
+    // Linked from the back, so that each list has the order of the input.
     for (std::size_t i = link_.size(); i-- > 0;) {
       link_[i].nextFrom = firstFrom_[link_[i].from];
       firstFrom_[link_[i].from] = static_cast<std::uint32_t>(i);
@@ -97,9 +97,8 @@ private:
     }
   }
 
-  /// Where to begin paths: at the open ends of the link, then anywhere (closed
-  /// rings); of each, nearest to the vertices numbered last, whose indices are
-  /// then likely to come again.
+  /// Paths begin at open ends of the link first, then anywhere (closed links). Among these, edges at recently numbered
+  /// vertices come first, whose indices are then likely to be repeated soon.
   void orderStarts() {
     starts_.clear();
     for (std::uint32_t edge = 0; edge < link_.size(); ++edge) {
@@ -132,8 +131,8 @@ private:
   std::vector<bool> emitted_;            ///< by triangle
   std::vector<std::uint32_t> numbers_;   ///< by vertex; none: not discovered
   std::vector<std::uint32_t> queue_;     ///< vertices by number
-  std::vector<std::uint32_t> firstFrom_; ///< by vertex: first link edge that leaves it; none between vertices
-  std::vector<bool> entered_;            ///< by vertex: a link edge ends there; false between vertices
+  std::vector<std::uint32_t> firstFrom_; ///< by vertex: its first link edge; none outside of processVertex
+  std::vector<bool> entered_;            ///< by vertex: a link edge ends there; false outside of processVertex
   std::vector<LinkEdge> link_;
   std::vector<Start> starts_;
   std::vector<std::uint32_t> result_;

@@ -1,5 +1,5 @@
 #pragma once
-// An order of triangles in which a vertex and its neighbours come close together.
+// A triangle order with locality: the triangles of a vertex, and those of its neighbours, come close together.
 
 #include <cstdint>
 #include <span>
@@ -7,16 +7,14 @@
 
 namespace imgeo {
 
-/// Breadth-first conquest of a triangle list by fans. Vertices are numbered when
-/// they are discovered and processed in that order; processing one emits its
-/// triangles that have not come yet, in the counter-clockwise order of its link,
+/// Traverses a triangle list breadth first, fan by fan. Vertices are numbered when they are discovered, and processed
+/// in that order. Processing a vertex emits its remaining triangles in the counter-clockwise order of its link, with
 /// the vertex as their first corner.
 ///
-/// `cornerVertices` holds three vertices below `vertexCount` a triangle; any
-/// triangles will do (open, non-manifold, inconsistently oriented, degenerate,
-/// repeated). Returns corner numbers, three a triangle: every triangle once,
-/// turned but never mirrored. Time is O(n log n) in the valence of a vertex, linear
-/// in everything else.
+/// `cornerVertices` holds three vertices below `vertexCount` for each triangle. Triangles may be open, non-manifold,
+/// inconsistently oriented, degenerate or repeated. Returns indices of corners, three for each triangle: every
+/// triangle once, rotated but not mirrored. Time is O(n log n) in the valence of a vertex and linear in the number of
+/// triangles.
 std::vector<std::uint32_t> fanOrder(std::span<const std::uint32_t> cornerVertices, std::size_t vertexCount);
 
 } // namespace imgeo

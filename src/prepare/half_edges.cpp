@@ -7,35 +7,35 @@
 namespace imgeo {
 
 std::vector<std::uint32_t> oppositeHalfEdges(std::span<const std::uint32_t> corners) {
-  const auto from = [&](std::uint32_t side) { return corners[side]; };
-  const auto to = [&](std::uint32_t side) { return corners[nextHalfEdge(side)]; };
-  const auto keyOf = [&](std::uint32_t side) {
-    return std::uint64_t{std::min(from(side), to(side))} << 32 | std::max(from(side), to(side));
+  const auto from = [&](std::uint32_t halfEdge) { return corners[halfEdge]; };
+  const auto to = [&](std::uint32_t halfEdge) { return corners[nextHalfEdge(halfEdge)]; };
+  const auto keyOf = [&](std::uint32_t halfEdge) {
+    return std::uint64_t{std::min(from(halfEdge), to(halfEdge))} << 32 | std::max(from(halfEdge), to(halfEdge));
   };
 
-  std::vector<std::uint32_t> across(corners.size(), noHalfEdge);
-  // Of each edge, the sides that wait for their opposite; they all have one
-  // direction. The edge is named by the first side that ran along it.
-  std::vector<std::uint32_t> waiting(corners.size(), noHalfEdge), nextWaiting(corners.size(), noHalfEdge);
+  std::vector<std::uint32_t> opposites(corners.size(), noHalfEdge);
+  // By edge, which is identified by its first half-edge: a linked list of the half-edges without an opposite so far.
+  // All of them have the same direction.
+  std::vector<std::uint32_t> unpaired(corners.size(), noHalfEdge), nextUnpaired(corners.size(), noHalfEdge);
   IndexHashTable edges(corners.size());
-  for (std::uint32_t side = 0; side < corners.size(); ++side) {
-    const std::uint32_t* triangle = &corners[side - side % 3];
+  for (std::uint32_t halfEdge = 0; halfEdge < corners.size(); ++halfEdge) {
+    const std::uint32_t* triangle = &corners[halfEdge - halfEdge % 3];
     if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
       continue;
-    const std::uint64_t key = keyOf(side);
+    const std::uint64_t key = keyOf(halfEdge);
     const std::uint32_t edge =
-        edges.findOrInsert(mixHash(0, key), side, [&](std::uint32_t other) { return keyOf(other) == key; });
-    const std::uint32_t other = waiting[edge];
-    if (other != noHalfEdge && from(other) == to(side)) {
-      waiting[edge] = nextWaiting[other];
-      across[side] = other;
-      across[other] = side;
+        edges.findOrInsert(mixHash(0, key), halfEdge, [&](std::uint32_t other) { return keyOf(other) == key; });
+    const std::uint32_t other = unpaired[edge];
+    if (other != noHalfEdge && from(other) == to(halfEdge)) {
+      unpaired[edge] = nextUnpaired[other];
+      opposites[halfEdge] = other;
+      opposites[other] = halfEdge;
     } else {
-      nextWaiting[side] = other;
-      waiting[edge] = side;
+      nextUnpaired[halfEdge] = other;
+      unpaired[edge] = halfEdge;
     }
   }
-  return across;
+  return opposites;
 }
 
 } // namespace imgeo

@@ -1,5 +1,5 @@
 #pragma once
-// Which corners touch a vertex: the inverse of a corner -> vertex array.
+// Vertex-to-corner incidence: the inverse of a corner -> vertex array, in compressed sparse row form.
 
 #include <cstdint>
 #include <span>
@@ -16,7 +16,7 @@ struct Incidence {
   }
 };
 
-/// `vertexOf(corner)` names the vertex, below `vertexCount`, of each of `cornerCount` corners.
+/// `vertexOf(corner)` returns the vertex, below `vertexCount`, of each of `cornerCount` corners.
 template <typename VertexOf>
 Incidence incidenceOf(std::size_t cornerCount, std::size_t vertexCount, VertexOf vertexOf) {
   Incidence incidence;
@@ -27,7 +27,7 @@ Incidence incidenceOf(std::size_t cornerCount, std::size_t vertexCount, VertexOf
   std::uint32_t end = 0;
   for (std::uint32_t& offset : incidence.offsets)
     offset = end += offset;
-  // Filled from the back, an end turns into a begin and corners come out ascending.
+  // Filling from the back turns the end of each range into its beginning, and leaves the corners ascending.
   for (std::size_t corner = cornerCount; corner-- > 0;)
     incidence.corners[--incidence.offsets[vertexOf(corner)]] = static_cast<std::uint32_t>(corner);
   return incidence;

@@ -1,6 +1,6 @@
 #pragma once
-// A hash table of indices into arrays that the caller keeps: what welding and
-// cutting need, at a quarter of the memory and time of std::unordered_map.
+// A hash table of indices into arrays that the caller keeps, at a quarter of the memory and time of
+// std::unordered_map.
 
 #include <bit>
 #include <cassert>
@@ -24,7 +24,7 @@ public:
   /// Holds at most `capacity` indices.
   explicit IndexHashTable(std::size_t capacity) : slots_(std::bit_ceil(2 * capacity + 1), none) {}
 
-  /// The index in the table that `equals`, or else `index`, which is then in the table.
+  /// Returns the index in the table for which `equals` is true; without such an index inserts and returns `index`.
   template <typename Equals> std::uint32_t findOrInsert(std::uint64_t hash, std::uint32_t index, Equals equals) {
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t at = hash & mask;; at = (at + 1) & mask) {
@@ -35,7 +35,7 @@ public:
     }
   }
 
-  /// Begins to fetch the slot of a hash that will be asked for soon.
+  /// Prefetches the slot of a hash that will be looked up soon.
   void prefetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash & (slots_.size() - 1)], 1); }
 
 private:

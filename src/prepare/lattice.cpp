@@ -24,7 +24,7 @@ std::vector<Vec3u> quantise(std::span<const Vec3f> positions, const Lattice& lat
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3d offset = Vec3d(positions[i]) - lattice.origin;
       for (int axis = 0; axis < 3; ++axis) {
-        // Positions outside the box that made the lattice go to its edge.
+        // Positions outside of the lattice's box are clamped to it.
         const double step = lattice.step * lattice.stretch[axis];
         const double steps = step > 0 ? std::clamp(offset[axis] / step, 0.0, maximum) : 0;
         result[i][axis] = static_cast<std::uint32_t>(steps + 0.5);

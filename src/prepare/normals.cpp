@@ -11,7 +11,7 @@ namespace imgeo {
 
 namespace {
 
-/// What the triangle of a corner adds to the normal of the corner's position.
+/// The weighted normal of a corner's triangle, which is added to the normal of the corner's position.
 Vec3d contribution(const Mesh& mesh, std::uint32_t corner, NormalWeighting weighting) {
   const std::uint32_t first = corner - corner % 3;
   const Vec3d here(mesh.cornerPosition(corner));
@@ -34,8 +34,8 @@ void computeNormals(Mesh& mesh, NormalWeighting weighting) {
     return mesh.wedgePositions[mesh.corners[corner]];
   });
 
-  // Gathered by position, not scattered by triangle: the order of each sum, and
-  // so its last bit, does not depend on threads.
+  // Gathered by position, not scattered by triangle, so that the order of each sum, and with it the last bit, does not
+  // depend on threads.
   std::vector<Vec3f> normals(mesh.positions.size());
   parallelForBlocks(normals.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t position = begin; position < end; ++position) {

@@ -13,16 +13,15 @@ namespace imgeo {
 
 namespace {
 
-/// A node of the tree: a range of one permutation, in the source's order.
+/// The elements of a node of the KD tree, in the source's order: a range of one permutation of all elements.
 using Elements = std::span<std::uint32_t>;
 
-/// What the cut needs to know of every element.
+/// Centroid and weight of every element.
 struct ElementTable {
   const Mesh& mesh;
   std::vector<Vec3f> centroids;
-  /// A wedge's weight of `one` is shared by the elements that touch it, so that
-  /// the elements of a node weigh what its wedges are, borders apart. Whole
-  /// numbers: sums do not depend on their order.
+  /// Each wedge distributes a weight of `one` evenly to its elements, so that the weight of a node's elements is about
+  /// the number of its wedges. Integers, since their sums do not depend on the order.
   std::vector<std::uint32_t> weights;
   static constexpr std::uint32_t one = 1 << 20;
 
@@ -69,11 +68,10 @@ int longestAxis(const Box3d& box) {
   return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 
-/// Parts the elements into those that come first along the box's longest axis, until
-/// they have `share` of all weight, and the others, each in the order that they had;
-/// returns how many the first are, at least one and not all. Linear time: of buckets
-/// along the axis only that on the border is sorted.
-std::size_t cutOff(const ElementTable& table, Elements elements, const Box3d& box, double share) {
+/// Partitions the elements along the longest axis of the box, so that the first group has about `share` of the weight.
+/// Each group keeps its order. Returns the size of the first group, at least one and less than all. Linear time: the
+/// elements are put into buckets along the axis, and the bucket on the boundary alone is sorted.
+std::size_t partitionElements(const ElementTable& table, Elements elements, const Box3d& box, double share) {
   constexpr std::size_t bucketCount = 4096;
   const int axis = longestAxis(box);
   const double extent = box.size()[axis];
@@ -89,72 +87,72 @@ std::size_t cutOff(const ElementTable& table, Elements elements, const Box3d& bo
   std::vector<std::uint64_t> weights(bucketCount);
   for (const std::uint32_t element : elements)
     weights[bucketOf(element)] += table.weights[element];
-  const double wanted = share * static_cast<double>(std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
+  const double requested =
+      share * static_cast<double>(std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
   std::uint64_t lower = 0;
   std::size_t border = 0;
-  while (border + 1 < bucketCount && static_cast<double>(lower + weights[border]) <= wanted)
+  while (border + 1 < bucketCount && static_cast<double>(lower + weights[border]) <= requested)
     lower += weights[border++];
 
   std::vector<std::uint32_t> onBorder;
   std::ranges::copy_if(elements, std::back_inserter(onBorder),
                        [&](std::uint32_t element) { return bucketOf(element) == border; });
   std::sort(onBorder.begin(), onBorder.end(), before);
-  std::size_t last = 0; // of the first part, on the border
-  while (last + 1 < onBorder.size() && static_cast<double>(lower + table.weights[onBorder[last]]) <= wanted)
+  std::size_t last = 0; // end of the first group in onBorder
+  while (last + 1 < onBorder.size() && static_cast<double>(lower + table.weights[onBorder[last]]) <= requested)
     lower += table.weights[onBorder[last++]];
-  const bool takesOne = lower == 0; // an element that weighs more than the share
+  const bool takesOne = lower == 0; // the first element alone weighs more than the share
   const std::uint32_t first = onBorder[last];
   const auto isFirst = [&](std::uint32_t element) {
     const std::size_t bucket = bucketOf(element);
     return bucket != border ? bucket < border : before(element, first) || (takesOne && element == first);
   };
-  const auto parted = std::stable_partition(elements.begin(), elements.end(), isFirst);
-  return static_cast<std::size_t>(parted - elements.begin());
+  const auto second = std::stable_partition(elements.begin(), elements.end(), isFirst);
+  return static_cast<std::size_t>(second - elements.begin());
 }
 
-/// Cuts a node in two, or leaves it whole where it fits.
-std::vector<Elements> cutOnce(const ElementTable& table, Elements elements, std::size_t maxWedges) {
+/// Splits a node in two, or returns it alone where it is small enough.
+std::vector<Elements> splitNode(const ElementTable& table, Elements elements, std::size_t maxWedges) {
   const auto ceilDivide = [](std::size_t a, std::size_t b) { return (a + b - 1) / b; };
   const std::size_t cornerCount = elements.size() * cornersPerElement(table.mesh.topology);
-  const std::size_t wanted =
+  const std::size_t requested =
       std::max(ceilDivide(countWedges(table.mesh, elements), maxWedges), ceilDivide(cornerCount, maxPatchCorners));
-  if (wanted <= 1)
+  if (requested <= 1)
     return {elements};
-  // Not always in half: three patches' worth is cut at a third, so that
-  // patches end up well filled.
-  const std::size_t first = wanted / 2;
-  const double share = static_cast<double>(first) / static_cast<double>(wanted);
-  const std::size_t cut = cutOff(table, elements, boxOf(table, elements), share);
+  // A node that needs three patches is split at a third, and not in half, so that patches are well filled.
+  const std::size_t first = requested / 2;
+  const double share = static_cast<double>(first) / static_cast<double>(requested);
+  const std::size_t cut = partitionElements(table, elements, boxOf(table, elements), share);
   return {elements.first(cut), elements.subspan(cut)};
 }
 
-/// The leaves of the KD tree, in its order. Nodes of one depth are cut in parallel.
-std::vector<Elements> cutTree(const ElementTable& table, Elements all, std::size_t maxWedges) {
+/// The leaves of the KD tree, in its order. The nodes of each depth are split in parallel.
+std::vector<Elements> leavesOf(const ElementTable& table, Elements all, std::size_t maxWedges) {
   std::vector<Elements> nodes{all};
   std::vector<bool> fits{false};
   while (std::ranges::find(fits, false) != fits.end()) {
-    std::vector<std::vector<Elements>> parts(nodes.size());
+    std::vector<std::vector<Elements>> children(nodes.size());
     parallelFor(nodes.size(), [&](std::size_t i) {
-      parts[i] = fits[i] ? std::vector{nodes[i]} : cutOnce(table, nodes[i], maxWedges);
+      children[i] = fits[i] ? std::vector{nodes[i]} : splitNode(table, nodes[i], maxWedges);
     });
     nodes.clear();
     fits.clear();
-    for (const std::vector<Elements>& part : parts)
-      for (const Elements elements : part) {
+    for (const std::vector<Elements>& ofNode : children)
+      for (const Elements elements : ofNode) {
         nodes.push_back(elements);
-        fits.push_back(part.size() == 1);
+        fits.push_back(ofNode.size() == 1);
       }
   }
   return nodes;
 }
 
-/// Numbers values in the order in which they come.
+/// Numbers distinct values in the order of their first occurrence.
 class Compactor {
 public:
   explicit Compactor(std::size_t capacity) : table_(capacity) { kept.reserve(capacity); }
 
   std::uint32_t numberOf(std::uint32_t value) {
-    // Most values have come a moment ago.
+    // A small cache: most values have occurred recently.
     Recent& recent = recent_[value % recentCount];
     if (recent.value != value || recent.number == IndexHashTable::none)
       recent = {value, find(value)};
@@ -201,7 +199,7 @@ Patch makePatch(const Mesh& mesh, const std::vector<Vec3u>& lattice, Elements el
   return patch;
 }
 
-/// Of a mesh that needs no cutting.
+/// The patch that is the whole mesh.
 Patch wholePatch(Mesh mesh, std::vector<Vec3u> lattice) {
   Patch patch;
   patch.topology = mesh.topology;
@@ -244,7 +242,7 @@ PatchedMesh cutIntoPatches(Mesh mesh, std::vector<Vec3u> points, const Lattice& 
   } else {
     std::vector<std::uint32_t> permutation(mesh.elementCount());
     std::iota(permutation.begin(), permutation.end(), 0u);
-    const std::vector<Elements> leaves = cutTree(ElementTable(mesh), permutation, maxWedges);
+    const std::vector<Elements> leaves = leavesOf(ElementTable(mesh), permutation, maxWedges);
     result.patches.resize(leaves.size());
     parallelFor(leaves.size(),
                 [&](std::size_t i) { result.patches[i] = makePatch(mesh, points, leaves[i], maxWedges); });

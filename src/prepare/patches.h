@@ -1,7 +1,6 @@
 #pragma once
-// Patches: a mesh on its lattice, cut by a KD tree into pieces that a container
-// can hold (paper 5.5: "simple KD trees to collect triangles in a minimal
-// bounding box").
+// Patches: pieces of a quantised mesh that are small enough for a container. A KD tree divides the mesh (paper 5.5:
+// "simple KD trees to collect triangles in a minimal bounding box").
 
 #include "prepare/lattice.h"
 #include "scene/mesh.h"
@@ -11,12 +10,12 @@
 
 namespace imgeo {
 
-/// Corners and wedges of a patch at most: the texels of the largest image (2048 x
-/// 2048) that every WebGL 2 allows.
+/// Maximum number of corners and of wedges of a patch: the texels of an image of 2048 x 2048, the maximum texture size
+/// that every WebGL 2 implementation supports.
 inline constexpr std::uint32_t maxPatchCorners = 2048 * 2048, maxPatchWedges = 2048 * 2048;
 
-/// A piece of a mesh: the same corner -> wedge -> position structure, positions
-/// on the lattice. Positions on a border stand in each patch that touches them.
+/// A piece of a mesh, with the mesh's structure corner -> wedge -> position and positions on the lattice. Each patch
+/// has its own copy of the positions on its border.
 struct Patch : VertexAttributes {
   Topology topology = Topology::triangles;
   std::vector<Vec3u> positions;
@@ -29,18 +28,18 @@ struct Patch : VertexAttributes {
 
 struct PatchedMesh {
   Lattice lattice;
-  Box3d box;                  ///< tight, of the quantised mesh
-  std::vector<Patch> patches; ///< in KD order: neighbours in space are near in the list
+  Box3d box;                  ///< tight bounding box of the quantised mesh
+  std::vector<Patch> patches; ///< in the order of the KD tree's leaves: neighbours in space are close in the list
 };
 
-/// A patch's tight box, in the mesh's units.
+/// The tight bounding box of a patch, in the mesh's units.
 Box3d boxOf(const Patch& patch, const Lattice& lattice);
 
-/// Cuts `mesh`, all of whose wedges and positions are in use, so that no patch has more than
-/// `maxWedges` wedges (3 .. maxPatchWedges) or more than `maxPatchCorners` corners. Every
-/// element is in exactly one patch, in an order that depends on the input alone, not on threads.
+/// Divides `mesh`, which has no unused wedges and positions, into patches of at most `maxWedges` wedges
+/// (3 .. maxPatchWedges) and at most `maxPatchCorners` corners. Every element is in exactly one patch. The order does
+/// not depend on threads.
 PatchedMesh cutIntoPatches(Mesh mesh, const Lattice& lattice, std::uint32_t maxWedges);
-/// The same where the mesh's positions on the lattice are known.
+/// The same for a mesh that has been quantised: `points` are its positions on the lattice.
 PatchedMesh cutIntoPatches(Mesh mesh, std::vector<Vec3u> points, const Lattice& lattice, std::uint32_t maxWedges);
 
 } // namespace imgeo

@@ -8,7 +8,7 @@ namespace imgeo {
 
 class Quadric {
 public:
-  /// The plane through a point with a normal of length 1.
+  /// Adds the plane through `point`; `normal` has length 1.
   void addPlane(Vec3d normal, Vec3d point, double weight) {
     const Vec3d n = normal * weight;
     const double distance = -dot(normal, point);
@@ -29,14 +29,14 @@ public:
 
   double weight() const { return weight_; }
 
-  /// The weighted sum of squared distances; not below 0 but for rounding.
+  /// The weighted sum of squared distances. Rounding may make it negative.
   double errorAt(Vec3d p) const { return dot(p, timesMatrix(p)) + 2 * dot(linear_, p) + constant_; }
 
-  /// Where the error is least; of places that are hardly worse, as on a plane, the
-  /// one nearest to `near`.
+  /// The position of minimum error. A small weight pulls it towards `near`, which decides where many positions have
+  /// almost the same error, as on a plane.
   Vec3d minimizerNear(Vec3d near) const {
-    const double hold = 1e-3 * (xx_ + yy_ + zz_);
-    const double a = xx_ + hold, d = yy_ + hold, f = zz_ + hold;
+    const double regularisation = 1e-3 * (xx_ + yy_ + zz_);
+    const double a = xx_ + regularisation, d = yy_ + regularisation, f = zz_ + regularisation;
     // The inverse of a symmetric matrix, by its cofactors.
     const double c00 = d * f - yz_ * yz_, c01 = xz_ * yz_ - xy_ * f, c02 = xy_ * yz_ - d * xz_;
     const double c11 = a * f - xz_ * xz_, c12 = xy_ * xz_ - a * yz_, c22 = a * d - xy_ * xy_;

@@ -1,7 +1,6 @@
 #pragma once
-// Few triangles for many. Whatever is done here is a map of vertices to vertices,
-// under which some stay where they are: a surface whose border does not move is
-// then closed against all that it was closed against before.
+// Mesh simplification: vertex clustering followed by edge collapse. Both map vertices to vertices and keep fixed ones
+// in position, so a surface with a fixed border still meets its neighbours without cracks.
 
 #include "base/vec.h"
 
@@ -15,17 +14,17 @@ struct SimplifiedTriangles {
   static constexpr std::uint32_t none = UINT32_MAX;
 
   std::vector<Vec3u> positions;
-  std::vector<std::uint32_t> corners;       ///< three positions a triangle
-  std::vector<std::uint32_t> triangles;     ///< per triangle: that of the input which it was
-  std::vector<std::uint32_t> vertexOfInput; ///< per position of the input: what it has become; none where
-                                            ///< no triangle is left
-  double areaBefore = 0;                    ///< of the input, in units of the lattice
+  std::vector<std::uint32_t> corners;       ///< three positions for each triangle
+  std::vector<std::uint32_t> triangles;     ///< by triangle: its index in the input
+  std::vector<std::uint32_t> vertexOfInput; ///< position of the input -> position here; none if no triangle
+                                            ///< remains there
+  double areaBefore = 0;                    ///< of the input, in squared lattice steps
 };
 
-/// Simplifies triangles over positions on a lattice to about `triangleCount`, or as
-/// few as there can be. Positions with `isFixed` stay, and each stands for itself;
-/// the others move, within the box of all, to where the surface is met best.
-/// Many triangles are first gathered in cells, then edges collapse. Deterministic.
+/// Simplifies triangles over positions on a lattice to about `triangleCount`, or to the minimum that the topology
+/// allows. Positions with `isFixed` keep their position and are not merged with each other. The others move to the
+/// positions of minimum quadric error, within the box of all positions. Where there are many more positions than
+/// requested triangles, vertices are clustered before edges are collapsed. Deterministic.
 SimplifiedTriangles simplify(std::span<const Vec3u> positions, std::span<const std::uint32_t> corners,
                              const std::vector<bool>& isFixed, std::size_t triangleCount);
 

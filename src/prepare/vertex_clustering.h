@@ -1,8 +1,7 @@
 #pragma once
-// Vertices gathered in cells: Rossignac and Borrel, "Multi-resolution 3D
-// approximations for rendering complex scenes", 1993, as the first step that
-// Shaffer and Garland put before edge collapse ("Efficient adaptive simplification
-// of massive meshes", 2001): linear time for most of the way.
+// Vertex clustering in the cells of a grid (Rossignac and Borrel, "Multi-resolution 3D approximations for rendering
+// complex scenes", 1993). As in Shaffer and Garland, "Efficient adaptive simplification of massive meshes", 2001, it
+// takes linear time and precedes edge collapse.
 
 #include "base/vec.h"
 
@@ -13,19 +12,19 @@
 namespace imgeo {
 
 struct VertexClusters {
-  std::vector<std::uint32_t> ofVertex;
+  std::vector<std::uint32_t> clusterOf; ///< vertex -> cluster
   std::uint32_t count = 0;
 };
 
-/// Every vertex in a cell of its own.
+/// Every vertex in a cluster of its own.
 VertexClusters singletonClusters(std::size_t vertexCount);
 
-/// About `cellCount` cells of equal size. Vertices share one where the surface also
-/// faces the same octant, so that both sides of a thin wall stay apart; those with
-/// `isFixed` have one each. Places are within -1 .. 1; `normals`, one a triangle, are as
-/// long as twice its area; `area` is that of all.
-VertexClusters clusterVertices(std::span<const Vec3d> places, std::span<const std::uint32_t> corners,
+/// Clusters vertices by the cells of a grid, about `clusterCount` of which the surface touches. The vertices of a
+/// cluster also have normals in the same octant, so that the two sides of a thin wall stay separate. Each vertex with
+/// `isFixed` has a cluster of its own. `points` are within -1 .. 1. `normals` has one normal for each triangle, whose
+/// length is twice the triangle's area; `area` is the sum of the areas.
+VertexClusters clusterVertices(std::span<const Vec3d> points, std::span<const std::uint32_t> corners,
                                std::span<const Vec3d> normals, double area, const std::vector<bool>& isFixed,
-                               std::size_t cellCount);
+                               std::size_t clusterCount);
 
 } // namespace imgeo
