@@ -6,12 +6,12 @@ import type { Vec3 } from "../document/description.ts";
 
 /** GLSL, by a, b, c and the cosines of the angles. */
 export const falloffChunk = /* glsl */ `
-float shareAtDistance(const in float lightDistance, const in float radius, const in vec3 attenuation) {
+float attenuationAtDistance(const in float lightDistance, const in float radius, const in vec3 attenuation) {
   vec3 powers = vec3(1.0, lightDistance, lightDistance * lightDistance);
   return lightDistance > radius ? 0.0 : 1.0 / max(dot(attenuation, powers), 1.0);
 }
 
-float shareInCone(const in float edgeCosine, const in float beamCosine, const in float cosine) {
+float attenuationInCone(const in float edgeCosine, const in float beamCosine, const in float cosine) {
   if (cosine <= edgeCosine) return 0.0;
   float edge = acos(edgeCosine);
   float beam = acos(beamCosine);

@@ -15,9 +15,9 @@ export const physicalDefine = "PHYSICAL";
 
 /** The body of directX3d and ambientX3d for this model. */
 export const physicalLighting = /* glsl */ `
-const float radianceOfRoom = 0.3;
+const float environmentRadiance = 0.3;
 
-vec3 mirroredColor(const in X3dMaterial material) {
+vec3 normalReflectance(const in X3dMaterial material) {
   return mix(vec3(0.04), material.diffuseColor, material.metallic);
 }
 
@@ -34,25 +34,25 @@ void directX3d(const in IncidentLight light, const in vec3 position, const in ve
   float spread = (NH * alpha2 - NH) * NH + 1.0;
   float distribution = alpha2 / (spread * spread);
   float visibility = 0.5 / (NL * sqrt(NV * NV * (1.0 - alpha2) + alpha2) + NV * sqrt(NL * NL * (1.0 - alpha2) + alpha2));
-  vec3 fresnel = mix(mirroredColor(material), vec3(1.0), pow(1.0 - VH, 5.0));
+  vec3 fresnel = mix(normalReflectance(material), vec3(1.0), pow(1.0 - VH, 5.0));
   reflected.directDiffuse += light.color * NL * (1.0 - fresnel) * (1.0 - material.metallic) * material.diffuseColor;
   reflected.directSpecular += light.color * NL * fresnel * distribution * visibility;
 }
 
-vec3 shareOfRoom(const in X3dMaterial material, float NV) {
+vec3 environmentReflectance(const in X3dMaterial material, float NV) {
   const vec4 c0 = vec4(-1.0, -0.0275, -0.572, 0.022);
   const vec4 c1 = vec4(1.0, 0.0425, 1.04, -0.04);
   vec4 r = material.roughness * c0 + c1;
   float a004 = min(r.x * r.x, exp2(-9.28 * NV)) * r.x + r.y;
   vec2 ab = vec2(-1.04, 1.04) * a004 + r.zw;
-  return mirroredColor(material) * ab.x + ab.y;
+  return normalReflectance(material) * ab.x + ab.y;
 }
 
 void ambientX3d(const in vec3 light, const in vec3 position, const in vec3 normal, const in vec3 viewDirection,
                 const in vec3 clearcoatNormal, const in X3dMaterial material, inout ReflectedLight reflected) {
   reflected.indirectDiffuse += light * (1.0 - material.metallic) * material.diffuseColor;
   float NV = clamp(dot(normal, viewDirection), 0.0, 1.0);
-  reflected.indirectSpecular += (light + radianceOfRoom * material.metallic) * shareOfRoom(material, NV);
+  reflected.indirectSpecular += (light + environmentRadiance * material.metallic) * environmentReflectance(material, NV);
 }
 `;
 

@@ -79,12 +79,12 @@ IncidentLight directionalLight(int i, vec3 place) {
 
 IncidentLight pointLight(int i, vec3 place) {
   vec3 way = lightPositions[i] - place;
-  return IncidentLight(lightColors[i] * shareAtDistance(length(way), lightRadii[i], lightAttenuations[i]), normalize(way));
+  return IncidentLight(lightColors[i] * attenuationAtDistance(length(way), lightRadii[i], lightAttenuations[i]), normalize(way));
 }
 
 IncidentLight spotLight(int i, vec3 place) {
   IncidentLight light = pointLight(i, place);
-  light.color *= shareInCone(lightCones[i].x, lightCones[i].y, dot(-light.direction, lightDirections[i]));
+  light.color *= attenuationInCone(lightCones[i].x, lightCones[i].y, dot(-light.direction, lightDirections[i]));
   return light;
 }
 #endif

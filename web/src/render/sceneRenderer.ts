@@ -89,13 +89,13 @@ export class SceneRenderer {
   readonly #textures = new TextureStore();
   readonly #buffers: BufferStore;
   readonly #shapes: SceneShapes;
-  readonly #cameraMan: CameraController;
+  readonly #cameraController: CameraController;
   readonly #onFrame: () => void;
   readonly #picker: ScreenPicker;
-  readonly #surveyor: DepthProbe;
-  readonly #pace: FramePacer;
+  readonly #depthProbe: DepthProbe;
+  readonly #framePacer: FramePacer;
   #background: BackgroundDescription | undefined;
-  #backdrop: Mesh | undefined;
+  #backgroundMesh: Mesh | undefined;
   #size = { width: 0, height: 0 };
   #frames = 0;
   #drawCalls = 0;
@@ -108,10 +108,10 @@ export class SceneRenderer {
   constructor(
     canvas: HTMLCanvasElement,
     context: WebGL2RenderingContext,
-    cameraMan: CameraController,
+    cameraController: CameraController,
     onFrame: () => void,
   ) {
-    this.#cameraMan = cameraMan;
+    this.#cameraController = cameraController;
     this.#onFrame = onFrame;
     this.#renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
     this.#buffers = new BufferStore(context);
@@ -125,9 +125,9 @@ export class SceneRenderer {
       batches: new Batches(x3dMaterials, geometries, this.#buffers),
       drawing: { asPoints: false },
     });
-    this.#pace = new FramePacer(context);
+    this.#framePacer = new FramePacer(context);
     this.#picker = new ScreenPicker(this.#renderer, this.#drawnCamera, () => this.#shapes.pickCandidates());
-    this.#surveyor = new DepthProbe(this.#renderer);
+    this.#depthProbe = new DepthProbe(this.#renderer);
     // The numbers of the document are the numbers of the screen: see materials.ts.
     this.#renderer.outputColorSpace = LinearSRGBColorSpace;
     this.#renderer.toneMapping = NoToneMapping;
@@ -144,7 +144,7 @@ export class SceneRenderer {
     return {
       frames: this.#frames,
       drawCalls: this.#drawCalls,
-      isFrameDue: this.#pace.isFramePending,
+      isFrameDue: this.#framePacer.isFramePending,
       textures: memory.textures,
       geometries: memory.geometries,
       programs: programs?.length ?? 0,
@@ -167,7 +167,7 @@ export class SceneRenderer {
   get view(): View | undefined {
     if (!this.#hasArea) return undefined;
     const camera = this.#camera;
-    applyPose(camera, this.#cameraMan.pose, this.#aspect, this.sphere, this.#cameraMan.clearance);
+    applyPose(camera, this.#cameraController.pose, this.#aspect, this.sphere, this.#cameraController.clearance);
     camera.updateMatrixWorld();
     return {
       position: camera.position.toArray(),
@@ -182,20 +182,20 @@ export class SceneRenderer {
     const built = this.#shapes.setScene(description);
     this.#headlight.visible = description.navigation.headlight;
     if (description.background !== this.#background)
-      this.#setBackdrop(description.background && makeBackground(description.background));
+      this.#setBackground(description.background && makeBackground(description.background));
     this.#background = description.background;
     this.#compileAhead(built.changes.shapes.values());
     this.requestFrame();
     return built;
   }
 
-  #setBackdrop(backdrop: Color | Mesh | undefined): void {
-    if (this.#backdrop) disposeBackground(this.#backdrop);
-    this.#backdrop?.removeFromParent();
-    this.#backdrop = backdrop instanceof Mesh ? backdrop : undefined;
-    if (this.#backdrop) this.#scene.add(this.#backdrop);
+  #setBackground(background: Color | Mesh | undefined): void {
+    if (this.#backgroundMesh) disposeBackground(this.#backgroundMesh);
+    this.#backgroundMesh?.removeFromParent();
+    this.#backgroundMesh = background instanceof Mesh ? background : undefined;
+    if (this.#backgroundMesh) this.#scene.add(this.#backgroundMesh);
     // A colour is the scene's, not the renderer's to clear with: that one is lost with the context.
-    this.#scene.background = backdrop instanceof Color ? backdrop : null;
+    this.#scene.background = background instanceof Color ? background : null;
   }
 
   /** Texels of the longest edge that a texture may have. */
@@ -310,7 +310,7 @@ export class SceneRenderer {
 
   /** The same for what nobody has asked for, when the GPU has rested: what comes while a scene loads would keep it busy without an end. */
   requestFrameAtPace(): void {
-    this.#pace.request(() => {
+    this.#framePacer.request(() => {
       this.requestFrame();
     });
   }
@@ -320,8 +320,8 @@ export class SceneRenderer {
     cancelAnimationFrame(this.#frameRequest);
     this.#shapes.dispose();
     this.#picker.dispose();
-    this.#surveyor.dispose();
-    this.#setBackdrop(undefined);
+    this.#depthProbe.dispose();
+    this.#setBackground(undefined);
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
   }
@@ -356,31 +356,37 @@ export class SceneRenderer {
     cancelAnimationFrame(this.#frameRequest);
     this.#frameRequest = 0;
     this.#picker.forget();
-    this.#pace.begin();
+    this.#framePacer.begin();
     if (!this.#hasArea || this.isContextLost) return;
     const begunAt = performance.now();
-    applyPose(this.#camera, this.#cameraMan.advance(begunAt), this.#aspect, this.sphere, this.#cameraMan.clearance);
+    applyPose(
+      this.#camera,
+      this.#cameraController.advance(begunAt),
+      this.#aspect,
+      this.sphere,
+      this.#cameraController.clearance,
+    );
     this.#shared.depthRange.value.set(this.#camera.near, this.#camera.far);
     const { pixelRatio } = this.#shared;
     this.#shapes.cull(this.#camera, [this.#size.width / pixelRatio.value, this.#size.height / pixelRatio.value]);
     this.#renderer.render(this.#scene, this.#camera);
     this.#drawCalls = this.#renderer.info.render.calls;
-    this.#pace.end(begunAt);
+    this.#framePacer.end(begunAt);
     this.#drawnCamera.copy(this.#camera, false);
     this.#frames += 1;
     this.#onFrame();
     void this.#lookAround();
-    if (this.#cameraMan.isMoving) this.requestFrame();
+    if (this.#cameraController.isMoving) this.requestFrame();
   }
 
   /** Tells the camera man what he wants to know, when the GPU has drawn it. */
   async #lookAround(): Promise<void> {
-    const lookout = this.#surveyor.isBusy ? undefined : this.#cameraMan.depthCamera;
+    const lookout = this.#depthProbe.isBusy ? undefined : this.#cameraController.depthCamera;
     if (lookout === undefined) return;
     const depth = 2 * this.sphere.radius + this.sphere.center.distanceTo(lookout.eye);
-    const surroundings = await this.#surveyor.probe(lookout, depth, this.#shapes.candidatesIgnoringCulling());
+    const surroundings = await this.#depthProbe.probe(lookout, depth, this.#shapes.candidatesIgnoringCulling());
     if (surroundings === undefined) return;
-    this.#cameraMan.addGroundSamples(lookout, surroundings);
+    this.#cameraController.addGroundSamples(lookout, surroundings);
     this.requestFrame();
   }
 }

@@ -97,7 +97,7 @@ class Scene {
   constructor() {
     const look: MaterialFactory = {
       makeMaterial: ({ uniforms }) => {
-        this.#table = () => uniforms.places?.value as DataTexture;
+        this.#table = () => uniforms.instances?.value as DataTexture;
         return new MeshBasicMaterial();
       },
       applyAppearance: () => undefined,
@@ -111,12 +111,12 @@ class Scene {
 
   add(draw: BatchedDraw, x: number, scale = 1, z = 0): Member {
     const group = new Group();
-    place(group, x, scale, z);
+    moveGroup(group, x, scale, z);
     return this.batches.add(draw, white, group);
   }
 
   move(member: Member, x: number, z = 0): void {
-    place(member.group, x, 1, z);
+    moveGroup(member.group, x, 1, z);
     this.batches.follow(member);
   }
 
@@ -145,27 +145,27 @@ class Scene {
   }
 }
 
-function place(group: Group, x: number, scale = 1, z = 0): void {
+function moveGroup(group: Group, x: number, scale = 1, z = 0): void {
   group.matrix.makeScale(scale, 1, 1).setPosition(x, 0, z);
   group.matrixAutoUpdate = false;
   group.updateMatrixWorld(true);
 }
 
-function placesIn({ geometry }: DrawnObject): number[] {
+function instancesIn({ geometry }: DrawnObject): number[] {
   assert.ok(geometry instanceof InstancedBufferGeometry);
-  return Array.from(geometry.getAttribute("place").array.subarray(0, geometry.instanceCount));
+  return Array.from(geometry.getAttribute("instanceIndex").array.subarray(0, geometry.instanceCount));
 }
 
 function meshIn({ geometry }: { geometry: BufferGeometry }) {
   const column = (name: string) => Array.from(geometry.getAttribute(name).array);
   return {
     index: Array.from(geometry.index?.array ?? []),
-    places: column("place"),
+    instances: column("instanceIndex"),
     coords: (geometry.getAttribute("position") as unknown as { data: InterleavedBuffer }).data.array,
   };
 }
 
-describe("a stage in many places", () => {
+describe("a stage in many instances", () => {
   const draw = drawOf(stageOf(0), false);
 
   test("is one draw of those that the camera sees", () => {
@@ -175,17 +175,17 @@ describe("a stage in many places", () => {
     assert.ok(drawn);
     assert.equal(others.length, 0);
     assert.deepEqual(
-      placesIn(drawn),
+      instancesIn(drawn),
       members.slice(1, 4).map((member) => member.instanceIndex),
     );
   });
 
-  test("is drawn in as many places as there are", () => {
+  test("is drawn in as many instances as there are", () => {
     const scene = new Scene();
     for (let n = 0; n < 300; ++n) scene.add(draw, 0);
     const [drawn] = scene.frame();
     assert.ok(drawn);
-    assert.equal(new Set(placesIn(drawn)).size, 300);
+    assert.equal(new Set(instancesIn(drawn)).size, 300);
   });
 
   test("follows each place when it is hidden, moved, and gone", () => {
@@ -195,7 +195,7 @@ describe("a stage in many places", () => {
     assert.ok(drawn);
     scene.hide(first);
     scene.frame();
-    assert.deepEqual(placesIn(drawn), [second.instanceIndex, third.instanceIndex]);
+    assert.deepEqual(instancesIn(drawn), [second.instanceIndex, third.instanceIndex]);
     const before = scene.record(third);
     scene.move(second, 3);
     scene.frame();
@@ -203,7 +203,7 @@ describe("a stage in many places", () => {
     assert.deepEqual(scene.record(third), before);
     scene.batches.remove(second);
     scene.frame();
-    assert.deepEqual(placesIn(drawn), [third.instanceIndex]);
+    assert.deepEqual(instancesIn(drawn), [third.instanceIndex]);
     const other = scene.add(drawOf(stageOf(9), false), 0);
     scene.frame();
     scene.move(other, 90);
@@ -226,7 +226,7 @@ describe("a stage in many places", () => {
     assert.equal(others.length, 1);
     const mirrored = [drawn, ...others].find(({ matrixWorld }) => matrixWorld.determinant() < 0);
     assert.ok(mirrored);
-    assert.deepEqual(placesIn(mirrored), [member.instanceIndex]);
+    assert.deepEqual(instancesIn(mirrored), [member.instanceIndex]);
     assert.deepEqual(scene.record(member).slice(0, 4), [1, 0, 0, -1]);
     scene.move(member, 1);
     assert.equal(scene.frame().length, 1, "it has joined the others");
@@ -257,9 +257,9 @@ describe("small meshes", () => {
     const [drawn, ...others] = scene.frame();
     assert.ok(drawn);
     assert.equal(others.length, 0);
-    const { index, places, coords } = meshIn(drawn);
+    const { index, instances, coords } = meshIn(drawn);
     assert.deepEqual(index, [0, 1, 2, 3, 4, 5]);
-    assert.deepEqual(places, [
+    assert.deepEqual(instances, [
       a.instanceIndex,
       a.instanceIndex,
       a.instanceIndex,
@@ -302,7 +302,7 @@ describe("small meshes", () => {
     const [packed] = scene.frame();
     assert.ok(packed);
     assert.deepEqual(
-      meshIn(packed).places,
+      meshIn(packed).instances,
       members.slice(3).flatMap((member) => Array<number>(3).fill(member.instanceIndex)),
       "it is written anew",
     );
@@ -354,13 +354,13 @@ describe("wide lines", () => {
   /** Of each line: the place, and the first coordinates of its ends. */
   function linesIn({ geometry }: DrawnObject): number[][] {
     assert.ok(geometry instanceof InstancedBufferGeometry);
-    const [places, begins, ends] = ["place", "position", "positionEnd"].map(
+    const [instances, begins, ends] = ["instanceIndex", "position", "positionEnd"].map(
       (name) => geometry.getAttribute(name) as InstancedBufferAttribute,
     );
-    assert.ok(places && begins && ends);
+    assert.ok(instances && begins && ends);
     return Array.from({ length: geometry.instanceCount }, (_, line) => {
-      const { meshPerAttribute } = places;
-      return [places.getX(Math.floor(line / meshPerAttribute)), begins.getX(line), ends.getX(line)];
+      const { meshPerAttribute } = instances;
+      return [instances.getX(Math.floor(line / meshPerAttribute)), begins.getX(line), ends.getX(line)];
     });
   }
 
@@ -386,7 +386,7 @@ describe("wide lines", () => {
     assert.deepEqual(linesIn(left), [...linesAt(members[0], 10), ...linesAt(members[2], 30)]);
   });
 
-  test("of one mesh are one draw in all its places, line after line", () => {
+  test("of one mesh are one draw in all its instances, line after line", () => {
     const scene = new Scene();
     const draw = drawOf(linesOf(10), false);
     const first = scene.add(draw, 0);
@@ -401,7 +401,7 @@ describe("wide lines", () => {
     );
   });
 
-  test("of large meshes are a draw for as many places as they may be stored again for", () => {
+  test("of large meshes are a draw for as many instances as they may be stored again for", () => {
     const scene = new Scene();
     const lineCount = Math.floor(maxRepeatedLines / 3) + 1;
     const stage = {
@@ -477,20 +477,20 @@ describe("what blends", () => {
   function drawnMembers(scene: Scene, members: readonly Member[]): number[][] {
     const calls = scene.frame().toSorted((a, b) => a.renderOrder - b.renderOrder);
     return calls.map((call) =>
-      placesDrawnBy(call).map((number) => members.findIndex(({ instanceIndex: own }) => own === number)),
+      instancesDrawnBy(call).map((number) => members.findIndex(({ instanceIndex: own }) => own === number)),
     );
   }
 
   /** One number for each triangle, or instance. */
-  function placesDrawnBy(call: DrawnObject): number[] {
+  function instancesDrawnBy(call: DrawnObject): number[] {
     const { geometry } = call;
-    if (geometry instanceof InstancedBufferGeometry) return placesIn(call);
-    const { index, places } = meshIn(call);
+    if (geometry instanceof InstancedBufferGeometry) return instancesIn(call);
+    const { index, instances } = meshIn(call);
     const { start, count } = geometry.drawRange;
     return index
       .slice(start, start + count)
       .filter((_, corner) => corner % 3 === 0)
-      .map((vertex) => places[vertex] ?? -1);
+      .map((vertex) => instances[vertex] ?? -1);
   }
 
   const depths = [3, -2, 5, 0, -4];
@@ -546,7 +546,7 @@ describe("what blends", () => {
       assert.ok(call);
       assert.equal(others.length, 0);
       assert.deepEqual(
-        placesDrawnBy(call),
+        instancesDrawnBy(call),
         [far, near].flatMap((member) => [member.instanceIndex + backFaces, member.instanceIndex + frontFaces]),
       );
     });

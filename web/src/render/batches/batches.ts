@@ -23,7 +23,7 @@ import { InstanceTable } from "./instanceTable.ts";
 export class Batches {
   /** Hangs in the scene, near what is drawn: records of places count from it, in single precision. */
   readonly root = new Group();
-  readonly #look: MaterialFactory;
+  readonly #materialFactory: MaterialFactory;
   readonly #geometries: GeometryPool;
   readonly #buffers: BufferProvider;
   readonly #table = new InstanceTable();
@@ -40,7 +40,7 @@ export class Batches {
   #stageCount = 0;
 
   constructor(look: MaterialFactory, geometries: GeometryPool, buffers: BufferProvider) {
-    this.#look = look;
+    this.#materialFactory = look;
     this.#geometries = geometries;
     this.#buffers = buffers;
     this.root.matrixAutoUpdate = false;
@@ -201,9 +201,9 @@ export class Batches {
   #make({ draw, isMirrored }: Member): Batch {
     const request: MaterialRequest = {
       ...draw.request,
-      uniforms: { ...draw.request.uniforms, places: this.#table.uniform },
+      uniforms: { ...draw.request.uniforms, instances: this.#table.uniform },
     };
-    const material = this.#look.makeMaterial(request, draw.appearance, draw.surfaceTextures);
+    const material = this.#materialFactory.makeMaterial(request, draw.appearance, draw.surfaceTextures);
     material.forceSinglePass = true; // three.js would draw all back faces of the batch before all front faces
     const addObject = (geometry: BufferGeometry) => {
       const object = makeDrawnObject(
@@ -214,7 +214,7 @@ export class Batches {
       object.frustumCulled = false; // `update` knows better
       object.matrixAutoUpdate = false;
       if (isMirrored) object.matrix.makeScale(-1, 1, 1);
-      this.#look.prepareObject(object, request, material);
+      this.#materialFactory.prepareObject(object, request, material);
       this.root.add(object);
       object.updateMatrixWorld(true);
       return object;

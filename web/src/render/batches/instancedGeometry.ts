@@ -36,7 +36,7 @@ export class InstancedGeometry {
       false,
       this.#instancesPerPlace,
     );
-    this.geometry.setAttribute("place", this.#places);
+    this.geometry.setAttribute("instanceIndex", this.#places);
   }
 
   /** From now on it is in these places, at most as many as its capacity. */

@@ -67,7 +67,7 @@ export class MergedLines implements MergedGeometry {
   makeGeometry(): BufferGeometry {
     const geometry = outlineGeometry(this.#places.length);
     this.#records.setOn(geometry);
-    geometry.setAttribute("place", new InstancedBufferAttribute(this.#places.used, 1));
+    geometry.setAttribute("instanceIndex", new InstancedBufferAttribute(this.#places.used, 1));
     return geometry;
   }
 }

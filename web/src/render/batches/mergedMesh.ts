@@ -111,6 +111,6 @@ export class MergedMesh implements MergedGeometry {
   /** Valid until it grows: they share its memory. */
   setVerticesOf(geometry: BufferGeometry): void {
     for (const column of this.#columns) geometry.setAttribute(column.name, attributeOf(column));
-    geometry.setAttribute("place", new BufferAttribute(this.#places.used, 1));
+    geometry.setAttribute("instanceIndex", new BufferAttribute(this.#places.used, 1));
   }
 }

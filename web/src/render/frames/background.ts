@@ -83,7 +83,7 @@ function ringsOf(name: "sky" | "ground", rings: BackgroundDescription["sky"]): R
   };
 }
 
-export function disposeBackground(backdrop: Mesh): void {
-  backdrop.geometry.dispose();
-  (backdrop.material as ShaderMaterial).dispose();
+export function disposeBackground(background: Mesh): void {
+  background.geometry.dispose();
+  (background.material as ShaderMaterial).dispose();
 }

@@ -11,11 +11,11 @@ const chunk = /* glsl */ `
 uniform vec3 attenuations[SCENE_LIGHTS];
 ${falloffChunk}
 float getDistanceAttenuation(const in float lightDistance, const in float radius, const in float number) {
-  return shareAtDistance(lightDistance, radius, attenuations[int(number)]);
+  return attenuationAtDistance(lightDistance, radius, attenuations[int(number)]);
 }
 
 float getSpotAttenuation(const in float edgeCosine, const in float beamCosine, const in float cosine) {
-  return shareInCone(edgeCosine, beamCosine, cosine);
+  return attenuationInCone(edgeCosine, beamCosine, cosine);
 }
 `;
 
@@ -23,6 +23,6 @@ float getSpotAttenuation(const in float edgeCosine, const in float beamCosine, c
 export const lightsChunk =
   chunk +
   replaceChunks(ShaderChunk.lights_pars_begin, [
-    ["float getDistanceAttenuation(", "float usualDistanceAttenuation("],
-    ["float getSpotAttenuation(", "float usualSpotAttenuation("],
+    ["float getDistanceAttenuation(", "float threeDistanceAttenuation("],
+    ["float getSpotAttenuation(", "float threeSpotAttenuation("],
   ]);

@@ -60,8 +60,8 @@ test("three.js' shaders ask for each kind of light, and for ambient light, wheth
     "NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + UNROLLED_LOOP_INDEX",
   ];
   for (const number of asked)
-    assert.ok(lit.fragmentShader.includes(`directLight.color *= shareInScope( ${number} )`), number);
-  assert.ok(lit.fragmentShader.includes("ambientLightColor + ambientInScope()"));
+    assert.ok(lit.fragmentShader.includes(`directLight.color *= lightShareInScope( ${number} )`), number);
+  assert.ok(lit.fragmentShader.includes("ambientLightColor + ambientLightInScope()"));
   const unlit = { vertexShader: ShaderLib.basic.vertexShader, fragmentShader: ShaderLib.basic.fragmentShader };
   addLightScopes(unlit);
   assert.deepEqual(unlit, {

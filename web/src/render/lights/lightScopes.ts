@@ -26,21 +26,21 @@ const fragmentChunk = /* glsl */ `
 uniform vec2 lightScopeRanges[ALL_LIGHTS];
 uniform vec3 scopedAmbients[ALL_LIGHTS];
 #ifdef ${instancesDefine}
-  flat varying float placeLightScope;
-  #define scopeOfDraw placeLightScope
+  flat varying float instanceLightScope;
+  #define drawLightScope instanceLightScope
 #else
   uniform float lightScope;
-  #define scopeOfDraw lightScope
+  #define drawLightScope lightScope
 #endif
 
-float shareInScope(int light) {
+float lightShareInScope(int light) {
   vec2 reach = lightScopeRanges[light];
-  return step(reach.x, scopeOfDraw) * step(scopeOfDraw, reach.y);
+  return step(reach.x, drawLightScope) * step(drawLightScope, reach.y);
 }
 
-vec3 ambientInScope() {
+vec3 ambientLightInScope() {
   vec3 sum = vec3(0.0);
-  for (int light = 0; light < ALL_LIGHTS; ++light) sum += shareInScope(light) * scopedAmbients[light];
+  for (int light = 0; light < ALL_LIGHTS; ++light) sum += lightShareInScope(light) * scopedAmbients[light];
   return sum;
 }
 `;
@@ -54,12 +54,12 @@ const lightsInScope = replaceChunks(ShaderChunk.lights_fragment_begin, [
   ),
   [
     "getAmbientLightIrradiance( ambientLightColor )",
-    "getAmbientLightIrradiance( ambientLightColor + ambientInScope() )",
+    "getAmbientLightIrradiance( ambientLightColor + ambientLightInScope() )",
   ],
 ]);
 
 function lit(statement: string, number: string): readonly [string, string] {
-  return [statement, `${statement}\n\t\tdirectLight.color *= shareInScope( ${number} );`];
+  return [statement, `${statement}\n\t\tdirectLight.color *= lightShareInScope( ${number} );`];
 }
 
 /** For `onBeforeCompile`. */

@@ -81,11 +81,11 @@ const vertexChunk = /* glsl */ `
 #ifdef VALUE_COMPONENTS
 
 // 0 and 1 are the ends of the map of colours.
-varying float vMapPlace;
+varying float vColorMapCoord;
 #ifdef ${instancesDefine}
-  #define valueMin placeTexel(${instanceFields.valueMin / 4})
-  #define valueStep placeTexel(${instanceFields.valueStep / 4})
-  #define mapRange placeTexel(${instanceFields.mapRange / 4}).xy
+  #define valueMin instanceTexel(${instanceFields.valueMin / 4})
+  #define valueStep instanceTexel(${instanceFields.valueStep / 4})
+  #define mapRange instanceTexel(${instanceFields.mapRange / 4}).xy
 #else
   uniform vec4 valueMin, valueStep;
   uniform vec2 mapRange;
@@ -103,7 +103,7 @@ uvec4 valueBytes(sampler2D image, int first, int n) {
 }
 
 vec4 readValues(int end) {
-  int n = recordTexel(recordNumber(drawnNumber(end)));
+  int n = recordTexelIndex(recordIndex(drawVertexIndex(end)));
   uvec4 stored = valueBytes(valueImage0, valueFirstTexels.x, n);
   if (valuePlanes > 1) stored = (stored << 8) | valueBytes(valueImage1, valueFirstTexels.y, n);
   if (valuePlanes > 2) stored = (stored << 8) | valueBytes(valueImage2, valueFirstTexels.z, n);
@@ -147,7 +147,7 @@ float readValue() {
   #endif
 }
 
-float mapPlaceOf(float value) {
+float colorMapCoordOf(float value) {
   vec2 range = mapRange;
   float extent = range.y - range.x;
   return extent == 0.0 ? 0.0 : (value - range.x) / extent;
@@ -158,12 +158,12 @@ float mapPlaceOf(float value) {
 
 const fragmentDeclarations = /* glsl */ `
 #ifdef VALUE_COMPONENTS
-  varying float vMapPlace;
+  varying float vColorMapCoord;
   uniform vec3 mapColors[${maxMapColors}];
   uniform int mapColorCount;
 
   vec3 mappedColor() {
-    float at = clamp(vMapPlace, 0.0, 1.0) * float(mapColorCount - 1);
+    float at = clamp(vColorMapCoord, 0.0, 1.0) * float(mapColorCount - 1);
     int before = min(int(at), mapColorCount - 2);
     vec3 color = mix(mapColors[before], mapColors[before + 1], at - float(before));
     #ifdef ${srgbColorsDefine}
@@ -189,7 +189,7 @@ export function addValueColors(
     ["void main() {", `${vertexChunk}\nvoid main() {`],
     [
       readVertexStatement,
-      `${readVertexStatement}\n#ifdef VALUE_COMPONENTS\n  vMapPlace = mapPlaceOf(readValue());\n#endif`,
+      `${readVertexStatement}\n#ifdef VALUE_COMPONENTS\n  vColorMapCoord = colorMapCoordOf(readValue());\n#endif`,
     ],
   ]);
   shader.fragmentShader =

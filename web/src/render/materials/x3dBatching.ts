@@ -18,7 +18,7 @@ export function keyOf(
   surfaceTextures: SurfaceTextures,
 ): string {
   const { material, points, lines, colorMap, ...rest } = appearance;
-  const others = Object.entries(material).filter(([name]) => !numbersOfPlaces.has(name));
+  const others = Object.entries(material).filter(([name]) => !instanceFieldNames.has(name));
   return JSON.stringify([
     blends(appearance, colors, surfaceTextures),
     rest,
@@ -31,7 +31,7 @@ export function keyOf(
 }
 
 /** What of a material `numbersOf` tells. */
-const numbersOfPlaces = new Set([
+const instanceFieldNames = new Set([
   "diffuseColor",
   "baseColor",
   "specularColor",

@@ -140,7 +140,7 @@ function depthsIn(words: Uint32Array): Float32Array {
   const floats = new Float32Array(words.buffer);
   return Float32Array.from({ length: words.length / wordsPerPixel }, (_, pixel) => {
     const first = pixel * wordsPerPixel;
-    return words[first + pickedWordOffsets.drawNumber] === 0
+    return words[first + pickedWordOffsets.pickId] === 0
       ? Infinity
       : (floats[first + pickedWordOffsets.depth] ?? Infinity);
   });

@@ -75,7 +75,7 @@ export class PickDraw {
   }
 
   /** To be drawn in the picking pass, under this number. */
-  objectFor(drawNumber: number, worldFromStored: Matrix4): DrawnObject {
+  objectFor(pickId: number, worldFromStored: Matrix4): DrawnObject {
     const { parts, material } = (this.#made ??= this.#make());
     const object = makeDrawnObject(this.range, parts.geometry, material);
     object.frustumCulled = false; // whoever picks has done it
@@ -83,7 +83,7 @@ export class PickDraw {
     object.matrixWorldAutoUpdate = false;
     object.matrixWorld.copy(worldFromStored);
     object.onBeforeRender = () => {
-      material.uniforms.drawNumber.value = drawNumber;
+      material.uniforms.pickId.value = pickId;
       material.uniformsNeedUpdate = true;
     };
     return object;

@@ -25,7 +25,7 @@ import { isLine } from "../primitives/primitives.ts";
  * none; the three words of a vertex of the face stand in what the others leave.
  */
 export const pickedWordOffsets = {
-  drawNumber: 0,
+  pickId: 0,
   element: 1,
   vertex: 2,
   depth: 3,
@@ -79,20 +79,20 @@ void main() {
   faceNormal = vec3(0.0);
   #ifdef ${imageVerticesDefine}
     #if defined(${wideLinesDefine})
-      cornerVertices.xy = ivec2(recordNumber(drawnNumber(0)), recordNumber(drawnNumber(1)));
+      cornerVertices.xy = ivec2(recordIndex(drawVertexIndex(0)), recordIndex(drawVertexIndex(1)));
     #elif defined(IS_LINE_STRIP)
       // A vertex ends one line and begins the next, so even numbers are one corner
       // and odd ones the other; of flat values the line's last vertex counts.
       element = gl_VertexID - 1;
-      int other = recordNumber(max(element, 0));
+      int other = recordIndex(max(element, 0));
       bool isEven = (gl_VertexID & 1) == 0;
-      cornerVertices.xy = isEven ? ivec2(recordNumber(gl_VertexID), other) : ivec2(other, recordNumber(gl_VertexID));
+      cornerVertices.xy = isEven ? ivec2(recordIndex(gl_VertexID), other) : ivec2(other, recordIndex(gl_VertexID));
       cornerWeights = isEven ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
     #else
       element = gl_VertexID / PRIMITIVE_CORNERS;
       int firstCorner = element * PRIMITIVE_CORNERS;
       for (int corner = 0; corner < PRIMITIVE_CORNERS; ++corner) {
-        cornerVertices[corner] = recordNumber(firstCorner + corner);
+        cornerVertices[corner] = recordIndex(firstCorner + corner);
         cornerWeights[corner] = gl_VertexID == firstCorner + corner ? 1.0 : 0.0;
       }
     #endif
@@ -105,7 +105,7 @@ void main() {
 `;
 
 const fragmentShader = /* glsl */ `
-uniform uint drawNumber;
+uniform uint pickId;
 varying vec3 vPosition;
 varying vec3 vNormal;
 flat varying int element;
@@ -113,10 +113,10 @@ flat varying ivec3 cornerVertices;
 flat varying vec3 facePoint;
 flat varying vec3 faceNormal;
 varying vec3 cornerWeights;
-layout(location = 0) out uvec4 what;
-layout(location = 1) out uvec4 where;
-layout(location = 2) out uvec4 shadedNormal;
-layout(location = 3) out uvec4 planeNormal;
+layout(location = 0) out uvec4 outIds;
+layout(location = 1) out uvec4 outPosition;
+layout(location = 2) out uvec4 outNormal;
+layout(location = 3) out uvec4 outFaceNormal;
 #ifdef ${alphaCutoffDefine}
   uniform vec2 alphaFactorAndCutoff;
 #endif
@@ -142,11 +142,11 @@ void main() {
   vec3 w = cornerWeights;
   int nearest = w.x >= w.y && w.x >= w.z ? cornerVertices.x : w.y >= w.z ? cornerVertices.y : cornerVertices.z;
   vec3 normal = gl_FrontFacing || PRIMITIVE_CORNERS != 3 ? vNormal : -vNormal;
-  what = uvec4(drawNumber, uint(element), uint(nearest), floatBitsToUint(gl_FragCoord.z));
+  outIds = uvec4(pickId, uint(element), uint(nearest), floatBitsToUint(gl_FragCoord.z));
   uvec3 point = floatBitsToUint(facePoint);
-  where = uvec4(floatBitsToUint(vPosition), point.x);
-  shadedNormal = uvec4(floatBitsToUint(normal), point.y);
-  planeNormal = uvec4(floatBitsToUint(faceNormal), point.z);
+  outPosition = uvec4(floatBitsToUint(vPosition), point.x);
+  outNormal = uvec4(floatBitsToUint(normal), point.y);
+  outFaceNormal = uvec4(floatBitsToUint(faceNormal), point.z);
 }
 `;
 
@@ -159,7 +159,7 @@ export interface PickMaterialRequest extends VertexFormat {
   readonly uniforms: VertexUniforms;
 }
 
-export type PickMaterial = ShaderMaterial & { uniforms: { drawNumber: { value: number } } };
+export type PickMaterial = ShaderMaterial & { uniforms: { pickId: { value: number } } };
 
 /** Where what is drawn has holes: alpha below the cutoff. */
 export interface AlphaMask {
@@ -199,7 +199,7 @@ export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
     },
     uniforms: {
       ...uniforms,
-      drawNumber: { value: 0 },
+      pickId: { value: 0 },
       hasNormals: { value: hasNormals },
       ...(alphaMask && {
         alphaMask: { value: alphaMask.texture ?? null },

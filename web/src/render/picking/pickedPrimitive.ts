@@ -29,13 +29,13 @@ export function primitiveIn(
 ): PickedPrimitive | undefined {
   const { corners, step } = layoutOf(primitive);
   let found: PickedPrimitive | undefined;
-  let leastDistance = Infinity;
+  let minDistance = Infinity;
   for (let at = corners - 1; at < index.length; at += step) {
     if (index[at] !== last) continue;
     const vertices = Array.from(index.subarray(at - corners + 1, at + 1));
     const distance = distanceTo(vertices.map(positionOf), point);
-    if (distance >= leastDistance) continue;
-    leastDistance = distance;
+    if (distance >= minDistance) continue;
+    minDistance = distance;
     found = { number: (at - corners + 1) / step, vertices };
   }
   return found;

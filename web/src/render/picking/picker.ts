@@ -103,7 +103,7 @@ export class Picker {
     this.#renderer.setRenderTarget(null);
     const seenBy = new PerspectiveCamera().copy(camera, false); // it may move while we wait
     const words = await reading;
-    const hit = near[(words[pickedWordOffsets.drawNumber] ?? 0) - 1];
+    const hit = near[(words[pickedWordOffsets.pickId] ?? 0) - 1];
     return hit?.pick.isDisposed === true ? "stale" : this.#hitOf(words, seenBy, place, near);
   }
 
@@ -139,7 +139,7 @@ export class Picker {
     place: PixelPosition,
     candidates: readonly CandidateInView[],
   ): Hit | undefined {
-    const candidate = candidates[(words[pickedWordOffsets.drawNumber] ?? 0) - 1];
+    const candidate = candidates[(words[pickedWordOffsets.pickId] ?? 0) - 1];
     if (candidate === undefined) return undefined;
     const { element, group, patch, pick, worldFromStored } = candidate;
     const floats = new Float32Array(words.buffer);

@@ -43,7 +43,7 @@ export async function testVertexTextures(renderer: WebGLRenderer, textures: Text
     const isNormal = normal.every(
       (value, axis) => Math.abs((floats[pickedWordOffsets.normal + axis] ?? NaN) - value) < 1e-6,
     );
-    return words[pickedWordOffsets.drawNumber] === 1 && isPlace && isNormal;
+    return words[pickedWordOffsets.pickId] === 1 && isPlace && isNormal;
   } catch {
     return false;
   }
@@ -95,12 +95,12 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
       gridSize: { value: [0, 0] },
       isGridClosed: { value: false },
       largestStored: { value: 65535 },
-      firstNumber: { value: 0 },
+      firstSequenceIndex: { value: 0 },
       isStrip: { value: false },
       colorHasAlpha: { value: false },
     },
   });
-  material.uniforms.drawNumber.value = 1;
+  material.uniforms.pickId.value = 1;
   const geometry = new BufferGeometry();
   geometry.setDrawRange(0, 1);
   const target = makePickTarget();

@@ -36,7 +36,7 @@ ${pointSizeChunk}
   vPointSize = gl_PointSize;
 #endif
 `;
-const cutChunk = /* glsl */ `void main() {
+const discardCornersChunk = /* glsl */ `void main() {
 #ifdef ${pointsDefine}
   if (vPointSize >= ${minRoundSize} && distance(gl_PointCoord, vec2(0.5)) > 0.5) discard;
 #endif
@@ -56,7 +56,7 @@ export function addRoundPoints(
   shader.fragmentShader =
     declarations +
     replaceChunks(shader.fragmentShader, [
-      ["void main() {", cutChunk],
+      ["void main() {", discardCornersChunk],
       ["#include <normal_fragment_begin>", normalChunk],
     ]);
 }

@@ -3,7 +3,7 @@
 // where a mesh is drawn in many places, of each vertex where many are one mesh.
 
 /** Defined in materials whose draws are of many places. */
-export const instancesDefine = "PLACES";
+export const instancesDefine = "INSTANCES";
 
 /** Defined in shaders that test what light reaches a draw: lightScopes.ts. */
 export const scopedLightsDefine = "SCOPED_LIGHTS";
@@ -34,80 +34,80 @@ export const texelsPerInstance = 11;
 
 export const instanceVertexChunk = /* glsl */ `
 #ifdef ${instancesDefine}
-  attribute uint place;
-  uniform highp sampler2D places;
-  flat varying vec4 placeDiffuse, placeSpecular, placeEmissive;
-  flat varying uint placeFaces;
+  attribute uint instanceIndex;
+  uniform highp sampler2D instances;
+  flat varying vec4 instanceDiffuse, instanceSpecular, instanceEmissive;
+  flat varying uint instanceFaces;
   #ifdef ${scopedLightsDefine}
-    flat varying float placeLightScope;
+    flat varying float instanceLightScope;
   #endif
 
-  vec4 placeTexel(int n) {
-    int texel = int(place & ${frontFaces - 1}u) * ${texelsPerInstance} + n;
-    int width = textureSize(places, 0).x;
-    return texelFetch(places, ivec2(texel % width, texel / width), 0);
+  vec4 instanceTexel(int n) {
+    int texel = int(instanceIndex & ${frontFaces - 1}u) * ${texelsPerInstance} + n;
+    int width = textureSize(instances, 0).x;
+    return texelFetch(instances, ivec2(texel % width, texel / width), 0);
   }
 
-  vec3 inPlace(vec3 stored) {
+  vec3 instancePosition(vec3 stored) {
     vec4 point = vec4(stored, 1.0);
-    return vec3(dot(placeTexel(0), point), dot(placeTexel(1), point), dot(placeTexel(2), point));
+    return vec3(dot(instanceTexel(0), point), dot(instanceTexel(1), point), dot(instanceTexel(2), point));
   }
 
   // By the cofactors of the matrix without the lattice's steps: its inverse, transposed, but for a
   // factor, which is positive, as no record mirrors.
-  vec3 normalInPlace(vec3 normal) {
-    mat3 matrix = transpose(mat3(placeTexel(0).xyz, placeTexel(1).xyz, placeTexel(2).xyz));
-    vec3 steps = placeTexel(3).xyz;
+  vec3 instanceNormal(vec3 normal) {
+    mat3 matrix = transpose(mat3(instanceTexel(0).xyz, instanceTexel(1).xyz, instanceTexel(2).xyz));
+    vec3 steps = instanceTexel(3).xyz;
     vec3 x = matrix[0] / steps.x, y = matrix[1] / steps.y, z = matrix[2] / steps.z;
     return mat3(cross(y, z), cross(z, x), cross(x, y)) * normal;
   }
 
-  vec4 texCoordFrameOfPlace() {
-    return placeTexel(4);
+  vec4 instanceTexCoordFrame() {
+    return instanceTexel(4);
   }
 
   // What is not shown lies beyond the far side of all that is seen.
-  void showPlace() {
-    placeDiffuse = placeTexel(5);
-    placeSpecular = placeTexel(6);
-    placeEmissive = placeTexel(7);
-    placeFaces = place & ${backFaces + frontFaces}u;
-    float shownIn = placeTexel(3).w;
+  void applyInstance() {
+    instanceDiffuse = instanceTexel(5);
+    instanceSpecular = instanceTexel(6);
+    instanceEmissive = instanceTexel(7);
+    instanceFaces = instanceIndex & ${backFaces + frontFaces}u;
+    float visibleInScope = instanceTexel(3).w;
     #ifdef ${scopedLightsDefine}
-      placeLightScope = shownIn - 1.0;
+      instanceLightScope = visibleInScope - 1.0;
     #endif
-    if (shownIn == 0.0) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+    if (visibleInScope == 0.0) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
   }
 #else
-  vec3 inPlace(vec3 stored) {
+  vec3 instancePosition(vec3 stored) {
     return stored;
   }
 
   // The normal matrix takes the lattice's steps out of it again.
-  vec3 normalInPlace(vec3 normal) {
+  vec3 instanceNormal(vec3 normal) {
     return normal * latticeStep;
   }
 
-  vec4 texCoordFrameOfPlace() {
+  vec4 instanceTexCoordFrame() {
     return texCoordFrame;
   }
 
-  void showPlace() {}
+  void applyInstance() {}
 #endif
 `;
 
 /** Before the fragment shader of a material whose colours come from the record. */
 export const instanceFragmentChunk = /* glsl */ `
 #ifdef ${instancesDefine}
-  flat varying vec4 placeDiffuse, placeSpecular, placeEmissive;
-  flat varying uint placeFaces;
+  flat varying vec4 instanceDiffuse, instanceSpecular, instanceEmissive;
+  flat varying uint instanceFaces;
 #endif
 `;
 
 /** In place of its beginning. */
-export const cutFacesChunk = /* glsl */ `void main() {
+export const discardFacesChunk = /* glsl */ `void main() {
 #ifdef ${instancesDefine}
-  if (placeFaces == (gl_FrontFacing ? ${backFaces}u : ${frontFaces}u)) discard;
+  if (instanceFaces == (gl_FrontFacing ? ${backFaces}u : ${frontFaces}u)) discard;
 #endif
 `;
 
@@ -117,7 +117,7 @@ export const instanceColorChunks: readonly (readonly [string, string])[] = [
     "vec4 diffuseColor = vec4( diffuse, opacity );",
     `
 #ifdef ${instancesDefine}
-  vec4 diffuseColor = placeDiffuse;
+  vec4 diffuseColor = instanceDiffuse;
 #else
   vec4 diffuseColor = vec4(diffuse, opacity);
 #endif
@@ -127,7 +127,7 @@ export const instanceColorChunks: readonly (readonly [string, string])[] = [
     "vec3 totalEmissiveRadiance = emissive;",
     `
 #ifdef ${instancesDefine}
-  vec3 totalEmissiveRadiance = placeEmissive.rgb;
+  vec3 totalEmissiveRadiance = instanceEmissive.rgb;
 #else
   vec3 totalEmissiveRadiance = emissive;
 #endif

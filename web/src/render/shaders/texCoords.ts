@@ -51,7 +51,7 @@ export const ownMapDeclarations = ownVaryings("uniform sampler2D ");
 
 /** Once `vertex` has been read. */
 export const texCoordChunk = /* glsl */ `
-vec4 frame = texCoordFrameOfPlace();
+vec4 frame = instanceTexCoordFrame();
 vec3 shapeTexCoord = vec3(frame.xy + frame.zw * vertex.texCoord, 1.0);
 ${all
   .map(

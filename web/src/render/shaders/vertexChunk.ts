@@ -10,9 +10,9 @@
 
 import type { WebGLProgramParametersWithUniforms } from "three";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
-import { cutFacesChunk, instanceFragmentChunk, instanceVertexChunk } from "./instanceRecord.ts";
+import { discardFacesChunk, instanceFragmentChunk, instanceVertexChunk } from "./instanceRecord.ts";
 import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
-import { cutDashesChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./wideLineChunk.ts";
+import { discardGapsChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./wideLineChunk.ts";
 import { replaceChunks } from "./replaceChunks.ts";
 import { imageNormalsDefine, imageVerticesDefine, srgbColorsDefine } from "./vertexFormat.ts";
 
@@ -74,7 +74,7 @@ uniform int implicitWidth;
 uniform ivec2 gridSize;
 uniform bool isGridClosed;
 uniform float largestStored;
-uniform int firstNumber;
+uniform int firstSequenceIndex;
 uniform bool isStrip;
 uniform int lineCount;
 uniform bool colorHasAlpha;
@@ -83,9 +83,9 @@ uniform bool colorHasAlpha;
 
 // Cell by cell, two triangles each, which turn left where columns run right and
 // rows down. The last column of a closed grid is followed by its first.
-int gridVertex(int drawnNumber) {
-  int cell = drawnNumber / 6;
-  int corner = drawnNumber % 6;
+int gridVertex(int drawVertexIndex) {
+  int cell = drawVertexIndex / 6;
+  int corner = drawVertexIndex % 6;
   int cellsAcross = isGridClosed ? gridSize.x : gridSize.x - 1;
   ivec2 away = corner == 0 ? ivec2(0, 0) : corner == 1 || corner == 3 ? ivec2(0, 1)
     : corner == 2 || corner == 5 ? ivec2(1, 0) : ivec2(1, 1);
@@ -97,14 +97,14 @@ int gridVertex(int drawnNumber) {
 
 // Strips are drawn as separate triangles, three.js knows no others: triangle t
 // is t, t + 1, t + 2, its first two exchanged where t is odd.
-int runningNumber(int drawnNumber) {
+int sequenceIndex(int drawVertexIndex) {
   #ifdef GRID
-    return gridVertex(drawnNumber);
+    return gridVertex(drawVertexIndex);
   #endif
-  if (!isStrip) return firstNumber + drawnNumber;
-  int triangle = drawnNumber / 3;
-  int corner = drawnNumber % 3;
-  return firstNumber + triangle + (corner == 2 ? 2 : corner ^ (triangle & 1));
+  if (!isStrip) return firstSequenceIndex + drawVertexIndex;
+  int triangle = drawVertexIndex / 3;
+  int corner = drawVertexIndex % 3;
+  return firstSequenceIndex + triangle + (corner == 2 ? 2 : corner ^ (triangle & 1));
 }
 
 // Texel number n, counted row by row, from texel number "first" on.
@@ -114,7 +114,7 @@ vec4 texelOf(sampler2D image, int first, int n) {
 }
 
 // Numbers stand in rows of implicitWidth, which may be less than the image's width.
-int texelNumber(sampler2D image, int n) {
+int texelIndex(sampler2D image, int n) {
   return (n / implicitWidth) * textureSize(image, 0).x + n % implicitWidth;
 }
 
@@ -124,10 +124,10 @@ uvec3 bytesOf(vec4 texel) {
 
 // An index texel holds the three bytes of a record's number, or column and row in
 // units of 1/256 of the coordinate image (docs/formats/nodes.md, "Stored values").
-int recordNumber(int drawnNumber) {
-  int running = runningNumber(drawnNumber);
-  if (!hasIndex) return running;
-  int n = texelNumber(indexImage, running);
+int recordIndex(int drawVertexIndex) {
+  int sequence = sequenceIndex(drawVertexIndex);
+  if (!hasIndex) return sequence;
+  int n = texelIndex(indexImage, sequence);
   ivec3 index = ivec3(bytesOf(texelOf(indexImage, firstTexels.x, n)));
   if (isIndexWide) return index.r | index.g << 8 | index.b << 16;
   ivec2 place = index.rg;
@@ -137,12 +137,12 @@ int recordNumber(int drawnNumber) {
 }
 
 // The texel of a record that is one texel: without an index, records stand in rows of implicitWidth.
-int recordTexel(int record) {
-  return hasIndex ? record : texelNumber(coordImage0, record);
+int recordTexelIndex(int record) {
+  return hasIndex ? record : texelIndex(coordImage0, record);
 }
 
 vec3 storedPosition(int record) {
-  int n = recordTexel(record);
+  int n = recordTexelIndex(record);
   uvec3 stored = bytesOf(texelOf(coordImage0, coordFirstTexels.x, n));
   if (coordPlanes > 1) stored = (stored << 8) | bytesOf(texelOf(coordImage1, coordFirstTexels.y, n));
   if (coordPlanes > 2) stored = (stored << 8) | bytesOf(texelOf(coordImage2, coordFirstTexels.z, n));
@@ -187,14 +187,14 @@ vec3 readNormal(int record) {
     return unitOf(255.0 * vec2(texelOf(normalImage, first, record).r,
                                texelOf(normalImage, first + size.x * size.y / 2, record).r));
   #else
-    return texelOf(normalImage, firstTexels.y, recordTexel(record)).rgb * 2.0 - 1.0;
+    return texelOf(normalImage, firstTexels.y, recordTexelIndex(record)).rgb * 2.0 - 1.0;
   #endif
 }
 
 // Words: red and blue are the bytes of u, green and alpha those of v.
 vec2 readTexCoord(int record) {
   #ifdef HAS_TEX_COORDS
-    vec4 bytes = texelOf(texCoordImage, firstTexels.w, recordTexel(record)) * 255.0;
+    vec4 bytes = texelOf(texCoordImage, firstTexels.w, recordTexelIndex(record)) * 255.0;
     return (bytes.rg * 256.0 + bytes.ba) / 65535.0;
   #else
     return vec2(0.0);
@@ -202,7 +202,7 @@ vec2 readTexCoord(int record) {
 }
 
 // Of a vertex, or of one end of a wide line.
-int drawnNumber(int end) {
+int drawVertexIndex(int end) {
   #ifdef ${wideLinesDefine}
     return gl_InstanceID % lineCount * ${wideLinesDefine} + end;
   #else
@@ -211,8 +211,8 @@ int drawnNumber(int end) {
 }
 
 Vertex vertexAt(int end) {
-  int record = recordNumber(drawnNumber(end));
-  vec4 color = texelOf(colorImage, firstTexels.z, recordTexel(record));
+  int record = recordIndex(drawVertexIndex(end));
+  vec4 color = texelOf(colorImage, firstTexels.z, recordTexelIndex(record));
   if (!colorHasAlpha) color.a = 1.0;
   return Vertex(storedPosition(record), readNormal(record), color, readTexCoord(record));
 }
@@ -289,8 +289,8 @@ export function addVertexReading(
     instanceFragmentChunk +
     dashChunk +
     replaceChunks(shader.fragmentShader, [
-      ["void main() {", cutDashesChunk],
-      ["void main() {", cutFacesChunk],
+      ["void main() {", discardGapsChunk],
+      ["void main() {", discardFacesChunk],
     ]);
   shader.vertexShader =
     ownNormalsChunk +
@@ -298,10 +298,10 @@ export function addVertexReading(
       ["#include <common>", `#include <common>\n${readVertexChunk}${instanceVertexChunk}${wideLineChunk}`],
       ["void main() {", `void main() {\n  ${readVertexStatement}`],
       ["#include <uv_vertex>", texCoordChunk],
-      ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\nshowPlace();\nwidenLine();`],
+      ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\napplyInstance();\nwidenLine();`],
       ["#include <color_vertex>", colorChunk],
       // Normals are the shape's own.
-      ["#include <beginnormal_vertex>", "vec3 objectNormal = normalInPlace(vertex.normal);"],
-      ["#include <begin_vertex>", "vec3 transformed = inPlace(vertex.position);"],
+      ["#include <beginnormal_vertex>", "vec3 objectNormal = instanceNormal(vertex.normal);"],
+      ["#include <begin_vertex>", "vec3 transformed = instancePosition(vertex.position);"],
     ]);
 }

@@ -50,7 +50,7 @@ export interface ImageVertexUniforms extends VertexUniforms {
   /** The stored integer that stands for the far side of the box. */
   largestStored: IUniform<number>;
   /** The running number that the draw begins at, and whether it is a strip. */
-  firstNumber: IUniform<number>;
+  firstSequenceIndex: IUniform<number>;
   isStrip: IUniform<boolean>;
   /** Of the draw, at least 1: instances are its lines, in one place after the other. */
   lineCount: IUniform<number>;
@@ -81,21 +81,14 @@ export interface VertexFormat {
 
 /** What a material must define to read vertices of this form. */
 export function vertexDefinesOf(
-  {
-    isFromImages: areImages,
-    hasTexCoords,
-    gridDefines,
-    normalDefines,
-    isInstanced: arePlaced,
-    wideLineStep,
-  }: VertexFormat,
+  { isFromImages, hasTexCoords, gridDefines, normalDefines, isInstanced, wideLineStep }: VertexFormat,
   readsNormals: boolean,
 ): Record<string, string> {
   return {
-    ...(areImages && { [imageVerticesDefine]: "" }),
-    ...(areImages && readsNormals && { [imageNormalsDefine]: "" }),
+    ...(isFromImages && { [imageVerticesDefine]: "" }),
+    ...(isFromImages && readsNormals && { [imageNormalsDefine]: "" }),
     ...(hasTexCoords && { HAS_TEX_COORDS: "" }),
-    ...(arePlaced && { [instancesDefine]: "" }),
+    ...(isInstanced && { [instancesDefine]: "" }),
     ...(wideLineStep > 0 && { [wideLinesDefine]: `${wideLineStep}` }),
     ...gridDefines,
     ...(readsNormals && normalDefines),

@@ -29,13 +29,13 @@ function fanOf(first: number): number[] {
   return Array.from({ length: capSides - 1 }, (_, side) => [first, first + side + 1, first + side + 2]).flat();
 }
 
-/** Behind `vertexAt` and `inPlace`. */
+/** Behind `vertexAt` and `instancePosition`. */
 export const wideLineChunk = /* glsl */ `
 #ifdef ${wideLinesDefine}
 
 uniform vec4 viewport;
 #ifdef ${instancesDefine}
-  #define lineWidth placeTexel(${Math.floor(instanceFields.lineWidth / 4)})[${instanceFields.lineWidth % 4}]
+  #define lineWidth instanceTexel(${Math.floor(instanceFields.lineWidth / 4)})[${instanceFields.lineWidth % 4}]
 #else
   uniform float lineWidth;
 #endif
@@ -57,8 +57,8 @@ vec2 sharesSeen(vec4 begin, vec4 end) {
 }
 
 void layLine(vec3 from, vec3 to) {
-  mat4 clipFromPlace = projectionMatrix * modelViewMatrix;
-  vec4 begin = clipFromPlace * vec4(inPlace(from), 1.0), end = clipFromPlace * vec4(inPlace(to), 1.0);
+  mat4 clipFromObject = projectionMatrix * modelViewMatrix;
+  vec4 begin = clipFromObject * vec4(instancePosition(from), 1.0), end = clipFromObject * vec4(instancePosition(to), 1.0);
   vec2 shares = sharesSeen(begin, end);
   vec2 way = onScreen(mix(begin, end, shares.y)) - onScreen(mix(begin, end, shares.x));
   vec2 along = dot(way, way) > 1e-12 ? normalize(way) : vec2(1.0, 0.0);
@@ -69,7 +69,7 @@ void layLine(vec3 from, vec3 to) {
   float width = lineWidth * pixelRatio;
   besideLine = away * width / viewport.zw;
   // As OpenGL's stipple: so dashes run on where many short lines make one. They move with the shape.
-  vec4 origin = clipFromPlace * vec4(inPlace(vec3(0.0)), 1.0);
+  vec4 origin = clipFromObject * vec4(instancePosition(vec3(0.0)), 1.0);
   vec2 start = origin.w > 0.0 ? onScreen(origin) : vec2(0.0);
   dashAxis = abs(along.x) >= abs(along.y) ? vec3(1.0, 0.0, start.x) / width : vec3(0.0, 1.0, start.y) / width;
 }
@@ -119,7 +119,7 @@ bool isBetweenDashes() {
 `;
 
 /** In place of its beginning. */
-export const cutDashesChunk = /* glsl */ `void main() {
+export const discardGapsChunk = /* glsl */ `void main() {
 #ifdef ${wideLinesDefine}
   if (isBetweenDashes()) discard;
 #endif

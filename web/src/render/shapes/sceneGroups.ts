@@ -50,7 +50,7 @@ export class SceneGroups implements InstanceTreeListener {
   readonly #shapes: ShapeInstanceListener;
   #placedLights: readonly LightInstance[] = [];
   #lights: SceneLights = makeLights([]);
-  #bounded: readonly BoundedGroup[] = [];
+  #boundedGroups: readonly BoundedGroup[] = [];
 
   constructor(shapes: ShapeInstanceListener) {
     this.#shapes = shapes;
@@ -65,7 +65,7 @@ export class SceneGroups implements InstanceTreeListener {
 
   /** What may be passed over as a whole when it is out of the view. */
   get boundedGroups(): readonly BoundedGroup[] {
-    return this.#bounded;
+    return this.#boundedGroups;
   }
 
   /** In document order. */
@@ -98,7 +98,7 @@ export class SceneGroups implements InstanceTreeListener {
   /** Shows this scene from now on. Whether light scopes have other numbers than before, also those that nobody is told of. */
   follow(root: GroupDescription): boolean {
     const { summary: reach } = this.#tree.update(root).root;
-    this.#bounded = reach.boundedGroups.flatMap((node) => {
+    this.#boundedGroups = reach.boundedGroups.flatMap((node) => {
       const group = this.#groups.get(node);
       return group && node.box ? [{ group, box: node.box }] : [];
     });

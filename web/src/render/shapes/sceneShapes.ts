@@ -52,7 +52,7 @@ export class SceneShapes {
   /** Shapes of whose extent the document does not tell all. */
   readonly #unbounded = new Set<ShapeObject>();
   #sphere = sphereAround(new Box3());
-  #bounded: readonly BoundedGroup[] = [];
+  #boundedGroups: readonly BoundedGroup[] = [];
   /** As the document tells it, and as far as vertices do. */
   #described = new Box3();
   #box = new Box3();
@@ -119,7 +119,7 @@ export class SceneShapes {
     const changes = this.#applyChanges();
     if (areRenumbered) this.#batches.followAll();
     const { box, boundedGroups: bounded, viewpoints, levels, anchors } = this.#graph;
-    this.#bounded = bounded;
+    this.#boundedGroups = bounded;
     if (!box.equals(this.#described)) {
       this.#described = box.clone();
       this.#box = box.clone();
@@ -210,7 +210,7 @@ export class SceneShapes {
 
   /** What the document shows, also where the last frame has not looked. */
   candidatesIgnoringCulling(): PickCandidate[] {
-    const passedOver = this.#bounded.filter(({ group }) => !group.visible);
+    const passedOver = this.#boundedGroups.filter(({ group }) => !group.visible);
     for (const { group } of passedOver) group.visible = true;
     const draws = Array.from(this.#shapes.values()).flatMap((object) => Array.from(shownDraws(object)));
     for (const { group } of passedOver) group.visible = false;
@@ -226,9 +226,9 @@ export class SceneShapes {
     this.#graph.turnBillboards(camera);
     const margin = picture.map((pixels) => this.#widestLine / pixels) as [number, number];
     this.#batches.update(camera, margin);
-    if (this.#bounded.length === 0) return;
+    if (this.#boundedGroups.length === 0) return;
     const frustum = frustumOf(camera.projectionMatrix, camera.matrixWorldInverse, margin);
-    for (const { group, box } of this.#bounded) group.visible = frustum.intersectsBox(box);
+    for (const { group, box } of this.#boundedGroups) group.visible = frustum.intersectsBox(box);
   }
 
   dispose(): void {

@@ -17,11 +17,11 @@ export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
   { solid, value }: GeometryDescription,
   uniforms: Uniforms,
   shared: SceneUniforms,
-  arePlaced = false,
+  isInstanced = false,
 ): Omit<MaterialRequest, "uniforms"> & { readonly uniforms: Uniforms } {
   return {
     ...vertexFormOf(stage, range),
-    isInstanced: arePlaced,
+    isInstanced,
     primitive: range.primitive,
     shading: shadingOf(stage, range),
     colors: colorsOf(stage),
@@ -47,14 +47,14 @@ export function pickRequestOf(
 }
 
 function vertexFormOf(stage: Stage, range: DrawRange): VertexFormat {
-  const areImages = stage.kind === "textures";
+  const isFromImages = stage.kind === "textures";
   return {
-    isFromImages: areImages,
+    isFromImages,
     isInstanced: false,
     wideLineStep: range.isWide === true ? lineStepOf(range) : 0,
     hasTexCoords: stage.texCoord !== undefined,
-    gridDefines: areImages ? gridDefinesOf(stage.grid, stage.normal !== undefined) : {},
-    normalDefines: normalDefinesOf(stage.normalCode, !areImages && stage.normal?.components === 1),
+    gridDefines: isFromImages ? gridDefinesOf(stage.grid, stage.normal !== undefined) : {},
+    normalDefines: normalDefinesOf(stage.normalCode, !isFromImages && stage.normal?.components === 1),
   };
 }
 

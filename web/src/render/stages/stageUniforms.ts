@@ -42,7 +42,7 @@ export function uniformsOf(stage: Stage, context: PatchContext): StageUniforms {
     common,
     of: (range) => ({
       ...base,
-      firstNumber: { value: range.first },
+      firstSequenceIndex: { value: range.first },
       isStrip: { value: range.primitive === "triangleStrip" },
       lineCount: { value: Math.max(1, lineCountOf(range)) },
     }),
@@ -125,7 +125,7 @@ function imageUniformsOf(
     gridSize: { value: [stage.grid?.columns ?? 0, stage.grid?.rows ?? 0] },
     isGridClosed: { value: stage.grid?.kind === "sculpt" },
     largestStored: { value: largestStored },
-    firstNumber: { value: 0 },
+    firstSequenceIndex: { value: 0 },
     isStrip: { value: false },
     lineCount: { value: 1 },
     colorHasAlpha: { value: colorsOf(stage) === "rgba" },
