@@ -40,7 +40,7 @@ describe("loading", () => {
     loading.onFrame(isShape);
     loading.reach("shaded");
     loading.reach("surface"); // a stage never falls
-    loading.moveOn(half);
+    loading.updateProgress(half);
     loading.onFrame(isShape);
     loading.reach("full");
     loading.settle();
@@ -54,8 +54,8 @@ describe("loading", () => {
   test("tells the same progress once", () => {
     const { element, log } = elementWithLog();
     const loading = new LoadingEvents(element);
-    loading.moveOn(half);
-    loading.moveOn({ ...half });
+    loading.updateProgress(half);
+    loading.updateProgress({ ...half });
     assert.deepEqual(log, ["progress none"]);
   });
 

@@ -112,7 +112,7 @@ export class LoadingEvents {
     if (rankOf(stage) > rankOf(this.#stage)) this.#stage = stage;
   }
 
-  moveOn(progress: Progress): void {
+  updateProgress(progress: Progress): void {
     const { totalProgress, loadedBytes } = this.#progress;
     if (progress.totalProgress === totalProgress && progress.loadedBytes === loadedBytes) return;
     this.#progress = progress;

@@ -1,77 +1,46 @@
-// The loading of a scene's Inlines, as their elements tell it.
+// The Inlines of a page's scene while they load: the events and promises that their
+// elements get.
 
 import type { DeliveryError } from "../delivery/deliveryError.ts";
-import { requireHttp } from "../delivery/inlinedDocument.ts";
-import { Inlines } from "../delivery/inlines.ts";
 import type { Transfer } from "../delivery/progress.ts";
-import type { ResourcePool } from "../delivery/resourcePool.ts";
-import type { InlineDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import type { InlinedDocument } from "../document/readScene.ts";
 import { LoadingEvents } from "./loadingEvents.ts";
 
-export interface PageInlinesListener {
-  /** Something has come: the Inline is to be read anew. */
-  onChange(inline: SceneElement): void;
-  onError(error: DeliveryError, inline: Element, loading: LoadingEvents): void;
-}
-
 export class PageInlines {
-  readonly #inlines: Inlines;
   readonly #loadings = new Map<SceneElement, LoadingEvents>();
-
-  constructor(pool: ResourcePool, resolve: (url: string) => string, listener: PageInlinesListener) {
-    const urlOf = (named: string) => {
-      const url = resolve(named);
-      requireHttp(url);
-      return url;
-    };
-    this.#inlines = new Inlines(
-      { pool, urlOf },
-      {
-        onBegin: (inline) => {
-          this.#loadings.set(inline, new LoadingEvents(inline as Element, () => this.#inlines.transfersOf(inline)));
-        },
-        onEnd: (inline, error) => {
-          const loading = this.#loadings.get(inline);
-          if (error === undefined) loading?.reach("full");
-          else if (loading !== undefined) listener.onError(error, inline as Element, loading);
-          loading?.settle();
-          listener.onChange(inline);
-        },
-        onLeave: (inline) => {
-          this.#loadings.get(inline)?.abandon();
-          this.#loadings.delete(inline);
-        },
-      },
-    );
-  }
-
-  /** For who reads the scene. */
-  documentOf(inline: SceneElement): InlinedDocument | undefined {
-    return this.#inlines.documentOf(inline);
-  }
 
   get loadings(): readonly LoadingEvents[] {
     return Array.from(this.#loadings.values());
   }
 
-  /** The page has been told all. */
+  /** Whether every Inline has sent its last event. */
   get isQuiet(): boolean {
     return this.loadings.every(({ isEnded }) => isEnded);
   }
 
-  /** Of those on their way. */
-  get transfers(): readonly Readonly<Transfer>[] {
-    return this.#inlines.transfers;
+  onRequested(inline: SceneElement, transfers: () => readonly Readonly<Transfer>[]): void {
+    this.#loadings.set(inline, new LoadingEvents(inline as Element, transfers));
   }
 
-  /** Asks for what is seen, and lets go of what the scene no longer has. */
-  follow(described: readonly InlineDescription[]): void {
-    this.#inlines.follow(described);
+  /** `onError` is called with what failed, before the Inline is settled. */
+  onEnd(
+    inline: SceneElement,
+    error: DeliveryError | undefined,
+    onError: (error: DeliveryError, inline: Element, loading: LoadingEvents) => void,
+  ): void {
+    const loading = this.#loadings.get(inline);
+    if (error === undefined) loading?.reach("full");
+    else if (loading !== undefined) onError(error, inline as Element, loading);
+    loading?.settle();
   }
 
-  dispose(): void {
-    this.#inlines.dispose();
+  onRemoved(inline: SceneElement): void {
+    this.#loadings.get(inline)?.abandon();
+    this.#loadings.delete(inline);
+  }
+
+  /** Sends the events that wait for a frame. */
+  onFrame(): void {
+    for (const loading of this.loadings) loading.onFrame(false);
   }
 }

@@ -1,12 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { everything, sigFiles, sigPatch, siteOf } from "../delivery/delivery.testing.ts";
-import { GeometryDeliveries } from "../delivery/geometryDeliveries.ts";
-import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import { shapesOf } from "../document/description.ts";
 import { elementsOf } from "../document/elements.testing.ts";
 import { readScene } from "../document/readScene.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
+import { sceneDeliveriesOf } from "../viewer/viewerCore.ts";
 import { PageShapes } from "./pageShapes.ts";
 
 /** A scene of as many shapes, each of a file set of its own, and what a renderer is asked for while they load. */
@@ -39,11 +38,10 @@ function loadsOf(count: number) {
     },
   } as unknown as SceneRenderer;
   const { pool } = siteOf(sigFiles(count));
-  const deliveries = new GeometryDeliveries(pool);
+  const deliveries = sceneDeliveriesOf(pool);
   const loads = new PageShapes(
     renderer,
     deliveries,
-    new TextureDeliveries(pool),
     {
       onStage: () => undefined,
       onError: (error) => {
@@ -54,7 +52,7 @@ function loadsOf(count: number) {
     [],
   );
   loads.follow({ shapes: new Map(shapes.map((shape) => [shape.element, shape])), removed: [], instances: new Map() });
-  deliveries.request(() => everything);
+  deliveries.geometries.request(() => everything);
   return { loads, frames, heard };
 }
 

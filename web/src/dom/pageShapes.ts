@@ -1,160 +1,128 @@
-// The loading of a scene's shapes: what each has asked for, what of it is on the
-// screen, and what its element says of that.
+// The shapes of a page's scene while they load: what of each is displayed, and the
+// events and promises that its element gets.
 
-import type { Stage, StageName } from "../stage/stage.ts";
-import { stageNames } from "../stage/stage.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
-import type { Transfer } from "../delivery/progress.ts";
 import { progressOf } from "../delivery/progress.ts";
-import type { JoinedDelivery, GeometryDeliveries } from "../delivery/geometryDeliveries.ts";
-import { ShapeTextures } from "../delivery/shapeTextures.ts";
-import type { TextureDeliveries } from "../delivery/textureDeliveries.ts";
-import type { GeometryDescription, ShapeDescription, TextureDescription } from "../document/description.ts";
+import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
+import type { Picture } from "../delivery/resourcePool.ts";
+import type { ShapeDescription, TextureRole } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
+import type { Stage, StageName } from "../stage/stage.ts";
+import { stageNames } from "../stage/stage.ts";
+import { LoadingShape } from "../viewer/loadingShape.ts";
+import { LoadingShapes } from "../viewer/loadingShapes.ts";
 import { lowestStageOf, LoadingEvents } from "./loadingEvents.ts";
 
-interface LoadedShape {
-  readonly geometry: GeometryDescription | undefined;
-  /** In any of its places. */
-  isVisible: boolean;
-  readonly loading: LoadingEvents;
-  readonly stages: (StageName | "none")[];
-  delivery: JoinedDelivery | undefined;
-  /** What is laid over it, and what is to be. */
-  readonly textures: ShapeTextures;
-  described: readonly TextureDescription[];
-}
-
 export interface PageShapesListener {
-  /** A patch shows another stage. */
+  /** A patch displays another stage. */
   onStage(stage: Stage | undefined): void;
   onError(error: DeliveryError, element: Element, loading: LoadingEvents): void;
-  /** Whether shapes of which nothing is on its way may be complete. */
+  /** Whether shapes of which no file is being loaded may be complete. */
   maySettle(): boolean;
 }
 
-/** Ends what was begun for shapes that are gone. */
-export type Leave = () => void;
+/** Told by a shape what becomes of it. */
+interface PageShapeListener extends Pick<PageShapesListener, "onError"> {
+  onStage(shape: PageShape, patch: number, stage: Stage | undefined): void;
+  onPicture(shape: PageShape, role: TextureRole, picture: Picture | undefined): void;
+  onSettled(shape: PageShape): void;
+  onRemoved(shape: PageShape): void;
+}
 
-export class PageShapes {
+export class PageShape extends LoadingShape {
+  readonly loading: LoadingEvents;
+  /** The stage that each patch displays. */
+  readonly stages: (StageName | "none")[];
+  readonly #listener: PageShapeListener;
+
+  /** `isPreviewed`: the preview has displayed the shape's base. */
+  constructor(
+    deliveries: SceneDeliveries,
+    described: ShapeDescription,
+    isPreviewed: boolean,
+    listener: PageShapeListener,
+  ) {
+    super(deliveries, described);
+    this.#listener = listener;
+    this.stages = described.geometry?.patches.map(() => "none" as const) ?? [];
+    this.loading = new LoadingEvents(described.element as Element, () => this.transfers, isPreviewed ? "base" : "none");
+    if (described.geometry === undefined) this.loading.settle();
+  }
+
+  protected override onStage(patch: number, stage: Stage | undefined): void {
+    this.#listener.onStage(this, patch, stage);
+  }
+
+  protected override onPicture(role: TextureRole, picture: Picture | undefined): void {
+    this.#listener.onPicture(this, role, picture);
+  }
+
+  protected override onError(error: DeliveryError): void {
+    this.#listener.onError(error, this.element as Element, this.loading);
+  }
+
+  protected override onSettled(): void {
+    this.#listener.onSettled(this);
+  }
+
+  override onRemoved(): void {
+    this.loading.abandon();
+    this.#listener.onRemoved(this);
+  }
+}
+
+export class PageShapes extends LoadingShapes<PageShape> {
   readonly #renderer: SceneRenderer;
-  readonly #deliveries: GeometryDeliveries;
-  readonly #textures: TextureDeliveries;
+  readonly #deliveries: SceneDeliveries;
   readonly #listener: PageShapesListener;
-  readonly #shapes = new Map<SceneElement, LoadedShape>();
-  /** Those that are seen and not complete. Kept, since each of ten thousand that is complete asks whether it is the last. */
-  readonly #coming = new Set<LoadedShape>();
-  /** Those that were on the screen before they were here. */
-  readonly #shownBefore: Set<SceneElement>;
-  /** Those that are here and have said all: of ten thousand no frame asks once more. */
+  /** Visible shapes that are not complete. A set, since each of ten thousand shapes asks on its completion whether it is the last. */
+  readonly #incomplete = new Set<PageShape>();
+  /** Elements of shapes that the preview displays and that have not begun to load. */
+  readonly #previewed: Set<SceneElement>;
+  /** Whether every visible shape has sent its last event. Kept, so that frames of ten thousand shapes need not ask each. */
   #isQuiet = false;
 
   constructor(
     renderer: SceneRenderer,
-    deliveries: GeometryDeliveries,
-    textures: TextureDeliveries,
+    deliveries: SceneDeliveries,
     listener: PageShapesListener,
-    shownBefore: Iterable<SceneElement>,
+    previewed: Iterable<SceneElement>,
   ) {
+    super();
     this.#renderer = renderer;
     this.#deliveries = deliveries;
-    this.#textures = textures;
     this.#listener = listener;
-    this.#shownBefore = new Set(shownBefore);
+    this.#previewed = new Set(previewed);
   }
 
-  /** Its geometry is what its element shows already. */
-  has({ element, geometry }: ShapeDescription): boolean {
-    const loaded = this.#shapes.get(element);
-    return loaded !== undefined && loaded.geometry === geometry;
-  }
-
-  /**
-   * Follows shapes of the scene as they change. The files that only those that are gone
-   * have asked for are given up when what comes back is called: after those of new
-   * shapes are asked for.
-   */
-  follow({ shapes, removed: gone }: SceneChanges): Leave {
-    const ended: LoadedShape[] = [];
-    for (const element of gone) this.#end(element, ended);
-    for (const [element, shape] of shapes) {
-      if (!this.has(shape)) this.#end(element, ended);
-      const loaded = this.#shapes.get(element) ?? this.#begin(shape);
-      loaded.described = shape.appearance.textures;
-      if (!this.#renderer.isContextLost) loaded.textures.follow(loaded.described);
-      if (loaded.isVisible !== shape.visible) this.#isQuiet = false;
-      loaded.isVisible = shape.visible;
-      if (loaded.isVisible && !loaded.loading.isSettled) this.#coming.add(loaded);
-      else this.#coming.delete(loaded);
+  override follow(changes: SceneChanges): () => void {
+    for (const [element, { visible }] of changes.shapes)
+      if (this.get(element)?.isVisible !== visible) this.#isQuiet = false;
+    const leave = super.follow(changes);
+    for (const element of changes.shapes.keys()) {
+      const shape = this.get(element);
+      if (shape === undefined) continue;
+      if (shape.isVisible && !shape.loading.isSettled) this.#incomplete.add(shape);
+      else this.#incomplete.delete(shape);
     }
-    return () => {
-      for (const { delivery, textures } of ended) {
-        delivery?.cancel();
-        textures.cancel();
-      }
-    };
+    return leave;
   }
 
-  /** The renderer has let go of it already. */
-  #end(element: SceneElement, ended: LoadedShape[]): void {
-    const shape = this.#shapes.get(element);
-    if (shape === undefined) return;
-    this.#shapes.delete(element);
-    this.#coming.delete(shape);
-    shape.loading.abandon();
-    ended.push(shape);
-  }
-
-  #begin({ element: described, geometry, visible }: ShapeDescription): LoadedShape {
-    const element = described as Element;
-    const stages = geometry?.patches.map(() => "none" as const) ?? [];
-    const loading = new LoadingEvents(
-      element,
-      () => transfersOf(shape),
-      this.#shownBefore.delete(element) ? "base" : "none",
-    );
-    const textures = new ShapeTextures(this.#textures, {
-      onPicture: (role, picture) => {
-        this.#renderer.setPicture(element, role, picture);
-      },
-      onError: (error) => {
-        this.#fail(shape, element, error);
-      },
-      onSettled: () => {
-        this.#settle(shape);
-      },
-    });
-    const shape: LoadedShape = {
-      geometry,
-      stages,
-      isVisible: visible,
-      loading,
-      delivery: undefined,
-      textures,
-      described: [],
-    };
-    this.#shapes.set(element, shape);
-    this.#isQuiet = false;
-    if (geometry === undefined) shape.loading.settle();
-    else if (!this.#renderer.isContextLost) this.#deliver(shape, geometry, element);
-    return shape;
-  }
-
-  /** No shape has anything to say that its element has not said. */
+  /** Whether no visible shape has an event to send. */
   get isQuiet(): boolean {
     return this.#isQuiet;
   }
 
-  /** Something that is seen is still to come. */
+  /** Whether a visible shape is not complete. */
   get isLoading(): boolean {
-    return this.#coming.size > 0;
+    return this.#incomplete.size > 0;
   }
 
-  /** Whether these patches of a shape have something on the screen, as far as there will be anything. */
-  shows(element: SceneElement, patches: readonly number[]): boolean {
-    const shape = this.#shapes.get(element);
+  /** Whether each of these patches of a shape displays something, unless nothing will come of it. */
+  displays(element: SceneElement, patches: readonly number[]): boolean {
+    const shape = this.get(element);
     return (
       shape === undefined ||
       !shape.isVisible ||
@@ -163,116 +131,108 @@ export class PageShapes {
     );
   }
 
-  /** Patches whose files are for workers to decode, whatever the GPU can do. */
-  get jobsToCome(): number {
-    let sum = 0;
-    for (const { geometry, isVisible } of this.#shapes.values()) {
+  /** Number of patches whose files workers have to decode, whatever the GPU can do. */
+  get workerJobCount(): number {
+    let count = 0;
+    for (const { geometry, isVisible } of this) {
       if (isVisible && (geometry?.container === "compact" || geometry?.decode === "cpu"))
-        sum += geometry.patches.length;
+        count += geometry.patches.length;
     }
-    return sum;
+    return count;
   }
 
-  /** Loadings of what is seen: what is hidden is fetched when it is shown. */
-  get awaited(): readonly LoadingEvents[] {
-    return Array.from(this.#shapes.values())
+  /** The loading of each visible shape: files of hidden shapes are fetched when they become visible. */
+  get visibleLoadings(): readonly LoadingEvents[] {
+    return Array.from(this)
       .filter(({ isVisible }) => isVisible)
       .map(({ loading }) => loading);
   }
 
-  /** Shapes from which this view needs nothing (more) are complete, even if they could be finer. */
+  /** Completes shapes of which this view requests nothing more, even if they could be finer. */
   settle(): void {
-    for (const shape of this.#shapes.values()) this.#settle(shape);
+    for (const shape of this) this.#settle(shape);
   }
 
-  tellProgress(): void {
-    for (const shape of this.#shapes.values()) {
-      const { loading, delivery } = shape;
-      if (delivery && shape.isVisible && !loading.isEnded)
-        loading.moveOn(progressOf(transfersOf(shape), loading.progress));
+  updateProgress(): void {
+    for (const shape of this) {
+      const { loading } = shape;
+      if (shape.isJoined && shape.isVisible && !loading.isEnded)
+        loading.updateProgress(progressOf(shape.transfers, loading.progress));
     }
   }
 
+  /** Sends the events that wait for a frame. */
   onFrame(): void {
     this.#isQuiet = true;
-    for (const { loading, isVisible } of this.#shapes.values()) {
+    for (const { loading, isVisible } of this) {
       loading.onFrame(false);
       this.#isQuiet &&= loading.isEnded || !isVisible;
     }
   }
 
-  /** Lets go of everything, but not of the shapes. */
-  clear(): void {
-    for (const [element, shape] of this.#shapes) {
+  /** Removes what shapes display and leaves their deliveries, until `join`. Events go on from where they are. */
+  override suspend(): void {
+    for (const { element, stages } of this) {
       this.#renderer.clearShape(element);
-      shape.delivery?.cancel();
-      shape.delivery = undefined;
-      shape.textures.follow([]);
-      shape.stages.fill("none");
+      stages.fill("none");
     }
+    super.suspend();
   }
 
-  /** Asks for it once more. Events go on where they were. */
-  deliverAll(): void {
-    for (const [element, shape] of this.#shapes) {
-      shape.textures.follow(shape.described);
-      if (shape.geometry !== undefined) this.#deliver(shape, shape.geometry, element as Element);
-    }
+  override dispose(): void {
+    super.dispose();
+    this.#incomplete.clear();
   }
 
-  dispose(): void {
-    for (const { delivery, textures, loading } of this.#shapes.values()) {
-      delivery?.cancel();
-      textures.cancel();
-      loading.abandon();
-    }
-    this.#shapes.clear();
-    this.#coming.clear();
+  protected override get isSuspended(): boolean {
+    return this.#renderer.isContextLost;
   }
 
-  #deliver(shape: LoadedShape, geometry: GeometryDescription, element: Element): void {
-    shape.delivery = this.#deliveries.join(geometry, {
-      onStage: (patch, stage) => {
-        this.#renderer.setStage(element, geometry, patch, stage);
-        this.#listener.onStage(stage);
-        shape.stages[patch] = stage?.name ?? "none";
-        // A shape is as far as its last patch; with a first picture as soon as any patch shows.
-        shape.loading.reach(displayedStageOf(shape.stages));
-        this.#isQuiet = false;
+  protected override makeShape(described: ShapeDescription): PageShape {
+    this.#isQuiet = false;
+    return new PageShape(this.#deliveries, described, this.#previewed.delete(described.element), {
+      onStage: (shape, patch, stage) => {
+        this.#onStage(shape, patch, stage);
       },
-      onError: (error) => {
-        this.#fail(shape, element, error);
+      onPicture: ({ element }, role, picture) => {
+        this.#renderer.setPicture(element, role, picture);
       },
-      onSettled: () => {
+      onError: (error, element, loading) => {
+        this.#listener.onError(error, element, loading);
+      },
+      onSettled: (shape) => {
         this.#settle(shape);
+      },
+      onRemoved: (shape) => {
+        this.#incomplete.delete(shape);
       },
     });
   }
 
-  /** Where nothing of it is on its way. */
-  #settle(shape: LoadedShape): void {
-    const { loading, isVisible, delivery, textures } = shape;
-    if (loading.isSettled || !isVisible || !this.#listener.maySettle()) return;
-    if (delivery?.isSettled !== true || !textures.isSettled) return;
-    loading.settle();
-    this.#coming.delete(shape);
+  #onStage(shape: PageShape, patch: number, stage: Stage | undefined): void {
+    const { element, geometry, stages, loading } = shape;
+    if (geometry === undefined) return;
+    this.#renderer.setStage(element, geometry, patch, stage);
+    this.#listener.onStage(stage);
+    stages[patch] = stage?.name ?? "none";
+    loading.reach(displayedStageOf(stages));
     this.#isQuiet = false;
-    // Events wait for a frame; the last one for no rest of the GPU.
+  }
+
+  #settle(shape: PageShape): void {
+    const { loading, isVisible } = shape;
+    if (loading.isSettled || !isVisible || !this.#listener.maySettle() || !shape.isSettled) return;
+    loading.settle();
+    this.#incomplete.delete(shape);
+    this.#isQuiet = false;
+    // Events wait for a frame; the last event does not wait until the GPU is idle.
     if (this.isLoading) this.#renderer.requestFrameAtPace();
     else this.#renderer.requestFrame();
   }
-
-  #fail({ loading }: LoadedShape, element: Element, error: DeliveryError): void {
-    this.#listener.onError(error, element, loading);
-  }
 }
 
-function transfersOf({ delivery, textures }: LoadedShape): readonly Readonly<Transfer>[] {
-  return [...(delivery?.transfers ?? []), ...textures.transfers];
-}
-
-/** How far something is whose parts are at these stages: with a first picture as soon as any of them shows. */
+/** The stage of a whole whose members display these: the lowest of them, but the first stage as soon as any member displays something. */
 export function displayedStageOf(stages: readonly (StageName | "none")[]): StageName | "none" {
-  const least = lowestStageOf(stages);
-  return least === "none" && stages.some((stage) => stage !== "none") ? (stageNames[0] ?? "none") : least;
+  const lowest = lowestStageOf(stages);
+  return lowest === "none" && stages.some((stage) => stage !== "none") ? (stageNames[0] ?? "none") : lowest;
 }

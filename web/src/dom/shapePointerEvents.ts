@@ -12,7 +12,7 @@ import { shapePointerEventOf } from "./shapePointerEvent.ts";
 export interface Pickable {
   /** In pixels of the canvas' buffer, from its top left. */
   pick(x: number, y: number): Hit | undefined;
-  pickSoon(x: number, y: number): Promise<Hit | undefined>;
+  pickAsync(x: number, y: number): Promise<Hit | undefined>;
 }
 
 /** Hears of the pointer what happens by itself, after pages have heard of it. */
@@ -167,7 +167,7 @@ class ShapePointerEvents {
     try {
       for (let native = this.#waiting; native !== undefined; native = this.#waiting) {
         this.#waiting = undefined;
-        const hit = await this.#pickable.pickSoon(...this.#pixelOf(native));
+        const hit = await this.#pickable.pickAsync(...this.#pixelOf(native));
         if (!this.#isInside) continue;
         this.#hover(native, hit);
         this.#sendBoth(native, "move", this.#hovered, hit);

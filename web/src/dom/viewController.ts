@@ -58,7 +58,7 @@ export class ViewController {
       isStill: () => !this.viewer.renderer.statistics.isFrameDue && !this.viewer.navigator.isMoving,
       placeAt: async (x, y) => {
         const { canvas } = face;
-        const hit = await this.viewer.pickSoon(
+        const hit = await this.viewer.pickAsync(
           Math.floor((x * canvas.width) / this.#size.width),
           Math.floor((y * canvas.height) / this.#size.height),
         );
@@ -329,7 +329,7 @@ export class ViewController {
   #onFrame(): void {
     const { navigator, renderer } = this.viewer;
     const { view } = renderer;
-    if (this.#look && this.viewer.shows(this.#look.shapes)) this.#look.end();
+    if (this.#look && this.viewer.displays(this.#look.shapes)) this.#look.end();
     if (view !== undefined) this.#hotspots.place(view, this.#size.width, this.#size.height);
     this.#waysBack.update();
     if (navigator.pose === this.#shownPose) return;

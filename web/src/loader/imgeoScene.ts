@@ -14,6 +14,8 @@ import { defaultPointSize } from "../render/stages/stageUniforms.ts";
 import { GeometryPool } from "../render/stages/geometryPool.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
 import type { Scheduler } from "../scheduler/scheduler.ts";
+import { Throttle } from "../viewer/throttle.ts";
+import { progressIntervalMs } from "../viewer/viewerCore.ts";
 import { UploadThrottle } from "./uploadThrottle.ts";
 import type { MaterialMaker, SceneShadowOptions } from "./standardMaterials.ts";
 import { makeStandardMaterials } from "./standardMaterials.ts";
@@ -53,15 +55,15 @@ export interface SceneSources {
   readonly runJob: RunJob;
 }
 
-/** A bar moves no more often than people can see. */
-const progressIntervalMs = 50;
-
 export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   readonly #contents: SceneContents;
   readonly #firstImage = Promise.withResolvers<undefined>();
   readonly #complete = Promise.withResolvers<undefined>();
   #progress = noProgress;
-  #progressTimer: ReturnType<typeof setTimeout> | undefined;
+  readonly #progressEvents = new Throttle(progressIntervalMs, () => {
+    this.#progress = progressOf(this.transfers, this.#progress);
+    this.dispatchEvent({ type: "progress", progress: this.#progress });
+  });
   readonly #picker = new ScenePicker();
   #error: Error | undefined;
 
@@ -85,9 +87,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       download: { ...defaultDownloadOptions, fetch },
       resolve: (named) => resolve(urlOf(named)),
       onTransfer: () => {
-        this.#progressTimer ??= setTimeout(() => {
-          this.#tellProgress();
-        }, progressIntervalMs);
+        this.#progressEvents.request();
       },
     });
     this.#contents = new SceneContents(
@@ -160,7 +160,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       renderer,
       camera,
       { x, y },
-      Math.max(defaultPointSize, shapes.largestWidth),
+      Math.max(defaultPointSize, shapes.maxWidth),
       shapes.pickCandidates(),
     );
   }
@@ -171,7 +171,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     const reason = new DOMException("the loading of the scene was aborted", "AbortError");
     this.#firstImage.reject(reason);
     this.#complete.reject(reason);
-    clearTimeout(this.#progressTimer);
+    this.#progressEvents.cancel();
     this.dispatchEvent({ type: "abort" });
   }
 
@@ -197,19 +197,12 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
 
   /** Keeps the promises that can be kept. */
   #advance(): void {
-    if (!this.#contents.isShown) return;
+    if (!this.#contents.isDisplayed) return;
     if (this.#error !== undefined && !this.#contents.shapes.hasPicture) this.#firstImage.reject(this.#error);
     else this.#firstImage.resolve(undefined);
     if (!this.#contents.isSettled) return;
-    this.#tellProgress();
+    this.#progressEvents.callNow();
     this.#complete.resolve(undefined);
-  }
-
-  #tellProgress(): void {
-    clearTimeout(this.#progressTimer);
-    this.#progressTimer = undefined;
-    this.#progress = progressOf(this.transfers, this.#progress);
-    this.dispatchEvent({ type: "progress", progress: this.#progress });
   }
 }
 

@@ -113,9 +113,9 @@ describe("what is in a scene of an app", () => {
       <Transform USE="t"/></X3D>`,
       files,
     );
-    assert.ok(!contents.isShown && !contents.isSettled);
+    assert.ok(!contents.isDisplayed && !contents.isSettled);
     await settled();
-    assert.deepEqual([asked, await look(0, 0, 5), contents.isShown], [["a.bin"], ["a"], true]);
+    assert.deepEqual([asked, await look(0, 0, 5), contents.isDisplayed], [["a.bin"], ["a"], true]);
   });
 
   test("of a LOD is the level that the nearest camera sees, and the one before until that has come", async () => {
@@ -130,10 +130,10 @@ describe("what is in a scene of an app", () => {
     assert.deepEqual(await look(0, 0, 50), ["far", "far"]);
     assert.deepEqual(await look(100, 0, 5), ["far", "far"]); // near to one of its places
     while (asked.length < 2) await soon();
-    assert.deepEqual([contents.isShown, asked[1]], [false, "near.bin"]);
+    assert.deepEqual([contents.isDisplayed, asked[1]], [false, "near.bin"]);
     await look(0, 0, 50);
     while (aborted.length === 0) await soon(); // nobody wants it any more
-    assert.ok(contents.isShown);
+    assert.ok(contents.isDisplayed);
     await look(0, 0, 5);
     near.release();
     while (asked.length < 3) await soon();

@@ -1,262 +1,221 @@
-// What is in a scene, read again whenever there is more to read: when the document
-// of an Inline has come, and when cameras are to see another level of a LOD.
+// The contents of a scene in an app's own three.js scene: its groups, lights aside, with
+// LODs and billboards that follow the app's cameras. Reads its document again when
+// that of an Inline has come, and when a camera needs another level of a LOD.
 
 import type { Object3D } from "three";
 import { Box3, Group } from "three";
-import { measureRun } from "../text/glyphRendering.ts";
-import type { DeliveryError } from "../delivery/deliveryError.ts";
-import { Inlines } from "../delivery/inlines.ts";
-import type { ResourcePool } from "../delivery/resourcePool.ts";
 import type { Transfer } from "../delivery/progress.ts";
-import { GeometryDeliveries } from "../delivery/geometryDeliveries.ts";
-import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
+import type { ResourcePool } from "../delivery/resourcePool.ts";
 import type { GroupDescription, SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
-import { lodLevelAt } from "../scene/lodLevel.ts";
-import { readInlineGeometry } from "../document/inlineGeometry.ts";
-import { SceneReader } from "../document/sceneReader.ts";
-import { textReader } from "../text/textGeometry.ts";
 import { SceneGroups } from "../render/shapes/sceneGroups.ts";
+import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { ShapeContext } from "../render/shapes/shapeObject.ts";
-import { chunkWeightsOf } from "../scheduler/priority.ts";
-import { CameraObserver } from "./cameraObserver.ts";
+import { lodLevelAt } from "../scene/lodLevel.ts";
+import { sceneDeliveriesOf, ViewerCore } from "../viewer/viewerCore.ts";
+import type { AppShape, AppShapesListener } from "./appShapes.ts";
 import { AppShapes } from "./appShapes.ts";
-import type { SceneLodOwner, LoadState } from "./sceneLod.ts";
+import { CameraObserver } from "./cameraObserver.ts";
+import type { LoadState, SceneLodOwner } from "./sceneLod.ts";
 import { loadStates, SceneLod } from "./sceneLod.ts";
 
-export interface ContentsSources {
-  /** The document's <X3D> and its absolute url. */
+export interface SceneSource {
+  /** The document's <X3D>. */
   readonly x3d: SceneElement;
+  /** The document's absolute URL. */
   readonly url: string;
-  /** The absolute url of one that the document names. */
+  /** Gives the absolute URL of one that the document names. */
   readonly urlOf: (url: string) => string;
   readonly pool: ResourcePool;
 }
 
-export interface ContentsListener {
-  /** Something looks different. */
-  onChange(): void;
-  /** A file is of no use. */
-  onError(error: DeliveryError): void;
-  /** Something has come, or nothing more will. */
-  onAdvance(): void;
-}
-
 export class SceneContents {
-  /** Of all shapes, as documents tell it. */
+  /** Around all shapes, as documents describe them. */
   readonly box = new Box3();
   readonly shapes: AppShapes;
-  /** Where all of it hangs. */
+  /** The parent of everything. */
   readonly root = new Group();
-  readonly #deliveries: GeometryDeliveries;
-  readonly #pictures: TextureDeliveries;
-  readonly #reader: SceneReader;
-  readonly #graph: SceneGroups;
+  readonly #core: ViewerCore<AppShape>;
+  readonly #groups: SceneGroups;
   readonly #billboards = new CameraObserver((camera) => {
-    this.#graph.turnBillboards(camera);
+    this.#groups.turnBillboards(camera);
   });
-  readonly #inlines: Inlines;
-  readonly #levels: SceneLod[] = [];
-  /** What cameras have come to see of each LOD. */
-  readonly #chosen = new Map<SceneElement, number>();
+  readonly #lods: SceneLod[] = [];
+  /** The level that cameras need of each LOD. */
+  readonly #levels = new Map<SceneElement, number>();
   readonly #inlineOf = new WeakMap<object, SceneElement>();
-  readonly #warned = new Set<string>();
-  readonly #keeper: SceneLodOwner = {
-    loadStateOf: (level) => this.#presenceOf(level),
+  readonly #lodOwner: SceneLodOwner = {
+    loadStateOf: (level) => this.#loadStateOf(level),
     onCamera: () => {
-      this.#onLook();
+      this.#onCamera();
     },
   };
-  #scene: SceneDescription;
-  #isLookedAt = false;
+  /** Whether LODs are to be followed after this frame. */
+  #isFrameDue = false;
   #isStopped = false;
 
-  /** Nothing is asked for, and the listener is not called, before `start`. */
-  constructor({ x3d, url, urlOf, pool }: ContentsSources, setting: ShapeContext, listener: ContentsListener) {
-    this.#deliveries = new GeometryDeliveries(pool);
-    this.#pictures = new TextureDeliveries(pool);
-    this.shapes = new AppShapes(setting, { geometries: this.#deliveries, textures: this.#pictures }, listener);
-    this.#inlines = new Inlines(
-      { pool, urlOf, own: { url, x3d } },
-      {
-        onEnd: (inline, error) => {
+  /** Requests nothing, and does not call the listener, before `start`. */
+  constructor({ x3d, url, urlOf, pool }: SceneSource, context: ShapeContext, listener: AppShapesListener) {
+    const deliveries = sceneDeliveriesOf(pool);
+    this.shapes = new AppShapes(context, deliveries, listener);
+    this.#core = new ViewerCore<AppShape>({
+      x3d,
+      pool,
+      deliveries,
+      shapes: this.shapes,
+      reader: { url, levelOf: (lod) => this.#levels.get(lod) },
+      inlines: { urlOf, own: { url, x3d } },
+      host: {
+        view: () => undefined, // the app has any number of cameras
+        display: (scene) => this.#display(scene),
+        onShapes: () => {
+          for (const lod of this.#lods) lod.fill();
+        },
+        onScene: () => {
+          this.shapes.forgetMissing();
+          listener.onAdvance();
+        },
+        onInlineEnd: (_, error) => {
           if (error !== undefined) listener.onError(error);
-          this.#reader.touch(inline);
-          this.#read();
+        },
+        onInlineRead: () => {
           listener.onChange();
           listener.onAdvance();
         },
       },
-    );
-    this.#reader = new SceneReader(x3d, {
-      url,
-      inlined: (inline) => this.#inlines.documentOf(inline),
-      levelOf: (lod) => this.#chosen.get(lod),
-      inlineGeometry: readInlineGeometry,
-      text: textReader(measureRun),
     });
-    this.#scene = this.#reader.read();
-    this.#graph = new SceneGroups({
-      onEnter: (shape, place, group) => {
-        this.shapes.onEnter(shape, place, group);
+    this.#groups = new SceneGroups({
+      onEnter: (shape, instance, group) => {
+        this.shapes.onEnter(shape, instance, group);
       },
-      onChange: (shape, place, group) => {
-        this.shapes.onChange(shape, place, group);
+      onChange: (shape, instance, group) => {
+        this.shapes.onChange(shape, instance, group);
       },
-      onLeave: () => undefined, // documents that are read once only ever get more
+      onLeave: this.shapes.onLeave,
       makeGroup: (description) => this.#groupOf(description),
     });
-    this.root.add(this.#graph.root);
+    this.root.add(this.#groups.root);
   }
 
   get description(): SceneDescription {
-    return this.#scene;
+    return this.#core.scene ?? this.#core.reader.read();
   }
 
   get transfers(): readonly Readonly<Transfer>[] {
-    return [...this.#inlines.transfers, ...this.#deliveries.transfers(), ...this.#pictures.transfers()];
+    return this.#core.transfers;
   }
 
-  /** All that is to be seen shows something, as far as it ever will. */
-  get isShown(): boolean {
-    return this.#inlines.isSettled && this.shapes.areShown;
+  /** Whether all that is visible displays something, unless nothing will come of it. */
+  get isDisplayed(): boolean {
+    return this.#core.inlines.isSettled && this.shapes.areDisplayed;
   }
 
-  /** All that is to be seen is there. */
+  /** Whether no file of anything visible is being loaded. */
   get isSettled(): boolean {
-    return this.#inlines.isSettled && this.shapes.areSettled;
+    return this.#core.inlines.isSettled && this.shapes.areSettled;
   }
 
   start(): void {
-    this.#show();
+    this.#core.load();
+    this.#core.read();
   }
 
-  /** Asks for nothing any more; what is shown stays. */
+  /** Ends all requests. What is displayed stays. */
   stop(): void {
     this.#isStopped = true;
-    this.#inlines.dispose();
-    this.shapes.stop();
+    this.#core.stop();
   }
 
   dispose(): void {
     this.stop();
-    this.shapes.dispose();
+    this.#core.dispose();
   }
 
-  #read(): void {
-    const before = this.#scene;
-    this.#scene = this.#reader.read();
-    if (this.#scene !== before) this.#show();
+  #display({ root }: SceneDescription): SceneChanges {
+    this.#groups.follow(withoutLights(root));
+    this.box.copy(this.#groups.box);
+    if (this.#groups.hasBillboards && this.#billboards.parent === null)
+      this.root.add(this.#billboards, this.#groups.root); // the observer before what it turns
+    return this.shapes.takeChanges();
   }
 
-  #show(): void {
-    const { root, inlines, chunkPriority, warnings } = this.#scene;
-    this.#graph.follow(withoutLights(root));
-    this.box.copy(this.#graph.box);
-    if (this.#graph.hasBillboards && this.#billboards.parent === null)
-      this.root.add(this.#billboards, this.#graph.root); // before what turns
-    this.shapes.applyChanges();
-    for (const levels of this.#levels) levels.fill();
-    this.shapes.demand(
-      chunkWeightsOf(chunkPriority, (problem) => {
-        this.#warn(`chunkPriority: ${problem}`);
-      }),
-    );
-    this.#inlines.follow(inlines);
-    for (const { element, message } of warnings) this.#warn(`<${element.localName}> ${message}`);
-  }
-
-  #groupOf({ lod: levels, inline }: GroupDescription): Object3D | undefined {
-    const element = levels?.element ?? inline;
+  #groupOf({ lod, inline }: GroupDescription): Object3D | undefined {
+    const element = lod?.element ?? inline;
     if (element === undefined) return undefined;
-    const group = levels ? new SceneLod(levels, this.#keeper) : new Group();
+    const group = lod ? new SceneLod(lod, this.#lodOwner) : new Group();
     group.name = attributeOf(element, "DEF") ?? "";
-    if (group instanceof SceneLod) this.#levels.push(group);
+    if (group instanceof SceneLod) this.#lods.push(group);
     else this.#inlineOf.set(group, element);
     return group;
   }
 
-  /** What is hidden in it for good does not count. */
-  #presenceOf(object: Object3D): LoadState {
+  /** The state of all shapes below an object, except of those that the document hides. */
+  #loadStateOf(object: Object3D): LoadState {
     const inline = this.#inlineOf.get(object);
-    if (inline !== undefined && this.#inlines.documentOf(inline) === undefined)
-      return this.#inlines.isEnded(inline) ? "failed" : "coming";
+    if (inline !== undefined && this.#core.inlines.documentOf(inline) === undefined)
+      return this.#core.inlines.isEnded(inline) ? "failed" : "loading";
     const found = new Set<LoadState>();
-    for (const part of partsOf(object)) {
-      const presence = this.shapes.loadStateOf(part) ?? this.#presenceOf(part);
-      if (presence === "coming") return presence;
-      found.add(presence);
+    for (const child of visibleChildrenOf(object)) {
+      const state = this.shapes.loadStateOf(child) ?? this.#loadStateOf(child);
+      if (state === "loading") return state;
+      found.add(state);
     }
-    return loadStates.find((presence) => found.has(presence)) ?? "nothing";
+    return loadStates.find((state) => found.has(state)) ?? "empty";
   }
 
-  /** Cameras look in the middle of a frame, one after the other: what they are to see is asked for after it. */
-  #onLook(): void {
-    if (this.#isLookedAt || this.#isStopped) return;
-    this.#isLookedAt = true;
+  /** A camera has updated a LOD in the middle of a frame. The levels that the frame's cameras need are requested after it. */
+  #onCamera(): void {
+    if (this.#isFrameDue || this.#isStopped) return;
+    this.#isFrameDue = true;
     queueMicrotask(() => {
-      this.#isLookedAt = false;
-      if (!this.#isStopped && this.#followLooks()) this.#read();
+      this.#isFrameDue = false;
+      if (!this.#isStopped && this.#updateLevels()) this.#core.read();
     });
   }
 
-  /** A LOD that stands in several places brings what the nearest camera to any of them needs. Whether one brings something else than before. */
-  #followLooks(): boolean {
-    const nearest = new Map<SceneElement, { readonly levels: SceneLod; readonly distance: number }>();
-    for (const levels of this.#levels) {
-      const distance = levels.takeDistance();
-      const { element } = levels.description;
-      if (distance < (nearest.get(element)?.distance ?? Infinity)) nearest.set(element, { levels, distance });
+  /** Chooses the level of each LOD by the camera that is nearest to any of its instances. Returns whether any level has changed. */
+  #updateLevels(): boolean {
+    const nearest = new Map<SceneElement, { readonly lod: SceneLod; readonly distance: number }>();
+    for (const lod of this.#lods) {
+      const distance = lod.takeDistance();
+      const { element } = lod.description;
+      if (distance < (nearest.get(element)?.distance ?? Infinity)) nearest.set(element, { lod, distance });
     }
-    let isOther = false;
-    for (const [
-      element,
-      {
-        levels: {
-          description: { range, levelCount: count },
-        },
-        distance,
-      },
-    ] of nearest) {
-      const before = this.#chosen.get(element) ?? count - 1; // unknown ones bring their last
-      const level = lodLevelAt(distance, range, count, before);
-      this.#chosen.set(element, level);
+    let hasChanged = false;
+    for (const [element, { lod, distance }] of nearest) {
+      const { range, levelCount } = lod.description;
+      const before = this.#levels.get(element) ?? levelCount - 1; // the last, until a camera has been near
+      const level = lodLevelAt(distance, range, levelCount, before);
+      this.#levels.set(element, level);
       if (level === before) continue;
-      this.#reader.touch(element);
-      isOther = true;
+      this.#core.reader.touch(element);
+      hasChanged = true;
     }
-    return isOther;
-  }
-
-  /** One line for each thing, however often the documents are read. */
-  #warn(message: string): void {
-    if (this.#warned.has(message)) return;
-    this.#warned.add(message);
-    console.warn(`imgeo: ${message}`);
+    return hasChanged;
   }
 }
 
-/** Of a group, what is seen of it. */
-function partsOf(object: Object3D): readonly Object3D[] {
+/** The children of a group that are visible: of a LOD, its current level. */
+function visibleChildrenOf(object: Object3D): readonly Object3D[] {
   const { children } = object;
   if (!(object instanceof SceneLod)) return children.filter(({ visible }) => visible);
   const level = object.getCurrentLevel();
   return children.slice(level, level + 1);
 }
 
-const unlit = new WeakMap<GroupDescription, GroupDescription>();
+const groupsWithoutLights = new WeakMap<GroupDescription, GroupDescription>();
 
-/** The app has lights of its own. The same object for the same description, so that what has not changed is passed over. */
+/** A group without its lights: the app has its own. The same object for the same description, so that what has not changed is passed over. */
 function withoutLights(group: GroupDescription): GroupDescription {
-  const known = unlit.get(group);
+  const known = groupsWithoutLights.get(group);
   if (known !== undefined) return known;
   const children = group.children
     .filter(({ kind }) => kind !== "light")
     .map((child) => (child.kind === "group" ? withoutLights(child) : child));
   const isSame =
-    children.length === group.children.length && children.every((child, place) => child === group.children[place]);
-  const found = isSame ? group : { ...group, children };
-  unlit.set(group, found);
-  return found;
+    children.length === group.children.length && children.every((child, index) => child === group.children[index]);
+  const result = isSame ? group : { ...group, children };
+  groupsWithoutLights.set(group, result);
+  return result;
 }

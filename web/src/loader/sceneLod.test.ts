@@ -7,13 +7,13 @@ import { SceneLod } from "./sceneLod.ts";
 const element = { localName: "LOD", children: [], getAttribute: () => null, getAttributeNames: () => [] };
 
 /** Levels of a box each, around (1, 0, 0), of which those are here that are in `here`. */
-function levelsOf(range: readonly number[], here: Set<number>, empty?: number, others: LoadState = "coming") {
+function levelsOf(range: readonly number[], here: Set<number>, empty?: number, others: LoadState = "loading") {
   const looks = { count: 0 };
   const placeOf = (level: Object3D) => Number(level.name);
   const levels = new SceneLod(
     { element, center: [1, 0, 0], range, levelCount: range.length + 1 },
     {
-      loadStateOf: (level) => (!here.has(placeOf(level)) ? others : placeOf(level) === empty ? "nothing" : "shown"),
+      loadStateOf: (level) => (!here.has(placeOf(level)) ? others : placeOf(level) === empty ? "empty" : "displayed"),
       onCamera: () => {
         looks.count += 1;
       },

@@ -12,7 +12,7 @@ import { lodLevelAt } from "../scene/lodLevel.ts";
  * as it ever will; nothing of it has come, or will; or there is nothing in it to see.
  * The first of these that holds for a part holds for the whole.
  */
-export const loadStates = ["coming", "shown", "failed", "nothing"] as const;
+export const loadStates = ["loading", "displayed", "failed", "empty"] as const;
 export type LoadState = (typeof loadStates)[number];
 
 /** Who brings what levels show. */
@@ -98,7 +98,7 @@ export class SceneLod extends LOD {
     const level = this.levels[place];
     if (level === undefined || this.#ready.has(place)) return true;
     const presence = this.#keeper.loadStateOf(level.object);
-    const isReady = presence === "shown" || presence === "nothing";
+    const isReady = presence === "displayed" || presence === "empty";
     if (isReady) this.#ready.add(place); // and is from then on
     return isReady;
   }
@@ -109,7 +109,7 @@ export class SceneLod extends LOD {
     const rank = (place: number) => (place === this.#shown ? -1 : Math.abs(place - this.#wanted));
     const others = Array.from(levels.keys()).filter((place) => {
       const level = levels[place];
-      return level !== undefined && place !== this.#wanted && this.#keeper.loadStateOf(level.object) === "shown";
+      return level !== undefined && place !== this.#wanted && this.#keeper.loadStateOf(level.object) === "displayed";
     });
     return others.sort((a, b) => rank(a) - rank(b))[0];
   }

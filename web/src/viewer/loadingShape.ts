@@ -1,0 +1,119 @@
+// One shape of a scene while it loads: the deliveries of its geometry and of its
+// textures. What is displayed of them is the business of the derived class.
+
+import type { DeliveryError } from "../delivery/deliveryError.ts";
+import type { JoinedDelivery } from "../delivery/geometryDeliveries.ts";
+import type { Transfer } from "../delivery/progress.ts";
+import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
+import type { Picture } from "../delivery/resourcePool.ts";
+import { ShapeTextures } from "../delivery/shapeTextures.ts";
+import type {
+  GeometryDescription,
+  ShapeDescription,
+  TextureDescription,
+  TextureRole,
+} from "../document/description.ts";
+import type { SceneElement } from "../document/element.ts";
+import type { Stage } from "../stage/stage.ts";
+
+export abstract class LoadingShape {
+  readonly element: SceneElement;
+  readonly geometry: GeometryDescription | undefined;
+  readonly #deliveries: SceneDeliveries;
+  readonly #textures: ShapeTextures;
+  #delivery: JoinedDelivery | undefined;
+  #describedTextures: readonly TextureDescription[] = [];
+  #isVisible: boolean;
+
+  /** Joins no delivery before `join`. */
+  constructor(deliveries: SceneDeliveries, { element, geometry, visible }: ShapeDescription) {
+    this.element = element;
+    this.geometry = geometry;
+    this.#isVisible = visible;
+    this.#deliveries = deliveries;
+    this.#textures = new ShapeTextures(deliveries.textures, {
+      onPicture: (role, picture) => {
+        this.onPicture(role, picture);
+      },
+      onError: (error) => {
+        this.onError(error);
+      },
+      onSettled: () => {
+        this.onSettled();
+      },
+    });
+  }
+
+  /** A patch has another stage; undefined: none. */
+  protected abstract onStage(patch: number, stage: Stage | undefined): void;
+  /** A texture has another picture; undefined: none. The picture before is not used after this call. */
+  protected abstract onPicture(role: TextureRole, picture: Picture | undefined): void;
+  protected abstract onError(error: DeliveryError): void;
+  /** All files that were requested of the geometry, or of a texture, have come or failed. */
+  protected abstract onSettled(): void;
+  /** The scene no longer has the shape, or the shape another geometry: nothing that deliveries brought may be displayed any more. */
+  abstract onRemoved(): void;
+
+  /** Whether any instance of the shape is visible. */
+  get isVisible(): boolean {
+    return this.#isVisible;
+  }
+
+  /** Whether the geometry's delivery is joined. */
+  get isJoined(): boolean {
+    return this.#delivery !== undefined;
+  }
+
+  /** No file of the geometry is being loaded. */
+  get isGeometrySettled(): boolean {
+    return this.geometry === undefined || this.#delivery?.isSettled === true;
+  }
+
+  /** No file of the shape, its textures included, is being loaded. */
+  get isSettled(): boolean {
+    return this.isGeometrySettled && this.#textures.isSettled;
+  }
+
+  /** The files that have been requested. */
+  get transfers(): readonly Readonly<Transfer>[] {
+    return [...(this.#delivery?.transfers ?? []), ...this.#textures.transfers];
+  }
+
+  /** Follows a changed description of the same geometry; joins deliveries unless `isSuspended`. */
+  follow({ visible, appearance }: ShapeDescription, isSuspended: boolean): void {
+    this.#isVisible = visible;
+    this.#describedTextures = appearance.textures;
+    if (!isSuspended) this.join();
+  }
+
+  /** Joins the deliveries of the geometry and of the textures described last. */
+  join(): void {
+    const { geometry } = this;
+    if (geometry !== undefined)
+      this.#delivery ??= this.#deliveries.geometries.join(geometry, {
+        onStage: (patch, stage) => {
+          this.onStage(patch, stage);
+        },
+        onError: (error) => {
+          this.onError(error);
+        },
+        onSettled: () => {
+          this.onSettled();
+        },
+      });
+    this.#textures.follow(this.#describedTextures);
+  }
+
+  /** Leaves all deliveries, and tells that textures have no pictures any more; `join` joins them again. */
+  suspend(): void {
+    this.#delivery?.cancel();
+    this.#delivery = undefined;
+    this.#textures.follow([]);
+  }
+
+  /** Leaves all deliveries for good. */
+  cancel(): void {
+    this.#delivery?.cancel();
+    this.#textures.cancel();
+  }
+}

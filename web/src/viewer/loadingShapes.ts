@@ -1,0 +1,70 @@
+// All shapes of a scene while they load, by their elements.
+
+import type { ShapeDescription } from "../document/description.ts";
+import type { SceneElement } from "../document/element.ts";
+import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
+import type { LoadingShape } from "./loadingShape.ts";
+
+export abstract class LoadingShapes<Shape extends LoadingShape> implements Iterable<Shape> {
+  readonly #shapes = new Map<SceneElement, Shape>();
+
+  protected abstract makeShape(described: ShapeDescription): Shape;
+
+  /** While true, shapes join no deliveries: a lost WebGL context could not take what they bring. */
+  protected abstract get isSuspended(): boolean;
+
+  get(element: SceneElement): Shape | undefined {
+    return this.#shapes.get(element);
+  }
+
+  [Symbol.iterator](): IterableIterator<Shape> {
+    return this.#shapes.values();
+  }
+
+  /**
+   * Follows the shapes of the scene. Returns a function that ends the deliveries of
+   * removed shapes: call it after the files of new shapes have been requested, so that
+   * files that both use are not fetched again.
+   */
+  follow({ shapes, removed }: SceneChanges): () => void {
+    const left: Shape[] = [];
+    for (const element of removed) this.#remove(element, left);
+    for (const [element, described] of shapes) {
+      if (this.#shapes.get(element)?.geometry !== described.geometry) this.#remove(element, left);
+      this.#shapeOf(described).follow(described, this.isSuspended);
+    }
+    return () => {
+      for (const shape of left) shape.cancel();
+    };
+  }
+
+  /** All leave their deliveries, until `join`. Nothing that those brought may be displayed any more. */
+  suspend(): void {
+    for (const shape of this) shape.suspend();
+  }
+
+  /** All join their deliveries once more. */
+  join(): void {
+    for (const shape of this) shape.join();
+  }
+
+  dispose(): void {
+    for (const shape of this) shape.onRemoved();
+    for (const shape of this) shape.cancel();
+    this.#shapes.clear();
+  }
+
+  #shapeOf(described: ShapeDescription): Shape {
+    const known = this.#shapes.get(described.element) ?? this.makeShape(described);
+    this.#shapes.set(described.element, known);
+    return known;
+  }
+
+  #remove(element: SceneElement, left: Shape[]): void {
+    const shape = this.#shapes.get(element);
+    if (shape === undefined) return;
+    this.#shapes.delete(element);
+    shape.onRemoved();
+    left.push(shape);
+  }
+}

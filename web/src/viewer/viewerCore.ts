@@ -1,0 +1,168 @@
+// The core that the page element and the three.js loader share. It reads a scene's
+// document, again after each change; has its host display what it reads; joins the
+// deliveries of shapes; requests what the view needs; and loads Inlines.
+
+import { GeometryDeliveries } from "../delivery/geometryDeliveries.ts";
+import type { DeliveryError } from "../delivery/deliveryError.ts";
+import type { InlinesOptions } from "../delivery/inlines.ts";
+import { Inlines } from "../delivery/inlines.ts";
+import type { Transfer } from "../delivery/progress.ts";
+import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
+import type { ResourcePool } from "../delivery/resourcePool.ts";
+import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
+import type { SceneDescription } from "../document/description.ts";
+import type { SceneElement } from "../document/element.ts";
+import { readInlineGeometry } from "../document/inlineGeometry.ts";
+import type { SceneReaderOptions } from "../document/sceneReader.ts";
+import { SceneReader } from "../document/sceneReader.ts";
+import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
+import type { View } from "../render/view.ts";
+import { measureRun } from "../text/glyphRendering.ts";
+import { textReader } from "../text/textGeometry.ts";
+import { DeliveryControl } from "./deliveryControl.ts";
+import type { LoadingShape } from "./loadingShape.ts";
+import type { LoadingShapes } from "./loadingShapes.ts";
+import { MessageLog } from "./messageLog.ts";
+
+/** Progress is reported no more often than a person can see. */
+export const progressIntervalMs = 50;
+
+/** Displays a scene, and is told what becomes of its files. */
+export interface ViewerHost {
+  /** What the camera sees; undefined where that is not known. */
+  view(): View | undefined;
+  /** Displays a scene that differs from the one before, and gives what has changed in it. */
+  display(scene: SceneDescription): SceneChanges;
+  /** Shapes have joined deliveries, whose files are requested next. */
+  onShapes(changes: SceneChanges): void;
+  /** The scene is displayed, and its files are requested. */
+  onScene(): void;
+  /** Files may have been added to those that are requested, or taken from them. */
+  onRequests?(): void;
+  /** An Inline's document is requested; not called again before `onInlineRemoved`. */
+  onInlineRequested?(inline: SceneElement): void;
+  /** An Inline's document is here, or none will come. The scene is read next. */
+  onInlineEnd(inline: SceneElement, error: DeliveryError | undefined): void;
+  /** The scene has been read with the Inline's document. */
+  onInlineRead?(): void;
+  /** The scene no longer has the Inline, or it names other documents. */
+  onInlineRemoved?(inline: SceneElement): void;
+}
+
+export interface ViewerCoreOptions<Shape extends LoadingShape> {
+  /** The document's <X3D>. */
+  readonly x3d: SceneElement;
+  readonly pool: ResourcePool;
+  readonly deliveries: SceneDeliveries;
+  /** Joins `deliveries`. */
+  readonly shapes: LoadingShapes<Shape>;
+  readonly reader: Pick<SceneReaderOptions, "url" | "levelOf">;
+  /** How often faces of a font have come that were missing before: a text looks different then. */
+  readonly fontEditionOf?: Parameters<typeof textReader>[1];
+  readonly inlines: Omit<InlinesOptions, "pool">;
+  readonly host: ViewerHost;
+}
+
+/** The deliveries that shapes of one scene join. */
+export function sceneDeliveriesOf(pool: ResourcePool): SceneDeliveries {
+  return { geometries: new GeometryDeliveries(pool), textures: new TextureDeliveries(pool) };
+}
+
+export class ViewerCore<Shape extends LoadingShape> {
+  /** After an element has been touched in it, call `read`. */
+  readonly reader: SceneReader;
+  readonly shapes: LoadingShapes<Shape>;
+  readonly inlines: Inlines;
+  readonly control: DeliveryControl;
+  readonly log = new MessageLog();
+  readonly #options: Pick<ViewerCoreOptions<Shape>, "x3d" | "deliveries">;
+  readonly #host: ViewerHost;
+  #scene: SceneDescription | undefined;
+  #isLoading = false;
+
+  /** Reads nothing before `read`, and requests nothing before `load`. */
+  constructor(options: ViewerCoreOptions<Shape>) {
+    const { x3d, pool, deliveries, shapes, reader, fontEditionOf, inlines, host } = options;
+    this.#options = options;
+    this.#host = host;
+    this.shapes = shapes;
+    this.inlines = new Inlines(
+      { ...inlines, pool },
+      {
+        onBegin: (inline) => {
+          host.onInlineRequested?.(inline);
+        },
+        onEnd: (inline, error) => {
+          host.onInlineEnd(inline, error);
+          this.reader.touch(inline);
+          this.read();
+          host.onInlineRead?.();
+        },
+        onLeave: (inline) => {
+          host.onInlineRemoved?.(inline);
+        },
+      },
+    );
+    this.reader = new SceneReader(x3d, {
+      ...reader,
+      inlined: (inline) => this.inlines.documentOf(inline),
+      inlineGeometry: readInlineGeometry,
+      text: textReader(measureRun, fontEditionOf),
+    });
+    this.control = new DeliveryControl({
+      deliveries,
+      view: () => host.view(),
+      onRequests: () => {
+        host.onRequests?.();
+      },
+    });
+  }
+
+  /** The scene as read last; undefined before the first `read`. */
+  get scene(): SceneDescription | undefined {
+    return this.#scene;
+  }
+
+  /** All files that have been requested, each once. */
+  get transfers(): readonly Readonly<Transfer>[] {
+    const { geometries, textures } = this.#options.deliveries;
+    return [...geometries.transfers(), ...textures.transfers(), ...this.inlines.transfers];
+  }
+
+  /** Reads the document, and displays and loads the scene where it is another than before. */
+  read(): void {
+    const before = this.#scene;
+    const scene = (this.#scene = this.reader.read());
+    if (scene === before) return;
+    const changes = this.#host.display(scene);
+    const leave = this.shapes.follow(changes);
+    this.#host.onShapes(changes);
+    this.control.follow(scene.chunkPriority, changes, (problem) => {
+      this.log.warn(`<${this.#options.x3d.localName}> chunkPriority: ${problem}`);
+    });
+    for (const { element, message } of scene.warnings) this.log.warn(`<${element.localName}> ${message}`);
+    leave(); // last, so that files that old and new shapes share are not fetched again
+    if (this.#isLoading && scene.inlines !== before?.inlines) this.inlines.follow(scene.inlines);
+    this.#host.onScene();
+  }
+
+  /** Requests files from now on. */
+  load(): void {
+    this.#isLoading = true;
+    this.inlines.follow(this.#scene?.inlines ?? []);
+    this.control.start();
+  }
+
+  /** Ends all requests. What is displayed stays. */
+  stop(): void {
+    this.#isLoading = false;
+    this.inlines.dispose();
+    this.control.stop();
+  }
+
+  /** Ends all requests, and all deliveries. */
+  dispose(): void {
+    this.stop();
+    this.shapes.dispose();
+  }
+}
