@@ -6,7 +6,7 @@ find_package(Threads REQUIRED)
 add_library(imgeo_options INTERFACE)
 target_compile_options(imgeo_options INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor)
-target_include_directories(imgeo_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
+target_include_directories(imgeo_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
 # Byte sizes and pictures must not depend on the machine that encodes: no fused
 # multiply-add behind our back.
 target_compile_options(imgeo_options INTERFACE -ffp-contract=off)

@@ -6,7 +6,8 @@
 #include "cli/interruption.h"
 #include "cli/terminal.h"
 #include "containers/encodings.h"
-#include "transcode/transcode.h"
+#include "imgeo/convert.h"
+#include "imgeo/site.h"
 
 #include <algorithm>
 #include <charconv>
@@ -159,8 +160,8 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
     json[name] = arguments.text(name);
   if (!report.x3domUrl.empty())
     json["x3dom"] = {{"version", report.x3domVersion}, {"url", report.x3domUrl}};
-  json["positionBits"] = report.mostPositionBits;
-  json["leastPositionBits"] = report.leastPositionBits;
+  json["positionBits"] = report.maxPositionBits;
+  json["leastPositionBits"] = report.minPositionBits;
   json["coordType"] = arguments.text("coord-type");
   json["layout"] = arguments.text("layout");
   json["normalEncoding"] = nameOf(report.normalEncoding);
@@ -190,7 +191,7 @@ Json jsonOf(const Arguments& arguments, const ConvertReport& report) {
   json["patchVertices"] = arguments.integer("patch-vertices");
   json["effort"] = arguments.integer("effort");
   json["normals"] = normalsOf(arguments, report);
-  json["step"] = report.largestStep;
+  json["step"] = report.maxStep;
   json["positionError"] = report.positionError;
   json["collapsed"] = {{"triangles", report.collapsed.triangles}, {"lines", report.collapsed.lines}};
   json["triangles"] = report.elements.triangles;
@@ -228,10 +229,10 @@ void printLine(const std::string& label, const std::string& text) {
 std::string positionsOf(const Arguments& arguments, const ConvertReport& report) {
   const bool asFloats = arguments.text("coord-type") == "float32";
   const std::string lattice = asFloats && arguments.text("position-bits").empty() ? "the source's numbers"
-                              : report.leastPositionBits < report.mostPositionBits
-                                  ? fmt::format("{} to {} bits: steps of up to {:.4g}", report.leastPositionBits,
-                                                report.mostPositionBits, report.largestStep)
-                                  : fmt::format("{} bits: step {:.4g}", report.mostPositionBits, report.largestStep);
+                              : report.minPositionBits < report.maxPositionBits
+                                  ? fmt::format("{} to {} bits: steps of up to {:.4g}", report.minPositionBits,
+                                                report.maxPositionBits, report.maxStep)
+                                  : fmt::format("{} bits: step {:.4g}", report.maxPositionBits, report.maxStep);
   return fmt::format("{}{}, so off by at most {:.4g} an axis, in units of the source", lattice,
                      asFloats ? " as float32" : "", report.positionError);
 }

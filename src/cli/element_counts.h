@@ -1,7 +1,7 @@
 #pragma once
 // Numbers of triangles, lines and points, as commands print them.
 
-#include "transcode/transcode.h"
+#include "imgeo/elements.h"
 
 #include <string>
 

@@ -1,7 +1,8 @@
 #include "cli/commands.h"
 #include "cli/element_counts.h"
 #include "cli/terminal.h"
-#include "transcode/transcode.h"
+#include "transcode/export/export_site.h"
+#include "transcode/sample/sample_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

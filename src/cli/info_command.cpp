@@ -3,7 +3,9 @@
 #include "cli/element_counts.h"
 #include "cli/terminal.h"
 #include "containers/encodings.h"
-#include "transcode/transcode.h"
+#include "imgeo/site.h"
+#include "transcode/site/inspect_geometry_file.h"
+#include "transcode/source/inspect_source.h"
 
 #include <algorithm>
 #include <cctype>

@@ -3,6 +3,7 @@
 #include "cli/heap.h"
 #include "cli/help.h"
 #include "cli/interruption.h"
+#include "imgeo/version.h"
 
 #include <cstdio>
 #include <exception>
@@ -16,7 +17,7 @@ namespace {
 
 int run(const Arguments& arguments) {
   if (!arguments.command) {
-    fmt::print("{}", arguments.has("help") ? overview() : "imgeo " IMGEO_VERSION "\n");
+    fmt::print("{}", arguments.has("help") ? overview() : fmt::format("imgeo {}\n", version()));
     return 0;
   }
   if (arguments.has("help")) {

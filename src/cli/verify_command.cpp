@@ -1,6 +1,6 @@
 #include "cli/commands.h"
 #include "cli/terminal.h"
-#include "transcode/transcode.h"
+#include "imgeo/verify.h"
 
 #include <cctype>
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ void printJson(const VerifyReport& report) {
   json["normalErrorDegrees"] = report.normalErrorDegrees;
   json["normalBoundDegrees"] = report.normalBoundDegrees;
   json["attributeError"] = report.attributeError;
-  json["materials"] = report.looks;
+  json["materials"] = report.comparedMaterials;
   json["findings"] = report.findings;
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
@@ -49,9 +49,9 @@ void printText(const VerifyReport& report) {
   if (report.attributeError > 0)
     fmt::print("{} off by at most {:.4g} of what their rounding allows\n", bold(fmt::format("{:10}", "attributes")),
                report.attributeError);
-  if (report.looks > 0)
+  if (report.comparedMaterials > 0)
     fmt::print("{} of {} shapes compared; lights, viewpoints and pictures are not\n",
-               bold(fmt::format("{:10}", "materials")), grouped(report.looks));
+               bold(fmt::format("{:10}", "materials")), grouped(report.comparedMaterials));
   for (const std::string& finding : report.findings)
     fmt::print("{}\n", finding);
   fmt::print("{}\n", report.equal ? "The site equals its input." : "The site does not equal its input.");

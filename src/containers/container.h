@@ -14,14 +14,6 @@
 
 namespace imgeo {
 
-/// Who shows what is written: our runtime, or X3DOM, which reads less
-/// (docs/formats/x3dom.md).
-enum class Target : std::uint8_t { web, x3dom };
-
-/// Whether a BG patch has a file for each attribute or one of records with all of
-/// them. Indices are always a file of their own: X3DOM's wish.
-enum class Layout : std::uint8_t { separate, interleaved };
-
 struct EncodeOptions {
   Encoding encoding = Encoding::classic;
   /// Bits of a stored component. SIG: 8. Compact: 4 .. 16. BG: 8, 16 or 32 (Float32); octahedral 8 or

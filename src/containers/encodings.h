@@ -1,8 +1,8 @@
 #pragma once
 // The registry of encodings: what documents, reports and checks of options need to know of each one.
 
-#include "containers/encoding.h"
 #include "containers/geometry_description.h"
+#include "imgeo/encoding.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,7 +3,7 @@
 // each patch's data lies. Writers of containers produce it, documents carry it,
 // readers of containers consume it. docs/formats/nodes.md is its text form.
 
-#include "containers/encoding.h"
+#include "imgeo/encoding.h"
 #include "prepare/lattice.h"
 #include "prepare/primitives.h"
 
@@ -23,15 +23,6 @@ const char* nameOf(Role role);
 /// "POINTS", "TRIANGLESTRIP", ...: as X3DOM's `primType` has them.
 const char* nameOf(Primitive primitive);
 
-/// How unit normals are stored: as three components, as two numbers
-/// (containers/normals.h), as RGB out of an image's palette, or not at all, but
-/// found from the triangles. Compact: octahedral and derived.
-enum class NormalEncoding : std::uint8_t { rgb, octahedral, spherical, palette, derived };
-const char* nameOf(NormalEncoding encoding);
-
-/// The element type of a BG attribute, as X3DOM names them ("Uint16" ...).
-enum class ElementType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32 };
-const char* nameOf(ElementType type);
 std::uint32_t byteSizeOf(ElementType type);
 
 /// Where an attribute's data begins. Images: `first` is the first texel. Typed

@@ -7,10 +7,10 @@
 // corners; gzipped files: archive/gzip.h.
 
 #include "base/bytes.h"
+#include "imgeo/preparation.h"
 #include "scene/scene.h"
 
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -21,14 +21,6 @@ struct Imported {
   std::vector<std::string> attributes; ///< names of all further vertex attributes of the source, kept or not
   std::string format;                  ///< "PLY", "OBJ", "GLB" ...: for reports
   std::vector<std::string> warnings;   ///< one sentence per kind of content that is not carried over
-};
-
-/// The further vertex attributes that are carried over.
-struct AttributeChoice {
-  bool all = false;
-  std::set<std::string> names; ///< used where `all` is false
-
-  bool has(const std::string& name) const { return all || names.contains(name); }
 };
 
 struct ImportOptions {

@@ -9,13 +9,6 @@ const char* nameOf(Topology topology) {
   return names[cornersPerElement(topology) - 1];
 }
 
-ElementCounts& ElementCounts::operator+=(const ElementCounts& other) {
-  triangles += other.triangles;
-  lines += other.lines;
-  points += other.points;
-  return *this;
-}
-
 Box3d boxOf(const Mesh& mesh) {
   Box3d box;
   for (const Vec3f& position : mesh.positions)

@@ -8,6 +8,7 @@
 // (`compact` needs that; classic and BG split wedges into vertices when they write).
 
 #include "base/vec.h"
+#include "imgeo/elements.h"
 #include "scene/vertex_attributes.h"
 
 #include <cassert>
@@ -16,31 +17,6 @@
 #include <vector>
 
 namespace imgeo {
-
-/// What an element is. The value is its number of corners.
-enum class Topology : std::uint8_t { points = 1, lines = 2, triangles = 3 };
-
-inline constexpr std::uint32_t cornersPerElement(Topology topology) {
-  return static_cast<std::uint32_t>(topology);
-}
-
-inline constexpr Topology allTopologies[] = {Topology::triangles, Topology::lines, Topology::points};
-
-/// "points", "lines", "triangles".
-const char* nameOf(Topology topology);
-
-/// How many elements there are of each kind.
-struct ElementCounts {
-  std::size_t triangles = 0, lines = 0, points = 0;
-
-  std::size_t& of(Topology topology) {
-    return topology == Topology::triangles ? triangles : topology == Topology::lines ? lines : points;
-  }
-  std::size_t of(Topology topology) const { return ElementCounts(*this).of(topology); }
-  std::size_t sum() const { return triangles + lines + points; }
-  ElementCounts& operator+=(const ElementCounts& other);
-  friend bool operator==(const ElementCounts&, const ElementCounts&) = default;
-};
 
 /// The attributes are those of its wedges.
 struct Mesh : VertexAttributes {

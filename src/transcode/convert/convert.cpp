@@ -1,11 +1,14 @@
 // convert(): the order of the steps from an input file to a published site.
 
+#include "imgeo/convert.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "documents/page_sanitizer.h"
+#include "imgeo/site.h"
+#include "imgeo/version.h"
 #include "import/warnings.h"
 #include "transcode/convert/peak_memory.h"
-#include "transcode/convert/resolve_options.h"
+#include "transcode/options/resolve_options.h"
 #include "transcode/default_scene/default_appearances.h"
 #include "transcode/default_scene/default_nodes.h"
 #include "transcode/encode/encode_scene.h"
@@ -15,7 +18,6 @@
 #include "transcode/site/site_pages.h"
 #include "transcode/site/staged_site.h"
 #include "transcode/source/preparation.h"
-#include "transcode/transcode.h"
 
 #include <algorithm>
 #include <chrono>
@@ -28,8 +30,6 @@ namespace imgeo {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* generator = "imgeo " IMGEO_VERSION;
 
 class Stopwatch {
 public:
@@ -90,7 +90,7 @@ void warnOfCollapsed(ConvertReport& report) {
   const auto warn = [&](Topology topology, const char* lost) {
     if (const std::size_t count = report.collapsed.of(topology); 100 * count > report.elements.of(topology))
       report.warnings.push_back(fmt::format("{} of {} {} have no {} at {} bits", count, report.elements.of(topology),
-                                            nameOf(topology), lost, report.leastPositionBits));
+                                            nameOf(topology), lost, report.minPositionBits));
   };
   warn(Topology::triangles, "area");
   warn(Topology::lines, "length");
@@ -232,7 +232,7 @@ private:
     std::vector<std::string> attributeNames;
     for (const AttributeReport& attribute : report_.attributes)
       attributeNames.push_back(attribute.name);
-    return {.generator = generator,
+    return {.generator = fmt::format("imgeo {}", version()),
             .source = input_ == "-" ? "" : input_.filename().string(),
             .encoding = *options_.encoding,
             .primitives = options_.primitives,

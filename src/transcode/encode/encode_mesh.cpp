@@ -8,7 +8,7 @@
 #include "containers/stored_coords.h"
 #include "prepare/degenerate_elements.h"
 #include "prepare/patches.h"
-#include "transcode/convert/resolve_options.h"
+#include "transcode/options/resolve_options.h"
 
 #include <algorithm>
 #include <charconv>

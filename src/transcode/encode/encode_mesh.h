@@ -3,8 +3,8 @@
 
 #include "containers/compact/compact_patch.h"
 #include "containers/container.h"
+#include "imgeo/convert.h"
 #include "transcode/site/content_files.h"
-#include "transcode/transcode.h"
 
 #include <functional>
 #include <optional>

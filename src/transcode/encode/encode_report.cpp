@@ -32,10 +32,9 @@ void addToReport(ConvertReport& report, const EncodedMesh& encoded) {
   report.positionError = std::max(report.positionError, encoded.positionError);
   report.normalErrorDegrees = std::max(report.normalErrorDegrees, encoded.normalErrorDegrees);
   const Lattice& lattice = encoded.geometry.lattice;
-  report.largestStep = std::max(report.largestStep, lattice.step);
-  report.leastPositionBits =
-      report.leastPositionBits == 0 ? lattice.bits : std::min(report.leastPositionBits, lattice.bits);
-  report.mostPositionBits = std::max(report.mostPositionBits, lattice.bits);
+  report.maxStep = std::max(report.maxStep, lattice.step);
+  report.minPositionBits = report.minPositionBits == 0 ? lattice.bits : std::min(report.minPositionBits, lattice.bits);
+  report.maxPositionBits = std::max(report.maxPositionBits, lattice.bits);
   report.hasNormals |= encoded.hasNormals;
   report.hasColors |= encoded.hasColors;
   if (encoded.texCoordError)

@@ -1,8 +1,8 @@
 #pragma once
 // What encoding a mesh adds to the report of a conversion.
 
+#include "imgeo/convert.h"
 #include "transcode/encode/encode_mesh.h"
-#include "transcode/transcode.h"
 
 namespace imgeo {
 

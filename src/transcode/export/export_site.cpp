@@ -1,12 +1,12 @@
 // A site -> a mesh file: read back, welded, written.
 
+#include "transcode/export/export_site.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "export/export.h"
 #include "scene/shape_instances.h"
 #include "transcode/site/read_meshes.h"
 #include "transcode/site/site_document.h"
-#include "transcode/transcode.h"
 
 #include <algorithm>
 

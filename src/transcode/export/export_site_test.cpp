@@ -2,9 +2,10 @@
 #include "base/file.h"
 #include "base/testing.h"
 #include "export/export.h"
+#include "imgeo/convert.h"
 #include "import/import.h"
 #include "scene/testing.h"
-#include "transcode/transcode.h"
+#include "transcode/export/export_site.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // A generated scene -> a mesh file.
 
+#include "transcode/sample/sample_file.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "export/export.h"
 #include "scene/shape_instances.h"
 #include "transcode/sample/sample_hall.h"
-#include "transcode/transcode.h"
 
 namespace imgeo {
 

@@ -1,8 +1,9 @@
 #include "base/error.h"
 #include "base/testing.h"
+#include "imgeo/convert.h"
 #include "scene/shape_instances.h"
+#include "transcode/sample/sample_file.h"
 #include "transcode/sample/sample_hall.h"
-#include "transcode/transcode.h"
 
 #include <gtest/gtest.h>
 

@@ -3,10 +3,10 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "containers/encodings.h"
+#include "imgeo/site.h"
 #include "transcode/site/site_document.h"
 #include "transcode/site/site_files.h"
 #include "transcode/site/site_manifest.h"
-#include "transcode/transcode.h"
 
 #include <algorithm>
 #include <cctype>

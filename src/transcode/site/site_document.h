@@ -4,7 +4,6 @@
 
 #include "containers/container.h"
 #include "documents/documents.h"
-#include "transcode/transcode.h"
 
 #include <filesystem>
 #include <string>

@@ -2,9 +2,9 @@
 // `imgeo.json`: marks a directory as one of our sites and says what of its making
 // cannot be read from the document.
 
+#include "imgeo/convert.h"
 #include "prepare/normals.h"
 #include "prepare/weld.h"
-#include "transcode/transcode.h"
 
 #include <string>
 #include <string_view>
@@ -30,8 +30,5 @@ std::string writeManifest(const SiteManifest& manifest);
 
 /// Safe for untrusted text. Throws Error{malformed} naming `name`.
 SiteManifest readManifest(std::string_view text, const std::string& name);
-
-const char* nameOf(Primitives primitives);     ///< "triangles", "strips", "points"
-const char* nameOf(NormalWeighting weighting); ///< "area", "angle", "uniform"
 
 } // namespace imgeo

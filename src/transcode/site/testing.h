@@ -4,9 +4,11 @@
 #include "base/file.h"
 #include "base/testing.h"
 #include "export/export.h"
+#include "imgeo/convert.h"
+#include "imgeo/site.h"
+#include "imgeo/verify.h"
 #include "transcode/site/site_document.h"
 #include "transcode/site/staged_site.h"
-#include "transcode/transcode.h"
 
 #include <filesystem>
 #include <map>

@@ -2,7 +2,8 @@
 // them takes at most.
 
 #include "base/testing.h"
-#include "transcode/transcode.h"
+#include "imgeo/convert.h"
+#include "imgeo/verify.h"
 
 #include <cstdlib>
 #include <gtest/gtest.h>

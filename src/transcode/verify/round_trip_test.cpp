@@ -175,7 +175,7 @@ TEST(RoundTrip, TheLargestErrorChoosesTheFewestBits) {
       ConvertOptions options;
       options.encoding = encoding;
       options.maxError = error;
-      EXPECT_EQ(convert(directory / "input.ply", directory / "site", options).leastPositionBits, bits);
+      EXPECT_EQ(convert(directory / "input.ply", directory / "site", options).minPositionBits, bits);
     }
 }
 

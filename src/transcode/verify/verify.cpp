@@ -1,5 +1,6 @@
 // Reads a site back and compares it with the file that it was made from.
 
+#include "imgeo/verify.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
@@ -14,7 +15,6 @@
 #include "transcode/site/site_files.h"
 #include "transcode/site/site_manifest.h"
 #include "transcode/source/preparation.h"
-#include "transcode/transcode.h"
 #include "transcode/verify/compare_appearances.h"
 #include "transcode/verify/element_list.h"
 #include "transcode/verify/foreign_site.h"
@@ -341,7 +341,7 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
     const Shape &siteShape = shapeOf(siteGraph, inSite[i].node), &inputShape = shapeOf(input.graph, inInput[i].node);
     const std::size_t geometry = siteShape.mesh, mesh = inputShape.mesh;
     if (manifest && inputShape.appearance) {
-      ++report.looks;
+      ++report.comparedMaterials;
       otherwise += !haveEqualAppearances(siteGraph, siteShape, input.graph, inputShape);
     }
     misplaced += !agree(inSite[i].worldFromShape, inInput[i].worldFromShape, boxOf(input.meshes[mesh]));
@@ -352,7 +352,7 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
     findings.add("{} of {} shapes stand elsewhere than in the input.", misplaced, inSite.size());
   if (otherwise > 0)
     findings.add("{} of {} shapes have other materials than in the input, or other places of textures.", otherwise,
-                 report.looks);
+                 report.comparedMaterials);
 }
 
 } // namespace

@@ -2,8 +2,9 @@
 #include "base/file.h"
 #include "base/testing.h"
 #include "export/export.h"
+#include "imgeo/convert.h"
+#include "imgeo/verify.h"
 #include "scene/testing.h"
-#include "transcode/transcode.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "transcode/convert/resolve_options.h"
+#include "transcode/options/resolve_options.h"
 
 #include "base/error.h"
 #include "containers/encodings.h"

@@ -1,10 +1,7 @@
-// What single files hold: a mesh to convert, a geometry file of a site.
+#include "transcode/source/inspect_source.h"
 
-#include "base/file.h"
-#include "containers/png/png.h"
 #include "scene/shape_instances.h"
 #include "transcode/source/preparation.h"
-#include "transcode/transcode.h"
 
 namespace imgeo {
 
@@ -27,22 +24,6 @@ SourceInfo inspectSource(const std::filesystem::path& file, bool outside) {
     info.normals |= !mesh.normals.empty();
     info.texCoords |= !mesh.texCoords.empty();
     info.colors |= !mesh.colors.empty();
-  }
-  return info;
-}
-
-GeometryFileInfo inspectGeometryFile(const std::filesystem::path& file) {
-  GeometryFileInfo info;
-  const Bytes bytes = readFile(file);
-  info.bytes = bytes.size();
-  info.namedByContent = file.stem() == contentName(bytes);
-  info.kind = "typed array";
-  if (file.extension() == ".png") {
-    const Image image = decodePng(bytes, file.string());
-    info.kind = "PNG image";
-    info.width = image.width;
-    info.height = image.height;
-    info.channels = image.channels;
   }
   return info;
 }

@@ -1,7 +1,9 @@
 #pragma once
 // What the options of a conversion mean together.
 
-#include "transcode/transcode.h"
+#include "base/vec.h"
+#include "imgeo/convert.h"
+#include "scene/scene.h"
 
 namespace imgeo {
 

@@ -1,0 +1,158 @@
+#pragma once
+/// @file
+/// Conversion of a mesh or scene file into a site.
+
+#include "imgeo/elements.h"
+#include "imgeo/encoding.h"
+#include "imgeo/preparation.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+/// How triangles are drawn.
+enum class Primitives : std::uint8_t {
+  triangles, ///< triangles; lines as separate segments
+  strips,    ///< triangle strips; lines as line strips. Not in compact
+  points,    ///< vertices only
+};
+
+/// "triangles", "strips", "points".
+const char* nameOf(Primitives primitives);
+/// "area", "angle", "uniform".
+const char* nameOf(NormalWeighting weighting);
+
+/// The largest distance by which quantisation may move a vertex.
+struct MaxError {
+  double value = 0;       ///< greater than 0
+  bool isPercent = false; ///< true: percent of the mesh's longest edge; false: units of the source
+};
+
+/// File format of texture images. Data maps (normals, roughness ...) are never lossy.
+enum class TextureFormat : std::uint8_t {
+  keep, ///< the source's files; formats that no browser displays become lossless WebP
+  webp, ///< WebP
+  avif, ///< AVIF; data maps become lossless WebP
+  png,  ///< PNG
+};
+
+/// Options for texture images.
+struct TextureOptions {
+  TextureFormat format = TextureFormat::keep; ///< file format
+  std::uint32_t size = 0;                     ///< longest edge in pixels; larger images are shrunk; 0: unlimited
+  std::optional<int> quality{};               ///< 0..100 for lossy formats; default: 80 for WebP, 60 for AVIF
+  std::uint32_t previewEdge = 64;             ///< longest edge of previews of large images, 0..256; 0: no previews
+};
+
+/// Options of a conversion. The defaults are those of the command line.
+struct ConvertOptions {
+  std::optional<Encoding> encoding{}; ///< default: compact, or classic if compact cannot hold what is asked for
+  Target target = Target::web;        ///< runtime that shows the site
+  std::string x3domUrl{};             ///< target x3dom: folder of x3dom.js and x3dom.css; empty: a public copy
+  Primitives primitives = Primitives::triangles; ///< point clouds are always points
+  bool indexed = true;                    ///< false: vertices are repeated instead of indexed; points have no index
+  std::uint32_t positionBits = 0;         ///< 8..32, compact 8..30; 0: 16, or what `coordType` holds
+  std::optional<MaxError> maxError{};     ///< SIG: chooses the position bits of each mesh instead of positionBits
+  std::optional<ElementType> coordType{}; ///< BG: type of coordinates; default: smallest unsigned type
+  Layout layout = Layout::separate;       ///< BG: order of attributes
+  NormalEncoding normals = NormalEncoding::rgb; ///< compact takes rgb for octahedral
+  std::uint32_t normalBits = 0;                 ///< bits of a stored component; 0: as many as cost no file size
+  std::uint32_t texCoordBits = 0;               ///< compact: 1..16; 0: 12 in compact, 16 elsewhere
+  std::uint32_t colorBits = 0;                  ///< compact: 1..8; 0: 8
+  DroppedElements dropped{};                    ///< elements to leave out
+  NormalWeighting normalWeighting = NormalWeighting::area; ///< for meshes without normals
+  std::uint32_t patchVertices = 65535;                     ///< maximum of vertices in a patch, 256..4,194,304
+  AttributeChoice keepAttributes{};                        ///< further vertex attributes to keep
+  std::uint32_t attributeBits = 0;                         ///< SIG: bits of a further attribute, 8, 16 or 24; 0: 16
+  std::optional<double> basePercent{}; ///< compact: triangles of the base mesh in percent, 0..25; default: 2
+  TextureOptions textures{};           ///< texture images
+  int effort = 5;                      ///< 0 fastest .. 9 smallest
+  std::string title{};                 ///< title of the page; empty: the source's title or file name
+  bool outside = false;                ///< the source may refer to files outside of its folder
+  bool strict = false;                 ///< refuse damaged sources instead of leaving the damaged content out
+  bool force = false;                  ///< replace a directory that is not an imgeo site
+};
+
+/// Bytes of all files of one role.
+struct RoleBytes {
+  std::string role;        ///< "document", "runtime", "index", "coord", "normal" ...
+  std::uint64_t bytes = 0; ///< sum of the files' sizes
+  std::size_t files = 0;   ///< number of files
+};
+
+/// A stored further vertex attribute.
+struct AttributeReport {
+  std::string name;             ///< the source's name
+  std::uint32_t components = 1; ///< 1..4
+  std::uint32_t bits = 16;      ///< bits of a stored component
+  double error = 0;             ///< maximum of a component's error
+};
+
+/// What was done to texture images.
+struct TextureReport {
+  std::size_t files = 0;          ///< texture images
+  std::size_t resized = 0;        ///< images that were shrunk
+  std::size_t reencoded = 0;      ///< images written in another format or size
+  std::size_t previews = 0;       ///< preview images
+  std::uint64_t sourceBytes = 0;  ///< size of the source's images
+  std::uint64_t bytes = 0;        ///< size of the written images
+  std::uint64_t previewBytes = 0; ///< size of the previews
+};
+
+/// What a conversion chose, wrote and measured.
+struct ConvertReport {
+  std::string format;                                  ///< format of the source: "PLY" ...
+  std::uint64_t sourceBytes = 0;                       ///< size of the source
+  Encoding encoding = Encoding::classic;               ///< the encoding chosen
+  ElementCounts elements;                              ///< elements as drawn
+  std::size_t vertices = 0;                            ///< vertices of all patches
+  std::size_t patches = 0;                             ///< patches of all meshes
+  WeldReport weld;                                     ///< what welding did
+  bool normalsComputed = false;                        ///< normals of at least one mesh were computed
+  std::uint32_t minPositionBits = 0;                   ///< minimum over all meshes
+  std::uint32_t maxPositionBits = 0;                   ///< maximum over all meshes
+  double maxStep = 0;                                  ///< largest lattice step of all meshes, in units of the source
+  ElementCounts collapsed;                             ///< elements that lost their area or length on the lattice
+  double positionError = 0;                            ///< maximum of a vertex's error along an axis
+  NormalEncoding normalEncoding = NormalEncoding::rgb; ///< how normals are stored
+  std::uint32_t normalBits = 0;                        ///< bits of a normal's stored component
+  std::uint32_t texCoordBits = 0;                      ///< bits of a texture coordinate
+  std::uint32_t colorBits = 0;                         ///< bits of a colour's component
+  double normalErrorDegrees = 0;                       ///< maximum of a normal's error
+  std::optional<double> texCoordError;                 ///< maximum of a texture coordinate's error, if there are any
+  bool hasNormals = false;                             ///< a mesh has normals
+  bool hasColors = false;                              ///< a mesh has vertex colours
+  std::vector<AttributeReport> attributes;             ///< further attributes that were kept
+  TextureReport textures;                              ///< texture images
+  std::string x3domVersion;                            ///< target x3dom: the release that the page loads
+  std::string x3domUrl;                                ///< target x3dom: URL of its script
+  std::vector<RoleBytes> roles;                        ///< sizes by role of the files
+  double bytesPerTriangle = 0;                         ///< geometry files and nodes; 0 if there are no triangles
+  std::vector<std::string> warnings;                   ///< one sentence each
+  double importSeconds = 0;                            ///< time to read the source
+  double prepareSeconds = 0;                           ///< time to weld and to compute normals
+  double encodeSeconds = 0;                            ///< time to encode and write
+  double totalSeconds = 0;                             ///< time of the whole conversion
+  std::uint64_t peakMemoryBytes = 0;                   ///< maximum of the process's resident memory; 0: unknown
+};
+
+/// Receives the share of the work that is done, 0..1, and the name of the current step ("reading"). Called from any
+/// thread, one call at a time. An exception that it throws ends the conversion.
+using Progress = std::function<void(double share, const std::string& step)>;
+
+/// Converts `input` (a path; "-": standard input) into the site `directory`. The site is built beside its target and
+/// replaces it in one step: after a crash the target is the old site or the new one. Equal input and options give equal
+/// bytes, independent of the number of threads.
+///
+/// Throws Error{usage} for options that contradict each other and for a target that must not be replaced, other Errors
+/// for the input and the file system, and what `progress` throws. The target is unchanged then.
+ConvertReport convert(const std::filesystem::path& input, const std::filesystem::path& directory,
+                      const ConvertOptions& options = {}, const Progress& progress = {});
+
+} // namespace imgeo

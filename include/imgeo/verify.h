@@ -1,0 +1,44 @@
+#pragma once
+/// @file
+/// Comparison of a site with the file that it was made from.
+
+#include "imgeo/elements.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+/// Result of a comparison.
+struct VerifyReport {
+  bool equal = false;                ///< there are no findings
+  bool isForeign = false;            ///< there is no imgeo.json: another program wrote the site
+  ElementCounts input;               ///< elements of the input
+  ElementCounts site;                ///< elements of the site
+  ElementCounts missing;             ///< elements of the input that the site lacks
+  ElementCounts extra;               ///< elements of the site that the input lacks
+  double positionError = 0;          ///< maximum of a vertex's error along an axis, in the mesh's units
+  double positionBound = 0;          ///< allowed error: half a lattice step
+  double normalErrorDegrees = 0;     ///< maximum of a normal's error
+  double normalBoundDegrees = 0;     ///< allowed error of normals
+  std::size_t comparedMaterials = 0; ///< shapes whose materials were compared
+  double attributeError = 0;         ///< maximum error of further attributes, as a fraction of the allowed error
+  std::vector<std::string> findings; ///< one sentence for each difference
+};
+
+/// Reads the site back and compares it with the input, prepared as `convert` does it (welded, unreferenced positions
+/// dropped, normals computed). Compares elements, vertex attributes and transforms of shapes and, unless the input is
+/// X3D, whose appearances are copied, their materials. Does not compare lights, viewpoints and the pixels of textures.
+///
+/// For a site of another program, file names and computed normals are not checked, and vertices may be off by a
+/// twentieth of a lattice step more.
+///
+/// `outside`: the input may refer to files outside of its folder.
+///
+/// An Error that reading the site causes is a finding. Throws Error if the document or imgeo.json cannot be read, and
+/// for the input.
+VerifyReport verify(const std::filesystem::path& site, const std::filesystem::path& input, bool outside = false);
+
+} // namespace imgeo

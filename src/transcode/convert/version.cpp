@@ -1,0 +1,9 @@
+#include "imgeo/version.h"
+
+namespace imgeo {
+
+const char* version() noexcept {
+  return IMGEO_VERSION;
+}
+
+} // namespace imgeo

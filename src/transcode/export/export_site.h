@@ -1,0 +1,24 @@
+#pragma once
+// A site -> a mesh file.
+
+#include "imgeo/elements.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace imgeo {
+
+struct ExportReport {
+  std::string format; ///< "PLY", "OBJ", "GLB"
+  ElementCounts elements;
+  std::size_t shapes = 0, vertices = 0;
+  std::uint64_t bytes = 0;       ///< size of the written file
+  std::size_t lightsLeftOut = 0; ///< GLB: lights that glTF cannot express
+};
+
+/// Writes the meshes of a site as one mesh file; the extension of `output` chooses the format (export/export.h). Reads
+/// sites of imgeo and of other programs that write X3DOM's containers. Throws Error; {usage} for an unknown extension.
+ExportReport exportSite(const std::filesystem::path& site, const std::filesystem::path& output);
+
+} // namespace imgeo

@@ -1,0 +1,28 @@
+#pragma once
+// What a mesh or scene file holds, before it is converted.
+
+#include "base/vec.h"
+#include "imgeo/elements.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+struct SourceInfo {
+  std::string format;
+  std::uint64_t bytes = 0;
+  ElementCounts elements;
+  std::size_t shapes = 0, vertices = 0;
+  bool normals = false, texCoords = false, colors = false; ///< whether any mesh has them
+  std::vector<std::string> attributes;                     ///< names of further vertex attributes
+  Box3d box;
+  std::vector<std::string> warnings;
+};
+
+/// Reads a file as convert does. `outside`: it may refer to files outside of its folder. Throws Error.
+SourceInfo inspectSource(const std::filesystem::path& file, bool outside = false);
+
+} // namespace imgeo
