@@ -1,41 +1,48 @@
-// Concave polygons -> triangles, as src/import/triangulate.cpp cuts them: an ear is a
-// convex corner whose triangle holds no other corner (Meisters, "Polygons have ears",
-// 1975), and only reflex corners can lie in it (Eberly, "Triangulation by ear
-// clipping", 2002).
+// Triangulates polygons by ear clipping. An ear is a convex corner whose triangle contains no other corner (Meisters,
+// "Polygons have ears", 1975), and only reflex corners can lie in it (Eberly, "Triangulation by ear clipping", 2002).
+// triangulate() in src/import cuts the same triangles: vectors/tessellation/earClipping.json holds both to that.
+
+import type { Vec3 } from "./vectors.ts";
+import { cross, minus } from "./vectors.ts";
 
 type Point = readonly [number, number];
 
-/** Polygons of more corners are cut as fans: the time grows with the square of them. */
-const mostCorners = 512;
+/** Polygons with more corners become fans: clipping takes time quadratic in the number of corners. */
+const maxCorners = 512;
 
 /**
- * The n - 2 triangles of a polygon of n corners, as places in `ring`: three numbers a
- * corner. Convex ones become fans about their first corner; those that cross
- * themselves or have no area still give as many.
+ * Cuts a polygon of n corners into n - 2 triangles and returns their corners as indices into `ring`, three a triangle.
+ * A convex polygon becomes a fan about its first corner, and so does one without area. Polygons that cross themselves
+ * still give n - 2 triangles.
  */
-export function triangulate(ring: readonly (readonly [number, number, number])[]): number[] {
-  const flat = projected(ring);
-  return isConvex(flat) || ring.length > mostCorners ? fan(ring.length) : clipEars(flat);
+export function triangulate(ring: readonly Vec3[]): number[] {
+  const normal = newellNormal(ring);
+  if (ring.length <= 3 || normal.every((component) => component === 0)) return fan(ring.length);
+  const flat = projected(ring, normal);
+  return isConvex(flat) || ring.length > maxCorners ? fan(ring.length) : clipEars(flat);
 }
 
-function fan(corners: number): number[] {
-  return Array.from({ length: Math.max(corners - 2, 0) }, (_, i) => [0, i + 1, i + 2]).flat();
+function fan(cornerCount: number): number[] {
+  return Array.from({ length: Math.max(cornerCount - 2, 0) }, (_, i) => [0, i + 1, i + 2]).flat();
 }
 
-/** Seen along the axis nearest to its normal (Newell's), counter-clockwise. */
-function projected(ring: readonly (readonly [number, number, number])[]): Point[] {
-  const normal = [0, 0, 0];
-  ring.forEach((a, i) => {
-    const b = ring[(i + 1) % ring.length] ?? a;
-    normal[0] = (normal[0] ?? 0) + (a[1] - b[1]) * (a[2] + b[2]);
-    normal[1] = (normal[1] ?? 0) + (a[2] - b[2]) * (a[0] + b[0]);
-    normal[2] = (normal[2] ?? 0) + (a[0] - b[0]) * (a[1] + b[1]);
-  });
-  const size = (axis: number) => Math.abs(normal[axis] ?? 0);
-  const axis = size(2) >= size(0) && size(2) >= size(1) ? 2 : size(1) >= size(0) ? 1 : 0;
-  const [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
-  const isTurned = (normal[axis] ?? 0) < 0;
-  return ring.map((point) => (isTurned ? [point[v] ?? 0, point[u] ?? 0] : [point[u] ?? 0, point[v] ?? 0]));
+/** Twice the polygon's vector area; relative to the first corner, which keeps the precision of distant polygons. */
+function newellNormal([first = [0, 0, 0], ...others]: readonly Vec3[]): Vec3 {
+  let sum: Vec3 = [0, 0, 0];
+  for (const [i, corner] of others.slice(0, -1).entries()) {
+    const [x, y, z] = cross(minus(corner, first), minus(others[i + 1] ?? corner, first));
+    sum = [sum[0] + x, sum[1] + y, sum[2] + z];
+  }
+  return sum;
+}
+
+/** Projects the polygon along the axis nearest to its normal, so that it runs counter-clockwise. */
+function projected(ring: readonly Vec3[], normal: Vec3): Point[] {
+  let axis: 0 | 1 | 2 = 0;
+  for (const other of [1, 2] as const) if (Math.abs(normal[other]) > Math.abs(normal[axis])) axis = other;
+  const [u, v] = [((axis + 1) % 3) as 0 | 1 | 2, ((axis + 2) % 3) as 0 | 1 | 2];
+  const isFlipped = normal[axis] < 0;
+  return ring.map((point) => (isFlipped ? [point[v], point[u]] : [point[u], point[v]]));
 }
 
 /** Twice the signed area of a triangle. */
@@ -50,39 +57,39 @@ function isConvex(flat: readonly Point[]): boolean {
   return flat.every(
     (point, i) =>
       area(point, at(i + 1), at(i + 2)) >= 0 &&
-      // Every corner of a star is convex too: it is told by its fan.
+      // A pentagram turns the same way at every corner too; its fan about the first corner has flipped triangles.
       (i === 0 || i + 1 >= flat.length || area(at(0), point, at(i + 1)) >= 0),
   );
 }
 
 function clipEars(flat: readonly Point[]): number[] {
-  const left = flat.map((_, corner) => corner);
+  const remaining = flat.map((_, corner) => corner);
   const triangles: number[] = [];
-  const cornerAt = (place: number) => left[place % left.length] ?? 0;
-  const pointAt = (place: number) => flat[cornerAt(place)] ?? origin;
-  const turn = (place: number) => area(pointAt(place + left.length - 1), pointAt(place), pointAt(place + 1));
-  const isEar = (place: number): boolean => {
-    if (turn(place) <= 0) return false;
-    const [a, b, c] = [pointAt(place + left.length - 1), pointAt(place), pointAt(place + 1)];
-    for (let other = place + 2; other < place + left.length - 1; ++other) {
+  const cornerAt = (index: number) => remaining[index % remaining.length] ?? 0;
+  const pointAt = (index: number) => flat[cornerAt(index)] ?? origin;
+  const turn = (index: number) => area(pointAt(index + remaining.length - 1), pointAt(index), pointAt(index + 1));
+  const isEar = (index: number): boolean => {
+    if (turn(index) <= 0) return false;
+    const [a, b, c] = [pointAt(index + remaining.length - 1), pointAt(index), pointAt(index + 1)];
+    for (let other = index + 2; other < index + remaining.length - 1; ++other) {
       const p = pointAt(other);
-      // Rings with a bridge to a hole pass twice through the bridge's ends.
+      // A polygon with a bridge to a hole passes through the bridge's ends twice.
       if ([a, b, c].some((q) => q[0] === p[0] && q[1] === p[1]) || turn(other) > 0) continue;
       if (area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0) return false;
     }
     return true;
   };
-  for (let place = 0, tried = 0; left.length > 2;) {
+  for (let index = 0, rejectedCount = 0; remaining.length > 2;) {
     // A polygon that crosses itself may have no ear: then any corner is cut off.
-    if (tried < left.length && !isEar(place)) {
-      place = (place + 1) % left.length;
-      ++tried;
+    if (rejectedCount < remaining.length && !isEar(index)) {
+      index = (index + 1) % remaining.length;
+      ++rejectedCount;
       continue;
     }
-    triangles.push(cornerAt(place + left.length - 1), cornerAt(place), cornerAt(place + 1));
-    left.splice(place, 1);
-    place = (place + 1) % left.length; // the next corner over: neighbours in turn would make needles
-    tried = 0;
+    triangles.push(cornerAt(index + remaining.length - 1), cornerAt(index), cornerAt(index + 1));
+    remaining.splice(index, 1);
+    index = (index + 1) % remaining.length; // skips a corner: clipping neighbors in turn would make needles
+    rejectedCount = 0;
   }
   return triangles;
 }

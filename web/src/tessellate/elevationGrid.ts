@@ -1,8 +1,9 @@
-// X3D's ElevationGrid (ISO/IEC 19775-1, 13.3.4): heights over a grid in x and z. The
-// same as in src/import/x3d/geometry.cpp, for what stands in a page.
+// X3D's ElevationGrid (ISO/IEC 19775-1, 13.3.4): heights over a grid in x and z become quadrilaterals. The vertices
+// and faces are those of src/import/x3d: vectors/tessellation/elevationGrid.json holds both to that.
 
 import type { Corner, VertexData } from "./faces.ts";
 
+/** A tessellated surface: attribute values, and polygons whose corners index them. */
 export interface Surface {
   readonly data: VertexData;
   readonly faces: readonly (readonly Corner[])[];
@@ -20,7 +21,10 @@ export interface ElevationGridFields {
   readonly colorPerVertex: boolean;
 }
 
-/** `given`: attributes that stand in the node. Undefined where there are too few heights, or no cell. */
+/**
+ * Vertices row by row and a quadrilateral for each cell. `given` has the attributes that the node's children state.
+ * Undefined where there are too few heights or less than two rows or columns.
+ */
 export function elevationGrid(values: ElevationGridFields, given: VertexData): Surface | undefined {
   const { xDimension: columns, zDimension: rows, xSpacing, zSpacing, height, normalPerVertex, colorPerVertex } = values;
   if (columns < 2 || rows < 2 || columns * rows > height.length) return undefined;

@@ -1,12 +1,12 @@
-// X3D's Extrusion (ISO/IEC 19775-1, 13.3.5): a cross-section carried along a spine. The
-// same as src/import/x3d/extrusion.cpp, for what stands in a page.
+// X3D's Extrusion (ISO/IEC 19775-1, 13.3.5): sweeps a cross-section along a spine. The vertices and faces are those of
+// src/import/x3d/extrusion.cpp: vectors/tessellation/extrusion.json holds both to that.
 
 import type { Surface } from "./elevationGrid.ts";
 import type { Corner } from "./faces.ts";
 import type { Vec3 } from "./vectors.ts";
 import { cross, dot, minus, rotated, unit } from "./vectors.ts";
 
-/** x, y and z of a cross-section's plane; y is its normal. */
+/** The x, y and z axes of a cross-section's plane, whose normal is y. */
 type Frame = readonly [Vec3, Vec3, Vec3];
 
 /** The fields of an Extrusion node: 2D points, points, 2D scales, and rotations (axis and angle), one number after the other. */
@@ -19,17 +19,22 @@ export interface ExtrusionFields {
   readonly endCap: boolean;
 }
 
-/** Undefined where the spine or the cross-section has fewer than two points. */
+/**
+ * Vertices row by row along the spine, quadrilaterals between the rows, then the caps, which have vertices of their
+ * own. Undefined where the spine or the cross-section has fewer than two points.
+ */
 export function extrusion(values: ExtrusionFields): Surface | undefined {
   const spine = vectorsOf(values.spine, 3).map(([x = 0, y = 0, z = 0]): Vec3 => [x, y, z]);
   const section = vectorsOf(values.crossSection, 2).map(([x = 0, z = 0]): readonly [number, number] => [x, z]);
   if (spine.length < 2 || section.length < 2) return undefined;
   const scales = vectorsOf(values.scale, 2),
-    turns = vectorsOf(values.orientation, 4);
+    rotations = vectorsOf(values.orientation, 4);
   const positions = framesAlong(spine).flatMap((frame, i) => {
     const [scaleX = 1, scaleZ = 1] = scales[Math.min(i, scales.length - 1)] ?? [];
-    const turn = turns[Math.min(i, turns.length - 1)] ?? [];
-    return section.flatMap(([x, z]) => inFrame(frame, rotated([x * scaleX, 0, z * scaleZ], turn), spine[i] ?? nowhere));
+    const rotation = rotations[Math.min(i, rotations.length - 1)] ?? [];
+    return section.flatMap(([x, z]) =>
+      pointInFrame(frame, rotated([x * scaleX, 0, z * scaleZ], rotation), spine[i] ?? origin),
+    );
   });
   const builder = new FaceBuilder(spine, section, positions);
   builder.addSides();
@@ -38,59 +43,59 @@ export function extrusion(values: ExtrusionFields): Surface | undefined {
   return builder.surface;
 }
 
-const nowhere: Vec3 = [0, 0, 0];
+const origin: Vec3 = [0, 0, 0];
 
 function vectorsOf(numbers: readonly number[], size: number): number[][] {
   return Array.from({ length: Math.floor(numbers.length / size) }, (_, i) => numbers.slice(size * i, size * i + size));
 }
 
-function inFrame([x, y, z]: Frame, point: Vec3, at: Vec3): number[] {
-  return [0, 1, 2].map((i) => (at[i] ?? 0) + (x[i] ?? 0) * point[0] + (y[i] ?? 0) * point[1] + (z[i] ?? 0) * point[2]);
+function pointInFrame([x, y, z]: Frame, point: Vec3, origin: Vec3): number[] {
+  return [0, 1, 2].map((i) => (origin[i] ?? 0) + (x[i] ?? 0) * point[0] + (y[i] ?? 0) * point[1] + (z[i] ?? 0) * point[2]);
 }
 
 function isClosed(first: readonly number[] | undefined, last: readonly number[] | undefined): boolean {
   return first?.every((value, i) => value === last?.[i]) === true;
 }
 
-/** The planes across the spine (13.3.5.4): y along it, z out of its bend. */
+/** The spine-aligned cross-section planes (13.3.5.4): y is tangent to the spine, z normal to its bend. */
 function framesAlong(spine: readonly Vec3[]): Frame[] {
   const count = spine.length,
     closed = count > 2 && isClosed(spine[0], spine[count - 1]);
   const at = (i: number) =>
-    spine[closed ? (i + count - 1) % (count - 1) : Math.min(Math.max(i, 0), count - 1)] ?? nowhere;
-  const tangents = filled(spine.map((_, i) => unit(minus(at(i + 1), at(i - 1)))));
-  const bends = filled(spine.map((_, i) => unit(cross(minus(at(i + 1), at(i)), minus(at(i - 1), at(i))))));
+    spine[closed ? (i + count - 1) % (count - 1) : Math.min(Math.max(i, 0), count - 1)] ?? origin;
+  const tangents = withGapsFilled(spine.map((_, i) => unit(minus(at(i + 1), at(i - 1)))));
+  const bendNormals = withGapsFilled(spine.map((_, i) => unit(cross(minus(at(i + 1), at(i)), minus(at(i - 1), at(i))))));
   if (tangents === undefined)
     return spine.map(() => [
       [1, 0, 0],
       [0, 1, 0],
       [0, 0, 1],
     ]);
-  if (bends === undefined) return tangents.map((tangent) => straight(tangent));
-  let before: Vec3 | undefined;
+  if (bendNormals === undefined) return tangents.map((tangent) => straightFrame(tangent));
+  let previousZ: Vec3 | undefined;
   return tangents.map((y, i): Frame => {
-    let z = bends[i] ?? nowhere;
-    if (before !== undefined && dot(z, before) < 0) z = minus(nowhere, z);
-    before = z;
+    let z = bendNormals[i] ?? origin;
+    if (previousZ !== undefined && dot(z, previousZ) < 0) z = minus(origin, z);
+    previousZ = z;
     const x = unit(cross(y, z)) ?? [1, 0, 0];
     return [x, y, z];
   });
 }
 
-/** What has no direction of its own takes that of what comes before, or else behind. Undefined where nothing has one. */
-function filled(vectors: readonly (Vec3 | undefined)[]): Vec3[] | undefined {
-  let before = vectors.find((vector) => vector !== undefined);
-  if (before === undefined) return undefined;
-  return vectors.map((vector) => (before = vector ?? before) ?? nowhere);
+/** Replaces a missing vector by the one before it, or by the first where none is before. Undefined where all are missing. */
+function withGapsFilled(vectors: readonly (Vec3 | undefined)[]): Vec3[] | undefined {
+  let previous = vectors.find((vector) => vector !== undefined);
+  if (previous === undefined) return undefined;
+  return vectors.map((vector) => (previous = vector ?? previous) ?? origin);
 }
 
-/** Of a straight spine: the y axis turned the shortest way onto it. */
-function straight(tangent: Vec3): Frame {
+/** The frame of a straight spine: the shortest rotation that takes the y axis onto the tangent, applied to the axes. */
+function straightFrame(tangent: Vec3): Frame {
   const up: Vec3 = [0, 1, 0];
   const axis = cross(up, tangent),
     sine = Math.hypot(...axis);
-  const turn = sine > 1e-12 ? [...axis, Math.atan2(sine, tangent[1])] : [1, 0, 0, tangent[1] < 0 ? Math.PI : 0];
-  return [rotated([1, 0, 0], turn), rotated(up, turn), rotated([0, 0, 1], turn)];
+  const rotation = sine > 1e-12 ? [...axis, Math.atan2(sine, tangent[1])] : [1, 0, 0, tangent[1] < 0 ? Math.PI : 0];
+  return [rotated([1, 0, 0], rotation), rotated(up, rotation), rotated([0, 0, 1], rotation)];
 }
 
 class FaceBuilder {
@@ -106,14 +111,12 @@ class FaceBuilder {
     this.#positions = [...positions];
   }
 
-  /** Where a curve is closed its ends are one place, over which the surface is smooth. */
+  /** The quadrilaterals between rows. Where a curve is closed its ends share positions, so that the surface is smooth there. */
   addSides(): void {
     const [rows, columns] = [this.#spine.length, this.#section.length];
     const ringClosed = columns > 2 && isClosed(this.#section[0], this.#section[columns - 1]);
     const spineClosed =
-      rows > 2 &&
-      isClosed(this.#spine[0], this.#spine[rows - 1]) &&
-      isClosed(this.#positions.slice(0, 3 * columns), this.#positions.slice(-3 * columns));
+      rows > 2 && isClosed(this.#positions.slice(0, 3 * columns), this.#positions.slice(-3 * columns));
     for (let i = 0; i < rows; ++i)
       for (let j = 0; j < columns; ++j) this.#texCoords.push(j / (columns - 1), i / (rows - 1));
     const corner = (i: number, j: number): Corner => ({
@@ -128,8 +131,8 @@ class FaceBuilder {
     }
   }
 
-  /** With vertices of its own: its rim is an edge. */
-  addCap(row: number, isTurned: boolean): void {
+  /** The polygon that closes an end, with vertices of its own, because its rim is a hard edge. */
+  addCap(row: number, isReversed: boolean): void {
     const columns = this.#section.length;
     const corners = isClosed(this.#section[0], this.#section[columns - 1]) ? columns - 1 : columns;
     if (corners < 3) return;
@@ -141,9 +144,9 @@ class FaceBuilder {
       const [x = 0, z = 0] = this.#section[j] ?? [];
       face.push({ position: this.#positions.length / 3, texCoord: this.#texCoords.length / 2, normal: -1, color: -1 });
       this.#positions.push(...this.#positions.slice(3 * (row * columns + j), 3 * (row * columns + j) + 3));
-      this.#texCoords.push((x - left) / extent, (isTurned ? z - low : extent - (z - low)) / extent);
+      this.#texCoords.push((x - left) / extent, (isReversed ? z - low : extent - (z - low)) / extent);
     }
-    this.#faces.push(isTurned ? face.reverse() : face);
+    this.#faces.push(isReversed ? face.reverse() : face);
   }
 
   get surface(): Surface {

@@ -1,20 +1,24 @@
-// Polygons, lines and points as X3D's geometry nodes state them -> arrays to draw.
-// The same as src/import/x3d/faces.h, for what stands in a page.
+// Polygons, lines and points with indexed attributes, as X3D's geometry nodes have them, become vertex arrays.
+// Crease normals are those of src/import/x3d/faces.cpp: vectors/tessellation/creaseNormals.json holds both to that.
 
 import { triangulate } from "./earClipping.ts";
+import type { Vec3 } from "./vectors.ts";
+import { cross, dot } from "./vectors.ts";
 
-/** Values by number, three a vector or colour. */
+/** Attribute values that corners index; an empty list means that the geometry lacks the attribute. */
 export interface VertexData {
+  /** x, y and z of each. */
   readonly positions: readonly number[];
+  /** x, y and z of each. */
   readonly normals: readonly number[];
-  /** Two each. */
+  /** s and t of each. */
   readonly texCoords: readonly number[];
-  /** 3 or 4 a colour. */
+  /** `colorComponents` numbers each, 0 … 1. */
   readonly colors: readonly number[];
   readonly colorComponents: 3 | 4;
 }
 
-/** Numbers of values; -1 where there are none. */
+/** Indices into VertexData; -1 where the attribute is absent. */
 export interface Corner {
   readonly position: number;
   readonly normal: number;
@@ -24,7 +28,7 @@ export interface Corner {
 
 export interface VertexArrays {
   readonly primitive: "triangles" | "lines" | "points";
-  /** A record for each corner, which are drawn in order. */
+  /** One vertex for each corner, drawn in order, without an index. */
   readonly positions: Float32Array;
   readonly normals: Float32Array | undefined;
   readonly texCoords: Float32Array | undefined;
@@ -32,7 +36,7 @@ export interface VertexArrays {
   readonly colorComponents: 3 | 4;
 }
 
-/** Polygons as fans about their first corner. */
+/** The corners of triangles that cut each polygon into a fan about its first corner; right for convex polygons only. */
 export function fansOf(faces: readonly (readonly Corner[])[]): Corner[] {
   return faces.flatMap((face) =>
     face.slice(2).flatMap((corner, i) => {
@@ -42,19 +46,15 @@ export function fansOf(faces: readonly (readonly Corner[])[]): Corner[] {
   );
 }
 
-/** Polygons that may be concave. */
+/** The corners of triangles that cut polygons, concave ones included. */
 export function trianglesOf(positions: readonly number[], faces: readonly (readonly Corner[])[]): Corner[] {
   return faces.flatMap((face) => {
-    const ring = face.map(({ position }): readonly [number, number, number] => [
-      positions[3 * position] ?? 0,
-      positions[3 * position + 1] ?? 0,
-      positions[3 * position + 2] ?? 0,
-    ]);
-    return triangulate(ring).flatMap((place) => face[place] ?? []);
+    const ring = face.map(({ position }) => vectorAt(positions, position));
+    return triangulate(ring).flatMap((index) => face[index] ?? []);
   });
 }
 
-/** The lines of runs. */
+/** The two ends of each segment of polylines. */
 export function linesOf(runs: readonly (readonly Corner[])[]): Corner[] {
   return runs.flatMap((run) =>
     run.slice(1).flatMap((corner, i) => {
@@ -65,8 +65,9 @@ export function linesOf(runs: readonly (readonly Corner[])[]): Corner[] {
 }
 
 /**
- * Normals for faces without: each corner has the mean of the faces around its
- * position that are turned from its own by no more than `creaseAngle`, in radians.
+ * Computes normals: each corner gets the mean of the unit normals of those faces around its position whose normal
+ * deviates from its own face's by at most `creaseAngle`, in radians. A face without area adds nothing to the mean; a
+ * mean without direction becomes +z.
  */
 export function withCreasedNormals(
   data: VertexData,
@@ -74,48 +75,51 @@ export function withCreasedNormals(
   creaseAngle: number,
 ): { data: VertexData; faces: Corner[][] } {
   const faceNormals = faces.map((face) => newellNormal(data.positions, face));
-  const around = new Map<number, number[]>();
-  faces.forEach((face, number) => {
-    for (const { position } of face) around.set(position, [...(around.get(position) ?? []), number]);
-  });
-  const least = Math.cos(Math.min(creaseAngle, Math.PI)) - 1e-9;
+  const facesAround = new Map<number, number[]>();
+  for (const [faceIndex, face] of faces.entries()) {
+    for (const { position } of face) {
+      const around = facesAround.get(position);
+      if (around === undefined) facesAround.set(position, [faceIndex]);
+      else around.push(faceIndex);
+    }
+  }
+  const minCosine = Math.cos(Math.min(creaseAngle, Math.PI)) - 1e-9;
   const normals: number[] = [];
-  const creased = faces.map((face, number) =>
+  const creased = faces.map((face, faceIndex) =>
     face.map((corner) => {
-      const own = faceNormals[number] ?? [0, 0, 0];
-      const sum = [0, 0, 0];
-      for (const other of around.get(corner.position) ?? []) {
-        const normal = faceNormals[other] ?? [0, 0, 0];
-        if (other === number || dot(own, normal) >= least)
-          normal.forEach((value, axis) => {
-            sum[axis] = (sum[axis] ?? 0) + value;
-          });
+      const own = faceNormals[faceIndex] ?? zero;
+      let sum = zero;
+      for (const other of facesAround.get(corner.position) ?? []) {
+        const normal = faceNormals[other] ?? zero;
+        if (other === faceIndex || dot(own, normal) >= minCosine) sum = plus(sum, normal);
       }
-      normals.push(...unit(sum));
+      normals.push(...(hasDirection(sum) ? unit(sum) : plusZ));
       return { ...corner, normal: normals.length / 3 - 1 };
     }),
   );
   return { data: { ...data, normals }, faces: creased };
 }
 
-/** Where the document has no texture coordinates: over the box, s along its longest side and t along the next (ISO/IEC 19775-1, 13.3.6). */
+/**
+ * Adds X3D's default texture coordinates: s runs along the longest side of the bounding box, t along the next (ISO/IEC
+ * 19775-1, 13.3.6).
+ */
 export function withDefaultTexCoords(
   data: VertexData,
   faces: readonly (readonly Corner[])[],
 ): { data: VertexData; faces: Corner[][] } {
-  const along = (axis: number) => {
-    let [least, most] = [Infinity, -Infinity];
-    for (let at = axis; at < data.positions.length; at += 3) {
-      least = Math.min(least, data.positions[at] ?? 0);
-      most = Math.max(most, data.positions[at] ?? 0);
+  const rangeAlong = (axis: number) => {
+    let [min, max] = [Infinity, -Infinity];
+    for (let i = axis; i < data.positions.length; i += 3) {
+      min = Math.min(min, data.positions[i] ?? 0);
+      max = Math.max(max, data.positions[i] ?? 0);
     }
-    return { axis, least, extent: most - least };
+    return { axis, min, extent: max - min };
   };
-  const [s, t] = [0, 1, 2].map(along).sort((a, b) => b.extent - a.extent || a.axis - b.axis);
+  const [s, t] = [0, 1, 2].map(rangeAlong).sort((a, b) => b.extent - a.extent || a.axis - b.axis);
   const texCoords: number[] = [];
   for (let first = 0; s && t && first < data.positions.length; first += 3) {
-    for (const { axis, least } of [s, t])
-      texCoords.push(((data.positions[first + axis] ?? 0) - least) / (s.extent || 1));
+    for (const { axis, min } of [s, t]) texCoords.push(((data.positions[first + axis] ?? 0) - min) / (s.extent || 1));
   }
   return {
     data: { ...data, texCoords },
@@ -123,39 +127,48 @@ export function withDefaultTexCoords(
   };
 }
 
-function newellNormal(positions: readonly number[], face: readonly Corner[]): number[] {
-  const at = (corner: Corner | undefined, axis: number) => positions[3 * (corner?.position ?? 0) + axis] ?? 0;
-  const sum = [0, 0, 0];
-  face.forEach((corner, i) => {
-    const next = face[(i + 1) % face.length];
-    for (const axis of [0, 1, 2]) {
-      const [b, c] = [(axis + 1) % 3, (axis + 2) % 3];
-      sum[axis] = (sum[axis] ?? 0) + at(corner, b) * at(next, c) - at(corner, c) * at(next, b);
-    }
-  });
-  return unit(sum);
+/** The unit normal by Newell's method; zero for a face without area. */
+function newellNormal(positions: readonly number[], face: readonly Corner[]): Vec3 {
+  let sum = zero;
+  for (const [i, { position }] of face.entries()) {
+    const next = face[(i + 1) % face.length]?.position ?? position;
+    sum = plus(sum, cross(vectorAt(positions, position), vectorAt(positions, next)));
+  }
+  return hasDirection(sum) ? unit(sum) : zero;
 }
 
-function dot(a: readonly number[], b: readonly number[]): number {
-  return a.reduce((sum, value, axis) => sum + value * (b[axis] ?? 0), 0);
+const zero: Vec3 = [0, 0, 0];
+const plusZ: Vec3 = [0, 0, 1];
+
+function vectorAt(numbers: readonly number[], index: number): Vec3 {
+  return [numbers[3 * index] ?? 0, numbers[3 * index + 1] ?? 0, numbers[3 * index + 2] ?? 0];
 }
 
-function unit(vector: readonly number[]): number[] {
+function plus(a: Vec3, b: Vec3): Vec3 {
+  return [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+}
+
+function hasDirection(vector: Vec3): boolean {
   const length = Math.hypot(...vector);
-  return length > 0 ? vector.map((value) => value / length) : [0, 0, 1];
+  return length > 0 && Number.isFinite(length);
 }
 
-/** Undefined where a corner names what there is not. */
+function unit(vector: Vec3): Vec3 {
+  const length = Math.hypot(...vector);
+  return [vector[0] / length, vector[1] / length, vector[2] / length];
+}
+
+/** The vertex arrays of the corners, in order; undefined where a corner names a value that `data` lacks. */
 export function vertexArraysOf(
   primitive: VertexArrays["primitive"],
   data: VertexData,
   corners: readonly Corner[],
 ): VertexArrays | undefined {
   const { colorComponents } = data;
-  const take = (values: readonly number[], size: number, number: (corner: Corner) => number): number[] | undefined => {
+  const take = (values: readonly number[], size: number, indexOf: (corner: Corner) => number): number[] | undefined => {
     const taken: number[] = [];
     for (const corner of corners) {
-      const first = number(corner) * size;
+      const first = indexOf(corner) * size;
       if (first < 0 || first + size > values.length) return undefined;
       for (let i = 0; i < size; ++i) taken.push(values[first + i] ?? 0);
     }

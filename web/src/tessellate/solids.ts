@@ -1,17 +1,15 @@
-// X3D's Box, Sphere, Cylinder and Cone (ISO/IEC 19775-1, 13.3) as faces with normals and
-// texture coordinates.
+// X3D's Box, Sphere, Cylinder and Cone (ISO/IEC 19775-1, 13.3) as polygons with normals and texture coordinates.
 
 import type { Corner, VertexData } from "./faces.ts";
 
-/** Of round ones, around their axis; a whole circle in steps of 7.5 degrees. */
-const segments = 48;
+/** Segments around the axis of a round solid: steps of 7.5 degrees. */
+const segmentCount = 48;
 
 export interface Solid {
   readonly data: VertexData;
   readonly faces: Corner[][];
 }
 
-/** Where a corner is, where the surface looks there, and where it is on a texture. */
 interface SolidCorner {
   readonly position: readonly number[];
   readonly normal: readonly number[];
@@ -24,15 +22,15 @@ class SolidBuilder {
   readonly #texCoords: number[] = [];
   readonly #faces: Corner[][] = [];
 
-  /** Corners against the clock as seen from outside. */
+  /** Corners run counter-clockwise as seen from outside. */
   addFace(...corners: SolidCorner[]): void {
     this.#faces.push(
       corners.map(({ position, normal, texCoord }) => {
-        const number = this.#positions.length / 3;
+        const index = this.#positions.length / 3;
         this.#positions.push(...position);
         this.#normals.push(...normal);
         this.#texCoords.push(...texCoord);
-        return { position: number, normal: number, texCoord: number, color: -1 };
+        return { position: index, normal: index, texCoord: index, color: -1 };
       }),
     );
   }
@@ -49,7 +47,7 @@ class SolidBuilder {
   }
 }
 
-/** Of a box's sides: what they face, and where right and up of a texture lie (ISO/IEC 19775-1, 13.3.1). */
+/** A box's sides: the normal, and the directions of a texture's s and t axes (ISO/IEC 19775-1, 13.3.1). */
 const sides = [
   [
     [0, 0, 1],
@@ -99,27 +97,27 @@ export function box(size: readonly [number, number, number]): Solid {
   return builder.solid;
 }
 
-/** Around the y axis from behind, against the clock as seen from above: sine and cosine towards +x and +z. */
-function around(segment: number): readonly [x: number, z: number] {
-  const phi = (2 * Math.PI * segment) / segments;
+/** The unit direction of a segment in the xz plane: from -z on, counter-clockwise as seen from above. */
+function directionOf(segment: number): readonly [x: number, z: number] {
+  const phi = (2 * Math.PI * segment) / segmentCount;
   return [-Math.sin(phi), -Math.cos(phi)];
 }
 
 export function sphere(radius: number): Solid {
   const builder = new SolidBuilder();
-  const rings = segments / 2;
+  const rings = segmentCount / 2;
   const at = (ring: number, segment: number): SolidCorner => {
     const theta = (Math.PI * ring) / rings;
-    const [x, z] = around(segment);
+    const [x, z] = directionOf(segment);
     const normal = [Math.sin(theta) * x, Math.cos(theta), Math.sin(theta) * z];
     return {
       position: normal.map((value) => value * radius),
       normal,
-      texCoord: [segment / segments, 1 - ring / rings],
+      texCoord: [segment / segmentCount, 1 - ring / rings],
     };
   };
   for (let ring = 0; ring < rings; ++ring) {
-    for (let segment = 0; segment < segments; ++segment) {
+    for (let segment = 0; segment < segmentCount; ++segment) {
       const quad = [at(ring, segment), at(ring + 1, segment), at(ring + 1, segment + 1), at(ring, segment + 1)];
       if (ring === 0) quad.pop(); // both are the pole
       if (ring === rings - 1) quad.splice(2, 1);
@@ -135,7 +133,7 @@ export interface CylinderSurfaces {
   readonly bottom: boolean;
 }
 
-/** Along y around the origin; a cone has no radius at its top. */
+/** A cylinder, or a cone where `topRadius` is 0, along y and centred at the origin. */
 export function cylinderOrCone(
   topRadius: number,
   bottomRadius: number,
@@ -144,26 +142,26 @@ export function cylinderOrCone(
 ): Solid {
   const builder = new SolidBuilder();
   const slope = (bottomRadius - topRadius) / height;
-  const lean = Math.hypot(1, slope);
+  const normalLength = Math.hypot(1, slope);
   const [top, bottom] = [height / 2, -height / 2];
   const wall = (segment: number, y: number, radius: number): SolidCorner => {
-    const [x, z] = around(segment);
+    const [x, z] = directionOf(segment);
     return {
       position: [x * radius, y, z * radius],
-      normal: [x / lean, slope / lean, z / lean],
-      texCoord: [segment / segments, y / height + 0.5],
+      normal: [x / normalLength, slope / normalLength, z / normalLength],
+      texCoord: [segment / segmentCount, y / height + 0.5],
     };
   };
-  // The largest circle of the texture, upright for who leans over it.
-  const lid = (segment: number, y: number, radius: number, facing: 1 | -1): SolidCorner => {
-    const [x, z] = radius > 0 ? around(segment) : [0, 0];
+  // Caps show the largest circle inside the texture.
+  const cap = (segment: number, y: number, radius: number, facing: 1 | -1): SolidCorner => {
+    const [x, z] = radius > 0 ? directionOf(segment) : [0, 0];
     return {
       position: [x * radius, y, z * radius],
       normal: [0, facing, 0],
       texCoord: [0.5 + x / 2, 0.5 - (facing * z) / 2],
     };
   };
-  for (let segment = 0; segment < segments; ++segment) {
+  for (let segment = 0; segment < segmentCount; ++segment) {
     if (parts.side) {
       const quad = [
         wall(segment, bottom, bottomRadius),
@@ -173,12 +171,12 @@ export function cylinderOrCone(
       builder.addFace(...quad, ...(topRadius > 0 ? [wall(segment, top, topRadius)] : []));
     }
     if (parts.top && topRadius > 0)
-      builder.addFace(lid(0, top, 0, 1), lid(segment, top, topRadius, 1), lid(segment + 1, top, topRadius, 1));
+      builder.addFace(cap(0, top, 0, 1), cap(segment, top, topRadius, 1), cap(segment + 1, top, topRadius, 1));
     if (parts.bottom)
       builder.addFace(
-        lid(0, bottom, 0, -1),
-        lid(segment + 1, bottom, bottomRadius, -1),
-        lid(segment, bottom, bottomRadius, -1),
+        cap(0, bottom, 0, -1),
+        cap(segment + 1, bottom, bottomRadius, -1),
+        cap(segment, bottom, bottomRadius, -1),
       );
   }
   return builder.solid;
