@@ -1,4 +1,6 @@
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { describe, test } from "node:test";
 import type { GeometryDescription, Reference } from "./description.ts";
 import { shapesOf } from "./description.ts";
@@ -204,4 +206,11 @@ describe("geometry in the document", () => {
     assert.equal(read("<TriangleSet/>").geometry, undefined);
     assert.equal(read("<Text string='\"a\"'/>").geometry, undefined);
   });
+});
+
+test("the numbers that the importer refuses raise a warning", () => {
+  const file = join(import.meta.dirname, "../../../vectors/tessellation/refused.json");
+  for (const markup of JSON.parse(readFileSync(file, "utf8")) as string[]) {
+    assert.ok(read(markup).warnings > 0, markup);
+  }
 });

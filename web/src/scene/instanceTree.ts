@@ -1,7 +1,6 @@
-// The nodes of a scene where they stand, kept from one description of it to the
-// next. A description that is the same object as before, in the same place, is
-// passed over with all that is below it: what changes costs as much as it concerns,
-// and a look at its siblings and at those around it.
+// The tree of a scene's node instances, kept from one description of the scene to the next. A subtree is skipped where
+// its description is the same object as before and its inherited state has not changed, so that an update costs as much
+// as the changed nodes, their siblings and their ancestors.
 
 import { Matrix4, Vector3 } from "three";
 import { deepEqual } from "../document/deepEqual.ts";
@@ -14,11 +13,11 @@ import { emptySummary, NodeInstance } from "./nodeInstance.ts";
 import { mergeSummaries } from "./subtreeSummary.ts";
 import { matrixOf } from "./transforms.ts";
 
-/** Hears of every node what happens to it; of a parent before its children. */
+/** Is told what happens to each node, to a parent before its children. */
 export interface InstanceTreeListener {
   onEnter(node: NodeInstance): void;
-  /** It says something else, or stands elsewhere. */
-  onChange(node: NodeInstance, hasMoved: boolean, before: NodeDescription): void;
+  /** Its description or inherited state has changed; `hasMoved`: its transform too. */
+  onChange(node: NodeInstance, hasMoved: boolean, previous: NodeDescription): void;
   onLeave(node: NodeInstance): void;
 }
 
@@ -34,61 +33,62 @@ export class InstanceTree {
     );
   }
 
-  /** Describes the scene from now on. */
+  /** Makes the tree that of this description. */
   update(root: GroupDescription): this {
-    this.#follow(this.root, root, {
+    this.#updateNode(this.root, root, {
       sceneFromNode: this.root.inherited?.sceneFromNode ?? new Matrix4(),
-      isSeen: true,
-      contributesToBounds: true,
+      isVisible: true,
+      isUnbounded: true,
       lightScope: sceneScope,
     });
     return this;
   }
 
-  #follow(node: NodeInstance, description: NodeDescription, within: InheritedState): void {
-    const { description: before, inherited: withinBefore } = node;
-    if (before === description && withinBefore !== undefined && isSame(withinBefore, within)) return;
+  #updateNode(node: NodeInstance, description: NodeDescription, inherited: InheritedState): void {
+    const { description: previous, inherited: previouslyInherited } = node;
+    if (previous === description && previouslyInherited !== undefined && isSame(previouslyInherited, inherited)) return;
     const hasMoved =
-      withinBefore?.sceneFromNode !== within.sceneFromNode || !deepEqual(transformOf(before), transformOf(description));
+      previouslyInherited?.sceneFromNode !== inherited.sceneFromNode ||
+      !deepEqual(transformOf(previous), transformOf(description));
     node.description = description;
-    node.inherited = within;
-    if (hasMoved) node.sceneFromNode = placedIn(within.sceneFromNode, description);
-    node.lightScope = scopeOf(node, within.lightScope);
-    if (withinBefore === undefined) this.#listener?.onEnter(node);
-    else this.#listener?.onChange(node, hasMoved, before);
+    node.inherited = inherited;
+    if (hasMoved) node.sceneFromNode = childFrameOf(inherited.sceneFromNode, description);
+    node.lightScope = lightScopeOf(node, inherited.lightScope);
+    if (previouslyInherited === undefined) this.#listener?.onEnter(node);
+    else this.#listener?.onChange(node, hasMoved, previous);
     node.summary =
-      description.kind === "group" ? this.#followChildren(node, description, within) : reachOf(node, within);
+      description.kind === "group" ? this.#updateChildren(node, description, inherited) : leafSummary(node, inherited);
   }
 
-  #followChildren(
+  #updateChildren(
     node: NodeInstance,
     group: GroupDescription,
-    { isSeen, contributesToBounds: counts, lightScope: around }: InheritedState,
+    { isVisible, isUnbounded, lightScope: scopeAround }: InheritedState,
   ): SubtreeSummary {
     const { sceneFromNode } = node;
-    const isGroupSeen = isSeen && group.visible;
-    node.box = isGroupSeen && group.box ? transformedBox(sceneFromNode, group.box) : undefined;
-    const inner: InheritedState = {
+    const isGroupVisible = isVisible && group.visible;
+    node.box = isGroupVisible && group.box ? transformedBox(sceneFromNode, group.box) : undefined;
+    const childState: InheritedState = {
       sceneFromNode,
-      isSeen: isGroupSeen,
-      contributesToBounds: counts && node.box === undefined,
+      isVisible: isGroupVisible,
+      isUnbounded: isUnbounded && node.box === undefined,
       lightScope: node.lightScope,
     };
-    const { kept, gone } = matched(node, group.children);
-    for (const child of gone) this.#leave(child);
+    const { kept, removed } = matchChildren(node, group.children);
+    for (const child of removed) this.#leave(child);
     node.children = kept;
-    kept.forEach((child, place) => {
-      this.#follow(child, group.children[place] ?? child.description, inner);
+    kept.forEach((child, index) => {
+      this.#updateNode(child, group.children[index] ?? child.description, childState);
     });
-    const reach = mergeSummaries(kept, {
-      box: counts && node.box && isDrawable(node.box) ? node.box : undefined,
+    const summary = mergeSummaries(kept, {
+      box: isUnbounded && node.box && isDrawable(node.box) ? node.box : undefined,
       boundedGroups: node.box ? [node] : [],
-      anchors: group.anchor && isGroupSeen ? [group.anchor] : [],
+      anchors: group.anchor && isGroupVisible ? [group.anchor] : [],
       billboards: group.billboardAxis ? [node] : [],
-      lightScopes: node.lightScope === around ? [] : [node.lightScope],
-      lods: group.lod && isGroupSeen ? [{ ...group.lod, sceneFromLod: sceneFromNode }] : [],
+      lightScopes: node.lightScope === scopeAround ? [] : [node.lightScope],
+      lods: group.lod && isGroupVisible ? [{ ...group.lod, sceneFromLod: sceneFromNode }] : [],
     });
-    return group.billboardAxis ? reachOfTurns(reach, sceneFromNode) : reach;
+    return group.billboardAxis ? rotatingSummary(summary, sceneFromNode) : summary;
   }
 
   #leave(node: NodeInstance): void {
@@ -100,37 +100,40 @@ export class InstanceTree {
 function isSame(a: InheritedState, b: InheritedState): boolean {
   return (
     a.sceneFromNode === b.sceneFromNode &&
-    a.isSeen === b.isSeen &&
-    a.contributesToBounds === b.contributesToBounds &&
+    a.isVisible === b.isVisible &&
+    a.isUnbounded === b.isUnbounded &&
     a.lightScope === b.lightScope
   );
 }
 
-/** A group with lights of its own has a scope of its own, the same as long as it has any. What is outermost in a scene is in it all. */
-function scopeOf({ description, lightScope: before, parent }: NodeInstance, around: LightScope): LightScope {
+/**
+ * A group with lights that are not global has a scope of its own, kept while it has such lights. Lights of the root
+ * light the whole scene.
+ */
+function lightScopeOf({ description, lightScope: previous, parent }: NodeInstance, around: LightScope): LightScope {
   if (parent === undefined || description.kind !== "group" || !description.children.some(isScopedLight)) return around;
-  return before.parent === around ? before : new LightScope(around);
+  return previous.parent === around ? previous : new LightScope(around);
 }
 
-/** What tells how a group stands in that around it. */
+/** The fields that a group's own transform depends on. */
 function transformOf(description: NodeDescription): unknown {
   return description.kind === "group" ? (description.transform ?? description.billboardAxis) : undefined;
 }
 
-function placedIn(sceneFromParent: Matrix4, description: NodeDescription): Matrix4 {
+function childFrameOf(sceneFromParent: Matrix4, description: NodeDescription): Matrix4 {
   if (description.kind !== "group") return sceneFromParent;
   if (description.transform) return sceneFromParent.clone().multiply(matrixOf(description.transform));
-  return description.billboardAxis ? sceneFromParent.clone() : sceneFromParent; // who draws it turns it further
+  return description.billboardAxis ? sceneFromParent.clone() : sceneFromParent; // the renderer rotates it for each view
 }
 
-function reachOf(
+function leafSummary(
   { description, sceneFromNode }: NodeInstance,
-  { isSeen, contributesToBounds: counts, lightScope }: InheritedState,
+  { isVisible, isUnbounded, lightScope }: InheritedState,
 ): SubtreeSummary {
   switch (description.kind) {
     case "shape": {
       const box =
-        description.box && description.contributesToBounds && counts
+        description.box && description.contributesToBounds && isUnbounded
           ? transformedBox(sceneFromNode, description.box)
           : undefined;
       return box && isDrawable(box) ? { ...emptySummary, box } : emptySummary;
@@ -143,19 +146,22 @@ function reachOf(
         ],
       };
     case "light":
-      return description.light.on && isSeen
-        ? { ...emptySummary, lights: [placedLight(description.light, sceneFromNode, lightScope)] }
+      return description.light.on && isVisible
+        ? { ...emptySummary, lights: [lightInstance(description.light, sceneFromNode, lightScope)] }
         : emptySummary;
     case "group":
       return emptySummary;
   }
 }
 
-/** Of what turns about its origin: no box in it stays where it is. */
-function reachOfTurns(reach: SubtreeSummary, sceneFromNode: Matrix4): SubtreeSummary {
+/**
+ * The summary of a billboard, whose bounds cover every rotation about its origin; boxes inside it have no fixed
+ * position.
+ */
+function rotatingSummary(summary: SubtreeSummary, sceneFromNode: Matrix4): SubtreeSummary {
   return {
-    ...reach,
-    box: reach.box && boxOfAllRotations(reach.box, new Vector3().setFromMatrixPosition(sceneFromNode)),
+    ...summary,
+    box: summary.box && boxOfAllRotations(summary.box, new Vector3().setFromMatrixPosition(sceneFromNode)),
     boundedGroups: [],
   };
 }
@@ -164,67 +170,71 @@ function isScopedLight(description: NodeDescription): boolean {
   return description.kind === "light" && !description.light.global;
 }
 
-function placedLight(light: LightDescription, sceneFromLight: Matrix4, around: LightScope): LightInstance {
+function lightInstance(light: LightDescription, sceneFromLight: Matrix4, around: LightScope): LightInstance {
   return { light, sceneFromLight, scope: light.global ? sceneScope : around };
 }
 
-/** For each description the child that was it before: the same object, the shape of its element, or a group that stood there. */
-function matched(
+/**
+ * Finds for each description the child that had it before: one with the same description object, else a shape of the
+ * same element or another node of the same kind, else a new one.
+ */
+function matchChildren(
   parent: NodeInstance,
   descriptions: readonly NodeDescription[],
-): { kept: NodeInstance[]; gone: readonly NodeInstance[] } {
+): { kept: NodeInstance[]; removed: readonly NodeInstance[] } {
   const { children } = parent;
   let begin = 0;
   while (begin < children.length && children[begin]?.description === descriptions[begin]) begin += 1;
   let end = 0;
-  const most = Math.min(children.length, descriptions.length) - begin;
-  while (end < most && children.at(-1 - end)?.description === descriptions.at(-1 - end)) end += 1;
-  const others = new Others(children.slice(begin, children.length - end));
+  const maxEnd = Math.min(children.length, descriptions.length) - begin;
+  while (end < maxEnd && children.at(-1 - end)?.description === descriptions.at(-1 - end)) end += 1;
+  const unmatched = new UnmatchedChildren(children.slice(begin, children.length - end));
   const middle = descriptions.slice(begin, descriptions.length - end);
-  const same = middle.map((description) => others.takeSame(description));
+  const same = middle.map((description) => unmatched.takeSame(description));
   const between = middle.map(
-    (description, place) => same[place] ?? others.takeKin(description) ?? new NodeInstance(description, parent),
+    (description, index) => same[index] ?? unmatched.takeSimilar(description) ?? new NodeInstance(description, parent),
   );
   return {
     kept: [...children.slice(0, begin), ...between, ...children.slice(children.length - end)],
-    gone: others.rest,
+    removed: unmatched.rest,
   };
 }
 
-/** Nodes that wait for what has become of them. */
-class Others {
-  readonly #waiting: Set<NodeInstance>;
+/** Children whose new descriptions are not known yet. */
+class UnmatchedChildren {
+  readonly #remaining: Set<NodeInstance>;
   readonly #byDescription: ReadonlyMap<NodeDescription, NodeInstance>;
-  readonly #byKin = new Map<unknown, NodeInstance[]>();
+  readonly #byIdentity = new Map<unknown, NodeInstance[]>();
 
   constructor(nodes: readonly NodeInstance[]) {
-    this.#waiting = new Set(nodes);
+    this.#remaining = new Set(nodes);
     this.#byDescription = new Map(nodes.map((node) => [node.description, node]));
     for (const node of nodes.toReversed()) {
-      const kin = kinOf(node.description);
-      const known = this.#byKin.get(kin);
-      if (known === undefined) this.#byKin.set(kin, [node]);
+      const identity = identityOf(node.description);
+      const known = this.#byIdentity.get(identity);
+      if (known === undefined) this.#byIdentity.set(identity, [node]);
       else known.push(node);
     }
   }
 
   get rest(): readonly NodeInstance[] {
-    return Array.from(this.#waiting);
+    return Array.from(this.#remaining);
   }
 
   takeSame(description: NodeDescription): NodeInstance | undefined {
     const node = this.#byDescription.get(description);
-    return node !== undefined && this.#waiting.delete(node) ? node : undefined;
+    return node !== undefined && this.#remaining.delete(node) ? node : undefined;
   }
 
-  takeKin(description: NodeDescription): NodeInstance | undefined {
-    const kin = this.#byKin.get(kinOf(description));
-    for (let node = kin?.pop(); node !== undefined; node = kin?.pop()) if (this.#waiting.delete(node)) return node;
+  takeSimilar(description: NodeDescription): NodeInstance | undefined {
+    const similar = this.#byIdentity.get(identityOf(description));
+    for (let node = similar?.pop(); node !== undefined; node = similar?.pop())
+      if (this.#remaining.delete(node)) return node;
     return undefined;
   }
 }
 
-/** The same for nodes one of which may become the other. */
-function kinOf(description: NodeDescription): unknown {
+/** Equal for nodes whose instances may be reused for one another. */
+function identityOf(description: NodeDescription): unknown {
   return description.kind === "shape" ? description.element : description.kind;
 }

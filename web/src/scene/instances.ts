@@ -13,18 +13,17 @@ import type { LightScope } from "./lightScope.ts";
 export interface ShapeInstance {
   readonly shape: ShapeDescription;
   readonly sceneFromShape: Matrix4;
-  /** The innermost that it stands in. */
+  /** The innermost one around it. */
   readonly lightScope: LightScope;
 }
 
 export interface LightInstance {
   readonly light: LightDescription;
   readonly sceneFromLight: Matrix4;
-  /** What it shines on. */
+  /** It lights what stands in this scope. */
   readonly scope: LightScope;
 }
 
-/** A LOD in one of its places. */
 export interface LodInstance extends LodDescription {
   readonly sceneFromLod: Matrix4;
 }
@@ -32,6 +31,5 @@ export interface LodInstance extends LodDescription {
 export interface ViewpointInstance {
   readonly element: SceneElement;
   readonly viewpoint: ViewpointDescription;
-  /** Of the transforms around it. */
   readonly sceneFromViewpoint: Matrix4;
 }

@@ -1,24 +1,22 @@
-// What lights reach (ISO/IEC 19775-1, 17.2.1.2): one that is not global shines on
-// what stands in its group, at any depth, and on nothing else.
+// Scopes of lights (ISO/IEC 19775-1, 17.2.1.2): a light that is not global lights its group's descendants only.
 //
-// A group with such lights is a scope. Scopes are numbered in document order, each
-// before those in it, so that a scope and all in it are an interval of numbers: of
-// what is drawn the innermost scope's number is enough, of a light the interval's
-// two ends, however many scopes there are.
+// A group with such lights is a scope. Scopes are numbered in document order, each before the scopes inside it, so that
+// a scope and its descendants form an interval of numbers. A drawn object needs the number of its innermost scope only,
+// and a light the two ends of its interval, however many scopes there are.
 
 export class LightScope {
-  /** Undefined of the whole scene. */
+  /** Undefined for the scope of the whole scene. */
   readonly parent: LightScope | undefined;
-  /** Its number, as a uniform has it; of the whole scene 0. */
+  /** Its number, 0 for the whole scene; named `value` because shaders take the object as their uniform. */
   value = 0;
-  /** The number of the last scope in it; its own where there is none. */
+  /** The number of the last scope inside it; its own where there is none. */
   last = 0;
 
-  constructor(around: LightScope | undefined) {
-    this.parent = around;
+  constructor(parent: LightScope | undefined) {
+    this.parent = parent;
   }
 
-  /** Whether it is the other one or has it in it. */
+  /** Whether `other` is this scope or a descendant of it. */
   contains(other: LightScope): boolean {
     for (let scope: LightScope | undefined = other; scope !== undefined; scope = scope.parent)
       if (scope === this) return true;
@@ -26,21 +24,21 @@ export class LightScope {
   }
 }
 
-/** That of global lights, and of what stands in no scope. */
+/** The scope of global lights, and of objects that stand in no other scope. */
 export const sceneScope = new LightScope(undefined);
 sceneScope.last = Infinity;
 
-/** Numbers all scopes of a scene but `everywhere`, which come in document order; whether one has another number than before. */
+/** Numbers all scopes of a scene except `sceneScope`, given in document order; returns whether a number has changed. */
 export function numberLightScopes(scopes: readonly LightScope[]): boolean {
-  let isOther = false;
-  const lasts = new Map<LightScope, number>();
+  let hasChanged = false;
+  const lastOf = new Map<LightScope, number>();
   for (const [i, scope] of Array.from(scopes.entries()).reverse()) {
     const number = i + 1;
-    const last = lasts.get(scope) ?? number;
-    if (scope.parent !== undefined) lasts.set(scope.parent, Math.max(lasts.get(scope.parent) ?? 0, last));
-    isOther ||= scope.value !== number || scope.last !== last;
+    const last = lastOf.get(scope) ?? number;
+    if (scope.parent !== undefined) lastOf.set(scope.parent, Math.max(lastOf.get(scope.parent) ?? 0, last));
+    hasChanged ||= scope.value !== number || scope.last !== last;
     scope.value = number;
     scope.last = last;
   }
-  return isOther;
+  return hasChanged;
 }

@@ -1,9 +1,9 @@
-// Which level of a LOD is seen (ISO/IEC 19775-1, 23.4.3): level i from range[i - 1] on.
+// The level of a LOD for a distance (ISO/IEC 19775-1, 23.4.3): level i begins at range[i - 1].
 
-/** A level is left only so much beyond its bounds, so that nobody on a bound sees it flicker. */
-const slack = 0.05;
+/** Relative hysteresis: the level changes only so far beyond a bound, so that it does not flicker there. */
+const hysteresis = 0.05;
 
-/** `current`: the level that is seen now. Without a range the first of `count` levels is. */
+/** `current` is the level shown now. An empty range gives level 0. */
 export function lodLevelAt(
   distance: number,
   range: readonly number[],
@@ -12,6 +12,6 @@ export function lodLevelAt(
 ): number {
   const plain = (at: number) => Math.min(range.filter((bound) => bound <= at).length, count - 1);
   if (current === undefined) return plain(distance);
-  const [nearest, farthest] = [plain(distance * (1 - slack)), plain(distance * (1 + slack))];
+  const [nearest, farthest] = [plain(distance * (1 - hysteresis)), plain(distance * (1 + hysteresis))];
   return Math.min(Math.max(current, nearest), farthest);
 }

@@ -1,4 +1,4 @@
-// Which level each LOD of a scene shows, by where the viewer is.
+// Selects the level of each LOD in a scene by the viewer's distance.
 
 import type { Vector3 } from "three";
 import { Matrix4 } from "three";
@@ -7,42 +7,39 @@ import { lodLevelAt } from "./lodLevel.ts";
 import type { LodInstance } from "./instances.ts";
 
 export class LodSelection {
-  #chosen = new Map<SceneElement, number>();
+  #levels = new Map<SceneElement, number>();
 
-  /** Undefined until the viewer has been near it. */
+  /** Undefined before the first update with this LOD. */
   levelOf(lod: SceneElement): number | undefined {
-    return this.#chosen.get(lod);
+    return this.#levels.get(lod);
   }
 
-  /** One that stands in several places shows what the nearest of them needs. Those of which another level is to be seen than before. */
-  update(placed: readonly LodInstance[], viewer: Vector3): readonly SceneElement[] {
-    const nearest = new Map<SceneElement, { levels: LodInstance; distance: number }>();
-    for (const levels of placed) {
-      const distance = distanceFrom(levels, viewer);
-      if (distance < (nearest.get(levels.element)?.distance ?? Infinity))
-        nearest.set(levels.element, { levels, distance });
+  /**
+   * Selects levels anew and returns the LODs whose level changes. A LOD with several instances shows the level that the
+   * nearest one needs.
+   */
+  update(lods: readonly LodInstance[], viewer: Vector3): readonly SceneElement[] {
+    const nearest = new Map<SceneElement, { lod: LodInstance; distance: number }>();
+    for (const lod of lods) {
+      const distance = distanceFrom(lod, viewer);
+      if (distance < (nearest.get(lod.element)?.distance ?? Infinity)) nearest.set(lod.element, { lod, distance });
     }
     const changed: SceneElement[] = [];
-    for (const [
-      element,
-      {
-        levels: { range, levelCount: count },
-        distance,
-      },
-    ] of nearest) {
-      const before = this.#chosen.get(element);
-      const level = lodLevelAt(distance, range, count, before);
-      // Unknown ones show their last.
-      if (level !== (before ?? count - 1)) changed.push(element);
-      this.#chosen.set(element, level);
+    for (const [element, { lod, distance }] of nearest) {
+      const { range, levelCount } = lod;
+      const previous = this.#levels.get(element);
+      const level = lodLevelAt(distance, range, levelCount, previous);
+      // A LOD that has not been selected for shows its last level.
+      if (level !== (previous ?? levelCount - 1)) changed.push(element);
+      this.#levels.set(element, level);
     }
     return changed;
   }
 }
 
-/** In the coordinates of the LOD, which `range` is in; infinite in one without extent. */
-function distanceFrom({ sceneFromLod: sceneFromLevels, center: [x, y, z] }: LodInstance, viewer: Vector3): number {
-  if (sceneFromLevels.determinant() === 0) return Infinity;
-  const { x: ownX, y: ownY, z: ownZ } = viewer.clone().applyMatrix4(new Matrix4().copy(sceneFromLevels).invert());
+/** The distance in the LOD's own coordinates, which `range` is in; infinite under a singular transform. */
+function distanceFrom({ sceneFromLod, center: [x, y, z] }: LodInstance, viewer: Vector3): number {
+  if (sceneFromLod.determinant() === 0) return Infinity;
+  const { x: ownX, y: ownY, z: ownZ } = viewer.clone().applyMatrix4(new Matrix4().copy(sceneFromLod).invert());
   return Math.hypot(ownX - x, ownY - y, ownZ - z);
 }

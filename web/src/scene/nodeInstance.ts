@@ -7,22 +7,22 @@ import type { LightInstance, LodInstance, ViewpointInstance } from "./instances.
 import type { LightScope } from "./lightScope.ts";
 import { sceneScope } from "./lightScope.ts";
 
-/** Lists are in document order. */
+/** What a subtree adds to its scene; lists are in document order. */
 export interface SubtreeSummary {
-  /** Around what is seen of it, in the scene's coordinates; undefined where nothing is. */
+  /** Bounds in scene coordinates of what is visible; undefined where nothing is. */
   readonly box: Box3 | undefined;
-  /** Those that shine. */
+  /** Those that are on and visible. */
   readonly lights: readonly LightInstance[];
   readonly viewpoints: readonly ViewpointInstance[];
-  /** Those that are seen. */
+  /** Visible ones. */
   readonly lods: readonly LodInstance[];
-  /** Groups that are seen and tell their boxes. */
+  /** Visible groups that have a box. */
   readonly boundedGroups: readonly NodeInstance[];
-  /** Those that are seen. */
+  /** Visible ones. */
   readonly anchors: readonly AnchorDescription[];
-  /** Each before those in it. */
+  /** Each before the ones inside it. */
   readonly billboards: readonly NodeInstance[];
-  /** Groups that lights shine in, and nowhere else; each before those in it. */
+  /** Scopes of lights that are not global; each before the ones inside it. */
   readonly lightScopes: readonly LightScope[];
 }
 
@@ -38,30 +38,30 @@ export const emptySummary: SubtreeSummary = {
   lightScopes: none,
 };
 
-/** What a node is told by those around it. */
+/** What a node inherits from the groups around it. */
 export interface InheritedState {
   readonly sceneFromNode: Matrix4;
-  readonly isSeen: boolean;
-  /** No group around it has told its box. */
-  readonly contributesToBounds: boolean;
-  /** The innermost that it stands in. */
+  readonly isVisible: boolean;
+  /** No group around it has a box, so that its own bounds count. */
+  readonly isUnbounded: boolean;
+  /** The innermost one around it. */
   readonly lightScope: LightScope;
 }
 
-/** A node in one of its places. */
+/** One occurrence of a node in the scene. */
 export class NodeInstance {
   readonly parent: NodeInstance | undefined;
-  /** As it was described last. */
+  /** The latest one. */
   description: NodeDescription;
-  /** Of a group, that of its children. Another object where it has become another. */
+  /** For a group: its children's frame. Replaced, never changed in place. */
   sceneFromNode = new Matrix4();
   children: readonly NodeInstance[] = [];
-  /** Of a group that is seen and tells it, in the scene's coordinates. */
+  /** In scene coordinates; only for a visible group whose description has a box. */
   box: Box3 | undefined;
-  /** The innermost that it stands in. Of a group, that of its children. */
+  /** The innermost scope around it; for a group: around its children. */
   lightScope = sceneScope;
   summary: SubtreeSummary = emptySummary;
-  /** Undefined where nothing has been told yet. */
+  /** Undefined before the first update. */
   inherited: InheritedState | undefined;
 
   constructor(description: NodeDescription, parent: NodeInstance | undefined) {

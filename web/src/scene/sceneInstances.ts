@@ -1,6 +1,5 @@
-// Where everything in a scene stands, in the scene's coordinates, and how far the
-// scene reaches: what the camera must know before anything is drawn, and the same
-// for whoever draws.
+// The instances of a scene's nodes with their transforms, and the scene's bounds: what cameras and renderers start
+// from.
 
 import { Box3 } from "three";
 import type { SceneDescription } from "../document/description.ts";
@@ -8,21 +7,20 @@ import type { LightInstance, LodInstance, ShapeInstance, ViewpointInstance } fro
 import { InstanceTree } from "./instanceTree.ts";
 import type { NodeInstance } from "./nodeInstance.ts";
 
-/** All in document order. */
+/** Lists are in document order. */
 export interface SceneInstances {
-  /** Of the boxes of all shapes that are seen. */
+  /** Bounds of all visible shapes; empty where there are none. */
   readonly box: Box3;
-  /** Once for each place where one stands. */
   readonly shapes: readonly ShapeInstance[];
-  /** Those that shine. */
+  /** Those that are on and visible. */
   readonly lights: readonly LightInstance[];
   readonly viewpoints: readonly ViewpointInstance[];
-  /** Those that are seen. */
+  /** Visible ones. */
   readonly lods: readonly LodInstance[];
   readonly billboards: readonly NodeInstance[];
 }
 
-/** Of a scene that nobody follows. */
+/** Reads a scene once; InstanceTree follows a scene that changes. */
 export function instancesOf(scene: SceneDescription): SceneInstances {
   const { root } = new InstanceTree().update(scene.root);
   const { box, lights, viewpoints, lods: levels, billboards } = root.summary;

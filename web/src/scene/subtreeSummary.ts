@@ -1,4 +1,4 @@
-// What a part of a scene brings into the whole of it: the sum of what its parts bring.
+// Merges the summaries of subtrees into that of the group around them.
 
 import type { Box3 } from "three";
 import type { LightInstance, ViewpointInstance } from "./instances.ts";
@@ -7,44 +7,47 @@ import { emptySummary } from "./nodeInstance.ts";
 
 const none: readonly never[] = [];
 
-/** Of these together, and of what the group around them brings itself. One pass: there may be ten thousand. */
+/**
+ * The summary of a group with these children and `own`, what the group adds itself. One pass: a group may have ten
+ * thousand children.
+ */
 export function mergeSummaries(
-  parts: readonly NodeInstance[],
+  children: readonly NodeInstance[],
   own: Pick<SubtreeSummary, "box" | "lods" | "boundedGroups" | "anchors" | "billboards" | "lightScopes">,
 ): SubtreeSummary {
   let union: Box3 | undefined;
-  const lights = new Gathered<LightInstance>(),
-    viewpoints = new Gathered<ViewpointInstance>();
-  const levels = new Gathered(own.lods),
-    bounded = new Gathered(own.boundedGroups);
-  const anchors = new Gathered(own.anchors),
-    billboards = new Gathered(own.billboards),
-    scopes = new Gathered(own.lightScopes);
-  for (const { summary: reach } of parts) {
-    if (reach === emptySummary) continue;
-    if (reach.box && own.box === undefined) union = union?.union(reach.box) ?? reach.box.clone();
-    lights.add(reach.lights);
-    viewpoints.add(reach.viewpoints);
-    levels.add(reach.lods);
-    bounded.add(reach.boundedGroups);
-    anchors.add(reach.anchors);
-    billboards.add(reach.billboards);
-    scopes.add(reach.lightScopes);
+  const lights = new ConcatenatedList<LightInstance>(),
+    viewpoints = new ConcatenatedList<ViewpointInstance>();
+  const lods = new ConcatenatedList(own.lods),
+    boundedGroups = new ConcatenatedList(own.boundedGroups);
+  const anchors = new ConcatenatedList(own.anchors),
+    billboards = new ConcatenatedList(own.billboards),
+    lightScopes = new ConcatenatedList(own.lightScopes);
+  for (const { summary } of children) {
+    if (summary === emptySummary) continue;
+    if (summary.box && own.box === undefined) union = union?.union(summary.box) ?? summary.box.clone();
+    lights.add(summary.lights);
+    viewpoints.add(summary.viewpoints);
+    lods.add(summary.lods);
+    boundedGroups.add(summary.boundedGroups);
+    anchors.add(summary.anchors);
+    billboards.add(summary.billboards);
+    lightScopes.add(summary.lightScopes);
   }
   return {
     box: own.box ?? union,
     lights: lights.all,
     viewpoints: viewpoints.all,
-    lods: levels.all,
-    boundedGroups: bounded.all,
+    lods: lods.all,
+    boundedGroups: boundedGroups.all,
     anchors: anchors.all,
     billboards: billboards.all,
-    lightScopes: scopes.all,
+    lightScopes: lightScopes.all,
   };
 }
 
-/** Lists one after the other; the only one that has anything in it stays as it is. */
-class Gathered<Item> {
+/** Concatenates lists; copies none of them while only one has items. */
+class ConcatenatedList<Item> {
   #all: readonly Item[];
   #own: Item[] | undefined;
 

@@ -1,21 +1,21 @@
-// Matrices of Transforms, and boxes through them.
+// Matrices of X3D Transforms and of quantized geometry.
 
 import { Matrix4, Quaternion, Vector3 } from "three";
 import type { GeometryDescription, PatchDescription, Rotation, TransformDescription } from "../document/description.ts";
 import { dequantizationOf } from "../document/dequantization.ts";
 
-/** How much longer lengths become, on the average of all directions; 1 where they vanish. */
+/** The mean factor by which a matrix scales lengths; 1 for a singular matrix. */
 export function lengthScaleOf(matrix: Matrix4): number {
   return Math.cbrt(Math.abs(matrix.determinant())) || 1;
 }
 
-/** Places the lattice: stored integers -> the shape's coordinates. */
+/** Maps stored integers to shape coordinates. */
 export function shapeFromStoredOf(geometry: GeometryDescription, patch: PatchDescription): Matrix4 {
   const { origin, step } = dequantizationOf(geometry, patch);
   return new Matrix4().makeScale(...step).setPosition(...origin);
 }
 
-/** X3D Transform: T C R SR S -SR -C (ISO/IEC 19775-1, 10.4.4). */
+/** The matrix of an X3D Transform: T C R SR S -SR -C (ISO/IEC 19775-1, 10.4.4). */
 export function matrixOf(transform: TransformDescription): Matrix4 {
   const { translation, center, rotation, scaleOrientation, scale } = transform;
   const turn = rotationOf(rotation);

@@ -9,7 +9,10 @@ import { cross, dot, minus, rotated, unit } from "./vectors.ts";
 /** The x, y and z axes of a cross-section's plane, whose normal is y. */
 type Frame = readonly [Vec3, Vec3, Vec3];
 
-/** The fields of an Extrusion node: 2D points, points, 2D scales, and rotations (axis and angle), one number after the other. */
+/**
+ * The fields of an Extrusion node: 2D points, points, 2D scales, and rotations (axis and angle), one number after the
+ * other.
+ */
 export interface ExtrusionFields {
   readonly crossSection: readonly number[];
   readonly spine: readonly number[];
@@ -50,7 +53,9 @@ function vectorsOf(numbers: readonly number[], size: number): number[][] {
 }
 
 function pointInFrame([x, y, z]: Frame, point: Vec3, origin: Vec3): number[] {
-  return [0, 1, 2].map((i) => (origin[i] ?? 0) + (x[i] ?? 0) * point[0] + (y[i] ?? 0) * point[1] + (z[i] ?? 0) * point[2]);
+  return [0, 1, 2].map(
+    (i) => (origin[i] ?? 0) + (x[i] ?? 0) * point[0] + (y[i] ?? 0) * point[1] + (z[i] ?? 0) * point[2],
+  );
 }
 
 function isClosed(first: readonly number[] | undefined, last: readonly number[] | undefined): boolean {
@@ -64,7 +69,9 @@ function framesAlong(spine: readonly Vec3[]): Frame[] {
   const at = (i: number) =>
     spine[closed ? (i + count - 1) % (count - 1) : Math.min(Math.max(i, 0), count - 1)] ?? origin;
   const tangents = withGapsFilled(spine.map((_, i) => unit(minus(at(i + 1), at(i - 1)))));
-  const bendNormals = withGapsFilled(spine.map((_, i) => unit(cross(minus(at(i + 1), at(i)), minus(at(i - 1), at(i))))));
+  const bendNormals = withGapsFilled(
+    spine.map((_, i) => unit(cross(minus(at(i + 1), at(i)), minus(at(i - 1), at(i))))),
+  );
   if (tangents === undefined)
     return spine.map(() => [
       [1, 0, 0],
@@ -82,7 +89,10 @@ function framesAlong(spine: readonly Vec3[]): Frame[] {
   });
 }
 
-/** Replaces a missing vector by the one before it, or by the first where none is before. Undefined where all are missing. */
+/**
+ * Replaces a missing vector by the one before it, or by the first where none is before. Undefined where all are
+ * missing.
+ */
 function withGapsFilled(vectors: readonly (Vec3 | undefined)[]): Vec3[] | undefined {
   let previous = vectors.find((vector) => vector !== undefined);
   if (previous === undefined) return undefined;
@@ -111,7 +121,10 @@ class FaceBuilder {
     this.#positions = [...positions];
   }
 
-  /** The quadrilaterals between rows. Where a curve is closed its ends share positions, so that the surface is smooth there. */
+  /**
+   * The quadrilaterals between rows. Where a curve is closed its ends share positions, so that the surface is smooth
+   * there.
+   */
   addSides(): void {
     const [rows, columns] = [this.#spine.length, this.#section.length];
     const ringClosed = columns > 2 && isClosed(this.#section[0], this.#section[columns - 1]);
