@@ -18,7 +18,7 @@ import {
   soon,
 } from "./delivery.testing.ts";
 import type { PatchFile } from "./patchFiles.ts";
-import { patchFilesOf } from "./patchFiles.ts";
+import { deliveryOf } from "./encodings/encodings.ts";
 
 /** At the origin, looking along -z with 90 degrees and 1000 pixels both ways. */
 const camera: Camera = {
@@ -37,7 +37,7 @@ function demandAt(geometry: GeometryDescription, matrix: Matrix, content = 1): F
 /** The parts of the first patch that are wanted, most important first. */
 function wanted(geometry: GeometryDescription, demand: FilePriority): string[] {
   const [patch] = geometry.patches;
-  return (patch ? patchFilesOf(geometry, patch) : [])
+  return (patch ? deliveryOf(geometry).patchFilesOf(geometry, patch, 4096) : [])
     .map((part) => ({ name: `${part.role}${part.plane || ""}`, priority: demand(0, part) }))
     .filter(({ priority }) => priority !== undefined)
     .sort((a, b) => (b.priority ?? 0) - (a.priority ?? 0))
@@ -45,7 +45,7 @@ function wanted(geometry: GeometryDescription, demand: FilePriority): string[] {
 }
 
 function firstPart(geometry: GeometryDescription): PatchFile {
-  const [part] = geometry.patches.flatMap((each) => patchFilesOf(geometry, each));
+  const [part] = geometry.patches.flatMap((each) => deliveryOf(geometry).patchFilesOf(geometry, each, 4096));
   assert.ok(part);
   return part;
 }

@@ -9,12 +9,10 @@ import type { BudgetRequest } from "../scheduler/budget.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
 import type { PatchFile } from "./patchFiles.ts";
-import { bytesPerTexel, patchFilesOf } from "./patchFiles.ts";
+import { bytesPerTexel } from "./patchFiles.ts";
 import type { Transfer } from "./progress.ts";
-import type { Content, ContentKind, ResourceHandle, ResourcePool } from "./resourcePool.ts";
-import { bgStageBuilder } from "./encodings/bg/bgStage.ts";
-import { compactStageBuilder } from "./encodings/compact/compactStage.ts";
-import { classicStageBuilder } from "./encodings/classic/classicStage.ts";
+import type { Content, ResourceHandle, ResourcePool } from "./resourcePool.ts";
+import { deliveryOf } from "./encodings/encodings.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
 
 export interface DeliveryListener {
@@ -52,7 +50,6 @@ export interface Delivery {
 /** A file that a patch needs, and how far it is. */
 interface Need {
   readonly part: PatchFile;
-  readonly kind: ContentKind;
   /** While it is asked for; of an image, also while it is here. */
   lease: ResourceHandle | undefined;
   transfer: Readonly<Transfer> | undefined;
@@ -104,7 +101,7 @@ class GeometryDelivery implements Delivery {
     this.#listener = listener;
     this.#patches = geometry.patches.map((patch, place) => ({
       place,
-      builder: builderOf(geometry, place, patch, pool),
+      builder: deliveryOf(geometry).stageBuilder(geometry, patch, place, pool),
       needs: needsOf(geometry, patch, pool.maxTextureSize),
       claims: [],
       stage: undefined,
@@ -167,8 +164,8 @@ class GeometryDelivery implements Delivery {
   }
 
   #ask(patch: Patch, need: Need, priority: number): void {
-    const { reference, expectedBytes } = need.part;
-    const lease = this.#pool.acquire({ kind: need.kind, url: reference.url, priority, expectedBytes });
+    const { reference, target, expectedBytes } = need.part;
+    const lease = this.#pool.acquire({ ...target, url: reference.url, priority, expectedBytes });
     need.lease = lease;
     need.transfer = lease.transfer;
     need.aborter = new AbortController();
@@ -263,29 +260,12 @@ class GeometryDelivery implements Delivery {
   }
 }
 
-function builderOf(
-  geometry: GeometryDescription,
-  place: number,
-  patch: PatchDescription,
-  pool: ResourcePool,
-): StageBuilder {
-  switch (geometry.container) {
-    case "bg":
-      return bgStageBuilder(geometry, patch, pool);
-    case "compact":
-      return compactStageBuilder(geometry, patch, place, pool);
-    case "sig":
-      return classicStageBuilder(geometry, patch, pool);
-  }
-}
-
-function needsOf(geometry: GeometryDescription, patch: PatchDescription, largestTexture: number): Need[] {
-  const kindOfPatch = contentKindOf(geometry, patch, largestTexture);
-  return patchFilesOf(geometry, patch)
+function needsOf(geometry: GeometryDescription, patch: PatchDescription, maxTextureSize: number): Need[] {
+  return deliveryOf(geometry)
+    .patchFilesOf(geometry, patch, maxTextureSize)
     .sort((a, b) => useOf(a) - useOf(b))
     .map((part): Need => ({
       part,
-      kind: part.role === "base" ? "bases" : kindOfPatch,
       lease: undefined,
       transfer: undefined,
       aborter: new AbortController(),
@@ -329,21 +309,15 @@ function claimsOf({ place, builder, needs }: Patch, priorityOf: FilePriority): P
   ];
 }
 
-function isImage({ kind }: Need): boolean {
+function isImage({
+  part: {
+    target: { kind },
+  },
+}: Need): boolean {
   return kind === "texture" || kind === "either";
 }
 
 /** Of use, and room on the GPU, for itself. */
 function isSeparate(need: Need): boolean {
-  return isImage(need) || need.kind === "patches" || need.kind === "bases";
-}
-
-/** Where the vertices of a patch are to be decoded, and so what its files are to become. */
-function contentKindOf(geometry: GeometryDescription, patch: PatchDescription, largestTexture: number): ContentKind {
-  if (geometry.container === "compact") return "patches";
-  if (geometry.container === "bg" || geometry.decode === "cpu") return "bytes";
-  if (geometry.decode === "gpu") return "texture";
-  const texels = patch.grid ? patch.vertexCount : patch.draws.reduce((sum, draw) => sum + draw.count, 0);
-  const edge = Math.max(patch.implicitWidth, Math.ceil(texels / patch.implicitWidth));
-  return edge > largestTexture ? "bytes" : "either";
+  return isImage(need) || need.part.target.kind === "patches" || need.part.target.kind === "bases";
 }

@@ -7,7 +7,7 @@ import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { DataImage } from "../decode/image.ts";
 import type { DecodedImage } from "../stage/decodedImage.ts";
-import type { RunJob } from "../decode/jobs.ts";
+import type { InputOf, JobName, OutputOf, RunJob } from "../decode/jobs.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import { ByteSemaphore } from "../scheduler/byteSemaphore.ts";
 import type { DownloadOptions } from "../scheduler/download.ts";
@@ -24,10 +24,23 @@ export type Content =
   | { readonly kind: "bases"; readonly bases: readonly BaseBuffers[] };
 
 /**
- * What a file is to become: a texture, its own bytes, or either, as the view decides; or all the
- * patches of compact that it holds, decoded in a worker, or the bases, here, since all wait for them.
+ * What a file is to become: a texture, its own bytes, or either, as the GPU allows; a picture; or all patches, or all
+ * base meshes, that it holds, which a job decodes.
  */
-export type ContentKind = "texture" | "bytes" | "either" | "patches" | "bases" | "picture";
+export type ContentTarget =
+  | { readonly kind: "texture" | "bytes" | "either" }
+  | { readonly kind: "picture"; readonly sampling: SamplingDescription }
+  | { readonly kind: "patches"; readonly job: FileJob<PatchBuffers[]> }
+  | { readonly kind: "bases"; readonly job: FileJob<BaseBuffers[]> };
+
+/** The jobs that turn the bytes of a file into an Output. */
+type FileJob<Output> = {
+  [Name in JobName]: OutputOf<Name> extends Output
+    ? Uint8Array<ArrayBuffer> extends InputOf<Name>
+      ? Name
+      : never
+    : never;
+}[JobName];
 
 /** An image that is looked at, in any format that the browser knows; where textures are read from. */
 export interface Picture {
@@ -42,17 +55,14 @@ export type MakePicture = (
   signal: AbortSignal,
 ) => Promise<Picture>;
 
-export interface ResourceRequest {
-  readonly kind: ContentKind;
+export type ResourceRequest = ContentTarget & {
   /** As the document writes it, without its fragment. */
   readonly url: string;
   /** Larger comes first. Of several leases the largest counts. */
   readonly priority: number;
   /** What the file is likely to weigh, until the server says; of patches and bases what is wanted of it. */
   readonly expectedBytes: number;
-  /** Of a picture. */
-  readonly sampling?: SamplingDescription;
-}
+};
 
 export interface ResourceHandle {
   readonly transfer: Readonly<Transfer>;
@@ -121,7 +131,7 @@ export class ResourcePool {
 
   acquire(request: ResourceRequest): ResourceHandle {
     const { scheduler, resolve } = this.#options;
-    const key = `${request.kind} ${resolve(request.url)} ${JSON.stringify(request.sampling)}`;
+    const key = JSON.stringify([resolve(request.url), ...keyOf(request)]);
     const resource = this.#resources.get(key) ?? this.#start(key, request);
     const leased = { priority: request.priority, expectedBytes: request.expectedBytes };
     resource.add(leased);
@@ -342,16 +352,31 @@ class Resource {
     }
   }
 
-  async #contentOf({ kind, sampling }: ResourceRequest, bytes: Uint8Array<ArrayBuffer>): Promise<Content> {
-    if (kind === "picture" && sampling !== undefined)
-      return { kind, ...(await this.#options.makePicture(bytes, sampling, this.#aborter.signal)) };
-    const { runJob, runOnMainThread: runHere = runJob } = this.#options;
-    if (kind === "patches") return { kind, patches: await runJob("compactPatches", bytes, this.#aborter.signal) };
-    if (kind === "bases") return { kind, bases: await runHere("compactBases", bytes, this.#aborter.signal) };
-    const isTexture = kind === "texture" || (kind === "either" && (await this.#options.readsTextures()));
-    if (!isTexture) return { kind: "bytes", bytes };
-    return { kind: "image", ...(await this.#options.makeImage(bytes, this.#aborter.signal)) };
+  async #contentOf(target: ContentTarget, bytes: Uint8Array<ArrayBuffer>): Promise<Content> {
+    const { makeImage, makePicture, readsTextures, runJob, runOnMainThread = runJob } = this.#options;
+    const { signal } = this.#aborter;
+    switch (target.kind) {
+      case "picture":
+        return { kind: "picture", ...(await makePicture(bytes, target.sampling, signal)) };
+      case "patches":
+        return { kind: "patches", patches: await runJob(target.job, bytes, signal) };
+      case "bases":
+        return { kind: "bases", bases: await runOnMainThread(target.job, bytes, signal) };
+      case "bytes":
+        return { kind: "bytes", bytes };
+      case "texture":
+        return { kind: "image", ...(await makeImage(bytes, signal)) };
+      case "either":
+        if (!(await readsTextures())) return { kind: "bytes", bytes };
+        return { kind: "image", ...(await makeImage(bytes, signal)) };
+    }
   }
+}
+
+/** Requests of one URL and one key share a resource. */
+function keyOf(target: ContentTarget): readonly string[] {
+  if (target.kind === "picture") return [target.kind, JSON.stringify(target.sampling)];
+  return "job" in target ? [target.kind, target.job] : [target.kind];
 }
 
 /** Of "data:…;base64,…": nothing is asked of the network, nor of the page's content policy. */

@@ -3,9 +3,8 @@
 // be shown with those that are here. A part that never comes is merely absent.
 
 import type { RunJob } from "../decode/jobs.ts";
-import type { DrawRange, NormalCode, Stage, StageName } from "../stage/stage.ts";
-import type { GeometryDescription, PatchDescription } from "../document/description.ts";
-import { isPair } from "../document/geometry.ts";
+import type { DrawRange, Stage, StageName } from "../stage/stage.ts";
+import type { PatchDescription } from "../document/description.ts";
 import type { StoreBytes } from "./arrayUploads.ts";
 import type { PatchFile } from "./patchFiles.ts";
 import type { Content } from "./resourcePool.ts";
@@ -34,11 +33,6 @@ export interface StageBuilder {
 export interface BuilderTools {
   readonly runJob: RunJob;
   readonly storeBytes: StoreBytes;
-}
-
-export function normalCodeOf({ container, normalEncoding, normalType }: GeometryDescription): NormalCode {
-  if (!isPair(normalEncoding)) return { kind: container === "sig" ? "byteVector" : "vector" };
-  return { kind: normalEncoding, bits: container === "bg" && normalType === "Uint16" ? 16 : 8 };
 }
 
 /** The patch's draws with the running number that each begins at. */

@@ -12,7 +12,7 @@ export function geometryOfArrays(arrays: VertexArrays | undefined, solid: boolea
   const { positions, normals, texCoords, colors, colorComponents, primitive } = arrays;
   const count = positions.length / 3;
   return {
-    container: "bg",
+    encoding: "bg",
     position: [0, 0, 0],
     size: [1, 1, 1],
     positionBits: 0,
@@ -65,5 +65,5 @@ function boxAroundAll(positions: Float32Array): Box3 {
 /** Typed arrays are little-endian there, as they are on every machine with a browser. */
 function dataReference(array: Float32Array | Uint8Array): Reference {
   const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
-  return { url: dataUrl("application/octet-stream", bytes), first: 0, stride: 0 };
+  return { url: dataUrl("application/octet-stream", bytes), byteOffset: 0, byteStride: 0 };
 }

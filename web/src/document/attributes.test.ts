@@ -22,10 +22,10 @@ describe("a shape's colorBy", () => {
   test("brings the files of the attribute that it names, and the range of its numbers", () => {
     const heat = read(`colorBy="heat"`);
     assert.equal(heat.geometry.value?.name, "heat");
-    assert.deepEqual(
-      heat.geometry.patches[0]?.value.map(({ url, first }) => `${url} ${first}`),
-      ["h1.png 9", "h0.png 0"],
-    );
+    assert.deepEqual(heat.geometry.patches[0]?.value, [
+      { url: "h1.png", firstTexel: 9 },
+      { url: "h0.png", firstTexel: 0 },
+    ]);
     assert.deepEqual(heat.shape.appearance.colorMap?.range, [-2, 3]);
     const flow = read(`colorBy="flow"`);
     assert.deepEqual(
@@ -41,7 +41,7 @@ describe("a shape's colorBy", () => {
       `<BinaryGeometry coord="c.bin"><FloatVertexAttribute name="heat" numComponents="1"/>
       <FloatVertexAttribute name="flow" numComponents="3"/><GeometryPatch attrib="h.bin f.bin#4+16"/></BinaryGeometry>`,
     );
-    assert.deepEqual(geometry.patches[0]?.value, [{ url: "f.bin", first: 4, stride: 16 }]);
+    assert.deepEqual(geometry.patches[0]?.value, [{ url: "f.bin", byteOffset: 4, byteStride: 16 }]);
   });
 
   test("of compact brings none but its patches', which say of how many bits they must be", () => {

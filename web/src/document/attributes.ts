@@ -1,17 +1,20 @@
 // Further attributes of vertices (FloatVertexAttribute), and the one that colours a
 // shape: `colorBy` names it, and its values are laid over a map of colours.
 
-import type { AttributeDescription, ColorMapDescription, GeometryDescription, Reference } from "./description.ts";
+import type {
+  AttributeDescription,
+  ColorMapDescription,
+  Encoding,
+  GeometryDescription,
+  Reference,
+} from "./description.ts";
+import { encodingFormats } from "./encodings.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
 import type { Values, Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
-export function readAttributes(
-  element: SceneElement,
-  container: GeometryDescription["container"],
-  warnings: Warning[],
-): AttributeDescription[] {
+export function readAttributes(element: SceneElement, encoding: Encoding, warnings: Warning[]): AttributeDescription[] {
   const elements = childrenOf(element).filter((child) => lowerNameOf(child) === "floatvertexattribute");
   return elements.map((child) => {
     const { name, numComponents, valueBits, valueMin, valueSize } = readFields(
@@ -20,8 +23,8 @@ export function readAttributes(
       warnings,
     );
     const components = ([1, 2, 3, 4] as const).find((count) => count === numComponents) ?? 4;
-    const bits = container === "bg" ? undefined : valueBits;
-    const fileCount = { sig: valueBits / 8, bg: 1, compact: 0 }[container];
+    const bits = encodingFormats[encoding].attributeBits(valueBits);
+    const fileCount = encodingFormats[encoding].attributeFileCount(valueBits);
     if (components !== numComponents || (bits !== undefined && ![8, 16, 24].includes(bits))) {
       warnings.push({
         element: child,

@@ -18,13 +18,29 @@ export interface Draw {
   readonly count: number;
 }
 
-/** Where data begins: images count `first` in texels, typed arrays in bytes. */
-export interface Reference {
+/** Texels of an image, from `firstTexel` on, row by row (classic). */
+export interface TexelReference {
   readonly url: string;
-  readonly first: number;
-  /** Bytes from one element to the next; 0: tightly packed. Typed arrays only. */
-  readonly stride: number;
+  readonly firstTexel: number;
 }
+
+/** Elements of typed arrays (BG). */
+export interface ByteReference {
+  readonly url: string;
+  readonly byteOffset: number;
+  /** Bytes from one element to the next; 0: tightly packed. */
+  readonly byteStride: number;
+}
+
+/** One patch, or one base mesh, of those that a file holds (compact). */
+export interface PatchReference {
+  readonly url: string;
+  /** Index of the patch, or of the base mesh, in the file. */
+  readonly patchIndex: number;
+}
+
+/** Where data lies in a file. All references of a geometry are of the kind that its encoding has. */
+export type Reference = TexelReference | ByteReference | PatchReference;
 
 /** A surface over a grid of texels: stage/stage.ts says the same to those who draw it. */
 export interface GridDescription {
@@ -51,7 +67,7 @@ export interface PatchDescription {
   readonly normal: Reference | undefined;
   readonly texCoord: Reference | undefined;
   readonly color: Reference | undefined;
-  /** SIG compact: all of it in one file, from this byte of its pixels on. */
+  /** Compact only: all of the patch. */
   readonly data: Reference | undefined;
   /** Of all further attributes, one after the other: each has `files`. */
   readonly attributes: readonly Reference[];
@@ -89,15 +105,18 @@ export type ElementType = (typeof elementTypes)[number];
 export const normalEncodings = ["rgb", "octahedral", "spherical", "palette"] as const;
 export type NormalEncoding = (typeof normalEncodings)[number];
 
-/** Of SIG: a file for each of its parts, or one that holds all of a patch. */
-export const profiles = ["classic", "compact"] as const;
+/** How patches lie in files: packed into one range of bytes (SIG compact), as byte planes in images (SIG classic), or as typed arrays (BG). */
+export type Encoding = "compact" | "classic" | "bg";
+
+/** The encodings of an ImageGeometry, by the values of its `profile` field. */
+export const imageProfiles = ["classic", "compact"] as const;
+export type ImageProfile = (typeof imageProfiles)[number];
 
 export const decodeModes = ["auto", "gpu", "cpu"] as const;
 export type DecodeMode = (typeof decodeModes)[number];
 
 export interface GeometryDescription {
-  /** `compact` is SIG with all of a patch in one file. */
-  readonly container: "sig" | "bg" | "compact";
+  readonly encoding: Encoding;
   /** Centre and extent of the box over which stored integers are spread. */
   readonly position: Vec3;
   readonly size: Vec3;
@@ -122,7 +141,7 @@ export interface GeometryDescription {
   /** The one whose values come with the vertices, and colour them. */
   readonly value: AttributeDescription | undefined;
   readonly patches: readonly PatchDescription[];
-  /** SIG compact: what stands in for the patches until they are here, from this byte of its file's pixels on. */
+  /** The base mesh that stands in for the patches until they are here. */
   readonly base: Reference | undefined;
   /** Of a text: the picture that its letters are cut out with. */
   readonly glyphAtlas?: string;

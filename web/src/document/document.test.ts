@@ -312,16 +312,16 @@ describe("a geometry", () => {
     const geometry = geometryOf(patches);
     const [first, second] = geometry.patches;
     assert.equal(geometry.patches.length, 2);
-    assert.equal(geometry.container, "sig");
+    assert.equal(geometry.encoding, "classic");
     assert.equal(geometry.solid, false);
     assert.deepEqual(first?.draws, [
       { primitive: "triangles", count: 900 },
       { primitive: "triangleStrip", count: 12 },
     ]);
-    assert.deepEqual(first.index, { url: "i.png", first: 1024, stride: 0 });
+    assert.deepEqual(first.index, { url: "i.png", firstTexel: 1024 });
     assert.deepEqual(first.coord, [
-      { url: "a.png", first: 0, stride: 0 },
-      { url: "b.png", first: 512, stride: 0 },
+      { url: "a.png", firstTexel: 0 },
+      { url: "b.png", firstTexel: 512 },
     ]);
     assert.equal(first.implicitWidth, 512);
     assert.deepEqual(first.box, { min: [0, 1.5, 2.5], max: [2, 2.5, 3.5] });
@@ -356,8 +356,8 @@ describe("a geometry", () => {
     assert.equal(geometry.coordType, "Uint16");
     assert.equal(geometry.indexType, "Uint32");
     assert.equal(geometry.colorComponents, 4);
-    assert.deepEqual(patch?.coord, [{ url: "c.bin", first: 12, stride: 8 }]);
-    assert.deepEqual(patch.normal, { url: "n.bin+4", first: 0, stride: 4 });
+    assert.deepEqual(patch?.coord, [{ url: "c.bin", byteOffset: 12, byteStride: 8 }]);
+    assert.deepEqual(patch.normal, { url: "n.bin+4", byteOffset: 0, byteStride: 4 });
   });
 
   test("of images has indices of 16 bits unless it says otherwise", () => {
@@ -371,7 +371,7 @@ describe("a geometry", () => {
       geometryOf('<ImageGeometry coord="a" normal="n" normalEncoding="Octahedral"/>').normalEncoding,
       "octahedral",
     );
-    for (const [coord, first, stride] of [
+    for (const [coord, byteOffset, byteStride] of [
       ["c.bin", 6, 8],
       ["c.bin?+8", 6, 8],
       ["c.bin#24+32", 30, 32],
@@ -382,10 +382,7 @@ describe("a geometry", () => {
       } = geometryOf(`
         <BinaryGeometry coordType="Uint16" normalAsSphericalCoordinates="true" normal="ignored" coord="${coord}"/>`);
       assert.deepEqual([geometry.normalEncoding, geometry.normalType], ["spherical", "Uint8"]);
-      assert.deepEqual(
-        [patch?.normal?.url, patch?.normal?.first, patch?.normal?.stride],
-        [patch?.coord[0]?.url, first, stride],
-      );
+      assert.deepEqual(patch?.normal, { url: patch?.coord[0]?.url, byteOffset, byteStride });
     }
     const wrong = sceneOf(
       '<Shape><BinaryGeometry coord="c" normalAsSphericalCoordinates="true" normalEncoding="cube"/></Shape>',
@@ -425,11 +422,12 @@ describe("a geometry", () => {
     });
   });
 
-  test("reads references of both containers", () => {
-    assert.deepEqual(referenceOf("a/b.png#70", "sig"), { url: "a/b.png", first: 70, stride: 0 });
-    assert.deepEqual(referenceOf("a+4.png", "sig"), { url: "a+4.png", first: 0, stride: 0 });
-    assert.deepEqual(referenceOf("a.bin#0+0", "bg"), { url: "a.bin", first: 0, stride: 0 });
-    assert.deepEqual(referenceOf("a.bin#-1+x", "bg"), { url: "a.bin", first: 0, stride: 0 });
+  test("reads references of each encoding in the units of its files", () => {
+    assert.deepEqual(referenceOf("a/b.png#70", "classic"), { url: "a/b.png", firstTexel: 70 });
+    assert.deepEqual(referenceOf("a+4.png", "classic"), { url: "a+4.png", firstTexel: 0 });
+    assert.deepEqual(referenceOf("a.png#7", "compact"), { url: "a.png", patchIndex: 7 });
+    assert.deepEqual(referenceOf("a.bin#0+0", "bg"), { url: "a.bin", byteOffset: 0, byteStride: 0 });
+    assert.deepEqual(referenceOf("a.bin#-1+x", "bg"), { url: "a.bin", byteOffset: 0, byteStride: 0 });
   });
 });
 

@@ -5,8 +5,10 @@
 
 import type {
   Box3,
+  ByteReference,
   Draw,
   ElementType,
+  Encoding,
   GeometryDescription,
   MeshMode,
   NormalEncoding,
@@ -15,42 +17,37 @@ import type {
   Reference,
   Warning,
 } from "./description.ts";
-import { decodeModes, elementTypes, meshModes, normalEncodings, profiles } from "./description.ts";
+import { decodeModes, elementTypes, meshModes, normalEncodings, imageProfiles } from "./description.ts";
 import { readAttributes } from "./attributes.ts";
+import { encodingFormats } from "./encodings.ts";
 import type { SceneElement } from "./element.ts";
 import { childrenOf, lowerNameOf } from "./element.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import type { Values } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
-/** Byte planes that coordinates can have: 32 bits. */
-const mostCoordPlanes = 4;
-
 type PatchValues = Values<typeof nodeFields.GeometryPatch>;
-type Container = GeometryDescription["container"];
 
 export function readImageGeometry(element: SceneElement, warnings: Warning[]): GeometryDescription {
   const values = readFields(element, nodeFields.ImageGeometry, warnings);
-  const profile = choiceOf(element, "profile", values.profile, profiles, "classic", warnings);
-  const container = profile === "compact" ? "compact" : "sig";
-  // Compact has its own connectivity.
-  const mode =
-    container === "compact"
-      ? "sig"
-      : choiceOf(element, "implicitMeshMode", values.implicitMeshMode, meshModes, "sig", warnings);
+  const encoding = choiceOf(element, "profile", values.profile, imageProfiles, "classic", warnings);
+  const { hasBase, hasGrids } = encodingFormats[encoding];
+  const mode = hasGrids
+    ? choiceOf(element, "implicitMeshMode", values.implicitMeshMode, meshModes, "sig", warnings)
+    : "sig";
   return {
     ...commonOf(element, values, warnings),
-    attributes: readAttributes(element, container, warnings),
-    container,
+    attributes: readAttributes(element, encoding, warnings),
+    encoding,
     colorComponents: values.numColorComponents === 4 ? 4 : 3,
     decode: choiceOf(element, "decode", values.decode, decodeModes, "auto", warnings),
     // The bytes of an image are its only element type; indices are made of two or three.
-    base: container === "compact" && values.base !== "" ? referenceOf(values.base, container) : undefined,
+    base: hasBase && values.base !== "" ? referenceOf(values.base, encoding) : undefined,
     coordType: "Uint8",
     normalType: "Uint8",
     texCoordType: "Uint8",
     colorType: "Uint8",
-    patches: readPatches(element, container, warnings).map((patch) => withGrid(element, patch, mode, warnings)),
+    patches: readPatches(element, encoding, warnings).map((patch) => withGrid(element, patch, mode, warnings)),
   };
 }
 
@@ -68,7 +65,7 @@ export function readBinaryGeometry(element: SceneElement, warnings: Warning[]): 
   const geometry: GeometryDescription = {
     ...commonOf(element, values, warnings),
     attributes: readAttributes(element, "bg", warnings),
-    container: "bg",
+    encoding: "bg",
     colorComponents: values.rgbaColors ? 4 : 3,
     decode: "auto",
     coordType: typeOf("coordType"),
@@ -91,29 +88,30 @@ function withNormalsInCoords(geometry: GeometryDescription): GeometryDescription
 }
 
 /** The last two bytes of 16-bit coordinate records, which their three components leave free. */
-function fourthElementOf({ coord: [coord] }: PatchDescription): Reference | undefined {
-  return coord && { url: coord.url, first: coord.first + 6, stride: coord.stride || 8 };
+function fourthElementOf({ coord: [coord] }: PatchDescription): ByteReference | undefined {
+  if (coord === undefined || !("byteOffset" in coord)) return undefined;
+  return { url: coord.url, byteOffset: coord.byteOffset + 6, byteStride: coord.byteStride || 8 };
 }
 
 /** Whether a patch's normals are pairs of bytes in the fourth element of its coordinate records. */
 export function hasNormalsInCoords(geometry: GeometryDescription, patch: PatchDescription): boolean {
   const isBytePair = geometry.normalType === "Uint8" && isPair(geometry.normalEncoding);
-  if (geometry.container !== "bg" || !isBytePair || !geometry.coordType.endsWith("16")) return false;
-  const place = fourthElementOf(patch);
+  if (!isBytePair || !geometry.coordType.endsWith("16")) return false;
+  const expected = fourthElementOf(patch);
+  const { normal } = patch;
   return (
-    place !== undefined &&
-    patch.normal?.url === place.url &&
-    patch.normal.first === place.first &&
-    patch.normal.stride === place.stride
+    expected !== undefined &&
+    normal !== undefined &&
+    "byteOffset" in normal &&
+    normal.url === expected.url &&
+    normal.byteOffset === expected.byteOffset &&
+    normal.byteStride === expected.byteStride
   );
 }
 
 /** Whether nothing tells where a patch lies before its coordinates are here: floats need not lie in the decode box. */
-export function isUnbounded(
-  { container, coordType }: Pick<GeometryDescription, "container" | "coordType">,
-  { box }: PatchDescription,
-): boolean {
-  return container === "bg" && coordType === "Float32" && box === undefined;
+export function isUnbounded({ coordType }: Pick<GeometryDescription, "coordType">, { box }: PatchDescription): boolean {
+  return coordType === "Float32" && box === undefined;
 }
 
 /** Whether normals are two numbers: octahedral x and y, or spherical phi and theta. */
@@ -172,20 +170,20 @@ export function boxAround(center: Vec3, size: Vec3): Box3 {
   };
 }
 
-function readPatches(element: SceneElement, container: Container, warnings: Warning[]): PatchDescription[] {
+function readPatches(element: SceneElement, encoding: Encoding, warnings: Warning[]): PatchDescription[] {
   const patchElements = childrenOf(element).filter((child) => lowerNameOf(child) === "geometrypatch");
   if (patchElements.length === 0) {
     return [
       patchOf(
         element,
         { ...readFields(element, nodeFields.GeometryPatch, warnings), ...texturesOf(element, warnings) },
-        container,
+        encoding,
         warnings,
       ),
     ];
   }
   return patchElements.map((child) =>
-    patchOf(child, readFields(child, nodeFields.GeometryPatch, warnings), container, warnings),
+    patchOf(child, readFields(child, nodeFields.GeometryPatch, warnings), encoding, warnings),
   );
 }
 
@@ -215,14 +213,14 @@ function texturesOf(element: SceneElement, warnings: Warning[]): Partial<PatchVa
 function patchOf(
   element: SceneElement,
   values: PatchValues,
-  container: Container,
+  encoding: Encoding,
   warnings: Warning[],
 ): PatchDescription {
-  const reference = (text: string) => (text === "" ? undefined : referenceOf(text, container));
-  const planes = container === "sig" ? mostCoordPlanes : 1;
-  if (values.coord.length > planes)
-    warnings.push({ element, message: `only the first ${planes} of ${values.coord.length} coord are used` });
-  const coord = values.coord.slice(0, planes);
+  const reference = (text: string) => (text === "" ? undefined : referenceOf(text, encoding));
+  const { maxCoordFileCount } = encodingFormats[encoding];
+  if (values.coord.length > maxCoordFileCount)
+    warnings.push({ element, message: `only the first ${maxCoordFileCount} of ${values.coord.length} coord are used` });
+  const coord = values.coord.slice(0, maxCoordFileCount);
   return {
     box: boxOf(values),
     vertexCount: Math.max(0, values.recordCount),
@@ -231,12 +229,12 @@ function patchOf(
     implicitHeight: Math.max(1, Math.floor(values.implicitMeshSize[1] || values.implicitMeshSize[0])),
     grid: undefined,
     index: reference(values.index),
-    coord: coord.map((url) => referenceOf(url, container)),
+    coord: coord.map((url) => referenceOf(url, encoding)),
     normal: reference(values.normal),
     texCoord: reference(values.texCoord),
     color: reference(values.color),
     data: reference(values.data),
-    attributes: values.attrib.map((url) => referenceOf(url, container)),
+    attributes: values.attrib.map((url) => referenceOf(url, encoding)),
     value: [],
   };
 }
@@ -283,21 +281,10 @@ function drawsOf(element: SceneElement, values: PatchValues, warnings: Warning[]
   });
 }
 
-/**
- * A URL with its fragment: `#N` for images, `#O+S` for typed arrays. X3DOM's
- * "file.bin+S" names a file that is really called so, with stride S.
- */
-export function referenceOf(text: string, container: Container): Reference {
+/** A URL with its fragment: `#N` for images (a texel's, or in compact a patch's index), `#O+S` for typed arrays. */
+export function referenceOf(text: string, encoding: Encoding): Reference {
   const url = text.trim();
   const hash = url.lastIndexOf("#");
-  if (hash < 0) {
-    const stride = container === "bg" ? /\+(\d+)$/.exec(url)?.[1] : undefined;
-    return { url, first: 0, stride: Number(stride ?? 0) };
-  }
-  const [first, stride] = url.slice(hash + 1).split("+");
-  return { url: url.slice(0, hash), first: countIn(first), stride: countIn(stride) };
-}
-
-function countIn(text: string | undefined): number {
-  return text !== undefined && /^\d+$/.test(text) ? Number(text) : 0;
+  const format = encodingFormats[encoding];
+  return hash < 0 ? format.referenceOf(url, undefined) : format.referenceOf(url.slice(0, hash), url.slice(hash + 1));
 }

@@ -2,6 +2,7 @@
 // events and promises that its element gets.
 
 import type { DeliveryError } from "../delivery/deliveryError.ts";
+import { needsWorkers } from "../delivery/encodings/encodings.ts";
 import { progressOf } from "../delivery/progress.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import type { Picture } from "../delivery/resourcePool.ts";
@@ -135,8 +136,7 @@ export class PageShapes extends LoadingShapes<PageShape> {
   get workerJobCount(): number {
     let count = 0;
     for (const { geometry, isVisible } of this) {
-      if (isVisible && (geometry?.container === "compact" || geometry?.decode === "cpu"))
-        count += geometry.patches.length;
+      if (isVisible && geometry !== undefined && needsWorkers(geometry)) count += geometry.patches.length;
     }
     return count;
   }

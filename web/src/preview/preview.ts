@@ -41,7 +41,7 @@ export class Preview {
   readonly #bases = new Map<string, readonly Base[]>();
   readonly #settle: () => void;
   readonly #listeners = new AbortController();
-  readonly #baseOf = ({ base }: PreviewShape): Base | undefined => this.#bases.get(hrefOf(base.url))?.[base.first];
+  readonly #baseOf = ({ base }: PreviewShape): Base | undefined => this.#bases.get(hrefOf(base.url))?.[base.patchIndex];
   #wanted: PreviewContent;
   #state: "waiting" | "decoding" | "drawn" | "ended" = "waiting";
 

@@ -5,7 +5,7 @@ import type { Base } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { ElementArray, VertexArray } from "../stage/vertexArray.ts";
 import { elementTypeOf } from "../stage/elementType.ts";
-import { latticeBitsOf } from "../document/dequantization.ts";
+import { latticeBitsOf } from "../document/encodings.ts";
 import { isBlended, litParametersOf } from "../lighting/materialParameters.ts";
 import { lensOf } from "../navigation/cameraPose.ts";
 import type { LightScope } from "../scene/lightScope.ts";

@@ -6,7 +6,7 @@ import type { Matrix4, Sphere } from "three";
 import type {
   AppearanceDescription,
   GeometryDescription,
-  Reference,
+  PatchReference,
   SceneDescription,
   Vec3,
 } from "../document/description.ts";
@@ -40,7 +40,7 @@ export interface PreviewScene {
 export interface PreviewShape {
   readonly element: SceneElement;
   readonly geometry: GeometryDescription;
-  readonly base: Reference;
+  readonly base: PatchReference;
   readonly appearance: AppearanceDescription;
   readonly sceneFromShape: Matrix4;
   /** Places its lattice. */
@@ -83,20 +83,18 @@ export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): 
 /** Undefined where it is not drawn from a base in solid colours. */
 function previewShapeOf({ shape, ...place }: ShapeInstance): PreviewShape | undefined {
   const { element, geometry, appearance } = shape;
-  const [patch] = geometry?.patches ?? [];
-  if (
-    geometry?.container !== "compact" ||
-    geometry.base === undefined ||
-    patch === undefined ||
-    appearance.colorMap !== undefined
-  )
-    return undefined;
+  const {
+    patches: [patch],
+    base,
+  } = geometry ?? { patches: [], base: undefined };
+  if (geometry === undefined || base === undefined || !("patchIndex" in base)) return undefined;
+  if (patch === undefined || appearance.colorMap !== undefined) return undefined;
   if (appearance.textures.length > 0 || appearance.alpha.mode === "MASK" || isBlended(appearance, false))
     return undefined;
   return {
     element,
     geometry,
-    base: geometry.base,
+    base,
     appearance,
     ...place,
     shapeFromStored: shapeFromStoredOf(geometry, patch),

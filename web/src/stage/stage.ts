@@ -123,6 +123,8 @@ export interface StoredIndex {
 /** Vertices in buffers (BG). Coordinates are integers as stored, the rest is spread over its range. */
 export interface BufferStage extends StageHead {
   readonly kind: "buffers";
+  /** Records of the patch in `coord`, whose file may hold more; 0: unknown. */
+  readonly vertexCount: number;
   readonly index: StoredIndex | undefined;
   readonly coord: StoredVertices;
   /** Around the coordinates, where the document does not tell. */

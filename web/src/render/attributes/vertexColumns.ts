@@ -41,11 +41,6 @@ export function columnsOf(stage: BufferStage): Column[] {
   });
 }
 
-/** As many as its bytes hold. */
-export function vertexCountOf({ coord: { bytes, type, stride } }: BufferStage): number {
-  return Math.floor(bytes.byteLength / byteSizeOf(type) / stride);
-}
-
 /** Appends vertices of the stage to the column of one of its attributes: its first ones, so many, or those of these numbers. */
 export function appendVertices(
   { name, components, elementsPerVertex, data }: Column,

@@ -21,7 +21,6 @@ import { valueFrameOf } from "../materials/valueColors.ts";
 import type { BatchedDraw, Member } from "./batch.ts";
 import type { Batches } from "./batches.ts";
 import type { DrawMode, DrawModes } from "./batchingPlan.ts";
-import { vertexCountOf } from "../attributes/vertexColumns.ts";
 
 /** How draws go together. */
 export interface BatchContext {
@@ -121,9 +120,7 @@ function drawsOf(stage: Stage, context: PatchContext, { batching, isMerged }: Ba
         materialKey: materialKeyOf(stage, first, appearance, surfaceTextures, batching),
         isMerged: isMerged && mayMerge,
         isBlended: blends,
-        // Files that several shapes share hold more than this stage's.
-        vertexCount:
-          stage.kind !== "buffers" ? 0 : geometry.container === "bg" ? patch.vertexCount : vertexCountOf(stage),
+        vertexCount: stage.kind === "buffers" ? stage.vertexCount : 0,
         shapeFromStored: shapeFromStoredOf(geometry, patch),
         step: dequantizationOf(geometry, patch).step,
         texCoordFrame: [...geometry.texCoordMin, ...geometry.texCoordSize],

@@ -50,6 +50,7 @@ function stageOf(first: number, stride = 4, index = [0, 1, 2]): BufferStage {
   const coord = new Uint16Array(3 * stride).map((_, i) => (i % stride < 3 ? first + i : 7));
   return {
     kind: "buffers",
+    vertexCount: 3,
     name: "full",
     draws: [{ primitive: "triangles", first: 0, count: 3 }],
     normalCode: { kind: "vector" },

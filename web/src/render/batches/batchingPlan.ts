@@ -4,6 +4,7 @@
 // small meshes become one large mesh. See docs/decisions/batches.md.
 
 import type { GeometryDescription } from "../../document/description.ts";
+import { formatOf } from "../../document/encodings.ts";
 
 /** By itself; in all its places at once; or as a part of one mesh with others. */
 export type DrawMode = "alone" | "instanced" | "merged";
@@ -53,7 +54,7 @@ export class BatchingPlan {
   drawModesOf(geometry: GeometryDescription): DrawModes {
     if (!this.#isCrowd) return alone;
     const count = this.#countOf(geometry);
-    if (geometry.container !== "sig" && verticesOf(geometry) * count <= maxMergedVertices) return merged;
+    if (formatOf(geometry).storage !== "bytePlanes" && verticesOf(geometry) * count <= maxMergedVertices) return merged;
     return count > 1 ? instanced : byItself;
   }
 

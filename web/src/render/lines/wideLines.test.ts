@@ -31,6 +31,7 @@ function stageOf(draws: readonly DrawRange[], index: IndexArray | undefined): Bu
   const color = stored(Uint8Array.from(Array.from({ length: 8 }, (_, n) => [n, n, n, 255]).flat()));
   return {
     kind: "buffers",
+    vertexCount: 8,
     name: "full",
     draws,
     index: index && { bytes: stored(index), type: "Uint16" },

@@ -6,6 +6,7 @@ import type { Object3D } from "three";
 import { BufferAttribute, BufferGeometry, Texture } from "three";
 import type { BufferStage, DrawRange, Stage, StoredVertices, TexelRange, TextureStage } from "../../stage/stage.ts";
 import type { GeometryDescription, PatchDescription, ShapeDescription } from "../../document/description.ts";
+import { formatOf } from "../../document/encodings.ts";
 import { isPair } from "../../document/geometry.ts";
 import { drawModeOf } from "../batches/batchedStage.ts";
 import type { BatchingPlan } from "../batches/batchingPlan.ts";
@@ -65,7 +66,12 @@ export function warmUpObjects(
 function expectedStages(geometry: GeometryDescription, isTextured: boolean): Stage[] {
   const [patch] = geometry.patches;
   if (geometry.base !== undefined) return [expectedBase];
-  if (patch === undefined || patch.coord.length === 0 || geometry.container !== "sig" || geometry.decode === "cpu")
+  if (
+    patch === undefined ||
+    patch.coord.length === 0 ||
+    formatOf(geometry).storage !== "bytePlanes" ||
+    geometry.decode === "cpu"
+  )
     return [];
   const surface: TextureStage = {
     ...bareStage(geometry, patch),
@@ -99,6 +105,7 @@ const placeholderVertices: StoredVertices = {
 /** Without the colours that a base may have too. */
 const expectedBase: BufferStage = {
   kind: "buffers",
+  vertexCount: 0,
   name: "base",
   draws: [{ primitive: "triangles", first: 0, count: 1 }],
   index: undefined,

@@ -1,5 +1,6 @@
 import { Box3, Sphere, Vector3 } from "three";
 import type { GeometryDescription, PatchDescription } from "../../document/description.ts";
+import { formatOf } from "../../document/encodings.ts";
 import { boxAround } from "../../document/geometry.ts";
 import { dequantizationOf, missingBytesMidpoint } from "../../document/dequantization.ts";
 import type { Stage } from "../../stage/stage.ts";
@@ -16,6 +17,9 @@ export function boundsOf(
   const stored = (point: readonly [number, number, number]) =>
     new Vector3((point[0] - origin[0]) / step[0], (point[1] - origin[1]) / step[1], (point[2] - origin[2]) / step[2]);
   const box = new Box3(stored(min), stored(max));
-  const slack = geometry.container === "sig" ? missingBytesMidpoint(geometry, patch.coord.length, 1) * Math.sqrt(3) : 0;
+  const slack =
+    formatOf(geometry).storage === "bytePlanes"
+      ? missingBytesMidpoint(geometry, patch.coord.length, 1) * Math.sqrt(3)
+      : 0;
   return { box, sphere: new Sphere(box.getCenter(new Vector3()), box.min.distanceTo(box.max) / 2 + slack) };
 }

@@ -5,15 +5,15 @@ import { DecodeError } from "../../../decode/decodeError.ts";
 import type { ElementRange } from "../../../decode/bg/bgArrays.ts";
 import { boundsOf, countIn, indexArrayOf, vertexArrayOf } from "../../../decode/bg/bgArrays.ts";
 import { byteSizeOf } from "../../../stage/elementType.ts";
-import type { BufferStage, DrawRange, StoredIndex, StoredVertices } from "../../../stage/stage.ts";
+import type { BufferStage, DrawRange, NormalCode, StoredIndex, StoredVertices } from "../../../stage/stage.ts";
 import { withoutStrips } from "../../../decode/strips.ts";
-import type { GeometryDescription, PatchDescription, Reference } from "../../../document/description.ts";
-import { hasNormalsInCoords, isUnbounded } from "../../../document/geometry.ts";
+import type { ElementType, GeometryDescription, PatchDescription, Reference } from "../../../document/description.ts";
+import { hasNormalsInCoords, isPair, isUnbounded } from "../../../document/geometry.ts";
 import { ArrayUploads } from "../../arrayUploads.ts";
-import type { FileRole } from "../../patchFiles.ts";
-import { componentsOf, typeOf } from "../../patchFiles.ts";
+import type { AttributeRole } from "../../patchFiles.ts";
+import { cornerCountOf } from "../../patchFiles.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
-import { drawRangesOf, normalCodeOf, attainedStageName } from "../../stageBuilder.ts";
+import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
 
 interface Here {
   index?: { readonly stored: StoredIndex | undefined; readonly draws: readonly DrawRange[] };
@@ -70,6 +70,7 @@ export function bgStageBuilder(
       const { stored, draws } = index ?? points;
       return {
         kind: "buffers",
+        vertexCount: patch.vertexCount,
         name,
         index: stored,
         draws,
@@ -122,14 +123,46 @@ function drawRangesFor(patch: PatchDescription, available: number): readonly Dra
 function rangeOf(
   geometry: GeometryDescription,
   patch: PatchDescription,
-  role: FileRole,
+  role: AttributeRole,
   reference: Reference,
 ): ElementRange {
+  if (!("byteOffset" in reference)) throw new DecodeError("malformed", "is referred to by no byte offset");
   return {
-    type: typeOf(geometry, role),
-    byteOffset: reference.first,
-    byteStride: reference.stride,
+    type: elementTypeOf(geometry, role),
+    byteOffset: reference.byteOffset,
+    byteStride: reference.byteStride,
     components: componentsOf(geometry, role),
-    count: role === "index" ? patch.draws.reduce((sum, draw) => sum + draw.count, 0) : patch.vertexCount,
+    count: role === "index" ? cornerCountOf(patch) : patch.vertexCount,
   };
+}
+
+/** 0: tightly packed. */
+export function byteStrideOf(reference: Reference): number {
+  return "byteStride" in reference ? reference.byteStride : 0;
+}
+
+export function elementTypeOf(geometry: GeometryDescription, role: AttributeRole): ElementType {
+  return role === "value" ? "Float32" : geometry[`${role}Type`];
+}
+
+/** The numbers of one element. */
+export function componentsOf(geometry: GeometryDescription, role: AttributeRole): 1 | 2 | 3 | 4 {
+  switch (role) {
+    case "index":
+      return 1;
+    case "coord":
+      return 3;
+    case "normal":
+      return isPair(geometry.normalEncoding) ? 2 : 3;
+    case "texCoord":
+      return 2;
+    case "color":
+      return geometry.colorComponents;
+    case "value":
+      return geometry.value?.components ?? 1;
+  }
+}
+
+function normalCodeOf({ normalEncoding, normalType }: GeometryDescription): NormalCode {
+  return isPair(normalEncoding) ? { kind: normalEncoding, bits: normalType === "Uint16" ? 16 : 8 } : { kind: "vector" };
 }

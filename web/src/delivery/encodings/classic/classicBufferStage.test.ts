@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { pngWithTexels } from "../../../decode/png.testing.ts";
-import { patchFilesOf } from "../../patchFiles.ts";
+import { deliveryOf } from "../encodings.ts";
 import { bufferStageBuilder } from "./classicBufferStage.ts";
 import { geometryOf, held, record, records, sigPatch, siteOf, soon } from "../../delivery.testing.ts";
 
@@ -99,9 +99,11 @@ describe("images that are decoded on the CPU", () => {
           (gates[begun++] ?? assert.fail("a third job")).promise.then(() => site.pool.runJob(name, input, signal)),
       });
       const { signal } = new AbortController();
-      const accepted = patchFilesOf(geometry, patch).map((part) =>
-        builder.accept(part, { kind: "bytes", bytes: files[part.plane] ?? assert.fail("no such plane") }, signal),
-      );
+      const accepted = deliveryOf(geometry)
+        .patchFilesOf(geometry, patch, 4096)
+        .map((part) =>
+          builder.accept(part, { kind: "bytes", bytes: files[part.plane] ?? assert.fail("no such plane") }, signal),
+        );
       for (const job of order) {
         gates[job]?.release();
         await accepted[job];

@@ -15,9 +15,11 @@ import { maxStoredValueOf, missingBytesMidpoint, dequantizationOf } from "../../
 import { asDeliveryError } from "../../deliveryError.ts";
 import { ArrayUploads } from "../../arrayUploads.ts";
 import type { PatchFile } from "../../patchFiles.ts";
+import { cornerCountOf } from "../../patchFiles.ts";
+import { firstTexelOf, normalCodeOf } from "./classicFormat.ts";
 import type { Content } from "../../resourcePool.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
-import { drawRangesOf, normalCodeOf, attainedStageName } from "../../stageBuilder.ts";
+import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
 
 interface Drawn {
   readonly index: StoredIndex | undefined;
@@ -72,7 +74,7 @@ class BufferStageBuilder implements StageBuilder {
   async accept(part: PatchFile, content: Content, signal: AbortSignal): Promise<void> {
     if (content.kind !== "bytes") throw new DecodeError("malformed", "is on the GPU already");
     const here = this.#here;
-    const file = { png: content.bytes, firstTexel: part.reference.first };
+    const file = { png: content.bytes, firstTexel: firstTexelOf(part.reference) };
     const header = checkPng(file.png);
     switch (part.role) {
       case "coord":
@@ -149,6 +151,7 @@ class BufferStageBuilder implements StageBuilder {
     const { index, draws } = (name === "points" ? undefined : here.drawn) ?? points;
     return {
       kind: "buffers",
+      vertexCount: count,
       name,
       index,
       draws,
@@ -269,10 +272,9 @@ class BufferStageBuilder implements StageBuilder {
   }
 
   #layout({ width, height }: PngHeader, { firstTexel }: { firstTexel: number } = { firstTexel: 0 }): RecordLayout {
-    const { index, grid, vertexCount, implicitWidth, draws } = this.#patch;
+    const { index, grid, vertexCount, implicitWidth } = this.#patch;
     if (grid !== undefined) return { count: vertexCount, rowLength: implicitWidth };
-    if (index === undefined)
-      return { count: draws.reduce((sum, draw) => sum + draw.count, 0), rowLength: implicitWidth };
+    if (index === undefined) return { count: cornerCountOf(this.#patch), rowLength: implicitWidth };
     return { count: vertexCount || width * height - firstTexel, rowLength: 0 };
   }
 }

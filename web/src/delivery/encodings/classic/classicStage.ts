@@ -9,9 +9,11 @@ import { isPairCode } from "../../../stage/stage.ts";
 import type { GeometryDescription, PatchDescription } from "../../../document/description.ts";
 import { missingBytesMidpoint } from "../../../document/dequantization.ts";
 import type { PatchFile } from "../../patchFiles.ts";
+import { cornerCountOf } from "../../patchFiles.ts";
+import { firstTexelOf, normalCodeOf } from "./classicFormat.ts";
 import { bufferStageBuilder } from "./classicBufferStage.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
-import { drawRangesOf, normalCodeOf, attainedStageName } from "../../stageBuilder.ts";
+import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";
 
 /** Which of the two is known when the first file is here. */
 export function classicStageBuilder(
@@ -50,7 +52,7 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
   let values: (TexelRange | undefined)[] = [];
   let here: Partial<Record<"index" | "normal" | "texCoord" | "color", TexelRange | undefined>> = {};
   const normalCode = normalCodeOf(geometry);
-  const corners = patch.draws.reduce((sum, draw) => sum + draw.count, 0);
+  const corners = cornerCountOf(patch);
 
   function channelsOf(role: PatchFile["role"]): number {
     switch (role) {
@@ -89,7 +91,7 @@ function textureStageBuilder(geometry: GeometryDescription, patch: PatchDescript
     accept(part, content) {
       if (content.kind !== "image") throw new DecodeError("malformed", "is no image");
       const { image, channels } = content;
-      const range = { image, firstTexel: part.reference.first };
+      const range = { image, firstTexel: firstTexelOf(part.reference) };
       const isPairs = part.role === "normal" && isPairCode(normalCode);
       const needed = channelsOf(part.role);
       if (channels < needed) throw new DecodeError("malformed", `has ${channels} channels where ${needed} are needed`);

@@ -6,8 +6,13 @@ import type { OtherValues, PatchBuffers } from "../../../decode/compact/patchBuf
 import type { VertexArray } from "../../../stage/vertexArray.ts";
 import { DecodeError } from "../../../decode/decodeError.ts";
 import type { BufferStage, DrawRange, StageName } from "../../../stage/stage.ts";
-import type { AttributeDescription, GeometryDescription, PatchDescription } from "../../../document/description.ts";
-import { latticeBitsOf } from "../../../document/dequantization.ts";
+import type {
+  AttributeDescription,
+  GeometryDescription,
+  PatchDescription,
+  Reference,
+} from "../../../document/description.ts";
+import { latticeBitsOf } from "../../../document/encodings.ts";
 import { ArrayUploads } from "../../arrayUploads.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { drawRangesOf } from "../../stageBuilder.ts";
@@ -40,6 +45,7 @@ export function compactStageBuilder(
     ]);
     return {
       kind: "buffers",
+      vertexCount: buffers.vertexCount,
       name,
       draws,
       normalCode: { kind: "vector" },
@@ -62,9 +68,9 @@ export function compactStageBuilder(
   return {
     isDivisible: true,
     async accept(part, content, signal) {
-      const { first } = part.reference;
+      const { reference } = part;
       if (content.kind === "bases") {
-        const parts = pieceOf(content.bases, first);
+        const parts = patchAt(content.bases, reference);
         if (parts.length !== geometry.patches.length) {
           throw new DecodeError("malformed", `holds ${parts.length} parts for ${geometry.patches.length} patches`);
         }
@@ -73,7 +79,7 @@ export function compactStageBuilder(
         const draws: DrawRange[] = [{ primitive: "triangles", first: 0, count: buffers?.index?.length ?? 0 }];
         standIn = buffers && (await store("base", buffers, draws, signal));
       } else if (content.kind === "patches") {
-        const buffers = pieceOf(content.patches, first);
+        const buffers = patchAt(content.patches, reference);
         check(buffers, geometry, patch);
         full = await store("full", buffers, drawRangesOf(patch), signal);
       } else {
@@ -97,12 +103,13 @@ export function compactStageBuilder(
   };
 }
 
-/** The one of several that a reference means. */
-function pieceOf<Piece>(pieces: readonly Piece[], first: number): Piece {
-  const piece = pieces[first];
-  if (piece === undefined)
-    throw new DecodeError("malformed", `holds ${pieces.length} patches, of which none has number ${first}`);
-  return piece;
+/** The patch, or the base mesh, of a file that a reference names. */
+function patchAt<Decoded>(decoded: readonly Decoded[], reference: Reference): Decoded {
+  const patchIndex = "patchIndex" in reference ? reference.patchIndex : 0;
+  const patch = decoded[patchIndex];
+  if (patch === undefined)
+    throw new DecodeError("malformed", `holds ${decoded.length} patches, of which none has number ${patchIndex}`);
+  return patch;
 }
 
 /** Those of the attribute that colours the geometry; undefined in a base that is without. */

@@ -1,0 +1,20 @@
+// BG's row: typed arrays for each attribute of a patch, in files of their own or interleaved in one.
+
+import { hasNormalsInCoords } from "../../../document/geometry.ts";
+import { byteSizeOf } from "../../../stage/elementType.ts";
+import { attributeFilesOf } from "../../patchFiles.ts";
+import type { EncodingDelivery } from "../encodingDelivery.ts";
+import { bgStageBuilder, byteStrideOf, componentsOf, elementTypeOf } from "./bgStage.ts";
+
+export const bgDelivery: EncodingDelivery = {
+  patchFilesOf(geometry, patch) {
+    const ownFiles = hasNormalsInCoords(geometry, patch) ? { ...patch, normal: undefined } : patch;
+    return attributeFilesOf(ownFiles, { kind: "bytes" }, (role, reference, elementCount) => {
+      const elementSize = byteSizeOf(elementTypeOf(geometry, role)) * componentsOf(geometry, role);
+      const bytes = elementCount * (byteStrideOf(reference) || elementSize);
+      return { expectedBytes: bytes, storedBytes: bytes };
+    });
+  },
+  stageBuilder: (geometry, patch, _, tools) => bgStageBuilder(geometry, patch, tools),
+  needsWorkers: ({ decode }) => decode === "cpu",
+};

@@ -1,0 +1,15 @@
+// What both stage builders of classic read in the description of a geometry.
+
+import { DecodeError } from "../../../decode/decodeError.ts";
+import type { GeometryDescription, Reference } from "../../../document/description.ts";
+import { isPair } from "../../../document/geometry.ts";
+import type { NormalCode } from "../../../stage/stage.ts";
+
+export function normalCodeOf({ normalEncoding }: GeometryDescription): NormalCode {
+  return isPair(normalEncoding) ? { kind: normalEncoding, bits: 8 } : { kind: "byteVector" };
+}
+
+export function firstTexelOf(reference: Reference): number {
+  if ("firstTexel" in reference) return reference.firstTexel;
+  throw new DecodeError("malformed", "is referred to by no texel");
+}

@@ -1,0 +1,50 @@
+// Compact's row: one file holds all of a patch, and another the base mesh of all patches.
+
+import type { PatchDescription } from "../../../document/description.ts";
+import type { PatchFile } from "../../patchFiles.ts";
+import { cornerCountOf } from "../../patchFiles.ts";
+import type { EncodingDelivery } from "../encodingDelivery.ts";
+import { compactStageBuilder } from "./compactStage.ts";
+
+/** A base mesh's share of its patches' triangles, and bytes, roughly. */
+const baseShare = 0.03;
+
+export const compactDelivery: EncodingDelivery = {
+  patchFilesOf({ base }, patch) {
+    const { expectedBytes, storedBytes } = sizesOf(patch);
+    const files: PatchFile[] = [];
+    if (base !== undefined) {
+      files.push({
+        role: "base",
+        plane: 0,
+        reference: base,
+        target: { kind: "bases", job: "compactBases" },
+        chunk: { type: "base", plane: 0 },
+        expectedBytes: baseShare * expectedBytes,
+        storedBytes: baseShare * storedBytes,
+      });
+    }
+    if (patch.data !== undefined) {
+      files.push({
+        role: "patch",
+        plane: 0,
+        reference: patch.data,
+        target: { kind: "patches", job: "compactPatches" },
+        chunk: { type: "patch", plane: 0 },
+        expectedBytes,
+        storedBytes,
+      });
+    }
+    return files;
+  },
+  stageBuilder: compactStageBuilder,
+  needsWorkers: () => true,
+};
+
+function sizesOf(patch: PatchDescription): Pick<PatchFile, "expectedBytes" | "storedBytes"> {
+  const cornerCount = cornerCountOf(patch);
+  return {
+    expectedBytes: 2 * patch.vertexCount + cornerCount / 6,
+    storedBytes: 12 * patch.vertexCount + 2 * cornerCount, // words of positions, bytes of normals, short indices
+  };
+}

@@ -1,0 +1,22 @@
+// The registry of encodings in delivery: one row each.
+
+import type { Encoding, GeometryDescription } from "../../document/description.ts";
+import { bgDelivery } from "./bg/bgDelivery.ts";
+import { classicDelivery } from "./classic/classicDelivery.ts";
+import { compactDelivery } from "./compact/compactDelivery.ts";
+import type { EncodingDelivery } from "./encodingDelivery.ts";
+
+export const encodingDeliveries: Readonly<Record<Encoding, EncodingDelivery>> = {
+  compact: compactDelivery,
+  classic: classicDelivery,
+  bg: bgDelivery,
+};
+
+export function deliveryOf({ encoding }: Pick<GeometryDescription, "encoding">): EncodingDelivery {
+  return encodingDeliveries[encoding];
+}
+
+/** Whether workers decode the geometry's patches whatever the GPU can do. */
+export function needsWorkers(geometry: GeometryDescription): boolean {
+  return deliveryOf(geometry).needsWorkers(geometry);
+}

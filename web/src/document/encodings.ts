@@ -1,0 +1,114 @@
+// What documents say of each encoding: one row each. How its files become stages is in
+// delivery/encodings. Mirrors src/containers/encodings.h.
+
+import type {
+  ElementType,
+  Encoding,
+  GeometryDescription,
+  ImageProfile,
+  PatchDescription,
+  Reference,
+} from "./description.ts";
+
+export interface EncodingFormat {
+  /** The value of an ImageGeometry's `profile` field; undefined: a BinaryGeometry. */
+  readonly profile: ImageProfile | undefined;
+  /**
+   * `packed`: one range of bytes holds all of a patch. `bytePlanes`: an image for each byte of a value, which the
+   * GPU can read. `arrays`: arrays of an ElementType.
+   */
+  readonly storage: "packed" | "bytePlanes" | "arrays";
+  /** A file with a base mesh may stand in for the patches. */
+  readonly hasBase: boolean;
+  /** Patches may be grids without an index (`implicitMeshMode`). */
+  readonly hasGrids: boolean;
+  /** The files that the coordinates of a patch can have. */
+  readonly maxCoordFileCount: number;
+  /** The files of each patch for one further attribute whose numbers have `valueBits` bits. */
+  attributeFileCount(valueBits: number): number;
+  /** Bits of a further attribute's stored integers; undefined: numbers are stored as they are. */
+  attributeBits(valueBits: number): number | undefined;
+  /** `fragment`: what follows the URL's `#`; undefined where there is none. */
+  referenceOf(url: string, fragment: string | undefined): Reference;
+  /** The stored value that stands for the far side of the decode box. */
+  maxStoredValue(geometry: GeometryDescription, patch: PatchDescription): number;
+}
+
+/** The largest value of each element type, which stands for 1 (X3DOM's PMAX). */
+const maxElementValues: Readonly<Record<ElementType, number>> = {
+  Int8: 127,
+  Uint8: 255,
+  Int16: 32767,
+  Uint16: 65535,
+  Int32: 2147483647,
+  Uint32: 4294967295,
+  Float32: 1,
+};
+
+/** Byte planes that coordinates can have: 32 bits. */
+const maxCoordPlaneCount = 4;
+
+export const encodingFormats: Readonly<Record<Encoding, EncodingFormat>> = {
+  compact: {
+    profile: "compact",
+    storage: "packed",
+    hasBase: true,
+    hasGrids: false,
+    maxCoordFileCount: 1,
+    attributeFileCount: () => 0,
+    attributeBits: (valueBits) => valueBits,
+    referenceOf: (url, fragment) => ({ url, patchIndex: numberIn(beforePlus(fragment)) }),
+    maxStoredValue: (geometry) => maxLatticeValue(latticeBitsOf(geometry)),
+  },
+  classic: {
+    profile: "classic",
+    storage: "bytePlanes",
+    hasBase: false,
+    hasGrids: true,
+    maxCoordFileCount: maxCoordPlaneCount,
+    attributeFileCount: (valueBits) => valueBits / 8,
+    attributeBits: (valueBits) => valueBits,
+    referenceOf: (url, fragment) => ({ url, firstTexel: numberIn(beforePlus(fragment)) }),
+    maxStoredValue: (_, patch) => 256 ** Math.max(1, patch.coord.length) - 1,
+  },
+  bg: {
+    profile: undefined,
+    storage: "arrays",
+    hasBase: false,
+    hasGrids: false,
+    maxCoordFileCount: 1,
+    attributeFileCount: () => 1,
+    attributeBits: () => undefined,
+    referenceOf(url, fragment) {
+      // X3DOM's "file.bin+S" names a file that is really called so, with stride S.
+      if (fragment === undefined) return { url, byteOffset: 0, byteStride: numberIn(/\+(\d+)$/.exec(url)?.[1]) };
+      const [offset, stride] = fragment.split("+");
+      return { url, byteOffset: numberIn(offset), byteStride: numberIn(stride) };
+    },
+    maxStoredValue: ({ coordType }) => maxElementValues[coordType],
+  },
+};
+
+export function formatOf({ encoding }: Pick<GeometryDescription, "encoding">): EncodingFormat {
+  return encodingFormats[encoding];
+}
+
+/** Bits of a lattice coordinate in compact. */
+export function latticeBitsOf({ positionBits }: GeometryDescription): number {
+  return positionBits > 0 ? positionBits : 16;
+}
+
+/** The box is spread over whole bytes, of which the lattice has the upper bits; its numbers come without the lower ones. */
+function maxLatticeValue(bits: number): number {
+  const bytes = Math.ceil(bits / 8);
+  return (256 ** bytes - 1) / 2 ** (8 * bytes - bits);
+}
+
+function beforePlus(fragment: string | undefined): string | undefined {
+  return fragment?.split("+")[0];
+}
+
+/** 0 for what is no number. */
+function numberIn(text: string | undefined): number {
+  return text !== undefined && /^\d+$/.test(text) ? Number(text) : 0;
+}
