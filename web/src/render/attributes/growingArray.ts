@@ -1,6 +1,6 @@
 import type { ElementArray } from "../../stage/vertexArray.ts";
 
-/** A typed array that is longer than what of it is used, so that it grows by and by. */
+/** A typed array with spare capacity, which doubles when it is full. */
 export class GrowingArray<Elements extends ElementArray> {
   readonly #type: new (length: number) => Elements;
   #array: Elements;
@@ -15,12 +15,12 @@ export class GrowingArray<Elements extends ElementArray> {
     return this.#length;
   }
 
-  /** Valid until it grows, as all that shares its memory. */
+  /** The elements that are in use. Valid until the next `extend`, which may replace the memory. */
   get used(): Elements {
     return this.#array.subarray(0, this.#length) as Elements;
   }
 
-  /** So many elements more, which are returned. Those that were used before are as they were left. */
+  /** Appends `count` elements and returns them. Their content is undefined: it may be left over from before `clear`. */
   extend(count: number): Elements {
     const first = this.#length;
     this.#length += count;

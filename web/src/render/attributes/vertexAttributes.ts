@@ -1,13 +1,13 @@
-// What three.js calls the attributes of a stage in buffers.
+// The attributes of a stage in vertex buffers, under the names that three.js gives them.
 
 import type { BufferStage, StoredVertices } from "../../stage/stage.ts";
 import { isPairCode } from "../../stage/stage.ts";
 
-/** An attribute of a stage's vertices, by three.js' name for it. */
+/** One attribute of a stage's vertices. */
 export interface VertexAttribute {
   readonly name: string;
   readonly vertices: StoredVertices;
-  /** Integers are spread over 0 … 1 or -1 … 1. */
+  /** Shaders read integers as 0 … 1 or -1 … 1, as three.js' `BufferAttribute.normalized` says. */
   readonly isNormalized: boolean;
 }
 

@@ -1,5 +1,6 @@
-// The attributes of small meshes on their way into one mesh: each a column of its
-// own, whatever records they came in, padded to words as GPUs like them.
+// Vertex attributes of small meshes on their way into one merged mesh: one tightly packed array
+// (column) per attribute, whatever stride the source has, padded to words of four bytes as GPUs
+// prefer.
 
 import { InterleavedBuffer, InterleavedBufferAttribute } from "three";
 import type { ElementArray } from "../../stage/vertexArray.ts";
@@ -12,7 +13,7 @@ import { GrowingArray } from "./growingArray.ts";
 const bytesPerWord = 4;
 
 export interface Column {
-  /** three.js' name for the attribute. */
+  /** three.js' name of the attribute. */
   readonly name: string;
   readonly components: number;
   readonly isNormalized: boolean;
@@ -20,7 +21,7 @@ export interface Column {
   readonly data: GrowingArray<ElementArray>;
 }
 
-/** The same for stages whose vertices fit into the same columns. */
+/** A key that is equal for stages whose vertices fit into the same columns. */
 export function layoutOf(stage: BufferStage): string {
   return vertexAttributesOf(stage)
     .map(({ name, vertices: { type, components }, isNormalized }) => `${name} ${type} ${components} ${isNormalized}`)
@@ -41,7 +42,7 @@ export function columnsOf(stage: BufferStage): Column[] {
   });
 }
 
-/** Appends vertices of the stage to the column of one of its attributes: its first ones, so many, or those of these numbers. */
+/** Appends vertices of the stage to one column: the first `vertices` of them, or those with the given indices. */
 export function appendVertices(
   { name, components, elementsPerVertex, data }: Column,
   stage: BufferStage,
@@ -65,7 +66,7 @@ export function appendVertices(
   }
 }
 
-/** The numbers of vertices that draws of a stage name, one draw after the other. */
+/** The vertex indices of some draws of a stage, one draw after the other. */
 export function indicesOf(
   { index }: BufferStage,
   ranges: readonly DrawRange[],
@@ -79,7 +80,7 @@ export function indicesOf(
   return ranges.flatMap(of);
 }
 
-/** For three.js. It shares the column's memory. */
+/** A three.js attribute that shares the column's memory. */
 export function attributeOf({ components, isNormalized, elementsPerVertex, data }: Column): InterleavedBufferAttribute {
   return new InterleavedBufferAttribute(
     new InterleavedBuffer(data.used, elementsPerVertex),

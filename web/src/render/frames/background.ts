@@ -1,12 +1,12 @@
-// What is behind a scene: X3D's Background (ISO/IEC 19775-1, 24.4.1). One colour
-// clears the picture; several are rings around the zenith and the nadir, drawn by
-// one triangle that covers all and asks each pixel where it looks.
+// X3D's Background (ISO/IEC 19775-1, 24.4.1). A single colour clears the canvas. Several colours
+// are rings around the zenith and the nadir; one triangle that covers the canvas draws them, and
+// each pixel computes its view direction.
 
 import { BufferAttribute, BufferGeometry, Color, Mesh, ShaderMaterial } from "three";
 import type { BackgroundDescription } from "../../document/description.ts";
 import { setColor } from "../lights/linearColor.ts";
 
-/** The zenith's and the nadir's rings that are drawn, each with its own colour. */
+/** The maximum number of sky rings and of ground rings that are drawn; further ones are ignored. */
 const maxRings = 16;
 
 const vertexShader = /* glsl */ `
@@ -44,7 +44,7 @@ void main() {
 }
 `;
 
-/** A colour to clear with, or what is to be drawn behind everything. */
+/** A clear colour, or a mesh to draw behind everything else. */
 export function makeBackground(background: BackgroundDescription): Color | Mesh {
   if (background.sky.length === 1 && background.ground.length === 0) {
     const color = new Color();

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { afterEach, beforeEach, describe, mock, test } from "node:test";
 import { FramePacer } from "./framePacing.ts";
 
-/** A GPU that needs so long for a frame, and a renderer that draws when it is told to. */
+/** A simulated GPU that needs `frameMs` for each frame, and a renderer that draws when it is told to. */
 function renderer(frameMs: number): { pace: FramePacer; frames: number[]; draw: () => void; ask: () => void } {
   const begun: number[] = [];
   const gl = {
@@ -42,7 +42,7 @@ async function pass(milliseconds: number): Promise<void> {
   }
 }
 
-describe("frames that only refine", () => {
+describe("frames that only refine the picture", () => {
   beforeEach(() => {
     mock.timers.enable({ apis: ["setTimeout"] });
     mock.method(performance, "now", () => now);
@@ -52,7 +52,7 @@ describe("frames that only refine", () => {
     mock.restoreAll();
   });
 
-  test("leave a slow GPU two thirds of its time, and lose no change", async () => {
+  test("leave a slow GPU idle for two thirds of the time, and lose no change", async () => {
     const { frames, ask } = renderer(100);
     for (let ms = 0; ms < 1000; ms += 10) {
       ask();
@@ -68,7 +68,7 @@ describe("frames that only refine", () => {
     assert.equal(frames.length, before + 1);
   });
 
-  test("come as they are asked for where the GPU is quick", async () => {
+  test("are drawn at every request where the GPU is fast", async () => {
     const { frames, ask } = renderer(4);
     for (let ms = 0; ms < 1000; ms += 20) {
       ask();
@@ -77,10 +77,10 @@ describe("frames that only refine", () => {
     assert.equal(frames.length, 50);
   });
 
-  test("do not hold back others, which show what they would have shown", async () => {
+  test("do not delay other frames, and are skipped when another frame has shown their changes", async () => {
     const { frames, ask, draw } = renderer(100);
     ask();
-    ask(); // waits
+    ask(); // is delayed
     draw();
     draw();
     assert.equal(frames.length, 3);

@@ -1,12 +1,12 @@
-// Frames that only make the picture finer, at a pace that the GPU can hold. A
-// scene of many patches changes many times a second while it arrives; a GPU that
-// takes longer than a frame for it would draw all of these and have no time left
-// for what they wait for. So after such a frame it rests twice as long as that
-// took. The last change of all waits for nobody.
+// Frame pacing for frames that only refine the picture. A scene of many patches changes many times
+// a second while it loads. A GPU that needs longer than a frame for each of these changes would
+// have no time left for uploads. So after a frame that takes longer than `quickFrameMs`, the next
+// refinement waits twice as long as that frame took. No change is lost: the delayed frame shows all
+// changes that came meanwhile.
 
 import { fencePassed } from "./gpuFence.ts";
 
-/** Frames of up to this many milliseconds need no rest after them. */
+/** Frames of up to this duration cause no delay. */
 const quickFrameMs = 16;
 const restPerFrame = 2;
 const longestRestMs = 2000;
@@ -21,12 +21,12 @@ export class FramePacer {
     this.#gl = gl;
   }
 
-  /** Somebody has asked, and the frame has not come yet. */
+  /** A frame has been requested and has not been drawn yet. */
   get isFramePending(): boolean {
     return this.#isAsked;
   }
 
-  /** Calls back in this turn of the event loop where the GPU has rested, and once however often it is asked. */
+  /** Calls back once, however often it is requested before the frame: immediately, or after the delay. */
   request(callback: () => void): void {
     if (this.#isAsked) return;
     this.#isAsked = true;
@@ -37,13 +37,13 @@ export class FramePacer {
       });
   }
 
-  /** A frame is about to be given to the GPU, whoever asked for it. */
+  /** Call before any frame is submitted to the GPU, whether or not it was requested here. */
   begin(): void {
     this.#wasAsked = this.#isAsked;
     this.#isAsked = false;
   }
 
-  /** It has been given to the GPU. */
+  /** Call after the frame has been submitted to the GPU. `begunAt`: when `begin` was called, by `performance.now()`. */
   end(begunAt: number): void {
     if (!this.#wasAsked || this.#rest !== undefined) return;
     this.#rest = restAfter(this.#gl, begunAt).then(() => {

@@ -1,11 +1,13 @@
+// Waiting for a WebGL fence without blocking the main thread.
+
 const pollMs = 2;
-/** Of a lost context every fence has passed. */
+/** Resolves when the GPU has executed all commands before the fence, or when the context is lost. */
 export function fencePassed(gl: WebGL2RenderingContext, fence: WebGLSync | null): Promise<void> {
   return new Promise((resolve) => {
-    const look = () => {
+    const poll = () => {
       if (fence === null || gl.isContextLost() || gl.clientWaitSync(fence, 0, 0) !== gl.TIMEOUT_EXPIRED) resolve();
-      else setTimeout(look, pollMs);
+      else setTimeout(poll, pollMs);
     };
-    setTimeout(look);
+    setTimeout(poll);
   });
 }

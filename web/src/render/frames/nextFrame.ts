@@ -1,9 +1,11 @@
-// When the next frame is due, also in pages that draw none.
+// Callbacks before the next frame, also in hidden pages, which get no animation frames.
 
-/** In a page that nobody sees there are no frames, but files come. */
+/**
+ * Without an animation frame within this time, the callback comes from a timer: files keep arriving in hidden pages.
+ */
 const framelessMs = 250;
 
-/** Calls back before the next frame; later, and with `true`, in a page that nobody sees. */
+/** Calls back before the next frame, or after `framelessMs`. `isUnseen`: the page is hidden. */
 export function beforeNextFrame(callback: (isUnseen: boolean) => void): void {
   const call = (isUnseen: boolean) => {
     cancelAnimationFrame(frame);

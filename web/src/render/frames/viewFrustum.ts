@@ -1,11 +1,11 @@
-// What a camera sees: for leaving out what it does not.
+// The view frustum, for culling.
 
 import { Frustum, Matrix4 } from "three";
 
 /**
- * In the coordinates that `viewFromThere` leads from. `margin`: how far what is drawn
- * may reach beyond its bounds, as shares of half the picture's width and height; wide
- * lines are wide on the screen, wherever they are.
+ * The frustum in the coordinate system that `viewFromThere` transforms from. `margin`: how far objects may extend
+ * beyond their bounds on the screen, as fractions of half the picture's width and height. Wide lines need it: their
+ * width is measured on the screen.
  */
 export function frustumOf(
   projection: Matrix4,

@@ -1,6 +1,5 @@
-// The falloff of light (lighting/falloff.ts) in three.js, which gives a light of a
-// place one number for it, `decay`. Here that is the place of the light's
-// `attenuation` in a list of the scene's.
+// Falloff of light (lighting/falloff.ts) in three.js. three.js passes one number per point or spot
+// light to the shader, `decay`. Here it is an index into the uniform array `attenuations`.
 
 import { ShaderChunk } from "three";
 import { falloffChunk } from "../../lighting/falloff.ts";
@@ -19,7 +18,7 @@ float getSpotAttenuation(const in float edgeCosine, const in float beamCosine, c
 }
 `;
 
-/** In the place of three's own chunk. */
+/** Replaces three.js' chunk `lights_pars_begin`, whose own falloff functions are renamed and unused. */
 export const lightsChunk =
   chunk +
   replaceChunks(ShaderChunk.lights_pars_begin, [

@@ -15,7 +15,7 @@ function uniformsOf(markup: string): SceneLightUniforms {
   return makeLights(reach.lights).uniforms;
 }
 
-test("programs of scenes whose lights are global know nothing of scopes", () => {
+test("programs of scenes with only global lights contain no light scopes", () => {
   assert.ok(
     !hasLightScopes(
       uniformsOf(
@@ -26,7 +26,7 @@ test("programs of scenes whose lights are global know nothing of scopes", () => 
   assert.ok(hasLightScopes(uniformsOf("<Group><DirectionalLight/></Group>")));
 });
 
-test("lights tell what they reach in the order in which three.js counts them", () => {
+test("each light's scope range stands in the order in which three.js counts lights", () => {
   const { lightScopeRanges: lightScopeRanges, scopedAmbients } = uniformsOf(`<DirectionalLight ambientIntensity="1"/>
     <Group><DirectionalLight color="1 0.5 0" ambientIntensity="0.5"/><Group><SpotLight global="false"/></Group></Group>
     <Group><PointLight global="false"/></Group>`);
@@ -51,7 +51,7 @@ test("lights tell what they reach in the order in which three.js counts them", (
   );
 });
 
-test("three.js' shaders ask for each kind of light, and for ambient light, whether it reaches", () => {
+test("three.js' shaders test the scope of each kind of light and of ambient light", () => {
   const lit = { vertexShader: ShaderLib.phong.vertexShader, fragmentShader: ShaderLib.phong.fragmentShader };
   addLightScopes(lit);
   const asked = [

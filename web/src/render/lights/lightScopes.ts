@@ -1,6 +1,6 @@
-// What lights reach (navigation/lightScope.ts) in three.js, which shines on all that
-// is in a scene with every light. Programs test it where a scene has scopes, and
-// know nothing of it elsewhere.
+// Light scopes (scene/lightScope.ts) in three.js, which applies every light of a scene to every
+// object. Shader programs test the scope in scenes that have scopes, and contain no such code in
+// other scenes.
 
 import type { Group, WebGLProgramParametersWithUniforms } from "three";
 import { ShaderChunk } from "three";
@@ -9,9 +9,9 @@ import type { SceneLightUniforms } from "./sceneLights.ts";
 import { instancesDefine, scopedLightsDefine } from "../shaders/instanceRecord.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 
-/** A group in which a shape is drawn. */
+/** A group that holds one instance of a shape. */
 export interface ShapeGroup extends Group {
-  /** The innermost that it is in; undefined where every light shines on it that is global. */
+  /** The innermost light scope around the instance; undefined: the global lights only. */
   lightScope?: LightScope;
 }
 
@@ -19,7 +19,7 @@ export function hasLightScopes({ lightScopeRanges: lightScopeRanges }: SceneLigh
   return lightScopeRanges.value.length > 0;
 }
 
-/** By the numbers of lights that three.js fills in, in the order of `lightScopeRanges`. */
+/** Indices follow three.js' light loops, in the order of `lightScopeRanges`. */
 const fragmentChunk = /* glsl */ `
 #define ${scopedLightsDefine}
 #define ALL_LIGHTS ( NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS + NUM_DIR_LIGHTS + 1 )
@@ -62,7 +62,7 @@ function lit(statement: string, number: string): readonly [string, string] {
   return [statement, `${statement}\n\t\tdirectLight.color *= lightShareInScope( ${number} );`];
 }
 
-/** For `onBeforeCompile`. */
+/** Call in `onBeforeCompile`. Programs of unlit materials stay as they are. */
 export function addLightScopes(
   shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
 ): void {

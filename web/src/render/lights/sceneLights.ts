@@ -1,5 +1,5 @@
-// The lights of a scene as three.js has them. They hang beside its groups, not in
-// them: those are passed over when they are out of the view, and lights shine on.
+// The lights of a scene as three.js lights. They are children of a group of their own beside the
+// groups of shapes, because culled groups become invisible and lights must not.
 
 import { AmbientLight, Color, DirectionalLight, Group, PointLight, SpotLight, Vector2, Vector3 } from "three";
 import type { LightDescription } from "../../document/description.ts";
@@ -10,13 +10,14 @@ import { sceneScope } from "../../scene/lightScope.ts";
 import type { LightInstance } from "../../scene/instances.ts";
 import { setColor } from "./linearColor.ts";
 
-/** What three.js does not know of lights, for all materials that they shine on. */
+/** Light parameters that three.js lacks, as uniforms of all lit materials. */
 export interface SceneLightUniforms {
-  /** Of those that have a place, by the number in their `decay`: see lightFalloff.ts. Never empty. */
+  /** Attenuation of each point and spot light, indexed by its `decay` (lightFalloff.ts). Never empty. */
   readonly attenuations: { value: Vector3[] };
   /**
-   * Of each the numbers of the first scope and of the last that it shines in, and its ambient light if these
-   * are not all: points, spots, directional lights, and at the end one that shines everywhere. Empty where all do.
+   * Per light the first and the last scope number that it reaches, and its ambient light where it does not reach every
+   * scope. Point lights, then spot lights, then directional lights, then two entries that reach everything. Empty
+   * where all lights are global.
    */
   readonly lightScopeRanges: { value: Vector2[] };
   readonly scopedAmbients: { value: Vector3[] };
@@ -68,7 +69,10 @@ function ambientOf({ color, ambientIntensity }: LightDescription): Color {
   return ambient.multiplyScalar(ambientIntensity);
 }
 
-/** In the order in which three.js' programs count them; the headlight comes last in its scene, and may be missing. */
+/**
+ * In the order in which three.js' programs count lights. The headlight, where there is one, is the last directional
+ * light.
+ */
 function setScopeRanges(
   { lightScopeRanges: lightScopeRanges, scopedAmbients }: SceneLightUniforms,
   lights: readonly LightInstance[],
@@ -79,7 +83,7 @@ function setScopeRanges(
       scopedAmbients.value.push(new Vector3(...(scope === sceneScope ? [0, 0, 0] : ambientOf(light).toArray())));
     }
   }
-  // One for the headlight, and one because a list in GLSL cannot be empty.
+  // One entry for the headlight, and one because GLSL has no empty arrays.
   for (let more = 0; more < 2; ++more) {
     lightScopeRanges.value.push(scopeRangeOf(sceneScope));
     scopedAmbients.value.push(new Vector3());
@@ -96,7 +100,7 @@ function lightOf(description: LightDescription): DirectionalLight | PointLight |
   if (description.kind === "directional") {
     const light = new DirectionalLight();
     light.intensity = description.intensity;
-    // three's light shines from its position to its target.
+    // A three.js DirectionalLight shines from its position towards its target.
     light.position.set(0, 0, 0);
     light.target.position.set(...description.direction);
     return light;

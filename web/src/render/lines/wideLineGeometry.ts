@@ -1,7 +1,6 @@
-// The geometry of wide lines: an instance for each, which finds its two ends by
-// their numbers in images, or as attributes. Buffers hold vertices once and lines in
-// an index; an instance has no index, so of buffers the ends are laid out one after
-// the other, which needs them here once.
+// Geometry of wide lines: one instance per line. In image stages the shader finds both ends by
+// their index. In buffer stages both ends are attributes of the instance: the vertices are read
+// back once and written out line by line, because instanced attributes cannot be indexed.
 
 import {
   BufferAttribute,
@@ -18,7 +17,7 @@ import type { BufferProvider } from "../uploads/bufferProvider.ts";
 import { outlineTriangles } from "../shaders/wideLineChunk.ts";
 import { lineCountOf, lineStepOf } from "./wideLines.ts";
 
-/** All of it is three.js' own, to be disposed of as such. Of images it has no attributes. */
+/** The caller disposes of the geometry; it shares no stage buffers. For image stages it has no attributes. */
 export function wideLineGeometryOf(stage: Stage, range: DrawRange, buffers: BufferProvider): InstancedBufferGeometry {
   const geometry = outlineGeometry(lineCountOf(range));
   if (stage.kind === "textures") return geometry;
@@ -28,7 +27,7 @@ export function wideLineGeometryOf(stage: Stage, range: DrawRange, buffers: Buff
   return geometry;
 }
 
-/** So many lines, of which it does not say where they are. */
+/** The outline of a line in `lineCount` instances, without the attributes that say where the lines are. */
 export function outlineGeometry(lineCount: number): InstancedBufferGeometry {
   const geometry = new InstancedBufferGeometry();
   geometry.setIndex(new BufferAttribute(Uint16Array.from(outlineTriangles), 1));
@@ -36,7 +35,7 @@ export function outlineGeometry(lineCount: number): InstancedBufferGeometry {
   return geometry;
 }
 
-/** The same lines again and again, so many times. */
+/** The same lines repeated `times` times. */
 export function repeatedLines(lines: InstancedBufferGeometry, times: number): InstancedBufferGeometry {
   const geometry = outlineGeometry(times * lines.instanceCount);
   const copies = new Map<unknown, InstancedInterleavedBuffer>();
@@ -51,16 +50,16 @@ export function repeatedLines(lines: InstancedBufferGeometry, times: number): In
   return geometry;
 }
 
-/** A record for each line, with both its ends. */
+/** One record per line, with the attributes of both ends. */
 export class LineRecords {
   readonly #columns: readonly Column[];
 
-  /** For lines of stages that are like this one in all that `layoutOf` says. */
+  /** `stage`: one of the stages to come, which all have the same `layoutOf` key. */
   constructor(stage: BufferStage) {
     this.#columns = columnsOf(stage);
   }
 
-  /** Appends the lines of a draw. */
+  /** Appends the lines of one draw. */
   add(stage: BufferStage, range: DrawRange, buffers: BufferProvider): void {
     const ends = endsOf(stage, range, buffers);
     for (const column of this.#columns) appendVertices(column, stage, ends, buffers);
@@ -70,7 +69,10 @@ export class LineRecords {
     for (const { data } of this.#columns) data.clear();
   }
 
-  /** Attributes are those of the line's begin; of its end they have End behind their names. Valid until there are more lines: they share memory. */
+  /**
+   * Attributes of the line's begin have their usual names; those of its end have the suffix `End`. They share memory
+   * with the records: valid until the next `add`.
+   */
   setOn(geometry: InstancedBufferGeometry): void {
     for (const { name, components, isNormalized, elementsPerVertex, data } of this.#columns) {
       const records = new InstancedInterleavedBuffer(data.used, 2 * elementsPerVertex);
@@ -83,7 +85,7 @@ export class LineRecords {
   }
 }
 
-/** The numbers of the vertices at the begin and the end of each line. */
+/** The vertex indices of the begin and the end of each line, alternately. */
 function endsOf(stage: BufferStage, range: DrawRange, buffers: BufferProvider): Uint32Array {
   const numbers = indicesOf(stage, [range], buffers);
   const step = lineStepOf(range);

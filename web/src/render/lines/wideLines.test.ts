@@ -23,7 +23,7 @@ const buffers: BufferProvider = {
   read: (bytes, _, first, count = Infinity) => (contents.get(bytes) ?? assert.fail()).subarray(first, first + count),
 };
 
-/** Vertex n lies at 10 n, 10 n + 1, 10 n + 2, and its colour is n; records have two elements more than that. */
+/** Vertex n lies at (10 n, 10 n + 1, 10 n + 2) and its colour is n; records have two elements more than that. */
 function stageOf(draws: readonly DrawRange[], index: IndexArray | undefined): BufferStage {
   const coord = stored(
     Int16Array.from(Array.from({ length: 8 }, (_, n) => [-1, 10 * n, 10 * n + 1, 10 * n + 2, -1]).flat()),
@@ -62,14 +62,14 @@ function endsOf(
 }
 
 describe("wide lines in buffers", () => {
-  test("have an instance for each pair of an index, from the draw's first on, whatever the records' stride", () => {
+  test("have one instance per pair of indices, starting at the draw's first index, whatever the records' stride", () => {
     assert.deepEqual(
       endsOf({ primitive: "lines", first: 2, count: 4, isWide: true }, Uint16Array.from([0, 1, 5, 3, 3, 6])),
       { count: 2, begins: [50, 30], ends: [30, 60], colors: [3, 6] },
     );
   });
 
-  test("of a strip share the vertices between them; without an index vertices follow one another", () => {
+  test("share vertices along a strip, and use consecutive vertices where there is no index", () => {
     assert.deepEqual(endsOf({ primitive: "lineStrip", first: 1, count: 3, isWide: true }), {
       count: 2,
       begins: [10, 20],
@@ -90,7 +90,7 @@ describe("wide lines in buffers", () => {
 });
 
 describe("a stage with wide lines", () => {
-  test("is the same object each time, and the stage itself where it has no lines", () => {
+  test("is the same object each time, and the original stage where it has no lines", () => {
     const lines = stageOf(
       [
         { primitive: "lines", first: 0, count: 2 },
@@ -108,7 +108,7 @@ describe("a stage with wide lines", () => {
   });
 });
 
-test("the outline of a line is covered once", () => {
+test("the triangles of a line's outline cover it once", () => {
   const capSides = 8;
   const corners = Array.from({ length: 2 * capSides + 2 }, (_, n) => {
     const angle = Math.PI * (0.5 + (n > capSides ? n - 1 : n) / capSides);

@@ -1,6 +1,8 @@
+// Changing the #defines of a material.
+
 import type { Material } from "three";
 
-/** Another program where that changes something. */
+/** Adds or removes a #define; three.js then compiles another program where that changes something. */
 export function setDefine(material: Material, name: string, isDefined: boolean): void {
   const defines = material.defines ?? {};
   if (name in defines === isDefined) return;

@@ -1,5 +1,5 @@
-// Points that stand for a surface to come cannot be lit yet; they are darker the
-// farther they are, so that they show a shape and not just its outline.
+// Depth shading: points that stand in for a surface that is still loading cannot be lit. They
+// darken with depth, which shows their shape and not just its outline.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
@@ -25,7 +25,10 @@ const fragmentChunk = /* glsl */ `
 #endif
 `;
 
-/** For `onBeforeCompile`; does nothing where the material does not define it. The uniform is SceneUniforms' `depthRange`. */
+/**
+ * Call in `onBeforeCompile`; affects materials that define `SHADE_BY_DEPTH`. The uniform is
+ * `SceneUniforms.depthRange`.
+ */
 export function addDepthShading(
   shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
 ): void {

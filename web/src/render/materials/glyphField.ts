@@ -1,6 +1,5 @@
-// Letters, from a picture whose alpha is the distance to their edges (Green 2007):
-// sharp however near they are. Seen small, the field blurs them as much as it can,
-// and mipmaps of it do the rest.
+// Glyphs from a texture whose alpha is the distance to the outlines of letters (Green 2007): sharp
+// from near. From far, the edge is softened as far as the field reaches, and mipmaps do the rest.
 
 import type { Material, WebGLProgramParametersWithUniforms } from "three";
 import type { AppearanceDescription } from "../../document/description.ts";
@@ -10,7 +9,7 @@ import { replaceChunks } from "../shaders/replaceChunks.ts";
 
 const glyphsDefine = "GLYPHS";
 
-/** What is not within letters is not there: it hides nothing, and before the picture has come that is all. */
+/** Fragments outside of glyphs are discarded, so that they hide nothing; before the texture has come, all are. */
 const glyphsChunk = /* glsl */ `
 #include <alphamap_fragment>
 #ifdef ${glyphsDefine}
@@ -21,14 +20,14 @@ const glyphsChunk = /* glsl */ `
     float field = texture2D(map, vMapUv).a;
     float share = clamp((field - 0.5) / softness + 0.5, 0.0, 1.0);
     if (share == 0.0) discard;
-    diffuseColor.a *= share / field; // which the map has multiplied it by
+    diffuseColor.a *= share / field; // the map has already multiplied it by the field
   #else
-    if (diffuseColor.a >= 0.0) discard; // always: compilers leave out what nothing reaches, which WebGL does not draw
+    if (diffuseColor.a >= 0.0) discard; // always true; a plain discard lets compilers drop the whole shader, and WebGL then draws nothing
   #endif
 #endif
 `;
 
-/** For `onBeforeCompile`; does nothing where the material does not define it. */
+/** Call in `onBeforeCompile`; affects materials for which `setGlyphDefine` found a glyph texture. */
 export function addGlyphField(shader: Pick<WebGLProgramParametersWithUniforms, "fragmentShader">): void {
   shader.fragmentShader = replaceChunks(shader.fragmentShader, [["#include <alphamap_fragment>", glyphsChunk]]);
 }

@@ -1,6 +1,6 @@
-// What draws look like: in pages as X3D says (materials.ts), in other people's
-// three.js apps as those say (loader/appLook.ts). Where their vertices come from
-// is the same for all.
+// The interface behind which materials are made: for pages with X3D's lighting (x3dMaterials.ts),
+// for three.js apps with three.js' own materials (loader/standardMaterials.ts). Both read vertices
+// with the same shader chunk (shaders/vertexChunk.ts).
 
 import type { Material, Vector2, Vector4 } from "three";
 import type { AppearanceDescription } from "../../document/description.ts";
@@ -12,57 +12,66 @@ import type { VertexUniforms } from "../shaders/vertexFormat.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
 
 export interface MaterialFactory {
-  /** How draws of several shapes go together; undefined: they do not. */
+  /** Rules for drawing several shapes with one call; undefined: each instance is an object of its own. */
   readonly batching: BatchingRules | undefined;
   makeMaterial(request: MaterialRequest, appearance: AppearanceDescription, surfaceTextures: SurfaceTextures): Material;
-  /** Changes a material of this look in place. */
+  /** Updates a material that this factory has made. */
   applyAppearance(
     material: Material,
     appearance: AppearanceDescription,
     colors: VertexColors,
     surfaceTextures: SurfaceTextures,
   ): void;
-  /** Gives an object what it needs besides its material. */
+  /** Sets up an object beyond its material: shadows, callbacks. */
   prepareObject(object: DrawnObject, request: MaterialRequest, material: Material): void;
 }
 
-/** What shapes that are drawn together have in common, and what each has of its own. */
+/** Splits an appearance into what a batch's material holds and what each instance's record holds. */
 export interface BatchingRules {
-  /** The same for appearances that one material can show. */
+  /** A key that is equal for appearances that one material can show, given equal instance records. */
   materialKeyOf(
     request: Pick<MaterialRequest, "primitive" | "colors">,
     appearance: AppearanceDescription,
     surfaceTextures: SurfaceTextures,
   ): string;
-  /** Drawn in the order of their distance, the farthest first. */
+  /** Whether the draw blends, and must be drawn in depth order, the farthest first. */
   isBlended(
     request: Pick<MaterialRequest, "colors">,
     appearance: AppearanceDescription,
     surfaceTextures: SurfaceTextures,
   ): boolean;
-  /** The rest of an appearance, for the shader: the field `look` of a place's record. */
+  /**
+   * The remaining numbers of an appearance, which the shader reads from the instance's record
+   * (`instanceFields.material`).
+   */
   instanceNumbersOf(
     request: Pick<MaterialRequest, "shading" | "colors">,
     appearance: AppearanceDescription,
   ): readonly number[];
 }
 
-/** What is blended with less is not there: it would hide what is drawn after it and lies behind, as a cornea its eye. */
+/**
+ * Fragments with less alpha are discarded: they are invisible but would write depth and hide what is drawn later, as a
+ * cornea the eye behind it.
+ */
 export const minAlpha = 1 / 512;
 
-/** Unlit for points and lines, by distance for points that stand in for a surface, flat where there are no normals (yet). */
+/**
+ * `unlit`: points and lines without normals. `distance`: points that stand in for a surface, shaded by depth. `flat`:
+ * surfaces without normals (yet). `smooth`: by normals.
+ */
 export type Shading = "unlit" | "distance" | "flat" | "smooth";
 
-/** What colours the vertices bring: those with alpha blend. */
+/** The vertex colours of a stage; those with alpha may blend. */
 export type VertexColors = "none" | "rgb" | "rgba";
 
-/** Uniforms that everything in a scene shares. */
+/** Uniforms that all materials of a scene share. */
 export interface SceneUniforms extends SceneLightUniforms {
-  /** Device pixels in a CSS pixel. */
+  /** Device pixels per CSS pixel. */
   readonly pixelRatio: { value: number };
-  /** Of what is being drawn, in device pixels: origin and size. Wide lines follow it. */
+  /** Origin and size of the current viewport in device pixels, for wide lines. */
   readonly viewport: { value: Vector4 };
-  /** Distances along the view between which the scene lies. */
+  /** Nearest and farthest view depth of the scene. */
   readonly depthRange: { value: Vector2 };
 }
 
@@ -70,9 +79,9 @@ export interface MaterialRequest extends VertexFormat {
   readonly primitive: DrawRange["primitive"];
   readonly shading: Shading;
   readonly colors: VertexColors;
-  /** False: both sides are seen. */
+  /** True: back faces are culled. */
   readonly solid: boolean;
-  /** As valueDefinesOf says it. */
+  /** As valueDefinesOf returns them. */
   readonly valueDefines: Readonly<Record<string, string>>;
   readonly uniforms: Partial<VertexUniforms>;
   readonly shared: SceneUniforms;

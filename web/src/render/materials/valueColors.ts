@@ -1,6 +1,6 @@
-// Colours from an attribute's values. A value is read beside its vertex (from the
-// byte planes of an image, or from a buffer) and looked up in the map of colours for
-// each pixel, so that between two vertices lie the colours of the values between.
+// Colours from the values of a vertex attribute. The vertex shader reads the value (from the byte
+// planes of an image, or from a buffer); each fragment looks the interpolated value up in the
+// colour map.
 
 import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "three";
 import type { DecodedImage } from "../../stage/decodedImage.ts";
@@ -15,7 +15,7 @@ import { imageVerticesDefine } from "../shaders/vertexFormat.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 import { wideLinesDefine } from "../shaders/wideLineChunk.ts";
 
-/** Undefined: none, of what values do not colour. */
+/** Uniforms of a colour map; none where the appearance has none. */
 export function colorMapUniformsOf(map: ColorMapDescription | undefined): Record<string, IUniform> {
   if (map === undefined) return {};
   const numbers = map.colors.flat();
@@ -26,7 +26,7 @@ export function colorMapUniformsOf(map: ColorMapDescription | undefined): Record
   };
 }
 
-/** What a material must define to be coloured by the values of a stage. */
+/** The #defines of a material that colours a stage by its values. */
 export function valueDefinesOf(stage: Stage, attribute: AttributeDescription | undefined): Record<string, string> {
   if (attribute === undefined || stage.value === undefined) return {};
   return { VALUE_COMPONENTS: `${attribute.components}` };
@@ -44,7 +44,7 @@ export function valueUniformsOf(
   return { valueMin: { value: min }, valueStep: { value: step }, ...images };
 }
 
-/** What a stored 0 is, and a step, by component: four of each. Without meaning where a stage has no values. */
+/** The value of a stored 0, and that of a step, for four components. Meaningless where a stage has no values. */
 export function valueFrameOf(
   stage: Stage,
   attribute: AttributeDescription | undefined,
@@ -80,7 +80,7 @@ function imageUniformsOf(
 const vertexChunk = /* glsl */ `
 #ifdef VALUE_COMPONENTS
 
-// 0 and 1 are the ends of the map of colours.
+// 0 and 1 are the ends of the colour map.
 varying float vColorMapCoord;
 #ifdef ${instancesDefine}
   #define valueMin instanceTexel(${instanceFields.valueMin / 4})
@@ -181,7 +181,7 @@ const fragmentChunk = /* glsl */ `
 #endif
 `;
 
-/** For `onBeforeCompile`, behind readVerticesIn and shadeByFarnessIn; does nothing where the material does not define it. */
+/** Call in `onBeforeCompile` after addVertexReading and addDepthShading; affects materials with `valueDefinesOf`. */
 export function addValueColors(
   shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
 ): void {

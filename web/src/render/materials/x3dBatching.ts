@@ -1,3 +1,6 @@
+// Which X3D appearances one batch can show, and which of their numbers go into the instance
+// records.
+
 import type { AppearanceDescription } from "../../document/description.ts";
 import { isBlended, unlitColorOf, opacityOf, litParametersOf } from "../../lighting/materialParameters.ts";
 import { isLine } from "../primitives/primitives.ts";
@@ -30,7 +33,7 @@ export function keyOf(
   ]);
 }
 
-/** What of a material `numbersOf` tells. */
+/** The material fields that `numbersOf` returns; the batch key leaves them out. */
 const instanceFieldNames = new Set([
   "diffuseColor",
   "baseColor",

@@ -1,7 +1,7 @@
-// The textures of X3D 4's materials (ISO/IEC 19775-1:2023, 12.2): each is multiplied
-// by the number beside it, and the normal's turns the surface. Colours in surfaceTextures
-// are numbers of the screen: a PhysicalMaterial, which computes with light, makes
-// them linear first. What other textures hold is taken as it is.
+// The textures of X3D 4's materials (ISO/IEC 19775-1:2023, 12.2). Each is multiplied by the field
+// beside it; the normal texture perturbs the surface normal. Colour textures are in display (sRGB)
+// values, which a PhysicalMaterial, being lit in linear space, converts first. Other textures are
+// data and taken as they are.
 
 import type { MeshBasicMaterial, MeshPhongMaterial, Texture } from "three";
 import type { MaterialDescription } from "../../document/description.ts";
@@ -13,7 +13,7 @@ import type { OwnMapRole } from "../shaders/texCoords.ts";
 import { ownMapDeclarations, ownMapDefine, ownMapRoles, ownTexel } from "../shaders/texCoords.ts";
 import { srgbColorsDefine } from "../shaders/vertexFormat.ts";
 
-/** Samplers of maps that three.js has no name for. */
+/** Samplers of textures that three.js' materials have no map for. */
 export type OwnMapUniforms = Readonly<Record<`${OwnMapRole}Map`, { value: Texture | null }>>;
 
 export function makeOwnMapUniforms(): OwnMapUniforms {
@@ -48,10 +48,10 @@ const occlusionChunk = /* glsl */ `
 #endif
 `;
 
-/** Defined where no light changes what is seen. */
+/** Defined in materials that ignore light. */
 export const unlitDefine = "UNLIT";
 
-/** Fills the `X3dMaterial material` of a fragment. */
+/** Fills `X3dMaterial material`, from which the lighting functions compute. */
 export const x3dMaterialChunk = /* glsl */ `
 #ifdef ${unlitDefine}
   totalEmissiveRadiance = diffuseColor.rgb;
@@ -88,7 +88,7 @@ export { ownMapDeclarations };
 
 type Slot = "map" | "emissiveMap" | "normalMap" | "aoMap" | "specularMap";
 
-/** Gives a material its maps; another program where some have come or gone. */
+/** Sets the texture maps of a material; three.js compiles another program where some have come or gone. */
 export function setTextureMaps(
   material: MeshPhongMaterial | MeshBasicMaterial,
   description: MaterialDescription,

@@ -1,6 +1,6 @@
-// Materials of X3D in three.js. (three.js by default lights in linear space and
-// divides by pi; hence a chunk of our own, lighting/x3dLighting.ts, and
-// `outputColorSpace` linear in the renderer.)
+// The materials of pages: X3D's lighting model in three.js. three.js lights in linear space and
+// divides by pi; X3D's lighting (lighting/x3dLighting.ts) does neither, so it replaces three.js'
+// chunk, and the renderer's `outputColorSpace` is linear.
 
 import type { Material } from "three";
 import { DoubleSide, FrontSide, MeshBasicMaterial, MeshPhongMaterial } from "three";
@@ -46,7 +46,7 @@ ${x3dLighting}
 #define RE_IndirectDiffuse ambientX3d
 `;
 
-/** Uniforms of a lit material. */
+/** Uniforms of lit materials. */
 interface LitUniforms extends OwnMapUniforms {
   readonly ambientIntensity: { value: number };
   readonly metallic: { value: number };
@@ -56,7 +56,7 @@ interface LitUniforms extends OwnMapUniforms {
 type LitMaterial = MeshPhongMaterial & { userData: { lit?: LitUniforms } };
 type PatchMaterial = LitMaterial | MeshBasicMaterial;
 
-/** Pages look as X3D says. */
+/** The MaterialFactory of pages. */
 export const x3dMaterials: MaterialFactory = {
   makeMaterial,
   applyAppearance,
@@ -113,13 +113,13 @@ function makeMaterial(
       ]);
     if (hasLightScopes(shared)) addLightScopes(shader);
   };
-  // The text of `onBeforeCompile` is the same for all, so programs are shared as they should be.
+  // All materials have the same `onBeforeCompile` text, so programs are shared.
   material.customProgramCacheKey = () => (hasLightScopes(shared) ? "imgeo, scoped lights" : "imgeo");
   applyAppearance(material, appearance, colors, surfaceTextures);
   return material;
 }
 
-/** A texture is multiplied by what is there (X3D 4). */
+/** Textures are multiplied with the material's colours (X3D 4). */
 function applyAppearance(
   material: Material,
   appearance: AppearanceDescription,
@@ -157,7 +157,7 @@ function applyLit(material: LitMaterial, description: MaterialDescription, numbe
   lit.roughness.value = numbers.roughness;
 }
 
-/** What a material of a kind defines. */
+/** The #defines of each kind of material. */
 const kindDefines: Readonly<Record<MaterialDescription["kind"], readonly string[]>> = {
   phong: [],
   physical: [physicalDefine, srgbColorsDefine],
@@ -165,7 +165,7 @@ const kindDefines: Readonly<Record<MaterialDescription["kind"], readonly string[
 };
 const allKindDefines = Object.values(kindDefines).flat();
 
-/** Another program where the kind has changed. */
+/** Updates the #defines; three.js compiles another program where the kind has changed. */
 function setKind(material: LitMaterial, kind: MaterialDescription["kind"]): void {
   const defines = material.defines ?? {};
   const wanted = kindDefines[kind];

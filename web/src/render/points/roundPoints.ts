@@ -1,5 +1,5 @@
-// Points are round where they are large enough to be seen as such, and points and
-// lines, which have no back, are lit from whichever side they are seen.
+// Large points are round. Points and lines have no back, so their normals are flipped towards the
+// viewer.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
 import type { DrawRange } from "../../stage/stage.ts";
@@ -9,7 +9,7 @@ import { replaceChunks } from "../shaders/replaceChunks.ts";
 const pointsDefine = "DRAWS_POINTS";
 const twoSidedLightingDefine = "LIT_FROM_BOTH_SIDES";
 
-/** From so many device pixels on. */
+/** Points of at least this many device pixels are round. */
 const minRoundSize = "3.0";
 
 export function primitiveDefinesOf(primitive: DrawRange["primitive"]): Record<string, string> {
@@ -48,7 +48,7 @@ const normalChunk = /* glsl */ `
 #endif
 `;
 
-/** For `onBeforeCompile`, after `readVerticesIn`; does nothing where the material does not define it. */
+/** Call in `onBeforeCompile` after addVertexReading; affects materials with `primitiveDefinesOf`. */
 export function addRoundPoints(
   shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
 ): void {

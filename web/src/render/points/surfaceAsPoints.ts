@@ -1,12 +1,12 @@
-// A surface as its vertices alone: the same buffers and images, drawn as points.
+// A surface drawn as its vertices: the same buffers and images, with points as the primitive.
 
 import type { Stage } from "../../stage/stage.ts";
 import { isSurface } from "../primitives/primitives.ts";
 
-/** By the stage that they are made of, so that all its shapes share what they draw. */
+/** By the original stage, so that all shapes that show it share one derived stage and its geometry. */
 const made = new WeakMap<Stage, Stage>();
 
-/** `vertexCount`: its records, 0 where nobody has counted them. The same stage where it has no surface. */
+/** The same stage where it has no surface. `vertexCount`: the number of vertex records, 0 where unknown. */
 export function surfaceAsPoints(stage: Stage, vertexCount: number): Stage {
   if (!stage.draws.some(isSurface)) return stage;
   const known = made.get(stage) ?? pointsOf(stage, vertexCount);
@@ -16,7 +16,8 @@ export function surfaceAsPoints(stage: Stage, vertexCount: number): Stage {
 
 function pointsOf(stage: Stage, vertexCount: number): Stage {
   const isAllSurface = stage.draws.every(isSurface);
-  // What stands in for several patches has their vertices too, and a grid has no index.
+  // A base stage also has vertices of other patches, and a grid has no index: their draws stay as
+  // they are.
   const isOwn = stage.name !== "base" && stage.index !== undefined && vertexCount > 0;
   if (!isAllSurface || !isOwn)
     return { ...stage, draws: stage.draws.map((draw) => (isSurface(draw) ? { ...draw, primitive: "points" } : draw)) };

@@ -1,4 +1,4 @@
-// The three.js object that draws one kind of primitive.
+// The three.js object for one kind of primitive.
 
 import type { BufferGeometry } from "three";
 import { Line, LineSegments, Mesh, Points } from "three";
@@ -12,7 +12,7 @@ export function makeDrawnObject(
   material: Mesh["material"],
 ): DrawnObject {
   return isWide
-    ? unculled(new Mesh(geometry, material))
+    ? withoutCulling(new Mesh(geometry, material))
     : primitive === "points"
       ? new Points(geometry, material)
       : primitive === "lines"
@@ -22,8 +22,8 @@ export function makeDrawnObject(
           : new Mesh(geometry, material);
 }
 
-/** What is wide on the screen reaches beyond bounds that know nothing of it. */
-function unculled(object: DrawnObject): DrawnObject {
+/** three.js would cull by bounds that do not include the width of lines. */
+function withoutCulling(object: DrawnObject): DrawnObject {
   object.frustumCulled = false;
   return object;
 }

@@ -1,5 +1,8 @@
+// Properties of the kinds of primitives.
+
 import type { DrawRange } from "../../stage/stage.ts";
 
+/** Vertices per primitive. */
 export function cornersOf({ primitive }: DrawRange): 1 | 2 | 3 {
   return primitive === "points" ? 1 : primitive === "lines" || primitive === "lineStrip" ? 2 : 3;
 }

@@ -1,9 +1,8 @@
-// Typed arrays as buffers. Like images they go to the GPU in pieces, so that no
-// single step holds up a frame, and nothing of them is kept here when they are
-// there. Small ones wait here until a draw wants them as buffers: many of them never
-// are, but become a part of a larger mesh. three.js would keep its arrays, and
-// delete buffers with whatever geometry is first disposed of; so these are ours, and
-// three.js is only told of them.
+// Vertex and index arrays on the GPU. Large ones are uploaded in steps, so that no single step
+// delays a frame, and JavaScript keeps no copy. Small ones stay in JavaScript until a draw uses
+// them as buffers: many never are, because they are copied into a merged mesh. three.js' own
+// attributes would keep their arrays and delete buffers with the first geometry that is disposed
+// of, so the buffers are created here, and three.js sees GLBufferAttributes.
 
 import type { BufferAttribute, BufferGeometry, InterleavedBuffer } from "three";
 import { GLBufferAttribute } from "three";
@@ -15,7 +14,7 @@ import type { BufferProvider, BufferUpload } from "./bufferProvider.ts";
 
 const bytesPerStep = 2 ** 18;
 
-/** Arrays up to this one are small: a step would bring them to the GPU. */
+/** Arrays of at most this size stay in JavaScript until they are needed: one step uploads them. */
 const maxBytesKept = bytesPerStep;
 
 interface Kept {
@@ -23,7 +22,7 @@ interface Kept {
   readonly use: ArrayUse;
 }
 
-/** WebGL's constants. */
+/** WebGL's type constants. */
 const glTypes: Readonly<Record<ElementType, number>> = {
   Int8: 0x1400,
   Uint8: 0x1401,
@@ -43,7 +42,7 @@ export class BufferStore implements BufferProvider {
     this.#gl = gl;
   }
 
-  /** Of all arrays that are open. */
+  /** Total size of all open arrays. */
   get bytes(): number {
     return this.#bytes;
   }
@@ -78,7 +77,8 @@ export class BufferStore implements BufferProvider {
       byteSizeOf(type) as 1 | 2 | 4,
       Math.floor(bytes.byteLength / byteSizeOf(type) / stride),
     );
-    // What three.js looks at of interleaved buffers: the step from one record to the next, and the type of elements.
+    // The properties of InterleavedBuffer that three.js reads: stride, and the element type by the
+    // type of `array`.
     return Object.assign(attribute, {
       isInterleavedBuffer: true,
       stride,
@@ -114,7 +114,10 @@ export class BufferStore implements BufferProvider {
     return elements;
   }
 
-  /** three.js deletes the buffers of what a geometry has when it is disposed of. */
+  /**
+   * three.js deletes the buffers of a geometry's attributes when the geometry is disposed of; so the attributes are
+   * removed first.
+   */
   dispose(geometry: BufferGeometry): void {
     geometry.setIndex(null);
     for (const name of Object.keys(geometry.attributes)) geometry.deleteAttribute(name);
@@ -137,12 +140,12 @@ export class BufferStore implements BufferProvider {
   }
 }
 
-/** Counts as the step that will be taken when a draw wants it. */
+/** Accounts for the step that is taken later, when a draw needs the buffer. */
 function* keeping(byteLength: number): Generator<number, void, void> {
   yield byteLength;
 }
 
-/** Through a target that no vertex array notes, but for the first step. */
+/** Uploads through COPY_WRITE_BUFFER, which no vertex array object records. */
 function* pieces(
   gl: WebGL2RenderingContext,
   buffer: WebGLBuffer,
@@ -160,7 +163,10 @@ function* pieces(
   }
 }
 
-/** What a buffer is for is what it is bound to first; an index is noted by the vertex array that is bound, which is three.js'. */
+/**
+ * The first target that a buffer is bound to fixes its use. A bound vertex array object records index buffers, so
+ * three.js' own is unbound meanwhile.
+ */
 function allocate(gl: WebGL2RenderingContext, buffer: WebGLBuffer, byteLength: number, use: ArrayUse): void {
   const target = use === "index" ? gl.ELEMENT_ARRAY_BUFFER : gl.ARRAY_BUFFER;
   const vertexArray = gl.getParameter(gl.VERTEX_ARRAY_BINDING) as WebGLVertexArrayObject | null;

@@ -1,8 +1,10 @@
+// The interface to images that have become textures.
+
 import type { Texture } from "three";
 import type { DecodedImage } from "../../stage/decodedImage.ts";
 
-/** Where images are that have become textures. */
+/** Finds the texture of an image. */
 export interface TextureProvider {
-  /** Throws where the image is not one of these, or is closed. */
+  /** Throws RangeError where the image is unknown or closed. */
   textureOf(image: DecodedImage): Texture;
 }

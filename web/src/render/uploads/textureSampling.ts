@@ -1,3 +1,5 @@
+// How shaders sample a texture.
+
 import type { Texture } from "three";
 import {
   NoColorSpace,
@@ -10,7 +12,7 @@ import {
 } from "three";
 import type { SamplingDescription } from "../../document/description.ts";
 
-/** Texels reach the shader one by one, as they are in the file. */
+/** For vertex data: shaders fetch single texels, with the bytes of the file. */
 export function setDataSampling(texture: Texture): void {
   texture.colorSpace = NoColorSpace;
   texture.minFilter = NearestFilter;
@@ -19,7 +21,9 @@ export function setDataSampling(texture: Texture): void {
 }
 
 const wrappings = { repeat: RepeatWrapping, clamp: ClampToEdgeWrapping, mirror: MirroredRepeatWrapping } as const;
-/** Pages show the colours of surfaceTextures by their numbers, as those of materials (materials.ts). */
+/**
+ * For textures of an appearance. Their colours are not converted, like those of materials (materials/x3dMaterials.ts).
+ */
 export function setSampling(
   texture: Texture,
   { wrapS, wrapT, isSmooth, hasMipmaps, anisotropy }: SamplingDescription,

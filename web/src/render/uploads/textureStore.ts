@@ -1,17 +1,16 @@
-// Images as textures. Their texels go to the GPU in strips, so that no single
-// step holds up a frame; bytes reach the shader as they are in the file. Nothing
-// of an image is kept here when it is on the GPU.
+// Images as textures on the GPU. Texels are uploaded in strips, so that no single step delays a
+// frame, with the bytes of the file. JavaScript keeps no copy.
 
 import { Box2, DataTexture, RGBAFormat, Texture, UnsignedByteType, Vector2, type WebGLRenderer } from "three";
 import type { DecodedImage } from "../../stage/decodedImage.ts";
 import type { SamplingDescription } from "../../document/description.ts";
 import { setDataSampling, setSampling } from "./textureSampling.ts";
 
-/** An image on its way to the GPU. */
+/** An image that is being uploaded. */
 export interface TextureUpload {
-  /** Stands for the texture, which is complete after the last step; closing it frees the texture at any time. */
+  /** Stands for the texture, which is complete after the last step. Closing it frees the texture, also before that. */
   readonly image: DecodedImage;
-  /** Each step yields the bytes that it has moved. */
+  /** Each step yields the number of bytes that it has uploaded. */
   readonly steps: Generator<number, void, void>;
 }
 
@@ -23,19 +22,19 @@ export class TextureStore {
   readonly #textures = new WeakMap<DecodedImage, Texture>();
   #bytes = 0;
 
-  /** Of all textures that are open. */
+  /** Total size of all open textures. */
   get bytes(): number {
     return this.#bytes;
   }
 
-  /** Throws where the image is not one of this store's, or is closed. */
+  /** Throws RangeError where the image is not from this store, or is closed. */
   textureOf(image: DecodedImage): Texture {
     const texture = this.#textures.get(image);
     if (texture === undefined) throw new RangeError("the image is not on the GPU");
     return texture;
   }
 
-  /** The bitmap may be closed after the last step. Without `sampling` texels are data, read one by one. */
+  /** The bitmap may be closed after the last step. Without `sampling` the texels are vertex data. */
   begin(bitmap: ImageBitmap, renderer: WebGLRenderer, sampling?: SamplingDescription): TextureUpload {
     const { width, height } = bitmap;
     const texture = emptyTexture(width, height);
@@ -56,7 +55,7 @@ export class TextureStore {
   }
 }
 
-/** Mipmaps are made with the last strip. */
+/** The last strip generates the mipmaps. */
 function* strips(
   from: Texture,
   to: Texture,
