@@ -1,7 +1,7 @@
-// Looks around for somebody who walks: one picture straight down from the eye and
-// four around it at its level, a row of pixels each, all into one small target. They
-// are drawn by the picking pass, whose vertices are those that are seen, and read
-// when the GPU is done; JavaScript has no copy of them to ask.
+// Samples the surroundings of a walking viewer: one depth image straight down from the eye, and
+// four rows of depths around it at eye level, all in one small render target. The picking pass
+// draws them, so its vertices are those on the screen; they are read back when the GPU is done,
+// because JavaScript has no copy of the vertices.
 
 import type { WebGLRenderer, WebGLRenderTarget } from "three";
 import { Camera, Matrix4, Quaternion, Scene, Vector3 } from "three";
@@ -12,14 +12,14 @@ import { candidatesInView, makePickTarget } from "./picker.ts";
 import { pickedWordOffsets } from "./pickMaterial.ts";
 import { readBlocksAsync } from "./pixelReadback.ts";
 
-/** Along an edge of the map of heights. */
+/** Samples along each edge of the height map. */
 const floorCells = 48;
-/** In each of the four directions. */
+/** Depth samples in each of the four directions. */
 const wallRays = 128;
 const directions = 4;
 const wordsPerPixel = 4;
 
-/** A block of the target, and the camera that fills it. */
+/** A block of the render target, and the camera that fills it. */
 interface Shot {
   readonly camera: Camera;
   readonly x: number;
@@ -39,12 +39,12 @@ export class DepthProbe {
     this.#scene.matrixWorldAutoUpdate = false;
   }
 
-  /** One look at a time. */
+  /** A probe is under way; only one may be at a time. */
   get isBusy(): boolean {
     return this.#isBusy;
   }
 
-  /** `depth` is how far below the eye the scene may go on. Undefined where the context is lost on the way. */
+  /** `depth`: the distance below the eye that is searched for ground. Undefined where the context is lost meanwhile. */
   async probe(
     lookout: DepthCamera,
     depth: number,
@@ -81,7 +81,7 @@ export class DepthProbe {
     this.#target = undefined;
   }
 
-  /** Leaves the target bound. */
+  /** Leaves the render target bound. */
   #take({ camera, x, y, width, height }: Shot, surfaces: readonly PickCandidate[]): void {
     const target = (this.#target ??= makePickTarget(wallRays, floorCells + directions));
     target.viewport.set(x, y, width, height);
@@ -108,7 +108,7 @@ function downwards({ eye, orientation, reach }: DepthCamera, depth: number): Sho
   };
 }
 
-/** A quarter of all directions, as narrow as pixels are, from -z on to the left. */
+/** A quarter of the horizon, one pixel high; quarter 0 looks along -z, the following ones turn to the left. */
 function sideways({ eye, orientation }: DepthCamera, turn: number, nearest: number, farthest: number): Shot {
   const half = nearest / wallRays;
   const projection = new Matrix4().makePerspective(-nearest, nearest, half, -half, nearest, farthest);
@@ -135,7 +135,7 @@ function cameraAt(eye: Vector3, orientation: Quaternion, projection: Matrix4): C
   return camera;
 }
 
-/** 0 … 1, Infinity where nothing is. */
+/** Depths 0 … 1; Infinity where nothing is hit. */
 function depthsIn(words: Uint32Array): Float32Array {
   const floats = new Float32Array(words.buffer);
   return Float32Array.from({ length: words.length / wordsPerPixel }, (_, pixel) => {
@@ -146,7 +146,7 @@ function depthsIn(words: Uint32Array): Float32Array {
   });
 }
 
-/** The picture's top, its last row, is where -z is: the first row of the map. */
+/** The last row of the image, its top, looks towards -z; it becomes the first row of the map. */
 function heightsOf(depths: Float32Array, depth: number): Float32Array {
   const heights = new Float32Array(depths.length);
   for (let row = 0; row < floorCells; ++row) {
@@ -158,16 +158,16 @@ function heightsOf(depths: Float32Array, depth: number): Float32Array {
   return heights;
 }
 
-/** Places (x, z) in the frame of the lookout. */
+/** Hit points (x, z) in the depth camera's coordinate system. */
 function wallsOf(depths: Float32Array, nearest: number, farthest: number): Float32Array {
-  const places: number[] = [];
-  const place = new Vector3();
+  const points: number[] = [];
+  const point = new Vector3();
   depths.forEach((share, pixel) => {
     if (share === Infinity) return;
     const ahead = (nearest * farthest) / (farthest - share * (farthest - nearest));
     const aside = (2 * (pixel % wallRays) + 1) / wallRays - 1;
-    place.set(aside * ahead, 0, -ahead).applyQuaternion(quarterTurns(Math.floor(pixel / wallRays)));
-    places.push(place.x, place.z);
+    point.set(aside * ahead, 0, -ahead).applyQuaternion(quarterTurns(Math.floor(pixel / wallRays)));
+    points.push(point.x, point.z);
   });
-  return Float32Array.from(places);
+  return Float32Array.from(points);
 }

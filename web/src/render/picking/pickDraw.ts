@@ -1,7 +1,6 @@
-// A draw as the picking pass sees it, and what its buffers hold: of indexed
-// buffers WebGL tells a shader too little, so the rest is looked up where the
-// pointer is. JavaScript keeps no copy of vertex data but of small meshes; what is
-// looked up comes back from the GPU, one patch at a time.
+// One draw in the picking pass, and access to its buffers. For indexed buffers WebGL tells the
+// shader only the last vertex of a primitive, so index and coordinates are read back for the draw
+// under the pointer. JavaScript keeps vertex data of small meshes only.
 
 import type { BufferGeometry, Matrix4, Sphere } from "three";
 import type { ElementArray, IndexArray } from "../../stage/vertexArray.ts";
@@ -14,36 +13,36 @@ import { makePickMaterial } from "./pickMaterial.ts";
 import { trianglesOf } from "../primitives/primitives.ts";
 
 export interface BufferContents {
-  /** Of the draw alone. */
+  /** The index of this draw only. */
   readonly index: IndexArray | undefined;
   readonly coord: ElementArray;
-  /** In elements: from one vertex to the next, and before the first. */
+  /** In elements: the distance from one vertex to the next, and the offset of the first. */
   readonly coordStride: number;
   readonly coordOffset: number;
 }
 
-/** What a picking pass draws with: made when the pointer is near for the first time. */
+/** What the picking pass draws with; created when the pointer comes near for the first time. */
 export interface PickResources {
   readonly geometry: BufferGeometry;
   readonly request: Omit<PickMaterialRequest, "primitive">;
-  /** Gives back what was made. */
+  /** Releases the geometry. */
   release(): void;
 }
 
 export interface PickDrawOptions {
   readonly buffers: BufferProvider;
-  /** Around the stored vertices. */
+  /** Bounds of the vertices, in stored coordinates. */
   readonly bounds: Sphere;
-  /** Places what is stored in the shape. */
+  /** Transforms stored coordinates into the shape's. */
   readonly shapeFromStored: Matrix4;
   acquireResources(): PickResources;
 }
 
 export class PickDraw {
   readonly range: DrawRange;
-  /** It stands in for what is to come, whose numbers it does not have. */
+  /** The stage is a base: its triangle and vertex indices are not those of the patch. */
   readonly isStandIn: boolean;
-  /** Triangles in the draws of the patch before this one. */
+  /** The number of triangles in the patch's earlier draws. */
   readonly trianglesBefore: number;
   readonly bounds: Sphere;
   readonly shapeFromStored: Matrix4;
@@ -65,7 +64,7 @@ export class PickDraw {
     this.trianglesBefore = before.reduce((sum, draw) => sum + trianglesOf(draw), 0);
   }
 
-  /** The vertices come from buffers, of which the pass itself knows little. */
+  /** The vertices come from buffers, so the primitive must be looked up in `contents`. */
   get hasContents(): boolean {
     return this.#stage !== undefined;
   }
@@ -74,11 +73,11 @@ export class PickDraw {
     return this.#isDisposed;
   }
 
-  /** To be drawn in the picking pass, under this number. */
+  /** The object to draw in the picking pass; its pixels get this id. */
   objectFor(pickId: number, worldFromStored: Matrix4): DrawnObject {
     const { parts, material } = (this.#made ??= this.#make());
     const object = makeDrawnObject(this.range, parts.geometry, material);
-    object.frustumCulled = false; // whoever picks has done it
+    object.frustumCulled = false; // candidatesInView has already culled
     object.matrixAutoUpdate = false;
     object.matrixWorldAutoUpdate = false;
     object.matrixWorld.copy(worldFromStored);
@@ -89,7 +88,7 @@ export class PickDraw {
     return object;
   }
 
-  /** Reads the draw's index and the patch's coordinates back, once until `forget`; undefined for vertices from images. */
+  /** Index and coordinates of the draw, read back once until `forgetContents`; undefined for vertices from images. */
   contents(): BufferContents | undefined {
     if (this.#stage === undefined || this.#isDisposed) return undefined;
     const { index, coord } = this.#stage;

@@ -1,25 +1,22 @@
-// Which primitive of an index was hit. Of an indexed primitive the picking pass
-// knows its last vertex and the point; a handful of primitives end in that
-// vertex, and the one that the point lies on is it.
+// Finds the primitive that was hit. For indexed primitives the picking pass knows the last vertex
+// and the hit point; of the few primitives that end in this vertex, the one nearest to the point
+// was hit.
 
 import { Line3, Triangle, Vector3 } from "three";
 import type { IndexArray } from "../../stage/vertexArray.ts";
 import type { DrawRange } from "../../stage/stage.ts";
 
 export interface PickedPrimitive {
-  /** Which one of the index, counted from 0. */
+  /** Index of the primitive in its draw. */
   readonly number: number;
-  /** The vertices of its corners, in their order. */
+  /** Indices of its vertices, in order. */
   readonly vertices: readonly number[];
 }
 
-/** Where vertex number n lies. */
+/** The position of the vertex with this index. */
 export type PositionOf = (vertex: number) => Vector3;
 
-/**
- * Among the primitives of the index, the one that ends in the vertex `last` and
- * is nearest to `point`; undefined where none ends in it.
- */
+/** The primitive of the index that ends in vertex `last` and is nearest to `point`; undefined where none ends in it. */
 export function primitiveIn(
   index: IndexArray,
   primitive: DrawRange["primitive"],
@@ -41,13 +38,13 @@ export function primitiveIn(
   return found;
 }
 
-/** The primitive whose last corner is number `last` of a range without an index. */
+/** The primitive whose last corner is element `last` of a draw without an index. */
 export function primitiveEndingAt(last: number, range: DrawRange): PickedPrimitive {
   const { corners, step } = layoutOf(range.primitive);
   return primitiveAt((last - corners + 1) / step, range, undefined);
 }
 
-/** The primitive of this number. `index`: of the range, where there is one. */
+/** The primitive with this index. `index`: that of the draw, where it has one. */
 export function primitiveAt(
   number: number,
   { primitive, first }: DrawRange,
@@ -58,7 +55,7 @@ export function primitiveAt(
   return { number, vertices: Array.from({ length: corners }, (_, corner) => vertexAt(corner)) };
 }
 
-/** Corners of a primitive, and how many elements on the next one ends. */
+/** Corners per primitive, and the distance in elements from one primitive to the next. */
 function layoutOf(primitive: DrawRange["primitive"]): { corners: number; step: number } {
   switch (primitive) {
     case "points":
@@ -74,13 +71,15 @@ function layoutOf(primitive: DrawRange["primitive"]): { corners: number; step: n
   }
 }
 
-/** The vertex whose corner has the largest share in the point. */
+/** The vertex with the largest barycentric coordinate at the point. */
 export function nearestVertex(vertices: readonly number[], point: Vector3, positionOf: PositionOf): number {
   const shares = sharesOf(vertices.map(positionOf), point);
   return vertices[shares.indexOf(Math.max(...shares))] ?? 0;
 }
 
-/** The plane of a face: a point of it, and what stands on it at right angles, of any length; zero where there is no face. */
+/**
+ * The plane of a face: one of its points, and a normal of any length; zero for points, lines and degenerate triangles.
+ */
 export interface Face {
   readonly point: Vector3;
   readonly normal: Vector3;

@@ -1,6 +1,5 @@
-// What lies under a point of the picture: a pass into a target of one pixel,
-// through the same matrices and viewport as the picture's own, so that the pixel
-// is covered exactly as it is on the screen.
+// Picking: renders the candidates into a target of one pixel, with the matrices and viewport of the
+// picture, so that the pixel is covered as on the screen.
 
 import type { Camera, Group, WebGLRenderer } from "three";
 import {
@@ -25,36 +24,39 @@ import { pickTargetCount, pickedWordOffsets } from "./pickMaterial.ts";
 import { readPixel, readPixelAsync } from "./pixelReadback.ts";
 import { frustumOf } from "../frames/viewFrustum.ts";
 
-/** What was hit, in the scene's coordinates. */
+/** A hit, in scene coordinates. */
 export interface Hit {
-  /** The page's, of the shape. */
+  /** The page's element of the shape. */
   readonly element: SceneElement;
-  /** Of the shape, in the place that was hit. */
+  /** The group of the shape instance that was hit. */
   readonly group: Group;
   readonly patch: number;
-  /** Of the patch's triangles in the order of its draws; in a strip each further element makes one. Undefined for points, lines and bases. */
+  /**
+   * Index among the patch's triangles in draw order; each further element of a strip is a triangle. Undefined for
+   * points, lines and bases.
+   */
   readonly triangle: number | undefined;
-  /** Record number, in the patch, of the primitive's vertex that is nearest to the place; -1 in a base. */
+  /** Record index in the patch of the primitive's vertex nearest to the hit point; -1 in a base. */
   readonly vertex: number;
   readonly position: Vector3;
-  /** Of length 1, as it is shaded, on the side that is seen; undefined for points and lines without normals. */
+  /** The shading normal, of length 1, on the visible side; undefined for points and lines without normals. */
   readonly normal: Vector3 | undefined;
 }
 
 export interface PickCandidate {
   readonly element: SceneElement;
   readonly patch: number;
-  /** Of the shape, in one of its places. */
+  /** The group of one of the shape's instances. */
   readonly group: Group;
   readonly pick: PickDraw;
 }
 
-/** With its place among all. */
+/** A candidate with its model matrix. */
 export interface CandidateInView extends PickCandidate {
   readonly worldFromStored: Matrix4;
 }
 
-/** A pixel of a picture, in device pixels from its top left. */
+/** A pixel of a picture of this size, in device pixels from its top left. */
 export interface PixelPosition {
   readonly x: number;
   readonly y: number;
@@ -66,7 +68,7 @@ export class Picker {
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
   #target: WebGLRenderTarget | undefined;
-  /** The one whose buffers' contents are kept. */
+  /** The draw whose buffer contents are kept. */
   #lastHit: PickDraw | undefined;
 
   constructor(renderer: WebGLRenderer) {
@@ -74,7 +76,7 @@ export class Picker {
     this.#scene.matrixWorldAutoUpdate = false;
   }
 
-  /** Waits for the GPU: for clicks. */
+  /** Blocks until the GPU is done. For clicks. */
   pick(
     camera: PerspectiveCamera,
     place: PixelPosition,
@@ -89,7 +91,10 @@ export class Picker {
     return this.#hitOf(words, camera, place, near);
   }
 
-  /** Costs no frame: what the GPU finds is fetched when it is done. "stale" where the scene has moved on by then. */
+  /**
+   * Does not block: the result is fetched when the GPU is done. "stale" where the hit draw has been disposed of
+   * meanwhile.
+   */
   async pickAsync(
     camera: PerspectiveCamera,
     place: PixelPosition,
@@ -101,7 +106,7 @@ export class Picker {
     this.#draw(camera, place, near);
     const reading = readPixelAsync(this.#gl, pickTargetCount);
     this.#renderer.setRenderTarget(null);
-    const seenBy = new PerspectiveCamera().copy(camera, false); // it may move while we wait
+    const seenBy = new PerspectiveCamera().copy(camera, false); // the original may move meanwhile
     const words = await reading;
     const hit = near[(words[pickedWordOffsets.pickId] ?? 0) - 1];
     return hit?.pick.isDisposed === true ? "stale" : this.#hitOf(words, seenBy, place, near);
@@ -116,14 +121,14 @@ export class Picker {
     return this.#renderer.getContext() as WebGL2RenderingContext;
   }
 
-  /** Leaves the target bound. */
+  /** Leaves the render target bound. */
   #draw(
     camera: PerspectiveCamera,
     { x, y, width, height }: PixelPosition,
     candidates: readonly CandidateInView[],
   ): void {
     this.#target ??= makePickTarget();
-    // The picture's viewport, pushed so far that the wanted pixel is the target's only one.
+    // The picture's viewport, shifted so that the requested pixel is the target's only one.
     this.#target.viewport.set(-x, y - height + 1, width, height);
     this.#scene.children = candidates.map(({ pick, worldFromStored }, place) =>
       pick.objectFor(place + 1, worldFromStored),
@@ -147,7 +152,7 @@ export class Picker {
     const { number, vertex, face } = this.#primitiveOf(words, pick, stored);
     const faceNormal = worldNormalOf(face.normal, worldFromStored);
     const ray = rayThrough(camera, place);
-    // A face is seen from its front, or from behind as if that were its front.
+    // The normal points to the viewer's side of the face.
     if (faceNormal !== undefined && faceNormal.dot(ray.direction) > 0) faceNormal.negate();
     const onFace = faceNormal && intersection(ray, face.point.clone().applyMatrix4(worldFromStored), faceNormal);
     return {
@@ -166,7 +171,7 @@ export class Picker {
     const vertex = words[pickedWordOffsets.vertex] ?? 0;
     const floats = new Float32Array(words.buffer);
     const face = {
-      point: new Vector3(...pickedWordOffsets.facePoint.map((place) => floats[place] ?? 0)),
+      point: new Vector3(...pickedWordOffsets.facePoint.map((offset) => floats[offset] ?? 0)),
       normal: new Vector3().fromArray(floats, pickedWordOffsets.faceNormal),
     };
     if (!pick.hasContents || pick.range.primitive === "points") return { number, vertex, face };
@@ -191,7 +196,7 @@ export class Picker {
   }
 }
 
-/** Pixels of what the picking material draws. */
+/** A render target for pick materials. */
 export function makePickTarget(width = 1, height = 1): WebGLRenderTarget {
   return new WebGLRenderTarget(width, height, {
     count: pickTargetCount,
@@ -202,7 +207,7 @@ export function makePickTarget(width = 1, height = 1): WebGLRenderTarget {
   });
 }
 
-/** Those whose bounds come within `slack` device pixels of the place. */
+/** Candidates whose bounds come within `slack` device pixels of the pixel. */
 function candidatesNearPixel(
   camera: PerspectiveCamera,
   { x, y, width, height }: PixelPosition,
@@ -214,7 +219,7 @@ function candidatesNearPixel(
   return candidatesInView(narrow, candidates);
 }
 
-/** Those whose bounds come into a camera's view. */
+/** Candidates whose bounds intersect the camera's view frustum. */
 export function candidatesInView(
   { projectionMatrix, matrixWorldInverse }: Camera,
   candidates: Iterable<PickCandidate>,
@@ -232,13 +237,13 @@ export function candidatesInView(
   return near;
 }
 
-/** Undefined for a normal of no length. */
+/** Undefined for a zero normal. */
 function worldNormalOf(normal: Vector3, worldFromStored: Matrix4): Vector3 | undefined {
   if (normal.lengthSq() === 0) return undefined;
   return normal.clone().applyMatrix3(new Matrix3().getNormalMatrix(worldFromStored)).normalize();
 }
 
-/** Through the middle of the pixel, in the scene's coordinates. */
+/** The ray through the pixel's centre, in scene coordinates. */
 function rayThrough(camera: PerspectiveCamera, { x, y, width, height }: PixelPosition): Ray {
   const origin = new Vector3().setFromMatrixPosition(camera.matrixWorld);
   const through = new Vector3((2 * x + 1) / width - 1, 1 - (2 * y + 1) / height, 0.5).unproject(camera);
@@ -246,9 +251,8 @@ function rayThrough(camera: PerspectiveCamera, { x, y, width, height }: PixelPos
 }
 
 /**
- * Where the ray meets a plane; undefined where it runs along it. GPUs round
- * vertices to a fraction of a pixel, so the point that they interpolate is a
- * little off the ray, and far off on a slope.
+ * The intersection of the ray with a plane; undefined where they are parallel. GPUs snap vertices to fractions of a
+ * pixel, so the interpolated point is slightly off the ray, and far off on a steep slope.
  */
 function intersection(ray: Ray, point: Vector3, normal: Vector3): Vector3 | undefined {
   const slope = normal.dot(ray.direction);

@@ -1,13 +1,12 @@
-// Pixels of the bound framebuffer's targets, four 32-bit words each: at once, which
-// waits for the GPU, or through a pixel pack buffer when a fence says that the GPU
-// is done, which nobody waits for.
+// Reads integer pixels (four 32-bit words each) of the bound framebuffer's attachments: either
+// blocking, or asynchronously through a pixel pack buffer and a fence.
 
 import { fencePassed } from "../frames/gpuFence.ts";
 
 const wordsPerPixel = 4;
 const bytesPerPixel = 16;
 
-/** Pixel (0, 0) of each target. */
+/** Pixel (0, 0) of each attachment. Blocks until the GPU is done. */
 export function readPixel(gl: WebGL2RenderingContext, attachments: number): Uint32Array {
   const words = new Uint32Array(attachments * wordsPerPixel);
   for (let n = 0; n < attachments; ++n) {
@@ -17,7 +16,10 @@ export function readPixel(gl: WebGL2RenderingContext, attachments: number): Uint
   return words;
 }
 
-/** All zero where the context is lost on the way. The framebuffer is free again when this returns. */
+/**
+ * The same without blocking; all zero where the context is lost meanwhile. The framebuffer may be reused when this
+ * returns.
+ */
 export function readPixelAsync(gl: WebGL2RenderingContext, attachments: number): Promise<Uint32Array> {
   return readBlocksAsync(
     gl,
@@ -25,7 +27,7 @@ export function readPixelAsync(gl: WebGL2RenderingContext, attachments: number):
   );
 }
 
-/** Pixels of one target. */
+/** A block of pixels of one attachment. */
 export interface PixelBlock {
   readonly attachment: number;
   readonly x: number;
@@ -34,7 +36,7 @@ export interface PixelBlock {
   readonly height: number;
 }
 
-/** The same of blocks, one after the other, each row by row from the bottom. */
+/** Pixels of several blocks, one after the other, each row by row from the bottom; zero where the context is lost. */
 export function readBlocksAsync(gl: WebGL2RenderingContext, blocks: readonly PixelBlock[]): Promise<Uint32Array> {
   const buffer = gl.createBuffer();
   const pixels = blocks.reduce((sum, { width, height }) => sum + width * height, 0);

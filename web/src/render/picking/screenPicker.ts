@@ -1,5 +1,5 @@
-// What the last frame shows at a pixel. Who asks twice for the same pixel of the
-// same frame is answered from memory: a click asks for what pointerdown has found.
+// Picking in the last frame. Repeated blocking picks of one pixel of one frame are answered from a
+// cache: a click asks for what pointerdown has found.
 
 import type { PerspectiveCamera, WebGLRenderer } from "three";
 import type { Hit, PickCandidate, PixelPosition } from "./picker.ts";
@@ -9,36 +9,40 @@ export class ScreenPicker {
   readonly #picker: Picker;
   readonly #camera: PerspectiveCamera;
   readonly #candidates: () => Iterable<PickCandidate>;
-  /** What has been found since the scene last changed. */
+  /** The last result, until the scene changes. */
   #found: { readonly x: number; readonly y: number; readonly hit: Hit | undefined } | undefined;
 
-  /** `camera` stands as it did for the last frame. */
+  /** `camera`: that of the last frame. */
   constructor(renderer: WebGLRenderer, camera: PerspectiveCamera, candidates: () => Iterable<PickCandidate>) {
     this.#picker = new Picker(renderer);
     this.#camera = camera;
     this.#candidates = candidates;
   }
 
-  /** `slack`: how far, in device pixels, a vertex may be from what it covers. Waits for the GPU. */
-  pick(place: PixelPosition, slack: number): Hit | undefined {
-    if (!isInside(place)) return undefined;
-    const { x, y } = place;
+  /**
+   * Blocks until the GPU is done. `slack`: how far, in device pixels, a vertex may be from the pixels that it covers.
+   */
+  pick(pixel: PixelPosition, slack: number): Hit | undefined {
+    if (!isInside(pixel)) return undefined;
+    const { x, y } = pixel;
     if (this.#found?.x !== x || this.#found.y !== y) {
-      this.#found = { x, y, hit: this.#picker.pick(this.#camera, place, slack, this.#candidates()) };
+      this.#found = { x, y, hit: this.#picker.pick(this.#camera, pixel, slack, this.#candidates()) };
     }
     return this.#found.hit;
   }
 
-  /** The same without waiting; the picture may become larger or smaller meanwhile. */
-  async pickAsync(placeNow: () => PixelPosition, slack: number): Promise<Hit | undefined> {
-    for (let place = placeNow(); isInside(place); place = placeNow()) {
-      const hit = await this.#picker.pickAsync(this.#camera, place, slack, this.#candidates());
+  /**
+   * The same without blocking. `positionNow` is asked again after a stale result, as the picture may have been resized.
+   */
+  async pickAsync(positionNow: () => PixelPosition, slack: number): Promise<Hit | undefined> {
+    for (let pixel = positionNow(); isInside(pixel); pixel = positionNow()) {
+      const hit = await this.#picker.pickAsync(this.#camera, pixel, slack, this.#candidates());
       if (hit !== "stale") return hit;
     }
     return undefined;
   }
 
-  /** The next frame shows something else. */
+  /** Call when the next frame may differ. */
   forget(): void {
     this.#found = undefined;
   }

@@ -1,8 +1,7 @@
-// Does this browser's GPU read images as vertices? A picture of four texels takes
-// the way of every other one (the browser's decoder, the upload, the vertex
-// chunk), and what comes back is compared with what went in. Wrong are browsers
-// that multiply by alpha or convert colours against orders, and drivers that
-// compile the fetch wrong; without this each would show a silent wrong shape.
+// Tests whether this browser's GPU reads vertices from images. An image of four texels takes the
+// usual path (browser decoder, upload, vertex chunk), and the result is compared with the input.
+// Some browsers premultiply alpha or convert colours although told not to, and some drivers
+// miscompile the texel fetch; without this test they would silently draw wrong shapes.
 
 import {
   BufferGeometry,
@@ -23,8 +22,8 @@ import { readPixelAsync } from "./pixelReadback.ts";
 import type { TextureStore } from "../uploads/textureStore.ts";
 
 /**
- * A PNG of 4 x 1 texels, RGBA, with alphas that would be heard of: texel 0 is the
- * high bytes of a place, texel 1 its low bytes, texel 2 index 0, texel 3 a normal.
+ * A PNG of 4 x 1 texels, RGBA, with alphas that would change colours if they were premultiplied: texel 0 is the high
+ * bytes of a position, texel 1 its low bytes, texel 2 index 0, texel 3 a normal.
  */
 export const testTexels = [1, 128, 255, 0, 254, 3, 64, 7, 0, 0, 0, 255, 255, 0, 51, 1] as const;
 export const testPng =
@@ -38,12 +37,12 @@ export async function testVertexTextures(renderer: WebGLRenderer, textures: Text
     const [hx, hy, hz, , lx, ly, lz] = testTexels;
     const expected = [256 * hx + lx, 256 * hy + ly, 256 * hz + lz];
     const stored = [1, -1, 51 / 127.5 - 1];
-    const normal = stored.map((value) => value / Math.hypot(...stored)); // as the picking pass gives it
-    const isPlace = expected.every((value, axis) => floats[pickedWordOffsets.position + axis] === value);
+    const normal = stored.map((value) => value / Math.hypot(...stored)); // as the picking pass returns it
+    const isPosition = expected.every((value, axis) => floats[pickedWordOffsets.position + axis] === value);
     const isNormal = normal.every(
       (value, axis) => Math.abs((floats[pickedWordOffsets.normal + axis] ?? NaN) - value) < 1e-6,
     );
-    return words[pickedWordOffsets.pickId] === 1 && isPlace && isNormal;
+    return words[pickedWordOffsets.pickId] === 1 && isPosition && isNormal;
   } catch {
     return false;
   }
@@ -118,7 +117,7 @@ async function readTestVertex(renderer: WebGLRenderer, textures: TextureStore): 
   }
 }
 
-/** Wherever the vertex comes to lie, it falls into the pixel. */
+/** Scales the vertex so that it falls into the pixel whatever its position. */
 function sceneOf(point: Points): Scene {
   point.frustumCulled = false;
   point.matrixAutoUpdate = false;

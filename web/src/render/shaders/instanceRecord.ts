@@ -1,23 +1,22 @@
-// How shaders read the record of a place: where it is, what its vertices' numbers
-// mean, and its colours. The place's number is an attribute: of each instance
-// where a mesh is drawn in many places, of each vertex where many are one mesh.
+// The record of an instance in a batch, and the shader chunks that read it: matrix, dequantisation,
+// material, visibility. The vertex attribute `instanceIndex` says which record: once per instance
+// in instanced draws, per vertex in merged meshes.
 
-/** Defined in materials whose draws are of many places. */
+/** Defined in materials that draw instances with records. */
 export const instancesDefine = "INSTANCES";
 
-/** Defined in shaders that test what light reaches a draw: lightScopes.ts. */
+/** Defined in shaders that test light scopes (lights/lightScopes.ts). */
 export const scopedLightsDefine = "SCOPED_LIGHTS";
 
-/** Added to a place's number: only back faces are drawn, only front faces. */
+/** Added to an instance index: draw only back faces, or only front faces. */
 export const backFaces = 2 ** 31;
 export const frontFaces = 2 ** 30;
 
 /**
- * Where in a record each field begins, in numbers: the matrix' three rows; step and,
- * where the place is shown, one more than the number of its light scope; the frame of
- * texture coordinates; a look, which is diffuse and opacity, specular and shininess,
- * or metallic and roughness, emissive and ambient intensity, the range of the map of
- * colours, and the width of lines; and what stored values are.
+ * Offset of each field in a record, in floats: the three rows of the matrix from stored coordinates; the lattice step,
+ * and 1 + the light scope's number or 0 where the instance is invisible; origin and extent of texture coordinates; the
+ * material (diffuse and opacity; specular and shininess, or metallic and roughness; emissive and ambient intensity);
+ * the range of the colour map; the width of lines; the value of a stored 0 and of a step.
  */
 export const instanceFields = {
   matrix: 0,
@@ -53,8 +52,8 @@ export const instanceVertexChunk = /* glsl */ `
     return vec3(dot(instanceTexel(0), point), dot(instanceTexel(1), point), dot(instanceTexel(2), point));
   }
 
-  // By the cofactors of the matrix without the lattice's steps: its inverse, transposed, but for a
-  // factor, which is positive, as no record mirrors.
+  // Cofactor matrix without the lattice steps: the inverse transpose up to a factor, which is
+  // positive, because no record mirrors.
   vec3 instanceNormal(vec3 normal) {
     mat3 matrix = transpose(mat3(instanceTexel(0).xyz, instanceTexel(1).xyz, instanceTexel(2).xyz));
     vec3 steps = instanceTexel(3).xyz;
@@ -66,7 +65,7 @@ export const instanceVertexChunk = /* glsl */ `
     return instanceTexel(4);
   }
 
-  // What is not shown lies beyond the far side of all that is seen.
+  // Invisible instances are moved beyond the far plane.
   void applyInstance() {
     instanceDiffuse = instanceTexel(5);
     instanceSpecular = instanceTexel(6);
@@ -83,7 +82,7 @@ export const instanceVertexChunk = /* glsl */ `
     return stored;
   }
 
-  // The normal matrix takes the lattice's steps out of it again.
+  // The normal matrix divides by the lattice steps again.
   vec3 instanceNormal(vec3 normal) {
     return normal * latticeStep;
   }
@@ -96,7 +95,7 @@ export const instanceVertexChunk = /* glsl */ `
 #endif
 `;
 
-/** Before the fragment shader of a material whose colours come from the record. */
+/** Inserted before the fragment shader of a material whose colours come from the record. */
 export const instanceFragmentChunk = /* glsl */ `
 #ifdef ${instancesDefine}
   flat varying vec4 instanceDiffuse, instanceSpecular, instanceEmissive;
@@ -104,14 +103,14 @@ export const instanceFragmentChunk = /* glsl */ `
 #endif
 `;
 
-/** In place of its beginning. */
+/** Replaces the beginning of a fragment shader. */
 export const discardFacesChunk = /* glsl */ `void main() {
 #ifdef ${instancesDefine}
   if (instanceFaces == (gl_FrontFacing ? ${backFaces}u : ${frontFaces}u)) discard;
 #endif
 `;
 
-/** In three's fragment shaders: the uniforms of a material, and where they are a place's. */
+/** Makes three.js' fragment shaders take colours from the record instead of uniforms. */
 export const instanceColorChunks: readonly (readonly [string, string])[] = [
   [
     "vec4 diffuseColor = vec4( diffuse, opacity );",

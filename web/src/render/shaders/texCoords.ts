@@ -1,11 +1,11 @@
-// Where each of a material's textures is read: what three.js calls its maps, and
-// those that it has no word for.
+// Texture coordinates of a material's textures: three.js' maps, and further ones that three.js has
+// no map for.
 
 import { Matrix3 } from "three";
 import type { AppearanceDescription, TextureRole } from "../../document/description.ts";
 import { textureRoles } from "../../document/description.ts";
 
-/** By what a material defines when it has a map: the varying that its place stands in. */
+/** Per map: the #define that three.js sets for it, the varying for its coordinates, and the texture role. */
 const maps: readonly (readonly [define: string, varying: string, role: TextureRole])[] = [
   ["USE_MAP", "vMapUv", "color"],
   ["USE_EMISSIVEMAP", "vEmissiveMapUv", "emissive"],
@@ -16,7 +16,7 @@ const maps: readonly (readonly [define: string, varying: string, role: TextureRo
   ["USE_ROUGHNESSMAP", "vRoughnessMapUv", "metallicRoughness"],
 ];
 
-/** Maps of our own: their samplers are named as their roles, with "Map" behind. */
+/** Roles without a map in three.js' Phong and basic materials; their samplers are called `<role>Map`. */
 export const ownMapRoles = ["metallicRoughness", "ambient", "shininess"] as const satisfies readonly TextureRole[];
 export type OwnMapRole = (typeof ownMapRoles)[number];
 
@@ -24,12 +24,12 @@ export function ownMapDefine(role: OwnMapRole): string {
   return `USE_OWN_${role.toUpperCase()}`;
 }
 
-/** The texel of a map of our own, in a fragment shader. */
+/** GLSL that samples such a texture, in a fragment shader. */
 export function ownTexel(role: OwnMapRole): string {
   return `texture2D(${role}Map, v_${role}Uv)`;
 }
 
-/** Of the picking pass: the texture whose alpha says what is there. */
+/** In the picking pass: the texture whose alpha masks the surface. */
 export const alphaMaskDefine = "USE_ALPHA_MASK";
 export const alphaMaskVarying = "vAlphaMaskUv";
 
@@ -46,10 +46,10 @@ uniform mat3 textureTransforms[${textureRoles.length}];
 ${ownVaryings("")}
 `;
 
-/** For the head of a fragment shader whose material has maps of our own. */
+/** For the head of a fragment shader. */
 export const ownMapDeclarations = ownVaryings("uniform sampler2D ");
 
-/** Once `vertex` has been read. */
+/** After `vertex` has been read. */
 export const texCoordChunk = /* glsl */ `
 vec4 frame = instanceTexCoordFrame();
 vec3 shapeTexCoord = vec3(frame.xy + frame.zw * vertex.texCoord, 1.0);
@@ -73,7 +73,7 @@ function ownVaryings(sampler: string): string {
     .join("\n");
 }
 
-/** By role. */
+/** Matrices by texture role; the identity where the appearance has no such texture. */
 export function textureTransformsOf({ textures }: Pick<AppearanceDescription, "textures">): Matrix3[] {
   return textureRoles.map((role) => {
     const texture = textures.find((each) => each.role === role);

@@ -1,12 +1,11 @@
-// The one place where a vertex is read. `readVertex` has two bodies: from images
-// by number (classic SIG, paper section 5.1) and from buffers (BG). The material
-// of every pass takes it in through `readVerticesIn`, so no pass can disagree
-// with another about the shape.
+// The shader chunk that reads a vertex, in two versions: by index from images (classic SIG, paper
+// section 5.1) and from buffers. The materials of all passes include it through `addVertexReading`,
+// so shadows and picking see the same shape as the picture.
 //
-// Image bytes are put together as integers and only then become floats: with up
-// to 24 bits every lattice point is exact. The matrix of the drawn object places
-// the lattice. It is the same for all patches of a mesh, on purpose: vertices
-// that patches share then go through the same arithmetic, and no crack opens.
+// Image bytes are combined as integers and converted to float last: up to 24 bits, lattice points
+// are exact. The object's matrix transforms stored lattice coordinates. It is the same for all
+// patches of a mesh, so that vertices that patches share go through the same arithmetic, and no
+// crack opens.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
@@ -16,7 +15,7 @@ import { discardGapsChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./w
 import { replaceChunks } from "./replaceChunks.ts";
 import { imageNormalsDefine, imageVerticesDefine, srgbColorsDefine } from "./vertexFormat.ts";
 
-// three.js shades flat whatever has no buffer of normals.
+// three.js shades flat where a geometry has no normal attribute.
 const ownNormalsChunk = /* glsl */ `
 #ifdef ${imageNormalsDefine}
 #undef FLAT_SHADED
@@ -81,8 +80,8 @@ uniform bool colorHasAlpha;
 
 #ifdef GRID
 
-// Cell by cell, two triangles each, which turn left where columns run right and
-// rows down. The last column of a closed grid is followed by its first.
+// Two triangles per cell, counter-clockwise where columns run right and rows down. The last column
+// of a closed grid is followed by its first.
 int gridVertex(int drawVertexIndex) {
   int cell = drawVertexIndex / 6;
   int corner = drawVertexIndex % 6;
@@ -95,8 +94,8 @@ int gridVertex(int drawVertexIndex) {
 
 #endif
 
-// Strips are drawn as separate triangles, three.js knows no others: triangle t
-// is t, t + 1, t + 2, its first two exchanged where t is odd.
+// three.js draws no triangle strips, so they are drawn as separate triangles: triangle t is t, t +
+// 1, t + 2, with the first two exchanged where t is odd.
 int sequenceIndex(int drawVertexIndex) {
   #ifdef GRID
     return gridVertex(drawVertexIndex);
@@ -107,13 +106,13 @@ int sequenceIndex(int drawVertexIndex) {
   return firstSequenceIndex + triangle + (corner == 2 ? 2 : corner ^ (triangle & 1));
 }
 
-// Texel number n, counted row by row, from texel number "first" on.
+// Texel n, counted row by row, from texel "first" on.
 vec4 texelOf(sampler2D image, int first, int n) {
   int width = textureSize(image, 0).x;
   return texelFetch(image, ivec2((first + n) % width, (first + n) / width), 0);
 }
 
-// Numbers stand in rows of implicitWidth, which may be less than the image's width.
+// Sequence indices stand in rows of implicitWidth, which may be less than the image's width.
 int texelIndex(sampler2D image, int n) {
   return (n / implicitWidth) * textureSize(image, 0).x + n % implicitWidth;
 }
@@ -122,21 +121,22 @@ uvec3 bytesOf(vec4 texel) {
   return uvec3(texel.rgb * 255.0 + 0.5);
 }
 
-// An index texel holds the three bytes of a record's number, or column and row in
-// units of 1/256 of the coordinate image (docs/formats/nodes.md, "Stored values").
+// An index texel holds the three bytes of a record index, or column and row in units of 1/256 of
+// the coordinate image (docs/formats/nodes.md, "Stored values").
 int recordIndex(int drawVertexIndex) {
   int sequence = sequenceIndex(drawVertexIndex);
   if (!hasIndex) return sequence;
   int n = texelIndex(indexImage, sequence);
   ivec3 index = ivec3(bytesOf(texelOf(indexImage, firstTexels.x, n)));
   if (isIndexWide) return index.r | index.g << 8 | index.b << 16;
-  ivec2 place = index.rg;
+  ivec2 columnRow = index.rg;
   ivec2 size = textureSize(coordImage0, 0);
-  ivec2 texel = (place * size + 128) >> 8;
+  ivec2 texel = (columnRow * size + 128) >> 8;
   return texel.y * size.x + texel.x;
 }
 
-// The texel of a record that is one texel: without an index, records stand in rows of implicitWidth.
+// The texel of a record that has one texel: without an index, records stand in rows of
+// implicitWidth.
 int recordTexelIndex(int record) {
   return hasIndex ? record : texelIndex(coordImage0, record);
 }
@@ -147,19 +147,19 @@ vec3 storedPosition(int record) {
   if (coordPlanes > 1) stored = (stored << 8) | bytesOf(texelOf(coordImage1, coordFirstTexels.y, n));
   if (coordPlanes > 2) stored = (stored << 8) | bytesOf(texelOf(coordImage2, coordFirstTexels.z, n));
   if (coordPlanes > 3) stored = (stored << 8) | bytesOf(texelOf(coordImage3, coordFirstTexels.w, n));
-  vec3 place = vec3(stored) + missingBytesMidpoint;
+  vec3 position = vec3(stored) + missingBytesMidpoint;
   #ifdef GRID_HEIGHTS
     vec2 across = vec2(record % gridSize.x, record / gridSize.x) * largestStored / vec2(gridSize - 1);
-    return vec3(across.x, place.x, across.y);
+    return vec3(across.x, position.x, across.y);
   #else
-    return place;
+    return position;
   #endif
 }
 
 #ifdef GRID_NORMALS
 
-// Across the neighbours on both sides; at a border, the vertex itself is one of
-// them. Divided by the step because the caller multiplies by it.
+// Differences between the neighbours on both sides; at a border, the vertex itself is one of them.
+// Divided by the step because the caller multiplies by it.
 vec3 slopeAt(ivec2 at) {
   ivec2 last = gridSize - 1;
   int left = isGridClosed ? (at.x + last.x) % gridSize.x : max(at.x - 1, 0);
@@ -169,7 +169,7 @@ vec3 slopeAt(ivec2 at) {
   return cross(down, along) / latticeStep;
 }
 
-// At a pole all of a row is one point; the next row says where it faces.
+// At a pole all vertices of a row are one point; the normal comes from the next row.
 vec3 slopeNormal(int record) {
   ivec2 at = ivec2(record % gridSize.x, record / gridSize.x);
   vec3 slope = slopeAt(at);
@@ -191,7 +191,7 @@ vec3 readNormal(int record) {
   #endif
 }
 
-// Words: red and blue are the bytes of u, green and alpha those of v.
+// 16-bit words: red and blue are the bytes of u, green and alpha those of v.
 vec2 readTexCoord(int record) {
   #ifdef HAS_TEX_COORDS
     vec4 bytes = texelOf(texCoordImage, firstTexels.w, recordTexelIndex(record)) * 255.0;
@@ -201,7 +201,7 @@ vec2 readTexCoord(int record) {
   #endif
 }
 
-// Of a vertex, or of one end of a wide line.
+// Index in the draw of a vertex, or of one end of a wide line.
 int drawVertexIndex(int end) {
   #ifdef ${wideLinesDefine}
     return gl_InstanceID % lineCount * ${wideLinesDefine} + end;
@@ -221,7 +221,7 @@ Vertex vertexAt(int end) {
 
 vec3 unitNormal(vec3 normal) {
   #if defined(NORMAL_WORDS)
-    float word = normal.x < 0.0 ? normal.x + 65536.0 : normal.x; // X3DOM's, in records of Int16
+    float word = normal.x < 0.0 ? normal.x + 65536.0 : normal.x; // X3DOM's format, in records of Int16
     return unitOf(vec2(mod(word, 256.0), floor(word / 256.0)));
   #elif defined(NORMAL_LARGEST)
     return unitOf(normal.xy);
@@ -274,13 +274,13 @@ const colorChunk = /* glsl */ `
 #endif
 `;
 
-/** Where a point has its size. */
+/** The statement that sets the size of a point. */
 export const pointSizeChunk = "gl_PointSize = pointSizeAt(length(mvPosition.xyz));";
 
-/** The first of a vertex shader. */
+/** The first statement of a vertex shader. */
 export const readVertexStatement = "Vertex vertex = readVertex();";
 
-/** Makes a built-in material's shaders read their vertices here, for use in `onBeforeCompile`. */
+/** Makes the shaders of a built-in material read vertices with this chunk. Call in `onBeforeCompile`. */
 export function addVertexReading(
   shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
 ): void {
@@ -300,7 +300,7 @@ export function addVertexReading(
       ["#include <uv_vertex>", texCoordChunk],
       ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\napplyInstance();\nwidenLine();`],
       ["#include <color_vertex>", colorChunk],
-      // Normals are the shape's own.
+      // Normals are in the shape's coordinates.
       ["#include <beginnormal_vertex>", "vec3 objectNormal = instanceNormal(vertex.normal);"],
       ["#include <begin_vertex>", "vec3 transformed = instancePosition(vertex.position);"],
     ]);

@@ -1,3 +1,5 @@
+// How the vertices of a stage are stored, as #defines and uniforms of materials.
+
 import type { IUniform, Matrix3, Texture, Vector4 } from "three";
 import type { Vec3 } from "../../document/description.ts";
 import { instancesDefine } from "./instanceRecord.ts";
@@ -5,28 +7,28 @@ import { wideLinesDefine } from "./wideLineChunk.ts";
 import type { Grid, NormalCode } from "../../stage/stage.ts";
 import { isPairCode } from "../../stage/stage.ts";
 
-/** What both bodies read, as uniforms. */
+/** Uniforms of both versions of the vertex chunk. */
 export interface VertexUniforms extends Record<string, IUniform> {
-  /** Device pixels in a CSS pixel. */
+  /** Device pixels per CSS pixel. */
   pixelRatio: IUniform<number>;
-  /** In CSS pixels: the size of a point, and its bounds. */
+  /** Size, minimum and maximum size of points, in CSS pixels. */
   pointSizes: IUniform<Vec3>;
   /** At distance r points are 1 / (a + b r + c r^2) as large. */
   attenuation: IUniform<Vec3>;
-  /** Where stored texture coordinates 0 and 1 lie: origin and extent. */
+  /** The texture coordinates of a stored 0 (two numbers), and the extent up to a stored 1. */
   texCoordFrame: IUniform<[number, number, number, number]>;
-  /** From there to the surfaceTextures, by textureRoles. */
+  /** Texture transforms in the order of textureRoles. */
   textureTransforms: IUniform<readonly Matrix3[]>;
-  /** Along each axis, in the shape's coordinates. */
+  /** The size of a lattice step along each axis, in the shape's coordinates. */
   latticeStep: IUniform<Vec3>;
-  /** Of lines that are wide: LineDescription's width and dashes, as many as count. */
+  /** LineDescription's width and dashes, for wide lines. */
   lineWidth: IUniform<number>;
   dashes: IUniform<readonly number[]>;
   dashCount: IUniform<number>;
   viewport: IUniform<Vector4>;
 }
 
-/** What the image body reads besides. Textures that have not come are null and read as 0. */
+/** Further uniforms of the image version. Textures that have not loaded are null and read as 0. */
 export interface ImageVertexUniforms extends VertexUniforms {
   indexImage: IUniform<Texture | null>;
   coordImage0: IUniform<Texture | null>;
@@ -36,7 +38,7 @@ export interface ImageVertexUniforms extends VertexUniforms {
   normalImage: IUniform<Texture | null>;
   colorImage: IUniform<Texture | null>;
   texCoordImage: IUniform<Texture | null>;
-  /** First texels: index, normal, colour, texture coordinates. */
+  /** First texels of index, normal, colour and texture coordinates. */
   firstTexels: IUniform<[number, number, number, number]>;
   coordFirstTexels: IUniform<[number, number, number, number]>;
   coordPlanes: IUniform<number>;
@@ -44,42 +46,48 @@ export interface ImageVertexUniforms extends VertexUniforms {
   hasIndex: IUniform<boolean>;
   isIndexWide: IUniform<boolean>;
   implicitWidth: IUniform<number>;
-  /** Columns and rows of a grid's vertices, and whether its last column is joined to the first; used with gridDefinesOf. */
+  /**
+   * Columns and rows of a grid's vertices, and whether its last column is joined to the first; used with
+   * gridDefinesOf.
+   */
   gridSize: IUniform<[number, number]>;
   isGridClosed: IUniform<boolean>;
-  /** The stored integer that stands for the far side of the box. */
+  /** The stored integer of the far side of the bounding box. */
   largestStored: IUniform<number>;
-  /** The running number that the draw begins at, and whether it is a strip. */
+  /** The sequence index at which the draw begins, and whether it is a strip. */
   firstSequenceIndex: IUniform<number>;
   isStrip: IUniform<boolean>;
-  /** Of the draw, at least 1: instances are its lines, in one place after the other. */
+  /** Lines of the draw, at least 1. A draw of several instances repeats all lines for each. */
   lineCount: IUniform<number>;
   colorHasAlpha: IUniform<boolean>;
 }
 
-/** Samplers that the image body, values and places declare, and so texture units that a vertex shader must have. */
+/**
+ * Samplers in vertex shaders (images, values and instance records), hence texture units that a vertex shader must
+ * have.
+ */
 export const minVertexTextureUnits = 12;
 /** Defined in materials that read images, and in those that read normals from them. */
 export const imageVerticesDefine = "IMAGE_VERTICES";
 export const imageNormalsDefine = "IMAGE_NORMALS";
-/** Defined in materials that light in linear space: colours of vertices are sRGB, as everything that people see in files. */
+/** Defined in materials that light in linear space: vertex colours are sRGB. */
 export const srgbColorsDefine = "SRGB_VERTEX_COLORS";
-/** How the vertices of a stage are found. */
+/** How the vertices of a draw are read. */
 export interface VertexFormat {
-  /** They come from images, not from buffers. */
+  /** From images, not from buffers. */
   readonly isFromImages: boolean;
   readonly hasTexCoords: boolean;
-  /** As gridDefinesOf says it. */
+  /** As gridDefinesOf returns them. */
   readonly gridDefines: Readonly<Record<string, string>>;
-  /** As normalDefinesOf says it. */
+  /** As normalDefinesOf returns them. */
   readonly normalDefines: Readonly<Record<string, string>>;
-  /** Each in the place whose number comes with it; otherwise the object's matrix says where. */
+  /** Each instance has a record (shaders/instanceRecord.ts); otherwise the object's matrix says where it is. */
   readonly isInstanced: boolean;
-  /** Of wide lines, how many vertices on the next begins; 0: they are none. */
+  /** For wide lines, the distance in vertices from one line to the next; 0: no wide lines. */
   readonly wideLineStep: 0 | 1 | 2;
 }
 
-/** What a material must define to read vertices of this form. */
+/** The #defines of a material that reads vertices of this format. */
 export function vertexDefinesOf(
   { isFromImages, hasTexCoords, gridDefines, normalDefines, isInstanced, wideLineStep }: VertexFormat,
   readsNormals: boolean,
@@ -95,7 +103,7 @@ export function vertexDefinesOf(
   };
 }
 
-/** How a material's normals are stored, as defines. `isWord`: both numbers in one of 16 bits. */
+/** The #defines for stored normals. `isWord`: both numbers in one 16-bit word. */
 export function normalDefinesOf(code: NormalCode, isWord: boolean): Record<string, string> {
   if (!isPairCode(code)) return code.kind === "byteVector" ? { NORMAL_BYTES: "" } : {};
   return {
@@ -105,7 +113,7 @@ export function normalDefinesOf(code: NormalCode, isWord: boolean): Record<strin
   };
 }
 
-/** What a grid changes in the image body, as defines: where its vertices are, and its normals where it has no others. */
+/** The #defines for a grid in the image version: how vertices are found, and their normals where none are stored. */
 export function gridDefinesOf(grid: Grid | undefined, hasNormals: boolean): Record<string, string> {
   if (grid === undefined) return {};
   return {

@@ -1,19 +1,21 @@
-// Lines of more than a pixel, which WebGL does not have: each is an instance of one
-// outline, a strip with a half disc at either end, laid out on the screen around
-// what the line's two ends are there. So the joints of a line of many parts are
-// round, and its borders are as smooth as those of any surface.
+// Lines wider than a pixel, which WebGL lacks. Each line is an instance of one outline, a strip
+// with a half disc at either end, which is laid out on the screen around the projected ends. So the
+// joints of polylines are round, and edges are antialiased like those of surfaces.
 
 import type { BufferGeometry, Camera, Material, Scene, Vector4, WebGLRenderer } from "three";
 import { maxDashLengths } from "../../document/lineProperties.ts";
 import { instanceFields, instancesDefine } from "./instanceRecord.ts";
 
-/** Defined in materials of wide lines: how many vertices on the next line begins. */
+/** Defined in materials of wide lines, as the distance in vertices from one line to the next. */
 export const wideLinesDefine = "WIDE_LINES";
 
-/** Of a half disc: of lines up to 20 pixels it is off the circle by less than a fifth of one. */
+/** Sides of a half disc: for lines of up to 20 pixels it deviates from the circle by less than a fifth of a pixel. */
 const capSides = 8;
 
-/** Triangles of the outline's vertices: 0 … capSides around the line's begin, the others around its end, all to the left. */
+/**
+ * Triangles of the outline, all counter-clockwise. Vertices 0 … capSides surround the line's begin, the others its
+ * end.
+ */
 export const outlineTriangles: readonly number[] = [
   ...fanOf(0),
   ...fanOf(capSides + 1),
@@ -29,7 +31,7 @@ function fanOf(first: number): number[] {
   return Array.from({ length: capSides - 1 }, (_, side) => [first, first + side + 1, first + side + 2]).flat();
 }
 
-/** Behind `vertexAt` and `instancePosition`. */
+/** Included after `vertexAt` and `instancePosition`. */
 export const wideLineChunk = /* glsl */ `
 #ifdef ${wideLinesDefine}
 
@@ -39,9 +41,9 @@ uniform vec4 viewport;
 #else
   uniform float lineWidth;
 #endif
-// The axis of the screen along which dashes are measured, and where they begin, in widths.
+// The screen axis along which dashes are measured, and their origin, in line widths.
 flat varying vec3 dashAxis;
-// Where along the line this vertex is, and how far beside that on the screen.
+// Position along the line (0 … 1), and offset from the line on the screen.
 float lineShare;
 vec2 besideLine;
 
@@ -49,7 +51,7 @@ vec2 onScreen(vec4 clip) {
   return viewport.xy + (clip.xy / clip.w * 0.5 + 0.5) * viewport.zw;
 }
 
-// What is nearer than the near plane has no place on the screen: there the line begins, or ends.
+// The part of a line before the near plane has no screen position; the line is cut there.
 vec2 sharesSeen(vec4 begin, vec4 end) {
   vec2 ahead = vec2(begin.z + begin.w, end.z + end.w);
   float cut = ahead.x / (ahead.x - ahead.y);
@@ -68,7 +70,8 @@ void layLine(vec3 from, vec3 to) {
   vec2 away = cos(angle) * along + sin(angle) * vec2(-along.y, along.x);
   float width = lineWidth * pixelRatio;
   besideLine = away * width / viewport.zw;
-  // As OpenGL's stipple: so dashes run on where many short lines make one. They move with the shape.
+  // As with OpenGL's line stipple, dashes continue over adjacent short lines. They move with the
+  // shape.
   vec4 origin = clipFromObject * vec4(instancePosition(vec3(0.0)), 1.0);
   vec2 start = origin.w > 0.0 ? onScreen(origin) : vec2(0.0);
   dashAxis = abs(along.x) >= abs(along.y) ? vec3(1.0, 0.0, start.x) / width : vec3(0.0, 1.0, start.y) / width;
@@ -96,7 +99,7 @@ Vertex readVertex() {
 #endif
 `;
 
-/** Before the fragment shader. */
+/** Inserted before the fragment shader. */
 export const dashChunk = /* glsl */ `
 #ifdef ${wideLinesDefine}
 
@@ -118,14 +121,14 @@ bool isBetweenDashes() {
 #endif
 `;
 
-/** In place of its beginning. */
+/** Replaces the beginning of a fragment shader. */
 export const discardGapsChunk = /* glsl */ `void main() {
 #ifdef ${wideLinesDefine}
   if (isBetweenDashes()) discard;
 #endif
 `;
 
-/** Lets a material of wide lines know how large the picture is that is being drawn. */
+/** Updates the viewport uniform before a material of wide lines is drawn. */
 export function followViewport(material: Material, viewport: { readonly value: Vector4 }): void {
   const own = material.onBeforeRender.bind(material);
   material.onBeforeRender = (

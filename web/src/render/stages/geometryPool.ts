@@ -1,5 +1,5 @@
-// The three.js geometries of a stage, one per draw, shared by everything that
-// shows the stage and freed with the last of it.
+// The three.js geometries of stages, one per draw, shared by all shapes that show the stage and
+// reference counted.
 
 import { BufferGeometry, InstancedBufferGeometry, InterleavedBufferAttribute, Sphere } from "three";
 import type { BufferStage, DrawRange, Stage } from "../../stage/stage.ts";
@@ -20,10 +20,10 @@ export class GeometryPool {
     this.#buffers = buffers;
   }
 
-  /** One for each draw, in order. */
+  /** One geometry per draw, in order. Each call needs a `release`. */
   acquire(stage: Stage): readonly BufferGeometry[] {
     const entry = this.#entries.get(stage) ?? { geometries: geometriesOf(stage, this.#buffers), users: 0 };
-    // Else three.js makes one, of stored numbers that are not here.
+    // Otherwise three.js would compute bounds from positions, which are not in JavaScript.
     for (const geometry of entry.geometries) geometry.boundingSphere ??= new Sphere();
     entry.users += 1;
     this.#entries.set(stage, entry);
@@ -37,7 +37,7 @@ export class GeometryPool {
     if (entry.users > 0) return;
     for (const geometry of entry.geometries) {
       if (geometry instanceof InstancedBufferGeometry)
-        geometry.dispose(); // the stage's buffers are not in it
+        geometry.dispose(); // it has no buffers of the stage
       else this.#buffers.dispose(geometry);
     }
     this.#entries.delete(stage);
@@ -76,7 +76,7 @@ function inBuffers(stage: BufferStage, buffers: BufferProvider): (range: DrawRan
   };
 }
 
-/** No buffers at all: the shader finds its vertices by their number. */
+/** A geometry without attributes: the shader finds vertices by gl_VertexID. */
 function emptyGeometryOf({ primitive, count }: DrawRange): BufferGeometry {
   const geometry = new BufferGeometry();
   geometry.setDrawRange(0, primitive === "triangleStrip" ? Math.max(0, count - 2) * 3 : count);

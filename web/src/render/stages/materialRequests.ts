@@ -1,3 +1,5 @@
+// What a draw of a stage requests of its material.
+
 import type { Side } from "three";
 import type { AppearanceDescription, GeometryDescription } from "../../document/description.ts";
 import type { Stage, DrawRange } from "../../stage/stage.ts";
@@ -10,7 +12,7 @@ import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
 import { normalDefinesOf, gridDefinesOf } from "../shaders/vertexFormat.ts";
 import { lineStepOf } from "../lines/wideLines.ts";
 
-/** What a draw needs of a material. */
+/** The request for a draw's material. */
 export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
   stage: Stage,
   range: DrawRange,
@@ -32,7 +34,7 @@ export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
   };
 }
 
-/** What the picking pass, which draws place by place, needs of its material. */
+/** The request for the picking pass, which draws instances one by one. */
 export function pickRequestOf(
   stage: Stage,
   range: DrawRange,
@@ -67,11 +69,11 @@ export function colorsOf(stage: Stage): VertexColors {
 function shadingOf(stage: Stage, draw: DrawRange): Shading {
   const isSurface = draw.primitive === "triangles" || draw.primitive === "triangleStrip";
   if (stage.name === "points") return "distance";
-  if (!isSurface && !hasNormals(stage)) return "unlit"; // a cloud with normals is lit
+  if (!isSurface && !hasNormals(stage)) return "unlit"; // a point cloud with normals is lit
   return hasNormals(stage) ? "smooth" : "flat";
 }
 
-/** Stored ones, or those of a grid's slope. */
+/** Stored normals, or those of a grid's slope. */
 export function hasNormals(stage: Stage): boolean {
   return stage.normal !== undefined || (stage.kind === "textures" && stage.grid !== undefined);
 }

@@ -1,3 +1,5 @@
+// What is needed to draw a stage of a patch.
+
 import type { GeometryDescription, PatchDescription, AppearanceDescription } from "../../document/description.ts";
 import type { MaterialFactory, SceneUniforms } from "../materials/materialFactory.ts";
 import type { SurfaceTextures } from "../materials/surfaceTextures.ts";

@@ -1,5 +1,4 @@
-// A stage -> three.js objects, one per draw and place. What a stage says of its
-// vertices, for whoever draws it, is in stageDraws.ts.
+// Makes three.js objects from a stage: one per draw and instance.
 
 import type { BufferGeometry, Material, Matrix4 } from "three";
 import { DoubleSide, FrontSide } from "three";
@@ -21,28 +20,31 @@ import { pickRequestOf } from "./materialRequests.ts";
 import { materialRequestOf } from "./materialRequests.ts";
 import { boundsOf } from "./stageBounds.ts";
 
-/** A stage of a patch on the screen, in all places of its shape. It is drawn by objects of its own, or together with others. */
+/**
+ * The displayed stage of a patch, in all instances of its shape: drawn by objects of its own (here) or in batches
+ * (batches/batchedStage.ts).
+ */
 export interface PatchDraws {
-  /** For the picking pass: shared by all places. */
+  /** For the picking pass; shared by all instances. */
   readonly picks: readonly PickDraw[];
-  /** In one more place of the scene, in the group that stands there. */
+  /** Adds an instance of the shape, which `group` holds. */
   addInstance(group: ShapeGroup): void;
-  /** The group has moved, is shown or hidden, or stands in another light scope. */
+  /** The group has moved, has become visible or invisible, or has another light scope. */
   updateInstance(group: ShapeGroup): void;
-  /** Not there any more. */
+  /** Removes an instance. */
   removeInstance(group: ShapeGroup): void;
   applyAppearance(appearance: AppearanceDescription, surfaceTextures: SurfaceTextures): void;
-  /** Takes it out of the scene and frees what this stage alone uses. */
+  /** Removes it from the scene and frees what only this stage uses. */
   dispose(): void;
 }
 
-/** Each draw is an object in each place. */
+/** Draws each draw of the stage by one object per instance. */
 export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws {
   const { geometry, patch, materialFactory: look, buffers } = context;
   const { box, sphere } = boundsOf(geometry, patch, stage);
   const shapeFromStored = shapeFromStoredOf(geometry, patch);
   const uniforms = uniformsOf(stage, context);
-  // Without texture coordinates there is nowhere to lay it.
+  // Without texture coordinates, textures cannot be applied.
   const laid = (surfaceTextures: SurfaceTextures) =>
     stage.texCoord !== undefined ? surfaceTextures : noSurfaceTextures;
   let shown = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
@@ -53,7 +55,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
     shape.boundingSphere = sphere;
     const request = materialRequestOf(stage, range, geometry, uniforms.of(range), context.shared);
     const side = geometry.solid && request.wideLineStep === 0 ? FrontSide : DoubleSide;
-    const materials = new ScopedMaterials((lightScope) =>
+    const materials = new MaterialPerLightScope((lightScope) =>
       look.makeMaterial(
         { ...request, uniforms: { ...request.uniforms, lightScope } },
         shown.appearance,
@@ -90,7 +92,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
       objects.set(group, here);
     },
     updateInstance(group) {
-      // Objects in it move by themselves.
+      // Objects are children of the group and move with it.
       objects.get(group)?.forEach((object, place) => {
         const { materials, request } = draws[place] ?? {};
         const material = materials?.of(group);
@@ -120,8 +122,8 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
   };
 }
 
-/** Of a draw, one for each light scope that it stands in. */
-class ScopedMaterials {
+/** The materials of a draw, one per light scope of its instances. */
+class MaterialPerLightScope {
   readonly #make: (lightScope: LightScope) => Material;
   readonly #materials = new Map<LightScope, Material>();
 

@@ -1,3 +1,5 @@
+// Bounds of a stage in stored coordinates.
+
 import { Box3, Sphere, Vector3 } from "three";
 import type { GeometryDescription, PatchDescription } from "../../document/description.ts";
 import { formatOf } from "../../document/encodings.ts";
@@ -5,7 +7,10 @@ import { boxAround } from "../../document/geometry.ts";
 import { dequantizationOf, missingBytesMidpoint } from "../../document/dequantization.ts";
 import type { Stage } from "../../stage/stage.ts";
 
-/** The patch's bounds among stored integers; the sphere is wide enough for its coarsest stage. */
+/**
+ * The patch's bounds in stored coordinates. The sphere has room for missing low bytes, which move vertices of coarse
+ * stages.
+ */
 export function boundsOf(
   geometry: GeometryDescription,
   patch: PatchDescription,

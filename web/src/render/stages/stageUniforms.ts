@@ -1,5 +1,5 @@
-// What a stage says of its vertices, for those who draw it: uniforms, bounds, and
-// what its draws need of a material.
+// Uniforms of a stage: where its vertices are stored, and what its appearance says of points, lines
+// and textures.
 
 import type { IUniform } from "three";
 import type { DecodedImage } from "../../stage/decodedImage.ts";
@@ -22,7 +22,7 @@ import type { PatchContext } from "./patchContext.ts";
 import { colorsOf } from "./materialRequests.ts";
 
 export interface StageUniforms {
-  /** Of all draws of the stage. */
+  /** Shared by all draws of the stage. */
   readonly common: VertexUniforms;
   of(range: DrawRange): VertexUniforms;
 }
@@ -49,7 +49,7 @@ export function uniformsOf(stage: Stage, context: PatchContext): StageUniforms {
   };
 }
 
-/** Takes over what an appearance says of vertices. */
+/** Updates uniforms after a change of the appearance. */
 export function setAppearance(
   uniforms: VertexUniforms,
   geometry: GeometryDescription,
@@ -61,7 +61,7 @@ export function setAppearance(
   }
 }
 
-/** Of points that no PointProperties tell about, in CSS pixels. */
+/** Size in CSS pixels of points without PointProperties. */
 export const defaultPointSize = 2;
 const defaultPoints: PointDescription = {
   size: defaultPointSize,
