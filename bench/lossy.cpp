@@ -120,9 +120,11 @@ void distort(IndexedPatch& patch, const GeometryDescription& geometry, const Enc
              const Variant& variant, Outcome& outcome) {
   const EncodedPatch encoded = encodePatch(patch, geometry, options);
   std::vector<Vec3u> stored(patch.vertexCount());
-  for (std::size_t plane = 0; plane < encoded.description.coord.size(); ++plane) {
-    const std::size_t file = std::stoul(encoded.description.coord[plane].url);
-    const Coded coded = recode(encoded.files[file].bytes, plane, variant);
+  std::size_t plane = 0;
+  for (const EncodedFile& file : encoded.files) {
+    if (file.role != Role::coord)
+      continue;
+    const Coded coded = recode(file.bytes, plane++, variant);
     outcome.coordBytes += coded.bytes;
     for (std::size_t i = 0; i < stored.size(); ++i)
       for (int axis = 0; axis < 3; ++axis)
@@ -166,8 +168,9 @@ Outcome withFewerBits(const Mesh& mesh, const Lattice& full, std::uint32_t bits,
   Outcome outcome;
   for (const Patch& patch : patched.patches) {
     const EncodedPatch encoded = encodePatch(asTriangles(patch), geometry, options);
-    for (const Reference& plane : encoded.description.coord)
-      outcome.coordBytes += encoded.files[std::stoul(plane.url)].bytes.size();
+    for (const EncodedFile& file : encoded.files)
+      if (file.role == Role::coord)
+        outcome.coordBytes += file.bytes.size();
   }
   const std::vector<Vec3u> coarse = quantise(mesh.positions, lattice), fine = quantise(mesh.positions, full);
   for (std::size_t i = 0; i < fine.size(); ++i)

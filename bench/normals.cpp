@@ -49,9 +49,8 @@ Measure asWritten(NormalEncoding normals) {
     const EncodeOptions options{Encoding::classic, 8, effort, Target::web, normals};
     const GeometryDescription geometry = describe(mesh, options);
     const EncodedPatch encoded = encodePatch(patch, geometry, options);
-    const auto file = [&](const std::string& url) { return encoded.files.at(std::stoul(url)).bytes; };
-    outcome.bytes += file(encoded.description.normal->url).size();
-    outcome.add(patch.normals, decodePatch(encoded.description, geometry, file).normals);
+    outcome.bytes += std::ranges::find(encoded.files, Role::normal, &EncodedFile::role)->bytes.size();
+    outcome.add(patch.normals, decodePatch(encoded, geometry).normals);
   };
 }
 

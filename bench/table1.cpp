@@ -103,8 +103,7 @@ void add(const IndexedPatch& patch, const PatchedMesh& mesh, const EncodeOptions
   sum.x3d += textSize(patch, mesh.lattice);
   const GeometryDescription geometry = describe(mesh, options);
   const EncodedPatch encoded = encodePatch(patch, geometry, options);
-  const IndexedPatch decoded = decodePatch(
-      encoded.description, geometry, [&](const std::string& url) { return encoded.files.at(std::stoul(url)).bytes; });
+  const IndexedPatch decoded = decodePatch(encoded, geometry);
   if (decoded.positions != patch.positions || decoded.indices != patch.indices || decoded.draws != patch.draws)
     throw Error(ErrorKind::malformed, "", "what was written reads back as something else");
   for (const EncodedFile& file : encoded.files)

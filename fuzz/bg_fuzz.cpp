@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   geometry.texCoordType = type();
   geometry.colorType = type();
   geometry.normalEncoding = static_cast<NormalEncoding>(input.bits(8) % 4);
-  const PatchDescription patch = fuzz::readDescription(input, 1);
+  const PatchDescription patch = fuzz::readDescription(input, geometry.encoding, 1);
 
   std::map<std::string, Bytes> files;
   for (std::size_t i = 0; i < 5; ++i) {

@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   geometry.colorComponents = 3 + kinds % 2;
   geometry.normalEncoding = static_cast<NormalEncoding>(kinds / 2 % 4);
   geometry.indexType = kinds / 8 % 2 ? ElementType::uint32 : ElementType::uint16;
-  const PatchDescription patch = fuzz::readDescription(input, input.bits(8) % 5);
+  const PatchDescription patch = fuzz::readDescription(input, geometry.encoding, input.bits(8) % 5);
 
   std::map<std::string, Bytes> files;
   for (std::size_t i = 0; i < 9; ++i) {

@@ -43,7 +43,7 @@ private:
 /// A patch of at most three draws whose files are called "0", "1" ...: index,
 /// `coords` files of coordinates, normal, texCoord, color, each but coordinates
 /// absent where a bit of the input says so.
-inline PatchDescription readDescription(InputReader& input, std::size_t coords) {
+inline PatchDescription readDescription(InputReader& input, Encoding encoding, std::size_t coords) {
   PatchDescription patch;
   const std::uint32_t present = input.bits(8);
   patch.vertexCount = present & 16 ? input.bits(32) : input.bits(16);
@@ -52,11 +52,12 @@ inline PatchDescription readDescription(InputReader& input, std::size_t coords) 
   patch.implicitMeshSize = {input.bits(8), 1};
   std::size_t file = 0;
   const auto reference = [&] {
-    const std::uint32_t place = input.bits(8);
-    Reference made{std::to_string(file++), place & 15, place / 16};
-    if (place == 255)
-      made.first = input.bits(32), made.stride = input.bits(32);
-    return made;
+    const std::uint32_t small = input.bits(8);
+    ByteLocation location{small & 15, small / 16};
+    if (small == 255)
+      location = {input.bits(32), input.bits(32)};
+    const std::string url = std::to_string(file++);
+    return encoding == Encoding::bg ? Reference{url, location} : Reference{url, TexelLocation{location.byteOffset}};
   };
   if (present & 1)
     patch.index = reference();

@@ -104,6 +104,15 @@ IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescriptio
   return ContainerReader(fetch).decode(patch, geometry);
 }
 
+IndexedPatch decodePatch(const EncodedPatch& encoded, const GeometryDescription& geometry) {
+  std::vector<std::string> urls;
+  for (std::size_t i = 0; i < encoded.files.size(); ++i)
+    urls.push_back("file " + std::to_string(i));
+  return decodePatch(describeWithUrls(encoded, urls), geometry, [&](const std::string& url) {
+    return encoded.files[static_cast<std::size_t>(std::ranges::find(urls, url) - urls.begin())].bytes;
+  });
+}
+
 StoredPrecision ContainerReader::precisionOf(const GeometryDescription& geometry) const {
   if (geometry.encoding == Encoding::compact)
     return geometry.patches.empty() ? StoredPrecision{} : compact_->precisionOf(geometry.patches[0]);

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,12 +36,22 @@ struct EncodedFile {
   Bytes bytes;
 };
 
-/// Files of one patch and the description whose references name files by their
-/// place in `files`: reference.url is the decimal index, replaced by the caller
-/// once files have names.
+/// Index of a file in EncodedPatch::files.
+enum class FileIndex : std::uint32_t {};
+
+/// What describeWithUrls makes a Reference of, once the file has a url.
+struct FileReference {
+  Role role = Role::coord;
+  FileIndex file{};
+  FileLocation location;
+  std::size_t attributeIndex = 0; ///< index in GeometryDescription::attributes; Role::attribute only
+};
+
+/// The files of one patch.
 struct EncodedPatch {
-  PatchDescription description;
+  PatchDescription description; ///< without references
   std::vector<EncodedFile> files;
+  std::vector<FileReference> references; ///< in the order in which byte planes follow one another
   /// Largest angle between a normal and what is stored of it, in radians: measured for
   /// palettes and derived normals, a bound in compact. 0: see normalErrorBound.
   double normalError = 0;
@@ -54,6 +65,9 @@ GeometryDescription describe(const PatchedMesh& mesh, const EncodeOptions& optio
 /// the mesh that was described, and has no NaN. Compact: see encodeCompact. Throws Error{limit} for
 /// a patch that draws more than an image holds.
 EncodedPatch encodePatch(const IndexedPatch& patch, const GeometryDescription& geometry, const EncodeOptions& options);
+
+/// The description of an encoded patch with its references; `urls` are those of its files.
+PatchDescription describeWithUrls(const EncodedPatch& encoded, std::span<const std::string> urls);
 
 /// Gives the bytes of a url; throws Error{io} where there are none.
 using FetchFile = std::function<Bytes(const std::string& url)>;
@@ -92,5 +106,8 @@ private:
 
 /// The same for one patch alone.
 IndexedPatch decodePatch(const PatchDescription& patch, const GeometryDescription& geometry, const FetchFile& fetch);
+
+/// Decodes an encoded patch from its files in memory.
+IndexedPatch decodePatch(const EncodedPatch& encoded, const GeometryDescription& geometry);
 
 } // namespace imgeo

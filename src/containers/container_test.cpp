@@ -22,13 +22,15 @@ struct Encoded {
   IndexedPatch source;
   GeometryDescription geometry;
   EncodedPatch patch;
-  IndexedPatch decoded() const { return decodePatch(patch.description, geometry, filesOf(patch)); }
+  PatchDescription description; ///< of the patch, with references
+  IndexedPatch decoded() const { return decodePatch(description, geometry, filesOf(patch)); }
 };
 
 Encoded encode(const Mesh& mesh, Primitive primitive, bool indexed, std::uint32_t bits, const EncodeOptions& options) {
   const PatchedMesh patched = onePatch(mesh, bits);
-  Encoded encoded{verticesOf(patched.patches[0], primitive, indexed), describe(patched, options), {}};
+  Encoded encoded{verticesOf(patched.patches[0], primitive, indexed), describe(patched, options), {}, {}};
   encoded.patch = encodePatch(encoded.source, encoded.geometry, options);
+  encoded.description = testing::describedByIndex(encoded.patch);
   return encoded;
 }
 
@@ -169,7 +171,7 @@ TEST(Containers, GiveBackEveryMeshFromEveryArray) {
                    std::to_string(int(options.layout)) + ", mesh " + std::to_string(seed));
       const Encoded encoded = encode(randomMesh(seed), Primitive::triangles, seed % 2 == 0, bits, options);
       expectEqualWithinSteps(encoded);
-      const PatchDescription& patch = encoded.patch.description;
+      const PatchDescription& patch = encoded.description;
       if (options.layout == Layout::interleaved && (patch.normal || patch.texCoord || patch.color)) {
         EXPECT_EQ(encoded.patch.files.size(), patch.index ? 2u : 1u);
       }
@@ -190,7 +192,7 @@ TEST(Containers, GiveBackFloatsAsNearAsSinglesAre) {
         ASSERT_EQ(patched.patches.size(), 1u);
         const IndexedPatch source = verticesOf(patched.patches[0], Primitive::triangles, true);
         const EncodedPatch encoded = encodePatch(source, geometry, options);
-        const IndexedPatch decoded = decodePatch(encoded.description, geometry, filesOf(encoded));
+        const IndexedPatch decoded = decodePatch(encoded, geometry);
         ASSERT_EQ(decoded.vertexCount(), source.vertexCount());
         for (std::size_t i = 0; i < source.vertexCount(); ++i) {
           EXPECT_EQ(decoded.positions[i], pointReadBack(source.positions[i], lattice, geometry));
@@ -205,8 +207,8 @@ TEST(Containers, PutPairsOfNormalsIntoWhatPadsCoordinates) {
   for (const NormalEncoding normals : {NormalEncoding::octahedral, NormalEncoding::spherical}) {
     const Encoded encoded =
         encode(testing::torus(9, 9), Primitive::triangles, true, 16, {Encoding::bg, 8, 1, Target::web, normals});
-    const PatchDescription& patch = encoded.patch.description;
-    EXPECT_EQ(patch.normal, (Reference{patch.coord[0].url, 6, 8}));
+    const PatchDescription& patch = encoded.description;
+    EXPECT_EQ(patch.normal, (Reference{patch.coord[0].url, ByteLocation{6, 8}}));
     EXPECT_EQ(encoded.patch.files.size(), 3u); // index, coordinates, texture coordinates
   }
 }
@@ -269,11 +271,12 @@ TEST(Containers, GiveBackSeveralDraws) {
   for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
     const PatchedMesh patched = onePatch(testing::grid(9), 12);
     const EncodeOptions options{encoding};
-    Encoded encoded{verticesOf(patched.patches[0], Primitive::triangles, true), describe(patched, options), {}};
+    Encoded encoded{verticesOf(patched.patches[0], Primitive::triangles, true), describe(patched, options), {}, {}};
     const auto count = static_cast<std::uint32_t>(encoded.source.indices.size());
     encoded.source.draws = {
         {Primitive::triangles, 30}, {Primitive::triangleStrip, 50}, {Primitive::points, count - 80}};
     encoded.patch = encodePatch(encoded.source, encoded.geometry, options);
+    encoded.description = testing::describedByIndex(encoded.patch);
     expectEqualWithinSteps(encoded);
   }
 }
@@ -281,19 +284,19 @@ TEST(Containers, GiveBackSeveralDraws) {
 TEST(Containers, RefuseIndicesOf32BitsBeyondTheVertices) {
   for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
     Encoded encoded = encode(testing::grid(256), Primitive::triangles, true, 12, {encoding, 8, 0});
-    ASSERT_GE(encoded.patch.description.vertexCount, 65536u);
-    encoded.patch.description.vertexCount = encoded.source.indices.back();
+    ASSERT_GE(encoded.description.vertexCount, 65536u);
+    encoded.description.vertexCount = encoded.source.indices.back();
     EXPECT_THROW(encoded.decoded(), Error);
-    encoded.patch.description.vertexCount = 0xffffffff;
+    encoded.description.vertexCount = 0xffffffff;
     EXPECT_THROW(encoded.decoded(), Error);
   }
 }
 
 TEST(Containers, RefuseAnIndexAfterWhichNoNumberOfVerticesIsLeft) {
   Encoded encoded = encode(testing::grid(256), Primitive::triangles, true, 12, {Encoding::bg, 8, 0});
-  encoded.patch.description.vertexCount = 0;
+  encoded.description.vertexCount = 0;
   EXPECT_NO_THROW(encoded.decoded());
-  const std::size_t index = std::stoul(encoded.patch.description.index->url);
+  const std::size_t index = std::stoul(encoded.description.index->url);
   Bytes& bytes = encoded.patch.files.at(index).bytes;
   std::fill(bytes.end() - 4, bytes.end(), std::uint8_t{0xff});
   EXPECT_THROW(encoded.decoded(), Error);
@@ -302,7 +305,7 @@ TEST(Containers, RefuseAnIndexAfterWhichNoNumberOfVerticesIsLeft) {
 TEST(Containers, FindTheNumberOfVerticesInTheIndicesWhereItIsNotStated) {
   for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
     Encoded encoded = encode(testing::torus(5, 7), Primitive::triangles, true, 16, {encoding});
-    encoded.patch.description.vertexCount = 0;
+    encoded.description.vertexCount = 0;
     EXPECT_EQ(encoded.decoded().positions, encoded.source.positions);
   }
 }
@@ -337,7 +340,7 @@ TEST(Containers, RefuseAFileWhoseEndIsMissing) {
 TEST(Containers, NoticeSwappedPlanes) {
   for (const std::uint32_t bits : {12u, 16u, 20u, 24u, 32u}) {
     Encoded encoded = encode(testing::torus(16, 8), Primitive::triangles, true, bits, {Encoding::classic});
-    std::swap(encoded.patch.description.coord[0], encoded.patch.description.coord[1]);
+    std::swap(encoded.description.coord[0], encoded.description.coord[1]);
     EXPECT_THROW(encoded.decoded(), Error) << bits << " bits";
   }
 }
@@ -353,10 +356,23 @@ ErrorKind kindOfDecoding(const Encoded& encoded) {
   return ErrorKind::usage;
 }
 
+/// Sets the stride where the reference has one.
+void setStride(Reference& reference, std::uint32_t stride) {
+  if (ByteLocation* location = std::get_if<ByteLocation>(&reference.location))
+    location->byteStride = stride;
+}
+
+void setBegin(Reference& reference, std::uint32_t begin) {
+  if (ByteLocation* bytes = std::get_if<ByteLocation>(&reference.location))
+    bytes->byteOffset = begin;
+  else
+    reference.location = TexelLocation{begin};
+}
+
 class HostilePatch : public ::testing::TestWithParam<Encoding> {
 protected:
   Encoded encoded = encode(testing::torus(9, 9), Primitive::triangles, true, 16, {GetParam()});
-  PatchDescription& patch = encoded.patch.description;
+  PatchDescription& patch = encoded.description;
 };
 
 TEST_P(HostilePatch, WithAMissingFileIsAnInputError) {
@@ -385,10 +401,10 @@ TEST_P(HostilePatch, WithMoreIndicesThanItsFileHoldsIsRefused) {
 
 TEST_P(HostilePatch, WhoseSizeOverflowsSixtyFourBitsIsRefused) {
   patch.draws.assign(1u << 20, {Primitive::triangles, 0xffffffff});
-  patch.index->stride = 0xfffff001;
+  setStride(*patch.index, 0xfffff001);
   EXPECT_THROW(encoded.decoded(), Error);
   patch.draws.assign(1u << 20, {Primitive::triangles, 1u << 12}); // 2^32 records of 2^32 bytes
-  patch.index->stride = 0x80000000;
+  setStride(*patch.index, 0x80000000);
   EXPECT_THROW(encoded.decoded(), Error);
 }
 
@@ -406,7 +422,7 @@ TEST_P(HostilePatch, WithoutCoordinatesIsMalformed) {
 
 TEST_P(HostilePatch, ThatBeginsBehindItsFilesIsRefused) {
   for (const std::uint32_t first : {1024u * 64u, 0xffffffffu}) {
-    patch.coord[0].first = first;
+    setBegin(patch.coord[0], first);
     EXPECT_THROW(encoded.decoded(), Error) << first;
   }
 }

@@ -56,6 +56,7 @@ struct EncodingRow {
   const char* fileKind = "";  ///< for people: "PNG images", "typed arrays"
   GeometryNode node;
   PatchStorage storage = PatchStorage::bytePlanes;
+  FileLocation location;               ///< the beginning of a file, in the unit of this encoding's references
   bool hasMeasuredNormalError = false; ///< the writer measures how far normals are off; no formula bounds it
   const char* x3domVersion = nullptr;  ///< newest release of X3DOM that reads it; nullptr: none does
   bool isAutomatic = false;            ///< convert may choose it where nothing names an encoding

@@ -31,8 +31,12 @@ std::uint32_t byteSizeOf(ElementType type) {
   return sizes[static_cast<std::size_t>(type)];
 }
 
+ByteLocation normalInCoords(const ByteLocation& coord) {
+  return {coord.byteOffset + 6, coord.byteStride != 0 ? coord.byteStride : 8};
+}
+
 Reference normalInCoords(const Reference& coord) {
-  return {coord.url, coord.first + 6, coord.stride != 0 ? coord.stride : 8};
+  return {coord.url, normalInCoords(std::get<ByteLocation>(coord.location))};
 }
 
 bool hasNormalsInCoords(const GeometryDescription& geometry) {

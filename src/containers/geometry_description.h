@@ -3,6 +3,7 @@
 // each patch's data lies. Writers of containers produce it, documents carry it,
 // readers of containers consume it. docs/formats/nodes.md is its text form.
 
+#include "containers/reference.h"
 #include "imgeo/encoding.h"
 #include "prepare/lattice.h"
 #include "prepare/primitives.h"
@@ -24,16 +25,6 @@ const char* nameOf(Role role);
 const char* nameOf(Primitive primitive);
 
 std::uint32_t byteSizeOf(ElementType type);
-
-/// Where an attribute's data begins. Images: `first` is the first texel. Typed
-/// arrays: `first` is a byte offset and `stride` the bytes from one element to
-/// the next (0: tightly packed).
-struct Reference {
-  std::string url; ///< relative to the document
-  std::uint32_t first = 0;
-  std::uint32_t stride = 0;
-  friend bool operator==(const Reference&, const Reference&) = default;
-};
 
 struct PatchDescription {
   Box3d box;                     ///< tight, for culling and priority
@@ -95,7 +86,9 @@ struct GeometryDescription {
   friend bool operator==(const GeometryDescription&, const GeometryDescription&) = default;
 };
 
-/// Where X3DOM has spherical normals of 16-bit coordinates: in the fourth element of their records.
+/// The reference to normals in the fourth element of 16-bit coordinates, where X3DOM has spherical normals. `coord` has
+/// a ByteLocation.
+ByteLocation normalInCoords(const ByteLocation& coord);
 Reference normalInCoords(const Reference& coord);
 
 /// Whether the normals of every patch are X3DOM's normalAsSphericalCoordinates.

@@ -76,7 +76,7 @@ TEST_P(Golden, FilesAreStillRead) {
   GoldenPatch patch = encodeGolden(GetParam().options);
   for (std::size_t i = 0; i < patch.encoded.files.size(); ++i)
     patch.encoded.files[i].bytes = readFile(pathOf(GetParam(), i, patch.encoded.files[i]));
-  const IndexedPatch decoded = decodePatch(patch.encoded.description, patch.geometry, testing::filesOf(patch.encoded));
+  const IndexedPatch decoded = decodePatch(patch.encoded, patch.geometry);
   EXPECT_EQ(decoded.positions, patch.source.positions);
   EXPECT_EQ(decoded.colors, patch.source.colors);
   EXPECT_EQ(decoded.indices, patch.source.indices);

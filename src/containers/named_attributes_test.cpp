@@ -23,7 +23,7 @@ NamedAttribute readBack(const PatchedMesh& mesh, const EncodeOptions& options) {
   const GeometryDescription geometry = describe(mesh, options);
   const IndexedPatch vertices = testing::verticesOf(mesh.patches[0], Primitive::triangles, true);
   const EncodedPatch encoded = encodePatch(vertices, geometry, options);
-  return decodePatch(encoded.description, geometry, testing::filesOf(encoded)).namedAttributes.at(0);
+  return decodePatch(encoded, geometry).namedAttributes.at(0);
 }
 
 TEST(NamedAttributes, OfWholeNumbersTakeNoMoreBytesThanTheyNeedAndAreExact) {
@@ -69,15 +69,16 @@ TEST(NamedAttributes, AreRefusedWhereFilesAreMissingOrNoNumbers) {
     const GeometryDescription geometry = describe(mesh, options);
     EncodedPatch encoded =
         encodePatch(testing::verticesOf(mesh.patches[0], Primitive::triangles, true), geometry, options);
+    PatchDescription description = testing::describedByIndex(encoded);
     if (encoding == Encoding::bg) {
       Bytes& bytes = encoded.files.back().bytes;
       std::fill(bytes.begin(), bytes.begin() + 4, std::uint8_t{255}); // a NaN
-      EXPECT_THROW(decodePatch(encoded.description, geometry, testing::filesOf(encoded)), Error);
+      EXPECT_THROW(decodePatch(description, geometry, testing::filesOf(encoded)), Error);
     }
-    encoded.description.attributes[0].pop_back();
-    EXPECT_THROW(decodePatch(encoded.description, geometry, testing::filesOf(encoded)), Error);
-    encoded.description.attributes.clear();
-    EXPECT_THROW(decodePatch(encoded.description, geometry, testing::filesOf(encoded)), Error);
+    description.attributes[0].pop_back();
+    EXPECT_THROW(decodePatch(description, geometry, testing::filesOf(encoded)), Error);
+    description.attributes.clear();
+    EXPECT_THROW(decodePatch(description, geometry, testing::filesOf(encoded)), Error);
   }
 }
 

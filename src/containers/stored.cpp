@@ -105,10 +105,12 @@ void checkInsideBox(std::span<const Vec3u> positions, const GeometryDescription&
       throw Error(ErrorKind::malformed, location, "vertices lie outside of the box that their patch states");
 }
 
-Reference addFile(EncodedPatch& encoded, EncodedFile file) {
+FileIndex addFile(EncodedPatch& encoded, EncodedFile file) {
   encoded.files.push_back(std::move(file));
-  return {std::to_string(encoded.files.size() - 1), 0, 0};
+  return FileIndex(encoded.files.size() - 1);
 }
+
+namespace {
 
 void addReference(PatchDescription& patch, Role role, std::size_t attribute, const Reference& reference) {
   switch (role) {
@@ -138,6 +140,17 @@ void addReference(PatchDescription& patch, Role role, std::size_t attribute, con
     assert(false); // of a geometry, not of a patch
     break;
   }
+}
+
+} // namespace
+
+PatchDescription describeWithUrls(const EncodedPatch& encoded, std::span<const std::string> urls) {
+  assert(urls.size() == encoded.files.size());
+  PatchDescription description = encoded.description;
+  for (const FileReference& reference : encoded.references)
+    addReference(description, reference.role, reference.attributeIndex,
+                 {urls[static_cast<std::size_t>(reference.file)], reference.location});
+  return description;
 }
 
 } // namespace imgeo

@@ -44,11 +44,7 @@ std::uint32_t recordCountOf(const PatchDescription& patch, std::span<const std::
 void checkInsideBox(std::span<const Vec3u> positions, const GeometryDescription& geometry, const Box3d& box,
                     const std::string& location);
 
-/// Appends a file to an encoded patch and refers to it by its index.
-Reference addFile(EncodedPatch& encoded, EncodedFile file);
-
-/// Puts a reference in its place: behind others of coordinates, or of the geometry's
-/// attribute of this number.
-void addReference(PatchDescription& patch, Role role, std::size_t attribute, const Reference& reference);
+/// Appends a file to an encoded patch.
+FileIndex addFile(EncodedPatch& encoded, EncodedFile file);
 
 } // namespace imgeo

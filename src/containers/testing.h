@@ -43,7 +43,15 @@ inline IndexedPatch verticesOf(const Patch& patch, Primitive primitive, bool ind
   return vertices;
 }
 
-/// Gives an encoded patch's files by the urls its description has.
+/// The description of a patch whose files have their indices as urls.
+inline PatchDescription describedByIndex(const EncodedPatch& encoded) {
+  std::vector<std::string> urls;
+  for (std::size_t i = 0; i < encoded.files.size(); ++i)
+    urls.push_back(std::to_string(i));
+  return describeWithUrls(encoded, urls);
+}
+
+/// The files of an encoded patch by the urls of describedByIndex.
 inline FetchFile filesOf(const EncodedPatch& encoded) {
   return [&encoded](const std::string& url) {
     std::size_t i = encoded.files.size();

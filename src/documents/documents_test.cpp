@@ -44,12 +44,11 @@ Box3d randomBox(Random& random) {
 }
 
 Reference randomReference(Random& random, Encoding encoding) {
-  Reference reference{"f" + std::to_string(random.below(1000)) + (random.once(3) ? "\" &'<x>.png" : ".bin"), 0, 0};
-  if (random.once(2))
-    reference.first = random.bits();
-  if (encoding == Encoding::bg && random.once(2))
-    reference.stride = 1 + random.below(64);
-  return reference;
+  const std::string url = "f" + std::to_string(random.below(1000)) + (random.once(3) ? "\" &'<x>.png" : ".bin");
+  const std::uint32_t begin = random.once(2) ? random.bits() : 0;
+  if (encoding != Encoding::bg)
+    return {url, TexelLocation{begin}};
+  return {url, ByteLocation{begin, random.once(2) ? 1 + random.below(64) : 0}};
 }
 
 PatchDescription randomPatch(Random& random, Encoding encoding, std::size_t planes) {
@@ -390,7 +389,7 @@ SceneDocument documentNamed(const std::string& name) {
   document.graph.title = name;
   GeometryDescription geometry;
   geometry.patches = {
-      {{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", 0, 0}, {"b.png", 0, 0}}, {}, {}, {}, {}, {}}};
+      {{}, 3, {{Primitive::triangles, 3}}, {256, 1}, {}, {{"a.png", {}}, {"b.png", {}}}, {}, {}, {}, {}, {}}};
   document.geometries = {geometry, geometry};
   addRoot(document.graph, {"", Viewpoint{name, {}, {}, 0.8, {}}, {}, ""});
   addRoot(document.graph, {name, Shape{0, {}, true}, {}, ""});
@@ -452,9 +451,9 @@ TEST(Documents, AreValidUtf8WhateverTheirNamesAre) {
 
 TEST(Html, HintsAtTheFirstPlanesAndWholePatchesThenAtTheIndices) {
   SceneDocument document = documentNamed("a");
-  document.geometries[0].patches[0].index = {"i.png", 0, 0};
+  document.geometries[0].patches[0].index = {"i.png", {}};
   document.geometries[1].patches[0].coord[0].url = "c.png";
-  document.geometries[1].patches.emplace_back().data = Reference{"d.png", 0, 0};
+  document.geometries[1].patches.emplace_back().data = Reference{"d.png", PatchLocation{}};
   const std::string html = writeHtml(document, page);
   std::string hints;
   const std::string hint =
@@ -467,8 +466,8 @@ TEST(Html, HintsAtTheFirstPlanesAndWholePatchesThenAtTheIndices) {
 TEST(Html, HintsAtABaseAndWhatDecodesItInThePlaceOfItsPatches) {
   SceneDocument document = documentNamed("a");
   document.geometries[0].encoding = Encoding::compact;
-  document.geometries[0].base = Reference{"base.png", 7, 0};
-  document.geometries[0].patches[0].data = Reference{"patch.png", 0, 0};
+  document.geometries[0].base = Reference{"base.png", PatchLocation{7}};
+  document.geometries[0].patches[0].data = Reference{"patch.png", PatchLocation{}};
   const PageOptions options{"r.js", "s.css", {"first.js"}, {"later.js"}};
   const std::string html = writeHtml(document, options);
   std::size_t at = 0; // the modules first: they have work to do before they need the base
@@ -531,9 +530,9 @@ TEST(ReadScene, TakesImageTexturesForImages) {
   PatchDescription patch;
   patch.draws = {{Primitive::triangleStrip, 9}};
   patch.implicitMeshSize = {512, 204};
-  patch.index = Reference{"i.png", 0, 0};
-  patch.coord = {{"high.png", 0, 0}, {"low.png", 0, 0}};
-  patch.normal = Reference{"n.png", 0, 0};
+  patch.index = Reference{"i.png", {}};
+  patch.coord = {{"high.png", {}}, {"low.png", {}}};
+  patch.normal = Reference{"n.png", {}};
   EXPECT_EQ(document.geometries[0].patches, std::vector<PatchDescription>{patch});
   EXPECT_EQ(document.geometries[0].lattice.bits, 16u);
   EXPECT_EQ(shapeName(document.graph, 0), "S");
@@ -577,12 +576,12 @@ TEST(ReadScene, FindsTheStrideOfAUrlAsX3domDoes) {
   const auto referenceOf = [](const std::string& url) {
     return readBinaryGeometry("coordType='Int16' coord='" + url + "'").patches[0].coord[0];
   };
-  EXPECT_EQ(referenceOf("a.bin"), (Reference{"a.bin", 0, 0}));
-  EXPECT_EQ(referenceOf("a.bin+8"), (Reference{"a.bin+8", 0, 8}));
-  EXPECT_EQ(referenceOf("a.bin?+8"), (Reference{"a.bin", 0, 8}));
-  EXPECT_EQ(referenceOf("a.bin#16+24"), (Reference{"a.bin", 16, 24}));
-  EXPECT_EQ(referenceOf("c++/a.bin"), (Reference{"c++/a.bin", 0, 0}));
-  EXPECT_EQ(referenceOf("+8"), (Reference{"+8", 0, 8}));
+  EXPECT_EQ(referenceOf("a.bin"), (Reference{"a.bin", ByteLocation{}}));
+  EXPECT_EQ(referenceOf("a.bin+8"), (Reference{"a.bin+8", ByteLocation{0, 8}}));
+  EXPECT_EQ(referenceOf("a.bin?+8"), (Reference{"a.bin", ByteLocation{0, 8}}));
+  EXPECT_EQ(referenceOf("a.bin#16+24"), (Reference{"a.bin", ByteLocation{16, 24}}));
+  EXPECT_EQ(referenceOf("c++/a.bin"), (Reference{"c++/a.bin", ByteLocation{}}));
+  EXPECT_EQ(referenceOf("+8"), (Reference{"+8", ByteLocation{0, 8}}));
 }
 
 TEST(ReadScene, PutsSignedCoordinatesAroundTheCentreOfABoxOfAnyShape) {
@@ -643,9 +642,9 @@ TEST(ReadScene, TakesX3domsDefaultsForABinaryGeometry) {
 
 TEST(ReadScene, FindsX3domsSphericalNormalsInTheFourthElementOfCoordinates) {
   const std::string spherical = " coordType='Uint16' normalAsSphericalCoordinates='true'";
-  for (const auto& [coord, normal] : {std::pair{"a.bin", Reference{"a.bin", 6, 8}},
-                                      {"a.bin?+8", {"a.bin", 6, 8}},
-                                      {"a.bin#24+32", {"a.bin", 30, 32}}}) {
+  for (const auto& [coord, normal] : {std::pair{"a.bin", Reference{"a.bin", ByteLocation{6, 8}}},
+                                      {"a.bin?+8", {"a.bin", ByteLocation{6, 8}}},
+                                      {"a.bin#24+32", {"a.bin", ByteLocation{30, 32}}}}) {
     const GeometryDescription geometry =
         readBinaryGeometry(std::string("normal='ignored' coord='") + coord + "'" + spherical);
     EXPECT_EQ(geometry.normalEncoding, NormalEncoding::spherical);

@@ -11,13 +11,22 @@ namespace imgeo {
 
 namespace {
 
-std::string url(const Reference& reference, Encoding encoding) {
+/// A location as the fragment of a url; nothing for the beginning of a file.
+std::string fragmentOf(const TexelLocation& location) {
+  return location.firstTexel == 0 ? "" : "#" + std::to_string(location.firstTexel);
+}
+std::string fragmentOf(const PatchLocation& location) {
+  return location.patchIndex == 0 ? "" : "#" + std::to_string(location.patchIndex);
+}
+std::string fragmentOf(const ByteLocation& location) {
+  if (location == ByteLocation{})
+    return "";
+  return "#" + std::to_string(location.byteOffset) + "+" + std::to_string(location.byteStride);
+}
+
+std::string urlOf(const Reference& reference) {
   assert(reference.url.find('#') == std::string::npos);
-  if (hasElementTypes(encoding) && (reference.first != 0 || reference.stride != 0))
-    return reference.url + "#" + std::to_string(reference.first) + "+" + std::to_string(reference.stride);
-  if (reference.first != 0)
-    return reference.url + "#" + std::to_string(reference.first);
-  return reference.url;
+  return reference.url + std::visit([](const auto& location) { return fragmentOf(location); }, reference.location);
 }
 
 /// As short as keeps each number off by no more than a share of the lattice's step.
@@ -59,7 +68,7 @@ Attributes compactFields(const PatchDescription& patch) {
   if (patch.draws != std::vector<Draw>{{Primitive::triangles, patch.draws.empty() ? 0 : patch.draws[0].count}})
     fields.push_back({"primType", primTypes(patch.draws)});
   fields.push_back({"vertexCount", counts(patch.draws)});
-  fields.push_back({"data", url(*patch.data, Encoding::compact)});
+  fields.push_back({"data", urlOf(*patch.data)});
   return fields;
 }
 
@@ -83,16 +92,16 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
   Attributes references;
   const auto add = [&](const char* name, const std::optional<Reference>& reference) {
     if (reference)
-      references.push_back({name, url(*reference, encoding)});
+      references.push_back({name, urlOf(*reference)});
   };
   add("index", patch.index);
   if (hasPlanes) {
     std::vector<std::string> planes;
     for (const Reference& plane : patch.coord)
-      planes.push_back(url(plane, encoding));
+      planes.push_back(urlOf(plane));
     references.push_back({"coord", strings(planes)});
   } else if (!patch.coord.empty()) {
-    references.push_back({"coord", url(patch.coord[0], encoding)});
+    references.push_back({"coord", urlOf(patch.coord[0])});
   }
   if (!hasNormalsInCoords(geometry))
     add("normal", patch.normal);
@@ -101,7 +110,7 @@ Element patchElement(const PatchDescription& patch, const GeometryDescription& g
   std::vector<std::string> attributes;
   for (const std::vector<Reference>& planes : patch.attributes)
     for (const Reference& plane : planes)
-      attributes.push_back(url(plane, encoding));
+      attributes.push_back(urlOf(plane));
   if (!attributes.empty())
     references.push_back({"attrib", strings(attributes)});
   return {"GeometryPatch", {boxAttributes(patch.box, geometry.lattice), draws, references}};
@@ -135,7 +144,7 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
   else if (row.storage == PatchStorage::bytePlanes && geometry.indexType != ElementType::uint16)
     stored.push_back({"indexType", nameOf(geometry.indexType)});
   if (geometry.base)
-    stored.push_back({"base", url(*geometry.base, geometry.encoding)});
+    stored.push_back({"base", urlOf(*geometry.base)});
   if (hasNormalsInCoords(geometry))
     stored.push_back({"normalAsSphericalCoordinates", "true"});
   else if (geometry.normalEncoding != NormalEncoding::rgb)

@@ -42,21 +42,34 @@ bool parseWhole(std::string_view text, std::uint32_t& value) {
 /// The ending "+S" of a url: X3DOM's stride, part of the file's name unless a '?'
 /// separates them. Any other '+' means nothing.
 Reference stridedReference(const std::string& url) {
-  Reference reference{url, 0, 0};
   const std::size_t plus = url.rfind('+');
-  if (plus == std::string::npos || !parseWhole(std::string_view(url).substr(plus + 1), reference.stride))
-    return {url, 0, 0};
-  if (plus > 0 && url[plus - 1] == '?')
-    reference.url.resize(plus - 1);
-  return reference;
+  ByteLocation location;
+  if (plus == std::string::npos || !parseWhole(std::string_view(url).substr(plus + 1), location.byteStride))
+    return {url, ByteLocation{}};
+  const bool isQuery = plus > 0 && url[plus - 1] == '?';
+  return {isQuery ? url.substr(0, plus - 1) : url, location};
 }
 
-/// SIG, classic and compact: url, url#N. BG: url, url+S, url?+S, url#O+S.
+/// Reads the fragment of a url; false where it is malformed.
+bool parseFragment(std::string_view fragment, TexelLocation& location) {
+  return parseWhole(fragment, location.firstTexel);
+}
+bool parseFragment(std::string_view fragment, PatchLocation& location) {
+  return parseWhole(fragment, location.patchIndex);
+}
+bool parseFragment(std::string_view fragment, ByteLocation& location) {
+  const std::size_t plus = fragment.find('+');
+  return plus != std::string_view::npos && parseWhole(fragment.substr(0, plus), location.byteOffset) &&
+         parseWhole(fragment.substr(plus + 1), location.byteStride);
+}
+
+/// classic and compact: url, url#N. bg: url, url+S, url?+S, url#O+S.
 Reference referenceOf(const FieldReader& fields, const std::string& url, Encoding encoding) {
+  Reference reference{url, rowOf(encoding).location};
   const std::size_t hash = url.rfind('#');
-  if (hash == std::string::npos && hasElementTypes(encoding))
+  if (hash == std::string::npos && std::holds_alternative<ByteLocation>(reference.location))
     return stridedReference(url);
-  Reference reference{url.substr(0, hash), 0, 0};
+  reference.url = url.substr(0, hash);
   if (reference.url.empty())
     fields.fail(ErrorKind::malformed, "a reference has no url");
   if (reference.url.find('#') != std::string::npos)
@@ -64,12 +77,7 @@ Reference referenceOf(const FieldReader& fields, const std::string& url, Encodin
   if (hash == std::string::npos)
     return reference;
   const std::string_view fragment = std::string_view(url).substr(hash + 1);
-  const bool isRange = hasElementTypes(encoding);
-  const std::size_t plus = isRange ? fragment.find('+') : std::string_view::npos;
-  bool good = parseWhole(fragment.substr(0, plus), reference.first) && isRange == (plus != std::string_view::npos);
-  if (plus != std::string_view::npos)
-    good = good && parseWhole(fragment.substr(plus + 1), reference.stride);
-  if (!good)
+  if (!std::visit([&](auto& location) { return parseFragment(fragment, location); }, reference.location))
     fields.fail(ErrorKind::malformed, "a reference's fragment states no place in its file");
   return reference;
 }

@@ -20,13 +20,13 @@ SceneDocument goldenDocument() {
   patch.vertexCount = 65535;
   patch.draws = {{Primitive::triangles, 391140}};
   patch.implicitMeshSize = {1024, 382};
-  patch.index = Reference{"3f786850e387550f.png", 0, 0};
-  patch.coord = {{"89e6c98d92887913.png", 0, 0}, {"2b66fd261ee5c6cf.png", 0, 0}};
-  patch.normal = Reference{"da4b9237bacccdf1.png", 0, 0};
+  patch.index = Reference{"3f786850e387550f.png", {}};
+  patch.coord = {{"89e6c98d92887913.png", {}}, {"2b66fd261ee5c6cf.png", {}}};
+  patch.normal = Reference{"da4b9237bacccdf1.png", {}};
   sig.patches = {patch, patch};
   sig.patches[1].box.min.x = 0;
   sig.patches[1].box.max.x = 1.5;
-  sig.patches[1].normal->first = 4096;
+  sig.patches[1].normal->location = TexelLocation{4096};
 
   GeometryDescription bg;
   bg.encoding = Encoding::bg;
@@ -38,10 +38,10 @@ SceneDocument goldenDocument() {
   strip.box = bg.box;
   strip.vertexCount = 12;
   strip.draws = {{Primitive::triangleStrip, 10}, {Primitive::points, 3}};
-  strip.index = Reference{"1b6453892473a467.bin", 0, 0};
-  strip.coord = {{"c1dfd96eea8cc2b6.bin", 0, 8}};
-  strip.texCoord = Reference{"902ba3cda1883801.bin", 16, 24};
-  strip.color = Reference{"fe5dbbcea5ce7e29.bin", 0, 0};
+  strip.index = Reference{"1b6453892473a467.bin", ByteLocation{}};
+  strip.coord = {{"c1dfd96eea8cc2b6.bin", ByteLocation{0, 8}}};
+  strip.texCoord = Reference{"902ba3cda1883801.bin", ByteLocation{16, 24}};
+  strip.color = Reference{"fe5dbbcea5ce7e29.bin", ByteLocation{}};
   bg.patches = {strip};
 
   SceneDocument document;

@@ -154,7 +154,7 @@ private:
 
   /// Texels must arrive as they are: not resized, not filtered, not repeated.
   void writeImage(const char* role, const Reference& image) {
-    assert(image.first == 0);
+    assert(image.location == FileLocation{TexelLocation{}});
     const Element texture{"ImageTexture",
                           {{{"containerField", role}, {"url", strings({image.url})}, {"scale", "false"}}}};
     writer_.open(texture);
@@ -174,13 +174,15 @@ private:
 
   /// The stride as a query: a '+' in a file's name is a blank to some hosts.
   static std::string strided(const Reference& file) {
-    assert(file.first == 0);
-    return file.url + (file.stride == 0 ? "" : "?+" + std::to_string(file.stride));
+    const ByteLocation& location = std::get<ByteLocation>(file.location);
+    assert(location.byteOffset == 0);
+    return file.url + (location.byteStride == 0 ? "" : "?+" + std::to_string(location.byteStride));
   }
 
   /// Part of a record: X3DOM then takes all attributes from the coordinates' file.
   static std::string placed(const Reference& file) {
-    return file.url + "#" + std::to_string(file.first) + "+" + std::to_string(file.stride);
+    const ByteLocation& location = std::get<ByteLocation>(file.location);
+    return file.url + "#" + std::to_string(location.byteOffset) + "+" + std::to_string(location.byteStride);
   }
 
   static Element binaryGeometry(const GeometryDescription& geometry, const PatchDescription& patch, bool solid) {

@@ -12,9 +12,9 @@ PatchDescription patchOf(const std::string& name, std::uint32_t rows, Primitive 
   patch.vertexCount = 9;
   patch.draws = {{primitive, 12}};
   patch.implicitMeshSize = {256, rows};
-  patch.index = Reference{name + "i.png", 0, 0};
-  patch.coord = {{name + "c0.png", 0, 0}, {name + "c1.png", 0, 0}};
-  patch.normal = Reference{name + "n.png", 0, 0};
+  patch.index = Reference{name + "i.png", {}};
+  patch.coord = {{name + "c0.png", {}}, {name + "c1.png", {}}};
+  patch.normal = Reference{name + "n.png", {}};
   return patch;
 }
 
@@ -45,10 +45,12 @@ SceneDocument arrays() {
     geometry.encoding = Encoding::bg;
     geometry.colorComponents = 3;
     for (PatchDescription& patch : geometry.patches) {
-      patch.coord = {{patch.coord[0].url, 0, 8}};
+      patch.coord = {{patch.coord[0].url, ByteLocation{0, 8}}};
       patch.implicitMeshSize = {256, 256};
       if (patch.normal)
-        patch.normal->stride = 4;
+        patch.normal->location = ByteLocation{0, 4};
+      if (patch.index)
+        patch.index->location = ByteLocation{};
     }
   }
   return document;

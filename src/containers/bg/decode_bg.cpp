@@ -18,9 +18,11 @@ namespace {
 class Records {
 public:
   Records(const Reference& reference, const FetchFile& fetch, ElementType type, std::uint32_t components)
-      : bytes_(fetch(reference.url)), location_(reference.url), type_(type), first_(reference.first),
-        recordBytes_(std::uint64_t{components} * byteSizeOf(type)),
-        stride_(reference.stride != 0 ? reference.stride : recordBytes_) {
+      : bytes_(fetch(reference.url)), location_(reference.url), type_(type),
+        recordBytes_(std::uint64_t{components} * byteSizeOf(type)) {
+    const ByteLocation& begin = std::get<ByteLocation>(reference.location);
+    byteOffset_ = begin.byteOffset;
+    stride_ = begin.byteStride != 0 ? begin.byteStride : recordBytes_;
     if (stride_ < recordBytes_)
       throw Error(ErrorKind::malformed, location_,
                   "a stride of " + std::to_string(stride_) + " bytes is less than a record of " +
@@ -31,16 +33,16 @@ public:
   void require(std::uint64_t count) const {
     // Interleaved records begin before this attribute's part of them; all are
     // whole. Nothing is multiplied that the document states: it might not fit.
-    const std::uint64_t begin = first_ - first_ % stride_;
+    const std::uint64_t begin = byteOffset_ - byteOffset_ % stride_;
     if (begin > bytes_.size() || (bytes_.size() - begin) / stride_ < count || available() < count)
       throw Error(ErrorKind::truncated, location_,
                   std::to_string(bytes_.size()) + " bytes are too few for " + std::to_string(count) + " records of " +
-                      std::to_string(stride_) + " bytes from byte " + std::to_string(first_));
+                      std::to_string(stride_) + " bytes from byte " + std::to_string(byteOffset_));
   }
 
   /// How many records follow one another to the end of the file.
   std::uint64_t available() const {
-    return first_ + recordBytes_ > bytes_.size() ? 0 : (bytes_.size() - first_ - recordBytes_) / stride_ + 1;
+    return byteOffset_ + recordBytes_ > bytes_.size() ? 0 : (bytes_.size() - byteOffset_ - recordBytes_) / stride_ + 1;
   }
 
   std::uint32_t unsignedAt(std::uint64_t record, std::uint32_t component) const {
@@ -78,13 +80,13 @@ public:
 
 private:
   const std::uint8_t* at(std::uint64_t record, std::uint32_t component) const {
-    return &bytes_[first_ + record * stride_ + std::size_t{component} * byteSizeOf(type_)];
+    return &bytes_[byteOffset_ + record * stride_ + std::size_t{component} * byteSizeOf(type_)];
   }
 
   Bytes bytes_;
   std::string location_;
   ElementType type_;
-  std::uint64_t first_, recordBytes_, stride_;
+  std::uint64_t byteOffset_, recordBytes_, stride_;
 };
 
 void requireType(bool supported, const std::string& location, const char* attribute, ElementType type) {

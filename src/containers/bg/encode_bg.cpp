@@ -164,29 +164,37 @@ Bytes interleaved(const std::vector<Column>& columns, std::size_t count) {
 } // namespace
 
 EncodedPatch encodeBg(const IndexedPatch& patch, const GeometryDescription& geometry, Layout layout) {
-  EncodedPatch encoded{describePatch(patch, geometry), {}, 0};
-  PatchDescription& description = encoded.description;
-  if (!patch.indices.empty())
-    description.index = addFile(encoded, {Role::index, ".bin", indexArray(patch, geometry.indexType)});
+  EncodedPatch encoded{.description = describePatch(patch, geometry)};
+  if (!patch.indices.empty()) {
+    const FileIndex file = addFile(encoded, {Role::index, ".bin", indexArray(patch, geometry.indexType)});
+    encoded.references.push_back({Role::index, file, ByteLocation{}});
+  }
   std::vector<Column> columns = columnsOf(patch, geometry);
+  FileIndex coordFile{};
+  ByteLocation coordLocation;
+  const auto add = [&](const Column& column, FileIndex file, ByteLocation location) {
+    encoded.references.push_back({column.role, file, location, column.attribute});
+    if (column.role == Role::coord)
+      coordFile = file, coordLocation = location;
+  };
   if (layout == Layout::interleaved && columns.size() > 1) {
-    Reference reference = addFile(encoded, {Role::coord, ".bin", interleaved(columns, patch.vertexCount())});
+    const FileIndex file = addFile(encoded, {Role::coord, ".bin", interleaved(columns, patch.vertexCount())});
+    ByteLocation location;
     for (const Column& column : columns)
-      reference.stride += column.recordBytes;
+      location.byteStride += column.recordBytes;
     for (const Column& column : columns) {
-      addReference(description, column.role, column.attribute, reference);
-      reference.first += column.recordBytes;
+      add(column, file, location);
+      location.byteOffset += column.recordBytes;
     }
   } else {
     for (Column& column : columns) {
-      Reference reference = addFile(encoded, {column.role, ".bin", std::move(column.bytes)});
+      const FileIndex file = addFile(encoded, {column.role, ".bin", std::move(column.bytes)});
       // A stride is stated only where it is more than the components take.
-      reference.stride = column.isPadded ? column.recordBytes : 0;
-      addReference(description, column.role, column.attribute, reference);
+      add(column, file, {.byteOffset = 0, .byteStride = column.isPadded ? column.recordBytes : 0});
     }
   }
   if (areNormalsInCoords(patch, geometry))
-    description.normal = normalInCoords(description.coord[0]);
+    encoded.references.push_back({Role::normal, coordFile, normalInCoords(coordLocation)});
   return encoded;
 }
 

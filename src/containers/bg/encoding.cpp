@@ -19,6 +19,7 @@ constinit const EncodingRow bgEncoding{
     .fileKind = "typed arrays",
     .node = {.name = "BinaryGeometry", .profile = "", .isDefaultProfile = true},
     .storage = PatchStorage::arrays,
+    .location = ByteLocation{},
     .x3domVersion = "1.8.3",
     .capabilities =
         {

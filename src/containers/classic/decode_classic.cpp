@@ -19,7 +19,7 @@ class Texels {
 public:
   Texels(const Reference& reference, const FetchFile& fetch, std::uint32_t columns, std::uint32_t fewestChannels)
       : image_(decodePng(fetch(reference.url), reference.url)), columns_(columns != 0 ? columns : image_.width),
-        first_(reference.first), location_(reference.url) {
+        first_(std::get<TexelLocation>(reference.location).firstTexel), location_(reference.url) {
     if (columns > image_.width)
       throw Error(ErrorKind::malformed, location_,
                   "the image is " + std::to_string(image_.width) + " texels wide and cannot hold " +

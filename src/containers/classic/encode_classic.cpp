@@ -103,7 +103,7 @@ Image attributeImage(const NamedAttribute& attribute, const AttributeDescription
 } // namespace
 
 EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription& geometry, int effort, Target target) {
-  EncodedPatch encoded{describePatch(patch, geometry), {}, 0};
+  EncodedPatch encoded{.description = describePatch(patch, geometry)};
   const ImageSize records = recordImageSizeOf(patch, target);
   const ImageSize running = implicitMeshSizeOf(patch, records, target);
   encoded.description.implicitMeshSize = {running.columns, running.rows};
@@ -133,8 +133,8 @@ EncodedPatch encodeClassic(const IndexedPatch& patch, const GeometryDescription&
   std::vector<Bytes> pngs(images.size());
   parallelFor(images.size(), [&](std::size_t i) { pngs[i] = encodePng(images[i].image, effort); });
   for (std::size_t i = 0; i < images.size(); ++i) {
-    const Reference reference = addFile(encoded, {images[i].role, ".png", std::move(pngs[i])});
-    addReference(encoded.description, images[i].role, images[i].attribute, reference);
+    const FileIndex file = addFile(encoded, {images[i].role, ".png", std::move(pngs[i])});
+    encoded.references.push_back({images[i].role, file, TexelLocation{}, images[i].attribute});
   }
   return encoded;
 }

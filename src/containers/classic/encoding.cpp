@@ -20,6 +20,7 @@ constinit const EncodingRow classicEncoding{
     .fileKind = "PNG images",
     .node = {.name = "ImageGeometry", .profile = "classic", .isDefaultProfile = true},
     .storage = PatchStorage::bytePlanes,
+    .location = TexelLocation{},
     .x3domVersion = "1.7.2",
     .isAutomatic = true,
     .capabilities =

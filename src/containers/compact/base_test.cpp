@@ -37,7 +37,7 @@ EncodedBase encoded(Mesh mesh, std::uint32_t maxWedges) {
   options.encoding = Encoding::compact;
   result.geometry = describe(result.patched, options);
   result.geometry.patches.resize(result.patched.patches.size());
-  result.geometry.base = Reference{"base.png", 0, 0};
+  result.geometry.base = Reference{"base.png", PatchLocation{}};
   result.bases = {baseInIntegers(result.base, result.geometry, 12, 8)};
   return result;
 }
@@ -69,7 +69,7 @@ TEST(CompactBase, TakesAFewBytesATriangle) {
 TEST(CompactBase, StandsBehindOthersInAFile) {
   EncodedBase mesh = encoded(sphere(100, 100), 3000);
   mesh.bases.push_back(mesh.bases[0]);
-  mesh.geometry.base->first = 1;
+  mesh.geometry.base->location = PatchLocation{1};
   EXPECT_EQ(ContainerReader(mesh.fetch()).decodeBase(mesh.geometry).triangleCount(), mesh.base.triangleCount());
 }
 

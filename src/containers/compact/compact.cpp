@@ -48,12 +48,13 @@ struct Requirement {
   }
 };
 
-/// The one of several that a reference means.
+/// The value of the patch that a reference names.
 template <typename Value> const Value& valueAt(const std::vector<Value>& values, const Reference& data) {
-  if (data.first >= values.size())
+  const std::uint32_t patchIndex = std::get<PatchLocation>(data.location).patchIndex;
+  if (patchIndex >= values.size())
     throw Error(ErrorKind::malformed, data.url,
-                "has no patch " + std::to_string(data.first) + " but " + std::to_string(values.size()) + " patches");
-  return values[data.first];
+                "has no patch " + std::to_string(patchIndex) + " but " + std::to_string(values.size()) + " patches");
+  return values[patchIndex];
 }
 
 } // namespace

@@ -19,6 +19,7 @@ constinit const EncodingRow compactEncoding{
     .fileKind = "PNG images",
     .node = {.name = "ImageGeometry", .profile = "compact", .isDefaultProfile = false},
     .storage = PatchStorage::packed,
+    .location = PatchLocation{},
     .hasMeasuredNormalError = true,
     .isAutomatic = true,
     .capabilities =

@@ -24,7 +24,7 @@ void BaseFiles::writeContents() {
   const EncodedFile file = baseFile(contents.patches());
   const std::string url = files_.write(file.bytes, file.extension);
   for (std::size_t number = 0; number < geometryIndices_.size(); ++number)
-    references_.push_back({geometryIndices_[number], {url, static_cast<std::uint32_t>(number), 0}});
+    references_.push_back({geometryIndices_[number], {url, PatchLocation{static_cast<std::uint32_t>(number)}}});
   geometryIndices_.clear();
 }
 

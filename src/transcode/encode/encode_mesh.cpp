@@ -11,7 +11,6 @@
 #include "transcode/options/resolve_options.h"
 
 #include <algorithm>
-#include <charconv>
 #include <numbers>
 #include <utility>
 
@@ -31,15 +30,6 @@ IndexedPatch arrange(const Patch& patch, const ConvertOptions& options) {
 IndexedPatch primitivesOf(const Patch& patch, const ConvertOptions& options) {
   IndexedPatch arranged = arrange(patch, options);
   return options.indexed ? arranged : withoutIndices(arranged);
-}
-
-/// An encoder refers to its files by number; the document by url.
-void nameReferences(PatchDescription& patch, const std::vector<std::string>& urls) {
-  visitReferences(patch, [&](Role, Reference& reference) {
-    std::size_t file = 0;
-    std::from_chars(reference.url.data(), reference.url.data() + reference.url.size(), file);
-    reference.url = urls.at(file);
-  });
 }
 
 ElementCounts drawnBy(const PatchDescription& patch) {
@@ -64,8 +54,8 @@ compact::CompactPatch quantisedAs(Patch patch, const GeometryDescription& geomet
 
 EncodedPatch encodeAlone(const compact::CompactPatch& patch, const GeometryDescription& geometry, int effort) {
   EncodedCompact encoded = encodeCompact({&patch, 1}, effort);
-  EncodedPatch result{describe(patch, geometry), {}, encoded.normalErrors[0]};
-  result.description.data = addFile(result, std::move(encoded.file));
+  EncodedPatch result{.description = describe(patch, geometry), .normalError = encoded.normalErrors[0]};
+  result.references = {{Role::patch, addFile(result, std::move(encoded.file)), PatchLocation{}}};
   return result;
 }
 
@@ -143,8 +133,7 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
     std::vector<std::string> urls;
     for (const EncodedFile& file : encoded.patch.files)
       urls.push_back(files.write(file.bytes, file.extension));
-    nameReferences(encoded.patch.description, urls);
-    descriptions[i] = std::move(encoded.patch.description);
+    descriptions[i] = describeWithUrls(encoded.patch, urls);
     elements[i] = encoded.counts;
     normalErrors[i] = encoded.patch.normalError;
     done(elementCount);

@@ -66,8 +66,9 @@ void PatchFiles::encodeClosed() {
     const EncodedCompact encoded = encodeCompact(file.contents.patches(), effort_);
     const std::string url = files_.write(encoded.file.bytes, encoded.file.extension);
     for (std::size_t number = 0; number < file.geometries.size(); ++number)
-      placed[i].push_back(
-          {file.geometries[number], {url, static_cast<std::uint32_t>(number), 0}, encoded.normalErrors[number]});
+      placed[i].push_back({file.geometries[number],
+                           {url, PatchLocation{static_cast<std::uint32_t>(number)}},
+                           encoded.normalErrors[number]});
   });
   for (std::vector<Placed>& ofFile : placed)
     std::ranges::move(ofFile, std::back_inserter(placed_));
