@@ -28,9 +28,9 @@ std::string faultOf(const Flag& flag, const std::string& value) {
     const auto [end, fault] = std::from_chars(value.data(), value.data() + value.size(), number);
     if (fault != std::errc{} || end != value.data() + value.size())
       return fmt::format("\"{}\" is not a whole number", value);
-    if (number < flag.least || number > flag.most)
-      return flag.least == flag.most ? fmt::format("{} cannot be honoured, only {}", number, flag.least)
-                                     : fmt::format("{} is not within {}..{}", number, flag.least, flag.most);
+    if (number < flag.min || number > flag.max)
+      return flag.min == flag.max ? fmt::format("{} cannot be honoured, only {}", number, flag.min)
+                                  : fmt::format("{} is not within {}..{}", number, flag.min, flag.max);
   }
   if (value.empty())
     return "is empty";
@@ -89,7 +89,7 @@ Arguments parseCommand(const Command& command, std::vector<std::string> words) {
     // A positional argument with a short name may be given by its long one too.
     const std::string names =
         flag.positional ? (flag.aliases.empty() ? flag.name : flag.name + ",--" + flag.name) : "--" + flag.name;
-    arguments.values[flag.name] = flag.fallback;
+    arguments.values[flag.name] = flag.defaultValue;
     app.add_option(names, arguments.values[flag.name])->check([&flag](const std::string& value) {
       return faultOf(flag, value);
     });

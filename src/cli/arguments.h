@@ -10,7 +10,7 @@
 
 namespace imgeo::cli {
 
-/// A command and the values of its flags: given ones and fallbacks.
+/// A command and the values of its flags: given ones and defaults.
 struct Arguments {
   const Command* command = nullptr; ///< nullptr: `imgeo` alone with --help or --version
   std::map<std::string, std::string> values;

@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "cli/choices.h"
 #include "cli/commands.h"
 #include "cli/element_counts.h"
 #include "cli/interruption.h"
@@ -20,17 +21,6 @@ namespace imgeo::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// The value at a choice's place in the flag table.
-template <typename Value>
-Value chosen(const Arguments& arguments, const std::string& name, std::initializer_list<Value> values) {
-  for (const Flag& flag : arguments.command->flags)
-    if (flag.name == name)
-      for (std::size_t i = 0; i < values.size(); ++i)
-        if (flag.choices[i] == arguments.text(name))
-          return values.begin()[i];
-  return *values.begin();
-}
 
 /// "all", "none", or names with commas between.
 AttributeChoice attributesNamed(const std::string& text) {
@@ -68,8 +58,7 @@ double basePercentFrom(const std::string& text) {
 
 TextureOptions texturesFrom(const Arguments& arguments) {
   TextureOptions textures;
-  textures.format = chosen(arguments, "textures",
-                           {TextureFormat::keep, TextureFormat::webp, TextureFormat::avif, TextureFormat::png});
+  textures.format = valueNamed(texturesChoices, arguments.text("textures"));
   if (!arguments.text("texture-size").empty())
     textures.size = static_cast<std::uint32_t>(arguments.integer("texture-size"));
   if (!arguments.text("texture-quality").empty())
@@ -97,12 +86,11 @@ std::optional<Encoding> encodingFrom(const Arguments& arguments) {
 ConvertOptions optionsFrom(const Arguments& arguments) {
   ConvertOptions options;
   options.encoding = encodingFrom(arguments);
-  options.target = chosen(arguments, "target", {Target::web, Target::x3dom});
+  options.target = valueNamed(targetChoices, arguments.text("target"));
   options.x3domUrl = arguments.text("x3dom-url");
-  options.primitives = chosen(arguments, "primitives", {Primitives::triangles, Primitives::strips, Primitives::points});
-  options.indexed = arguments.text("index") == "on";
-  options.normalWeighting =
-      chosen(arguments, "normal-weighting", {NormalWeighting::area, NormalWeighting::angle, NormalWeighting::uniform});
+  options.primitives = valueNamed(primitivesChoices, arguments.text("primitives"));
+  options.indexed = valueNamed(indexChoices, arguments.text("index"));
+  options.normalWeighting = valueNamed(normalWeightingChoices, arguments.text("normal-weighting"));
   const auto takeBits = [&](const char* name, std::uint32_t& bits) {
     if (!arguments.text(name).empty())
       bits = static_cast<std::uint32_t>(arguments.integer(name));
@@ -115,15 +103,10 @@ ConvertOptions optionsFrom(const Arguments& arguments) {
     options.maxError = maxErrorFrom(arguments.text("max-error"));
   if (!arguments.text("base").empty())
     options.basePercent = basePercentFrom(arguments.text("base"));
-  options.coordType =
-      chosen<std::optional<ElementType>>(arguments, "coord-type",
-                                         {std::nullopt, ElementType::uint8, ElementType::int8, ElementType::uint16,
-                                          ElementType::int16, ElementType::float32});
-  options.layout = chosen(arguments, "layout", {Layout::separate, Layout::interleaved});
-  options.normals = chosen(arguments, "normals",
-                           {NormalEncoding::rgb, NormalEncoding::octahedral, NormalEncoding::spherical,
-                            NormalEncoding::palette, NormalEncoding::derived});
-  options.dropped = chosen<DroppedElements>(arguments, "drop", {{}, {true, false}, {false, true}, {true, true}});
+  options.coordType = valueNamed(coordTypeChoices, arguments.text("coord-type"));
+  options.layout = valueNamed(layoutChoices, arguments.text("layout"));
+  options.normals = valueNamed(normalsChoices, arguments.text("normals"));
+  options.dropped = valueNamed(dropChoices, arguments.text("drop"));
   options.keepAttributes = attributesNamed(arguments.text("keep-attributes"));
   if (!arguments.text("attribute-bits").empty())
     options.attributeBits = static_cast<std::uint32_t>(arguments.integer("attribute-bits"));

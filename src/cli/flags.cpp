@@ -1,5 +1,7 @@
 #include "cli/flags.h"
 
+#include "cli/choices.h"
+
 #include "import/format.h"
 
 #include <algorithm>
@@ -24,19 +26,19 @@ Flag positional(const std::string& name, const std::string& valueName, Value val
 }
 
 Flag choice(const std::string& name, std::vector<std::string> choices, const std::string& help) {
-  return {.name = name, .value = Value::choice, .help = help, .fallback = choices.front(), .choices = choices};
+  return {.name = name, .value = Value::choice, .help = help, .defaultValue = choices.front(), .choices = choices};
 }
 
-Flag integer(const std::string& name, std::vector<std::string> aliases, std::int64_t least, std::int64_t most,
-             const std::string& fallback, const std::string& help) {
+Flag integer(const std::string& name, std::vector<std::string> aliases, std::int64_t min, std::int64_t max,
+             const std::string& defaultValue, const std::string& help) {
   return {.name = name,
           .aliases = std::move(aliases),
           .value = Value::integer,
           .valueName = "N",
           .help = help,
-          .fallback = fallback,
-          .least = least,
-          .most = most};
+          .defaultValue = defaultValue,
+          .min = min,
+          .max = max};
 }
 
 Command convertCommand() {
@@ -71,17 +73,17 @@ Command convertCommand() {
                        "times its bytes, refined byte by byte, decoded by the GPU, and by X3DOM 1.7 as well; "
                        "auto: compact, but classic with --primitives strips, --index off, --normals palette or "
                        "spherical, more than 30 position bits, 1048576 patch vertices or 13 attributes to keep"),
-                choice("target", {"web", "x3dom"},
+                choice("target", namesOf(targetChoices),
                        "web: a page with its own runtime; x3dom: one for X3DOM 1.7.2 (sig) or 1.8.3 (bg)"),
                 {.name = "x3dom-url",
                  .value = Value::text,
                  .valueName = "URL",
                  .help = "target x3dom: the folder that has x3dom.js and x3dom.css; otherwise npm's by "
                          "jsdelivr.net"},
-                choice("primitives", {"triangles", "strips", "points"},
+                choice("primitives", namesOf(primitivesChoices),
                        "how patches are drawn, those of lines as lines, line strips or points; a point cloud "
                        "is always points"),
-                choice("index", {"on", "off"},
+                choice("index", namesOf(indexChoices),
                        "off: vertices are repeated wherever they are drawn instead of named by an index"),
                 integer("position-bits", {"-vp", "-qp"}, 8, 32, "",
                         "bits of a coordinate, 8..32, in compact 8..30, on one lattice over the whole mesh; "
@@ -91,12 +93,12 @@ Command convertCommand() {
                  .valueName = "LENGTH|PERCENT",
                  .help = "sig: the fewest position bits that move no vertex farther, in units of the source or, "
                          "with %, of a mesh's longest edge"},
-                choice("coord-type", {"auto", "uint8", "int8", "uint16", "int16", "float32"},
+                choice("coord-type", namesOf(coordTypeChoices),
                        "bg: elements of coordinates; auto: the fewest unsigned bytes; float32 without "
                        "--position-bits: the source's numbers"),
-                choice("layout", {"separate", "interleaved"},
+                choice("layout", namesOf(layoutChoices),
                        "bg: a file for each attribute, or one of records with all of them beside the index"),
-                choice("normals", {"rgb", "octahedral", "spherical", "palette", "derived"},
+                choice("normals", namesOf(normalsChoices),
                        "how normals are stored: as vectors, as two numbers (compact: always), as 256 directions "
                        "a patch, or in compact not at all"),
                 integer("normal-bits", {"-vn", "-qn"}, 4, 32, "",
@@ -111,17 +113,17 @@ Command convertCommand() {
                  .value = Value::text,
                  .valueName = "PERCENT",
                  .help = "compact: a first shape of so many of the triangles in 100, 0..25; 0: none, otherwise 2"},
-                choice("drop", {"none", "degenerate", "repeated", "both"},
+                choice("drop", namesOf(dropChoices),
                        "which elements to leave out: those with two corners at one place, those that repeat "
                        "another, or both"),
                 {.name = "keep-attributes",
                  .value = Value::text,
                  .valueName = "NAMES",
                  .help = "further numbers of PLY's vertices to keep: names with commas between, all or none",
-                 .fallback = "none"},
+                 .defaultValue = "none"},
                 integer("attribute-bits", {}, 8, 24, "",
                         "bits of such a number; sig: 8, 16 or 24, otherwise 16; bg holds floats"),
-                choice("textures", {"keep", "webp", "avif", "png"},
+                choice("textures", namesOf(texturesChoices),
                        "what images of textures are written as; keep: as they are, and those that no browser "
                        "shows (TGA, TIFF, BMP ...) as lossless WebP. Normal maps and other data are never lossy"),
                 integer("texture-size", {}, 1, 16383, "",
@@ -129,7 +131,7 @@ Command convertCommand() {
                 integer("texture-quality", {}, 0, 100, "", "of lossy textures; otherwise 80 of webp, 60 of avif"),
                 integer("texture-preview", {}, 0, 256, "64",
                         "the longest edge of what is shown first of a large texture; 0: nothing is"),
-                choice("normal-weighting", {"area", "angle", "uniform"},
+                choice("normal-weighting", namesOf(normalWeightingChoices),
                        "how triangles count in normals that the source lacks"),
                 {.name = "title",
                  .value = Value::text,
@@ -224,7 +226,7 @@ Command serveCommand() {
             .value = Value::text,
             .valueName = "A",
             .help = "the address to listen on; 0.0.0.0 for every network",
-            .fallback = "127.0.0.1"};
+            .defaultValue = "127.0.0.1"};
   return {.name = "serve",
           .usage = "DIR [--port N] [--host A]",
           .summary = "serve a directory over HTTP until Ctrl-C",

@@ -18,9 +18,9 @@ struct Flag {
   Value value = Value::none;
   std::string valueName{};            ///< "N", "DIR"
   std::string help{};                 ///< begins in lower case, no full stop
-  std::string fallback{};             ///< the value where the flag is not given
+  std::string defaultValue{};         ///< value when the flag is not given
   std::vector<std::string> choices{}; ///< Value::choice
-  std::int64_t least = 0, most = 0;   ///< Value::integer
+  std::int64_t min = 0, max = 0;      ///< Value::integer
   bool positional = false;            ///< may be given without its name
   bool required = false;
 

@@ -48,7 +48,7 @@ std::string namesOf(const Flag& flag) {
 }
 
 std::string describe(const Flag& flag) {
-  return flag.fallback.empty() ? flag.help : fmt::format("{} (default {})", flag.help, flag.fallback);
+  return flag.defaultValue.empty() ? flag.help : fmt::format("{} (default {})", flag.help, flag.defaultValue);
 }
 
 void addFlag(std::string& text, const Flag& flag) {

@@ -1,0 +1,71 @@
+#pragma once
+// The values of the flags that choose from a list: the name on the command line and the enumerator of each. The flag
+// table (flags.cpp) takes the names, convert_command.cpp the enumerators.
+
+#include "imgeo/convert.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace imgeo::cli {
+
+template <typename Value> struct Choice {
+  const char* name;
+  Value value;
+};
+
+// The first choice of each list is the flag's default.
+
+inline constexpr Choice<Target> targetChoices[] = {{"web", Target::web}, {"x3dom", Target::x3dom}};
+
+inline constexpr Choice<Primitives> primitivesChoices[] = {
+    {"triangles", Primitives::triangles}, {"strips", Primitives::strips}, {"points", Primitives::points}};
+
+inline constexpr Choice<bool> indexChoices[] = {{"on", true}, {"off", false}};
+
+/// auto: the conversion chooses.
+inline constexpr Choice<std::optional<ElementType>> coordTypeChoices[] = {
+    {"auto", std::nullopt},          {"uint8", ElementType::uint8}, {"int8", ElementType::int8},
+    {"uint16", ElementType::uint16}, {"int16", ElementType::int16}, {"float32", ElementType::float32}};
+
+inline constexpr Choice<Layout> layoutChoices[] = {{"separate", Layout::separate},
+                                                   {"interleaved", Layout::interleaved}};
+
+inline constexpr Choice<NormalEncoding> normalsChoices[] = {{"rgb", NormalEncoding::rgb},
+                                                            {"octahedral", NormalEncoding::octahedral},
+                                                            {"spherical", NormalEncoding::spherical},
+                                                            {"palette", NormalEncoding::palette},
+                                                            {"derived", NormalEncoding::derived}};
+
+inline constexpr Choice<DroppedElements> dropChoices[] = {{"none", {}},
+                                                          {"degenerate", {.degenerate = true}},
+                                                          {"repeated", {.repeated = true}},
+                                                          {"both", {.degenerate = true, .repeated = true}}};
+
+inline constexpr Choice<TextureFormat> texturesChoices[] = {{"keep", TextureFormat::keep},
+                                                            {"webp", TextureFormat::webp},
+                                                            {"avif", TextureFormat::avif},
+                                                            {"png", TextureFormat::png}};
+
+inline constexpr Choice<NormalWeighting> normalWeightingChoices[] = {
+    {"area", NormalWeighting::area}, {"angle", NormalWeighting::angle}, {"uniform", NormalWeighting::uniform}};
+
+/// The names of a list, in its order.
+template <typename Value, std::size_t count> std::vector<std::string> namesOf(const Choice<Value> (&choices)[count]) {
+  std::vector<std::string> names;
+  for (const Choice<Value>& choice : choices)
+    names.push_back(choice.name);
+  return names;
+}
+
+/// The value of a name, which the parser has found in the list.
+template <typename Value, std::size_t count>
+Value valueNamed(const Choice<Value> (&choices)[count], std::string_view name) {
+  return std::ranges::find(choices, name, &Choice<Value>::name)->value;
+}
+
+} // namespace imgeo::cli
