@@ -1,10 +1,10 @@
-// The npm package as its users get it: packed, installed somewhere without a
-// network, and used by an app that is checked and bundled there.
+// The npm package as its users get it: packed, installed in a temporary folder without
+// a network, and used there by apps that are type-checked, bundled and built by Vite.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 import { after, before, describe, test } from "node:test";
 import { build, type Metafile } from "esbuild";
 
@@ -44,7 +44,7 @@ before(() => {
     join(work, tarball.filename),
   );
   mkdirSync(join(app, "node_modules/@types"));
-  for (const name of ["three", "@types/three"])
+  for (const name of ["three", "@types/three", "vite"])
     symlinkSync(join(root, "node_modules", name), join(app, "node_modules", name));
 });
 
@@ -100,6 +100,21 @@ function foldersIn(metafile: Metafile): Set<string> {
   return new Set(Array.from(modulesIn(metafile), (path) => path.split("/")[0] ?? ""));
 }
 
+/** A fresh Vite project of an app: its files in a folder of its own beside the installed package. Returns the text of each file that Vite builds. */
+function viteBuild(name: string, source: string): Map<string, string> {
+  const project = join(app, name);
+  mkdirSync(project);
+  writeFileSync(join(project, "main.ts"), source);
+  writeFileSync(
+    join(project, "index.html"),
+    '<!DOCTYPE html><x3d></x3d><script type="module" src="/main.ts"></script>',
+  );
+  run(project, process.execPath, join(app, "node_modules/vite/bin/vite.js"), "build", "--logLevel", "error");
+  const dist = join(project, "dist");
+  const files = readdirSync(dist, { recursive: true, encoding: "utf8" }).filter((file) => /\.\w+$/.test(file));
+  return new Map(files.map((file) => [file, readFileSync(join(dist, file), "utf8")]));
+}
+
 describe("the package", () => {
   test("holds modules, their types and the worker, and nothing else", () => {
     assert.ok(
@@ -109,6 +124,8 @@ describe("the package", () => {
         "lib/dom/index.js",
         "lib/workers/imgeo-worker.js",
         "README.md",
+        "LICENSE",
+        "NOTICE",
         "package.json",
       ].every((path) => packed.includes(path)),
     );
@@ -154,6 +171,39 @@ describe("the package", () => {
     const element = await bundle(users["element.ts"] ?? "");
     assert.ok(foldersIn(element.metafile).has("dom"));
     assert.match(element.text, /customElements\.define/);
+  });
+
+  for (const [name, text] of Object.entries(users)) {
+    test(`builds in a fresh Vite project that uses ${name}`, () => {
+      const files = viteBuild(name.replace(".ts", ""), text);
+      const page = files.get("index.html") ?? "";
+      const [, entry = ""] = /src="\/(assets\/[^"]+\.js)"/.exec(page) ?? [];
+      const bundle = files.get(entry) ?? "";
+      const worker = Array.from(files.keys()).find((file) => /^assets\/imgeo-worker-[^/]*\.js$/.test(file));
+      assert.ok(worker !== undefined, `Vite copies the worker; it has built ${Array.from(files.keys()).join(", ")}`);
+      assert.ok(bundle.includes(basename(worker)), "the bundle names the worker that Vite has copied");
+      assert.equal(
+        files.get(worker),
+        readFileSync(join(app, "node_modules/imgeo/lib/workers/imgeo-worker.js"), "utf8"),
+      );
+      assert.match(bundle, /WebGLRenderer|isObject3D/, "the bundle holds the parts of three.js that it uses");
+      assert.equal(bundle.includes("customElements.define"), name === "element.ts");
+    });
+  }
+
+  test("names its licence and may be published", () => {
+    const manifest = JSON.parse(readFileSync(join(app, "node_modules/imgeo/package.json"), "utf8")) as {
+      private?: boolean;
+      license: string;
+      types: string;
+      exports: Record<string, string | Record<string, string>>;
+    };
+    assert.deepEqual([manifest.license, manifest.private], ["Apache-2.0", undefined]);
+    const targets = Object.values(manifest.exports).flatMap((target) =>
+      typeof target === "string" ? [target] : Object.values(target),
+    );
+    const missing = [manifest.types, ...targets].filter((path) => !packed.includes(path.replace("./", "")));
+    assert.deepEqual(missing, [], "types and exports name files of the package");
   });
 
   test("carries three.js as a peer of one range with the tested release", () => {

@@ -1,9 +1,9 @@
-// Makes what the npm package `imgeo` holds, web/lib: a module and its types for
-// each source, for bundlers to take from what an app uses; and the worker in one
-// file, which they copy as it is.
+// Makes the contents of the npm package `imgeo`. web/lib holds a module with its types
+// for each source, of which an app's bundler takes what the app uses, and the worker
+// in one file, which the bundler copies. Licence and notice come from the repository.
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
-import { rmSync } from "node:fs";
+import { copyFileSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { workerBundle } from "./bundle.ts";
 
@@ -16,3 +16,4 @@ execFileSync(
   { stdio: "inherit" },
 );
 await build({ ...workerBundle, outfile: join(web, "lib/workers/imgeo-worker.js") });
+for (const name of ["LICENSE", "NOTICE"]) copyFileSync(join(web, "..", name), join(web, name));
