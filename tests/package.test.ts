@@ -165,7 +165,7 @@ describe("the package", () => {
       ),
       [],
     );
-    assert.doesNotMatch(loader.text, /customElements|x3dLook|keydown/);
+    assert.doesNotMatch(loader.text, /customElements|x3dMaterials|keydown/);
     const nothing = await bundle(`import { ImgeoLoader } from "imgeo/loader"; import "three"; console.log(1);`);
     assert.deepEqual([...foldersIn(nothing.metafile)], []);
     const element = await bundle(users["element.ts"] ?? "");
