@@ -13,27 +13,27 @@ bool isSameMaterial(const AnyMaterial& site, const AnyMaterial& input) {
   return site == input || site == AnyMaterial(phongOf(input));
 }
 
-/// The site's texture has one of the input beside it, of the same role and in the same place.
-bool isOfInput(const TextureUse& use, const std::vector<TextureUse>& input) {
+/// Whether the input uses a texture in the same role with the same transform.
+bool isUsedIn(const TextureUse& use, const std::vector<TextureUse>& input) {
   return std::ranges::any_of(
       input, [&](const TextureUse& other) { return other.role == use.role && other.transform == use.transform; });
 }
 
 } // namespace
 
-bool haveEqualAppearances(const SceneGraph& siteGraph, const Shape& inSite, const SceneGraph& inputGraph,
-                          const Shape& inInput) {
-  if (!inInput.appearance)
+bool haveEqualAppearances(const SceneGraph& siteGraph, const Shape& siteShape, const SceneGraph& inputGraph,
+                          const Shape& inputShape) {
+  if (!inputShape.appearance)
     return true;
-  if (!inSite.appearance)
+  if (!siteShape.appearance)
     return false;
-  const Appearance& site = siteGraph.appearances.at(*inSite.appearance);
-  const Appearance& input = inputGraph.appearances.at(*inInput.appearance);
+  const Appearance& site = siteGraph.appearances.at(*siteShape.appearance);
+  const Appearance& input = inputGraph.appearances.at(*inputShape.appearance);
   return isSameMaterial(site.material, input.material) &&
-         std::ranges::all_of(site.textures, [&](const TextureUse& use) { return isOfInput(use, input.textures); });
+         std::ranges::all_of(site.textures, [&](const TextureUse& use) { return isUsedIn(use, input.textures); });
 }
 
-std::set<std::string> texturesLeftIn(const SceneGraph& input) {
+std::set<std::string> unreadTextureUrls(const SceneGraph& input) {
   std::set<std::string> urls;
   for (const Node& node : input.nodes)
     if (const GenericNode* other = std::get_if<GenericNode>(&node.content);

@@ -1,6 +1,6 @@
 #pragma once
-// Whether shapes of a site look as those of its input: their materials, and where
-// textures lie on them. What pictures show is not compared.
+// Comparison of the appearances of a site with those of its input: materials and texture transforms. Pixels of textures
+// are not compared.
 
 #include "scene/scene.h"
 
@@ -9,14 +9,12 @@
 
 namespace imgeo {
 
-/// Appearances that the source has as plain data; those of an X3D source go into the
-/// document as they are. A material may have become the Material that looks most
-/// like it, for X3DOM; a texture whose file was of no use is missing on purpose.
-bool haveEqualAppearances(const SceneGraph& siteGraph, const Shape& inSite, const SceneGraph& inputGraph,
-                          const Shape& inInput);
+/// Compares the appearances of two shapes. X3D sources have none here: the document contains theirs unchanged. Accepts
+/// a Phong material in place of a physical one (X3DOM knows no other), and a missing texture (its file was unusable).
+bool haveEqualAppearances(const SceneGraph& siteGraph, const Shape& siteShape, const SceneGraph& inputGraph,
+                          const Shape& inputShape);
 
-/// The urls of textures that were not there for an X3D input either, so that convert
-/// left them as they were.
-std::set<std::string> texturesLeftIn(const SceneGraph& input);
+/// URLs of textures that an X3D input refers to but that could not be read; convert keeps such URLs.
+std::set<std::string> unreadTextureUrls(const SceneGraph& input);
 
 } // namespace imgeo

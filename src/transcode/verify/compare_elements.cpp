@@ -10,37 +10,38 @@ namespace imgeo {
 
 namespace {
 
-/// The lattice points of an element's corners, turned so that equal elements
-/// have equal places: the least of its rotations, which for a line are its directions.
-struct Place {
+/// An element and the lattice points of its corners, rotated so that equal elements have equal points: the smallest
+/// rotation in lexicographical order. Rotations of a line are its two directions.
+struct LatticeElement {
   std::array<Vec3u, 3> points;
   std::uint32_t element = 0;
 };
 
-bool less(const Place& a, const Place& b) {
+bool less(const LatticeElement& a, const LatticeElement& b) {
   return std::ranges::lexicographical_compare(a.points, b.points, precedes);
 }
 
-/// Turns every element into its least rotation and sorts them by place.
-std::vector<Place> placesOf(ElementList& list) {
-  std::vector<Place> places(list.elements.size());
-  for (std::uint32_t i = 0; i < places.size(); ++i) {
+/// Rotates every element of the list as described above and returns them sorted by their points.
+std::vector<LatticeElement> sortedElements(ElementList& list) {
+  std::vector<LatticeElement> elements(list.elements.size());
+  for (std::uint32_t i = 0; i < elements.size(); ++i) {
     auto& corners = list.elements[i];
-    Place least;
+    LatticeElement smallest;
     std::uint32_t turns = 0;
     for (std::uint32_t turn = 0; turn < list.cornerCount; ++turn) {
-      Place place{{}, i};
+      LatticeElement turned{{}, i};
       for (std::uint32_t c = 0; c < list.cornerCount; ++c)
-        place.points[c] = list.positions[corners[(c + turn) % list.cornerCount]];
-      if (turn == 0 || less(place, least))
-        least = place, turns = turn;
+        turned.points[c] = list.positions[corners[(c + turn) % list.cornerCount]];
+      if (turn == 0 || less(turned, smallest))
+        smallest = turned, turns = turn;
     }
     std::rotate(corners.begin(), corners.begin() + turns, corners.begin() + list.cornerCount);
-    places[i] = least;
+    elements[i] = smallest;
   }
-  std::ranges::sort(
-      places, [](const Place& a, const Place& b) { return less(a, b) || (!less(b, a) && a.element < b.element); });
-  return places;
+  std::ranges::sort(elements, [](const LatticeElement& a, const LatticeElement& b) {
+    return less(a, b) || (!less(b, a) && a.element < b.element);
+  });
+  return elements;
 }
 
 double angleDegrees(Vec3f a, Vec3f b) {
@@ -48,15 +49,15 @@ double angleDegrees(Vec3f a, Vec3f b) {
   return std::atan2(length(cross(p, q)), dot(p, q)) * (180 / std::numbers::pi);
 }
 
-/// How far an element of the input and one of the site are apart.
+/// Largest differences between the attributes of an element of the input and one of the site.
 struct Distance {
   double normalDegrees = 0;
   Vec2<double> texCoord;
-  double named = 0; ///< in parts of what is allowed
+  double named = 0; ///< as a fraction of the allowed difference
   bool colorsDiffer = false;
 };
 
-/// An attribute of both lists, and what its components may differ by.
+/// A further attribute that both lists have, and the allowed difference of each component.
 struct NamedPair {
   const NamedAttribute& input;
   const NamedAttribute& site;
@@ -78,25 +79,26 @@ public:
     }
   }
 
-  /// Measures the elements at one place, in both directions.
-  void match(std::span<const Place> inputs, std::span<const Place> sites, ElementDifference& worst) const {
+  /// Compares the elements of both lists that lie on the same lattice points, in both directions.
+  void match(std::span<const LatticeElement> inputs, std::span<const LatticeElement> sites,
+             ElementDifference& worst) const {
     const bool collapsed = inputs.front().points[0] == inputs.front().points[input_.cornerCount - 1];
     const std::size_t turns = collapsed ? input_.cornerCount : 1;
     const std::vector<std::uint32_t> ofInput = distinct(input_, inputs), ofSite = distinct(site_, sites);
     if (ofInput.size() == 1 && ofSite.size() == 1) {
-      note(nearest(ofInput.front(), sorted(site_, ofSite, 1), site_, input_, turns), worst);
+      addToWorst(nearest(ofInput.front(), sorted(site_, ofSite, 1), site_, input_, turns), worst);
       return;
     }
     const std::vector<Candidate> siteOrder = sorted(site_, ofSite, turns), inputOrder = sorted(input_, ofInput, turns);
     for (const std::uint32_t element : ofInput)
-      note(nearest(element, siteOrder, site_, input_, 1), worst);
+      addToWorst(nearest(element, siteOrder, site_, input_, 1), worst);
     for (const std::uint32_t element : ofSite)
-      note(nearest(element, inputOrder, input_, site_, 1), worst);
+      addToWorst(nearest(element, inputOrder, input_, site_, 1), worst);
   }
 
 private:
-  /// An element turned by `turn` corners, and where it lies along an axis of
-  /// attribute space: two elements are at least as far apart as their keys.
+  /// An element rotated by `turn` corners. `key` is its coordinate along one axis of attribute space: the cost of a
+  /// pair is at least the difference of its keys.
   struct Candidate {
     double key;
     std::uint32_t element;
@@ -119,11 +121,11 @@ private:
     return 0;
   }
 
-  /// Of elements of the same vertices one: a mesh may have one of them a hundred thousand times.
-  static std::vector<std::uint32_t> distinct(const ElementList& list, std::span<const Place> places) {
+  /// Indices of the elements, each combination of vertices once: a mesh may repeat an element a hundred thousand times.
+  static std::vector<std::uint32_t> distinct(const ElementList& list, std::span<const LatticeElement> coincident) {
     std::vector<std::uint32_t> elements;
-    for (const Place& place : places)
-      elements.push_back(place.element);
+    for (const LatticeElement& one : coincident)
+      elements.push_back(one.element);
     const auto verticesOf = [&](std::uint32_t element) { return list.elements[element]; };
     if (elements.size() > 1) {
       std::ranges::sort(elements, {}, verticesOf);
@@ -143,12 +145,12 @@ private:
     return candidates;
   }
 
-  /// The best fit to one element among candidates of the other list: looks
-  /// outwards from the element's key until no key can be nearer.
+  /// The candidate of the other list with the smallest cost. Searches outwards from the element's key and stops where
+  /// the difference of keys exceeds the smallest cost.
   Distance nearest(std::uint32_t element, const std::vector<Candidate>& candidates, const ElementList& others,
                    const ElementList& own, std::size_t ownTurns) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Distance best{180, {infinity, infinity}, infinity, true}; // stands where nothing can be compared: a NaN
+    Distance best{180, {infinity, infinity}, infinity, true}; // the result if every cost is NaN
     double bestCost = infinity;
     for (std::uint32_t ownTurn = 0; ownTurn < ownTurns; ++ownTurn) {
       const double here = key(own, element, ownTurn);
@@ -201,11 +203,11 @@ private:
     return distance;
   }
 
-  /// What is stored exactly may differ by nothing.
+  /// The bound as a divisor: attributes that are stored exactly have the bound 0.
   static double allowed(double bound) { return std::max(bound, 1e-300); }
 
-  /// 1 and less is within bounds. Colours are stored exactly: one step off
-  /// outweighs what their keys may be apart.
+  /// At most 1 if all differences are within their bounds. Colours are stored exactly: a difference costs more than any
+  /// difference of keys.
   double cost(const Distance& distance) const {
     double cost = std::max(distance.colorsDiffer ? 256.0 : 0.0, distance.named);
     if (normals_)
@@ -215,7 +217,7 @@ private:
     return cost;
   }
 
-  static void note(const Distance& distance, ElementDifference& worst) {
+  static void addToWorst(const Distance& distance, ElementDifference& worst) {
     worst.normalDegrees = std::max(worst.normalDegrees, distance.normalDegrees);
     worst.texCoord.x = std::max(worst.texCoord.x, distance.texCoord.x);
     worst.texCoord.y = std::max(worst.texCoord.y, distance.texCoord.y);
@@ -230,12 +232,12 @@ private:
   std::vector<NamedPair> named_;
 };
 
-/// The elements of `places` at the place of `places[begin]`.
-std::span<const Place> samePlace(const std::vector<Place>& places, std::size_t begin) {
+/// The elements on the same lattice points as `sorted[begin]`, which are its successors.
+std::span<const LatticeElement> coincidentFrom(const std::vector<LatticeElement>& sorted, std::size_t begin) {
   std::size_t end = begin + 1;
-  while (end < places.size() && places[end].points == places[begin].points)
+  while (end < sorted.size() && sorted[end].points == sorted[begin].points)
     ++end;
-  return std::span(places).subspan(begin, end - begin);
+  return std::span(sorted).subspan(begin, end - begin);
 }
 
 } // namespace
@@ -243,20 +245,20 @@ std::span<const Place> samePlace(const std::vector<Place>& places, std::size_t b
 ElementDifference compare(const ElementList& inputAsGiven, const ElementList& siteAsGiven,
                           const AttributeBounds& bounds) {
   ElementList input = inputAsGiven, site = siteAsGiven;
-  const std::vector<Place> inputs = placesOf(input), sites = placesOf(site);
+  const std::vector<LatticeElement> inputs = sortedElements(input), sites = sortedElements(site);
   const Matcher matcher(input, site, bounds);
   ElementDifference difference;
   std::size_t i = 0, s = 0;
   while (i < inputs.size() || s < sites.size()) {
     const bool onlySite = i == inputs.size() || (s < sites.size() && less(sites[s], inputs[i]));
     const bool onlyInput = !onlySite && (s == sites.size() || less(inputs[i], sites[s]));
-    const auto here = onlySite ? std::span<const Place>{} : samePlace(inputs, i);
-    const auto there = onlyInput ? std::span<const Place>{} : samePlace(sites, s);
+    const auto here = onlySite ? std::span<const LatticeElement>{} : coincidentFrom(inputs, i);
+    const auto there = onlyInput ? std::span<const LatticeElement>{} : coincidentFrom(sites, s);
     std::size_t allowed = here.size();
     if (!input.copies.empty()) {
       allowed = 0;
-      for (const Place& place : here)
-        allowed += input.copies[place.element];
+      for (const LatticeElement& one : here)
+        allowed += input.copies[one.element];
     }
     difference.missing += here.size() - std::min(here.size(), there.size());
     difference.extra += there.size() - std::min(allowed, there.size());

@@ -14,14 +14,14 @@ VertexAttributes withOpaqueColors(VertexAttributes attributes) {
   return attributes;
 }
 
-/// Adds an element unless two of its corners are one.
+/// Adds an element unless two of its corners are the same vertex or, without an index, the same lattice point.
 void addElement(ElementList& list, std::array<std::uint32_t, 3> corners, ElementKind kind) {
   const auto differ = [&](std::size_t a, std::size_t b) {
-    return kind.byPlace ? list.positions[corners[a]] != list.positions[corners[b]] : corners[a] != corners[b];
+    return kind.isUnindexed ? list.positions[corners[a]] != list.positions[corners[b]] : corners[a] != corners[b];
   };
-  const bool isWhole = list.cornerCount == 1 || (list.cornerCount == 2 && differ(0, 1)) ||
-                       (list.cornerCount == 3 && differ(0, 1) && differ(1, 2) && differ(2, 0));
-  if (isWhole)
+  const bool hasDistinctCorners = list.cornerCount == 1 || (list.cornerCount == 2 && differ(0, 1)) ||
+                                  (list.cornerCount == 3 && differ(0, 1) && differ(1, 2) && differ(2, 0));
+  if (hasDistinctCorners)
     list.elements.push_back(corners);
 }
 

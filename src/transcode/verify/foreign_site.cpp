@@ -9,7 +9,7 @@ namespace imgeo {
 
 namespace {
 
-/// Every lattice point of a site once, sorted.
+/// The lattice points of all vertices of a site, sorted, each once.
 std::vector<Vec3u> pointsOf(const std::vector<IndexedPatch>& site) {
   std::vector<Vec3u> points;
   for (const IndexedPatch& patch : site)
@@ -19,7 +19,7 @@ std::vector<Vec3u> pointsOf(const std::vector<IndexedPatch>& site) {
   return points;
 }
 
-/// The lattice points of which roundings may choose any: one, two, four or eight.
+/// The lattice points that another rounding may choose: one, two, four or eight.
 std::vector<Vec3u> candidatesOf(Vec3u nearest, Vec3f position, const Lattice& lattice) {
   std::vector<Vec3u> candidates{nearest};
   for (int axis = 0; axis < 3; ++axis) {

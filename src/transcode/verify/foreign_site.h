@@ -1,6 +1,5 @@
 #pragma once
-// Sites of other programs, which do not say how their input was prepared and
-// round in their own arithmetic.
+// Sites of other programs: they do not state how the input was prepared, and round differently.
 
 #include "containers/container.h"
 
@@ -9,12 +8,12 @@
 
 namespace imgeo {
 
-/// By how many steps an axis other programs may be off the nearest lattice point and
-/// still be taken at their word: aopt computed in single precision.
+/// Distance from the middle between two lattice points, in steps along an axis, within which another program may round
+/// to either: aopt computed in single precision.
 inline constexpr double foreignRounding = 0.05;
 
-/// The lattice points of positions. Where one lies so near to the middle between two
-/// that roundings decide, the one at which `site` has a vertex.
+/// Lattice points of positions. A position near the middle between two lattice points gets the one at which `site` has
+/// a vertex.
 std::vector<Vec3u> quantiseLike(const std::vector<IndexedPatch>& site, std::span<const Vec3f> positions,
                                 const Lattice& lattice);
 

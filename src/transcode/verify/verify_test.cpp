@@ -289,7 +289,7 @@ TEST(Verify, SeesAnotherMaterialAndAnotherPlaceOfATexture) {
   std::get<PhysicalMaterial>(plain->material).baseColor = {1, 0, 0};
   const auto sign = std::ranges::find_if(moved.graph.appearances, isTextured);
   sign->textures[0].transform.translation = {0.5f, 0};
-  const std::string sentence = "have other materials than in the input, or other places of textures.";
+  const std::string sentence = "have other materials than in the input, or other texture transforms.";
   for (const SceneDocument& changed : {red, moved}) {
     const std::vector<std::string> findings = verified(changed);
     ASSERT_EQ(findings.size(), 1u);

@@ -1,0 +1,53 @@
+#include "transcode/verify/check_files.h"
+
+#include "base/file.h"
+#include "transcode/site/site_files.h"
+#include "transcode/verify/compare_appearances.h"
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+namespace fs = std::filesystem;
+
+bool checkFiles(const SiteDocument& document, bool isForeign, const SceneGraph& input, Findings& findings) {
+  bool allPresent = true;
+  std::vector<std::string> urls = isForeign ? std::vector<std::string>{} : pageFilesOf(document);
+  for (const InlinedDocument& inlined : document.scene.graph.inlined)
+    urls.push_back(inlined.url);
+  const std::set<std::string> unread = unreadTextureUrls(input);
+  for (const std::string& url : textureFilesOf(document.scene))
+    if (!unread.contains(url))
+      urls.push_back(url);
+  for (const std::string& url : previewFilesOf(document.scene))
+    urls.push_back(url);
+  for (const NamedFile& file : geometryFilesOf(document.scene))
+    urls.push_back(file.url);
+  for (const std::string& url : urls) {
+    const fs::path file = fileOf(document, url);
+    std::error_code none;
+    if (!fs::is_regular_file(file, none)) {
+      findings.add("{} is named by the document but is not there.", url);
+      allPresent = false;
+      continue;
+    }
+    if (isForeign || file.extension() == ".css")
+      continue;
+    const std::string stem = file.stem(), content = contentName(readFile(file));
+    if (!stem.ends_with(content))
+      findings.add("{} does not hold what its name says (its content is {}).", url, content);
+  }
+  return allPresent;
+}
+
+void checkDocuments(const SiteDocument& page, Findings& findings) {
+  if (page.name == sceneName)
+    return;
+  const SiteDocument scene = openDocument(page.root / sceneName);
+  if (writeX3d(scene.scene) != writeX3d(page.scene))
+    findings.add("{} and {} differ.", pageName, sceneName);
+}
+
+} // namespace imgeo

@@ -1,0 +1,231 @@
+#include "transcode/verify/compare_mesh.h"
+
+#include "base/parallel.h"
+#include "containers/encodings.h"
+#include "containers/named_attributes.h"
+#include "containers/normals.h"
+#include "containers/stored.h"
+#include "containers/stored_coords.h"
+#include "prepare/patches.h"
+#include "transcode/verify/element_list.h"
+#include "transcode/verify/foreign_site.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/ranges.h>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+
+namespace imgeo {
+
+namespace {
+
+/// Allowed error of normals, in degrees. For palettes and compact no formula bounds it: imgeo.json states it.
+double normalBoundDegrees(const GeometryDescription& geometry, const SiteManifest& manifest) {
+  const bool isStated = geometry.normalEncoding == NormalEncoding::palette || rowOf(geometry).hasMeasuredNormalError;
+  const double bound = isStated ? manifest.normalErrorDegrees : normalErrorBound(geometry) * (180 / std::numbers::pi);
+  return std::max(bound, 1e-5);
+}
+
+/// Type of the coordinates. For images any integer type will do: it only selects the exact lattice.
+ElementType coordTypeOf(const GeometryDescription& geometry) {
+  return hasElementTypes(geometry.encoding) ? geometry.coordType : ElementType::uint32;
+}
+
+/// Rounds colours as storing them with this many bits a component does; 0 or at least 8 bits keep them.
+void roundColors(std::vector<Rgba8>& colors, std::uint32_t bits) {
+  if (bits == 0 || bits >= 8)
+    return;
+  const double steps = (1 << bits) - 1;
+  for (Rgba8& color : colors)
+    for (std::uint8_t* component : {&color.r, &color.g, &color.b, &color.a})
+      *component = static_cast<std::uint8_t>(std::floor(*component / 255.0 * steps + 0.5) / steps * 255 + 0.5);
+}
+
+/// Allowed error of each component of the further attributes, by name.
+std::map<std::string, std::vector<double>> namedBounds(const GeometryDescription& geometry) {
+  std::map<std::string, std::vector<double>> bounds;
+  for (const AttributeDescription& attribute : geometry.attributes)
+    for (std::uint32_t c = 0; c < attribute.components; ++c)
+      bounds[attribute.name].push_back(numberBound(geometry.encoding, attribute, c));
+  return bounds;
+}
+
+std::vector<IndexedPatch> decodePatches(const ContainerReader& reader, const GeometryDescription& geometry) {
+  std::vector<IndexedPatch> patches(geometry.patches.size());
+  parallelFor(patches.size(), [&](std::size_t i) { patches[i] = reader.decode(geometry.patches[i], geometry); });
+  return patches;
+}
+
+/// Checks that every patch has the box that the document states for it, where it states one.
+void checkBoxes(const std::vector<IndexedPatch>& patches, const GeometryDescription& geometry, Findings& findings) {
+  const double slack = geometry.lattice.step / 2 + 1e-6 * geometry.box.longestEdge();
+  const auto agree = [&](const Box3d& a, const Box3d& b) {
+    for (int axis = 0; axis < 3 && !b.empty(); ++axis)
+      if (!(std::abs(a.min[axis] - b.min[axis]) <= slack && std::abs(a.max[axis] - b.max[axis]) <= slack))
+        return false;
+    return true;
+  };
+  Box3d whole;
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    Box3d box;
+    for (const Vec3u q : patches[i].positions)
+      box.add(geometry.lattice.point(q));
+    wrong += !agree(box, geometry.patches[i].box);
+    whole.add(box.min);
+    whole.add(box.max);
+  }
+  if (wrong > 0)
+    findings.add("{} of {} patches have a box that does not fit their vertices.", wrong, patches.size());
+  if (!agree(whole, geometry.box))
+    findings.add("The box of the geometry does not fit its vertices.");
+}
+
+/// Maximum distance along an axis between a vertex of the input and its lattice point in the site.
+double positionError(const Mesh& mesh, const std::vector<Vec3u>& quantised, const Lattice& lattice) {
+  double error = 0;
+  for (std::size_t i = 0; i < quantised.size(); ++i) {
+    const Vec3d off = lattice.point(quantised[i]) - Vec3d(mesh.positions[i]);
+    error = std::max({error, std::abs(off.x), std::abs(off.y), std::abs(off.z)});
+  }
+  return error;
+}
+
+/// Rounding error of double precision. It matters where coordinates are large and the lattice step is small (32 bits).
+double positionTolerance(const Mesh& mesh, const Lattice& lattice) {
+  const Box3d box = boxOf(mesh);
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    largest = std::max({largest, std::abs(box.min[axis]), std::abs(box.max[axis])});
+  return 1e-6 * lattice.step + 8 * largest * std::numeric_limits<double>::epsilon();
+}
+
+void checkAttributesPresent(const Mesh& mesh, const std::vector<IndexedPatch>& patches, Findings& findings) {
+  const auto check = [&](const char* what, bool inInput, auto member) {
+    for (const IndexedPatch& patch : patches)
+      if ((patch.*member).empty() == inInput && patch.vertexCount() > 0)
+        return findings.add("The {} {} {}.", inInput ? "input has" : "site has", what,
+                            inInput ? "that the site lacks" : "that the input lacks");
+  };
+  check("normals", !mesh.normals.empty(), &IndexedPatch::normals);
+  check("texture coordinates", !mesh.texCoords.empty(), &IndexedPatch::texCoords);
+  check("colours", !mesh.colors.empty(), &IndexedPatch::colors);
+  const auto namesOf = [](const VertexAttributes& attributes) {
+    std::set<std::string> names;
+    for (const NamedAttribute& attribute : attributes.namedAttributes)
+      names.insert(fmt::format("\"{}\" of {}", attribute.name, attribute.components));
+    return names;
+  };
+  for (const IndexedPatch& patch : patches)
+    if (namesOf(patch) != namesOf(mesh))
+      return findings.add("The input's further attributes are {}, the site's {}.", fmt::join(namesOf(mesh), ", "),
+                          fmt::join(namesOf(patch), ", "));
+}
+
+/// Adds the counts of a mesh to those of the report.
+void addCounts(const ElementDifference& difference, const ElementList& input, const ElementList& site,
+               Topology topology, VerifyReport& report) {
+  report.input.of(topology) += input.elements.size();
+  report.site.of(topology) += site.elements.size();
+  report.missing.of(topology) += difference.missing;
+  report.extra.of(topology) += difference.extra;
+}
+
+/// Lattice points of the input's vertices, as the site stores them.
+std::vector<Vec3u> quantisedAs(const GeometryDescription& geometry, const std::vector<IndexedPatch>& patches,
+                               const Mesh& mesh, bool isForeign) {
+  if (isForeign)
+    return quantiseLike(patches, mesh.positions, geometry.lattice);
+  const Lattice expected = latticeFor(boxOf(mesh), coordTypeOf(geometry), geometry.lattice.bits);
+  std::vector<Vec3u> quantised = quantise(mesh.positions, expected);
+  for (Vec3u& q : quantised)
+    q = pointReadBack(q, expected, geometry);
+  return quantised;
+}
+
+void checkPositions(const GeometryDescription& geometry, const std::vector<Vec3u>& quantised, const Mesh& mesh,
+                    VerifyReport& report, Findings& findings) {
+  const double error = positionError(mesh, quantised, geometry.lattice),
+               slack = report.isForeign ? foreignRounding * geometry.lattice.step : 0,
+               bound = positionErrorBound(geometry) + slack;
+  if (error * report.positionBound >= report.positionError * bound)
+    report.positionError = error, report.positionBound = bound;
+  if (error > bound + positionTolerance(mesh, geometry.lattice))
+    findings.add("Positions are off by up to {:.6g}, more than half a step of the lattice, {:.6g}.", error, bound);
+}
+
+/// Checks that the base mesh, if there is one, can be decoded and leaves no crack at the border of any patch.
+void checkBase(const ContainerReader& reader, const GeometryDescription& geometry,
+               const std::vector<IndexedPatch>& patches, Findings& findings) {
+  if (!geometry.base)
+    return;
+  const BaseMesh base = reader.decodeBase(geometry);
+  std::vector<PatchTriangles> triangles;
+  for (const IndexedPatch& patch : patches)
+    triangles.push_back({patch.positions, patch.indices});
+  if (!meetsAtBorders(base, triangles))
+    findings.add("The base does not meet the patches at their borders.");
+}
+
+/// Compares the differences of a mesh with the allowed ones.
+void addFindings(const ElementDifference& difference, const AttributeBounds& bounds, Topology topology,
+                 VerifyReport& report, Findings& findings) {
+  const char* elements = nameOf(topology);
+  if (difference.missing > 0)
+    findings.add("{} {} of the input are missing from the site.", difference.missing, elements);
+  if (difference.extra > 0)
+    findings.add("{} {} of the site are not in the input.", difference.extra, elements);
+
+  // Decoders compute in single precision, which may turn a normal by this much more.
+  constexpr double normalTolerance = 2e-5;
+  report.normalErrorDegrees = std::max(report.normalErrorDegrees, difference.normalDegrees);
+  if (difference.normalDegrees > bounds.normalDegrees + normalTolerance)
+    findings.add("Normals are off by up to {:.4g} degrees, more than their rounding, {:.4g}.", difference.normalDegrees,
+                 bounds.normalDegrees);
+  if (difference.texCoord.x > bounds.texCoord.x || difference.texCoord.y > bounds.texCoord.y)
+    findings.add("Texture coordinates are off by up to {:.4g} and {:.4g}, more than their rounding, {:.4g} "
+                 "and {:.4g}.",
+                 difference.texCoord.x, difference.texCoord.y, bounds.texCoord.x, bounds.texCoord.y);
+  report.attributeError = std::max(report.attributeError, difference.named);
+  if (difference.named > 1)
+    findings.add("Further attributes are off by up to {:.4g} times what their rounding allows.", difference.named);
+  if (difference.colorsDiffering > 0)
+    findings.add("{} {} have other colours.", difference.colorsDiffering, elements);
+}
+
+} // namespace
+
+void compareMesh(const ContainerReader& reader, const GeometryDescription& geometry, const Mesh& mesh,
+                 const std::optional<SiteManifest>& manifest, VerifyReport& report, Findings& findings) {
+  std::vector<IndexedPatch> patches = decodePatches(reader, geometry);
+  checkBoxes(patches, geometry, findings);
+  checkBase(reader, geometry, patches, findings);
+  if (!manifest && mesh.normals.empty())
+    for (IndexedPatch& patch : patches)
+      patch.normals.clear(); // the other program computed them in a way that is not known
+  checkAttributesPresent(mesh, patches, findings);
+  const std::vector<Vec3u> quantised = quantisedAs(geometry, patches, mesh, !manifest);
+  checkPositions(geometry, quantised, mesh, report, findings);
+
+  const Topology topology = manifest ? manifest->primitives == Primitives::points ? Topology::points : mesh.topology
+                                     : topologyOf(patches.front().draws.front().primitive);
+  const bool isUnindexed = std::ranges::any_of(patches, &std::vector<std::uint32_t>::empty, &IndexedPatch::indices);
+  const ElementKind kind{topology, isUnindexed};
+  ElementList input = elementsOf(mesh, quantised, kind);
+  const ElementList site = elementsOf(patches, kind);
+  const StoredPrecision precision = reader.precisionOf(geometry);
+  roundColors(input.colors, precision.colorBits);
+  const AttributeBounds bounds{normalBoundDegrees(geometry, manifest.value_or(SiteManifest{})),
+                               texCoordErrorBound(geometry, std::max(precision.texCoordBits, 1u)),
+                               namedBounds(geometry)};
+  const ElementDifference difference = compare(input, site, bounds);
+  addCounts(difference, input, site, topology, report);
+  addFindings(difference, bounds, topology, report, findings);
+  if (!mesh.normals.empty())
+    report.normalBoundDegrees = std::max(report.normalBoundDegrees, bounds.normalDegrees);
+}
+
+} // namespace imgeo

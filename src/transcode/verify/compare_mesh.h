@@ -1,0 +1,18 @@
+#pragma once
+// A mesh of the input against the geometry of the site that stands for it.
+
+#include "containers/container.h"
+#include "scene/mesh.h"
+#include "transcode/site/site_manifest.h"
+#include "transcode/verify/findings.h"
+
+#include <optional>
+
+namespace imgeo {
+
+/// Decodes the geometry and compares boxes, base mesh, positions, elements and attributes. `mesh` is prepared as
+/// convert does it. Without `manifest` another program wrote the site. Adds counts and errors to `report`.
+void compareMesh(const ContainerReader& reader, const GeometryDescription& geometry, const Mesh& mesh,
+                 const std::optional<SiteManifest>& manifest, VerifyReport& report, Findings& findings);
+
+} // namespace imgeo
