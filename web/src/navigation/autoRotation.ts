@@ -1,40 +1,39 @@
-// The scene turns by itself, until somebody takes it into his hands, and goes on
-// a while after he has let go.
+// The scene's automatic rotation, which pauses while the user moves the camera.
 
 export class AutoRotation {
   radiansPerSecond = Math.PI / 6;
-  /** How long it rests after somebody has moved the camera. */
+  /** The length of the pause after the user has moved the camera. */
   delayMs = 3000;
-  readonly #onTurning: () => void;
-  #state: "stopped" | "resting" | "turning" = "stopped";
+  readonly #onRotating: () => void;
+  #state: "stopped" | "paused" | "rotating" = "stopped";
   #timer: ReturnType<typeof setTimeout> | undefined;
 
-  /** `onTurning` is called whenever it begins to turn. */
-  constructor(onTurning: () => void) {
-    this.#onTurning = onTurning;
+  /** `onRotating` is called whenever the rotation begins. */
+  constructor(onRotating: () => void) {
+    this.#onRotating = onRotating;
   }
 
   get isRotating(): boolean {
-    return this.#state === "turning";
+    return this.#state === "rotating";
   }
 
-  /** Neither turns nor will. */
+  /** It neither rotates nor is about to. */
   get isStopped(): boolean {
     return this.#state === "stopped";
   }
 
-  /** Turns, after the delay or at once. */
+  /** Rotates, after the delay or at once. */
   start(isDelayed: boolean): void {
     clearTimeout(this.#timer);
-    this.#state = "resting";
+    this.#state = "paused";
     if (isDelayed)
       this.#timer = setTimeout(() => {
-        this.#turn();
+        this.#rotate();
       }, this.delayMs);
-    else this.#turn();
+    else this.#rotate();
   }
 
-  /** Somebody moves the camera. */
+  /** Restarts the delay: the user moves the camera. */
   pause(): void {
     if (this.#state !== "stopped") this.start(true);
   }
@@ -44,8 +43,8 @@ export class AutoRotation {
     this.#state = "stopped";
   }
 
-  #turn(): void {
-    this.#state = "turning";
-    this.#onTurning();
+  #rotate(): void {
+    this.#state = "rotating";
+    this.#onRotating();
   }
 }

@@ -1,12 +1,12 @@
-// X3D's binding stack (ISO/IEC 19775-1, 7.2.2): the node on top counts; when it
-// is taken away, the one below counts again.
+// X3D's binding stack (ISO/IEC 19775-1, 7.2.2): the node on top is bound; when it leaves, the node below is bound
+// again.
 
 export class BindingStack<Node> {
-  /** The one that counts is last. */
+  /** The bound node is last. */
   #stack: Node[] = [];
   #nodes: readonly Node[] = [];
 
-  /** Undefined where there are no nodes at all. */
+  /** Undefined where there are no nodes. */
   get bound(): Node | undefined {
     return this.#stack.at(-1);
   }
@@ -16,7 +16,7 @@ export class BindingStack<Node> {
     this.#stack = [...this.#stack.filter((other) => other !== node), node];
   }
 
-  /** set_bind FALSE. The first node counts where no other is left. */
+  /** set_bind FALSE. The first node is bound where the stack would be empty. */
   unbind(node: Node): void {
     this.#stack = this.#stack.filter((other) => other !== node);
     const first = this.#nodes.find((other) => other !== node) ?? this.#nodes[0];
@@ -24,8 +24,8 @@ export class BindingStack<Node> {
   }
 
   /**
-   * The scene's nodes, in document order, from now on. Those that are gone leave
-   * the stack; those that are new and `wantsBind` go on top of it.
+   * Sets the scene's nodes, in document order. Nodes that are gone leave the stack; new ones with `wantsBind` go on
+   * top.
    */
   setNodes(nodes: readonly Node[], wantsBind: (node: Node) => boolean): void {
     const added = nodes.filter((node) => !this.#nodes.includes(node));

@@ -4,7 +4,7 @@ import { Matrix4, Quaternion, Sphere, Vector3 } from "three";
 import { nodeFields, type Values } from "../document/nodes.ts";
 import { BindingStack } from "./bindingStack.ts";
 import type { WorldBox } from "./boxWorld.testing.ts";
-import { lookAround } from "./boxWorld.testing.ts";
+import { sampleGround } from "./boxWorld.testing.ts";
 import type { Pose } from "./cameraPose.ts";
 import type { ViewpointInstance } from "../scene/instances.ts";
 import { forwardOf, poseFraming, poseOfViewpoint, orbited } from "./cameraPose.ts";
@@ -294,7 +294,7 @@ describe("the navigator", () => {
   function advance(navigator: CameraController, ms: number, boxes: readonly WorldBox[]): void {
     navigator.advance(ms);
     const { depthCamera: lookout } = navigator;
-    if (lookout) navigator.addGroundSamples(lookout, lookAround(lookout, boxes));
+    if (lookout) navigator.addGroundSamples(lookout, sampleGround(lookout, boxes));
   }
 
   test("walks on a floor by wheel and by two fingers too, and not on from where it is led elsewhere", () => {

@@ -1,6 +1,5 @@
-// Where the camera is, and why: viewpoints bind and unbind, hands and keys move
-// it, journeys lead it. Knows nothing of the document or the screen; whoever
-// draws asks `advance` for the pose of each frame.
+// The camera's pose over time: viewpoints bind, user input moves the camera, and transitions animate it. Independent of
+// the document and the screen; the renderer calls `advance` for the pose of each frame.
 
 import { Sphere, Vector3 } from "three";
 import type { NavigationDescription } from "../document/description.ts";
@@ -22,41 +21,44 @@ import type { Avatar } from "./walkableGround.ts";
 import type { DepthCamera, GroundSamples } from "./groundSamples.ts";
 import { WalkController } from "./walkController.ts";
 
-/** What the navigator must know of a scene. */
+/** The parts of a scene that the camera depends on. */
 export interface NavigatedScene {
-  /** Around all that is seen. */
+  /** Bounds everything visible. */
   readonly sphere: Sphere;
   readonly viewpoints: readonly ViewpointInstance[];
   readonly navigation: NavigationDescription;
 }
 
-/** Who moved the camera, in the words of <model-viewer>. */
+/** What moved the camera, in <model-viewer>'s terms. */
 export type ChangeSource = "user-interaction" | "automatic" | "none";
 
-/** A frame that came so much later is treated as if it came then: nobody wants to cover the time of a hidden tab. */
-const longestFrameSeconds = 0.1;
+/** A longer time between frames counts as this one, so that a hidden tab does not make the camera jump. */
+const maxFrameSeconds = 0.1;
 
 export class CameraController {
-  /** Journeys take no time, as people ask for who prefer reduced motion. */
+  /** Transitions take no time, for users who prefer reduced motion. */
   isInstant = false;
   readonly autoRotation: AutoRotation;
   readonly #onMove: () => void;
   readonly #onNavigation: () => void;
   readonly #viewpoints = new BindingStack<SceneElement>();
-  readonly #walker = new WalkController();
+  readonly #walk = new WalkController();
   #scene: NavigatedScene | undefined;
   #home = poseFraming(new Sphere(new Vector3(), 1));
   #homeKey = "";
   #camera = unsetCamera;
   #pose = this.#home;
-  #journey: CameraTransition | undefined;
-  #motion = noMovement;
+  #transition: CameraTransition | undefined;
+  #input = noMovement;
   #lastMs: number | undefined;
   #typesKey = "";
   #type: NavigationType = "examine";
   #source: ChangeSource = "none";
 
-  /** `onMove` is called when another frame is due, `onNavigation` when another viewpoint is bound or one moves in another way. */
+  /**
+   * `onMove` is called when another frame is due, `onNavigation` when another viewpoint is bound or the navigation type
+   * changes.
+   */
   constructor(onMove: () => void, onNavigation: () => void) {
     this.#onMove = onMove;
     this.#onNavigation = onNavigation;
@@ -67,12 +69,12 @@ export class CameraController {
     return this.#pose;
   }
 
-  /** At the bound viewpoint, or where all is framed at first. */
+  /** Whether the camera is at the bound viewpoint, or at the initial pose where there is none. */
   get isAtHome(): boolean {
     return this.#pose === this.#home;
   }
 
-  /** Why the pose last changed. */
+  /** What last changed the pose. */
   get source(): ChangeSource {
     return this.#source;
   }
@@ -85,8 +87,8 @@ export class CameraController {
   set type(type: NavigationType) {
     if (!this.allowedTypes.includes(type) || type === this.#type) return;
     this.#type = type;
-    this.#motion = noMovement;
-    this.#walker.stop();
+    this.#input = noMovement;
+    this.#walk.stop();
     this.#onNavigation();
   }
 
@@ -99,22 +101,25 @@ export class CameraController {
     return navigationTypesOf(this.#scene?.navigation.type ?? []).listed;
   }
 
-  /** What stands beside the viewpoints, and outweighs them; a change takes the camera with it. */
+  /** Sets the author's camera attributes, which take precedence over viewpoints; a change moves the camera. */
   setCamera(camera: CameraSetting): void {
     this.#camera = camera;
-    this.#followHome(this.#scene !== undefined);
+    this.#updateHome(this.#scene !== undefined);
   }
 
   get viewpoints(): readonly ViewpointInstance[] {
     return this.#scene?.viewpoints ?? [];
   }
 
-  /** The element of the viewpoint that is bound. */
+  /** The element of the bound viewpoint. */
   get bound(): SceneElement | undefined {
     return this.#viewpoints.bound;
   }
 
-  /** A viewpoint that is new here, bound or changed takes the camera with it; without one the scene stays framed until somebody moves. */
+  /**
+   * A newly bound or changed viewpoint moves the camera. Without viewpoints the camera frames the scene until the user
+   * moves it.
+   */
   setScene(scene: NavigatedScene): void {
     const isFirst = this.#scene === undefined;
     const before = this.bound;
@@ -123,11 +128,11 @@ export class CameraController {
     const typesKey = scene.navigation.type.join(" ");
     if (typesKey !== this.#typesKey) this.#type = navigationTypesOf(scene.navigation.type).first;
     this.#typesKey = typesKey;
-    this.#followHome(!isFirst && this.bound !== before);
+    this.#updateHome(!isFirst && this.bound !== before);
     this.#onNavigation();
   }
 
-  /** The name of the viewpoint at which the camera stands. */
+  /** The description of the viewpoint that the camera is at. */
   get viewpointName(): string | undefined {
     const placed = this.viewpoints.find(({ element }) => element === this.bound);
     return this.#pose === this.#home && placed?.viewpoint.description !== ""
@@ -140,64 +145,67 @@ export class CameraController {
     if (!this.viewpoints.some((viewpoint) => viewpoint.element === element)) return;
     if (isBound) this.#viewpoints.bind(element);
     else this.#viewpoints.unbind(element);
-    this.#followHome(true);
-    // Also when it was bound before: that is how one returns to it.
-    if (isBound) this.#travelTo(this.#home, "none");
+    this.#updateHome(true);
+    // Also where it was bound before: that is how a user returns to it.
+    if (isBound) this.#transitionTo(this.#home, "none");
     this.#onNavigation();
   }
 
-  /** Radians to the right and over the top. Who walks or flies looks about instead, so that what he sees follows his hand. */
+  /**
+   * Orbits by radians to the right and over the top. In WALK and FLY the camera looks around instead, so that the scene
+   * follows the pointer.
+   */
   turn(right: number, over: number): void {
     if (this.#type === "examine") {
       this.#moveTo(orbited(this.#pose, right, over));
     } else {
-      const share = this.#pose.fieldOfView / Math.PI; // half a turn is a hand's way across the view
+      const share = this.#pose.fieldOfView / Math.PI; // dragging across the whole view is half a turn
       this.#moveTo(lookedAround(this.#pose, -right * share, over * share));
     }
   }
 
-  /** Multiplies the distance to the centre; who walks or flies goes as far ahead. */
+  /** Multiplies the distance to the center; WALK and FLY move ahead instead. */
   zoom(factor: number): void {
     if (this.#type === "examine") this.#moveTo(zoomed(this.#pose, factor, this.#sphere));
     else this.#step(-Math.log(factor) * this.#speed, 0, 0);
   }
 
-  /** Shares of the view's shorter side by which the scene follows the hand. */
+  /** Moves the scene with the pointer, by fractions of the view's shorter side. */
   pan(right: number, up: number): void {
     if (this.#type === "examine") this.#moveTo(panned(this.#pose, right, up));
     else if (this.#type === "walk") this.#step(-up * this.#speed, -right * this.#speed, 0);
     else this.#step(0, -right * this.#speed, -up * this.#speed);
   }
 
-  /** Moves on and on like this, until it is told otherwise; for walking and flying. */
-  move(motion: MovementInput): void {
-    this.#motion = this.#type === "walk" || this.#type === "fly" ? motion : noMovement;
-    if (isNoMovement(this.#motion)) return;
-    this.#journey = undefined;
+  /** Sets the movement of WALK and FLY, which continues until the next call. */
+  move(input: MovementInput): void {
+    this.#input = this.#type === "walk" || this.#type === "fly" ? input : noMovement;
+    if (isNoMovement(this.#input)) return;
+    this.#transition = undefined;
     this.autoRotation.pause();
     this.#onMove();
   }
 
-  /** Back to the bound viewpoint. */
+  /** Returns to the bound viewpoint. */
   reset(): void {
-    if (this.#type !== "none") this.#travelTo(this.#home, "user-interaction");
+    if (this.#type !== "none") this.#transitionTo(this.#home, "user-interaction");
   }
 
   showAll(): void {
-    if (this.#type !== "none") this.#travelTo(poseShowingAll(this.#pose, this.#sphere), "user-interaction");
+    if (this.#type !== "none") this.#transitionTo(poseShowingAll(this.#pose, this.#sphere), "user-interaction");
   }
 
-  /** The pose at this moment, in milliseconds of any clock that goes on evenly. */
+  /** The pose at this time, in milliseconds of any steady clock. */
   advance(nowMs: number): Pose {
-    const seconds = Math.min((nowMs - (this.#lastMs ?? nowMs)) / 1000, longestFrameSeconds);
+    const seconds = Math.min((nowMs - (this.#lastMs ?? nowMs)) / 1000, maxFrameSeconds);
     this.#lastMs = nowMs;
-    if (this.#journey !== undefined) {
-      this.#pose = this.#journey.poseAt(nowMs);
-      if (this.#pose === this.#journey.to) this.#journey = undefined;
-    } else if (!isNoMovement(this.#motion) || this.#walker.isMoving) {
+    if (this.#transition !== undefined) {
+      this.#pose = this.#transition.poseAt(nowMs);
+      if (this.#pose === this.#transition.to) this.#transition = undefined;
+    } else if (!isNoMovement(this.#input) || this.#walk.isMoving) {
       this.#source = "user-interaction";
-      this.#travel(Math.max(seconds, 0));
-    } else if (this.#isTurning) {
+      this.#moveFor(Math.max(seconds, 0));
+    } else if (this.#isRotating) {
       this.#source = "automatic";
       this.#pose = orbited(this.#pose, this.autoRotation.radiansPerSecond * Math.max(seconds, 0), 0);
     }
@@ -205,27 +213,26 @@ export class CameraController {
     return this.#pose;
   }
 
-  /** What is nearer need not be seen. */
+  /** Nothing nearer than this need be drawn. */
   get clearance(): number {
     return clearanceOf(this.#type, this.#avatar);
   }
 
-  /** From where whoever draws is to look around, for somebody who walks. Undefined where nobody does. */
+  /** The depth camera that the renderer is to sample the ground with; undefined where no samples are needed. */
   get depthCamera(): DepthCamera | undefined {
-    return this.#type === "walk" ? this.#walker.depthCameraFor(this.#pose, this.#avatar, this.#speed) : undefined;
+    return this.#type === "walk" ? this.#walk.depthCameraFor(this.#pose, this.#avatar, this.#speed) : undefined;
   }
 
-  /** What was seen from there. */
-  addGroundSamples(lookout: DepthCamera, surroundings: GroundSamples): void {
-    this.#walker.addGroundSamples(lookout, surroundings);
+  addGroundSamples(camera: DepthCamera, samples: GroundSamples): void {
+    this.#walk.addGroundSamples(camera, samples);
   }
 
-  /** Whether the next frame will differ from the last without anybody doing anything. */
+  /** Whether the next frame differs from the last without further input. */
   get isMoving(): boolean {
-    return this.#journey !== undefined || !isNoMovement(this.#motion) || this.#walker.isMoving || this.#isTurning;
+    return this.#transition !== undefined || !isNoMovement(this.#input) || this.#walk.isMoving || this.#isRotating;
   }
 
-  get #isTurning(): boolean {
+  get #isRotating(): boolean {
     return this.autoRotation.isRotating && this.#type === "examine";
   }
 
@@ -233,78 +240,84 @@ export class CameraController {
     return this.#scene?.sphere ?? new Sphere(new Vector3(), 1);
   }
 
-  /** Lengths a second; where the document is silent, a third of the scene's radius, and on a floor no more than two bodies'. */
+  /**
+   * Scene units per second: NavigationInfo's speed, else a third of the scene's radius, on a floor at most two avatar
+   * heights.
+   */
   get #speed(): number {
-    const usual = this.#sphere.radius / 3;
-    return this.#scene?.navigation.speed ?? (this.#walker.isOnFloor ? Math.min(usual, 2 * this.#avatar.height) : usual);
+    const defaultSpeed = this.#sphere.radius / 3;
+    return (
+      this.#scene?.navigation.speed ??
+      (this.#walk.isOnFloor ? Math.min(defaultSpeed, 2 * this.#avatar.height) : defaultSpeed)
+    );
   }
 
   get #avatar(): Avatar {
     return avatarOf(this.#scene?.navigation, this.#sphere);
   }
 
-  /** By lengths in the scene, ahead, aside and up. */
+  /** Moves ahead, aside and up, by lengths in scene units. */
   #step(forward: number, right: number, up: number): void {
     const isWalking = this.#type === "walk";
     const pose = moved(this.#pose, forward, right, up, isWalking);
-    if (isWalking) this.#walker.push(pose.position.clone().sub(this.#pose.position), this.#speed);
+    if (isWalking) this.#walk.push(pose.position.clone().sub(this.#pose.position), this.#speed);
     this.#moveTo(isWalking ? this.#pose : pose);
   }
 
-  /** As keys that are held, and a walk that is not over, lead in this time. */
-  #travel(seconds: number): void {
+  /** Moves as held keys and the pending walk ask for in this time. */
+  #moveFor(seconds: number): void {
     if (this.#type !== "walk") {
-      this.#pose = movedFor(this.#pose, this.#motion, seconds, this.#speed, false);
+      this.#pose = movedFor(this.#pose, this.#input, seconds, this.#speed, false);
       return;
     }
-    const standing = this.#pose;
-    const wanted = movedFor(standing, this.#motion, seconds, this.#speed, true);
-    const way = wanted.position.clone().sub(standing.position);
-    if (way.lengthSq() > 0) this.#walker.push(way, this.#speed);
-    const looksAbout = this.#motion.turn !== 0 || this.#motion.look !== 0;
-    const facing = looksAbout
-      ? { ...wanted, position: standing.position, center: wanted.center.clone().sub(way) }
-      : standing;
-    this.#pose = this.#walker.walk(facing, seconds);
+    const previous = this.#pose;
+    const target = movedFor(previous, this.#input, seconds, this.#speed, true);
+    const move = target.position.clone().sub(previous.position);
+    if (move.lengthSq() > 0) this.#walk.push(move, this.#speed);
+    const isLooking = this.#input.turn !== 0 || this.#input.look !== 0;
+    const facing = isLooking
+      ? { ...target, position: previous.position, center: target.center.clone().sub(move) }
+      : previous;
+    this.#pose = this.#walk.walk(facing, seconds);
   }
 
   #moveTo(pose: Pose): void {
     if (this.#type === "none") return;
-    this.#journey = undefined;
+    this.#transition = undefined;
     this.#pose = this.#type === "examine" ? poseWithin(pose, this.#camera, this.#sphere) : pose;
     this.#source = "user-interaction";
     this.autoRotation.pause();
     this.#onMove();
   }
 
-  #travelTo(pose: Pose, source: ChangeSource): void {
+  #transitionTo(pose: Pose, source: ChangeSource): void {
     const { transitionType, transitionTime } = this.#scene?.navigation ?? { transitionType: [], transitionTime: 0 };
     const isInstant = this.isInstant || transitionType[0]?.toUpperCase() === "TELEPORT" || transitionTime <= 0;
     this.#source = source;
     this.autoRotation.pause();
-    this.#walker.stop();
-    this.#journey = isInstant ? undefined : new CameraTransition(this.#pose, pose, transitionTime * 1000);
+    this.#walk.stop();
+    this.#transition = isInstant ? undefined : new CameraTransition(this.#pose, pose, transitionTime * 1000);
     if (isInstant) this.#pose = pose;
     this.#onMove();
   }
 
-  /** Home is the bound viewpoint or the whole scene, and what the author says of the camera. */
-  #followHome(isJourney: boolean): void {
+  /** Recomputes the home pose and moves the camera there where it has changed; `isAnimated`: by a transition. */
+  #updateHome(isAnimated: boolean): void {
     const viewpoint = boundPoseOf(this.#viewpoints, this.viewpoints);
     const home = homePoseOf(viewpoint, this.#camera, this.#sphere);
     const key = JSON.stringify([viewpoint, this.#camera]);
-    const isOther = key !== this.#homeKey;
-    if (!isOther && JSON.stringify(home) === JSON.stringify(this.#home)) return;
+    const hasChanged = key !== this.#homeKey;
+    if (!hasChanged && JSON.stringify(home) === JSON.stringify(this.#home)) return;
     const wasAtHome = this.#pose === this.#home;
     this.#homeKey = key;
     this.#home = home;
-    // A home that has merely grown with the scene takes nobody along who has left it.
-    if (!isOther && !wasAtHome) return;
-    if (isOther && isJourney) {
-      this.#travelTo(this.#home, "none");
+    // A home pose that has only grown with the scene does not move a camera that has left it.
+    if (!hasChanged && !wasAtHome) return;
+    if (hasChanged && isAnimated) {
+      this.#transitionTo(this.#home, "none");
     } else {
-      this.#journey = undefined;
-      this.#walker.stop();
+      this.#transition = undefined;
+      this.#walk.stop();
       this.#pose = this.#home;
       this.#source = "none";
       this.#onMove();

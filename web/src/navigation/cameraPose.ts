@@ -1,23 +1,25 @@
-// The camera as a pose: pure functions from one pose to the next, in double
-// precision. Turning is about the pose's own `up`.
+// Camera poses, and pure functions from one pose to the next, in double precision. Rotations are about the pose's `up`.
 
-import type { PerspectiveCamera } from "three";
-import { MathUtils, Matrix4, Quaternion, Sphere, Vector3 } from "three";
+import type { PerspectiveCamera , Sphere} from "three";
+import { MathUtils, Matrix4, Quaternion, Vector3 } from "three";
 import type { ViewpointInstance } from "../scene/instances.ts";
 
 export interface Pose {
   readonly position: Vector3;
   readonly orientation: Quaternion;
-  /** What turning turns around and zooming comes near. */
+  /** The center that orbiting rotates about and zooming approaches. */
   readonly center: Vector3;
   readonly up: Vector3;
-  /** Radians, along the shorter side of what has to be seen. */
+  /** Radians, along the shorter side of the area that must be visible. */
   readonly fieldOfView: number;
-  /** Of what has to be seen, width over height; 1 where it is absent. */
+  /** Width over height of the area that must be visible; 1 where absent. */
   readonly aspectRatio?: number | undefined;
 }
 
-/** Transforms around a viewpoint move and turn it; their scale moves it only, since X3D leaves open what a stretched view is. */
+/**
+ * The pose of a viewpoint. Transforms around it rotate and move it; their scale affects its position only, since X3D
+ * does not define a scaled view.
+ */
 export function poseOfViewpoint({ viewpoint, sceneFromViewpoint }: Omit<ViewpointInstance, "element">): Pose {
   const [x, y, z, angle] = viewpoint.orientation;
   const frame = new Quaternion();
@@ -29,14 +31,17 @@ export function poseOfViewpoint({ viewpoint, sceneFromViewpoint }: Omit<Viewpoin
     position: new Vector3(...viewpoint.position).applyMatrix4(sceneFromViewpoint),
     orientation,
     center: new Vector3(...viewpoint.centerOfRotation).applyMatrix4(sceneFromViewpoint),
-    up: uprightOf(orientation, new Vector3(0, 1, 0).applyQuaternion(frame)),
+    up: upAxisOf(orientation, new Vector3(0, 1, 0).applyQuaternion(frame)),
     fieldOfView: MathUtils.clamp(viewpoint.fieldOfView, 0.01, 3.1),
     aspectRatio: viewpoint.aspectRatio,
   };
 }
 
-/** X3D's up, +y around the viewpoint, so that a statue keeps standing; the camera's own where it is tilted or looks along it. */
-function uprightOf(orientation: Quaternion, upright: Vector3): Vector3 {
+/**
+ * The axis that user rotations keep: +y of the viewpoint's frame, or the camera's own up where it is tilted or looks
+ * along +y.
+ */
+function upAxisOf(orientation: Quaternion, upright: Vector3): Vector3 {
   const [right, up, back] = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].map((axis) =>
     axis.applyQuaternion(orientation),
   ) as [Vector3, Vector3, Vector3];
@@ -46,7 +51,7 @@ function uprightOf(orientation: Quaternion, upright: Vector3): Vector3 {
 
 const defaultFieldOfView = 0.7854;
 
-/** Sees the whole sphere from slightly above and beside, where the document has no Viewpoint. */
+/** The pose for a document without Viewpoint: shows the whole sphere, from slightly above and from the side. */
 export function poseFraming(sphere: Sphere): Pose {
   return poseShowingAll(
     {
@@ -60,19 +65,19 @@ export function poseFraming(sphere: Sphere): Pose {
   );
 }
 
-/** From where the sphere just fills the shorter side of the view. */
+/** The distance at which the sphere just fills the shorter side of the view. */
 export function framingDistance(sphere: Sphere, fieldOfView: number): number {
   return Math.max(sphere.radius, 1e-9) / Math.sin(fieldOfView / 2);
 }
 
-/** The same direction of view, so far away that the whole sphere is seen. */
+/** The same viewing direction, at a distance that shows the whole sphere. */
 export function poseShowingAll(pose: Pose, sphere: Sphere): Pose {
   const distance = framingDistance(sphere, pose.fieldOfView);
   const center = sphere.center.clone();
   return { ...pose, center, position: center.clone().addScaledVector(forwardOf(pose), -distance) };
 }
 
-/** Turns around the centre by angles in radians: to the right around `up`, and over the top; never past a pole. */
+/** Orbits around the center by angles in radians: to the right about `up`, and over the top, but not past a pole. */
 export function orbited(pose: Pose, right: number, over: number): Pose {
   const turn = boundedRotation(pose, right, over);
   return {
@@ -82,37 +87,39 @@ export function orbited(pose: Pose, right: number, over: number): Pose {
   };
 }
 
-/** What turns a camera to the right around `up` and downwards, but never past a pole. */
+/** The rotation of a camera to the right about `up` and downwards, but not past a pole. */
 export function boundedRotation(pose: Pose, right: number, down: number): Quaternion {
   const sideways = new Vector3(1, 0, 0).applyQuaternion(pose.orientation);
   const towards = forwardOf(pose).angleTo(pose.up); // 0: looks along up; pi: straight down, from over the top
-  const nearestToPole = 0.02;
-  const pitch = MathUtils.clamp(down, nearestToPole - towards, Math.PI - nearestToPole - towards);
+  const minPoleAngle = 0.02;
+  const pitch = MathUtils.clamp(down, minPoleAngle - towards, Math.PI - minPoleAngle - towards);
   return new Quaternion()
     .setFromAxisAngle(pose.up, -right)
     .multiply(new Quaternion().setFromAxisAngle(sideways, -pitch));
 }
 
-/** Multiplies the distance to the centre, between a thousandth of the scene's radius and a thousand of them. */
+/** Multiplies the distance to the center, within 1/1000 … 1000 of the scene's radius. */
 export function zoomed(pose: Pose, factor: number, sphere: Sphere): Pose {
   const distance = pose.position.distanceTo(pose.center);
-  const least = Math.min(distance, sphere.radius / 1000);
-  const most = Math.max(distance, sphere.radius * 1000);
-  const wanted = MathUtils.clamp(distance * factor, least, most);
+  const minDistance = Math.min(distance, sphere.radius / 1000);
+  const maxDistance = Math.max(distance, sphere.radius * 1000);
+  const newDistance = MathUtils.clamp(distance * factor, minDistance, maxDistance);
   return {
     ...pose,
-    position: pose.center.clone().addScaledVector(pose.position.clone().sub(pose.center), wanted / (distance || 1)),
+    position: pose.center
+      .clone()
+      .addScaledVector(pose.position.clone().sub(pose.center), newDistance / (distance || 1)),
   };
 }
 
-/** Shifts what is seen by shares of the view's shorter side, as seen at the centre. */
+/** Moves the scene by fractions of the view's shorter side, measured at the center. */
 export function panned(pose: Pose, right: number, up: number): Pose {
   const extent = 2 * Math.tan(pose.fieldOfView / 2) * pose.position.distanceTo(pose.center);
   const shift = new Vector3(-right * extent, -up * extent, 0).applyQuaternion(pose.orientation);
   return { ...pose, position: pose.position.clone().add(shift), center: pose.center.clone().add(shift) };
 }
 
-/** What a camera sees of a scene; lengths in the scene's coordinates. */
+/** A camera's field of view and clipping planes, in scene units. */
 export interface Lens {
   /** Radians, from the top to the bottom of the view. */
   readonly fieldOfView: number;
@@ -121,16 +128,16 @@ export interface Lens {
 }
 
 /**
- * For a view of `aspect` (width / height) onto a scene inside `sphere`. From inside,
- * what is nearer than `clearance` need not be seen.
+ * The lens for a view of `aspect` (width / height) onto a scene inside `sphere`. For a camera inside the sphere,
+ * `clearance` is how near nothing need be drawn.
  */
 export function lensOf(pose: Pose, aspect: number, sphere: Sphere, clearance: number): Lens {
-  const proportion = pose.aspectRatio ?? 1;
-  // Of what has to be seen; a view of another shape shows more of one side, never less of the other.
-  const [width, height] = [Math.max(proportion, 1), Math.max(1 / proportion, 1)];
+  const aspectRatio = pose.aspectRatio ?? 1;
+  // The area that must be visible; a view of another shape shows more along one side and not less along the other.
+  const [width, height] = [Math.max(aspectRatio, 1), Math.max(1 / aspectRatio, 1)];
   const half = Math.tan(pose.fieldOfView / 2) * Math.max(height, width / aspect);
-  // Depth is spent on the scene alone; from inside, a ten-thousandth of the depth is near enough,
-  // and a hundredth still leaves a room's walls standing whose author says that nobody gets so close.
+  // Depth precision is spent on the scene only. Inside it the near plane is at 1/10000 … 1/100 of the far plane: 1/100
+  // still shows the walls of a room whose author allows no smaller clearance.
   const distance = pose.position.distanceTo(sphere.center);
   const radius = Math.max(sphere.radius * 1.01, 1e-9);
   const far = distance + radius;
@@ -138,7 +145,7 @@ export function lensOf(pose: Pose, aspect: number, sphere: Sphere, clearance: nu
   return { fieldOfView: 2 * Math.atan(half), near, far };
 }
 
-/** Sets the camera up to see so. */
+/** Sets the camera to a pose. */
 export function applyPose(camera: PerspectiveCamera, pose: Pose, aspect: number, sphere: Sphere, clearance = 0): void {
   camera.position.copy(pose.position);
   camera.quaternion.copy(pose.orientation);

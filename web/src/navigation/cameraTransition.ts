@@ -1,43 +1,42 @@
-// From one pose to another. What is interpolated is what people watch: the
-// centre, the way to the eye as the camera sees it, and the orientation. A
-// camera that goes around to the other side of a statue so keeps its distance
-// instead of flying through.
+// Animated transitions from one camera pose to another. They interpolate the center of rotation, the orientation, and
+// the offset from the center to the eye in the camera's own axes: a camera that goes to the other side of a statue so
+// keeps its distance instead of flying through it.
 
 import { MathUtils } from "three";
 import type { Pose } from "./cameraPose.ts";
 
-/** `share` 0 is exactly `from`, 1 exactly `to`. */
-export function interpolatePose(from: Pose, to: Pose, share: number): Pose {
-  if (share <= 0) return from;
-  if (share >= 1) return to;
-  const orientation = from.orientation.clone().slerp(to.orientation, share);
-  const center = from.center.clone().lerp(to.center, share);
-  const [a, b] = [towardsEye(from), towardsEye(to)];
-  const distance = a.length() * (b.length() / (a.length() || 1)) ** share; // zooming feels even in ratios
-  const direction = a.clone().lerp(b, share);
+/** `t` is 0 … 1; 0 gives exactly `from` and 1 exactly `to`. */
+export function interpolatePose(from: Pose, to: Pose, t: number): Pose {
+  if (t <= 0) return from;
+  if (t >= 1) return to;
+  const orientation = from.orientation.clone().slerp(to.orientation, t);
+  const center = from.center.clone().lerp(to.center, t);
+  const [a, b] = [eyeOffsetOf(from), eyeOffsetOf(to)];
+  const distance = a.length() * (b.length() / (a.length() || 1)) ** t; // geometric, so that zooming looks even
+  const direction = a.clone().lerp(b, t);
   const isDirected = direction.length() > 1e-3 * Math.max(a.length(), b.length()) && a.length() > 0 && b.length() > 0;
   const eye = isDirected ? direction.setLength(distance) : direction;
   return {
     position: center.clone().add(eye.applyQuaternion(orientation)),
     orientation,
     center,
-    up: from.up.clone().lerp(to.up, share).normalize(),
-    fieldOfView: MathUtils.lerp(from.fieldOfView, to.fieldOfView, share),
-    aspectRatio: MathUtils.lerp(from.aspectRatio ?? 1, to.aspectRatio ?? 1, share),
+    up: from.up.clone().lerp(to.up, t).normalize(),
+    fieldOfView: MathUtils.lerp(from.fieldOfView, to.fieldOfView, t),
+    aspectRatio: MathUtils.lerp(from.aspectRatio ?? 1, to.aspectRatio ?? 1, t),
   };
 }
 
-/** From the centre to the eye, in the camera's own axes. */
-function towardsEye(pose: Pose) {
+/** The offset from the center to the eye, in the camera's own axes. */
+function eyeOffsetOf(pose: Pose) {
   return pose.position.clone().sub(pose.center).applyQuaternion(pose.orientation.clone().invert());
 }
 
-/** A journey in time: begins with the first call, slow at both ends. */
+/** A transition in time with ease-in and ease-out. It begins with the first call of `poseAt`. */
 export class CameraTransition {
   readonly to: Pose;
   readonly #from: Pose;
   readonly #durationMs: number;
-  #beganMs: number | undefined;
+  #startMs: number | undefined;
 
   constructor(from: Pose, to: Pose, durationMs: number) {
     this.to = to;
@@ -46,8 +45,8 @@ export class CameraTransition {
   }
 
   poseAt(nowMs: number): Pose {
-    this.#beganMs ??= nowMs;
-    const share = this.#durationMs > 0 ? (nowMs - this.#beganMs) / this.#durationMs : 1;
-    return interpolatePose(this.#from, this.to, MathUtils.smoothstep(share, 0, 1));
+    this.#startMs ??= nowMs;
+    const t = this.#durationMs > 0 ? (nowMs - this.#startMs) / this.#durationMs : 1;
+    return interpolatePose(this.#from, this.to, MathUtils.smoothstep(t, 0, 1));
   }
 }

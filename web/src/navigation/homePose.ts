@@ -1,4 +1,4 @@
-// Where the camera stands as long as nobody moves it.
+// The home pose, which the camera has until the user moves it, and the avatar that NavigationInfo describes.
 
 import type { Sphere } from "three";
 import type { NavigationDescription } from "../document/description.ts";
@@ -12,39 +12,43 @@ import type { NavigationType } from "./navigationType.ts";
 import type { CameraSetting } from "./orbit.ts";
 import { poseWith } from "./orbit.ts";
 
-/** Those that are new to the stack, and say that they want to, are bound. */
+/** Sets the stack's viewpoints and binds new ones that ask for it (set_bind or bind). */
 export function bindViewpoints(stack: BindingStack<SceneElement>, viewpoints: readonly ViewpointInstance[]): void {
-  const wanted = new Set(
+  const bindRequests = new Set(
     viewpoints.filter(({ viewpoint }) => viewpoint.set_bind || viewpoint.bind).map(({ element }) => element),
   );
   stack.setNodes(
     viewpoints.map(({ element }) => element),
-    (element) => wanted.has(element),
+    (element) => bindRequests.has(element),
   );
 }
 
-/** At the bound viewpoint, or so that all is seen; and what the author says of the camera. */
+/** The bound viewpoint, or a pose that shows the whole scene, with the author's camera attributes applied. */
 export function homePoseOf(viewpoint: Pose | undefined, camera: CameraSetting, sphere: Sphere): Pose {
   return poseWith(viewpoint ?? poseFraming(sphere), camera, sphere);
 }
 
+/** The pose of the bound viewpoint. */
 export function boundPoseOf(
   stack: BindingStack<SceneElement>,
   viewpoints: readonly ViewpointInstance[],
 ): Pose | undefined {
-  const placed = viewpoints.find(({ element }) => element === stack.bound);
-  return placed && poseOfViewpoint(placed);
+  const bound = viewpoints.find(({ element }) => element === stack.bound);
+  return bound && poseOfViewpoint(bound);
 }
 
-/** Who goes through a scene: what `avatarSize` says, and X3D's usual person. */
+/** The avatar of `avatarSize`, with X3D's defaults. */
 export function avatarOf(navigation: NavigationDescription | undefined, sphere: Sphere): Avatar {
   const [radius = 0.25, height = 1.6, step = 0.75] = navigation?.avatarSize ?? [];
-  // Nobody is so thin that his way is cut into more than a few paces.
-  const least = Math.max(height / 100, sphere.radius * 1e-6);
-  return { radius: Math.max(radius, least), height: Math.max(height, 0), step: Math.max(step, 0) };
+  // A lower bound, because a walk is cut into steps of half the radius.
+  const minRadius = Math.max(height / 100, sphere.radius * 1e-6);
+  return { radius: Math.max(radius, minRadius), height: Math.max(height, 0), step: Math.max(step, 0) };
 }
 
-/** Half of the distance that an avatar keeps from things (ISO/IEC 19775-1, 23.4.4); who examines keeps none. */
+/**
+ * The distance nearer than which nothing need be drawn: half the avatar's radius (ISO/IEC 19775-1, 23.4.4), 0 for
+ * EXAMINE.
+ */
 export function clearanceOf(type: NavigationType, { radius }: Avatar): number {
   return type === "walk" || type === "fly" ? radius / 2 : 0;
 }

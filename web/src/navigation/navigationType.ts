@@ -1,9 +1,9 @@
-// NavigationInfo's `type`: how one may move, and how one moves at first.
+// NavigationInfo's `type`: the ways to move that a scene allows, and the first one.
 
-/** To turn what is seen, to walk on a level, to fly, or not to move at all. */
+/** Orbiting the scene, walking on the ground, flying, or no movement. */
 export type NavigationType = "examine" | "walk" | "fly" | "none";
 
-/** X3D's names and X3DOM's, by what they come to here. */
+/** X3D's and X3DOM's names. */
 const typesByName: Readonly<Record<string, NavigationType>> = {
   EXAMINE: "examine",
   TURNTABLE: "examine",
@@ -20,13 +20,13 @@ const movingTypes: readonly NavigationType[] = ["examine", "walk", "fly"];
 
 export interface NavigationTypes {
   readonly first: NavigationType;
-  /** Those that are named. */
+  /** Those that the scene names. */
   readonly listed: readonly NavigationType[];
-  /** Those that people may choose. */
+  /** Those that the user may choose. */
   readonly allowed: readonly NavigationType[];
 }
 
-/** The first name that is known counts; with ANY, or where none is known, people may choose among all. */
+/** The first known name is the initial type. With ANY, or without a known name, the user may choose among all. */
 export function navigationTypesOf(names: readonly string[]): NavigationTypes {
   const known = names.flatMap((name) => typesByName[name.trim().toUpperCase()] ?? []);
   const isAny = names.some((name) => name.trim().toUpperCase() === "ANY");

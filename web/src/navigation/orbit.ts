@@ -1,30 +1,29 @@
-// A pose as a place on a sphere around its centre, in the words of
-// <model-viewer>: theta around the up axis from +z towards +x, phi down from
-// above, and the radius.
+// A camera pose in spherical coordinates around its center, as <model-viewer> has them: theta about the up axis from +z
+// towards +x, phi from the up axis, and the radius.
 
 import type { Sphere } from "three";
 import { MathUtils, Matrix4, Quaternion, Vector3 } from "three";
 import type { Pose } from "./cameraPose.ts";
 import { framingDistance } from "./cameraPose.ts";
 
-/** Angles in radians: theta any, phi 0 (above) … π (below). */
+/** Angles in radians: theta unbounded, phi 0 (above) … π (below). */
 export interface Orbit {
   readonly theta: number;
   readonly phi: number;
   readonly radius: number;
 }
 
-/** A length in the scene, or a share of the distance from which the scene fills the view. */
+/** A length in scene units, or a multiple of the distance at which the scene fills the view. */
 export type RadiusSetting = { readonly length: number } | { readonly share: number };
 
-/** What an author says of an orbit; undefined: as it is otherwise. */
+/** The author's values of an orbit; undefined: not set. */
 export interface OrbitSetting {
   readonly theta: number | undefined;
   readonly phi: number | undefined;
   readonly radius: RadiusSetting | undefined;
 }
 
-/** What an author says of the camera, beside the viewpoints. */
+/** The author's camera attributes. */
 export interface CameraSetting {
   readonly orbit: OrbitSetting | undefined;
   readonly target: readonly [number, number, number] | undefined;
@@ -42,8 +41,8 @@ export const unsetCamera: CameraSetting = {
   maxOrbit: undefined,
 };
 
-/** So near to a pole the camera has no horizon any more. */
-const nearestToPole = 0.02;
+/** The smallest angle between the view direction and the up axis: the horizon is undefined at a pole. */
+const minPoleAngle = 0.02;
 
 export function orbitOf(pose: Pose): Orbit {
   const towardsEye = pose.position.clone().sub(pose.center);
@@ -53,41 +52,41 @@ export function orbitOf(pose: Pose): Orbit {
   return { theta: Math.atan2(x, z), phi: Math.acos(MathUtils.clamp(y / radius, -1, 1)), radius };
 }
 
-/** The same centre seen from a place on the orbit, upright. */
+/** The pose that looks at the same center from a point of the orbit, upright. */
 export function poseOnOrbit(pose: Pose, { theta, phi, radius }: Orbit): Pose {
-  const steep = MathUtils.clamp(phi, nearestToPole, Math.PI - nearestToPole);
+  const steep = MathUtils.clamp(phi, minPoleAngle, Math.PI - minPoleAngle);
   const towardsEye = new Vector3().setFromSphericalCoords(radius, steep, theta).applyQuaternion(uprightFrame(pose.up));
   const position = pose.center.clone().add(towardsEye);
   const orientation = new Quaternion().setFromRotationMatrix(new Matrix4().lookAt(position, pose.center, pose.up));
   return { ...pose, position, orientation };
 }
 
-/** The pose with what the author says of the camera in its place. */
+/** The pose with the author's camera attributes applied. */
 export function poseWith(pose: Pose, { orbit, target, fieldOfView }: CameraSetting, sphere: Sphere): Pose {
-  const placed = {
+  const withAttributes = {
     ...pose,
     fieldOfView: fieldOfView ?? pose.fieldOfView,
     center: target ? new Vector3(...target) : pose.center,
   };
-  if (orbit === undefined && target === undefined) return placed;
+  if (orbit === undefined && target === undefined) return withAttributes;
   const before = orbitOf(pose);
-  return poseOnOrbit(placed, {
+  return poseOnOrbit(withAttributes, {
     theta: orbit?.theta ?? before.theta,
     phi: orbit?.phi ?? before.phi,
-    radius: lengthOf(orbit?.radius, placed, sphere) ?? before.radius,
+    radius: lengthOf(orbit?.radius, withAttributes, sphere) ?? before.radius,
   });
 }
 
-/** The nearest pose between the author's bounds. Theta is bounded only where both bounds are said. */
+/** The nearest pose within the author's bounds. Theta is bounded only where both bounds are set. */
 export function poseWithin(pose: Pose, { minOrbit, maxOrbit }: CameraSetting, sphere: Sphere): Pose {
   if (minOrbit === undefined && maxOrbit === undefined) return pose;
   const { theta, phi, radius } = orbitOf(pose);
-  const [least, most] = [minOrbit?.theta, maxOrbit?.theta];
+  const [minTheta, maxTheta] = [minOrbit?.theta, maxOrbit?.theta];
   const bounded = {
     theta:
-      least === undefined || most === undefined
+      minTheta === undefined || maxTheta === undefined
         ? theta
-        : MathUtils.clamp(turnNearest(theta, (least + most) / 2), least, most),
+        : MathUtils.clamp(angleNearest(theta, (minTheta + maxTheta) / 2), minTheta, maxTheta),
     phi: MathUtils.clamp(phi, minOrbit?.phi ?? 0, maxOrbit?.phi ?? Math.PI),
     radius: MathUtils.clamp(
       radius,
@@ -96,7 +95,7 @@ export function poseWithin(pose: Pose, { minOrbit, maxOrbit }: CameraSetting, sp
     ),
   };
   const isWithin =
-    bounded.phi === phi && bounded.radius === radius && Math.abs(turnNearest(bounded.theta, theta) - theta) < 1e-9;
+    bounded.phi === phi && bounded.radius === radius && Math.abs(angleNearest(bounded.theta, theta) - theta) < 1e-9;
   return isWithin ? pose : poseOnOrbit(pose, bounded);
 }
 
@@ -105,12 +104,12 @@ function lengthOf(radius: RadiusSetting | undefined, pose: Pose, sphere: Sphere)
   return "length" in radius ? radius.length : radius.share * framingDistance(sphere, pose.fieldOfView);
 }
 
-/** The same angle, less than half a turn from `to`. */
-function turnNearest(angle: number, to: number): number {
+/** The equivalent angle at most half a turn from `to`. */
+function angleNearest(angle: number, to: number): number {
   return angle + 2 * Math.PI * Math.round((to - angle) / (2 * Math.PI));
 }
 
-/** Turns +y to `up`, the shortest way. */
+/** The shortest rotation from +y to `up`. */
 function uprightFrame(up: Vector3): Quaternion {
   return new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), up);
 }

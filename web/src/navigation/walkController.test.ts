@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { Quaternion, Vector3 } from "three";
 import type { WorldBox } from "./boxWorld.testing.ts";
-import { highestBelow, lookAround } from "./boxWorld.testing.ts";
+import { highestBelow, sampleGround } from "./boxWorld.testing.ts";
 import type { Pose } from "./cameraPose.ts";
 import { WalkController } from "./walkController.ts";
 
@@ -32,7 +32,7 @@ function step(walker: WalkController, pose: Pose, boxes: readonly WorldBox[], wa
   if (way) walker.push(way.clone().multiplyScalar(speed * frame), speed);
   const next = walker.walk(pose, frame);
   const lookout = walker.depthCameraFor(next, avatar, speed);
-  if (lookout) walker.addGroundSamples(lookout, lookAround(lookout, boxes));
+  if (lookout) walker.addGroundSamples(lookout, sampleGround(lookout, boxes));
   return next;
 }
 
@@ -159,7 +159,7 @@ describe("who walks", () => {
       const lookout = walker.depthCameraFor(pose, avatar, speed);
       if (lookout === undefined) continue;
       const eye = lookout.eye.clone().applyQuaternion(back);
-      walker.addGroundSamples(lookout, lookAround({ ...lookout, eye, orientation: new Quaternion() }, [ground]));
+      walker.addGroundSamples(lookout, sampleGround({ ...lookout, eye, orientation: new Quaternion() }, [ground]));
     }
     const { x, y, z } = pose.position.clone().applyQuaternion(back);
     near(x, 0);
@@ -179,7 +179,7 @@ describe("what is known", () => {
     assert.equal(walker.depthCameraFor(pose, avatar, speed), lookout);
     walker.stop();
     assert.equal(walker.depthCameraFor(pose, avatar, speed), undefined);
-    walker.addGroundSamples(lookout, lookAround(lookout, [ground])); // too late
+    walker.addGroundSamples(lookout, sampleGround(lookout, [ground])); // too late
     walker.push(ahead, speed);
     assert.equal(walker.walk(pose, frame), pose);
   });
@@ -202,12 +202,12 @@ describe("what is known", () => {
     walker.push(ahead, speed);
     const lookout = walker.depthCameraFor(pose, avatar, speed);
     assert.ok(lookout);
-    walker.addGroundSamples(lookout, lookAround(lookout, [ground]));
+    walker.addGroundSamples(lookout, sampleGround(lookout, [ground]));
     for (let count = 0; count < 600; ++count) {
       walker.push(ahead.clone().multiplyScalar(speed * frame), speed);
       pose = walker.walk(pose, frame);
     }
-    assert.ok(pose.position.z < -0.5 && pose.position.z >= -(lookout.reach - avatar.radius), `${pose.position.z}`);
+    assert.ok(pose.position.z < -0.5 && pose.position.z >= -(lookout.range - avatar.radius), `${pose.position.z}`);
   });
 });
 

@@ -1,7 +1,7 @@
-// Walks: goes where it is asked to as far as there is floor and nothing in the
-// way, climbs what is no higher than a step, falls where the floor ends. It knows
-// only what the last look around has shown, and never goes beyond; while nobody
-// moves it asks for no other.
+// The camera controller of the WALK type: moves an avatar over walkable ground, past obstacles, up steps, and down
+// where
+// the floor ends. It moves only within the area that the latest ground samples cover, and asks for new samples only
+// while the avatar moves.
 
 import { Quaternion, Vector3 } from "three";
 import type { Pose } from "./cameraPose.ts";
@@ -10,132 +10,135 @@ import { WalkableGround } from "./walkableGround.ts";
 import type { DepthCamera, GroundSamples } from "./groundSamples.ts";
 import { sceneFromCamera, cameraFromScene } from "./groundSamples.ts";
 
-/** Of a body's height: what it falls faster in each second, as people of 1.6 m do in metres. */
+/** In avatar heights per second squared: 9.8 m/s² for an avatar of 1.6 m. */
 const gravity = 9.8 / 1.6;
-/** Steps that are climbed in a second. */
+/** Step heights climbed per second. */
 const climbRate = 4;
-/** What is asked for while nothing is known is done later, but not more of it than so many seconds' way. */
-const mostPatience = 0.25;
-/** How far one looks: seconds of way, and of falling aside. */
-const foresight = 0.4;
+/** Movement requested while samples are missing is carried out later, up to this many seconds of it. */
+const maxBacklogSeconds = 0.25;
+/** The ground samples cover the movement of this many seconds. */
+const lookAheadSeconds = 0.4;
 
 export class WalkController {
-  /** Asked for and not gone yet. */
-  #way = new Vector3();
-  #speedOfFall = 0;
+  /** The requested movement that is still to be carried out. */
+  #pendingMove = new Vector3();
+  #fallSpeed = 0;
   #isSettled = true;
-  #lookout: DepthCamera | undefined;
-  #known: { readonly lookout: DepthCamera; readonly footing: WalkableGround } | undefined;
+  #requested: DepthCamera | undefined;
+  #known: { readonly camera: DepthCamera; readonly ground: WalkableGround } | undefined;
   #avatar: Avatar = { radius: 0, height: 0, step: 0 };
 
-  /** Another frame will differ from the last. */
+  /** Whether the next frame differs from the last. */
   get isMoving(): boolean {
-    return !this.#isSettled || this.#way.lengthSq() > 0;
+    return !this.#isSettled || this.#pendingMove.lengthSq() > 0;
   }
 
-  /** On a floor, as far as it knows. */
+  /** Whether the latest samples show a floor below the avatar. */
   get isOnFloor(): boolean {
-    return this.#known?.footing.isHovering === false;
+    return this.#known?.ground.isHovering === false;
   }
 
-  /** Another way to go, on top of what is asked for already; `speed` is the usual one, in lengths a second. */
-  push(way: Vector3, speed: number): void {
-    this.#way.add(way).clampLength(0, Math.max(speed * mostPatience, way.length()));
+  /** Requests more movement; `speed`, in scene units per second, bounds how much is kept. */
+  push(move: Vector3, speed: number): void {
+    this.#pendingMove.add(move).clampLength(0, Math.max(speed * maxBacklogSeconds, move.length()));
     this.#isSettled = false;
   }
 
-  /** Forgets everything: somebody else has moved the camera. */
+  /** Discards pending movement and samples: something else has moved the camera. */
   stop(): void {
-    this.#way.set(0, 0, 0);
-    this.#speedOfFall = 0;
+    this.#pendingMove.set(0, 0, 0);
+    this.#fallSpeed = 0;
     this.#isSettled = true;
     this.#known = undefined;
-    this.#lookout = undefined;
+    this.#requested = undefined;
   }
 
-  /** What must be looked at before it can go on; the same object until it has been. Undefined while nothing moves. */
+  /**
+   * The depth camera to sample the ground with before the avatar can move on; the same object until the samples are
+   * here. Undefined while nothing moves.
+   */
   depthCameraFor(pose: Pose, avatar: Avatar, speed: number): DepthCamera | undefined {
     if (!this.isMoving) return undefined;
-    this.#lookout ??= {
+    this.#requested ??= {
       eye: pose.position.clone(),
       orientation: new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), pose.up),
-      reach: 3 * avatar.radius + speed * foresight,
+      range: 3 * avatar.radius + speed * lookAheadSeconds,
     };
     this.#avatar = avatar;
-    return this.#lookout;
+    return this.#requested;
   }
 
-  /** What was seen from there; of use only while nobody else has moved the camera. */
-  addGroundSamples(lookout: DepthCamera, surroundings: GroundSamples): void {
-    if (lookout !== this.#lookout) return;
-    this.#lookout = undefined;
-    this.#known = { lookout, footing: new WalkableGround(surroundings, lookout.reach, this.#avatar) };
+  /** Takes the samples of a depth camera; ignored where the camera has been moved since. */
+  addGroundSamples(camera: DepthCamera, samples: GroundSamples): void {
+    if (camera !== this.#requested) return;
+    this.#requested = undefined;
+    this.#known = { camera, ground: new WalkableGround(samples, camera.range, this.#avatar) };
   }
 
-  /** Where the eye is some seconds later. */
+  /** The pose some seconds later. */
   walk(pose: Pose, seconds: number): Pose {
     if (this.#known === undefined || !this.isMoving) return pose;
-    const { lookout, footing } = this.#known;
-    const eye = cameraFromScene(lookout, pose.position);
-    const rise = footing.isHovering ? this.#way.dot(pose.up) : 0;
-    const place = this.#go(eye, lookout, footing);
-    const height = this.#heightAt(place, eye.y + rise, footing, seconds);
-    const position = sceneFromCamera(lookout, new Vector3(place.x, height, place.z));
+    const { camera, ground } = this.#known;
+    const eye = cameraFromScene(camera, pose.position);
+    const rise = ground.isHovering ? this.#pendingMove.dot(pose.up) : 0;
+    const point = this.#moveAlongGround(eye, camera, ground);
+    const height = this.#eyeHeightAt(point, eye.y + rise, ground, seconds);
+    const position = sceneFromCamera(camera, new Vector3(point.x, height, point.z));
     const moved = position.clone().sub(pose.position);
     if (moved.lengthSq() === 0) return pose;
     return { ...pose, position, center: pose.center.clone().add(moved) };
   }
 
-  /** As much of the way as can be gone on what is known. */
-  #go(eye: Vector3, lookout: DepthCamera, footing: WalkableGround): GroundPoint {
-    const way = this.#way.clone().applyQuaternion(lookout.orientation.clone().invert());
-    const length = Math.hypot(way.x, way.z);
-    // Small enough for nothing to be stepped over.
-    const paces = Math.ceil(length / (this.#avatar.radius / 2));
-    const pace = { x: way.x / paces, z: way.z / paces };
-    let place: GroundPoint = { x: eye.x, z: eye.z };
-    for (let left = paces; left > 0; --left) {
-      const next = nextPlace(place, pace, footing, this.#avatar.radius);
+  /** Carries out as much of the pending movement as the samples cover. */
+  #moveAlongGround(eye: Vector3, camera: DepthCamera, ground: WalkableGround): GroundPoint {
+    const move = this.#pendingMove.clone().applyQuaternion(camera.orientation.clone().invert());
+    const length = Math.hypot(move.x, move.z);
+    // Steps of half the radius cannot jump over an obstacle.
+    const stepCount = Math.ceil(length / (this.#avatar.radius / 2));
+    const step = { x: move.x / stepCount, z: move.z / stepCount };
+    let point: GroundPoint = { x: eye.x, z: eye.z };
+    for (let remaining = stepCount; remaining > 0; --remaining) {
+      const next = nextPoint(point, step, ground, this.#avatar.radius);
       if (next === "unknown") {
-        this.#way.multiplyScalar(left / paces);
-        return place;
+        this.#pendingMove.multiplyScalar(remaining / stepCount);
+        return point;
       }
-      place = next;
+      point = next;
     }
-    this.#way.set(0, 0, 0);
-    return place;
+    this.#pendingMove.set(0, 0, 0);
+    return point;
   }
 
-  /** Climbs evenly, falls ever faster. */
-  #heightAt(place: GroundPoint, from: number, footing: WalkableGround, seconds: number): number {
-    if (!footing.isKnown(place)) return from;
+  /** The height of the eye: the avatar climbs at a constant rate and falls with acceleration. */
+  #eyeHeightAt(point: GroundPoint, from: number, ground: WalkableGround, seconds: number): number {
+    if (!ground.isKnown(point)) return from;
     const { height, step } = this.#avatar;
-    const wanted = (footing.floorAt(place) ?? from - height) + height;
-    this.#isSettled = Math.abs(wanted - from) < height * 1e-4;
-    if (this.#isSettled || wanted >= from) {
-      this.#speedOfFall = 0;
-      return this.#isSettled ? from : Math.min(wanted, from + climbRate * Math.max(step, height / 10) * seconds);
+    const target = (ground.floorAt(point) ?? from - height) + height;
+    this.#isSettled = Math.abs(target - from) < height * 1e-4;
+    if (this.#isSettled || target >= from) {
+      this.#fallSpeed = 0;
+      return this.#isSettled ? from : Math.min(target, from + climbRate * Math.max(step, height / 10) * seconds);
     }
-    this.#speedOfFall += gravity * height * seconds;
-    return Math.max(wanted, from - this.#speedOfFall * seconds);
+    this.#fallSpeed += gravity * height * seconds;
+    return Math.max(target, from - this.#fallSpeed * seconds);
   }
 }
 
-/** One pace on, aside of what is in the way, or the same place where there is none. */
-function nextPlace(
+/** The point one step on, beside obstacles; the same point where all directions are blocked. */
+function nextPoint(
   from: GroundPoint,
-  pace: GroundPoint,
-  footing: WalkableGround,
+  step: GroundPoint,
+  ground: WalkableGround,
   radius: number,
 ): GroundPoint | "unknown" {
-  const clearance = Math.min(footing.clearanceAt(from), radius * 0.99);
-  for (const way of [pace, { x: pace.x, z: 0 }, { x: 0, z: pace.z }]) {
-    const wanted = { x: from.x + way.x, z: from.z + way.z };
-    if (!footing.isKnown(wanted)) return "unknown";
-    const place = footing.clearOf(footing.clearOf(wanted));
-    const isFloor = footing.isHovering || footing.floorAt(place) !== undefined;
-    const advance = (place.x - from.x) * pace.x + (place.z - from.z) * pace.z;
-    if (isFloor && advance > 0 && footing.isKnown(place) && footing.clearanceAt(place) >= clearance) return place;
+  const clearance = Math.min(ground.clearanceAt(from), radius * 0.99);
+  for (const move of [step, { x: step.x, z: 0 }, { x: 0, z: step.z }]) {
+    const target = { x: from.x + move.x, z: from.z + move.z };
+    if (!ground.isKnown(target)) return "unknown";
+    const point = ground.clearOf(ground.clearOf(target));
+    const isFloor = ground.isHovering || ground.floorAt(point) !== undefined;
+    const advance = (point.x - from.x) * step.x + (point.z - from.z) * step.z;
+    if (isFloor && advance > 0 && ground.isKnown(point) && ground.clearanceAt(point) >= clearance) return point;
   }
   return from;
 }

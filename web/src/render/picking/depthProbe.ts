@@ -52,8 +52,8 @@ export class DepthProbe {
   ): Promise<GroundSamples | undefined> {
     this.#isBusy = true;
     try {
-      const nearest = lookout.reach * 1e-3;
-      const farthest = lookout.reach * 2;
+      const nearest = lookout.range * 1e-3;
+      const farthest = lookout.range * 2;
       const down = downwards(lookout, depth);
       const around = Array.from({ length: directions }, (_, turn) => sideways(lookout, turn, nearest, farthest));
       const surfaces = candidates.filter(({ pick }) => cornersOf(pick.range) === 3);
@@ -96,8 +96,8 @@ export class DepthProbe {
   }
 }
 
-function downwards({ eye, orientation, reach }: DepthCamera, depth: number): Shot {
-  const projection = new Matrix4().makeOrthographic(-reach, reach, reach, -reach, 0, depth);
+function downwards({ eye, orientation, range }: DepthCamera, depth: number): Shot {
+  const projection = new Matrix4().makeOrthographic(-range, range, range, -range, 0, depth);
   const towardsFeet = new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), -Math.PI / 2);
   return {
     camera: cameraAt(eye, orientation.clone().multiply(towardsFeet), projection),
