@@ -6,7 +6,7 @@
 namespace imgeo {
 
 std::uint64_t peakMemoryBytes() {
-  // Not getrusage: its figure survives exec, and so may be that of a larger parent.
+  // getrusage would keep the maximum of the process image before exec, that is, of the parent.
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
     if (line.starts_with("VmHWM:"))

@@ -4,8 +4,7 @@
 
 namespace imgeo {
 
-/// The most memory this process has held so far, in bytes; 0 where the system
-/// does not tell.
+/// Maximum of the resident memory of this process so far, in bytes; 0 if the system does not tell.
 std::uint64_t peakMemoryBytes();
 
 } // namespace imgeo

@@ -18,7 +18,7 @@ std::vector<std::size_t> loadGroups(const SceneGraph& graph) {
   for (const std::size_t node : nodesInOrder(graph)) // parents before children
     for (const std::size_t child : graph.nodes[node].children) {
       if (isKnown[child])
-        continue; // stands in several places: the first counts
+        continue; // a USEd node: its first instance counts
       isKnown[child] = true;
       groups[child] = isChoice(graph.nodes[node].content) ? next++ : groups[node];
     }

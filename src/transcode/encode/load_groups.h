@@ -1,5 +1,5 @@
 #pragma once
-// What of a scene is wanted together.
+// Groups of shapes that are loaded together.
 
 #include "scene/scene.h"
 
@@ -8,9 +8,8 @@
 
 namespace imgeo {
 
-/// A number for each node: nodes with the same one are shown together as far as the
-/// document says. Each choice of a Switch, and each level of a LOD, has its own: whoever
-/// sees one need not fetch the others.
+/// The group number of each node. Nodes of one group are visible together. Each choice of a Switch and each level of a
+/// LOD is a group of its own, so that the visible one loads without the others.
 std::vector<std::size_t> loadGroups(const SceneGraph& graph);
 
 } // namespace imgeo

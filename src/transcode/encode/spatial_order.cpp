@@ -11,7 +11,7 @@ namespace imgeo {
 
 namespace {
 
-/// Of each node's content, where the node first stands.
+/// Transform of each node's content, at the node's first instance.
 std::vector<Affine3d> worldFromNodes(const SceneGraph& graph) {
   std::vector<Affine3d> worldFromNode(graph.nodes.size());
   std::vector<bool> isKnown(graph.nodes.size());
@@ -27,10 +27,10 @@ std::vector<Affine3d> worldFromNodes(const SceneGraph& graph) {
   return worldFromNode;
 }
 
-/// Transforms of strangers may lead beyond all numbers.
-bool isOnEarth(Vec3d place) {
-  constexpr double farthest = 1e30;
-  return std::abs(place.x) < farthest && std::abs(place.y) < farthest && std::abs(place.z) < farthest;
+/// Whether a position fits single precision. Untrusted transforms may lead to infinity.
+bool isRepresentable(Vec3d position) {
+  constexpr double max = 1e30;
+  return std::abs(position.x) < max && std::abs(position.y) < max && std::abs(position.z) < max;
 }
 
 } // namespace
@@ -38,20 +38,20 @@ bool isOnEarth(Vec3d place) {
 std::vector<std::size_t> spatialOrder(const SceneGraph& graph, const std::vector<Box3d>& boxes) {
   const std::vector<std::size_t> shapes = shapeNodes(graph);
   const std::vector<Affine3d> worldFromNode = worldFromNodes(graph);
-  std::vector<Vec3f> middles;
+  std::vector<Vec3f> centers;
   Box3d box;
   for (const std::size_t shape : shapes) {
-    const Vec3d middle = worldFromNode[shape].point(boxes[shapeOf(graph, shape).mesh].center());
-    middles.push_back(isOnEarth(middle) ? Vec3f(middle) : Vec3f{});
-    box.add(Vec3d(middles.back()));
+    const Vec3d center = worldFromNode[shape].point(boxes[shapeOf(graph, shape).mesh].center());
+    centers.push_back(isRepresentable(center) ? Vec3f(center) : Vec3f{});
+    box.add(Vec3d(centers.back()));
   }
-  const std::vector<Vec3u> places = quantise(middles, latticeFor(box, 16));
+  const std::vector<Vec3u> latticePoints = quantise(centers, latticeFor(box, 16));
   std::vector<std::pair<Vec3u, std::size_t>> order;
   for (std::size_t i = 0; i < shapes.size(); ++i)
-    order.push_back({places[i], shapes[i]});
+    order.push_back({latticePoints[i], shapes[i]});
   std::ranges::stable_sort(order, beforeInMortonOrder, &std::pair<Vec3u, std::size_t>::first);
   std::vector<std::size_t> sorted;
-  for (const auto& [place, shape] : order)
+  for (const auto& [point, shape] : order)
     sorted.push_back(shape);
   return sorted;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// An order of shapes in which those that come one after the other stand near each other.
+// An order of shapes in which neighbours are near each other in the world.
 
 #include "scene/scene.h"
 
@@ -8,8 +8,8 @@
 
 namespace imgeo {
 
-/// The Shape nodes in Morton order of the middles of their boxes in the world; a node that
-/// stands in several places counts at its first. `boxes` are by the shapes' meshes.
+/// The Shape nodes in Morton order of the centres of their boxes in world coordinates. Of a USEd node the first
+/// instance counts. `boxes` has the box of each mesh.
 std::vector<std::size_t> spatialOrder(const SceneGraph& graph, const std::vector<Box3d>& boxes);
 
 } // namespace imgeo

@@ -17,10 +17,10 @@ namespace {
 
 constexpr int webpQuality = 80, avifQuality = 60, previewQuality = 60;
 
-/// What comes this soon needs no preview.
-constexpr std::size_t leastPreviewedBytes = 16 * 1024;
+/// Smaller images load fast enough without a preview.
+constexpr std::size_t minPreviewedBytes = 16 * 1024;
 
-/// Of a texture in an X3D source, as the field says that it stands in.
+/// The role of a texture in an X3D source, by the field that contains it.
 TextureRole roleOfField(std::string_view field) {
   static constexpr std::pair<std::string_view, TextureRole> data[] = {
       {"normalTexture", TextureRole::normal},
@@ -33,8 +33,8 @@ TextureRole roleOfField(std::string_view field) {
   return TextureRole::color;
 }
 
-void note(ImageUse& use, TextureRole role) {
-  use.isSeen = true;
+void addUse(ImageUse& use, TextureRole role) {
+  use.isUsed = true;
   switch (role) {
   case TextureRole::color:
   case TextureRole::emissive:
@@ -67,13 +67,13 @@ Encoded encodedPng(const Raster& raster, int effort) {
   return {encodePng(image, effort), ".png"};
 }
 
-/// An image as it will lie in the site.
+/// An image as the site will contain it.
 struct Prepared {
   Encoded file;
-  Bytes preview; ///< empty: none
+  Bytes preview; ///< empty: no preview
   bool isResized = false, isReencoded = false;
-  std::string failure; ///< why there is none; empty where there is
-  std::string warning; ///< it is as it was, though another was asked for
+  std::string failure; ///< why the image is left out; empty if it is not
+  std::string warning; ///< why the image stays unchanged although options ask for another format
 };
 
 /// Prepares one image.
@@ -93,7 +93,7 @@ public:
     } catch (const Error& error) {
       if (isForPages(type_)) {
         result.file = {image_.bytes, type_};
-        result.warning = wantsOther() ? error.what() : "";
+        result.warning = asksForChange() ? error.what() : "";
       } else {
         result.failure = error.what();
       }
@@ -102,45 +102,46 @@ public:
   }
 
 private:
-  /// Something else than the file as it is was asked for.
-  bool wantsOther() const { return options_.textures.format != TextureFormat::keep || options_.textures.size != 0; }
-  bool wantsPreview() const {
+  /// Whether the options ask for another format or size.
+  bool asksForChange() const { return options_.textures.format != TextureFormat::keep || options_.textures.size != 0; }
+  bool needsPreview() const {
     return options_.textures.previewEdge > 0 && options_.target == Target::web && use_.isColor && !use_.isData &&
-           image_.bytes.size() >= leastPreviewedBytes;
+           image_.bytes.size() >= minPreviewedBytes;
   }
-  bool needsPixels() const { return !isForPages(type_) || wantsOther() || (isDecodable(type_) && wantsPreview()); }
+  bool needsPixels() const { return !isForPages(type_) || asksForChange() || (isDecodable(type_) && needsPreview()); }
   PixelContent content() const {
     return use_.isNormal ? PixelContent::directions : use_.isData ? PixelContent::numbers : PixelContent::color;
   }
 
   void fromPixels(Raster raster, Prepared& result) const {
-    const TextureOptions& wanted = options_.textures;
+    const TextureOptions& requested = options_.textures;
     const RasterSize own{raster.width, raster.height};
-    const RasterSize size = wanted.size == 0 ? own : fittedSize(own, wanted.size);
+    const RasterSize size = requested.size == 0 ? own : fittedSize(own, requested.size);
     result.isResized = size.width != own.width || size.height != own.height;
     if (result.isResized)
       raster = shrunk(raster, size, content());
     const bool mustChange = result.isResized || !isForPages(type_);
-    if (mustChange || wanted.format != TextureFormat::keep) {
+    if (mustChange || requested.format != TextureFormat::keep) {
       result.file = encoded(raster);
       result.isReencoded = mustChange || result.file.bytes.size() < image_.bytes.size();
     }
     if (!result.isReencoded)
       result.file = {image_.bytes, type_};
-    const RasterSize small = fittedSize(size, wanted.previewEdge);
-    if (wantsPreview() && result.file.bytes.size() >= leastPreviewedBytes && small.width < size.width)
+    const RasterSize small = fittedSize(size, requested.previewEdge);
+    if (needsPreview() && result.file.bytes.size() >= minPreviewedBytes && small.width < size.width)
       result.preview = encodeWebp(shrunk(raster, small, PixelContent::color), previewQuality);
   }
 
-  /// In the format that was asked for; a resized file that was to be kept stays of its kind, or near it.
+  /// Encodes in the requested format; `keep` encodes a resized image in its own format or the nearest one.
   Encoded encoded(const Raster& raster) const {
-    const TextureOptions& wanted = options_.textures;
-    const bool isLossy = !use_.isData && (wanted.format != TextureFormat::keep || type_ == ".jpg");
-    if (wanted.format == TextureFormat::png || (wanted.format == TextureFormat::keep && type_ == ".png"))
+    const TextureOptions& requested = options_.textures;
+    const bool isLossy = !use_.isData && (requested.format != TextureFormat::keep || type_ == ".jpg");
+    if (requested.format == TextureFormat::png || (requested.format == TextureFormat::keep && type_ == ".png"))
       return encodedPng(raster, options_.effort);
-    if (isLossy && wanted.format == TextureFormat::avif)
-      return {encodeAvif(raster, wanted.quality.value_or(avifQuality)), ".avif"};
-    return {isLossy ? encodeWebp(raster, wanted.quality.value_or(webpQuality)) : encodeLosslessWebp(raster), ".webp"};
+    if (isLossy && requested.format == TextureFormat::avif)
+      return {encodeAvif(raster, requested.quality.value_or(avifQuality)), ".avif"};
+    return {isLossy ? encodeWebp(raster, requested.quality.value_or(webpQuality)) : encodeLosslessWebp(raster),
+            ".webp"};
   }
 
   const ConvertOptions& options_;
@@ -149,8 +150,8 @@ private:
   std::string type_;
 };
 
-/// Nothing refers any more to images that have failed.
-void leaveOut(SceneGraph& graph, const std::vector<bool>& hasFailed) {
+/// Removes all references to images that could not be decoded.
+void removeFailedImages(SceneGraph& graph, const std::vector<bool>& hasFailed) {
   for (Appearance& appearance : graph.appearances)
     std::erase_if(appearance.textures,
                   [&](const TextureUse& use) { return hasFailed[graph.textures[use.texture].image]; });
@@ -176,14 +177,14 @@ std::vector<ImageUse> imageUses(const SceneGraph& graph) {
   for (const std::size_t node : shapeNodes(graph))
     if (const auto& appearance = shapeOf(graph, node).appearance)
       for (const TextureUse& use : graph.appearances[*appearance].textures)
-        note(uses[graph.textures[use.texture].image], use.role);
+        addUse(uses[graph.textures[use.texture].image], use.role);
   for (const std::size_t index : nodesInOrder(graph)) {
     const Node& node = graph.nodes[index];
     const GenericNode* other = std::get_if<GenericNode>(&node.content);
     if (!other || !other->image)
       continue;
     const auto field = std::ranges::find(node.fields, "containerField", &FieldText::name);
-    note(uses[*other->image], roleOfField(field == node.fields.end() ? std::string_view{} : field->value));
+    addUse(uses[*other->image], roleOfField(field == node.fields.end() ? std::string_view{} : field->value));
   }
   return uses;
 }
@@ -193,13 +194,13 @@ TextureReport writeTextures(SceneGraph& graph, const ConvertOptions& options, Co
   const std::vector<ImageUse> uses = imageUses(graph);
   std::vector<Prepared> all(graph.images.size());
   parallelFor(all.size(), [&](std::size_t i) {
-    if (uses[i].isSeen)
+    if (uses[i].isUsed)
       all[i] = Preparation(options, graph.images[i], uses[i]).prepared();
   });
   TextureReport report;
   std::vector<bool> hasFailed(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!uses[i].isSeen)
+    if (!uses[i].isUsed)
       continue;
     ImageFile& image = graph.images[i];
     if (!all[i].failure.empty()) {
@@ -217,7 +218,7 @@ TextureReport writeTextures(SceneGraph& graph, const ConvertOptions& options, Co
       image.preview = files.write(all[i].preview, ".webp");
     image.bytes = {};
   }
-  leaveOut(graph, hasFailed);
+  removeFailedImages(graph, hasFailed);
   return report;
 }
 

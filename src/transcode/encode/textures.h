@@ -1,27 +1,26 @@
 #pragma once
-// The images of textures -> files of a site: as they are, smaller, or in another format.
+// Texture images -> files of a site: unchanged, shrunk, or in another format.
 
 #include "scene/scene.h"
 #include "transcode/encode/encode_mesh.h"
 
 namespace imgeo {
 
-/// What an image is to those who show it.
+/// How the scene uses an image.
 struct ImageUse {
-  bool isSeen = false;
-  bool isColor = false;  ///< people look at it
-  bool isData = false;   ///< shading computes with its numbers
-  bool isNormal = false; ///< with directions
+  bool isUsed = false;   ///< by a texture of a shape or in an X3D document
+  bool isColor = false;  ///< as a colour
+  bool isData = false;   ///< as numbers: roughness, occlusion, normals ...
+  bool isNormal = false; ///< as a normal map
 };
 
-/// By image of the graph.
+/// The uses of every image of the graph.
 std::vector<ImageUse> imageUses(const SceneGraph& graph);
 
-/// Writes the images of what is seen, and no others, and gives them their urls. What no
-/// browser shows is always re-encoded, and what does not decode then leaves the scene
-/// with a warning (Error where `options` are strict). An image is re-encoded at its own
-/// size only where that takes fewer bytes, and never made larger. Large ones that people
-/// look at get a preview.
+/// Writes the used images and sets their URLs. Formats that no browser displays are always re-encoded; such an image
+/// that cannot be decoded leaves the scene with a warning (an Error if `options` are strict). Other images are
+/// re-encoded at their own size only if that takes fewer bytes. Images are never enlarged. Large colour images get a
+/// preview.
 TextureReport writeTextures(SceneGraph& graph, const ConvertOptions& options, ContentFiles& files,
                             std::vector<std::string>& warnings);
 

@@ -136,7 +136,7 @@ TEST_F(Textures, OfX3dSourcesAreDataByTheFieldTheyStandIn) {
   graph.images.push_back({"n.tga", tgaOf(testRaster(8, 8))});
   addRoot(graph, {"", GenericNode{"ImageTexture", "", 0}, {}, "", {{"containerField", "normalTexture"}}});
   const ImageUse use = imageUses(graph).at(0);
-  EXPECT_TRUE(use.isSeen && use.isData && use.isNormal && !use.isColor);
+  EXPECT_TRUE(use.isUsed && use.isData && use.isNormal && !use.isColor);
 }
 
 TEST(TexturedSite, TellsItsTexturesAndTheirPreviews) {

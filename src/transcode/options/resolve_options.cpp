@@ -20,17 +20,17 @@ namespace {
   throw Error(ErrorKind::usage, option, why);
 }
 
-void requireWithin(const char* option, std::int64_t value, std::int64_t least, std::int64_t most) {
-  if (value < least || value > most)
-    refuse(option, fmt::format("{} is not within {}..{}", value, least, most));
+void requireWithin(const char* option, std::int64_t value, std::int64_t min, std::int64_t max) {
+  if (value < min || value > max)
+    refuse(option, fmt::format("{} is not within {}..{}", value, min, max));
 }
 
 const Capabilities& capabilitiesOf(const ConvertOptions& options) {
   return rowOf(*options.encoding).capabilities;
 }
 
-/// X3DOM takes all attributes of interleaved records for numbers of the coordinates' type.
-bool isOfOneType(const ConvertOptions& options) {
+/// Whether all attributes must have one element type: X3DOM reads interleaved records that way.
+bool needsOneElementType(const ConvertOptions& options) {
   return options.target == Target::x3dom && options.layout == Layout::interleaved;
 }
 
@@ -43,16 +43,16 @@ std::uint32_t defaultPositionBits(const ConvertOptions& options) {
     return 16;
   if (*options.coordType == ElementType::float32)
     return sourceBits;
-  const bool isHalved = options.target == Target::x3dom && *options.coordType == ElementType::int16;
-  return 8 * byteSizeOf(*options.coordType) - isHalved;
+  const bool losesOneBit = options.target == Target::x3dom && *options.coordType == ElementType::int16;
+  return 8 * byteSizeOf(*options.coordType) - losesOneBit;
 }
 
-/// Two numbers of a byte each fit beside 16-bit coordinates without taking any room.
+/// The largest number of bits that adds no bytes: two components of 8 bits fit into the padding of 16-bit coordinates.
 std::uint32_t defaultNormalBits(const ConvertOptions& options) {
-  if (isOfOneType(options) && options.normals == NormalEncoding::rgb && options.coordType)
+  if (needsOneElementType(options) && options.normals == NormalEncoding::rgb && options.coordType)
     return 8 * byteSizeOf(*options.coordType);
-  const bool roomless = options.encoding == Encoding::bg && !has16BitCoords(options);
-  return options.normals == NormalEncoding::octahedral && roomless ? 16 : 8;
+  const bool hasNoPadding = options.encoding == Encoding::bg && !has16BitCoords(options);
+  return options.normals == NormalEncoding::octahedral && hasNoPadding ? 16 : 8;
 }
 
 void requireCoordType(ElementType type, const ConvertOptions& options) {
@@ -101,7 +101,7 @@ void requireNormals(const ConvertOptions& options) {
   }
   switch (options.normals) {
   case NormalEncoding::rgb:
-    if (isOfOneType(options) && options.coordType && bits != 8 * byteSizeOf(*options.coordType))
+    if (needsOneElementType(options) && options.coordType && bits != 8 * byteSizeOf(*options.coordType))
       refuse("--normal-bits", fmt::format("X3DOM reads interleaved records as one element type, so that normals "
                                           "beside {} have its bits, not {}",
                                           nameOf(*options.coordType), bits));
@@ -149,7 +149,7 @@ void requireMaxError(const ConvertOptions& options) {
     refuse("--max-error", "chooses bits for images; bg has --position-bits and --coord-type");
 }
 
-/// Whether an encoding can hold what is asked for, as far as options say it.
+/// Whether an encoding supports the options.
 bool canHold(const EncodingRow& row, const ConvertOptions& options) {
   const Capabilities& can = row.capabilities;
   return (options.target != Target::x3dom || row.x3domVersion != nullptr) &&
@@ -158,7 +158,7 @@ bool canHold(const EncodingRow& row, const ConvertOptions& options) {
          options.positionBits <= can.maxPositionBits && options.patchVertices <= can.maxPatchVertices;
 }
 
-/// The first encoding among those that convert may choose that holds what is asked for.
+/// The first of the automatic encodings that supports the options; the last one if none does.
 Encoding automaticEncoding(const ConvertOptions& options) {
   Encoding last = Encoding::classic;
   for (const EncodingRow* row : allEncodings())
@@ -183,7 +183,7 @@ void requireTextures(const TextureOptions& textures) {
     refuse("--texture-quality", "textures are kept as they are unless --textures or --texture-size says otherwise");
 }
 
-/// Compact has its own way with normals, its own order, and is for our runtime.
+/// Checks the options of compact and replaces rgb normals by octahedral ones.
 ConvertOptions resolvedCompact(ConvertOptions options) {
   if (options.target == Target::x3dom)
     refuse("--profile", "X3DOM reads no compact images; it reads classic ones");
@@ -218,13 +218,13 @@ std::uint32_t positionBitsFor(const Box3d& box, const ConvertOptions& options) {
     return options.positionBits;
   const MaxError& error = *options.maxError;
   const double allowed = error.isPercent ? error.value / 100 * box.longestEdge() : error.value;
-  // Half a step on each axis is the half diagonal of a cell.
+  // Rounding moves a vertex by at most half the diagonal of a lattice cell.
   const double steps = box.longestEdge() * std::sqrt(3.0) / 2 / allowed;
-  const std::uint32_t most = capabilitiesOf(options).maxPositionBits;
-  for (std::uint32_t bits = 8; bits <= most; ++bits)
+  const std::uint32_t maxBits = capabilitiesOf(options).maxPositionBits;
+  for (std::uint32_t bits = 8; bits <= maxBits; ++bits)
     if (std::ldexp(1.0, static_cast<int>(bits)) - 1 >= steps)
       return bits;
-  refuse("--max-error", fmt::format("takes more than {} bits, the most there are", most));
+  refuse("--max-error", fmt::format("takes more than {} bits, the most there are", maxBits));
 }
 
 ConvertOptions resolvedFor(const Scene& scene, const ConvertOptions& given) {

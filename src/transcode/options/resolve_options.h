@@ -1,5 +1,5 @@
 #pragma once
-// What the options of a conversion mean together.
+// Options of a conversion: defaults that depend on other options, and contradictions.
 
 #include "base/vec.h"
 #include "imgeo/convert.h"
@@ -7,20 +7,19 @@
 
 namespace imgeo {
 
-/// The same options with every default filled in that depends on others. Throws
-/// Error{usage}, one sentence, for options that contradict each other or that the
-/// container or the target cannot honour.
+/// The options with all defaults filled in. Throws Error{usage} for options that contradict each other or that the
+/// encoding or the target does not support.
 ConvertOptions resolved(ConvertOptions options);
 
-/// The same for what is there to convert: where nothing says which profile, classic for more
-/// further attributes than compact holds. Throws Error{usage} where compact was asked for.
+/// The options with all defaults filled in for this scene: if no encoding is stated, classic for meshes with more
+/// further attributes than compact holds. Throws Error{usage} if the stated encoding cannot hold them.
 ConvertOptions resolvedFor(const Scene& scene, const ConvertOptions& given);
 
-/// The position bits for a mesh: as stated, or the fewest within the stated error.
-/// Throws Error{usage} for an error that the most bits exceed.
+/// The position bits for a mesh with this box: as stated, or the smallest number that keeps the stated maximum error.
+/// Throws Error{usage} if no supported number of bits does.
 std::uint32_t positionBitsFor(const Box3d& box, const ConvertOptions& options);
 
-/// Whether a site has to say how far its normals may be off, because no reader could tell.
+/// Whether imgeo.json must state the error of normals, because it does not follow from the document.
 bool hasStatedError(const ConvertOptions& options);
 
 } // namespace imgeo

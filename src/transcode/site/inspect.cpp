@@ -1,4 +1,4 @@
-// What a site holds and how many bytes each part takes, without decoding it.
+// inspect(): the description of a site, without decoding its geometry.
 
 #include "base/error.h"
 #include "base/file.h"
@@ -25,7 +25,7 @@ std::uint64_t sizeOf(const fs::path& file) {
   return bytes;
 }
 
-void count(const PatchDescription& patch, SiteInfo& info) {
+void addCounts(const PatchDescription& patch, SiteInfo& info) {
   for (const Draw& draw : patch.draws)
     info.elements += elementsOf(draw);
   info.vertices += patch.vertexCount;
@@ -54,7 +54,7 @@ GeometryInfo infoOf(const GeometryDescription& geometry, const ContainerReader& 
   return info;
 }
 
-/// The bytes of the geometry nodes in a document's text, tags and all.
+/// Length of the geometry nodes in a document's text, in bytes.
 std::uint64_t geometryNodeBytes(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   std::uint64_t bytes = 0;
@@ -92,15 +92,15 @@ SiteInfo inspect(const fs::path& site) {
   }
   for (const NamedFile& file : geometryFilesOf(document.scene))
     info.containerBytes += add(file.url, nameOf(file.role));
-  const auto addPictures = [&](const std::vector<std::string>& urls, const char* role) {
+  const auto addImages = [&](const std::vector<std::string>& urls, const char* role) {
     for (const std::string& url : urls)
-      if (isThere(document, url))
+      if (exists(document, url))
         info.textureBytes += add(url, role);
       else
         info.missing.push_back(url);
   };
-  addPictures(textureFilesOf(document.scene), "texture");
-  addPictures(previewFilesOf(document.scene), "preview");
+  addImages(textureFilesOf(document.scene), "texture");
+  addImages(previewFilesOf(document.scene), "preview");
   info.warnings = document.scene.warnings;
 
   const ContainerReader reader(fetchFrom(document));
@@ -108,7 +108,7 @@ SiteInfo inspect(const fs::path& site) {
     info.geometries.push_back(infoOf(geometry, reader));
     info.patches += geometry.patches.size();
     for (const PatchDescription& patch : geometry.patches)
-      count(patch, info);
+      addCounts(patch, info);
   }
   std::error_code none;
   if (document.name == pageName && fs::exists(document.root / sceneName, none))
@@ -118,7 +118,7 @@ SiteInfo inspect(const fs::path& site) {
     const SiteManifest manifest =
         readManifest(asText(readFile(document.root / manifestName)), (document.root / manifestName).string());
     info.sourceTextureBytes = manifest.sourceTextureBytes;
-    // A strip's joins count as vertices in the document, not as triangles here.
+    // The document gives lengths of strips, which include degenerate triangles; the manifest has the number drawn.
     if (manifest.primitives == Primitives::strips)
       info.elements.triangles = manifest.elements.triangles;
   }

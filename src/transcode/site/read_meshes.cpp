@@ -15,7 +15,7 @@ namespace imgeo {
 
 namespace {
 
-/// The kind of element that all draws of a geometry have.
+/// The kind of element of all draws of a geometry.
 Topology topologyOf(const GeometryDescription& geometry, const std::string& location) {
   std::optional<Topology> topology;
   for (const PatchDescription& patch : geometry.patches)
@@ -27,7 +27,7 @@ Topology topologyOf(const GeometryDescription& geometry, const std::string& loca
   return topology.value_or(Topology::triangles);
 }
 
-/// The corners of a patch's elements, as record numbers.
+/// Vertex indices of the corners of a patch's elements.
 std::vector<std::uint32_t> cornersOf(const IndexedPatch& patch, Topology topology) {
   std::vector<std::uint32_t> corners;
   switch (topology) {

@@ -19,15 +19,15 @@ namespace imgeo {
 
 namespace {
 
-/// A bundle as a file of a site, which names those that it uses as they are named there.
+/// A bundle as a file of a site. Repositions the bundle names of the modules that it imports by their file names.
 RuntimeFile siteFile(const std::string& stem, std::string_view bundle,
                      std::initializer_list<std::pair<const char*, const RuntimeFile*>> used) {
   std::string text(bundle);
   for (const auto& [bundledName, file] : used) {
-    std::size_t place = text.find(bundledName);
-    assert(place != text.npos);
-    for (; place != text.npos; place = text.find(bundledName, place + file->name.size())) {
-      text.replace(place, std::string_view(bundledName).size(), file->name);
+    std::size_t position = text.find(bundledName);
+    assert(position != text.npos);
+    for (; position != text.npos; position = text.find(bundledName, position + file->name.size())) {
+      text.replace(position, std::string_view(bundledName).size(), file->name);
     }
   }
   std::string name = fmt::format("{}-{}.js", stem, contentName(asBytes(text)));

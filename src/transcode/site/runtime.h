@@ -1,29 +1,29 @@
 #pragma once
-// The browser's half of imgeo, carried inside the tool: every site gets a copy.
+// The TypeScript runtime, which is linked into the library. Every site gets a copy.
 
 #include <string>
 #include <string_view>
 
 namespace imgeo {
 
-/// ES modules.
+/// One value for each ES module of the runtime.
 template <typename Module> struct RuntimeModules {
-  Module page;   ///< what a page loads first: draws what it can, and brings the rest
-  Module shared; ///< what `page` and `scene` both need
-  Module scene;  ///< the rest
-  Module worker; ///< what workers run
+  Module page;   ///< the page loads it first: draws the preview and loads the others
+  Module shared; ///< used by `page` and `scene`
+  Module scene;  ///< three.js and all else
+  Module worker; ///< runs in workers
 };
 
 /// The modules as they were bundled into web/dist when the tool was built.
 RuntimeModules<std::string_view> bundledRuntime();
 
-/// A file named by what it holds.
+/// A file whose name contains the hash of its content.
 struct RuntimeFile {
   std::string name;
   std::string text;
 };
 
-/// The modules as a site has them, side by side: their texts name each other's files.
+/// The modules as files of one folder of a site; they import each other by these names.
 using Runtime = RuntimeModules<RuntimeFile>;
 Runtime runtimeOfSite();
 

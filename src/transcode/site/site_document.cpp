@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t maxInlinedDocuments = 1000; // as import has it
 
-/// What is inlined becomes the children of its Inlines, of which those that come so
-/// are looked through too: graph.inlined grows meanwhile.
+/// Reads inlined documents and makes their roots the children of the Inline nodes. Nested Inlines are appended to
+/// graph.inlined during the loop.
 void addInlined(SiteDocument& document) {
   SceneGraph& graph = document.scene.graph;
   for (std::size_t index = 0; index < graph.inlined.size(); ++index) {
@@ -36,7 +36,7 @@ void addInlined(SiteDocument& document) {
   }
 }
 
-/// The urls that images have there, each once; not those of other hosts.
+/// The values of a member of all images, each once, without empty ones and URLs of other hosts.
 std::vector<std::string> ownFilesOf(const SceneDocument& scene, std::string ImageFile::*member) {
   std::vector<std::string> urls;
   std::set<std::string> seen;
@@ -49,7 +49,7 @@ std::vector<std::string> ownFilesOf(const SceneDocument& scene, std::string Imag
   return urls;
 }
 
-bool leavesItsFolder(const std::string& url) {
+bool leadsOutOfFolder(const std::string& url) {
   const fs::path path = fs::path(url).lexically_normal();
   return path.empty() || path.is_absolute() || *path.begin() == ".." || url.find(':') != url.npos;
 }
@@ -97,16 +97,16 @@ std::vector<std::string> previewFilesOf(const SceneDocument& scene) {
 }
 
 std::vector<std::string> pageFilesOf(std::string_view html) {
-  // Read as text: the values of src and href attributes that end in .js and .css.
+  // Searches the text for src and href attributes whose values end in .js or .css.
   std::vector<std::string> urls;
   for (const std::string_view attribute : {"src=\"", "href=\""})
     for (std::size_t at = html.find(attribute); at != html.npos; at = html.find(attribute, at)) {
       at += attribute.size();
       const std::string_view url = html.substr(at, html.find('"', at) - at);
-      const bool wanted = url.ends_with(".js") || url.ends_with(".css");
-      const bool ours = url.find(':') == url.npos && !url.starts_with("//");
-      const bool foreign = url.ends_with("x3dom.js") || url.ends_with("x3dom.css");
-      if (wanted && ours && !foreign && std::ranges::find(urls, url) == urls.end())
+      const bool isModuleOrStyle = url.ends_with(".js") || url.ends_with(".css");
+      const bool isLocal = url.find(':') == url.npos && !url.starts_with("//");
+      const bool isX3dom = url.ends_with("x3dom.js") || url.ends_with("x3dom.css");
+      if (isModuleOrStyle && isLocal && !isX3dom && std::ranges::find(urls, url) == urls.end())
         urls.emplace_back(url);
     }
   return urls;
@@ -116,7 +116,7 @@ std::vector<std::string> pageFilesOf(const SiteDocument& document) {
   if (document.name == sceneName)
     return {};
   std::vector<std::string> urls = pageFilesOf(document.text);
-  // Read as text too: our modules name others as "./imgeo-....js".
+  // Modules import others as "./imgeo-....js".
   constexpr std::string_view name = "\"./imgeo-";
   for (std::size_t i = 0; i < urls.size(); ++i) {
     std::error_code none;
@@ -137,15 +137,15 @@ std::vector<std::string> pageFilesOf(const SiteDocument& document) {
 }
 
 fs::path fileOf(const SiteDocument& document, const std::string& url) {
-  if (leavesItsFolder(url))
+  if (leadsOutOfFolder(url))
     throw Error(ErrorKind::unsupported, (document.root / document.name).string(),
                 "refers to \"" + url + "\", which is not a file of the site");
   return document.root / fs::path(url).lexically_normal();
 }
 
-bool isThere(const SiteDocument& document, const std::string& url) {
+bool exists(const SiteDocument& document, const std::string& url) {
   std::error_code none;
-  return !leavesItsFolder(url) && fs::is_regular_file(fileOf(document, url), none);
+  return !leadsOutOfFolder(url) && fs::is_regular_file(fileOf(document, url), none);
 }
 
 FetchFile fetchFrom(const SiteDocument& document) {

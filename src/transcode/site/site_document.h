@@ -1,6 +1,6 @@
 #pragma once
-// A finished site -> its document and the files that this names. Safe for
-// untrusted bytes; all throw Error.
+// A finished site -> its document, and the files that the document names. Safe for untrusted bytes; functions throw
+// Error.
 
 #include "containers/container.h"
 #include "documents/documents.h"
@@ -12,7 +12,7 @@
 
 namespace imgeo {
 
-/// A document that another inlines.
+/// A document that an Inline node includes.
 struct InlinedText {
   std::string url, text;
 };
@@ -22,15 +22,15 @@ struct SiteDocument {
   std::filesystem::path root;
   std::string name; ///< of the document inside `root`
   std::string text;
-  SceneDocument scene;              ///< with that of the documents that it inlines
-  std::vector<InlinedText> inlined; ///< those that are there
+  SceneDocument scene;              ///< including the scenes of inlined documents
+  std::vector<InlinedText> inlined; ///< those that exist
 };
 
-/// Opens a site's directory (its index.html, or else its scene.x3d) or a document, and
-/// the documents beside it that it inlines, as far as they are there.
+/// Opens a site's directory (its index.html, or else its scene.x3d) or a document, and the documents that it inlines,
+/// as far as they exist in its folder.
 SiteDocument openDocument(const std::filesystem::path& site);
 
-/// A file that a document names, and what it calls it.
+/// A file that a document names, and its role there.
 struct NamedFile {
   std::string url;
   Role role = Role::coord;
@@ -39,29 +39,25 @@ struct NamedFile {
 /// Every geometry file of a scene once, in the order of first mention.
 std::vector<NamedFile> geometryFilesOf(const SceneDocument& scene);
 
-/// The urls of the images that textures show, each once, in the order of first
-/// mention; those of other hosts are left out.
+/// URLs of texture images, each once, in the order of first mention, without those of other hosts.
 std::vector<std::string> textureFilesOf(const SceneDocument& scene);
 
-/// The same of their previews.
+/// URLs of the previews of texture images, likewise.
 std::vector<std::string> previewFilesOf(const SceneDocument& scene);
 
-/// The urls of the runtime module and the stylesheet that a page names; those of
-/// other hosts, X3DOM's and absent ones are left out.
+/// URLs of the runtime modules and the stylesheet that a page names, without those of other hosts and of X3DOM.
 std::vector<std::string> pageFilesOf(std::string_view html);
 
-/// The same of a site, with the modules that its runtime brings by itself, as far as
-/// they are there; none where the document is no page.
+/// The same for a site, with the modules that those modules import. Empty if the document is not a page.
 std::vector<std::string> pageFilesOf(const SiteDocument& document);
 
-/// The file of a relative url; Error{unsupported} for a url that leaves the
-/// document's folder.
+/// The path of a relative URL. Throws Error{unsupported} for a URL that leads out of the document's folder.
 std::filesystem::path fileOf(const SiteDocument& document, const std::string& url);
 
-/// The same as the bytes of urls. `document` outlives it.
+/// A function that reads the file of a URL. `document` must outlive it.
 FetchFile fetchFrom(const SiteDocument& document);
 
-/// Whether a relative url leads to a file that is there, in the document's folder.
-bool isThere(const SiteDocument& document, const std::string& url);
+/// Whether a relative URL names an existing file in the document's folder.
+bool exists(const SiteDocument& document, const std::string& url);
 
 } // namespace imgeo

@@ -1,6 +1,6 @@
 #pragma once
-// `imgeo.json`: marks a directory as one of our sites and says what of its making
-// cannot be read from the document.
+// imgeo.json: marks a directory as an imgeo site, and states those settings of the conversion that verify needs and
+// that do not follow from the document.
 
 #include "imgeo/convert.h"
 #include "prepare/normals.h"
@@ -13,22 +13,22 @@ namespace imgeo {
 
 struct SiteManifest {
   std::string generator; ///< "imgeo 0.1.0"
-  std::string source;    ///< the input's file name
+  std::string source;    ///< file name of the input; empty for standard input
   Encoding encoding = Encoding::classic;
   Primitives primitives = Primitives::triangles;
   bool normalsComputed = false;
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where normals were computed
-  ElementCounts elements;                                  ///< as drawn; a strip's length does not tell
-  /// By which normals of a palette and of compact may be off; 0: see normalErrorBound.
+  ElementCounts elements; ///< as drawn; for strips they do not follow from vertex counts
+  /// Maximum error of normals, for palettes and compact; 0: see normalErrorBound.
   double normalErrorDegrees = 0;
-  DroppedElements dropped;              ///< elements of the source that were left out
-  std::vector<std::string> attributes;  ///< further ones that were kept
-  std::uint64_t sourceTextureBytes = 0; ///< of the images of textures, as they were found
+  DroppedElements dropped;              ///< elements of the source that were dropped
+  std::vector<std::string> attributes;  ///< names of the further attributes that were kept
+  std::uint64_t sourceTextureBytes = 0; ///< size of the source's texture images
 };
 
 std::string writeManifest(const SiteManifest& manifest);
 
-/// Safe for untrusted text. Throws Error{malformed} naming `name`.
+/// Safe for untrusted text. Throws Error{malformed}; `name` is its location.
 SiteManifest readManifest(std::string_view text, const std::string& name);
 
 } // namespace imgeo

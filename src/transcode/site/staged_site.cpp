@@ -22,11 +22,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// linux/fs.h has these, and macros that disturb others' headers with them.
+// Flags of renameat2(2). linux/fs.h defines them, but also macros that break other headers.
 constexpr unsigned renameNoReplace = 1, renameExchange = 2;
 
-[[noreturn]] void fail(const fs::path& place, const char* doing, int reason) {
-  throw Error(ErrorKind::io, place.string(), fmt::format("cannot {}: {}", doing, std::strerror(reason)));
+[[noreturn]] void fail(const fs::path& file, const char* doing, int reason) {
+  throw Error(ErrorKind::io, file.string(), fmt::format("cannot {}: {}", doing, std::strerror(reason)));
 }
 
 bool isSite(const fs::path& directory) {
@@ -34,7 +34,7 @@ bool isSite(const fs::path& directory) {
   return fs::is_regular_file(directory / manifestName, none);
 }
 
-/// Refuses a target whose loss nobody asked for.
+/// Refuses to replace a directory that is neither empty nor a site, unless forced.
 void requireReplaceable(const fs::path& target, bool force) {
   std::error_code none;
   const fs::file_status status = fs::status(target, none);
@@ -65,8 +65,8 @@ bool isMountPoint(const fs::path& directory) {
          (own.st_dev != above.st_dev || own.st_ino == above.st_ino);
 }
 
-/// Locks a directory for as long as the descriptor lives; -1 where another run
-/// holds it or it has gone. Killing a process unlocks what it held.
+/// Locks a directory until the returned descriptor is closed; -1 if another run holds the lock or the directory has
+/// been removed. The system unlocks it when the process ends.
 int lockDirectory(const fs::path& directory, int operation) {
   const int descriptor = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
   if (descriptor < 0)
@@ -104,9 +104,8 @@ std::string randomSuffix() {
   return suffix;
 }
 
-/// Every file of a staged site below its root, the document last and what it
-/// needs first.
-std::vector<fs::path> filesInOrderOfNeed(const fs::path& staging) {
+/// Every file of a staged site, relative to its root, each after the files that it refers to: the page comes last.
+std::vector<fs::path> filesInDependencyOrder(const fs::path& staging) {
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(staging))
     if (!entry.is_directory())
@@ -223,7 +222,7 @@ bool StagedSite::exchange(const Rename& rename) {
 }
 
 void StagedSite::publishInPlace(const Rename& rename) {
-  const std::vector<fs::path> files = filesInOrderOfNeed(staging_);
+  const std::vector<fs::path> files = filesInDependencyOrder(staging_);
   std::set<fs::path> kept;
   for (const fs::path& file : files) {
     std::error_code reason;
@@ -246,8 +245,7 @@ void StagedSite::publishInPlace(const Rename& rename) {
   }
 }
 
-/// Removes what stands at the staging path: an unfinished site, or the old one
-/// after an exchange.
+/// Removes the directory at the staging path: an unfinished site or, after an exchange, the old site.
 void StagedSite::discard() noexcept {
   std::error_code none;
   if (!staging_.empty())

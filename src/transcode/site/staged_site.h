@@ -1,7 +1,6 @@
 #pragma once
-// A site's directory: built beside its target, then put in the target's place
-// in one step. Killed at any moment, the target is the old site or the new one;
-// what a killed run leaves beside it is removed by the next run.
+// Atomic publication of a site: the directory is built beside its target and replaces it in one step. After a crash the
+// target is the old site or the new one; the next run removes what a crashed run left.
 
 #include <filesystem>
 #include <functional>
@@ -12,10 +11,10 @@ namespace imgeo {
 /// Moves `from` to `to`; `flags` are those of renameat2(2). Returns 0 or an errno.
 using Rename = std::function<int(const std::filesystem::path& from, const std::filesystem::path& to, unsigned flags)>;
 
-/// The system's own.
+/// Calls renameat2(2).
 int renameBySystem(const std::filesystem::path& from, const std::filesystem::path& to, unsigned flags);
 
-/// A directory under construction. Gone without a trace unless published.
+/// A directory under construction. The destructor removes it unless it is published.
 class StagedSite {
 public:
   /// Makes `.<name>.imgeo-XXXXXX` beside `target` (and the folders above it),

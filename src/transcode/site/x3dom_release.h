@@ -1,5 +1,5 @@
 #pragma once
-// The releases of X3DOM that pages are written for, and where they find them.
+// The releases of X3DOM that pages load.
 
 #include "containers/geometry_description.h"
 #include "documents/documents.h"
