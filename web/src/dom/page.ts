@@ -1,7 +1,7 @@
 // What a page loads first: it draws what can be drawn without the runtime, and
 // brings the runtime, which takes the picture over.
 
-import { stylePage, viewTag } from "../element/viewStyle.ts";
+import { adoptPageStyle, viewTag } from "../element/viewStyle.ts";
 import type { Preview } from "../preview/preview.ts";
 import { startPreviews } from "../preview/startPreviews.ts";
 
@@ -12,7 +12,7 @@ const runtimeUrl = new URL("imgeo-scene.js", import.meta.url);
 const patienceMs = 3000;
 
 async function start(): Promise<void> {
-  stylePage(document);
+  adoptPageStyle(document);
   const looks = looksOrNone();
   if (looks.length > 0) await leaveTheWayTo(looks);
   const { registerViews } = await import("./register.ts");
@@ -25,7 +25,7 @@ async function start(): Promise<void> {
 /** The line is theirs until their files are here, and the processor until they are drawn; the runtime comes in between. */
 async function leaveTheWayTo(looks: readonly Preview[]): Promise<void> {
   const patience = new Promise((resolve) => setTimeout(resolve, patienceMs));
-  await Promise.race([Promise.all(looks.map(({ arrived, settled }) => Promise.race([arrived, settled]))), patience]);
+  await Promise.race([Promise.all(looks.map(({ downloaded: arrived, settled }) => Promise.race([arrived, settled]))), patience]);
   const link = document.createElement("link");
   link.rel = "modulepreload";
   link.href = runtimeUrl.href;

@@ -1,18 +1,18 @@
 // Puts a view into every <x3d> of the page, now and later.
 
-import { stylePage, viewTag } from "../element/viewStyle.ts";
+import { adoptPageStyle, viewTag } from "../element/viewStyle.ts";
 import { ImgeoView } from "./imgeoView.ts";
-import { ensureView } from "../element/sceneNodes.ts";
+import { ensureViewIn } from "../element/sceneNodes.ts";
 
 function fillAll(): void {
-  for (const x3d of document.querySelectorAll("x3d")) ensureView(x3d);
+  for (const x3d of document.querySelectorAll("x3d")) ensureViewIn(x3d);
 }
 
 /** Once; a second time does nothing. */
 export function registerViews(): void {
   if (customElements.get(viewTag) !== undefined) return;
   customElements.define(viewTag, ImgeoView);
-  stylePage(document);
+  adoptPageStyle(document);
   fillAll();
   // Also brings a view back where a page has replaced all of an <x3d>'s content.
   new MutationObserver(fillAll).observe(document, { subtree: true, childList: true });

@@ -18,7 +18,7 @@ import { Poster } from "./poster.ts";
 import { PageViewer } from "./pageViewer.ts";
 import { keepTouchAction } from "./touchAction.ts";
 import type { Hit } from "../render/picking/picker.ts";
-import { sizeOf, watchSize, whenNear } from "../element/visibility.ts";
+import { deviceSizeOf, observeDeviceSize, whenNearViewport } from "../element/visibility.ts";
 import { ResetButtons } from "./resetButtons.ts";
 import { drawingLabels, keyLabels, stageLabels, navigationTypeLabels, viewLabelOf } from "./labels.ts";
 
@@ -154,7 +154,7 @@ export class ViewController {
       },
       { signal },
     );
-    watchSize(face.canvas, signal, (width, height, ratio) => {
+    observeDeviceSize(face.canvas, signal, (width, height, ratio) => {
       this.#size = { width: width / ratio, height: height / ratio };
       this.viewer.renderer.resize(width, height, ratio);
     });
@@ -177,12 +177,12 @@ export class ViewController {
   /** Begins to show the document; what is far outside of the window waits to be loaded. */
   start(): void {
     // Known before the first request: what is asked for first depends on what is seen.
-    this.viewer.renderer.setSize(...sizeOf(this.#face.canvas));
+    this.viewer.renderer.setSize(...deviceSizeOf(this.#face.canvas));
     this.viewer.start();
     const margin = marginOfLoading[this.#settings.loading];
     if (margin === Infinity) this.viewer.load();
     else
-      whenNear(this.#face.canvas, margin, this.#listeners.signal, () => {
+      whenNearViewport(this.#face.canvas, margin, this.#listeners.signal, () => {
         this.viewer.load();
       });
     if (this.#look?.shapes.length === 0) this.#look.end(); // its files are the viewer's now

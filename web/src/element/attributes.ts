@@ -1,46 +1,46 @@
-// What an author can say of a view, as attributes of <x3d>: one table of names,
-// values and defaults, after the conventions of <model-viewer>. What is malformed
-// counts as absent, and the console says so.
+// The settings of a view as attributes of <x3d>: one table of names, value types and
+// defaults, after the conventions of <model-viewer>. A malformed attribute counts as
+// absent, with a warning on the console.
 
 import type { CameraSetting, OrbitSetting, RadiusSetting } from "../navigation/orbit.ts";
 
-interface Kind<Value> {
-  /** What may stand there, for the warning. */
+interface ValueType<Value> {
+  /** The expected form, for the warning. */
   readonly form: string;
   /** Undefined: malformed. */
   parse(text: string): Value | undefined;
 }
 
 interface Attribute<Value> {
-  readonly kind: Kind<Value>;
+  readonly type: ValueType<Value>;
   readonly defaultValue: Value;
 }
 
-const anyText: Kind<string> = { form: "a text", parse: (text) => text };
+const anyText: ValueType<string> = { form: "a text", parse: (text) => text };
 
-/** There or not; "false" and "off" say that it is not, as frameworks write it. */
-const flag: Kind<boolean> = { form: "a flag", parse: (text) => !/^(false|off|none)$/i.test(text.trim()) };
+/** A boolean attribute; "false", "off" and "none" count as absent, because frameworks write them. */
+const flag: ValueType<boolean> = { form: "a flag", parse: (text) => !/^(false|off|none)$/i.test(text.trim()) };
 
-const number: Kind<number> = {
+const number: ValueType<number> = {
   form: "a number",
   parse: (text) => (text.trim() !== "" && Number.isFinite(Number(text)) ? Number(text) : undefined),
 };
 
-/** In bytes. */
-const megabytes: Kind<number> = {
+/** Parses to bytes. */
+const megabytes: ValueType<number> = {
   form: "a number of megabytes",
   parse: (text) => (text.trim() !== "" && Number(text) >= 0 ? Number(text) * 1e6 : undefined),
 };
 
-function oneOf<const Word extends string>(...words: readonly Word[]): Kind<Word> {
+function oneOf<const Word extends string>(...words: readonly Word[]): ValueType<Word> {
   return {
     form: `one of ${words.join(", ")}`,
     parse: (text) => words.find((word) => word === text.trim().toLowerCase()),
   };
 }
 
-/** An angle with its unit, in radians. */
-const angle: Kind<number> = {
+/** An angle with its unit; parses to radians. */
+const angle: ValueType<number> = {
   form: "an angle such as 45deg or 0.8rad",
   parse(text) {
     const [, value, unit] = /^([-+]?[\d.]+(?:e[-+]?\d+)?)(deg|rad)$/i.exec(text.trim()) ?? [];
@@ -49,7 +49,7 @@ const angle: Kind<number> = {
   },
 };
 
-const radius: Kind<RadiusSetting> = {
+const radius: ValueType<RadiusSetting> = {
   form: "a length such as 2m, or a share such as 105%",
   parse(text) {
     const [, value, unit] = /^([\d.]+(?:e[-+]?\d+)?)(m|cm|mm|%)$/i.exec(text.trim()) ?? [];
@@ -60,24 +60,24 @@ const radius: Kind<RadiusSetting> = {
   },
 };
 
-const orbit: Kind<OrbitSetting> = {
+const orbit: ValueType<OrbitSetting> = {
   form: "an orbit such as 0deg 75deg 105%, each part may be auto",
   parse(text) {
     const [theta = "", phi = "", distance = "", ...more] = text.trim().split(/\s+/);
-    const said = { theta: angle.parse(theta), phi: angle.parse(phi), radius: radius.parse(distance) };
+    const setting = { theta: angle.parse(theta), phi: angle.parse(phi), radius: radius.parse(distance) };
     const isMalformed = (word: string, value: unknown) => value === undefined && word.toLowerCase() !== "auto";
     if (
       more.length > 0 ||
-      isMalformed(theta, said.theta) ||
-      isMalformed(phi, said.phi) ||
-      isMalformed(distance, said.radius)
+      isMalformed(theta, setting.theta) ||
+      isMalformed(phi, setting.phi) ||
+      isMalformed(distance, setting.radius)
     )
       return undefined;
-    return said;
+    return setting;
   },
 };
 
-const target: Kind<CameraSetting["target"]> = {
+const target: ValueType<CameraSetting["target"]> = {
   form: "a point such as 0m 1.2m 0m",
   parse(text) {
     const lengths = text
@@ -89,16 +89,16 @@ const target: Kind<CameraSetting["target"]> = {
   },
 };
 
-function attribute<Value>(kind: Kind<Value>, defaultValue: Value): Attribute<Value> {
-  return { kind, defaultValue };
+function attribute<Value>(type: ValueType<Value>, defaultValue: Value): Attribute<Value> {
+  return { type, defaultValue };
 }
 
-/** The same, but "auto" and absence leave the value to the document. */
-function automatic<Value>(kind: Kind<Value>): Attribute<Value | undefined> {
-  return { kind: { ...kind, form: `${kind.form}, or auto` }, defaultValue: undefined };
+/** An attribute whose value comes from the document where it is "auto" or absent. */
+function automatic<Value>(type: ValueType<Value>): Attribute<Value | undefined> {
+  return { type: { ...type, form: `${type.form}, or auto` }, defaultValue: undefined };
 }
 
-/** Every attribute of a view. docs/embedding.md tells what each does. */
+/** Every attribute of a view; docs/embedding.md describes each. */
 export const viewAttributes = {
   alt: attribute(anyText, ""),
   poster: attribute(anyText, ""),
@@ -127,17 +127,17 @@ export type ViewSettings = {
     : never;
 };
 
-/** What an element says; `onMalformed` gets a sentence for each attribute that could not be taken as written. */
+/** The settings of an element; `onMalformed` gets a sentence for each attribute that cannot be parsed. */
 export function readSettings(
   element: Pick<Element, "getAttribute">,
   onMalformed: (sentence: string) => void,
 ): ViewSettings {
   const settings: Record<string, unknown> = {};
-  for (const [name, { kind, defaultValue }] of Object.entries<Attribute<unknown>>(viewAttributes)) {
+  for (const [name, { type, defaultValue }] of Object.entries<Attribute<unknown>>(viewAttributes)) {
     const text = element.getAttribute(name);
     const isAutomatic = text === null || (defaultValue === undefined && text.trim().toLowerCase() === "auto");
-    const value = isAutomatic ? defaultValue : kind.parse(text);
-    if (value === undefined && !isAutomatic) onMalformed(`${name}="${text}" is not ${kind.form}`);
+    const value = isAutomatic ? defaultValue : type.parse(text);
+    if (value === undefined && !isAutomatic) onMalformed(`${name}="${text}" is not ${type.form}`);
     settings[name] = value ?? defaultValue;
   }
   return settings as ViewSettings;

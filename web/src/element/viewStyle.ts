@@ -1,6 +1,6 @@
-// All style of a view stands in constructable sheets: the page's
-// `default-src 'self'` allows no other. Custom properties and parts are the
-// handles that pages have (docs/embedding.md).
+// The style of a view, in constructable style sheets: a page's Content-Security-Policy
+// `default-src 'self'` allows no others. Pages change it through custom properties and
+// parts (docs/embedding.md).
 
 /** The custom element that the runtime puts into each <x3d>. */
 export const viewTag = "imgeo-view";
@@ -49,13 +49,13 @@ export const viewStyle = sheetOf(`
   @media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
 `);
 
-/** Defaults that any rule of the page outweighs: <x3d> is an unknown inline element otherwise. */
+/** Default rules, with a specificity of zero: without them <x3d> is an unknown inline element. */
 const pageStyle = sheetOf(`
   :where(x3d) { display: block; position: relative; width: 100%; aspect-ratio: 4 / 3; }
   :where(x3d) > :where(:not(${viewTag})) { display: none; }
 `);
 
-export function stylePage(document: Document): void {
+export function adoptPageStyle(document: Document): void {
   if (!document.adoptedStyleSheets.includes(pageStyle)) document.adoptedStyleSheets.push(pageStyle);
 }
 

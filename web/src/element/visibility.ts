@@ -1,6 +1,8 @@
-/** Calls back once, as soon as the element comes nearer to the visible part of the page than `margin` screens. At once where it is. */
-export function whenNear(element: Element, margin: number, signal: AbortSignal, onNear: () => void): void {
-  if (isNear(element.getBoundingClientRect(), margin)) {
+// Where an element is in the page's viewport, and its size in device pixels.
+
+/** Calls back once, when the element is within `margin` viewport sizes of the viewport; synchronously where it is already. */
+export function whenNearViewport(element: Element, margin: number, signal: AbortSignal, onNear: () => void): void {
+  if (isNearViewport(element.getBoundingClientRect(), margin)) {
     onNear();
     return;
   }
@@ -18,8 +20,8 @@ export function whenNear(element: Element, margin: number, signal: AbortSignal, 
   });
 }
 
-/** Whether any of it is less than `margin` screens away from the visible part of the page. */
-export function isNear({ left, right, top, bottom, width, height }: DOMRect, margin: number): boolean {
+/** Whether a rectangle has an area and is within `margin` viewport sizes of the viewport. */
+export function isNearViewport({ left, right, top, bottom, width, height }: DOMRect, margin: number): boolean {
   return (
     width > 0 &&
     height > 0 &&
@@ -30,15 +32,15 @@ export function isNear({ left, right, top, bottom, width, height }: DOMRect, mar
   );
 }
 
-/** Tells the element's size in device pixels, now and whenever it or the pixel ratio changes. */
-export function watchSize(
+/** Calls back with the element's size in device pixels, soon and whenever the size or the pixel ratio changes. */
+export function observeDeviceSize(
   element: Element,
   signal: AbortSignal,
   onSize: (width: number, height: number, ratio: number) => void,
 ): void {
   const observer = new ResizeObserver((entries) => {
     for (const { contentRect, devicePixelContentBoxSize } of entries) {
-      // Not every browser tells device pixels.
+      // Not every browser supports device pixels here.
       const exact = (devicePixelContentBoxSize as readonly ResizeObserverSize[] | undefined)?.[0];
       onSize(
         devicePixels(contentRect.width, exact?.inlineSize),
@@ -57,13 +59,13 @@ export function watchSize(
   });
 }
 
-/** The same, asked for. */
-export function sizeOf(element: Element): [width: number, height: number, ratio: number] {
+/** The element's size in device pixels, and the pixel ratio. */
+export function deviceSizeOf(element: Element): [width: number, height: number, ratio: number] {
   const { width, height } = element.getBoundingClientRect();
   return [devicePixels(width, undefined), devicePixels(height, undefined), devicePixelRatio];
 }
 
-/** What the browser says it is, unless that is more than a rounding away: an emulated pixel ratio is not in it. */
+/** The exact size that the browser reports, unless it differs by more than rounding: it does not include an emulated pixel ratio. */
 function devicePixels(cssPixels: number, exact: number | undefined): number {
   const product = cssPixels * devicePixelRatio;
   return exact !== undefined && Math.abs(exact - product) <= 1 ? exact : Math.round(product);

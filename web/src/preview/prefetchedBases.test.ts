@@ -6,40 +6,41 @@ import { PrefetchedBases } from "./prefetchedBases.ts";
 
 const file = readFileSync(join(import.meta.dirname, "../../../vectors/compact-1/base.png"));
 
-function basesFrom(answer: () => Promise<Response>): { early: PrefetchedBases; asked: string[] } {
-  const asked: string[] = [];
-  const early = new PrefetchedBases((url) => {
-    asked.push(url as string);
+/** Prefetched bases of a server with this answer, and the URLs that it is asked for. */
+function prefetchedFrom(answer: () => Promise<Response>): { prefetched: PrefetchedBases; requested: string[] } {
+  const requested: string[] = [];
+  const prefetched = new PrefetchedBases((url) => {
+    requested.push(url as string);
     return answer();
   });
-  return { early, asked };
+  return { prefetched, requested };
 }
 
-describe("bases that are asked for early", () => {
-  test("are fetched once, decoded, and given away once", async () => {
-    const { early, asked } = basesFrom(() => Promise.resolve(new Response(file)));
-    const { downloaded: arrival, decoded: content } = early.fetch("b.png");
-    assert.equal(early.fetch("b.png").decoded, content);
-    await arrival;
-    const { byteLength, bases } = await content;
+describe("prefetched bases", () => {
+  test("are fetched once, decoded, and handed over once", async () => {
+    const { prefetched, requested } = prefetchedFrom(() => Promise.resolve(new Response(file)));
+    const { downloaded, decoded } = prefetched.fetch("b.png");
+    assert.equal(prefetched.fetch("b.png").decoded, decoded);
+    await downloaded;
+    const { byteLength, bases } = await decoded;
     assert.equal(byteLength, file.length);
     assert.ok(bases[0] && bases[0].whole.vertexCount > 0);
-    assert.deepEqual(await early.take("b.png"), { byteLength, bases: bases.map((base) => base.segments) });
-    assert.equal(early.take("b.png"), undefined);
-    assert.deepEqual(asked, ["b.png"]);
+    assert.deepEqual(await prefetched.take("b.png"), { byteLength, bases: bases.map((base) => base.segments) });
+    assert.equal(prefetched.take("b.png"), undefined);
+    assert.deepEqual(requested, ["b.png"]);
   });
 
-  test("that are no use are told to whoever looks, and to nobody else", async () => {
+  test("that fail reject their promises, without unhandled rejections", async () => {
     const faults = [
       () => Promise.reject(new TypeError("no network")),
       () => Promise.resolve(new Response("", { status: 404 })),
       () => Promise.resolve(new Response(file.subarray(0, 40))),
     ];
     for (const fault of faults) {
-      const { early } = basesFrom(fault);
-      const { decoded: content } = early.fetch("b.png");
-      await assert.rejects(content);
-      await assert.rejects(early.take("b.png") ?? Promise.resolve());
+      const { prefetched } = prefetchedFrom(fault);
+      const { decoded } = prefetched.fetch("b.png");
+      await assert.rejects(decoded);
+      await assert.rejects(prefetched.take("b.png") ?? Promise.resolve());
     }
   });
 });

@@ -1,19 +1,20 @@
-// Bases that a first look has asked for. The runtime takes them over, so that they
-// are fetched and decoded once; what has failed it asks for anew, and reports.
+// Base meshes that previews have requested. The runtime takes them over, so that each
+// file is fetched and decoded once. A file that has failed is requested again by the
+// runtime, which reports the error.
 
 import type { Base, BaseBuffers } from "../decode/compact/baseBuffers.ts";
-import { decodeBases } from "../decode/compact/jobs.ts";
+import { wholeBases } from "../decode/compact/jobs.ts";
 
-/** Of one file. */
+/** The bases in one file. */
 interface DecodedBases<Decoded> {
   readonly byteLength: number;
   readonly bases: readonly Decoded[];
 }
 
 export interface PrefetchedFile {
-  /** Kept when it is here, decoded or not. */
+  /** Resolves when the file has been downloaded. */
   readonly downloaded: Promise<unknown>;
-  /** Rejects where the file is of no use. */
+  /** Rejects where the file cannot be downloaded or decoded. */
   readonly decoded: Promise<DecodedBases<Base>>;
 }
 
@@ -25,14 +26,14 @@ export class PrefetchedBases {
     this.#fetch = fetchFile;
   }
 
-  /** The file at an absolute URL, which is asked for once. */
+  /** The file at an absolute URL, which is requested at the first call. */
   fetch(url: string): PrefetchedFile {
     const known = this.#files.get(url) ?? this.#load(url);
     this.#files.set(url, known);
     return known;
   }
 
-  /** What has been asked for, for one who keeps it: it is not here any more. */
+  /** The segments of each base in a file, which is forgotten here; undefined where it has not been requested. */
   take(url: string): Promise<DecodedBases<BaseBuffers>> | undefined {
     const file = this.#files.get(url);
     this.#files.delete(url);
@@ -40,10 +41,13 @@ export class PrefetchedBases {
   }
 
   #load(url: string): PrefetchedFile {
-    const arrival = this.#download(url);
-    const content = arrival.then(async (bytes) => ({ byteLength: bytes.byteLength, bases: await decodeBases(bytes) }));
-    for (const promise of [arrival, content]) promise.catch(() => undefined); // nobody has to look
-    return { downloaded: arrival, decoded: content };
+    const downloaded = this.#download(url);
+    const decoded = downloaded.then(async (bytes) => ({
+      byteLength: bytes.byteLength,
+      bases: await wholeBases(bytes),
+    }));
+    for (const promise of [downloaded, decoded]) promise.catch(() => undefined); // a rejection may go unhandled
+    return { downloaded, decoded };
   }
 
   async #download(url: string): Promise<Uint8Array<ArrayBuffer>> {

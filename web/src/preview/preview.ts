@@ -1,7 +1,7 @@
-// The picture of a scene before the runtime is here: its bases, drawn into a canvas
-// that stands before the view's own until that one shows as much. It follows the
-// document and the size of the element, and goes where it could only show another
-// picture than the runtime will.
+// The preview of a scene: its base meshes, drawn before the runtime has been loaded.
+// Its canvas covers the view's canvas until that displays as much. The preview follows
+// the document and the element's size, and ends where its picture would differ from
+// the runtime's.
 
 import type { Base } from "../decode/compact/baseBuffers.ts";
 import type { SceneElement } from "../document/element.ts";
@@ -14,12 +14,12 @@ import { contextOf } from "../render/context.ts";
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
 import { cameraSettingOf, readSettings } from "../element/attributes.ts";
 import { isSceneNode } from "../element/sceneNodes.ts";
-import { sizeOf, watchSize } from "../element/visibility.ts";
+import { deviceSizeOf, observeDeviceSize } from "../element/visibility.ts";
 
-/** What is seen of a shape. */
+/** A shape that a preview displays. */
 export interface PreviewedShape {
   readonly element: SceneElement;
-  /** Patches whose part of the base has triangles. */
+  /** Indices of the patches whose segment of the base has triangles. */
   readonly patches: readonly number[];
 }
 
@@ -30,41 +30,46 @@ interface PreviewContent {
 
 export class Preview {
   readonly canvas: HTMLCanvasElement;
-  /** Kept when its files are here, or one of them will not come. */
-  readonly arrived: Promise<unknown>;
-  /** Kept when it has been drawn, or has gone. */
+  /** Resolves when all files have been downloaded, or one has failed. */
+  readonly downloaded: Promise<unknown>;
+  /** Resolves when the preview has been drawn, or has ended. */
   readonly settled: Promise<unknown>;
-  /** Called when it goes. */
+  /** Called when the preview ends. */
   onEnd: () => void = () => undefined;
   readonly #x3d: Element;
-  readonly #picture: PreviewRenderer;
+  readonly #renderer: PreviewRenderer;
   readonly #bases = new Map<string, readonly Base[]>();
   readonly #settle: () => void;
   readonly #listeners = new AbortController();
-  readonly #baseOf = ({ base }: PreviewShape): Base | undefined => this.#bases.get(hrefOf(base.url))?.[base.patchIndex];
-  #wanted: PreviewContent;
+  readonly #baseOf = ({ base }: PreviewShape): Base | undefined =>
+    this.#bases.get(absoluteUrlOf(base.url))?.[base.patchIndex];
+  #content: PreviewContent;
   #state: "waiting" | "decoding" | "drawn" | "ended" = "waiting";
 
-  /** Undefined where the scene cannot be shown so. The canvas, which `place` puts where it will be seen, is empty at first. */
-  static create(x3d: Element, early: PrefetchedBases, place: (canvas: HTMLCanvasElement) => void): Preview | undefined {
-    const wanted = previewContentOf(x3d);
-    if (wanted === undefined) return undefined;
-    for (const { base } of wanted.scene.shapes) early.fetch(hrefOf(base.url)); // before anything that takes time
+  /** Requests the bases and draws nothing yet. `insert` puts the canvas into the document. Undefined where only the runtime can display the scene. */
+  static create(
+    x3d: Element,
+    bases: PrefetchedBases,
+    insert: (canvas: HTMLCanvasElement) => void,
+  ): Preview | undefined {
+    const content = previewContentOf(x3d);
+    if (content === undefined) return undefined;
+    for (const { base } of content.scene.shapes) bases.fetch(absoluteUrlOf(base.url)); // before anything that takes time
     const canvas = document.createElement("canvas");
     canvas.classList.add("preview");
     canvas.ariaHidden = "true";
-    place(canvas);
-    [canvas.width, canvas.height] = sizeOf(canvas); // before it has a context, which then makes its buffers once
+    insert(canvas);
+    [canvas.width, canvas.height] = deviceSizeOf(canvas); // before the context, so that it allocates its buffers once
     const context = contextOf(canvas);
-    if (context !== null) return new Preview(x3d, wanted, early, canvas, context);
+    if (context !== null) return new Preview(x3d, content, bases, canvas, context);
     canvas.remove();
     return undefined;
   }
 
   private constructor(
     x3d: Element,
-    wanted: PreviewContent,
-    early: PrefetchedBases,
+    content: PreviewContent,
+    bases: PrefetchedBases,
     canvas: HTMLCanvasElement,
     context: WebGL2RenderingContext,
   ) {
@@ -75,42 +80,42 @@ export class Preview {
       resolve(undefined);
     };
     this.#x3d = x3d;
-    this.#wanted = wanted;
-    this.#picture = new PreviewRenderer(context);
-    this.#picture.warmUp(wanted.scene, canvas.width, canvas.height);
-    this.#follow();
-    const files = Array.from(new Set(wanted.scene.shapes.map(({ base }) => hrefOf(base.url))), (url) => ({
+    this.#content = content;
+    this.#renderer = new PreviewRenderer(context);
+    this.#renderer.warmUp(content.scene, canvas.width, canvas.height);
+    this.#observe();
+    const files = Array.from(new Set(content.scene.shapes.map(({ base }) => absoluteUrlOf(base.url))), (url) => ({
       url,
-      ...early.fetch(url),
+      ...bases.fetch(url),
     }));
-    this.arrived = Promise.all(files.map(({ downloaded: arrival }) => arrival)).catch(() => undefined);
+    this.downloaded = Promise.all(files.map(({ downloaded: arrival }) => arrival)).catch(() => undefined);
     this.#load(files).catch(() => {
       this.end();
-    }); // the runtime says why
+    }); // the runtime requests the file again and reports the error
   }
 
-  /** All files are here: it will be drawn with the next frame. */
+  /** All files have been downloaded: the next frame draws the preview. */
   get isDue(): boolean {
     return this.#state === "decoding";
   }
 
-  /** Empty until it has been drawn. */
+  /** The displayed shapes; empty until the preview has been drawn. */
   get shapes(): readonly PreviewedShape[] {
     if (this.#state !== "drawn") return [];
-    const shapes = new Map(this.#wanted.scene.shapes.map((shape) => [shape.element, shape])); // one may stand in several places
+    const shapes = new Map(this.#content.scene.shapes.map((shape) => [shape.element, shape])); // a shape may have several instances
     return Array.from(shapes.values(), (shape) => ({
       element: shape.element,
       patches: (this.#baseOf(shape)?.segments ?? []).flatMap((part, patch) => (part === undefined ? [] : [patch])),
     }));
   }
 
-  /** Takes it away and frees its GPU. */
+  /** Removes the canvas and frees the GPU. */
   end(): void {
     if (this.#state === "ended") return;
     this.#state = "ended";
     this.#listeners.abort();
     this.canvas.remove();
-    this.#picture.dispose();
+    this.#renderer.dispose();
     this.#settle();
     this.onEnd();
   }
@@ -121,38 +126,41 @@ export class Preview {
     for (const { url, decoded: content } of files) this.#bases.set(url, (await content).bases);
     beforeNextFrame((isUnseen) => {
       try {
-        if (!isUnseen) this.#drawFirst();
+        if (!isUnseen) this.#drawFirstTime();
       } finally {
         if (this.#state !== "drawn") this.end();
       }
     });
   }
 
-  #drawFirst(): void {
+  #drawFirstTime(): void {
     if (this.#state !== "decoding") return;
-    const [width, height] = sizeOf(this.canvas);
+    const [width, height] = deviceSizeOf(this.canvas);
     this.#setSize(width, height);
     if (!this.#draw()) return;
-    // Before, the compositor would wait for what the GPU rehearses, and the page for the compositor.
+    // Not earlier: the compositor would wait for the GPU's warm-up, and the page for the compositor.
     this.canvas.classList.add("drawn");
     this.#state = "drawn";
     this.#settle();
-    for (const element of new Set([...this.#wanted.scene.shapes.map((shape) => shape.element as Element), this.#x3d])) {
+    for (const element of new Set([
+      ...this.#content.scene.shapes.map((shape) => shape.element as Element),
+      this.#x3d,
+    ])) {
       element.dispatchEvent(new CustomEvent("first-image", { detail: { stage: "base" }, bubbles: false }));
     }
   }
 
-  /** False where it cannot, and has gone. */
+  /** Returns false where the bases do not hold what the document describes; the preview has then ended. */
   #draw(): boolean {
-    const { scene, exposure } = this.#wanted;
+    const { scene, exposure } = this.#content;
     const { width, height } = this.canvas;
     const isWhole = scene.shapes.every((shape) => isDrawable(shape, this.#baseOf(shape)));
-    if (isWhole && width > 0 && height > 0) this.#picture.draw(scene, this.#baseOf, width, height, exposure);
+    if (isWhole && width > 0 && height > 0) this.#renderer.draw(scene, this.#baseOf, width, height, exposure);
     else this.end();
     return this.#state !== "ended";
   }
 
-  /** True where it had another. To set the one that it has would empty it. */
+  /** Returns whether the size has changed. Setting the same size again would clear the canvas. */
   #setSize(width: number, height: number): boolean {
     const { canvas } = this;
     if (width === canvas.width && height === canvas.height) return false;
@@ -161,7 +169,7 @@ export class Preview {
     return true;
   }
 
-  #follow(): void {
+  #observe(): void {
     const { signal } = this.#listeners;
     this.canvas.addEventListener(
       "webglcontextlost",
@@ -171,32 +179,32 @@ export class Preview {
       { signal },
     );
     const observer = new MutationObserver((records) => {
-      if (records.some(({ target }) => isSceneNode(target, this.#x3d))) this.#followDocument();
+      if (records.some(({ target }) => isSceneNode(target, this.#x3d))) this.#update();
     });
     observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
     signal.addEventListener("abort", () => {
       observer.disconnect();
     });
-    watchSize(this.canvas, signal, (width, height) => {
+    observeDeviceSize(this.canvas, signal, (width, height) => {
       if (this.#state === "drawn" && this.#setSize(width, height)) this.#draw();
     });
   }
 
-  #followDocument(): void {
-    const wanted = this.#x3d.isConnected ? previewContentOf(this.#x3d) : undefined;
-    const needsOthers = wanted?.scene.shapes.some(
-      ({ base }) => this.#state === "drawn" && !this.#bases.has(hrefOf(base.url)),
+  #update(): void {
+    const content = this.#x3d.isConnected ? previewContentOf(this.#x3d) : undefined;
+    const needsOtherBases = content?.scene.shapes.some(
+      ({ base }) => this.#state === "drawn" && !this.#bases.has(absoluteUrlOf(base.url)),
     );
-    if (wanted === undefined || needsOthers === true) {
+    if (content === undefined || needsOtherBases === true) {
       this.end();
       return;
     }
-    this.#wanted = wanted;
+    this.#content = content;
     if (this.#state === "drawn") this.#draw();
   }
 }
 
-/** What the document says now; undefined where only the runtime can show it. */
+/** What the document describes now; undefined where only the runtime can display it. */
 function previewContentOf(x3d: Element): PreviewContent | undefined {
   const settings = readSettings(x3d, () => undefined);
   if (settings["draw-as"] !== "surface" || settings.reveal !== "auto") return undefined;
@@ -204,6 +212,6 @@ function previewContentOf(x3d: Element): PreviewContent | undefined {
   return scene && { scene, exposure: settings.exposure };
 }
 
-function hrefOf(url: string): string {
+function absoluteUrlOf(url: string): string {
   return URL.canParse(url, document.baseURI) ? new URL(url, document.baseURI).href : url;
 }

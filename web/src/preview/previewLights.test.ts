@@ -20,7 +20,7 @@ function uniformsOf(
 
 const rounded = (values: readonly number[]) => values.map((value) => Math.round(value * 1e6) / 1e6 + 0);
 
-test("lights shine where they stand, in the coordinates of the view", () => {
+test("lights have their positions and directions in view coordinates", () => {
   const viewFromScene = new Matrix4().makeTranslation(0, 0, -10);
   const {
     lightPositions: lightPositions,
@@ -40,7 +40,7 @@ test("lights shine where they stand, in the coordinates of the view", () => {
   assert.deepEqual(rounded(lightCones), rounded([0, 0, Math.cos(1), Math.cos(0.5)]));
 });
 
-test("a light that is scaled reaches as much further", () => {
+test("scaling a light scales its radius and its attenuation", () => {
   const { lightRadii, lightAttenuations } = uniformsOf(
     '<Transform scale="2 2 2"><PointLight radius="10" attenuation="1 2 4"/></Transform>',
     false,
@@ -48,7 +48,7 @@ test("a light that is scaled reaches as much further", () => {
   assert.deepEqual(rounded([...lightRadii, ...lightAttenuations]), [20, 1, 1, 1]);
 });
 
-test("the headlight is one more, and ambient light adds up", () => {
+test("the headlight is an additional light, and ambient intensities add up", () => {
   const markup =
     '<DirectionalLight direction="0 -2 0" color="1 0 0" ambientIntensity="0.25"/><DirectionalLight color="0.5 0.5 0.5" ambientIntensity="0.5"/>';
   const { lightPositions: lightPositions, lightDirections, ambientLight } = uniformsOf(markup, true);
@@ -59,7 +59,7 @@ test("the headlight is one more, and ambient light adds up", () => {
   assert.deepEqual(ambientLight, [0.5, 0.25, 0.25]);
 });
 
-test("what stands outside of a light's group gets none of it", () => {
+test("a light that is not global is black outside of its group", () => {
   const scene = readScene(
     elementsOf(`<X3D><Scene><Group><PointLight global="false" color="1 0 0" ambientIntensity="0.5"/><Shape/></Group>
     <DirectionalLight/><Shape/></Scene></X3D>`),

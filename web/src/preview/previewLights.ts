@@ -1,5 +1,4 @@
-// The lights of a first scene as its shaders read them, in the coordinates of the
-// view.
+// The lights of a preview as uniforms of its shaders, in view coordinates.
 
 import type { Matrix4 } from "three";
 import { Vector3 } from "three";
@@ -11,34 +10,34 @@ import type { PreviewScene } from "./previewScene.ts";
 
 export type LightKind = LightInstance["light"]["kind"];
 
-/** By the names of the uniforms: the numbers of all lights, one after the other. */
+/** Values of all lights, concatenated, by the names of the uniforms. */
 export interface LightUniforms {
   readonly lightColors: readonly number[];
   readonly lightPositions: readonly number[];
   readonly lightDirections: readonly number[];
   readonly lightAttenuations: readonly number[];
   readonly lightRadii: readonly number[];
-  /** Cosines of the cone's edge and of its beam. */
+  /** Two per light: the cosines of cutOffAngle and of beamWidth. */
   readonly lightCones: readonly number[];
   readonly ambientLight: readonly [number, number, number];
 }
 
-/** Of each light, the headlight last. */
+/** The kind of each light, the headlight last. */
 export function lightKindsOf({ lights, headlight }: Pick<PreviewScene, "lights" | "headlight">): LightKind[] {
   return [...lights.map(({ light }) => light.kind), ...(headlight ? ["directional" as const] : [])];
 }
 
-/** As seen by what stands in the scope: what does not shine there is black. */
+/** The lights for shapes in a light scope. Lights that do not shine there are black. */
 export function lightUniformsOf(
   { lights, headlight }: Pick<PreviewScene, "lights" | "headlight">,
   lightScope: LightScope,
   viewFromScene: Matrix4,
 ): LightUniforms {
   const all = lights.map((light) => ({
-    ...numbersOf(light, viewFromScene),
+    ...lightValuesOf(light, viewFromScene),
     ...(!light.scope.contains(lightScope) && { color: [0, 0, 0] }),
   }));
-  if (headlight) all.push({ ...fromFarAway, color: [1, 1, 1], direction: [0, 0, -1] });
+  if (headlight) all.push({ ...directionalDefaults, color: [1, 1, 1], direction: [0, 0, -1] });
   const shining = lights.filter(({ scope }) => scope.contains(lightScope));
   const ambient = [0, 1, 2].map((channel) =>
     shining.reduce((sum, { light }) => sum + (light.color[channel] ?? 0) * light.ambientIntensity, 0),
@@ -54,7 +53,7 @@ export function lightUniformsOf(
   };
 }
 
-interface LightNumbers {
+interface LightValues {
   readonly color: readonly number[];
   readonly position: readonly number[];
   readonly direction: readonly number[];
@@ -63,18 +62,19 @@ interface LightNumbers {
   readonly cone: readonly number[];
 }
 
-/** What a light's kind has no use for. */
-const fromFarAway = { position: [0, 0, 0], attenuation: [1, 0, 0], radius: 0, cone: [0, 0] };
+/** Values of a directional light that its kind does not use. */
+const directionalDefaults = { position: [0, 0, 0], attenuation: [1, 0, 0], radius: 0, cone: [0, 0] };
 
-function numbersOf({ light, sceneFromLight }: LightInstance, viewFromScene: Matrix4): LightNumbers {
+function lightValuesOf({ light, sceneFromLight }: LightInstance, viewFromScene: Matrix4): LightValues {
   const color = light.color.map((channel) => channel * light.intensity);
   const viewFromLight = viewFromScene.clone().multiply(sceneFromLight);
   const directed = (direction: readonly [number, number, number]) =>
     new Vector3(...direction).transformDirection(viewFromLight).toArray();
-  if (light.kind === "directional") return { ...fromFarAway, color, direction: directed(light.direction) };
+  if (light.kind === "directional") return { ...directionalDefaults, color, direction: directed(light.direction) };
   const position = new Vector3(...light.location).applyMatrix4(viewFromLight).toArray();
   const { radius, attenuation } = scaledFalloff(light, lengthScaleOf(sceneFromLight));
-  if (light.kind === "point") return { ...fromFarAway, color, position, direction: [0, 0, -1], attenuation, radius };
+  if (light.kind === "point")
+    return { ...directionalDefaults, color, position, direction: [0, 0, -1], attenuation, radius };
   const { edge, beam } = coneOf(light);
   return {
     color,

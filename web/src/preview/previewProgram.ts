@@ -1,16 +1,16 @@
-// The shaders of a first look: vertices out of buffers of lattice numbers, and the
-// light of X3D in the same words as the runtime's (lighting).
+// The shader programs of a preview: vertices in lattice coordinates, and the X3D
+// lighting model by the same GLSL as the runtime's (lighting/).
 
 import { falloffChunk } from "../lighting/falloff.ts";
 import { physicalDefine, toDisplayedChunk, toLinearChunk } from "../lighting/physicalLighting.ts";
 import { x3dLighting } from "../lighting/x3dLighting.ts";
 import type { LightKind } from "./previewLights.ts";
 
-/** Where attributes are in every program. Without colours of vertices that of all is white. */
+/** Attribute locations in every program. A base without vertex colours is drawn with white. */
 export const attributeLocations = { position: 0, normal: 1, color: 2 } as const;
 
-/** What differs from program to program. */
-export interface ProgramKind {
+/** What a program is compiled for. */
+export interface PreviewProgramKind {
   readonly material: "phong" | "physical" | "unlit";
   readonly hasNormals: boolean;
   readonly isTwoSided: boolean;
@@ -29,9 +29,9 @@ out vec3 viewNormal;
 out vec3 vertexColor;
 
 void main() {
-  vec4 place = viewFromStored * vec4(position, 1.0);
-  gl_Position = clipFromView * place;
-  towardsEye = -place.xyz;
+  vec4 viewPosition = viewFromStored * vec4(position, 1.0);
+  gl_Position = clipFromView * viewPosition;
+  towardsEye = -viewPosition.xyz;
   viewNormal = viewFromNormal * normal;
   vertexColor = color;
   #ifdef ${physicalDefine}
@@ -40,8 +40,8 @@ void main() {
 }
 `;
 
-// Lights stand in the coordinates of the view. Each is called by its kind: a GPU that
-// has to find that out at every pixel goes through all of them.
+// Light positions are in view coordinates. The shader calls the function of each light's
+// kind: a GPU that chooses the kind at every pixel evaluates all kinds.
 const fragmentShader = (lights: readonly LightKind[]): string => /* glsl */ `
 precision highp float;
 struct IncidentLight { vec3 color; vec3 direction; };
@@ -73,17 +73,17 @@ ${x3dLighting}
 ${falloffChunk}
 
 #if LIGHTS > 0
-IncidentLight directionalLight(int i, vec3 place) {
+IncidentLight directionalLight(int i, vec3 viewPosition) {
   return IncidentLight(lightColors[i], -lightDirections[i]);
 }
 
-IncidentLight pointLight(int i, vec3 place) {
-  vec3 way = lightPositions[i] - place;
-  return IncidentLight(lightColors[i] * attenuationAtDistance(length(way), lightRadii[i], lightAttenuations[i]), normalize(way));
+IncidentLight pointLight(int i, vec3 viewPosition) {
+  vec3 toLight = lightPositions[i] - viewPosition;
+  return IncidentLight(lightColors[i] * attenuationAtDistance(length(toLight), lightRadii[i], lightAttenuations[i]), normalize(toLight));
 }
 
-IncidentLight spotLight(int i, vec3 place) {
-  IncidentLight light = pointLight(i, place);
+IncidentLight spotLight(int i, vec3 viewPosition) {
+  IncidentLight light = pointLight(i, viewPosition);
   light.color *= attenuationInCone(lightCones[i].x, lightCones[i].y, dot(-light.direction, lightDirections[i]));
   return light;
 }
@@ -103,7 +103,7 @@ vec3 facingNormal() {
 
 void main() {
   #ifdef UNLIT
-    vec3 shown = color * vertexColor;
+    vec3 radiance = color * vertexColor;
   #else
     X3dMaterial material = X3dMaterial(color * vertexColor, specular, shininess, vec3(ambientIntensity), metallic, roughness);
     ReflectedLight reflected = ReflectedLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
@@ -111,23 +111,23 @@ void main() {
     vec3 eye = normalize(towardsEye);
     ${lights.map((kind, i) => `directX3d(${kind}Light(${i}, -towardsEye), -towardsEye, normal, eye, vec3(0.0), material, reflected);`).join("\n    ")}
     ambientX3d(ambientLight, -towardsEye, normal, eye, vec3(0.0), material, reflected);
-    vec3 shown = reflected.directDiffuse + reflected.directSpecular + reflected.indirectDiffuse + reflected.indirectSpecular + emissive;
+    vec3 radiance = reflected.directDiffuse + reflected.directSpecular + reflected.indirectDiffuse + reflected.indirectSpecular + emissive;
   #endif
-  pixel = vec4(clamp(exposure * shown, 0.0, 1.0), 1.0);
+  pixel = vec4(clamp(exposure * radiance, 0.0, 1.0), 1.0);
   #ifdef ${physicalDefine}
     ${toDisplayedChunk("pixel.rgb")}
   #endif
 }
 `;
 
-export interface Program {
+export interface PreviewProgram {
   readonly program: WebGLProgram;
-  /** By name; null for what the program has no use for. */
+  /** The location of a uniform; null where the program does not use it. */
   readonly uniform: (name: string) => WebGLUniformLocation | null;
 }
 
-/** Begins to compile; whoever uses it waits. */
-export function makeProgram(gl: WebGL2RenderingContext, kind: ProgramKind): Program {
+/** Begins to compile a program. The first draw with it waits for the compiler. */
+export function makePreviewProgram(gl: WebGL2RenderingContext, kind: PreviewProgramKind): PreviewProgram {
   const { material, hasNormals, isTwoSided, lights } = kind;
   const flags: readonly [string, boolean][] = [
     [physicalDefine, material === "physical"],
@@ -143,22 +143,22 @@ export function makeProgram(gl: WebGL2RenderingContext, kind: ProgramKind): Prog
     [gl.FRAGMENT_SHADER, fragmentShader(lights)],
   ] as const) {
     const shader = gl.createShader(type);
-    if (shader === null) continue; // the context is lost: nothing comes of it
+    if (shader === null) continue; // the context is lost: the preview ends
     gl.shaderSource(shader, head + text);
     gl.compileShader(shader);
     gl.attachShader(program, shader);
-    gl.deleteShader(shader); // when the program goes
+    gl.deleteShader(shader); // takes effect when the program is deleted
   }
   gl.linkProgram(program);
-  const places = new Map<string, WebGLUniformLocation | null>();
+  const locations = new Map<string, WebGLUniformLocation | null>();
   return {
     program,
     uniform: (name) => {
-      const known = places.get(name);
+      const known = locations.get(name);
       if (known !== undefined) return known;
-      const place = gl.getUniformLocation(program, name);
-      places.set(name, place);
-      return place;
+      const location = gl.getUniformLocation(program, name);
+      locations.set(name, location);
+      return location;
     },
   };
 }

@@ -1,30 +1,30 @@
-// What a page's first looks leave to the runtime. No code of theirs is in here, so
-// that the runtime can come without it.
+// What the previews of a page hand over to the runtime. This file imports no code of
+// theirs, so that the runtime can be bundled without it.
 
 import type { PrefetchedBases } from "./prefetchedBases.ts";
 import type { Preview } from "./preview.ts";
 
-const looks = new WeakMap<Element, Preview>();
+const previews = new WeakMap<Element, Preview>();
 
-/** The look stands in this view. */
-export function registerPreview(view: Element, look: Preview): void {
-  looks.set(view, look);
+/** Registers the preview in a view. */
+export function registerPreview(view: Element, preview: Preview): void {
+  previews.set(view, preview);
 }
 
-/** The one that stands in a view; it is the caller's from now on. */
+/** The preview in a view, if any. From now on the caller ends it. */
 export function takePreview(view: Element): Preview | undefined {
-  const look = looks.get(view);
-  looks.delete(view);
-  return look;
+  const preview = previews.get(view);
+  previews.delete(view);
+  return preview;
 }
 
 let bases: Pick<PrefetchedBases, "take"> | undefined;
 
-export function registerPrefetchedBases(early: Pick<PrefetchedBases, "take">): void {
-  bases = early;
+export function registerPrefetchedBases(prefetched: Pick<PrefetchedBases, "take">): void {
+  bases = prefetched;
 }
 
-/** The content of a file that a look has asked for, which is the caller's from now on. */
+/** The bases in a file that a preview has requested; undefined where none has. From now on the caller owns them. */
 export function takePrefetchedBases(url: string): ReturnType<PrefetchedBases["take"]> {
   return bases?.take(url);
 }

@@ -1,4 +1,4 @@
-// Draws a first scene into a WebGL context that is its own.
+// Draws a preview into a WebGL context of its own, without three.js' renderer.
 
 import { Matrix3, Matrix4, Vector3 } from "three";
 import type { Base } from "../decode/compact/baseBuffers.ts";
@@ -11,15 +11,15 @@ import { lensOf } from "../navigation/cameraPose.ts";
 import type { LightScope } from "../scene/lightScope.ts";
 import type { LightUniforms } from "./previewLights.ts";
 import { lightKindsOf, lightUniformsOf } from "./previewLights.ts";
-import type { Program, ProgramKind } from "./previewProgram.ts";
-import { attributeLocations, makeProgram } from "./previewProgram.ts";
+import type { PreviewProgram, PreviewProgramKind } from "./previewProgram.ts";
+import { attributeLocations, makePreviewProgram } from "./previewProgram.ts";
 import { resolveOffScreen, warmUpBuffers } from "./warmUp.ts";
 import type { PreviewScene, PreviewShape } from "./previewScene.ts";
 
-/** A shape's base, if it has come. */
+/** Gives the base of a shape; undefined until it has been decoded. */
 export type BaseOf = (shape: PreviewShape) => Base | undefined;
 
-/** Whether its base holds what the document says of it, and nothing that is seen through. */
+/** Whether the base holds what the document describes, and nothing translucent. */
 export function isDrawable({ geometry, appearance }: PreviewShape, base: Base | undefined): boolean {
   return (
     base?.segmentCount === geometry.patches.length &&
@@ -28,8 +28,8 @@ export function isDrawable({ geometry, appearance }: PreviewShape, base: Base | 
   );
 }
 
-/** What is drawn, on the GPU. */
-interface Stored {
+/** A base mesh on the GPU. */
+interface GpuMesh {
   readonly vertices: WebGLVertexArrayObject;
   readonly count: number;
   readonly indexType: number;
@@ -37,8 +37,8 @@ interface Stored {
 
 export class PreviewRenderer {
   readonly #gl: WebGL2RenderingContext;
-  readonly #programs = new Map<string, Program>();
-  readonly #stored = new Map<PatchBuffers, Stored>();
+  readonly #programs = new Map<string, PreviewProgram>();
+  readonly #meshes = new Map<PatchBuffers, GpuMesh>();
   readonly #buffers: WebGLBuffer[] = [];
 
   constructor(gl: WebGL2RenderingContext) {
@@ -47,10 +47,9 @@ export class PreviewRenderer {
   }
 
   /**
-   * Has the GPU make ready what the picture will take, as far as that is known before
-   * the bases are here. Drivers translate a program for their GPU when something is
-   * first drawn with it, and give a canvas memory when it is first drawn into, which can
-   * take longer than the drawing.
+   * Prepares the GPU for the scene before its bases are here. Drivers finish compiling a
+   * program at the first draw with it, and allocate a canvas' memory at the first draw
+   * into it; both can take longer than drawing the bases.
    */
   warmUp(scene: PreviewScene, width: number, height: number): void {
     const shapes = Array.from(
@@ -60,7 +59,7 @@ export class PreviewRenderer {
     resolveOffScreen(this.#gl);
   }
 
-  /** All of it, in device pixels. Every base has come and is showable. */
+  /** Draws the scene. The size is in device pixels. Every base must be drawable. */
   draw(scene: PreviewScene, baseOf: BaseOf, width: number, height: number, exposure: number): void {
     this.#draw(scene, (shape) => baseOf(shape)?.whole, width, height, exposure);
   }
@@ -90,45 +89,45 @@ export class PreviewRenderer {
       gl.useProgram(program.program);
       gl.uniformMatrix4fv(program.uniform("clipFromView"), false, clipFromView.elements);
       gl.uniform1f(program.uniform("exposure"), exposure);
-      setLights(gl, program, lights);
-      setMaterial(gl, program, shape, buffers.color !== undefined);
+      setLightUniforms(gl, program, lights);
+      setMaterialUniforms(gl, program, shape, buffers.color !== undefined);
       setGeometryState(gl, program, new Matrix4().multiplyMatrices(viewFromScene, shape.sceneFromShape), shape);
       this.#drawBuffers(buffers);
     }
   }
 
-  /** Gives everything back, the context too. */
+  /** Frees everything on the GPU, and loses the context. */
   dispose(): void {
     const gl = this.#gl;
-    for (const { vertices } of this.#stored.values()) gl.deleteVertexArray(vertices);
+    for (const { vertices } of this.#meshes.values()) gl.deleteVertexArray(vertices);
     for (const buffer of this.#buffers) gl.deleteBuffer(buffer);
     for (const { program } of this.#programs.values()) gl.deleteProgram(program);
     gl.getExtension("WEBGL_lose_context")?.loseContext();
   }
 
-  #programFor(kind: ProgramKind): Program {
+  #programFor(kind: PreviewProgramKind): PreviewProgram {
     const key = JSON.stringify(kind);
-    const known = this.#programs.get(key) ?? makeProgram(this.#gl, kind);
+    const known = this.#programs.get(key) ?? makePreviewProgram(this.#gl, kind);
     this.#programs.set(key, known);
     return known;
   }
 
   #drawBuffers(buffers: PatchBuffers): void {
     const gl = this.#gl;
-    const stored = this.#stored.get(buffers) ?? this.#store(buffers);
-    this.#stored.set(buffers, stored);
+    const stored = this.#meshes.get(buffers) ?? this.#uploadMesh(buffers);
+    this.#meshes.set(buffers, stored);
     gl.bindVertexArray(stored.vertices);
     gl.drawElements(gl.TRIANGLES, stored.count, stored.indexType, 0);
   }
 
-  #store({ coord, normal, color, index }: PatchBuffers): Stored {
+  #uploadMesh({ coord, normal, color, index }: PatchBuffers): GpuMesh {
     const gl = this.#gl;
     const vertices = gl.createVertexArray();
     gl.bindVertexArray(vertices);
-    this.#storeVertices(attributeLocations.position, coord, false);
-    if (normal) this.#storeVertices(attributeLocations.normal, normal, true);
-    if (color) this.#storeVertices(attributeLocations.color, color, true);
-    if (index) this.#upload(gl.ELEMENT_ARRAY_BUFFER, index);
+    this.#uploadAttribute(attributeLocations.position, coord, false);
+    if (normal) this.#uploadAttribute(attributeLocations.normal, normal, true);
+    if (color) this.#uploadAttribute(attributeLocations.color, color, true);
+    if (index) this.#uploadBuffer(gl.ELEMENT_ARRAY_BUFFER, index);
     return {
       vertices,
       count: index?.length ?? 0,
@@ -136,24 +135,24 @@ export class PreviewRenderer {
     };
   }
 
-  /** `isSpread`: integers stand for 0 … 1 or -1 … 1. */
-  #storeVertices(place: number, { array, components, stride, offset }: VertexArray, isSpread: boolean): void {
+  /** `isNormalized`: integers are mapped to 0 … 1, signed ones to -1 … 1. */
+  #uploadAttribute(location: number, { array, components, stride, offset }: VertexArray, isNormalized: boolean): void {
     const gl = this.#gl;
     const size = array.BYTES_PER_ELEMENT;
-    this.#upload(gl.ARRAY_BUFFER, array);
-    gl.enableVertexAttribArray(place);
+    this.#uploadBuffer(gl.ARRAY_BUFFER, array);
+    gl.enableVertexAttribArray(location);
     const isFloat = array instanceof Float32Array;
     gl.vertexAttribPointer(
-      place,
+      location,
       components,
       glTypes[elementTypeOf(array)],
-      isSpread && !isFloat,
+      isNormalized && !isFloat,
       stride * size,
       offset * size,
     );
   }
 
-  #upload(target: number, array: ElementArray): void {
+  #uploadBuffer(target: number, array: ElementArray): void {
     const gl = this.#gl;
     const buffer = gl.createBuffer();
     this.#buffers.push(buffer);
@@ -162,7 +161,7 @@ export class PreviewRenderer {
   }
 }
 
-/** WebGL's constants. */
+/** The constants of WebGL for element types. */
 const glTypes = {
   Int8: 0x1400,
   Uint8: 0x1401,
@@ -173,7 +172,11 @@ const glTypes = {
   Float32: 0x1406,
 } as const;
 
-function kindOf({ geometry, appearance }: PreviewShape, scene: PreviewScene, { normal }: PatchBuffers): ProgramKind {
+function kindOf(
+  { geometry, appearance }: PreviewShape,
+  scene: PreviewScene,
+  { normal }: PatchBuffers,
+): PreviewProgramKind {
   return {
     hasNormals: normal !== undefined,
     material: appearance.material.kind,
@@ -182,7 +185,7 @@ function kindOf({ geometry, appearance }: PreviewShape, scene: PreviewScene, { n
   };
 }
 
-/** As three.js' camera of the runtime stands and sees. */
+/** The matrices of the runtime's camera. */
 function camerasOf(
   { pose, sphere, clearance }: PreviewScene,
   aspect: number,
@@ -198,7 +201,7 @@ function camerasOf(
 
 function setGeometryState(
   gl: WebGL2RenderingContext,
-  { uniform }: Program,
+  { uniform }: PreviewProgram,
   viewFromShape: Matrix4,
   { sceneFromShape, shapeFromStored, geometry }: PreviewShape,
 ): void {
@@ -213,9 +216,9 @@ function setGeometryState(
   else gl.disable(gl.CULL_FACE);
 }
 
-function setMaterial(
+function setMaterialUniforms(
   gl: WebGL2RenderingContext,
-  { uniform }: Program,
+  { uniform }: PreviewProgram,
   { appearance: { material } }: PreviewShape,
   hasColors: boolean,
 ): void {
@@ -229,7 +232,7 @@ function setMaterial(
   gl.uniform1f(uniform("roughness"), roughness);
 }
 
-function setLights(gl: WebGL2RenderingContext, { uniform }: Program, lights: LightUniforms): void {
+function setLightUniforms(gl: WebGL2RenderingContext, { uniform }: PreviewProgram, lights: LightUniforms): void {
   gl.uniform3fv(uniform("lightColors"), lights.lightColors);
   gl.uniform3fv(uniform("lightPositions"), lights.lightPositions);
   gl.uniform3fv(uniform("lightDirections"), lights.lightDirections);

@@ -17,13 +17,13 @@ const geometry = (base = 'base="b.png"') => `<ImageGeometry profile="compact" po
 const shape = (appearance = "<Appearance><Material/></Appearance>", drawn = geometry(), attributes = "") =>
   `<Shape ${attributes}>${appearance}${drawn}</Shape>`;
 
-function firstOf(markup: string, camera: CameraSetting = unsetCamera): PreviewScene | undefined {
+function previewSceneIn(markup: string, camera: CameraSetting = unsetCamera): PreviewScene | undefined {
   return previewSceneOf(new SceneReader(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)).read(), camera);
 }
 
-describe("a first scene", () => {
-  test("has each shape in each of its places, by its base", () => {
-    const scene = firstOf(
+describe("the scene of a preview", () => {
+  test("has the base of each shape, once for each of its instances", () => {
+    const scene = previewSceneIn(
       `<Transform translation="5 0 0" DEF="t">${shape()}</Transform><Transform scale="2 2 2"><Transform USE="t"/></Transform>`,
     );
     assert.deepEqual(
@@ -35,17 +35,17 @@ describe("a first scene", () => {
     );
   });
 
-  test("places the lattice as its node says", () => {
-    const [first] = firstOf(shape())?.shapes ?? [];
+  test("maps lattice coordinates as the geometry's node says", () => {
+    const [first] = previewSceneIn(shape())?.shapes ?? [];
     assert.ok(first);
     const { elements } = first.shapeFromStored;
     assert.deepEqual(elements.slice(12, 15), [-1, -1, -1]);
     assert.equal(elements[0], 2 / 65535);
   });
 
-  test("leaves out what is hidden", () => {
-    assert.equal(firstOf(`${shape()}${shape(undefined, geometry(""), 'visible="false"')}`)?.shapes.length, 1);
-    assert.equal(firstOf(`<Switch whichChoice="-1">${shape()}</Switch>`), undefined);
+  test("leaves out hidden shapes", () => {
+    assert.equal(previewSceneIn(`${shape()}${shape(undefined, geometry(""), 'visible="false"')}`)?.shapes.length, 1);
+    assert.equal(previewSceneIn(`<Switch whichChoice="-1">${shape()}</Switch>`), undefined);
   });
 
   const refused: Readonly<Record<string, string>> = {
@@ -65,18 +65,18 @@ describe("a first scene", () => {
     "more shapes than are quickly drawn": shape().repeat(300),
   };
   for (const [what, markup] of Object.entries(refused)) {
-    test(`is none where there is ${what}`, () => {
-      assert.equal(firstOf(markup), undefined);
+    test(`is undefined where there is ${what}`, () => {
+      assert.equal(previewSceneIn(markup), undefined);
     });
   }
 });
 
-describe("the camera of a first scene", () => {
+describe("the camera of a preview", () => {
   const scenes: Readonly<Record<string, string>> = {
     "no viewpoint": shape(),
     "two viewpoints": `<Viewpoint position="0 0 9"/><Viewpoint position="3 1 9" orientation="0 1 0 0.3"/>${shape()}`,
     "a viewpoint that wants to be bound": `<Viewpoint position="0 0 9"/><Transform rotation="0 1 0 1"><Viewpoint bind="true" position="0 0 4"/></Transform>${shape()}`,
-    "who walks": `<NavigationInfo type="WALK" avatarSize="0.5 1.6 0.7"/><Viewpoint position="0 0 9"/>${shape()}`,
+    "an avatar that walks": `<NavigationInfo type="WALK" avatarSize="0.5 1.6 0.7"/><Viewpoint position="0 0 9"/>${shape()}`,
     lights: `<NavigationInfo headlight="false"/><PointLight location="1 2 3" on="false"/><SpotLight/>${shape()}`,
   };
   const cameras: readonly CameraSetting[] = [
@@ -84,10 +84,10 @@ describe("the camera of a first scene", () => {
     { ...unsetCamera, orbit: { theta: 0.4, phi: 1, radius: { share: 1.05 } }, target: [0, 0.5, 0], fieldOfView: 0.5 },
   ];
   for (const [what, markup] of Object.entries(scenes)) {
-    test(`stands where the runtime's does, with ${what}`, () => {
+    test(`has the pose of the runtime's camera, with ${what}`, () => {
       for (const camera of cameras) {
         const description = new SceneReader(elementsOf(`<X3D><Scene>${markup}</Scene></X3D>`)).read();
-        const first = previewSceneOf(description, camera);
+        const preview = previewSceneOf(description, camera);
         const { box, viewpoints } = instancesOf(description);
         const navigator = new CameraController(
           () => undefined,
@@ -95,14 +95,14 @@ describe("the camera of a first scene", () => {
         );
         navigator.setCamera(camera);
         navigator.setScene({ sphere: sphereAround(box), viewpoints, navigation: description.navigation });
-        assert.deepEqual(first?.pose, navigator.pose);
-        assert.equal(first.clearance, navigator.clearance);
-        assert.deepEqual(first.sphere, sphereAround(box));
+        assert.deepEqual(preview?.pose, navigator.pose);
+        assert.equal(preview.clearance, navigator.clearance);
+        assert.deepEqual(preview.sphere, sphereAround(box));
       }
     });
   }
 
-  test("sees all where nothing else is said", () => {
-    assert.deepEqual(firstOf(shape())?.pose, poseFraming(new Sphere(undefined, 1.5)));
+  test("frames the whole scene by default", () => {
+    assert.deepEqual(previewSceneIn(shape())?.pose, poseFraming(new Sphere(undefined, 1.5)));
   });
 });

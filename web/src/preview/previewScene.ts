@@ -1,6 +1,6 @@
-// What a first look shows of a document: its shapes by their bases, placed, with
-// their colours and lights. It shows a scene as the runtime would, or not at all:
-// what has anything that it does not know is left to the runtime.
+// The scene of a preview: the bases of a document's shapes with their transforms, solid
+// materials and lights. A preview looks as the runtime's picture does, or there is none:
+// a scene with any other feature is left to the runtime.
 
 import type { Matrix4, Sphere } from "three";
 import type {
@@ -24,16 +24,16 @@ import type { LightInstance, ShapeInstance } from "../scene/instances.ts";
 import { instancesOf } from "../scene/sceneInstances.ts";
 
 export interface PreviewScene {
-  /** At least one; once for each place where one stands. */
+  /** At least one shape instance. */
   readonly shapes: readonly PreviewShape[];
   readonly lights: readonly LightInstance[];
   readonly headlight: boolean;
-  /** Undefined: the page shows through. */
+  /** Undefined: the canvas is transparent. */
   readonly background: Vec3 | undefined;
   readonly pose: Pose;
-  /** Around all that is seen. */
+  /** Bounds of all visible shapes. */
   readonly sphere: Sphere;
-  /** What is nearer need not be seen. */
+  /** Nothing nearer to the camera need be displayed. */
   readonly clearance: number;
 }
 
@@ -43,35 +43,35 @@ export interface PreviewShape {
   readonly base: PatchReference;
   readonly appearance: AppearanceDescription;
   readonly sceneFromShape: Matrix4;
-  /** Places its lattice. */
+  /** From lattice coordinates. */
   readonly shapeFromStored: Matrix4;
   readonly lightScope: LightScope;
 }
 
-/** More would take longer than the runtime does. */
+/** Drawing more would take longer than loading the runtime. */
 const maxShapes = 256;
-/** Each is computed at every pixel. */
+/** Every light is evaluated at every pixel. */
 export const maxLights = 8;
 
-/** Undefined where the scene has anything that only the runtime can show, or nothing. */
+/** Undefined where the scene is empty or has anything that only the runtime can display. */
 export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): PreviewScene | undefined {
   const { background, navigation, inlines } = scene;
   if (inlines.length > 0 || (background && (background.sky.length > 1 || background.ground.length > 0)))
     return undefined;
-  const placement = instancesOf(scene);
-  const { viewpoints, lods: levels, billboards } = placement;
-  if (levels.length > 0 || billboards.length > 0 || placement.lights.length > maxLights) return undefined;
-  const seen = placement.shapes.filter(
+  const instances = instancesOf(scene);
+  const { viewpoints, lods, billboards } = instances;
+  if (lods.length > 0 || billboards.length > 0 || instances.lights.length > maxLights) return undefined;
+  const visible = instances.shapes.filter(
     ({ shape }) => shape.visible && (shape.geometry !== undefined || shape.isUnread),
   );
-  const shapes = seen.slice(0, maxShapes + 1).flatMap((placed) => previewShapeOf(placed) ?? []);
-  if (shapes.length === 0 || shapes.length < seen.length || shapes.length > maxShapes) return undefined;
-  const sphere = sphereAround(placement.box);
+  const shapes = visible.slice(0, maxShapes + 1).flatMap((instance) => previewShapeOf(instance) ?? []);
+  if (shapes.length === 0 || shapes.length < visible.length || shapes.length > maxShapes) return undefined;
+  const sphere = sphereAround(instances.box);
   const bound = new BindingStack<SceneElement>();
   bindViewpoints(bound, viewpoints);
   return {
     shapes,
-    lights: placement.lights,
+    lights: instances.lights,
     headlight: navigation.headlight,
     background: background?.sky[0]?.color,
     sphere,
@@ -80,8 +80,8 @@ export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): 
   };
 }
 
-/** Undefined where it is not drawn from a base in solid colours. */
-function previewShapeOf({ shape, ...place }: ShapeInstance): PreviewShape | undefined {
+/** Undefined where the shape has no base, or is not drawn in solid colours. */
+function previewShapeOf({ shape, ...instance }: ShapeInstance): PreviewShape | undefined {
   const { element, geometry, appearance } = shape;
   const {
     patches: [patch],
@@ -96,7 +96,7 @@ function previewShapeOf({ shape, ...place }: ShapeInstance): PreviewShape | unde
     geometry,
     base,
     appearance,
-    ...place,
+    ...instance,
     shapeFromStored: shapeFromStoredOf(geometry, patch),
   };
 }

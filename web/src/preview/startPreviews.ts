@@ -1,37 +1,37 @@
-// The first looks of a page, for as long as the runtime is not here.
+// Starts the previews of a page while the runtime is being loaded.
 
 import { PrefetchedBases } from "./prefetchedBases.ts";
 import { viewStyle, viewTag } from "../element/viewStyle.ts";
 import { Preview } from "./preview.ts";
 import { registerPrefetchedBases, registerPreview } from "./previewRegistry.ts";
-import { ensureView } from "../element/sceneNodes.ts";
-import { isNear } from "../element/visibility.ts";
+import { ensureViewIn } from "../element/sceneNodes.ts";
+import { isNearViewport } from "../element/visibility.ts";
 
-/** Each has a WebGL context, of which a page gets 16 or, on phones, 8; and the runtime's come beside them. */
+/** Each preview needs a WebGL context beside the runtime's. Browsers grant a page 16, on phones 8. */
 const maxPreviews = 3;
 
-/** Of scenes that are in the window and have bases. */
+/** Starts previews of scenes that are in the viewport and have bases. */
 export function startPreviews(): Preview[] {
   if (document.hidden) return [];
-  const early = new PrefetchedBases((input, init) => fetch(input, init));
-  registerPrefetchedBases(early);
-  const begun: Preview[] = [];
+  const bases = new PrefetchedBases((input, init) => fetch(input, init));
+  registerPrefetchedBases(bases);
+  const started: Preview[] = [];
   for (const x3d of document.querySelectorAll("x3d")) {
-    if (begun.length === maxPreviews) break;
-    const look = isNear(x3d.getBoundingClientRect(), 0) ? startPreviewIn(x3d, early) : undefined;
-    if (look !== undefined) begun.push(look);
+    if (started.length === maxPreviews) break;
+    const preview = isNearViewport(x3d.getBoundingClientRect(), 0) ? startPreviewIn(x3d, bases) : undefined;
+    if (preview !== undefined) started.push(preview);
   }
-  return begun;
+  return started;
 }
 
-function startPreviewIn(x3d: Element, early: PrefetchedBases): Preview | undefined {
-  const isTaken = Array.from(x3d.children).some(({ localName }) => localName === viewTag);
-  if (isTaken) return undefined;
-  const look = Preview.create(x3d, early, (canvas) => {
-    const root = ensureView(x3d).attachShadow({ mode: "open" });
+function startPreviewIn(x3d: Element, bases: PrefetchedBases): Preview | undefined {
+  const hasView = Array.from(x3d.children).some(({ localName }) => localName === viewTag);
+  if (hasView) return undefined;
+  const preview = Preview.create(x3d, bases, (canvas) => {
+    const root = ensureViewIn(x3d).attachShadow({ mode: "open" });
     root.adoptedStyleSheets = [viewStyle];
     root.append(canvas);
   });
-  if (look !== undefined) registerPreview(ensureView(x3d), look);
-  return look;
+  if (preview !== undefined) registerPreview(ensureViewIn(x3d), preview);
+  return preview;
 }

@@ -1,9 +1,9 @@
-// What a picture is drawn of and into before its bases are here, so that the GPU is
-// ready for them.
+// The warm-up of a preview: draws a mesh without area while the bases are being
+// downloaded, so that programs and canvas memory are ready for them.
 
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 
-/** A triangle without an area, in the numbers that most bases have; others may find less made ready. */
+/** A triangle without area, in the element types that most bases have. For bases with others the warm-up may be incomplete. */
 export const warmUpBuffers: PatchBuffers = {
   topology: "triangles",
   positionBits: 16,
@@ -17,8 +17,8 @@ export const warmUpBuffers: PatchBuffers = {
 };
 
 /**
- * Has the GPU do what a screen would need of the picture, and waits for nothing: memory for
- * its samples is there when it has been written, and what makes pixels of samples is ready.
+ * Has the GPU resolve the canvas' samples to pixels, without waiting for it. The driver
+ * allocates the memory of the samples and prepares the resolve at the first use.
  */
 export function resolveOffScreen(gl: WebGL2RenderingContext): void {
   const buffer = gl.createBuffer();
@@ -27,5 +27,5 @@ export function resolveOffScreen(gl: WebGL2RenderingContext): void {
   gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, 0);
   gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
   gl.deleteBuffer(buffer);
-  gl.flush(); // now, not when there is a frame
+  gl.flush(); // begin now, not with the next frame
 }
